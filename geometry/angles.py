@@ -1,0 +1,52 @@
+"""The involute function and its inverse, accurate from the smallest angle on."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from geometry.errors import ParameterError
+from geometry.roots import Root, bracketed_root
+
+# below this tangent the series of t - atan t is shorter than its cancellation
+_SERIES_BELOW = 0.06
+
+
+def roll_minus_polar(tangent: ArrayLike) -> NDArray[np.float64]:
+    """``t - atan(t)`` for the tangent ``t`` of the profile angle, without cancellation.
+
+    This is the polar angle that an involute has gained at roll angle ``t``: inv(alpha) = tan(alpha) - alpha.
+    """
+    t = np.asarray(tangent, dtype=float)
+    square = t * t
+    series = np.zeros_like(t)
+    for k in range(8, 0, -1):
+        series = (1 / (2 * k + 1) if k % 2 else -1 / (2 * k + 1)) + series * square
+    return np.where(np.abs(t) < _SERIES_BELOW, t * square * series, t - np.arctan(t))
+
+
+def involute_function(angle: float) -> float:
+    """inv(alpha) = tan(alpha) - alpha, rad; practicum (3.3)."""
+    return float(roll_minus_polar(math.tan(angle)))
+
+
+def inverse_involute(value: float) -> Root:
+    """The angle in [0, pi/2) whose involute function is ``value``, rad.
+
+    Raises
+    ------
+    ParameterError
+        ``value`` is negative: no real angle has a negative involute function.
+    """
+    if not value >= 0:
+        raise ParameterError("inverse_involute value", value, "must be at least 0")
+    if value == 0:
+        return Root(0.0, 0.0, 0, (0.0, 0.0))
+    # t - atan t is below t^3/3 and above t - pi/2
+    low, high = (3 * value) ** (1 / 3), max((3 * value) ** (1 / 3), value) * 1.2 + math.pi / 2 * (value > 0.3)
+    while roll_minus_polar(high) < value:
+        high *= 1.5
+    root = bracketed_root(lambda t: float(roll_minus_polar(t)) - value, low * (1 - 1e-12), high)
+    return Root(math.atan(root.value), root.residual, root.iterations, root.bracket)

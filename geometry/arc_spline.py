@@ -1,0 +1,153 @@
+"""Near the fewest tangent-continuous arcs for a tolerance: one arc between points of the curve.
+
+All joints lie on the curve. At the ends the arcs share the curve's tangents; in between they lean by about
+kappa' h^2 / 12, which makes both lobes of each arc's error alike: kappa' h^3 / 125 an arc of length h, where
+biarcs that share every tangent leave kappa' h^3 / 40. Derivation: DERIVATIONS.md, section 4.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from geometry.curve import Complex, Curve, Real
+from geometry.errors import ConvergenceError
+from geometry.roots import bracketed_root
+from geometry.tolerance import TOLERANCES
+
+_DENSITY_SAMPLES = 257
+_LEAST_SAMPLES, _MOST_SAMPLES = 33, 4097
+# how much of the tolerance the bound of what lies between samples may use
+_MARGIN_SHARE = 0.03
+# an end arc starts tangent to the curve and needs 1/sqrt(2) of the inner arcs' length
+_END_SHARE = math.sqrt(0.5)
+
+
+@dataclass(frozen=True, slots=True)
+class ArcSpline:
+    """Joints (n + 1,) on the curve, bulge of each arc (n,), and the proven bound of the deviation, mm."""
+
+    parameters: Real
+    points: Complex
+    bulges: Real
+    max_error: float
+    certified: bool
+
+
+def arc_spline(curve: Curve, tolerance: float, *, limit: int = 4096) -> ArcSpline:
+    """G1 arcs within ``tolerance`` mm of a curve of one-signed curvature, near the least number.
+
+    Raises
+    ------
+    ConvergenceError
+        More than ``limit`` arcs would be needed.
+    """
+    nodes, coordinate, total = _density(curve)
+    count = max(1, math.ceil(total / tolerance ** (1 / 3) * 0.9 + 0.4))
+    while count <= limit:
+        spline = _spline_of(curve, count, nodes, coordinate, tolerance)
+        if spline is not None and spline.max_error <= tolerance:
+            return spline
+        excess = 1.0 if spline is None else (spline.max_error / tolerance) ** (1 / 3)
+        count = max(count + 1, min(2 * count, math.floor(count * excess * 0.97)))
+    raise ConvergenceError("arcs for the tolerance", tolerance, limit)
+
+
+def _density(curve: Curve) -> tuple[Real, Real, float]:
+    """Samples, the coordinate in which arcs of equal error have equal length, and its whole length.
+
+    The coordinate is the integral of (\\|d kappa / ds\\| / 125)^(1/3) ds; the whole is in mm^(1/3).
+    """
+    t = np.linspace(*curve.domain, _DENSITY_SAMPLES)
+    first, second, third = (curve.derivative(t, k) for k in (1, 2, 3))
+    speed = np.maximum(np.abs(first), 1e-300)
+    cross = (np.conj(first) * second).imag
+    change = (np.conj(first) * third).imag / speed**3 - 3 * cross * (np.conj(first) * second).real / speed**5
+    rate = np.abs(change / speed / 125) ** (1 / 3) * speed
+    rate = np.where(np.isfinite(rate), rate, 0.0)
+    # a floor keeps the coordinate strictly increasing where the curve is an arc
+    rate += 1e-6 * (rate.max() + np.finfo(float).tiny) + 1e-12 * speed
+    coordinate = np.concatenate([[0.0], np.cumsum((rate[1:] + rate[:-1]) / 2 * np.diff(t))])
+    return t, coordinate / coordinate[-1], float(coordinate[-1])
+
+
+def _spline_of(curve: Curve, count: int, nodes: Real, coordinate: Real, tolerance: float) -> ArcSpline | None:
+    """The spline of a given number of arcs; None where the end tangent cannot be met."""
+    shares = np.ones(count)
+    if count > 1:
+        shares[[0, -1]] = _END_SHARE
+    pattern = np.where(np.arange(count) % 2 == 0, 1.0, -1.0)
+    end_tangent = complex(curve.tangent(curve.domain[1]))
+
+    def joints(stretch: float) -> Real:
+        steps = np.concatenate([[0.0], np.cumsum(shares * (1 + stretch * pattern))])
+        t = np.interp(steps / steps[-1], coordinate, nodes)
+        t[0], t[-1] = curve.domain
+        return t
+
+    def mismatch(stretch: float) -> float:
+        return _arcs_through(curve, joints(stretch), end_tangent)[2]
+
+    stretch = 0.0
+    if abs(mismatch(0.0)) > TOLERANCES.smooth_angle * 1e-3:
+        low, high = -0.8, 0.8
+        if count == 1 or mismatch(low) * mismatch(high) > 0:
+            return None
+        stretch = bracketed_root(mismatch, low, high).value
+    t = joints(stretch)
+    points, bulges, _ = _arcs_through(curve, t, end_tangent)
+    error, certified = arc_error(curve, t, points, bulges, tolerance)
+    return ArcSpline(t, points, bulges, error, certified)
+
+
+def _arcs_through(curve: Curve, t: Real, end_tangent: complex) -> tuple[Complex, Real, float]:
+    """Points, bulges of tangent arcs through them from the curve's first tangent, and the last angle's error."""
+    points = curve.point(t)
+    angles = np.angle(points[1:] - points[:-1])
+    heading = float(np.angle(curve.tangent(t[0])))
+    bulges = np.zeros(len(angles))
+    for i, chord in enumerate(angles):
+        lean = math.remainder(chord - heading, 2 * math.pi)
+        bulges[i] = math.tan(lean / 2)
+        heading += 2 * lean
+    return points, bulges, math.remainder(heading - float(np.angle(end_tangent)), 2 * math.pi)
+
+
+def arc_error(
+    curve: Curve, t: Real, points: Complex, bulges: Real, tolerance: float
+) -> tuple[float, bool]:
+    """Greatest distance between a curve and its arcs: samples plus a proven bound of what lies between.
+
+    With delta(t) = \|c(t) - q\| - R and d = max \|delta\|, \|delta''\| <= (M1^2 k + M2 (1 + k d)) / (1 - k d),
+    k = 1/R; the samples are so dense that this adds a few hundredths of the tolerance.
+    """
+    chord = points[1:] - points[:-1]
+    curvature = 4 * bulges / (np.abs(chord) * (1 + bulges**2))
+    second, certified = _second_derivative_bounds(curve, t, np.abs(curvature), tolerance)
+    steps = float(np.max(np.diff(t) * np.sqrt(second / (8 * _MARGIN_SHARE * tolerance)), initial=0.0))
+    samples = min(_MOST_SAMPLES, max(_LEAST_SAMPLES, math.ceil(steps) + 1))
+    at = t[:-1, None] + np.diff(t)[:, None] * np.linspace(0, 1, samples)
+    # distance from the circle without its centre, which may be far away: for an offset w from the arc's
+    # start with left normal n, (k |w|^2 - 2 w.n) / (1 + sqrt(1 + k (k |w|^2 - 2 w.n)))
+    normal = 1j * chord / np.abs(chord) * np.exp(-2j * np.arctan(bulges))
+    offset, k = curve.point(at) - points[:-1, None], curvature[:, None]
+    numerator = k * np.abs(offset) ** 2 - 2 * (offset * np.conj(normal)[:, None]).real
+    worst = np.abs(numerator / (1 + np.sqrt(np.maximum(1 + k * numerator, 0)))).max(axis=1)
+    # the bound of delta'' holds while no sample is farther than it was assumed
+    margin = (np.diff(t) / (samples - 1)) ** 2 / 8 * second * np.maximum(1, worst / tolerance)
+    scale = float(np.max(np.abs(points)))
+    return float(np.max(worst + margin)) + 4 * TOLERANCES.relative_rounding * scale, certified
+
+
+def _second_derivative_bounds(curve: Curve, t: Real, k: Real, distance: float) -> tuple[Real, bool]:
+    """Bound of \|delta''\| on each arc's interval, and whether the curve has proven derivative bounds."""
+    bounds = [
+        [curve.derivative_bound(order, a, b) for order in (1, 2)] for a, b in zip(t[:-1], t[1:], strict=True)
+    ]
+    if any(m is None for pair in bounds for m in pair):
+        return np.zeros(len(k)), False
+    m1, m2 = np.array(bounds, dtype=float).T
+    reach = np.minimum(k * distance, 0.5)
+    return (m1**2 * k + m2 * (1 + reach)) / (1 - reach), True

@@ -1,0 +1,73 @@
+"""Polygons with arcs: what a curve becomes in a file. Vertices are complex, a bulge is tan(sweep / 4)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from geometry.curve import Complex, Real
+
+
+@dataclass(frozen=True, slots=True)
+class Contour:
+    """One period of a closed chain of lines (bulge 0) and arcs; edge i starts at vertex i.
+
+    The last edge ends at the first vertex of the next period.
+    """
+
+    vertices: Complex
+    bulges: Real
+    count: int = 1
+
+    def expanded(self) -> tuple[Complex, Real]:
+        """Vertices (n,) and bulges (n,) of the whole contour, period after period."""
+        turns = np.exp(2j * math.pi / self.count * np.arange(self.count))
+        return (turns[:, None] * self.vertices).ravel(), np.tile(self.bulges, self.count)
+
+    def period_ends(self) -> Complex:
+        """End vertex of each edge of the first period."""
+        return np.append(self.vertices[1:], self.vertices[0] * np.exp(2j * math.pi / self.count))
+
+    def __len__(self) -> int:
+        return len(self.vertices) * self.count
+
+
+@dataclass(frozen=True, slots=True)
+class Approximation:
+    """An approximated boundary with the bound of its deviation from the exact one, mm."""
+
+    geometry: Contour
+    max_error: float
+    bound: Literal["exact", "certified", "sampled"]
+    tolerance: float
+
+
+def edge_points(starts: Complex, ends: Complex, bulges: Real, fractions: Real) -> Complex:
+    """Points (n, k) of edges (n,) at fractions (k,) of each chord or sweep."""
+    starts, ends, bulges = starts[:, None], ends[:, None], bulges[:, None]
+    quarter = np.arctan(bulges)
+    # an arc through both ends with sweep 4 q: z = s + (e - s) sin(2 q f) / sin(2 q) exp(-2 i q (1 - f))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        share = np.where(quarter == 0, fractions, np.sin(2 * quarter * fractions) / np.sin(2 * quarter))
+    return starts + (ends - starts) * share * np.exp(-2j * quarter * (1 - fractions))
+
+
+def arc_centres(starts: Complex, ends: Complex, bulges: Real) -> tuple[Complex, Real]:
+    """Centres and radii of arc edges (bulge not 0)."""
+    chord = ends - starts
+    centres = (starts + ends) / 2 + 1j * chord * (1 - bulges**2) / (4 * bulges)
+    return centres, np.abs(chord) * (1 + bulges**2) / (4 * np.abs(bulges))
+
+
+def signed_area(vertices: Complex, bulges: Real) -> float:
+    """Area of a closed contour of lines and arcs, mm^2; positive where counter-clockwise."""
+    ends = np.roll(vertices, -1)
+    polygon = 0.5 * np.sum((np.conj(vertices) * ends).imag)
+    sweep = 4 * np.arctan(bulges)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        radius = np.abs(ends - vertices) * (1 + bulges**2) / (4 * np.abs(bulges))
+        caps = np.where(bulges == 0, 0.0, 0.5 * radius**2 * (sweep - np.sin(sweep)))
+    return float(polygon + np.sum(caps))

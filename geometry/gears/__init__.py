@@ -1,0 +1,1 @@
+"""Gears cut by generation: dimensions, limits and exact tooth outlines."""

@@ -1,0 +1,87 @@
+"""Where the curves of one tooth side meet: true crossings by bracketed roots.
+
+Every curve here runs outwards on the lower side of tooth 1, and the distance from the axis grows along
+it, so a crossing is a root of the difference of polar angles at one radius.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import replace
+
+from geometry.involute import Involute
+from geometry.roots import bracketed_root
+from geometry.trochoid import TrochoidFillet
+
+
+def joint_roll(fillet: TrochoidFillet, base_radius: float) -> float:
+    """Roll angle of the flank point cut by the end of the rack's straight flank, rad; negative: undercut."""
+    alpha = math.pi / 2 - fillet.end
+    reach = fillet.pitch_radius * math.sin(alpha) - fillet.depth / math.sin(alpha) - fillet.tip_radius
+    return reach / base_radius
+
+
+def fillet_flank_joint(fillet: TrochoidFillet, flank: Involute) -> tuple[TrochoidFillet, Involute]:
+    """Fillet and flank trimmed to their common point: tangent, or the true crossing where undercut."""
+    roll = joint_roll(fillet, flank.base_radius)
+    if roll >= 0:
+        return fillet, replace(flank, start_roll=roll)
+
+    def lead(u: float) -> float:
+        point = complex(fillet.point(u))
+        return cmath.phase(point) - float(flank.polar_angle_at_radius(abs(point)))
+
+    at_base = parameter_at_radius(fillet, flank.base_radius)
+    if lead(at_base) <= 0:
+        # the cut into the flank is below rounding: both meet on the base circle
+        return replace(fillet, end=at_base), flank
+    crossing = bracketed_root(lead, at_base, fillet.end).value
+    radius = abs(complex(fillet.point(crossing)))
+    return replace(fillet, end=crossing), replace(flank, start_roll=float(flank.roll_at_radius(radius)))
+
+
+def parameter_at_radius(fillet: TrochoidFillet, radius: float) -> float:
+    """Parameter u at which a rising fillet is ``radius`` from the axis."""
+    low, high = fillet.domain
+    if abs(complex(fillet.point(high))) <= radius:
+        return high
+    return bracketed_root(lambda u: abs(complex(fillet.point(u))) - radius, low, high).value
+
+
+def flank_crossing_radius(inner: Involute, outer: Involute, low: float, high: float) -> float | None:
+    """Radius in [low, high] above which ``outer`` bounds the tooth; None where it does not reach it yet.
+
+    Returns ``low`` where ``outer`` bounds the tooth from there on.
+    """
+
+    def lead(radius: float) -> float:
+        return float(outer.polar_angle_at_radius(radius) - inner.polar_angle_at_radius(radius))
+
+    if lead(high) <= 0:
+        return None
+    if lead(low) >= 0:
+        return low
+    return bracketed_root(lead, low, high).value
+
+
+def pointed_radius(flank: Involute) -> float:
+    """Radius at which a lower flank reaches the tooth's centre line (both flanks meet), mm."""
+    # polar_angle_at_radius grows without bound, slower than the roll itself
+    high = 2 * flank.base_radius
+    while flank.polar_angle_at_radius(high) < 0:
+        high *= 2
+    return bracketed_root(lambda r: float(flank.polar_angle_at_radius(r)), flank.base_radius, high).value
+
+
+def greatest_lead(fillet: TrochoidFillet) -> float:
+    """Greatest height above the tooth's centre line that a lower fillet reaches, mm; negative: clear."""
+    low, high = fillet.domain
+
+    def slope(u: float) -> float:
+        return float(fillet.tangent(u).imag)
+
+    ends = max(complex(fillet.point(low)).imag, complex(fillet.point(high)).imag)
+    if slope(low) > 0 > slope(high):
+        return max(ends, complex(fillet.point(bracketed_root(slope, low, high).value)).imag)
+    return ends

@@ -1,0 +1,198 @@
+"""Kerf and print offset of a tooth side, taken on the exact curves before any approximation.
+
+Inwards every curve stays of its family, so the side is generated again from moved curves. Outwards the
+curves are moved, convex corners get their arc, and what would turn back or cross the space's centre line
+is trimmed; an offset that closes the space is refused.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from geometry.curve import Curve, end_point, start_point
+from geometry.errors import ConvergenceError, GeometryError, ParameterError, at_most
+from geometry.findings import Finding
+from geometry.gears.spur import SpurGear
+from geometry.gears.tooth import SideCurves, ToothSide, assemble_side, tooth_side
+from geometry.line_arc import Arc
+from geometry.profile import Label, Profile, Region, Segment, circle, joint_turn
+from geometry.roots import bracketed_root
+from geometry.tolerance import TOLERANCES
+from geometry.trochoid import TrochoidFillet
+
+_SAMPLES = 65
+
+
+@dataclass(frozen=True, slots=True)
+class OffsetRegion:
+    """The section of a gear, every boundary moved outwards by ``offset`` mm, and what was noticed."""
+
+    region: Region
+    offset: float
+    findings: tuple[Finding, ...]
+
+
+def gear_region(gear: SpurGear, offset: float = 0.0) -> OffsetRegion:
+    """The exact section of a gear; ``offset`` > 0 moves every boundary out of the material, mm.
+
+    Raises
+    ------
+    ParameterError
+        The gear cannot exist, or the offset closes a space or the bore, or leaves no tooth or rim; the
+        largest offset that works is named.
+    """
+    side = offset_side(gear, offset)
+    findings = list(side.findings)
+    holes: tuple[Profile, ...] = ()
+    if gear.bore_radius > 0:
+        if gear.bore_radius - offset <= 0:
+            raise ParameterError("offset", offset, f"closes the bore; less than {at_most(gear.bore_radius)} works")
+        holes = (circle(gear.bore_radius - offset, Label.BORE, hole=True),)
+    return OffsetRegion(Region(side.profile(), holes), offset, tuple(findings))
+
+
+def offset_side(gear: SpurGear, offset: float) -> ToothSide:
+    """The lower side of tooth 1 moved outwards by ``offset`` mm (inwards where negative)."""
+    if offset == 0:
+        return tooth_side(gear)
+    try:
+        return _moved_side(gear, offset)
+    except GeometryError as refusal:
+        tooth_side(gear)
+        limit = _largest_offset(gear, offset)
+        word = "closes the tooth spaces" if offset > 0 else "leaves no tooth"
+        raise ParameterError("offset", offset, f"{word}; at most {at_most(abs(limit))} mm works") from refusal
+
+
+def _moved_side(gear: SpurGear, offset: float) -> ToothSide:
+    if offset < 0:
+        if gear.root_radius + offset <= gear.bore_radius - offset:
+            raise ParameterError("offset", offset, "leaves no rim")
+        return assemble_side(SideCurves.of(gear).shrunk(-offset), gear.pitch_angle, blunt=True)
+    return grown_side(tooth_side(gear), offset)
+
+
+def _largest_offset(gear: SpurGear, refused: float) -> float:
+    """The offset nearest to a refused one that works, by bisection, to a millionth of it."""
+    works, fails = 0.0, refused
+    for _ in range(24):
+        middle = (works + fails) / 2
+        try:
+            _moved_side(gear, middle)
+            works = middle
+        except GeometryError:
+            fails = middle
+    return works
+
+
+def grown_side(side: ToothSide, distance: float) -> ToothSide:
+    """A tooth side moved ``distance`` mm out of the material."""
+    pieces = _with_corner_arcs(side.segments, distance)
+    findings = list(side.findings)
+    half_pitch = side.pitch_angle / 2
+    land = pieces.pop(0) if pieces[0].label is Label.ROOT_LAND else None
+    start = _after_cusp(pieces, distance, findings)
+    bottom = abs(start_point(side.segments[0].curve)) + distance
+    pieces, land = _joined_to_root(start, land, bottom, half_pitch, trimmed=len(findings) > len(side.findings))
+    if land is None:
+        pieces = _above_centre_line(pieces, half_pitch, bottom, findings)
+    else:
+        _above_centre_line(pieces, half_pitch, bottom, findings)
+        pieces = [land, *pieces]
+    return ToothSide(tuple(pieces), side.pitch_angle, tuple(findings))
+
+
+def _with_corner_arcs(segments: tuple[Segment, ...], distance: float) -> list[Segment]:
+    """Every segment moved outwards, an arc about each convex corner, the tip closed on the centre line."""
+    moved: list[Segment] = []
+    for index, segment in enumerate(segments):
+        if index and (turn := joint_turn(segments[index - 1].curve, segment.curve)) > TOLERANCES.smooth_angle:
+            arriving = complex(segments[index - 1].curve.tangent(segments[index - 1].curve.domain[1]))
+            centre = start_point(segment.curve)
+            moved.append(Segment(Arc(centre, distance, cmath.phase(arriving) - math.pi / 2, turn), Label.CORNER))
+        moved.append(Segment(_grown(segment.curve, distance), segment.label))
+    last = segments[-1].curve
+    if segments[-1].label is not Label.TIP_LAND:
+        leaving = cmath.phase(complex(last.tangent(last.domain[1]))) - math.pi / 2
+        if leaving < -TOLERANCES.smooth_angle:
+            moved.append(Segment(Arc(end_point(last), distance, leaving, -leaving), Label.CORNER))
+    return moved
+
+
+def _grown(curve: Curve, distance: float) -> Curve:
+    """The parallel curve on the space's side; a fillet may turn back, which is trimmed afterwards."""
+    if isinstance(curve, TrochoidFillet):
+        return replace(curve, tip_radius=curve.tip_radius - distance)
+    return curve.offset(-distance)
+
+
+def _after_cusp(pieces: list[Segment], distance: float, findings: list[Finding]) -> list[Segment]:
+    """The pieces without the part of the fillet that runs back; a finding where there was one."""
+    fillet = pieces[0].curve
+    if not isinstance(fillet, TrochoidFillet) or fillet.cusp() is None:
+        return pieces
+    findings.append(Finding("fillet_cusp_trimmed", distance, fillet.tip_radius + distance))
+    low, high = fillet.domain
+    if float(fillet.speed(high)) <= 0:
+        return pieces[1:]
+    turning = bracketed_root(lambda u: float(fillet.speed(u)), low, high).value
+    return [Segment(replace(fillet, start=turning), Label.ROOT_FILLET), *pieces[1:]]
+
+
+def _joined_to_root(
+    pieces: list[Segment], land: Segment | None, radius: float, half_pitch: float, *, trimmed: bool
+) -> tuple[list[Segment], Segment | None]:
+    """Pieces and root land trimmed to their crossing; no land where they meet beyond the centre line."""
+    if not trimmed or land is None:
+        return pieces, land
+    found = _first_crossing(pieces, lambda point: abs(point) - radius)
+    if found is None:
+        return pieces, None
+    kept = found
+    angle = cmath.phase(start_point(kept[0].curve)) + half_pitch
+    if angle <= TOLERANCES.relative_length:
+        return kept, None
+    return kept, Segment(Arc(0j, radius, -half_pitch, angle), Label.ROOT_LAND)
+
+
+def _above_centre_line(
+    pieces: list[Segment], half_pitch: float, bottom: float, findings: list[Finding]
+) -> list[Segment]:
+    """The pieces from where they leave the space's centre line for good; refused where that closes the space."""
+    turn = cmath.exp(1j * half_pitch)
+    heights = [np.imag(p.curve.point(np.linspace(*p.curve.domain, _SAMPLES)) * turn) for p in pieces]
+    outside = [h < -1e-13 * bottom for h in heights]
+    if not any(o.any() for o in outside):
+        return pieces
+    last = max(i for i, o in enumerate(outside) if o.any())
+    flags = np.concatenate(outside[: last + 1])
+    entered = int(np.flatnonzero(flags)[-1])
+    if not flags[:entered].all() or pieces[last].label in (Label.TIP_LAND, Label.TIP_BREAK) or last == len(pieces) - 1:
+        raise ParameterError("offset", 0.0, "closes the tooth spaces")
+    if pieces[last].label is Label.CORNER and pieces[last + 1].label in (Label.TIP_LAND, Label.TIP_BREAK):
+        raise ParameterError("offset", 0.0, "closes the tooth spaces")
+    kept = _first_crossing(pieces[last:], lambda point: (point * turn).imag)
+    if kept is None:
+        raise ParameterError("offset", 0.0, "closes the tooth spaces")
+    findings.append(Finding("space_shallowed", abs(start_point(kept[0].curve)), bottom))
+    return kept
+
+
+def _first_crossing(pieces: list[Segment], height: Callable[[complex], float]) -> list[Segment] | None:
+    """The pieces from the first point at which ``height`` becomes positive."""
+    for index, piece in enumerate(pieces):
+        low, high = piece.curve.domain
+        if height(end_point(piece.curve)) <= 0:
+            continue
+        curve = piece.curve
+        try:
+            at = bracketed_root(lambda t, c=curve: height(complex(c.point(t))), low, high).value
+        except ConvergenceError:
+            at = low
+        return [Segment(curve.trimmed(at, high), piece.label), *pieces[index + 1 :]] if at < high else pieces[index + 1 :]
+    return None

@@ -1,0 +1,133 @@
+"""An external spur gear cut by a rack: its parameters and the dimensions that follow from them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+from geometry.angles import involute_function
+from geometry.gears.basic_rack import BasicRack
+from geometry.involute import Involute
+from geometry.trochoid import TrochoidFillet
+
+
+@dataclass(frozen=True)
+class SpurGear:
+    """External spur gear; lengths in mm, coefficients in modules, angles in rad.
+
+    ``circumferential_thinning`` thins each tooth at the reference circle: cut by a wider rack tooth (root
+    diameter kept) or, with ``thinning_by_deeper_cut``, by feeding the rack in (root diameter lowered).
+    Source of the dimensions: ISO 21771, GOST 16532, practicum (3.7) to (3.17).
+    """
+
+    module: float
+    number_of_teeth: int
+    rack: BasicRack
+    profile_shift_coefficient: float = 0.0
+    given_tip_diameter: float | None = None
+    circumferential_thinning: float = 0.0
+    thinning_by_deeper_cut: bool = False
+    tip_chamfer: float = 0.0
+    tip_rounding: float = 0.0
+    bore_diameter: float = 0.0
+
+    @cached_property
+    def generating_shift_coefficient(self) -> float:
+        """x_E: the shift at which the rack really cuts; less than x where thinning is a deeper cut."""
+        if not self.thinning_by_deeper_cut:
+            return self.profile_shift_coefficient
+        infeed = self.circumferential_thinning / (2 * math.tan(self.rack.pressure_angle))
+        return self.profile_shift_coefficient - infeed / self.module
+
+    @cached_property
+    def _widening(self) -> float:
+        """Half of what the rack tooth is wider than its standard, mm."""
+        return 0.0 if self.thinning_by_deeper_cut else self.circumferential_thinning / 2
+
+    @property
+    def pitch_angle(self) -> float:
+        """Angle from tooth to tooth, rad."""
+        return 2 * math.pi / self.number_of_teeth
+
+    @property
+    def reference_radius(self) -> float:
+        """r = m z / 2."""
+        return self.module * self.number_of_teeth / 2
+
+    @property
+    def base_radius(self) -> float:
+        """r_b = r cos(alpha)."""
+        return self.reference_radius * math.cos(self.rack.pressure_angle)
+
+    @property
+    def root_radius(self) -> float:
+        """r_f = r - (h_f - x_E) m."""
+        return self.reference_radius - (self.rack.dedendum - self.generating_shift_coefficient) * self.module
+
+    @property
+    def tip_radius(self) -> float:
+        """r_a = r + (h_a + x) m, or half of the given tip diameter."""
+        if self.given_tip_diameter is not None:
+            return self.given_tip_diameter / 2
+        return self.reference_radius + (self.rack.addendum + self.profile_shift_coefficient) * self.module
+
+    @property
+    def bore_radius(self) -> float:
+        return self.bore_diameter / 2
+
+    @property
+    def rounding_depth(self) -> float:
+        """D: how far the rack's rounding centre lies inside the reference circle, mm."""
+        return (self.rack.rounding_depth - self.generating_shift_coefficient) * self.module
+
+    @property
+    def rounding_radius(self) -> float:
+        """rho in mm."""
+        return self.rack.tip_radius * self.module
+
+    @property
+    def root_land_half_angle(self) -> float:
+        """Half of the angle that the rack's flat tip leaves on the root circle, rad."""
+        half_flat = self.rack.rounding_half_distance * self.module + self._widening
+        return half_flat / self.reference_radius
+
+    @property
+    def reference_thickness(self) -> float:
+        """s: tooth thickness on the reference circle, mm; practicum (3.16)."""
+        return 2 * self.reference_radius * self._half_angle(self.rack.pressure_angle, 0.0)
+
+    @property
+    def base_half_angle(self) -> float:
+        """psi_b: half of the tooth's angle on the base circle, rad."""
+        alpha = self.rack.pressure_angle
+        return self._half_angle(alpha, 0.0) + involute_function(alpha)
+
+    def _half_angle(self, flank_angle: float, datum_gain: float) -> float:
+        """Half of the tooth's angle on the reference circle for a rack flank of a given angle, rad.
+
+        ``datum_gain`` is how much wider (each side) that flank would make the tooth at the datum line, mm.
+        """
+        shift = self.generating_shift_coefficient * self.module
+        half = math.pi / 4 * self.module + shift * math.tan(flank_angle) + datum_gain - self._widening
+        return half / self.reference_radius
+
+    def flank(self) -> Involute:
+        """The lower main flank of tooth 1 from the base circle outwards, beyond the tip."""
+        return Involute(self.base_radius, -self.base_half_angle, 0.0, 1 + self.tip_radius / self.base_radius)
+
+    def relief_flank(self) -> Involute:
+        """The lower relieved flank of tooth 1: the involute of a smaller base circle."""
+        relief, alpha, alpha_g = self.rack.relief, self.rack.pressure_angle, self.rack.relief_angle
+        height = self.rack.addendum - (relief.height if relief else 0.0)
+        # both rack flanks meet at that height, so on the datum line the steeper one is further out
+        gain = height * self.module * (math.tan(alpha_g) - math.tan(alpha))
+        half = self._half_angle(alpha_g, gain) + involute_function(alpha_g)
+        base_radius = self.reference_radius * math.cos(alpha_g)
+        return Involute(base_radius, -half, 0.0, 1 + self.tip_radius / base_radius)
+
+    def fillet(self) -> TrochoidFillet:
+        """The lower root fillet of tooth 1 as far as the rounding reaches, whether cut away or not."""
+        angle = -self.pitch_angle / 2 + self.root_land_half_angle
+        end = math.pi / 2 - self.rack.pressure_angle
+        return TrochoidFillet(self.reference_radius, self.rounding_depth, self.rounding_radius, angle, 0.0, end)

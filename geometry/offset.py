@@ -1,0 +1,82 @@
+"""Parallel curves of any exact curve, with exact derivatives, and where they turn back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from geometry.curve import Complex, Curve, Real, Reversed, curvature_from_derivatives
+from geometry.errors import CuspError
+from geometry.placement import Placement2
+
+_FACTORIALS = (1, 1, 2, 6, 24, 120)
+
+
+@dataclass(frozen=True, slots=True)
+class OffsetCurve:
+    """c(t) + d n(t), d mm to the left of ``base``, whose derivatives must reach one order further."""
+
+    base: Curve
+    distance: float
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        return self.base.domain
+
+    def point(self, t: ArrayLike) -> Complex:
+        return self.base.point(t) + 1j * self.distance * self.base.tangent(t)
+
+    def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
+        """Taylor arithmetic: n = i c' / sqrt(c' conj(c'))."""
+        first = [self.base.derivative(t, k + 1) / _FACTORIALS[k] for k in range(order + 1)]
+        square = _product(first, [np.conj(x) for x in first])
+        normal = _product(first, _reciprocal_root([x.real for x in square]))
+        return self.base.derivative(t, order) + 1j * self.distance * _FACTORIALS[order] * normal[order]
+
+    def _stretch(self, t: ArrayLike) -> Real:
+        return 1 - self.distance * self.base.curvature(t)
+
+    def tangent(self, t: ArrayLike) -> Complex:
+        return np.where(self._stretch(t) < 0, -1.0, 1.0) * self.base.tangent(t)
+
+    def curvature(self, t: ArrayLike) -> Real:
+        return curvature_from_derivatives(self.derivative(t), self.derivative(t, 2))
+
+    def derivative_bound(self, order: int, a: float, b: float) -> None:
+        """None: no bound is proven for a general parallel curve."""
+
+    def checked(self) -> OffsetCurve:
+        """This curve, or CuspError at the first of 257 samples where it has turned back."""
+        t = np.linspace(*self.domain, 257)
+        bad = np.flatnonzero(self._stretch(t) <= 0)
+        if bad.size:
+            raise CuspError(float(t[bad[0]]), self.distance)
+        return self
+
+    def offset(self, distance: float) -> OffsetCurve:
+        return OffsetCurve(self.base, self.distance + distance).checked()
+
+    def trimmed(self, a: float, b: float) -> OffsetCurve:
+        return replace(self, base=self.base.trimmed(a, b))
+
+    def reversed(self) -> Curve:
+        return Reversed(self)
+
+    def placed(self, placement: Placement2) -> OffsetCurve:
+        return replace(self, base=self.base.placed(placement))
+
+
+def _product(a: list, b: list) -> list:
+    """Taylor coefficients of a product."""
+    return [sum(a[j] * b[k - j] for j in range(k + 1)) for k in range(len(a))]
+
+
+def _reciprocal_root(a: list) -> list:
+    """Taylor coefficients of a^(-1/2), from a y' = -1/2 a' y."""
+    y = [a[0] ** -0.5]
+    for k in range(1, len(a)):
+        total = sum((-0.5 * j - (k - j)) * a[j] * y[k - j] for j in range(1, k + 1))
+        y.append(total / (k * a[0]))
+    return y

@@ -1,0 +1,105 @@
+"""Closed chains of exact curves: one period of a profile, placed ``count`` times, and regions of them."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from geometry.curve import Curve, end_point, start_point
+from geometry.errors import DisconnectedProfileError
+from geometry.line_arc import Arc
+from geometry.placement import Placement2
+from geometry.tolerance import TOLERANCES
+
+
+class Label(StrEnum):
+    """What a segment is for: layers, findings and measurements go by it."""
+
+    ROOT_LAND = "root_land"
+    ROOT_FILLET = "root_fillet"
+    FLANK = "flank"
+    RELIEF = "tip_relief"
+    TIP_BREAK = "tip_break"
+    TIP_LAND = "tip_land"
+    CORNER = "corner_arc"
+    BORE = "bore"
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """One exact curve with its meaning."""
+
+    curve: Curve
+    label: Label
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """A closed chain: the segments of one period, repeated ``count`` times about the origin.
+
+    Period k is period 0 turned by 2 pi k / count. The joins are checked when the profile is made.
+    """
+
+    period: tuple[Segment, ...]
+    count: int = 1
+
+    def __post_init__(self) -> None:
+        starts = [start_point(s.curve) for s in self.period]
+        ends = [end_point(s.curve) for s in self.period]
+        starts.append(starts[0] * cmath.exp(2j * math.pi / self.count))
+        allowed = TOLERANCES.relative_join * max(map(abs, starts))
+        for index, end in enumerate(ends):
+            gap = abs(end - starts[index + 1])
+            if not gap <= allowed:
+                raise DisconnectedProfileError(index + 1, gap)
+
+    @property
+    def pitch_angle(self) -> float:
+        """Angle from one period to the next, rad."""
+        return 2 * math.pi / self.count
+
+    def segments(self) -> Iterator[Segment]:
+        """All segments in order of travel."""
+        for k in range(self.count):
+            placement = Placement2(self.pitch_angle * k)
+            for segment in self.period:
+                yield segment if k == 0 else Segment(segment.curve.placed(placement), segment.label)
+
+    def labelled(self, label: Label) -> list[Curve]:
+        """The curves of one period that carry a label."""
+        return [s.curve for s in self.period if s.label is label]
+
+    def reach(self) -> float:
+        """Greatest distance of a segment end from the origin, mm."""
+        return max(abs(start_point(s.curve)) for s in self.period)
+
+
+@dataclass(frozen=True, slots=True)
+class Region:
+    """Material of a plane section: outer boundary counter-clockwise, holes clockwise (material on the left)."""
+
+    outer: Profile
+    holes: tuple[Profile, ...] = ()
+
+    def profiles(self) -> tuple[Profile, ...]:
+        """Holes first, then the outer boundary: the order in which they are cut."""
+        return (*self.holes, self.outer)
+
+
+def circle(radius: float, label: Label, *, hole: bool = False) -> Profile:
+    """A full circle about the origin; a hole runs clockwise."""
+    half = math.pi if not hole else -math.pi
+    upper, lower = Arc(0j, radius, 0.0, half), Arc(0j, radius, half, half)
+    return Profile((Segment(upper, label), Segment(lower, label)))
+
+
+def joint_turn(before: Curve, after: Curve) -> float:
+    """Angle by which the tangent turns at a joint, rad; positive is a convex corner of the material."""
+    arriving = complex(before.tangent(before.domain[1]))
+    leaving = complex(after.tangent(after.domain[0]))
+    return float(np.angle(leaving / arriving))

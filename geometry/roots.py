@@ -1,0 +1,65 @@
+"""Bracketed roots of one real equation: they cannot leave the bracket and say how they ended."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from geometry.errors import ConvergenceError
+from geometry.tolerance import TOLERANCES
+
+
+@dataclass(frozen=True, slots=True)
+class Root:
+    """A root with the evidence for it: the last bracket holds a change of sign."""
+
+    value: float
+    residual: float
+    iterations: int
+    bracket: tuple[float, float]
+
+
+def bracketed_root(function: Callable[[float], float], low: float, high: float, *, limit: int = 120) -> Root:
+    """Root of a continuous function with opposite signs at ``low`` and ``high``.
+
+    Chandrupatla's method (Advances in Engineering Software 28, 1997): inverse quadratic interpolation
+    where it is safe, bisection otherwise.
+
+    Raises
+    ------
+    ConvergenceError
+        No change of sign in the bracket, or more than ``limit`` steps.
+    """
+    b, a, c = low, high, high
+    fa, fb = function(a), function(b)
+    fc = fa
+    if fa * fb > 0 or fa != fa or fb != fb:
+        raise ConvergenceError(f"no change of sign between {low:.6g} and {high:.6g}", min(abs(fa), abs(fb)), 0)
+    fraction = 0.5
+    for iteration in range(1, limit + 1):
+        x = a + fraction * (b - a)
+        fx = function(x)
+        if (fx > 0) == (fa > 0):
+            c, fc = a, fa
+        else:
+            c, b, fc, fb = b, a, fb, fa
+        a, fa = x, fx
+        best, residual = (a, fa) if abs(fa) < abs(fb) else (b, fb)
+        reach = abs(b - a)
+        least = 2 * TOLERANCES.relative_root * abs(best) + 1e-300
+        if residual == 0 or reach <= least:
+            return Root(best, residual, iteration, (min(a, b), max(a, b)))
+        fraction = _next_fraction(a, b, c, fa, fb, fc, 0.5 * least / reach)
+    raise ConvergenceError("root", residual, limit)
+
+
+def _next_fraction(a: float, b: float, c: float, fa: float, fb: float, fc: float, margin: float) -> float:
+    """Where in [a, b] to look next, as a fraction; 0.5 where interpolation is not safe."""
+    if fb == fa or fc == fb or fc == fa or c == b or b == a:
+        return 0.5
+    xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
+    if phi**2 < xi and (1 - phi) ** 2 < 1 - xi:
+        fraction = (fa / (fb - fa)) * (fc / (fb - fc)) + ((c - a) / (b - a)) * (fa / (fc - fa)) * (fb / (fc - fb))
+    else:
+        fraction = 0.5
+    return min(1 - margin, max(margin, fraction))
