@@ -15,10 +15,12 @@ from geometry.arc_spline import arc_spline
 from geometry.contour import Approximation, Contour
 from geometry.curve import Complex, Curve, Real
 from geometry.errors import ConvergenceError
+from geometry.involute import Involute
 from geometry.line_arc import Arc, Line
 from geometry.merge import merge_short_edges
-from geometry.profile import Profile, Segment
+from geometry.profile import Profile
 from geometry.tolerance import TOLERANCES
+from geometry.trochoid import TrochoidFillet
 
 _DENSITY_SAMPLES = 129
 _MAX_CHORDS = 1_000_000
@@ -26,12 +28,16 @@ _MAX_CHORDS = 1_000_000
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """Start vertices and bulges of one approximated segment (its end is the next one's start)."""
+    """Points (n + 1,) and bulges (n,) of one approximated segment."""
 
-    vertices: Complex
+    points: Complex
     bulges: Real
     max_error: float
     certified: bool
+
+    def mirrored(self) -> Piece:
+        """The piece of the mirrored segment: mirroring and travelling back both flip a bulge's sign."""
+        return Piece(np.conj(self.points[::-1]), self.bulges[::-1], self.max_error, self.certified)
 
 
 def approximate_profile(
@@ -48,9 +54,14 @@ def approximate_profile(
         The tolerance is so small that more pieces than a file can carry would be needed.
     """
     make = _arc_piece if arcs else _chord_piece
-    pieces = [make(segment, tolerance) for segment in profile.period]
+    done: dict[Curve, Piece] = {}
+    for curve in (s.curve for s in profile.period):
+        # both sides of a tooth are mirror images: one is computed
+        twin = done.get(curve.mirrored()) if isinstance(curve, Involute | TrochoidFillet) else None
+        done[curve] = twin.mirrored() if twin is not None else make(curve, tolerance)
+    pieces = [done[s.curve] for s in profile.period]
     contour = Contour(
-        np.concatenate([p.vertices for p in pieces]), np.concatenate([p.bulges for p in pieces]), profile.count
+        np.concatenate([p.points[:-1] for p in pieces]), np.concatenate([p.bulges for p in pieces]), profile.count
     )
     error = max(p.max_error for p in pieces)
     bound = "certified" if all(p.certified for p in pieces) else "sampled"
@@ -61,22 +72,20 @@ def approximate_profile(
     return Approximation(contour, error, bound if error > 0 else "exact", tolerance)
 
 
-def _arc_piece(segment: Segment, tolerance: float) -> Piece:
-    curve = segment.curve
+def _arc_piece(curve: Curve, tolerance: float) -> Piece:
     if isinstance(curve, Line):
-        return Piece(np.array([curve.start]), np.zeros(1), 0.0, True)
+        return Piece(np.array([curve.start, curve.end]), np.zeros(1), 0.0, True)
     if isinstance(curve, Arc):
         # a bulge of 1 (half a turn) is the most that every reader takes
         count = max(1, math.ceil(abs(curve.sweep) / math.pi - 1e-9))
-        t = np.linspace(*curve.domain, count + 1)[:-1]
-        return Piece(curve.point(t), np.full(count, math.tan(curve.sweep / count / 4)), 0.0, True)
+        return Piece(curve.point(np.linspace(*curve.domain, count + 1)), np.full(count, math.tan(curve.sweep / count / 4)), 0.0, True)
     spline = arc_spline(curve, tolerance)
-    return Piece(spline.points[:-1], spline.bulges, spline.max_error, spline.certified)
+    return Piece(spline.points, spline.bulges, spline.max_error, spline.certified)
 
 
-def _chord_piece(segment: Segment, tolerance: float) -> Piece:
-    t, error, certified = chord_parameters(segment.curve, tolerance)
-    return Piece(segment.curve.point(t[:-1]), np.zeros(len(t) - 1), error, certified)
+def _chord_piece(curve: Curve, tolerance: float) -> Piece:
+    t, error, certified = chord_parameters(curve, tolerance)
+    return Piece(curve.point(t), np.zeros(len(t) - 1), error, certified)
 
 
 def chord_parameters(curve: Curve, tolerance: float) -> tuple[Real, float, bool]:

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from geometry.contour import arc_centres
 from geometry.curve import Complex, Curve, Real
 from geometry.line_arc import Arc, Line
 from geometry.profile import Profile, Region
 
 _GAUSS_POINTS = 20
 _GAUSS_PANELS = 4
+_COARSE_SAMPLES, _FINE_SAMPLES = 17, 65
+_NEWTON_STEPS = 5
+NDArrayInt = NDArray[np.int64]
 
 
 def profile_area(profile: Profile) -> float:
@@ -37,80 +39,80 @@ def region_area(region: Region) -> float:
     return sum(profile_area(p) for p in region.profiles())
 
 
-@dataclass(frozen=True, slots=True)
-class ProfileSamples:
-    """Dense samples of one period: curve index, parameter and point of each, in order of travel."""
+def distance_to_profile(points: Complex, profile: Profile, *, trusted: float = 0.0) -> Real:
+    """Distance of each point (n,) from an exact profile, mm.
 
-    curves: tuple[Curve, ...]
-    index: NDArrayInt
-    parameter: Real
-    point: Complex
-    pitch_angle: float
-
-
-NDArrayInt = np.ndarray
-
-
-def sample_profile(profile: Profile, per_curve: int) -> ProfileSamples:
-    """``per_curve`` samples on every segment of one period, ends included."""
-    curves = tuple(s.curve for s in profile.period)
-    parameters = [np.linspace(*c.domain, per_curve) for c in curves]
-    points = [c.point(t) for c, t in zip(curves, parameters, strict=True)]
-    index = np.repeat(np.arange(len(curves)), per_curve)
-    return ProfileSamples(curves, index, np.concatenate(parameters), np.concatenate(points), profile.pitch_angle)
-
-
-def distance_to_profile(points: Complex, profile: Profile, *, per_curve: int = 33) -> Real:
-    """Distance of each point from an exact profile, mm.
-
-    Points are turned into the first period; the nearest sample of each curve starts a projection that is
-    refined by Newton's method and kept inside the curve. Exact for points nearer than the samples are apart.
+    A quick pass projects each point on the curves beside its nearest coarse sample; it can only be too large,
+    so what it finds above ``trusted`` mm is measured again on every curve with fine samples.
     """
-    turn = profile.pitch_angle
-    middle = _middle_angle(profile)
-    period = np.round((np.angle(points) - middle) / turn)
-    folded = points * np.exp(-1j * turn * period)
+    result = _quick_distance(points, profile)
+    doubtful = np.flatnonzero(result > trusted)
+    if doubtful.size:
+        result[doubtful] = _thorough_distance(points[doubtful], profile)
+    return result
+
+
+def _quick_distance(points: Complex, profile: Profile) -> Real:
+    curves = [s.curve for s in profile.period]
+    parameters = [np.linspace(*c.domain, _COARSE_SAMPLES) for c in curves]
+    samples = np.concatenate([c.point(t) for c, t in zip(curves, parameters, strict=True)])
+    folded = _folded(points, profile)
+    nearest = _nearest_index(folded, samples)
     best = np.full(points.shape, np.inf)
-    for segment in profile.period:
-        for shift in _neighbour_shifts(profile):
-            near = folded * np.exp(-1j * turn * shift)
-            best = np.minimum(best, _distance_to_curve(near, segment.curve, per_curve))
+    for index, curve in enumerate(curves):
+        # a nearest sample at a joint speaks for the curves on both sides of it
+        first, last = index * _COARSE_SAMPLES - 1, (index + 1) * _COARSE_SAMPLES
+        ring = (nearest - first) % len(samples)
+        mine = np.flatnonzero(ring <= last - first)
+        if mine.size:
+            start = np.clip(nearest[mine] - first - 1, 0, _COARSE_SAMPLES - 1)
+            best[mine] = np.minimum(best[mine], _projected(folded[mine], curve, parameters[index], start))
     return best
 
 
-def _neighbour_shifts(profile: Profile) -> tuple[int, ...]:
-    return (0,) if profile.count == 1 else (-1, 0, 1)
+def _thorough_distance(points: Complex, profile: Profile) -> Real:
+    folded, best = _folded(points, profile), np.full(points.shape, np.inf)
+    for segment in profile.period:
+        t = np.linspace(*segment.curve.domain, _FINE_SAMPLES)
+        samples = segment.curve.point(t)
+        for shift in (0,) if profile.count == 1 else (-1, 0, 1):
+            near = folded * np.exp(-1j * profile.pitch_angle * shift)
+            best = np.minimum(best, _projected(near, segment.curve, t, _nearest_index(near, samples)))
+    return best
 
 
-def _middle_angle(profile: Profile) -> float:
-    """Polar angle about which one period lies, rad."""
+def _folded(points: Complex, profile: Profile) -> Complex:
+    """Points turned into the sector of the first period."""
     start = profile.period[0].curve.point(profile.period[0].curve.domain[0])
-    return float(np.angle(start)) + profile.pitch_angle / 2
+    period = np.floor((np.angle(points) - float(np.angle(start))) / profile.pitch_angle)
+    return points * np.exp(-1j * profile.pitch_angle * period)
 
 
-def _distance_to_curve(points: Complex, curve: Curve, per_curve: int) -> Real:
+def _projected(points: Complex, curve: Curve, samples: Real, start: NDArrayInt) -> Real:
+    """Distance from a curve by projection from the nearest sample; Newton's steps stay beside it."""
     if isinstance(curve, Arc):
         return _distance_to_arc(points, curve)
-    low, high = curve.domain
     if isinstance(curve, Line):
         chord = curve.end - curve.start
         share = np.clip(((points - curve.start) * np.conj(chord)).real / abs(chord) ** 2, 0, 1)
         return np.abs(points - curve.start - share * chord)
-    samples = np.linspace(low, high, per_curve)
-    t = samples[_nearest_index(points, curve.point(samples))]
-    for _ in range(6):
+    low, high = curve.domain
+    reach = (high - low) / (len(samples) - 1)
+    t = samples[start]
+    for _ in range(_NEWTON_STEPS):
         gap, first = curve.point(t) - points, curve.derivative(t)
-        slope = np.abs(first) ** 2 + (np.conj(gap) * curve.derivative(t, 2)).real
+        square = np.abs(first) ** 2
+        slope = square + (np.conj(gap) * curve.derivative(t, 2)).real
         with np.errstate(divide="ignore", invalid="ignore"):
-            step = (np.conj(gap) * first).real / np.where(slope > 0, slope, np.abs(first) ** 2)
-        reach = (high - low) / (per_curve - 1)
-        t = np.clip(t - np.clip(np.nan_to_num(step), -reach, reach), low, high)
-    return np.minimum(np.abs(curve.point(t) - points), np.abs(curve.point(samples[[0, -1]])[:, None] - points).min(0))
+            step = np.nan_to_num((np.conj(gap) * first).real / np.where(slope > 0, slope, square))
+        t = np.clip(t - np.clip(step, -reach, reach), low, high)
+    ends = np.abs(curve.point(samples[[0, -1]])[:, None] - points).min(0)
+    return np.minimum(np.abs(curve.point(t) - points), ends)
 
 
 def _nearest_index(points: Complex, samples: Complex) -> NDArrayInt:
     """Index of the nearest sample of each point, in blocks that fit the cache."""
-    result = np.zeros(points.shape, dtype=int)
+    result = np.zeros(points.shape, dtype=np.int64)
     block = max(1, 2_000_000 // len(samples))
     for start in range(0, len(points), block):
         part = slice(start, start + block)
@@ -125,16 +127,3 @@ def _distance_to_arc(points: Complex, arc: Arc) -> Real:
     radial = np.abs(np.abs(spoke) - arc.radius)
     ends = arc.point(np.array(arc.domain))
     return np.where(swept <= abs(arc.sweep), radial, np.abs(points - ends[:, None]).min(0))
-
-
-def distance_to_edges(points: Complex, starts: Complex, ends: Complex, bulges: Real) -> Real:
-    """Distance (n, k) of points (n, k) from edge n (line or arc) alone, mm."""
-    chord = ends - starts
-    length = np.abs(chord)
-    share = np.clip(((points - starts[:, None]) * np.conj(chord)[:, None]).real / (length**2)[:, None], 0, 1)
-    straight = np.abs(points - starts[:, None] - share * chord[:, None])
-    curved = np.flatnonzero(bulges)
-    if curved.size:
-        centres, radii = arc_centres(starts[curved], ends[curved], bulges[curved])
-        straight[curved] = np.abs(np.abs(points[curved] - centres[:, None]) - radii[:, None])
-    return straight

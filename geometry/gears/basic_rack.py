@@ -105,17 +105,17 @@ def checked_rack(rack: BasicRack) -> BasicRack:
         depth = math.pi / 4 / math.tan(alpha)
         if depth > rack.addendum:
             raise ParameterError(
-                "tip_clearance_coefficient", rack.tip_clearance,
+                "basic_rack.tip_clearance_coefficient", rack.tip_clearance,
                 f"the rack tooth is pointed at {math.degrees(alpha):g} degrees before it reaches its tip line; "
                 f"at most {at_most(depth - rack.addendum)} fits addendum_coefficient = {rack.addendum:g}",
             )
         raise ParameterError(
-            "addendum_coefficient", rack.addendum,
+            "basic_rack.addendum_coefficient", rack.addendum,
             f"the rack tooth is pointed at {math.degrees(alpha):g} degrees; less than {at_most(depth)} fits",
         )
     if rack.tip_radius > largest * (1 + 1e-12):
         raise ParameterError(
-            "tip_radius_coefficient", rack.tip_radius,
+            "basic_rack.tip_radius_coefficient", rack.tip_radius,
             f"does not fit the rack tooth; at most {at_most(largest)} does (the full round)",
         )
     if rack.relief is not None:

@@ -67,7 +67,8 @@ def flank_crossing_radius(inner: Involute, outer: Involute, low: float, high: fl
 
 def pointed_radius(flank: Involute) -> float:
     """Radius at which a lower flank reaches the tooth's centre line (both flanks meet), mm."""
-    # polar_angle_at_radius grows without bound, slower than the roll itself
+    if flank.base_angle >= 0:
+        return flank.base_radius
     high = 2 * flank.base_radius
     while flank.polar_angle_at_radius(high) < 0:
         high *= 2

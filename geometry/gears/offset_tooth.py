@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from geometry.curve import Curve, end_point, start_point
-from geometry.errors import ConvergenceError, GeometryError, ParameterError, at_most
+from geometry.errors import ConvergenceError, GeometryError, ParameterError, at_least, at_most
 from geometry.findings import Finding
 from geometry.gears.spur import SpurGear
 from geometry.gears.tooth import SideCurves, ToothSide, assemble_side, tooth_side
@@ -26,6 +26,15 @@ from geometry.tolerance import TOLERANCES
 from geometry.trochoid import TrochoidFillet
 
 _SAMPLES = 65
+
+
+class OffsetError(ParameterError):
+    """An offset that no outline survives, mm, with the one nearest to it that works."""
+
+    def __init__(self, offset: float, reason: str, nearest: float) -> None:
+        self.reason, self.nearest = reason, nearest
+        text = f"at most {at_most(nearest)}" if nearest >= 0 else f"at least {at_least(nearest)}"
+        super().__init__("offset", offset, f"{reason}; {text} mm works")
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +60,7 @@ def gear_region(gear: SpurGear, offset: float = 0.0) -> OffsetRegion:
     holes: tuple[Profile, ...] = ()
     if gear.bore_radius > 0:
         if gear.bore_radius - offset <= 0:
-            raise ParameterError("offset", offset, f"closes the bore; less than {at_most(gear.bore_radius)} works")
+            raise OffsetError(offset, "closes the bore", gear.bore_radius * (1 - 1e-6))
         holes = (circle(gear.bore_radius - offset, Label.BORE, hole=True),)
     return OffsetRegion(Region(side.profile(), holes), offset, tuple(findings))
 
@@ -66,13 +75,13 @@ def offset_side(gear: SpurGear, offset: float) -> ToothSide:
         tooth_side(gear)
         limit = _largest_offset(gear, offset)
         word = "closes the tooth spaces" if offset > 0 else "leaves no tooth"
-        raise ParameterError("offset", offset, f"{word}; at most {at_most(abs(limit))} mm works") from refusal
+        raise OffsetError(offset, word, limit) from refusal
 
 
 def _moved_side(gear: SpurGear, offset: float) -> ToothSide:
     if offset < 0:
         if gear.root_radius + offset <= gear.bore_radius - offset:
-            raise ParameterError("offset", offset, "leaves no rim")
+            raise OffsetError(offset, "leaves no rim", 0.0)
         return assemble_side(SideCurves.of(gear).shrunk(-offset), gear.pitch_angle, blunt=True)
     return grown_side(tooth_side(gear), offset)
 
@@ -173,12 +182,12 @@ def _above_centre_line(
     flags = np.concatenate(outside[: last + 1])
     entered = int(np.flatnonzero(flags)[-1])
     if not flags[:entered].all() or pieces[last].label in (Label.TIP_LAND, Label.TIP_BREAK) or last == len(pieces) - 1:
-        raise ParameterError("offset", 0.0, "closes the tooth spaces")
+        raise OffsetError(bottom, "closes the tooth spaces", 0.0)
     if pieces[last].label is Label.CORNER and pieces[last + 1].label in (Label.TIP_LAND, Label.TIP_BREAK):
-        raise ParameterError("offset", 0.0, "closes the tooth spaces")
+        raise OffsetError(bottom, "closes the tooth spaces", 0.0)
     kept = _first_crossing(pieces[last:], lambda point: (point * turn).imag)
     if kept is None:
-        raise ParameterError("offset", 0.0, "closes the tooth spaces")
+        raise OffsetError(bottom, "closes the tooth spaces", 0.0)
     findings.append(Finding("space_shallowed", abs(start_point(kept[0].curve)), bottom))
     return kept
 

@@ -1,0 +1,154 @@
+"""Making the files of a plan: written beside, read back, measured, then moved into place together."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+
+from exporters.job import Job, Written, approximations, declared_error
+from exporters.plan import Plan
+from exporters.words import finding_text
+from geometry.approximate import approximate_profile
+from geometry.contour import Approximation
+from geometry.errors import ConvergenceError, ParameterError
+from geometry.findings import Finding
+from geometry.tolerance import LEAST_SEGMENT_MM
+from parts.part import Part
+from parts.schema import SceneError
+
+# teeth lose their shape where the tolerance is a larger part of the module
+_COARSE_SHARE = 0.05
+
+
+def build(
+    plan: Plan, folder: Path, *, verify: bool = True, progress: Callable[[str], None] = lambda path: None
+) -> tuple[list[Written], list[Path]]:
+    """Write every job and a preview of every part into ``folder``; files that fail their read-back stay out.
+
+    Returns what was written, and the previews. Nothing half-written is left behind: all files are made in a
+    folder beside and moved when all are done; on any exception, an interrupt too, that folder goes.
+    """
+    shapes = [_shapes(job) for job in plan.jobs]
+    with _staging(folder) as staging:
+        written = []
+        for job, shape in zip(plan.jobs, shapes, strict=True):
+            progress(job.path)
+            written.append(_write(job, shape, staging / job.path, verify=verify))
+        wanted = dict.fromkeys(job.part.id for job in plan.jobs)
+        previews = [_preview(plan.parts[p], staging, plan.scene.scene.language) for p in wanted]
+        for item in written:
+            if not item.failures:
+                os.replace(item.file, folder / item.job.path)
+        for preview in previews:
+            os.replace(preview, folder / preview.name)
+    return written, [folder / p.name for p in previews]
+
+
+def _shapes(job: Job) -> tuple[tuple[Approximation, ...], float]:
+    """Approximated boundaries and the seconds they took; refused in the scene's terms."""
+    start = time.perf_counter()
+    try:
+        return approximations(job), time.perf_counter() - start
+    except ParameterError as error:
+        raise SceneError(f"{job.path}", error.name, error.value, error.allowed) from error
+    except ConvergenceError as error:
+        raise SceneError(f"{job.path}", "tolerance", job.export.tolerance, f"cannot be met: {error}; make it larger") from error
+
+
+def _write(job: Job, shape: tuple[tuple[Approximation, ...], float], file: Path, *, verify: bool) -> Written:
+    made, spent = shape
+    seconds = {"approximate": spent}
+    start = time.perf_counter()
+    entities, rounding = _WRITERS[job.export.format](job, made, file)
+    seconds["write"] = time.perf_counter() - start
+    reach = job.section.region.outer.reach()
+    max_error, bound = declared_error(made, rounding * reach if job.export.format != "svg" else rounding)
+    findings = (*job.part.findings, *job.section.findings, *_job_findings(job, made))
+    if not verify:
+        return Written(job, file, max_error, bound, entities, {}, findings, (), seconds)
+    from exporters.verify import verify_file
+
+    start = time.perf_counter()
+    tolerance = float(job.export.tolerance or 0.0)
+    verdict = verify_file(
+        file, job.export.format, job.section.region, job.part.face_width, max_error, tolerance
+    )
+    seconds["verify"] = time.perf_counter() - start
+    return Written(job, file, max_error, bound, entities, verdict.measured, findings, verdict.failures, seconds)
+
+
+def _write_dxf(job: Job, made: tuple[Approximation, ...], file: Path) -> tuple[dict[str, int], float]:
+    from exporters.dxf import ROUNDING, write_laser_dxf
+
+    return write_laser_dxf(file, job.layer_order, made, version=job.export.dxf_version), ROUNDING
+
+
+def _write_svg(job: Job, made: tuple[Approximation, ...], file: Path) -> tuple[dict[str, int], float]:
+    from exporters.svg import ROUNDING, write_laser_svg
+
+    return write_laser_svg(file, job.layer_order, made), ROUNDING
+
+
+def _write_stl(job: Job, made: tuple[Approximation, ...], file: Path) -> tuple[dict[str, int], float]:
+    from exporters.stl import ROUNDING, write_stl
+    from parts.solids import extruded_gear
+
+    outer, bore = made[-1].geometry, made[0].geometry if len(made) > 1 else None
+    return write_stl(file, extruded_gear(outer, bore, job.part.face_width)), ROUNDING
+
+
+_WRITERS: dict[str, Callable[[Job, tuple[Approximation, ...], Path], tuple[dict[str, int], float]]] = {
+    "dxf": _write_dxf, "svg": _write_svg, "stl": _write_stl,
+}
+
+
+def _job_findings(job: Job, made: tuple[Approximation, ...]) -> list[Finding]:
+    """Remarks on one file: a tolerance too coarse for the teeth, edges too short for a laser."""
+    found = []
+    limit = _COARSE_SHARE * job.part.circles["reference_diameter"] / job.section.region.outer.count
+    if (job.export.tolerance or 0.0) > limit:
+        found.append(Finding("coarse_tolerance", float(job.export.tolerance or 0.0), limit))
+    if job.export.format != "stl":
+        short = sum(
+            int(np.count_nonzero(np.abs(a.geometry.period_ends() - a.geometry.vertices) < LEAST_SEGMENT_MM)) * a.geometry.count
+            for a in made
+        )
+        if short:
+            found.append(Finding("short_edges", short, LEAST_SEGMENT_MM))
+    return found
+
+
+def _preview(part: Part, folder: Path, language: str) -> Path:
+    from exporters.svg import write_preview
+
+    region = part.section(0.0).region
+    tolerance = max(2e-4 * region.outer.reach(), 1e-6)
+    made = tuple(approximate_profile(p, tolerance, arcs=True) for p in region.profiles())
+    remarks = [finding_text(language, f) for f in part.findings]
+    file = folder / f"{part.id}.preview.svg"
+    write_preview(file, part, made, remarks, language)
+    return file
+
+
+@contextmanager
+def _staging(folder: Path) -> Iterator[Path]:
+    """A folder beside ``folder`` that is gone afterwards; ``folder`` itself goes too if nothing came into it."""
+    made = [p for p in (folder, *folder.parents) if not p.exists()]
+    staging = None
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        staging = Path(tempfile.mkdtemp(prefix=".building-", dir=folder))
+        yield staging
+    finally:
+        if staging is not None:
+            shutil.rmtree(staging, ignore_errors=True)
+        for created in made:
+            if created.is_dir() and not any(created.iterdir()):
+                created.rmdir()

@@ -1,0 +1,144 @@
+"""The command ``higherpair``: build, verify, list, new. Exit codes: 0 done, 1 a check failed, 2 wrong input."""
+
+from __future__ import annotations
+
+import argparse
+import signal
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, NoReturn
+
+from exporters import __version__
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+DONE, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
+_PLAIN_WIDTH = 130
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        self.exit(WRONG_INPUT, f"higherpair: {message}; see `{self.prog} --help`\n")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; returns its exit code."""
+    options = _parser().parse_args(arguments)
+    previous = signal.signal(signal.SIGTERM, _interrupt)
+    try:
+        return options.run(options)
+    except KeyboardInterrupt:
+        print("higherpair: interrupted; nothing half-written is left", file=sys.stderr)
+        return INTERRUPTED
+    except BrokenPipeError:
+        sys.stderr.close()
+        return DONE
+    except (ValueError, OSError) as error:
+        from parts.schema import SceneError
+
+        if isinstance(error, SceneError):
+            print(f"higherpair: {error}", file=sys.stderr)
+        elif isinstance(error, OSError):
+            print(f"higherpair: {error.filename or 'file'}: {error.strerror or error}; choose another place with --out", file=sys.stderr)
+        else:
+            raise
+        return WRONG_INPUT
+    finally:
+        signal.signal(signal.SIGTERM, previous)
+
+
+def _interrupt(number: int, frame: object) -> NoReturn:
+    raise KeyboardInterrupt
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(prog="higherpair", description="Exact gears as DXF, SVG and STL, each file read back and measured.")
+    parser.add_argument("--version", action="version", version=f"higherpair {__version__}")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
+    build = commands.add_parser("build", help="make the files of a scene")
+    build.add_argument("scene", help="a built-in scene or a scene file (.toml)")
+    build.add_argument("--out", default="out", type=Path, help="folder for the results (default: out)")
+    build.add_argument("--part", action="append", default=[], metavar="ID", help="only this part (may be repeated)")
+    build.add_argument("--format", action="append", default=[], metavar="F", help="only this format (may be repeated)")
+    build.add_argument("--no-verify", action="store_true", help="do not read the files back")
+    build.set_defaults(run=_build)
+    verify = commands.add_parser("verify", help="read files back and hold them against the part in their report")
+    verify.add_argument("files", nargs="+", type=Path, metavar="FILE")
+    verify.set_defaults(run=_verify)
+    listing = commands.add_parser("list", help="kinds of parts and built-in scenes")
+    listing.set_defaults(run=_list)
+    new = commands.add_parser("new", help="print a commented scene to start from")
+    new.add_argument("kind", metavar="KIND", help="a kind of part, see `higherpair list`")
+    new.set_defaults(run=_new)
+    return parser
+
+
+def _console() -> Console:
+    from rich.console import Console
+
+    console = Console(highlight=False, soft_wrap=False)
+    return console if console.is_terminal else Console(highlight=False, width=_PLAIN_WIDTH)
+
+
+def _build(options: argparse.Namespace) -> int:
+    start = time.perf_counter()
+    from exporters.build import build
+    from exporters.plan import plan_build
+    from exporters.report import write_report
+    from exporters.tables import build_table
+    from parts.scene import load_scene
+
+    scene = load_scene(options.scene)
+    plan = plan_build(scene, options.scene, options.part, options.format)
+    folder = options.out / scene.name
+    console = _console()
+    if console.is_terminal:
+        from rich.progress import Progress
+
+        with Progress(console=console, transient=True) as bar:
+            task = bar.add_task(scene.name, total=len(plan.jobs))
+            written, previews = build(
+                plan, folder, verify=not options.no_verify,
+                progress=lambda path: bar.update(task, advance=1, description=path),
+            )
+    else:
+        written, previews = build(plan, folder, verify=not options.no_verify)
+    partial = bool(options.part or options.format)
+    write_report(plan, folder, written, previews, time.perf_counter() - start, partial=partial)
+    build_table(console, plan, folder, written, previews)
+    return FAILED if any(item.failures for item in written) else DONE
+
+
+def _verify(options: argparse.Namespace) -> int:
+    from exporters.recheck import recheck
+    from exporters.tables import verify_table
+
+    results = [recheck(file) for file in options.files]
+    verify_table(_console(), results)
+    return FAILED if any(r.verdict.failures for r in results) else DONE
+
+
+def _list(options: argparse.Namespace) -> int:
+    from parts.scene import KINDS, built_in_scenes, load_scene
+
+    print("kinds of parts (higherpair new KIND):")
+    for kind, (spec, _) in KINDS.items():
+        print(f"  {kind:<18} {(spec.__doc__ or '').splitlines()[0]}")
+    print("built-in scenes (higherpair build NAME):")
+    for name in built_in_scenes():
+        print(f"  {name:<18} {load_scene(name).scene.title}")
+    return DONE
+
+
+def _new(options: argparse.Namespace) -> int:
+    from exporters.new import new_scene
+    from parts.scene import KINDS
+    from parts.schema import SceneError, near
+
+    if options.kind not in KINDS:
+        raise SceneError("new", "KIND", options.kind, f"unknown kind{near(options.kind, KINDS)}; kinds: {', '.join(KINDS)}")
+    print(new_scene(options.kind), end="")
+    return DONE

@@ -1,0 +1,86 @@
+"""Laser DXF: one closed polyline a boundary, arcs as bulges, inner contours first. No kernel, no spline."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import ezdxf
+import numpy as np
+from ezdxf.document import Drawing
+
+from geometry.contour import Approximation, Contour
+
+# ACI colours: inner contours green, cut first; outer contours red
+LAYER_COLOURS = {"CUT_INNER": 3, "CUT_OUTER": 1}
+_MILLIMETRES = 4
+# ezdxf writes coordinates with 16 digits
+ROUNDING = 2e-15
+
+
+def write_laser_dxf(
+    file: Path, layers: tuple[str, ...], boundaries: tuple[Approximation, ...], *, version: str
+) -> dict[str, int]:
+    """Write closed polylines in mm; returns the number of entities of each kind."""
+    drawing = ezdxf.new(version, setup=False, units=_MILLIMETRES)
+    drawing.header["$LUNITS"] = 2
+    if version != "R12":
+        drawing.header["$MEASUREMENT"] = 1
+    for name in dict.fromkeys(layers):
+        drawing.layers.add(name, color=LAYER_COLOURS[name])
+    space = drawing.modelspace()
+    corners = []
+    for layer, boundary in zip(layers, boundaries, strict=True):
+        contour = boundary.geometry
+        corners.append(_extent(contour))
+        _add_polyline(space, layer, contour, version)
+    low, high = np.min([c[0] for c in corners], axis=0), np.max([c[1] for c in corners], axis=0)
+    drawing.header["$EXTMIN"], drawing.header["$EXTMAX"] = (*low, 0.0), (*high, 0.0)
+    with _fixed_metadata():
+        _save(drawing, file)
+    kind = "POLYLINE" if version == "R12" else "LWPOLYLINE"
+    vertices = sum(len(b.geometry) for b in boundaries)
+    return {kind: len(boundaries), "vertices": vertices, "arcs": _arc_count(boundaries)}
+
+
+def _add_polyline(space, layer: str, contour: Contour, version: str) -> None:
+    vertices, bulges = contour.expanded()
+    attributes = {"layer": layer}
+    if version == "R12":
+        rows = np.stack([vertices.real, vertices.imag, bulges], axis=1)
+        space.add_polyline2d(rows.tolist(), format="xyb", close=True, dxfattribs=attributes)
+        return
+    polyline = space.add_lwpolyline([], dxfattribs=attributes)
+    rows = np.zeros((len(vertices), 5))
+    rows[:, 0], rows[:, 1], rows[:, 4] = vertices.real, vertices.imag, bulges
+    # appending point by point is quadratic; the vertices' own array is not
+    polyline.lwpoints.values = rows
+    polyline.closed = True
+
+
+def _extent(contour: Contour) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Corners of a box around a contour about the origin: its greatest radius each way."""
+    reach = float(np.abs(contour.vertices).max())
+    return (-reach, -reach), (reach, reach)
+
+
+def _arc_count(boundaries: tuple[Approximation, ...]) -> int:
+    return sum(int(np.count_nonzero(b.geometry.bulges)) * b.geometry.count for b in boundaries)
+
+
+@contextmanager
+def _fixed_metadata() -> Iterator[None]:
+    """The same bytes at every run: ezdxf's dates and ids fixed while a file is written."""
+    before = ezdxf.options.write_fixed_meta_data_for_testing
+    ezdxf.options.write_fixed_meta_data_for_testing = True
+    try:
+        yield
+    finally:
+        ezdxf.options.write_fixed_meta_data_for_testing = before
+
+
+def _save(drawing: Drawing, file: Path) -> None:
+    # "\n" on every system, so that the bytes are the same there too
+    with file.open("w", encoding=drawing.output_encoding, errors="dxfreplace", newline="\n") as stream:
+        drawing.write(stream)

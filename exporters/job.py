@@ -1,0 +1,85 @@
+"""What a writer gets and what it leaves behind."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from geometry.approximate import approximate_profile
+from geometry.contour import Approximation
+from geometry.errors import ParameterError, at_least
+from geometry.findings import Finding
+from geometry.gears.offset_tooth import OffsetRegion
+from geometry.tolerance import LEAST_SEGMENT_MM
+from parts.part import Part
+from parts.scene import ExportSpec
+
+# more edges than any receiving program opens; one file of them is some 300 MB
+_MOST_EDGES = 4_000_000
+# a float32 coordinate is good to 2^-24 of its size; edges must stay well above it
+_FLOAT32 = 2.0**-24
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """One part in one format: the exact section it must match and where the file goes."""
+
+    part: Part
+    export: ExportSpec
+    section: OffsetRegion
+    path: str
+
+    @property
+    def layer_order(self) -> tuple[str, ...]:
+        """Layer of each boundary in ``approximations``: inner ones are cut first."""
+        return (*("CUT_INNER" for _ in self.section.region.holes), "CUT_OUTER")
+
+
+@dataclass(frozen=True, slots=True)
+class Written:
+    """A file that was written and read back, with what was measured on it."""
+
+    job: Job
+    file: Path
+    max_error: float
+    bound: str
+    entities: dict[str, int]
+    measured: dict[str, float]
+    findings: tuple[Finding, ...]
+    failures: tuple[str, ...] = ()
+    seconds: dict[str, float] = field(default_factory=dict)
+
+
+def approximations(job: Job) -> tuple[Approximation, ...]:
+    """The boundaries of a job's section, holes first, as its format and tolerance want them.
+
+    Raises
+    ------
+    ParameterError
+        The tolerance asks for more edges than a file can carry, or is below what STL's numbers resolve.
+    """
+    tolerance = float(job.export.tolerance or 0.0)
+    arcs, least = job.export.curves == "arcs" and job.export.format != "stl", LEAST_SEGMENT_MM
+    if job.export.format == "stl":
+        rounding = _FLOAT32 * job.section.region.outer.reach()
+        least = 64 * rounding
+        if tolerance < 8 * rounding:
+            remedy = f"STL stores 7 digits, at this size at least {at_least(8 * rounding)} mm works"
+            raise ParameterError("tolerance", tolerance, remedy)
+    made = tuple(
+        approximate_profile(p, tolerance, arcs=arcs, least_edge=least) for p in job.section.region.profiles()
+    )
+    edges = sum(len(a.geometry) for a in made)
+    if edges > _MOST_EDGES:
+        factor = (edges / _MOST_EDGES) ** (3 if arcs else 2)
+        remedy = f"would need {edges} edges; {at_least(tolerance * factor)} mm works"
+        raise ParameterError("tolerance", tolerance, remedy)
+    return made
+
+
+def declared_error(made: tuple[Approximation, ...], rounding: float) -> tuple[float, str]:
+    """The bound of a whole file, mm: the worst boundary plus the rounding of its numbers."""
+    worst = max(a.max_error for a in made)
+    kinds = {a.bound for a in made}
+    bound = "sampled" if "sampled" in kinds else "certified" if "certified" in kinds else "exact"
+    return worst + rounding, bound

@@ -1,0 +1,148 @@
+"""Read-back: files into loops of lines and arcs, or triangles. Shares no code with the writers."""
+
+from __future__ import annotations
+
+import math
+import re
+import xml.etree.ElementTree as ElementTree
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.curve import Complex, Real
+
+
+class ReadError(ValueError):
+    """A file is not what its ending says, or holds something that its receivers refuse."""
+
+
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """A closed chain as found in a file: vertices (n,), bulges (n,), the layer or id it stood on."""
+
+    vertices: Complex
+    bulges: Real
+    layer: str
+
+
+def read_dxf(file: Path) -> list[Loop]:
+    """The closed polylines of a laser DXF; everything else on it is an error."""
+    import ezdxf
+
+    try:
+        drawing = ezdxf.readfile(str(file))
+    except (ezdxf.DXFError, OSError, UnicodeDecodeError, ValueError) as error:
+        raise ReadError(f"not a readable DXF: {error}") from error
+    auditor = drawing.audit()
+    if auditor.errors or auditor.fixes:
+        first = (auditor.errors + auditor.fixes)[0]
+        raise ReadError(f"the DXF audit finds fault: {first.message}")
+    if drawing.dxfversion > "AC1009" and drawing.header.get("$INSUNITS") != 4:
+        raise ReadError("the DXF is not in mm ($INSUNITS is not 4)")
+    loops = []
+    for entity in drawing.modelspace():
+        kind = entity.dxftype()
+        if kind == "LWPOLYLINE":
+            rows = np.array(entity.get_points("xyb"), dtype=float).reshape(-1, 3)
+        elif kind == "POLYLINE":
+            rows = np.array([(*v.dxf.location[:2], v.dxf.bulge) for v in entity.vertices], dtype=float).reshape(-1, 3)
+        else:
+            raise ReadError(f"a {kind} stands on layer {entity.dxf.layer}; only closed polylines belong there")
+        if not (entity.closed if kind == "LWPOLYLINE" else entity.is_closed):
+            raise ReadError(f"an open polyline on layer {entity.dxf.layer}")
+        loops.append(Loop(rows[:, 0] + 1j * rows[:, 1], rows[:, 2], entity.dxf.layer))
+    return loops
+
+
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_COMMAND = re.compile(rf"([MLAZ])((?:[\s,]*{_NUMBER})*)")
+
+
+def read_svg(file: Path) -> list[Loop]:
+    """The closed paths and circles of an SVG in mm, y turned up again."""
+    try:
+        root = ElementTree.parse(file).getroot()
+        width = float(re.fullmatch(r"([\d.]+)mm", root.get("width", ""))[1])
+        box = [float(x) for x in root.get("viewBox", "").split()]
+    except (ElementTree.ParseError, TypeError, ValueError, OSError) as error:
+        raise ReadError(f"not a readable SVG in mm: {error}") from error
+    if len(box) != 4 or abs(box[2] - width) > 1e-9 * width:
+        raise ReadError("one unit of the SVG's view box is not one mm")
+    loops = []
+    for element in root.iter():
+        tag = element.tag.rsplit("}", 1)[-1]
+        try:
+            if tag == "path":
+                loops.append(_svg_path(element.get("d", ""), element.get("id", "")))
+            elif tag == "circle":
+                x, y, r = (float(element.get(k, "nan")) for k in ("cx", "cy", "r"))
+                ends = np.array([complex(x + r, -y), complex(x - r, -y)])
+                loops.append(Loop(ends, np.ones(2), element.get("id", "")))
+            elif tag != "svg":
+                raise ReadError(f"an element <{tag}> stands among the outlines")
+        except ValueError as error:
+            raise ReadError(f"broken {tag}: {error}") from error
+    size = width / 2
+    return [Loop(loop.vertices - complex(size, -size), loop.bulges, loop.layer) for loop in loops]
+
+
+def _svg_path(data: str, layer: str) -> Loop:
+    """One closed subpath of absolute M, L, A and Z."""
+    if _COMMAND.sub("", data).strip():
+        raise ReadError("an SVG path holds more than M, L, A and Z")
+    points: list[complex] = []
+    bulges: list[float] = []
+    closed = False
+    for command, text in _COMMAND.findall(data):
+        numbers = [float(x) for x in re.findall(_NUMBER, text)]
+        if command == "Z":
+            closed = True
+        elif command == "A":
+            if len(numbers) != 7 or not points:
+                raise ReadError("an SVG arc has not seven numbers")
+            end = complex(numbers[5], -numbers[6])
+            bulges.append(_svg_bulge(end - points[-1], numbers[0], bool(numbers[3]), bool(numbers[4])))
+            points.append(end)
+        else:
+            if len(numbers) != 2 or closed:
+                raise ReadError("an SVG path has more than one part")
+            if points:
+                bulges.append(0.0)
+            points.append(complex(numbers[0], -numbers[1]))
+    if not closed or not points or abs(points[-1] - points[0]) > 1e-9:
+        raise ReadError("an SVG path is not closed on its first point")
+    return Loop(np.array(points[:-1]), np.array(bulges), layer)
+
+
+def _svg_bulge(chord: complex, radius: float, large: bool, sweep: bool) -> float:
+    """Bulge of an SVG arc; sweep flag 1 turns right once y is up."""
+    half = math.asin(min(1.0, abs(chord) / (2 * radius)))
+    quarter = (math.pi - half if large else half) / 2
+    return math.tan(quarter) * (-1 if sweep else 1)
+
+
+@dataclass(frozen=True, slots=True)
+class ReadMesh:
+    """Distinct vertices (n, 3) and triangles (k, 3) of an STL file."""
+
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.int64]
+
+
+def read_stl(file: Path) -> ReadMesh:
+    """A binary STL; equal corners become one vertex."""
+    data = file.read_bytes()
+    if len(data) < 84:
+        raise ReadError("too short for a binary STL")
+    count = int.from_bytes(data[80:84], "little")
+    if len(data) != 84 + 50 * count or count == 0:
+        raise ReadError(f"{len(data)} bytes do not hold the {count} triangles that the STL announces")
+    rows = np.frombuffer(data, dtype=np.uint8, offset=84).reshape(count, 50)
+    corners = rows[:, 12:48].copy().view("<f4").reshape(-1, 3)
+    if not np.all(np.isfinite(corners)):
+        raise ReadError("an STL coordinate is not a number")
+    keys = np.ascontiguousarray(corners + np.float32(0.0)).view([("x", "<u4"), ("y", "<u4"), ("z", "<u4")]).ravel()
+    _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
+    return ReadMesh(corners[first].astype(float), inverse.reshape(-1, 3))

@@ -1,0 +1,116 @@
+"""``report.json``: what was made, what was measured on it, and the scene that made it."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import platform
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from exporters import __version__
+from exporters.job import Written
+from exporters.plan import Plan
+from exporters.words import finding_text
+from geometry.findings import Finding
+from parts.scene import resolved
+
+NAME = "report.json"
+
+
+def write_report(plan: Plan, folder: Path, written: list[Written], previews: list[Path], seconds: float, *, partial: bool) -> dict[str, Any]:
+    """Write the report of a build; a partial build is merged by path into the one that is there."""
+    language = plan.scene.scene.language
+    report: dict[str, Any] = {
+        "scene": resolved(plan.scene),
+        "parts": {
+            part.id: {
+                "kind": part.kind, **part.circles, **part.quantities,
+                "findings": _findings(part.findings, language),
+            }
+            for part in plan.parts.values()
+        },
+        "files": [_entry(item, folder, language) for item in written if not item.failures],
+        "failed": [{"path": item.job.path, "failures": list(item.failures)} for item in written if item.failures],
+        "previews": [{"path": p.name, "bytes": p.stat().st_size, "sha256": _sha256(p)} for p in previews],
+        "checks": {},
+        "left_out": [{"what": what, "why": why} for what, why in plan.left_out],
+        "versions": _versions(),
+        "run": {
+            "seconds": round(seconds, 4),
+            "stages": {item.job.path: {k: round(v, 5) for k, v in item.seconds.items()} for item in written},
+            "peak_memory_mb": _peak_memory(),
+            "machine": platform.machine(),
+        },
+    }
+    if partial:
+        _merge(report, read_report(folder))
+    target = folder / NAME
+    beside = folder / f".{NAME}.{os.getpid()}"
+    beside.write_text(json.dumps(report, indent=1, ensure_ascii=False) + "\n", encoding="utf-8", newline="\n")
+    os.replace(beside, target)
+    return report
+
+
+def read_report(folder: Path) -> dict[str, Any] | None:
+    """The report that lies in a folder; None where there is none or it cannot be read."""
+    try:
+        report = json.loads((folder / NAME).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    return report if isinstance(report, dict) else None
+
+
+def _merge(report: dict[str, Any], before: dict[str, Any] | None) -> None:
+    """Keep what an earlier build of the same scene made and this one did not touch."""
+    if before is None or before.get("scene") != report["scene"]:
+        return
+    for key in ("files", "previews"):
+        fresh = {entry["path"] for entry in (*report[key], *report["failed"])}
+        kept = [entry for entry in before.get(key, []) if entry.get("path") not in fresh]
+        report[key] = sorted([*kept, *report[key]], key=lambda entry: entry["path"])
+
+
+def _entry(item: Written, folder: Path, language: str) -> dict[str, Any]:
+    file = folder / item.job.path
+    export = item.job.export
+    return {
+        "path": item.job.path, "format": export.format, "purpose": export.purpose, "part": item.job.part.id,
+        "unit": "mm", "tolerance": export.tolerance, "offset": item.job.section.offset,
+        "max_error": item.max_error, "bound": item.bound, "verified": bool(item.measured),
+        "measured": item.measured, "entities": item.entities, "bytes": file.stat().st_size,
+        "sha256": _sha256(file), "findings": _findings(item.findings, language),
+    }
+
+
+def _findings(found: tuple[Finding, ...], language: str) -> list[dict[str, Any]]:
+    return [
+        {"code": f.code, "value": f.value, "limit": f.limit, "text": finding_text(language, f)} for f in found
+    ]
+
+
+def _versions() -> dict[str, str]:
+    versions = {"higherpair": __version__, "python": platform.python_version(), "numpy": np.__version__}
+    # only what this build has loaded; asking for more would load it
+    for name in ("ezdxf", "shapely"):
+        if name in sys.modules:
+            versions[name] = str(sys.modules[name].__version__)
+    return versions
+
+
+def _sha256(file: Path) -> str:
+    return hashlib.sha256(file.read_bytes()).hexdigest()
+
+
+def _peak_memory() -> float | None:
+    """Peak memory of this process, MB; None where the system does not tell."""
+    try:
+        import resource
+    except ImportError:
+        return None
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return round(peak / (1 << 20 if sys.platform == "darwin" else 1 << 10), 1)

@@ -1,0 +1,77 @@
+"""The words of reports and pictures in English and Ukrainian, in the terms of ISO 1122-1 and of the seeds."""
+
+from __future__ import annotations
+
+from geometry.findings import Finding
+
+WORDS: dict[str, tuple[str, str]] = {
+    "tip_diameter": ("tip diameter d_a, mm", "діаметр вершин d_a, мм"),
+    "reference_diameter": ("reference diameter d, mm", "ділильний діаметр d, мм"),
+    "base_diameter": ("base diameter d_b, mm", "діаметр основного кола d_b, мм"),
+    "root_form_diameter": ("root form diameter d_Ff, mm", "діаметр початку евольвенти d_Ff, мм"),
+    "root_diameter": ("root diameter d_f, mm", "діаметр западин d_f, мм"),
+    "pitch": ("pitch p, mm", "крок p, мм"),
+    "tooth_thickness": ("tooth thickness s, mm", "товщина зуба S, мм"),
+    "tip_tooth_thickness": ("tip tooth thickness s_a, mm", "товщина зуба на колі вершин S_a, мм"),
+    "file": ("file", "файл"),
+    "error": ("max error, mm", "найбільша похибка, мм"),
+    "tolerance": ("tolerance, mm", "допуск, мм"),
+    "entities": ("entities", "об'єкти"),
+    "size": ("kB", "кБ"),
+    "check": ("read back", "перевірка"),
+    "good": ("ok", "гаразд"),
+    "bad": ("FAILED", "ПОМИЛКА"),
+    "skipped": ("not verified", "не перевірено"),
+    "finding": ("note", "зауваження"),
+    "preview": ("preview", "ескіз"),
+    "left_out": ("left out", "не зроблено"),
+}
+
+FINDINGS: dict[str, tuple[str, str]] = {
+    "undercut": (
+        "the tooth is undercut: profile shift {value:.4f} is below x_min = {limit:.4f}",
+        "зуб підрізаний: зміщення {value:.4f} менше за x_min = {limit:.4f}",
+    ),
+    "thin_tip": (
+        "thin tip: s_a = {value:.3f} mm is below 0.3 m = {limit:.3f} mm",
+        "загострення: S_a = {value:.3f} мм менше за 0,3 m = {limit:.3f} мм",
+    ),
+    "thin_rim": (
+        "thin rim: {value:.3f} mm between bore and root circle, less than one module ({limit:.3f} mm)",
+        "тонкий обід: {value:.3f} мм між отвором і колом западин, менше за модуль ({limit:.3f} мм)",
+    ),
+    "relief_not_reached": (
+        "the tip circle ({value:.3f} mm) ends below the tip relief: no relief on this tooth",
+        "коло вершин ({value:.3f} мм) нижче за фланк: фланкування не видно",
+    ),
+    "tip_lost": (
+        "the offset makes the teeth pointed: {value:.4f} mm of the tip is lost",
+        "після зсуву контуру зуби загострені: втрачено {value:.4f} мм висоти",
+    ),
+    "fillet_cusp_trimmed": (
+        "the offset {value:.4f} mm is more than the fillet radius {limit:.4f} mm: its corner is trimmed",
+        "зсув {value:.4f} мм більший за радіус перехідної кривої {limit:.4f} мм: кут обрізано",
+    ),
+    "space_shallowed": (
+        "the offset flanks meet at radius {value:.4f} mm: the space ends above its root at {limit:.4f} mm",
+        "зсунуті профілі сходяться на радіусі {value:.4f} мм: западина вища за свою основу {limit:.4f} мм",
+    ),
+    "coarse_tolerance": (
+        "tolerance {value:.4g} mm is more than 5 % of the module ({limit:.4g} mm): the teeth lose their shape",
+        "допуск {value:.4g} мм більший за 5 % модуля ({limit:.4g} мм): зуби втрачають форму",
+    ),
+    "short_edges": (
+        "{value:.0f} edges are shorter than {limit:.3g} mm; merging them would break the tolerance",
+        "{value:.0f} відрізків коротші за {limit:.3g} мм; їх з'єднання порушило б допуск",
+    ),
+}
+
+
+def words(language: str, key: str) -> str:
+    """A term in a language ("en" or "uk")."""
+    return WORDS[key][1 if language == "uk" else 0]
+
+
+def finding_text(language: str, finding: Finding) -> str:
+    """A finding as a sentence."""
+    return FINDINGS[finding.code][1 if language == "uk" else 0].format(value=finding.value, limit=finding.limit)

@@ -1,0 +1,1 @@
+"""Parametric parts and the scenes that hold them."""

@@ -1,0 +1,28 @@
+"""Annotated types of scene keys: unit, range and meaning stand beside each key, once.
+
+The annotations are the schema: validation, error texts and ``higherpair new`` all read them.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from msgspec import Meta
+
+
+def mm(
+    text: str, *, above: float | None = None, least: float | None = None, most: float | None = None
+) -> Meta:
+    """A length in mm."""
+    return Meta(gt=above, ge=least, le=most, description=text, extra={"unit": "mm"})
+
+
+def in_modules(text: str, *, least: float, most: float) -> Meta:
+    """A coefficient in modules."""
+    return Meta(ge=least, le=most, description=text, extra={"unit": "modules"})
+
+
+Identifier = Annotated[str, Meta(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,63}$", description="letters, digits, _ and -")]
+Colour = Annotated[str, Meta(pattern=r"^#[0-9a-fA-F]{6}$", description="colour in pictures, like #c08040")]
+FaceWidth = Annotated[float, mm("thickness of the part along its axis", least=0.01, most=10_000)]
+BoreDiameter = Annotated[float, mm("round bore; 0 is none", least=0, most=100_000)]

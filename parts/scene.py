@@ -1,0 +1,187 @@
+"""Scene files: read, validated key by key, every refusal with place, value and remedy."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import msgspec
+from msgspec import Meta, Struct
+
+from geometry.errors import ParameterError
+from parts.keys import Identifier, mm
+from parts.part import Part
+from parts.schema import SceneError, converted, near, refuse_infinite
+from parts.spur_gear import SpurGearSpec, make_spur_gear
+
+SCENE_FOLDER = Path(__file__).parent / "scenes"
+KINDS: dict[str, tuple[type[Struct], Any]] = {"spur_gear": (SpurGearSpec, make_spur_gear)}
+FORMATS = ("dxf", "svg", "stl")
+DEFAULT_TOLERANCES = {"dxf": 0.005, "svg": 0.005, "stl": 0.01}
+DEFAULT_PURPOSES = {"dxf": "laser", "svg": "laser", "stl": "print"}
+# a scene that is larger than this is not one
+_MAX_SCENE_BYTES = 4_000_000
+
+
+class SceneInfo(Struct, forbid_unknown_fields=True):
+    """Keys of ``[scene]``."""
+
+    title: Annotated[str, Meta(max_length=500, description="what the scene shows")] = ""
+    language: Annotated[Literal["en", "uk"], Meta(description="language of reports")] = "en"
+
+
+class ExportSpec(Struct, forbid_unknown_fields=True):
+    """Keys of ``[[exports]]``."""
+
+    format: Annotated[Literal["dxf", "svg", "stl"], Meta(description="file format")]
+    purpose: Annotated[Literal["laser", "print"], Meta(description="what for")] | None = None
+    tolerance: (
+        Annotated[float, mm("largest deviation from the exact curve", least=1e-7, most=1.0)] | None
+    ) = None
+    kerf: Annotated[float, mm("full width of the cut; the path runs half of it outside the part", least=0, most=10)] = 0.0
+    offset: Annotated[
+        float, mm("moves every outline: positive out of the material, negative into it", least=-10, most=10)
+    ] = 0.0
+    curves: Annotated[Literal["arcs", "lines"], Meta(description="dxf, svg: arcs, or straight lines only")] = "arcs"
+    dxf_version: Annotated[Literal["R2000", "R12"], Meta(description="dxf only")] = "R2000"
+    name: Annotated[Identifier, Meta(description="tells files of one part apart; default: the purpose")] | None = None
+    parts: Annotated[list[str], Meta(min_length=1, description="parts to export; default: all")] | None = None
+
+
+class SceneFile(Struct, forbid_unknown_fields=True):
+    """A scene as resolved: what ``report.json`` keeps and ``verify`` builds again."""
+
+    name: str
+    scene: SceneInfo
+    parts: dict[str, Any]
+    exports: list[ExportSpec]
+
+
+def built_in_scenes() -> dict[str, Path]:
+    """Names and files of the scenes that come with the package."""
+    return {path.stem: path for path in sorted(SCENE_FOLDER.glob("*.toml"))}
+
+
+def load_scene(address: str) -> SceneFile:
+    """A scene by the name of a built-in one or by the path of a TOML file.
+
+    Raises
+    ------
+    SceneError
+        With the key, its value and what is allowed.
+    """
+    built_in = built_in_scenes()
+    path = Path(address)
+    if address in built_in and not path.is_file():
+        path = built_in[address]
+    try:
+        if path.is_dir():
+            raise SceneError(address, "", None, "is a folder; give a scene file (.toml) or one of: " + ", ".join(built_in))
+        with path.open("rb") as stream:
+            raw_bytes = stream.read(_MAX_SCENE_BYTES + 1)
+    except FileNotFoundError:
+        remedy = f"no such file or built-in scene{near(address, built_in)}; built-in: {', '.join(built_in)}"
+        raise SceneError(address, "", None, remedy) from None
+    except OSError as error:
+        raise SceneError(address, "", None, f"cannot be read: {error.strerror or error}") from None
+    except ValueError as error:
+        raise SceneError(repr(address), "", None, f"is not a path: {error}") from None
+    return scene_from_toml(raw_bytes, str(path), path.stem)
+
+
+def scene_from_toml(raw_bytes: bytes, source: str, name: str) -> SceneFile:
+    """Parse and validate a scene."""
+    if len(raw_bytes) > _MAX_SCENE_BYTES:
+        raise SceneError(source, "", None, f"is larger than {_MAX_SCENE_BYTES} bytes; not a scene file")
+    try:
+        raw = tomllib.loads(raw_bytes.decode("utf-8-sig"))
+    except UnicodeDecodeError as error:
+        raise SceneError(source, "", None, f"is not UTF-8 text (byte {error.start}); save it as UTF-8") from None
+    except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
+        text = str(error) or "nested too deeply"
+        raise SceneError(source, "", None, f"is not TOML: {text}; see `higherpair new spur_gear` for a start") from None
+    return scene_from_dict(raw, source, name)
+
+
+def scene_from_dict(raw: dict[str, Any], source: str, name: str) -> SceneFile:
+    """Validate the tables of a scene."""
+    refuse_infinite(raw, source, "")
+    tables = {"scene": dict, "parts": dict, "exports": list}
+    for key, value in raw.items():
+        if key not in tables:
+            raise SceneError(source, key, None, f"unknown table{near(key, tables)}; known: {', '.join(tables)}")
+        if not isinstance(value, tables[key]):
+            remedy = "write it as [[exports]]" if key == "exports" else f"write it as a table, [{key}]"
+            raise SceneError(source, key, value, remedy)
+    if not raw.get("parts"):
+        raise SceneError(source, "parts", None, "a scene needs at least one part, like [parts.gear] kind = \"spur_gear\"")
+    info = converted(raw.get("scene", {}), SceneInfo, source, "scene")
+    parts = {key: _part_spec(key, table, source) for key, table in raw["parts"].items()}
+    exports = [
+        _export_spec(table, parts, source, f"exports[{i + 1}]") for i, table in enumerate(raw.get("exports", []))
+    ]
+    return SceneFile(name, info, parts, exports)
+
+
+def _part_spec(key: str, table: Any, source: str) -> Struct:
+    place = f"parts.{key}"
+    if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}", key):
+        raise SceneError(source, place, None, "a part's name is made of letters, digits, _ and - (at most 64)")
+    if not isinstance(table, dict):
+        raise SceneError(source, place, table, f"write it as a table, [parts.{key}]")
+    kind = table.get("kind")
+    if kind is None:
+        raise SceneError(source, f"{place}.kind", None, f"is missing; known kinds: {', '.join(KINDS)}")
+    if not isinstance(kind, str) or kind not in KINDS:
+        remedy = f"unknown kind{near(str(kind), KINDS)}; known kinds: {', '.join(KINDS)}"
+        raise SceneError(source, f"{place}.kind", kind, remedy)
+    return converted(table, KINDS[kind][0], source, place)
+
+
+def _export_spec(table: Any, parts: dict[str, Struct], source: str, place: str) -> ExportSpec:
+    spec = converted(table, ExportSpec, source, place)
+    for part in spec.parts or ():
+        if part not in parts:
+            raise SceneError(source, f"{place}.parts", part, f"no such part{near(part, parts)}; parts: {', '.join(parts)}")
+    if spec.kerf and spec.offset:
+        raise SceneError(source, f"{place}.kerf", spec.kerf, "give either kerf or offset; an offset of half the kerf is the same")
+    if spec.format != "dxf" and spec.dxf_version != "R2000":
+        raise SceneError(source, f"{place}.dxf_version", spec.dxf_version, f"only for format = \"dxf\", not {spec.format}; remove it")
+    if spec.purpose is None:
+        spec.purpose = DEFAULT_PURPOSES[spec.format]
+    if spec.purpose != DEFAULT_PURPOSES[spec.format]:
+        raise SceneError(source, f"{place}.purpose", spec.purpose, f"{spec.format} is for {DEFAULT_PURPOSES[spec.format]}")
+    if spec.tolerance is None:
+        spec.tolerance = DEFAULT_TOLERANCES[spec.format]
+    return spec
+
+
+def make_parts(scene: SceneFile, source: str) -> dict[str, Part]:
+    """The parts of a scene, each checked to exist."""
+    parts: dict[str, Part] = {}
+    for key, spec in scene.parts.items():
+        make = KINDS[spec.__struct_config__.tag][1]
+        try:
+            parts[key] = make(key, spec)
+        except ParameterError as error:
+            raise SceneError(source, f"parts.{key}.{error.name}", error.value, error.allowed) from error
+    return parts
+
+
+def resolved(scene: SceneFile) -> dict[str, Any]:
+    """The scene as plain data with every default filled in."""
+    return msgspec.to_builtins(scene)
+
+
+def scene_from_resolved(data: dict[str, Any], source: str) -> SceneFile:
+    """A scene from what a report has kept."""
+    tables = {key: data[key] for key in ("scene", "parts", "exports") if key in data}
+    tables["exports"] = [{k: v for k, v in e.items() if v is not None} for e in tables.get("exports", [])]
+    tables["parts"] = {k: _without_none(v) for k, v in tables.get("parts", {}).items()}
+    return scene_from_dict(tables, source, str(data.get("name", "scene")))
+
+
+def _without_none(table: Any) -> Any:
+    return {k: _without_none(v) for k, v in table.items() if v is not None} if isinstance(table, dict) else table

@@ -1,0 +1,120 @@
+"""The part kind ``spur_gear``: an external spur gear cut by a rack."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import Annotated, Literal
+
+from msgspec import Meta, Struct
+
+from geometry.errors import ParameterError
+from geometry.gears.basic_rack import BasicRack, TipRelief, checked_rack, default_tip_radius, iso_53
+from geometry.gears.limits import checked_gear, findings, root_form_diameter, tip_thickness
+from geometry.gears.offset_tooth import gear_region
+from geometry.gears.spur import SpurGear
+from parts.keys import BoreDiameter, Colour, FaceWidth, in_modules, mm
+from parts.part import Part
+
+# the radius that ISO 53 gives at the usual clearance; the default for racks given as a table
+_TABLE_TIP_RADIUS = 0.38
+
+
+class RackTable(Struct, forbid_unknown_fields=True):
+    """A cutting rack of one's own, in modules."""
+
+    addendum_coefficient: Annotated[float, in_modules("addendum of the basic rack", least=0.1, most=3)] = 1.0
+    tip_clearance_coefficient: Annotated[float, in_modules("tip clearance", least=0, most=1)] = 0.25
+    tip_radius_coefficient: (
+        Annotated[float, in_modules("tip rounding; default: the least of 0.38, c/(1 - sin a), full round", least=0, most=2)]
+        | None
+    ) = None
+
+
+class ReliefTable(Struct, forbid_unknown_fields=True):
+    """Flanking of the tooth tip (practicum, figure 1.4; GOST 13755), in modules."""
+
+    depth_coefficient: Annotated[float, in_modules("depth normal to the flank at the rack's tip line", least=0, most=0.3)]
+    height_coefficient: Annotated[float, in_modules("height of the relieved part", least=0.01, most=3)] = 0.45
+
+
+class SpurGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="spur_gear"):
+    """Keys of ``kind = "spur_gear"``."""
+
+    module: Annotated[float, mm("module m", above=0, most=1000)]
+    number_of_teeth: Annotated[int, Meta(ge=3, le=10_000, description="number of teeth z")]
+    profile_shift_coefficient: Annotated[float, in_modules("profile shift x (the seeds' xi)", least=-10, most=10)] = 0.0
+    pressure_angle_deg: Annotated[
+        float, Meta(ge=5, le=45, description="pressure angle of the rack", extra={"unit": "degrees"})
+    ] = 20.0
+    basic_rack: Literal["ISO 53 A", "ISO 53 B", "ISO 53 C", "ISO 53 D", "GOST 13755"] | RackTable = "ISO 53 A"
+    tip_diameter: Annotated[float, mm("tip diameter; default: d + 2 (h_a + x) m", above=0, most=100_000)] | None = None
+    circumferential_thinning: Annotated[
+        float, mm("thinning of each tooth for backlash, arc on the reference circle", least=0, most=1000)
+    ] = 0.0
+    thinning_method: Literal["wider_rack_tooth", "deeper_cut"] = "wider_rack_tooth"
+    tip_relief: ReliefTable | None = None
+    tip_chamfer: Annotated[float, mm("radial height of a 45 degree tip chamfer", least=0, most=1000)] = 0.0
+    tip_rounding: Annotated[float, mm("radius of the tip corner", least=0, most=1000)] = 0.0
+    face_width: FaceWidth = 10.0
+    bore_diameter: BoreDiameter = 0.0
+    material: str | None = None
+    colour: Colour | None = None
+
+
+def make_spur_gear(part_id: str, spec: SpurGearSpec) -> Part:
+    """The part; its geometry is computed when an export asks for it.
+
+    Raises
+    ------
+    ParameterError
+        The gear cannot exist; names the key and the nearest value that works.
+    """
+    gear = checked_gear(_gear_of(spec))
+    circles = {
+        "tip_diameter": 2 * gear.tip_radius,
+        "reference_diameter": 2 * gear.reference_radius,
+        "base_diameter": 2 * gear.base_radius,
+        "root_form_diameter": root_form_diameter(gear),
+        "root_diameter": 2 * gear.root_radius,
+    }
+    quantities = {
+        "pitch": math.pi * gear.module,
+        "tooth_thickness": gear.reference_thickness,
+        "tip_tooth_thickness": tip_thickness(gear),
+    }
+    return Part(
+        part_id, "spur_gear", spec.face_width, lru_cache(maxsize=8)(lambda offset: gear_region(gear, offset)),
+        findings(gear), circles, quantities, spec.material, spec.colour,
+    )
+
+
+def _gear_of(spec: SpurGearSpec) -> SpurGear:
+    if spec.tip_chamfer > 0 and spec.tip_rounding > 0:
+        raise ParameterError("tip_rounding", spec.tip_rounding, "give either tip_chamfer or tip_rounding; 0 works")
+    return SpurGear(
+        module=spec.module,
+        number_of_teeth=spec.number_of_teeth,
+        rack=_rack_of(spec),
+        profile_shift_coefficient=spec.profile_shift_coefficient,
+        given_tip_diameter=spec.tip_diameter,
+        circumferential_thinning=spec.circumferential_thinning,
+        thinning_by_deeper_cut=spec.thinning_method == "deeper_cut",
+        tip_chamfer=spec.tip_chamfer,
+        tip_rounding=spec.tip_rounding,
+        bore_diameter=spec.bore_diameter,
+    )
+
+
+def _rack_of(spec: SpurGearSpec) -> BasicRack:
+    angle = math.radians(spec.pressure_angle_deg)
+    relief = spec.tip_relief and TipRelief(spec.tip_relief.depth_coefficient, spec.tip_relief.height_coefficient)
+    table = spec.basic_rack
+    if isinstance(table, str):
+        return iso_53("A" if table == "GOST 13755" else table[-1], angle, relief)
+    addendum, clearance, radius = (
+        table.addendum_coefficient, table.tip_clearance_coefficient, table.tip_radius_coefficient,
+    )
+    if radius is None:
+        radius = max(default_tip_radius(angle, addendum, clearance, _TABLE_TIP_RADIUS), 0.0)
+    return checked_rack(BasicRack(angle, addendum, clearance, radius, relief))
