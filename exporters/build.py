@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
-import tempfile
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -140,15 +138,17 @@ def _preview(part: Part, folder: Path, language: str) -> Path:
 @contextmanager
 def _staging(folder: Path) -> Iterator[Path]:
     """A folder beside ``folder`` that is gone afterwards; ``folder`` itself goes too if nothing came into it."""
-    made = [p for p in (folder, *folder.parents) if not p.exists()]
-    staging = None
+    created = [p for p in (folder, *folder.parents) if not p.exists()]
+    staging = folder / f".building-{os.getpid()}"
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        staging = Path(tempfile.mkdtemp(prefix=".building-", dir=folder))
+        staging.mkdir()
         yield staging
     finally:
-        if staging is not None:
-            shutil.rmtree(staging, ignore_errors=True)
-        for created in made:
-            if created.is_dir() and not any(created.iterdir()):
-                created.rmdir()
+        if staging.is_dir():
+            for file in staging.iterdir():
+                file.unlink()
+            staging.rmdir()
+        for place in created:
+            if place.is_dir() and not any(place.iterdir()):
+                place.rmdir()

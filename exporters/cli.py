@@ -8,15 +8,11 @@ import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import NoReturn
 
 from exporters import __version__
 
-if TYPE_CHECKING:
-    from rich.console import Console
-
 DONE, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
-_PLAIN_WIDTH = 130
 
 
 class _Parser(argparse.ArgumentParser):
@@ -76,13 +72,6 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _console() -> Console:
-    from rich.console import Console
-
-    console = Console(highlight=False, soft_wrap=False)
-    return console if console.is_terminal else Console(highlight=False, width=_PLAIN_WIDTH)
-
-
 def _build(options: argparse.Namespace) -> int:
     start = time.perf_counter()
     from exporters.build import build
@@ -94,11 +83,10 @@ def _build(options: argparse.Namespace) -> int:
     scene = load_scene(options.scene)
     plan = plan_build(scene, options.scene, options.part, options.format)
     folder = options.out / scene.name
-    console = _console()
-    if console.is_terminal:
+    if sys.stdout.isatty():
         from rich.progress import Progress
 
-        with Progress(console=console, transient=True) as bar:
+        with Progress(transient=True) as bar:
             task = bar.add_task(scene.name, total=len(plan.jobs))
             written, previews = build(
                 plan, folder, verify=not options.no_verify,
@@ -108,7 +96,7 @@ def _build(options: argparse.Namespace) -> int:
         written, previews = build(plan, folder, verify=not options.no_verify)
     partial = bool(options.part or options.format)
     write_report(plan, folder, written, previews, time.perf_counter() - start, partial=partial)
-    build_table(console, plan, folder, written, previews)
+    build_table(plan, folder, written, previews)
     return FAILED if any(item.failures for item in written) else DONE
 
 
@@ -117,7 +105,7 @@ def _verify(options: argparse.Namespace) -> int:
     from exporters.tables import verify_table
 
     results = [recheck(file) for file in options.files]
-    verify_table(_console(), results)
+    verify_table(results)
     return FAILED if any(r.verdict.failures for r in results) else DONE
 
 

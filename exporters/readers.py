@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -57,11 +56,13 @@ def read_dxf(file: Path) -> list[Loop]:
 
 
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
-_COMMAND = re.compile(rf"([MLAZ])((?:[\s,]*{_NUMBER})*)")
+_COMMAND = rf"([MLAZ])((?:[\s,]*{_NUMBER})*)"
 
 
 def read_svg(file: Path) -> list[Loop]:
     """The closed paths and circles of an SVG in mm, y turned up again."""
+    from xml.etree import ElementTree
+
     try:
         root = ElementTree.parse(file).getroot()
         width = float(re.fullmatch(r"([\d.]+)mm", root.get("width", ""))[1])
@@ -90,12 +91,12 @@ def read_svg(file: Path) -> list[Loop]:
 
 def _svg_path(data: str, layer: str) -> Loop:
     """One closed subpath of absolute M, L, A and Z."""
-    if _COMMAND.sub("", data).strip():
+    if re.sub(_COMMAND, "", data).strip():
         raise ReadError("an SVG path holds more than M, L, A and Z")
     points: list[complex] = []
     bulges: list[float] = []
     closed = False
-    for command, text in _COMMAND.findall(data):
+    for command, text in re.findall(_COMMAND, data):
         numbers = [float(x) for x in re.findall(_NUMBER, text)]
         if command == "Z":
             closed = True
@@ -143,6 +144,12 @@ def read_stl(file: Path) -> ReadMesh:
     corners = rows[:, 12:48].copy().view("<f4").reshape(-1, 3)
     if not np.all(np.isfinite(corners)):
         raise ReadError("an STL coordinate is not a number")
-    keys = np.ascontiguousarray(corners + np.float32(0.0)).view([("x", "<u4"), ("y", "<u4"), ("z", "<u4")]).ravel()
-    _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
-    return ReadMesh(corners[first].astype(float), inverse.reshape(-1, 3))
+    # + 0 makes one number of the two zeros
+    keys = (corners + np.float32(0.0)).view("<u4")
+    order = np.lexsort((keys[:, 2], keys[:, 1], keys[:, 0]))
+    fresh = np.any(keys[order[1:]] != keys[order[:-1]], axis=1)
+    group = np.concatenate([[0], np.cumsum(fresh)])
+    vertex = np.zeros(len(order), dtype=np.int64)
+    vertex[order] = group
+    first = order[np.concatenate([[True], fresh])]
+    return ReadMesh(corners[first].astype(float), vertex.reshape(-1, 3))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import platform
 import sys
 from pathlib import Path
 from typing import Any
@@ -44,7 +43,7 @@ def write_report(plan: Plan, folder: Path, written: list[Written], previews: lis
             "seconds": round(seconds, 4),
             "stages": {item.job.path: {k: round(v, 5) for k, v in item.seconds.items()} for item in written},
             "peak_memory_mb": _peak_memory(),
-            "machine": platform.machine(),
+            "system": sys.platform,
         },
     }
     if partial:
@@ -94,7 +93,7 @@ def _findings(found: tuple[Finding, ...], language: str) -> list[dict[str, Any]]
 
 
 def _versions() -> dict[str, str]:
-    versions = {"higherpair": __version__, "python": platform.python_version(), "numpy": np.__version__}
+    versions = {"higherpair": __version__, "python": ".".join(map(str, sys.version_info[:3])), "numpy": np.__version__}
     # only what this build has loaded; asking for more would load it
     for name in ("ezdxf", "shapely"):
         if name in sys.modules:

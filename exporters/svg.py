@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from xml.sax.saxutils import escape
 
 import numpy as np
 
@@ -69,9 +68,13 @@ def _cross(middle: float, reach: float) -> list[str]:
 def _caption(rows: list[str], left: float, size: float) -> list[str]:
     style = f"font-family:sans-serif;font-size:{size:.4g}px;fill:#202830"
     return [
-        f'<text x="{left:.4g}" y="{(i + 1.5) * size * 1.7:.4g}" style="{style}">{escape(row)}</text>'
+        f'<text x="{left:.4g}" y="{(i + 1.5) * size * 1.7:.4g}" style="{style}">{_escaped(row)}</text>'
         for i, row in enumerate(rows)
     ]
+
+
+def _escaped(text: str) -> str:
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
 
 
 def _head(middle: float, extra_width: float = 0.0, extra_height: float = 0.0) -> str:

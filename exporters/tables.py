@@ -1,44 +1,38 @@
-"""The closing tables of the command."""
+"""The closing tables of the command: drawn by rich on a terminal, plain columns anywhere else."""
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Sequence
 from pathlib import Path
-
-from rich.console import Console
-from rich.markup import escape
-from rich.table import Table
+from typing import TYPE_CHECKING
 
 from exporters.job import Written
 from exporters.plan import Plan
-from exporters.recheck import Recheck
 from exporters.words import finding_text, words
 
+if TYPE_CHECKING:
+    from exporters.recheck import Recheck
 
-def build_table(console: Console, plan: Plan, folder: Path, written: list[Written], previews: list[Path]) -> None:
+
+def build_table(plan: Plan, folder: Path, written: list[Written], previews: list[Path]) -> None:
     """What a build has made, how far each file is from the exact curve, and what was noticed."""
     language = plan.scene.scene.language
-    table = Table(title=plan.scene.scene.title or plan.scene.name, title_justify="left")
-    table.add_column(words(language, "file"), overflow="fold")
-    for key in ("error", "tolerance", "entities", "size", "check"):
-        table.add_column(words(language, key), justify="right")
-    for item in written:
-        table.add_row(*_row(item, folder, language))
-    console.print(table)
-    for preview in previews:
-        console.print(f"{words(language, 'preview')}: {preview}", markup=False)
-    for line in dict.fromkeys(_remarks(written, language)):
-        console.print(line, markup=False)
-    for what, why in plan.left_out:
-        console.print(f"{words(language, 'left_out')}: {what}: {why}", markup=False)
+    header = [words(language, key) for key in ("file", "error", "tolerance", "entities", "size", "check")]
+    rows = [_row(item, folder, language) for item in written]
+    remarks = [f"{words(language, 'preview')}: {preview}" for preview in previews]
+    remarks += dict.fromkeys(_remarks(written, language))
+    remarks += [f"{words(language, 'left_out')}: {what}: {why}" for what, why in plan.left_out]
+    _show(plan.scene.scene.title or plan.scene.name, header, rows, remarks)
 
 
-def _row(item: Written, folder: Path, language: str) -> tuple[str, ...]:
+def _row(item: Written, folder: Path, language: str) -> list[str]:
     path = folder / item.job.path
-    state = "good" if item.measured else "skipped"
     size = f"{path.stat().st_size / 1000:.1f}" if not item.failures else "-"
-    count = " ".join(f"{value} {name}" for name, value in item.entities.items())
-    check = words(language, "bad" if item.failures else state)
-    return escape(str(path)), f"{item.max_error:.3g} ({item.bound})", f"{item.job.export.tolerance:g}", count, size, check
+    count = ", ".join(f"{value} {name}" for name, value in item.entities.items())
+    state = "bad" if item.failures else "good" if item.measured else "skipped"
+    error = f"{item.max_error:.3g} ({words(language, item.bound)})"
+    return [str(path), error, f"{item.job.export.tolerance:g}", count, size, words(language, state)]
 
 
 def _remarks(written: list[Written], language: str) -> list[str]:
@@ -46,23 +40,48 @@ def _remarks(written: list[Written], language: str) -> list[str]:
     for item in written:
         lines += [f"{words(language, 'bad')}: {item.job.path}: {failure}" for failure in item.failures]
     for item in written:
-        lines += [f"{words(language, 'finding')}: {item.job.part.id}: {finding_text(language, f)}" for f in item.findings]
+        part = item.job.part.id
+        lines += [f"{words(language, 'finding')}: {part}: {finding_text(language, f)}" for f in item.findings]
     return lines
 
 
-def verify_table(console: Console, results: list[Recheck]) -> None:
+def verify_table(results: list[Recheck]) -> None:
     """What was measured on files that lay on disk."""
-    table = Table()
-    table.add_column("file", overflow="fold")
-    for name in ("measured error, mm", "declared, mm", "tolerance, mm", "bytes", "read back"):
-        table.add_column(name, justify="right")
+    header = ["file", "measured error, mm", "declared, mm", "tolerance, mm", "bytes", "read back"]
+    rows, remarks = [], []
     for r in results:
         deviation = r.verdict.measured.get("max_deviation")
-        table.add_row(
-            escape(str(r.file)), "-" if deviation is None else f"{deviation:.3g}", f"{r.declared:.3g}",
-            f"{r.tolerance:g}", "as reported" if r.same_bytes else "changed", "FAILED" if r.verdict.failures else "ok",
-        )
-    console.print(table)
-    for r in results:
-        for failure in r.verdict.failures:
-            console.print(f"FAILED: {r.file}: {failure}", markup=False)
+        measured = "-" if deviation is None else f"{deviation:.3g}"
+        state, same = "FAILED" if r.verdict.failures else "ok", "as reported" if r.same_bytes else "changed"
+        rows.append([str(r.file), measured, f"{r.declared:.3g}", f"{r.tolerance:g}", same, state])
+        remarks += [f"FAILED: {r.file}: {failure}" for failure in r.verdict.failures]
+    _show("", header, rows, remarks)
+
+
+def _show(title: str, header: Sequence[str], rows: list[list[str]], remarks: list[str]) -> None:
+    """One table and the lines below it. rich is loaded for a terminal only: it costs as much as a build."""
+    if sys.stdout.isatty():
+        _show_rich(title, header, rows)
+    else:
+        columns = list(zip(header, *rows, strict=True))
+        widths = [max(map(len, column)) for column in columns]
+        lines = [title] if title else []
+        for row in (header, *rows):
+            cells = [row[0].ljust(widths[0]), *(c.rjust(w) for c, w in zip(row[1:], widths[1:], strict=True))]
+            lines.append("  ".join(cells))
+        sys.stdout.write("\n".join(lines) + "\n")
+    sys.stdout.write("".join(line + "\n" for line in remarks))
+
+
+def _show_rich(title: str, header: Sequence[str], rows: list[list[str]]) -> None:
+    from rich.console import Console
+    from rich.markup import escape
+    from rich.table import Table
+
+    table = Table(title=escape(title), title_justify="left")
+    table.add_column(header[0], overflow="fold")
+    for name in header[1:]:
+        table.add_column(name, justify="right")
+    for row in rows:
+        table.add_row(*map(escape, row))
+    Console(highlight=False, emoji=False).print(table)

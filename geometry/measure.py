@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +15,7 @@ from geometry.profile import Profile, Region
 _GAUSS_POINTS = 20
 _GAUSS_PANELS = 4
 _COARSE_SAMPLES, _FINE_SAMPLES = 17, 65
-_NEWTON_STEPS = 5
+_STEPS = 4
 NDArrayInt = NDArray[np.int64]
 
 
@@ -23,7 +24,7 @@ def profile_area(profile: Profile) -> float:
 
     Gauss quadrature of 20 points on 4 panels a segment: exact to rounding for these analytic integrands.
     """
-    x, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
+    x, weights = _gauss_rule(_GAUSS_POINTS)
     total = 0.0
     for segment in profile.period:
         edges = np.linspace(*segment.curve.domain, _GAUSS_PANELS + 1)
@@ -32,6 +33,15 @@ def profile_area(profile: Profile) -> float:
         integrand = (np.conj(segment.curve.point(t)) * segment.curve.derivative(t)).imag
         total += 0.5 * float(np.sum(integrand * weights * half))
     return total * profile.count
+
+
+@lru_cache(maxsize=2)
+def _gauss_rule(count: int) -> tuple[Real, Real]:
+    """Nodes and weights on [-1, 1] from the eigenvalues of the Jacobi matrix (Golub and Welsch, 1969)."""
+    k = np.arange(1, count)
+    off = k / np.sqrt(4.0 * k**2 - 1)
+    nodes, vectors = np.linalg.eigh(np.diag(off, 1) + np.diag(off, -1))
+    return nodes, 2 * vectors[0] ** 2
 
 
 def region_area(region: Region) -> float:
@@ -66,7 +76,8 @@ def _quick_distance(points: Complex, profile: Profile) -> Real:
         mine = np.flatnonzero(ring <= last - first)
         if mine.size:
             start = np.clip(nearest[mine] - first - 1, 0, _COARSE_SAMPLES - 1)
-            best[mine] = np.minimum(best[mine], _projected(folded[mine], curve, parameters[index], start))
+            found = _projected(folded[mine], curve, parameters[index], start, newton=False)
+            best[mine] = np.minimum(best[mine], found)
     return best
 
 
@@ -77,7 +88,8 @@ def _thorough_distance(points: Complex, profile: Profile) -> Real:
         samples = segment.curve.point(t)
         for shift in (0,) if profile.count == 1 else (-1, 0, 1):
             near = folded * np.exp(-1j * profile.pitch_angle * shift)
-            best = np.minimum(best, _projected(near, segment.curve, t, _nearest_index(near, samples)))
+            start = _nearest_index(near, samples)
+            best = np.minimum(best, _projected(near, segment.curve, t, start, newton=True))
     return best
 
 
@@ -88,8 +100,11 @@ def _folded(points: Complex, profile: Profile) -> Complex:
     return points * np.exp(-1j * profile.pitch_angle * period)
 
 
-def _projected(points: Complex, curve: Curve, samples: Real, start: NDArrayInt) -> Real:
-    """Distance from a curve by projection from the nearest sample; Newton's steps stay beside it."""
+def _projected(points: Complex, curve: Curve, samples: Real, start: NDArrayInt, *, newton: bool) -> Real:
+    """Distance from a curve by projection from the nearest sample; the steps stay beside it.
+
+    Without ``newton`` the curvature's part of the slope is left out, which is little for points near the curve.
+    """
     if isinstance(curve, Arc):
         return _distance_to_arc(points, curve)
     if isinstance(curve, Line):
@@ -99,10 +114,10 @@ def _projected(points: Complex, curve: Curve, samples: Real, start: NDArrayInt) 
     low, high = curve.domain
     reach = (high - low) / (len(samples) - 1)
     t = samples[start]
-    for _ in range(_NEWTON_STEPS):
+    for _ in range(_STEPS):
         gap, first = curve.point(t) - points, curve.derivative(t)
-        square = np.abs(first) ** 2
-        slope = square + (np.conj(gap) * curve.derivative(t, 2)).real
+        square = (np.conj(first) * first).real
+        slope = square + (np.conj(gap) * curve.derivative(t, 2)).real if newton else square
         with np.errstate(divide="ignore", invalid="ignore"):
             step = np.nan_to_num((np.conj(gap) * first).real / np.where(slope > 0, slope, square))
         t = np.clip(t - np.clip(step, -reach, reach), low, high)

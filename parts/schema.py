@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 import re
 from collections.abc import Iterable
@@ -115,6 +114,8 @@ def describe_type(kind: Any) -> str:
 
 def near(word: str, known: Iterable[str]) -> str:
     """A hint at the known word that was probably meant, or nothing."""
+    import difflib
+
     match = difflib.get_close_matches(word, list(known), 1, 0.5)
     return f" (did you mean {match[0]}?)" if match else ""
 

@@ -2,12 +2,12 @@
 
 Derivation (Willis/Savary common normal, in Shishkov's form n.v = 0). Fixed frame: gear axis 0, pitch point
 P = r = m z/2, datum line of the rack at Re = r + x m, rack moves by s along +i while the gear turns by s/r. A
-rack point Q then moves against the gear with v = i - i Q/r; it lies on the envelope where n.v = 0, n the rack's
-normal there. Q = Q0 + i s makes n.v affine in s, so that its root follows from two values: no involute or
-trochoid equation is used anywhere. The gear point is Q exp(-i s/r).
+rack point Q then moves against the gear with v = i - i Q/r; it lies on the envelope where n.v = 0, n the
+rack's normal there. Q = Q0 + i s makes n.v affine in s, so that its root follows from two values: no involute
+or trochoid equation is used anywhere. The gear point is Q exp(-i s/r).
 
-Upper half of tooth 1 (polar angles 0 ... pi/z, the rest by symmetry), cut by the lower flank of the rack tooth
-centred at +pi m/2. Everything is mpmath with its own 60-digit context (`MP`), good to 50 digits.
+Upper half of tooth 1 (polar angles 0 ... pi/z, the rest by symmetry), cut by the lower flank of the rack
+tooth centred at +pi m/2. Everything is mpmath with its own 60-digit context (`MP`), good to 50 digits.
 Precondition of the outline functions: the tooth is not pointed below the tip circle.
 """
 
@@ -151,7 +151,7 @@ def _fillet(parameters: GearParameters, angle: Mpf) -> tuple[Mpc, Mpc]:
 
 
 def straight_start(parameters: GearParameters) -> Mpf:
-    """Height over the datum line where the rounding ends: the point whose inner normal rho ends rho above the tip."""
+    """Height over the datum line where the rounding ends: rho along its inner normal is rho over the tip."""
     p = parameters
     normal = 1j * _unit(-p.alpha)
     return p.rho * p.m - p.hf - (p.rho * p.m * normal).real
@@ -163,7 +163,7 @@ def rounding_end(parameters: GearParameters) -> Mpf:
 
 
 def flank_point(parameters: GearParameters, rack_y: Mpf) -> Mpc:
-    """Upper flank of tooth 1: gear point made by the main rack flank at height rack_y (mm) over the datum line."""
+    """Upper flank of tooth 1: gear point made by the main rack flank at rack_y mm over the datum line."""
     return _flank(parameters, rack_y)[0]
 
 
@@ -202,8 +202,9 @@ def _at_radius(curve: Curve, lo: Mpf, radius: Mpf, step: Mpf) -> Mpf:
 def junction(parameters: GearParameters) -> Junction:
     """The tangent point of fillet and flank or, when undercut, their true crossing.
 
-    Undercut is read off the shape: the flank's envelope starts by running backwards. Then the crossing is where
-    both curves have one radius and one polar angle, beyond the cusp of the flank's envelope.
+    Undercut is read off the shape: the flank's envelope starts by running backwards. Then the crossing is
+    where both curves have one radius and one polar angle, beyond the cusp of the flank's envelope. (They also
+    touch at the rounding's end, on the part of the flank that runs back: that is not the junction.)
     """
     p = parameters
     start, end = straight_start(p), rounding_end(p)
@@ -219,17 +220,24 @@ def junction(parameters: GearParameters) -> Junction:
         return MP.arg(flank_point(p, flank_at(angle))) - MP.arg(fillet_point(p, angle))
 
     low = _at_radius(partial(_fillet, p), MP.mpf(0), base, end / 8)
-    for _ in range(24):  # bisect, then polish both parameters together
-        middle = (low + end) / 2
-        low, end = (middle, end) if gap(middle) > 0 else (low, middle)
-    angle, y = MP.findroot(
-        lambda a, h: _parts(fillet_point(p, a) - flank_point(p, h)), (low, flank_at(low)), verify=False, maxsteps=50
-    )
-    return Junction(flank_point(p, y), y, angle, undercut=True)
+    for _ in range(10):  # bisect, then polish both parameters together
+        for _ in range(16):
+            middle = (low + end) / 2
+            low, end = (middle, end) if gap(middle) > 0 else (low, middle)
+        angle, y = _meet(partial(_fillet, p), partial(_flank, p), low, flank_at(low))
+        if low <= angle <= end and y > cusp:
+            return Junction(flank_point(p, y), y, angle, undercut=True)
+    raise ArithmeticError("no crossing of fillet and flank found")
 
 
-def _parts(value: Mpc) -> list[Mpf]:
-    return [value.real, value.imag]
+def _meet(one: Curve, other: Curve, u: Mpf, v: Mpf) -> tuple[Mpf, Mpf]:
+    """Parameters of the crossing of two curves near (u, v)."""
+    def apart(a: Mpf, b: Mpf) -> list[Mpf]:
+        gap = one(a)[0] - other(b)[0]
+        return [gap.real, gap.imag]
+
+    first, second = MP.findroot(apart, (u, v), verify=False, maxsteps=50)
+    return first, second
 
 
 @lru_cache(maxsize=256)
@@ -239,9 +247,7 @@ def relief_corner(parameters: GearParameters) -> tuple[Mpf, Mpf, Mpc]:
     The tool's corner is re-entrant, so that it touches nothing; the two envelopes cross.
     """
     p, y0 = parameters, parameters.relief_from
-    main, relief = MP.findroot(
-        lambda a, b: _parts(flank_point(p, a) - relief_point(p, b)), (y0, y0), verify=False, maxsteps=50
-    )
+    main, relief = _meet(partial(_flank, p), partial(_relief, p), y0, y0)
     return main, relief, flank_point(p, main)
 
 
@@ -252,6 +258,8 @@ def half_tooth(parameters: GearParameters) -> tuple[Segment, ...]:
     ra, root = p.tip_radius, fillet_point(p, 0)
     if MP.arg(root) > MP.pi / p.z * (1 + MP.mpf(10) ** -12):
         raise ValueError("tip rounding does not fit the rack tooth")
+    if abs(joint.point) >= ra or joint.point.imag <= 0:
+        raise ValueError("no flank is left below the tip circle")
 
     def circle(radius: Mpf) -> Curve:
         return lambda angle: (radius * _unit(angle), _unit(angle))
@@ -283,7 +291,7 @@ def _coarse(parameters: GearParameters, index: int) -> tuple[complex, ...]:
 
 
 def _foot(segment: Segment, coarse: tuple[complex, ...], point: Mpc) -> tuple[Mpf, Mpf]:
-    """(distance, signed normal part) of the nearest point of a piece; bracketed root of 'p - c along c = 0'."""
+    """(distance, signed normal part) of a piece's nearest point: bracketed root of (p - c).tangent = 0."""
     def along(value: Mpf) -> Mpf:
         where, normal = segment.curve(value)
         return (MP.conj(normal) * (point - where)).imag
