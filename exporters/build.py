@@ -33,7 +33,7 @@ def build(
     Returns what was written, and the previews. Nothing half-written is left behind: all files are made in a
     folder beside and moved when all are done; on any exception, an interrupt too, that folder goes.
     """
-    shapes = [_shapes(job) for job in plan.jobs]
+    shapes = [_shapes(job, plan.source) for job in plan.jobs]
     with _staging(folder) as staging:
         written = []
         for job, shape in zip(plan.jobs, shapes, strict=True):
@@ -49,25 +49,25 @@ def build(
     return written, [folder / p.name for p in previews]
 
 
-def _shapes(job: Job) -> tuple[tuple[Approximation, ...], float]:
+def _shapes(job: Job, source: str) -> tuple[tuple[Approximation, ...], float]:
     """Approximated boundaries and the seconds they took; refused in the scene's terms."""
     start = time.perf_counter()
     try:
         return approximations(job), time.perf_counter() - start
     except ParameterError as error:
-        raise SceneError(f"{job.path}", error.name, error.value, error.allowed) from error
+        raise SceneError(source, f"{job.place}.{error.name}", error.value, error.allowed) from error
     except ConvergenceError as error:
-        raise SceneError(f"{job.path}", "tolerance", job.export.tolerance, f"cannot be met: {error}; make it larger") from error
+        remedy = f"cannot be met: {error}; make it larger"
+        raise SceneError(source, f"{job.place}.tolerance", job.export.tolerance, remedy) from error
 
 
 def _write(job: Job, shape: tuple[tuple[Approximation, ...], float], file: Path, *, verify: bool) -> Written:
     made, spent = shape
     seconds = {"approximate": spent}
     start = time.perf_counter()
-    entities, rounding = _WRITERS[job.export.format](job, made, file)
+    entities = _WRITERS[job.export.format](job, made, file)
     seconds["write"] = time.perf_counter() - start
-    reach = job.section.region.outer.reach()
-    max_error, bound = declared_error(made, rounding * reach if job.export.format != "svg" else rounding)
+    max_error, bound = declared_error(job, made)
     findings = (*job.part.findings, *job.section.findings, *_job_findings(job, made))
     if not verify:
         return Written(job, file, max_error, bound, entities, {}, findings, (), seconds)
@@ -75,35 +75,35 @@ def _write(job: Job, shape: tuple[tuple[Approximation, ...], float], file: Path,
 
     start = time.perf_counter()
     tolerance = float(job.export.tolerance or 0.0)
-    verdict = verify_file(
-        file, job.export.format, job.section.region, job.part.face_width, max_error, tolerance
-    )
+    verdict = verify_file(file, job.export.format, job.section.region, job.part.face_width, max_error, tolerance)
     seconds["verify"] = time.perf_counter() - start
     return Written(job, file, max_error, bound, entities, verdict.measured, findings, verdict.failures, seconds)
 
 
-def _write_dxf(job: Job, made: tuple[Approximation, ...], file: Path) -> tuple[dict[str, int], float]:
-    from exporters.dxf import ROUNDING, write_laser_dxf
+def _write_dxf(job: Job, made: tuple[Approximation, ...], file: Path) -> dict[str, int]:
+    from exporters.dxf import write_laser_dxf
 
-    return write_laser_dxf(file, job.layer_order, made, version=job.export.dxf_version), ROUNDING
-
-
-def _write_svg(job: Job, made: tuple[Approximation, ...], file: Path) -> tuple[dict[str, int], float]:
-    from exporters.svg import ROUNDING, write_laser_svg
-
-    return write_laser_svg(file, job.layer_order, made), ROUNDING
+    return write_laser_dxf(file, job.layer_order, made, version=job.export.dxf_version)
 
 
-def _write_stl(job: Job, made: tuple[Approximation, ...], file: Path) -> tuple[dict[str, int], float]:
-    from exporters.stl import ROUNDING, write_stl
+def _write_svg(job: Job, made: tuple[Approximation, ...], file: Path) -> dict[str, int]:
+    from exporters.svg import write_laser_svg
+
+    return write_laser_svg(file, job.layer_order, made)
+
+
+def _write_stl(job: Job, made: tuple[Approximation, ...], file: Path) -> dict[str, int]:
+    from exporters.stl import write_stl
     from parts.solids import extruded_gear
 
     outer, bore = made[-1].geometry, made[0].geometry if len(made) > 1 else None
-    return write_stl(file, extruded_gear(outer, bore, job.part.face_width)), ROUNDING
+    return write_stl(file, extruded_gear(outer, bore, job.part.face_width))
 
 
-_WRITERS: dict[str, Callable[[Job, tuple[Approximation, ...], Path], tuple[dict[str, int], float]]] = {
-    "dxf": _write_dxf, "svg": _write_svg, "stl": _write_stl,
+_WRITERS: dict[str, Callable[[Job, tuple[Approximation, ...], Path], dict[str, int]]] = {
+    "dxf": _write_dxf,
+    "svg": _write_svg,
+    "stl": _write_stl,
 }
 
 
@@ -115,7 +115,8 @@ def _job_findings(job: Job, made: tuple[Approximation, ...]) -> list[Finding]:
         found.append(Finding("coarse_tolerance", float(job.export.tolerance or 0.0), limit))
     if job.export.format != "stl":
         short = sum(
-            int(np.count_nonzero(np.abs(a.geometry.period_ends() - a.geometry.vertices) < LEAST_SEGMENT_MM)) * a.geometry.count
+            int(np.count_nonzero(np.abs(a.geometry.period_ends() - a.geometry.vertices) < LEAST_SEGMENT_MM))
+            * a.geometry.count
             for a in made
         )
         if short:

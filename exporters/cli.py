@@ -38,7 +38,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if isinstance(error, SceneError):
             print(f"higherpair: {error}", file=sys.stderr)
         elif isinstance(error, OSError):
-            print(f"higherpair: {error.filename or 'file'}: {error.strerror or error}; choose another place with --out", file=sys.stderr)
+            print(
+                f"higherpair: {error.filename or 'file'}: {error.strerror or error}; choose another place with --out",
+                file=sys.stderr,
+            )
         else:
             raise
         return WRONG_INPUT
@@ -51,7 +54,9 @@ def _interrupt(number: int, frame: object) -> NoReturn:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(prog="higherpair", description="Exact gears as DXF, SVG and STL, each file read back and measured.")
+    parser = _Parser(
+        prog="higherpair", description="Exact gears as DXF, SVG and STL, each file read back and measured."
+    )
     parser.add_argument("--version", action="version", version=f"higherpair {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
     build = commands.add_parser("build", help="make the files of a scene")
@@ -89,7 +94,9 @@ def _build(options: argparse.Namespace) -> int:
         with Progress(transient=True) as bar:
             task = bar.add_task(scene.name, total=len(plan.jobs))
             written, previews = build(
-                plan, folder, verify=not options.no_verify,
+                plan,
+                folder,
+                verify=not options.no_verify,
                 progress=lambda path: bar.update(task, advance=1, description=path),
             )
     else:
@@ -127,6 +134,8 @@ def _new(options: argparse.Namespace) -> int:
     from parts.schema import SceneError, near
 
     if options.kind not in KINDS:
-        raise SceneError("new", "KIND", options.kind, f"unknown kind{near(options.kind, KINDS)}; kinds: {', '.join(KINDS)}")
+        raise SceneError(
+            "new", "KIND", options.kind, f"unknown kind{near(options.kind, KINDS)}; kinds: {', '.join(KINDS)}"
+        )
     print(new_scene(options.kind), end="")
     return DONE

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,15 +16,13 @@ from geometry.contour import Approximation, Contour
 # ACI colours: inner contours green, cut first; outer contours red
 LAYER_COLOURS = {"CUT_INNER": 3, "CUT_OUTER": 1}
 _MILLIMETRES = 4
-# ezdxf writes coordinates with 16 digits
-ROUNDING = 2e-15
 
 
 def write_laser_dxf(
     file: Path, layers: tuple[str, ...], boundaries: tuple[Approximation, ...], *, version: str
 ) -> dict[str, int]:
     """Write closed polylines in mm; returns the number of entities of each kind."""
-    drawing = ezdxf.new(version, setup=False, units=_MILLIMETRES)
+    drawing = _new_drawing(version)
     drawing.header["$LUNITS"] = 2
     if version != "R12":
         drawing.header["$MEASUREMENT"] = 1
@@ -42,6 +41,17 @@ def write_laser_dxf(
     kind = "POLYLINE" if version == "R12" else "LWPOLYLINE"
     vertices = sum(len(b.geometry) for b in boundaries)
     return {kind: len(boundaries), "vertices": vertices, "arcs": _arc_count(boundaries)}
+
+
+def _new_drawing(version: str) -> Drawing:
+    """An empty drawing in mm. R12 has no unit in its header, which ezdxf would complain about at every call."""
+    logger = logging.getLogger("ezdxf")
+    before = logger.level
+    logger.setLevel(logging.ERROR)
+    try:
+        return ezdxf.new(version, setup=False, units=_MILLIMETRES)
+    finally:
+        logger.setLevel(before)
 
 
 def _add_polyline(space, layer: str, contour: Contour, version: str) -> None:

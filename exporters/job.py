@@ -16,18 +16,23 @@ from parts.scene import ExportSpec
 
 # more edges than any receiving program opens; one file of them is some 300 MB
 _MOST_EDGES = 4_000_000
-# a float32 coordinate is good to 2^-24 of its size; edges must stay well above it
-_FLOAT32 = 2.0**-24
+# a float32 coordinate is good to 2^-24 of its size, both of them together to sqrt(2) of that
+_FLOAT32 = 2.0**-24 * 1.5
+# SVG coordinates are written to 1e-9 mm; radii too, which moves an arc's crown by less
+_SVG_ROUNDING = 2e-9
+# DXF coordinates are written with 16 digits
+_DXF_ROUNDING = 2e-15
 
 
 @dataclass(frozen=True, slots=True)
 class Job:
-    """One part in one format: the exact section it must match and where the file goes."""
+    """One part in one format: the exact section it must match, its file, and where the scene asks for it."""
 
     part: Part
     export: ExportSpec
     section: OffsetRegion
     path: str
+    place: str
 
     @property
     def layer_order(self) -> tuple[str, ...]:
@@ -58,16 +63,16 @@ def approximations(job: Job) -> tuple[Approximation, ...]:
     ParameterError
         The tolerance asks for more edges than a file can carry, or is below what STL's numbers resolve.
     """
-    tolerance = float(job.export.tolerance or 0.0)
+    tolerance, rounding = float(job.export.tolerance or 0.0), number_rounding(job)
     arcs, least = job.export.curves == "arcs" and job.export.format != "stl", LEAST_SEGMENT_MM
     if job.export.format == "stl":
-        rounding = _FLOAT32 * job.section.region.outer.reach()
         least = 64 * rounding
         if tolerance < 8 * rounding:
             remedy = f"STL stores 7 digits, at this size at least {at_least(8 * rounding)} mm works"
             raise ParameterError("tolerance", tolerance, remedy)
+    # the rounding of the file's numbers takes its share of the tolerance first
     made = tuple(
-        approximate_profile(p, tolerance, arcs=arcs, least_edge=least) for p in job.section.region.profiles()
+        approximate_profile(p, tolerance - rounding, arcs=arcs, least_edge=least) for p in job.section.region.profiles()
     )
     edges = sum(len(a.geometry) for a in made)
     if edges > _MOST_EDGES:
@@ -77,9 +82,15 @@ def approximations(job: Job) -> tuple[Approximation, ...]:
     return made
 
 
-def declared_error(made: tuple[Approximation, ...], rounding: float) -> tuple[float, str]:
+def number_rounding(job: Job) -> float:
+    """How far the rounding of a file's numbers may move an outline, mm."""
+    reach = job.section.region.outer.reach()
+    return {"stl": _FLOAT32 * reach, "svg": _SVG_ROUNDING}.get(job.export.format, _DXF_ROUNDING * reach)
+
+
+def declared_error(job: Job, made: tuple[Approximation, ...]) -> tuple[float, str]:
     """The bound of a whole file, mm: the worst boundary plus the rounding of its numbers."""
-    worst = max(a.max_error for a in made)
+    worst, rounding = max(a.max_error for a in made), number_rounding(job)
     kinds = {a.bound for a in made}
     bound = "sampled" if "sampled" in kinds else "certified" if "certified" in kinds else "exact"
     return worst + rounding, bound

@@ -20,10 +20,22 @@ def new_scene(kind: str) -> str:
     lines = [
         "# A scene of higherpair: build it with  higherpair build THIS_FILE.toml",
         "# Lines that begin with # are defaults; remove the # to change them. Lengths in mm, angles in degrees.",
-        "", "[scene]", *_keys(SceneInfo), "",
-        "[parts.gear]", f'kind = "{kind}"', *_keys(spec), "",
-        "[[exports]]", *_keys(ExportSpec), "",
-        "[[exports]]", 'format = "svg"', "", "[[exports]]", 'format = "stl"',
+        "",
+        "[scene]",
+        *_keys(SceneInfo),
+        "",
+        "[parts.gear]",
+        f'kind = "{kind}"',
+        *_keys(spec),
+        "",
+        "[[exports]]",
+        *_keys(ExportSpec),
+        "",
+        "[[exports]]",
+        'format = "svg"',
+        "",
+        "[[exports]]",
+        'format = "stl"',
     ]
     return "\n".join(lines) + "\n"
 

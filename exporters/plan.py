@@ -8,7 +8,7 @@ from exporters.job import Job
 from geometry.errors import GeometryError, at_least, at_most
 from geometry.gears.offset_tooth import OffsetError, OffsetRegion
 from parts.part import Part
-from parts.scene import DEFAULT_PURPOSES, DEFAULT_TOLERANCES, FORMATS, ExportSpec, SceneFile, make_parts
+from parts.scene import FORMATS, ExportSpec, SceneFile, default_export, make_parts
 from parts.schema import SceneError, near
 
 
@@ -16,6 +16,7 @@ from parts.schema import SceneError, near
 class Plan:
     """The files of a build, the parts they need, and what was left out and why."""
 
+    source: str
     scene: SceneFile
     parts: dict[str, Part]
     jobs: tuple[Job, ...]
@@ -41,10 +42,12 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
     exports = _wanted_exports(scene, source, only_formats)
     left_out = [
         (f"exports[{i + 1}]", f"format {e.format} was not asked for")
-        for i, e in enumerate(scene.exports) if only_formats and e.format not in only_formats
+        for i, e in enumerate(scene.exports)
+        if only_formats and e.format not in only_formats
     ]
     left_out += [(f"parts.{p}", "was not asked for") for p in parts if only_parts and p not in only_parts]
-    jobs, taken = [], {}
+    jobs: list[Job] = []
+    taken: dict[str, str] = {}
     for place, export in exports:
         for part_id in export.parts or list(parts):
             if only_parts and part_id not in only_parts:
@@ -54,8 +57,9 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
                 remedy = f"writes the same file as {taken[path]}; give one of them another name"
                 raise SceneError(source, f"{place}.name", path, remedy)
             taken[path] = place
-            jobs.append(Job(parts[part_id], export, _section(parts[part_id], export, source, place), path))
-    return Plan(scene, parts, tuple(jobs), tuple(left_out))
+            section = _section(parts[part_id], export, source, place)
+            jobs.append(Job(parts[part_id], export, section, path, place))
+    return Plan(source, scene, parts, tuple(jobs), tuple(left_out))
 
 
 def _wanted_exports(scene: SceneFile, source: str, only_formats: list[str]) -> list[tuple[str, ExportSpec]]:
@@ -63,20 +67,18 @@ def _wanted_exports(scene: SceneFile, source: str, only_formats: list[str]) -> l
     exports = [(f"exports[{i + 1}]", e) for i, e in enumerate(scene.exports)]
     for name in only_formats:
         if not any(e.format == name for _, e in exports):
-            spec = ExportSpec(format=name, purpose=DEFAULT_PURPOSES[name], tolerance=DEFAULT_TOLERANCES[name])
+            spec = default_export(name)
             exports.append((f"--format {name}", spec))
     exports = [(place, e) for place, e in exports if not only_formats or e.format in only_formats]
     if not exports:
-        remedy = "the scene asks for no file; add [[exports]] with format = \"dxf\", \"svg\" or \"stl\", or use --format"
+        remedy = 'the scene asks for no file; add [[exports]] with format = "dxf", "svg" or "stl", or use --format'
         raise SceneError(source, "exports", None, remedy)
     return exports
 
 
 def _file_name(part_id: str, export: ExportSpec, exports: list[ExportSpec]) -> str:
     """``<part>.<ext>``; with the export's name in between where two exports share an ending."""
-    shared = sum(
-        e.format == export.format and (e.parts is None or part_id in e.parts) for e in exports
-    ) > 1
+    shared = sum(e.format == export.format and (e.parts is None or part_id in e.parts) for e in exports) > 1
     if export.name or shared:
         return f"{part_id}.{export.name or export.purpose}.{export.format}"
     return f"{part_id}.{export.format}"
@@ -89,7 +91,9 @@ def _section(part: Part, export: ExportSpec, source: str, place: str) -> OffsetR
     except OffsetError as error:
         who = f"{error.reason} of {part.id}"
         if export.kerf:
-            raise SceneError(source, f"{place}.kerf", export.kerf, f"{who}; at most {at_most(2 * error.nearest)} mm works") from error
+            raise SceneError(
+                source, f"{place}.kerf", export.kerf, f"{who}; at most {at_most(2 * error.nearest)} mm works"
+            ) from error
         text = f"at most {at_most(error.nearest)}" if error.nearest >= 0 else f"at least {at_least(error.nearest)}"
         raise SceneError(source, f"{place}.offset", export.offset, f"{who}; {text} mm works") from error
     except GeometryError as error:

@@ -6,6 +6,7 @@ import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,19 +41,23 @@ def read_dxf(file: Path) -> list[Loop]:
         raise ReadError(f"the DXF audit finds fault: {first.message}")
     if drawing.dxfversion > "AC1009" and drawing.header.get("$INSUNITS") != 4:
         raise ReadError("the DXF is not in mm ($INSUNITS is not 4)")
-    loops = []
-    for entity in drawing.modelspace():
-        kind = entity.dxftype()
-        if kind == "LWPOLYLINE":
-            rows = np.array(entity.get_points("xyb"), dtype=float).reshape(-1, 3)
-        elif kind == "POLYLINE":
-            rows = np.array([(*v.dxf.location[:2], v.dxf.bulge) for v in entity.vertices], dtype=float).reshape(-1, 3)
-        else:
-            raise ReadError(f"a {kind} stands on layer {entity.dxf.layer}; only closed polylines belong there")
-        if not (entity.closed if kind == "LWPOLYLINE" else entity.is_closed):
-            raise ReadError(f"an open polyline on layer {entity.dxf.layer}")
-        loops.append(Loop(rows[:, 0] + 1j * rows[:, 1], rows[:, 2], entity.dxf.layer))
-    return loops
+    return [_polyline(entity) for entity in drawing.modelspace()]
+
+
+def _polyline(entity: Any) -> Loop:
+    """One closed polyline, old style or new."""
+    kind, layer = entity.dxftype(), entity.dxf.layer
+    if kind == "LWPOLYLINE":
+        places, closed = entity.get_points("xyb"), entity.closed
+    elif kind == "POLYLINE":
+        places = [(v.dxf.location.x, v.dxf.location.y, v.dxf.bulge) for v in entity.vertices]
+        closed = entity.is_closed
+    else:
+        raise ReadError(f"a {kind} stands on layer {layer}; only closed polylines belong there")
+    if not closed:
+        raise ReadError(f"an open polyline on layer {layer}")
+    rows = np.array(places, dtype=np.float64).reshape(-1, 3)
+    return Loop(rows[:, 0] + 1j * rows[:, 1], rows[:, 2], layer)
 
 
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
@@ -65,7 +70,7 @@ def read_svg(file: Path) -> list[Loop]:
 
     try:
         root = ElementTree.parse(file).getroot()
-        width = float(re.fullmatch(r"([\d.]+)mm", root.get("width", ""))[1])
+        width = float(root.get("width", "").removesuffix("mm") if root.get("width", "").endswith("mm") else "")
         box = [float(x) for x in root.get("viewBox", "").split()]
     except (ElementTree.ParseError, TypeError, ValueError, OSError) as error:
         raise ReadError(f"not a readable SVG in mm: {error}") from error

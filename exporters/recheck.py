@@ -40,7 +40,9 @@ def recheck(file: Path) -> Recheck:
     entries = {e.get("path"): e for e in report.get("files", []) if isinstance(e, dict)}
     entry = entries.get(file.name)
     if entry is None:
-        raise SceneError(str(file), "", None, f"not named in {NAME}; it knows: {', '.join(map(str, entries)) or 'no file'}")
+        raise SceneError(
+            str(file), "", None, f"not named in {NAME}; it knows: {', '.join(map(str, entries)) or 'no file'}"
+        )
     return _against(file, report, entry)
 
 

@@ -21,14 +21,18 @@ from parts.scene import resolved
 NAME = "report.json"
 
 
-def write_report(plan: Plan, folder: Path, written: list[Written], previews: list[Path], seconds: float, *, partial: bool) -> dict[str, Any]:
+def write_report(
+    plan: Plan, folder: Path, written: list[Written], previews: list[Path], seconds: float, *, partial: bool
+) -> dict[str, Any]:
     """Write the report of a build; a partial build is merged by path into the one that is there."""
     language = plan.scene.scene.language
     report: dict[str, Any] = {
         "scene": resolved(plan.scene),
         "parts": {
             part.id: {
-                "kind": part.kind, **part.circles, **part.quantities,
+                "kind": part.kind,
+                **part.circles,
+                **part.quantities,
                 "findings": _findings(part.findings, language),
             }
             for part in plan.parts.values()
@@ -78,18 +82,26 @@ def _entry(item: Written, folder: Path, language: str) -> dict[str, Any]:
     file = folder / item.job.path
     export = item.job.export
     return {
-        "path": item.job.path, "format": export.format, "purpose": export.purpose, "part": item.job.part.id,
-        "unit": "mm", "tolerance": export.tolerance, "offset": item.job.section.offset,
-        "max_error": item.max_error, "bound": item.bound, "verified": bool(item.measured),
-        "measured": item.measured, "entities": item.entities, "bytes": file.stat().st_size,
-        "sha256": _sha256(file), "findings": _findings(item.findings, language),
+        "path": item.job.path,
+        "format": export.format,
+        "purpose": export.purpose,
+        "part": item.job.part.id,
+        "unit": "mm",
+        "tolerance": export.tolerance,
+        "offset": item.job.section.offset,
+        "max_error": item.max_error,
+        "bound": item.bound,
+        "verified": bool(item.measured),
+        "measured": item.measured,
+        "entities": item.entities,
+        "bytes": file.stat().st_size,
+        "sha256": _sha256(file),
+        "findings": _findings(item.findings, language),
     }
 
 
 def _findings(found: tuple[Finding, ...], language: str) -> list[dict[str, Any]]:
-    return [
-        {"code": f.code, "value": f.value, "limit": f.limit, "text": finding_text(language, f)} for f in found
-    ]
+    return [{"code": f.code, "value": f.value, "limit": f.limit, "text": finding_text(language, f)} for f in found]
 
 
 def _versions() -> dict[str, str]:

@@ -10,8 +10,6 @@ from parts.solids import Mesh
 
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 HEADER_BYTES = 80
-# a coordinate moves by at most 2^-24 of its size each way
-ROUNDING = 2.0**-24 * 1.5
 
 
 def write_stl(file: Path, mesh: Mesh) -> dict[str, int]:

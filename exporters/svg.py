@@ -12,9 +12,8 @@ from geometry.curve import Complex, Real
 from parts.part import Part
 
 STROKES = {"CUT_INNER": "#00ff00", "CUT_OUTER": "#ff0000"}
+# exporters/job.py states what this rounding may do to an outline
 _DIGITS = 9
-# coordinates are rounded to 1e-9 mm; radii too, which moves an arc's crown by less
-ROUNDING = 2e-9
 _MARGIN = 2.0
 
 
@@ -37,15 +36,26 @@ def write_preview(
     middle = reach * 1.08
     text = reach / 22
     rows = [f"{words(language, name)}  {value:.4f}" for name, value in (part.circles | part.quantities).items()]
-    lines = [_head(middle, extra_width=text * 24, extra_height=max(0.0, text * 1.7 * (len(rows) + len(remarks) + 2) - 2 * middle))]
+    lines = [
+        _head(
+            middle,
+            extra_width=text * 24,
+            extra_height=max(0.0, text * 1.7 * (len(rows) + len(remarks) + 2) - 2 * middle),
+        )
+    ]
     lines.append('<rect width="100%" height="100%" style="fill:#ffffff"/>')
     data = " ".join(_path_data(b.geometry, middle) for b in reversed(boundaries))
     fill = part.colour or "#b8c4d0"
-    lines.append(f'<path d="{data}" style="fill:{fill};fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 400:.4g}"/>')
+    lines.append(
+        f'<path d="{data}" style="fill:{fill};fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 400:.4g}"/>'
+    )
     dash = f"{reach / 30:.4g} {reach / 120:.4g} {reach / 200:.4g} {reach / 120:.4g}"
     for name, diameter in part.circles.items():
-        line = f"fill:none;stroke:{_CIRCLE_COLOURS.get(name, '#808080')};stroke-width:{reach / 600:.4g};stroke-dasharray:{dash}"
-        lines.append(f'<circle cx="{_number(middle)}" cy="{_number(middle)}" r="{_number(diameter / 2)}" style="{line}"/>')
+        colour = _CIRCLE_COLOURS.get(name, "#808080")
+        line = f"fill:none;stroke:{colour};stroke-width:{reach / 600:.4g};stroke-dasharray:{dash}"
+        lines.append(
+            f'<circle cx="{_number(middle)}" cy="{_number(middle)}" r="{_number(diameter / 2)}" style="{line}"/>'
+        )
     lines += _cross(middle, reach)
     lines += _caption([part.id, *rows, *remarks], 2 * middle + text, text)
     _save(file, lines)
@@ -123,4 +133,3 @@ def _number(value: float) -> str:
 def _save(file: Path, lines: list[str]) -> None:
     with file.open("w", encoding="utf-8", newline="\n") as stream:
         stream.write("\n".join([*lines, "</svg>", ""]))
-

@@ -54,8 +54,8 @@ def _verdict(
     worst, shortest = 0.0, float("inf")
     unmatched = list(loops)
     for profile in profiles:
-        loop = min(unmatched, key=lambda item, p=profile: _rough_distance(item, p))
-        unmatched.remove(loop)
+        distances = [_rough_distance(loop, profile) for loop in unmatched]
+        loop = unmatched.pop(int(np.argmin(distances)))
         deviation, found = _check_loop(loop, profile, declared, known_simple)
         worst = max(worst, deviation)
         shortest = min(shortest, float(np.abs(np.roll(loop.vertices, -1) - loop.vertices).min()))
@@ -119,16 +119,16 @@ def _verify_mesh(mesh: ReadMesh, region: Region, thickness: float, declared: flo
     if not np.all((z == 0) | (z == top)):
         return Verdict({"volume": volume}, ("a vertex stands off both faces",))
     loops = _bottom_loops(mesh)
-    flat = _verdict(
-        [Loop(v, np.zeros(len(v)), "") for v in loops], region, declared, tolerance, known_simple=True
-    )
+    flat = _verdict([Loop(v, np.zeros(len(v)), "") for v in loops], region, declared, tolerance, known_simple=True)
     exact = sum(profile_area(p) for p in region.profiles()) * thickness
     allowed = sum(np.abs(np.roll(v, -1) - v).sum() for v in loops) * declared * thickness
     if abs(volume - exact) > allowed:
         failures.append(f"volume {volume:.9g} mm^3 instead of {exact:.9g} mm^3")
     areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
     measured = flat.measured | {
-        "triangles": len(mesh.triangles), "volume": volume, "volume_error": volume / exact - 1,
+        "triangles": len(mesh.triangles),
+        "volume": volume,
+        "volume_error": volume / exact - 1,
         "least_triangle_area": float(areas.min()),
     }
     return Verdict(measured, (*failures, *flat.failures))
@@ -180,4 +180,3 @@ def _bottom_loops(mesh: ReadMesh) -> list[Complex]:
             vertex = following.pop(vertex)
         loops.append(points[chain])
     return loops
-

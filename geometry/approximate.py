@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from geometry.arc_spline import arc_spline
-from geometry.contour import Approximation, Contour
+from geometry.contour import Approximation, Bound, Contour
 from geometry.curve import Complex, Curve, Real
 from geometry.errors import ConvergenceError
 from geometry.involute import Involute
@@ -40,9 +40,7 @@ class Piece:
         return Piece(np.conj(self.points[::-1]), self.bulges[::-1], self.max_error, self.certified)
 
 
-def approximate_profile(
-    profile: Profile, tolerance: float, *, arcs: bool, least_edge: float = 0.0
-) -> Approximation:
+def approximate_profile(profile: Profile, tolerance: float, *, arcs: bool, least_edge: float = 0.0) -> Approximation:
     """A closed profile as a contour within ``tolerance`` mm.
 
     ``arcs``: tangent-continuous arcs, circular and straight segments as themselves; else chords only.
@@ -64,9 +62,10 @@ def approximate_profile(
         np.concatenate([p.points[:-1] for p in pieces]), np.concatenate([p.bulges for p in pieces]), profile.count
     )
     error = max(p.max_error for p in pieces)
-    bound = "certified" if all(p.certified for p in pieces) else "sampled"
+    bound: Bound = "certified" if all(p.certified for p in pieces) else "sampled"
     if least_edge > 0:
-        contour, merged_error = merge_short_edges(contour, profile, tolerance, least_edge)
+        lone = np.concatenate([np.full(len(p.bulges), len(p.bulges) == 1) for p in pieces])
+        contour, merged_error = merge_short_edges(contour, lone, profile, tolerance, least_edge)
         error = max(error, merged_error)
         bound = "sampled" if merged_error > 0 else bound
     return Approximation(contour, error, bound if error > 0 else "exact", tolerance)
@@ -78,7 +77,12 @@ def _arc_piece(curve: Curve, tolerance: float) -> Piece:
     if isinstance(curve, Arc):
         # a bulge of 1 (half a turn) is the most that every reader takes
         count = max(1, math.ceil(abs(curve.sweep) / math.pi - 1e-9))
-        return Piece(curve.point(np.linspace(*curve.domain, count + 1)), np.full(count, math.tan(curve.sweep / count / 4)), 0.0, True)
+        return Piece(
+            curve.point(np.linspace(*curve.domain, count + 1)),
+            np.full(count, math.tan(curve.sweep / count / 4)),
+            0.0,
+            True,
+        )
     spline = arc_spline(curve, tolerance)
     return Piece(spline.points, spline.bulges, spline.max_error, spline.certified)
 
@@ -91,7 +95,7 @@ def _chord_piece(curve: Curve, tolerance: float) -> Piece:
 def chord_parameters(curve: Curve, tolerance: float) -> tuple[Real, float, bool]:
     """Parameters of near the fewest chords within ``tolerance`` mm, the error, and whether it is proven.
 
-    Chords of equal error have length sqrt(8 tolerance / \\|kappa\\|).
+    Chords of equal error have length sqrt(8 tolerance / |kappa|).
     """
     if isinstance(curve, Line):
         return np.array(curve.domain), 0.0, True

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -19,8 +20,9 @@ from geometry.tolerance import TOLERANCES
 
 _DENSITY_SAMPLES = 257
 _LEAST_SAMPLES, _MOST_SAMPLES = 33, 4097
-# how much of the tolerance the bound of what lies between samples may use
+# how much of the tolerance, or of the error found, the bound of what lies between samples may use
 _MARGIN_SHARE = 0.03
+_REFINEMENTS = 3
 # an end arc starts tangent to the curve and needs 1/sqrt(2) of the inner arcs' length
 _END_SHARE = math.sqrt(0.5)
 
@@ -58,7 +60,7 @@ def arc_spline(curve: Curve, tolerance: float, *, limit: int = 4096) -> ArcSplin
 def _density(curve: Curve) -> tuple[Real, Real, float]:
     """Samples, the coordinate in which arcs of equal error have equal length, and its whole length.
 
-    The coordinate is the integral of (\\|d kappa / ds\\| / 125)^(1/3) ds; the whole is in mm^(1/3).
+    The coordinate is the integral of (|d kappa / ds| / 125)^(1/3) ds; the whole is in mm^(1/3).
     """
     t = np.linspace(*curve.domain, _DENSITY_SAMPLES)
     first, second, third = (curve.derivative(t, k) for k in (1, 2, 3))
@@ -115,37 +117,47 @@ def _arcs_through(curve: Curve, t: Real, end_tangent: complex) -> tuple[Complex,
     return points, bulges, math.remainder(heading - float(np.angle(end_tangent)), 2 * math.pi)
 
 
-def arc_error(
-    curve: Curve, t: Real, points: Complex, bulges: Real, tolerance: float
-) -> tuple[float, bool]:
+def arc_error(curve: Curve, t: Real, points: Complex, bulges: Real, tolerance: float) -> tuple[float, bool]:
     """Greatest distance between a curve and its arcs: samples plus a proven bound of what lies between.
 
-    With delta(t) = \|c(t) - q\| - R and d = max \|delta\|, \|delta''\| <= (M1^2 k + M2 (1 + k d)) / (1 - k d),
+    With delta(t) = |c(t) - q| - R and d = max |delta|, |delta''| <= (M1^2 k + M2 (1 + k d)) / (1 - k d),
     k = 1/R; the samples are so dense that this adds a few hundredths of the tolerance.
     """
     chord = points[1:] - points[:-1]
     curvature = 4 * bulges / (np.abs(chord) * (1 + bulges**2))
     second, certified = _second_derivative_bounds(curve, t, np.abs(curvature), tolerance)
-    steps = float(np.max(np.diff(t) * np.sqrt(second / (8 * _MARGIN_SHARE * tolerance)), initial=0.0))
-    samples = min(_MOST_SAMPLES, max(_LEAST_SAMPLES, math.ceil(steps) + 1))
-    at = t[:-1, None] + np.diff(t)[:, None] * np.linspace(0, 1, samples)
-    # distance from the circle without its centre, which may be far away: for an offset w from the arc's
-    # start with left normal n, (k |w|^2 - 2 w.n) / (1 + sqrt(1 + k (k |w|^2 - 2 w.n)))
-    normal = 1j * chord / np.abs(chord) * np.exp(-2j * np.arctan(bulges))
-    offset, k = curve.point(at) - points[:-1, None], curvature[:, None]
-    numerator = k * np.abs(offset) ** 2 - 2 * (offset * np.conj(normal)[:, None]).real
-    worst = np.abs(numerator / (1 + np.sqrt(np.maximum(1 + k * numerator, 0)))).max(axis=1)
-    # the bound of delta'' holds while no sample is farther than it was assumed
-    margin = (np.diff(t) / (samples - 1)) ** 2 / 8 * second * np.maximum(1, worst / tolerance)
+    share = _MARGIN_SHARE * tolerance
+    for _ in range(_REFINEMENTS):
+        steps = float(np.max(np.diff(t) * np.sqrt(second / (8 * share)), initial=0.0))
+        samples = min(_MOST_SAMPLES, max(_LEAST_SAMPLES, math.ceil(steps) + 1))
+        worst = _sampled_distance(curve, t, points, bulges, samples)
+        # the bound of delta'' holds while no sample is farther than it was assumed
+        margin = (np.diff(t) / (samples - 1)) ** 2 / 8 * second * np.maximum(1, worst / tolerance)
+        if np.max(margin) <= 2 * _MARGIN_SHARE * np.max(worst) or samples == _MOST_SAMPLES:
+            break
+        share = _MARGIN_SHARE * float(np.max(worst))
     scale = float(np.max(np.abs(points)))
     return float(np.max(worst + margin)) + 4 * TOLERANCES.relative_rounding * scale, certified
 
 
+def _sampled_distance(curve: Curve, t: Real, points: Complex, bulges: Real, samples: int) -> Real:
+    """Greatest distance of the curve's samples from each arc, without its centre, which may be far away.
+
+    For an offset w from the arc's start with left normal n and curvature k it is
+    (k |w|^2 - 2 w.n) / (1 + sqrt(1 + k (k |w|^2 - 2 w.n))).
+    """
+    chord = points[1:] - points[:-1]
+    k = (4 * bulges / (np.abs(chord) * (1 + bulges**2)))[:, None]
+    at = t[:-1, None] + np.diff(t)[:, None] * np.linspace(0, 1, samples)
+    normal = 1j * chord / np.abs(chord) * np.exp(-2j * np.arctan(bulges))
+    offset = curve.point(at) - points[:-1, None]
+    numerator = k * np.abs(offset) ** 2 - 2 * (offset * np.conj(normal)[:, None]).real
+    return np.abs(numerator / (1 + np.sqrt(np.maximum(1 + k * numerator, 0)))).max(axis=1)
+
+
 def _second_derivative_bounds(curve: Curve, t: Real, k: Real, distance: float) -> tuple[Real, bool]:
-    """Bound of \|delta''\| on each arc's interval, and whether the curve has proven derivative bounds."""
-    bounds = [
-        [curve.derivative_bound(order, a, b) for order in (1, 2)] for a, b in zip(t[:-1], t[1:], strict=True)
-    ]
+    """Bound of |delta''| on each arc's interval, and whether the curve has proven derivative bounds."""
+    bounds = [[curve.derivative_bound(order, a, b) for order in (1, 2)] for a, b in pairwise(t.tolist())]
     if any(m is None for pair in bounds for m in pair):
         return np.zeros(len(k)), False
     m1, m2 = np.array(bounds, dtype=float).T

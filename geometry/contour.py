@@ -10,6 +10,8 @@ import numpy as np
 
 from geometry.curve import Complex, Real
 
+Bound = Literal["exact", "certified", "sampled"]
+
 
 @dataclass(frozen=True, slots=True)
 class Contour:
@@ -41,7 +43,7 @@ class Approximation:
 
     geometry: Contour
     max_error: float
-    bound: Literal["exact", "certified", "sampled"]
+    bound: Bound
     tolerance: float
 
 
@@ -53,13 +55,6 @@ def edge_points(starts: Complex, ends: Complex, bulges: Real, fractions: Real) -
     with np.errstate(invalid="ignore", divide="ignore"):
         share = np.where(quarter == 0, fractions, np.sin(2 * quarter * fractions) / np.sin(2 * quarter))
     return starts + (ends - starts) * share * np.exp(-2j * quarter * (1 - fractions))
-
-
-def arc_centres(starts: Complex, ends: Complex, bulges: Real) -> tuple[Complex, Real]:
-    """Centres and radii of arc edges (bulge not 0)."""
-    chord = ends - starts
-    centres = (starts + ends) / 2 + 1j * chord * (1 - bulges**2) / (4 * bulges)
-    return centres, np.abs(chord) * (1 + bulges**2) / (4 * np.abs(bulges))
 
 
 def signed_area(vertices: Complex, bulges: Real) -> float:

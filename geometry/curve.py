@@ -39,7 +39,7 @@ class Curve(Protocol):
         """Signed curvature, 1/mm."""
 
     def derivative_bound(self, order: int, a: float, b: float) -> float | None:
-        """Proven upper bound of \\|c^(order)\\| on [a, b]; None where none is known."""
+        """Proven upper bound of |c^(order)| on [a, b]; None where none is known."""
 
     def offset(self, distance: float) -> Curve:
         """Parallel curve, ``distance`` mm to the left. Raises CuspError where it would turn back."""
@@ -52,6 +52,9 @@ class Curve(Protocol):
 
     def placed(self, placement: Placement2) -> Curve:
         """The curve carried by a rigid motion."""
+
+    def mirrored(self) -> Curve:
+        """Mirror image in the x axis, travelled the other way: material stays on the same side."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,6 +94,9 @@ class Reversed:
 
     def placed(self, placement: Placement2) -> Curve:
         return Reversed(self.original.placed(placement))
+
+    def mirrored(self) -> Curve:
+        return Reversed(self.original.mirrored())
 
 
 def start_point(curve: Curve) -> complex:

@@ -20,7 +20,7 @@ class Involute:
 
     f > 0 is the branch that turns left on its way out (the lower flank of a tooth on +x), f < 0 its
     mirror image travelled inwards (the upper flank). The domain must not hold f = 0 inside it.
-    Source: ISO 21771, involute in polar form; \\|c^(k)\\| = r_b sqrt(f^2 + (k-1)^2).
+    Source: ISO 21771, involute in polar form; |c^(k)| = r_b sqrt(f^2 + (k-1)^2).
     """
 
     base_radius: float
@@ -77,12 +77,9 @@ class Involute:
         return Reversed(self)
 
     def placed(self, placement: Placement2) -> Involute:
-        return replace(
-            self, base_angle=self.base_angle + placement.angle, centre=placement.apply(self.centre)
-        )
+        return replace(self, base_angle=self.base_angle + placement.angle, centre=placement.apply(self.centre))
 
     def mirrored(self) -> Involute:
-        """Mirror image in the x axis, travelled so that material stays on the same side."""
         return replace(
             self,
             base_angle=-self.base_angle,

@@ -58,7 +58,6 @@ class Line:
         return Line(placement.apply(self.start), placement.apply(self.end))
 
     def mirrored(self) -> Line:
-        """Mirror image in the x axis, travelled so that material stays on the same side."""
         return Line(self.end.conjugate(), self.start.conjugate())
 
 
@@ -111,12 +110,9 @@ class Arc:
         return replace(self, start_angle=self.start_angle + self.sweep, sweep=-self.sweep)
 
     def placed(self, placement: Placement2) -> Arc:
-        return replace(
-            self, centre=placement.apply(self.centre), start_angle=self.start_angle + placement.angle
-        )
+        return replace(self, centre=placement.apply(self.centre), start_angle=self.start_angle + placement.angle)
 
     def mirrored(self) -> Arc:
-        """Mirror image in the x axis, travelled so that material stays on the same side."""
         return replace(self, centre=self.centre.conjugate(), start_angle=-self.start_angle - self.sweep)
 
 

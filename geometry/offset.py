@@ -67,6 +67,9 @@ class OffsetCurve:
     def placed(self, placement: Placement2) -> OffsetCurve:
         return replace(self, base=self.base.placed(placement))
 
+    def mirrored(self) -> OffsetCurve:
+        return replace(self, base=self.base.mirrored())
+
 
 def _product(a: list, b: list) -> list:
     """Taylor coefficients of a product."""

@@ -55,7 +55,7 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float, 
 
 def _next_fraction(a: float, b: float, c: float, fa: float, fb: float, fc: float, margin: float) -> float:
     """Where in [a, b] to look next, as a fraction; 0.5 where interpolation is not safe."""
-    if fb == fa or fc == fb or fc == fa or c == b or b == a:
+    if len({fa, fb, fc}) < 3 or len({a, b, c}) < 3:
         return 0.5
     xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
     if phi**2 < xi and (1 - phi) ** 2 < 1 - xi:

@@ -74,6 +74,9 @@ class Trochoid:
     def placed(self, placement: Placement2) -> Trochoid:
         return replace(self, angle=self.angle + placement.angle, centre=placement.apply(self.centre))
 
+    def mirrored(self) -> Trochoid:
+        return replace(self, angle=-self.angle, start=-self.end, end=-self.start, centre=self.centre.conjugate())
+
 
 @dataclass(frozen=True, slots=True)
 class TrochoidFillet:
@@ -173,10 +176,7 @@ class TrochoidFillet:
         return replace(self, angle=self.angle + placement.angle, centre=placement.apply(self.centre))
 
     def mirrored(self) -> TrochoidFillet:
-        """Mirror image in the x axis, travelled so that material stays on the same side."""
-        return replace(
-            self, angle=-self.angle, start=-self.end, end=-self.start, centre=self.centre.conjugate()
-        )
+        return replace(self, angle=-self.angle, start=-self.end, end=-self.start, centre=self.centre.conjugate())
 
 
 def _tangent_derivatives(tan: Real, order: int) -> list[Real]:
@@ -189,7 +189,7 @@ def _tangent_derivatives(tan: Real, order: int) -> list[Real]:
 def _speed_derivatives(constant: float, square: float, cube: float, tan: list[Real]) -> list[Real]:
     """constant + square sec^2 u + cube sec^3 u and its derivatives, from tan u and its derivatives."""
     t, secant_cubed = tan[0], tan[1] ** 1.5
-    cubes = [1.0, 3 * t, 12 * t**2 + 3, 60 * t**3 + 33 * t]
+    cubes = [np.ones_like(t), 3 * t, 12 * t**2 + 3, 60 * t**3 + 33 * t]
     result = [square * d + cube * secant_cubed * c for d, c in zip(tan[1:], cubes, strict=False)]
     return [constant + result[0], *result[1:]]
 

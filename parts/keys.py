@@ -10,11 +10,12 @@ from typing import Annotated
 from msgspec import Meta
 
 
-def mm(
-    text: str, *, above: float | None = None, least: float | None = None, most: float | None = None
-) -> Meta:
+def mm(text: str, *, above: float | None = None, least: float | None = None, most: float | None = None) -> Meta:
     """A length in mm."""
-    return Meta(gt=above, ge=least, le=most, description=text, extra={"unit": "mm"})
+    unit = {"unit": "mm"}
+    if above is not None:
+        return Meta(gt=above, le=most, description=text, extra=unit)
+    return Meta(ge=least, le=most, description=text, extra=unit)
 
 
 def in_modules(text: str, *, least: float, most: float) -> Meta:

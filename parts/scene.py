@@ -18,9 +18,9 @@ from parts.spur_gear import SpurGearSpec, make_spur_gear
 
 SCENE_FOLDER = Path(__file__).parent / "scenes"
 KINDS: dict[str, tuple[type[Struct], Any]] = {"spur_gear": (SpurGearSpec, make_spur_gear)}
-FORMATS = ("dxf", "svg", "stl")
-DEFAULT_TOLERANCES = {"dxf": 0.005, "svg": 0.005, "stl": 0.01}
-DEFAULT_PURPOSES = {"dxf": "laser", "svg": "laser", "stl": "print"}
+# purpose and tolerance (mm) that an export has where it names none
+_DEFAULTS = {"dxf": ("laser", 0.005), "svg": ("laser", 0.005), "stl": ("print", 0.01)}
+FORMATS = tuple(_DEFAULTS)
 # a scene that is larger than this is not one
 _MAX_SCENE_BYTES = 4_000_000
 
@@ -37,10 +37,10 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
 
     format: Annotated[Literal["dxf", "svg", "stl"], Meta(description="file format")]
     purpose: Annotated[Literal["laser", "print"], Meta(description="what for")] | None = None
-    tolerance: (
-        Annotated[float, mm("largest deviation from the exact curve", least=1e-7, most=1.0)] | None
-    ) = None
-    kerf: Annotated[float, mm("full width of the cut; the path runs half of it outside the part", least=0, most=10)] = 0.0
+    tolerance: Annotated[float, mm("largest deviation from the exact curve", least=1e-7, most=1.0)] | None = None
+    kerf: Annotated[float, mm("full width of the cut; the path runs half of it outside the part", least=0, most=10)] = (
+        0.0
+    )
     offset: Annotated[
         float, mm("moves every outline: positive out of the material, negative into it", least=-10, most=10)
     ] = 0.0
@@ -78,7 +78,9 @@ def load_scene(address: str) -> SceneFile:
         path = built_in[address]
     try:
         if path.is_dir():
-            raise SceneError(address, "", None, "is a folder; give a scene file (.toml) or one of: " + ", ".join(built_in))
+            raise SceneError(
+                address, "", None, "is a folder; give a scene file (.toml) or one of: " + ", ".join(built_in)
+            )
         with path.open("rb") as stream:
             raw_bytes = stream.read(_MAX_SCENE_BYTES + 1)
     except FileNotFoundError:
@@ -116,7 +118,7 @@ def scene_from_dict(raw: dict[str, Any], source: str, name: str) -> SceneFile:
             remedy = "write it as [[exports]]" if key == "exports" else f"write it as a table, [{key}]"
             raise SceneError(source, key, value, remedy)
     if not raw.get("parts"):
-        raise SceneError(source, "parts", None, "a scene needs at least one part, like [parts.gear] kind = \"spur_gear\"")
+        raise SceneError(source, "parts", None, 'a scene needs at least one part, like [parts.gear] kind = "spur_gear"')
     info = converted(raw.get("scene", {}), SceneInfo, source, "scene")
     parts = {key: _part_spec(key, table, source) for key, table in raw["parts"].items()}
     exports = [
@@ -144,18 +146,31 @@ def _export_spec(table: Any, parts: dict[str, Struct], source: str, place: str) 
     spec = converted(table, ExportSpec, source, place)
     for part in spec.parts or ():
         if part not in parts:
-            raise SceneError(source, f"{place}.parts", part, f"no such part{near(part, parts)}; parts: {', '.join(parts)}")
+            raise SceneError(
+                source, f"{place}.parts", part, f"no such part{near(part, parts)}; parts: {', '.join(parts)}"
+            )
     if spec.kerf and spec.offset:
-        raise SceneError(source, f"{place}.kerf", spec.kerf, "give either kerf or offset; an offset of half the kerf is the same")
+        raise SceneError(
+            source, f"{place}.kerf", spec.kerf, "give either kerf or offset; an offset of half the kerf is the same"
+        )
     if spec.format != "dxf" and spec.dxf_version != "R2000":
-        raise SceneError(source, f"{place}.dxf_version", spec.dxf_version, f"only for format = \"dxf\", not {spec.format}; remove it")
+        raise SceneError(
+            source, f"{place}.dxf_version", spec.dxf_version, f'only for format = "dxf", not {spec.format}; remove it'
+        )
+    default = default_export(spec.format)
     if spec.purpose is None:
-        spec.purpose = DEFAULT_PURPOSES[spec.format]
-    if spec.purpose != DEFAULT_PURPOSES[spec.format]:
-        raise SceneError(source, f"{place}.purpose", spec.purpose, f"{spec.format} is for {DEFAULT_PURPOSES[spec.format]}")
+        spec.purpose = default.purpose
+    if spec.purpose != default.purpose:
+        raise SceneError(source, f"{place}.purpose", spec.purpose, f"{spec.format} is for {default.purpose}")
     if spec.tolerance is None:
-        spec.tolerance = DEFAULT_TOLERANCES[spec.format]
+        spec.tolerance = default.tolerance
     return spec
+
+
+def default_export(name: str) -> ExportSpec:
+    """An export of a format with its default purpose and tolerance."""
+    purpose, tolerance = _DEFAULTS[name]
+    return msgspec.convert({"format": name, "purpose": purpose, "tolerance": tolerance}, ExportSpec)
 
 
 def make_parts(scene: SceneFile, source: str) -> dict[str, Part]:
@@ -177,7 +192,7 @@ def resolved(scene: SceneFile) -> dict[str, Any]:
 
 def scene_from_resolved(data: dict[str, Any], source: str) -> SceneFile:
     """A scene from what a report has kept."""
-    tables = {key: data[key] for key in ("scene", "parts", "exports") if key in data}
+    tables: dict[str, Any] = {key: data[key] for key in ("scene", "parts", "exports") if key in data}
     tables["exports"] = [{k: v for k, v in e.items() if v is not None} for e in tables.get("exports", [])]
     tables["parts"] = {k: _without_none(v) for k, v in tables.get("parts", {}).items()}
     return scene_from_dict(tables, source, str(data.get("name", "scene")))

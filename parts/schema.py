@@ -53,7 +53,9 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
     where = ".".join([place, *keys])
     if unknown := re.search(r"unknown field `(.*?)`", message):
         owner, name = _owner(kind, keys), unknown.group(1)
-        known = (["kind"] if owner.__struct_config__.tag else []) + [f.encode_name for f in msgspec.structs.fields(owner)]
+        known = (["kind"] if owner.__struct_config__.tag else []) + [
+            f.encode_name for f in msgspec.structs.fields(owner)
+        ]
         remedy = f"unknown key{near(name, known)}; known keys: {', '.join(known)}"
         return SceneError(source, f"{where}.{name}", _lookup(table, [*keys, name]), remedy)
     if missing := re.search(r"missing required field `(.*?)`", message):
@@ -66,9 +68,17 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
     return SceneError(source, where, _lookup(table, keys), remedy or message)
 
 
-_TYPE_WORDS = {"float": "a number", "int": "a whole number", "str": "text in quotes", "float | null": "a number",
-               "str | null": "text in quotes", "array | null": "a list in brackets", "object | null": "a table",
-               "object": "a table", "str | object": "text or a table"}
+_TYPE_WORDS = {
+    "float": "a number",
+    "int": "a whole number",
+    "str": "text in quotes",
+    "float | null": "a number",
+    "str | null": "text in quotes",
+    "array | null": "a list in brackets",
+    "object | null": "a table",
+    "object": "a table",
+    "str | object": "text or a table",
+}
 
 
 def _owner(kind: type[Struct], keys: list[str]) -> type[Struct]:
@@ -103,7 +113,11 @@ def describe_type(kind: Any) -> str:
     meta = next((m for m in getattr(kind, "__metadata__", ()) if isinstance(m, Meta)), None)
     if meta is None:
         described = [describe_type(a) for a in get_args(kind)]
-        tables = [a.__doc__.rstrip(".") for a in get_args(kind) or (kind,) if isinstance(a, type) and issubclass(a, Struct)]
+        tables = [
+            (a.__doc__ or "").rstrip(".")
+            for a in get_args(kind) or (kind,)
+            if isinstance(a, type) and issubclass(a, Struct)
+        ]
         return " or ".join(filter(None, [*described, *tables]))
     low = f"above {meta.gt:g}" if meta.gt is not None else f"at least {meta.ge:g}" if meta.ge is not None else ""
     high = f"at most {meta.le:g}" if meta.le is not None else ""

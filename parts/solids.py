@@ -42,8 +42,13 @@ def extruded_gear(outer: Contour, bore: Contour | None, thickness: float) -> Mes
 def _cap_of_rings(outline: Contour, bore: Contour | None) -> tuple[Complex, Triangles, list[Triangles]]:
     """Teeth above the chords between their spaces, and the hub between those chords and the bore."""
     points, _ = outline.expanded()
-    ring = np.arange(outline.count) * len(outline.vertices)
-    caps = [_placed(_tooth_triangles(outline), len(outline.vertices), outline.count)]
+    size, count = len(outline.vertices), outline.count
+    # the period begins with the tooth and ends with the root land, whose corners all stand on the hub's ring
+    tooth_end = _last_of_tooth(outline)
+    land = np.append(np.arange(tooth_end, size), 0) if tooth_end < size else np.array([0])
+    ring = np.unique((land + (np.arange(count) * size)[:, None]) % (size * count))
+    polygon = np.append(outline.vertices, outline.period_ends()[-1])[: tooth_end + 1]
+    caps = [_placed(_polygon_triangles(polygon), size, count)]
     loops = [np.arange(len(points))]
     if bore is None:
         hub = len(points)
@@ -87,18 +92,27 @@ def _cap_of_sectors(outline: Contour, bore: Contour | None) -> tuple[Complex, Tr
 
 
 def _starting_in_space(contour: Contour) -> Contour:
-    """The contour begun at its vertex nearest to the axis, half a pitch below the tooth."""
+    """The contour begun where a tooth leaves the root circle: after the last vertex nearest to the axis."""
     half = np.pi / contour.count
-    turn = np.exp(2j * half)
-    # rotate the period so that it begins at the last vertex at or before the space's centre line
-    angles = np.angle(contour.vertices)
-    ahead = np.flatnonzero(angles > half - 1e-12)
-    if not ahead.size:
-        return contour
-    first = int(ahead[0])
-    vertices = np.concatenate([contour.vertices[first:] / turn, contour.vertices[:first]])
+    ahead = np.flatnonzero(np.angle(contour.vertices) > half - 1e-12)
+    first = int(ahead[0]) if ahead.size else 0
+    vertices = np.concatenate([contour.vertices[first:] * np.exp(-2j * half), contour.vertices[:first]])
     bulges = np.concatenate([contour.bulges[first:], contour.bulges[:first]])
-    return Contour(vertices, bulges, contour.count)
+    lowest = np.abs(vertices) <= np.abs(vertices).min() * (1 + 1e-9)
+    lead = 0
+    while lead + 1 < len(vertices) and lowest[lead] and lowest[lead + 1]:
+        lead += 1
+    turn = np.exp(2j * np.pi / contour.count)
+    vertices = np.concatenate([vertices[lead:], vertices[:lead] * turn])
+    return Contour(vertices, np.concatenate([bulges[lead:], bulges[:lead]]), contour.count)
+
+
+def _last_of_tooth(outline: Contour) -> int:
+    """Index of the vertex at which a tooth comes back to the root circle (the period's length: at its end)."""
+    radii = np.abs(outline.vertices)
+    lowest = np.flatnonzero(radii <= radii.min() * (1 + 1e-9))
+    after = lowest[lowest > int(np.argmax(radii))]
+    return int(after[0]) if after.size else len(radii)
 
 
 def _placed(triangles: Triangles, size: int, count: int) -> Triangles:
@@ -107,9 +121,8 @@ def _placed(triangles: Triangles, size: int, count: int) -> Triangles:
     return ((triangles + offsets) % (size * count)).reshape(-1, 3)
 
 
-def _tooth_triangles(outline: Contour) -> Triangles:
-    """Triangles of one tooth above the chord between two spaces: a ladder up both sides, or ear clipping."""
-    polygon = np.append(outline.vertices, outline.period_ends()[-1])
+def _polygon_triangles(polygon: Complex) -> Triangles:
+    """Triangles of one tooth above the chord between its roots: a ladder up both sides, or ear clipping."""
     ladder = _ladder(polygon)
     doubled = _cross(polygon, ladder)
     area = 0.5 * float(np.sum((np.conj(polygon) * np.roll(polygon, -1)).imag))
@@ -146,7 +159,7 @@ def _ear_clipped(polygon: Complex) -> Triangles:
                 break
         else:
             raise GeometryError("the outline of a tooth crosses itself at this tolerance; make it smaller")
-    triangles.append(tuple(left))
+    triangles.append((left[0], left[1], left[2]))
     return np.array(triangles, dtype=np.int64)
 
 
@@ -207,7 +220,7 @@ def _extruded(points: Complex, top: Triangles, loops: list[Triangles], thickness
     """Both caps and the walls; material lies left of every loop."""
     n = len(points)
     flat = np.stack([points.real, points.imag, np.zeros(n)], axis=1)
-    vertices = np.concatenate([flat, flat + [0, 0, thickness]])
+    vertices = np.concatenate([flat, flat + np.array([0.0, 0.0, thickness])])
     walls = []
     for loop in loops:
         after = np.roll(loop, -1)

@@ -26,7 +26,9 @@ class RackTable(Struct, forbid_unknown_fields=True):
     addendum_coefficient: Annotated[float, in_modules("addendum of the basic rack", least=0.1, most=3)] = 1.0
     tip_clearance_coefficient: Annotated[float, in_modules("tip clearance", least=0, most=1)] = 0.25
     tip_radius_coefficient: (
-        Annotated[float, in_modules("tip rounding; default: the least of 0.38, c/(1 - sin a), full round", least=0, most=2)]
+        Annotated[
+            float, in_modules("tip rounding; default: the least of 0.38, c/(1 - sin a), full round", least=0, most=2)
+        ]
         | None
     ) = None
 
@@ -34,7 +36,9 @@ class RackTable(Struct, forbid_unknown_fields=True):
 class ReliefTable(Struct, forbid_unknown_fields=True):
     """Flanking of the tooth tip (practicum, figure 1.4; GOST 13755), in modules."""
 
-    depth_coefficient: Annotated[float, in_modules("depth normal to the flank at the rack's tip line", least=0, most=0.3)]
+    depth_coefficient: Annotated[
+        float, in_modules("depth normal to the flank at the rack's tip line", least=0, most=0.3)
+    ]
     height_coefficient: Annotated[float, in_modules("height of the relieved part", least=0.01, most=3)] = 0.45
 
 
@@ -84,8 +88,15 @@ def make_spur_gear(part_id: str, spec: SpurGearSpec) -> Part:
         "tip_tooth_thickness": tip_thickness(gear),
     }
     return Part(
-        part_id, "spur_gear", spec.face_width, lru_cache(maxsize=8)(lambda offset: gear_region(gear, offset)),
-        findings(gear), circles, quantities, spec.material, spec.colour,
+        part_id,
+        "spur_gear",
+        spec.face_width,
+        lru_cache(maxsize=8)(lambda offset: gear_region(gear, offset)),
+        findings(gear),
+        circles,
+        quantities,
+        spec.material,
+        spec.colour,
     )
 
 
@@ -108,12 +119,15 @@ def _gear_of(spec: SpurGearSpec) -> SpurGear:
 
 def _rack_of(spec: SpurGearSpec) -> BasicRack:
     angle = math.radians(spec.pressure_angle_deg)
-    relief = spec.tip_relief and TipRelief(spec.tip_relief.depth_coefficient, spec.tip_relief.height_coefficient)
+    given = spec.tip_relief
+    relief = None if given is None else TipRelief(given.depth_coefficient, given.height_coefficient)
     table = spec.basic_rack
     if isinstance(table, str):
         return iso_53("A" if table == "GOST 13755" else table[-1], angle, relief)
     addendum, clearance, radius = (
-        table.addendum_coefficient, table.tip_clearance_coefficient, table.tip_radius_coefficient,
+        table.addendum_coefficient,
+        table.tip_clearance_coefficient,
+        table.tip_radius_coefficient,
     )
     if radius is None:
         radius = max(default_tip_radius(angle, addendum, clearance, _TABLE_TIP_RADIUS), 0.0)

@@ -105,17 +105,20 @@ def checked_rack(rack: BasicRack) -> BasicRack:
         depth = math.pi / 4 / math.tan(alpha)
         if depth > rack.addendum:
             raise ParameterError(
-                "basic_rack.tip_clearance_coefficient", rack.tip_clearance,
+                "basic_rack.tip_clearance_coefficient",
+                rack.tip_clearance,
                 f"the rack tooth is pointed at {math.degrees(alpha):g} degrees before it reaches its tip line; "
                 f"at most {at_most(depth - rack.addendum)} fits addendum_coefficient = {rack.addendum:g}",
             )
         raise ParameterError(
-            "basic_rack.addendum_coefficient", rack.addendum,
+            "basic_rack.addendum_coefficient",
+            rack.addendum,
             f"the rack tooth is pointed at {math.degrees(alpha):g} degrees; less than {at_most(depth)} fits",
         )
     if rack.tip_radius > largest * (1 + 1e-12):
         raise ParameterError(
-            "basic_rack.tip_radius_coefficient", rack.tip_radius,
+            "basic_rack.tip_radius_coefficient",
+            rack.tip_radius,
             f"does not fit the rack tooth; at most {at_most(largest)} does (the full round)",
         )
     if rack.relief is not None:
@@ -126,7 +129,9 @@ def checked_rack(rack: BasicRack) -> BasicRack:
 def _check_relief(rack: BasicRack, relief: TipRelief) -> None:
     if not 0 < relief.height <= rack.addendum:
         raise ParameterError(
-            "tip_relief.height_coefficient", relief.height, f"must be above 0 and at most {rack.addendum:g}, the addendum"
+            "tip_relief.height_coefficient",
+            relief.height,
+            f"must be above 0 and at most {rack.addendum:g}, the addendum",
         )
     # the relieved flanks of the basic rack tooth must not meet below its tip line
     half_tip = math.pi / 4 - rack.addendum * math.tan(rack.pressure_angle)
@@ -135,4 +140,3 @@ def _check_relief(rack: BasicRack, relief: TipRelief) -> None:
         raise ParameterError(
             "tip_relief.depth_coefficient", relief.depth, f"must be from 0 to {at_most(largest)} (0.02 is customary)"
         )
-

@@ -132,17 +132,16 @@ def _builds(gear: SpurGear) -> bool:
 def _with_remedy(gear: SpurGear, refusal: ParameterError) -> ParameterError:
     """The refusal told in the user's keys, with the nearest value that works."""
     kind, x = type(refusal), gear.profile_shift_coefficient
-    if refusal.name in ("tip_chamfer", "tip_rounding"):
-        least = replace(gear, tip_chamfer=0.0, tip_rounding=0.0)
-        if _builds(least):
-            value = getattr(gear, refusal.name)
-            largest = _boundary(lambda v: _builds(replace(gear, **{refusal.name: v})), 0.0, value)
-            return kind(refusal.name, value, f"{refusal.allowed}; at most {at_most(largest, 4)} mm works")
+    for name, value, changed, unit in _reducible(gear):
+        if refusal.name == name and _builds(changed(1e-9)):
+            largest = _largest_that_builds(changed, value)
+            return kind(name, value, f"{refusal.allowed}; at most {at_most(largest, 4)}{unit} works")
     if gear.given_tip_diameter is not None:
-        largest = _nearest(lambda v: _builds(replace(gear, given_tip_diameter=v)), gear.given_tip_diameter, gear.module)
-        if largest is not None:
-            word = at_most if largest < gear.given_tip_diameter else at_least
-            return kind("tip_diameter", gear.given_tip_diameter, f"{refusal.allowed}; {word(largest, 4)} mm works")
+        given = gear.given_tip_diameter
+        near = _nearest(lambda v: _builds(replace(gear, given_tip_diameter=v)), given, gear.module)
+        if near is not None:
+            word = at_most if near < given else at_least
+            return kind("tip_diameter", given, f"{refusal.allowed}; {word(near, 4)} mm works")
     if gear.circumferential_thinning > 0 and _builds(replace(gear, circumferential_thinning=0.0)):
         value = gear.circumferential_thinning
         largest = _boundary(lambda v: _builds(replace(gear, circumferential_thinning=v)), 0.0, value)
@@ -155,6 +154,30 @@ def _with_remedy(gear: SpurGear, refusal: ParameterError) -> ParameterError:
     teeth = next((n for n in range(z + 1, z + 60) if _builds(replace(gear, number_of_teeth=n))), None)
     remedy = f"; {teeth} teeth work" if teeth is not None else ""
     return UndercutError("number_of_teeth", z, f"{refusal.name}: {refusal.allowed}{remedy}")
+
+
+def _largest_that_builds(changed: Callable[[float], SpurGear], refused: float) -> float:
+    """The value nearest below a refused one with which a gear can be built."""
+    return _boundary(lambda value: _builds(changed(value)), 1e-9, refused)
+
+
+def _reducible(gear: SpurGear) -> list[tuple[str, float, Callable[[float], SpurGear], str]]:
+    """Keys that may simply be too large: name, value, the gear with another value, unit."""
+    keys: list[tuple[str, float, Callable[[float], SpurGear], str]] = [
+        ("tip_chamfer", gear.tip_chamfer, lambda v: replace(gear, tip_chamfer=v), " mm"),
+        ("tip_rounding", gear.tip_rounding, lambda v: replace(gear, tip_rounding=v), " mm"),
+    ]
+    rack, relief = gear.rack, gear.rack.relief
+    if relief is not None:
+        keys.append(
+            (
+                "tip_relief.height_coefficient",
+                relief.height,
+                lambda v: replace(gear, rack=replace(rack, relief=replace(relief, height=v))),
+                "",
+            )
+        )
+    return keys
 
 
 def _boundary(works: Callable[[float], bool], good: float, bad: float) -> float:

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from geometry.curve import Curve, end_point, start_point
-from geometry.errors import ConvergenceError, GeometryError, ParameterError, at_least, at_most
+from geometry.errors import GeometryError, ParameterError, at_least, at_most
 from geometry.findings import Finding
 from geometry.gears.spur import SpurGear
 from geometry.gears.tooth import SideCurves, ToothSide, assemble_side, tooth_side
@@ -199,9 +199,13 @@ def _first_crossing(pieces: list[Segment], height: Callable[[complex], float]) -
         if height(end_point(piece.curve)) <= 0:
             continue
         curve = piece.curve
-        try:
-            at = bracketed_root(lambda t, c=curve: height(complex(c.point(t))), low, high).value
-        except ConvergenceError:
-            at = low
-        return [Segment(curve.trimmed(at, high), piece.label), *pieces[index + 1 :]] if at < high else pieces[index + 1 :]
+        at = low if height(start_point(curve)) > 0 else _crossing(curve, height)
+        return (
+            [Segment(curve.trimmed(at, high), piece.label), *pieces[index + 1 :]] if at < high else pieces[index + 1 :]
+        )
     return None
+
+
+def _crossing(curve: Curve, height: Callable[[complex], float]) -> float:
+    """Parameter at which ``height`` changes sign along a curve."""
+    return bracketed_root(lambda t: height(complex(curve.point(t))), *curve.domain).value

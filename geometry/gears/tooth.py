@@ -9,8 +9,9 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
-from geometry.curve import end_point, start_point
+from geometry.curve import Curve, end_point, start_point
 from geometry.errors import ParameterError, PointedTipError, UndercutError, at_most
 from geometry.findings import Finding
 from geometry.gears.joints import (
@@ -44,12 +45,18 @@ class ToothSide:
         tip = side.pop() if side[-1].label is Label.TIP_LAND else None
         period = list(side)
         if tip is not None:
-            period.append(Segment(_doubled(tip.curve), Label.TIP_LAND))
+            period.append(Segment(_both_halves(tip.curve, 0.0), Label.TIP_LAND))
         period += [Segment(s.curve.mirrored(), s.label) for s in reversed(side)]
         if root is not None:
-            land = root.curve
-            period.append(Segment(Arc(0j, land.radius, self.pitch_angle / 2 - land.sweep, 2 * land.sweep), root.label))
+            period.append(Segment(_both_halves(root.curve, self.pitch_angle / 2), Label.ROOT_LAND))
         return Profile(tuple(period), round(2 * math.pi / self.pitch_angle))
+
+
+class FlankPiece(NamedTuple):
+    """Part of a flank: the involute of one straight side of the rack."""
+
+    curve: Involute
+    label: Label
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,9 +77,7 @@ class SideCurves:
         flank = gear.flank()
         relief = gear.relief_flank() if gear.rack.relief and gear.rack.relief.depth > 0 else None
         chamfer = _chamfer_line(gear, flank, relief) if gear.tip_chamfer > 0 else None
-        return cls(
-            gear.fillet(), flank, relief, gear.root_radius, gear.tip_radius, chamfer, gear.tip_rounding
-        )
+        return cls(gear.fillet(), flank, relief, gear.root_radius, gear.tip_radius, chamfer, gear.tip_rounding)
 
     def shrunk(self, distance: float) -> SideCurves:
         """All boundaries moved ``distance`` into the material: each curve stays of its family."""
@@ -131,7 +136,7 @@ def assemble_side(curves: SideCurves, pitch_angle: float, *, blunt: bool = False
 
 def _flank_pieces(
     flank: Involute, relief: Involute | None, form_radius: float, tip_radius: float, findings: list[Finding]
-) -> list[Segment]:
+) -> list[FlankPiece]:
     """Main flank and, above their crossing, the relieved flank, up to the tip circle."""
     if relief is None:
         return [_up_to(flank, Label.FLANK, tip_radius)]
@@ -140,9 +145,7 @@ def _flank_pieces(
         findings.append(Finding("relief_not_reached", 2 * tip_radius, 2 * tip_radius))
         return [_up_to(flank, Label.FLANK, tip_radius)]
     if crossing <= form_radius:
-        raise ParameterError(
-            "tip_relief.height_coefficient", 2 * crossing, "the relief leaves no main flank; make it less high"
-        )
+        raise ParameterError("tip_relief.height_coefficient", math.nan, "the relief leaves no main flank")
     start = float(relief.roll_at_radius(crossing))
     return [
         _up_to(flank, Label.FLANK, crossing),
@@ -150,22 +153,26 @@ def _flank_pieces(
     ]
 
 
-def _up_to(flank: Involute, label: Label, radius: float) -> Segment:
-    return Segment(replace(flank, end_roll=float(flank.roll_at_radius(radius))), label)
+def _up_to(flank: Involute, label: Label, radius: float) -> FlankPiece:
+    return FlankPiece(replace(flank, end_roll=float(flank.roll_at_radius(radius))), label)
 
 
-def _broken_tip(pieces: list[Segment], tip_radius: float, curves: SideCurves, *, pointed: bool) -> list[Segment]:
+def _broken_tip(pieces: list[FlankPiece], tip_radius: float, curves: SideCurves, *, pointed: bool) -> list[Segment]:
     """Flank pieces, the chamfer or rounding of the tip corner, and half of the tip land."""
     if curves.chamfer is not None:
-        pieces, corner = _chamfered(pieces, tip_radius, curves.chamfer)
+        segments, corner = _chamfered(pieces, tip_radius, curves.chamfer)
     elif curves.tip_rounding > 0 and not pointed:
-        pieces, corner = _rounded(pieces, tip_radius, curves.tip_rounding)
+        segments, corner = _rounded(pieces, tip_radius, curves.tip_rounding)
     else:
-        corner = end_point(pieces[-1].curve)
+        segments, corner = _as_segments(pieces), end_point(pieces[-1].curve)
     angle = cmath.phase(corner)
     if angle > -TOLERANCES.relative_length:
-        return pieces
-    return [*pieces, Segment(Arc(0j, tip_radius, angle, -angle), Label.TIP_LAND)]
+        return segments
+    return [*segments, Segment(Arc(0j, tip_radius, angle, -angle), Label.TIP_LAND)]
+
+
+def _as_segments(pieces: list[FlankPiece]) -> list[Segment]:
+    return [Segment(piece.curve, piece.label) for piece in pieces]
 
 
 def _chamfer_line(gear: SpurGear, flank: Involute, relief: Involute | None) -> Line:
@@ -173,7 +180,9 @@ def _chamfer_line(gear: SpurGear, flank: Involute, relief: Involute | None) -> L
     height, tip_radius = gear.tip_chamfer, gear.tip_radius
     foot_radius = tip_radius - height
     if foot_radius <= flank.base_radius:
-        raise ParameterError("tip_chamfer", height, f"at most {at_most(tip_radius - flank.base_radius)} stays on the flank")
+        raise ParameterError(
+            "tip_chamfer", height, f"at most {at_most(tip_radius - flank.base_radius)} stays on the flank"
+        )
     angles = [float(f.polar_angle_at_radius(foot_radius)) for f in (flank, relief) if f is not None]
     foot = cmath.rect(foot_radius, max(angles))
     direction = cmath.exp(1j * (max(angles) + math.pi / 4))
@@ -184,7 +193,7 @@ def _chamfer_line(gear: SpurGear, flank: Involute, relief: Involute | None) -> L
     return Line(foot, corner)
 
 
-def _chamfered(pieces: list[Segment], tip_radius: float, chamfer: Line) -> tuple[list[Segment], complex]:
+def _chamfered(pieces: list[FlankPiece], tip_radius: float, chamfer: Line) -> tuple[list[Segment], complex]:
     """Flank pieces cut at the chamfer, and the chamfer up to the tip circle or the tooth's centre line."""
     direction = complex(chamfer.tangent(0.0))
 
@@ -198,30 +207,29 @@ def _chamfered(pieces: list[Segment], tip_radius: float, chamfer: Line) -> tuple
         raise ParameterError("tip_chamfer", abs(chamfer.end - chamfer.start), "does not cut the flank; change it")
     top = kept[-1].curve
     roll = bracketed_root(lambda f: height(complex(top.point(f))), top.start_roll, top.end_roll).value
-    kept[-1] = Segment(replace(top, end_roll=roll), kept[-1].label)
+    kept[-1] = FlankPiece(replace(top, end_roll=roll), kept[-1].label)
     foot = complex(top.point(roll))
     along = (foot.conjugate() * direction).real
     corner = foot + direction * (math.sqrt(max(along**2 + tip_radius**2 - abs(foot) ** 2, 0.0)) - along)
     if corner.imag > 0:
         corner = complex(foot.real - foot.imag * direction.real / direction.imag, 0.0)
-    return [*kept, Segment(Line(foot, corner), Label.TIP_BREAK)], corner
+    return [*_as_segments(kept), Segment(Line(foot, corner), Label.TIP_BREAK)], corner
 
 
-def _rounded(pieces: list[Segment], tip_radius: float, radius: float) -> tuple[list[Segment], complex]:
+def _rounded(pieces: list[FlankPiece], tip_radius: float, radius: float) -> tuple[list[Segment], complex]:
     """An arc that touches the flank and the tip circle."""
-    for piece in reversed(pieces):
+    for index, piece in reversed(list(enumerate(pieces))):
         flank = piece.curve
-        centre_roll = float(flank.roll_at_radius(0.0 if radius >= tip_radius else tip_radius - radius))
-        inner = _turned(flank, radius)
-        centre = complex(inner.point(centre_roll))
+        if radius >= tip_radius - flank.base_radius:
+            break
+        centre_roll = float(flank.roll_at_radius(tip_radius - radius))
+        centre = complex(_turned(flank, radius).point(centre_roll))
         touch_roll = centre_roll + radius / flank.base_radius
-        if radius < tip_radius and flank.start_roll < touch_roll < flank.end_roll and centre_roll > 0:
-            if centre.imag > 0:
-                break
+        if flank.start_roll < touch_roll < flank.end_roll and centre.imag <= 0:
             touch, corner = complex(flank.point(touch_roll)), centre * tip_radius / abs(centre)
-            kept = [*pieces[: pieces.index(piece)], Segment(replace(flank, end_roll=touch_roll), piece.label)]
+            kept = [*pieces[:index], FlankPiece(replace(flank, end_roll=touch_roll), piece.label)]
             arc = arc_between(centre, touch, corner, turns_left=True)
-            return [*kept, Segment(arc, Label.TIP_BREAK)], corner
+            return [*_as_segments(kept), Segment(arc, Label.TIP_BREAK)], corner
     raise ParameterError("tip_rounding", radius, "does not fit between flank and tip land; make it smaller")
 
 
@@ -230,6 +238,7 @@ def _turned(flank: Involute, distance: float) -> Involute:
     return replace(flank, base_angle=flank.base_angle + distance / flank.base_radius)
 
 
-def _doubled(land: Arc) -> Arc:
-    """A land that ends on the x axis, made whole by its mirror image."""
-    return replace(land, sweep=2 * land.sweep)
+def _both_halves(land: Curve, middle: float) -> Arc:
+    """A half land about the axis made whole: as long on either side of the polar angle ``middle``."""
+    low, high = land.domain
+    return Arc(0j, abs(start_point(land)), middle - (high - low), 2 * (high - low))
