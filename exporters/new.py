@@ -10,8 +10,21 @@ from msgspec import Struct
 from parts.scene import KINDS, ExportSpec, SceneInfo
 from parts.schema import describe_type
 
-# the keys without a default need a value to start from
-_STARTING_VALUES = {"module": "2.0", "number_of_teeth": "23", "format": '"dxf"', "depth_coefficient": "0.02"}
+# values to start from, for keys that have no default or whose default depends on others
+_EXAMPLES = {
+    "module": "2.0",
+    "number_of_teeth": "23",
+    "format": '"dxf"',
+    "depth_coefficient": "0.02",
+    "tip_diameter": "50.0",
+    "tip_radius_coefficient": "0.38",
+    "material": '"plywood 3 mm"',
+    "colour": '"#c08040"',
+    "purpose": '"laser"',
+    "tolerance": "0.005",
+    "name": '"laser"',
+    "parts": '["gear"]',
+}
 
 
 def new_scene(kind: str) -> str:
@@ -19,7 +32,7 @@ def new_scene(kind: str) -> str:
     spec = KINDS[kind][0]
     lines = [
         "# A scene of higherpair: build it with  higherpair build THIS_FILE.toml",
-        "# Lines that begin with # are defaults; remove the # to change them. Lengths in mm, angles in degrees.",
+        "# Lines that begin with # show defaults or examples; remove the # to set them. Lengths in mm, angles in degrees.",
         "",
         "[scene]",
         *_keys(SceneInfo),
@@ -41,16 +54,11 @@ def new_scene(kind: str) -> str:
 
 
 def _keys(owner: type[Struct]) -> list[str]:
+    """One line a key; keys with a default stand commented out."""
     lines = []
     for field in msgspec.structs.fields(owner):
-        name, text = field.encode_name, describe_type(field.type)
-        if field.required:
-            lines.append(_line(f"{name} = {_STARTING_VALUES[name]}", text))
-        elif (table := _table_of(field.type)) is not None and field.default is None:
-            inner = ", ".join(f"{f.encode_name} = {_start(f)}" for f in msgspec.structs.fields(table) if _start(f))
-            lines.append(_line(f"# {name} = {{ {inner} }}", text))
-        else:
-            lines.append(_line(f"# {name} = {_toml(field.default)}", text))
+        code = f"{field.encode_name} = {_value(field)}"
+        lines.append(_line(code if field.required else f"# {code}", describe_type(field.type)))
     return lines
 
 
@@ -58,17 +66,12 @@ def _line(code: str, text: str) -> str:
     return f"{code:<44} # {text}" if text else code
 
 
-def _start(field: msgspec.structs.FieldInfo) -> str:
-    return _STARTING_VALUES[field.encode_name] if field.required else _toml(field.default)
-
-
-def _table_of(kind: object) -> type[Struct] | None:
-    return next((a for a in get_args(kind) if isinstance(a, type) and issubclass(a, Struct)), None)
-
-
-def _toml(value: object) -> str:
-    if value is None:
-        return ""
-    if isinstance(value, bool):
-        return str(value).lower()
-    return f'"{value}"' if isinstance(value, str) else str(value)
+def _value(field: msgspec.structs.FieldInfo) -> str:
+    """The default of a key as TOML, or an example where it has none."""
+    if field.required or field.default is None:
+        table = next((a for a in get_args(field.type) if isinstance(a, type) and issubclass(a, Struct)), None)
+        if table is None:
+            return _EXAMPLES[field.encode_name]
+        inner = (f"{f.encode_name} = {_value(f)}" for f in msgspec.structs.fields(table))
+        return "{ " + ", ".join(inner) + " }"
+    return f'"{field.default}"' if isinstance(field.default, str) else str(field.default)

@@ -112,13 +112,9 @@ def describe_type(kind: Any) -> str:
         return "one of " + ", ".join(f'"{a}"' for a in get_args(kind))
     meta = next((m for m in getattr(kind, "__metadata__", ()) if isinstance(m, Meta)), None)
     if meta is None:
-        described = [describe_type(a) for a in get_args(kind)]
-        tables = [
-            (a.__doc__ or "").rstrip(".")
-            for a in get_args(kind) or (kind,)
-            if isinstance(a, type) and issubclass(a, Struct)
-        ]
-        return " or ".join(filter(None, [*described, *tables]))
+        if isinstance(kind, type) and issubclass(kind, Struct):
+            return f"table: {(kind.__doc__ or '').splitlines()[0].rstrip('.')}"
+        return " or ".join(filter(None, (describe_type(a) for a in get_args(kind))))
     low = f"above {meta.gt:g}" if meta.gt is not None else f"at least {meta.ge:g}" if meta.ge is not None else ""
     high = f"at most {meta.le:g}" if meta.le is not None else ""
     unit = meta.extra["unit"] if meta.extra else ""

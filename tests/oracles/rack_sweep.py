@@ -149,7 +149,8 @@ def _scan(radius: Floats, angle: Floats, tool: RackTool, z: int, grid: int) -> F
     nodes = np.linspace(-1.0, 1.0, grid)
     best = _depth_at(np.zeros_like(radius), radius, angle, tool, z)
     for _ in range(2):  # the second scan uses the first one's value to bound the range
-        span = _range(radius, best, tool, z)
+        # two cells more at each end: a maximum in an end cell must have nodes on both sides of it
+        span = _range(radius, best, tool, z) * (1 + 8 / grid)
         psi = span[:, None] * nodes
         depth = _depth_at(psi, radius[:, None], angle[:, None], tool, z)
         best = np.maximum(best, depth.max(axis=1))
@@ -186,7 +187,7 @@ def penetration(points: ArrayLike, tool: RackTool, z: int, grid: int = GRID) -> 
 
     0 on the generated outline (root, fillet, flank), < 0 in the metal (there it is minus the distance from
     the cut space, exactly), > 0 in the space (there at most the distance from the metal, see
-    `clearance_error`). The tip circle plays no part. Accuracy about 1e-15 of the radius.
+    `clearance_error`). The tip circle plays no part. Accuracy a few 1e-15 of the radius.
     """
     p = np.atleast_1d(np.asarray(points, dtype=np.complex128)).ravel()
     radius, angle = np.abs(p), np.angle(p)

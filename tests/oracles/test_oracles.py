@@ -134,6 +134,18 @@ def test_grid_does_not_matter(name: str) -> None:
     assert np.abs(coarse - dense).max() < 2e-15 * float(p.tip_radius)
 
 
+@pytest.mark.parametrize("rho", [0.0, 0.2])
+@pytest.mark.parametrize("z", [3, 5, 8])
+def test_grid_does_not_matter_in_deep_undercut(z: int, rho: float) -> None:
+    """There the greatest depth is often found at the very end of the range the tool can reach."""
+    tool = RackTool(1, np.radians(14.5), 1, 0.25, rho, -0.4)
+    rng = np.random.default_rng(5)
+    cloud = z / 2 + rng.uniform(-1.2, 0.6, 400)
+    cloud = cloud * np.exp(1j * rng.uniform(-4, 4, 400))
+    coarse, dense = (penetration(cloud, tool, z, grid=n) for n in (513, 6001))
+    assert np.abs(coarse - dense).max() < 4e-15 * z
+
+
 def test_gear_axis_and_far_points() -> None:
     p = CASES["z23"]
     root = 23 - 2.5

@@ -1,0 +1,212 @@
+"""Every curve class under the laws of tests/laws.py, and what each class promises beyond them."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from geometry.curve import Curve, Reversed
+from geometry.errors import CuspError
+from geometry.involute import Involute
+from geometry.line_arc import Arc, Line
+from geometry.offset import OffsetCurve
+from geometry.placement import Placement2
+from geometry.trochoid import Trochoid, TrochoidFillet
+from tests import laws
+from tests.strategies import curves, fillets, involutes, lines, numbers, parallels, placements, trochoids
+
+EXAMPLES: dict[str, Curve] = {
+    "line": Line(1 + 2j, 4 - 3j),
+    "arc left": Arc(2 - 1j, 3.0, 0.4, 1.9),
+    "arc right": Arc(2 - 1j, 3.0, 0.4, -1.9),
+    "involute": Involute(21.6, -0.083, 0.0934, 0.58),
+    "involute from the base circle": Involute(21.6, -0.083, 0.0, 0.58, 1j),
+    "involute, other branch": Involute(21.6, -0.083, -0.58, -0.0934, 3.0),
+    "trochoid": Trochoid(23.0, 1.74, -0.13, 0.0, 4.8),
+    "trochoid, curtate": Trochoid(23.0, -1.74, 0.5, -3.0, 4.8, 2 + 1j),
+    "fillet": TrochoidFillet(23.0, 1.74, 0.76, -0.131, 0.0, 1.2217),
+    "fillet, centre on the pitch line": TrochoidFillet(23.0, 0.0, 0.76, -0.131, 0.0, 1.2217),
+    "fillet, centre outside": TrochoidFillet(23.0, -0.26, 0.76, -0.131, 0.0, 1.2217),
+    "fillet, upper side": TrochoidFillet(23.0, 1.74, 0.76, 0.131, -1.2217, 0.0, -1j),
+    "fillet of a small gear": TrochoidFillet(3.0, 1.4, 0.76, 0.1, 0.0, 1.2217),
+    "parallel of a trochoid": OffsetCurve(Trochoid(23.0, 1.74, -0.13, 0.0, 4.8), -0.3),
+    "parallel of an arc": OffsetCurve(Arc(1j, 5.0, 0.0, 2.0), 1.2),
+}
+EXAMPLES |= {f"reversed {name}": Reversed(curve) for name, curve in EXAMPLES.items()}
+EVERY = pytest.mark.parametrize("curve", EXAMPLES.values(), ids=EXAMPLES.keys())
+
+
+def test_every_class_is_among_the_examples() -> None:
+    kinds = {type(c) for c in EXAMPLES.values()}
+    assert kinds == {Line, Arc, Involute, Trochoid, TrochoidFillet, OffsetCurve, Reversed}
+    assert {type(c.original) for c in EXAMPLES.values() if isinstance(c, Reversed)} == kinds - {Reversed}
+    assert all(isinstance(c, Curve) for c in EXAMPLES.values())
+
+
+@EVERY
+def test_derivatives_against_fifty_digits(curve: Curve) -> None:
+    laws.check_derivatives(curve)
+
+
+@EVERY
+def test_tangent_and_curvature_against_fifty_digits(curve: Curve) -> None:
+    laws.check_tangent_and_curvature(curve)
+
+
+@EVERY
+def test_methods_are_vectorised(curve: Curve) -> None:
+    t = laws.parameters(curve, 6).reshape(2, 3)
+    for method in (curve.point, curve.derivative, curve.tangent):
+        values = method(t)
+        assert values.shape == (2, 3)
+        assert values[1, 2] == method(t[1, 2])
+    assert curve.curvature(t).shape == (2, 3)
+
+
+@EVERY
+def test_empty_trim_is_refused(curve: Curve) -> None:
+    middle = sum(curve.domain) / 2
+    with pytest.raises(ValueError, match="empty parameter interval"):
+        curve.trimmed(middle, middle)
+
+
+@settings(max_examples=25, deadline=None)
+@given(curves)
+def test_derivatives_of_any_curve(curve: Curve) -> None:
+    laws.check_derivatives(curve)
+    laws.check_tangent_and_curvature(curve)
+
+
+@settings(max_examples=120, deadline=None)
+@given(curves, placements, numbers(0, 0.45), numbers(0.55, 1))
+def test_laws_of_any_curve(curve: Curve, placement: Placement2, a: float, b: float) -> None:
+    laws.check_derivative_bound(curve)
+    laws.check_reversal(curve)
+    laws.check_placement(curve, placement)
+    laws.check_trimming(curve, a, b)
+
+
+@settings(max_examples=120, deadline=None)
+@given(curves, numbers(-5, 5))
+def test_offset_is_refused_exactly_where_it_turns_back(curve: Curve, distance: float) -> None:
+    laws.check_cusp(curve, distance)
+
+
+@settings(max_examples=120, deadline=None)
+@given(st.one_of(lines(), involutes(), trochoids(), fillets(), parallels()), numbers(-1, 1), numbers(-1, 1))
+def test_offsets_add(curve: Curve, first: float, second: float) -> None:
+    t = np.linspace(*curve.domain, 257)
+    bend = np.abs(curve.curvature(t))
+    room = 0.45 / float(np.max(bend[np.isfinite(bend)], initial=0.05)) if np.all(np.isfinite(bend)) else 0.0
+    if room == 0.0:  # an involute that starts on its base circle moves one way only
+        sense = 1 if sum(curve.domain) > 0 else -1
+        first, second = -abs(first), -abs(second)
+        assert sense * laws.stretch_range(curve, first + second)[0] * sense >= 1
+        room = 1.0
+    laws.check_offset_adds(curve, first * room, second * room)
+
+
+@settings(max_examples=60, deadline=None)
+@given(trochoids().filter(lambda c: c.depth > 0), numbers(0.02, 0.9))
+def test_parallel_of_the_centre_path_is_the_fillet(path: Trochoid, share: float) -> None:
+    """A rounding rho about the path's point envelopes its parallel; two classes, one curve."""
+    rho = share * path.pitch_radius / 4
+    parallel = OffsetCurve(path, -rho)
+    u = np.arctan(np.linspace(path.start, path.end, 41) / path.depth)
+    fillet = TrochoidFillet(path.pitch_radius, path.depth, rho, path.angle, u[0], u[-1], path.centre)
+    s = path.depth * np.tan(u)
+    assert np.max(np.abs(fillet.point(u) - parallel.point(s))) <= 1e-12 * path.pitch_radius
+    assert np.max(np.abs(fillet.tangent(u) - parallel.tangent(s))) <= 1e-9
+    assert np.max(np.abs(fillet.curvature(u) / parallel.curvature(s) - 1)) <= 1e-8
+
+
+@settings(max_examples=60, deadline=None)
+@given(fillets(), numbers(-0.5, 0.5))
+def test_offset_keeps_the_family(fillet: TrochoidFillet, share: float) -> None:
+    distance = share * fillet.tip_radius
+    if laws.stretch_range(fillet, distance)[0] > 1e-9 and fillet.cusp() is None:
+        moved = fillet.offset(distance)
+        assert type(moved) is TrochoidFillet
+        assert moved.domain == fillet.domain
+        laws.check_offset_distance(fillet, distance)
+
+
+def test_an_involute_stays_an_involute() -> None:
+    flank = EXAMPLES["involute"]
+    moved = flank.offset(0.4)
+    assert type(moved) is Involute
+    assert moved.base_radius == flank.base_radius
+    laws.check_offset_distance(flank, 0.4)
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize("side", [1, -1])
+def test_involute_cusps_at_its_base_circle(sense: int, side: int) -> None:
+    """1 - d/(r_b f) = 0 at f = d/r_b: just inside the domain it is refused and named, just outside allowed."""
+    flank = Involute(20.0, 0.3, 0.1, 0.5) if sense > 0 else Involute(20.0, 0.3, -0.5, -0.1)
+    limit = 20.0 * 0.1
+    flank.offset(limit * (1 - 1e-12))
+    with pytest.raises(CuspError) as caught:
+        flank.offset(limit * (1 + 1e-9))
+    assert caught.value.t == pytest.approx(sense * 0.1, rel=1e-8)
+    assert caught.value.distance == limit * (1 + 1e-9)
+    flank.offset(side * -3.0 if side > 0 else 1.0)
+
+
+@settings(max_examples=60, deadline=None)
+@given(numbers(0.02, 0.98), numbers(1e-7, 1e-3), numbers(-0.3, 0.2))
+def test_parallel_of_a_trochoid_turns_back_between_samples(place: float, excess: float, start: float) -> None:
+    """The sharpest point of the path (s = 0) lies anywhere in the domain; a hair past its radius is refused."""
+    path = Trochoid(23.0, 1.74, 0.0, -place, 1.0 - place)
+    radius = 1 / abs(float(path.curvature(0.0)))
+    sign = math.copysign(1, float(path.curvature(0.0)))
+    with pytest.raises(CuspError) as caught:
+        path.offset(sign * radius * (1 + excess))
+    value = 1 - sign * radius * (1 + excess) * float(path.curvature(caught.value.t))
+    assert abs(value) <= max(2 * excess, 1e-9)
+    path.offset(sign * radius * (1 - 1e-9))
+
+
+@settings(max_examples=60, deadline=None)
+@given(fillets())
+def test_fillet_speed_and_turning(fillet: TrochoidFillet) -> None:
+    """Speed rho (1 + q sec^2) + D q sec^3 and turning rate -(1 + q sec^2), from finite differences of exact points."""
+    u = np.linspace(*fillet.domain, 7)[1:-1]
+    first = fillet.derivative(u)
+    along = (first * np.conj(fillet.tangent(u))).real
+    assert np.max(np.abs(np.abs(along) - np.abs(fillet.speed(u)))) <= 1e-10 * np.max(np.abs(along))
+    sec = 1 / np.cos(u)
+    q = fillet.depth / fillet.pitch_radius
+    turning = fillet.curvature(u) * np.abs(first)
+    assert np.max(np.abs(turning + 1 + q * sec**2)) <= 1e-9 * np.max(1 + abs(q) * sec**2)
+
+
+@settings(max_examples=60, deadline=None)
+@given(fillets())
+def test_radius_along_the_fillet(fillet: TrochoidFillet) -> None:
+    """d|e|^2/2 = speed r sin u du: with positive speed the fillet of a lower side rises from root to flank."""
+    at_origin = fillet.placed(Placement2(0.0, -fillet.centre))
+    u = np.linspace(*at_origin.domain, 9)
+    change = (np.conj(at_origin.point(u)) * at_origin.derivative(u)).real
+    law = at_origin.speed(u) * at_origin.pitch_radius * np.sin(u)
+    assert np.max(np.abs(change - law)) <= 1e-12 * at_origin.pitch_radius * np.max(np.abs(at_origin.derivative(u)))
+
+
+def test_fillet_cusp_is_the_first_root_of_its_speed() -> None:
+    """A fillet moved by more than rho turns back near the root first (theory note A10 i)."""
+    fillet = EXAMPLES["fillet"]
+    grown = TrochoidFillet(23.0, 1.74, 0.76 - 1.0, -0.131, 0.0, 1.2217)
+    assert fillet.cusp() is None
+    assert grown.cusp() == 0.0
+    with pytest.raises(CuspError):
+        fillet.offset(-1.0)
+    at = TrochoidFillet(23.0, -3.0, 2.0, 0.0, 0.0, 1.3).cusp()
+    assert at is not None
+    s = 1 / math.cos(at)
+    q = -3.0 / 23.0
+    assert abs(2.0 + 2.0 * q * s**2 - 3.0 * q * s**3) <= 1e-10 or abs(
+        float(TrochoidFillet(23.0, -3.0, 2.0, 0.0, 0.0, 1.3).speed(at))) <= 1e-10
