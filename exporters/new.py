@@ -32,7 +32,8 @@ def new_scene(kind: str) -> str:
     spec = KINDS[kind][0]
     lines = [
         "# A scene of higherpair: build it with  higherpair build THIS_FILE.toml",
-        "# Lines that begin with # show defaults or examples; remove the # to set them. Lengths in mm, angles in degrees.",
+        "# Lines that begin with # show defaults or examples; remove the # to set them.",
+        "# Lengths in mm, angles in degrees.",
         "",
         "[scene]",
         *_keys(SceneInfo),

@@ -77,9 +77,9 @@ def _wanted_exports(scene: SceneFile, source: str, only_formats: list[str]) -> l
 
 
 def _file_name(part_id: str, export: ExportSpec, exports: list[ExportSpec]) -> str:
-    """``<part>.<ext>``; with the export's name in between where two exports share an ending."""
-    shared = sum(e.format == export.format and (e.parts is None or part_id in e.parts) for e in exports) > 1
-    if export.name or shared:
+    """``<part>.<ext>``; with the export's name (default: its purpose) in between where two exports share an ending."""
+    sharing = [e for e in exports if e.format == export.format and (e.parts is None or part_id in e.parts)]
+    if len(sharing) > 1:
         return f"{part_id}.{export.name or export.purpose}.{export.format}"
     return f"{part_id}.{export.format}"
 

@@ -63,7 +63,7 @@ def test_methods_are_vectorised(curve: Curve) -> None:
     for method in (curve.point, curve.derivative, curve.tangent):
         values = method(t)
         assert values.shape == (2, 3)
-        assert values[1, 2] == method(t[1, 2])
+        assert abs(values[1, 2] - method(t[1, 2])) <= 1e-14 * max(1.0, abs(values[1, 2]))
     assert curve.curvature(t).shape == (2, 3)
 
 
@@ -103,9 +103,8 @@ def test_offsets_add(curve: Curve, first: float, second: float) -> None:
     bend = np.abs(curve.curvature(t))
     room = 0.45 / float(np.max(bend[np.isfinite(bend)], initial=0.05)) if np.all(np.isfinite(bend)) else 0.0
     if room == 0.0:  # an involute that starts on its base circle moves one way only
-        sense = 1 if sum(curve.domain) > 0 else -1
         first, second = -abs(first), -abs(second)
-        assert sense * laws.stretch_range(curve, first + second)[0] * sense >= 1
+        assert laws.stretch_range(curve, first + second)[0] >= 1
         room = 1.0
     laws.check_offset_adds(curve, first * room, second * room)
 
@@ -115,7 +114,7 @@ def test_offsets_add(curve: Curve, first: float, second: float) -> None:
 def test_parallel_of_the_centre_path_is_the_fillet(path: Trochoid, share: float) -> None:
     """A rounding rho about the path's point envelopes its parallel; two classes, one curve."""
     rho = share * path.pitch_radius / 4
-    parallel = OffsetCurve(path, -rho)
+    parallel = OffsetCurve(path, rho)
     u = np.arctan(np.linspace(path.start, path.end, 41) / path.depth)
     fillet = TrochoidFillet(path.pitch_radius, path.depth, rho, path.angle, u[0], u[-1], path.centre)
     s = path.depth * np.tan(u)
@@ -157,9 +156,20 @@ def test_involute_cusps_at_its_base_circle(sense: int, side: int) -> None:
     flank.offset(side * -3.0 if side > 0 else 1.0)
 
 
+@pytest.mark.parametrize("name", ["involute", "involute, other branch"])
+def test_a_reversed_curve_names_its_own_cusp(name: str) -> None:
+    curve = Reversed(EXAMPLES[name])
+    distance = -21.6 * 0.2
+    with pytest.raises(CuspError) as caught:
+        curve.offset(distance)
+    assert caught.value.distance == distance
+    assert curve.domain[0] <= caught.value.t <= curve.domain[1]
+    assert abs(1 - distance * float(curve.curvature(caught.value.t))) <= 1e-12
+
+
 @settings(max_examples=60, deadline=None)
-@given(numbers(0.02, 0.98), numbers(1e-7, 1e-3), numbers(-0.3, 0.2))
-def test_parallel_of_a_trochoid_turns_back_between_samples(place: float, excess: float, start: float) -> None:
+@given(numbers(0.02, 0.98), numbers(1e-7, 1e-3))
+def test_parallel_of_a_trochoid_turns_back_between_samples(place: float, excess: float) -> None:
     """The sharpest point of the path (s = 0) lies anywhere in the domain; a hair past its radius is refused."""
     path = Trochoid(23.0, 1.74, 0.0, -place, 1.0 - place)
     radius = 1 / abs(float(path.curvature(0.0)))
@@ -204,9 +214,9 @@ def test_fillet_cusp_is_the_first_root_of_its_speed() -> None:
     assert grown.cusp() == 0.0
     with pytest.raises(CuspError):
         fillet.offset(-1.0)
-    at = TrochoidFillet(23.0, -3.0, 2.0, 0.0, 0.0, 1.3).cusp()
+    bent = TrochoidFillet(23.0, -3.0, 30.0, 0.0, 0.0, 1.4)
+    at = bent.cusp()
     assert at is not None
-    s = 1 / math.cos(at)
-    q = -3.0 / 23.0
-    assert abs(2.0 + 2.0 * q * s**2 - 3.0 * q * s**3) <= 1e-10 or abs(
-        float(TrochoidFillet(23.0, -3.0, 2.0, 0.0, 0.0, 1.3).speed(at))) <= 1e-10
+    assert abs(float(bent.speed(at))) <= 1e-10 * bent.tip_radius
+    assert np.all(bent.speed(np.linspace(0, at - 1e-6, 1001)) > 0)
+    assert float(bent.speed(at + 1e-6)) < 0

@@ -1,0 +1,1 @@
+"""Tests of ``exporters``: files measured from outside, negative controls, and the command."""

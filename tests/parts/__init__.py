@@ -1,0 +1,1 @@
+"""Tests of ``parts``: scenes, refusals and solids."""
