@@ -97,7 +97,7 @@ def _head(middle: float, extra_width: float = 0.0, extra_height: float = 0.0) ->
 
 def _shape(contour: Contour, attributes: str, middle: float) -> str:
     """A contour as a path, or as a circle where it is one."""
-    if len(contour) == 2 and np.all(np.abs(contour.bulges) == 1):
+    if len(contour) == 2 and np.allclose(np.abs(contour.bulges), 1, rtol=1e-12):
         centre, radius = contour.vertices.mean(), abs(contour.vertices[0] - contour.vertices[1]) / 2
         x, y = _number(middle + centre.real), _number(middle - centre.imag)
         return f'<circle cx="{x}" cy="{y}" r="{_number(radius)}" {attributes}/>'

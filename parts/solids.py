@@ -132,9 +132,10 @@ def _polygon_triangles(polygon: Complex) -> Triangles:
 
 
 def _ladder(polygon: Complex) -> Triangles:
-    """Both sides of a polygon zipped from its first edge's ends upwards, always the lower side next."""
+    """Both sides of a polygon zipped upwards from the ends of its closing edge, always the lower one next."""
     low, high = 0, len(polygon) - 1
-    x = polygon.real
+    base = polygon[-1] - polygon[0]
+    x = (polygon * np.conj(-1j * base / abs(base))).real
     triangles = []
     while high - low > 1:
         if x[low + 1] <= x[high - 1]:

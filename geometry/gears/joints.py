@@ -10,6 +10,7 @@ import cmath
 import math
 from dataclasses import replace
 
+from geometry.intersect import crossing_circle
 from geometry.involute import Involute
 from geometry.roots import bracketed_root
 from geometry.trochoid import TrochoidFillet
@@ -43,10 +44,10 @@ def fillet_flank_joint(fillet: TrochoidFillet, flank: Involute) -> tuple[Trochoi
 
 def parameter_at_radius(fillet: TrochoidFillet, radius: float) -> float:
     """Parameter u at which a rising fillet is ``radius`` from the axis."""
-    low, high = fillet.domain
+    high = fillet.domain[1]
     if abs(complex(fillet.point(high))) <= radius:
         return high
-    return bracketed_root(lambda u: abs(complex(fillet.point(u))) - radius, low, high).value
+    return crossing_circle(fillet, radius).value
 
 
 def flank_crossing_radius(inner: Involute, outer: Involute, low: float, high: float) -> float | None:

@@ -19,6 +19,7 @@ from geometry.errors import GeometryError, ParameterError, at_least, at_most
 from geometry.findings import Finding
 from geometry.gears.spur import SpurGear
 from geometry.gears.tooth import SideCurves, ToothSide, assemble_side, tooth_side
+from geometry.intersect import first_above
 from geometry.line_arc import Arc
 from geometry.profile import Label, Profile, Region, Segment, circle, joint_turn
 from geometry.roots import bracketed_root
@@ -159,7 +160,7 @@ def _joined_to_root(
     """Pieces and root land trimmed to their crossing; no land where they meet beyond the centre line."""
     if not trimmed or land is None:
         return pieces, land
-    found = _first_crossing(pieces, lambda point: abs(point) - radius)
+    found = _from_first_above(pieces, lambda point: abs(point) - radius)
     if found is None:
         return pieces, None
     kept = found
@@ -185,27 +186,19 @@ def _above_centre_line(
         raise OffsetError(bottom, "closes the tooth spaces", 0.0)
     if pieces[last].label is Label.CORNER and pieces[last + 1].label in (Label.TIP_LAND, Label.TIP_BREAK):
         raise OffsetError(bottom, "closes the tooth spaces", 0.0)
-    kept = _first_crossing(pieces[last:], lambda point: (point * turn).imag)
+    kept = _from_first_above(pieces[last:], lambda point: (point * turn).imag)
     if kept is None:
         raise OffsetError(bottom, "closes the tooth spaces", 0.0)
     findings.append(Finding("space_shallowed", abs(start_point(kept[0].curve)), bottom))
     return kept
 
 
-def _first_crossing(pieces: list[Segment], height: Callable[[complex], float]) -> list[Segment] | None:
+def _from_first_above(pieces: list[Segment], height: Callable[[complex], float]) -> list[Segment] | None:
     """The pieces from the first point at which ``height`` becomes positive."""
-    for index, piece in enumerate(pieces):
-        low, high = piece.curve.domain
-        if height(end_point(piece.curve)) <= 0:
-            continue
-        curve = piece.curve
-        at = low if height(start_point(curve)) > 0 else _crossing(curve, height)
-        return (
-            [Segment(curve.trimmed(at, high), piece.label), *pieces[index + 1 :]] if at < high else pieces[index + 1 :]
-        )
-    return None
-
-
-def _crossing(curve: Curve, height: Callable[[complex], float]) -> float:
-    """Parameter at which ``height`` changes sign along a curve."""
-    return bracketed_root(lambda t: height(complex(curve.point(t))), *curve.domain).value
+    found = first_above([p.curve for p in pieces], height)
+    if found is None:
+        return None
+    index, at = found
+    curve, label = pieces[index].curve, pieces[index].label
+    rest = pieces[index + 1 :]
+    return [Segment(curve.trimmed(at, curve.domain[1]), label), *rest] if at < curve.domain[1] else rest

@@ -22,10 +22,10 @@ from geometry.gears.joints import (
     pointed_radius,
 )
 from geometry.gears.spur import SpurGear
+from geometry.intersect import crossing_line, height_over_line
 from geometry.involute import Involute
 from geometry.line_arc import Arc, Line, arc_between
 from geometry.profile import Label, Profile, Segment
-from geometry.roots import bracketed_root
 from geometry.tolerance import TOLERANCES
 from geometry.trochoid import TrochoidFillet
 
@@ -124,6 +124,8 @@ def assemble_side(curves: SideCurves, pitch_angle: float, *, blunt: bool = False
         segments.append(Segment(fillet, Label.ROOT_FILLET))
     top = flank if curves.relief is None else curves.relief
     apex = min(pointed_radius(flank), pointed_radius(top))
+    if apex <= form_radius * (1 + TOLERANCES.relative_length):
+        raise PointedTipError("tip diameter", 2 * tip_radius, "the flanks meet below the root form circle")
     if apex <= tip_radius:
         if not blunt:
             raise PointedTipError("tip diameter", 2 * tip_radius, f"the tooth is pointed at {at_most(2 * apex)}")
@@ -198,7 +200,7 @@ def _chamfered(pieces: list[FlankPiece], tip_radius: float, chamfer: Line) -> tu
     direction = complex(chamfer.tangent(0.0))
 
     def height(point: complex) -> float:
-        return ((point - chamfer.start) * direction.conjugate()).imag
+        return height_over_line(point, chamfer.start, direction)
 
     kept = list(pieces)
     while kept and height(start_point(kept[-1].curve)) < 0:
@@ -206,7 +208,7 @@ def _chamfered(pieces: list[FlankPiece], tip_radius: float, chamfer: Line) -> tu
     if not kept or height(end_point(kept[-1].curve)) > 0:
         raise ParameterError("tip_chamfer", abs(chamfer.end - chamfer.start), "does not cut the flank; change it")
     top = kept[-1].curve
-    roll = bracketed_root(lambda f: height(complex(top.point(f))), top.start_roll, top.end_roll).value
+    roll = crossing_line(top, chamfer.start, direction).value
     kept[-1] = FlankPiece(replace(top, end_roll=roll), kept[-1].label)
     foot = complex(top.point(roll))
     along = (foot.conjugate() * direction).real

@@ -234,7 +234,7 @@ def deviations(chains: list[Chain], gear: Gear, offset: float) -> dict[str, floa
     if len(chains) > 1:
         ring = chains[0].dense().ravel()
         worst["bore"] = float(np.abs(np.abs(ring) - (gear.bore / 2 - offset)).max())
-    points = outer.dense().ravel()
+    points = outer.dense(24 if len(outer.vertices) < 1000 else 6).ravel()
     off, names, piece = distances(points, gear)
     for index, name in enumerate(names):
         mine = piece == index
@@ -243,7 +243,7 @@ def deviations(chains: list[Chain], gear: Gear, offset: float) -> dict[str, floa
     asked = points_at(gear, offset)
     turns = np.exp(2j * math.pi * np.arange(gear.teeth) / gear.teeth)
     chosen = turns[[0, gear.teeth // 3, gear.teeth // 2, gear.teeth - 1]]
-    ring = outer.dense(96).ravel()
+    ring = outer.dense(96 if outer.sweeps.any() else 1).ravel()
     ring = np.append(ring, ring[0])
     worst["missed"] = max(float(_to_whole(np.concatenate([asked, np.conj(asked)]) * t, ring).max()) for t in chosen)
     return worst

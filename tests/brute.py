@@ -1,0 +1,134 @@
+"""Slow and simple measuring, written apart from the product: dense points, ternary search, elementary arcs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.curve import Curve
+from geometry.gears.spur import SpurGear
+from geometry.profile import Profile
+from tests.oracles.exact_gear import GearParameters
+from tests.oracles.rack_sweep import RackTool
+
+Complex = NDArray[np.complex128]
+Real = NDArray[np.float64]
+_TERNARY_STEPS = 90
+
+
+def dense(curve: Curve, count: int = 400) -> Complex:
+    """Points of a curve, ends included."""
+    return np.asarray(curve.point(np.linspace(*curve.domain, count)))
+
+
+def period_points(profile: Profile, count: int = 400) -> Complex:
+    """Dense points of the first period, segment after segment."""
+    return np.concatenate([dense(s.curve, count) for s in profile.period])
+
+
+def polygon(profile: Profile, count: int, periods: int | None = None) -> Complex:
+    """Vertices of the whole outline (or its first periods), without the end point of each segment."""
+    one = np.concatenate([dense(s.curve, count + 1)[:-1] for s in profile.period])
+    turns = np.exp(2j * math.pi / profile.count * np.arange(periods or profile.count))
+    return (turns[:, None] * one).ravel()
+
+
+def distance_to_curve(points: Complex, curve: Curve, samples: int = 400) -> Real:
+    """Least distance by nearest sample and ternary search beside it."""
+    t = np.linspace(*curve.domain, samples)
+    on_curve = curve.point(t)
+    nearest = np.concatenate([np.argmin(np.abs(part[:, None] - on_curve), axis=1) for part in _blocks(points)])
+    best = np.abs(points - on_curve[nearest])
+    low, high = t[np.maximum(nearest - 1, 0)], t[np.minimum(nearest + 1, samples - 1)]
+    for _ in range(_TERNARY_STEPS):
+        a, b = low + (high - low) / 3, high - (high - low) / 3
+        da, db = np.abs(curve.point(a) - points), np.abs(curve.point(b) - points)
+        low, high = np.where(da > db, a, low), np.where(da > db, high, b)
+        best = np.minimum(best, np.minimum(da, db))
+    return best
+
+
+def _blocks(points: Complex, size: int = 2000) -> Iterable[Complex]:
+    return [points[i : i + size] for i in range(0, len(points), size)]
+
+
+def distance_to_outline(points: Complex, profile: Profile, samples: int = 400) -> Real:
+    """Least distance to any segment of any period within one pitch of the point."""
+    pitch = 2 * math.pi / profile.count
+    middle = np.angle(np.mean(period_points(profile, 9))) if profile.count > 1 else 0.0
+    folded = points * np.exp(-1j * pitch * np.round((np.angle(points) - middle) / pitch))
+    best = np.full(points.shape, np.inf)
+    for shift in range(profile.count) if profile.count <= 3 else (-1, 0, 1):
+        turned = folded * np.exp(-1j * pitch * shift)
+        for segment in profile.period:
+            best = np.minimum(best, distance_to_curve(turned, segment.curve, samples))
+    return best
+
+
+def arc_points(start: complex, end: complex, bulge: float, count: int) -> Complex:
+    """Points of one edge by the angle about its centre."""
+    share = np.linspace(0, 1, count)
+    if bulge == 0:
+        return start + share * (end - start)
+    sweep = 4 * math.atan(bulge)
+    centre = (start + end) / 2 + 1j * (end - start) / (2 * math.tan(sweep / 2))
+    return centre + (start - centre) * np.exp(1j * sweep * share)
+
+
+def distance_to_edge(points: Complex, start: complex, end: complex, bulge: float) -> Real:
+    """Distance to one line or arc."""
+    ends = np.minimum(np.abs(points - start), np.abs(points - end))
+    if bulge == 0:
+        along = ((points - start) * np.conj(end - start)).real / abs(end - start) ** 2
+        across = np.abs(((points - start) * np.conj(end - start)).imag) / abs(end - start)
+        return np.where((along > 0) & (along < 1), across, ends)
+    sweep = 4 * math.atan(bulge)
+    centre = (start + end) / 2 + 1j * (end - start) / (2 * math.tan(sweep / 2))
+    middle = (start + end) / 2 - 1j * (end - start) / 2 * bulge
+    inside = np.abs(np.angle((points - centre) / (middle - centre))) <= abs(sweep) / 2
+    return np.where(inside, np.abs(np.abs(points - centre) - abs(start - centre)), ends)
+
+
+def distance_to_contour(points: Complex, vertices: Complex, bulges: Real, count: int) -> Real:
+    """Distance of points beside the first period to the contour of that period and its neighbours."""
+    best = np.full(points.shape, np.inf)
+    turn = np.exp(2j * math.pi / count)
+    ends = np.append(vertices[1:], vertices[0] * turn)
+    for start, end, bulge in zip(vertices, ends, bulges, strict=True):
+        for shift in (0,) if count == 1 else (-1, 0, 1):
+            k = turn**shift
+            best = np.minimum(best, distance_to_edge(points, start * k, end * k, float(bulge)))
+    return best
+
+
+def contour_points(vertices: Complex, bulges: Real, count: int, per_edge: int = 60) -> Complex:
+    """Points of every edge of the first period."""
+    ends = np.append(vertices[1:], vertices[0] * np.exp(2j * math.pi / count))
+    edges = zip(vertices, ends, bulges, strict=True)
+    return np.concatenate([arc_points(complex(s), complex(e), float(b), per_edge) for s, e, b in edges])
+
+
+def rack_tool(gear: SpurGear) -> RackTool:
+    """The sweeping oracle's tool for a gear; a deeper cut is a standard tool fed further in."""
+    rack, deeper = gear.rack, gear.thinning_by_deeper_cut
+    infeed = gear.circumferential_thinning / (2 * math.tan(rack.pressure_angle)) if deeper else 0.0
+    return RackTool(
+        m=gear.module, alpha=rack.pressure_angle, ha=rack.addendum, c=rack.tip_clearance, rho=rack.tip_radius,
+        x=gear.profile_shift_coefficient - infeed / gear.module,
+        thinning=0.0 if deeper else gear.circumferential_thinning,
+        relief_depth=rack.relief.depth if rack.relief else 0.0,
+        relief_height=rack.relief.height if rack.relief else 0.45,
+    )
+
+
+def exact_parameters(gear: SpurGear) -> GearParameters:
+    """The 50-digit oracle's gear, with the product's own tip radius."""
+    tool = rack_tool(gear)
+    return GearParameters(
+        z=gear.number_of_teeth, m=tool.m, alpha=tool.alpha, ha=tool.ha, c=tool.c, rho=tool.rho, x=tool.x,
+        thinning=tool.thinning, tip_radius=gear.tip_radius,
+        relief_depth=tool.relief_depth, relief_height=tool.relief_height,
+    )
