@@ -100,10 +100,20 @@ def _write_stl(job: Job, made: tuple[Approximation, ...], file: Path) -> dict[st
     return write_stl(file, extruded_gear(outer, bore, job.part.face_width))
 
 
+def _write_3mf(job: Job, made: tuple[Approximation, ...], file: Path) -> dict[str, int]:
+    from exporters.threemf import write_3mf
+    from parts.solids import extruded_gear
+
+    outer, bore = made[-1].geometry, made[0].geometry if len(made) > 1 else None
+    mesh = extruded_gear(outer, bore, job.part.face_width)
+    return write_3mf(file, job.part.id, mesh, job.part.colour)
+
+
 _WRITERS: dict[str, Callable[[Job, tuple[Approximation, ...], Path], dict[str, int]]] = {
     "dxf": _write_dxf,
     "svg": _write_svg,
     "stl": _write_stl,
+    "3mf": _write_3mf,
 }
 
 
@@ -113,7 +123,7 @@ def _job_findings(job: Job, made: tuple[Approximation, ...]) -> list[Finding]:
     limit = _COARSE_SHARE * job.part.circles["reference_diameter"] / job.section.region.outer.count
     if (job.export.tolerance or 0.0) > limit:
         found.append(Finding("coarse_tolerance", float(job.export.tolerance or 0.0), limit))
-    if job.export.format != "stl":
+    if not job.is_mesh:
         short = sum(
             int(np.count_nonzero(np.abs(a.geometry.period_ends() - a.geometry.vertices) < LEAST_SEGMENT_MM))
             * a.geometry.count

@@ -35,6 +35,11 @@ class Job:
     place: str
 
     @property
+    def is_mesh(self) -> bool:
+        """Whether the format holds triangles, with coordinates as float32."""
+        return self.export.format in ("stl", "3mf")
+
+    @property
     def layer_order(self) -> tuple[str, ...]:
         """Layer of each boundary in ``approximations``: inner ones are cut first."""
         return (*("CUT_INNER" for _ in self.section.region.holes), "CUT_OUTER")
@@ -61,14 +66,14 @@ def approximations(job: Job) -> tuple[Approximation, ...]:
     Raises
     ------
     ParameterError
-        The tolerance asks for more edges than a file can carry, or is below what STL's numbers resolve.
+        The tolerance asks for more edges than a file can carry, or is below what a mesh file's numbers resolve.
     """
     tolerance, rounding = float(job.export.tolerance or 0.0), number_rounding(job)
-    arcs, least = job.export.curves == "arcs" and job.export.format != "stl", LEAST_SEGMENT_MM
-    if job.export.format == "stl":
+    arcs, least = job.export.curves == "arcs" and not job.is_mesh, LEAST_SEGMENT_MM
+    if job.is_mesh:
         least = 64 * rounding
         if tolerance < 8 * rounding:
-            remedy = f"STL stores 7 digits, at this size at least {at_least(8 * rounding)} mm works"
+            remedy = f"a mesh file stores 7 digits, at this size at least {at_least(8 * rounding)} mm works"
             raise ParameterError("tolerance", tolerance, remedy)
     # the rounding of the file's numbers takes its share of the tolerance first
     made = tuple(
@@ -85,7 +90,9 @@ def approximations(job: Job) -> tuple[Approximation, ...]:
 def number_rounding(job: Job) -> float:
     """How far the rounding of a file's numbers may move an outline, mm."""
     reach = job.section.region.outer.reach()
-    return {"stl": _FLOAT32 * reach, "svg": _SVG_ROUNDING}.get(job.export.format, _DXF_ROUNDING * reach)
+    if job.is_mesh:
+        return _FLOAT32 * reach
+    return _SVG_ROUNDING if job.export.format == "svg" else _DXF_ROUNDING * reach
 
 
 def declared_error(job: Job, made: tuple[Approximation, ...]) -> tuple[float, str]:

@@ -158,3 +158,30 @@ def read_stl(file: Path) -> ReadMesh:
     vertex[order] = group
     first = order[np.concatenate([[True], fresh])]
     return ReadMesh(corners[first].astype(float), vertex.reshape(-1, 3))
+
+
+_3MF_CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
+
+
+def read_3mf(file: Path) -> ReadMesh:
+    """The single object of a 3MF file, in mm; read with zipfile and an XML parser, without lib3mf."""
+    import zipfile
+    from xml.etree import ElementTree
+
+    try:
+        with zipfile.ZipFile(file) as package:
+            root = ElementTree.fromstring(package.read("3D/3dmodel.model"))
+    except (zipfile.BadZipFile, KeyError, ElementTree.ParseError, OSError) as error:
+        raise ReadError(f"not a readable 3MF: {error}") from error
+    objects, items = root.findall(f".//{_3MF_CORE}object"), root.findall(f".//{_3MF_CORE}item")
+    if root.get("unit") != "millimeter" or len(objects) != 1 or len(items) != 1:
+        raise ReadError("the 3MF does not hold one object in mm, built once")
+    try:
+        corners = [[float(v.get(k, "")) for k in "xyz"] for v in objects[0].iter(f"{_3MF_CORE}vertex")]
+        rows = [[int(t.get(k, "")) for k in ("v1", "v2", "v3")] for t in objects[0].iter(f"{_3MF_CORE}triangle")]
+    except ValueError as error:
+        raise ReadError(f"a broken number in the 3MF: {error}") from error
+    vertices, triangles = np.array(corners).reshape(-1, 3), np.array(rows, dtype=np.int64).reshape(-1, 3)
+    if not len(triangles) or triangles.min() < 0 or triangles.max() >= len(vertices):
+        raise ReadError("a 3MF triangle names a vertex that is not there")
+    return ReadMesh(vertices, triangles)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from exporters.readers import Loop, ReadError, ReadMesh, read_dxf, read_stl, read_svg
+from exporters.readers import Loop, ReadError, ReadMesh, read_3mf, read_dxf, read_stl, read_svg
 from geometry.contour import edge_points, signed_area
 from geometry.curve import Complex
 from geometry.measure import distance_to_profile, profile_area
@@ -36,8 +36,9 @@ def verify_file(file: Path, kind: str, region: Region, thickness: float, declare
     ``declared``: the error that its report states, mm; the measured one must not exceed it or ``tolerance``.
     """
     try:
-        if kind == "stl":
-            return _verify_mesh(read_stl(file), region, thickness, declared, tolerance)
+        if kind in ("stl", "3mf"):
+            mesh = read_stl(file) if kind == "stl" else read_3mf(file)
+            return _verify_mesh(mesh, region, thickness, declared, tolerance)
         loops = read_dxf(file) if kind == "dxf" else read_svg(file)
         return _verdict(loops, region, declared, tolerance)
     except (ReadError, OSError) as error:

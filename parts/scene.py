@@ -19,7 +19,7 @@ from parts.spur_gear import SpurGearSpec, make_spur_gear
 SCENE_FOLDER = Path(__file__).parent / "scenes"
 KINDS: dict[str, tuple[type[Struct], Any]] = {"spur_gear": (SpurGearSpec, make_spur_gear)}
 # purpose and tolerance (mm) that an export has where it names none
-_DEFAULTS = {"dxf": ("laser", 0.005), "svg": ("laser", 0.005), "stl": ("print", 0.01)}
+_DEFAULTS = {"dxf": ("laser", 0.005), "svg": ("laser", 0.005), "stl": ("print", 0.01), "3mf": ("print", 0.01)}
 FORMATS = tuple(_DEFAULTS)
 # a scene that is larger than this is not one
 _MAX_SCENE_BYTES = 4_000_000
@@ -35,7 +35,7 @@ class SceneInfo(Struct, forbid_unknown_fields=True):
 class ExportSpec(Struct, forbid_unknown_fields=True):
     """Keys of ``[[exports]]``."""
 
-    format: Annotated[Literal["dxf", "svg", "stl"], Meta(description="file format")]
+    format: Annotated[Literal["dxf", "svg", "stl", "3mf"], Meta(description="file format")]
     purpose: Annotated[Literal["laser", "print"], Meta(description="what for")] | None = None
     tolerance: Annotated[float, mm("largest deviation from the exact curve", least=1e-7, most=1.0)] | None = None
     kerf: Annotated[float, mm("full width of the cut; the path runs half of it outside the part", least=0, most=10)] = (
