@@ -34,7 +34,7 @@ def build(
     folder beside and moved when all are done; on any exception, an interrupt too, that folder goes.
     """
     shapes = [_shapes(job, plan.source) for job in plan.jobs]
-    with _staging(folder) as staging:
+    with staging_folder(folder) as staging:
         written = []
         for job, shape in zip(plan.jobs, shapes, strict=True):
             progress(job.path)
@@ -65,7 +65,7 @@ def _write(job: Job, shape: tuple[tuple[Approximation, ...], float], file: Path,
     made, spent = shape
     seconds = {"approximate": spent}
     start = time.perf_counter()
-    entities = _WRITERS[job.export.format](job, made, file)
+    entities = WRITERS[job.export.format](job, made, file)
     seconds["write"] = time.perf_counter() - start
     max_error, bound = declared_error(job, made)
     findings = (*job.part.findings, *job.section.findings, *_job_findings(job, made))
@@ -109,7 +109,7 @@ def _write_3mf(job: Job, made: tuple[Approximation, ...], file: Path) -> dict[st
     return write_3mf(file, job.part.id, mesh, job.part.colour)
 
 
-_WRITERS: dict[str, Callable[[Job, tuple[Approximation, ...], Path], dict[str, int]]] = {
+WRITERS: dict[str, Callable[[Job, tuple[Approximation, ...], Path], dict[str, int]]] = {
     "dxf": _write_dxf,
     "svg": _write_svg,
     "stl": _write_stl,
@@ -147,7 +147,7 @@ def _preview(part: Part, folder: Path, language: str) -> Path:
 
 
 @contextmanager
-def _staging(folder: Path) -> Iterator[Path]:
+def staging_folder(folder: Path) -> Iterator[Path]:
     """A folder beside ``folder`` that is gone afterwards; ``folder`` itself goes too if nothing came into it."""
     created = [p for p in (folder, *folder.parents) if not p.exists()]
     staging = folder / f".building-{os.getpid()}"

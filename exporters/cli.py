@@ -1,4 +1,4 @@
-"""The command ``higherpair``: build, verify, list, new. Exit codes: 0 done, 1 a check failed, 2 wrong input."""
+"""The command ``higherpair``. Exit codes: 0 done, 1 a check failed, 2 wrong input (one clear line)."""
 
 from __future__ import annotations
 
@@ -69,6 +69,12 @@ def _parser() -> argparse.ArgumentParser:
     verify = commands.add_parser("verify", help="read files back and hold them against the part in their report")
     verify.add_argument("files", nargs="+", type=Path, metavar="FILE")
     verify.set_defaults(run=_verify)
+    converge = commands.add_parser("converge", help="error against run time, over a ladder of tolerances")
+    converge.add_argument("scene", help="a built-in scene or a scene file (.toml)")
+    converge.add_argument("--out", default="out", type=Path, help="folder for the results (default: out)")
+    converge.add_argument("--part", action="append", default=[], metavar="ID", help="only this part")
+    converge.add_argument("--format", action="append", default=[], metavar="F", help="only this format")
+    converge.set_defaults(run=_converge)
     listing = commands.add_parser("list", help="kinds of parts and built-in scenes")
     listing.set_defaults(run=_list)
     new = commands.add_parser("new", help="print a commented scene to start from")
@@ -114,6 +120,26 @@ def _verify(options: argparse.Namespace) -> int:
     results = [recheck(file) for file in options.files]
     verify_table(results)
     return FAILED if any(r.verdict.failures for r in results) else DONE
+
+
+def _converge(options: argparse.Namespace) -> int:
+    from exporters.build import staging_folder
+    from exporters.converge import ladder, orders, write_csv, write_pictures
+    from exporters.plan import plan_build
+    from exporters.tables import converge_tables
+    from parts.scene import load_scene
+
+    scene = load_scene(options.scene)
+    plan = plan_build(scene, options.scene, options.part, options.format)
+    folder = options.out / scene.name
+    with staging_folder(folder) as staging:
+        rungs, found = ladder(plan, staging), orders(plan)
+        write_csv(staging / "converge.csv", rungs, found)
+        names = ["converge.csv", *write_pictures(staging, rungs, found)]
+        for name in names:
+            (staging / name).replace(folder / name)
+    converge_tables(rungs, found, [folder / name for name in names])
+    return FAILED if any(r.measured > r.max_error for r in rungs) else DONE
 
 
 def _list(options: argparse.Namespace) -> int:

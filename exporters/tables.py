@@ -12,6 +12,7 @@ from exporters.plan import Plan
 from exporters.words import finding_text, words
 
 if TYPE_CHECKING:
+    from exporters.converge import Order, Rung
     from exporters.recheck import Recheck
 
 
@@ -56,6 +57,39 @@ def verify_table(results: list[Recheck]) -> None:
         rows.append([str(r.file), measured, f"{r.declared:.3g}", f"{r.tolerance:g}", same, state])
         remarks += [f"FAILED: {r.file}: {failure}" for failure in r.verdict.failures]
     _show("", header, rows, remarks)
+
+
+def converge_tables(rungs: list[Rung], found: list[Order], files: list[Path]) -> None:
+    """Error against run time of every file, and the order of every method on every curve."""
+    header = ["file", "tolerance, mm", "declared, mm", "measured, mm", "edges", "kB", "ms (median)", "spread, ms"]
+    rows = [
+        [
+            r.file,
+            f"{r.tolerance:g}",
+            f"{r.max_error:.3g}",
+            f"{r.measured:.3g}",
+            str(r.entities),
+            f"{r.bytes / 1000:.1f}",
+            f"{1000 * r.seconds:.2f}",
+            f"{1000 * r.spread:.2f}",
+        ]
+        for r in rungs
+    ]
+    _show("error against run time", header, rows, [])
+    header = ["curve", "method", "order of the method", "observed order", "pieces", "error there, mm"]
+    rows = [
+        [
+            f"{o.part} {o.curve}",
+            o.method,
+            f"{o.theory:g}",
+            f"{o.observed:.3f}",
+            f"{o.counts[0]} to {o.counts[-1]}",
+            f"{o.errors[-1]:.3g}",
+        ]
+        for o in found
+        if o.counts
+    ]
+    _show("orders of convergence", header, rows, [str(file) for file in files])
 
 
 def _show(title: str, header: Sequence[str], rows: list[list[str]], remarks: list[str]) -> None:

@@ -101,21 +101,39 @@ def chord_parameters(curve: Curve, tolerance: float) -> tuple[Real, float, bool]
         return np.array(curve.domain), 0.0, True
     if isinstance(curve, Arc):
         return _arc_chords(curve, tolerance)
-    nodes = np.linspace(*curve.domain, _DENSITY_SAMPLES)
-    speed, curvature = np.abs(curve.derivative(nodes)), np.abs(curve.curvature(nodes))
-    with np.errstate(invalid="ignore"):
-        rate = np.where(speed > 0, np.sqrt(curvature * speed) * np.sqrt(speed), 0.0)
-    rate = np.where(np.isfinite(rate), rate, 0.0) + 1e-6 * speed.max() / math.sqrt(8 * tolerance)
-    coordinate = np.concatenate([[0.0], np.cumsum((rate[1:] + rate[:-1]) / 2 * np.diff(nodes))])
+    nodes, coordinate = _chord_density(curve)
     count = max(1, math.ceil(coordinate[-1] / math.sqrt(8 * tolerance)))
     while count <= _MAX_CHORDS:
-        t = np.interp(np.linspace(0, coordinate[-1], count + 1), coordinate, nodes)
-        t[0], t[-1] = curve.domain
+        t = _equal_steps(curve, nodes, coordinate, count)
         error = chord_error(curve, t)
         if error <= tolerance:
             return t, error, True
         count = max(count + 1, math.floor(count * math.sqrt(error / tolerance)))
     raise ConvergenceError("chords for the tolerance", tolerance, _MAX_CHORDS)
+
+
+def chords_of(curve: Curve, count: int) -> tuple[Real, float]:
+    """Parameters of a given number of chords of near equal error, and that error, mm."""
+    t = _equal_steps(curve, *_chord_density(curve), count)
+    return t, chord_error(curve, t)
+
+
+def _chord_density(curve: Curve) -> tuple[Real, Real]:
+    """Samples, and the integral of sqrt(|kappa|) ds, in which chords of equal error have equal length."""
+    nodes = np.linspace(*curve.domain, _DENSITY_SAMPLES)
+    speed, curvature = np.abs(curve.derivative(nodes)), np.abs(curve.curvature(nodes))
+    with np.errstate(invalid="ignore"):
+        rate = np.sqrt(curvature * speed) * np.sqrt(speed)
+    rate = np.where(np.isfinite(rate), rate, 0.0)
+    # a floor keeps the coordinate strictly increasing where the curve is straight or has a cusp
+    rate += 1e-6 * rate.max() + 1e-12 * np.sqrt(speed.max())
+    return nodes, np.concatenate([[0.0], np.cumsum((rate[1:] + rate[:-1]) / 2 * np.diff(nodes))])
+
+
+def _equal_steps(curve: Curve, nodes: Real, coordinate: Real, count: int) -> Real:
+    t = np.interp(np.linspace(0, coordinate[-1], count + 1), coordinate, nodes)
+    t[0], t[-1] = curve.domain
+    return t
 
 
 def _arc_chords(arc: Arc, tolerance: float) -> tuple[Real, float, bool]:

@@ -57,6 +57,21 @@ def arc_spline(curve: Curve, tolerance: float, *, limit: int = 4096) -> ArcSplin
     raise ConvergenceError("arcs for the tolerance", tolerance, limit)
 
 
+def arc_spline_of(curve: Curve, count: int) -> ArcSpline:
+    """The G1 spline of a given number of arcs.
+
+    Raises
+    ------
+    ConvergenceError
+        So few arcs cannot meet both end tangents.
+    """
+    nodes, coordinate, total = _density(curve)
+    spline = _spline_of(curve, count, nodes, coordinate, (total / count) ** 3)
+    if spline is None:
+        raise ConvergenceError(f"{count} arcs between the end tangents", math.nan, 0)
+    return spline
+
+
 def _density(curve: Curve) -> tuple[Real, Real, float]:
     """Samples, the coordinate in which arcs of equal error have equal length, and its whole length.
 

@@ -1,0 +1,69 @@
+"""A log-log picture as SVG: a few series of points, decades as grid lines."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+Series = tuple[str, list[float], list[float]]
+
+_WIDTH, _HEIGHT, _LEFT, _BOTTOM, _TOP, _KEY = 720.0, 420.0, 70.0, 50.0, 30.0, 190.0
+_COLOURS = ("#c03020", "#2060c0", "#209050", "#a06000", "#8030a0", "#008090", "#606060", "#d06090")
+
+
+def write_loglog(file: Path, title: str, x_name: str, y_name: str, series: list[Series]) -> None:
+    """Draw positive points of each series, joined in their order; others are left out."""
+    kept = [(name, _positive(xs, ys)) for name, xs, ys in series]
+    kept = [(name, points) for name, points in kept if points]
+    points = [p for _, row in kept for p in row]
+    x_axis, y_axis = _decades([p[0] for p in points]), _decades([p[1] for p in points])
+    lines = [
+        '<?xml version="1.0" encoding="UTF-8"?>',
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{_WIDTH:g}" height="{_HEIGHT:g}">',
+        '<rect width="100%" height="100%" style="fill:#ffffff"/>',
+        _text(_LEFT, 18, title),
+        _text(_LEFT, _HEIGHT - 10, x_name),
+        _text(8, _TOP - 8, y_name),
+    ]
+    lines += _grid(x_axis, y_axis)
+    for index, (name, row) in enumerate(kept):
+        colour = _COLOURS[index % len(_COLOURS)]
+        places = [(_at(p[0], x_axis, _LEFT, _WIDTH - _KEY), _at(p[1], y_axis, _HEIGHT - _BOTTOM, _TOP)) for p in row]
+        path = " ".join(f"{x:.2f},{y:.2f}" for x, y in places)
+        lines.append(f'<polyline points="{path}" style="fill:none;stroke:{colour};stroke-width:1.5"/>')
+        lines += [f'<circle cx="{x:.2f}" cy="{y:.2f}" r="3" style="fill:{colour}"/>' for x, y in places]
+        lines.append(_text(_WIDTH - _KEY + 14, _TOP + 16 * (index + 1), name, colour))
+    file.write_text("\n".join([*lines, "</svg>", ""]), encoding="utf-8", newline="\n")
+
+
+def _positive(xs: list[float], ys: list[float]) -> list[tuple[float, float]]:
+    return [(x, y) for x, y in zip(xs, ys, strict=True) if x > 0 and y > 0 and math.isfinite(x * y)]
+
+
+def _decades(values: list[float]) -> tuple[int, int]:
+    """Whole decades around the values."""
+    low, high = math.floor(math.log10(min(values))), math.ceil(math.log10(max(values)))
+    return low, max(high, low + 1)
+
+
+def _at(value: float, axis: tuple[int, int], start: float, end: float) -> float:
+    return start + (math.log10(value) - axis[0]) / (axis[1] - axis[0]) * (end - start)
+
+
+def _grid(x_axis: tuple[int, int], y_axis: tuple[int, int]) -> list[str]:
+    style = "stroke:#c8ccd0;stroke-width:0.7"
+    lines = []
+    for decade in range(x_axis[0], x_axis[1] + 1):
+        x = _at(10.0**decade, x_axis, _LEFT, _WIDTH - _KEY)
+        lines.append(f'<line x1="{x:.2f}" y1="{_TOP:g}" x2="{x:.2f}" y2="{_HEIGHT - _BOTTOM:g}" style="{style}"/>')
+        lines.append(_text(x - 12, _HEIGHT - _BOTTOM + 16, f"1e{decade}"))
+    for decade in range(y_axis[0], y_axis[1] + 1):
+        y = _at(10.0**decade, y_axis, _HEIGHT - _BOTTOM, _TOP)
+        lines.append(f'<line x1="{_LEFT:g}" y1="{y:.2f}" x2="{_WIDTH - _KEY:g}" y2="{y:.2f}" style="{style}"/>')
+        lines.append(_text(_LEFT - 42, y + 4, f"1e{decade}"))
+    return lines
+
+
+def _text(x: float, y: float, text: str, colour: str = "#202830") -> str:
+    safe = text.replace("&", "&amp;").replace("<", "&lt;")
+    return f'<text x="{x:.2f}" y="{y:.2f}" style="font-family:sans-serif;font-size:12px;fill:{colour}">{safe}</text>'
