@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geometry.curve import Curve
+from geometry.errors import GeometryError
 from geometry.gears.spur import SpurGear
 from geometry.profile import Profile
 from tests.oracles.exact_gear import GearParameters
@@ -16,7 +17,16 @@ from tests.oracles.rack_sweep import RackTool
 
 Complex = NDArray[np.complex128]
 Real = NDArray[np.float64]
-_TERNARY_STEPS = 90
+_TERNARY_STEPS = 70
+
+
+def refusal(build: Callable[[], object]) -> GeometryError | None:
+    """The GeometryError with which something is refused, or None where it is built."""
+    try:
+        build()
+    except GeometryError as error:
+        return error
+    return None
 
 
 def dense(curve: Curve, count: int = 400) -> Complex:
@@ -38,10 +48,19 @@ def polygon(profile: Profile, count: int, periods: int | None = None) -> Complex
 
 def distance_to_curve(points: Complex, curve: Curve, samples: int = 400) -> Real:
     """Least distance by nearest sample and ternary search beside it."""
+    coarse, nearest = _nearest(points, dense(curve, samples))
+    return _refined(points, curve, samples, coarse, nearest)
+
+
+def _nearest(points: Complex, samples: Complex) -> tuple[Real, NDArray[np.intp]]:
+    """Distance of each point from its nearest sample, and the sample's index."""
+    nearest = [np.argmin(np.abs(points[i : i + 2000, None] - samples), axis=1) for i in range(0, len(points), 2000)]
+    index = np.concatenate(nearest)
+    return np.abs(points - samples[index]), index
+
+
+def _refined(points: Complex, curve: Curve, samples: int, best: Real, nearest: NDArray[np.intp]) -> Real:
     t = np.linspace(*curve.domain, samples)
-    on_curve = curve.point(t)
-    nearest = np.concatenate([np.argmin(np.abs(part[:, None] - on_curve), axis=1) for part in _blocks(points)])
-    best = np.abs(points - on_curve[nearest])
     low, high = t[np.maximum(nearest - 1, 0)], t[np.minimum(nearest + 1, samples - 1)]
     for _ in range(_TERNARY_STEPS):
         a, b = low + (high - low) / 3, high - (high - low) / 3
@@ -51,21 +70,32 @@ def distance_to_curve(points: Complex, curve: Curve, samples: int = 400) -> Real
     return best
 
 
-def _blocks(points: Complex, size: int = 2000) -> Iterable[Complex]:
-    return [points[i : i + size] for i in range(0, len(points), size)]
+def distance_to_outline(points: Complex, profile: Profile, samples: int = 200) -> Real:
+    """Least distance to any segment of any period within one pitch of the point.
 
-
-def distance_to_outline(points: Complex, profile: Profile, samples: int = 400) -> Real:
-    """Least distance to any segment of any period within one pitch of the point."""
+    A segment is searched only for the points that it may be nearest to: its nearest sample less the widest gap
+    between samples is no farther than the nearest sample of all.
+    """
     pitch = 2 * math.pi / profile.count
     middle = np.angle(np.mean(period_points(profile, 9))) if profile.count > 1 else 0.0
     folded = points * np.exp(-1j * pitch * np.round((np.angle(points) - middle) / pitch))
     best = np.full(points.shape, np.inf)
-    for shift in range(profile.count) if profile.count <= 3 else (-1, 0, 1):
-        turned = folded * np.exp(-1j * pitch * shift)
-        for segment in profile.period:
-            best = np.minimum(best, distance_to_curve(turned, segment.curve, samples))
-    return best
+    found = []
+    for segment in profile.period:
+        on_curve = dense(segment.curve, samples)
+        gap = float(np.abs(np.diff(on_curve)).max())
+        for shift in range(profile.count) if profile.count <= 3 else (-1, 0, 1):
+            turned = folded * np.exp(-1j * pitch * shift)
+            coarse, nearest = _nearest(turned, on_curve)
+            found.append((segment.curve, turned, gap, coarse, nearest))
+            best = np.minimum(best, coarse)
+    result = best.copy()
+    for curve, turned, gap, coarse, nearest in found:
+        mine = np.flatnonzero(coarse - gap <= best)
+        if mine.size:
+            refined = _refined(turned[mine], curve, samples, coarse[mine], nearest[mine])
+            result[mine] = np.minimum(result[mine], refined)
+    return result
 
 
 def arc_points(start: complex, end: complex, bulge: float, count: int) -> Complex:

@@ -21,6 +21,7 @@ from geometry.line_arc import Arc, Line
 from geometry.offset import OffsetCurve
 from geometry.placement import Placement2
 from geometry.trochoid import Trochoid, TrochoidFillet
+from tests.brute import refusal
 
 MP: Any = mpmath.mp.clone()
 MP.dps = 50
@@ -222,18 +223,15 @@ def check_cusp(curve: Curve, distance: float) -> None:
         return
     if least > -1e-9:
         return  # tangent to the limit within rounding: either answer is right
-    try:
-        curve.offset(distance)
-    except CuspError as error:
-        if greatest <= 0:
-            return  # turned back everywhere: there is no change of sign to name
-        low, high = curve.domain
-        assert low <= error.t <= high, "the named parameter is not one of this curve"
-        assert error.distance == distance
-        step = (high - low) / 256
-        around = np.clip(np.array([error.t - 1.01 * step, error.t, error.t + 1.01 * step]), low, high)
-        values = 1 - distance * curve.curvature(around)
-        assert values.min() <= 1e-9, "the named parameter is not where the offset turns back"
-        assert values.max() >= -1e-9 or error.t == low
-        return
-    raise AssertionError(f"{curve} offset by {distance} turned back unseen: least 1 - kappa d = {least}")
+    error = refusal(lambda: curve.offset(distance))
+    assert isinstance(error, CuspError), f"{curve} offset by {distance} turned back unseen: 1 - kappa d = {least}"
+    if greatest <= 0:
+        return  # turned back everywhere: there is no change of sign to name
+    low, high = curve.domain
+    assert low <= error.t <= high, "the named parameter is not one of this curve"
+    assert error.distance == distance
+    step = (high - low) / 256
+    around = np.clip(np.array([error.t - 1.01 * step, error.t, error.t + 1.01 * step]), low, high)
+    values = 1 - distance * curve.curvature(around)
+    assert values.min() <= 1e-9, "the named parameter is not where the offset turns back"
+    assert values.max() >= -1e-9 or error.t == low

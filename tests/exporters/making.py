@@ -53,7 +53,10 @@ def part_keys(gear: Gear, face_width: float = 5.0) -> dict[str, Any]:
     return keys
 
 
-def write_scene(file: Path, parts: dict[str, dict[str, Any]], exports: Iterable[dict[str, Any]], head: str = "") -> Path:
+Keys = dict[str, Any]
+
+
+def write_scene(file: Path, parts: dict[str, Keys], exports: Iterable[Keys], head: str = "") -> Path:
     """A scene file."""
     text = head + "".join(table(f"[parts.{k}]", v) for k, v in parts.items())
     file.write_text(text + "".join(table("[[exports]]", e) for e in exports), encoding="utf-8")

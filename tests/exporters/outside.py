@@ -175,7 +175,8 @@ def _to_pieces(points: Points, starts: Points, ends: Points) -> Floats:
     return np.abs(points - starts - share * along)
 
 
-def points_at(gear: Gear, distance: float, step: int = 40) -> Points:
+@lru_cache(maxsize=64)
+def points_at(gear: Gear, distance: float, step: int = 60) -> Points:
     """Points of the outline moved outwards by ``distance`` that no other part of the gear cuts off (upper half)."""
     found = []
     for chain in half_tooth(gear).values():
@@ -234,7 +235,7 @@ def deviations(chains: list[Chain], gear: Gear, offset: float) -> dict[str, floa
     if len(chains) > 1:
         ring = chains[0].dense().ravel()
         worst["bore"] = float(np.abs(np.abs(ring) - (gear.bore / 2 - offset)).max())
-    points = outer.dense(24 if len(outer.vertices) < 1000 else 6).ravel()
+    points = outer.dense(12 if len(outer.vertices) < 1000 else 5).ravel()
     off, names, piece = distances(points, gear)
     for index, name in enumerate(names):
         mine = piece == index
@@ -243,18 +244,22 @@ def deviations(chains: list[Chain], gear: Gear, offset: float) -> dict[str, floa
     asked = points_at(gear, offset)
     turns = np.exp(2j * math.pi * np.arange(gear.teeth) / gear.teeth)
     chosen = turns[[0, gear.teeth // 3, gear.teeth // 2, gear.teeth - 1]]
-    ring = outer.dense(96 if outer.sweeps.any() else 1).ravel()
-    ring = np.append(ring, ring[0])
-    worst["missed"] = max(float(_to_whole(np.concatenate([asked, np.conj(asked)]) * t, ring).max()) for t in chosen)
+    for turn in chosen:
+        off = _to_file(np.concatenate([asked, np.conj(asked)]) * turn, outer)
+        worst["missed"] = max(worst.get("missed", 0.0), float(off.max()))
     return worst
 
 
-def _to_whole(points: Points, ring: Points) -> Floats:
-    """Distance of points from a closed dense chain, by looking at all of it that is near enough."""
-    middle, reach = points.mean(), np.abs(points - points.mean()).max()
-    long = np.abs(np.diff(ring)).max()
-    near = np.flatnonzero(np.abs(ring[:-1] - middle) < 1.5 * reach + 2 * long)
-    return np.concatenate([
-        _to_pieces(part[:, None], ring[near], ring[near + 1]).min(axis=1)
-        for part in np.array_split(points, max(1, len(points) // 200))
-    ])
+def _to_file(points: Points, chain: Chain) -> Floats:
+    """Distance of points that lie close together from a file's lines and arcs, by centre and radius."""
+    starts, ends = chain.edges()
+    middle = points.mean()
+    reach, long = np.abs(points - middle).max(), np.abs(ends - starts).max()
+    near = np.abs(starts - middle) < 1.5 * reach + 2 * long
+    a, b, sweep, p = starts[near], ends[near], chain.sweeps[near], points[:, None]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        centre = (a + b) / 2 + 1j * (b - a) / 2 / np.tan(sweep / 2)
+        turned = np.angle((p - centre) / (a - centre)) * np.sign(sweep) % (2 * math.pi)
+        round_off = np.where(turned <= np.abs(sweep), np.abs(np.abs(p - centre) - np.abs(a - centre)), np.inf)
+    round_off = np.minimum(round_off, np.minimum(np.abs(p - a), np.abs(p - b)))
+    return np.where(sweep == 0, _to_pieces(p, a, b), round_off).min(axis=1)

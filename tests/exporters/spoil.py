@@ -29,6 +29,7 @@ def moved(rows: Rows, at: int) -> Rows:
 
 def flattened_or_bent(rows: Rows, at: int) -> Rows:
     """The longest edge near a place gets another bulge: half as much sagitta again, or some where there was none."""
+
     def length(i: int) -> float:
         return abs(complex(rows[i][0] - rows[i - 1][0], rows[i][1] - rows[i - 1][1]))
 
@@ -40,6 +41,7 @@ def flattened_or_bent(rows: Rows, at: int) -> Rows:
 
 def dropped(rows: Rows, at: int) -> Rows:
     """A vertex left out: of those near the place the one that bends the outline most."""
+
     def lift(i: int) -> float:
         a, b, c = (complex(*rows[j % len(rows)][:2]) for j in (i - 1, i, i + 1))
         return abs(((c - a).conjugate() * (b - a)).imag) / abs(c - a)
@@ -179,7 +181,13 @@ def on_one_layer(drawing: Drawing) -> None:
 
 
 DXF_CHANGES = [
-    opened, with_a_stray_line, with_a_point, with_a_second_copy, without_the_bore, without_the_outline, on_one_layer
+    opened,
+    with_a_stray_line,
+    with_a_point,
+    with_a_second_copy,
+    without_the_bore,
+    without_the_outline,
+    on_one_layer,
 ]
 
 
@@ -227,7 +235,14 @@ def with_an_oval_arc(text: str) -> str:
 
 
 SVG_CHANGES = [
-    in_inches, without_unit, larger_page, lower_page, not_closed, with_a_transform, with_another_shape, with_an_oval_arc
+    in_inches,
+    without_unit,
+    larger_page,
+    lower_page,
+    not_closed,
+    with_a_transform,
+    with_another_shape,
+    with_an_oval_arc,
 ]
 
 
@@ -338,6 +353,18 @@ def normal_turned(records: Records, at: int, step: float) -> Records:
 
 
 STL_CHANGES = [
-    triangle_flipped, triangle_removed, triangle_doubled, corner_shifted, lower_vertex_moved, upper_vertex_moved,
-    upper_vertex_lowered, upper_face_turned, stretched, thicker, in_metres, inside_out, not_a_number, normal_turned,
+    triangle_flipped,
+    triangle_removed,
+    triangle_doubled,
+    corner_shifted,
+    lower_vertex_moved,
+    upper_vertex_moved,
+    upper_vertex_lowered,
+    upper_face_turned,
+    stretched,
+    thicker,
+    in_metres,
+    inside_out,
+    not_a_number,
+    normal_turned,
 ]

@@ -11,9 +11,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from ..oracles.rack_sweep import RackTool, outline_error
+from tests.oracles.rack_sweep import RackTool, outline_error
+
 from .making import build_gear, check_deviation, dxf_chains
-from .outside import Chain, Gear, distances
+from .outside import Chain, Gear, distances, half_tooth
 
 REFERENCE = Gear(2, 23, bore=8)
 PRACTICUM = Gear(10, 13, 0.694, tip_diameter=160.68, bore=30)
@@ -27,6 +28,8 @@ GEARS = {
     "fine watch": Gear(0.2, 60, bore=1),
     "large": Gear(20, 30, 0.2, bore=100),
 }
+
+ARCS_AND_LINES = [*((n, "arcs") for n in GEARS), ("m 2 z 23", "lines"), ("undercut", "lines")]
 
 
 def built(folder: Path, gear: Gear, **export: Any) -> tuple[Path, dict[str, Any]]:
@@ -144,7 +147,7 @@ def test_every_piece_is_within_the_tolerance(tmp_path: Path, name: str, toleranc
 
 
 @pytest.mark.parametrize("share", [0.05, 0.3, -0.1])
-@pytest.mark.parametrize(("name", "curves"), [*((n, "arcs") for n in GEARS), ("m 2 z 23", "lines"), ("undercut", "lines")])
+@pytest.mark.parametrize(("name", "curves"), ARCS_AND_LINES)
 def test_a_kerf_moves_every_point_by_half_of_it(tmp_path: Path, name: str, curves: str, share: float) -> None:
     """The unmoved outline is all that the measurement knows: the path must lie at its distance from it."""
     gear = GEARS[name]
@@ -167,7 +170,8 @@ def test_lines_only_has_no_arc_in_any_version(tmp_path: Path) -> None:
 
 def test_r12_holds_the_same_outline(tmp_path: Path) -> None:
     (tmp_path / "old").mkdir()
-    new, old = dxf_chains(built(tmp_path, REFERENCE)[0]), dxf_chains(built(tmp_path / "old", REFERENCE, dxf_version="R12")[0])
+    new = dxf_chains(built(tmp_path, REFERENCE)[0])
+    old = dxf_chains(built(tmp_path / "old", REFERENCE, dxf_version="R12")[0])
     for one, other in zip(new, old, strict=True):
         assert np.abs(one.vertices - other.vertices).max() < 1e-12
         assert np.abs(one.sweeps - other.sweeps).max() < 1e-12
@@ -187,8 +191,6 @@ def test_vertices_stand_on_the_gear_that_the_rack_leaves(tmp_path: Path, name: s
 
 @pytest.mark.parametrize("tolerance", [0.02, 0.001])
 def test_area_agrees_with_the_outside_outline(tmp_path: Path, tolerance: float) -> None:
-    from .outside import half_tooth
-
     file, entry = built(tmp_path, REFERENCE, tolerance=tolerance)
     inner, outer = dxf_chains(file)
     half = np.concatenate([[0j], *half_tooth(REFERENCE).values()])
@@ -202,8 +204,11 @@ def test_area_agrees_with_the_outside_outline(tmp_path: Path, tolerance: float) 
 @pytest.mark.heavy
 @settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck))
 @given(
-    module=st.floats(0.2, 20).map(lambda v: round(v, 3)), teeth=st.integers(9, 90), shift=st.floats(-0.2, 0.6),
-    tolerance=st.floats(-4, -1.3).map(lambda v: 10**v), share=st.floats(-0.1, 0.3),
+    module=st.floats(0.2, 20).map(lambda v: round(v, 3)),
+    teeth=st.integers(9, 90),
+    shift=st.floats(-0.2, 0.6),
+    tolerance=st.floats(-4, -1.3).map(lambda v: 10**v),
+    share=st.floats(-0.1, 0.3),
 )
 def test_any_gear_at_any_tolerance(
     tmp_path_factory: pytest.TempPathFactory, module: float, teeth: int, shift: float, tolerance: float, share: float

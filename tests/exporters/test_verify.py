@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import ezdxf
-import numpy as np
 import pytest
 
 from exporters.verify import verify_file
@@ -150,9 +149,7 @@ def test_a_spoiled_svg_is_caught(originals: Path, tmp_path: Path, change: Callab
 
 @pytest.mark.parametrize("where", SHARES)
 @pytest.mark.parametrize("change", spoil.STL_CHANGES, ids=lambda c: c.__name__)
-def test_a_spoiled_mesh_is_caught(
-    originals: Path, tmp_path: Path, change: Callable[..., Any], where: str
-) -> None:
+def test_a_spoiled_mesh_is_caught(originals: Path, tmp_path: Path, change: Callable[..., Any], where: str) -> None:
     file, entry = copied(originals, "stl", tmp_path)
     spoil.change_stl(file, change, SHARES[where], entry["tolerance"])
     check_caught(file, entry, command=where == "middle")

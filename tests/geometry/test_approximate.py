@@ -88,7 +88,7 @@ def test_chord_count_is_near_the_least(curve: Curve) -> None:
         a, b = t[-1], high
         if chord_error(curve, np.array([a, b])) > tolerance:
             low, b = a, high
-            for _ in range(26):
+            for _ in range(20):
                 middle = (low + b) / 2
                 low, b = (middle, b) if chord_error(curve, np.array([a, middle])) <= tolerance else (low, middle)
         t.append(b)
@@ -109,7 +109,8 @@ def test_arcs_stay_within_a_tight_bound(curve: Curve, tolerance: float) -> None:
     assert spline.max_error <= 2 * found.max() + RESOLUTION
     # the arcs are as far from the curve as the curve from the arcs
     worst = int(np.argmax(found))
-    on_arc = brute.arc_points(complex(spline.points[worst]), complex(spline.points[worst + 1]), spline.bulges[worst], 201)
+    start, end = (complex(p) for p in spline.points[worst : worst + 2])
+    on_arc = brute.arc_points(start, end, spline.bulges[worst], 201)
     assert brute.distance_to_curve(on_arc, curve).max() <= spline.max_error
 
 
@@ -297,3 +298,23 @@ def test_an_impossible_tolerance_is_refused(curve: Curve) -> None:
 def test_an_impossible_tolerance_for_arcs_is_refused() -> None:
     with pytest.raises(ConvergenceError):
         arc_spline(FLANK, 1e-18)
+
+
+@pytest.mark.parametrize(("kind", "constant"), [("lean", 72 * math.sqrt(3)), ("tangent", 40.5)])
+def test_error_constants_of_one_arc(kind: str, constant: float) -> None:
+    """DERIVATIONS 4: kappa' h^3/124.7 leaning by kappa' h^2/12, kappa' h^3/40.5 where the start is tangent."""
+    middle, h = 0.4, 0.01
+    a, b = middle - h / 2, middle + h / 2
+    points = FLANK.point(np.array([a, b]))
+    length = FLANK.base_radius * middle * h
+    # kappa = 1/(r_b f), ds = r_b f df
+    change = 1 / (FLANK.base_radius**2 * middle**3)
+    start = np.angle(complex(FLANK.tangent(a)))
+    chord = np.angle(points[1] - points[0])
+    # an involute turns by its roll angle: an arc of that sweep leans alike at both ends
+    sweep = h if kind == "lean" else 2 * (chord - start)
+    bulge = math.tan(sweep / 4)
+    lean = abs(chord - sweep / 2 - start)
+    assert lean == pytest.approx(change * length**2 / 12 if kind == "lean" else 0.0, rel=0.03, abs=1e-12)
+    found = brute.distance_to_edge(FLANK.point(np.linspace(a, b, 2001)), points[0], points[1], bulge).max()
+    assert found == pytest.approx(change * length**3 / constant, rel=0.03)

@@ -74,14 +74,14 @@ def test_empty_trim_is_refused(curve: Curve) -> None:
         curve.trimmed(middle, middle)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(curves)
 def test_derivatives_of_any_curve(curve: Curve) -> None:
     laws.check_derivatives(curve)
     laws.check_tangent_and_curvature(curve)
 
 
-@settings(max_examples=120, deadline=None)
+@settings(max_examples=120)
 @given(curves, placements, numbers(0, 0.45), numbers(0.55, 1))
 def test_laws_of_any_curve(curve: Curve, placement: Placement2, a: float, b: float) -> None:
     laws.check_derivative_bound(curve)
@@ -90,13 +90,13 @@ def test_laws_of_any_curve(curve: Curve, placement: Placement2, a: float, b: flo
     laws.check_trimming(curve, a, b)
 
 
-@settings(max_examples=120, deadline=None)
+@settings(max_examples=120)
 @given(curves, numbers(-5, 5))
 def test_offset_is_refused_exactly_where_it_turns_back(curve: Curve, distance: float) -> None:
     laws.check_cusp(curve, distance)
 
 
-@settings(max_examples=120, deadline=None)
+@settings(max_examples=120)
 @given(st.one_of(lines(), involutes(), trochoids(), fillets(), parallels()), numbers(-1, 1), numbers(-1, 1))
 def test_offsets_add(curve: Curve, first: float, second: float) -> None:
     t = np.linspace(*curve.domain, 257)
@@ -109,7 +109,7 @@ def test_offsets_add(curve: Curve, first: float, second: float) -> None:
     laws.check_offset_adds(curve, first * room, second * room)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(trochoids().filter(lambda c: c.depth > 0), numbers(0.02, 0.9))
 def test_parallel_of_the_centre_path_is_the_fillet(path: Trochoid, share: float) -> None:
     """A rounding rho about the path's point envelopes its parallel; two classes, one curve."""
@@ -123,7 +123,7 @@ def test_parallel_of_the_centre_path_is_the_fillet(path: Trochoid, share: float)
     assert np.max(np.abs(fillet.curvature(u) / parallel.curvature(s) - 1)) <= 1e-8
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(fillets(), numbers(-0.5, 0.5))
 def test_offset_keeps_the_family(fillet: TrochoidFillet, share: float) -> None:
     distance = share * fillet.tip_radius
@@ -167,7 +167,7 @@ def test_a_reversed_curve_names_its_own_cusp(name: str) -> None:
     assert abs(1 - distance * float(curve.curvature(caught.value.t))) <= 1e-12
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(numbers(0.02, 0.98), numbers(1e-7, 1e-3))
 def test_parallel_of_a_trochoid_turns_back_between_samples(place: float, excess: float) -> None:
     """The sharpest point of the path (s = 0) lies anywhere in the domain; a hair past its radius is refused."""
@@ -181,7 +181,7 @@ def test_parallel_of_a_trochoid_turns_back_between_samples(place: float, excess:
     path.offset(sign * radius * (1 - 1e-9))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(fillets())
 def test_fillet_speed_and_turning(fillet: TrochoidFillet) -> None:
     """Speed rho (1 + q sec^2) + D q sec^3 and turning rate -(1 + q sec^2), from finite differences of exact points."""
@@ -195,7 +195,7 @@ def test_fillet_speed_and_turning(fillet: TrochoidFillet) -> None:
     assert np.max(np.abs(turning + 1 + q * sec**2)) <= 1e-9 * np.max(1 + abs(q) * sec**2)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(fillets())
 def test_radius_along_the_fillet(fillet: TrochoidFillet) -> None:
     """d|e|^2/2 = speed r sin u du: with positive speed the fillet of a lower side rises from root to flank."""

@@ -33,7 +33,9 @@ HARD_ROOTS: list[tuple[str, Callable[[float], float], float, float, float]] = [
 ]
 
 
-@pytest.mark.parametrize(("function", "low", "high", "root"), [c[1:] for c in HARD_ROOTS], ids=[c[0] for c in HARD_ROOTS])
+@pytest.mark.parametrize(
+    ("function", "low", "high", "root"), [c[1:] for c in HARD_ROOTS], ids=[c[0] for c in HARD_ROOTS]
+)
 def test_root_is_enclosed_to_the_last_places(
     function: Callable[[float], float], low: float, high: float, root: float
 ) -> None:
@@ -53,8 +55,13 @@ def test_a_flat_root_at_an_end_of_the_bracket_is_found() -> None:
     assert bracketed_root(lambda x: x - 1, 0.0, 1.0).value == 1.0
 
 
-@settings(max_examples=200, deadline=None)
-@given(st.one_of(numbers(-1e3, -1e-3), numbers(1e-3, 1e3)), numbers(1e-3, 1e3), numbers(1e-3, 1e3), st.sampled_from((1, 3, 5)))
+@settings(max_examples=200)
+@given(
+    st.one_of(numbers(-1e3, -1e-3), numbers(1e-3, 1e3)),
+    numbers(1e-3, 1e3),
+    numbers(1e-3, 1e3),
+    st.sampled_from((1, 3, 5)),
+)
 def test_any_odd_power_is_solved_within_the_bracket(root: float, below: float, above: float, power: int) -> None:
     low, high = root - below, root + above
     found = bracketed_root(lambda x: (x - root) ** power, low, high)
@@ -111,7 +118,7 @@ def test_inverse_involute_of_infinity_ends() -> None:
         inverse_involute(math.inf)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(numbers(1e-4, 1.55))
 def test_inverse_undoes_the_involute_function(angle: float) -> None:
     # inv' = tan^2: the conditioning of the way back is inv/(angle tan^2), at most 1/3

@@ -50,9 +50,14 @@ def test_a_minimal_scene_gets_the_defaults_of_the_standard() -> None:
     assert part.section(0.0).region.holes == ()
 
 
-@pytest.mark.parametrize(("name", "purpose", "tolerance"), [
-    ("dxf", "laser", 0.005), ("svg", "laser", 0.005), ("stl", "print", 0.01),
-])
+@pytest.mark.parametrize(
+    ("name", "purpose", "tolerance"),
+    [
+        ("dxf", "laser", 0.005),
+        ("svg", "laser", 0.005),
+        ("stl", "print", 0.01),
+    ],
+)
 def test_an_export_gets_the_default_of_its_format(name: str, purpose: str, tolerance: float) -> None:
     scene = parsed(MINIMAL + f'[[exports]]\nformat = "{name}"\n')
     assert (scene.exports[0].purpose, scene.exports[0].tolerance) == (purpose, tolerance)
@@ -69,8 +74,10 @@ def test_the_dedendum_is_that_of_the_named_rack(name: str) -> None:
 
 
 def test_a_rack_table_and_a_tip_relief_are_taken() -> None:
-    part = gear_of(MINIMAL + "basic_rack = { addendum_coefficient = 0.8, tip_clearance_coefficient = 0.2 }\n"
-                   "tip_relief = { depth_coefficient = 0.02, height_coefficient = 0.4 }\n")
+    part = gear_of(
+        MINIMAL + "basic_rack = { addendum_coefficient = 0.8, tip_clearance_coefficient = 0.2 }\n"
+        "tip_relief = { depth_coefficient = 0.02, height_coefficient = 0.4 }\n"
+    )
     assert part.circles["root_diameter"] == pytest.approx(46 - 4)
     assert part.circles["tip_diameter"] == pytest.approx(46 + 3.2)
 
@@ -143,8 +150,9 @@ def test_a_resolved_scene_has_every_default_filled_in() -> None:
 
 
 lengths = st.floats(0, 5).map(lambda v: round(v, 6))
-relief_tables = st.fixed_dictionaries({"depth_coefficient": st.floats(0, 0.3)}, optional={
-    "height_coefficient": st.floats(0.01, 3)})
+relief_tables = st.fixed_dictionaries(
+    {"depth_coefficient": st.floats(0, 0.3)}, optional={"height_coefficient": st.floats(0.01, 3)}
+)
 gear_tables = st.fixed_dictionaries(
     {"kind": st.just("spur_gear"), "module": st.floats(0.01, 100), "number_of_teeth": st.integers(3, 10_000)},
     optional={
@@ -154,14 +162,21 @@ gear_tables = st.fixed_dictionaries(
         "tip_diameter": st.floats(0.1, 1e5),
         "thinning_method": st.sampled_from(["wider_rack_tooth", "deeper_cut"]),
         "tip_relief": relief_tables,
-        "tip_chamfer": lengths, "tip_rounding": lengths, "bore_diameter": lengths,
-        "material": st.text(max_size=20), "colour": st.just("#C08040"),
+        "tip_chamfer": lengths,
+        "tip_rounding": lengths,
+        "bore_diameter": lengths,
+        "material": st.text(max_size=20),
+        "colour": st.just("#C08040"),
     },
 )
 export_tables = st.fixed_dictionaries(
     {"format": st.sampled_from(["dxf", "svg", "stl"])},
-    optional={"tolerance": st.floats(1e-7, 1), "curves": st.sampled_from(["arcs", "lines"]),
-              "kerf": lengths, "name": st.from_regex(r"[A-Za-z0-9_-]{1,9}", fullmatch=True).map(lambda t: "x" + t)},
+    optional={
+        "tolerance": st.floats(1e-7, 1),
+        "curves": st.sampled_from(["arcs", "lines"]),
+        "kerf": lengths,
+        "name": st.from_regex(r"[A-Za-z0-9_-]{1,9}", fullmatch=True).map(lambda t: "x" + t),
+    },
 )
 
 

@@ -38,7 +38,7 @@ CASES = {
     "z10 undercut deeply": SpurGear(1.0, 10, iso_53("D"), -0.2),
     "z17 at the limit": SpurGear(1.0, 17, iso_53()),
     "z18 rack C, grazing": SpurGear(1.0, 18, iso_53("C")),
-    "z5": SpurGear(1.0, 5, iso_53(), 0.6),
+    "z5": SpurGear(1.0, 5, iso_53(), 0.6, given_tip_diameter=7.6),
     "z4": SpurGear(0.1, 4, iso_53(), 0.6, given_tip_diameter=0.62),
     "z1000": SpurGear(0.3, 1000, iso_53("B"), 0.3),
     "14.5 degrees": SpurGear(1.0, 41, iso_53("B", math.radians(14.5))),
@@ -68,13 +68,14 @@ def side_points(gear: SpurGear, count: int) -> np.ndarray:
 def test_outline_against_fifty_digits(gear: SpurGear) -> None:
     """Root land, fillet, joint, flank, relief and tip: every point lies on the envelope's outline."""
     parameters = brute.exact_parameters(gear)
-    worst = max(abs(float(exact_gear.normal_distance(complex(p), parameters))) for p in side_points(gear, 8))
+    worst = max(abs(float(exact_gear.normal_distance(complex(p), parameters))) for p in side_points(gear, 6))
     assert worst <= RIGHT * gear.tip_radius
 
 
 @EVERY
 def test_outline_against_the_swept_rack(gear: SpurGear) -> None:
-    error = rack_sweep.outline_error(side_points(gear, 60), brute.rack_tool(gear), gear.number_of_teeth, gear.tip_radius)
+    points = side_points(gear, 60)
+    error = rack_sweep.outline_error(points, brute.rack_tool(gear), gear.number_of_teeth, gear.tip_radius)
     assert error.max() <= RIGHT * gear.tip_radius
 
 
@@ -92,7 +93,8 @@ def test_the_whole_oracle_outline_is_there(gear: SpurGear) -> None:
 def test_joint_and_labels_against_the_oracle(gear: SpurGear) -> None:
     """Each piece ends where the oracle's ends; the joint is smooth unless undercut, where it is a convex corner."""
     parameters = brute.exact_parameters(gear)
-    pieces = {s.kind: s for s in exact_gear.half_tooth(parameters)}
+    # at a full round the root land is an angle of rounding only
+    pieces = {s.kind: s for s in exact_gear.half_tooth(parameters) if s.kind != "root" or s.hi - s.lo > 1e-11}
     names = {"root": Label.ROOT_LAND, "fillet": Label.ROOT_FILLET, "flank": Label.FLANK, "relief": Label.RELIEF,
              "tip": Label.TIP_LAND}
     side = tooth_side(gear).segments
@@ -188,7 +190,7 @@ BROKEN = {
 @pytest.mark.parametrize("name", BROKEN)
 @pytest.mark.parametrize("share", [0.001, 0.02, 0.1])
 def test_tip_chamfer(name: str, share: float) -> None:
-    """Radial height as asked, 45 degrees to the radius through its foot, foot on the flank, corner on the tip circle."""
+    """Radial height as asked, 45 degrees to the radius through its foot, foot on flank, corner on tip circle."""
     base = BROKEN[name]
     height = share * base.module
     gear = SpurGear(base.module, base.number_of_teeth, base.rack, base.profile_shift_coefficient, tip_chamfer=height)

@@ -1,0 +1,133 @@
+"""The house rules on imports, read off the syntax trees, each with a negative control."""
+
+from __future__ import annotations
+
+import ast
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+import exporters
+import geometry
+import parts
+
+ROOMS = {module.__name__: Path(module.__file__ or "").parent for module in (geometry, parts, exporters)}
+# what each room may import of the house, itself included
+MAY_IMPORT = {"geometry": {"geometry"}, "parts": {"geometry", "parts"}, "exporters": {"geometry", "parts", "exporters"}}
+# mathematics only: no files, no file format, no words for users
+NOT_IN_GEOMETRY = {"os", "pathlib", "io", "sys", "shutil", "tempfile", "json", "tomllib", "ezdxf", "shapely", "msgspec",
+                   "rich", "argparse", "trimesh", "manifold3d", "cadquery", "OCP", "lib3mf", "scipy"}  # fmt: skip
+HEAVY = {"ezdxf", "shapely", "rich", "trimesh", "manifold3d", "cadquery", "OCP", "lib3mf", "scipy", "matplotlib"}
+# a writer is itself imported only where its format is written
+HEAVY_AT_TOP = {"exporters/dxf.py": {"ezdxf"}}
+# nothing else may be needed to install and run
+LIGHT = {"numpy", "msgspec"}
+
+
+@dataclass(frozen=True)
+class Import:
+    """One import statement: the module's full name, the line, whether it runs when the file is loaded."""
+
+    name: str
+    line: int
+    at_top: bool
+    star: bool
+
+
+def imports_of(source: str) -> Iterator[Import]:
+    """Every import of a file; those under TYPE_CHECKING are left out, since they never run."""
+    yield from _imports(ast.parse(source), at_top=True)
+
+
+def _imports(node: ast.AST, *, at_top: bool) -> Iterator[Import]:
+    for child in ast.iter_child_nodes(node):
+        if isinstance(child, ast.If) and "TYPE_CHECKING" in ast.dump(child.test):
+            for other in child.orelse:
+                yield from _imports(ast.Module([other], []), at_top=at_top)
+        elif isinstance(child, ast.Import):
+            for alias in child.names:
+                yield Import(alias.name, child.lineno, at_top, star=False)
+        elif isinstance(child, ast.ImportFrom):
+            star = any(alias.name == "*" for alias in child.names)
+            yield Import("." * child.level + (child.module or ""), child.lineno, at_top, star)
+        else:
+            inside = isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
+            yield from _imports(child, at_top=at_top and not inside)
+
+
+def faults(place: str, source: str) -> list[str]:
+    """What is wrong with the imports of a file; ``place`` is its path, the room first."""
+    room = place.split("/", maxsplit=1)[0]
+    found = []
+    for item in imports_of(source):
+        top = item.name.split(".")[0]
+        where = f"{place}:{item.line}: {item.name}"
+        if not top:
+            found.append(f"{where}: a relative import hides the room")
+        elif top in ROOMS and top not in MAY_IMPORT[room]:
+            found.append(f"{where}: imports run geometry <- parts <- exporters")
+        elif top == "tests":
+            found.append(f"{where}: nobody imports tests")
+        elif room == "geometry" and top in NOT_IN_GEOMETRY:
+            found.append(f"{where}: geometry is mathematics only")
+        elif item.at_top and top in HEAVY - HEAVY_AT_TOP.get(place, set()):
+            found.append(f"{where}: heavy; import it in the function that needs it")
+        elif top not in ROOMS and top not in sys.stdlib_module_names | LIGHT | HEAVY:
+            found.append(f"{where}: not a library of this project")
+        if item.star:
+            found.append(f"{where}: import *")
+    return found
+
+
+def product_files() -> dict[str, Path]:
+    """Every source file of the product by its place in the house."""
+    return {f"{room}/{path.relative_to(folder).as_posix()}": path
+            for room, folder in ROOMS.items() for path in sorted(folder.rglob("*.py"))}  # fmt: skip
+
+
+@pytest.mark.parametrize("place", product_files())
+def test_imports_run_one_way_and_late(place: str) -> None:
+    assert faults(place, product_files()[place].read_text(encoding="utf-8")) == []
+
+
+def test_every_room_is_looked_at() -> None:
+    places = product_files()
+    assert {p.split("/", maxsplit=1)[0] for p in places} == set(ROOMS)
+    assert {"geometry/gears/tooth.py", "parts/scene.py", "exporters/cli.py"} <= set(places)
+
+
+@pytest.mark.parametrize(("place", "source"), [
+    ("geometry/new.py", "from parts.part import Part"),
+    ("geometry/new.py", "import exporters"),
+    ("geometry/gears/new.py", "def f():\n    from parts import part"),
+    ("parts/new.py", "from exporters.job import Job"),
+    ("parts/new.py", "class A:\n    def f(self):\n        import exporters.cli"),
+    ("geometry/new.py", "import os"),
+    ("geometry/new.py", "from pathlib import Path"),
+    ("geometry/new.py", "def f():\n    import shapely"),
+    ("geometry/new.py", "import math, json"),
+    ("exporters/new.py", "import ezdxf"),
+    ("exporters/new.py", "try:\n    import shapely\nexcept ImportError:\n    shapely = None"),
+    ("exporters/new.py", "class A:\n    from rich.table import Table"),
+    ("exporters/dxf.py", "import shapely"),
+    ("parts/new.py", "from tests.laws import check"),
+    ("parts/new.py", "from geometry.errors import *"),
+    ("parts/new.py", "from . import keys"),
+    ("parts/new.py", "import pydantic"),
+])  # fmt: skip
+def test_a_forbidden_import_is_noticed(place: str, source: str) -> None:
+    assert len(faults(place, source)) == 1
+
+
+@pytest.mark.parametrize(("place", "source"), [
+    ("exporters/new.py", "from geometry.errors import GeometryError\nfrom parts.scene import load_scene\nimport os"),
+    ("exporters/new.py", "def f():\n    import ezdxf\n    import shapely"),
+    ("exporters/new.py", "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    import ezdxf"),
+    ("exporters/dxf.py", "import ezdxf\nfrom ezdxf.document import Drawing"),
+    ("geometry/new.py", "import math\nimport numpy as np\nfrom geometry.errors import GeometryError"),
+])  # fmt: skip
+def test_an_allowed_import_is_allowed(place: str, source: str) -> None:
+    assert faults(place, source) == []

@@ -1,0 +1,119 @@
+"""The house rules on size, docstrings and the top level, each with a negative control."""
+
+from __future__ import annotations
+
+import ast
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from geometry.curve import Curve
+
+from .test_architecture import product_files
+
+MOST_LINES, MOST_FUNCTION_LINES = 400, 60
+ROOT = Path(__file__).resolve().parent.parent
+# DESIGN, section 3: what the card names, four pages, a licence, and dot-files
+TOP_LEVEL = {"pyproject.toml", "geometry", "exporters", "parts", "tests", "out", "README.md", "LICENSE",
+             "CHANGELOG.md", "CONTRIBUTING.md", "CONVENTIONS.md", "DERIVATIONS.md"}  # fmt: skip
+CURVE_METHODS = {name for name in vars(Curve) if not name.startswith("_")}
+TEXT = {".py", ".md", ".toml", ".svg", ".txt", ".cfg", ".yml", ".yaml"}
+
+
+def functions_of(tree: ast.AST) -> list[ast.FunctionDef | ast.AsyncFunctionDef]:
+    """All functions of a file."""
+    return [n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef | ast.AsyncFunctionDef)]
+
+
+def too_long(place: str, source: str) -> list[str]:
+    """Files and functions beyond the limits."""
+    found = [f"{place}: {source.count(chr(10))} lines"] if source.count("\n") > MOST_LINES else []
+    for node in functions_of(ast.parse(source)):
+        lines = (node.end_lineno or node.lineno) - node.lineno + 1
+        if lines > MOST_FUNCTION_LINES:
+            found.append(f"{place}:{node.lineno}: {node.name} has {lines} lines")
+    return found
+
+
+def undocumented(place: str, source: str) -> list[str]:
+    """Modules, classes and functions that others may use and that say nothing of themselves.
+
+    What begins with an underscore or stands inside a function is private; methods of the Curve protocol are told there.
+    """
+    tree = ast.parse(source)
+    found = [] if ast.get_docstring(tree) else [f"{place}: module"]
+    queue: list[ast.stmt] = list(tree.body)
+    while queue:
+        node = queue.pop(0)
+        if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef) or node.name.startswith("_"):
+            continue
+        if isinstance(node, ast.ClassDef):
+            queue += node.body
+        if not ast.get_docstring(node) and node.name not in CURVE_METHODS:
+            found.append(f"{place}:{node.lineno}: {node.name}")
+    return found
+
+
+def tracked() -> list[str]:
+    """Files of the repository; skipped where there is none, as in an unpacked archive."""
+    done = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=False)
+    if done.returncode or not done.stdout:
+        pytest.skip("not a git repository")
+    return done.stdout.splitlines()
+
+
+def strangers(paths: list[str]) -> set[str]:
+    """Top-level names that the design does not know."""
+    names = {p.split("/", maxsplit=1)[0] for p in paths}
+    return {n for n in names if n not in TOP_LEVEL and not n.startswith(".")}
+
+
+@pytest.mark.parametrize("place", product_files())
+def test_a_file_is_one_idea_and_says_what_it_is(place: str) -> None:
+    source = product_files()[place].read_text(encoding="utf-8")
+    assert too_long(place, source) == []
+    assert undocumented(place, source) == []
+
+
+def test_test_files_keep_the_same_limits() -> None:
+    for path in sorted((ROOT / "tests").rglob("*.py")):
+        source = path.read_text(encoding="utf-8")
+        assert too_long(path.name, source) == []
+        assert ast.get_docstring(ast.parse(source)), path
+
+
+def test_every_test_folder_is_a_package() -> None:
+    folders = {p.parent for p in (ROOT / "tests").rglob("*.py")}
+    assert {f for f in folders if not (f / "__init__.py").is_file()} == set()
+
+
+def test_the_top_level_holds_only_what_the_design_names() -> None:
+    paths = tracked()
+    assert strangers(paths) == set()
+    assert {"pyproject.toml", "README.md", "LICENSE", "geometry", "exporters", "parts", "tests", "out"} <= {
+        p.split("/", maxsplit=1)[0] for p in paths
+    }
+    assert [p for p in paths if p.startswith("out/")] == ["out/.gitignore"]
+
+
+def test_no_file_names_a_place_on_somebodys_machine() -> None:
+    pattern = re.compile(r"/(?:home|Users|work|root)/\w|[A-Z]:\\\\?Users")
+    for name in tracked():
+        path = ROOT / name
+        if path.suffix in TEXT and path.is_file() and path != Path(__file__):
+            found = pattern.search(path.read_text(encoding="utf-8"))
+            assert not found, f"{name}: {found}"
+
+
+def test_the_checks_notice_what_is_wrong() -> None:
+    assert too_long("x.py", "a = 1\n" * 401)
+    assert not too_long("x.py", "a = 1\n" * 400)
+    assert too_long("x.py", "class A:\n    def f():\n" + "        a = 1\n" * 60)
+    assert not too_long("x.py", "def f():\n" + "    a = 1\n" * 59)
+    assert undocumented("x.py", "a = 1") == ["x.py: module"]
+    assert undocumented("x.py", '"""M."""\ndef f():\n    pass') == ["x.py:2: f"]
+    assert undocumented("x.py", '"""M."""\nclass A:\n    """C."""\n    def f(self):\n        pass') == ["x.py:4: f"]
+    assert undocumented("x.py", '"""M."""\ndef _f():\n    pass\nclass _A:\n    def f(self): ...') == []
+    assert strangers(["docs/a.md", "setup.py", "geometry/x.py", ".ci/run"]) == {"docs", "setup.py"}
