@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import time
 from collections.abc import Callable, Iterator
@@ -12,6 +13,7 @@ import numpy as np
 
 from exporters.job import Job, Written, approximations, declared_error
 from exporters.plan import Plan
+from exporters.report import NAME, read_report, write_report
 from exporters.words import finding_text
 from geometry.approximate import approximate_profile
 from geometry.contour import Approximation
@@ -23,16 +25,24 @@ from parts.schema import SceneError
 
 # teeth lose their shape where the tolerance is a larger part of the module
 _COARSE_SHARE = 0.05
+_STAGING = ".building-"
 
 
 def build(
-    plan: Plan, folder: Path, *, verify: bool = True, progress: Callable[[str], None] = lambda path: None
+    plan: Plan,
+    folder: Path,
+    *,
+    verify: bool = True,
+    partial: bool = False,
+    progress: Callable[[str], None] = lambda path: None,
 ) -> tuple[list[Written], list[Path]]:
-    """Write every job and a preview of every part into ``folder``; files that fail their read-back stay out.
+    """Write every job, a preview of every part and the report into ``folder``; what fails its read-back stays out.
 
-    Returns what was written, and the previews. Nothing half-written is left behind: all files are made in a
-    folder beside and moved when all are done; on any exception, an interrupt too, that folder goes.
+    ``partial``: keep what the report in ``folder`` says of other files of the same scene. Returns what was
+    written, and the previews. Nothing half-written is left behind: all is made in a folder beside and moved
+    when all is done; on any exception, an interrupt too, that folder goes.
     """
+    start = time.perf_counter()
     shapes = [_shapes(job, plan.source) for job in plan.jobs]
     with staging_folder(folder) as staging:
         written = []
@@ -41,12 +51,20 @@ def build(
             written.append(_write(job, shape, staging / job.path, verify=verify))
         wanted = dict.fromkeys(job.part.id for job in plan.jobs)
         previews = [_preview(plan.parts[p], staging, plan.scene.scene.language) for p in wanted]
-        for item in written:
-            if not item.failures:
-                os.replace(item.file, folder / item.job.path)
-        for preview in previews:
-            os.replace(preview, folder / preview.name)
+        before = read_report(folder) if partial else None
+        write_report(staging / NAME, plan, written, previews, time.perf_counter() - start, before)
+        names = [item.job.path for item in written if not item.failures]
+        move_into(folder, staging, [*names, *(p.name for p in previews), NAME])
     return written, [folder / p.name for p in previews]
+
+
+def move_into(folder: Path, staging: Path, names: list[str]) -> None:
+    """Move finished files into their place; refused before the first move where a folder stands in the way."""
+    for name in names:
+        if (folder / name).is_dir():
+            raise IsADirectoryError(errno.EISDIR, "a folder stands where a file should go", str(folder / name))
+    for name in names:
+        os.replace(staging / name, folder / name)
 
 
 def _shapes(job: Job, source: str) -> tuple[tuple[Approximation, ...], float]:
@@ -150,16 +168,36 @@ def _preview(part: Part, folder: Path, language: str) -> Path:
 def staging_folder(folder: Path) -> Iterator[Path]:
     """A folder beside ``folder`` that is gone afterwards; ``folder`` itself goes too if nothing came into it."""
     created = [p for p in (folder, *folder.parents) if not p.exists()]
-    staging = folder / f".building-{os.getpid()}"
+    staging = folder / f"{_STAGING}{os.getpid()}"
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        for stale in folder.glob(f"{_STAGING}*"):
+            if not _is_running(stale.name.removeprefix(_STAGING)):
+                _remove(stale)
         staging.mkdir()
         yield staging
     finally:
-        if staging.is_dir():
-            for file in staging.iterdir():
-                file.unlink()
-            staging.rmdir()
+        _remove(staging)
         for place in created:
             if place.is_dir() and not any(place.iterdir()):
                 place.rmdir()
+
+
+def _remove(staging: Path) -> None:
+    if staging.is_dir():
+        for file in staging.iterdir():
+            file.unlink()
+        staging.rmdir()
+
+
+def _is_running(process: str) -> bool:
+    """Whether a process may still be at work; only a POSIX system can be asked without harm."""
+    if os.name != "posix" or not process.isdigit():
+        return True
+    try:
+        os.kill(int(process), 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        return True
+    return int(process) != os.getpid()

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import os
 import signal
 import sys
-import time
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NoReturn
+from typing import NoReturn, TextIO
 
 from exporters import __version__
 
@@ -22,31 +22,50 @@ class _Parser(argparse.ArgumentParser):
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
+    _prepare_streams()
     options = _parser().parse_args(arguments)
-    previous = signal.signal(signal.SIGTERM, _interrupt)
+    stops = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    previous = {stop: signal.signal(stop, _interrupt) for stop in stops}
     try:
-        return options.run(options)
+        code = options.run(options)
+        sys.stdout.flush()
+        return code
     except KeyboardInterrupt:
         print("higherpair: interrupted; nothing half-written is left", file=sys.stderr)
         return INTERRUPTED
     except BrokenPipeError:
-        sys.stderr.close()
+        # whoever read the output has left: nothing more can be said to it
+        sys.stdout = _nowhere()
         return DONE
-    except (ValueError, OSError) as error:
+    except OSError as error:
+        place = f"{error.filename}: " if error.filename else ""
+        hint = " with --out" if hasattr(options, "out") else ""
+        print(f"higherpair: {place}{error.strerror or error}; choose another place{hint}", file=sys.stderr)
+        return WRONG_INPUT
+    except ValueError as error:
         from parts.schema import SceneError
 
-        if isinstance(error, SceneError):
-            print(f"higherpair: {error}", file=sys.stderr)
-        elif isinstance(error, OSError):
-            print(
-                f"higherpair: {error.filename or 'file'}: {error.strerror or error}; choose another place with --out",
-                file=sys.stderr,
-            )
-        else:
+        if not isinstance(error, SceneError):
             raise
+        print(f"higherpair: {error}", file=sys.stderr)
         return WRONG_INPUT
     finally:
-        signal.signal(signal.SIGTERM, previous)
+        for stop, handler in previous.items():
+            signal.signal(stop, handler)
+
+
+def _prepare_streams() -> None:
+    """Output that cannot fail: a character that the terminal lacks becomes ?, and a closed stream becomes none."""
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:
+            setattr(sys, name, _nowhere())
+        elif hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="replace")
+
+
+def _nowhere() -> TextIO:
+    return open(os.devnull, "w", encoding="utf-8")
 
 
 def _interrupt(number: int, frame: object) -> NoReturn:
@@ -61,7 +80,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
     build = commands.add_parser("build", help="make the files of a scene")
     build.add_argument("scene", help="a built-in scene or a scene file (.toml)")
-    build.add_argument("--out", default="out", type=Path, help="folder for the results (default: out)")
+    build.add_argument("--out", default="out", type=Path, help="results go to OUT/<scene name> (default: out)")
     build.add_argument("--part", action="append", default=[], metavar="ID", help="only this part (may be repeated)")
     build.add_argument("--format", action="append", default=[], metavar="F", help="only this format (may be repeated)")
     build.add_argument("--no-verify", action="store_true", help="do not read the files back")
@@ -71,7 +90,7 @@ def _parser() -> argparse.ArgumentParser:
     verify.set_defaults(run=_verify)
     converge = commands.add_parser("converge", help="error against run time, over a ladder of tolerances")
     converge.add_argument("scene", help="a built-in scene or a scene file (.toml)")
-    converge.add_argument("--out", default="out", type=Path, help="folder for the results (default: out)")
+    converge.add_argument("--out", default="out", type=Path, help="results go to OUT/<scene name> (default: out)")
     converge.add_argument("--part", action="append", default=[], metavar="ID", help="only this part")
     converge.add_argument("--format", action="append", default=[], metavar="F", help="only this format")
     converge.set_defaults(run=_converge)
@@ -84,31 +103,27 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _build(options: argparse.Namespace) -> int:
-    start = time.perf_counter()
     from exporters.build import build
     from exporters.plan import plan_build
-    from exporters.report import write_report
     from exporters.tables import build_table
     from parts.scene import load_scene
 
     scene = load_scene(options.scene)
     plan = plan_build(scene, options.scene, options.part, options.format)
-    folder = options.out / scene.name
+    folder, verify = options.out / scene.name, not options.no_verify
+    partial = bool(options.part or options.format)
     if sys.stdout.isatty():
         from rich.progress import Progress
 
         with Progress(transient=True) as bar:
             task = bar.add_task(scene.name, total=len(plan.jobs))
-            written, previews = build(
-                plan,
-                folder,
-                verify=not options.no_verify,
-                progress=lambda path: bar.update(task, advance=1, description=path),
-            )
+
+            def advance(path: str) -> None:
+                bar.update(task, advance=1, description=path)
+
+            written, previews = build(plan, folder, verify=verify, partial=partial, progress=advance)
     else:
-        written, previews = build(plan, folder, verify=not options.no_verify)
-    partial = bool(options.part or options.format)
-    write_report(plan, folder, written, previews, time.perf_counter() - start, partial=partial)
+        written, previews = build(plan, folder, verify=verify, partial=partial)
     build_table(plan, folder, written, previews)
     return FAILED if any(item.failures for item in written) else DONE
 
@@ -116,14 +131,24 @@ def _build(options: argparse.Namespace) -> int:
 def _verify(options: argparse.Namespace) -> int:
     from exporters.recheck import recheck
     from exporters.tables import verify_table
+    from parts.schema import SceneError
 
-    results = [recheck(file) for file in options.files]
-    verify_table(results)
-    return FAILED if any(r.verdict.failures for r in results) else DONE
+    results, refused = [], False
+    for file in options.files:
+        try:
+            results.append(recheck(file))
+        except SceneError as error:
+            print(f"higherpair: {error}", file=sys.stderr)
+            refused = True
+    if results:
+        verify_table(results)
+    if any(r.verdict.failures for r in results):
+        return FAILED
+    return WRONG_INPUT if refused else DONE
 
 
 def _converge(options: argparse.Namespace) -> int:
-    from exporters.build import staging_folder
+    from exporters.build import move_into, staging_folder
     from exporters.converge import ladder, orders, write_csv, write_pictures
     from exporters.plan import plan_build
     from exporters.tables import converge_tables
@@ -136,8 +161,7 @@ def _converge(options: argparse.Namespace) -> int:
         rungs, found = ladder(plan, staging), orders(plan)
         write_csv(staging / "converge.csv", rungs, found)
         names = ["converge.csv", *write_pictures(staging, rungs, found)]
-        for name in names:
-            (staging / name).replace(folder / name)
+        move_into(folder, staging, names)
     converge_tables(rungs, found, [folder / name for name in names])
     return FAILED if any(r.measured > r.max_error for r in rungs) else DONE
 

@@ -22,7 +22,8 @@ def write_laser_dxf(
     file: Path, layers: tuple[str, ...], boundaries: tuple[Approximation, ...], *, version: str
 ) -> dict[str, int]:
     """Write closed polylines in mm; returns the number of entities of each kind."""
-    drawing = _new_drawing(version)
+    with _fixed_metadata():
+        drawing = _new_drawing(version)
     drawing.header["$LUNITS"] = 2
     if version != "R12":
         drawing.header["$MEASUREMENT"] = 1
@@ -35,7 +36,8 @@ def write_laser_dxf(
         corners.append(_extent(contour))
         _add_polyline(space, layer, contour, version)
     low, high = np.min([c[0] for c in corners], axis=0), np.max([c[1] for c in corners], axis=0)
-    drawing.header["$EXTMIN"], drawing.header["$EXTMAX"] = (*low, 0.0), (*high, 0.0)
+    # ezdxf writes the header's extents from those of the layout
+    space.reset_extents((*low, 0.0), (*high, 0.0))
     with _fixed_metadata():
         _save(drawing, file)
     kind = "POLYLINE" if version == "R12" else "LWPOLYLINE"

@@ -46,8 +46,10 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
         if only_formats and e.format not in only_formats
     ]
     left_out += [(f"parts.{p}", "was not asked for") for p in parts if only_parts and p not in only_parts]
+    used = {p for _, e in exports for p in e.parts or parts}
+    left_out += [(f"parts.{p}", "no export asks for it") for p in parts if p not in used]
     jobs: list[Job] = []
-    taken: dict[str, str] = {}
+    taken = {f"{part}.preview.svg": "the preview of the part" for part in parts}
     for place, export in exports:
         for part_id in export.parts or list(parts):
             if only_parts and part_id not in only_parts:

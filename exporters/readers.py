@@ -33,8 +33,8 @@ def read_dxf(file: Path) -> list[Loop]:
 
     try:
         drawing = ezdxf.readfile(str(file))
-    except (ezdxf.DXFError, OSError, UnicodeDecodeError, ValueError) as error:
-        raise ReadError(f"not a readable DXF: {error}") from error
+    except (ezdxf.DXFError, OSError, ValueError, LookupError, StopIteration, TypeError, AttributeError) as error:
+        raise ReadError(f"not a readable DXF: {error or 'it ends too early'}") from error
     auditor = drawing.audit()
     if auditor.errors or auditor.fixes:
         first = (auditor.errors + auditor.fixes)[0]
@@ -70,15 +70,17 @@ def read_svg(file: Path) -> list[Loop]:
 
     try:
         root = ElementTree.parse(file).getroot()
-        width = float(root.get("width", "").removesuffix("mm") if root.get("width", "").endswith("mm") else "")
+        width, height = (_millimetres(root.get(key, "")) for key in ("width", "height"))
         box = [float(x) for x in root.get("viewBox", "").split()]
-    except (ElementTree.ParseError, TypeError, ValueError, OSError) as error:
+    except (ElementTree.ParseError, ValueError, OSError) as error:
         raise ReadError(f"not a readable SVG in mm: {error}") from error
-    if len(box) != 4 or abs(box[2] - width) > 1e-9 * width:
+    if len(box) != 4 or max(abs(box[2] - width), abs(box[3] - height), abs(box[0]), abs(box[1])) > 1e-9 * width:
         raise ReadError("one unit of the SVG's view box is not one mm")
     loops = []
     for element in root.iter():
         tag = element.tag.rsplit("}", 1)[-1]
+        if moved := {"transform", "class"} & set(element.keys()):
+            raise ReadError(f"an SVG {tag} has a {moved.pop()}, which laser programs pass over")
         try:
             if tag == "path":
                 loops.append(_svg_path(element.get("d", ""), element.get("id", "")))
@@ -90,8 +92,14 @@ def read_svg(file: Path) -> list[Loop]:
                 raise ReadError(f"an element <{tag}> stands among the outlines")
         except ValueError as error:
             raise ReadError(f"broken {tag}: {error}") from error
-    size = width / 2
-    return [Loop(loop.vertices - complex(size, -size), loop.bulges, loop.layer) for loop in loops]
+    middle = complex(width / 2, -height / 2)
+    return [Loop(loop.vertices - middle, loop.bulges, loop.layer) for loop in loops]
+
+
+def _millimetres(text: str) -> float:
+    if not text.endswith("mm"):
+        raise ValueError(f'a width or height of "{text}" is not in mm')
+    return float(text.removesuffix("mm"))
 
 
 def _svg_path(data: str, layer: str) -> Loop:
@@ -106,8 +114,8 @@ def _svg_path(data: str, layer: str) -> Loop:
         if command == "Z":
             closed = True
         elif command == "A":
-            if len(numbers) != 7 or not points:
-                raise ReadError("an SVG arc has not seven numbers")
+            if len(numbers) != 7 or not points or numbers[0] != numbers[1]:
+                raise ReadError("an SVG arc is not a circular arc of seven numbers")
             end = complex(numbers[5], -numbers[6])
             bulges.append(_svg_bulge(end - points[-1], numbers[0], bool(numbers[3]), bool(numbers[4])))
             points.append(end)
@@ -149,6 +157,7 @@ def read_stl(file: Path) -> ReadMesh:
     corners = rows[:, 12:48].copy().view("<f4").reshape(-1, 3)
     if not np.all(np.isfinite(corners)):
         raise ReadError("an STL coordinate is not a number")
+    _check_normals(corners.reshape(-1, 3, 3).astype(float), rows[:, :12].copy().view("<f4").astype(float))
     # + 0 makes one number of the two zeros
     keys = (corners + np.float32(0.0)).view("<u4")
     order = np.lexsort((keys[:, 2], keys[:, 1], keys[:, 0]))
@@ -158,6 +167,14 @@ def read_stl(file: Path) -> ReadMesh:
     vertex[order] = group
     first = order[np.concatenate([[True], fresh])]
     return ReadMesh(corners[first].astype(float), vertex.reshape(-1, 3))
+
+
+def _check_normals(corners: NDArray[np.float64], normals: NDArray[np.float64]) -> None:
+    """Normals must agree with their corners; STL allows zero for "not given"."""
+    true = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    size = np.linalg.norm(true, axis=1) * np.linalg.norm(normals, axis=1)
+    if np.any(np.einsum("ij,ij->i", true, normals) < 0.99 * size):
+        raise ReadError("an STL normal contradicts its triangle")
 
 
 _3MF_CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"

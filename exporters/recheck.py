@@ -9,7 +9,8 @@ from typing import Any
 
 from exporters.report import NAME, read_report
 from exporters.verify import Verdict, verify_file
-from parts.scene import make_parts, scene_from_resolved
+from geometry.errors import GeometryError
+from parts.scene import FORMATS, make_parts, scene_from_resolved
 from parts.schema import SceneError
 
 
@@ -25,7 +26,7 @@ class Recheck:
 
 
 def recheck(file: Path) -> Recheck:
-    """Hold one file against its report.
+    """Hold one file against its report; a preview is only compared byte by byte.
 
     Raises
     ------
@@ -33,28 +34,42 @@ def recheck(file: Path) -> Recheck:
         There is no such file, or no report that knows it.
     """
     if not file.is_file():
-        raise SceneError(str(file), "", None, "no such file")
-    report = read_report(file.parent)
-    if report is None:
-        raise SceneError(str(file), "", None, f"no {NAME} beside it; build the scene again to get one")
-    entries = {e.get("path"): e for e in report.get("files", []) if isinstance(e, dict)}
-    entry = entries.get(file.name)
-    if entry is None:
         raise SceneError(
-            str(file), "", None, f"not named in {NAME}; it knows: {', '.join(map(str, entries)) or 'no file'}"
+            str(file),
+            "",
+            None,
+            "no such file: it is a folder; name the files in it" if file.is_dir() else "no such file",
         )
-    return _against(file, report, entry)
-
-
-def _against(file: Path, report: dict[str, Any], entry: dict[str, Any]) -> Recheck:
     source = str(file.parent / NAME)
+    if not (file.parent / NAME).is_file():
+        raise SceneError(str(file), "", None, f"no {NAME} beside it; build the scene again to get one")
+    report = read_report(file.parent)
     try:
-        scene = scene_from_resolved(report["scene"], source)
-        part = make_parts(scene, source)[entry["part"]]
-        region = part.section(float(entry["offset"])).region
-        declared, tolerance, kind = float(entry["max_error"]), float(entry["tolerance"]), entry["format"]
-        verdict = verify_file(file, kind, region, part.face_width, declared, tolerance)
-        same = hashlib.sha256(file.read_bytes()).hexdigest() == entry["sha256"]
-    except (KeyError, TypeError, AttributeError) as error:
+        if report is None:
+            raise TypeError("it is not the JSON of a report")
+        digest = hashlib.sha256(file.read_bytes()).hexdigest()
+        previews = {entry["path"]: entry["sha256"] for entry in report["previews"]}
+        if file.name in previews:
+            same = digest == previews[file.name]
+            return Recheck(file, Verdict({}, () if same else ("the preview has been changed",)), 0.0, 0.0, same)
+        entries = {entry["path"]: entry for entry in report["files"]}
+        if file.name in entries:
+            return _against(file, source, report, entries[file.name], digest)
+    except (KeyError, TypeError, AttributeError, ArithmeticError, RecursionError, GeometryError) as error:
         raise SceneError(source, "", None, f"is damaged ({error}); build the scene again") from error
-    return Recheck(file, verdict, declared, tolerance, same)
+    except ValueError as error:
+        if isinstance(error, SceneError):
+            raise
+        raise SceneError(source, "", None, f"is damaged ({error}); build the scene again") from error
+    raise SceneError(str(file), "", None, f"not named in {NAME}; it knows: {', '.join(map(str, entries)) or 'no file'}")
+
+
+def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, Any], digest: str) -> Recheck:
+    scene = scene_from_resolved(report["scene"], source)
+    part = make_parts(scene, source)[entry["part"]]
+    region = part.section(float(entry["offset"])).region
+    declared, tolerance, kind = float(entry["max_error"]), float(entry["tolerance"]), entry["format"]
+    if kind not in FORMATS:
+        raise KeyError(f"format {kind}")
+    verdict = verify_file(file, kind, region, part.face_width, declared, tolerance)
+    return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])

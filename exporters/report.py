@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 import sys
 from pathlib import Path
 from typing import Any
@@ -22,9 +21,9 @@ NAME = "report.json"
 
 
 def write_report(
-    plan: Plan, folder: Path, written: list[Written], previews: list[Path], seconds: float, *, partial: bool
-) -> dict[str, Any]:
-    """Write the report of a build; a partial build is merged by path into the one that is there."""
+    file: Path, plan: Plan, written: list[Written], previews: list[Path], seconds: float, before: dict[str, Any] | None
+) -> None:
+    """Write the report of a build; a partial build is merged by path into the report ``before`` it, if any."""
     language = plan.scene.scene.language
     report: dict[str, Any] = {
         "scene": resolved(plan.scene),
@@ -37,12 +36,12 @@ def write_report(
             }
             for part in plan.parts.values()
         },
-        "files": [_entry(item, folder, language) for item in written if not item.failures],
+        "files": [_entry(item, language) for item in written if not item.failures],
         "failed": [{"path": item.job.path, "failures": list(item.failures)} for item in written if item.failures],
         "previews": [{"path": p.name, "bytes": p.stat().st_size, "sha256": _sha256(p)} for p in previews],
         "checks": {},
         "left_out": [{"what": what, "why": why} for what, why in plan.left_out],
-        "versions": _versions(),
+        "versions": _versions(written),
         "run": {
             "seconds": round(seconds, 4),
             "stages": {item.job.path: {k: round(v, 5) for k, v in item.seconds.items()} for item in written},
@@ -50,20 +49,15 @@ def write_report(
             "system": sys.platform,
         },
     }
-    if partial:
-        _merge(report, read_report(folder))
-    target = folder / NAME
-    beside = folder / f".{NAME}.{os.getpid()}"
-    beside.write_text(json.dumps(report, indent=1, ensure_ascii=False) + "\n", encoding="utf-8", newline="\n")
-    os.replace(beside, target)
-    return report
+    _merge(report, before)
+    file.write_text(json.dumps(report, indent=1, ensure_ascii=False) + "\n", encoding="utf-8", newline="\n")
 
 
 def read_report(folder: Path) -> dict[str, Any] | None:
     """The report that lies in a folder; None where there is none or it cannot be read."""
     try:
         report = json.loads((folder / NAME).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return None
     return report if isinstance(report, dict) else None
 
@@ -78,8 +72,7 @@ def _merge(report: dict[str, Any], before: dict[str, Any] | None) -> None:
         report[key] = sorted([*kept, *report[key]], key=lambda entry: entry["path"])
 
 
-def _entry(item: Written, folder: Path, language: str) -> dict[str, Any]:
-    file = folder / item.job.path
+def _entry(item: Written, language: str) -> dict[str, Any]:
     export = item.job.export
     return {
         "path": item.job.path,
@@ -94,8 +87,8 @@ def _entry(item: Written, folder: Path, language: str) -> dict[str, Any]:
         "verified": bool(item.measured),
         "measured": item.measured,
         "entities": item.entities,
-        "bytes": file.stat().st_size,
-        "sha256": _sha256(file),
+        "bytes": item.file.stat().st_size,
+        "sha256": _sha256(item.file),
         "findings": _findings(item.findings, language),
     }
 
@@ -104,12 +97,14 @@ def _findings(found: tuple[Finding, ...], language: str) -> list[dict[str, Any]]
     return [{"code": f.code, "value": f.value, "limit": f.limit, "text": finding_text(language, f)} for f in found]
 
 
-def _versions() -> dict[str, str]:
-    versions = {"higherpair": __version__, "python": ".".join(map(str, sys.version_info[:3])), "numpy": np.__version__}
-    # only what this build has loaded; asking for more would load it
-    for name in ("ezdxf", "shapely"):
-        if name in sys.modules:
-            versions[name] = str(sys.modules[name].__version__)
+def _versions(written: list[Written]) -> dict[str, str]:
+    """Versions of what this build used; asking for more would load it."""
+    python = ".".join(map(str, sys.version_info[:3]))
+    versions = {"higherpair": __version__, "python": python, "numpy": np.__version__}
+    formats = {item.job.export.format for item in written}
+    for name, users in (("ezdxf", {"dxf"}), ("lib3mf", {"3mf"})):
+        if formats & users and name in sys.modules:
+            versions[name] = str(getattr(sys.modules[name], "__version__", "installed"))
     return versions
 
 

@@ -99,7 +99,7 @@ def _show(title: str, header: Sequence[str], rows: list[list[str]], remarks: lis
     else:
         columns = list(zip(header, *rows, strict=True))
         widths = [max(map(len, column)) for column in columns]
-        lines = [title] if title else []
+        lines = [_printable(title)] if title else []
         for row in (header, *rows):
             cells = [row[0].ljust(widths[0]), *(c.rjust(w) for c, w in zip(row[1:], widths[1:], strict=True))]
             lines.append("  ".join(cells))
@@ -112,10 +112,15 @@ def _show_rich(title: str, header: Sequence[str], rows: list[list[str]]) -> None
     from rich.markup import escape
     from rich.table import Table
 
-    table = Table(title=escape(title), title_justify="left")
+    table = Table(title=escape(_printable(title)), title_justify="left")
     table.add_column(header[0], overflow="fold")
     for name in header[1:]:
         table.add_column(name, justify="right")
     for row in rows:
         table.add_row(*map(escape, row))
     Console(highlight=False, emoji=False).print(table)
+
+
+def _printable(text: str) -> str:
+    """A text without the characters that steer a terminal."""
+    return "".join(c if c.isprintable() else " " for c in text)

@@ -57,6 +57,9 @@ def _verdict(
     for profile in profiles:
         distances = [_rough_distance(loop, profile) for loop in unmatched]
         loop = unmatched.pop(int(np.argmin(distances)))
+        layer = "CUT_OUTER" if profile is region.outer else "CUT_INNER"
+        if loop.layer and loop.layer.upper() != layer:
+            failures.append(f"a contour stands on {loop.layer} instead of {layer}")
         deviation, found = _check_loop(loop, profile, declared, known_simple)
         worst = max(worst, deviation)
         shortest = min(shortest, float(np.abs(np.roll(loop.vertices, -1) - loop.vertices).min()))
@@ -119,6 +122,8 @@ def _verify_mesh(mesh: ReadMesh, region: Region, thickness: float, declared: flo
     top = float(np.float32(thickness))
     if not np.all((z == 0) | (z == top)):
         return Verdict({"volume": volume}, ("a vertex stands off both faces",))
+    if not _walls_upright(mesh):
+        return Verdict({"volume": volume}, ("the walls do not stand upright between both faces",))
     loops = _bottom_loops(mesh)
     flat = _verdict([Loop(v, np.zeros(len(v)), "") for v in loops], region, declared, tolerance, known_simple=True)
     exact = sum(profile_area(p) for p in region.profiles()) * thickness
@@ -133,6 +138,13 @@ def _verify_mesh(mesh: ReadMesh, region: Region, thickness: float, declared: flo
         "least_triangle_area": float(areas.min()),
     }
     return Verdict(measured, (*failures, *flat.failures))
+
+
+def _walls_upright(mesh: ReadMesh) -> bool:
+    """Whether every triangle between the faces has two corners above each other: then both outlines are one."""
+    z = mesh.vertices[:, 2][mesh.triangles]
+    places = (mesh.vertices[:, 0] + 1j * mesh.vertices[:, 1])[mesh.triangles[np.ptp(z, axis=1) > 0]]
+    return bool(np.all(np.any(places == np.roll(places, 1, axis=1), axis=1)))
 
 
 def _topology_failures(mesh: ReadMesh) -> list[str]:
@@ -157,13 +169,15 @@ def _topology_failures(mesh: ReadMesh) -> list[str]:
 def _bottom_loops(mesh: ReadMesh) -> list[Complex]:
     """The outlines in the lower face: edges that bound exactly one triangle of it, chained."""
     flat = mesh.vertices[:, 2][mesh.triangles] == 0
+    points = mesh.vertices[:, 0] + 1j * mesh.vertices[:, 1]
     # the lower face looks down, so its triangles turn clockwise seen from above
     lower = mesh.triangles[flat.all(axis=1)][:, ::-1]
-    points = mesh.vertices[:, 0] + 1j * mesh.vertices[:, 1]
-    a, b, c = points[lower].T
-    # triangles that all turn one way and have one outer boundary cannot overlap: the outlines are simple
-    if not np.all((np.conj(b - a) * (c - a)).imag > 0):
-        raise ReadError("triangles of the lower face overlap")
+    upper = mesh.triangles[~flat.any(axis=1)]
+    # triangles that all turn one way, with outlines this near to the exact ones, cannot overlap
+    for name, face in (("lower", lower), ("upper", upper)):
+        a, b, c = points[face].T
+        if not np.all((np.conj(b - a) * (c - a)).imag > 0):
+            raise ReadError(f"triangles of the {name} face overlap")
     n = len(mesh.vertices)
     edges = np.concatenate([lower[:, [0, 1]], lower[:, [1, 2]], lower[:, [2, 0]]])
     keys, twins = edges[:, 0] * n + edges[:, 1], np.sort(edges[:, 1] * n + edges[:, 0])
@@ -178,6 +192,8 @@ def _bottom_loops(mesh: ReadMesh) -> list[Complex]:
         chain = [start]
         while vertex != start:
             chain.append(vertex)
+            if vertex not in following:
+                raise ReadError("the outline of the lower face is not closed")
             vertex = following.pop(vertex)
         loops.append(points[chain])
     return loops

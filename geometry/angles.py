@@ -11,7 +11,7 @@ from geometry.errors import ParameterError
 from geometry.roots import Root, bracketed_root
 
 # below this tangent the series of t - atan t is shorter than its cancellation
-_SERIES_BELOW = 0.06
+_SERIES_BELOW = 0.2
 
 
 def roll_minus_polar(tangent: ArrayLike) -> NDArray[np.float64]:
@@ -22,7 +22,7 @@ def roll_minus_polar(tangent: ArrayLike) -> NDArray[np.float64]:
     t = np.asarray(tangent, dtype=float)
     square = t * t
     series = np.zeros_like(t)
-    for k in range(8, 0, -1):
+    for k in range(12, 0, -1):
         series = (1 / (2 * k + 1) if k % 2 else -1 / (2 * k + 1)) + series * square
     return np.where(np.abs(t) < _SERIES_BELOW, t * square * series, t - np.arctan(t))
 

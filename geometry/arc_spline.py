@@ -25,6 +25,7 @@ _MARGIN_SHARE = 0.03
 _REFINEMENTS = 3
 # an end arc starts tangent to the curve and needs 1/sqrt(2) of the inner arcs' length
 _END_SHARE = math.sqrt(0.5)
+_FIRST_SHARES = (0.4, 0.5, 0.6, 0.45, 0.55, 0.36)
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,11 +80,14 @@ def _density(curve: Curve) -> tuple[Real, Real, float]:
     """
     t = np.linspace(*curve.domain, _DENSITY_SAMPLES)
     first, second, third = (curve.derivative(t, k) for k in (1, 2, 3))
-    speed = np.maximum(np.abs(first), 1e-300)
-    cross = (np.conj(first) * second).imag
-    change = (np.conj(first) * third).imag / speed**3 - 3 * cross * (np.conj(first) * second).real / speed**5
-    rate = np.abs(change / speed / 125) ** (1 / 3) * speed
-    rate = np.where(np.isfinite(rate), rate, 0.0)
+    speed, cross = np.abs(first), (np.conj(first) * second).imag
+    with np.errstate(all="ignore"):
+        change = (np.conj(first) * third).imag / speed**3 - 3 * cross * (np.conj(first) * second).real / speed**5
+    with np.errstate(all="ignore"):
+        rate = np.abs(change / speed / 125) ** (1 / 3) * speed
+    # at a cusp the rate is 0/0; its limit is that of its neighbours
+    known = np.isfinite(rate)
+    rate = np.interp(t, t[known], rate[known]) if known.any() else np.zeros_like(t)
     # a floor keeps the coordinate strictly increasing where the curve is an arc
     rate += 1e-6 * (rate.max() + np.finfo(float).tiny) + 1e-12 * speed
     coordinate = np.concatenate([[0.0], np.cumsum((rate[1:] + rate[:-1]) / 2 * np.diff(t))])
@@ -91,10 +95,39 @@ def _density(curve: Curve) -> tuple[Real, Real, float]:
 
 
 def _spline_of(curve: Curve, count: int, nodes: Real, coordinate: Real, tolerance: float) -> ArcSpline | None:
-    """The spline of a given number of arcs; None where the end tangent cannot be met."""
+    """The spline of a given number of arcs; None where the end tangent cannot be met.
+
+    Where the curvature grows without bound towards the start (a flank near its base circle) the first lean
+    is not the steady one and would swing on through all arcs: other first lengths are tried.
+    """
+    best = _with_first_share(curve, count, nodes, coordinate, tolerance, _END_SHARE)
+    expected = tolerance if best is None else 0.6 * best.max_error
+    if best is not None and (best.max_error <= tolerance or not _steepens(curve)):
+        return best
+    for share in _FIRST_SHARES:
+        other = _with_first_share(curve, count, nodes, coordinate, tolerance, share)
+        if other is not None and (best is None or other.max_error < best.max_error):
+            best = other
+            if best.max_error <= min(tolerance, expected):
+                break
+    return best
+
+
+def _steepens(curve: Curve) -> bool:
+    """Whether the curvature at an end is many times that in the middle."""
+    low, high = curve.domain
+    ends = np.abs(curve.curvature(np.array([low, (low + high) / 2, high])))
+    return bool(max(ends[0], ends[2]) > 4 * ends[1])
+
+
+def _with_first_share(
+    curve: Curve, count: int, nodes: Real, coordinate: Real, tolerance: float, first: float
+) -> ArcSpline | None:
+    """The spline whose arc at the steeper end has ``first`` of the inner arcs' length."""
     shares = np.ones(count)
     if count > 1:
-        shares[[0, -1]] = _END_SHARE
+        low, high = np.abs(curve.curvature(np.array(curve.domain)))
+        shares[0], shares[-1] = (first, _END_SHARE) if low >= high else (_END_SHARE, first)
     pattern = np.where(np.arange(count) % 2 == 0, 1.0, -1.0)
     end_tangent = complex(curve.tangent(curve.domain[1]))
 
@@ -109,10 +142,10 @@ def _spline_of(curve: Curve, count: int, nodes: Real, coordinate: Real, toleranc
 
     stretch = 0.0
     if abs(mismatch(0.0)) > TOLERANCES.smooth_angle * 1e-3:
-        low, high = -0.8, 0.8
-        if count == 1 or mismatch(low) * mismatch(high) > 0:
+        low_end, high_end = -0.8, 0.8
+        if count == 1 or mismatch(low_end) * mismatch(high_end) > 0:
             return None
-        stretch = bracketed_root(mismatch, low, high).value
+        stretch = bracketed_root(mismatch, low_end, high_end).value
     t = joints(stretch)
     points, bulges, _ = _arcs_through(curve, t, end_tangent)
     error, certified = arc_error(curve, t, points, bulges, tolerance)

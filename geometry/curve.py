@@ -8,6 +8,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from geometry.errors import CuspError
 from geometry.placement import Placement2
 
 Complex = NDArray[np.complex128]
@@ -84,7 +85,10 @@ class Reversed:
         return self.original.derivative_bound(order, -b, -a)
 
     def offset(self, distance: float) -> Curve:
-        return Reversed(self.original.offset(-distance))
+        try:
+            return Reversed(self.original.offset(-distance))
+        except CuspError as cusp:
+            raise CuspError(-cusp.t, distance) from None
 
     def trimmed(self, a: float, b: float) -> Curve:
         return Reversed(self.original.trimmed(-b, -a))

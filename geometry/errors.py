@@ -77,5 +77,6 @@ def _rounded(value: float, digits: int, rounding: Callable[[float], int]) -> str
 def format_value(value: object) -> str:
     """A value as it would stand in a scene file."""
     if isinstance(value, float):
-        return f"{value:.12g}"
+        text = f"{value:.12g}"
+        return f"{text}.0" if text.lstrip("-").isdigit() else text
     return f'"{value}"' if isinstance(value, str) else str(value)

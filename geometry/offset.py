@@ -10,8 +10,10 @@ from numpy.typing import ArrayLike
 from geometry.curve import Complex, Curve, Real, Reversed, curvature_from_derivatives
 from geometry.errors import CuspError
 from geometry.placement import Placement2
+from geometry.roots import bracketed_root
 
 _FACTORIALS = (1, 1, 2, 6, 24, 120)
+_CUSP_SAMPLES = 257
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,12 +50,25 @@ class OffsetCurve:
         """None: no bound is proven for a general parallel curve."""
 
     def checked(self) -> OffsetCurve:
-        """This curve, or CuspError at the first of 257 samples where it has turned back."""
-        t = np.linspace(*self.domain, 257)
-        bad = np.flatnonzero(self._stretch(t) <= 0)
-        if bad.size:
-            raise CuspError(float(t[bad[0]]), self.distance)
-        return self
+        """This curve, or CuspError where it turns back: at the least stretch near 257 samples, refined."""
+        t = np.linspace(*self.domain, _CUSP_SAMPLES)
+        stretch = self._stretch(t)
+        lowest = int(np.argmin(stretch))
+        low, high = float(t[max(lowest - 1, 0)]), float(t[min(lowest + 1, len(t) - 1)])
+        for _ in range(80):
+            third = (high - low) / 3
+            left, right = low + third, high - third
+            low, high = (low, right) if self._stretch(left) < self._stretch(right) else (left, high)
+        least = min(((low + high) / 2, float(t[lowest])), key=lambda place: float(self._stretch(place)))
+        if float(self._stretch(least)) > 0:
+            return self
+        places = np.sort(np.append(t, least))
+        turned = self._stretch(places) <= 0
+        changes = np.flatnonzero(turned[1:] != turned[:-1])
+        if not changes.size:
+            raise CuspError(float(t[0]), self.distance)
+        low, high = places[changes[0]], places[changes[0] + 1]
+        raise CuspError(bracketed_root(lambda s: float(self._stretch(s)), float(low), float(high)).value, self.distance)
 
     def offset(self, distance: float) -> OffsetCurve:
         return OffsetCurve(self.base, self.distance + distance).checked()

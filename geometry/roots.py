@@ -33,6 +33,9 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float, 
     b, a, c = low, high, high
     fa, fb = function(a), function(b)
     fc = fa
+    for end, value in ((low, fb), (high, fa)):
+        if value == 0:
+            return Root(end, 0.0, 0, (end, end))
     if fa * fb > 0 or fa != fa or fb != fb:
         raise ConvergenceError(f"no change of sign between {low:.6g} and {high:.6g}", min(abs(fa), abs(fb)), 0)
     fraction = 0.5

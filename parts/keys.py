@@ -23,7 +23,16 @@ def in_modules(text: str, *, least: float, most: float) -> Meta:
     return Meta(ge=least, le=most, description=text, extra={"unit": "modules"})
 
 
-Identifier = Annotated[str, Meta(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,63}$", description="letters, digits, _ and -")]
+# names become parts of file names; Windows keeps some for devices
+IDENTIFIER = r"^[A-Za-z0-9][A-Za-z0-9_-]{0,63}\Z"
+DEVICE_NAMES = {"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(1, 10))}
+Identifier = Annotated[
+    str,
+    Meta(
+        pattern=IDENTIFIER,
+        description="part of the file's name where two exports share an ending; letters, digits, _, -",
+    ),
+]
 Colour = Annotated[str, Meta(pattern=r"^#[0-9a-fA-F]{6}$", description="colour in pictures, like #c08040")]
 FaceWidth = Annotated[float, mm("thickness of the part along its axis", least=0.01, most=10_000)]
 BoreDiameter = Annotated[float, mm("round bore; 0 is none", least=0, most=100_000)]

@@ -11,7 +11,7 @@ import msgspec
 from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError
-from parts.keys import Identifier, mm
+from parts.keys import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.part import Part
 from parts.schema import SceneError, converted, near, refuse_infinite
 from parts.spur_gear import SpurGearSpec, make_spur_gear
@@ -74,23 +74,33 @@ def load_scene(address: str) -> SceneFile:
     """
     built_in = built_in_scenes()
     path = Path(address)
-    if address in built_in and not path.is_file():
-        path = built_in[address]
     try:
-        if path.is_dir():
-            raise SceneError(
-                address, "", None, "is a folder; give a scene file (.toml) or one of: " + ", ".join(built_in)
-            )
-        with path.open("rb") as stream:
-            raw_bytes = stream.read(_MAX_SCENE_BYTES + 1)
+        if address in built_in and not path.is_file():
+            path = built_in[address]
+        folder = not address or path.is_dir()
+        raw_bytes = b"" if folder else _content(path)
     except FileNotFoundError:
-        remedy = f"no such file or built-in scene{near(address, built_in)}; built-in: {', '.join(built_in)}"
+        known = [*built_in, *([f"{address}.toml"] if Path(f"{address}.toml").is_file() else [])]
+        remedy = f"no such file or built-in scene{near(address, known)}; built-in: {', '.join(built_in)}"
         raise SceneError(address, "", None, remedy) from None
     except OSError as error:
         raise SceneError(address, "", None, f"cannot be read: {error.strerror or error}") from None
     except ValueError as error:
         raise SceneError(repr(address), "", None, f"is not a path: {error}") from None
-    return scene_from_toml(raw_bytes, str(path), path.stem)
+    if folder:
+        remedy = "is a folder; " if address else "is no scene; "
+        raise SceneError(address, "", None, f"{remedy}give a scene file (.toml) or one of: {', '.join(built_in)}")
+    name = path.stem.encode("utf-8", "replace").decode()
+    if not name.strip(". ") or not name.isprintable():
+        raise SceneError(
+            address, "", None, "the file's name names the folder of the results; rename it, like gear.toml"
+        )
+    return scene_from_toml(raw_bytes, str(path), name)
+
+
+def _content(path: Path) -> bytes:
+    with path.open("rb") as stream:
+        return stream.read(_MAX_SCENE_BYTES + 1)
 
 
 def scene_from_toml(raw_bytes: bytes, source: str, name: str) -> SceneFile:
@@ -104,7 +114,10 @@ def scene_from_toml(raw_bytes: bytes, source: str, name: str) -> SceneFile:
     except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
         text = str(error) or "nested too deeply"
         raise SceneError(source, "", None, f"is not TOML: {text}; see `higherpair new spur_gear` for a start") from None
-    return scene_from_dict(raw, source, name)
+    try:
+        return scene_from_dict(raw, source, name)
+    except RecursionError:
+        raise SceneError(source, "", None, "tables are nested too deeply; a scene needs three levels") from None
 
 
 def scene_from_dict(raw: dict[str, Any], source: str, name: str) -> SceneFile:
@@ -121,6 +134,12 @@ def scene_from_dict(raw: dict[str, Any], source: str, name: str) -> SceneFile:
         raise SceneError(source, "parts", None, 'a scene needs at least one part, like [parts.gear] kind = "spur_gear"')
     info = converted(raw.get("scene", {}), SceneInfo, source, "scene")
     parts = {key: _part_spec(key, table, source) for key, table in raw["parts"].items()}
+    for key in parts:
+        twin = next((k for k in parts if k != key and k.lower() == key.lower()), None)
+        if twin is not None:
+            raise SceneError(
+                source, f"parts.{key}", None, f"differs from {twin} only in case: one file for both; rename it"
+            )
     exports = [
         _export_spec(table, parts, source, f"exports[{i + 1}]") for i, table in enumerate(raw.get("exports", []))
     ]
@@ -129,8 +148,10 @@ def scene_from_dict(raw: dict[str, Any], source: str, name: str) -> SceneFile:
 
 def _part_spec(key: str, table: Any, source: str) -> Struct:
     place = f"parts.{key}"
-    if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}", key):
-        raise SceneError(source, place, None, "a part's name is made of letters, digits, _ and - (at most 64)")
+    if not re.fullmatch(IDENTIFIER, key) or key.lower() in DEVICE_NAMES:
+        raise SceneError(
+            source, place, None, "a part's name is made of letters, digits, _ and - (at most 64); rename it"
+        )
     if not isinstance(table, dict):
         raise SceneError(source, place, table, f"write it as a table, [parts.{key}]")
     kind = table.get("kind")
@@ -145,6 +166,8 @@ def _part_spec(key: str, table: Any, source: str) -> Struct:
 def _export_spec(table: Any, parts: dict[str, Struct], source: str, place: str) -> ExportSpec:
     spec = converted(table, ExportSpec, source, place)
     for part in spec.parts or ():
+        if (spec.parts or []).count(part) > 1:
+            raise SceneError(source, f"{place}.parts", part, "is listed twice; once is enough")
         if part not in parts:
             raise SceneError(
                 source, f"{place}.parts", part, f"no such part{near(part, parts)}; parts: {', '.join(parts)}"

@@ -19,8 +19,8 @@ class SceneError(ValueError):
     def __init__(self, source: str, key: str, value: object, remedy: str) -> None:
         self.source, self.key, self.value, self.remedy = source, key, value, remedy
         given = "" if value is None else f" = {_shown(value)}"
-        place = f"{source}: {key}{given}" if key else source
-        super().__init__(f"{place}: {remedy}")
+        place = f"{source}: {key}{given}" if key else source or '""'
+        super().__init__("".join(c if c.isprintable() else "?" for c in f"{place}: {remedy}"))
 
 
 def refuse_infinite(value: Any, source: str, place: str) -> None:
@@ -50,7 +50,7 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
     path = re.search(r" - at `\$\.?(.*?)`$", text)
     message = text[: path.start()] if path else text
     keys = [k for k in re.split(r"[.\[\]]+", path.group(1) if path else "") if k]
-    where = ".".join([place, *keys])
+    where = ".".join([place, *(f"item {int(k) + 1}" if k.isdigit() else k for k in keys)])
     if unknown := re.search(r"unknown field `(.*?)`", message):
         owner, name = _owner(kind, keys), unknown.group(1)
         known = (["kind"] if owner.__struct_config__.tag else []) + [
@@ -64,7 +64,8 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
     named = [k for k in keys if not k.isdigit()]
     hint = describe_key(_owner(kind, named[:-1]), named[-1]) if named else ""
     wrong_type = re.match(r"Expected `(.*?)`, got `(.*?)`", message)
-    remedy = f"must be {_TYPE_WORDS.get(wrong_type.group(1), wrong_type.group(1))}; {hint}" if wrong_type else hint
+    kinds = f"must be {_TYPE_WORDS.get(wrong_type.group(1), wrong_type.group(1))}" if wrong_type else ""
+    remedy = "; ".join(filter(None, (kinds, hint)))
     return SceneError(source, where, _lookup(table, keys), remedy or message)
 
 

@@ -6,9 +6,10 @@ import math
 from functools import lru_cache
 from typing import Annotated, Literal
 
+import msgspec
 from msgspec import Meta, Struct
 
-from geometry.errors import ParameterError
+from geometry.errors import GeometryError, ParameterError, at_most
 from geometry.gears.basic_rack import BasicRack, TipRelief, checked_rack, default_tip_radius, iso_53
 from geometry.gears.limits import checked_gear, findings, root_form_diameter, tip_thickness
 from geometry.gears.offset_tooth import gear_region
@@ -43,9 +44,9 @@ class ReliefTable(Struct, forbid_unknown_fields=True):
 
 
 class SpurGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="spur_gear"):
-    """Keys of ``kind = "spur_gear"``."""
+    """External spur gear, cut by a rack."""
 
-    module: Annotated[float, mm("module m", above=0, most=1000)]
+    module: Annotated[float, mm("module m", least=0.01, most=1000)]
     number_of_teeth: Annotated[int, Meta(ge=3, le=10_000, description="number of teeth z")]
     profile_shift_coefficient: Annotated[float, in_modules("profile shift x (the seeds' xi)", least=-10, most=10)] = 0.0
     pressure_angle_deg: Annotated[
@@ -74,7 +75,10 @@ def make_spur_gear(part_id: str, spec: SpurGearSpec) -> Part:
     ParameterError
         The gear cannot exist; names the key and the nearest value that works.
     """
-    gear = checked_gear(_gear_of(spec))
+    try:
+        gear = checked_gear(_gear_of(spec))
+    except ParameterError as refusal:
+        raise _with_rack_remedy(spec, refusal) from refusal
     circles = {
         "tip_diameter": 2 * gear.tip_radius,
         "reference_diameter": 2 * gear.reference_radius,
@@ -100,6 +104,31 @@ def make_spur_gear(part_id: str, spec: SpurGearSpec) -> Part:
     )
 
 
+def _with_rack_remedy(spec: SpurGearSpec, refusal: ParameterError) -> ParameterError:
+    """A refused key of one's own rack or relief with the largest value that gives a whole gear, not only a rack."""
+    owner, _, key = refusal.name.partition(".")
+    table = getattr(spec, owner, None) if owner in ("basic_rack", "tip_relief") else None
+    if not isinstance(table, Struct) or getattr(table, key) is None:
+        return refusal
+
+    def builds(value: float) -> bool:
+        changed = msgspec.structs.replace(table, **{key: value})
+        try:
+            checked_gear(_gear_of(msgspec.structs.replace(spec, **{owner: changed})))
+        except GeometryError:
+            return False
+        return True
+
+    low, high = (0.5 if key == "addendum_coefficient" else 0.0), float(getattr(table, key))
+    if builds(high) or not builds(low):
+        return refusal
+    for _ in range(40):
+        middle = (low + high) / 2
+        low, high = (middle, high) if builds(middle) else (low, middle)
+    reason = refusal.allowed.partition("; at most")[0]
+    return ParameterError(refusal.name, getattr(table, key), f"{reason}; at most {at_most(low, 4)} works")
+
+
 def _gear_of(spec: SpurGearSpec) -> SpurGear:
     if spec.tip_chamfer > 0 and spec.tip_rounding > 0:
         raise ParameterError("tip_rounding", spec.tip_rounding, "give either tip_chamfer or tip_rounding; 0 works")
@@ -123,12 +152,32 @@ def _rack_of(spec: SpurGearSpec) -> BasicRack:
     relief = None if given is None else TipRelief(given.depth_coefficient, given.height_coefficient)
     table = spec.basic_rack
     if isinstance(table, str):
-        return iso_53("A" if table == "GOST 13755" else table[-1], angle, relief)
+        return _standard_rack("A" if table == "GOST 13755" else table[-1], angle, relief)
     addendum, clearance, radius = (
         table.addendum_coefficient,
         table.tip_clearance_coefficient,
         table.tip_radius_coefficient,
     )
     if radius is None:
-        radius = max(default_tip_radius(angle, addendum, clearance, _TABLE_TIP_RADIUS), 0.0)
+        radius = default_tip_radius(angle, addendum, clearance, _TABLE_TIP_RADIUS)
     return checked_rack(BasicRack(angle, addendum, clearance, radius, relief))
+
+
+def _standard_rack(profile: str, angle: float, relief: TipRelief | None) -> BasicRack:
+    """An ISO 53 rack; one that is pointed at this angle is refused with the largest angle that works."""
+    try:
+        return iso_53(profile, angle, relief)
+    except ParameterError as refusal:
+        if refusal.name.startswith("tip_relief"):
+            raise
+        low, high = math.radians(20.0), angle
+        for _ in range(40):
+            middle = (low + high) / 2
+            try:
+                iso_53(profile, middle)
+                low = middle
+            except ParameterError:
+                high = middle
+        reason = f"the tooth of rack {profile} is pointed before it reaches its tip line"
+        remedy = f"{reason}; at most {at_most(math.degrees(low), 4)} works"
+        raise ParameterError("pressure_angle_deg", math.degrees(angle), remedy) from refusal

@@ -78,7 +78,7 @@ def full_round_radius(pressure_angle: float, dedendum: float) -> float:
 def default_tip_radius(pressure_angle: float, addendum: float, clearance: float, table: float) -> float:
     """Least of the table's radius, c/(1 - sin alpha) (keeps the mate's tip off) and the full round."""
     at_clearance = clearance / (1 - math.sin(pressure_angle))
-    return min(table, at_clearance, full_round_radius(pressure_angle, addendum + clearance))
+    return max(min(table, at_clearance, full_round_radius(pressure_angle, addendum + clearance)), 0.0)
 
 
 def iso_53(profile: str = "A", pressure_angle: float = ISO_53_ANGLE, relief: TipRelief | None = None) -> BasicRack:
@@ -100,6 +100,15 @@ def checked_rack(rack: BasicRack) -> BasicRack:
         no main flank.
     """
     alpha = rack.pressure_angle
+    if not 0 < alpha < math.pi / 2:
+        raise ParameterError("pressure_angle_deg", math.degrees(alpha), "must be above 0 and below 90 degrees")
+    for name, value in (
+        ("addendum", rack.addendum),
+        ("tip_clearance", rack.tip_clearance),
+        ("tip_radius", rack.tip_radius),
+    ):
+        if not 0 <= value < math.inf:
+            raise ParameterError(f"basic_rack.{name}_coefficient", value, "must be a finite number, at least 0")
     largest = full_round_radius(alpha, rack.dedendum)
     if largest < 0:
         depth = math.pi / 4 / math.tan(alpha)
@@ -113,7 +122,8 @@ def checked_rack(rack: BasicRack) -> BasicRack:
         raise ParameterError(
             "basic_rack.addendum_coefficient",
             rack.addendum,
-            f"the rack tooth is pointed at {math.degrees(alpha):g} degrees; less than {at_most(depth)} fits",
+            f"the rack tooth is pointed at {math.degrees(alpha):g} degrees before it reaches its tip line; "
+            f"at most {at_most(depth - rack.tip_clearance)} fits",
         )
     if rack.tip_radius > largest * (1 + 1e-12):
         raise ParameterError(
@@ -137,6 +147,7 @@ def _check_relief(rack: BasicRack, relief: TipRelief) -> None:
     half_tip = math.pi / 4 - rack.addendum * math.tan(rack.pressure_angle)
     largest = half_tip * math.cos(rack.pressure_angle)
     if not 0 <= relief.depth < largest:
+        reason = "the relieved flanks of the rack meet below its tip line (0.02 is customary)"
         raise ParameterError(
-            "tip_relief.depth_coefficient", relief.depth, f"must be from 0 to {at_most(largest)} (0.02 is customary)"
+            "tip_relief.depth_coefficient", relief.depth, f"{reason}; at most {at_most(largest)} works"
         )

@@ -111,6 +111,7 @@ def checked_gear(gear: SpurGear) -> SpurGear:
     ParameterError
         With the key, its value and the nearest value of that or another key that gives a gear.
     """
+    _check_numbers(gear)
     rim = root_below_bore(gear)
     if gear.root_radius > 0 and gear.bore_diameter > 0 and rim.margin <= 0:
         raise ParameterError("bore_diameter", rim.value, f"must be below the root diameter, {at_most(rim.limit)} mm")
@@ -129,55 +130,93 @@ def _builds(gear: SpurGear) -> bool:
     return gear.root_radius > gear.bore_radius
 
 
+def _check_numbers(gear: SpurGear) -> None:
+    """Refuse what is no dimension at all."""
+    if not gear.number_of_teeth >= 1:
+        raise ParameterError("number_of_teeth", gear.number_of_teeth, "must be at least 1")
+    if not 0 < gear.module < math.inf:
+        raise ParameterError("module", gear.module, "must be a finite number above 0")
+    if not math.isfinite(gear.profile_shift_coefficient):
+        raise ParameterError("profile_shift_coefficient", gear.profile_shift_coefficient, "must be a finite number")
+    if gear.given_tip_diameter is not None and not 0 < gear.given_tip_diameter < math.inf:
+        raise ParameterError("tip_diameter", gear.given_tip_diameter, "must be a finite number above 0")
+    for name in ("circumferential_thinning", "tip_chamfer", "tip_rounding", "bore_diameter"):
+        if not 0 <= getattr(gear, name) < math.inf:
+            raise ParameterError(name, getattr(gear, name), "must be a finite number, at least 0; 0 works")
+
+
+@dataclass(frozen=True, slots=True)
+class _Key:
+    """A key that may be to blame: its value, one that takes it out of play, and the gear with another value."""
+
+    name: str
+    value: float
+    harmless: float
+    gear_with: Callable[[float], SpurGear]
+    unit: str = " mm"
+
+
+def _suspects(gear: SpurGear) -> list[_Key]:
+    """Keys of a gear that could be changed alone, the most special first."""
+    keys = [
+        _Key("tip_chamfer", gear.tip_chamfer, 0.0, lambda v: replace(gear, tip_chamfer=v)),
+        _Key("tip_rounding", gear.tip_rounding, 0.0, lambda v: replace(gear, tip_rounding=v)),
+        _Key(
+            "circumferential_thinning",
+            gear.circumferential_thinning,
+            0.0,
+            lambda v: replace(gear, circumferential_thinning=v),
+        ),
+    ]
+    if (relief := gear.rack.relief) is not None:
+        keys.append(
+            _Key(
+                "tip_relief.depth_coefficient",
+                relief.depth,
+                0.0,
+                lambda v: replace(gear, rack=replace(gear.rack, relief=replace(relief, depth=v))),
+                "",
+            )
+        )
+        keys.append(
+            _Key(
+                "tip_relief.height_coefficient",
+                relief.height,
+                1e-6,
+                lambda v: replace(gear, rack=replace(gear.rack, relief=replace(relief, height=v))),
+                "",
+            )
+        )
+    # lower than any tip that leaves a flank: what is between is found by the search for the boundary
+    given = 2 * gear.tip_radius
+    default = 2 * replace(gear, given_tip_diameter=None).tip_radius
+    keys.append(_Key("tip_diameter", given, default, lambda v: replace(gear, given_tip_diameter=v)))
+    return [k for k in keys if k.value != k.harmless]
+
+
 def _with_remedy(gear: SpurGear, refusal: ParameterError) -> ParameterError:
     """The refusal told in the user's keys, with the nearest value that works."""
-    kind, x = type(refusal), gear.profile_shift_coefficient
-    for name, value, changed, unit in _reducible(gear):
-        if refusal.name == name and _builds(changed(1e-9)):
-            largest = _largest_that_builds(changed, value)
-            return kind(name, value, f"{refusal.allowed}; at most {at_most(largest, 4)}{unit} works")
-    if gear.given_tip_diameter is not None:
-        given = gear.given_tip_diameter
-        near = _nearest(lambda v: _builds(replace(gear, given_tip_diameter=v)), given, gear.module)
-        if near is not None:
-            word = at_most if near < given else at_least
-            return kind("tip_diameter", given, f"{refusal.allowed}; {word(near, 4)} mm works")
-    if gear.circumferential_thinning > 0 and _builds(replace(gear, circumferential_thinning=0.0)):
-        value = gear.circumferential_thinning
-        largest = _boundary(lambda v: _builds(replace(gear, circumferential_thinning=v)), 0.0, value)
-        return kind("circumferential_thinning", value, f"{refusal.allowed}; at most {at_most(largest, 4)} mm works")
-    nearest = _nearest(lambda v: _builds(replace(gear, profile_shift_coefficient=v)), x, 0.05)
+    kind = type(refusal)
+    for key in sorted(_suspects(gear), key=lambda k: k.name != refusal.name):
+        if _builds(key.gear_with(key.harmless)):
+            works = _boundary(lambda v, k=key: _builds(k.gear_with(v)), key.harmless, key.value)  # type: ignore[misc]
+            text = f"at most {at_most(works, 4)}" if works < key.value else f"at least {at_least(works, 4)}"
+            return kind(key.name, key.value, f"{refusal.allowed}; {text}{key.unit} works")
+    x = gear.profile_shift_coefficient
+    nearest = _nearest(lambda v: _builds(replace(gear, profile_shift_coefficient=v)), x)
     if nearest is not None:
-        word = at_least if nearest > x else at_most
-        return kind("profile_shift_coefficient", x, f"{refusal.allowed}; the nearest that works is {word(nearest, 4)}")
+        text = f"at least {at_least(nearest, 4)}" if nearest > x else f"at most {at_most(nearest, 4)}"
+        return kind("profile_shift_coefficient", x, f"{refusal.allowed}; {text} works")
+    diameter = 2 * gear.tip_radius
+    lower = (diameter * (1 - k / 200) for k in range(1, 160))
+    good = next((d for d in lower if _builds(replace(gear, given_tip_diameter=d))), None)
+    if good is not None:
+        works = _boundary(lambda v: _builds(replace(gear, given_tip_diameter=v)), good, diameter)
+        return kind("tip_diameter", diameter, f"{refusal.allowed}; at most {at_most(works, 4)} mm works")
     z = gear.number_of_teeth
     teeth = next((n for n in range(z + 1, z + 60) if _builds(replace(gear, number_of_teeth=n))), None)
     remedy = f"; {teeth} teeth work" if teeth is not None else ""
     return UndercutError("number_of_teeth", z, f"{refusal.name}: {refusal.allowed}{remedy}")
-
-
-def _largest_that_builds(changed: Callable[[float], SpurGear], refused: float) -> float:
-    """The value nearest below a refused one with which a gear can be built."""
-    return _boundary(lambda value: _builds(changed(value)), 1e-9, refused)
-
-
-def _reducible(gear: SpurGear) -> list[tuple[str, float, Callable[[float], SpurGear], str]]:
-    """Keys that may simply be too large: name, value, the gear with another value, unit."""
-    keys: list[tuple[str, float, Callable[[float], SpurGear], str]] = [
-        ("tip_chamfer", gear.tip_chamfer, lambda v: replace(gear, tip_chamfer=v), " mm"),
-        ("tip_rounding", gear.tip_rounding, lambda v: replace(gear, tip_rounding=v), " mm"),
-    ]
-    rack, relief = gear.rack, gear.rack.relief
-    if relief is not None:
-        keys.append(
-            (
-                "tip_relief.height_coefficient",
-                relief.height,
-                lambda v: replace(gear, rack=replace(rack, relief=replace(relief, height=v))),
-                "",
-            )
-        )
-    return keys
 
 
 def _boundary(works: Callable[[float], bool], good: float, bad: float) -> float:
@@ -188,10 +227,8 @@ def _boundary(works: Callable[[float], bool], good: float, bad: float) -> float:
     return good
 
 
-def _nearest(works: Callable[[float], bool], value: float, step: float) -> float | None:
-    """The value nearest to a refused one that works, within 60 steps either way."""
-    for k in range(1, 61):
-        for side in (1, -1):
-            if works(value + side * k * step):
-                return _boundary(works, value + side * k * step, value + side * (k - 1) * step)
-    return None
+def _nearest(works: Callable[[float], bool], value: float) -> float | None:
+    """The shift nearest to a refused one that works, sought from -3 to 3 in steps of 0.05."""
+    grid = sorted((k / 20 for k in range(-60, 61)), key=lambda v: abs(v - value))
+    good = next((v for v in grid if works(v)), None)
+    return None if good is None else _boundary(works, good, value)

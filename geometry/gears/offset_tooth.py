@@ -70,13 +70,15 @@ def offset_side(gear: SpurGear, offset: float) -> ToothSide:
     """The lower side of tooth 1 moved outwards by ``offset`` mm (inwards where negative)."""
     if offset == 0:
         return tooth_side(gear)
+    if not math.isfinite(offset):
+        raise OffsetError(offset, "is no finite number", 0.0)
     try:
         return _moved_side(gear, offset)
     except GeometryError as refusal:
         tooth_side(gear)
         limit = _largest_offset(gear, offset)
         word = "closes the tooth spaces" if offset > 0 else "leaves no tooth"
-        raise OffsetError(offset, word, limit) from refusal
+        raise OffsetError(offset, refusal.reason if isinstance(refusal, OffsetError) else word, limit) from refusal
 
 
 def _moved_side(gear: SpurGear, offset: float) -> ToothSide:

@@ -74,6 +74,7 @@ class SpurGear:
 
     @property
     def bore_radius(self) -> float:
+        """Half of the bore diameter, mm; 0 is no bore."""
         return self.bore_diameter / 2
 
     @property

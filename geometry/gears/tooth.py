@@ -76,8 +76,10 @@ class SideCurves:
         """The curves as the rack cuts them."""
         flank = gear.flank()
         relief = gear.relief_flank() if gear.rack.relief and gear.rack.relief.depth > 0 else None
-        chamfer = _chamfer_line(gear, flank, relief) if gear.tip_chamfer > 0 else None
-        return cls(gear.fillet(), flank, relief, gear.root_radius, gear.tip_radius, chamfer, gear.tip_rounding)
+        least = TOLERANCES.relative_length * gear.tip_radius
+        chamfer = _chamfer_line(gear, flank, relief) if gear.tip_chamfer > least else None
+        rounding = gear.tip_rounding if gear.tip_rounding > least else 0.0
+        return cls(gear.fillet(), flank, relief, gear.root_radius, gear.tip_radius, chamfer, rounding)
 
     def shrunk(self, distance: float) -> SideCurves:
         """All boundaries moved ``distance`` into the material: each curve stays of its family."""
@@ -128,7 +130,9 @@ def assemble_side(curves: SideCurves, pitch_angle: float, *, blunt: bool = False
         raise PointedTipError("tip diameter", 2 * tip_radius, "the flanks meet below the root form circle")
     if apex <= tip_radius:
         if not blunt:
-            raise PointedTipError("tip diameter", 2 * tip_radius, f"the tooth is pointed at {at_most(2 * apex)}")
+            raise PointedTipError(
+                "tip diameter", 2 * tip_radius, f"the tooth is pointed at a diameter of {at_most(2 * apex, 4)} mm"
+            )
         findings.append(Finding("tip_lost", tip_radius - apex, 0.0))
         tip_radius = apex
     pieces = _flank_pieces(flank, curves.relief, form_radius, tip_radius, findings)
