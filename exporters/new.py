@@ -60,6 +60,8 @@ def _keys(owner: type[Struct]) -> list[str]:
     for field in msgspec.structs.fields(owner):
         code = f"{field.encode_name} = {_value(field)}"
         lines.append(_line(code if field.required else f"# {code}", describe_type(field.type)))
+        if (table := _table_of(field)) is not None and field.default is not None:
+            lines.append(f"# {field.encode_name} = {_table_value(table)}  # ... or this")
     return lines
 
 
@@ -70,9 +72,16 @@ def _line(code: str, text: str) -> str:
 def _value(field: msgspec.structs.FieldInfo) -> str:
     """The default of a key as TOML, or an example where it has none."""
     if field.required or field.default is None:
-        table = next((a for a in get_args(field.type) if isinstance(a, type) and issubclass(a, Struct)), None)
-        if table is None:
-            return _EXAMPLES[field.encode_name]
-        inner = (f"{f.encode_name} = {_value(f)}" for f in msgspec.structs.fields(table))
-        return "{ " + ", ".join(inner) + " }"
+        table = _table_of(field)
+        return _EXAMPLES[field.encode_name] if table is None else _table_value(table)
     return f'"{field.default}"' if isinstance(field.default, str) else str(field.default)
+
+
+def _table_of(field: msgspec.structs.FieldInfo) -> type[Struct] | None:
+    """The kind of table that a key takes, if it takes one."""
+    return next((a for a in get_args(field.type) if isinstance(a, type) and issubclass(a, Struct)), None)
+
+
+def _table_value(table: type[Struct]) -> str:
+    inner = (f"{f.encode_name} = {_value(f)}" for f in msgspec.structs.fields(table))
+    return "{ " + ", ".join(inner) + " }"

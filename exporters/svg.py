@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from textwrap import wrap
 
 import numpy as np
 
@@ -15,6 +16,8 @@ STROKES = {"CUT_INNER": "#00ff00", "CUT_OUTER": "#ff0000"}
 # exporters/job.py states what this rounding may do to an outline
 _DIGITS = 9
 _MARGIN = 2.0
+# letters of the caption that fit beside a preview
+_CAPTION_LETTERS = 42
 
 
 def write_laser_svg(file: Path, layers: tuple[str, ...], boundaries: tuple[Approximation, ...]) -> dict[str, int]:
@@ -36,6 +39,7 @@ def write_preview(
     middle = reach * 1.08
     text = reach / 22
     rows = [f"{words(language, name)}  {value:.4f}" for name, value in (part.circles | part.quantities).items()]
+    remarks = [line for remark in remarks for line in wrap(remark, _CAPTION_LETTERS)]
     lines = [
         _head(
             middle,

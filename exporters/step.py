@@ -1,0 +1,116 @@
+"""STEP AP214 in mm through the kernel's XCAF document: names, colours, a fixed header, the same bytes every time."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from geometry.errors import GeometryError
+
+_HEADER_TIME = "2000-01-01T00:00:00"
+_SETTINGS = {
+    "write.step.schema": "AP214IS",
+    "write.step.unit": "MM",
+    "write.surfacecurve.mode": 0,
+    "write.precision.mode": 0,
+    "write.step.assembly": 1,
+}
+
+
+def write_step(file: Path, name: str, solid: Any, colour: str | None) -> dict[str, int]:
+    """Write one named solid; counts entities of the file by kind."""
+    from OCP.IFSelect import IFSelect_RetDone
+    from OCP.STEPCAFControl import STEPCAFControl_Writer
+    from OCP.STEPControl import STEPControl_StepModelType
+
+    with _silent_kernel():
+        document = _document(name, solid, colour)
+        # the controller must exist before its settings do
+        writer = STEPCAFControl_Writer()
+        _apply_settings()
+        writer.SetNameMode(True)
+        writer.SetColorMode(True)
+        if not writer.Transfer(document, STEPControl_StepModelType.STEPControl_AsIs):
+            raise GeometryError("the kernel cannot translate the solid to STEP")
+        _fix_header(writer, name)
+        if writer.Write(str(file)) != IFSelect_RetDone:
+            raise OSError(f"the kernel cannot write {file}")
+    return _tidied(file)
+
+
+def _document(name: str, solid: Any, colour: str | None) -> Any:
+    from OCP.Quantity import Quantity_Color, Quantity_TOC_sRGB
+    from OCP.TCollection import TCollection_ExtendedString
+    from OCP.TDataStd import TDataStd_Name
+    from OCP.TDocStd import TDocStd_Document
+    from OCP.XCAFDoc import XCAFDoc_ColorGen, XCAFDoc_DocumentTool
+
+    document = TDocStd_Document(TCollection_ExtendedString("XmlOcaf"))
+    shapes = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
+    label = shapes.AddShape(solid, False)
+    TDataStd_Name.Set_s(label, TCollection_ExtendedString(name, True))
+    if colour is not None:
+        red, green, blue = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
+        shade = Quantity_Color(red, green, blue, Quantity_TOC_sRGB)
+        XCAFDoc_DocumentTool.ColorTool_s(document.Main()).SetColor(label, shade, XCAFDoc_ColorGen)
+    return document
+
+
+def _apply_settings() -> None:
+    """The kernel's settings are global to the process: all of them are set before each write."""
+    from OCP.Interface import Interface_Static
+
+    for key, value in _SETTINGS.items():
+        done = (
+            Interface_Static.SetCVal_s(key, value) if isinstance(value, str) else Interface_Static.SetIVal_s(key, value)
+        )
+        if not done:
+            raise GeometryError(f"the kernel does not take {key} = {value}")
+
+
+def _fix_header(writer: Any, name: str) -> None:
+    from OCP.APIHeaderSection import APIHeaderSection_MakeHeader
+    from OCP.TCollection import TCollection_HAsciiString
+
+    def text(value: str) -> Any:
+        return TCollection_HAsciiString(value)
+
+    header = APIHeaderSection_MakeHeader(writer.ChangeWriter().Model())
+    header.SetName(text(f"{name}.step"))
+    header.SetTimeStamp(text(_HEADER_TIME))
+    header.SetAuthorValue(1, text(""))
+    header.SetOrganizationValue(1, text(""))
+    header.SetOriginatingSystem(text("higherpair"))
+    header.SetAuthorisation(text(""))
+
+
+_OCCURRENCE = re.compile(rb"(NEXT_ASSEMBLY_USAGE_OCCURRENCE\(')(\d+)(')")
+
+
+def _tidied(file: Path) -> dict[str, int]:
+    """Renumber the occurrence ids, which count on through the process, and count entities."""
+    data = file.read_bytes()
+    numbers = iter(range(1, data.count(b"NEXT_ASSEMBLY_USAGE_OCCURRENCE(") + 1))
+    fixed = _OCCURRENCE.sub(lambda m: m[1] + str(next(numbers)).encode() + m[3], data)
+    if fixed != data:
+        file.write_bytes(fixed)
+    kinds = ("CYLINDRICAL_SURFACE", "SURFACE_OF_LINEAR_EXTRUSION", "PLANE", "MANIFOLD_SOLID_BREP")
+    return {kind: fixed.count(f"={kind}(".encode()) + fixed.count(f"= {kind}(".encode()) for kind in kinds}
+
+
+@contextmanager
+def _silent_kernel() -> Iterator[None]:
+    """The kernel prints a statistic at every write; its printers are taken away while it works."""
+    from OCP.Message import Message
+
+    messenger = Message.DefaultMessenger_s()
+    printers = list(messenger.Printers())
+    messenger.ChangePrinters().Clear()
+    try:
+        yield
+    finally:
+        for printer in printers:
+            messenger.AddPrinter(printer)
