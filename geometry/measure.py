@@ -15,7 +15,8 @@ from geometry.profile import Profile, Region
 _GAUSS_POINTS = 20
 _GAUSS_PANELS = 4
 _COARSE_SAMPLES, _FINE_SAMPLES = 17, 65
-_STEPS = 4
+# near a cusp the steps only halve the error, so the thorough pass takes many
+_QUICK_STEPS, _THOROUGH_STEPS = 4, 24
 NDArrayInt = NDArray[np.int64]
 
 
@@ -114,7 +115,7 @@ def _projected(points: Complex, curve: Curve, samples: Real, start: NDArrayInt, 
     low, high = curve.domain
     reach = (high - low) / (len(samples) - 1)
     t = samples[start]
-    for _ in range(_STEPS):
+    for _ in range(_THOROUGH_STEPS if newton else _QUICK_STEPS):
         gap, first = curve.point(t) - points, curve.derivative(t)
         square = (np.conj(first) * first).real
         slope = square + (np.conj(gap) * curve.derivative(t, 2)).real if newton else square
