@@ -107,7 +107,11 @@ def check_remedy(gear: SpurGear) -> None:
     with pytest.raises(ParameterError) as caught:
         checked_gear(gear)
     key, value = caught.value.name, remedy(caught.value.allowed)
-    assert getattr(gear, key) == caught.value.value
+    if key == "tip_diameter":
+        assert caught.value.value == 2 * gear.tip_radius
+        key = "given_tip_diameter"
+    else:
+        assert getattr(gear, key) == caught.value.value
     assert checked_gear(replace(gear, **{key: round(value) if key == "number_of_teeth" else value}))
 
 
