@@ -8,10 +8,11 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from exporters.job import Job, Written, approximations, declared_error
+from exporters.job import Job, Shape, Written, declared_error, shape_of
 from exporters.plan import Plan
 from exporters.report import NAME, read_report, write_report
 from exporters.words import finding_text
@@ -67,11 +68,11 @@ def move_into(folder: Path, staging: Path, names: list[str]) -> None:
         os.replace(staging / name, folder / name)
 
 
-def _shapes(job: Job, source: str) -> tuple[tuple[Approximation, ...], float]:
+def _shapes(job: Job, source: str) -> tuple[Shape, float]:
     """Approximated boundaries and the seconds they took; refused in the scene's terms."""
     start = time.perf_counter()
     try:
-        return approximations(job), time.perf_counter() - start
+        return shape_of(job), time.perf_counter() - start
     except ParameterError as error:
         raise SceneError(source, f"{job.place}.{error.name}", error.value, error.allowed) from error
     except ConvergenceError as error:
@@ -79,7 +80,7 @@ def _shapes(job: Job, source: str) -> tuple[tuple[Approximation, ...], float]:
         raise SceneError(source, f"{job.place}.tolerance", job.export.tolerance, remedy) from error
 
 
-def _write(job: Job, shape: tuple[tuple[Approximation, ...], float], file: Path, *, verify: bool) -> Written:
+def _write(job: Job, shape: tuple[Shape, float], file: Path, *, verify: bool) -> Written:
     made, spent = shape
     seconds = {"approximate": spent}
     start = time.perf_counter()
@@ -93,24 +94,28 @@ def _write(job: Job, shape: tuple[tuple[Approximation, ...], float], file: Path,
 
     start = time.perf_counter()
     tolerance = float(job.export.tolerance or 0.0)
-    verdict = verify_file(file, job.export.format, job.section.region, job.part.face_width, max_error, tolerance)
+    verdict = verify_file(file, job.kind, job.section.region, job.part.face_width, max_error, tolerance)
     seconds["verify"] = time.perf_counter() - start
     return Written(job, file, max_error, bound, entities, verdict.measured, findings, verdict.failures, seconds)
 
 
-def _write_dxf(job: Job, made: tuple[Approximation, ...], file: Path) -> dict[str, int]:
+def _write_dxf(job: Job, made: Any, file: Path) -> dict[str, int]:
+    if job.is_cad:
+        from exporters.drawing import write_drawing_dxf
+
+        return write_drawing_dxf(file, made)
     from exporters.dxf import write_laser_dxf
 
     return write_laser_dxf(file, job.layer_order, made, version=job.export.dxf_version)
 
 
-def _write_svg(job: Job, made: tuple[Approximation, ...], file: Path) -> dict[str, int]:
+def _write_svg(job: Job, made: Any, file: Path) -> dict[str, int]:
     from exporters.svg import write_laser_svg
 
     return write_laser_svg(file, job.layer_order, made)
 
 
-def _write_stl(job: Job, made: tuple[Approximation, ...], file: Path) -> dict[str, int]:
+def _write_stl(job: Job, made: Any, file: Path) -> dict[str, int]:
     from exporters.stl import write_stl
     from parts.solids import extruded_gear
 
@@ -118,7 +123,7 @@ def _write_stl(job: Job, made: tuple[Approximation, ...], file: Path) -> dict[st
     return write_stl(file, extruded_gear(outer, bore, job.part.face_width))
 
 
-def _write_3mf(job: Job, made: tuple[Approximation, ...], file: Path) -> dict[str, int]:
+def _write_3mf(job: Job, made: Any, file: Path) -> dict[str, int]:
     from exporters.threemf import write_3mf
     from parts.solids import extruded_gear
 
@@ -127,25 +132,35 @@ def _write_3mf(job: Job, made: tuple[Approximation, ...], file: Path) -> dict[st
     return write_3mf(file, job.part.id, mesh, job.part.colour)
 
 
-WRITERS: dict[str, Callable[[Job, tuple[Approximation, ...], Path], dict[str, int]]] = {
+def _write_step(job: Job, made: Any, file: Path) -> dict[str, int]:
+    from exporters.step import write_step
+    from parts.brep import extruded_solid
+
+    *holes, outer = (list(outline.curves()) for outline in made)
+    return write_step(file, job.part.id, extruded_solid(outer, holes, job.part.face_width), job.part.colour)
+
+
+WRITERS: dict[str, Callable[[Job, Any, Path], dict[str, int]]] = {
     "dxf": _write_dxf,
     "svg": _write_svg,
     "stl": _write_stl,
     "3mf": _write_3mf,
+    "step": _write_step,
 }
 
 
-def _job_findings(job: Job, made: tuple[Approximation, ...]) -> list[Finding]:
+def _job_findings(job: Job, made: Shape) -> list[Finding]:
     """Remarks on one file: a tolerance too coarse for the teeth, edges too short for a laser."""
     found = []
     limit = _COARSE_SHARE * job.part.circles["reference_diameter"] / job.section.region.outer.count
     if (job.export.tolerance or 0.0) > limit:
         found.append(Finding("coarse_tolerance", float(job.export.tolerance or 0.0), limit))
-    if not job.is_mesh:
+    if not job.is_mesh and not job.is_cad:
         short = sum(
             int(np.count_nonzero(np.abs(a.geometry.period_ends() - a.geometry.vertices) < LEAST_SEGMENT_MM))
             * a.geometry.count
             for a in made
+            if isinstance(a, Approximation)
         )
         if short:
             found.append(Finding("short_edges", short, LEAST_SEGMENT_MM))

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from exporters.build import WRITERS
-from exporters.job import Job, approximations, declared_error
+from exporters.job import Job, declared_error, shape_of
 from exporters.plan import Plan
 from exporters.plot import Series, write_loglog
 from exporters.verify import verify_file
@@ -22,7 +22,9 @@ from geometry.arc_spline import arc_spline_of
 from geometry.curve import Curve
 from geometry.errors import ConvergenceError, ParameterError
 from geometry.line_arc import Arc, Line
+from geometry.spline_fit import spline_of_spans
 
+CAD_LADDER = (0.01, 0.001, 1e-4, 1e-5, 1e-6, 1e-7)
 LADDER = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005, 0.0002, 0.0001)
 _REPEATS = 3
 # orders are fitted over doubled piece counts, from here down to this many times the rounding floor
@@ -61,6 +63,8 @@ class Order:
 METHODS: dict[str, tuple[float, Callable[[Curve, int], float]]] = {
     "chords": (2.0, lambda curve, count: chords_of(curve, count)[1]),
     "arcs": (3.0, lambda curve, count: arc_spline_of(curve, count).max_error),
+    "cubic splines": (4.0, lambda curve, count: spline_of_spans(curve, count, degree=3, continuity=2).max_error),
+    "degree 7 splines": (8.0, lambda curve, count: spline_of_spans(curve, count, degree=7, continuity=6).max_error),
 }
 
 
@@ -69,7 +73,7 @@ def ladder(plan: Plan, folder: Path, progress: Callable[[str], None] = lambda pa
     rungs = []
     for job in plan.jobs:
         progress(job.path)
-        for tolerance in LADDER:
+        for tolerance in CAD_LADDER if job.is_cad else LADDER:
             export = replace_export(job, tolerance)
             try:
                 rungs.append(_rung(export, folder / job.path))
@@ -90,15 +94,15 @@ def _rung(job: Job, file: Path) -> Rung:
     seconds = []
     for _ in range(_REPEATS):
         start = time.perf_counter()
-        made = approximations(job)
-        WRITERS[job.export.format](job, made, file)
+        made = shape_of(job)
+        entities = WRITERS[job.export.format](job, made, file)
         seconds.append(time.perf_counter() - start)
     max_error, _ = declared_error(job, made)
     tolerance = float(job.export.tolerance or 0.0)
-    verdict = verify_file(file, job.export.format, job.section.region, job.part.face_width, max_error, tolerance)
+    verdict = verify_file(file, job.kind, job.section.region, job.part.face_width, max_error, tolerance)
     size = file.stat().st_size
     file.unlink()
-    edges = sum(len(a.geometry) for a in made)
+    edges = sum(entities.values())
     measured = verdict.measured.get("max_deviation", math.nan)
     spread = max(seconds) - min(seconds)
     name = job.export.format

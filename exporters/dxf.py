@@ -22,7 +22,7 @@ def write_laser_dxf(
     file: Path, layers: tuple[str, ...], boundaries: tuple[Approximation, ...], *, version: str
 ) -> dict[str, int]:
     """Write closed polylines in mm; returns the number of entities of each kind."""
-    with _fixed_metadata():
+    with fixed_metadata():
         drawing = _new_drawing(version)
     drawing.header["$LUNITS"] = 2
     if version != "R12":
@@ -38,8 +38,8 @@ def write_laser_dxf(
     low, high = np.min([c[0] for c in corners], axis=0), np.max([c[1] for c in corners], axis=0)
     # ezdxf writes the header's extents from those of the layout
     space.reset_extents((*low, 0.0), (*high, 0.0))
-    with _fixed_metadata():
-        _save(drawing, file)
+    with fixed_metadata():
+        save(drawing, file)
     kind = "POLYLINE" if version == "R12" else "LWPOLYLINE"
     vertices = sum(len(b.geometry) for b in boundaries)
     return {kind: len(boundaries), "vertices": vertices, "arcs": _arc_count(boundaries)}
@@ -82,7 +82,7 @@ def _arc_count(boundaries: tuple[Approximation, ...]) -> int:
 
 
 @contextmanager
-def _fixed_metadata() -> Iterator[None]:
+def fixed_metadata() -> Iterator[None]:
     """The same bytes at every run: ezdxf's dates and ids fixed while a file is written."""
     before = ezdxf.options.write_fixed_meta_data_for_testing
     ezdxf.options.write_fixed_meta_data_for_testing = True
@@ -92,7 +92,8 @@ def _fixed_metadata() -> Iterator[None]:
         ezdxf.options.write_fixed_meta_data_for_testing = before
 
 
-def _save(drawing: Drawing, file: Path) -> None:
+def save(drawing: Drawing, file: Path) -> None:
+    """Write a drawing with its own encoding."""
     # "\n" on every system, so that the bytes are the same there too
     with file.open("w", encoding=drawing.output_encoding, errors="dxfreplace", newline="\n") as stream:
         drawing.write(stream)

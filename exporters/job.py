@@ -10,6 +10,7 @@ from geometry.contour import Approximation
 from geometry.errors import ParameterError, at_least
 from geometry.findings import Finding
 from geometry.gears.offset_tooth import OffsetRegion
+from geometry.outline import Outline, spline_outline
 from geometry.tolerance import LEAST_SEGMENT_MM
 from parts.part import Part
 from parts.scene import ExportSpec
@@ -40,6 +41,16 @@ class Job:
         return self.export.format in ("stl", "3mf")
 
     @property
+    def kind(self) -> str:
+        """What the read-back must expect: the format, or "drawing" for a DXF of splines."""
+        return "drawing" if self.export.format == "dxf" and self.is_cad else self.export.format
+
+    @property
+    def is_cad(self) -> bool:
+        """Whether the format holds splines."""
+        return self.export.format == "step" or self.export.purpose == "drawing"
+
+    @property
     def layer_order(self) -> tuple[str, ...]:
         """Layer of each boundary in ``approximations``: inner ones are cut first."""
         return (*("CUT_INNER" for _ in self.section.region.holes), "CUT_OUTER")
@@ -58,6 +69,27 @@ class Written:
     findings: tuple[Finding, ...]
     failures: tuple[str, ...] = ()
     seconds: dict[str, float] = field(default_factory=dict)
+
+
+Shape = tuple[Approximation, ...] | tuple[Outline, ...]
+
+
+def shape_of(job: Job) -> Shape:
+    """The boundaries of a job's section, holes first: splines for CAD, else lines and arcs.
+
+    Raises
+    ------
+    ParameterError, ConvergenceError
+        The tolerance asks for more than the format can carry.
+    """
+    if not job.is_cad:
+        return approximations(job)
+    tolerance = float(job.export.tolerance or 0.0) - number_rounding(job)
+    # cubics are what drawings read everywhere; the kernel's files pay by the pole, so it gets a high degree
+    degree = 3 if job.export.format == "dxf" else 7
+    return tuple(
+        spline_outline(p, tolerance, degree=degree, continuity=degree - 1) for p in job.section.region.profiles()
+    )
 
 
 def approximations(job: Job) -> tuple[Approximation, ...]:
@@ -95,7 +127,7 @@ def number_rounding(job: Job) -> float:
     return _SVG_ROUNDING if job.export.format == "svg" else _DXF_ROUNDING * reach
 
 
-def declared_error(job: Job, made: tuple[Approximation, ...]) -> tuple[float, str]:
+def declared_error(job: Job, made: Shape) -> tuple[float, str]:
     """The bound of a whole file, mm: the worst boundary plus the rounding of its numbers."""
     worst, rounding = max(a.max_error for a in made), number_rounding(job)
     kinds = {a.bound for a in made}

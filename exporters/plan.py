@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from importlib.util import find_spec
 
 from exporters.job import Job
 from geometry.errors import GeometryError, at_least, at_most
@@ -46,6 +47,10 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
         if only_formats and e.format not in only_formats
     ]
     left_out += [(f"parts.{p}", "was not asked for") for p in parts if only_parts and p not in only_parts]
+    for place, export in exports:
+        if export.format == "step" and find_spec("OCP") is None:
+            remedy = 'needs the CAD kernel: pip install "higherpair[step-lite]" (or [step], with cadquery)'
+            raise SceneError(source, f"{place}.format", "step", remedy)
     used = {p for _, e in exports for p in e.parts or parts}
     left_out += [(f"parts.{p}", "no export asks for it") for p in parts if p not in used]
     jobs: list[Job] = []

@@ -71,5 +71,6 @@ def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, A
     declared, tolerance, kind = float(entry["max_error"]), float(entry["tolerance"]), entry["format"]
     if kind not in FORMATS:
         raise KeyError(f"format {kind}")
+    kind = "drawing" if entry["purpose"] == "drawing" else kind
     verdict = verify_file(file, kind, region, part.face_width, declared, tolerance)
     return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])

@@ -26,7 +26,7 @@ def write_step(file: Path, name: str, solid: Any, colour: str | None) -> dict[st
     from OCP.STEPCAFControl import STEPCAFControl_Writer
     from OCP.STEPControl import STEPControl_StepModelType
 
-    with _silent_kernel():
+    with silent_kernel():
         document = _document(name, solid, colour)
         # the controller must exist before its settings do
         writer = STEPCAFControl_Writer()
@@ -102,7 +102,7 @@ def _tidied(file: Path) -> dict[str, int]:
 
 
 @contextmanager
-def _silent_kernel() -> Iterator[None]:
+def silent_kernel() -> Iterator[None]:
     """The kernel prints a statistic at every write; its printers are taken away while it works."""
     from OCP.Message import Message
 

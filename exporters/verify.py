@@ -39,6 +39,10 @@ def verify_file(file: Path, kind: str, region: Region, thickness: float, declare
         if kind in ("stl", "3mf"):
             mesh = read_stl(file) if kind == "stl" else read_3mf(file)
             return _verify_mesh(mesh, region, thickness, declared, tolerance)
+        if kind in ("step", "drawing"):
+            from exporters.verify_cad import verify_cad
+
+            return verify_cad(file, kind, region, thickness, declared, tolerance)
         loops = read_dxf(file) if kind == "dxf" else read_svg(file)
         return _verdict(loops, region, declared, tolerance)
     except (ReadError, OSError) as error:
@@ -64,11 +68,12 @@ def _verdict(
         worst = max(worst, deviation)
         shortest = min(shortest, float(np.abs(np.roll(loop.vertices, -1) - loop.vertices).min()))
         failures += found
-    failures += _deviation_failures(worst, declared, tolerance, region)
+    failures += deviation_failures(worst, declared, tolerance, region)
     return Verdict({"contours": len(loops), "max_deviation": worst, "shortest_edge": shortest}, tuple(failures))
 
 
-def _deviation_failures(worst: float, declared: float, tolerance: float, region: Region) -> list[str]:
+def deviation_failures(worst: float, declared: float, tolerance: float, region: Region) -> list[str]:
+    """What is wrong with a deviation, mm: more than the tolerance, or more than was declared."""
     allowed = _ROUNDING * region.outer.reach()
     failures = []
     if not worst <= tolerance + allowed:
@@ -98,12 +103,12 @@ def _check_loop(loop: Loop, profile: Profile, declared: float, known_simple: boo
     exact, found = profile_area(profile), signed_area(starts, loop.bulges)
     if abs(abs(found) - abs(exact)) > max(deviation, declared) * length + 1e-12 * abs(exact):
         failures.append(f"encloses {abs(found):.9g} mm^2 instead of {abs(exact):.9g} mm^2")
-    if not known_simple and not _is_simple(points[:, :: max(1, (inner + 1) // 4)].ravel()):
+    if not known_simple and not is_simple(points[:, :: max(1, (inner + 1) // 4)].ravel()):
         failures.append("a contour crosses itself")
     return deviation, failures
 
 
-def _is_simple(points: Complex) -> bool:
+def is_simple(points: Complex) -> bool:
     """Whether a closed polygon does not cross itself, by GEOS."""
     import shapely
 

@@ -18,8 +18,14 @@ from parts.spur_gear import SpurGearSpec, make_spur_gear
 
 SCENE_FOLDER = Path(__file__).parent / "scenes"
 KINDS: dict[str, tuple[type[Struct], Any]] = {"spur_gear": (SpurGearSpec, make_spur_gear)}
-# purpose and tolerance (mm) that an export has where it names none
-_DEFAULTS = {"dxf": ("laser", 0.005), "svg": ("laser", 0.005), "stl": ("print", 0.01), "3mf": ("print", 0.01)}
+# purposes of each format, the default first, and the tolerance (mm) of an export that names none
+_DEFAULTS: dict[str, dict[str, float]] = {
+    "dxf": {"laser": 0.005, "drawing": 1e-6},
+    "svg": {"laser": 0.005},
+    "stl": {"print": 0.01},
+    "3mf": {"print": 0.01},
+    "step": {"model": 1e-6},
+}
 FORMATS = tuple(_DEFAULTS)
 # a scene that is larger than this is not one
 _MAX_SCENE_BYTES = 4_000_000
@@ -35,8 +41,13 @@ class SceneInfo(Struct, forbid_unknown_fields=True):
 class ExportSpec(Struct, forbid_unknown_fields=True):
     """Keys of ``[[exports]]``."""
 
-    format: Annotated[Literal["dxf", "svg", "stl", "3mf"], Meta(description="file format")]
-    purpose: Annotated[Literal["laser", "print"], Meta(description="what for")] | None = None
+    format: Annotated[Literal["dxf", "svg", "stl", "3mf", "step"], Meta(description="file format")]
+    purpose: (
+        Annotated[
+            Literal["laser", "print", "drawing", "model"], Meta(description="dxf: laser (arcs) or drawing (splines)")
+        ]
+        | None
+    ) = None
     tolerance: Annotated[float, mm("largest deviation from the exact curve", least=1e-7, most=1.0)] | None = None
     kerf: Annotated[float, mm("full width of the cut; the path runs half of it outside the part", least=0, most=10)] = (
         0.0
@@ -180,19 +191,19 @@ def _export_spec(table: Any, parts: dict[str, Struct], source: str, place: str) 
         raise SceneError(
             source, f"{place}.dxf_version", spec.dxf_version, f'only for format = "dxf", not {spec.format}; remove it'
         )
-    default = default_export(spec.format)
+    purposes = _DEFAULTS[spec.format]
     if spec.purpose is None:
-        spec.purpose = default.purpose
-    if spec.purpose != default.purpose:
-        raise SceneError(source, f"{place}.purpose", spec.purpose, f"{spec.format} is for {default.purpose}")
+        spec.purpose = default_export(spec.format).purpose
+    if spec.purpose not in purposes:
+        raise SceneError(source, f"{place}.purpose", spec.purpose, f"{spec.format} is for {' or '.join(purposes)}")
     if spec.tolerance is None:
-        spec.tolerance = default.tolerance
+        spec.tolerance = purposes[str(spec.purpose)]
     return spec
 
 
 def default_export(name: str) -> ExportSpec:
     """An export of a format with its default purpose and tolerance."""
-    purpose, tolerance = _DEFAULTS[name]
+    purpose, tolerance = next(iter(_DEFAULTS[name].items()))
     return msgspec.convert({"format": name, "purpose": purpose, "tolerance": tolerance}, ExportSpec)
 
 

@@ -22,7 +22,7 @@ NOT_IN_GEOMETRY = {"os", "pathlib", "io", "sys", "shutil", "tempfile", "json", "
                    "rich", "argparse", "trimesh", "manifold3d", "cadquery", "OCP", "lib3mf", "scipy"}  # fmt: skip
 HEAVY = {"ezdxf", "shapely", "rich", "trimesh", "manifold3d", "cadquery", "OCP", "lib3mf", "scipy", "matplotlib"}
 # a writer is itself imported only where its format is written
-HEAVY_AT_TOP = {"exporters/dxf.py": {"ezdxf"}}
+HEAVY_AT_TOP = {"exporters/dxf.py": {"ezdxf"}, "exporters/drawing.py": {"ezdxf"}}
 # nothing else may be needed to install and run
 LIGHT = {"numpy", "msgspec"}
 

@@ -1,0 +1,64 @@
+"""Boundaries for CAD: arcs and lines as themselves, every other curve as a B-spline within a tolerance."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from geometry.bspline import BSpline
+from geometry.contour import Bound
+from geometry.curve import Curve
+from geometry.involute import Involute
+from geometry.line_arc import Arc, Line
+from geometry.placement import Placement2
+from geometry.profile import Profile
+from geometry.spline_fit import fit_spline
+from geometry.trochoid import TrochoidFillet
+
+CadCurve = Arc | Line | BSpline
+
+
+@dataclass(frozen=True, slots=True)
+class Outline:
+    """One period of finished curves, placed ``count`` times, and the bound of its error, mm."""
+
+    period: tuple[CadCurve, ...]
+    count: int
+    max_error: float
+    bound: Bound
+
+    def curves(self) -> Iterator[CadCurve]:
+        """All curves in order of travel; a full circle about the origin is one arc."""
+        arcs = [c for c in self.period if isinstance(c, Arc)]
+        if self.count == 1 and len(arcs) == len(self.period) and len({(a.centre, a.radius) for a in arcs}) == 1:
+            sense = math.copysign(2 * math.pi, arcs[0].sweep)
+            yield Arc(arcs[0].centre, arcs[0].radius, arcs[0].start_angle, sense)
+            return
+        for k in range(self.count):
+            placement = Placement2(2 * math.pi * k / self.count)
+            for curve in self.period:
+                yield curve if k == 0 else curve.placed(placement)
+
+
+def spline_outline(profile: Profile, tolerance: float, *, degree: int, continuity: int) -> Outline:
+    """An exact profile as arcs, lines and B-splines within ``tolerance`` mm."""
+    done: dict[Curve, BSpline] = {}
+    period: list[CadCurve] = []
+    worst, certified = 0.0, True
+    for curve in (s.curve for s in profile.period):
+        if isinstance(curve, Arc | Line):
+            period.append(curve)
+            continue
+        twin = done.get(curve.mirrored()) if isinstance(curve, Involute | TrochoidFillet) else None
+        if twin is not None:
+            # both sides of a tooth are mirror images: one is fitted
+            spline = twin.mirrored()
+        else:
+            fit = fit_spline(curve, tolerance, degree=degree, continuity=continuity)
+            spline, worst = fit.spline, max(worst, fit.max_error)
+            certified = certified and fit.bound == "certified"
+        done[curve] = spline
+        period.append(spline)
+    bound: Bound = "exact" if worst == 0 else "certified" if certified else "sampled"
+    return Outline(tuple(period), profile.count, worst, bound)
