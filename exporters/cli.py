@@ -23,6 +23,8 @@ class _Parser(argparse.ArgumentParser):
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     _prepare_streams()
+    # numpy is not loaded yet: its threads would take longer to start than all that we compute
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     options = _parser().parse_args(arguments)
     stops = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
     previous = {stop: signal.signal(stop, _interrupt) for stop in stops}
@@ -77,7 +79,7 @@ def _parser() -> argparse.ArgumentParser:
         prog="higherpair", description="Exact gears as DXF, SVG and STL, each file read back and measured."
     )
     parser.add_argument("--version", action="version", version=f"higherpair {__version__}")
-    commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
+    commands = parser.add_subparsers(prog="higherpair", required=True, metavar="COMMAND", parser_class=_Parser)
     build = commands.add_parser("build", help="make the files of a scene")
     build.add_argument("scene", help="a built-in scene or a scene file (.toml)")
     build.add_argument("--out", default="out", type=Path, help="results go to OUT/<scene name> (default: out)")

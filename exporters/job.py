@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
 
 from geometry.approximate import approximate_profile
 from geometry.contour import Approximation
 from geometry.errors import ParameterError, at_least
 from geometry.findings import Finding
 from geometry.gears.offset_tooth import OffsetRegion
-from geometry.outline import Outline, spline_outline
 from geometry.tolerance import LEAST_SEGMENT_MM
 from parts.part import Part
 from parts.scene import ExportSpec
@@ -71,7 +71,10 @@ class Written:
     seconds: dict[str, float] = field(default_factory=dict)
 
 
-Shape = tuple[Approximation, ...] | tuple[Outline, ...]
+if TYPE_CHECKING:
+    from geometry.outline import Outline
+
+Shape: TypeAlias = "tuple[Approximation, ...] | tuple[Outline, ...]"
 
 
 def shape_of(job: Job) -> Shape:
@@ -84,6 +87,8 @@ def shape_of(job: Job) -> Shape:
     """
     if not job.is_cad:
         return approximations(job)
+    from geometry.outline import spline_outline
+
     tolerance = float(job.export.tolerance or 0.0) - number_rounding(job)
     # cubics are what drawings read everywhere; the kernel's files pay by the pole, so it gets a high degree
     degree = 3 if job.export.format == "dxf" else 7

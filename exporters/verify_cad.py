@@ -53,7 +53,7 @@ def _verdict(
     failures: list[str] = []
     worst, left = 0.0, list(loops)
     for profile in profiles:
-        rough = [float(distance_to_profile(loop[:: max(1, len(loop) // 16)], profile).max()) for loop in left]
+        rough = [float(distance_to_profile(x[:: max(1, len(x) // 16)], profile, trusted=np.inf).max()) for x in left]
         loop = left.pop(int(np.argmin(rough)))
         worst = max(worst, float(distance_to_profile(loop, profile, trusted=declared).max()))
         failures += _loop_failures(loop, profile)
@@ -109,7 +109,7 @@ def _drawn(entity: Any) -> Complex:
     kind = entity.dxftype()
     if kind == "LINE":
         ends = [complex(p.x, p.y) for p in (entity.dxf.start, entity.dxf.end)]
-        return ends[0] + share * (ends[1] - ends[0])
+        return np.asarray(ends[0] + share * (ends[1] - ends[0]), dtype=np.complex128)
     if kind in ("ARC", "CIRCLE"):
         centre, radius = complex(entity.dxf.center.x, entity.dxf.center.y), entity.dxf.radius
         low, high = (0.0, 360.0) if kind == "CIRCLE" else (entity.dxf.start_angle, entity.dxf.end_angle)

@@ -1,7 +1,7 @@
 """B-splines of exact curves within a tolerance: near the fewest poles, with a proven bound.
 
-Least squares of the normal distance: the tangential part of the residual counts 1/100, so that the spline may slide
-along the curve, and every sample is compared with its foot on the curve (tangent distance minimisation, a
+Least squares of the normal distance: the tangential part of the residual counts down to 1/1000, so that the spline may
+slide along the curve, and every sample is compared with its foot on the curve (tangent distance minimisation, a
 Gauss-Newton method: Wang, Pottmann, Liu, ACM Transactions on Graphics 25, 2006). The first parameter is the curve's
 own (best on an involute, an entire function of its roll angle) or the root of arc length times turning (best on a
 fillet, whose contact angle crowds); the knots are then shifted until all spans have alike errors.
@@ -30,12 +30,12 @@ _EXTRA_SAMPLES = 3
 _FIRST_WEIGHTS = (1.0, 0.1, 0.01)
 _LATER_WEIGHTS = (0.001,) * 8
 # later rounds are taken where the error is this near the tolerance
-_WORTH_SLIDING = 100.0
+_WORTH_SLIDING = 30.0
 _KNOT_ROUNDS = 2
 # knots are shifted where the error is this near the tolerance, and no span counts as having less error than that share
-_WORTH_SHIFTING, _LEAST_SHARE = 3.0, 1e-3
+_WORTH_SHIFTING, _LEAST_SHARE = 2.0, 1e-3
 # spans with which the first parameter is chosen, and caution in the estimate of the spans that are needed
-_PILOT_SPANS, _CAUTION = 3, 0.85
+_PILOT_SPANS, _CAUTION = 3, 0.9
 # up to so many spans all numbers are tried: the sliding parameter makes single ones far better than the rule
 _FEW_SPANS = 4
 # the share of the tolerance that rounds of least squares aim at, the rest being for the proof; the least share that
