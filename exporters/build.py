@@ -36,14 +36,16 @@ def build(
     verify: bool = True,
     partial: bool = False,
     progress: Callable[[str], None] = lambda path: None,
-) -> tuple[list[Written], list[Path]]:
+) -> tuple[list[Written], list[Path], dict[str, Any]]:
     """Write every job, a preview of every part and the report into ``folder``; what fails its read-back stays out.
 
     ``partial``: keep what the report in ``folder`` says of other files of the same scene. Returns what was
-    written, and the previews. Nothing half-written is left behind: all is made in a folder beside and moved
+    written, the previews, and what the checks found. Nothing half-written is left behind: all is made in a
+    folder beside and moved
     when all is done; on any exception, an interrupt too, that folder goes.
     """
     start = time.perf_counter()
+    checks = _checks(plan)
     shapes = [_shapes(job, plan.source) for job in plan.jobs]
     with staging_folder(folder) as staging:
         written = []
@@ -53,10 +55,21 @@ def build(
         wanted = dict.fromkeys(job.part.id for job in plan.jobs)
         previews = [_preview(plan.parts[p], staging, plan.scene.scene.language) for p in wanted]
         before = read_report(folder) if partial else None
-        write_report(staging / NAME, plan, written, previews, time.perf_counter() - start, before)
+        write_report(staging / NAME, plan, written, previews, checks, time.perf_counter() - start, before)
         names = [item.job.path for item in written if not item.failures]
         move_into(folder, staging, [*names, *(p.name for p in previews), NAME])
-    return written, [folder / p.name for p in previews]
+    return written, [folder / p.name for p in previews], checks
+
+
+def _checks(plan: Plan) -> dict[str, Any]:
+    """The pairs of a scene: calculated always, held against each other where the scene asks for it."""
+    if not plan.matings:
+        return {}
+    from exporters.check import check_pair, pair_quantities
+
+    language = plan.scene.scene.language
+    asked = plan.scene.checks.interference
+    return {"mates": [check_pair(m, language) if asked else pair_quantities(m) for m in plan.matings]}
 
 
 def move_into(folder: Path, staging: Path, names: list[str]) -> None:

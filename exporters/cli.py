@@ -87,6 +87,9 @@ def _parser() -> argparse.ArgumentParser:
     build.add_argument("--format", action="append", default=[], metavar="F", help="only this format (may be repeated)")
     build.add_argument("--no-verify", action="store_true", help="do not read the files back")
     build.set_defaults(run=_build)
+    check = commands.add_parser("check", help="contact and interference of the pairs of a scene")
+    check.add_argument("scene", help="a built-in scene or a scene file (.toml)")
+    check.set_defaults(run=_check)
     verify = commands.add_parser("verify", help="read files back and hold them against the part in their report")
     verify.add_argument("files", nargs="+", type=Path, metavar="FILE")
     verify.set_defaults(run=_verify)
@@ -107,7 +110,7 @@ def _parser() -> argparse.ArgumentParser:
 def _build(options: argparse.Namespace) -> int:
     from exporters.build import build
     from exporters.plan import plan_build
-    from exporters.tables import build_table
+    from exporters.tables import build_table, has_bad_verdict
     from parts.scene import load_scene
 
     scene = load_scene(options.scene)
@@ -123,11 +126,26 @@ def _build(options: argparse.Namespace) -> int:
             def advance(path: str) -> None:
                 bar.update(task, advance=1, description=path)
 
-            written, previews = build(plan, folder, verify=verify, partial=partial, progress=advance)
+            written, previews, checks = build(plan, folder, verify=verify, partial=partial, progress=advance)
     else:
-        written, previews = build(plan, folder, verify=verify, partial=partial)
-    build_table(plan, folder, written, previews)
-    return FAILED if any(item.failures for item in written) else DONE
+        written, previews, checks = build(plan, folder, verify=verify, partial=partial)
+    build_table(plan, folder, written, previews, checks)
+    return FAILED if any(item.failures for item in written) or has_bad_verdict(checks) else DONE
+
+
+def _check(options: argparse.Namespace) -> int:
+    from exporters.check import check_pair
+    from exporters.tables import check_lines, has_bad_verdict
+    from parts.scene import load_scene, make_parts
+    from parts.schema import SceneError
+
+    scene = load_scene(options.scene)
+    _, matings = make_parts(scene, options.scene)
+    if not matings:
+        raise SceneError(options.scene, "mates", None, 'nothing to check; add [[mates]] kind = "external_gear_pair"')
+    checks = {"mates": [check_pair(m, scene.scene.language) for m in matings]}
+    print("\n".join(check_lines(checks, scene.scene.language)))
+    return FAILED if has_bad_verdict(checks) else DONE
 
 
 def _verify(options: argparse.Namespace) -> int:
@@ -172,7 +190,7 @@ def _list(options: argparse.Namespace) -> int:
     from parts.scene import KINDS, built_in_scenes, load_scene
 
     print("kinds of parts (higherpair new KIND):")
-    for kind, (spec, _) in KINDS.items():
+    for kind, (spec, *_) in KINDS.items():
         print(f"  {kind:<18} {(spec.__doc__ or '').splitlines()[0]}")
     print("built-in scenes (higherpair build NAME):")
     for name in built_in_scenes():

@@ -8,6 +8,7 @@ from importlib.util import find_spec
 from exporters.job import Job
 from geometry.errors import GeometryError, at_least, at_most
 from geometry.gears.offset_tooth import OffsetError, OffsetRegion
+from parts.mates import Mating
 from parts.part import Part
 from parts.scene import FORMATS, ExportSpec, SceneFile, default_export, make_parts
 from parts.schema import SceneError, near
@@ -20,6 +21,7 @@ class Plan:
     source: str
     scene: SceneFile
     parts: dict[str, Part]
+    matings: tuple[Mating, ...]
     jobs: tuple[Job, ...]
     left_out: tuple[tuple[str, str], ...]
 
@@ -39,7 +41,7 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
     for name in only_formats:
         if name not in FORMATS:
             raise SceneError(source, "--format", name, f"unknown format; formats: {', '.join(FORMATS)}")
-    parts = make_parts(scene, source)
+    parts, matings = make_parts(scene, source)
     exports = _wanted_exports(scene, source, only_formats)
     left_out = [
         (f"exports[{i + 1}]", f"format {e.format} was not asked for")
@@ -66,7 +68,7 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
             taken[path] = place
             section = _section(parts[part_id], export, source, place)
             jobs.append(Job(parts[part_id], export, section, path, place))
-    return Plan(source, scene, parts, tuple(jobs), tuple(left_out))
+    return Plan(source, scene, parts, tuple(matings), tuple(jobs), tuple(left_out))
 
 
 def _wanted_exports(scene: SceneFile, source: str, only_formats: list[str]) -> list[tuple[str, ExportSpec]]:

@@ -66,7 +66,7 @@ def recheck(file: Path) -> Recheck:
 
 def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, Any], digest: str) -> Recheck:
     scene = scene_from_resolved(report["scene"], source)
-    part = make_parts(scene, source)[entry["part"]]
+    part = make_parts(scene, source)[0][entry["part"]]
     region = part.section(float(entry["offset"])).region
     declared, tolerance, kind = float(entry["max_error"]), float(entry["tolerance"]), entry["format"]
     if kind not in FORMATS:

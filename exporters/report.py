@@ -21,7 +21,13 @@ NAME = "report.json"
 
 
 def write_report(
-    file: Path, plan: Plan, written: list[Written], previews: list[Path], seconds: float, before: dict[str, Any] | None
+    file: Path,
+    plan: Plan,
+    written: list[Written],
+    previews: list[Path],
+    checks: dict[str, Any],
+    seconds: float,
+    before: dict[str, Any] | None,
 ) -> None:
     """Write the report of a build; a partial build is merged by path into the report ``before`` it, if any."""
     language = plan.scene.scene.language
@@ -39,7 +45,7 @@ def write_report(
         "files": [_entry(item, language) for item in written if not item.failures],
         "failed": [{"path": item.job.path, "failures": list(item.failures)} for item in written if item.failures],
         "previews": [{"path": p.name, "bytes": p.stat().st_size, "sha256": _sha256(p)} for p in previews],
-        "checks": {},
+        "checks": checks,
         "left_out": [{"what": what, "why": why} for what, why in plan.left_out],
         "versions": _versions(written),
         "run": {

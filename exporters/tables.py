@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from exporters.job import Written
 from exporters.plan import Plan
@@ -16,13 +16,14 @@ if TYPE_CHECKING:
     from exporters.recheck import Recheck
 
 
-def build_table(plan: Plan, folder: Path, written: list[Written], previews: list[Path]) -> None:
+def build_table(plan: Plan, folder: Path, written: list[Written], previews: list[Path], checks: dict[str, Any]) -> None:
     """What a build has made, how far each file is from the exact curve, and what was noticed."""
     language = plan.scene.scene.language
     header = [words(language, key) for key in ("file", "error", "tolerance", "entities", "size", "check")]
     rows = [_row(item, folder, language) for item in written]
     remarks = [f"{words(language, 'preview')}: {preview}" for preview in previews]
     remarks += dict.fromkeys(_remarks(written, language))
+    remarks += check_lines(checks, language)
     remarks += [f"{words(language, 'left_out')}: {what}: {why}" for what, why in plan.left_out]
     _show(plan.scene.scene.title or plan.scene.name, header, rows, remarks)
 
@@ -44,6 +45,29 @@ def _remarks(written: list[Written], language: str) -> list[str]:
         part = item.job.part.id
         lines += [f"{words(language, 'finding')}: {part}: {finding_text(language, f)}" for f in item.findings]
     return lines
+
+
+def check_lines(checks: dict[str, Any], language: str) -> list[str]:
+    """What the checks of a scene found, a line each."""
+    lines = []
+    for mate in checks.get("mates", []):
+        text = words(language, "pair").format(
+            first=mate["first"],
+            second=mate["second"],
+            a_w=mate["working_centre_distance"],
+            alpha_w=mate["working_pressure_angle_deg"],
+            ratio=mate["contact_ratio"],
+        )
+        if "verdict" in mate:
+            text += f": {words(language, mate['verdict'])}, {words(language, 'gap').format(gap=mate['gap'])}"
+        lines.append(text)
+        lines += [f"{words(language, 'finding')}: {f['text']}" for f in mate.get("findings", [])]
+    return lines
+
+
+def has_bad_verdict(checks: dict[str, Any]) -> bool:
+    """Whether a pair overlaps or could not be decided."""
+    return any(mate.get("verdict") in ("overlap", "undecided") for mate in checks.get("mates", []))
 
 
 def verify_table(results: list[Recheck]) -> None:

@@ -27,6 +27,15 @@ WORDS: dict[str, tuple[str, str]] = {
     "skipped": ("not verified", "не перевірено"),
     "finding": ("note", "зауваження"),
     "preview": ("preview", "ескіз"),
+    "clear": ("CLEAR", "ЗАЗОР"),
+    "contact": ("CONTACT", "КОНТАКТ"),
+    "overlap": ("OVERLAP", "ПЕРЕКРИТТЯ"),
+    "undecided": ("UNDECIDED", "НЕ ВИЗНАЧЕНО"),
+    "pair": (
+        "pair {first} - {second}: a_w = {a_w:.5f} mm, alpha_w = {alpha_w:.4f} deg, contact ratio {ratio:.4f}",
+        "пара {first} - {second}: a_w = {a_w:.5f} мм, alpha_w = {alpha_w:.4f} град, коефіцієнт перекриття {ratio:.4f}",
+    ),
+    "gap": ("least gap {gap:.2g} mm", "найменший зазор {gap:.2g} мм"),
     "left_out": ("left out", "не зроблено"),
 }
 
@@ -58,6 +67,36 @@ FINDINGS: dict[str, tuple[str, str]] = {
     "space_shallowed": (
         "the offset flanks meet at radius {value:.4f} mm: the space ends above its root at {limit:.4f} mm",
         "зсунуті профілі сходяться на радіусі {value:.4f} мм: западина вища за свою основу {limit:.4f} мм",
+    ),
+    **{
+        f"{code}_{who}": (en.format(en_who), uk.format(uk_who))
+        for who, en_who, uk_who in (("first", "first", "першого"), ("second", "second", "другого"))
+        for code, en, uk in (
+            (
+                "fillet_interference",
+                "the mate's tip reaches the fillet of the {} gear: {{value:.4f}} mm, the involute begins at "
+                "{{limit:.4f}} mm",
+                "головка спряженого колеса впирається в галтель {} колеса: {{value:.4f}} мм проти {{limit:.4f}} мм",
+            ),
+            (
+                "active_flank_cut_away",
+                "undercut has taken active flank of the {} gear: {{value:.4f}} mm is asked, {{limit:.4f}} mm is there",
+                "підріз зняв робочу частину профілю {} колеса: потрібно {{value:.4f}} мм, є {{limit:.4f}} мм",
+            ),
+            (
+                "tip_clearance",
+                "the tip of the {} gear strikes the mate's root: clearance {{value:.4f}} mm",
+                "вершина {} колеса торкається западини: зазор {{value:.4f}} мм",
+            ),
+        )
+    },
+    "contact_ratio": (
+        "contact ratio {value:.4f} is below {limit:.1f}: the drive is interrupted",
+        "коефіцієнт перекриття {value:.4f} менший за {limit:.1f}: зачеплення переривається",
+    ),
+    "normal_backlash": (
+        "the flanks overlap: normal backlash {value:.6f} mm",
+        "профілі перекриваються: бічний зазор {value:.6f} мм",
     ),
     "coarse_tolerance": (
         "tolerance {value:.4g} mm is more than 5 % of the module ({limit:.4g} mm): the teeth lose their shape",

@@ -12,12 +12,15 @@ from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError
 from parts.keys import DEVICE_NAMES, IDENTIFIER, Identifier, mm
+from parts.mates import ExternalGearPairSpec, Mating, mated
 from parts.part import Part
 from parts.schema import SceneError, converted, near, refuse_infinite
-from parts.spur_gear import SpurGearSpec, make_spur_gear
+from parts.spur_gear import SpurGearSpec, checked_spur_gear, spur_gear_part
 
 SCENE_FOLDER = Path(__file__).parent / "scenes"
-KINDS: dict[str, tuple[type[Struct], Any]] = {"spur_gear": (SpurGearSpec, make_spur_gear)}
+# each kind: its keys, what checks them and gives the gear, and what makes the part of it
+KINDS: dict[str, tuple[type[Struct], Any, Any]] = {"spur_gear": (SpurGearSpec, checked_spur_gear, spur_gear_part)}
+MATES: dict[str, type[Struct]] = {"external_gear_pair": ExternalGearPairSpec}
 # purposes of each format, the default first, and the tolerance (mm) of an export that names none
 _DEFAULTS: dict[str, dict[str, float]] = {
     "dxf": {"laser": 0.005, "drawing": 1e-6},
@@ -61,6 +64,12 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     parts: Annotated[list[str], Meta(min_length=1, description="parts to export; default: all")] | None = None
 
 
+class ChecksSpec(Struct, forbid_unknown_fields=True):
+    """Keys of ``[checks]``."""
+
+    interference: Annotated[bool, Meta(description="contact and interference of every mate")] = False
+
+
 class SceneFile(Struct, forbid_unknown_fields=True):
     """A scene as resolved: what ``report.json`` keeps and ``verify`` builds again."""
 
@@ -68,6 +77,8 @@ class SceneFile(Struct, forbid_unknown_fields=True):
     scene: SceneInfo
     parts: dict[str, Any]
     exports: list[ExportSpec]
+    mates: list[Any] = []
+    checks: ChecksSpec = msgspec.field(default_factory=ChecksSpec)
 
 
 def built_in_scenes() -> dict[str, Path]:
@@ -134,12 +145,12 @@ def scene_from_toml(raw_bytes: bytes, source: str, name: str) -> SceneFile:
 def scene_from_dict(raw: dict[str, Any], source: str, name: str) -> SceneFile:
     """Validate the tables of a scene."""
     refuse_infinite(raw, source, "")
-    tables = {"scene": dict, "parts": dict, "exports": list}
+    tables = {"scene": dict, "parts": dict, "mates": list, "exports": list, "checks": dict}
     for key, value in raw.items():
         if key not in tables:
             raise SceneError(source, key, None, f"unknown table{near(key, tables)}; known: {', '.join(tables)}")
         if not isinstance(value, tables[key]):
-            remedy = "write it as [[exports]]" if key == "exports" else f"write it as a table, [{key}]"
+            remedy = f"write it as [[{key}]]" if tables[key] is list else f"write it as a table, [{key}]"
             raise SceneError(source, key, value, remedy)
     if not raw.get("parts"):
         raise SceneError(source, "parts", None, 'a scene needs at least one part, like [parts.gear] kind = "spur_gear"')
@@ -154,7 +165,28 @@ def scene_from_dict(raw: dict[str, Any], source: str, name: str) -> SceneFile:
     exports = [
         _export_spec(table, parts, source, f"exports[{i + 1}]") for i, table in enumerate(raw.get("exports", []))
     ]
-    return SceneFile(name, info, parts, exports)
+    mates = [_mate_spec(t, parts, source, f"mates[{i + 1}]") for i, t in enumerate(raw.get("mates", []))]
+    checks = converted(raw.get("checks", {}), ChecksSpec, source, "checks")
+    return SceneFile(name, info, parts, exports, mates, checks)
+
+
+def _mate_spec(table: Any, parts: dict[str, Struct], source: str, place: str) -> Struct:
+    if not isinstance(table, dict):
+        raise SceneError(source, place, table, "write it as a table, [[mates]]")
+    kind = table.get("kind")
+    if not isinstance(kind, str) or kind not in MATES:
+        remedy = "is missing" if kind is None else f"unknown kind of mate{near(str(kind), MATES)}"
+        raise SceneError(source, f"{place}.kind", kind, f"{remedy}; known: {', '.join(MATES)}")
+    mate = converted(table, MATES[kind], source, place)
+    for key in ("first", "second"):
+        name = getattr(mate, key)
+        if name not in parts:
+            raise SceneError(
+                source, f"{place}.{key}", name, f"no such part{near(name, parts)}; parts: {', '.join(parts)}"
+            )
+    if mate.first == mate.second:
+        raise SceneError(source, f"{place}.second", mate.second, "a gear does not mesh with itself; name another part")
+    return mate
 
 
 def _part_spec(key: str, table: Any, source: str) -> Struct:
@@ -207,16 +239,24 @@ def default_export(name: str) -> ExportSpec:
     return msgspec.convert({"format": name, "purpose": purpose, "tolerance": tolerance}, ExportSpec)
 
 
-def make_parts(scene: SceneFile, source: str) -> dict[str, Part]:
-    """The parts of a scene, each checked to exist."""
-    parts: dict[str, Part] = {}
+def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mating]]:
+    """The parts of a scene, each checked to exist, as its mates want them; and the mates."""
+    gears = {}
     for key, spec in scene.parts.items():
-        make = KINDS[spec.__struct_config__.tag][1]
         try:
-            parts[key] = make(key, spec)
+            gears[key] = KINDS[spec.__struct_config__.tag][1](spec)
         except ParameterError as error:
             raise SceneError(source, f"parts.{key}.{error.name}", error.value, error.allowed) from error
-    return parts
+    matings: list[Mating] = []
+    for index, mate in enumerate(scene.mates):
+        try:
+            mated(gears, [mate])
+        except ParameterError as error:
+            place = f"mates[{index + 1}]: parts.{mate.second}.{error.name}"
+            raise SceneError(source, place, error.value, error.allowed) from error
+    gears, matings = mated(gears, scene.mates)
+    parts = {key: KINDS[spec.__struct_config__.tag][2](key, spec, gears[key]) for key, spec in scene.parts.items()}
+    return parts, matings
 
 
 def resolved(scene: SceneFile) -> dict[str, Any]:
@@ -226,7 +266,8 @@ def resolved(scene: SceneFile) -> dict[str, Any]:
 
 def scene_from_resolved(data: dict[str, Any], source: str) -> SceneFile:
     """A scene from what a report has kept."""
-    tables: dict[str, Any] = {key: data[key] for key in ("scene", "parts", "exports") if key in data}
+    known = ("scene", "parts", "mates", "exports", "checks")
+    tables: dict[str, Any] = {key: data[key] for key in known if key in data}
     tables["exports"] = [{k: v for k, v in e.items() if v is not None} for e in tables.get("exports", [])]
     tables["parts"] = {k: _without_none(v) for k, v in tables.get("parts", {}).items()}
     return scene_from_dict(tables, source, str(data.get("name", "scene")))

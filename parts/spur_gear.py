@@ -67,8 +67,8 @@ class SpurGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="sp
     colour: Colour | None = None
 
 
-def make_spur_gear(part_id: str, spec: SpurGearSpec) -> Part:
-    """The part; its geometry is computed when an export asks for it.
+def checked_spur_gear(spec: SpurGearSpec) -> SpurGear:
+    """The gear of a part, checked to exist.
 
     Raises
     ------
@@ -76,9 +76,13 @@ def make_spur_gear(part_id: str, spec: SpurGearSpec) -> Part:
         The gear cannot exist; names the key and the nearest value that works.
     """
     try:
-        gear = checked_gear(_gear_of(spec))
+        return checked_gear(_gear_of(spec))
     except ParameterError as refusal:
         raise _with_rack_remedy(spec, refusal) from refusal
+
+
+def spur_gear_part(part_id: str, spec: SpurGearSpec, gear: SpurGear) -> Part:
+    """The part of a gear, whose tip a mate may have shortened; sections are computed when an export asks."""
     circles = {
         "tip_diameter": 2 * gear.tip_radius,
         "reference_diameter": 2 * gear.reference_radius,

@@ -171,7 +171,7 @@ def test_a_spoiled_step_is_caught(step_build: Path, tmp_path: Path, spoil: str) 
         text = text[: line.start(1)] + repr(float(line[1]) + 1e-4) + text[line.end(1) :]
     file = tmp_path / "g.step"
     file.write_text(text)
-    parts = make_parts(load_scene(str(step_build.parents[2] / "s.toml")), "s")
+    parts = make_parts(load_scene(str(step_build.parents[2] / "s.toml")), "s")[0]
     region, width = parts["g"].section(-0.001 if spoil == "other" else 0.0).region, parts["g"].face_width
     assert verify_file(file, "step", region, width, 1e-6, 1e-6).failures
 

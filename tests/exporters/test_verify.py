@@ -191,7 +191,7 @@ def test_a_declared_error_that_is_too_small_is_caught(originals: Path, tmp_path:
 
 def test_the_report_names_the_very_section_that_is_held_against_the_file(originals: Path) -> None:
     report = read_report(originals / "stl" / "out" / "s")
-    part = make_parts(scene_from_resolved(report["scene"], "report"), "report")["g"]
+    part = make_parts(scene_from_resolved(report["scene"], "report"), "report")[0]["g"]
     assert part.face_width == WIDTH
     assert part.circles["tip_diameter"] == pytest.approx(50)
     assert part.section(0.0).region == region()

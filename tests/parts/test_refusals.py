@@ -137,7 +137,7 @@ def test_a_wrong_key_is_named_with_its_value_and_a_remedy(name: str) -> None:
         (b"[scene]\nlanguage='de'\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", '"en", "uk"'),
         (b"[scene]\ntitel='x'\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "did you mean title"),
         (b"[sceen]\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "did you mean scene"),
-        (b"[mates]\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "unknown table"),
+        (b"[gears]\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "unknown table"),
     ],
     ids=lambda value: repr(value)[:25],
 )
@@ -226,7 +226,7 @@ def offered_by(message: str) -> float:
 def builds(text: str, folder: Path) -> bool:
     """Whether a scene gives all its files, each good."""
     plan = plan_build(scene_from_toml(text.encode(), "test.toml", "test"), "test.toml", [], [])
-    written, _ = build(plan, folder)
+    written, *_ = build(plan, folder)
     return not any(item.failures for item in written)
 
 

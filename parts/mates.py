@@ -1,0 +1,52 @@
+"""Mates of a scene: gears that mesh. A mate may change a part only in its tip diameter, before any region is built."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Annotated, Any
+
+from msgspec import Meta, Struct
+
+from geometry.gears.pair import ExternalPair, external_pair
+from geometry.gears.spur import SpurGear
+
+
+class ExternalGearPairSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="external_gear_pair"):
+    """Two external spur gears in mesh: exact centre distance, tip shortening, phase."""
+
+    first: Annotated[str, Meta(description="part that is already placed")]
+    second: Annotated[str, Meta(description="part that is brought into mesh")]
+    direction_deg: Annotated[
+        float, Meta(ge=-360, le=360, description="direction of the line of centres", extra={"unit": "degrees"})
+    ] = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Mating:
+    """Two parts in mesh, with the gears as they are built."""
+
+    first: str
+    second: str
+    direction_deg: float
+    pair: ExternalPair
+
+
+def mated(gears: dict[str, SpurGear], mates: list[Any]) -> tuple[dict[str, SpurGear], list[Mating]]:
+    """The gears with their tips shortened, the shortest asked for by any mate, and the pairs of them.
+
+    Raises
+    ------
+    ParameterError
+        Two gears cannot mesh; names the key of the second gear and what would work.
+    """
+    pairs = [external_pair(gears[m.first], gears[m.second]) for m in mates]
+    final = dict(gears)
+    for mate, pair in zip(mates, pairs, strict=True):
+        for name, gear in ((mate.first, pair.first), (mate.second, pair.second)):
+            if gear.tip_radius < final[name].tip_radius:
+                final[name] = replace(final[name], given_tip_diameter=2 * gear.tip_radius)
+    matings = [
+        Mating(m.first, m.second, m.direction_deg, replace(p, first=final[m.first], second=final[m.second]))
+        for m, p in zip(mates, pairs, strict=True)
+    ]
+    return final, matings
