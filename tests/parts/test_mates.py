@@ -58,9 +58,8 @@ def test_a_check_tells_contact_from_overlap(tmp_path: Path, capsys: pytest.Captu
     assert main(["check", "practicum_pair"]) == 0
     assert "CONTACT" in capsys.readouterr().out
     # tips that are given stay: these are so long that they strike the mate's root
-    long = (
-        GEAR.format("a", 2, 20, 0.8) + "tip_diameter = 48.0\n" + GEAR.format("b", 2, 20, 0.8) + "tip_diameter = 48.4\n"
-    )
+    tip = "tip_diameter = 45.2\n"
+    long = GEAR.format("a", 2, 20, 0) + tip + GEAR.format("b", 2, 20, 0) + tip
     scene = tmp_path / "long.toml"
     scene.write_text(long + MATE.format("a", "b"), encoding="utf-8")
     assert main(["check", str(scene)]) == 1
