@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Meta, Struct
 
-from geometry.gears.pair import ExternalPair, external_pair
 from geometry.gears.spur import SpurGear
+
+if TYPE_CHECKING:
+    from geometry.gears.pair import ExternalPair
 
 
 class ExternalGearPairSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="external_gear_pair"):
@@ -39,6 +41,11 @@ def mated(gears: dict[str, SpurGear], mates: list[Any]) -> tuple[dict[str, SpurG
     ParameterError
         Two gears cannot mesh; names the key of the second gear and what would work.
     """
+    if not mates:
+        return gears, []
+    # only scenes with mates pay for the mathematics of pairs
+    from geometry.gears.pair import external_pair
+
     pairs = [external_pair(gears[m.first], gears[m.second]) for m in mates]
     final = dict(gears)
     for mate, pair in zip(mates, pairs, strict=True):
