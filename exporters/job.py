@@ -23,6 +23,8 @@ _FLOAT32 = 2.0**-24 * 1.5
 _SVG_ROUNDING = 2e-9
 # DXF coordinates are written with 16 digits
 _DXF_ROUNDING = 2e-15
+# the kernel writes 15 digits and turns every curve once more when it reads them
+_STEP_ROUNDING = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,6 +131,8 @@ def number_rounding(job: Job) -> float:
     reach = job.section.region.outer.reach()
     if job.is_mesh:
         return _FLOAT32 * reach
+    if job.export.format == "step":
+        return _STEP_ROUNDING * reach
     return _SVG_ROUNDING if job.export.format == "svg" else _DXF_ROUNDING * reach
 
 

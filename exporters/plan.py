@@ -56,16 +56,16 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
     used = {p for _, e in exports for p in e.parts or parts}
     left_out += [(f"parts.{p}", "no export asks for it") for p in parts if p not in used]
     jobs: list[Job] = []
-    taken = {f"{part}.preview.svg": "the preview of the part" for part in parts}
+    taken = {f"{part}.preview.svg".lower(): "the preview of the part" for part in parts}
     for place, export in exports:
         for part_id in export.parts or list(parts):
             if only_parts and part_id not in only_parts:
                 continue
             path = _file_name(part_id, export, [e for _, e in exports])
-            if path in taken:
-                remedy = f"writes the same file as {taken[path]}; give one of them another name"
+            if path.lower() in taken:
+                remedy = f"writes the same file as {taken[path.lower()]}; give one of them another name"
                 raise SceneError(source, f"{place}.name", path, remedy)
-            taken[path] = place
+            taken[path.lower()] = place
             section = _section(parts[part_id], export, source, place)
             jobs.append(Job(parts[part_id], export, section, path, place))
     return Plan(source, scene, parts, tuple(matings), tuple(jobs), tuple(left_out))

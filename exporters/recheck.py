@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -71,6 +72,8 @@ def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, A
     declared, tolerance, kind = float(entry["max_error"]), float(entry["tolerance"]), entry["format"]
     if kind not in FORMATS:
         raise KeyError(f"format {kind}")
+    if kind == "step" and find_spec("OCP") is None:
+        raise SceneError(str(file), "", None, 'needs the CAD kernel to be read: pip install "cadquery-ocp-novtk<8"')
     kind = "drawing" if entry["purpose"] == "drawing" else kind
     verdict = verify_file(file, kind, region, part.face_width, declared, tolerance)
     return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])

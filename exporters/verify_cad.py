@@ -74,12 +74,14 @@ def _loops(pieces: list[Complex]) -> list[Complex]:
     """Sampled curves (each from its first to its last point) chained by their ends into closed loops."""
     left = list(pieces)
     loops = []
+    # files carry 15 digits: the joints of large parts are that much wider
+    joint = _JOINT + 1e-11 * max(float(np.abs(piece).max()) for piece in pieces) if pieces else _JOINT
     while left:
         chain = [left.pop()]
-        while abs(chain[-1][-1] - chain[0][0]) > _JOINT:
+        while abs(chain[-1][-1] - chain[0][0]) > joint:
             ends = np.array([[piece[0], piece[-1]] for piece in left]).reshape(-1, 2)
             gaps = np.abs(ends - chain[-1][-1])
-            if not gaps.size or gaps.min() > _JOINT:
+            if not gaps.size or gaps.min() > joint:
                 raise ReadError(f"a contour is open at ({chain[-1][-1].real:.6g}, {chain[-1][-1].imag:.6g})")
             index, side = divmod(int(np.argmin(gaps)), 2)
             piece = left.pop(index)

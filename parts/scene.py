@@ -228,6 +228,14 @@ def _export_spec(table: Any, parts: dict[str, Struct], source: str, place: str) 
         spec.purpose = default_export(spec.format).purpose
     if spec.purpose not in purposes:
         raise SceneError(source, f"{place}.purpose", spec.purpose, f"{spec.format} is for {' or '.join(purposes)}")
+    if spec.format == "step" or spec.purpose == "drawing":
+        who = "a STEP file" if spec.format == "step" else "a drawing"
+        if spec.kerf:
+            raise SceneError(source, f"{place}.kerf", spec.kerf, f"{who} shows the part, not the cut; remove it")
+        if spec.curves != "arcs":
+            raise SceneError(source, f"{place}.curves", spec.curves, f"{who} has true splines; remove it")
+        if spec.dxf_version != "R2000":
+            raise SceneError(source, f"{place}.dxf_version", spec.dxf_version, f"{who} is not for R12; remove it")
     if spec.tolerance is None:
         spec.tolerance = purposes[str(spec.purpose)]
     return spec
