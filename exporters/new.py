@@ -24,6 +24,10 @@ _EXAMPLES = {
     "tolerance": "0.005",
     "name": '"laser"',
     "parts": '["gear"]',
+    "thickness": "3.0",
+    "rim_diameter": "38.0",
+    "diameter": "16.0",
+    "density": "0.65",
 }
 
 

@@ -28,6 +28,8 @@ class Label(StrEnum):
     TIP_LAND = "tip_land"
     CORNER = "corner_arc"
     BORE = "bore"
+    HUB = "hub"
+    RIM = "rim"
 
 
 @dataclass(frozen=True, slots=True)

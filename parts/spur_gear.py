@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import lru_cache
 from typing import Annotated, Literal
 
@@ -12,10 +13,13 @@ from msgspec import Meta, Struct
 from geometry.errors import GeometryError, ParameterError, at_most
 from geometry.gears.basic_rack import BasicRack, TipRelief, checked_rack, default_tip_radius, iso_53
 from geometry.gears.limits import checked_gear, findings, root_form_diameter, tip_thickness
-from geometry.gears.offset_tooth import gear_region
+from geometry.gears.offset_tooth import OffsetRegion, gear_region
 from geometry.gears.spur import SpurGear
-from parts.keys import BoreDiameter, Colour, FaceWidth, in_modules, mm
+from geometry.wheel import WheelSections, WheelShape, check_wheel, wheel_body
+from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, in_modules, mm
+from parts.materials import density_of
 from parts.part import Part
+from parts.wheel_keys import FaceChamfer, FaceChamferTable, HubTable, WebTable, wheel_shape
 
 # the radius that ISO 53 gives at the usual clearance; the default for racks given as a table
 _TABLE_TIP_RADIUS = 0.38
@@ -63,7 +67,11 @@ class SpurGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="sp
     tip_rounding: Annotated[float, mm("radius of the tip corner", least=0, most=1000)] = 0.0
     face_width: FaceWidth = 10.0
     bore_diameter: BoreDiameter = 0.0
-    material: str | None = None
+    web: WebTable | None = None
+    hub: HubTable | None = None
+    face_chamfer: FaceChamfer | FaceChamferTable = 0.0
+    material: Material | None = None
+    density: Density | None = None
     colour: Colour | None = None
 
 
@@ -76,9 +84,11 @@ def checked_spur_gear(spec: SpurGearSpec) -> SpurGear:
         The gear cannot exist; names the key and the nearest value that works.
     """
     try:
-        return checked_gear(_gear_of(spec))
+        gear = checked_gear(_gear_of(spec))
     except ParameterError as refusal:
         raise _with_rack_remedy(spec, refusal) from refusal
+    check_wheel(_shape_of(spec), 2 * gear.root_radius, gear.bore_diameter)
+    return gear
 
 
 def spur_gear_part(part_id: str, spec: SpurGearSpec, gear: SpurGear) -> Part:
@@ -95,17 +105,31 @@ def spur_gear_part(part_id: str, spec: SpurGearSpec, gear: SpurGear) -> Part:
         "tooth_thickness": gear.reference_thickness,
         "tip_tooth_thickness": tip_thickness(gear),
     }
+    section = lru_cache(maxsize=8)(lambda offset: gear_region(gear, offset))
+    shape = _shape_of(spec)
     return Part(
         part_id,
         "spur_gear",
-        spec.face_width,
-        lru_cache(maxsize=8)(lambda offset: gear_region(gear, offset)),
+        section,
+        lru_cache(maxsize=2)(lambda offset: wheel_body(shape, _sections(section, gear), offset)),
+        shape.is_plate,
         findings(gear),
         circles,
         quantities,
         spec.material,
         spec.colour,
+        spec.density or density_of(spec.material),
     )
+
+
+def _shape_of(spec: SpurGearSpec) -> WheelShape:
+    return wheel_shape(spec.face_width, spec.web, spec.hub, spec.face_chamfer)
+
+
+def _sections(section: Callable[[float], OffsetRegion], gear: SpurGear) -> WheelSections:
+    """The boundaries of a gear, each as its section has it."""
+    bore = (lambda d: section(d).region.holes[0]) if gear.bore_radius > 0 else None
+    return WheelSections(lambda d: section(d).region.outer, bore)
 
 
 def _with_rack_remedy(spec: SpurGearSpec, refusal: ParameterError) -> ParameterError:
