@@ -14,6 +14,7 @@ from geometry.gears.basic_rack import BasicRack, TipRelief, checked_rack, defaul
 from geometry.gears.limits import checked_gear, findings, root_form_diameter, tip_thickness
 from geometry.gears.offset_tooth import gear_region
 from geometry.gears.spur import SpurGear
+from parts.hole_keys import BoreTable, HolesTable, SpokesTable, hub_holes, with_remedy
 from parts.keys import BoreDiameter, Colour, FaceWidth, in_modules, mm
 from parts.part import Part
 
@@ -63,6 +64,9 @@ class SpurGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="sp
     tip_rounding: Annotated[float, mm("radius of the tip corner", least=0, most=1000)] = 0.0
     face_width: FaceWidth = 10.0
     bore_diameter: BoreDiameter = 0.0
+    bore: BoreTable | None = None
+    holes: HolesTable | list[HolesTable] | None = None
+    spokes: SpokesTable | None = None
     material: str | None = None
     colour: Colour | None = None
 
@@ -78,7 +82,7 @@ def checked_spur_gear(spec: SpurGearSpec) -> SpurGear:
     try:
         return checked_gear(_gear_of(spec))
     except ParameterError as refusal:
-        raise _with_rack_remedy(spec, refusal) from refusal
+        raise with_remedy(_with_rack_remedy(spec, refusal), spec, _builds) from refusal
 
 
 def spur_gear_part(part_id: str, spec: SpurGearSpec, gear: SpurGear) -> Part:
@@ -117,11 +121,7 @@ def _with_rack_remedy(spec: SpurGearSpec, refusal: ParameterError) -> ParameterE
 
     def builds(value: float) -> bool:
         changed = msgspec.structs.replace(table, **{key: value})
-        try:
-            checked_gear(_gear_of(msgspec.structs.replace(spec, **{owner: changed})))
-        except GeometryError:
-            return False
-        return True
+        return _builds(msgspec.structs.replace(spec, **{owner: changed}))
 
     low, high = (0.5 if key == "addendum_coefficient" else 0.0), float(getattr(table, key))
     if builds(high) or not builds(low):
@@ -133,9 +133,19 @@ def _with_rack_remedy(spec: SpurGearSpec, refusal: ParameterError) -> ParameterE
     return ParameterError(refusal.name, getattr(table, key), f"{reason}; at most {at_most(low, 4)} works")
 
 
+def _builds(spec: SpurGearSpec) -> bool:
+    try:
+        checked_gear(_gear_of(spec))
+    except GeometryError:
+        return False
+    return True
+
+
 def _gear_of(spec: SpurGearSpec) -> SpurGear:
     if spec.tip_chamfer > 0 and spec.tip_rounding > 0:
         raise ParameterError("tip_rounding", spec.tip_rounding, "give either tip_chamfer or tip_rounding; 0 works")
+    if spec.bore is not None and spec.bore_diameter > 0:
+        raise ParameterError("bore_diameter", spec.bore_diameter, "give either bore_diameter or bore; 0 works")
     return SpurGear(
         module=spec.module,
         number_of_teeth=spec.number_of_teeth,
@@ -147,6 +157,7 @@ def _gear_of(spec: SpurGearSpec) -> SpurGear:
         tip_chamfer=spec.tip_chamfer,
         tip_rounding=spec.tip_rounding,
         bore_diameter=spec.bore_diameter,
+        hub=hub_holes(spec.bore, spec.holes, spec.spokes),
     )
 
 
