@@ -164,9 +164,12 @@ def _main_size(bore: Bore) -> tuple[str, float]:
 
 def _wall(group: RoundHoles, centres: list[complex], other: Profile) -> float:
     """Least material between round holes about ``centres`` and another hole, mm; not positive where they meet."""
-    distance = distance_to_profile(np.array(centres), other)
-    inside = np.array([encloses(other, centre) for centre in centres])
-    return float(np.where(inside, -distance, distance).min()) - group.diameter / 2
+    radius = group.diameter / 2
+    walls = []
+    for centre, distance in zip(centres, distance_to_profile(np.array(centres), other).tolist(), strict=True):
+        swallowed = distance > radius and encloses(other, centre)
+        walls.append((-distance if swallowed else distance) - radius)
+    return min(walls)
 
 
 def encloses(profile: Profile, point: complex) -> bool:

@@ -75,7 +75,8 @@ def keyway_row(standard: str, diameter: float) -> KeywayRow:
     """
     rows = KEYWAY_TABLES[standard]
     if not rows[0].over <= diameter <= rows[-1].to:
-        limit = f"at least {rows[0].over:g}" if diameter < rows[0].over else f"at most {rows[-1].to:g}"
-        remedy = f"{standard} has no key for this shaft; {limit} mm works, or give width and depth"
+        remedy = (
+            f"{standard} has keys for shafts of {rows[0].over:g} to {rows[-1].to:g} mm; others need width and depth"
+        )
         raise ParameterError("bore.diameter", diameter, remedy)
     return next(row for row in rows if diameter <= row.to)

@@ -51,7 +51,7 @@ class FlatBoreTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="
     angle_deg: Direction = 90.0
 
 
-class DoubleFlatBoreTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="double D"):
+class DoubleFlatBoreTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="double_D"):
     """Round bore with two opposite flats."""
 
     diameter: Diameter
@@ -173,6 +173,25 @@ def with_remedy(refusal: ParameterError, spec: Any, builds: Callable[[Any], bool
             key = ".".join(filter(None, (owner, place, name)))
             unit = "" if isinstance(value, int) else " mm"
             return ParameterError(key, value, f"{refusal.allowed}; {_told(found, value)}{unit} works")
+    return refusal if isinstance(table, BoreTable) else _with_other_table(refusal, spec, owner, index, table, builds)
+
+
+def _with_other_table(
+    refusal: ParameterError, spec: Any, owner: str, index: int | None, table: Any, builds: Callable[[Any], bool]
+) -> ParameterError:
+    """A refusal that no single key cures, with two diameters that work together, if any are found."""
+    names = ("diameter", "pitch_circle_diameter") if owner == "holes" else ("inner_diameter", "outer_diameter")
+    top = max(getattr(table, name) for name in names)
+    # rings ever thinner, on circles from the outermost inwards
+    for share, k in ((s, k) for s in (0.5, 0.25, 0.1, 0.03) for k in range(40)):
+        size = float(f"{top * 0.9**k:.4g}")
+        pair = (float(f"{share * size:.4g}"), size) if owner == "holes" else (float(f"{(1 - share) * size:.4g}"), size)
+        changed = spec
+        for name, value in zip(names, pair, strict=True):
+            changed = _changed(changed, owner, index, name, value)
+        if builds(changed):
+            told = " with ".join(f"{name} = {value:g}" for name, value in zip(names, pair, strict=True))
+            return ParameterError(refusal.name, refusal.value, f"{refusal.allowed}; {told} mm works")
     return refusal
 
 
@@ -189,13 +208,19 @@ def _changed(spec: Any, owner: str, index: int | None, name: str, value: float) 
 def _told(found: float, value: float) -> str:
     if isinstance(value, int):
         return f"at {'most' if found < value else 'least'} {found}"
-    return f"at most {at_most(found, 4)}" if found < value else f"at least {at_least(found, 4)}"
+    return f"at {'most' if found < value else 'least'} {_rounded(found, value)}"
+
+
+def _rounded(found: float, value: float) -> str:
+    """A limit as printed: 4 digits after the point, or 4 in all where it is small, away from the refused value."""
+    digits = max(4, 3 - math.floor(math.log10(found)))
+    return at_most(found, digits) if found < value else at_least(found, digits)
 
 
 def _nearest(value: float, works: Callable[[float], bool]) -> float | None:
     """The value nearest to a refused one that works: from a coarse search near and far, by bisection.
 
-    What is printed is rounded to 4 digits away from the limit, so that must work too.
+    What is printed is rounded, so that must work too.
     """
     if isinstance(value, int):
         return next((n for n in range(value - 1, 0, -1) if works(n)), None)
@@ -206,8 +231,7 @@ def _nearest(value: float, works: Callable[[float], bool]) -> float | None:
     for _ in range(40):
         middle = (good + bad) / 2
         good, bad = (middle, bad) if works(middle) else (good, middle)
-    printed = float(at_most(good, 4) if good < value else at_least(good, 4))
-    return good if printed > 0 and works(printed) else None
+    return good if works(float(_rounded(good, value))) else None
 
 
 def _trials(value: float) -> Iterator[float]:
