@@ -152,7 +152,8 @@ def number_rounding(job: Job) -> float:
     """How far the rounding of a file's numbers may move an outline, mm."""
     reach = max(p.reach() for p in job.body.profiles) if job.is_solid else job.section.region.outer.reach()
     if job.is_mesh:
-        return _FLOAT32 * reach
+        # 3MF writes its float32 numbers as text, which rounds them once more
+        return _FLOAT32 * reach * (2 if job.export.format == "3mf" else 1)
     if job.export.format == "step":
         return _STEP_ROUNDING * reach
     return _SVG_ROUNDING if job.export.format == "svg" else _DXF_ROUNDING * reach

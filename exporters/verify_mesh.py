@@ -11,6 +11,8 @@ from geometry.body import Body, Wall
 from geometry.mass import body_moments
 from geometry.measure import profile_area, profile_length
 
+# heights are float32 numbers, rounded twice where a file holds them as text
+_LEVEL = 2.0**-23
 Triangles = NDArray[np.int64]
 
 
@@ -20,18 +22,18 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
     All triangles lie in the caps or in the walls between two levels; the outlines of the walls are measured where
     they end, and closedness makes them the outlines of the caps too.
     """
-    # files carry float32 numbers, some of them as rounded text
-    heights_read = mesh.vertices[:, 2].astype(np.float32).astype(float)
-    mesh = ReadMesh(np.column_stack([mesh.vertices[:, :2], heights_read]), mesh.triangles)
     count = {"triangles": float(len(mesh.triangles))}
     failures = _topology_failures(mesh)
     if failures:
         return Verdict(count, tuple(failures))
     corners = mesh.vertices[mesh.triangles]
     measured = count | {"volume": float(np.einsum("ij,ij->i", corners[:, 0], _normals(corners)).sum() / 6)}
-    levels = np.array([np.float32(z) for z in body.levels()], dtype=float)
-    if not np.all(np.isin(mesh.vertices[:, 2], levels)):
+    levels = np.array(body.levels())
+    index = np.abs(mesh.vertices[:, 2, None] - levels).argmin(axis=1)
+    if np.any(np.abs(mesh.vertices[:, 2] - levels[index]) > _LEVEL * np.abs(levels).max()):
         return Verdict(measured, ("a vertex stands off every face",))
+    mesh = ReadMesh(np.column_stack([mesh.vertices[:, :2], levels[index]]), mesh.triangles)
+    corners = mesh.vertices[mesh.triangles]
     heights = corners[:, :, 2]
     low, high = heights.min(axis=1), heights.max(axis=1)
     upright = low != high
@@ -66,11 +68,11 @@ def _normals(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _walls_by_height(body: Body) -> dict[tuple[float, float], list[Wall]]:
-    """The walls between each two levels, as float32 has them."""
+    """The walls between each two levels."""
     found: dict[tuple[float, float], list[Wall]] = {}
     for wall in body.walls:
         low, high = body.height(wall)
-        found.setdefault((float(np.float32(low)), float(np.float32(high))), []).append(wall)
+        found.setdefault((low, high), []).append(wall)
     return found
 
 
@@ -82,7 +84,7 @@ def _cap_failures(body: Body, corners: NDArray[np.float64], declared: float) -> 
         profiles = [body.loop_profile(i) for i in (cap.outer, *cap.holes)]
         outer, *holes = (abs(profile_area(p)) for p in profiles)
         slack = declared * sum(profile_length(p) for p in profiles)
-        key = (float(np.float32(body.loops[cap.outer].z)), cap.up)
+        key = (body.loops[cap.outer].z, cap.up)
         total = expected.setdefault(key, [0.0, 0.0])
         total[0] += outer - sum(holes)
         total[1] += slack

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
 from geometry.body import Body, BodyBuilder, plate
 from geometry.errors import GeometryError, ParameterError, at_least, at_most
+from geometry.hub_holes import HubHoles
 from geometry.profile import Label, Profile, Region, circle
 from geometry.tolerance import TOLERANCES
 
 _LARGEST_CHAMFER_STEPS = 24
+# diameters of steps differ by this much at least, mm: thinner ones are mistakes of the keyboard
+_LEAST_STEP = 0.01
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,16 +59,36 @@ class WheelShape:
         return self == WheelShape(self.face_width)
 
 
+# a boundary moved ``offset`` mm out of the material and then cut ``depth`` mm into it, segment for segment
+Boundary = Callable[[float, float], Profile]
+
+
 @dataclass(frozen=True, slots=True)
 class WheelSections:
-    """The boundaries of a wheel's section, each by how far it is moved out of the material, mm.
+    """The boundaries of a wheel's section. A cut keeps sharp corners, so that chamfer faces meet in edges."""
 
-    A bore or hole that is moved keeps its corners sharp, so that each chamfer face has its neighbours.
-    """
+    outline: Boundary
+    bore: Boundary | None
+    holes: tuple[Boundary, ...] = ()
 
-    outline: Callable[[float], Profile]
-    bore: Callable[[float], Profile] | None
-    holes: tuple[Callable[[float], Profile], ...] = ()
+
+def wheel_sections(outline: Callable[[float], Profile], holes: HubHoles) -> WheelSections:
+    """The boundaries of a wheel: its outline by the offset, mm, and its holes."""
+
+    def hole(index: int) -> Boundary:
+        def boundary(offset: float, depth: float) -> Profile:
+            # an offset inwards has rounded the corners already: they stay round
+            if offset < 0 or depth == 0:
+                return holes.profiles(offset - depth)[index]
+            return holes.widened(depth).profiles(offset)[index]
+
+        return boundary
+
+    boundaries = tuple(hole(i) for i in range(holes.number))
+    first = 0 if holes.bore is None else 1
+    return WheelSections(
+        lambda offset, depth: outline(offset - depth), boundaries[0] if first else None, boundaries[first:]
+    )
 
 
 def wheel_body(shape: WheelShape, sections: WheelSections, offset: float = 0.0) -> Body:
@@ -77,8 +101,8 @@ def wheel_body(shape: WheelShape, sections: WheelSections, offset: float = 0.0) 
     """
     _check_heights(shape)
     if shape.is_plate:
-        holes = [s(offset) for s in ((sections.bore,) if sections.bore else ()) + sections.holes]
-        return plate(Region(sections.outline(offset), tuple(holes)), 0.0, shape.face_width)
+        holes = [s(offset, 0.0) for s in ((sections.bore,) if sections.bore else ()) + sections.holes]
+        return plate(Region(sections.outline(offset, 0.0), tuple(holes)), 0.0, shape.face_width)
     return _Wheel(shape, sections, offset).body()
 
 
@@ -167,11 +191,10 @@ class _Wheel:
         arc = profile.period[0].curve
         radius, hole = abs(complex(arc.point(0.0))), profile is self.rim_circle
 
-        def moved(distance: float) -> Profile:
-            if distance == self.offset:
+        def moved(offset: float, depth: float) -> Profile:
+            if depth == 0:
                 return profile
-            change = distance - self.offset
-            return circle(radius - change if hole else radius + change, profile.period[0].label, hole=hole)
+            return circle(radius + depth if hole else radius - depth, profile.period[0].label, hole=hole)
 
         heights = (near, far) if side == 1 else (far, near)
         ends = self._run(moved, heights, (side == 0, side == 1), "the rim" if hole else "the hub")
@@ -179,13 +202,13 @@ class _Wheel:
 
     def _run(
         self,
-        profile: Callable[[float], Profile],
+        profile: Boundary,
         heights: tuple[float, float],
         chamfered: tuple[bool, bool],
         who: str,
     ) -> tuple[int, int]:
         """The walls of one boundary from its lower to its upper end; returns the loops at both ends."""
-        whole = profile(self.offset)
+        whole = profile(self.offset, 0.0)
         cuts = [c if flag else 0.0 for c, flag in zip(self.chamfer, chamfered, strict=True)]
         if sum(cuts) > heights[1] - heights[0]:
             key = "below" if cuts[0] >= cuts[1] else "above"
@@ -209,16 +232,16 @@ def _snapped(z: float, face: float) -> float:
     return face if abs(z - face) <= TOLERANCES.relative_length * max(abs(z), abs(face)) else z
 
 
-def _inset(profile: Callable[[float], Profile], offset: float, chamfer: float, side: str, who: str) -> Profile:
+def _inset(profile: Boundary, offset: float, chamfer: float, side: str, who: str) -> Profile:
     """A boundary moved ``chamfer`` mm into the material, segment for segment that of the whole boundary."""
-    whole = [s.label for s in profile(offset).period]
+    whole = [s.label for s in profile(offset, 0.0).period]
     if offset > 0:
         text = "rounds the edges that face_chamfer would cut; at most 0 mm works with face_chamfer"
         raise ParameterError("offset", offset, text)
 
     def attempt(depth: float) -> Profile | None:
         try:
-            inset = profile(offset - depth)
+            inset = profile(offset, depth)
         except GeometryError:
             return None
         return inset if [s.label for s in inset.period] == whole else None
@@ -234,8 +257,8 @@ def _inset(profile: Callable[[float], Profile], offset: float, chamfer: float, s
     raise ParameterError(f"face_chamfer.{side}", chamfer, text)
 
 
-def check_wheel(shape: WheelShape, root_diameter: float, bore_diameter: float) -> None:
-    """Refuse a shape whose diameters do not fit between bore and root circle.
+def check_wheel(shape: WheelShape, root_diameter: float, holes: HubHoles) -> None:
+    """Refuse a shape whose diameters do not fit between bore, holes and root circle.
 
     Raises
     ------
@@ -243,12 +266,21 @@ def check_wheel(shape: WheelShape, root_diameter: float, bore_diameter: float) -
         Names the key and the nearest value that works.
     """
     web, hub = shape.web, shape.hub
-    core = hub.diameter if hub else bore_diameter
-    if hub is not None and not bore_diameter < hub.diameter < root_diameter:
-        text = f"above {at_least(bore_diameter)} mm (the bore) and below {at_most(root_diameter)} mm (the root) works"
-        raise ParameterError("hub.diameter", hub.diameter, text)
-    if web is not None and not core < web.rim_diameter < root_diameter:
-        inner = "the hub" if hub else "the bore"
-        text = f"above {at_least(core)} mm ({inner}) and below {at_most(root_diameter)} mm (the root) works"
-        raise ParameterError("web.rim_diameter", web.rim_diameter, text)
+    inner, outer = (2 * r for r in holes.beside_bore())
+    if hub is not None:
+        _between("hub.diameter", hub.diameter, (2 * holes.bore_reach, "the bore"), (root_diameter, "the root"))
+        _between("hub.diameter", hub.diameter, (0.0, ""), (inner, "the holes"))
+    if web is not None:
+        core = (hub.diameter, "the hub") if hub else (2 * holes.bore_reach, "the bore")
+        _between("web.rim_diameter", web.rim_diameter, core, (root_diameter, "the root"))
+        _between("web.rim_diameter", web.rim_diameter, (outer, "the holes"), (math.inf, ""))
     _check_heights(shape)
+
+
+def _between(key: str, value: float, low: tuple[float, str], high: tuple[float, str]) -> None:
+    if value <= low[0]:
+        text = f"is within {low[1]}, {at_least(low[0])} mm; at least {at_least(low[0] + _LEAST_STEP)} mm works"
+        raise ParameterError(key, value, text)
+    if value >= high[0]:
+        text = f"reaches {high[1]}, {at_most(high[0])} mm; at most {at_most(high[0] - _LEAST_STEP)} mm works"
+        raise ParameterError(key, value, text)
