@@ -15,6 +15,7 @@ from exporters.job import Written
 from exporters.plan import Plan
 from exporters.words import finding_text
 from geometry.findings import Finding
+from parts.part import Part
 from parts.scene import resolved
 
 NAME = "report.json"
@@ -38,6 +39,7 @@ def write_report(
                 "kind": part.kind,
                 **part.circles,
                 **part.quantities,
+                **_mass(part, written),
                 "findings": _findings(part.findings, language),
             }
             for part in plan.parts.values()
@@ -76,6 +78,15 @@ def _merge(report: dict[str, Any], before: dict[str, Any] | None) -> None:
         fresh = {entry["path"] for entry in (*report[key], *report["failed"])}
         kept = [entry for entry in before.get(key, []) if entry.get("path") not in fresh]
         report[key] = sorted([*kept, *report[key]], key=lambda entry: entry["path"])
+
+
+def _mass(part: Part, written: list[Written]) -> dict[str, Any]:
+    """Mass properties of a part that is built as a solid or whose density is known."""
+    if part.density is None and not any(item.job.part.id == part.id and item.job.is_solid for item in written):
+        return {}
+    from parts.materials import mass_properties
+
+    return mass_properties(part)
 
 
 def _entry(item: Written, language: str) -> dict[str, Any]:
