@@ -69,12 +69,15 @@ class RoundBore:
 
     @property
     def reach(self) -> float:
+        """See Bore."""
         return self.diameter / 2
 
     def check(self) -> None:
+        """See Bore."""
         refuse_below("bore.diameter", self.diameter, 0.0, "must be a finite number above 0")
 
     def profile(self, offset: float = 0.0) -> Profile:
+        """See Bore."""
         within(offset, -math.inf, self.reach, ("", "closes the bore"))
         return circle(self.reach - offset, Label.BORE, hole=True)
 
@@ -114,9 +117,11 @@ class KeywayBore:
 
     @property
     def reach(self) -> float:
+        """See Bore."""
         return abs(self._corner_centre) + self.corner_radius
 
     def check(self) -> None:
+        """See Bore."""
         for name in ("diameter", "width", "depth"):
             refuse_below(f"bore.{name}", getattr(self, name), 0.0, "must be a finite number above 0")
         if self.keys not in (1, 2):
@@ -132,6 +137,7 @@ class KeywayBore:
         return replace(self, diameter=self.diameter + 2 * depth, width=self.width + 2 * depth, corner_radius=corner)
 
     def profile(self, offset: float = 0.0) -> Profile:
+        """See Bore."""
         closes = min(self.width / 2, self._bottom - self._mouth.real)
         # the grown circle reaches the bottom's rounding: (R + e)^2 - (b/2 + e)^2 = (R + t2 - r)^2
         slack = (self._corner_centre.real - self._mouth.real) * (self._corner_centre.real + self._mouth.real)
@@ -183,9 +189,11 @@ class FlatBore:
 
     @property
     def reach(self) -> float:
+        """See Bore."""
         return self.diameter / 2
 
     def check(self) -> None:
+        """See Bore."""
         refuse_below("bore.diameter", self.diameter, 0.0, "must be a finite number above 0")
         name = "bore.flat" if self.flats == 1 else "bore.across_flats"
         given = self.flat_distance + self.diameter / 2 if self.flats == 1 else 2 * self.flat_distance
@@ -198,6 +206,7 @@ class FlatBore:
         return replace(self, diameter=self.diameter + 2 * depth, flat_distance=self.flat_distance + depth)
 
     def profile(self, offset: float = 0.0) -> Profile:
+        """See Bore."""
         opposite = self.diameter / 2 if self.flats == 1 else self.flat_distance
         within(offset, -math.inf, (self.flat_distance + opposite) / 2, ("", "closes the bore"))
         way = self._way(offset)
@@ -237,6 +246,7 @@ class PolygonBore:
 
     @property
     def reach(self) -> float:
+        """See Bore."""
         return self._corner_distance(0.0)[0] + self.corner_radius
 
     def _corner_distance(self, offset: float) -> tuple[float, float]:
@@ -245,6 +255,7 @@ class PolygonBore:
         return (self.across_flats / 2 - offset - radius) / math.cos(math.pi / self.sides), radius
 
     def check(self) -> None:
+        """See Bore."""
         refuse_below("bore.across_flats", self.across_flats, 0.0, "must be a finite number above 0")
         if not 0 <= self.corner_radius < self.across_flats / 2:
             raise ParameterError("bore.corner_radius", self.corner_radius, "the roundings leave no flat side")
@@ -254,6 +265,7 @@ class PolygonBore:
         return replace(self, across_flats=self.across_flats + 2 * depth, corner_radius=corner)
 
     def profile(self, offset: float = 0.0) -> Profile:
+        """See Bore."""
         within(offset, -math.inf, self.across_flats / 2, ("", "closes the bore"))
         apothem, half = self.across_flats / 2 - offset, math.pi / self.sides
         distance, radius = self._corner_distance(offset)
