@@ -62,7 +62,7 @@ class Job:
 class Written:
     """A file that was written and read back, with what was measured on it."""
 
-    job: Job
+    job: Job | AssemblyJob
     file: Path
     max_error: float
     bound: str
@@ -74,6 +74,7 @@ class Written:
 
 
 if TYPE_CHECKING:
+    from exporters.assembly import AssemblyJob
     from geometry.outline import Outline
 
 Shape: TypeAlias = "tuple[Approximation, ...] | tuple[Outline, ...]"

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from exporters.readers import Loop, ReadError, ReadMesh, read_3mf, read_dxf, read_stl, read_svg
+from exporters.readers import Loop, ReadError, ReadMesh, read_3mf, read_dxf, read_stl, read_svg, step_names
 from geometry.contour import edge_points, signed_area
 from geometry.curve import Complex
 from geometry.measure import distance_to_profile, profile_area
@@ -30,18 +30,29 @@ class Verdict:
     failures: tuple[str, ...]
 
 
-def verify_file(file: Path, kind: str, region: Region, thickness: float, declared: float, tolerance: float) -> Verdict:
+def verify_file(
+    file: Path,
+    kind: str,
+    region: Region,
+    thickness: float,
+    declared: float,
+    tolerance: float,
+    name: str | None = None,
+) -> Verdict:
     """Read a file back and hold it against its exact section.
 
     ``declared``: the error that its report states, mm; the measured one must not exceed it or ``tolerance``.
+    ``name``: what the part must be called where the format has names.
     """
     try:
         if kind in ("stl", "3mf"):
-            mesh = read_stl(file) if kind == "stl" else read_3mf(file)
-            return _verify_mesh(mesh, region, thickness, declared, tolerance)
+            mesh = read_stl(file) if kind == "stl" else read_3mf(file, name)
+            return verify_mesh(mesh, region, thickness, declared, tolerance)
         if kind in ("step", "drawing"):
             from exporters.verify_cad import verify_cad
 
+            if kind == "step" and name is not None and (found := step_names(file)) != [name]:
+                raise ReadError(f"the file names its parts {', '.join(found) or 'nothing'} instead of {name}")
             return verify_cad(file, kind, region, thickness, declared, tolerance)
         loops = read_dxf(file) if kind == "dxf" else read_svg(file)
         return _verdict(loops, region, declared, tolerance)
@@ -116,7 +127,7 @@ def is_simple(points: Complex) -> bool:
     return bool(shapely.is_simple(ring))
 
 
-def _verify_mesh(mesh: ReadMesh, region: Region, thickness: float, declared: float, tolerance: float) -> Verdict:
+def verify_mesh(mesh: ReadMesh, region: Region, thickness: float, declared: float, tolerance: float) -> Verdict:
     """Closed, manifold, no thin triangle; its two caps and walls stand on the exact section."""
     failures = _topology_failures(mesh)
     if failures:

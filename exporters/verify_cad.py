@@ -25,7 +25,11 @@ def verify_cad(file: Path, kind: str, region: Region, thickness: float, declared
     """Hold a STEP or drawing file against its exact section; see exporters/verify.py."""
     if kind == "drawing":
         return _verdict(_loops(_read_drawing(file)), region, declared, tolerance, {})
-    solid = _read_step(file)
+    return verify_solid(_read_step(file), region, thickness, declared, tolerance)
+
+
+def verify_solid(solid: Any, region: Region, thickness: float, declared: float, tolerance: float) -> Verdict:
+    """Hold the solid of a part, as the kernel has read it, against its exact section."""
     faces = _measured_faces(solid, thickness)
     volume, exact = faces.area * thickness, sum(profile_area(p) for p in region.profiles()) * thickness
     failures = _solid_failures(solid, region, thickness, faces.cylinders)

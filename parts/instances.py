@@ -43,7 +43,8 @@ class DriveSpec(Struct, forbid_unknown_fields=True):
 
     instance: Annotated[str, Meta(description="the instance that is driven")]
     turns: Annotated[
-        float, Meta(ge=-10_000, le=10_000, description="how far it is turned, counter-clockwise", extra={"unit": "turns"})
+        float,
+        Meta(ge=-10_000, le=10_000, description="how far it is turned, counter-clockwise", extra={"unit": "turns"}),
     ] = 1.0
 
 

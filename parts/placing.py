@@ -1,4 +1,4 @@
-"""Instances of parts and where they stand: places given by the scene, mates in the order of the file, the rest in a row.
+"""Instances of parts and where they stand: places given by the scene, mates in the order of the file, else a row.
 
 Mates that join two placed instances only check. The frame of a scene is that of its first mate's first gear.
 """
@@ -7,9 +7,8 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 from geometry.placement import Placement3, Vector
 from geometry.tolerance import PLACED_MM, TOLERANCES
@@ -102,9 +101,18 @@ class Placing:
     close: tuple[Closeness, ...] = ()
     turns: tuple[dict[str, float], ...] = ()
 
+    @property
+    def needs_check(self) -> bool:
+        """Whether there is anything to check or to tell: mates, neighbours that are too close, drives."""
+        return bool(self.mates or self.close or self.turns)
+
 
 def place(
-    specs: dict[str, InstanceSpec], drives: Sequence[DriveSpec], parts: dict[str, Part], matings: list[Mating], source: str
+    specs: dict[str, InstanceSpec],
+    drives: Sequence[DriveSpec],
+    parts: dict[str, Part],
+    matings: list[Mating],
+    source: str,
 ) -> Placing:
     """Put every instance of a scene in its place.
 
@@ -182,7 +190,7 @@ class _Placed:
         self.stand[first] = Instance(first, str(self.specs[first].part), rotation=_turned(self.specs[first]))
 
     def lay_out(self) -> None:
-        """What no mate and no ``at`` places goes into a row to the right of all else; the first of all to the origin."""
+        """What no mate and no ``at`` places goes into a row to the right of all else, or to the origin."""
         for key, spec in self.specs.items():
             if key not in self.stand:
                 alone = not self.stand

@@ -151,7 +151,7 @@ def scene_from_toml(raw_bytes: bytes, source: str, name: str) -> SceneFile:
 def scene_from_dict(raw: dict[str, Any], source: str, name: str) -> SceneFile:
     """Validate the tables of a scene."""
     refuse_infinite(raw, source, "")
-    tables = {key: dict for key in ("scene", "parts", "instances", "checks")}
+    tables: dict[str, type] = {key: dict for key in ("scene", "parts", "instances", "checks")}
     tables |= {key: list for key in ("mates", "drives", "exports")}
     for key, value in raw.items():
         if key not in tables:
