@@ -19,8 +19,13 @@ def scene_checks(placing: Placing, drives: Sequence[DriveSpec], language: str, *
     checks: dict[str, Any] = {}
     if placing.mates:
         checks["mates"] = [_mate(m, language, contact=contact) for m in placing.mates]
+        for found, mate in zip(checks["mates"], placing.mates, strict=True):
+            turns = [abs(train[mate.first.id]) for train in placing.turns if mate.first.id in train]
+            if turns:
+                # contact is held against a whole pitch, whatever part of it the drive runs through
+                found["driven_pitches"] = turns[0] * mate.mating.pair.first.number_of_teeth
     if placing.close:
-        checks["neighbours"] = [_neighbours(c, language) for c in placing.close]
+        checks["neighbours"] = [_neighbours(c, language, judged=contact) for c in placing.close]
     if placing.turns:
         checks["drives"] = [
             {"instance": d.instance, "turns": d.turns, "train": train}
@@ -101,7 +106,7 @@ def _condition(condition: Condition, mate: PlacedMate, language: str) -> dict[st
     return {"code": condition.code, "met": condition.met, **numbers, "text": text}
 
 
-def _neighbours(close: Closeness, language: str) -> dict[str, Any]:
+def _neighbours(close: Closeness, language: str, *, judged: bool) -> dict[str, Any]:
     code = "neighbours_collide" if close.overlap else "neighbours_close"
     found: dict[str, Any] = {
         "first": close.first,
@@ -112,6 +117,6 @@ def _neighbours(close: Closeness, language: str) -> dict[str, Any]:
             first=close.first, second=close.second, value=close.distance, limit=close.tip_sum
         ),
     }
-    if close.overlap:
+    if close.overlap and judged:
         found["verdict"] = "overlap"
     return found

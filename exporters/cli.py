@@ -175,9 +175,12 @@ def _converge(options: argparse.Namespace) -> int:
     from exporters.plan import plan_build
     from exporters.tables import converge_tables
     from parts.scene import load_scene
+    from parts.schema import SceneError
 
     scene = load_scene(options.scene)
     plan = plan_build(scene, options.scene, options.part, options.format)
+    if not plan.jobs:
+        raise SceneError(options.scene, "exports", None, "hold no file of a single part to measure; add one")
     folder = options.out / scene.name
     with staging_folder(folder) as staging:
         rungs, found = ladder(plan, staging), orders(plan)

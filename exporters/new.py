@@ -74,6 +74,8 @@ def _value(field: msgspec.structs.FieldInfo) -> str:
     if field.required or field.default is None:
         table = _table_of(field)
         return _EXAMPLES[field.encode_name] if table is None else _table_value(table)
+    if isinstance(field.default, bool):
+        return str(field.default).lower()
     return f'"{field.default}"' if isinstance(field.default, str) else str(field.default)
 
 

@@ -60,10 +60,12 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
     assemblies: list[AssemblyJob] = []
     taken = {f"{part}.preview.svg".lower(): "the preview of the part" for part in parts}
     for where, export in exports:
-        ids = [p for p in parts if p in export.parts] if export.assembly and export.parts else export.parts or [*parts]
+        if export.assembly and only_parts:
+            left_out.append((where, "an assembly of all its parts was not asked for"))
+            continue
         made = []
-        for part_id in ids:
-            if only_parts and part_id not in only_parts and not export.assembly:
+        for part_id in export.parts or list(parts):
+            if only_parts and part_id not in only_parts:
                 continue
             path = "" if export.assembly else _file_name(part_id, export, [e for _, e in exports])
             _take(path, where, taken, source)
@@ -71,12 +73,10 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
             made.append(Job(parts[part_id], export, section, path, where))
         if not export.assembly:
             jobs += made
-        elif only_parts:
-            left_out.append((where, "an assembly of all parts was not asked for"))
         else:
-            path = _assembly_path(scene.name, export, [e for _, e in exports])
+            path = _assembly_path(scene, export, [e for _, e in exports])
             _take(path, where, taken, source)
-            stand = tuple(i for i in placing.instances if i.part in ids)
+            stand = tuple(i for i in placing.instances if i.part in (export.parts or parts))
             assemblies.append(AssemblyJob(assembly_name(scene.name), export, tuple(made), stand, path, where))
     return Plan(source, scene, parts, placing, tuple(jobs), tuple(assemblies), tuple(left_out))
 
@@ -134,12 +134,14 @@ def _file_name(part_id: str, export: ExportSpec, exports: list[ExportSpec]) -> s
     return f"{part_id}.{export.format}"
 
 
-def _assembly_path(scene: str, export: ExportSpec, exports: list[ExportSpec]) -> str:
-    """``<scene>.<ext>``; with the export's name in between where it has one or two assemblies share an ending."""
-    sharing = [e for e in exports if e.format == export.format and e.assembly]
-    if export.name or len(sharing) > 1:
-        return f"{scene}.{export.name or export.purpose}.{export.format}"
-    return f"{scene}.{export.format}"
+def _assembly_path(scene: SceneFile, export: ExportSpec, exports: list[ExportSpec]) -> str:
+    """``<scene>.<ext>``; with a word in between where the export has a name, or another file would be the same."""
+    alike = [e for e in exports if e.format == export.format]
+    if export.name or sum(e.assembly for e in alike) > 1:
+        return f"{scene.name}.{export.name or export.purpose}.{export.format}"
+    parts = {p.lower() for e in alike if not e.assembly for p in e.parts or scene.parts}
+    word = ".assembly" if scene.name.lower() in parts else ""
+    return f"{scene.name}{word}.{export.format}"
 
 
 def _section(part: Part, export: ExportSpec, source: str, place: str) -> OffsetRegion:
