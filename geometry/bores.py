@@ -82,6 +82,7 @@ class RoundBore:
         return circle(self.reach - offset, Label.BORE, hole=True)
 
     def widened(self, depth: float) -> RoundBore:
+        """A larger circle."""
         return RoundBore(self.diameter + 2 * depth)
 
 
@@ -133,6 +134,7 @@ class KeywayBore:
             raise ParameterError("bore.corner_radius", self.corner_radius, "the keyway's bottom has no room for it")
 
     def widened(self, depth: float) -> KeywayBore:
+        """A larger bore with a wider keyway, as deep in the material as before."""
         corner = widened_corner(self.corner_radius, depth)
         return replace(self, diameter=self.diameter + 2 * depth, width=self.width + 2 * depth, corner_radius=corner)
 
@@ -203,6 +205,7 @@ class FlatBore:
             raise ParameterError(name, given, "the flat stands outside the bore")
 
     def widened(self, depth: float) -> FlatBore:
+        """A larger bore, its flats farther out."""
         return replace(self, diameter=self.diameter + 2 * depth, flat_distance=self.flat_distance + depth)
 
     def profile(self, offset: float = 0.0) -> Profile:
@@ -261,6 +264,7 @@ class PolygonBore:
             raise ParameterError("bore.corner_radius", self.corner_radius, "the roundings leave no flat side")
 
     def widened(self, depth: float) -> PolygonBore:
+        """A larger polygon."""
         corner = widened_corner(self.corner_radius, depth)
         return replace(self, across_flats=self.across_flats + 2 * depth, corner_radius=corner)
 

@@ -72,8 +72,8 @@ class WheelSections:
     holes: tuple[Boundary, ...] = ()
 
 
-def wheel_sections(outline: Callable[[float], Profile], holes: HubHoles) -> WheelSections:
-    """The boundaries of a wheel: its outline by the offset, mm, and its holes."""
+def wheel_sections(outline: Boundary, holes: HubHoles) -> WheelSections:
+    """The boundaries of a wheel: its outline and its holes."""
 
     def hole(index: int) -> Boundary:
         def boundary(offset: float, depth: float) -> Profile:
@@ -86,9 +86,7 @@ def wheel_sections(outline: Callable[[float], Profile], holes: HubHoles) -> Whee
 
     boundaries = tuple(hole(i) for i in range(holes.number))
     first = 0 if holes.bore is None else 1
-    return WheelSections(
-        lambda offset, depth: outline(offset - depth), boundaries[0] if first else None, boundaries[first:]
-    )
+    return WheelSections(outline, boundaries[0] if first else None, boundaries[first:])
 
 
 def wheel_body(shape: WheelShape, sections: WheelSections, offset: float = 0.0) -> Body:
