@@ -188,12 +188,13 @@ def test_no_verify_says_that_nothing_was_verified(tmp_path: Path, monkeypatch: p
     assert all(e["verified"] is False and not e["measured"] for e in read_report(tmp_path / "o" / "s")["files"])
 
 
-@pytest.mark.parametrize("name", ["write_laser_dxf", "write_laser_svg", "write_stl", "write_preview"])
+@pytest.mark.parametrize("name", ["write_laser_dxf", "write_laser_svg", "write_stl", "save"])
 @pytest.mark.parametrize("error", STOPS, ids=["full", "stop"])
 def test_a_writer_that_stops_half_way_leaves_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, error: BaseException
 ) -> None:
     import exporters.dxf
+    import exporters.preview
     import exporters.stl
     import exporters.svg
 
@@ -201,7 +202,7 @@ def test_a_writer_that_stops_half_way_leaves_nothing(
         file.write_bytes(b"half")
         raise error
 
-    owner = next(m for m in (exporters.dxf, exporters.svg, exporters.stl) if hasattr(m, name))
+    owner = next(m for m in (exporters.preview, exporters.dxf, exporters.svg, exporters.stl) if hasattr(m, name))
     monkeypatch.setattr(owner, name, stopped)
     assert run("build", pair(tmp_path), "--out", tmp_path / "new" / "o") in (2, 130)
     assert {p.name for p in tmp_path.iterdir()} == {"s.toml"}
