@@ -74,7 +74,7 @@ def test_only_what_was_asked_for_lies_in_the_folder(tmp_path: Path) -> None:
     run("build", pair(tmp_path), "--out", tmp_path / "out")
     names = {p.name for p in (tmp_path / "out" / "s").iterdir()}
     files = {f"{p}.{e}" for p in "ab" for e in ("dxf", "svg", "stl", "preview.svg")}
-    assert names == files | {"report.json"}
+    assert names == files | {"report.json", "s.preview.svg"}
     assert {p.name for p in tmp_path.iterdir()} == {"s.toml", "out"}
 
 
@@ -105,7 +105,7 @@ def test_partial_builds_merge_into_the_report_by_path(tmp_path: Path) -> None:
     report = read_report(folder)
     assert {e["path"]: e for e in report["files"]} == before
     assert len(report["files"]) == len(before)
-    assert {e["path"] for e in report["previews"]} == {"a.preview.svg", "b.preview.svg"}
+    assert {e["path"] for e in report["previews"]} == {"a.preview.svg", "b.preview.svg", "s.preview.svg"}
     assert {k: v for k, v in contents(folder).items() if k != "report.json"} == {
         k: v for k, v in whole.items() if k != "report.json"
     }
