@@ -15,12 +15,10 @@ from geometry.arc_spline import arc_spline
 from geometry.contour import Approximation, Bound, Contour
 from geometry.curve import Complex, Curve, Real
 from geometry.errors import ConvergenceError
-from geometry.involute import Involute
 from geometry.line_arc import Arc, Line
 from geometry.merge import merge_short_edges
 from geometry.profile import Profile
 from geometry.tolerance import TOLERANCES
-from geometry.trochoid import TrochoidFillet
 
 _DENSITY_SAMPLES = 129
 _MAX_CHORDS = 1_000_000
@@ -55,11 +53,14 @@ def approximate_profile(profile: Profile, tolerance: float, *, arcs: bool, least
     done: dict[Curve, Piece] = {}
     for curve in (s.curve for s in profile.period):
         # both sides of a tooth are mirror images: one is computed
-        twin = done.get(curve.mirrored()) if isinstance(curve, Involute | TrochoidFillet) else None
+        twin = None if isinstance(curve, Arc | Line) else done.get(curve.mirrored())
         done[curve] = twin.mirrored() if twin is not None else make(curve, tolerance)
     pieces = [done[s.curve] for s in profile.period]
     contour = Contour(
-        np.concatenate([p.points[:-1] for p in pieces]), np.concatenate([p.bulges for p in pieces]), profile.count
+        np.concatenate([p.points[:-1] for p in pieces]),
+        np.concatenate([p.bulges for p in pieces]),
+        profile.count,
+        profile.clockwise,
     )
     error = max(p.max_error for p in pieces)
     bound: Bound = "certified" if all(p.certified for p in pieces) else "sampled"
