@@ -81,9 +81,9 @@ class CutterFillet:
             self.pitch_radius + reach * np.exp(-1j * u)
         )
 
-    def _turning(self, u: Real) -> Real:
-        """1 - k th'."""
-        root, gap, _ = self._parts(u)
+    def turning(self, t: ArrayLike) -> Real:
+        """1 - k th': how fast the tangent turns to the right, rad/rad."""
+        root, gap, _ = self._parts(np.asarray(t, dtype=float))
         return 1 - self._ratio * gap / root
 
     def speed(self, t: ArrayLike) -> Real:
@@ -101,7 +101,7 @@ class CutterFillet:
     def curvature(self, t: ArrayLike) -> Real:
         u = np.asarray(t, dtype=float)
         with np.errstate(divide="ignore"):
-            return -self._turning(u) / np.abs(self.speed(u))
+            return -self.turning(u) / np.abs(self.speed(u))
 
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
         """Taylor arithmetic on e' = -s i exp(i (angle + k th - u)) speed(u)."""
@@ -129,7 +129,7 @@ class CutterFillet:
         return series
 
     def derivative_bound(self, order: int, a: float, b: float) -> float:
-        """Majorants of every series in ``derivative``; the least T and T + l cos u are at the end where |u| is largest."""
+        """Majorants of every series in ``derivative``; T and T + l cos u are least where |u| is largest."""
         far, share = min(max(abs(a), abs(b)), math.pi / 2), self._share
         square = [share**2 * 2 ** (k - 1) / FACTORIALS[k] for k in range(1, order)]
         least = 1 - (share * math.sin(far)) ** 2

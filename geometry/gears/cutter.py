@@ -26,8 +26,8 @@ CUTTER_ROUNDING = 0.2
 class PinionCutter:
     """Pinion cutter; module in mm, pressure angle in rad, the rest in modules.
 
-    Frame: axis at the origin, tooth 1 centred on +x. The tip circle is r_0 + (addendum + x_0) m; each tip corner is an arc
-    that touches flank and tip circle. ``widening`` (mm) is what each flank stands farther out than standard,
+    Frame: axis at the origin, tooth 1 centred on +x. The tip circle is r_0 + (addendum + x_0) m; each tip corner is an
+    arc that touches flank and tip circle. ``widening`` (mm) is what each flank stands farther out than standard,
     measured on the reference circle: it widens the space that is cut.
     """
 
@@ -73,7 +73,7 @@ class PinionCutter:
 
     @cached_property
     def corner_angle(self) -> float:
-        """Angle of the rounding's centre from the tooth's centre line, rad; 0 is the full round, negative does not fit."""
+        """Angle of the rounding's centre from the tooth's centre line, rad; 0: full round, negative: no fit."""
         return self._corner_angle(self.rounding_radius)
 
     def _corner_angle(self, rounding: float) -> float:
@@ -97,7 +97,7 @@ class PinionCutter:
         return bracketed_root(self._corner_angle, 0.0, most).value / self.module
 
     def side(self) -> tuple[Segment, ...]:
-        """The lower side of tooth 1, base circle to centre line, counter-clockwise: flank, rounding, half of the tip land."""
+        """The lower side of tooth 1 from base circle to centre line: flank, rounding, half of the tip land."""
         base, half = self.base_radius, self.base_half_angle
         flank = Involute(base, -half, 0.0, self.form_length / base)
         centre = cmath.rect(self.corner_radius, -self.corner_angle)

@@ -49,8 +49,8 @@ class InternalMesh:
     def trochoid_interference(self) -> Margin:
         """Room between the tip corners where both tip circles cross, as an arc on the ring's tip circle, mm.
 
-        theta_1 z_1 / z_2 + inv(alpha_w) - inv(alpha_a2) - theta_2. Where the tip circles do not cross, the corners never
-        meet if the ring's is the larger (margin inf); else, cos(theta_1) <= -1, the teeth always do (-inf).
+        theta_1 z_1 / z_2 + inv(alpha_w) - inv(alpha_a2) - theta_2. Where the tip circles do not cross, the corners
+        never meet if the ring's is the larger (margin inf); else, cos(theta_1) <= -1, the teeth always do (-inf).
         """
         first, second = self._crossing_angles()
         if first is None or second is None:
@@ -74,8 +74,8 @@ class InternalMesh:
         """Whether the pinion goes into the ring along the line of centres: least room between tip corners, mm.
 
         The pinion's corner at the angle f about its axis faces the ring's at z_1/z_2 (f + inv(alpha_a1) -
-        inv(alpha_w)) - inv(alpha_a2) + inv(alpha_w). The corners' distances from the line of centres differ least at the
-        one root of the derivative; the margin vanishes where the arcsine form of the source does.
+        inv(alpha_w)) - inv(alpha_a2) + inv(alpha_w). The corners' distances from the line of centres differ least at
+        the one root of the derivative; the margin vanishes where the arcsine form of the source does.
         """
         (one, two), ratio = self.tip_radii, self.teeth[0] / self.teeth[1]
         tips, working = self._tip_involutes(), involute_function(self.angle)

@@ -19,7 +19,7 @@ from geometry.involute import Involute
 
 @dataclass(frozen=True, slots=True)
 class RoundedRoot:
-    """A root that no cutter made: an arc tangent to flank and root circle, in modules; ``radius`` None is the full round.
+    """A root that no cutter made: an arc tangent to flank and root circle, in modules; None is the full round.
 
     For laser, wire and print. The root circle is r_2 + (dedendum + x_2) m.
     """
@@ -32,9 +32,10 @@ class RoundedRoot:
 class RingGear:
     """Internal spur gear; lengths in mm, coefficients in modules, angles in rad.
 
-    The default tip diameter is d_2 - 2 (h_a - x_2) m (KHK; GOST 19274 without its shortening of the pair). Thinning
-    thins each ring tooth at the reference circle: cut by a wider cutter tooth (root diameter kept) or, with
-    ``thinning_by_deeper_cut``, by feeding the cutter out (root diameter raised).
+    The default tip diameter is that of GOST 19274, d_2 - 2 (h_a - x_2 - k_2) m, whose k_2 = 0.25 - 0.125 x_2 (0 from
+    x_2 = 2 on) keeps the tips off a mate's fillets; ``plain_tip`` leaves k_2 out (KHK). Thinning thins each ring tooth
+    at the reference circle: cut by a wider cutter tooth (root diameter kept) or, with ``thinning_by_deeper_cut``, by
+    feeding the cutter out (root diameter raised).
     Source of the dimensions: GOST 19274, ISO 21771.
     """
 
@@ -45,6 +46,7 @@ class RingGear:
     root: PinionCutter | RoundedRoot
     profile_shift_coefficient: float = 0.0
     addendum: float = 1.0
+    plain_tip: bool = False
     given_tip_diameter: float | None = None
     circumferential_thinning: float = 0.0
     thinning_by_deeper_cut: bool = False
@@ -87,10 +89,17 @@ class RingGear:
 
     @property
     def tip_radius(self) -> float:
-        """r_a2 = r_2 - (h_a - x_2) m, or half of the given tip diameter."""
+        """r_a2 = r_2 - (h_a - x_2 - k_2) m, or half of the given tip diameter."""
         if self.given_tip_diameter is not None:
             return self.given_tip_diameter / 2
-        return self.reference_radius - (self.addendum - self.profile_shift_coefficient) * self.module
+        height = self.addendum - self.profile_shift_coefficient - self.tip_shortening_coefficient
+        return self.reference_radius - height * self.module
+
+    @property
+    def tip_shortening_coefficient(self) -> float:
+        """k_2 of GOST 19274, in modules; 0 with ``plain_tip``."""
+        x = self.profile_shift_coefficient
+        return 0.0 if self.plain_tip or x >= 2 else 0.25 - 0.125 * x
 
     @property
     def outer_radius(self) -> float:

@@ -1,4 +1,4 @@
-"""Limits of a ring gear, each a function with its margin, the search for the nearest ring that works, a default cutter."""
+"""Limits of a ring gear, each with its margin, the search for the nearest ring that works, a default cutter."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from geometry.gears.ring_tooth import RingCurves, apex_radius, flank_ends, ring_
 from geometry.tolerance import TOLERANCES
 
 # teeth of a cutter that nobody named: the largest that works, from here down
-DEFAULT_CUTTER_TEETH, LEAST_CUTTER_TEETH = 25, 8
+DEFAULT_CUTTER_TEETH, LEAST_CUTTER_TEETH = 100, 8
 
 
 def generation(gear: RingGear) -> InternalMesh | None:
@@ -259,8 +259,9 @@ def _cutter_teeth(gear: RingGear) -> int | None:
 
 
 def with_default_cutter(gear: RingGear, cutter: PinionCutter) -> RingGear:
-    """The ring with the largest cutter of at most 25 teeth that can make it; with 25 teeth where none can.
+    """The ring with the largest cutter of at most 100 teeth that can make it; with 8 teeth where none can.
 
+    The larger the cutter, the farther out the involute reaches, and the fewer pinions touch the fillets.
     The cutter's rounding is reduced to the full round where its tooth has no more room.
     """
     for teeth in range(min(DEFAULT_CUTTER_TEETH, gear.number_of_teeth - 1), LEAST_CUTTER_TEETH - 1, -1):
@@ -272,7 +273,7 @@ def with_default_cutter(gear: RingGear, cutter: PinionCutter) -> RingGear:
             continue
         if _makes(replace(gear, root=tried)):
             return replace(gear, root=tried)
-    return replace(gear, root=replace(cutter, number_of_teeth=DEFAULT_CUTTER_TEETH))
+    return replace(gear, root=replace(cutter, number_of_teeth=LEAST_CUTTER_TEETH))
 
 
 def _boundary(works: Callable[[float], bool], good: float, bad: float) -> float:

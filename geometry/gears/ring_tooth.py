@@ -1,7 +1,7 @@
 """The exact outline of one side of a ring's tooth space: root land, fillet, flank, tip break, tip land.
 
-The lower side of space 1 is built from the space's centre line (polar angle 0) to the tooth's (-pi/z), clockwise, material
-on the left; the upper side is its mirror image.
+The lower side of space 1 is built from the space's centre line (polar angle 0) to the tooth's (-pi/z), clockwise,
+material on the left; the upper side is its mirror image.
 """
 
 from __future__ import annotations
@@ -102,7 +102,7 @@ class RingCurves:
 
 
 def rounded_root_plug(gear: RingGear) -> PinionCutter:
-    """The body that fills a space with a rounded root: an external tooth of the ring's own numbers, its tips rounded."""
+    """The body that fills a space with a rounded root: an external tooth with rounded tips."""
     root = gear.root
     assert isinstance(root, RoundedRoot)
     plug = PinionCutter(
@@ -219,7 +219,7 @@ def _chamfer_line(gear: RingGear, flank: Involute) -> Line:
 def _chamfered(
     curves: RingCurves, roll: float, corner: complex, half_pitch: float
 ) -> tuple[float, list[Segment], complex]:
-    """The flank cut at the chamfer, which runs on to the tip circle or the tooth's centre line; none where it is gone."""
+    """The flank cut at the chamfer, which runs to the tip circle or the tooth's centre line; or neither."""
     flank, line = curves.flank, curves.chamfer
     assert line is not None
     direction = complex(line.tangent(0.0))
