@@ -1,8 +1,8 @@
 """The internal pair, pinion in ring: working angle, centre distance, contact ratio, backlash, phase, conditions.
 
 Frame: the ring's axis is the origin, the pinion's lies at ``working_centre_distance`` in the given direction, and so
-does the mesh. Results for both gears are tuples (pinion, ring). Shift of the ring is positive away from its axis, so that
-everything follows from x2 - x1. Source: GOST 19274, KHK, Elements of Metric Gear Technology.
+does the mesh. Results for both gears are tuples (pinion, ring). Shift of the ring is positive away from its axis, so
+that everything follows from x2 - x1. Source: GOST 19274, KHK, Elements of Metric Gear Technology.
 """
 
 from __future__ import annotations
@@ -264,8 +264,8 @@ def internal_flank_gaps(pair: InternalPair, pinion_turn: Real, ring_turn: Real, 
     """Closed form for the flanks at a centre distance (mm), for rotations (n,) of both gears (rad): (n, 2) mm.
 
     Columns: lower and upper flanks of the pinion's teeth, line of centres along +x from ring to pinion. The common
-    normal touches both base circles: gap = r_b2 f2 - r_b1 f1 - a sin(alpha_w) with the roll angles f. inf where no common
-    normal meets two flanks.
+    normal touches both base circles: gap = r_b2 f2 - r_b1 f1 - a sin(alpha_w) with the roll angles f. inf where no
+    common normal meets two flanks.
     """
     one, two = pair.pinion.base_radius, pair.ring.base_radius
     result = np.full((len(pinion_turn), 2), np.inf)
