@@ -10,6 +10,7 @@ import cmath
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 from geometry.curve import end_point, start_point
 from geometry.errors import GeometryError, ParameterError, PointedTipError, at_least, at_most
@@ -94,7 +95,7 @@ class RackSide:
 
 @dataclass(frozen=True, slots=True)
 class _Numbers:
-    """One half tooth: tip height, root depth, half thickness on the datum line, fillet, tip corner (mm), angle (rad)."""
+    """One half tooth: tip height, root depth, half thickness on the datum line, fillet, tip corner, mm; angle, rad."""
 
     height: float
     depth: float
@@ -320,7 +321,7 @@ def _closed(rack: Rack, chain: list[Segment], offset: float) -> list[Segment]:
         chain = _cut_at(chain, half + offset)
         first, last = start_point(chain[0].curve), end_point(chain[-1].curve)
         corners = [last, complex(bottom + offset, last.imag), complex(bottom + offset, first.imag), first]
-        return chain + [Segment(Line(a, b), Label.BODY) for a, b in zip(corners, corners[1:], strict=False)]
+        return chain + [Segment(Line(a, b), Label.BODY) for a, b in pairwise(corners)]
     corners = [complex(root, -half), complex(bottom, -half), complex(bottom, half), complex(root, half)]
     directions = [-1j, 1 + 0j, 1j, -1 + 0j, -1j]
     place = end_point(chain[-1].curve)

@@ -84,12 +84,12 @@ class _RackMesh(MeshSearch):
         return np.round(-position / self.pitches[1])
 
     def placing(self, position: Real, copy: Real) -> tuple[Complex, Complex]:
-        shift = self.distance + 1j * (position + copy * self.pitches[1])
-        return np.full(shift.shape, -1 + 0j), shift
+        shift = np.asarray(self.distance + 1j * (position + copy * self.pitches[1]), dtype=np.complex128)
+        return np.full_like(shift, -1.0), shift
 
     def to_fixed(self, points: Complex, drive: Real) -> tuple[Complex, Complex]:
-        moved = self.distance - points + 1j * self.second_position(drive)
-        return moved, np.full(moved.shape, 1j * self.rate)
+        moved = np.asarray(self.distance - points + 1j * self.second_position(drive))
+        return moved, np.full_like(moved, 1j * self.rate)
 
     def to_second(self, points: Complex, drive: Real) -> tuple[Complex, Complex]:
         turned = np.exp(1j * drive) * points
