@@ -107,7 +107,7 @@ def _write(job: Job, shape: tuple[Shape, float], file: Path, *, verify: bool) ->
 
     start = time.perf_counter()
     tolerance = float(job.export.tolerance or 0.0)
-    verdict = verify_file(file, job.kind, job.section.region, job.part.face_width, max_error, tolerance)
+    verdict = verify_file(file, job.kind, job.exact, max_error, tolerance)
     seconds["verify"] = time.perf_counter() - start
     return Written(job, file, max_error, bound, entities, verdict.measured, findings, verdict.failures, seconds)
 
@@ -130,27 +130,23 @@ def _write_svg(job: Job, made: Any, file: Path) -> dict[str, int]:
 
 def _write_stl(job: Job, made: Any, file: Path) -> dict[str, int]:
     from exporters.stl import write_stl
-    from parts.solids import extruded_gear
+    from parts.solids import body_mesh
 
-    outer, bore = made[-1].geometry, made[0].geometry if len(made) > 1 else None
-    return write_stl(file, extruded_gear(outer, bore, job.part.face_width))
+    return write_stl(file, body_mesh(job.body, made))
 
 
 def _write_3mf(job: Job, made: Any, file: Path) -> dict[str, int]:
     from exporters.threemf import write_3mf
-    from parts.solids import extruded_gear
+    from parts.solids import body_mesh
 
-    outer, bore = made[-1].geometry, made[0].geometry if len(made) > 1 else None
-    mesh = extruded_gear(outer, bore, job.part.face_width)
-    return write_3mf(file, job.part.id, mesh, job.part.colour)
+    return write_3mf(file, job.part.id, body_mesh(job.body, made), job.part.colour)
 
 
 def _write_step(job: Job, made: Any, file: Path) -> dict[str, int]:
     from exporters.step import write_step
-    from parts.brep import extruded_solid
+    from parts.brep import body_solid
 
-    *holes, outer = (list(outline.curves()) for outline in made)
-    return write_step(file, job.part.id, extruded_solid(outer, holes, job.part.face_width), job.part.colour)
+    return write_step(file, job.part.id, body_solid(job.body, made), job.part.colour)
 
 
 WRITERS: dict[str, Callable[[Job, Any, Path], dict[str, int]]] = {
@@ -164,7 +160,7 @@ WRITERS: dict[str, Callable[[Job, Any, Path], dict[str, int]]] = {
 
 def _job_findings(job: Job, made: Shape) -> list[Finding]:
     """Remarks on one file: a tolerance too coarse for the teeth, edges too short for a laser."""
-    found = []
+    found = [] if job.is_solid or job.part.is_plate else [Finding("flat_outline", 0.0, 0.0)]
     limit = _COARSE_SHARE * job.part.circles["reference_diameter"] / job.section.region.outer.count
     if (job.export.tolerance or 0.0) > limit:
         found.append(Finding("coarse_tolerance", float(job.export.tolerance or 0.0), limit))

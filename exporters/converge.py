@@ -99,7 +99,7 @@ def _rung(job: Job, file: Path) -> Rung:
         seconds.append(time.perf_counter() - start)
     max_error, _ = declared_error(job, made)
     tolerance = float(job.export.tolerance or 0.0)
-    verdict = verify_file(file, job.kind, job.section.region, job.part.face_width, max_error, tolerance)
+    verdict = verify_file(file, job.kind, job.exact, max_error, tolerance)
     size = file.stat().st_size
     file.unlink()
     edges = sum(entities.values())

@@ -24,7 +24,22 @@ _EXAMPLES = {
     "tolerance": "0.005",
     "name": '"laser"',
     "parts": '["gear"]',
+    "thickness": "3.0",
+    "rim_diameter": "36.0",
+    "density": "0.65",
+    "diameter": "12.0",
+    "flat": "10.5",
+    "across_flats": "10.0",
+    "width": "4.0",
+    "depth": "1.8",
+    "corner_radius": "0.16",
+    "count": "5",
+    "pitch_circle_diameter": "28.0",
+    "inner_diameter": "20.0",
+    "outer_diameter": "36.0",
 }
+# where the same key means another size
+_TABLE_EXAMPLES = {("HolesTable", "diameter"): "6.0", ("HubTable", "diameter"): "17.0"}
 
 
 def new_scene(kind: str) -> str:
@@ -60,8 +75,10 @@ def _keys(owner: type[Struct]) -> list[str]:
     for field in msgspec.structs.fields(owner):
         code = f"{field.encode_name} = {_value(field)}"
         lines.append(_line(code if field.required else f"# {code}", describe_type(field.type)))
-        if (table := _table_of(field)) is not None and field.default is not None:
-            lines.append(f"# {field.encode_name} = {_table_value(table)}  # ... or this")
+        tables = _tables_of(field)
+        for table in tables if field.default is not None else tables[1:]:
+            meant = describe_type(table).removeprefix("table: ")
+            lines.append(f"# {field.encode_name} = {_table_value(table)}  # ... or this: {meant}")
     return lines
 
 
@@ -72,16 +89,21 @@ def _line(code: str, text: str) -> str:
 def _value(field: msgspec.structs.FieldInfo) -> str:
     """The default of a key as TOML, or an example where it has none."""
     if field.required or field.default is None:
-        table = _table_of(field)
-        return _EXAMPLES[field.encode_name] if table is None else _table_value(table)
+        tables = _tables_of(field)
+        return _table_value(tables[0]) if tables else _EXAMPLES[field.encode_name]
     return f'"{field.default}"' if isinstance(field.default, str) else str(field.default)
 
 
-def _table_of(field: msgspec.structs.FieldInfo) -> type[Struct] | None:
-    """The kind of table that a key takes, if it takes one."""
-    return next((a for a in get_args(field.type) if isinstance(a, type) and issubclass(a, Struct)), None)
+def _tables_of(field: msgspec.structs.FieldInfo) -> list[type[Struct]]:
+    """The kinds of table that a key takes."""
+    return [a for a in get_args(field.type) if isinstance(a, type) and issubclass(a, Struct)]
 
 
 def _table_value(table: type[Struct]) -> str:
-    inner = (f"{f.encode_name} = {_value(f)}" for f in msgspec.structs.fields(table))
-    return "{ " + ", ".join(inner) + " }"
+    config = table.__struct_config__
+    tag = [f'{config.tag_field} = "{config.tag}"'] if config.tag_field else []
+    inner = (
+        f"{f.encode_name} = {_TABLE_EXAMPLES.get((table.__name__, f.encode_name)) or _value(f)}"
+        for f in msgspec.structs.fields(table)
+    )
+    return "{ " + ", ".join([*tag, *inner]) + " }"

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 
 from exporters.job import Job
-from geometry.errors import GeometryError, at_least, at_most
+from geometry.errors import GeometryError, ParameterError, at_least, at_most
 from geometry.gears.offset_tooth import OffsetError, OffsetRegion
 from parts.mates import Mating
 from parts.part import Part
@@ -66,9 +66,20 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
                 remedy = f"writes the same file as {taken[path.lower()]}; give one of them another name"
                 raise SceneError(source, f"{place}.name", path, remedy)
             taken[path.lower()] = place
-            section = _section(parts[part_id], export, source, place)
-            jobs.append(Job(parts[part_id], export, section, path, place))
+            job = Job(parts[part_id], export, _section(parts[part_id], export, source, place), path, place)
+            if job.is_solid:
+                _check_body(job, source)
+            jobs.append(job)
     return Plan(source, scene, parts, tuple(matings), tuple(jobs), tuple(left_out))
+
+
+def _check_body(job: Job, source: str) -> None:
+    """Refuse a solid that does not exist, in the key that asks for it."""
+    try:
+        _ = job.body
+    except ParameterError as error:
+        place = f"{job.place}.offset" if error.name == "offset" else f"parts.{job.part.id}.{error.name}"
+        raise SceneError(source, place, error.value, error.allowed) from error
 
 
 def _wanted_exports(scene: SceneFile, source: str, only_formats: list[str]) -> list[tuple[str, ExportSpec]]:

@@ -68,12 +68,13 @@ def recheck(file: Path) -> Recheck:
 def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, Any], digest: str) -> Recheck:
     scene = scene_from_resolved(report["scene"], source)
     part = make_parts(scene, source)[0][entry["part"]]
-    region = part.section(float(entry["offset"])).region
+    offset = float(entry["offset"])
     declared, tolerance, kind = float(entry["max_error"]), float(entry["tolerance"]), entry["format"]
     if kind not in FORMATS:
         raise KeyError(f"format {kind}")
     if kind == "step" and find_spec("OCP") is None:
         raise SceneError(str(file), "", None, 'needs the CAD kernel to be read: pip install "cadquery-ocp-novtk<8"')
+    exact = part.body(offset) if kind in ("stl", "3mf", "step") else part.section(offset).region
     kind = "drawing" if entry["purpose"] == "drawing" else kind
-    verdict = verify_file(file, kind, region, part.face_width, declared, tolerance)
+    verdict = verify_file(file, kind, exact, declared, tolerance)
     return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])

@@ -98,6 +98,10 @@ FINDINGS: dict[str, tuple[str, str]] = {
         "the flanks overlap: normal backlash {value:.6f} mm",
         "профілі перекриваються: бічний зазор {value:.6f} мм",
     ),
+    "flat_outline": (
+        "web, hub and face chamfers are not in a flat outline; STL, 3MF and STEP have them",
+        "диск, маточина і фаски не входять у плоский контур; вони є в STL, 3MF і STEP",
+    ),
     "coarse_tolerance": (
         "tolerance {value:.4g} mm is more than 5 % of the module ({limit:.4g} mm): the teeth lose their shape",
         "допуск {value:.4g} мм більший за 5 % модуля ({limit:.4g} мм): зуби втрачають форму",

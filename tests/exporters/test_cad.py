@@ -172,8 +172,8 @@ def test_a_spoiled_step_is_caught(step_build: Path, tmp_path: Path, spoil: str) 
     file = tmp_path / "g.step"
     file.write_text(text)
     parts = make_parts(load_scene(str(step_build.parents[2] / "s.toml")), "s")[0]
-    region, width = parts["g"].section(-0.001 if spoil == "other" else 0.0).region, parts["g"].face_width
-    assert verify_file(file, "step", region, width, 1e-6, 1e-6).failures
+    body = parts["g"].body(-0.001 if spoil == "other" else 0.0)
+    assert verify_file(file, "step", body, 1e-6, 1e-6).failures
 
 
 def test_a_step_has_the_same_bytes_in_another_process_and_after_another(step_build: Path, tmp_path: Path) -> None:
