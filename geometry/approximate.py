@@ -88,7 +88,7 @@ def approximate_together(
     made = [[c.curve.point(_spread(c.curve, t)) for c, (t, _) in zip(p.period, shares, strict=True)] for p in profiles]
     vertices = np.array([np.concatenate([points[:-1] for points in pieces]) for pieces in made])
     error = max(e for _, e in shares)
-    ends = np.append(vertices[:, 1:], vertices[:, :1] * np.exp(2j * np.pi / profiles[0].count), axis=1)
+    ends = np.append(vertices[:, 1:], vertices[:, :1] * np.exp(1j * profiles[0].pitch_angle), axis=1)
     short = np.abs(ends - vertices).min(axis=0) < slack
     if short.any() and not short.all():
         # a vertex at the start of a short edge goes; its neighbours move by less than that edge
@@ -96,7 +96,7 @@ def approximate_together(
     bound: Bound = "certified" if error > 0 else "exact"
     zeros = np.zeros(vertices.shape[1])
     return tuple(
-        Approximation(Contour(v, zeros, p.count), error, bound, tolerance)
+        Approximation(Contour(v, zeros, p.count, p.clockwise), error, bound, tolerance)
         for v, p in zip(vertices, profiles, strict=True)
     )
 

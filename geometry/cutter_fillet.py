@@ -81,6 +81,10 @@ class CutterFillet:
             self.pitch_radius + reach * np.exp(-1j * u)
         )
 
+    def normal_length(self, u: float) -> float:
+        """|w| sign(D) + rho: distance of the contact point from the pitch point along the normal, mm."""
+        return self.corner_radius * float(self._parts(np.asarray(u))[1]) + self.tip_radius
+
     def turning(self, t: ArrayLike) -> Real:
         """1 - k th': how fast the tangent turns to the right, rad/rad."""
         root, gap, _ = self._parts(np.asarray(t, dtype=float))

@@ -18,6 +18,8 @@ from geometry.tolerance import TOLERANCES
 
 # the addendum of a cutter is the dedendum of what it cuts: h_a + c of ISO 53 A
 CUTTER_ADDENDUM = 1.25
+# beyond, the rounding of the cutter's own radius shows in the tooth it cuts
+MOST_CUTTER_TEETH = 10_000
 # modules; the corner that shaper cutters commonly have where the tooth has room for it
 CUTTER_ROUNDING = 0.2
 
@@ -145,8 +147,9 @@ def checked_cutter(cutter: PinionCutter) -> PinionCutter:
 
 
 def _check_numbers(cutter: PinionCutter) -> None:
-    if not cutter.number_of_teeth >= 3:
-        raise ParameterError("cutter.number_of_teeth", cutter.number_of_teeth, "must be at least 3")
+    if not 3 <= cutter.number_of_teeth <= MOST_CUTTER_TEETH:
+        text = f"must be at least 3 and at most {MOST_CUTTER_TEETH}; a rack stands for larger ones"
+        raise ParameterError("cutter.number_of_teeth", cutter.number_of_teeth, text)
     if not 0 < cutter.pressure_angle < math.pi / 2:
         angle = math.degrees(cutter.pressure_angle)
         raise ParameterError("pressure_angle_deg", angle, "must be above 0 and below 90 degrees")
