@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from exporters.assembly import AssemblyJob, declared_assembly_error, write_assembly
 from exporters.job import Job, Shape, Written, declared_error, shape_of
 from exporters.plan import Plan
 from exporters.report import NAME, read_report, write_report
@@ -47,12 +48,20 @@ def build(
     start = time.perf_counter()
     checks = _checks(plan)
     shapes = [_shapes(job, plan.source) for job in plan.jobs]
+    made = {_shape_key(job): shape for job, (shape, _) in zip(plan.jobs, shapes, strict=True)}
+    for job in (member for assembly in plan.assemblies for member in assembly.members):
+        if _shape_key(job) not in made:
+            made[_shape_key(job)] = _shapes(job, plan.source)[0]
     with staging_folder(folder) as staging:
         written = []
         for job, shape in zip(plan.jobs, shapes, strict=True):
             progress(job.path)
             written.append(_write(job, shape, staging / job.path, verify=verify))
-        wanted = dict.fromkeys(job.part.id for job in plan.jobs)
+        for assembly in plan.assemblies:
+            progress(assembly.path)
+            members = {m.part.id: made[_shape_key(m)] for m in assembly.members}
+            written.append(_write_assembly(assembly, members, staging / assembly.path, verify=verify))
+        wanted = dict.fromkeys(j.part.id for j in (*plan.jobs, *(m for a in plan.assemblies for m in a.members)))
         previews = [_preview(plan.parts[p], staging, plan.scene.scene.language) for p in wanted]
         before = read_report(folder) if partial else None
         write_report(staging / NAME, plan, written, previews, checks, time.perf_counter() - start, before)
@@ -63,13 +72,12 @@ def build(
 
 def _checks(plan: Plan) -> dict[str, Any]:
     """The pairs of a scene: calculated always, held against each other where the scene asks for it."""
-    if not plan.matings:
+    if not plan.placing.needs_check:
         return {}
-    from exporters.check import check_pair, pair_quantities
+    from exporters.check import scene_checks
 
-    language = plan.scene.scene.language
-    asked = plan.scene.checks.interference
-    return {"mates": [check_pair(m, language) if asked else pair_quantities(m) for m in plan.matings]}
+    scene = plan.scene
+    return scene_checks(plan.placing, scene.drives, scene.scene.language, contact=scene.checks.interference)
 
 
 def move_into(folder: Path, staging: Path, names: list[str]) -> None:
@@ -79,6 +87,12 @@ def move_into(folder: Path, staging: Path, names: list[str]) -> None:
             raise IsADirectoryError(errno.EISDIR, "a folder stands where a file should go", str(folder / name))
     for name in names:
         os.replace(staging / name, folder / name)
+
+
+def _shape_key(job: Job) -> tuple[object, ...]:
+    """What a job's boundaries depend on: a part's file and an assembly may share them."""
+    export = job.export
+    return (job.part.id, export.format, export.purpose, export.tolerance, export.curves, job.section.offset)
 
 
 def _shapes(job: Job, source: str) -> tuple[Shape, float]:
@@ -107,9 +121,28 @@ def _write(job: Job, shape: tuple[Shape, float], file: Path, *, verify: bool) ->
 
     start = time.perf_counter()
     tolerance = float(job.export.tolerance or 0.0)
-    verdict = verify_file(file, job.kind, job.exact, max_error, tolerance)
+    verdict = verify_file(file, job.kind, job.exact, max_error, tolerance, job.part.id)
     seconds["verify"] = time.perf_counter() - start
     return Written(job, file, max_error, bound, entities, verdict.measured, findings, verdict.failures, seconds)
+
+
+def _write_assembly(job: AssemblyJob, members: dict[str, Shape], file: Path, *, verify: bool) -> Written:
+    start = time.perf_counter()
+    entities = write_assembly(job, members, file)
+    seconds = {"write": time.perf_counter() - start}
+    max_error, bound = declared_assembly_error(job, members)
+    found = dict.fromkeys(f for m in job.members for f in (*m.section.findings, *_job_findings(m, members[m.part.id])))
+    if not verify:
+        return Written(job, file, max_error, bound, entities, {}, tuple(found), (), seconds)
+    from exporters.verify_assembly import expected_of, verify_assembly
+
+    start = time.perf_counter()
+    bodies = {m.part.id: m.body for m in job.members}
+    expected = expected_of(job.name, {m.part.id: m.part for m in job.members}, bodies, job.instances)
+    tolerance = float(job.export.tolerance or 0.0)
+    verdict = verify_assembly(file, job.export.format, expected, max_error, tolerance)
+    seconds["verify"] = time.perf_counter() - start
+    return Written(job, file, max_error, bound, entities, verdict.measured, tuple(found), verdict.failures, seconds)
 
 
 def _write_dxf(job: Job, made: Any, file: Path) -> dict[str, int]:

@@ -17,6 +17,7 @@ from geometry.tolerance import LEAST_SEGMENT_MM
 from parts.part import Part
 from parts.scene import ExportSpec
 
+SOLID_FORMATS = ("stl", "3mf", "step")
 # more edges than any receiving program opens; one file of them is some 300 MB
 _MOST_EDGES = 4_000_000
 # a float32 coordinate is good to 2^-24 of its size, both of them together to sqrt(2) of that
@@ -40,6 +41,11 @@ class Job:
     place: str
 
     @property
+    def members(self) -> tuple[Job, ...]:
+        """The jobs of the parts in the file: itself; an assembly has more."""
+        return (self,)
+
+    @property
     def body(self) -> Body:
         """The exact solid, moved like the section."""
         return self.part.body(self.section.offset)
@@ -47,7 +53,7 @@ class Job:
     @property
     def is_solid(self) -> bool:
         """Whether the format holds a solid, not a flat outline."""
-        return self.export.format in ("stl", "3mf", "step")
+        return self.export.format in SOLID_FORMATS
 
     @property
     def exact(self) -> Region | Body:
@@ -79,7 +85,7 @@ class Job:
 class Written:
     """A file that was written and read back, with what was measured on it."""
 
-    job: Job
+    job: Job | AssemblyJob
     file: Path
     max_error: float
     bound: str
@@ -91,6 +97,7 @@ class Written:
 
 
 if TYPE_CHECKING:
+    from exporters.assembly import AssemblyJob
     from geometry.outline import Outline
 
 Shape: TypeAlias = "tuple[Approximation, ...] | tuple[Outline, ...]"

@@ -91,6 +91,8 @@ def _value(field: msgspec.structs.FieldInfo) -> str:
     if field.required or field.default is None:
         tables = _tables_of(field)
         return _table_value(tables[0]) if tables else _EXAMPLES[field.encode_name]
+    if isinstance(field.default, bool):
+        return str(field.default).lower()
     return f'"{field.default}"' if isinstance(field.default, str) else str(field.default)
 
 

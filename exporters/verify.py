@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from exporters.readers import Loop, ReadError, read_3mf, read_dxf, read_stl, read_svg
+from exporters.readers import Loop, ReadError, read_3mf, read_dxf, read_stl, read_svg, step_names
 from geometry.body import Body
 from geometry.contour import edge_points, signed_area
 from geometry.curve import Complex
@@ -32,20 +32,26 @@ class Verdict:
     failures: tuple[str, ...]
 
 
-def verify_file(file: Path, kind: str, exact: Region | Body, declared: float, tolerance: float) -> Verdict:
+def verify_file(
+    file: Path, kind: str, exact: Region | Body, declared: float, tolerance: float, name: str | None = None
+) -> Verdict:
     """Read a file back and hold it against its exact section or, for STL, 3MF and STEP, its exact solid.
 
     ``declared``: the error that its report states, mm; the measured one must not exceed it or ``tolerance``.
+    ``name``: what the part must be called where the format has names.
     """
     try:
         if isinstance(exact, Body):
             if kind == "step":
                 from exporters.verify_step import verify_step
 
+                if name is not None and (found := step_names(file)) != [name]:
+                    raise ReadError(f"the file names its parts {', '.join(found) or 'nothing'} instead of {name}")
                 return verify_step(file, exact, declared, tolerance)
             from exporters.verify_mesh import verify_mesh
 
-            return verify_mesh(read_stl(file) if kind == "stl" else read_3mf(file), exact, declared, tolerance)
+            mesh = read_stl(file) if kind == "stl" else read_3mf(file, name)
+            return verify_mesh(mesh, exact, declared, tolerance)
         if kind == "drawing":
             from exporters.verify_cad import verify_drawing
 

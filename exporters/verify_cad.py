@@ -93,8 +93,9 @@ def _drawn(entity: Any) -> Complex:
     if kind in ("ARC", "CIRCLE"):
         centre, radius = complex(entity.dxf.center.x, entity.dxf.center.y), entity.dxf.radius
         low, high = (0.0, 360.0) if kind == "CIRCLE" else (entity.dxf.start_angle, entity.dxf.end_angle)
-        share = np.linspace(0, 1, 10 * _PER_CURVE) if kind == "CIRCLE" else share
-        turned = np.radians(low + share * ((high - low) % 360 or 360))
+        sweep = (high - low) % 360 or 360
+        share = share if sweep < 90 else np.linspace(0, 1, 10 * _PER_CURVE)
+        turned = np.radians(low + share * sweep)
         return np.asarray(centre + radius * np.exp(1j * turned), dtype=np.complex128)
     if kind == "SPLINE":
         tool = entity.construction_tool()

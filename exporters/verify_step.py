@@ -274,7 +274,7 @@ def _edge_samples(curve: Any) -> tuple[Complex, float]:
     from OCP.gp import gp_Pnt, gp_Vec
 
     low, high = curve.FirstParameter(), curve.LastParameter()
-    count = 10 * _PER_CURVE if curve.GetType() == GeomAbs_CurveType.GeomAbs_Circle and high - low > 3 else _PER_CURVE
+    count = 10 * _PER_CURVE if curve.GetType() == GeomAbs_CurveType.GeomAbs_Circle and high - low > 1.5 else _PER_CURVE
     points = [curve.Value(t) for t in np.linspace(low, high, count).tolist()]
     nodes, weights = np.polynomial.legendre.leggauss(16)
     breaks = np.linspace(low, high, 9)

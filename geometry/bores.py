@@ -69,16 +69,20 @@ class RoundBore:
 
     @property
     def reach(self) -> float:
+        """See Bore."""
         return self.diameter / 2
 
     def check(self) -> None:
+        """See Bore."""
         refuse_below("bore.diameter", self.diameter, 0.0, "must be a finite number above 0")
 
     def profile(self, offset: float = 0.0) -> Profile:
+        """See Bore."""
         within(offset, -math.inf, self.reach, ("", "closes the bore"))
         return circle(self.reach - offset, Label.BORE, hole=True)
 
     def widened(self, depth: float) -> RoundBore:
+        """A larger circle."""
         return RoundBore(self.diameter + 2 * depth)
 
 
@@ -114,9 +118,11 @@ class KeywayBore:
 
     @property
     def reach(self) -> float:
+        """See Bore."""
         return abs(self._corner_centre) + self.corner_radius
 
     def check(self) -> None:
+        """See Bore."""
         for name in ("diameter", "width", "depth"):
             refuse_below(f"bore.{name}", getattr(self, name), 0.0, "must be a finite number above 0")
         if self.keys not in (1, 2):
@@ -128,10 +134,12 @@ class KeywayBore:
             raise ParameterError("bore.corner_radius", self.corner_radius, "the keyway's bottom has no room for it")
 
     def widened(self, depth: float) -> KeywayBore:
+        """A larger bore with a wider keyway, as deep in the material as before."""
         corner = widened_corner(self.corner_radius, depth)
         return replace(self, diameter=self.diameter + 2 * depth, width=self.width + 2 * depth, corner_radius=corner)
 
     def profile(self, offset: float = 0.0) -> Profile:
+        """See Bore."""
         closes = min(self.width / 2, self._bottom - self._mouth.real)
         # the grown circle reaches the bottom's rounding: (R + e)^2 - (b/2 + e)^2 = (R + t2 - r)^2
         slack = (self._corner_centre.real - self._mouth.real) * (self._corner_centre.real + self._mouth.real)
@@ -183,9 +191,11 @@ class FlatBore:
 
     @property
     def reach(self) -> float:
+        """See Bore."""
         return self.diameter / 2
 
     def check(self) -> None:
+        """See Bore."""
         refuse_below("bore.diameter", self.diameter, 0.0, "must be a finite number above 0")
         name = "bore.flat" if self.flats == 1 else "bore.across_flats"
         given = self.flat_distance + self.diameter / 2 if self.flats == 1 else 2 * self.flat_distance
@@ -195,9 +205,11 @@ class FlatBore:
             raise ParameterError(name, given, "the flat stands outside the bore")
 
     def widened(self, depth: float) -> FlatBore:
+        """A larger bore, its flats farther out."""
         return replace(self, diameter=self.diameter + 2 * depth, flat_distance=self.flat_distance + depth)
 
     def profile(self, offset: float = 0.0) -> Profile:
+        """See Bore."""
         opposite = self.diameter / 2 if self.flats == 1 else self.flat_distance
         within(offset, -math.inf, (self.flat_distance + opposite) / 2, ("", "closes the bore"))
         way = self._way(offset)
@@ -237,6 +249,7 @@ class PolygonBore:
 
     @property
     def reach(self) -> float:
+        """See Bore."""
         return self._corner_distance(0.0)[0] + self.corner_radius
 
     def _corner_distance(self, offset: float) -> tuple[float, float]:
@@ -245,15 +258,18 @@ class PolygonBore:
         return (self.across_flats / 2 - offset - radius) / math.cos(math.pi / self.sides), radius
 
     def check(self) -> None:
+        """See Bore."""
         refuse_below("bore.across_flats", self.across_flats, 0.0, "must be a finite number above 0")
         if not 0 <= self.corner_radius < self.across_flats / 2:
             raise ParameterError("bore.corner_radius", self.corner_radius, "the roundings leave no flat side")
 
     def widened(self, depth: float) -> PolygonBore:
+        """A larger polygon."""
         corner = widened_corner(self.corner_radius, depth)
         return replace(self, across_flats=self.across_flats + 2 * depth, corner_radius=corner)
 
     def profile(self, offset: float = 0.0) -> Profile:
+        """See Bore."""
         within(offset, -math.inf, self.across_flats / 2, ("", "closes the bore"))
         apothem, half = self.across_flats / 2 - offset, math.pi / self.sides
         distance, radius = self._corner_distance(offset)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from geometry.body import Body, BodyBuilder, plate
-from geometry.errors import GeometryError, ParameterError, at_least, at_most
+from geometry.errors import GeometryError, OffsetError, ParameterError, at_least, at_most
 from geometry.hub_holes import HubHoles
 from geometry.profile import Label, Profile, Region, circle
 from geometry.tolerance import TOLERANCES
@@ -72,8 +72,8 @@ class WheelSections:
     holes: tuple[Boundary, ...] = ()
 
 
-def wheel_sections(outline: Callable[[float], Profile], holes: HubHoles) -> WheelSections:
-    """The boundaries of a wheel: its outline by the offset, mm, and its holes."""
+def wheel_sections(outline: Boundary, holes: HubHoles) -> WheelSections:
+    """The boundaries of a wheel: its outline and its holes."""
 
     def hole(index: int) -> Boundary:
         def boundary(offset: float, depth: float) -> Profile:
@@ -86,9 +86,7 @@ def wheel_sections(outline: Callable[[float], Profile], holes: HubHoles) -> Whee
 
     boundaries = tuple(hole(i) for i in range(holes.number))
     first = 0 if holes.bore is None else 1
-    return WheelSections(
-        lambda offset, depth: outline(offset - depth), boundaries[0] if first else None, boundaries[first:]
-    )
+    return WheelSections(outline, boundaries[0] if first else None, boundaries[first:])
 
 
 def wheel_body(shape: WheelShape, sections: WheelSections, offset: float = 0.0) -> Body:
@@ -275,6 +273,34 @@ def check_wheel(shape: WheelShape, root_diameter: float, holes: HubHoles) -> Non
         _between("web.rim_diameter", web.rim_diameter, core, (root_diameter, "the root"))
         _between("web.rim_diameter", web.rim_diameter, (outer, "the holes"), (math.inf, ""))
     _check_heights(shape)
+    for side, depth in (("below", shape.chamfer_below), ("above", shape.chamfer_above)):
+        _check_chamfer(shape, side, depth, root_diameter / 2, holes)
+
+
+def _check_chamfer(shape: WheelShape, side: str, depth: float, root_radius: float, holes: HubHoles) -> None:
+    """A chamfer leaves an end face between every two boundaries."""
+
+    def leaves_faces(c: float) -> bool:
+        try:
+            wide = holes.widened(c)
+        except OffsetError:
+            return False
+        inner, outer = wide.beside_bore()
+        rings = [(max(wide.bore_reach, outer), root_radius - c)]
+        if shape.hub is not None:
+            rings += [(wide.bore_reach, shape.hub.diameter / 2 - c), (shape.hub.diameter / 2, inner)]
+        if shape.web is not None:
+            rings.append((shape.web.rim_diameter / 2 + c, root_radius - c))
+        return all(low < high for low, high in rings)
+
+    if leaves_faces(depth):
+        return
+    low, high = 0.0, depth
+    for _ in range(_LARGEST_CHAMFER_STEPS):
+        middle = (low + high) / 2
+        low, high = (middle, high) if leaves_faces(middle) else (low, middle)
+    text = f"leaves no face between two edges; at most {at_most(low, 4)} mm works"
+    raise ParameterError(f"face_chamfer.{side}", depth, text)
 
 
 def _between(key: str, value: float, low: tuple[float, str], high: tuple[float, str]) -> None:

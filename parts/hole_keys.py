@@ -183,8 +183,8 @@ def _with_other_table(
     names = ("diameter", "pitch_circle_diameter") if owner == "holes" else ("inner_diameter", "outer_diameter")
     top = max(getattr(table, name) for name in names)
     # rings ever thinner, on circles from the outermost inwards
-    for share, k in ((s, k) for s in (0.5, 0.25, 0.1, 0.03) for k in range(40)):
-        size = float(f"{top * 0.9**k:.4g}")
+    for share, k in ((s, k) for s in (0.5, 0.25, 0.1, 0.03) for k in range(60)):
+        size = float(f"{16 * top * 0.87**k:.4g}")
         pair = (float(f"{share * size:.4g}"), size) if owner == "holes" else (float(f"{(1 - share) * size:.4g}"), size)
         changed = spec
         for name, value in zip(names, pair, strict=True):

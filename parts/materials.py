@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import re
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from parts.part import Part
 
 # typical values of makers' data sheets; a part's own key `density` goes before them
 DENSITIES = {
@@ -60,3 +64,27 @@ def density_of(material: str | None) -> float | None:
     text = material.casefold()
     found = [name for name in DENSITIES if re.search(rf"(?<!\w){re.escape(name)}(?!\w)", text)]
     return DENSITIES[max(found, key=len)] if found else None
+
+
+def mass_properties(part: Part) -> dict[str, Any]:
+    """Volume (mm^3) and centre (mm) of a part; with its density also mass (g) and inertia (g mm^2).
+
+    ``axial_inertia`` is about the part's own axis, ``inertia_tensor`` (3, 3) about its centre of mass.
+    """
+    import numpy as np
+
+    from geometry.mass import body_moments
+
+    moments = body_moments(part.body(0.0))
+    found: dict[str, Any] = {"volume": moments.volume, "centre_of_mass": moments.centre.tolist()}
+    if part.density is not None:
+        # g/mm^3
+        density, c = part.density / 1000, moments.centre
+        about_centre = moments.inertia - moments.volume * (np.dot(c, c) * np.eye(3) - np.outer(c, c))
+        found |= {
+            "density": part.density,
+            "mass": density * moments.volume,
+            "axial_inertia": density * float(moments.inertia[2, 2]),
+            "inertia_tensor": (density * about_centre).tolist(),
+        }
+    return found

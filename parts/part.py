@@ -16,7 +16,8 @@ class Part:
     """A part with one flat section for plane formats and one solid, lower face of its rim at z = 0.
 
     ``section(offset)`` and ``body(offset)`` give the exact geometry with every boundary moved ``offset`` mm out of
-    the material; both are computed when an export asks. ``circles`` are named diameters in mm for drawings and
+    the material; both are computed when an export asks. ``face_width``: height of the toothed rim, mm.
+    ``circles`` are named diameters in mm for drawings and
     reports, ``quantities`` all other named results. ``density`` in g/cm^3, None where the material is not known.
     """
 
@@ -24,6 +25,7 @@ class Part:
     kind: str
     section: Callable[[float], OffsetRegion]
     body: Callable[[float], Body]
+    face_width: float
     is_plate: bool = True
     findings: tuple[Finding, ...] = ()
     circles: dict[str, float] = field(default_factory=dict)

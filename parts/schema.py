@@ -73,6 +73,7 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
 _TYPE_WORDS = {
     "float": "a number",
     "int": "a whole number",
+    "bool": "true or false",
     "str": "text in quotes",
     "float | null": "a number",
     "str | null": "text in quotes",

@@ -12,8 +12,9 @@ from msgspec import Meta, Struct
 from geometry.errors import GeometryError, ParameterError, at_most
 from geometry.gears.basic_rack import BasicRack, TipRelief, checked_rack, default_tip_radius, iso_53
 from geometry.gears.limits import checked_gear, findings, root_form_diameter, tip_thickness
-from geometry.gears.offset_tooth import gear_region
+from geometry.gears.offset_tooth import chamfered_outline, gear_region
 from geometry.gears.spur import SpurGear
+from geometry.profile import Profile
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.hole_keys import BoreTable, HolesTable, SpokesTable, hub_holes, with_remedy
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, in_modules, mm
@@ -109,12 +110,17 @@ def spur_gear_part(part_id: str, spec: SpurGearSpec, gear: SpurGear) -> Part:
         "tip_tooth_thickness": tip_thickness(gear),
     }
     section = lru_cache(maxsize=8)(lambda offset: gear_region(gear, offset))
-    shape, sections = _shape_of(spec), wheel_sections(lambda d: section(d).region.outer, gear.holes)
+
+    def outline(offset: float, depth: float) -> Profile:
+        return section(offset).region.outer if depth == 0 else chamfered_outline(gear, depth - offset)
+
+    shape, sections = _shape_of(spec), wheel_sections(outline, gear.holes)
     return Part(
         part_id,
         "spur_gear",
         section,
         lru_cache(maxsize=2)(lambda offset: wheel_body(shape, sections, offset)),
+        spec.face_width,
         shape.is_plate,
         findings(gear),
         circles,

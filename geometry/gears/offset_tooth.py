@@ -22,11 +22,13 @@ from geometry.gears.spur import SpurGear
 from geometry.gears.tooth import SideCurves, ToothSide, assemble_side, tooth_side
 from geometry.intersect import first_above
 from geometry.line_arc import Arc
-from geometry.profile import Label, Region, Segment, joint_turn
+from geometry.profile import Label, Profile, Region, Segment, joint_turn
 from geometry.roots import bracketed_root
 from geometry.tolerance import TOLERANCES
 
 _SAMPLES = 65
+# share of a tip rounding's radius that is left at the edge of a deep face chamfer
+_KEPT_ROUNDING = 0.25
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +51,16 @@ def gear_region(gear: SpurGear, offset: float = 0.0) -> OffsetRegion:
     """
     side = offset_side(gear, offset)
     return OffsetRegion(Region(side.profile(), gear.holes.profiles(offset)), offset, side.findings)
+
+
+def chamfered_outline(gear: SpurGear, depth: float) -> Profile:
+    """The outline moved ``depth`` > 0 mm into the material, segment for segment: the edge of a face chamfer.
+
+    A rounded tip corner keeps a part of its radius, where a parallel one would vanish.
+    """
+    curves = SideCurves.of(gear).shrunk(depth)
+    curves = replace(curves, tip_rounding=max(curves.tip_rounding, _KEPT_ROUNDING * gear.tip_rounding))
+    return assemble_side(curves, gear.pitch_angle).profile()
 
 
 def offset_side(gear: SpurGear, offset: float) -> ToothSide:
