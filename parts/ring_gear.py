@@ -87,7 +87,7 @@ def checked_ring_gear(spec: RingGearSpec) -> RingGear:
         text = "give either cutter or rounded_root; remove one of them"
         raise ParameterError("rounded_root.dedendum_coefficient", spec.rounded_root.dedendum_coefficient, text)
     angle, rim = math.radians(spec.pressure_angle_deg), spec.outer_diameter
-    root: PinionCutter | RoundedRoot = PinionCutter(spec.module, 8, angle)
+    root: PinionCutter | RoundedRoot = PinionCutter(spec.module, 25, angle)
     if spec.cutter is not None:
         root = cutter_of(spec.cutter, spec.module, angle)
     if (table := spec.rounded_root) is not None:
@@ -109,7 +109,7 @@ def checked_ring_gear(spec: RingGearSpec) -> RingGear:
         tip_rounding=spec.tip_rounding,
     )
     if spec.cutter is None and isinstance(root, PinionCutter):
-        gear = with_default_cutter(gear, root)
+        gear = with_default_cutter(gear)
     gear = checked_ring(gear)
     return gear if rim is not None else replace(gear, outer_diameter=2 * (gear.root_radius + _RIM * spec.module))
 

@@ -274,6 +274,11 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
     matings: list[Mating] = []
     part_of = {key: str(spec.part) for key, spec in scene.instances.items()}
     for index, mate in enumerate(scene.mates):
+        for key in ("first", "second"):
+            kind = scene.parts[part_of[getattr(mate, key)]].__struct_config__.tag
+            if kind != "spur_gear":
+                remedy = f"is a {kind}; an external_gear_pair joins two spur_gear parts"
+                raise SceneError(source, f"mates[{index + 1}].{key}", getattr(mate, key), remedy)
         try:
             mated(gears, [mate], part_of)
         except ParameterError as error:

@@ -93,6 +93,8 @@ class PinionCutter:
 
     def largest_rounding(self) -> float:
         """The tip rounding, in modules, at which both corners of a tooth meet, or that starts at the base circle."""
+        if self._corner_angle(0.0) <= 0:
+            return 0.0
         most = self.tip_radius - self.base_radius
         if self._corner_angle(most) >= 0:
             return most / self.module

@@ -36,6 +36,7 @@ class RingGear:
     x_2 = 2 on) keeps the tips off a mate's fillets; ``plain_tip`` leaves k_2 out (KHK). Thinning thins each ring tooth
     at the reference circle: cut by a wider cutter tooth (root diameter kept) or, with ``thinning_by_deeper_cut``, by
     feeding the cutter out (root diameter raised).
+    ``any_cutter``: nobody named the cutter, so that another may be taken (``ring_limits.with_default_cutter``).
     Source of the dimensions: GOST 19274, ISO 21771.
     """
 
@@ -52,6 +53,7 @@ class RingGear:
     thinning_by_deeper_cut: bool = False
     tip_chamfer: float = 0.0
     tip_rounding: float = 0.0
+    any_cutter: bool = False
 
     @cached_property
     def generating_shift_coefficient(self) -> float:

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 from geometry.errors import GeometryError, ParameterError, at_least, at_most
 from geometry.findings import Finding
-from geometry.gears.cutter import PinionCutter, checked_cutter, full_round
+from geometry.gears.cutter import CUTTER_ROUNDING, PinionCutter, checked_cutter
 from geometry.gears.internal_limits import InternalMesh
 from geometry.gears.limits import LEAST_TIP_THICKNESS, Margin
 from geometry.gears.ring import RingGear, RoundedRoot
 from geometry.gears.ring_tooth import RingCurves, apex_radius, flank_ends, ring_side, rounded_root_plug
 from geometry.tolerance import TOLERANCES
 
-# teeth of a cutter that nobody named: the largest that works, from here down
-DEFAULT_CUTTER_TEETH, LEAST_CUTTER_TEETH = 100, 8
+# teeth of a cutter that nobody named, in the order in which they are tried
+DEFAULT_CUTTER_TEETH = (100, 80, 64, 50, 40, 32, 25, 20, 16, 12, 10, 8)
+LEAST_CUTTER_TEETH = 8
 
 
 def generation(gear: RingGear) -> InternalMesh | None:
@@ -159,11 +160,31 @@ def _check_numbers(gear: RingGear) -> None:
 
 
 def _makes(gear: RingGear) -> bool:
-    try:
-        _check_made(gear)
-    except GeometryError:
-        return False
-    return True
+    """Whether the ring can be made, by any cutter where nobody named one."""
+    return next(_made(gear), None) is not None
+
+
+def _made(gear: RingGear) -> Iterator[RingGear]:
+    """The ring with each cutter that can make it."""
+    for tried in _with_cutters(gear):
+        try:
+            _check_made(tried)
+        except GeometryError:
+            continue
+        yield tried
+
+
+def _with_cutters(gear: RingGear) -> Iterator[RingGear]:
+    """The ring itself, or with every cutter that may be tried where nobody named one, its rounding made to fit."""
+    root = gear.root
+    if not gear.any_cutter or not isinstance(root, PinionCutter):
+        yield gear
+        return
+    for teeth in DEFAULT_CUTTER_TEETH:
+        cutter = replace(root, number_of_teeth=teeth)
+        room = cutter.largest_rounding()
+        if teeth < gear.number_of_teeth and room > 0:
+            yield replace(gear, root=replace(cutter, tip_rounding=min(CUTTER_ROUNDING, room)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -197,7 +218,7 @@ def _with_remedy(gear: RingGear, refusal: ParameterError) -> ParameterError:
     z = gear.number_of_teeth
     more = next((n for n in range(z + 1, z + 80) if _makes(replace(gear, number_of_teeth=n))), None)
     if more is None:
-        return kind(refusal.name, refusal.value, reason)
+        return refusal
     return ParameterError("number_of_teeth", z, f"{refusal.name}: {reason}; {more} teeth work")
 
 
@@ -214,14 +235,20 @@ def _suspects(gear: RingGear) -> list[_Key]:
         ),
     ]
     root = gear.root
-    if isinstance(root, PinionCutter):
-        for name, value in (("tip_rounding", root.tip_rounding), ("profile_shift_coefficient", None)):
-            key = f"cutter.{name}_coefficient" if value is not None else f"cutter.{name}"
-            held = root.profile_shift_coefficient if value is None else value
+    if isinstance(root, PinionCutter) and not gear.any_cutter:
+        names = ("tip_rounding", "profile_shift", "addendum")
+        fields = ("tip_rounding", "profile_shift_coefficient", "addendum")
+        for name, field, harmless in zip(names, fields, (0.0, 0.0, 1.0), strict=True):
             keys.append(
-                _Key(key, held, 0.0, lambda v, n=name: replace(gear, root=replace(root, **{n: v})), "")  # type: ignore[misc]
+                _Key(
+                    f"cutter.{name}_coefficient",
+                    getattr(root, field),
+                    harmless,
+                    lambda v, n=field: replace(gear, root=replace(root, **{n: v})),  # type: ignore[misc]
+                    "",
+                )
             )
-    elif root.radius is not None:
+    elif isinstance(root, RoundedRoot) and root.radius is not None:
         keys.append(
             _Key(
                 "rounded_root.radius_coefficient",
@@ -231,10 +258,32 @@ def _suspects(gear: RingGear) -> list[_Key]:
                 "",
             )
         )
+    if isinstance(root, RoundedRoot):
+        keys.append(
+            _Key(
+                "rounded_root.dedendum_coefficient",
+                root.dedendum,
+                1.0,
+                lambda v: replace(gear, root=replace(root, dedendum=v)),
+                "",
+            )
+        )
     # the reference circle always leaves an involute; what is between is found by the search for the boundary
     given = 2 * gear.tip_radius
     keys.append(_Key("tip_diameter", given, _harmless_tip(gear), lambda v: replace(gear, given_tip_diameter=v)))
+    keys.append(_Key("pressure_angle_deg", math.degrees(gear.pressure_angle), 20.0, _at_angle(gear), " degrees"))
     return [k for k in keys if k.value != k.harmless]
+
+
+def _at_angle(gear: RingGear) -> Callable[[float], RingGear]:
+    """The ring, and its cutter, with another pressure angle in degrees."""
+
+    def made(degrees: float) -> RingGear:
+        angle, root = math.radians(degrees), gear.root
+        root = replace(root, pressure_angle=angle) if isinstance(root, PinionCutter) else root
+        return replace(gear, pressure_angle=angle, root=root)
+
+    return made
 
 
 def _harmless_tip(gear: RingGear) -> float:
@@ -251,29 +300,26 @@ def _harmless_tip(gear: RingGear) -> float:
 def _cutter_teeth(gear: RingGear) -> int | None:
     """The number of cutter teeth nearest to the ring's own cutter that works."""
     root = gear.root
-    if not isinstance(root, PinionCutter):
+    if not isinstance(root, PinionCutter) or gear.any_cutter:
         return None
     z = root.number_of_teeth
     near = sorted(range(LEAST_CUTTER_TEETH, gear.number_of_teeth), key=lambda n: (abs(n - z), n))
     return next((n for n in near if _makes(replace(gear, root=replace(root, number_of_teeth=n)))), None)
 
 
-def with_default_cutter(gear: RingGear, cutter: PinionCutter) -> RingGear:
-    """The ring with the largest cutter of at most 100 teeth that can make it; with 8 teeth where none can.
+def with_default_cutter(gear: RingGear) -> RingGear:
+    """The ring with the largest usual cutter that can make it, or with any where none can.
 
-    The larger the cutter, the farther out the involute reaches, and the fewer pinions touch the fillets.
-    The cutter's rounding is reduced to the full round where its tooth has no more room.
+    The larger the cutter, the farther out the involute reaches, and the fewer pinions touch the fillets. Its rounding
+    is the full round where its tooth has no more room.
     """
-    for teeth in range(min(DEFAULT_CUTTER_TEETH, gear.number_of_teeth - 1), LEAST_CUTTER_TEETH - 1, -1):
-        tried = replace(cutter, number_of_teeth=teeth)
-        try:
-            if tried.tip_rounding > tried.largest_rounding():
-                tried = full_round(tried)
-        except GeometryError:
-            continue
-        if _makes(replace(gear, root=tried)):
-            return replace(gear, root=tried)
-    return replace(gear, root=replace(cutter, number_of_teeth=LEAST_CUTTER_TEETH))
+    root = gear.root if isinstance(gear.root, PinionCutter) else None
+    cutter = root or PinionCutter(gear.module, DEFAULT_CUTTER_TEETH[0], gear.pressure_angle)
+    gear = replace(gear, root=cutter, any_cutter=True)
+    if 0 < gear.pressure_angle < math.pi / 2 and 0 < gear.module < math.inf:
+        # where none works, the last one tells what is in the way
+        return next(_made(gear), None) or next(_with_cutters(gear), gear)
+    return gear
 
 
 def _boundary(works: Callable[[float], bool], good: float, bad: float) -> float:

@@ -134,7 +134,9 @@ def assemble_ring_side(curves: RingCurves, pitch_angle: float, *, blunt: bool = 
         raise ParameterError("tip_diameter", 2 * tip_radius, text)
     form_radius = flank.base_radius * math.hypot(1.0, flank.end_roll)
     if tip_radius >= form_radius:
-        raise ParameterError("tip_diameter", 2 * tip_radius, f"at most {at_most(2 * form_radius)} mm leaves a flank")
+        raise ParameterError(
+            "tip_diameter", 2 * tip_radius, f"leaves no flank; at most {at_most(2 * form_radius)} mm works"
+        )
     if -curves.land > TOLERANCES.relative_length:
         segments.append(Segment(Arc(0j, curves.root_radius, 0.0, curves.land), Label.ROOT_LAND))
     if curves.fillet is not None:
@@ -205,7 +207,7 @@ def _chamfer_line(gear: RingGear, flank: Involute) -> Line:
     height, tip = gear.tip_chamfer, gear.tip_radius
     form = flank.base_radius * math.hypot(1.0, flank.end_roll)
     if tip + height >= form:
-        raise ParameterError("tip_chamfer", height, f"at most {at_most(form - tip)} leaves a flank")
+        raise ParameterError("tip_chamfer", height, f"leaves no flank; at most {at_most(form - tip)} works")
     foot = cmath.rect(tip + height, float(flank.polar_angle_at_radius(tip + height)))
     direction = foot / abs(foot) * cmath.exp(-0.75j * math.pi)
     along = -(foot.conjugate() * direction).real
