@@ -65,7 +65,7 @@ class InternalMesh:
     def _crossing_angles(self) -> tuple[float | None, float | None]:
         """Polar angles about both axes, from the line of centres, at which the tip circles cross."""
         (one, two), a = self.tip_radii, self.distance
-        cosines = (two**2 - one**2 - a**2) / (2 * a * one), (a**2 + two**2 - one**2) / (2 * a * two)
+        cosines = (two * two - one * one - a * a) / (2 * a * one), (a * a + two * two - one * one) / (2 * a * two)
         if not all(-1 < c < 1 for c in cosines):
             return None, None
         return math.acos(cosines[0]), math.acos(cosines[1])
