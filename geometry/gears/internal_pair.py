@@ -157,6 +157,11 @@ class InternalPair:
         most = math.hypot(self.pinion.base_radius, max(forms[1] - line, 0.0))
         return 2 * most, 2 * math.hypot(self.ring.base_radius, line + forms[0])
 
+    def tip_diameters_at_clearance(self, clearance: float) -> tuple[float, float]:
+        """Tip diameters, mm, that leave a bottom clearance, mm, at the mate's root; none is shortened of itself."""
+        a_w = self.working_centre_distance
+        return 2 * (self.ring.root_radius - a_w - clearance), 2 * (a_w + self.pinion.root_radius + clearance)
+
     @property
     def normal_backlash(self) -> float:
         """j_bn, mm: (A_1 + A_2) cos(alpha) - 2 (r_b2 - r_b1) (inv alpha_w - inv alpha_w0)."""
@@ -193,7 +198,8 @@ class InternalPair:
 
         Involute and trochoid interference and radial assembly (``InternalMesh``); ``fillet_interference_pinion`` and
         ``_ring``: where the mate's tip asks the flank to reach against where the involute ends, mm along the line of
-        action; ``contact_ratio`` (effective) against 1; ``tip_clearance_*`` and ``normal_backlash`` against 0, mm.
+        action; ``contact_ratio`` (effective) against 1; ``tip_clearance_*`` and ``normal_backlash`` against 0, mm. With
+        little clearance a sharp tip may still strike the mate's fillet beside the flanks: ``internal_contact`` tells.
         """
         line, tips, forms = self._line_of_action, self._tip_tangents(), self._form_tangents()
         clearances, ratio, backlash = self.tip_clearances, self.effective_contact_ratio, self.normal_backlash

@@ -118,8 +118,8 @@ def checked_gear(gear: SpurGear) -> SpurGear:
     rim = root_below_bore(gear)
     if gear.root_radius > 0 and gear.bore_diameter > 0 and rim.margin <= 0:
         raise ParameterError("bore_diameter", rim.value, f"must be below the root diameter, {at_most(rim.limit)} mm")
+    check_shaping(gear)
     try:
-        check_shaping(gear)
         tooth_side(gear)
     except ParameterError as refusal:
         raise _with_remedy(gear, refusal) from refusal
