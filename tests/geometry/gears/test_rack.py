@@ -149,7 +149,10 @@ def test_contact_without_backlash(teeth: int, x: float, name: str) -> None:
         assert moved.verdict is Verdict.OVERLAP
         assert moved.worst.gap == pytest.approx(-1.1e-6 * pair.module * math.cos(ALPHA), rel=1e-2)
     step = 0.02 * pair.module
-    assert rack_contact(pair, distance_shift=-step).worst.gap == pytest.approx(-step * math.sin(ALPHA), rel=1e-6)
+    nearer = rack_contact(pair, distance_shift=-step).worst.gap
+    assert nearer <= -step * math.sin(ALPHA) * (1 - 1e-6)
+    if name != "A":  # the rounding of rack A takes all of its clearance: tips strike the fillets first
+        assert nearer == pytest.approx(-step * math.sin(ALPHA), rel=1e-6)
     assert rack_contact(pair, distance_shift=step).verdict is Verdict.CLEAR
 
 

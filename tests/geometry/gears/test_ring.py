@@ -116,7 +116,7 @@ def test_dimensions_without_shift_and_thinning() -> None:
 
 
 @given(st.integers(36, 150), st.integers(15, 30), numbers(-0.3, 1.0), numbers(-0.3, 0.5), numbers(0, 0.3))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=20, deadline=None)
 def test_any_ring_that_is_not_refused_is_what_its_cutter_leaves(
     teeth: int, cutter_teeth: int, x: float, x0: float, rounding: float
 ) -> None:
@@ -159,7 +159,7 @@ def test_least_ring_for_a_cutter_to_be_fed_in(teeth: int, least: int) -> None:
 
 def test_a_cutter_beyond_its_limit_trims_the_tips() -> None:
     """Negative control: one tooth too many, and the swept cutter takes what the outline claims."""
-    cutters = [ring(60, PinionCutter(2.0, z, ALPHA, tip_rounding=0.0)) for z in range(40, 59)]
+    cutters = [ring(60, PinionCutter(2.0, z, ALPHA, tip_rounding=0.0)) for z in range(42, 57, 2)]
     meshes = [ring_limits.generation(g) for g in cutters]
     limits = [None if m is None else m.trochoid_interference().margin for m in meshes]
     for gear, margin in zip(cutters, limits, strict=True):

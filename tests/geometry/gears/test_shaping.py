@@ -71,7 +71,7 @@ def test_outline_against_the_swept_cutter(gear: SpurGear) -> None:
 
 
 @given(st.integers(8, 120), st.integers(12, 60), numbers(-0.4, 1.0), numbers(-0.3, 0.5), numbers(0, 0.3))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=15, deadline=None)
 def test_any_gear_that_is_not_refused_is_what_its_cutter_leaves(
     teeth: int, cutter_teeth: int, x: float, x0: float, rounding: float
 ) -> None:
