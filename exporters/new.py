@@ -37,9 +37,16 @@ _EXAMPLES = {
     "pitch_circle_diameter": "28.0",
     "inner_diameter": "20.0",
     "outer_diameter": "36.0",
+    "body_height": "6.0",
 }
 # where the same key means another size
-_TABLE_EXAMPLES = {("HolesTable", "diameter"): "6.0", ("HubTable", "diameter"): "17.0"}
+_TABLE_EXAMPLES = {
+    ("HolesTable", "diameter"): "6.0",
+    ("HubTable", "diameter"): "17.0",
+    ("RingGearSpec", "number_of_teeth"): "60",
+    ("RingGearSpec", "tip_diameter"): "117.0",
+    ("RingGearSpec", "outer_diameter"): "140.0",
+}
 
 # what a scene of several parts may add
 _ASSEMBLY = """
@@ -99,7 +106,8 @@ def _keys(owner: type[Struct]) -> list[str]:
     """One line a key; keys with a default stand commented out."""
     lines = []
     for field in msgspec.structs.fields(owner):
-        code = f"{field.encode_name} = {_value(field)}"
+        value = _TABLE_EXAMPLES.get((owner.__name__, field.encode_name)) or _value(field)
+        code = f"{field.encode_name} = {value}"
         lines.append(_line(code if field.required else f"# {code}", describe_type(field.type)))
         tables = _tables_of(field)
         for table in tables if field.default is not None else tables[1:]:

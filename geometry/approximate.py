@@ -16,12 +16,10 @@ from geometry.arc_spline import arc_spline
 from geometry.contour import Approximation, Bound, Contour
 from geometry.curve import Complex, Curve, Real
 from geometry.errors import ConvergenceError
-from geometry.involute import Involute
 from geometry.line_arc import Arc, Line
 from geometry.merge import merge_short_edges
 from geometry.profile import Profile
 from geometry.tolerance import TOLERANCES
-from geometry.trochoid import TrochoidFillet
 
 _DENSITY_SAMPLES = 129
 _MAX_CHORDS = 1_000_000
@@ -56,11 +54,14 @@ def approximate_profile(profile: Profile, tolerance: float, *, arcs: bool, least
     done: dict[Curve, Piece] = {}
     for curve in (s.curve for s in profile.period):
         # both sides of a tooth are mirror images: one is computed
-        twin = done.get(curve.mirrored()) if isinstance(curve, Involute | TrochoidFillet) else None
+        twin = None if isinstance(curve, Arc | Line) else done.get(curve.mirrored())
         done[curve] = twin.mirrored() if twin is not None else make(curve, tolerance)
     pieces = [done[s.curve] for s in profile.period]
     contour = Contour(
-        np.concatenate([p.points[:-1] for p in pieces]), np.concatenate([p.bulges for p in pieces]), profile.count
+        np.concatenate([p.points[:-1] for p in pieces]),
+        np.concatenate([p.bulges for p in pieces]),
+        profile.count,
+        profile.clockwise,
     )
     error = max(p.max_error for p in pieces)
     bound: Bound = "certified" if all(p.certified for p in pieces) else "sampled"
@@ -87,7 +88,7 @@ def approximate_together(
     made = [[c.curve.point(_spread(c.curve, t)) for c, (t, _) in zip(p.period, shares, strict=True)] for p in profiles]
     vertices = np.array([np.concatenate([points[:-1] for points in pieces]) for pieces in made])
     error = max(e for _, e in shares)
-    ends = np.append(vertices[:, 1:], vertices[:, :1] * np.exp(2j * np.pi / profiles[0].count), axis=1)
+    ends = np.append(vertices[:, 1:], vertices[:, :1] * np.exp(1j * profiles[0].pitch_angle), axis=1)
     short = np.abs(ends - vertices).min(axis=0) < slack
     if short.any() and not short.all():
         # a vertex at the start of a short edge goes; its neighbours move by less than that edge
@@ -95,7 +96,7 @@ def approximate_together(
     bound: Bound = "certified" if error > 0 else "exact"
     zeros = np.zeros(vertices.shape[1])
     return tuple(
-        Approximation(Contour(v, zeros, p.count), error, bound, tolerance)
+        Approximation(Contour(v, zeros, p.count, p.clockwise), error, bound, tolerance)
         for v, p in zip(vertices, profiles, strict=True)
     )
 

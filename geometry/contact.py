@@ -18,15 +18,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.curve import Complex, Curve, Real
+from geometry.curve import Complex, Curve, Real, Reversed
+from geometry.foot_search import FootSearch
 from geometry.involute import Involute
 from geometry.line_arc import Arc, Line
 from geometry.profile import joint_turn
 from geometry.tolerance import TOLERANCES
-from geometry.trochoid import TrochoidFillet
 
-_FOOT_SAMPLES = 17
 _STEPS = 60
+_CLOSED_FORMS = (Involute, Arc, Line)
 Indices = NDArray[np.intp]
 Flags = NDArray[np.bool_]
 
@@ -108,9 +108,8 @@ class Boundary:
         return np.array(index, dtype=np.intp), np.array(parameter)
 
     @cached_property
-    def _searches(self) -> tuple[_FootSearch | None, ...]:
-        closed_forms = (Involute, Arc, Line)
-        return tuple(None if isinstance(c, closed_forms) else _FootSearch(c) for c in self.curves)
+    def _searches(self) -> tuple[FootSearch | None, ...]:
+        return tuple(None if isinstance(_forward(c), _CLOSED_FORMS) else FootSearch(c) for c in self.curves)
 
     def feet(self, points: Complex) -> Feet:
         """Nearest boundary point of each point (n,), by all curves and all vertices.
@@ -144,10 +143,16 @@ class Boundary:
         return Feet(distance, index, parameter, normal)
 
 
-def _interior_feet(curve: Curve, search: _FootSearch | None, points: Complex, best: Real) -> tuple[Indices, Real]:
+def _forward(curve: Curve) -> Curve:
+    """An involute that is travelled backwards, as on a ring's flank, as itself; any other curve as it is."""
+    return curve.original if isinstance(curve, Reversed) and isinstance(curve.original, Involute) else curve
+
+
+def _interior_feet(curve: Curve, search: FootSearch | None, points: Complex, best: Real) -> tuple[Indices, Real]:
     """Which points have a foot inside a curve that may beat ``best``, and its parameter."""
-    if isinstance(curve, Involute):
-        t, inside = _involute_foot(points, curve)
+    if isinstance(forward := _forward(curve), Involute):
+        t, inside = _involute_foot(points, forward)
+        t = t if forward is curve else -t
     elif isinstance(curve, Arc):
         t, inside = _arc_foot(points, curve)
     elif isinstance(curve, Line):
@@ -189,74 +194,6 @@ def _line_foot(points: Complex, line: Line) -> tuple[Real, Flags]:
     chord = line.end - line.start
     share = ((points - line.start) * chord.conjugate()).real / abs(chord) ** 2
     return share, (share >= 0) & (share <= 1)
-
-
-class _FootSearch:
-    """Feet on a curve without a closed form: every change of sign between samples, safeguarded Newton iteration."""
-
-    def __init__(self, curve: Curve) -> None:
-        self.slopes = _fillet_slopes(curve) if isinstance(curve, TrochoidFillet) else _general_slopes(curve)
-        self.parameters = np.linspace(*curve.domain, _FOOT_SAMPLES)
-        self.samples = np.asarray(curve.point(self.parameters))
-        self.middle = complex(np.mean(self.samples))
-        # half of the longest chord, with room for what the arc is longer
-        self.reach = 0.6 * float(np.max(np.abs(np.diff(self.samples))))
-        self.radius = float(np.max(np.abs(self.samples - self.middle))) + self.reach
-
-    def feet(self, points: Complex, best: Real) -> tuple[Indices, Real]:
-        """Points that may have a foot nearer than ``best`` inside the curve, once for each foot, and its parameter."""
-        chosen = np.flatnonzero(np.abs(points - self.middle) - self.radius < best)
-        if not chosen.size:
-            return chosen, np.zeros(0)
-        away = np.abs(points[chosen, None] - self.samples).min(axis=1)
-        chosen = chosen[away - self.reach <= best[chosen]]
-        slopes = self.slopes(points[chosen, None], self.parameters)[0]
-        row, k = np.nonzero((slopes[:, :-1] >= 0) & (slopes[:, 1:] <= 0))
-        chosen = chosen[row]
-        return chosen, self._root(points[chosen], self.parameters[k], self.parameters[k + 1])
-
-    def _root(self, points: Complex, low: Real, high: Real) -> Real:
-        t = (low + high) / 2
-        least = 1e-10 * float(self.parameters[-1] - self.parameters[0])
-        for _ in range(_STEPS):
-            slope, change = self.slopes(points, t)
-            low, high = np.where(slope >= 0, t, low), np.where(slope <= 0, t, high)
-            with np.errstate(divide="ignore", invalid="ignore"):
-                step = t - slope / change
-            following = np.where((step >= low) & (step <= high), step, (low + high) / 2)
-            moved = np.abs(following - t)
-            t = following
-            if not np.any(moved > least):
-                break
-        return t
-
-
-Slopes = Callable[[Complex, Real], tuple[Real, Real]]
-
-
-def _general_slopes(curve: Curve) -> Slopes:
-    """Half of the falling rate of the squared distance, Re(conj(c') (p - c)), and its derivative."""
-
-    def slopes(points: Complex, t: Real) -> tuple[Real, Real]:
-        gap, first = points - curve.point(t), curve.derivative(t)
-        return (np.conj(first) * gap).real, (np.conj(curve.derivative(t, 2)) * gap).real - np.abs(first) ** 2
-
-    return slopes
-
-
-def _fillet_slopes(fillet: TrochoidFillet) -> Slopes:
-    """The same over the fillet's speed: its normals pass through the rack's pitch point.
-
-    Re(conj(tangent) (p - e)) = |p| sin(arg p - angle + u + q tan u) - r sin u.
-    """
-    q, r = fillet.depth / fillet.pitch_radius, fillet.pitch_radius
-
-    def slopes(points: Complex, t: Real) -> tuple[Real, Real]:
-        tan = np.tan(t)
-        turned = (points - fillet.centre) * np.exp(1j * (t + q * tan - fillet.angle))
-        return turned.imag - r * np.sin(t), turned.real * (1 + q * (1 + tan**2)) - r * np.cos(t)
-
-    return slopes
 
 
 Evaluation = Callable[[Real, Indices], tuple[Real, Real]]

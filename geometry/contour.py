@@ -17,21 +17,27 @@ Bound = Literal["exact", "certified", "sampled"]
 class Contour:
     """One period of a closed chain of lines (bulge 0) and arcs; edge i starts at vertex i.
 
-    The last edge ends at the first vertex of the next period.
+    The last edge ends at the first vertex of the next period, which is turned by ``pitch_angle``.
     """
 
     vertices: Complex
     bulges: Real
     count: int = 1
+    clockwise: bool = False
+
+    @property
+    def pitch_angle(self) -> float:
+        """Angle from one period to the next, rad; negative where clockwise."""
+        return (-2 if self.clockwise else 2) * math.pi / self.count
 
     def expanded(self) -> tuple[Complex, Real]:
         """Vertices (n,) and bulges (n,) of the whole contour, period after period."""
-        turns = np.exp(2j * math.pi / self.count * np.arange(self.count))
+        turns = np.exp(1j * self.pitch_angle * np.arange(self.count))
         return (turns[:, None] * self.vertices).ravel(), np.tile(self.bulges, self.count)
 
     def period_ends(self) -> Complex:
         """End vertex of each edge of the first period."""
-        return np.append(self.vertices[1:], self.vertices[0] * np.exp(2j * math.pi / self.count))
+        return np.append(self.vertices[1:], self.vertices[0] * np.exp(1j * self.pitch_angle))
 
     def __len__(self) -> int:
         return len(self.vertices) * self.count

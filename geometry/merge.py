@@ -45,7 +45,7 @@ def merge_short_edges(
 def _without_edge(contour: Contour, index: int, profile: Profile, tolerance: float) -> tuple[Contour, float]:
     """The contour with edge ``index`` collapsed to its middle, and the error of both edges beside it."""
     n = len(contour.vertices)
-    turn = np.exp(2j * np.pi / contour.count)
+    turn = np.exp(1j * contour.pitch_angle)
     starts, ends, bulges = contour.vertices, contour.period_ends(), contour.bulges
     middle = edge_points(starts[[index]], ends[[index]], bulges[[index]], np.array([0.5]))[0, 0]
     before, after = (index - 1) % n, (index + 1) % n
@@ -59,7 +59,7 @@ def _without_edge(contour: Contour, index: int, profile: Profile, tolerance: flo
     second_end = ends[after] * turn if index == n - 1 else ends[after]
     new_bulges[index] = _bulge_like(old_after, middle, second_end)
     keep = np.arange(n) != after
-    changed = Contour(vertices[keep], new_bulges[keep], contour.count)
+    changed = Contour(vertices[keep], new_bulges[keep], contour.count, contour.clockwise)
     points = edge_points(
         np.array([first_start, middle]),
         np.array([middle, second_end]),
@@ -75,7 +75,7 @@ def _without_edge(contour: Contour, index: int, profile: Profile, tolerance: flo
 def _left_aside(contour: Contour, profile: Profile) -> float:
     """Greatest distance of the exact profile from a contour, sampled, mm: what a merged corner leaves aside."""
     samples = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, len(_SHARES))) for s in profile.period])
-    turn = np.exp(2j * np.pi / contour.count)
+    turn = np.exp(1j * contour.pitch_angle)
     shifts = (1.0,) if contour.count == 1 else (1 / turn, 1.0, turn)
     best = np.full(len(samples), np.inf)
     for shift in shifts:

@@ -9,12 +9,10 @@ from dataclasses import dataclass
 from geometry.bspline import BSpline
 from geometry.contour import Bound
 from geometry.curve import Curve
-from geometry.involute import Involute
 from geometry.line_arc import Arc, Line
 from geometry.placement import Placement2
 from geometry.profile import Profile
 from geometry.spline_fit import fit_spline
-from geometry.trochoid import TrochoidFillet
 
 CadCurve = Arc | Line | BSpline
 
@@ -27,6 +25,7 @@ class Outline:
     count: int
     max_error: float
     bound: Bound
+    clockwise: bool = False
 
     def curves(self) -> Iterator[CadCurve]:
         """All curves in order of travel; a full circle about the origin is one arc."""
@@ -35,8 +34,9 @@ class Outline:
             sense = math.copysign(2 * math.pi, arcs[0].sweep)
             yield Arc(arcs[0].centre, arcs[0].radius, arcs[0].start_angle, sense)
             return
+        pitch = (-2 if self.clockwise else 2) * math.pi / self.count
         for k in range(self.count):
-            placement = Placement2(2 * math.pi * k / self.count)
+            placement = Placement2(pitch * k)
             for curve in self.period:
                 yield curve if k == 0 else curve.placed(placement)
 
@@ -50,7 +50,7 @@ def spline_outline(profile: Profile, tolerance: float, *, degree: int, continuit
         if isinstance(curve, Arc | Line):
             period.append(curve)
             continue
-        twin = done.get(curve.mirrored()) if isinstance(curve, Involute | TrochoidFillet) else None
+        twin = done.get(curve.mirrored())
         if twin is not None:
             # both sides of a tooth are mirror images: one is fitted
             spline = twin.mirrored()
@@ -61,4 +61,4 @@ def spline_outline(profile: Profile, tolerance: float, *, degree: int, continuit
         done[curve] = spline
         period.append(spline)
     bound: Bound = "exact" if worst == 0 else "certified" if certified else "sampled"
-    return Outline(tuple(period), profile.count, worst, bound)
+    return Outline(tuple(period), profile.count, worst, bound, profile.clockwise)

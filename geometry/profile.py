@@ -34,6 +34,7 @@ class Label(StrEnum):
     FLAT = "bore_flat"
     HOLE = "lightening_hole"
     WINDOW = "spoke_window"
+    BODY = "body"
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,16 +49,18 @@ class Segment:
 class Profile:
     """A closed chain: the segments of one period, repeated ``count`` times about the origin.
 
-    Period k is period 0 turned by 2 pi k / count. The joins are checked when the profile is made.
+    Period k is period 0 turned by 2 pi k / count, the other way round where ``clockwise`` (a toothed hole). The joins
+    are checked when the profile is made.
     """
 
     period: tuple[Segment, ...]
     count: int = 1
+    clockwise: bool = False
 
     def __post_init__(self) -> None:
         starts = [start_point(s.curve) for s in self.period]
         ends = [end_point(s.curve) for s in self.period]
-        starts.append(starts[0] * cmath.exp(2j * math.pi / self.count))
+        starts.append(starts[0] * cmath.exp(1j * self.pitch_angle))
         allowed = TOLERANCES.relative_join * max(map(abs, starts))
         for index, end in enumerate(ends):
             gap = abs(end - starts[index + 1])
@@ -66,8 +69,8 @@ class Profile:
 
     @property
     def pitch_angle(self) -> float:
-        """Angle from one period to the next, rad."""
-        return 2 * math.pi / self.count
+        """Angle from one period to the next, rad; negative where clockwise."""
+        return (-2 if self.clockwise else 2) * math.pi / self.count
 
     def segments(self) -> Iterator[Segment]:
         """All segments in order of travel."""

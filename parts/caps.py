@@ -155,9 +155,9 @@ def start_in_space(contour: Contour) -> int:
 
 def begun_at(contour: Contour, index: int) -> Contour:
     """The same contour, its period begun at another vertex."""
-    turn = np.exp(2j * np.pi / contour.count)
+    turn = np.exp(1j * contour.pitch_angle)
     vertices = np.concatenate([contour.vertices[index:], contour.vertices[:index] * turn])
-    return Contour(vertices, np.roll(contour.bulges, -index), contour.count)
+    return Contour(vertices, np.roll(contour.bulges, -index), contour.count, contour.clockwise)
 
 
 def _last_of_tooth(outline: Contour) -> int:

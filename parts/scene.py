@@ -15,12 +15,18 @@ from parts.instances import DriveSpec, InstanceSpec, check_instance, drive_spec,
 from parts.keys import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.mates import ExternalGearPairSpec, Mating, mated
 from parts.part import Part
+from parts.rack import RackSpec, checked_rack_part, rack_part
+from parts.ring_gear import RingGearSpec, checked_ring_gear, ring_gear_part
 from parts.schema import SceneError, converted, near, refuse_infinite
 from parts.spur_gear import SpurGearSpec, checked_spur_gear, spur_gear_part
 
 SCENE_FOLDER = Path(__file__).parent / "scenes"
 # each kind: its keys, what checks them and gives the gear, and what makes the part of it
-KINDS: dict[str, tuple[type[Struct], Any, Any]] = {"spur_gear": (SpurGearSpec, checked_spur_gear, spur_gear_part)}
+KINDS: dict[str, tuple[type[Struct], Any, Any]] = {
+    "spur_gear": (SpurGearSpec, checked_spur_gear, spur_gear_part),
+    "ring_gear": (RingGearSpec, checked_ring_gear, ring_gear_part),
+    "rack": (RackSpec, checked_rack_part, rack_part),
+}
 MATES: dict[str, type[Struct]] = {"external_gear_pair": ExternalGearPairSpec}
 # purposes of each format, the default first, and the tolerance (mm) of an export that names none
 _DEFAULTS: dict[str, dict[str, float]] = {
@@ -268,6 +274,11 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
     matings: list[Mating] = []
     part_of = {key: str(spec.part) for key, spec in scene.instances.items()}
     for index, mate in enumerate(scene.mates):
+        for key in ("first", "second"):
+            kind = scene.parts[part_of[getattr(mate, key)]].__struct_config__.tag
+            if kind != "spur_gear":
+                remedy = f"is a {kind}; an external_gear_pair joins two spur_gear parts"
+                raise SceneError(source, f"mates[{index + 1}].{key}", getattr(mate, key), remedy)
         try:
             mated(gears, [mate], part_of)
         except ParameterError as error:

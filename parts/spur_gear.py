@@ -16,6 +16,7 @@ from geometry.gears.offset_tooth import chamfered_outline, gear_region
 from geometry.gears.spur import SpurGear
 from geometry.profile import Profile
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
+from parts.cutter_keys import CutterTable, RackName, cutter_of
 from parts.hole_keys import BoreTable, HolesTable, SpokesTable, hub_holes, with_remedy
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, in_modules, mm
 from parts.materials import density_of
@@ -49,7 +50,7 @@ class ReliefTable(Struct, forbid_unknown_fields=True):
 
 
 class SpurGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="spur_gear"):
-    """External spur gear, cut by a rack."""
+    """External spur gear, cut by a rack or by a pinion cutter."""
 
     module: Annotated[float, mm("module m", least=0.01, most=1000)]
     number_of_teeth: Annotated[int, Meta(ge=3, le=10_000, description="number of teeth z")]
@@ -57,7 +58,8 @@ class SpurGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="sp
     pressure_angle_deg: Annotated[
         float, Meta(ge=5, le=45, description="pressure angle of the rack", extra={"unit": "degrees"})
     ] = 20.0
-    basic_rack: Literal["ISO 53 A", "ISO 53 B", "ISO 53 C", "ISO 53 D", "GOST 13755"] | RackTable = "ISO 53 A"
+    basic_rack: RackName | RackTable = "ISO 53 A"
+    cutter: CutterTable | None = None
     tip_diameter: Annotated[float, mm("tip diameter; default: d + 2 (h_a + x) m", above=0, most=100_000)] | None = None
     circumferential_thinning: Annotated[
         float, mm("thinning of each tooth for backlash, arc on the reference circle", least=0, most=1000)
@@ -169,6 +171,7 @@ def _gear_of(spec: SpurGearSpec) -> SpurGear:
         raise ParameterError("tip_rounding", spec.tip_rounding, "give either tip_chamfer or tip_rounding; 0 works")
     if spec.bore is not None and spec.bore_diameter > 0:
         raise ParameterError("bore_diameter", spec.bore_diameter, "give either bore_diameter or bore; 0 works")
+    cutter = None if spec.cutter is None else cutter_of(spec.cutter, spec.module, math.radians(spec.pressure_angle_deg))
     return SpurGear(
         module=spec.module,
         number_of_teeth=spec.number_of_teeth,
@@ -181,14 +184,24 @@ def _gear_of(spec: SpurGearSpec) -> SpurGear:
         tip_rounding=spec.tip_rounding,
         bore_diameter=spec.bore_diameter,
         hub=hub_holes(spec.bore, spec.holes, spec.spokes),
+        cutter=cutter,
     )
 
 
 def _rack_of(spec: SpurGearSpec) -> BasicRack:
-    angle = math.radians(spec.pressure_angle_deg)
     given = spec.tip_relief
     relief = None if given is None else TipRelief(given.depth_coefficient, given.height_coefficient)
-    table = spec.basic_rack
+    return basic_rack_of(spec.basic_rack, math.radians(spec.pressure_angle_deg), relief)
+
+
+def basic_rack_of(table: RackName | RackTable, angle: float, relief: TipRelief | None = None) -> BasicRack:
+    """The basic rack that a key names or describes; ``angle`` in rad.
+
+    Raises
+    ------
+    ParameterError
+        The rack cannot exist; names the key and the nearest value that works.
+    """
     if isinstance(table, str):
         return _standard_rack("A" if table == "GOST 13755" else table[-1], angle, relief)
     addendum, clearance, radius = (

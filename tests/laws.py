@@ -15,6 +15,7 @@ import mpmath
 import numpy as np
 
 from geometry.curve import Curve, Reversed
+from geometry.cutter_fillet import CutterFillet
 from geometry.errors import CuspError
 from geometry.involute import Involute
 from geometry.line_arc import Arc, Line
@@ -42,6 +43,8 @@ def exact_point(curve: Curve) -> ExactPoint:
         return lambda s: _rolled(curve, s, MP.mpc(curve.pitch_radius - MP.mpf(curve.depth), s))
     if isinstance(curve, TrochoidFillet):
         return lambda u: _enveloped(curve, u)
+    if isinstance(curve, CutterFillet):
+        return lambda u: _shaped(curve, u)
     if isinstance(curve, OffsetCurve):
         return lambda t: _parallel(exact_point(curve.base), curve.distance, t)
     if isinstance(curve, Reversed):
@@ -69,6 +72,20 @@ def _enveloped(curve: TrochoidFillet, u: Any) -> Any:
     return _rolled(curve, shift, centre - curve.tip_radius * normal)
 
 
+def _shaped(curve: CutterFillet, u: Any) -> Any:
+    """Contact point of a cutter's corner: its centre is where the normal through the pitch point meets its circle."""
+    normal, radius, rolling = MP.expj(-u), MP.mpf(curve.pitch_radius), MP.mpf(curve.cutter_radius)
+    corner = abs(rolling) + MP.mpf(curve.depth)
+    axis, sense = radius - rolling, MP.sign(rolling)
+    # |radius + w normal - axis| = corner, the root that is the corner beyond the pitch point at u = 0
+    half = (MP.conj(normal) * (radius - axis)).real
+    along = -half + sense * MP.sqrt(half**2 - rolling**2 + corner**2)
+    centre = radius + along * normal
+    turned = MP.arg(sense * (centre - axis))
+    work = MP.mpf(curve.angle) - turned * rolling / radius
+    return MP.mpc(curve.centre) + MP.expj(work) * (centre + sense * MP.mpf(curve.tip_radius) * normal)
+
+
 def _parallel(base: ExactPoint, distance: float, t: Any) -> Any:
     first = MP.diff(base, t)
     return base(t) + 1j * MP.mpf(distance) * first / abs(first)
@@ -83,7 +100,7 @@ def parameters(curve: Curve, count: int = 5) -> np.ndarray:
 def size(curve: Curve) -> float:
     """Largest distance of the curve from the origin or of its ends from each other, mm; at least its own scale."""
     scale = float(np.max(np.abs(curve.point(parameters(curve, 33)))))
-    for name in ("pitch_radius", "base_radius", "radius", "tip_radius"):
+    for name in ("pitch_radius", "base_radius", "radius", "tip_radius", "cutter_radius"):
         scale = max(scale, abs(getattr(curve, name, 0.0)))
     return scale
 
@@ -139,7 +156,7 @@ def check_derivative_bound(curve: Curve) -> None:
                 continue
             largest = float(np.max(np.abs(curve.derivative(t, order))))
             assert bound >= largest * (1 - 1e-13)
-            if not isinstance(getattr(curve, "original", curve), TrochoidFillet):
+            if not isinstance(getattr(curve, "original", curve), TrochoidFillet | CutterFillet):
                 assert bound <= largest * (1 + 1e-13)  # these bounds are attained
 
 

@@ -7,6 +7,7 @@ import math
 from hypothesis import strategies as st
 
 from geometry.curve import Curve, Reversed
+from geometry.cutter_fillet import CutterFillet
 from geometry.errors import GeometryError
 from geometry.gears.basic_rack import ISO_53, BasicRack, TipRelief, full_round_radius, iso_53
 from geometry.gears.spur import SpurGear
@@ -76,6 +77,20 @@ def fillets(draw: st.DrawFn) -> TrochoidFillet:
 
 
 @st.composite
+def cutter_fillets(draw: st.DrawFn) -> CutterFillet:
+    """Fillets of pinion cutters inside rings and outside gears; the corner's centre on the pitch circle included."""
+    radius, alpha = draw(numbers(2, 200)), math.radians(draw(numbers(17, 33)))
+    rolling = radius * draw(st.one_of(numbers(0.05, 0.95), numbers(-3.0, -0.1)))
+    share = draw(st.one_of(st.just(0.0), numbers(1e-9, 0.5), numbers(-0.01, -1e-9)))
+    rho = abs(rolling) * draw(numbers(0.004, 0.2))
+    start = draw(st.one_of(st.just(0.0), numbers(0, 0.5)))
+    fillet = CutterFillet(
+        radius, rolling, share * abs(rolling), rho, draw(angles), start, math.pi / 2 - alpha, draw(points)
+    )
+    return fillet.mirrored() if draw(st.booleans()) else fillet
+
+
+@st.composite
 def parallels(draw: st.DrawFn) -> OffsetCurve:
     """General parallel curves that do not turn back."""
     base = draw(st.one_of(trochoids(), arcs(), lines()))
@@ -90,7 +105,9 @@ def _room(base: Curve) -> float:
     return min(10.0, 0.9 / max(*bends, 0.09))
 
 
-plain_curves: st.SearchStrategy[Curve] = st.one_of(lines(), arcs(), involutes(), trochoids(), fillets(), parallels())
+plain_curves: st.SearchStrategy[Curve] = st.one_of(
+    lines(), arcs(), involutes(), trochoids(), fillets(), cutter_fillets(), parallels()
+)
 curves: st.SearchStrategy[Curve] = st.one_of(plain_curves, plain_curves.map(Reversed))
 
 

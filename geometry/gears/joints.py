@@ -10,20 +10,25 @@ import cmath
 import math
 from dataclasses import replace
 
+from geometry.cutter_fillet import CutterFillet
 from geometry.intersect import crossing_circle
 from geometry.involute import Involute
 from geometry.roots import bracketed_root
 from geometry.trochoid import TrochoidFillet
 
+GearFillet = TrochoidFillet | CutterFillet
 
-def joint_roll(fillet: TrochoidFillet, base_radius: float) -> float:
-    """Roll angle of the flank point cut by the end of the rack's straight flank, rad; negative: undercut."""
+
+def joint_roll(fillet: GearFillet, base_radius: float) -> float:
+    """Roll angle of the flank point cut by the end of the cutter's flank, rad; negative: undercut."""
+    if isinstance(fillet, CutterFillet):
+        return (fillet.pitch_radius * math.cos(fillet.end) - fillet.normal_length(fillet.end)) / base_radius
     alpha = math.pi / 2 - fillet.end
     reach = fillet.pitch_radius * math.sin(alpha) - fillet.depth / math.sin(alpha) - fillet.tip_radius
     return reach / base_radius
 
 
-def fillet_flank_joint(fillet: TrochoidFillet, flank: Involute) -> tuple[TrochoidFillet, Involute]:
+def fillet_flank_joint(fillet: GearFillet, flank: Involute) -> tuple[GearFillet, Involute]:
     """Fillet and flank trimmed to their common point: tangent, or the true crossing where undercut."""
     roll = joint_roll(fillet, flank.base_radius)
     if roll >= 0:
@@ -42,7 +47,7 @@ def fillet_flank_joint(fillet: TrochoidFillet, flank: Involute) -> tuple[Trochoi
     return replace(fillet, end=crossing), replace(flank, start_roll=float(flank.roll_at_radius(radius)))
 
 
-def parameter_at_radius(fillet: TrochoidFillet, radius: float) -> float:
+def parameter_at_radius(fillet: GearFillet, radius: float) -> float:
     """Parameter u at which a rising fillet is ``radius`` from the axis."""
     high = fillet.domain[1]
     if abs(complex(fillet.point(high))) <= radius:
@@ -76,7 +81,7 @@ def pointed_radius(flank: Involute) -> float:
     return bracketed_root(lambda r: float(flank.polar_angle_at_radius(r)), flank.base_radius, high).value
 
 
-def greatest_lead(fillet: TrochoidFillet) -> float:
+def greatest_lead(fillet: GearFillet) -> float:
     """Greatest height above the tooth's centre line that a lower fillet reaches, mm; negative: clear."""
     low, high = fillet.domain
 

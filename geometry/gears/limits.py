@@ -10,6 +10,7 @@ from geometry.curve import start_point
 from geometry.errors import GeometryError, ParameterError, UndercutError, at_least, at_most
 from geometry.findings import Finding
 from geometry.gears.joints import pointed_radius
+from geometry.gears.shaping import check_shaping, least_shift_with_cutter
 from geometry.gears.spur import SpurGear
 from geometry.gears.tooth import tooth_side
 from geometry.profile import Label
@@ -31,7 +32,9 @@ class Margin:
 
 
 def least_shift_without_undercut(gear: SpurGear) -> float:
-    """x_min = h_Ff - z sin^2(alpha) / 2: exact for a rack with a rounded tip."""
+    """x_min = h_Ff - z sin^2(alpha) / 2: exact for a rack with a rounded tip; with a cutter see ``shaping``."""
+    if gear.cutter is not None:
+        return least_shift_with_cutter(gear)
     return gear.rack.form_dedendum - gear.number_of_teeth * math.sin(gear.rack.pressure_angle) ** 2 / 2
 
 
@@ -115,6 +118,7 @@ def checked_gear(gear: SpurGear) -> SpurGear:
     rim = root_below_bore(gear)
     if gear.root_radius > 0 and gear.bore_diameter > 0 and rim.margin <= 0:
         raise ParameterError("bore_diameter", rim.value, f"must be below the root diameter, {at_most(rim.limit)} mm")
+    check_shaping(gear)
     try:
         tooth_side(gear)
     except ParameterError as refusal:
@@ -125,6 +129,7 @@ def checked_gear(gear: SpurGear) -> SpurGear:
 
 def _builds(gear: SpurGear) -> bool:
     try:
+        check_shaping(gear)
         tooth_side(gear)
     except GeometryError:
         return False

@@ -17,6 +17,7 @@ import numpy as np
 from geometry.curve import Curve, end_point, start_point
 from geometry.errors import GeometryError, OffsetError
 from geometry.findings import Finding
+from geometry.gears.joints import GearFillet
 from geometry.gears.spur import SpurGear
 from geometry.gears.tooth import SideCurves, ToothSide, assemble_side, tooth_side
 from geometry.intersect import first_above
@@ -24,7 +25,6 @@ from geometry.line_arc import Arc
 from geometry.profile import Label, Profile, Region, Segment, joint_turn
 from geometry.roots import bracketed_root
 from geometry.tolerance import TOLERANCES
-from geometry.trochoid import TrochoidFillet
 
 _SAMPLES = 65
 # share of a tip rounding's radius that is left at the edge of a deep face chamfer
@@ -136,7 +136,7 @@ def _with_corner_arcs(segments: tuple[Segment, ...], distance: float) -> list[Se
 
 def _grown(curve: Curve, distance: float) -> Curve:
     """The parallel curve on the space's side; a fillet may turn back, which is trimmed afterwards."""
-    if isinstance(curve, TrochoidFillet):
+    if isinstance(curve, GearFillet):
         return replace(curve, tip_radius=curve.tip_radius - distance)
     return curve.offset(-distance)
 
@@ -144,7 +144,7 @@ def _grown(curve: Curve, distance: float) -> Curve:
 def _after_cusp(pieces: list[Segment], distance: float, findings: list[Finding]) -> list[Segment]:
     """The pieces without the part of the fillet that runs back; a finding where there was one."""
     fillet = pieces[0].curve
-    if not isinstance(fillet, TrochoidFillet) or fillet.cusp() is None:
+    if not isinstance(fillet, GearFillet) or fillet.cusp() is None:
         return pieces
     findings.append(Finding("fillet_cusp_trimmed", distance, fillet.tip_radius + distance))
     low, high = fillet.domain

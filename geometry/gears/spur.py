@@ -6,9 +6,12 @@ import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from geometry.angles import involute_function
+from geometry.angles import inverse_involute, involute_function
 from geometry.bores import RoundBore
+from geometry.cutter_fillet import CutterFillet
+from geometry.errors import ParameterError, at_least
 from geometry.gears.basic_rack import BasicRack
+from geometry.gears.cutter import PinionCutter
 from geometry.hub_holes import HubHoles
 from geometry.involute import Involute
 from geometry.trochoid import TrochoidFillet
@@ -22,6 +25,8 @@ class SpurGear:
 
     ``circumferential_thinning`` thins each tooth at the reference circle: cut by a wider rack tooth (root
     diameter kept) or, with ``thinning_by_deeper_cut``, by feeding the rack in (root diameter lowered).
+    With a ``cutter`` it is cut by that pinion cutter: the rack then only gives pressure angle and addendum, and the
+    root diameter follows from the cutter's centre distance.
     Source of the dimensions: ISO 21771, GOST 16532, practicum (3.7) to (3.17).
     """
 
@@ -36,6 +41,7 @@ class SpurGear:
     tip_rounding: float = 0.0
     bore_diameter: float = 0.0
     hub: HubHoles = _NO_HOLES
+    cutter: PinionCutter | None = None
 
     @cached_property
     def generating_shift_coefficient(self) -> float:
@@ -55,6 +61,36 @@ class SpurGear:
         """Angle from tooth to tooth, rad."""
         return 2 * math.pi / self.number_of_teeth
 
+    @cached_property
+    def generating_angle(self) -> float:
+        """alpha_w0: working angle of the cut, rad; alpha for a rack.
+
+        With a cutter inv(alpha_w0) = inv(alpha) + 2 (x_E + x_0) tan(alpha) / (z + z_0).
+
+        Raises
+        ------
+        ParameterError
+            No such angle exists; names the least shift that has one.
+        """
+        alpha = self.rack.pressure_angle
+        if self.cutter is None:
+            return alpha
+        shift = self.generating_shift_coefficient + self.cutter.profile_shift_coefficient
+        teeth = self.number_of_teeth + self.cutter.number_of_teeth
+        value = involute_function(alpha) + 2 * shift * math.tan(alpha) / teeth
+        if value < 0:
+            least = self.profile_shift_coefficient - value * teeth / (2 * math.tan(alpha))
+            text = f"no pressure angle with the cutter exists; at least {at_least(least)} works"
+            raise ParameterError("profile_shift_coefficient", self.profile_shift_coefficient, text)
+        return inverse_involute(value).value
+
+    @property
+    def generating_distance(self) -> float:
+        """a_0: distance of a cutter's axis from the gear's, mm; inf for a rack."""
+        if self.cutter is None:
+            return math.inf
+        return (self.base_radius + self.cutter.base_radius) / math.cos(self.generating_angle)
+
     @property
     def reference_radius(self) -> float:
         """r = m z / 2."""
@@ -67,7 +103,9 @@ class SpurGear:
 
     @property
     def root_radius(self) -> float:
-        """r_f = r - (h_f - x_E) m."""
+        """r_f = r - (h_f - x_E) m, or a_0 - r_a0 with a cutter."""
+        if self.cutter is not None:
+            return self.generating_distance - self.cutter.tip_radius
         return self.reference_radius - (self.rack.dedendum - self.generating_shift_coefficient) * self.module
 
     @property
@@ -137,8 +175,18 @@ class SpurGear:
         base_radius = self.reference_radius * math.cos(alpha_g)
         return Involute(base_radius, -half, 0.0, 1 + self.tip_radius / base_radius)
 
-    def fillet(self) -> TrochoidFillet:
+    def fillet(self) -> TrochoidFillet | CutterFillet:
         """The lower root fillet of tooth 1 as far as the rounding reaches, whether cut away or not."""
+        if self.cutter is not None:
+            return self._cutter_fillet(replace(self.cutter, widening=self._widening))
         angle = -self.pitch_angle / 2 + self.root_land_half_angle
         end = math.pi / 2 - self.rack.pressure_angle
         return TrochoidFillet(self.reference_radius, self.rounding_depth, self.rounding_radius, angle, 0.0, end)
+
+    def _cutter_fillet(self, cutter: PinionCutter) -> CutterFillet:
+        teeth = self.number_of_teeth + cutter.number_of_teeth
+        pitch_radius = self.generating_distance * self.number_of_teeth / teeth
+        rolling = self.generating_distance * cutter.number_of_teeth / teeth
+        angle = -self.pitch_angle / 2 + cutter.corner_angle * rolling / pitch_radius
+        depth, end = cutter.corner_radius - rolling, math.pi / 2 - self.generating_angle
+        return CutterFillet(pitch_radius, -rolling, depth, cutter.rounding_radius, angle, 0.0, end)

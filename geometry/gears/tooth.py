@@ -15,6 +15,7 @@ from geometry.curve import Curve, end_point, start_point
 from geometry.errors import ParameterError, PointedTipError, UndercutError, at_most
 from geometry.findings import Finding
 from geometry.gears.joints import (
+    GearFillet,
     fillet_flank_joint,
     flank_crossing_radius,
     greatest_lead,
@@ -27,7 +28,6 @@ from geometry.involute import Involute
 from geometry.line_arc import Arc, Line, arc_between
 from geometry.profile import Label, Profile, Segment
 from geometry.tolerance import TOLERANCES
-from geometry.trochoid import TrochoidFillet
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +63,7 @@ class FlankPiece(NamedTuple):
 class SideCurves:
     """The generating curves of one tooth side before they are trimmed; a uniformly shrunk tooth has its own."""
 
-    fillet: TrochoidFillet
+    fillet: GearFillet
     flank: Involute
     relief: Involute | None
     root_radius: float

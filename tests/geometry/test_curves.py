@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import numpy as np
@@ -10,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from geometry.curve import Curve, Reversed
+from geometry.cutter_fillet import CutterFillet
 from geometry.errors import CuspError
 from geometry.involute import Involute
 from geometry.line_arc import Arc, Line
@@ -17,7 +19,17 @@ from geometry.offset import OffsetCurve
 from geometry.placement import Placement2
 from geometry.trochoid import Trochoid, TrochoidFillet
 from tests import laws
-from tests.strategies import curves, fillets, involutes, lines, numbers, parallels, placements, trochoids
+from tests.strategies import (
+    curves,
+    cutter_fillets,
+    fillets,
+    involutes,
+    lines,
+    numbers,
+    parallels,
+    placements,
+    trochoids,
+)
 
 EXAMPLES: dict[str, Curve] = {
     "line": Line(1 + 2j, 4 - 3j),
@@ -33,6 +45,12 @@ EXAMPLES: dict[str, Curve] = {
     "fillet, centre outside": TrochoidFillet(23.0, -0.26, 0.76, -0.131, 0.0, 1.2217),
     "fillet, upper side": TrochoidFillet(23.0, 1.74, 0.76, 0.131, -1.2217, 0.0, -1j),
     "fillet of a small gear": TrochoidFillet(3.0, 1.4, 0.76, 0.1, 0.0, 1.2217),
+    "ring fillet": CutterFillet(60.0, 25.0, 2.05, 0.4, -0.003, 0.0, 1.2217),
+    "ring fillet, centre on the pitch line": CutterFillet(60.0, 25.0, 0.0, 0.4, -0.003, 0.0, 1.2217),
+    "ring fillet, centre inside": CutterFillet(60.0, 25.0, -0.2, 0.4, -0.003, 0.0, 1.1, 2 - 1j),
+    "ring fillet, upper side": CutterFillet(60.0, 55.0, 2.05, 0.4, 0.003, -1.2217, 0.0),
+    "shaped fillet": CutterFillet(23.0, -25.0, 1.9, 0.5, -0.13, 0.0, 1.2217),
+    "shaped fillet, centre inside": CutterFillet(23.0, -70.0, -0.4, 0.5, -0.13, 0.0, 1.2),
     "parallel of a trochoid": OffsetCurve(Trochoid(23.0, 1.74, -0.13, 0.0, 4.8), -0.3),
     "parallel of an arc": OffsetCurve(Arc(1j, 5.0, 0.0, 2.0), 1.2),
 }
@@ -42,7 +60,7 @@ EVERY = pytest.mark.parametrize("curve", EXAMPLES.values(), ids=EXAMPLES.keys())
 
 def test_every_class_is_among_the_examples() -> None:
     kinds = {type(c) for c in EXAMPLES.values()}
-    assert kinds == {Line, Arc, Involute, Trochoid, TrochoidFillet, OffsetCurve, Reversed}
+    assert kinds == {Line, Arc, Involute, Trochoid, TrochoidFillet, CutterFillet, OffsetCurve, Reversed}
     assert {type(c.original) for c in EXAMPLES.values() if isinstance(c, Reversed)} == kinds - {Reversed}
     assert all(isinstance(c, Curve) for c in EXAMPLES.values())
 
@@ -96,8 +114,11 @@ def test_offset_is_refused_exactly_where_it_turns_back(curve: Curve, distance: f
     laws.check_cusp(curve, distance)
 
 
+OFFSETTABLE = st.one_of(lines(), involutes(), trochoids(), fillets(), cutter_fillets(), parallels())
+
+
 @settings(max_examples=120)
-@given(st.one_of(lines(), involutes(), trochoids(), fillets(), parallels()), numbers(-1, 1), numbers(-1, 1))
+@given(OFFSETTABLE, numbers(-1, 1), numbers(-1, 1))
 def test_offsets_add(curve: Curve, first: float, second: float) -> None:
     t = np.linspace(*curve.domain, 257)
     bend = np.abs(curve.curvature(t))
@@ -220,3 +241,39 @@ def test_fillet_cusp_is_the_first_root_of_its_speed() -> None:
     assert abs(float(bent.speed(at))) <= 1e-10 * bent.tip_radius
     assert np.all(bent.speed(np.linspace(0, at - 1e-6, 1001)) > 0)
     assert float(bent.speed(at + 1e-6)) < 0
+
+
+@settings(max_examples=60)
+@given(cutter_fillets(), numbers(-0.9, 2.0))
+def test_offset_of_a_cutter_fillet_keeps_the_family(fillet: CutterFillet, share: float) -> None:
+    distance = share * fillet.tip_radius
+    moved = dataclasses.replace(fillet, tip_radius=fillet.tip_radius + distance)
+    if moved.cusp() is None:
+        assert fillet.offset(distance) == moved
+        laws.check_offset_distance(fillet, distance)
+
+
+def test_a_cutter_of_infinite_size_is_a_rack() -> None:
+    """The fillet differs from the rack's by O(1/r_0) of the cutter's pitch radius."""
+    rack = TrochoidFillet(23.0, 1.74, 0.76, -0.131, 0.0, 1.2)
+    u = np.linspace(0, 1.2, 41)
+    near = [CutterFillet(23.0, -radius, 1.74, 0.76, -0.131, 0.0, 1.2) for radius in (1e4, 1e5, 1e6)]
+    differences = [float(np.max(np.abs(c.point(u) - rack.point(u)))) for c in near]
+    assert differences[0] < 1e-2
+    assert differences[1] / differences[0] == pytest.approx(0.1, rel=0.02)
+    assert differences[2] / differences[1] == pytest.approx(0.1, rel=0.02)
+
+
+@settings(max_examples=60)
+@given(cutter_fillets())
+def test_radius_and_normals_of_a_cutter_fillet(fillet: CutterFillet) -> None:
+    """Every normal passes the pitch point: |p - e| is the normal length, and the angle to the tangent is right."""
+    u = laws.parameters(fillet, 17)
+    share, ratio = abs(fillet.cutter_radius) / fillet.corner_radius, fillet.cutter_radius / fillet.pitch_radius
+    turned = u - np.arcsin(share * np.sin(u))
+    pitch_point = fillet.centre + fillet.pitch_radius * np.exp(1j * (fillet.angle + ratio * turned))
+    along = np.conj(fillet.tangent(u)) * (pitch_point - fillet.point(u))
+    size = fillet.pitch_radius + abs(fillet.cutter_radius)
+    assert np.max(np.abs(along.real)) <= 1e-12 * size
+    lengths = np.array([fillet.normal_length(float(t)) for t in u])
+    assert np.allclose(np.abs(along.imag), np.abs(lengths), rtol=0, atol=1e-12 * size)

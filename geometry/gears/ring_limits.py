@@ -1,0 +1,337 @@
+"""Limits of a ring gear, each with its margin, the search for the nearest ring that works, a default cutter."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+from geometry.errors import GeometryError, ParameterError, at_least, at_most
+from geometry.findings import Finding
+from geometry.gears.cutter import CUTTER_ROUNDING, PinionCutter, checked_cutter
+from geometry.gears.internal_limits import InternalMesh
+from geometry.gears.limits import LEAST_TIP_THICKNESS, Margin
+from geometry.gears.ring import RingGear, RoundedRoot
+from geometry.gears.ring_tooth import RingCurves, apex_radius, flank_ends, ring_side, rounded_root_plug
+from geometry.tolerance import TOLERANCES
+
+# teeth of a cutter that nobody named, in the order in which they are tried
+DEFAULT_CUTTER_TEETH = (100, 80, 64, 50, 40, 32, 25, 20, 16, 12, 10, 8)
+LEAST_CUTTER_TEETH = 8
+
+
+def generation(gear: RingGear) -> InternalMesh | None:
+    """The mesh of ring and cutter at full depth; None for a rounded root."""
+    cutter = gear.cutter
+    if cutter is None:
+        return None
+    return InternalMesh(
+        (cutter.number_of_teeth, gear.number_of_teeth),
+        (cutter.base_radius, gear.base_radius),
+        (cutter.tip_radius, gear.tip_radius),
+        gear.generating_distance,
+        gear.generating_angle,
+    )
+
+
+def tip_thickness(gear: RingGear) -> float:
+    """s_a2: thickness of the ring's tooth on its tip circle before its corners are broken, mm (an arc)."""
+    return gear.tip_radius * (gear.pitch_angle + 2 * float(gear.flank().polar_angle_at_radius(gear.tip_radius)))
+
+
+def thin_tip(gear: RingGear) -> Margin:
+    """s_a2 against 0.3 m, mm; practicum, below (1.3)."""
+    value, limit = tip_thickness(gear), LEAST_TIP_THICKNESS * gear.module
+    return Margin("thin_tip", value, limit, value - limit)
+
+
+def pointed_tip(gear: RingGear) -> Margin:
+    """Tip diameter against the diameter at which the ring's tooth is pointed, mm; 0 where it never is."""
+    limit, value = 2 * apex_radius(RingCurves.of(gear).flank, gear.pitch_angle / 2), 2 * gear.tip_radius
+    return Margin("pointed_tip", value, limit, value - limit)
+
+
+def tip_above_base(gear: RingGear) -> Margin:
+    """Tip diameter against the base diameter, mm: the involute ends there."""
+    value, limit = 2 * gear.tip_radius, 2 * gear.base_radius
+    return Margin("tip_above_base", value, limit, value - limit)
+
+
+def rim(gear: RingGear) -> Margin:
+    """Rim outside the root circle against one module, mm; without any there is no ring."""
+    value = gear.outer_radius - gear.root_radius
+    return Margin("thin_rim", value, gear.module, value - gear.module)
+
+
+def root_form_diameter(gear: RingGear) -> float:
+    """d_Ff2: diameter at which the fillet begins, mm."""
+    return 2 * flank_ends(ring_side(gear))[1]
+
+
+def margins(gear: RingGear) -> tuple[Margin, ...]:
+    """All limits of a ring; those of its cutting are named ``cutter_…``."""
+    mesh = generation(gear)
+    cut = () if mesh is None else tuple(replace(m, name=f"cutter_{m.name}") for m in mesh.margins())
+    return (*cut, tip_above_base(gear), pointed_tip(gear), thin_tip(gear), rim(gear))
+
+
+def findings(gear: RingGear) -> tuple[Finding, ...]:
+    """Remarks on a ring that is legal but poor: thin tip, thin rim."""
+    return tuple(Finding(m.name, m.value, m.limit) for m in (thin_tip(gear), rim(gear)) if m.margin < 0)
+
+
+def checked_ring(gear: RingGear) -> RingGear:
+    """The ring itself if it can be made, else a refusal that names the nearest value that works.
+
+    Raises
+    ------
+    ParameterError
+        With the key, its value and the nearest value of that or another key that gives a ring.
+    """
+    _check_numbers(gear)
+    try:
+        _check_made(gear)
+    except ParameterError as refusal:
+        raise _with_remedy(gear, refusal) from refusal
+    least = 2 * gear.root_radius
+    if gear.outer_diameter <= least:
+        text = f"must be above the root diameter; at least {at_least(least + gear.module, 4)} mm leaves a rim"
+        raise ParameterError("outer_diameter", gear.outer_diameter, text)
+    return gear
+
+
+def _check_made(gear: RingGear) -> None:
+    """Refuse a ring that its cutter cannot make, or whose teeth cannot exist; the rim is another matter."""
+    if isinstance(gear.root, RoundedRoot):
+        _check_rounded(gear)
+    else:
+        checked_cutter(gear.cutter or gear.root)
+    mesh = generation(gear)
+    ring_side(gear)
+    if mesh is None:
+        return
+    words = {
+        "involute_interference": "the cutter's teeth begin above the ring's tips, which it would trim",
+        "trochoid_interference": "the cutter's tips would trim the ring's on their way out",
+        "radial_assembly": "the cutter cannot be fed in radially without trimming the ring's tips",
+    }
+    rounding = 1e3 * TOLERANCES.relative_rounding * gear.root_radius
+    for margin in mesh.margins():
+        if margin.margin < -rounding:
+            cutter = gear.root
+            assert isinstance(cutter, PinionCutter)
+            raise ParameterError("cutter.number_of_teeth", cutter.number_of_teeth, words[margin.name])
+
+
+def _check_rounded(gear: RingGear) -> None:
+    """The space as a tooth of its own must take its root rounding."""
+    try:
+        plug = rounded_root_plug(gear)
+        checked_cutter(plug)
+    except ParameterError as refusal:
+        name = {"cutter.tip_rounding_coefficient": "radius_coefficient"}.get(refusal.name, "dedendum_coefficient")
+        text = refusal.allowed.replace("the cutter's tooth", "the space")
+        raise ParameterError(f"rounded_root.{name}", refusal.value, text) from refusal
+
+
+def _check_numbers(gear: RingGear) -> None:
+    """Refuse what is no dimension at all."""
+    if not gear.number_of_teeth >= 4:
+        raise ParameterError("number_of_teeth", gear.number_of_teeth, "must be at least 4")
+    if not 0 < gear.module < math.inf:
+        raise ParameterError("module", gear.module, "must be a finite number above 0")
+    if not 0 < gear.pressure_angle < math.pi / 2:
+        angle = math.degrees(gear.pressure_angle)
+        raise ParameterError("pressure_angle_deg", angle, "must be above 0 and below 90 degrees")
+    if not math.isfinite(gear.profile_shift_coefficient):
+        raise ParameterError("profile_shift_coefficient", gear.profile_shift_coefficient, "must be a finite number")
+    if gear.given_tip_diameter is not None and not 0 < gear.given_tip_diameter < math.inf:
+        raise ParameterError("tip_diameter", gear.given_tip_diameter, "must be a finite number above 0")
+    if not 0 < gear.outer_diameter < math.inf:
+        raise ParameterError("outer_diameter", gear.outer_diameter, "must be a finite number above 0")
+    for name in ("circumferential_thinning", "tip_chamfer", "tip_rounding"):
+        if not 0 <= getattr(gear, name) < math.inf:
+            raise ParameterError(name, getattr(gear, name), "must be a finite number, at least 0; 0 works")
+    root = gear.root
+    if isinstance(root, RoundedRoot):
+        for key, value in (("dedendum", root.dedendum), ("radius", root.radius or 0.0)):
+            if not 0 <= value < math.inf:
+                raise ParameterError(f"rounded_root.{key}_coefficient", value, "must be a finite number, at least 0")
+
+
+def _makes(gear: RingGear) -> bool:
+    """Whether the ring can be made, by any cutter where nobody named one."""
+    return next(_made(gear), None) is not None
+
+
+def _made(gear: RingGear) -> Iterator[RingGear]:
+    """The ring with each cutter that can make it."""
+    for tried in _with_cutters(gear):
+        try:
+            _check_made(tried)
+        except GeometryError:
+            continue
+        yield tried
+
+
+def _with_cutters(gear: RingGear) -> Iterator[RingGear]:
+    """The ring itself, or with every cutter that may be tried where nobody named one, its rounding made to fit."""
+    root = gear.root
+    if not gear.any_cutter or not isinstance(root, PinionCutter):
+        yield gear
+        return
+    for teeth in DEFAULT_CUTTER_TEETH:
+        cutter = replace(root, number_of_teeth=teeth)
+        room = cutter.largest_rounding()
+        if teeth < gear.number_of_teeth and room > 0:
+            yield replace(gear, root=replace(cutter, tip_rounding=min(CUTTER_ROUNDING, room)))
+
+
+@dataclass(frozen=True, slots=True)
+class _Key:
+    """A key that may be to blame: its value, one that takes it out of play, and the ring with another value."""
+
+    name: str
+    value: float
+    harmless: float
+    gear_with: Callable[[float], RingGear]
+    unit: str = " mm"
+
+
+def _with_remedy(gear: RingGear, refusal: ParameterError) -> ParameterError:
+    """The refusal told in the user's keys, with the nearest value that works; the most special key first."""
+    kind = type(refusal)
+    reason = refusal.allowed.partition("; at ")[0]
+    teeth = _cutter_teeth(gear) if refusal.name == "cutter.number_of_teeth" else None
+    if teeth is not None:
+        return kind(refusal.name, refusal.value, f"{reason}; {teeth} works")
+    for key in sorted(_suspects(gear), key=lambda k: k.name != refusal.name):
+        if _makes(key.gear_with(key.harmless)):
+            works = _boundary(lambda v, k=key: _makes(k.gear_with(v)), key.harmless, key.value)  # type: ignore[misc]
+            text = f"at most {at_most(works, 4)}" if works < key.value else f"at least {at_least(works, 4)}"
+            return kind(key.name, key.value, f"{reason}; {text}{key.unit} works")
+    x = gear.profile_shift_coefficient
+    nearest = _nearest(lambda v: _makes(replace(gear, profile_shift_coefficient=v)), x)
+    if nearest is not None:
+        text = f"at least {at_least(nearest, 4)}" if nearest > x else f"at most {at_most(nearest, 4)}"
+        return kind("profile_shift_coefficient", x, f"{reason}; {text} works")
+    z = gear.number_of_teeth
+    more = next((n for n in range(z + 1, z + 80) if _makes(replace(gear, number_of_teeth=n))), None)
+    if more is None:
+        return refusal
+    return ParameterError("number_of_teeth", z, f"{refusal.name}: {reason}; {more} teeth work")
+
+
+def _suspects(gear: RingGear) -> list[_Key]:
+    """Keys of a ring that could be changed alone, the most special first."""
+    keys = [
+        _Key("tip_chamfer", gear.tip_chamfer, 0.0, lambda v: replace(gear, tip_chamfer=v)),
+        _Key("tip_rounding", gear.tip_rounding, 0.0, lambda v: replace(gear, tip_rounding=v)),
+        _Key(
+            "circumferential_thinning",
+            gear.circumferential_thinning,
+            0.0,
+            lambda v: replace(gear, circumferential_thinning=v),
+        ),
+    ]
+    root = gear.root
+    if isinstance(root, PinionCutter) and not gear.any_cutter:
+        names = ("tip_rounding", "profile_shift", "addendum")
+        fields = ("tip_rounding", "profile_shift_coefficient", "addendum")
+        for name, field, harmless in zip(names, fields, (0.0, 0.0, 1.0), strict=True):
+            keys.append(
+                _Key(
+                    f"cutter.{name}_coefficient",
+                    getattr(root, field),
+                    harmless,
+                    lambda v, n=field: replace(gear, root=replace(root, **{n: v})),  # type: ignore[misc]
+                    "",
+                )
+            )
+    elif isinstance(root, RoundedRoot) and root.radius is not None:
+        keys.append(
+            _Key(
+                "rounded_root.radius_coefficient",
+                root.radius,
+                0.0,
+                lambda v: replace(gear, root=replace(root, radius=v)),
+                "",
+            )
+        )
+    if isinstance(root, RoundedRoot):
+        keys.append(
+            _Key(
+                "rounded_root.dedendum_coefficient",
+                root.dedendum,
+                1.0,
+                lambda v: replace(gear, root=replace(root, dedendum=v)),
+                "",
+            )
+        )
+    # the reference circle always leaves an involute; what is between is found by the search for the boundary
+    given = 2 * gear.tip_radius
+    keys.append(_Key("tip_diameter", given, _harmless_tip(gear), lambda v: replace(gear, given_tip_diameter=v)))
+    keys.append(_Key("pressure_angle_deg", math.degrees(gear.pressure_angle), 20.0, _at_angle(gear), " degrees"))
+    return [k for k in keys if k.value != k.harmless]
+
+
+def _at_angle(gear: RingGear) -> Callable[[float], RingGear]:
+    """The ring, and its cutter, with another pressure angle in degrees."""
+
+    def made(degrees: float) -> RingGear:
+        angle, root = math.radians(degrees), gear.root
+        root = replace(root, pressure_angle=angle) if isinstance(root, PinionCutter) else root
+        return replace(gear, pressure_angle=angle, root=root)
+
+    return made
+
+
+def _harmless_tip(gear: RingGear) -> float:
+    """A tip diameter between the refused one and the root that works, where there is one; else the reference circle."""
+    least = max(2 * gear.tip_radius, 0.0)
+    step = (2 * gear.reference_radius + 2 * gear.module - least) / 64
+    tries = (least + k * step for k in range(1, 65))
+    default = replace(gear, given_tip_diameter=None)
+    if gear.given_tip_diameter is not None and _makes(default):
+        return 2 * default.tip_radius
+    return next((d for d in tries if _makes(replace(gear, given_tip_diameter=d))), 2 * gear.reference_radius)
+
+
+def _cutter_teeth(gear: RingGear) -> int | None:
+    """The number of cutter teeth nearest to the ring's own cutter that works."""
+    root = gear.root
+    if not isinstance(root, PinionCutter) or gear.any_cutter:
+        return None
+    z = root.number_of_teeth
+    near = sorted(range(LEAST_CUTTER_TEETH, gear.number_of_teeth), key=lambda n: (abs(n - z), n))
+    return next((n for n in near if _makes(replace(gear, root=replace(root, number_of_teeth=n)))), None)
+
+
+def with_default_cutter(gear: RingGear) -> RingGear:
+    """The ring with the largest usual cutter that can make it, or with any where none can.
+
+    The larger the cutter, the farther out the involute reaches, and the fewer pinions touch the fillets. Its rounding
+    is the full round where its tooth has no more room.
+    """
+    root = gear.root if isinstance(gear.root, PinionCutter) else None
+    cutter = root or PinionCutter(gear.module, DEFAULT_CUTTER_TEETH[0], gear.pressure_angle)
+    gear = replace(gear, root=cutter, any_cutter=True)
+    if 0 < gear.pressure_angle < math.pi / 2 and 0 < gear.module < math.inf:
+        # where none works, the last one tells what is in the way
+        return next(_made(gear), None) or next(_with_cutters(gear), gear)
+    return gear
+
+
+def _boundary(works: Callable[[float], bool], good: float, bad: float) -> float:
+    """The last value from ``good`` towards ``bad`` that works, by bisection."""
+    for _ in range(40):
+        middle = (good + bad) / 2
+        good, bad = (middle, bad) if works(middle) else (good, middle)
+    return good
+
+
+def _nearest(works: Callable[[float], bool], value: float) -> float | None:
+    """The shift nearest to a refused one that works, sought from -3 to 3 in steps of 0.05."""
+    grid = sorted((k / 20 for k in range(-60, 61)), key=lambda v: abs(v - value))
+    good = next((v for v in grid if works(v)), None)
+    return None if good is None else _boundary(works, good, value)

@@ -1,0 +1,93 @@
+"""The part kind ``rack``: a straight rack with its body."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import TYPE_CHECKING, Annotated
+
+from msgspec import Meta, Struct
+
+from parts.cutter_keys import RackName
+from parts.keys import Colour, Density, FaceWidth, Material, mm
+from parts.materials import density_of
+from parts.part import Part
+from parts.spur_gear import RackTable, basic_rack_of
+
+if TYPE_CHECKING:
+    from geometry.gears.rack import Rack
+
+# modules below the root line where no body was asked for
+_BODY = 2.5
+
+
+class RackSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="rack"):
+    """Straight rack; its teeth are those of the basic rack."""
+
+    module: Annotated[float, mm("module m", least=0.01, most=1000)]
+    number_of_teeth: Annotated[int, Meta(ge=1, le=500, description="number of teeth")]
+    pressure_angle_deg: Annotated[float, Meta(ge=5, le=40, description="pressure angle", extra={"unit": "degrees"})] = (
+        20.0
+    )
+    basic_rack: RackName | RackTable = "ISO 53 A"
+    body_height: Annotated[float, mm("body below the root line; default: 2.5 m", above=0, most=100_000)] | None = None
+    circumferential_thinning: Annotated[
+        float, mm("thinning of each tooth for backlash, on the datum line", least=0, most=1000)
+    ] = 0.0
+    tip_chamfer: Annotated[float, mm("height of a 45 degree tip chamfer", least=0, most=1000)] = 0.0
+    tip_rounding: Annotated[float, mm("radius of the tip corner", least=0, most=1000)] = 0.0
+    face_width: FaceWidth = 10.0
+    material: Material | None = None
+    density: Density | None = None
+    colour: Colour | None = None
+
+
+def checked_rack_part(spec: RackSpec) -> Rack:
+    """The rack of a part, checked to exist.
+
+    Raises
+    ------
+    ParameterError
+        The rack cannot exist; names the key and the nearest value that works.
+    """
+    from geometry.errors import ParameterError
+    from geometry.gears.rack import Rack, checked_part_rack
+
+    if spec.tip_chamfer > 0 and spec.tip_rounding > 0:
+        raise ParameterError("tip_rounding", spec.tip_rounding, "give either tip_chamfer or tip_rounding; 0 works")
+    basic = basic_rack_of(spec.basic_rack, math.radians(spec.pressure_angle_deg))
+    body = spec.body_height if spec.body_height is not None else _BODY * spec.module
+    rack = Rack(
+        spec.module,
+        spec.number_of_teeth,
+        basic,
+        body,
+        spec.circumferential_thinning,
+        spec.tip_chamfer,
+        spec.tip_rounding,
+    )
+    return checked_part_rack(rack)
+
+
+def rack_part(part_id: str, spec: RackSpec, rack: Rack) -> Part:
+    """The part of a rack, its datum line on the x axis; sections are computed when an export asks."""
+    from geometry.body import plate
+    from geometry.gears.rack import rack_region
+
+    quantities = {
+        "pitch": rack.pitch,
+        "tooth_thickness": rack.tooth_thickness,
+        "tip_tooth_thickness": rack.tip_thickness,
+    }
+    section = lru_cache(maxsize=8)(lambda offset: rack_region(rack, offset))
+    return Part(
+        part_id,
+        "rack",
+        section=section,
+        body=lru_cache(maxsize=2)(lambda offset: plate(section(offset).region, 0.0, spec.face_width)),
+        face_width=spec.face_width,
+        quantities=quantities,
+        material=spec.material,
+        colour=spec.colour,
+        density=spec.density or density_of(spec.material),
+    )

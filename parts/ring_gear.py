@@ -1,0 +1,148 @@
+"""The part kind ``ring_gear``: an internal spur gear cut by a pinion cutter, or with rounded roots."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from msgspec import Meta, Struct
+
+from parts.cutter_keys import CutterTable, cutter_of
+from parts.keys import Colour, Density, FaceWidth, Material, in_modules, mm
+from parts.materials import density_of
+from parts.part import Part
+
+if TYPE_CHECKING:
+    from geometry.gears.ring import RingGear
+
+# modules outside the root circle where no rim was asked for
+_RIM = 2.5
+
+
+class RoundedRootTable(Struct, forbid_unknown_fields=True):
+    """A root that no cutter made, for laser and printer: arcs tangent to flanks and root circle."""
+
+    dedendum_coefficient: Annotated[float, in_modules("depth of the root below the reference", least=0.1, most=3)] = (
+        1.25
+    )
+    radius_coefficient: Annotated[float, in_modules("radius of the arcs; 0 with full_round", least=0, most=2)] = 0.0
+    full_round: Annotated[bool, Meta(description="one arc from flank to flank, the largest there is")] = True
+
+
+class RingGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="ring_gear"):
+    """Ring gear (internal teeth), cut by a pinion cutter."""
+
+    module: Annotated[float, mm("module m", least=0.01, most=1000)]
+    number_of_teeth: Annotated[int, Meta(ge=4, le=10_000, description="number of teeth z_2")]
+    profile_shift_coefficient: Annotated[
+        float, in_modules("profile shift x_2, positive away from the axis", least=-10, most=10)
+    ] = 0.0
+    pressure_angle_deg: Annotated[
+        float, Meta(ge=5, le=45, description="pressure angle of the cutter", extra={"unit": "degrees"})
+    ] = 20.0
+    addendum_coefficient: Annotated[float, in_modules("addendum h_a", least=0.1, most=3)] = 1.0
+    cutter: CutterTable | None = None
+    rounded_root: RoundedRootTable | None = None
+    tip_rule: Literal["GOST 19274", "KHK"] = "GOST 19274"
+    tip_diameter: (
+        Annotated[
+            float, mm("tip diameter; default: d - 2 (h_a - x - k) m, k of tip_rule (KHK: 0)", above=0, most=100_000)
+        ]
+        | None
+    ) = None
+    circumferential_thinning: Annotated[
+        float, mm("thinning of each tooth for backlash, arc on the reference circle", least=0, most=1000)
+    ] = 0.0
+    thinning_method: Literal["wider_cutter_tooth", "deeper_cut"] = "wider_cutter_tooth"
+    tip_chamfer: Annotated[float, mm("radial height of a 45 degree tip chamfer", least=0, most=1000)] = 0.0
+    tip_rounding: Annotated[float, mm("radius of the tip corner", least=0, most=1000)] = 0.0
+    outer_diameter: (
+        Annotated[float, mm("outside of the rim; default: root diameter + 5 m", above=0, most=200_000)] | None
+    ) = None
+    face_width: FaceWidth = 10.0
+    material: Material | None = None
+    density: Density | None = None
+    colour: Colour | None = None
+
+
+def checked_ring_gear(spec: RingGearSpec) -> RingGear:
+    """The ring of a part, checked to exist.
+
+    Raises
+    ------
+    ParameterError
+        The ring cannot exist or its cutter cannot make it; names the key and the nearest value that works.
+    """
+    from dataclasses import replace
+
+    from geometry.errors import ParameterError
+    from geometry.gears.cutter import PinionCutter
+    from geometry.gears.ring import RingGear, RoundedRoot
+    from geometry.gears.ring_limits import checked_ring, with_default_cutter
+
+    if spec.tip_chamfer > 0 and spec.tip_rounding > 0:
+        raise ParameterError("tip_rounding", spec.tip_rounding, "give either tip_chamfer or tip_rounding; 0 works")
+    if spec.cutter is not None and spec.rounded_root is not None:
+        text = "give either cutter or rounded_root; remove one of them"
+        raise ParameterError("rounded_root.dedendum_coefficient", spec.rounded_root.dedendum_coefficient, text)
+    angle, rim = math.radians(spec.pressure_angle_deg), spec.outer_diameter
+    root: PinionCutter | RoundedRoot = PinionCutter(spec.module, 25, angle)
+    if spec.cutter is not None:
+        root = cutter_of(spec.cutter, spec.module, angle)
+    if (table := spec.rounded_root) is not None:
+        root = RoundedRoot(table.dedendum_coefficient, None if table.full_round else table.radius_coefficient)
+    gear = RingGear(
+        module=spec.module,
+        number_of_teeth=spec.number_of_teeth,
+        pressure_angle=angle,
+        # larger than any ring, until the root diameter is known
+        outer_diameter=rim if rim is not None else 1e9,
+        root=root,
+        profile_shift_coefficient=spec.profile_shift_coefficient,
+        addendum=spec.addendum_coefficient,
+        plain_tip=spec.tip_rule == "KHK",
+        given_tip_diameter=spec.tip_diameter,
+        circumferential_thinning=spec.circumferential_thinning,
+        thinning_by_deeper_cut=spec.thinning_method == "deeper_cut",
+        tip_chamfer=spec.tip_chamfer,
+        tip_rounding=spec.tip_rounding,
+    )
+    if spec.cutter is None and isinstance(root, PinionCutter):
+        gear = with_default_cutter(gear)
+    gear = checked_ring(gear)
+    return gear if rim is not None else replace(gear, outer_diameter=2 * (gear.root_radius + _RIM * spec.module))
+
+
+def ring_gear_part(part_id: str, spec: RingGearSpec, gear: RingGear) -> Part:
+    """The part of a ring; sections are computed when an export asks."""
+    from geometry.body import plate
+    from geometry.gears.ring_limits import findings, root_form_diameter, tip_thickness
+    from geometry.gears.ring_offset import ring_region
+
+    circles = {
+        "tip_diameter": 2 * gear.tip_radius,
+        "reference_diameter": 2 * gear.reference_radius,
+        "base_diameter": 2 * gear.base_radius,
+        "root_form_diameter": root_form_diameter(gear),
+        "root_diameter": 2 * gear.root_radius,
+    }
+    quantities = {
+        "pitch": math.pi * gear.module,
+        "tooth_thickness": gear.reference_thickness,
+        "tip_tooth_thickness": tip_thickness(gear),
+    }
+    section = lru_cache(maxsize=8)(lambda offset: ring_region(gear, offset))
+    return Part(
+        part_id,
+        "ring_gear",
+        section=section,
+        body=lru_cache(maxsize=2)(lambda offset: plate(section(offset).region, 0.0, spec.face_width)),
+        face_width=spec.face_width,
+        findings=findings(gear),
+        circles=circles,
+        quantities=quantities,
+        material=spec.material,
+        colour=spec.colour,
+        density=spec.density or density_of(spec.material),
+    )

@@ -1,0 +1,123 @@
+"""Scenes with rings, racks and shaped gears: built, read back, refused with a value that works."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from exporters.cli import main
+from exporters.report import read_report
+from parts.scene import KINDS, make_parts, scene_from_toml
+from parts.schema import SceneError
+
+RING = 'kind = "ring_gear"\nmodule = 2.0\nnumber_of_teeth = 48\n'
+RACK = 'kind = "rack"\nmodule = 2.0\nnumber_of_teeth = 5\n'
+SHAPED = 'kind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 20\ncutter = { number_of_teeth = 25 }\n'
+EXPORTS = "".join(
+    f'[[exports]]\nformat = "{name}"\n{more}'
+    for name, more in (
+        ("dxf", "kerf = 0.2\n"),
+        ("dxf", 'purpose = "drawing"\n'),
+        ("svg", "offset = -0.1\n"),
+        ("stl", ""),
+        ("3mf", ""),
+    )
+)
+
+
+def made(text: str) -> dict[str, object]:
+    """The parts of a scene with one part."""
+    scene = scene_from_toml(f"[parts.p]\n{text}".encode(), "scene.toml", "scene")
+    return make_parts(scene, "scene.toml")[0]["p"].quantities | {"circles": make_parts(scene, "")[0]["p"].circles}
+
+
+@pytest.mark.parametrize("text", [
+    RING + "cutter = { number_of_teeth = 25, full_round = true }\n", RING + "rounded_root = { full_round = true }\n",
+    RING + "tip_chamfer = 0.2\n", RACK + "tip_rounding = 0.3\n", SHAPED,
+])  # fmt: skip
+def test_every_plane_format_and_mesh_is_built_and_read_back(text: str, tmp_path: Path) -> None:
+    file = tmp_path / "s.toml"
+    file.write_text(f"[parts.p]\n{text}{EXPORTS}", encoding="utf-8")
+    assert main(["build", str(file), "--out", str(tmp_path)]) == 0
+    report = read_report(tmp_path / "s")
+    assert report is not None
+    assert not report["failed"]
+    assert len(report["files"]) == 5
+    for entry in report["files"]:
+        assert entry["verified"]
+        assert entry["measured"]["max_deviation"] <= entry["max_error"] * (1 + 1e-9)
+        assert entry["bound"] in ("certified", "exact", "sampled")
+
+
+@pytest.mark.parametrize("text", [RING, RACK, SHAPED])
+def test_step_is_built_and_read_back(text: str, tmp_path: Path) -> None:
+    pytest.importorskip("OCP")
+    file = tmp_path / "s.toml"
+    file.write_text(f'[parts.p]\n{text}[[exports]]\nformat = "step"\n', encoding="utf-8")
+    assert main(["build", str(file), "--out", str(tmp_path)]) == 0
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_scene_to_start_from_builds(kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["new", kind]) == 0
+    text = capsys.readouterr().out
+    file = tmp_path / "mine.toml"
+    file.write_text(text, encoding="utf-8")
+    assert main(["build", str(file), "--out", str(tmp_path), "--format", "svg"]) == 0
+    lines = text.splitlines()
+    keys = [i for i, line in enumerate(lines) if re.match(r"# [a-z_]+ = \S", line)]
+    for index in keys[: len(keys) if kind != "spur_gear" else 0]:
+        alone = [line.removeprefix("# ") if i == index else line for i, line in enumerate(lines)]
+        file.write_text("\n".join(alone), encoding="utf-8")
+        assert main(["build", str(file), "--out", str(tmp_path), "--format", "svg", "--no-verify"]) == 0, lines[index]
+
+
+REFUSED = {
+    "cutter.number_of_teeth": RING + "cutter = { number_of_teeth = 45 }\n",
+    "cutter.tip_rounding_coefficient": RING + "cutter = { number_of_teeth = 25, tip_rounding_coefficient = 0.9 }\n",
+    "tip_diameter": RING + "tip_diameter = 80.0\n",
+    "tip_chamfer": RING + "tip_chamfer = 3.0\n",
+    "outer_diameter": RING + "outer_diameter = 100.0\n",
+    "pressure_angle_deg": RING + "pressure_angle_deg = 32.0\n",
+    "circumferential_thinning": RACK + "circumferential_thinning = 2.5\n",
+    "tip_rounding": RACK + "tip_rounding = 2.0\n",
+}
+
+
+@pytest.mark.parametrize(("key", "text"), REFUSED.items(), ids=REFUSED.keys())
+def test_refusals_name_a_value_that_works(key: str, text: str) -> None:
+    with pytest.raises(SceneError) as refusal:
+        made(text)
+    error = refusal.value
+    assert error.key == f"parts.p.{key}"
+    value = re.search(r"(?:at most|at least|;) ([\d.]+)(?: mm| degrees)? (?:works|leaves)", error.remedy)
+    assert value, error.remedy
+    name = key.rpartition(".")[2]
+    head, _, tail = text.rpartition(f"{name} = ")
+    mended = f"{head}{name} = {value[1]}" + re.sub(r"^[\d.]+", "", tail) if tail else text
+    assert mended != text
+    made(mended)
+
+
+@pytest.mark.parametrize("text", [
+    RING + "tip_chamfer = 0.2\ntip_rounding = 0.2\n", RACK + "tip_chamfer = 0.2\ntip_rounding = 0.2\n",
+    RING + "cutter = { number_of_teeth = 25 }\nrounded_root = { full_round = true }\n",
+])  # fmt: skip
+def test_keys_that_exclude_each_other(text: str) -> None:
+    with pytest.raises(SceneError, match="give either"):
+        made(text)
+
+
+def test_the_rim_follows_the_root_where_nobody_asks() -> None:
+    scene = scene_from_toml(f"[parts.p]\n{RING}".encode(), "scene.toml", "scene")
+    part = make_parts(scene, "scene.toml")[0]["p"]
+    assert part.section(0.0).region.outer.reach() == pytest.approx(part.circles["root_diameter"] / 2 + 5.0)
+
+
+def test_an_external_pair_refuses_a_ring() -> None:
+    text = f'[parts.a]\n{RING}[parts.b]\n{SHAPED}[[mates]]\nkind = "external_gear_pair"\nfirst = "b"\nsecond = "a"\n'
+    scene = scene_from_toml(text.encode(), "scene.toml", "scene")
+    with pytest.raises(SceneError, match="ring_gear"):
+        make_parts(scene, "scene.toml")
