@@ -76,7 +76,7 @@ def checked_spur_gear(spec: SpurGearSpec) -> SpurGear:
         The gear cannot exist; names the key and the nearest value that works.
     """
     try:
-        return checked_gear(_gear_of(spec))
+        return checked_gear(gear_of(spec))
     except ParameterError as refusal:
         raise _with_rack_remedy(spec, refusal) from refusal
 
@@ -118,7 +118,7 @@ def _with_rack_remedy(spec: SpurGearSpec, refusal: ParameterError) -> ParameterE
     def builds(value: float) -> bool:
         changed = msgspec.structs.replace(table, **{key: value})
         try:
-            checked_gear(_gear_of(msgspec.structs.replace(spec, **{owner: changed})))
+            checked_gear(gear_of(msgspec.structs.replace(spec, **{owner: changed})))
         except GeometryError:
             return False
         return True
@@ -133,7 +133,14 @@ def _with_rack_remedy(spec: SpurGearSpec, refusal: ParameterError) -> ParameterE
     return ParameterError(refusal.name, getattr(table, key), f"{reason}; at most {at_most(low, 4)} works")
 
 
-def _gear_of(spec: SpurGearSpec) -> SpurGear:
+def gear_of(spec: SpurGearSpec) -> SpurGear:
+    """The gear of a part as its keys say, not checked to exist.
+
+    Raises
+    ------
+    ParameterError
+        Its rack cannot exist, or two keys exclude each other.
+    """
     if spec.tip_chamfer > 0 and spec.tip_rounding > 0:
         raise ParameterError("tip_rounding", spec.tip_rounding, "give either tip_chamfer or tip_rounding; 0 works")
     return SpurGear(
