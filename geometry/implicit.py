@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 from geometry.roots import bracketed_root
 
@@ -102,7 +103,7 @@ def _chains(links: dict[Edge, list[Edge]]) -> list[list[Edge]]:
 
 def _refined(field: Field, chain: list[complex], tolerance: float) -> list[complex]:
     result = chain[:1]
-    for one, two in zip(chain, chain[1:], strict=False):
+    for one, two in pairwise(chain):
         result += [*_between(field, one, two, tolerance, 8), two]
     return result
 

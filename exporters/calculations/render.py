@@ -10,6 +10,7 @@ from typing import Any
 from exporters.calculations.sheet import Section, Sheet, Step, formula_text, number, numbers_text, unit_text
 from exporters.calculations.words import TERMS
 
+_GEARS = {1: "first", 2: "second"}
 FORMATS = ("text", "md", "html", "json")
 _WORDS = {
     "practicum": ("practicum", "практикум"),
@@ -60,11 +61,11 @@ def result_text(step: Step, language: str) -> str:
     return f"{number(step.value, step.unit)}{gap}{unit}"
 
 
-def equation(sheet: Sheet, step: Step, language: str) -> str:
+def equation(step: Step, language: str) -> str:
     """Symbol = formula = numbers = result, as far as the step has them."""
     parts = [step.symbol]
     if step.formula:
-        parts += [formula_text(sheet, step, language), numbers_text(sheet, step, language)]
+        parts += [formula_text(step, language), numbers_text(step, language)]
     if len(parts) > 1 and parts[-1] == number(step.value, step.unit, enclosed=True):
         parts.pop()
     return " = ".join([*dict.fromkeys(parts), result_text(step, language)])
@@ -85,10 +86,12 @@ def _text(sheet: Sheet, language: str) -> str:
         for step in section.steps:
             source = f"  [{source_text(step.source, language)}]" if step.source else ""
             lines.append(f"{step_name(step, language)}{source}")
-            lines.append(f"    {equation(sheet, step, language)}")
+            lines.append(f"    {equation(step, language)}")
             if step.printed is not None:
                 lines.append(f"    ! {printed_text(step, language)}")
         lines.append("")
+    if sheet.plain_picture:
+        lines += [sheet.plain_picture, ""]
     lines += [f"{_pick(_LABELS['note'], language)}: {_pick(note, language)}" for note in sheet.notes]
     return "\n".join(lines).rstrip("\n") + "\n"
 
@@ -98,16 +101,18 @@ def _markdown(sheet: Sheet, language: str) -> str:
     head = [_pick(_LABELS[key], language) for key in ("quantity", "formula", "result", "source")]
     for section in sheet.sections:
         lines += [f"## {_pick(section.title, language)}", "", _row(head), _row(["---"] * 4)]
-        lines += [_row([_escaped_md(cell) for cell in _cells(sheet, step, language)]) for step in section.steps]
+        lines += [_row([_escaped_md(cell) for cell in _cells(step, language)]) for step in section.steps]
         lines.append("")
+    if sheet.plain_picture:
+        lines += ["```", sheet.plain_picture, "```", ""]
     lines += [f"- {_escaped_md(_pick(note, language))}" for note in sheet.notes]
     return "\n".join(lines).rstrip("\n") + "\n"
 
 
-def _cells(sheet: Sheet, step: Step, language: str) -> list[str]:
+def _cells(step: Step, language: str) -> list[str]:
     """Name, formula with numbers, result, source with what is misprinted there."""
-    working = f"{step.symbol} = {formula_text(sheet, step, language)}" if step.formula else step.symbol
-    numbers = numbers_text(sheet, step, language)
+    working = f"{step.symbol} = {formula_text(step, language)}" if step.formula else step.symbol
+    numbers = numbers_text(step, language)
     if numbers and numbers != number(step.value, step.unit, enclosed=True):
         working += f" = {numbers}"
     source = source_text(step.source, language)
@@ -137,19 +142,20 @@ def _html(sheet: Sheet, language: str) -> str:
         f"<title>{title}</title>\n<style>{_STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>",
     ]
     for section in sheet.sections:
-        lines.append(_html_section(sheet, section, language))
-    lines += [f"<figure>{svg}</figure>" for svg in sheet.pictures.values()]
+        lines.append(_html_section(section, language))
+    if language in sheet.pictures:
+        lines.append(f"<figure>{sheet.pictures[language]}</figure>")
     if sheet.notes:
         items = "".join(f"<li>{html.escape(_pick(note, language))}</li>" for note in sheet.notes)
         lines.append(f"<ul>{items}</ul>")
     return "\n".join([*lines, "</body>\n</html>"]) + "\n"
 
 
-def _html_section(sheet: Sheet, section: Section, language: str) -> str:
+def _html_section(section: Section, language: str) -> str:
     head = "".join(f"<th>{_pick(_LABELS[k], language)}</th>" for k in ("quantity", "formula", "result", "source"))
     rows = [f"<tr>{head}</tr>"]
     for step in section.steps:
-        name, working, result, _ = _cells(sheet, step, language)
+        name, working, result, _ = _cells(step, language)
         source = html.escape(source_text(step.source, language))
         if step.printed is not None:
             source += f' <span class="w">{html.escape(printed_text(step, language))}</span>'
@@ -171,29 +177,36 @@ def _subscripts(text: str) -> str:
 def _json(sheet: Sheet, language: str) -> str:
     values: dict[str, Any] = {}
     steps = []
-    for step in sheet.steps():
-        value = _finite(step.value)
-        if step.gear:
-            values.setdefault(step.name, {})["first" if step.gear == 1 else "second"] = value
-        else:
-            values[step.name] = value
-        steps.append(
-            {
-                "name": step.name,
-                **({"gear": "first" if step.gear == 1 else "second"} if step.gear else {}),
-                "text": step_name(step, language),
-                "symbol": step.symbol,
-                "formula": formula_text(sheet, step, language),
-                "numbers": numbers_text(sheet, step, language),
-                "value": value,
-                "unit": step.unit,
-                "source": source_text(step.source, language),
-                **({"misprint": printed_text(step, language)} if step.printed else {}),
-            }
-        )
+    for section in sheet.sections:
+        for step in section.steps:
+            _keep(values, step)
+            steps.append({"section": _pick(section.title, language), **_json_step(step, language)})
     notes = [_pick(note, language) for note in sheet.notes]
-    data = {"topic": sheet.topic, "values": values, "steps": steps, "notes": notes}
-    return json.dumps(data, ensure_ascii=False, indent=1) + "\n"
+    data = {"topic": sheet.topic, "values": values, "steps": steps, "notes": notes, **sheet.data}
+    return json.dumps(data, ensure_ascii=False, indent=1, allow_nan=False) + "\n"
+
+
+def _keep(values: dict[str, Any], step: Step) -> None:
+    """The value under its name, and under first or second where it belongs to a gear; the first one stays."""
+    if step.gear:
+        values.setdefault(step.name, {}).setdefault(_GEARS[step.gear], _finite(step.value))
+    else:
+        values.setdefault(step.name, _finite(step.value))
+
+
+def _json_step(step: Step, language: str) -> dict[str, Any]:
+    return {
+        "name": step.name,
+        **({"gear": _GEARS[step.gear]} if step.gear else {}),
+        "text": step_name(step, language),
+        "symbol": step.symbol,
+        "formula": formula_text(step, language),
+        "numbers": numbers_text(step, language),
+        "value": _finite(step.value),
+        "unit": step.unit,
+        "source": source_text(step.source, language),
+        **({"misprint": printed_text(step, language)} if step.printed else {}),
+    }
 
 
 def _finite(value: Any) -> Any:

@@ -9,7 +9,8 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 from exporters.calculations.words import TERMS
 
@@ -30,8 +31,17 @@ class Printed:
 
 
 @dataclass(frozen=True, slots=True)
+class Known:
+    """What a placeholder stands for."""
+
+    symbol: str
+    value: Value
+    unit: str
+
+
+@dataclass(frozen=True, slots=True)
 class Step:
-    """One line of a calculation; ``gear`` is 0 (neither), 1 or 2."""
+    """One line of a calculation; ``gear`` is 0 (neither), 1 or 2; ``inputs`` is what its formula's keys stood for."""
 
     name: str
     gear: int
@@ -41,6 +51,7 @@ class Step:
     formula: str = ""
     source: str = ""
     printed: Printed | None = None
+    inputs: Mapping[str, Known] = field(default_factory=dict)
 
 
 @dataclass(slots=True)
@@ -49,15 +60,6 @@ class Section:
 
     title: tuple[str, str]
     steps: list[Step] = field(default_factory=list)
-
-
-@dataclass(frozen=True, slots=True)
-class Known:
-    """What a placeholder stands for."""
-
-    symbol: str
-    value: Value
-    unit: str
 
 
 @dataclass(slots=True)
@@ -69,9 +71,11 @@ class Sheet:
     sections: list[Section] = field(default_factory=list)
     known: dict[str, Known] = field(default_factory=dict)
     notes: list[tuple[str, str]] = field(default_factory=list)
+    # an SVG for each language, a drawing in letters, and what only json carries
     pictures: dict[str, str] = field(default_factory=dict)
+    plain_picture: str = ""
+    data: dict[str, Any] = field(default_factory=dict)
     printed: Mapping[tuple[str, int], Printed] = field(default_factory=dict)
-    two_gears: bool = False
 
     def section(self, en: str, uk: str) -> None:
         """A new heading."""
@@ -85,10 +89,11 @@ class Sheet:
         index = str(gear) if gear else ""
         shown = _numbered(symbol or term.symbol, index)
         formula = formula.replace("#", index).replace("~", {"1": "2", "2": "1"}.get(index, ""))
-        step = Step(name, gear, shown, value, term.unit, formula, source, self.printed.get((name, gear)))
-        for key in _KEYS.findall(formula):
-            if key not in self.known:
-                raise KeyError(f"{name}: {key} is not known yet")
+        keys = KEYS.findall(formula)
+        if unknown := [key for key in keys if key not in self.known]:
+            raise KeyError(f"{name}: {', '.join(unknown)} not known yet")
+        inputs = {key: self.known[key] for key in keys}
+        step = Step(name, gear, shown, value, term.unit, formula, source, self.printed.get((name, gear)), inputs)
         self.sections[-1].steps.append(step)
         self.known[term.key + index] = Known(shown, value, term.unit)
 
@@ -99,12 +104,17 @@ class Sheet:
         for gear in (1, 2):
             self.add(name, values[gear - 1], formula, sources[gear - 1], gear)
 
+    def mark_misprint(self, printed: Printed) -> None:
+        """The last step as one that its source misprints."""
+        steps = self.sections[-1].steps
+        steps[-1] = replace(steps[-1], printed=printed)
+
     def steps(self) -> list[Step]:
         """All steps in order."""
         return [step for section in self.sections for step in section.steps]
 
 
-_KEYS = re.compile(r"\{(\w+)\}")
+KEYS = re.compile(r"\{(\w+)\}")
 
 
 def _numbered(symbol: str, index: str) -> str:
@@ -131,19 +141,19 @@ def number(value: Value, unit: str, *, enclosed: bool = False) -> str:
     return f"({text})" if enclosed and text.startswith("-") else text
 
 
-def formula_text(sheet: Sheet, step: Step, language: str) -> str:
+def formula_text(step: Step, language: str) -> str:
     """The right side of a step's formula with symbols."""
-    return pretty(_KEYS.sub(lambda m: sheet.known[m[1]].symbol, step.formula), language)
+    return pretty(KEYS.sub(lambda m: step.inputs[m[1]].symbol, step.formula), language)
 
 
-def numbers_text(sheet: Sheet, step: Step, language: str) -> str:
+def numbers_text(step: Step, language: str) -> str:
     """The right side of a step's formula with the numbers put in."""
 
     def put_in(match: re.Match[str]) -> str:
-        known = sheet.known[match[1]]
+        known = step.inputs[match[1]]
         return number(known.value, known.unit, enclosed=True)
 
-    return pretty(_KEYS.sub(put_in, step.formula), language)
+    return pretty(KEYS.sub(put_in, step.formula), language)
 
 
 def pretty(text: str, language: str) -> str:

@@ -99,6 +99,8 @@ least_number_of_teeth|z_min|z_min||least number of teeth without undercut at x =
 greatest_shift_for_tip_thickness|x_max|x_0.3||greatest shift with a tip of 0.3 m|найбільше x при S_a = 0,3 m
 pointed_diameter|d_p|d_p|mm|diameter at which the tooth is pointed|діаметр загострення зуба
 least_tip_thickness|S_min|S_min|mm|least tip thickness|найменша товщина зуба на колі вершин
+required_contact_ratio|eps_0|[ε]||contact ratio to keep|найменший допустимий коефіцієнт перекриття
+required_tip_thickness|s_0|[S_a/m]||tip thickness to keep, in modules|найменша товщина вершини в модулях
 teeth_spanned|k|k||teeth in the span|число зубців у довжині загальної нормалі
 teeth_to_span|k_t|k_t||teeth to span, before rounding|число зубців у нормалі до округлення
 span|W|W|mm|span over k teeth|довжина загальної нормалі

@@ -1,14 +1,14 @@
 """The blocking contour of an external spur pair: which profile shifts x1, x2 give a pair that works.
 
 All in modules, z1 drives. Each condition is a function of x1, x2 that is >= 0 where it is kept; its line is where it
-is 0. The tips follow ``shortened_tips``: r_a = r + h_a + x - k with k = x1 + x2 - y (GOST 16532-70), or k = 0; the distance
-is that of zero backlash, practicum (3.3), (3.4). Sources: ISO 21771; the conditions of practicum 1, below (1.3).
+is 0. The tips follow ``shortened_tips``: r_a = r + h_a + x - k with k = x1 + x2 - y (GOST 16532-70), or k = 0; the
+distance is that of zero backlash, practicum (3.3), (3.4). Sources: ISO 21771; practicum 1, below (1.3).
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -50,7 +50,7 @@ class PairState:
     """A pair at shifts x1, x2; lengths in modules, along the line of action from the first base circle.
 
     ``involute`` is inv(alpha_w); where it is negative all others are nan. ``starts`` is where the mate's tip touches,
-    from each gear's own base circle, ``forms`` where its involute begins, ``tips`` where it ends.
+    from each gear's own base circle, ``tips`` where its flank ends.
     """
 
     involute: float
@@ -59,7 +59,6 @@ class PairState:
     line: float
     pole: float
     starts: tuple[float, float]
-    forms: tuple[float, float]
     tips: tuple[float, float]
     tip_thicknesses: tuple[float, float]
     contact_ratio: float
@@ -80,7 +79,7 @@ def state_of(pair: ShiftPair, x1: float, x2: float) -> PairState:
     involute = involute_function(alpha) + 2 * (x1 + x2) * math.tan(alpha) / teeth
     if not involute >= 0:
         nans = (_NAN, _NAN)
-        return PairState(involute, _NAN, _NAN, _NAN, _NAN, nans, nans, nans, nans, _NAN, _NAN)
+        return PairState(involute, _NAN, _NAN, _NAN, _NAN, nans, nans, nans, _NAN, _NAN)
     angle = inverse_involute(involute).value
     distance = teeth / 2 * cosine / math.cos(angle)
     shortening = x1 + x2 - (distance - teeth / 2)
@@ -100,7 +99,6 @@ def state_of(pair: ShiftPair, x1: float, x2: float) -> PairState:
         line,
         pair.first_teeth / 2 * cosine * math.tan(angle),
         (line - tips[1], line - tips[0]),
-        (form_tangent(pair.first_teeth, rack, x1), form_tangent(pair.second_teeth, rack, x2)),
         (tips[0], tips[1]),
         (thick[0], thick[1]),
         (tips[0] + tips[1] - line) / (math.pi * cosine),
@@ -112,8 +110,8 @@ def state_of(pair: ShiftPair, x1: float, x2: float) -> PairState:
 def form_tangent(number_of_teeth: int, rack: BasicRack, shift: float) -> float:
     """Length along the line of action from the base circle to where the involute begins, in modules.
 
-    r sin(alpha) - (h_Ff - x) / sin(alpha) without undercut, else the true crossing of fillet and involute; nan where the
-    fillet leaves no tooth.
+    r sin(alpha) - (h_Ff - x) / sin(alpha) without undercut, else the true crossing of fillet and involute; nan where
+    the fillet leaves no tooth.
     """
     sine = math.sin(rack.pressure_angle)
     tangent = number_of_teeth / 2 * sine - (rack.form_dedendum - shift) / sine
@@ -125,6 +123,13 @@ def form_tangent(number_of_teeth: int, rack: BasicRack, shift: float) -> float:
     except ConvergenceError:
         return _NAN
     return flank.start_roll * flank.base_radius
+
+
+def active_flank(pair: ShiftPair, x1: float, x2: float, index: int) -> Margin:
+    """Where the mate's tip asks the flank of the first (0) or second (1) gear to begin, against where it does."""
+    start = state_of(pair, x1, x2).starts[index]
+    form = form_tangent(pair.teeth[index], pair.rack, (x1, x2)[index])
+    return Margin(f"active_flank_{('first', 'second')[index]}", start, form, start - form)
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,7 +160,7 @@ def conditions(pair: ShiftPair) -> dict[str, Condition]:
             Condition(
                 f"active_flank_{who}",
                 None,
-                lambda x1, x2, i=i: state(x1, x2).starts[i] - state(x1, x2).forms[i],  # type: ignore[misc]
+                lambda x1, x2, i=i: active_flank(pair, x1, x2, i).margin,  # type: ignore[misc]
             ),
         ]
         found += [
@@ -190,6 +195,7 @@ def equal_sliding(pair: ShiftPair, x1: float, x2: float) -> float:
     return high2 * low2 - pair.gear_ratio**2 * low1 * high1
 
 
+@lru_cache(maxsize=256)
 def least_shift(pair: ShiftPair, index: int) -> float:
     """x_min of the first (0) or second (1) gear."""
     return least_shift_without_undercut(SpurGear(1.0, pair.teeth[index], pair.rack))
@@ -210,28 +216,39 @@ class Requirements:
 
 def margins(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> tuple[Margin, ...]:
     """Every requirement with its margin; nan where the pair does not exist."""
+    return tuple(_margins(pair, wish, x1, x2))
+
+
+def _margins(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> Iterator[Margin]:
+    """The requirements, those that cost a root last."""
     state = state_of(pair, x1, x2)
-    result = [Margin("working_angle", state.involute, 0.0, state.involute)]
+    yield Margin("working_angle", state.involute, 0.0, state.involute)
     for i, who in enumerate(("first", "second")):
         if not wish.allow_undercut:
             least = least_shift(pair, i)
-            result.append(Margin(f"undercut_{who}", (x1, x2)[i], least, (x1, x2)[i] - least))
-        start, form, thick = state.starts[i], state.forms[i], state.tip_thicknesses[i]
-        result.append(Margin(f"active_flank_{who}", start, form, start - form))
-        result.append(Margin(f"tip_thickness_{who}", thick, wish.tip_thickness, thick - wish.tip_thickness))
+            yield Margin(f"undercut_{who}", (x1, x2)[i], least, (x1, x2)[i] - least)
+        thick = state.tip_thicknesses[i]
+        yield Margin(f"tip_thickness_{who}", thick, wish.tip_thickness, thick - wish.tip_thickness)
     ratio = state.contact_ratio
-    result.append(Margin("contact_ratio", ratio, wish.contact_ratio, ratio - wish.contact_ratio))
+    yield Margin("contact_ratio", ratio, wish.contact_ratio, ratio - wish.contact_ratio)
     if wish.pole_inside:
         low, high = state.starts[0], state.tips[0]
-        result.append(Margin("approach", state.pole, low, state.pole - low))
-        result.append(Margin("recess", high, state.pole, high - state.pole))
-    return tuple(result)
+        yield Margin("approach", state.pole, low, state.pole - low)
+        yield Margin("recess", high, state.pole, high - state.pole)
+    for i in (0, 1):
+        yield active_flank(pair, x1, x2, i)
 
 
 def least_margin(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> float:
-    """The least of all margins, -1 where the pair does not exist."""
-    found = [m.margin for m in margins(pair, wish, x1, x2)]
-    return -1.0 if any(math.isnan(v) for v in found) else min(found)
+    """The least of all margins, -1 where the pair does not exist; form circles only where all else is kept."""
+    least = math.inf
+    for margin in _margins(pair, wish, x1, x2):
+        if math.isnan(margin.margin):
+            return -1.0
+        if least < 0 and margin.name.startswith("active_flank"):
+            break
+        least = min(least, margin.margin)
+    return least
 
 
 @dataclass(frozen=True, slots=True)

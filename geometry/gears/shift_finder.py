@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 
 from geometry.errors import ParameterError
 from geometry.gears.blocking_contour import (
@@ -71,7 +72,7 @@ def for_sum(pair: ShiftPair, wish: Requirements, shift_sum: float) -> Proposal |
 
 
 def equal_sliding_shift(pair: ShiftPair, shift_sum: float, low: float, high: float) -> float:
-    """x1 of equal sliding between two x1 of one sum, or the end nearer to it: sliding of the first foot falls with x1."""
+    """x1 of equal sliding between two x1 of one sum, or the end nearer to it: with x1 the first foot slides less."""
 
     def difference(x1: float) -> float:
         return equal_sliding(pair, x1, shift_sum - x1)
@@ -201,9 +202,7 @@ def _positive(function: Callable[[float], float], low: float, high: float, step:
         marks = [marks[max(best - 1, 0)], top, marks[min(best + 1, count)]]
         values = [function(m) for m in marks]
     ends: list[float] = [marks[0]] if values[0] >= 0 else []
-    for (a, b), (fa, fb) in zip(
-        zip(marks, marks[1:], strict=False), zip(values, values[1:], strict=False), strict=True
-    ):
+    for (a, b), (fa, fb) in zip(pairwise(marks), pairwise(values), strict=True):
         if (fa >= 0) != (fb >= 0):
             bracket = bracketed_root(function, a, b).bracket
             ends.append(next((e for e in bracket if function(e) >= 0), bracket[0]))

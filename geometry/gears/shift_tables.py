@@ -165,6 +165,9 @@ def gost_16532(first_teeth: int, second_teeth: int, *, kinematic: bool = False) 
             (10 <= first_teeth <= 30, (0.5, 0.5)),
         ]
     found = tuple(TableShift(*shifts, None, "GOST 16532-70") for holds, shifts in rules if holds)
+    if not found and kinematic and first_teeth >= 12:
+        text = f"has no recommendation with {first_teeth}; at least 22 works"
+        raise ParameterError("second.number_of_teeth", second_teeth, text)
     if not found:
         least = 12 if kinematic else 10
         raise ParameterError("first.number_of_teeth", first_teeth, f"has no recommendation; at least {least} works")
