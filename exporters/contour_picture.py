@@ -152,7 +152,7 @@ def _axes(contour: BlockingContour, scale: float, width: float, height: float) -
     teeth = contour.pair.teeth
     lines.append(_text(_LEFT, 22, f"z1 = {teeth[0]}, z2 = {teeth[1]}", size=15))
     lines.append(_text(_LEFT + width - 20, _TOP + height + 34, "x1", size=14))
-    lines.append(_text(16, _TOP + 4, "x2", size=14))
+    lines.append(_text(_LEFT - 34, _TOP - 12, "x2", size=14))
     return lines
 
 

@@ -52,6 +52,17 @@ def contact_steps(page: Sheet, pair: ExternalPair, helix: float, face_width: flo
         page.both(name, (2 * values[0], 2 * values[1]), "", ("ISO 21771", "ISO 21771"))
 
 
+def measured_steps(page: Sheet, pair: ExternalPair, arc: float, pitch: float) -> None:
+    """(3.21), (3.22) with an arc and a pitch measured off a drawing of any scale."""
+    page.section("Measured off the drawing", "Виміряно на кресленні")
+    page.add("measured_arc_of_action", arc, "", "practicum, fig. 3.13")
+    page.add("measured_working_pitch", pitch, "", "practicum, fig. 3.13")
+    ratio = arc / pitch
+    page.add("measured_contact_ratio", ratio, "{dd_m} / {p_wm}", "practicum (3.21)")
+    formula = "abs(({eps_m} - {eps}) / {eps}) * 100"
+    page.add("measured_difference_percent", abs(ratio / pair.contact_ratio - 1) * 100, formula, "practicum (3.22)")
+
+
 def sliding_steps(page: Sheet, pair: ExternalPair) -> None:
     """The line of action and its parts, specific sliding; the first gear drives."""
     line = active_line(pair)

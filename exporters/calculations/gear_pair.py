@@ -8,7 +8,13 @@ from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct
 
-from exporters.calculations.contact_steps import backlash_steps, contact_steps, limit_steps, sliding_steps
+from exporters.calculations.contact_steps import (
+    backlash_steps,
+    contact_steps,
+    limit_steps,
+    measured_steps,
+    sliding_steps,
+)
 from exporters.calculations.inputs import PLACE, checked, given, keys_of, refusal
 from exporters.calculations.misprints import printed_for_pair
 from exporters.calculations.sheet import Sheet
@@ -45,6 +51,8 @@ class PairKeys(Struct, forbid_unknown_fields=True):
     ) = None
     side_clearance_class: Annotated[Literal["H", "E", "D", "C", "B", "A"], Meta(description="GOST 1643")] | None = None
     tip_shortening_coefficient: Annotated[float, in_modules("given tip shortening", least=0, most=3)] | None = None
+    measured_arc_of_action: Annotated[float, mm("arc dd' measured off a drawing", above=0, most=1e6)] | None = None
+    measured_working_pitch: Annotated[float, mm("p_w measured off the same drawing", above=0, most=1e6)] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -224,6 +232,10 @@ def _page(asked: Asked) -> Sheet:
     _radii(page, asked)
     _thicknesses(page, asked)
     contact_steps(page, pair, asked.helix, asked.face_width, asked.normal[0].module)
+    if (keys.measured_arc_of_action is None) != (keys.measured_working_pitch is None):
+        raise ParameterError("measured_arc_of_action", keys.measured_arc_of_action, "needs measured_working_pitch too")
+    if keys.measured_arc_of_action is not None and keys.measured_working_pitch is not None:
+        measured_steps(page, pair, keys.measured_arc_of_action, keys.measured_working_pitch)
     sliding_steps(page, pair)
     backlash_steps(page, pair, asked.helix)
     limit_steps(page, pair, asked.helix)
@@ -242,16 +254,17 @@ def _mesh(page: Sheet, asked: Asked) -> None:
     angle = pair.working_pressure_angle
     page.section("Meshing", "Зачеплення")
     page.add("gear_ratio", pair.gear_ratio, "{z2} / {z1}", "practicum (3.2)")
+    alpha = one.rack.pressure_angle
+    page.add("tangent_of_pressure_angle", math.tan(alpha), "tan({alpha})", "practicum 3.1")
+    page.add("involute_of_pressure_angle", involute_function(alpha), "inv({alpha})", "practicum, table Д.1")
     reference = "{m} * ({z1} + {z2}) / 2"
     if asked.wanted_distance:
         page.add("working_centre_distance", pair.working_centre_distance)
         formula = f"arccos({reference} * cos({{alpha}}) / {{a_w}})"
         page.add("working_pressure_angle_deg", math.degrees(angle), formula, "practicum (3.4)")
         page.add("involute_of_working_pressure_angle", involute_function(angle), "inv({alpha_w})", "practicum (3.3)")
-        total = (one.number_of_teeth + two.number_of_teeth) * (
-            involute_function(angle) - involute_function(one.rack.pressure_angle)
-        )
-        total /= 2 * math.tan(one.rack.pressure_angle)
+        total = (one.number_of_teeth + two.number_of_teeth) * (involute_function(angle) - involute_function(alpha))
+        total /= 2 * math.tan(alpha)
         formula = "({z1} + {z2}) * ({inv_alpha_w} - inv({alpha})) / (2 * tan({alpha}))"
         page.add("profile_shift_sum", total, formula, "practicum (3.3)")
     else:
@@ -260,6 +273,7 @@ def _mesh(page: Sheet, asked: Asked) -> None:
         page.add("working_pressure_angle_deg", math.degrees(angle), "arcinv({inv_alpha_w})", "practicum (3.3)")
         formula = f"{reference} * cos({{alpha}}) / cos({{alpha_w}})"
         page.add("working_centre_distance", pair.working_centre_distance, formula, "practicum (3.4)")
+    page.add("cosine_of_working_pressure_angle", math.cos(angle), "cos({alpha_w})", "practicum, table Е.1")
     page.add("reference_centre_distance", pair.reference_centre_distance, reference, "ISO 21771")
     page.add("centre_distance_coefficient", pair.centre_distance_coefficient, "({a_w} - {a}) / {m}", "ISO 21771")
     if asked.given_shortening is None:

@@ -33,9 +33,9 @@ _PRACTICUM: dict[tuple[str, int], Printed] = {
     ("contact_ratio", 0): Printed(
         "1.14", "the printed angles themselves give 1.1668", "самі надруковані кути дають 1,1668"
     ),
-    ("contact_ratio_by_arc", 0): Printed("1.137", "measured off a drawing", "знято з креслення"),
-    ("contact_ratio_difference_percent", 0): Printed(
-        "0.2 %", "(1.14 - 1.137)/1.14 = 0.26 %", "(1,14 - 1,137)/1,14 = 0,26 %"
+    ("cosine_of_working_pressure_angle", 0): Printed("0.8836", "that is cos 27°55'", "це cos 27°55'"),
+    ("measured_difference_percent", 0): Printed(
+        "0.2 %", "(1.14 - 1.137)/1.14 = 0.26 %", "його ж (1,14 - 1,137)/1,14 = 0,26 %"
     ),
 }
 # guidelines, table 2.1: printed alpha_w that its own shifts do not give, and why

@@ -111,10 +111,10 @@ def _markdown(sheet: Sheet, language: str) -> str:
 
 def _cells(step: Step, language: str) -> list[str]:
     """Name, formula with numbers, result, source with what is misprinted there."""
-    working = f"{step.symbol} = {formula_text(step, language)}" if step.formula else step.symbol
-    numbers = numbers_text(step, language)
-    if numbers and numbers != number(step.value, step.unit, enclosed=True):
-        working += f" = {numbers}"
+    parts = [step.symbol, formula_text(step, language), numbers_text(step, language)]
+    if parts[-1] == number(step.value, step.unit, enclosed=True):
+        parts.pop()
+    working = " = ".join(dict.fromkeys(filter(None, parts)))
     source = source_text(step.source, language)
     remark = "; ".join(filter(None, (source, printed_text(step, language))))
     return [step_name(step, language), working, result_text(step, language), remark]
@@ -131,8 +131,9 @@ def _escaped_md(text: str) -> str:
 _STYLE = """body{font:16px/1.5 Georgia,serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222;background:#fff}
 table{border-collapse:collapse;width:100%;margin-bottom:1.5rem}td,th{border-bottom:1px solid #ddd;padding:.3rem .6rem;
 text-align:left;vertical-align:top}td.r{white-space:nowrap;font-weight:bold}td.f{font-style:italic}
-p.w,span.w{color:#a00}h2{font-size:1.15rem;margin:1.5rem 0 .4rem}svg{max-width:100%;height:auto}
-@media print{body{margin:0;max-width:none}}"""
+td.f{width:46%}sub{line-height:0;font-size:.7em}tr{page-break-inside:avoid}
+span.w{color:#a00}h2{font-size:1.15rem;margin:1.5rem 0 .4rem}svg{max-width:100%;height:auto}
+@media print{body{margin:0;max-width:none;font-size:11px}}"""
 
 
 def _html(sheet: Sheet, language: str) -> str:
@@ -170,8 +171,9 @@ def _html_section(section: Section, language: str) -> str:
 
 
 def _subscripts(text: str) -> str:
-    """r_b1 as r with a lowered b1."""
-    return re.sub(r"_([0-9A-Za-zΑ-ωΣ.]+)", r"<sub>\1</sub>", html.escape(text))
+    """r_b1 as r with a lowered b1, z1 as z with a lowered 1."""
+    text = re.sub(r"_([0-9A-Za-zΑ-ωΣ.]+)", r"<sub>\1</sub>", html.escape(text))
+    return re.sub(r"(?<![\w&;#>])([A-Za-zα-ω])([12])(?![\w.])", r"\1<sub>\2</sub>", text)
 
 
 def _json(sheet: Sheet, language: str) -> str:

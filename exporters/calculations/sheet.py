@@ -74,6 +74,7 @@ class Sheet:
     # an SVG for each language, a drawing in letters, and what only json carries
     pictures: dict[str, str] = field(default_factory=dict)
     plain_picture: str = ""
+    picture_file: str | None = None
     data: dict[str, Any] = field(default_factory=dict)
     printed: Mapping[tuple[str, int], Printed] = field(default_factory=dict)
 
@@ -131,10 +132,11 @@ def number(value: Value, unit: str, *, enclosed: bool = False) -> str:
     elif not math.isfinite(value):
         text = "∞" if value > 0 else "-∞"
     else:
-        # a small number keeps its leading digits
         decimals = _DECIMALS[unit]
-        small = 1e-12 < abs(value) < 10.0 ** (2 - decimals)
-        text = f"{value:.3g}" if small else f"{value:.{decimals}f}".rstrip("0").rstrip(".")
+        text = f"{value:.{decimals}f}".rstrip("0").rstrip(".")
+        # a small number keeps its leading digits: involutes, clearances
+        if 1e-12 < abs(value) < (0.1 if not unit else 10.0 ** (2 - decimals)):
+            text = f"{value:.6g}" if not unit else f"{value:.3g}"
         text = "0" if text == "-0" else text
     if unit == "deg" and enclosed:
         text += "°"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Annotated, Any
 
 from msgspec import Meta, Struct
@@ -253,8 +252,7 @@ def _pictures(page: Sheet, contour: BlockingContour, choices: list[Choice], keys
         {"name": line.name, "level": line.level, "points": [[p.real, p.imag] for p in line.points]}
         for line in contour.lines
     ]
-    if keys.picture is not None:
-        Path(keys.picture).write_text(page.pictures["en"], encoding="utf-8", newline="\n")
+    page.picture_file = keys.picture
 
 
 def _number(value: float) -> float | None:

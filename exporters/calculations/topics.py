@@ -35,7 +35,10 @@ def calculate(topic: str, words: Sequence[str], form: str, language: str | None)
         if value is not None and value not in known:
             raise SceneError(PLACE, name, value, f"must be one of {', '.join(known)}{near(value, known)}")
     sheet, spoken = sheet_of(topic, words)
-    return render(sheet, form, language or spoken)
+    language = language or spoken
+    if sheet.picture_file is not None and language in sheet.pictures:
+        Path(sheet.picture_file).write_text(sheet.pictures[language], encoding="utf-8", newline="\n")
+    return render(sheet, form, language)
 
 
 def sheet_of(topic: str, words: Sequence[str]) -> tuple[Sheet, str]:

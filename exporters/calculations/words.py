@@ -44,6 +44,9 @@ circumferential_thinning|A|A_s|mm|thinning of the tooth, arc|стоншення 
 gear_ratio|u|u||gear ratio|передаточне відношення
 involute_of_working_pressure_angle|inv_alpha_w|inv α_w||involute of the working pressure angle|інволюта кута зачеплення
 working_pressure_angle_deg|alpha_w|α_w|deg|working pressure angle|кут зачеплення
+tangent_of_pressure_angle|tan_alpha|tg α||tangent of the pressure angle|тангенс кута профілю рейки
+involute_of_pressure_angle|inv_alpha|inv α||involute of the pressure angle|евольвентна функція кута профілю рейки
+cosine_of_working_pressure_angle|cos_alpha_w|cos α_w||cosine of the working pressure angle|косинус кута зачеплення
 reference_centre_distance|a|a|mm|reference centre distance|ділильна міжосьова відстань
 working_centre_distance|a_w|a_w|mm|centre distance|міжосьова відстань
 centre_distance_coefficient|y|y||centre distance coefficient|коефіцієнт сприйманого зміщення
@@ -79,6 +82,10 @@ contact_ratio|eps|ε_α||contact ratio|коефіцієнт перекриття
 arc_of_action|dd|dd'|mm|arc of action|дуга зачеплення
 contact_ratio_by_arc|eps_arc|ε'_α||contact ratio by the arc of action|коефіцієнт перекриття за дугою зачеплення
 contact_ratio_difference_percent|delta|Δ|%|difference of both contact ratios|різниця коефіцієнтів перекриття
+measured_arc_of_action|dd_m|dd'|mm|arc of action on the drawing|дуга зачеплення на кресленні
+measured_working_pitch|p_wm|p_w|mm|pitch on the working circle on the drawing|крок за початковим колом на кресленні
+measured_contact_ratio|eps_m|ε'_α||contact ratio from the drawing|коефіцієнт перекриття за кресленням
+measured_difference_percent|delta_m|Δ|%|difference from the formula|різниця з формулою
 effective_contact_ratio|eps_eff|ε_eff||contact ratio of the flanks that are there|коефіцієнт перекриття наявних профілів
 overlap_ratio|eps_beta|ε_β||overlap ratio|коефіцієнт осьового перекриття
 total_contact_ratio|eps_gamma|ε_γ||total contact ratio|сумарний коефіцієнт перекриття

@@ -271,7 +271,7 @@ class BlockingContour:
     region: tuple[tuple[complex, ...], ...]
 
 
-def usual_box(pair: ShiftPair, cells: int = 60) -> Box | None:
+def usual_box(pair: ShiftPair, cells: int = 40) -> Box | None:
     """A box around all pairs that turn at all (contact ratio 1, pointed tips, undercut unseen); None: there are none.
 
     Found on a coarse grid of shifts from -3 to 5.
@@ -286,7 +286,7 @@ def usual_box(pair: ShiftPair, cells: int = 60) -> Box | None:
 
 
 def blocking_contour(
-    pair: ShiftPair, wish: Requirements, box: Box, tolerance: float = 1e-4, names: Iterable[str] | None = None
+    pair: ShiftPair, wish: Requirements, box: Box, tolerance: float = 2e-4, names: Iterable[str] | None = None
 ) -> BlockingContour:
     """The lines of the contour in a box; chords within ``tolerance`` of them, points to rounding.
 
