@@ -26,6 +26,8 @@ from geometry.roots import bracketed_root
 
 # how finely sums and shifts are looked at, in modules; between grid points the greatest margin is sought
 _STEP = 0.05
+# no margin rises faster than this many modules a module
+_STEEPEST = 8.0
 # golden sections until the argument is known to a few 1e-9, halvings to rounding
 _SECTIONS, _HALVINGS = 40, 50
 _GOLDEN = (math.sqrt(5) - 1) / 2
@@ -195,6 +197,8 @@ def _positive(function: Callable[[float], float], low: float, high: float, step:
     count = max(2, math.ceil((high - low) / step))
     marks = [low + (high - low) * k / count for k in range(count + 1)]
     values = [function(m) for m in marks]
+    if max(values) < -_STEEPEST * step:
+        return []
     if max(values) < 0:
         # a narrow interval between two marks
         best = max(range(count + 1), key=lambda k: values[k])
