@@ -6,6 +6,8 @@ import math
 
 from geometry.angles import involute_function
 from geometry.errors import ParameterError, at_least
+from geometry.gears.blocking_contour import Requirements, ShiftPair
+from geometry.gears.shift_finder import for_sum
 from geometry.gears.spur import SpurGear
 
 
@@ -33,7 +35,10 @@ def shifts_for_distance(
     first_shift: float | None = None,
     second_shift: float | None = None,
 ) -> tuple[float, float]:
-    """Shifts for a centre distance, mm: the missing one follows from the given one; with none given, half each.
+    """Shifts for a centre distance, mm: the missing one follows from the given one.
+
+    With none given: equal sliding of both feet where that keeps clear of undercut, pointed tips, interference and a
+    contact ratio of 1; half each where nothing does.
 
     Raises
     ------
@@ -45,4 +50,9 @@ def shifts_for_distance(
         return first_shift, total - first_shift
     if second_shift is not None:
         return total - second_shift, second_shift
+    pair = ShiftPair(first.number_of_teeth, second.number_of_teeth, first.rack)
+    for undercut in (False, True):
+        found = for_sum(pair, Requirements(0.0, 1.0, allow_undercut=undercut), total)
+        if found is not None:
+            return found.first, total - found.first
     return total / 2, total / 2

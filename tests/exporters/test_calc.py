@@ -163,7 +163,9 @@ def test_json_has_full_precision_and_design_names() -> None:
 
 def test_the_scene_gives_the_language(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     scene = tmp_path / "pair.toml"
-    scene.write_text('[scene]\nlanguage = "uk"\n[parts.a]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 23\n', "utf-8")
+    scene.write_text(
+        '[scene]\nlanguage = "uk"\n[parts.a]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 23\n', "utf-8"
+    )
     assert run("calc", "spur", scene) == 0
     assert "товщина зуба" in capsys.readouterr().out
     assert run("calc", "spur", scene, "--language", "en") == 0

@@ -204,7 +204,9 @@ def test_a_steep_helix_with_shift_keeps_its_normal_thickness() -> None:
     """45 degrees, x = 0.5, m_n = 1: what others got wrong by 0.2 mm."""
     helix = math.radians(45)
     gear = transverse_gear(SpurGear(1.0, 20, RACK, 0.5), helix)
-    assert gear.reference_thickness * math.cos(helix) == pytest.approx(math.pi / 2 + math.tan(math.radians(20)), rel=1e-12)
+    assert gear.reference_thickness * math.cos(helix) == pytest.approx(
+        math.pi / 2 + math.tan(math.radians(20)), rel=1e-12
+    )
     assert 2 * gear.reference_radius == pytest.approx(20 / math.cos(helix), rel=1e-12)
     assert math.sin(base_helix_angle(gear.rack.pressure_angle, helix)) == pytest.approx(
         math.sin(helix) * math.cos(math.radians(20)), rel=1e-12
