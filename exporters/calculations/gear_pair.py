@@ -15,14 +15,13 @@ from exporters.calculations.contact_steps import (
     measured_steps,
     sliding_steps,
 )
-from exporters.calculations.inputs import PLACE, checked, given, keys_of, refusal
+from exporters.calculations.inputs import PLACE, checked, checked_section, given, keys_of, refusal
 from exporters.calculations.misprints import printed_for_pair
 from exporters.calculations.sheet import Sheet
 from exporters.calculations.spur import given_data, thickness_formula, thinned_shift
 from geometry.angles import involute_function
 from geometry.errors import ParameterError
 from geometry.gears import limits, measurement
-from geometry.gears.limits import checked_gear
 from geometry.gears.pair import ExternalPair, external_pair
 from geometry.gears.shift_choice import shifts_for_distance
 from geometry.gears.side_clearance import guaranteed_normal_backlash, normal_from_circumferential, thinning_for
@@ -161,11 +160,8 @@ def asked_pair(keys: PairKeys, shifts_given: tuple[bool, ...]) -> Asked:
 def checked_of(name: str, normal: SpurGear, helix: float) -> SpurGear:
     """The transverse section of one gear of the pair, refused under its own name if it cannot exist."""
     try:
-        return checked_gear(transverse_gear(normal, helix))
+        return checked_section(normal, helix)
     except ParameterError as error:
-        if helix:
-            text = f"{error.allowed} (numbers of the transverse section)"
-            error = ParameterError(error.name, error.value, text)
         raise refusal(TOPIC, error, name) from error
 
 

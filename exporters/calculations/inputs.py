@@ -10,6 +10,9 @@ import msgspec
 from msgspec import Struct
 
 from geometry.errors import ParameterError
+from geometry.gears.limits import checked_gear
+from geometry.gears.spur import SpurGear
+from geometry.gears.transverse import transverse_gear
 from parts.schema import SceneError, converted, near, refuse_infinite
 from parts.spur_gear import SpurGearSpec
 
@@ -65,6 +68,23 @@ def refusal(topic: str, error: ParameterError, owner: str = "") -> SceneError:
     """A geometry's refusal as a line about the key that the user typed."""
     key = ".".join(filter(None, (topic, owner, error.name)))
     return SceneError(PLACE, key, error.value, error.allowed)
+
+
+def checked_section(normal: SpurGear, helix: float) -> SpurGear:
+    """The transverse section of a gear, checked to exist; refusals say that their numbers are transverse.
+
+    Raises
+    ------
+    ParameterError
+        The gear cannot exist.
+    """
+    try:
+        return checked_gear(transverse_gear(normal, helix))
+    except ParameterError as error:
+        if not helix:
+            raise
+        text = f"{error.allowed} (numbers of the transverse section)"
+        raise ParameterError(error.name, error.value, text) from error
 
 
 def only_part(scene: Any, source: str, part: str | None) -> str:

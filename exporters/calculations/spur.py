@@ -8,13 +8,13 @@ from typing import Annotated, Any
 
 from msgspec import Meta
 
-from exporters.calculations.inputs import checked, given, keys_of, only_part, refusal
+from exporters.calculations.inputs import checked, checked_section, given, keys_of, only_part, refusal
 from exporters.calculations.sheet import Sheet
 from geometry.errors import ParameterError
 from geometry.gears import limits, measurement
-from geometry.gears.limits import LEAST_TIP_THICKNESS, checked_gear
+from geometry.gears.limits import LEAST_TIP_THICKNESS
 from geometry.gears.spur import SpurGear
-from geometry.gears.transverse import base_helix_angle, transverse_gear
+from geometry.gears.transverse import base_helix_angle
 from parts.keys import mm
 from parts.schema import SceneError, near
 from parts.spur_gear import SpurGearSpec, checked_spur_gear, gear_of
@@ -49,7 +49,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
     try:
         helix = math.radians(keys.helix_angle_deg)
         normal = checked_spur_gear(keys) if helix == 0 else gear_of(keys)
-        gear = checked_gear(transverse_gear(normal, helix))
+        gear = checked_section(normal, helix)
         page = Sheet(TOPIC, ("External gear", "Зубчасте колесо зовнішнього зачеплення"))
         page.section("Given", "Вихідні дані")
         given_data(page, normal, gear, helix)

@@ -17,12 +17,12 @@ from exporters.calculations.sheet import Sheet
 from exporters.calculations.spur import greatest_shift
 from geometry.errors import ParameterError
 from geometry.gears import limits, measurement
-from geometry.gears.basic_rack import iso_53
-from geometry.gears.limits import LEAST_TIP_THICKNESS, PRACTICUM_LEAST_TEETH, checked_gear
+from geometry.gears.limits import LEAST_TIP_THICKNESS, checked_gear, practicum_undercut
 from geometry.gears.profile_readings import ProfileReadings, profile_readings
 from geometry.gears.spur import SpurGear
 from parts.keys import in_modules, mm
 from parts.schema import SceneError
+from parts.spur_gear import SpurGearSpec, checked_spur_gear
 
 TOPIC = "tmm42"
 _SOURCES = {1: "practicum, table 1.1", 2: "practicum, table 1.2"}
@@ -60,10 +60,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
     keys: Tmm42Keys = checked(table, Tmm42Keys, TOPIC)
     teeth = _teeth(keys)
     try:
-        zero = checked_gear(SpurGear(keys.module, teeth, iso_53("A", math.radians(keys.pressure_angle_deg))))
-        rule = (PRACTICUM_LEAST_TEETH - teeth) / PRACTICUM_LEAST_TEETH
-        shift = max(rule, 0.0) if keys.profile_shift_coefficient is None else keys.profile_shift_coefficient
-        shifted = checked_gear(replace(zero, profile_shift_coefficient=shift))
+        zero, shifted, rule = _wheels(keys, teeth)
     except ParameterError as error:
         raise refusal(TOPIC, error) from error
     page = Sheet(
@@ -80,6 +77,19 @@ def sheet(table: dict[str, Any]) -> Sheet:
     _measured(page, shifted, 2)
     _conditions(page, zero, shifted)
     return page
+
+
+def _wheels(keys: Tmm42Keys, teeth: int) -> tuple[SpurGear, SpurGear, float]:
+    """The zero wheel, the shifted one, and the shift of (1.2)."""
+    spec = SpurGearSpec(keys.module, teeth, pressure_angle_deg=keys.pressure_angle_deg)
+    zero = checked_spur_gear(spec)
+    rule = practicum_undercut(zero).limit
+    shift = max(rule, 0.0) if keys.profile_shift_coefficient is None else keys.profile_shift_coefficient
+    if not -zero.rack.addendum < shift < zero.rack.dedendum:
+        low, high = -zero.rack.addendum, zero.rack.dedendum
+        text = f"the reference circle leaves the teeth; above {low:g} and below {high:g} works"
+        raise ParameterError("profile_shift_coefficient", shift, text)
+    return zero, checked_gear(replace(zero, profile_shift_coefficient=shift)), rule
 
 
 def _teeth(keys: Tmm42Keys) -> int:

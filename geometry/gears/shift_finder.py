@@ -50,6 +50,11 @@ def _window(pair: ShiftPair) -> Box | None:
     return usual_box(pair)
 
 
+def _step(box: Box) -> float:
+    """How finely to look: coarser where the legal shifts spread far."""
+    return max(_STEP, max(box.right - box.left, box.top - box.bottom) / 60)
+
+
 def legal_shifts(pair: ShiftPair, wish: Requirements, shift_sum: float) -> list[tuple[float, float]]:
     """The intervals of x1 that keep the requirements at x1 + x2 = ``shift_sum``."""
 
@@ -60,7 +65,7 @@ def legal_shifts(pair: ShiftPair, wish: Requirements, shift_sum: float) -> list[
     if box is None:
         return []
     low, high = max(box.left, shift_sum - box.top), min(box.right, shift_sum - box.bottom)
-    return _positive(margin, low, high, _STEP) if low < high else []
+    return _positive(margin, low, high, _step(box)) if low < high else []
 
 
 def for_sum(pair: ShiftPair, wish: Requirements, shift_sum: float) -> Proposal | None:
@@ -156,8 +161,9 @@ def _greatest_of(pair: ShiftPair, function: Callable[[float], float]) -> float |
     box = _window(pair)
     if box is None:
         return None
-    count = math.ceil((box.right + box.top - box.left - box.bottom) / _STEP)
-    sums = [box.left + box.bottom + _STEP * k for k in range(count + 1)]
+    step = _step(box)
+    count = math.ceil((box.right + box.top - box.left - box.bottom) / step)
+    sums = [box.left + box.bottom + step * k for k in range(count + 1)]
     values = [function(s) for s in sums]
     best = max(range(len(sums)), key=lambda k: values[k])
     if values[best] == -math.inf:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import random
 from dataclasses import replace
+from itertools import pairwise
 
 import pytest
 
@@ -115,12 +116,12 @@ def test_every_point_of_every_line_is_on_it_and_the_sides_differ(teeth: tuple[in
 def test_a_line_is_as_close_between_its_points_as_asked() -> None:
     box = Box(0.0, 1.2, -0.4, 1.2, 12)
     rough, fine = (
-        [line for line in blocking_contour(PAIR, WISH, box, tolerance, ["contact_ratio 1.2"]).lines][0].points
+        blocking_contour(PAIR, WISH, box, tolerance, ["contact_ratio 1.2"]).lines[0].points
         for tolerance in (1e-2, 1e-5)
     )
     assert len(fine) > len(rough)
     margin = conditions(PAIR)["contact_ratio 1.2"].margin
-    for one, two in zip(fine, fine[1:], strict=False):
+    for one, two in pairwise(fine):
         middle = (one + two) / 2
         # the slope of the contact ratio is about 0.3 a module
         assert abs(margin(middle.real, middle.imag)) < 2e-5
@@ -233,7 +234,7 @@ def test_level_lines_of_known_curves() -> None:
     assert len(circle) == 1
     assert circle[0][0] == circle[0][-1]
     assert all(abs(abs(p) - 1) < 1e-12 for p in circle[0])
-    length = sum(abs(b - a) for a, b in zip(circle[0], circle[0][1:], strict=False))
+    length = sum(abs(b - a) for a, b in pairwise(circle[0]))
     assert length == pytest.approx(2 * math.pi, abs=1e-3)
     hyperbola = level_lines(lambda x, y: x * y - 0.01, Box(-1, 1, -1, 1, 10), 1e-4)
     assert len(hyperbola) == 2

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -128,7 +129,7 @@ def test_side_clearance_classes_are_tolerance_grades() -> None:
     units = {"E": 16, "D": 25, "C": 40, "B": 64, "A": 100}
     steps = (30, 50, 80, 120, 180, 250, 315, 400, 500)
     for name, factor in units.items():
-        for low, high in zip(steps[1:], steps[2:], strict=False):
+        for low, high in pairwise(steps[1:]):
             size = math.sqrt(low * high)
             unit = 0.45 * size ** (1 / 3) + 0.001 * size
             distance = min(0.5 * (low + high), 1990)
