@@ -54,6 +54,7 @@ class ShiftChoiceKeys(Struct, forbid_unknown_fields=True):
     least_contact_ratio: Annotated[float, Meta(ge=0.5, le=3, description="contact ratio to keep")] = 1.1
     least_tip_thickness: Annotated[float, in_modules("tip thickness to keep", least=0, most=1)] = 0.3
     allow_undercut: Annotated[bool, Meta(description="undercut that stays below the active flank is legal")] = False
+    pole_inside: Annotated[bool, Meta(description="the pole must lie inside the active line of action")] = False
     shortened_tips: Annotated[bool, Meta(description="tips shortened by x1 + x2 - y")] = True
     picture: Annotated[str, Meta(description="SVG file of the contour to write")] | None = None
 
@@ -93,7 +94,9 @@ def sheet(table: dict[str, Any]) -> Sheet:
             )
         )
         pair = ShiftPair(gear.number_of_teeth, keys.second.number_of_teeth, gear.rack, keys.shortened_tips)
-        wish = Requirements(keys.least_tip_thickness, keys.least_contact_ratio, keys.allow_undercut)
+        wish = Requirements(
+            keys.least_tip_thickness, keys.least_contact_ratio, keys.allow_undercut, keys.pole_inside
+        )
         return _page(keys, pair, wish)
     except ParameterError as error:
         raise refusal(TOPIC, error) from error
