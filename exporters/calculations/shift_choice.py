@@ -94,9 +94,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
             )
         )
         pair = ShiftPair(gear.number_of_teeth, keys.second.number_of_teeth, gear.rack, keys.shortened_tips)
-        wish = Requirements(
-            keys.least_tip_thickness, keys.least_contact_ratio, keys.allow_undercut, keys.pole_inside
-        )
+        wish = Requirements(keys.least_tip_thickness, keys.least_contact_ratio, keys.allow_undercut, keys.pole_inside)
         return _page(keys, pair, wish)
     except ParameterError as error:
         raise refusal(TOPIC, error) from error

@@ -30,6 +30,8 @@ class SpurKeys(SpurGearSpec, kw_only=True, tag=False, forbid_unknown_fields=True
     ] = 0.0
     teeth_spanned: Annotated[int, Meta(ge=1, le=10_000, description="teeth in the span")] | None = None
     pin_diameter: Annotated[float, mm("pin or ball", above=0, most=10_000)] | None = None
+    kerf: Annotated[float, mm("full width of a cut that was not corrected for", least=0, most=10)] | None = None
+    measured_span: Annotated[float, mm("span measured on the part", above=0, most=100_000)] | None = None
     diameter: Annotated[float, mm("circle on which the tooth is measured", above=0, most=100_000)] | None = None
 
 
@@ -213,11 +215,12 @@ def _measured(page: Sheet, gear: SpurGear, helix: float, keys: SpurKeys) -> None
             page.add("span_nominal", full, f"{{W}} + {{A}} * cos({{alpha}}){cosine}", "ISO 21771")
         formula = f"sqrt({{d_b}}**2 + ({{W}}{cosine})**2)" if helix else "sqrt({d_b}**2 + {W}**2)"
         page.add("span_contact_diameter", best.contact_diameter, formula, "GOST 16532-70")
+        _real_part(page, gear, best, helix, keys)
         if helix:
             page.add("least_face_width", best.least_face_width, "{W} * sin(abs({beta_b}))", "ISO 21771")
         if not best.touches_flanks:
             page.notes.append(("the span does not touch the involutes", "загальна нормаль не торкається евольвент"))
-    _pins(page, gear, helix, keys.pin_diameter)
+    _pins(page, gear, helix, keys.pin_diameter, keys.kerf)
     page.section("Chords", "Товщина по хорді")
     chord, constant = measurement.reference_chord(gear, helix), measurement.constant_chord(gear, helix)
     formulas = ("", "") if helix else ("{d} * sin({S} / {d})", "({d_a} - {d} * cos({S} / {d})) / 2")
@@ -228,7 +231,22 @@ def _measured(page: Sheet, gear: SpurGear, helix: float, keys: SpurKeys) -> None
     page.add("constant_chord_height", constant.height, formulas[1], "GOST 16532-70")
 
 
-def _pins(page: Sheet, gear: SpurGear, helix: float, wanted: float | None) -> None:
+def _real_part(page: Sheet, gear: SpurGear, best: measurement.Span, helix: float, keys: SpurKeys) -> None:
+    """The span that a cut without correction leaves, and what a measured span tells."""
+    cosine = " * cos({beta_b})" if helix else ""
+    if keys.kerf:
+        page.add("kerf", keys.kerf)
+        # each face touches a flank that lies half a kerf deeper along its normal
+        page.add("span_after_kerf", best.length - keys.kerf, "{W} - {kerf}")
+    if keys.measured_span is not None:
+        page.add("measured_span", keys.measured_span)
+        page.add("normal_allowance", best.length - keys.measured_span, "{W} - {W_m}")
+        thinned = measurement.gear_with_span(gear, best.teeth, keys.measured_span, helix).circumferential_thinning
+        own = " + {A}" if gear.circumferential_thinning else ""
+        page.add("thinning_from_span", thinned, f"{{E}} / (cos({{alpha}}){cosine}){own}", "ISO 21771")
+
+
+def _pins(page: Sheet, gear: SpurGear, helix: float, wanted: float | None, kerf: float | None) -> None:
     page.section("Over pins", "Розмір по роликах")
     cosine = " / cos({beta_b})" if helix else ""
     try:
@@ -253,6 +271,11 @@ def _pins(page: Sheet, gear: SpurGear, helix: float, wanted: float | None) -> No
     page.add("over_pins", found.length, formula, "ISO 21771")
     if gear.circumferential_thinning:
         page.add("over_pins_nominal", measurement.over_pins(measurement.nominal(gear), pin, helix).length)
+    if kerf:
+        base = base_helix_angle(gear.rack.pressure_angle, helix)
+        thinner = kerf / (math.cos(base) * math.cos(gear.rack.pressure_angle))
+        cut = replace(gear, circumferential_thinning=gear.circumferential_thinning + thinner)
+        page.add("over_pins_after_kerf", measurement.over_pins(cut, pin, helix).length)
     page.add("pin_contact_diameter", found.contact_diameter)
     if not (found.touches_flanks and found.stands_out):
         page.notes.append(

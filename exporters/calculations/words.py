@@ -112,6 +112,12 @@ teeth_spanned|k|k||teeth in the span|число зубців у довжині �
 teeth_to_span|k_t|k_t||teeth to span, before rounding|число зубців у нормалі до округлення
 span|W|W|mm|span over k teeth|довжина загальної нормалі
 span_nominal|W_0|W_0|mm|span of the gear without thinning|довжина загальної нормалі без стоншення
+kerf|kerf|k_c|mm|kerf that the cut was not corrected for|ширина різу, не врахована в контурі
+span_after_kerf|W_c|W_c|mm|span of the part cut so|довжина загальної нормалі вирізаного колеса
+over_pins_after_kerf|M_c|M_c|mm|size over pins of the part cut so|розмір по роликах вирізаного колеса
+measured_span|W_m|W_m|mm|span measured on the part|виміряна довжина загальної нормалі
+normal_allowance|E|E_W|mm|lack of both flanks along their normal|нестача по нормалі на обох профілях
+thinning_from_span|A_m|A_m|mm|thinning that the measured span tells, arc|стоншення зуба за виміряною нормаллю
 span_contact_diameter|d_W|d_W|mm|diameter where the faces touch|діаметр дотику вимірювальних площин
 best_pin_diameter|D_M|D_M|mm|pin that touches at d + 2 x m|ролик, що торкається на колі d + 2 x m
 least_pin_diameter|D_min|D_min|mm|least pin that touches the involute|найменший ролик, що торкається евольвенти

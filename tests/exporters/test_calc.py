@@ -30,6 +30,9 @@ SHEETS = [
      "helix_angle_deg=20", "diameter=50"),
     ("spur", "module=2", "number_of_teeth=25", "circumferential_thinning=0.1", "thinning_method=deeper_cut",
      "pin_diameter=3.5"),
+    ("spur", "module=2", "number_of_teeth=23", "kerf=0.2", "measured_span=15.1"),
+    ("spur", "module=2", "number_of_teeth=23", "helix_angle_deg=10", "kerf=0.2", "measured_span=15",
+     "circumferential_thinning=0.1"),
     *(("spur", "module=1", f"number_of_teeth={z}") for z in (6, 8, 17, 41, 42, 43, 200, 10_000)),
     *(("spur", "module=1", f"number_of_teeth={z}", "pressure_angle_deg=25") for z in (26, 27)),
     ("spur", "module=1", "number_of_teeth=20", "helix_angle_deg=45", "profile_shift_coefficient=0.5"),
@@ -159,6 +162,16 @@ def test_json_has_full_precision_and_design_names() -> None:
     values = values_of("gear-pair practicum_pair")["values"]
     assert values["working_centre_distance"] == pytest.approx(179.18263740574994, rel=1e-15)
     assert set(values["root_form_diameter"]) == {"first", "second"}
+
+
+def test_a_kerf_that_was_forgotten_shows_in_span_and_pins() -> None:
+    """An outline offset by half the kerf: an involute stays one, turned about its base circle."""
+    plain = values_of("spur module=2 number_of_teeth=23 pin_diameter=3.5")["values"]
+    cut = values_of("spur module=2 number_of_teeth=23 pin_diameter=3.5 kerf=0.2")["values"]
+    assert cut["span_after_kerf"] == pytest.approx(plain["span"] - 0.2, rel=1e-12)
+    # a pin in a space whose flanks lie 0.1 mm deeper sits as a pin thicker by 0.2 mm would, minus its own thickness
+    thinner = values_of("spur module=2 number_of_teeth=23 pin_diameter=3.3")["values"]
+    assert cut["over_pins_after_kerf"] == pytest.approx(thinner["over_pins"] + 0.2, rel=1e-12)
 
 
 def test_the_scene_gives_the_language(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

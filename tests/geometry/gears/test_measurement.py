@@ -200,6 +200,23 @@ def test_the_published_helical_pair() -> None:
     assert total / math.cos(helix) == pytest.approx(sum(row["x"]), abs=5.1e-6)
 
 
+def test_the_published_spur_pair() -> None:
+    """Table 4-4: module 3, z 12/24, x 0.6/0.36."""
+    from geometry.gears.pair import external_pair
+
+    row = TABLES["spur_pair"]
+    gears = [SpurGear(row["module"], z, RACK, x) for z, x in zip(row["number_of_teeth"], row["x"], strict=True)]
+    pair = external_pair(gears[0], gears[1])
+    assert math.degrees(pair.working_pressure_angle) == pytest.approx(row["working_pressure_angle_deg"], abs=5.1e-5)
+    assert pair.centre_distance_coefficient == pytest.approx(row["centre_distance_coefficient"], abs=5.1e-6)
+    assert pair.working_centre_distance == pytest.approx(row["working_centre_distance"], abs=1.1e-4)
+    for key, values in (("base_diameter", [2 * g.base_radius for g in pair.gears]),
+                        ("working_diameter", [2 * r for r in pair.working_radii]),
+                        ("tip_diameter", [2 * g.tip_radius for g in pair.gears]),
+                        ("root_diameter", [2 * g.root_radius for g in pair.gears])):  # fmt: skip
+        assert values == pytest.approx(row[key], abs=1.1e-3), key
+
+
 def test_a_steep_helix_with_shift_keeps_its_normal_thickness() -> None:
     """45 degrees, x = 0.5, m_n = 1: what others got wrong by 0.2 mm."""
     helix = math.radians(45)
