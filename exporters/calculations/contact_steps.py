@@ -115,8 +115,10 @@ def limit_steps(page: Sheet, pair: ExternalPair, helix: float) -> None:
     if not helix:
         rules = [limits.practicum_undercut(g).limit for g in pair.gears]
         page.both("least_shift_practicum", (rules[0], rules[1]), "(17 - {z#}) / 17", ("practicum (1.2)",) * 2)
-    exact = [limits.least_shift_without_undercut(g) for g in pair.gears]
-    page.both("least_shift_without_undercut", (exact[0], exact[1]), "", ("ISO 21771", "ISO 21771"))
+    for index, gear in enumerate(pair.gears, 1):
+        exact = limits.least_shift_without_undercut(gear) / math.cos(helix)
+        symbol = "x_n,min" if helix else ""
+        page.add("least_shift_without_undercut", exact, "", "ISO 21771", index, symbol=symbol)
     page.add(
         "least_tip_thickness", LEAST_TIP_THICKNESS * pair.module, f"{LEAST_TIP_THICKNESS} * {{m}}", "practicum (1.3)"
     )

@@ -18,7 +18,7 @@ from exporters.calculations.contact_steps import (
 from exporters.calculations.inputs import PLACE, checked, checked_section, given, keys_of, refusal
 from exporters.calculations.misprints import printed_for_pair
 from exporters.calculations.sheet import Sheet
-from exporters.calculations.spur import given_data, thickness_formula, thinned_shift
+from exporters.calculations.spur import addendum_formula, dedendum_formula, given_data, thickness_formula
 from geometry.angles import involute_function
 from geometry.errors import ParameterError
 from geometry.gears import limits, measurement
@@ -294,7 +294,8 @@ def _radii(page: Sheet, asked: Asked) -> None:
         source = f"practicum (3.{10 + index})"
         page.add("tip_radius", gear.tip_radius, _tip_formula(asked, index - 1), source, index)
     for index, gear in enumerate(gears, 1):
-        formula = f"{{r#}} - ({{h_a#}} + {{c#}} - {thinned_shift(gear)}) * {{m}}"
+        formula = dedendum_formula(gear, asked.helix)
+        formula = f"{{r#}} - ({formula})" if asked.helix else f"{{r#}} - {formula}"
         page.add("root_radius", gear.root_radius, formula, f"practicum (3.{12 + index})", index)
 
 
@@ -305,7 +306,7 @@ def _tip_formula(asked: Asked, index: int) -> str:
     if own or (asked.helix and given_gear.given_tip_diameter is not None):
         return ""
     shortened = gear.given_tip_diameter is not None
-    return "{r#} + ({h_a#} + {x#} - {dy}) * {m}" if shortened else "{r#} + ({h_a#} + {x#}) * {m}"
+    return "{r#} + " + addendum_formula(asked.helix, " - {dy}" if shortened else "")
 
 
 def _thicknesses(page: Sheet, asked: Asked) -> None:

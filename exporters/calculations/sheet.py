@@ -83,20 +83,28 @@ class Sheet:
         self.sections.append(Section((en, uk)))
 
     def add(
-        self, name: str, value: Value, formula: str = "", source: str = "", gear: int = 0, symbol: str | None = None
+        self,
+        name: str,
+        value: Value,
+        formula: str = "",
+        source: str = "",
+        gear: int = 0,
+        *,
+        symbol: str = "",
+        key: str = "",
     ) -> None:
-        """A step; its value can be used by later formulas under the term's key."""
+        """A step; later formulas know its value by the term's key; ``symbol`` and ``key`` stand in for the term's."""
         term = TERMS[name]
         index = str(gear) if gear else ""
         shown = _numbered(symbol or term.symbol, index)
         formula = formula.replace("#", index).replace("~", {"1": "2", "2": "1"}.get(index, ""))
-        keys = KEYS.findall(formula)
-        if unknown := [key for key in keys if key not in self.known]:
+        needed = KEYS.findall(formula)
+        if unknown := [placeholder for placeholder in needed if placeholder not in self.known]:
             raise KeyError(f"{name}: {', '.join(unknown)} not known yet")
-        inputs = {key: self.known[key] for key in keys}
+        inputs = {placeholder: self.known[placeholder] for placeholder in needed}
         step = Step(name, gear, shown, value, term.unit, formula, source, self.printed.get((name, gear)), inputs)
         self.sections[-1].steps.append(step)
-        self.known[term.key + index] = Known(shown, value, term.unit)
+        self.known[(key or term.key) + index] = Known(shown, value, term.unit)
 
     def both(
         self, name: str, values: tuple[Value, Value], formula: str = "", sources: tuple[str, str] = ("", "")

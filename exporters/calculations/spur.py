@@ -55,7 +55,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
         page = Sheet(TOPIC, ("External gear", "Зубчасте колесо зовнішнього зачеплення"))
         page.section("Given", "Вихідні дані")
         given_data(page, normal, gear, helix)
-        dimensions(page, gear)
+        dimensions(page, gear, helix)
         _thicknesses(page, gear, keys.diameter)
         _limits(page, gear, helix)
         _measured(page, gear, helix, keys)
@@ -67,34 +67,54 @@ def sheet(table: dict[str, Any]) -> Sheet:
 def given_data(page: Sheet, normal: SpurGear, gear: SpurGear, helix: float, index: int = 0) -> None:
     """Module, angle, rack and shift; of helical gears first the normal data, then the transverse that follow."""
     rack = normal.rack
-    if index < 2:
-        if helix:
-            page.add("normal_module", normal.module)
-            page.add("helix_angle_deg", math.degrees(helix))
-            page.add("normal_pressure_angle_deg", math.degrees(rack.pressure_angle))
-            page.add("module", gear.module, "{m_n} / cos({beta})", "ISO 21771", symbol="m_t")
-            formula = "arctan(tan({alpha_n}) / cos({beta}))"
-            page.add("pressure_angle_deg", math.degrees(gear.rack.pressure_angle), formula, "ISO 21771", symbol="α_t")
-            angle = math.degrees(base_helix_angle(gear.rack.pressure_angle, helix))
-            page.add("base_helix_angle_deg", angle, "arctan(tan({beta}) * cos({alpha}))", "ISO 21771")
-        else:
-            page.add("module", gear.module)
-            page.add("pressure_angle_deg", math.degrees(rack.pressure_angle))
+    alpha, shift = math.degrees(rack.pressure_angle), normal.profile_shift_coefficient
+    if index < 2 and helix:
+        page.add("module", normal.module, symbol="m_n", key="m_n")
+        page.add("helix_angle_deg", math.degrees(helix))
+        page.add("pressure_angle_deg", alpha, symbol="α_n", key="alpha_n")
+        page.add("transverse_module", gear.module, "{m_n} / cos({beta})", "ISO 21771")
+        formula = "arctan(tan({alpha_n}) / cos({beta}))"
+        page.add("transverse_pressure_angle_deg", math.degrees(gear.rack.pressure_angle), formula, "ISO 21771")
+        angle = math.degrees(base_helix_angle(gear.rack.pressure_angle, helix))
+        page.add("base_helix_angle_deg", angle, "arctan(tan({beta}) * cos({alpha}))", "ISO 21771")
+    elif index < 2:
+        page.add("module", normal.module)
+        page.add("pressure_angle_deg", alpha)
     page.add("number_of_teeth", gear.number_of_teeth, gear=index)
     if helix:
-        page.add("normal_profile_shift_coefficient", normal.profile_shift_coefficient, gear=index)
-        shift = gear.profile_shift_coefficient
-        page.add("profile_shift_coefficient", shift, "{x_n#} * cos({beta})", "ISO 21771", index, symbol="x_t")
+        page.add("profile_shift_coefficient", shift, "", "", index, symbol="x_n", key="x_n")
+        formula, value = "{x_n#} * cos({beta})", gear.profile_shift_coefficient
+        page.add("transverse_profile_shift_coefficient", value, formula, "ISO 21771", index)
     else:
-        page.add("profile_shift_coefficient", gear.profile_shift_coefficient, gear=index)
-    page.add("addendum_coefficient", gear.rack.addendum, gear=index)
-    page.add("tip_clearance_coefficient", gear.rack.tip_clearance, gear=index)
+        page.add("profile_shift_coefficient", shift, gear=index)
+    page.add("addendum_coefficient", rack.addendum, gear=index)
+    page.add("tip_clearance_coefficient", rack.tip_clearance, gear=index)
     page.add("tip_radius_coefficient", rack.tip_radius, gear=index)
     if gear.circumferential_thinning:
         page.add("circumferential_thinning", gear.circumferential_thinning, gear=index)
         if gear.thinning_by_deeper_cut:
             formula = "{x#} - {A#} / (2 * {m} * tan({alpha}))"
             page.add("generating_shift_coefficient", gear.generating_shift_coefficient, formula, "ISO 21771", index)
+
+
+def addendum_formula(helix: float, shortening: str = "") -> str:
+    """h_a + x m, or with the normal module and the transverse shift, over placeholders."""
+    if helix:
+        return f"{{h_a#}} * {{m_n}} + ({{x#}}{shortening}) * {{m}}" if shortening else "{h_a#} * {m_n} + {x#} * {m}"
+    return f"({{h_a#}} + {{x#}}{shortening}) * {{m}}"
+
+
+def dedendum_formula(gear: SpurGear, helix: float) -> str:
+    """The same for h_f - x m."""
+    shift = thinned_shift(gear)
+    if helix:
+        return f"({{h_a#}} + {{c#}}) * {{m_n}} - {shift} * {{m}}"
+    return f"({{h_a#}} + {{c#}} - {shift}) * {{m}}"
+
+
+def _enclosed(formula: str, helix: float) -> str:
+    """A sum in brackets; of spur gears it is a product."""
+    return f"({formula})" if helix else formula
 
 
 def thinned_shift(gear: SpurGear, index: str = "#") -> str:
@@ -108,16 +128,16 @@ def thickness_formula(gear: SpurGear) -> str:
     return "0.5 * {p} + 2 * {x#} * {m} * tan({alpha})" + less
 
 
-def dimensions(page: Sheet, gear: SpurGear) -> None:
+def dimensions(page: Sheet, gear: SpurGear, helix: float) -> None:
     """Pitches and diameters of one gear."""
     page.section("Diameters", "Діаметри")
     page.add("pitch", math.pi * gear.module, "pi * {m}", "practicum, table 1.1")
     page.add("base_pitch", gear.pitch_angle * gear.base_radius, "{p} * cos({alpha})", "ISO 21771")
     page.add("reference_diameter", 2 * gear.reference_radius, "{m} * {z}", "practicum (3.7)")
     page.add("base_diameter", 2 * gear.base_radius, "{d} * cos({alpha})", "practicum, table 1.1")
-    formula = "" if gear.given_tip_diameter is not None else "{d} + 2 * ({h_a} + {x}) * {m}"
+    formula = "" if gear.given_tip_diameter is not None else f"{{d}} + 2 * {_enclosed(addendum_formula(helix), helix)}"
     page.add("tip_diameter", 2 * gear.tip_radius, formula, "practicum (3.11)" if formula else "")
-    formula = f"{{d}} - 2 * ({{h_a}} + {{c}} - {thinned_shift(gear)}) * {{m}}"
+    formula = f"{{d}} - 2 * {_enclosed(dedendum_formula(gear, helix), helix)}"
     page.add("root_diameter", 2 * gear.root_radius, formula, "practicum (3.13)")
     page.add("root_form_diameter", limits.root_form_diameter(gear), "", "ISO 21771")
 
@@ -156,14 +176,16 @@ def _limits(page: Sheet, gear: SpurGear, helix: float) -> None:
         rule = limits.practicum_undercut(gear).limit
         page.add("least_shift_practicum", rule, "(17 - {z}) / 17", "practicum (1.2)")
     formula = f"{height} - {{z}} * sin({{alpha}})**2 / 2" if height else ""
-    page.add("least_shift_without_undercut", limits.least_shift_without_undercut(gear), formula, "ISO 21771")
+    least = limits.least_shift_without_undercut(gear) / math.cos(helix)
+    page.add("least_shift_without_undercut", least, formula, "ISO 21771", symbol="x_n,min" if helix else "")
     page.add("pointed_diameter", limits.pointed_diameter(gear))
     page.add(
         "least_tip_thickness", LEAST_TIP_THICKNESS * gear.module, f"{LEAST_TIP_THICKNESS} * {{m}}", "practicum (1.3)"
     )
     greatest = greatest_shift(gear)
     if greatest is not None:
-        page.add("greatest_shift_for_tip_thickness", greatest, "", "practicum (1.3)")
+        symbol = "x_n,0.3" if helix else ""
+        page.add("greatest_shift_for_tip_thickness", greatest / math.cos(helix), "", "practicum (1.3)", symbol=symbol)
     page.notes.append(
         (
             "practicum (1.3) prints x_0.3 <= x <= x_min; right is x_min <= x <= x_0.3",

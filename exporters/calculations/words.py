@@ -28,12 +28,12 @@ def _terms(text: str) -> dict[str, Term]:
 TERMS = _terms("""
 number_of_teeth|z|z||number of teeth|число зубців колеса
 module|m|m|mm|module|модуль
-normal_module|m_n|m_n|mm|normal module|нормальний модуль
+transverse_module|m|m_t|mm|transverse module|торцевий модуль
 helix_angle_deg|beta|β|deg|helix angle|кут нахилу лінії зуба
 base_helix_angle_deg|beta_b|β_b|deg|base helix angle|основний кут нахилу
 pressure_angle_deg|alpha|α|deg|pressure angle of the rack|кут профілю рейки
-normal_pressure_angle_deg|alpha_n|α_n|deg|normal pressure angle of the rack|нормальний кут профілю рейки
-normal_profile_shift_coefficient|x_n|x_n||normal profile shift coefficient|нормальний коефіцієнт зміщення
+transverse_pressure_angle_deg|alpha|α_t|deg|transverse pressure angle of the rack|торцевий кут профілю рейки
+transverse_profile_shift_coefficient|x|x_t||transverse profile shift coefficient|торцевий коефіцієнт зміщення
 addendum_coefficient|h_a|h_a*||addendum coefficient|коефіцієнт висоти головки зуба
 tip_clearance_coefficient|c|c*||tip clearance coefficient|коефіцієнт радіального зазору
 tip_radius_coefficient|rho_f|ρ_f*||rounding of the rack's tip, in modules|радіус округлення рейки в модулях
