@@ -101,6 +101,12 @@ def _parser() -> argparse.ArgumentParser:
     converge.set_defaults(run=_converge)
     listing = commands.add_parser("list", help="kinds of parts and built-in scenes")
     listing.set_defaults(run=_list)
+    calc = commands.add_parser("calc", help="a textbook calculation, step by step")
+    calc.add_argument("topic", metavar="TOPIC", help="spur, tmm42, gear-pair or shift-choice")
+    calc.add_argument("words", nargs="*", metavar="SCENE | KEY=VALUE", help="a scene, or keys as in scenes")
+    calc.add_argument("--format", default="text", metavar="F", help="text, md, html or json (default: text)")
+    calc.add_argument("--language", metavar="L", help="en or uk (default: that of the scene, or en)")
+    calc.set_defaults(run=_calc)
     new = commands.add_parser("new", help="print a commented scene to start from")
     new.add_argument("kind", metavar="KIND", help="a kind of part, see `higherpair list`")
     new.set_defaults(run=_new)
@@ -213,4 +219,11 @@ def _new(options: argparse.Namespace) -> int:
             "new", "KIND", options.kind, f"unknown kind{near(options.kind, KINDS)}; kinds: {', '.join(KINDS)}"
         )
     print(new_scene(options.kind), end="")
+    return DONE
+
+
+def _calc(options: argparse.Namespace) -> int:
+    from exporters.calculations.topics import calculate
+
+    print(calculate(options.topic, options.words, options.format, options.language), end="")
     return DONE

@@ -90,7 +90,7 @@ def checked_spur_gear(spec: SpurGearSpec) -> SpurGear:
         The gear cannot exist; names the key and the nearest value that works.
     """
     try:
-        gear = checked_gear(_gear_of(spec))
+        gear = checked_gear(gear_of(spec))
     except ParameterError as refusal:
         raise with_remedy(_with_rack_remedy(spec, refusal), spec, _builds) from refusal
     check_wheel(_shape_of(spec), 2 * gear.root_radius, gear.holes)
@@ -160,13 +160,20 @@ def _with_rack_remedy(spec: SpurGearSpec, refusal: ParameterError) -> ParameterE
 
 def _builds(spec: SpurGearSpec) -> bool:
     try:
-        checked_gear(_gear_of(spec))
+        checked_gear(gear_of(spec))
     except GeometryError:
         return False
     return True
 
 
-def _gear_of(spec: SpurGearSpec) -> SpurGear:
+def gear_of(spec: SpurGearSpec) -> SpurGear:
+    """The gear of a part as its keys say, not checked to exist.
+
+    Raises
+    ------
+    ParameterError
+        Its rack cannot exist, or two keys exclude each other.
+    """
     if spec.tip_chamfer > 0 and spec.tip_rounding > 0:
         raise ParameterError("tip_rounding", spec.tip_rounding, "give either tip_chamfer or tip_rounding; 0 works")
     if spec.bore is not None and spec.bore_diameter > 0:

@@ -1,0 +1,181 @@
+"""``higherpair calc tmm42``: the sheet of lesson 1, tables 1.1 and 1.2, by formula and measured off the exact profile.
+
+The device TMM-42 draws a gear by a rack's successive positions: its module, its angle and the reference diameter of
+the paper disk are given; the zero wheel and the shifted wheel follow.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Annotated, Any
+
+from msgspec import Meta, Struct
+
+from exporters.calculations.inputs import PLACE, checked, given, only_part, refusal
+from exporters.calculations.sheet import Sheet
+from exporters.calculations.spur import greatest_shift
+from geometry.errors import ParameterError
+from geometry.gears import limits, measurement
+from geometry.gears.limits import LEAST_TIP_THICKNESS, checked_gear, practicum_undercut
+from geometry.gears.profile_readings import ProfileReadings, profile_readings
+from geometry.gears.spur import SpurGear
+from parts.keys import in_modules, mm
+from parts.schema import SceneError
+from parts.spur_gear import SpurGearSpec, checked_spur_gear
+
+TOPIC = "tmm42"
+_SOURCES = {1: "practicum, table 1.1", 2: "practicum, table 1.2"}
+
+
+class Tmm42Keys(Struct, forbid_unknown_fields=True):
+    """Keys of the topic: what stands on the device's rack and disk."""
+
+    module: Annotated[float, mm("module of the device's rack", least=0.01, most=1000)]
+    reference_diameter: Annotated[float, mm("reference diameter of the disk", above=0, most=100_000)] | None = None
+    number_of_teeth: Annotated[int, Meta(ge=3, le=10_000, description="number of teeth, d / m")] | None = None
+    pressure_angle_deg: Annotated[
+        float, Meta(ge=5, le=45, description="pressure angle of the rack", extra={"unit": "degrees"})
+    ] = 20.0
+    profile_shift_coefficient: (
+        Annotated[float, in_modules("shift of the second wheel; default (17 - z) / 17", least=-3, most=3)] | None
+    ) = None
+
+
+def table_from(scene: Any, source: str, table: dict[str, Any]) -> dict[str, Any]:
+    """The keys of a part of a scene that the device knows, changed by those of the command line."""
+    part = given(scene.parts[only_part(scene, source, table.pop("part", None))])
+    known = {
+        k: part[k]
+        for k in ("module", "number_of_teeth", "pressure_angle_deg", "profile_shift_coefficient")
+        if k in part
+    }
+    if not known.get("profile_shift_coefficient"):
+        known.pop("profile_shift_coefficient", None)
+    return known | table
+
+
+def sheet(table: dict[str, Any]) -> Sheet:
+    """The calculation of both wheels."""
+    keys: Tmm42Keys = checked(table, Tmm42Keys, TOPIC)
+    teeth = _teeth(keys)
+    try:
+        zero, shifted, rule = _wheels(keys, teeth)
+    except ParameterError as error:
+        raise refusal(TOPIC, error) from error
+    page = Sheet(
+        TOPIC, ("Generating a tooth profile, device TMM-42", "Утворення профілю зуба колеса за методом обкатки, ТММ-42")
+    )
+    page.section("1) Data of the device", "1) Вихідні дані приладу")
+    page.add("module", zero.module)
+    page.add("pressure_angle_deg", keys.pressure_angle_deg)
+    page.add("reference_diameter", 2 * zero.reference_radius)
+    page.add("disk_diameter", 2 * max(zero.tip_radius, shifted.tip_radius))
+    _zero_wheel(page, zero)
+    _measured(page, zero, 1)
+    _shifted_wheel(page, shifted, keys.profile_shift_coefficient is not None, rule)
+    _measured(page, shifted, 2)
+    _conditions(page, zero, shifted)
+    return page
+
+
+def _wheels(keys: Tmm42Keys, teeth: int) -> tuple[SpurGear, SpurGear, float]:
+    """The zero wheel, the shifted one, and the shift of (1.2)."""
+    spec = SpurGearSpec(keys.module, teeth, pressure_angle_deg=keys.pressure_angle_deg)
+    zero = checked_spur_gear(spec)
+    rule = practicum_undercut(zero).limit
+    shift = max(rule, 0.0) if keys.profile_shift_coefficient is None else keys.profile_shift_coefficient
+    if not -zero.rack.addendum < shift < zero.rack.dedendum:
+        low, high = -zero.rack.addendum, zero.rack.dedendum
+        text = f"the reference circle leaves the teeth; above {low:g} and below {high:g} works"
+        raise ParameterError("profile_shift_coefficient", shift, text)
+    return zero, checked_gear(replace(zero, profile_shift_coefficient=shift)), rule
+
+
+def _teeth(keys: Tmm42Keys) -> int:
+    """Z = d / m, which must be a whole number."""
+    if keys.reference_diameter is None:
+        if keys.number_of_teeth is None:
+            raise SceneError(PLACE, f"{TOPIC}.reference_diameter", None, "is missing: give it or number_of_teeth")
+        return keys.number_of_teeth
+    teeth = round(keys.reference_diameter / keys.module)
+    if abs(teeth * keys.module - keys.reference_diameter) > 1e-9 * keys.reference_diameter or teeth < 3:
+        remedy = f"must be a whole number of modules, at least 3; {max(teeth, 3) * keys.module:.12g} works"
+        raise SceneError(PLACE, f"{TOPIC}.reference_diameter", keys.reference_diameter, remedy)
+    if keys.number_of_teeth not in (None, teeth):
+        remedy = f"d / m is {teeth}; remove one of both keys"
+        raise SceneError(PLACE, f"{TOPIC}.number_of_teeth", keys.number_of_teeth, remedy)
+    return teeth
+
+
+def _zero_wheel(page: Sheet, gear: SpurGear) -> None:
+    page.section("2) Zero wheel, x = 0: table 1.1", "2) Параметри нульового колеса, x = 0: таблиця 1.1")
+    page.add("number_of_teeth", gear.number_of_teeth, "{d} / {m}", _SOURCES[1])
+    page.add("base_diameter", 2 * gear.base_radius, "{d} * cos({alpha})", _SOURCES[1])
+    page.add("pitch", math.pi * gear.module, "pi * {m}", _SOURCES[1])
+    page.add("reference_thickness", gear.reference_thickness, "0.5 * {p}", _SOURCES[1], 1)
+    formula = "{d_b} * ({S1} / {d} + inv({alpha}))"
+    page.add("base_thickness", measurement.base_thickness(gear), formula, "ISO 21771", 1)
+
+
+def _shifted_wheel(page: Sheet, gear: SpurGear, is_given: bool, rule: float) -> None:
+    page.section("3) Shifted wheel: table 1.2", "3) Колесо зі зміщенням: таблиця 1.2")
+    formula = "(17 - {z}) / 17" if not is_given and rule >= 0 else ""
+    page.add("profile_shift_coefficient", gear.profile_shift_coefficient, formula, _SOURCES[2], symbol="ξ")
+    page.add("profile_shift", gear.profile_shift_coefficient * gear.module, "{x} * {m}", _SOURCES[2])
+    formula = "0.5 * {p} + 2 * {X} * tan({alpha})"
+    page.add("reference_thickness", gear.reference_thickness, formula, _SOURCES[2], 2)
+    formula = "{d_b} * ({S2} / {d} + inv({alpha}))"
+    page.add("base_thickness", measurement.base_thickness(gear), formula, "ISO 21771", 2)
+    if rule < 0 and not is_given:
+        page.notes.append(
+            (
+                "17 teeth and more need no shift: both wheels are the same",
+                "від 17 зубців зміщення не потрібне: обидва колеса однакові",
+            )
+        )
+
+
+def _measured(page: Sheet, gear: SpurGear, index: int) -> None:
+    """What a ruler finds on the generated profile, arcs."""
+    page.section(
+        f"Measured off the generated profile, wheel {index}",
+        f"Результати виміру накреслених профілів зубців, колесо {index}",
+    )
+    found: ProfileReadings = profile_readings(gear, gear.reference_radius)
+    source = _SOURCES[index]
+    page.add("measured_thickness", found.thickness, "", source, index)
+    page.add("measured_space_width", found.space_width, "", source, index)
+    page.add("measured_pitch", found.thickness + found.space_width, "{S_t#} + {e_t#}", source, index)
+    if gear.root_radius < gear.base_radius:
+        page.add("measured_base_thickness", profile_readings(gear, gear.base_radius).thickness, "", source, index)
+    page.add("measured_tip_thickness", profile_readings(gear, gear.tip_radius).thickness, "", "practicum (1.3)", index)
+    page.add("measured_form_diameter", limits.root_form_diameter(gear), "", "practicum, fig. 1.5", index)
+
+
+def _conditions(page: Sheet, zero: SpurGear, shifted: SpurGear) -> None:
+    page.section("Conditions", "Умови")
+    page.add("least_shift_without_undercut", limits.least_shift_without_undercut(zero), "", "ISO 21771")
+    page.add(
+        "least_tip_thickness", LEAST_TIP_THICKNESS * zero.module, f"{LEAST_TIP_THICKNESS} * {{m}}", "practicum (1.3)"
+    )
+    greatest = greatest_shift(zero)
+    if greatest is not None:
+        page.add("greatest_shift_for_tip_thickness", greatest, "", "practicum (1.3)")
+    page.notes.append(
+        (
+            "practicum (1.3) prints x_0.3 <= x <= x_min; right is x_min <= x <= x_0.3",
+            "у практикумі (1.3) надруковано x_0,3 ≤ x ≤ x_min; правильно x_min ≤ x ≤ x_0,3",
+        )
+    )
+    for gear, en, uk in ((zero, "zero wheel", "нульове колесо"), (shifted, "shifted wheel", "колесо зі зміщенням")):
+        lost = 2 * (limits.root_form_diameter(gear) / 2 - gear.base_radius)
+        if limits.undercut(gear).margin < 0:
+            page.notes.append(
+                (
+                    f"{en}: the foot is undercut, the involute begins {lost / 2:.4g} mm above the base circle",
+                    f"{uk}: ніжка підрізана, евольвента починається на {lost / 2:.4g} мм вище основного кола",
+                )
+            )
+        if limits.thin_tip(gear).margin < 0:
+            page.notes.append((f"{en}: the tip is thinner than 0.3 m", f"{uk}: загострення, S_a < 0,3 m"))

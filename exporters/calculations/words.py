@@ -1,0 +1,143 @@
+"""The terms of the calculations in English and Ukrainian: ISO 1122-1 and the practicum's own words.
+
+A term is known by its DESIGN name; ``key`` stands for it in formulas, with 1 or 2 behind it where it belongs to a gear.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Term:
+    """A quantity: its key in formulas, its printed symbol, its unit, its name in both languages."""
+
+    key: str
+    symbol: str
+    unit: str
+    en: str
+    uk: str
+
+
+def _terms(text: str) -> dict[str, Term]:
+    """One term a line: name | key | symbol | unit | English | Ukrainian."""
+    rows = ([cell.strip() for cell in line.split("|")] for line in text.strip().splitlines())
+    return {name: Term(key, symbol, unit, en, uk) for name, key, symbol, unit, en, uk in rows}
+
+
+TERMS = _terms("""
+number_of_teeth|z|z||number of teeth|число зубців колеса
+module|m|m|mm|module|модуль
+transverse_module|m|m_t|mm|transverse module|торцевий модуль
+helix_angle_deg|beta|β|deg|helix angle|кут нахилу лінії зуба
+base_helix_angle_deg|beta_b|β_b|deg|base helix angle|основний кут нахилу
+pressure_angle_deg|alpha|α|deg|pressure angle of the rack|кут профілю рейки
+transverse_pressure_angle_deg|alpha|α_t|deg|transverse pressure angle of the rack|торцевий кут профілю рейки
+transverse_profile_shift_coefficient|x|x_t||transverse profile shift coefficient|торцевий коефіцієнт зміщення
+addendum_coefficient|h_a|h_a*||addendum coefficient|коефіцієнт висоти головки зуба
+tip_clearance_coefficient|c|c*||tip clearance coefficient|коефіцієнт радіального зазору
+tip_radius_coefficient|rho_f|ρ_f*||rounding of the rack's tip, in modules|радіус округлення рейки в модулях
+profile_shift_coefficient|x|x||profile shift coefficient (xi)|коефіцієнт зміщення (ξ)
+generating_shift_coefficient|x_E|x_E||generating shift coefficient|коефіцієнт зміщення при нарізанні
+profile_shift|X|X|mm|shift of the rack|зміщення рейки
+circumferential_thinning|A|A_s|mm|thinning of the tooth, arc|стоншення зуба по дузі
+gear_ratio|u|u||gear ratio|передаточне відношення
+involute_of_working_pressure_angle|inv_alpha_w|inv α_w||involute of the working pressure angle|інволюта кута зачеплення
+working_pressure_angle_deg|alpha_w|α_w|deg|working pressure angle|кут зачеплення
+tangent_of_pressure_angle|tan_alpha|tg α||tangent of the pressure angle|тангенс кута профілю рейки
+involute_of_pressure_angle|inv_alpha|inv α||involute of the pressure angle|евольвентна функція кута профілю рейки
+cosine_of_working_pressure_angle|cos_alpha_w|cos α_w||cosine of the working pressure angle|косинус кута зачеплення
+reference_centre_distance|a|a|mm|reference centre distance|ділильна міжосьова відстань
+working_centre_distance|a_w|a_w|mm|centre distance|міжосьова відстань
+centre_distance_coefficient|y|y||centre distance coefficient|коефіцієнт сприйманого зміщення
+tip_shortening_coefficient|dy|Δy||tip shortening coefficient|коефіцієнт зрівняльного зміщення
+exact_tip_shortening_coefficient|dy_0|Δy_0||tip shortening coefficient, exactly|коефіцієнт зрівняльного зміщення, точно
+profile_shift_sum|x_sum|x_Σ||sum of the profile shift coefficients|сума коефіцієнтів зміщення
+working_radius|r_w|r_w|mm|working radius|радіус початкового кола
+reference_radius|r|r|mm|reference radius|радіус ділильного кола
+base_radius|r_b|r_b|mm|base radius|радіус основного кола
+tip_radius|r_a|r_a|mm|tip radius|радіус кола вершин
+root_radius|r_f|r_f|mm|root radius|радіус кола западин
+reference_diameter|d|d|mm|reference diameter|діаметр ділильного кола
+base_diameter|d_b|d_b|mm|base diameter|діаметр основного кола
+tip_diameter|d_a|d_a|mm|tip diameter|діаметр кола вершин
+root_diameter|d_f|d_f|mm|root diameter|діаметр кола западин
+root_form_diameter|d_Ff|d_Ff|mm|root form diameter|діаметр початку евольвенти
+tip_form_diameter|d_Fa|d_Fa|mm|tip form diameter|діаметр кінця профілю біля вершини
+start_of_active_profile_diameter|d_Nf|d_Nf|mm|start of active profile diameter|діаметр початку робочої ділянки профілю
+active_tip_diameter|d_Na|d_Na|mm|active tip diameter|діаметр кінця робочої ділянки профілю
+pitch|p|p_t|mm|pitch|крок по ділильному колу
+base_pitch|p_b|p_b|mm|base pitch|крок по основному колу
+working_pitch|p_w|p_w|mm|pitch on the working circle|крок зачеплення за початковим колом
+reference_thickness|S|S|mm|tooth thickness on the reference circle|товщина зуба по ділильному колу
+space_width|e|e|mm|space width on the reference circle|ширина западини по ділильному колу
+base_thickness|S_b|S_b|mm|tooth thickness on the base circle|товщина зуба по основному колу
+working_thickness|S_w|S_w|mm|tooth thickness on the working circle|товщина зуба по початковому колу
+tip_thickness|S_a|S_a|mm|tooth thickness on the tip circle|товщина зуба на колі вершин
+diameter|d_y|d_y|mm|diameter of any circle|діаметр довільного кола
+pressure_angle_at_diameter_deg|alpha_y|α_y|deg|pressure angle on that circle|кут профілю на цьому колі
+thickness_at_diameter|S_y|S_y|mm|tooth thickness on that circle|товщина зуба на цьому колі
+tip_pressure_angle_deg|alpha_a|α_a|deg|pressure angle at the tip circle|кут профілю зуба по колу вершин
+contact_ratio|eps|ε_α||contact ratio|коефіцієнт перекриття
+arc_of_action|dd|dd'|mm|arc of action|дуга зачеплення
+contact_ratio_by_arc|eps_arc|ε'_α||contact ratio by the arc of action|коефіцієнт перекриття за дугою зачеплення
+contact_ratio_difference_percent|delta|Δ|%|difference of both contact ratios|різниця коефіцієнтів перекриття
+measured_arc_of_action|dd_m|dd'|mm|arc of action on the drawing|дуга зачеплення на кресленні
+measured_working_pitch|p_wm|p_w|mm|pitch on the working circle on the drawing|крок за початковим колом на кресленні
+measured_contact_ratio|eps_m|ε'_α||contact ratio from the drawing|коефіцієнт перекриття за кресленням
+measured_difference_percent|delta_m|Δ|%|difference from the formula|різниця з формулою
+effective_contact_ratio|eps_eff|ε_eff||contact ratio of the flanks that are there|коефіцієнт перекриття наявних профілів
+overlap_ratio|eps_beta|ε_β||overlap ratio|коефіцієнт осьового перекриття
+total_contact_ratio|eps_gamma|ε_γ||total contact ratio|сумарний коефіцієнт перекриття
+face_width|b|b|mm|face width|ширина вінця
+line_of_action_length|L|N_1N_2|mm|theoretical line of action|теоретична лінія зачеплення
+active_line_length|g|ab|mm|active line of action|практична лінія зачеплення
+approach_length|g_f|aP|mm|length of approach|довжина дополюсної частини лінії зачеплення
+recess_length|g_a|Pb|mm|length of recess|довжина заполюсної частини лінії зачеплення
+root_sliding|zeta_f|ζ_f||specific sliding at the root|питоме ковзання біля ніжки
+tip_sliding|zeta_a|ζ_a||specific sliding at the tip|питоме ковзання біля вершини
+sliding_factor|K_g|K_g||sliding speed at the end, part of the pitch speed|швидкість ковзання, частка колової швидкості
+normal_backlash|j_bn|j_n|mm|normal backlash|нормальний бічний зазор
+circumferential_backlash|j_wt|j_t|mm|circumferential backlash|коловий бічний зазор
+tip_clearance|c_tip|c|mm|tip clearance at the root|радіальний зазор
+least_shift_practicum|xi_min|ξ_min||least shift without undercut by the rule|найменше ξ без підрізу за правилом
+least_shift_without_undercut|x_min|x_min||least shift without undercut, exactly|найменше x без підрізу, точно
+least_number_of_teeth|z_min|z_min||least number of teeth without undercut at x = 0|найменше z без підрізу при x = 0
+greatest_shift_for_tip_thickness|x_max|x_0.3||greatest shift with a tip of 0.3 m|найбільше x при S_a = 0,3 m
+pointed_diameter|d_p|d_p|mm|diameter at which the tooth is pointed|діаметр загострення зуба
+least_tip_thickness|S_min|S_min|mm|least tip thickness|найменша товщина зуба на колі вершин
+required_contact_ratio|eps_0|[ε]||contact ratio to keep|найменший допустимий коефіцієнт перекриття
+required_tip_thickness|s_0|[S_a/m]||tip thickness to keep, in modules|найменша товщина вершини в модулях
+teeth_spanned|k|k||teeth in the span|число зубців у довжині загальної нормалі
+teeth_to_span|k_t|k_t||teeth to span, before rounding|число зубців у нормалі до округлення
+span|W|W|mm|span over k teeth|довжина загальної нормалі
+span_nominal|W_0|W_0|mm|span of the gear without thinning|довжина загальної нормалі без стоншення
+kerf|kerf|k_c|mm|kerf that the cut was not corrected for|ширина різу, не врахована в контурі
+span_after_kerf|W_c|W_c|mm|span of the part cut so|довжина загальної нормалі вирізаного колеса
+over_pins_after_kerf|M_c|M_c|mm|size over pins of the part cut so|розмір по роликах вирізаного колеса
+measured_span|W_m|W_m|mm|span measured on the part|виміряна довжина загальної нормалі
+normal_allowance|E|E_W|mm|lack of both flanks along their normal|нестача по нормалі на обох профілях
+thinning_from_span|A_m|A_m|mm|thinning that the measured span tells, arc|стоншення зуба за виміряною нормаллю
+span_contact_diameter|d_W|d_W|mm|diameter where the faces touch|діаметр дотику вимірювальних площин
+best_pin_diameter|D_M|D_M|mm|pin that touches at d + 2 x m|ролик, що торкається на колі d + 2 x m
+least_pin_diameter|D_min|D_min|mm|least pin that touches the involute|найменший ролик, що торкається евольвенти
+greatest_pin_diameter|D_max|D_max|mm|greatest pin that touches the involute|найбільший ролик, що торкається евольвенти
+pin_diameter|D|D|mm|pin or ball|ролик або кулька
+pin_centre_angle_deg|alpha_D|α_D|deg|pressure angle at the pin's centre|кут профілю в центрі ролика
+pin_centre_diameter|d_D|d_D|mm|diameter of the pins' centres|діаметр кола центрів роликів
+over_pins|M|M|mm|size over pins|розмір по роликах
+over_pins_nominal|M_0|M_0|mm|size over pins of the gear without thinning|розмір по роликах без стоншення
+pin_contact_diameter|d_DM|d_DM|mm|diameter where the pins touch|діаметр дотику роликів
+chordal_thickness|S_ch|S_x|mm|chordal thickness at the reference circle|товщина зуба по хорді ділильного кола
+chordal_height|h_ch|h_x|mm|height to the chord|висота до хорди
+constant_chord|S_c|S_c|mm|constant chord|товщина по постійній хорді
+constant_chord_height|h_c|h_c|mm|height to the constant chord|висота до постійної хорди
+measured_thickness|S_t|S_t|mm|measured: thickness on the reference circle|виміряно: товщина зуба по ділильному колу
+measured_space_width|e_t|e_t|mm|measured: space on the reference circle|виміряно: ширина западини по ділильному колу
+measured_pitch|P_t|P_t|mm|measured: pitch on the reference circle|виміряно: крок по ділильному колу
+measured_base_thickness|S_bm|S_b|mm|measured: thickness on the base circle|виміряно: товщина зуба по основному колу
+measured_tip_thickness|S_am|S_a|mm|measured: tooth thickness on the tip circle|виміряно: товщина зуба на колі вершин
+measured_form_diameter|d_Fm|d_Ff|mm|measured: where the involute begins|виміряно: діаметр початку евольвенти
+disk_diameter|d_disk|d_0|mm|diameter of the paper disk|діаметр паперового диска
+least_face_width|b_min|b_min|mm|face width that the span needs|ширина вінця, потрібна для виміру нормалі
+""")

@@ -1,0 +1,183 @@
+"""The blocking contour as a picture: SVG for paper and browser, letters for a terminal."""
+
+from __future__ import annotations
+
+import html
+import math
+from dataclasses import dataclass
+
+from geometry.gears.blocking_contour import BlockingContour, ContourLine, least_margin
+
+_SIZE, _LEFT, _TOP, _BOTTOM, _KEY = 560.0, 60.0, 40.0, 50.0, 330.0
+_GRID = "stroke:#dde2e6;stroke-width:0.7"
+
+
+@dataclass(frozen=True, slots=True)
+class _Style:
+    """Colour and dashes of a line, its name in both languages."""
+
+    colour: str
+    dashes: str
+    en: str
+    uk: str
+
+
+_STYLES = {
+    "working_angle": _Style("#808080", "2 2", "inv α_w = 0", "inv α_w = 0"),
+    "undercut_first": _Style("#c03020", "", "undercut, gear 1: x_min1", "підріз, колесо 1: x_min1"),
+    "undercut_second": _Style("#2060c0", "", "undercut, gear 2: x_min2", "підріз, колесо 2: x_min2"),
+    "undercut_to_active_flank_first": _Style(
+        "#c03020", "7 3", "undercut reaches the active flank, 1", "підріз сягає робочої ділянки, 1"
+    ),
+    "undercut_to_active_flank_second": _Style(
+        "#2060c0", "7 3", "undercut reaches the active flank, 2", "підріз сягає робочої ділянки, 2"
+    ),
+    "fillet_interference_first": _Style(
+        "#c03020", "2 3", "fillet interference, gear 1", "інтерференція з перехідною кривою, 1"
+    ),
+    "fillet_interference_second": _Style(
+        "#2060c0", "2 3", "fillet interference, gear 2", "інтерференція з перехідною кривою, 2"
+    ),
+    "tip_thickness_first": _Style("#a06000", "", "S_a1", "S_a1"),
+    "tip_thickness_second": _Style("#008090", "", "S_a2", "S_a2"),
+    "contact_ratio": _Style("#209050", "", "ε_α", "ε_α"),
+    "approach": _Style("#8030a0", "7 2 2 2", "pole at the start of action", "полюс на початку зачеплення"),
+    "recess": _Style("#8030a0", "2 2", "pole at the end of action", "полюс у кінці зачеплення"),
+    "equal_sliding": _Style("#000000", "9 3", "equal sliding ζ_f1 = ζ_f2", "однакове ковзання ζ_f1 = ζ_f2"),
+}
+# the tighter the level the fainter the line
+_OPACITY = {0.0: 1.0, 0.25: 0.75, 0.3: 0.6, 0.4: 0.4, 1.0: 1.0, 1.1: 0.7, 1.2: 0.45}
+
+
+def line_name(name: str, language: str) -> str:
+    """A line of the contour in words."""
+    style = _STYLES[name]
+    return style.uk if language == "uk" else style.en
+
+
+def contour_svg(contour: BlockingContour, marks: dict[str, tuple[float, float]], language: str) -> str:
+    """The contour with its legal region filled, ``marks`` (name: x1, x2) as points, and a key."""
+    box = contour.box
+    scale = _SIZE / max(box.right - box.left, box.top - box.bottom)
+    width, height = (box.right - box.left) * scale, (box.top - box.bottom) * scale
+
+    def at(point: complex) -> str:
+        return f"{_LEFT + (point.real - box.left) * scale:.2f},{_TOP + (box.top - point.imag) * scale:.2f}"
+
+    total = (_LEFT + width + _KEY, max(_TOP + height + _BOTTOM, 19.0 * (_key_rows(contour) + len(marks) + 4) + _TOP))
+    lines = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {total[0]:.0f} {total[1]:.0f}" '
+        f'width="{total[0]:.0f}" height="{total[1]:.0f}">',
+        '<rect width="100%" height="100%" style="fill:#ffffff"/>',
+    ]
+    region = " ".join(f"M {' L '.join(at(p) for p in ring)} Z" for ring in contour.region)
+    if region:
+        lines.append(f'<path d="{region}" style="fill:#e4f2e4;fill-rule:evenodd;stroke:none"/>')
+    lines += _axes(contour, scale, width, height)
+    for line in contour.lines:
+        style = _STYLES[line.name]
+        points = " ".join(at(p) for p in line.points)
+        lines.append(f'<polyline points="{points}" style="fill:none;{_stroke(line, style)}"/>')
+    lines += _key(contour, marks, _LEFT + width + 20, language)
+    for name, (x1, x2) in marks.items():
+        x, y = at(complex(x1, x2)).split(",")
+        lines.append(f'<circle cx="{x}" cy="{y}" r="4" style="fill:#d00060;stroke:#ffffff;stroke-width:1"/>')
+        lines.append(_text(float(x) + 6, float(y) - 5, name.split(":")[0], "#d00060"))
+    return "\n".join([*lines, "</svg>", ""])
+
+
+def _stroke(line: ContourLine, style: _Style) -> str:
+    opacity = 1.0 if line.level is None else _OPACITY.get(line.level, 1.0)
+    dashes = f";stroke-dasharray:{style.dashes}" if style.dashes else ""
+    return f"stroke:{style.colour};stroke-width:1.4;stroke-opacity:{opacity:g}{dashes}"
+
+
+def _kinds(contour: BlockingContour) -> list[ContourLine]:
+    """One line of each name and level, in order."""
+    found: dict[tuple[str, float | None], ContourLine] = {}
+    for line in contour.lines:
+        found.setdefault((line.name, line.level), line)
+    return list(found.values())
+
+
+def _key_rows(contour: BlockingContour) -> int:
+    return len(_kinds(contour))
+
+
+def _key(contour: BlockingContour, marks: dict[str, tuple[float, float]], left: float, language: str) -> list[str]:
+    lines, y = [], _TOP + 4
+    for line in _kinds(contour):
+        style = _STYLES[line.name]
+        unit = " m" if line.name.startswith("tip") else ""
+        level = "" if line.level is None else f" = {line.level:g}{unit if line.level else ''}"
+        lines.append(
+            f'<line x1="{left:.1f}" y1="{y:.1f}" x2="{left + 34:.1f}" y2="{y:.1f}" style="{_stroke(line, style)}"/>'
+        )
+        lines.append(_text(left + 42, y + 4, line_name(line.name, language) + level))
+        y += 19
+    wish, rack = contour.requirements, contour.pair.rack
+    y += 8
+    ratio, thickness = f"{wish.contact_ratio:g}", f"{wish.tip_thickness:g}"
+    legal = (
+        f"область: ε ≥ {ratio}, S_a ≥ {thickness} m"
+        if language == "uk"
+        else f"region: ε ≥ {ratio}, S_a ≥ {thickness} m"
+    )
+    lines.append(f'<rect x="{left:.1f}" y="{y - 8:.1f}" width="34" height="12" style="fill:#e4f2e4;stroke:#a0c0a0"/>')
+    lines.append(_text(left + 42, y + 3, legal))
+    y += 19
+    shape = f"α = {math.degrees(rack.pressure_angle):g}°, h_a* = {rack.addendum:g}, c* = {rack.tip_clearance:g}"
+    lines.append(_text(left, y + 3, f"{shape}, ρ_f* = {rack.tip_radius:.4g}"))
+    y += 19
+    for name, (x1, x2) in marks.items():
+        lines.append(f'<circle cx="{left + 17:.1f}" cy="{y:.1f}" r="4" style="fill:#d00060"/>')
+        lines.append(_text(left + 42, y + 4, f"{name}: {x1:.4f} / {x2:.4f}"))
+        y += 19
+    return lines
+
+
+def _axes(contour: BlockingContour, scale: float, width: float, height: float) -> list[str]:
+    box, lines = contour.box, []
+    step = next(s for s in (0.05, 0.1, 0.2, 0.5, 1.0) if max(box.right - box.left, box.top - box.bottom) / s <= 14)
+    for k in range(math.ceil(box.left / step), math.floor(box.right / step) + 1):
+        x = _LEFT + (k * step - box.left) * scale
+        heavy = "stroke:#808890;stroke-width:1" if k == 0 else _GRID
+        lines.append(f'<line x1="{x:.2f}" y1="{_TOP:g}" x2="{x:.2f}" y2="{_TOP + height:.2f}" style="{heavy}"/>')
+        lines.append(_text(x - 10, _TOP + height + 16, f"{k * step:g}"[:5]))
+    for k in range(math.ceil(box.bottom / step), math.floor(box.top / step) + 1):
+        y = _TOP + (box.top - k * step) * scale
+        heavy = "stroke:#808890;stroke-width:1" if k == 0 else _GRID
+        lines.append(f'<line x1="{_LEFT:g}" y1="{y:.2f}" x2="{_LEFT + width:.2f}" y2="{y:.2f}" style="{heavy}"/>')
+        lines.append(_text(_LEFT - 34, y + 4, f"{k * step:g}"[:5]))
+    teeth = contour.pair.teeth
+    lines.append(_text(_LEFT, 22, f"z1 = {teeth[0]}, z2 = {teeth[1]}", size=15))
+    lines.append(_text(_LEFT + width - 20, _TOP + height + 34, "x1", size=14))
+    lines.append(_text(_LEFT - 34, _TOP - 12, "x2", size=14))
+    return lines
+
+
+def _text(x: float, y: float, text: str, colour: str = "#202830", size: int = 12) -> str:
+    style = f"font-family:sans-serif;font-size:{size}px;fill:{colour}"
+    return f'<text x="{x:.2f}" y="{y:.2f}" style="{style}">{html.escape(text)}</text>'
+
+
+def contour_text(contour: BlockingContour, marks: dict[str, tuple[float, float]], columns: int = 61) -> str:
+    """The legal region in letters: # legal, . not; a proposal as its number; x1 to the right, x2 upwards."""
+    box = contour.box
+    rows = max(3, round(columns * (box.top - box.bottom) / (box.right - box.left) / 2))
+    numbers = {}
+    for index, (x1, x2) in enumerate(marks.values(), 1):
+        column = round((x1 - box.left) / (box.right - box.left) * (columns - 1))
+        row = round((x2 - box.bottom) / (box.top - box.bottom) * (rows - 1))
+        numbers[column, row] = str(index)
+    lines = []
+    for row in reversed(range(rows)):
+        x2 = box.bottom + (box.top - box.bottom) * row / (rows - 1)
+        letters = ""
+        for column in range(columns):
+            x1 = box.left + (box.right - box.left) * column / (columns - 1)
+            inside = least_margin(contour.pair, contour.requirements, x1, x2) >= 0
+            letters += numbers.get((column, row), "#" if inside else ".")
+        lines.append(f"{x2:6.2f} {letters}")
+    foot = f"{box.left:.2f}".ljust(columns - 6) + f"{box.right:6.2f}"
+    return "\n".join([*lines, f"       {foot}  x1"])

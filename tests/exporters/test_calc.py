@@ -1,0 +1,254 @@
+"""``higherpair calc``: published cases, every formula evaluated, every format and language, every refusal one line."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from exporters.calculations.render import FORMATS, render
+from exporters.calculations.sheet import KEYS, Sheet, Step
+from exporters.calculations.topics import TOPICS, calculate, sheet_of
+from exporters.calculations.words import TERMS
+from geometry.angles import inverse_involute, involute_function
+
+from .making import run
+from .test_cli import complaint
+
+PUBLISHED = Path(__file__).parents[1] / "published"
+PRACTICUM = json.loads((PUBLISHED / "practicum_calculations.json").read_text(encoding="utf-8"))["cases"]
+PAIR = ("module=3", "first.number_of_teeth=12", "second.number_of_teeth=60")
+# regressions that broke others: branch switches at 20 and 25 degrees, steep helix with shift, many teeth, undercut
+SHEETS = [
+    ("spur", "practicum_pair", "part=pinion"),
+    ("spur", "module=2", "number_of_teeth=24", "profile_shift_coefficient=0.3", "circumferential_thinning=0.1",
+     "helix_angle_deg=20", "diameter=50"),
+    ("spur", "module=2", "number_of_teeth=25", "circumferential_thinning=0.1", "thinning_method=deeper_cut",
+     "pin_diameter=3.5"),
+    ("spur", "module=2", "number_of_teeth=23", "kerf=0.2", "measured_span=15.1"),
+    ("spur", "module=2", "number_of_teeth=23", "helix_angle_deg=10", "kerf=0.2", "measured_span=15",
+     "circumferential_thinning=0.1"),
+    *(("spur", "module=1", f"number_of_teeth={z}") for z in (6, 8, 17, 41, 42, 43, 200, 10_000)),
+    *(("spur", "module=1", f"number_of_teeth={z}", "pressure_angle_deg=25") for z in (26, 27)),
+    ("spur", "module=1", "number_of_teeth=20", "helix_angle_deg=45", "profile_shift_coefficient=0.5"),
+    ("spur", "module=2", "number_of_teeth=20", "tip_relief.depth_coefficient=0.02", "tip_diameter=43.5"),
+    ("tmm42", "module=10", "reference_diameter=100"),
+    ("tmm42", "module=5", "number_of_teeth=20"),
+    ("tmm42", "practicum_pair", "part=wheel"),
+    ("gear-pair", "practicum_pair"),
+    ("gear-pair", *PAIR),
+    ("gear-pair", *PAIR, "helix_angle_deg=30", "working_centre_distance=125", "second.profile_shift_coefficient=0"),
+    ("gear-pair", *PAIR, "helix_angle_deg=-30", "first.profile_shift_coefficient=0.09809", "side_clearance_class=C"),
+    ("gear-pair", *PAIR, "working_centre_distance=109", "normal_backlash=0.1"),
+    ("gear-pair", *PAIR, "working_centre_distance=109.2", "normal_backlash=0.5", "profile_shift_coefficient=0.2"),
+    ("gear-pair", *PAIR, "circumferential_backlash=0.1", "first.profile_shift_coefficient=0.4",
+     "thinning_method=deeper_cut"),
+    ("gear-pair", "module=2", "first.number_of_teeth=150", "second.number_of_teeth=8", "tip_chamfer=0.1"),
+    ("shift-choice", "first.number_of_teeth=17", "second.number_of_teeth=33", "module=2",
+     "working_centre_distance=51.5"),
+]  # fmt: skip
+
+
+@cache
+def sheet_for(words: str) -> Sheet:
+    """The sheet of a calculation, made once."""
+    topic, *rest = words.split()
+    return sheet_of(topic, rest)[0]
+
+
+def values_of(words: str) -> dict[str, Any]:
+    """The json of a calculation."""
+    return json.loads(render(sheet_for(words), "json", "en"))
+
+
+def ident(words: tuple[str, ...]) -> str:
+    return " ".join(words)
+
+
+@pytest.mark.parametrize("case", PRACTICUM, ids=lambda c: f"{c['id']} {c['name']} {c.get('gear', '')}")
+def test_the_practicum_and_the_guidelines(case: dict[str, Any]) -> None:
+    data = values_of(case["words"])
+    found = data["values"][case["name"]]
+    found = found[case["gear"]] if "gear" in case else found
+    assert found == pytest.approx(case["recomputed"], rel=1e-12)
+    steps = [s for s in data["steps"] if (s["name"], s.get("gear")) == (case["name"], case.get("gear"))]
+    if case.get("misprint"):
+        assert case["printed"].split()[0] in steps[0]["misprint"]
+
+
+def test_only_the_printed_pair_is_flagged() -> None:
+    words = "gear-pair module=10 first.number_of_teeth=13 second.number_of_teeth=21 first.profile_shift_coefficient=0.7"
+    assert not [s for s in values_of(words)["steps"] if "misprint" in s]
+
+
+def test_the_misprinted_inequality_and_left_side_are_named() -> None:
+    assert "x_min ≤ x ≤ x_0,3" in calculate("tmm42", ["module=10", "number_of_teeth=10"], "text", "uk")
+    assert "(3.4) prints alpha_w" in calculate("gear-pair", ["practicum_pair"], "text", None)
+
+
+def evaluated(step: Step, spoilt: float = 0.0) -> float:
+    """A printed formula worked out with all digits; angles go in as radians. ``spoilt`` changes its first input."""
+    names = {
+        "cos": math.cos, "sin": math.sin, "tan": math.tan, "arccos": math.acos, "arctan": math.atan,
+        "sqrt": math.sqrt, "abs": abs, "pi": math.pi, "inv": involute_function,
+        "arcinv": lambda v: inverse_involute(v).value,
+    }  # fmt: skip
+
+    def value(match: re.Match[str]) -> str:
+        known = step.inputs[match[1]]
+        number = float(known.value) + spoilt * (match[1] == next(iter(step.inputs)))
+        return f"({math.radians(number) if known.unit == 'deg' else number!r})"
+
+    result = eval(KEYS.sub(value, step.formula), {"__builtins__": {}}, names)
+    return math.degrees(result) if step.unit == "deg" else result
+
+
+@pytest.mark.parametrize("words", SHEETS, ids=ident)
+def test_every_printed_formula_gives_its_value(words: tuple[str, ...]) -> None:
+    sheet = sheet_for(" ".join(words))
+    checked = [step for step in sheet.steps() if step.formula]
+    assert len(checked) >= 8
+    for step in checked:
+        assert evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), (step.name, step.formula)
+
+
+def test_a_wrong_formula_would_be_noticed() -> None:
+    sheet = sheet_for("gear-pair practicum_pair")
+    wrong = [s for s in sheet.steps() if s.formula and evaluated(s, 1e-3) == pytest.approx(s.value, rel=1e-9)]
+    assert [s.name for s in wrong] == []
+
+
+def test_every_term_speaks_both_languages() -> None:
+    for name, term in TERMS.items():
+        assert term.en.isascii(), name
+        assert re.search(r"[а-яіїєґ]{3}", term.uk), name
+        assert not re.search(r"[ыэъё]", term.uk), name
+
+
+@pytest.mark.parametrize("words", SHEETS, ids=ident)
+def test_headings_notes_and_misprints_speak_both_languages(words: tuple[str, ...]) -> None:
+    sheet = sheet_for(" ".join(words))
+    pairs = [sheet.title, *(s.title for s in sheet.sections), *sheet.notes]
+    pairs += [(s.printed.en, s.printed.uk) for s in sheet.steps() if s.printed]
+    for en, uk in pairs:
+        assert not re.search(r"[а-яіїєґА-ЯІЇЄҐ]{2}", en), en
+        assert re.search(r"[а-яіїєґА-ЯІЇЄҐ]{2}", uk) or uk[0].isdigit() or "cos" in uk or "inv" in uk, uk
+
+
+@pytest.mark.parametrize("topic", TOPICS)
+@pytest.mark.parametrize("language", ["en", "uk"])
+def test_every_format_of_every_topic(topic: str, language: str) -> None:
+    sheet = sheet_for(" ".join(next(w for w in SHEETS if w[0] == topic)))
+    made = {form: render(sheet, form, language) for form in FORMATS}
+    assert all(text.endswith("\n") for text in made.values())
+    title = sheet.title[1 if language == "uk" else 0]
+    assert made["text"].startswith(title)
+    assert made["md"].startswith(f"# {title}")
+    assert f'<html lang="{language}">' in made["html"]
+    for tag in ("html", "table", "tr", "td", "ul", "sub", "svg"):
+        assert len(re.findall(rf"<{tag}[ >]", made["html"])) == made["html"].count(f"</{tag}>"), tag
+    data = json.loads(made["json"])
+    assert len(data["steps"]) == len(sheet.steps())
+    for step in data["steps"]:
+        assert step["text"] in made["text"]
+
+
+def test_json_has_full_precision_and_design_names() -> None:
+    values = values_of("gear-pair practicum_pair")["values"]
+    assert values["working_centre_distance"] == pytest.approx(179.18263740574994, rel=1e-15)
+    assert set(values["root_form_diameter"]) == {"first", "second"}
+
+
+def test_a_kerf_that_was_forgotten_shows_in_span_and_pins() -> None:
+    """An outline offset by half the kerf: an involute stays one, turned about its base circle."""
+    plain = values_of("spur module=2 number_of_teeth=23 pin_diameter=3.5")["values"]
+    cut = values_of("spur module=2 number_of_teeth=23 pin_diameter=3.5 kerf=0.2")["values"]
+    assert cut["span_after_kerf"] == pytest.approx(plain["span"] - 0.2, rel=1e-12)
+    # a pin in a space whose flanks lie 0.1 mm deeper sits as a pin thicker by 0.2 mm would, minus its own thickness
+    thinner = values_of("spur module=2 number_of_teeth=23 pin_diameter=3.3")["values"]
+    assert cut["over_pins_after_kerf"] == pytest.approx(thinner["over_pins"] + 0.2, rel=1e-12)
+
+
+def test_the_scene_gives_the_language(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    scene = tmp_path / "pair.toml"
+    scene.write_text(
+        '[scene]\nlanguage = "uk"\n[parts.a]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 23\n', "utf-8"
+    )
+    assert run("calc", "spur", scene) == 0
+    assert "товщина зуба" in capsys.readouterr().out
+    assert run("calc", "spur", scene, "--language", "en") == 0
+    assert "tooth thickness" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (("spr",), "did you mean spur"),
+        (("spur", "module=2"), "number_of_teeth: is missing"),
+        (("spur", "module=2", "number_of_teth=20"), "did you mean number_of_teeth"),
+        (("spur", "module=2", "number_of_teeth=two"), "must be a whole number"),
+        (("spur", "module=2", "module=3"), "given twice"),
+        (("spur", "module=2", "number_of_teeth=20", "--format", "pdf"), "text, md, html, json"),
+        (("spur", "module=2", "number_of_teeth=20", "--language", "de"), "en, uk"),
+        (("spur", "module=2", "number_of_teeth=20", "profile_shift_coefficient=3"), "works"),
+        (("spur", "module=2", "number_of_teeth=20", "teeth_spanned=21"), "from 1 to 20"),
+        (("spur", "module=2", "number_of_teeth=20", "diameter=30"), "at least"),
+        (("spur", "module=2", "number_of_teeth=20", "pin_diameter=0.01"), "at least"),
+        (("spur", "module=nan", "number_of_teeth=20"), "finite"),
+        (("spur", "practicum_pair"), "part=ID"),
+        (("spur", "practicum_pair", "part=pinon"), "did you mean pinion"),
+        (("spur", "no_such_scene"), "no such file or built-in scene"),
+        (("spur", "practicum_pair", "laser_gear"), "one scene is enough"),
+        (("tmm42", "module=10", "reference_diameter=101"), "100 works"),
+        (("tmm42", "module=10"), "reference_diameter: is missing"),
+        (("tmm42", "module=10", "reference_diameter=100", "number_of_teeth=11"), "remove one"),
+        (("gear-pair", "module=2"), "first.number_of_teeth: is missing"),
+        (("gear-pair", *PAIR, "working_center_distance=100"), "did you mean working_centre_distance"),
+        (("gear-pair", *PAIR, "working_centre_distance=90"), "works"),
+        (("gear-pair", *PAIR, "side_clearance_class=F"), "side_clearance_class"),
+        (("gear-pair", *PAIR, "normal_backlash=0.1", "side_clearance_class=C"), "given already"),
+        (("gear-pair", *PAIR, "second.module=4"), "3 works"),
+        (("gear-pair", *PAIR, "first.tip_diameter=80"), "first.tip_diameter"),
+        (("gear-pair", *PAIR, "kind=external"), "did you mean external_gear_pair"),
+        (("gear-pair", *PAIR, "measured_arc_of_action=1"), "measured_working_pitch"),
+        (("gear-pair", "laser_gear"), "no pair of gears"),
+        (("gear-pair", "practicum_pair", "mate=2"), "from 1 to 1"),
+        (("shift-choice", "first.number_of_teeth=13"), "second"),
+        (("shift-choice", "first.number_of_teeth=13", "second.number_of_teeth=21", "basic_rack=ISO"), "ISO 53 A"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, tuple) else "",
+)  # fmt: skip
+def test_wrong_input_gets_one_clear_line(
+    arguments: tuple[str, ...], expected: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert expected in complaint(capsys, "calc", *arguments)
+
+
+def test_a_shift_table_cell_that_was_mended_is_flagged() -> None:
+    data = values_of("shift-choice first.number_of_teeth=17 second.number_of_teeth=33")
+    flagged = [s for s in data["steps"] if "misprint" in s]
+    assert [s["value"] for s in flagged] == [0.487]
+    assert "0.951 / 0.459" in flagged[0]["misprint"]
+    assert {line["name"] for line in data["blocking_contour"]} >= {"undercut_first", "contact_ratio", "equal_sliding"}
+
+
+def test_the_picture_is_written_in_the_language(tmp_path: Path) -> None:
+    file = tmp_path / "contour.svg"
+    words = ["first.number_of_teeth=20", "second.number_of_teeth=30", f'picture="{file.as_posix()}"']
+    calculate("shift-choice", words, "text", "uk")
+    text = file.read_text(encoding="utf-8")
+    assert text.startswith("<svg")
+    assert "однакове ковзання" in text
+    assert text.count("<polyline") >= 8
+
+
+def test_a_formula_cannot_use_what_is_not_known_yet() -> None:
+    page = Sheet("x", ("x", "х"))
+    page.section("x", "х")
+    with pytest.raises(KeyError, match="not known yet"):
+        page.add("pitch", 1.0, "pi * {m}")
