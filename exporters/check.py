@@ -7,10 +7,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from exporters.words import finding_text, words
-from geometry.gears.pair_contact import pair_contact
 from geometry.tolerance import PLACED_MM
 from parts.instances import DriveSpec
-from parts.mates import Mating
+from parts.mate_kinds import Mating
 from parts.placing import Closeness, Condition, PlacedMate, Placing
 
 
@@ -23,7 +22,7 @@ def scene_checks(placing: Placing, drives: Sequence[DriveSpec], language: str, *
             turns = [abs(train[mate.first.id]) for train in placing.turns if mate.first.id in train]
             if turns:
                 # contact is held against a whole pitch, whatever part of it the drive runs through
-                found["driven_pitches"] = turns[0] * mate.mating.pair.first.number_of_teeth
+                found["driven_pitches"] = turns[0] * mate.mating.first_teeth
     if placing.close:
         checks["neighbours"] = [_neighbours(c, language, judged=contact) for c in placing.close]
     if placing.turns:
@@ -35,19 +34,13 @@ def scene_checks(placing: Placing, drives: Sequence[DriveSpec], language: str, *
 
 
 def pair_quantities(mating: Mating) -> dict[str, Any]:
-    """What the calculation of a pair says, lengths in mm (practicum, lesson 3)."""
-    pair = mating.pair
+    """What the calculation of a pair says, lengths in mm."""
     return {
-        "kind": "external_gear_pair",
+        "kind": mating.kind,
         "first": mating.first,
         "second": mating.second,
         "direction_deg": mating.direction_deg,
-        "gear_ratio": pair.gear_ratio,
-        "working_pressure_angle_deg": math.degrees(pair.working_pressure_angle),
-        "working_centre_distance": pair.working_centre_distance,
-        "tip_shortening_coefficient": pair.tip_shortening_coefficient,
-        "contact_ratio": pair.contact_ratio,
-        "normal_backlash": pair.normal_backlash,
+        **mating.quantities(),
     }
 
 
@@ -63,7 +56,7 @@ def check_pair(
 
     ``second_turn`` (rad) and ``centre_shift`` (mm): how far the pair stands off the exact one; ``tolerance`` in mm.
     """
-    found = pair_contact(mating.pair, second_turn=second_turn, centre_shift=centre_shift, tolerance=tolerance)
+    found = mating.contact(second_turn, centre_shift, tolerance)
     worst = found.worst
     return {
         **pair_quantities(mating),
@@ -76,7 +69,7 @@ def check_pair(
         "labels": [label.value for label in worst.labels],
         "findings": [
             {"code": f.code, "value": f.value, "limit": f.limit, "text": finding_text(language, f)}
-            for f in mating.pair.findings()
+            for f in mating.findings()
         ],
     }
 
@@ -87,7 +80,7 @@ def _mate(mate: PlacedMate, language: str, *, contact: bool) -> dict[str, Any]:
     if not contact:
         found = pair_quantities(mate.mating)
     elif mate.only_checks:
-        allowed = max(PLACED_MM, 1e-8 * mate.mating.pair.module)
+        allowed = max(PLACED_MM, 1e-8 * mate.mating.module)
         found = check_pair(
             mate.mating, language, second_turn=mate.second_turn, centre_shift=mate.centre_shift, tolerance=allowed
         )

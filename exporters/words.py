@@ -42,6 +42,10 @@ WORDS: dict[str, tuple[str, str]] = {
         "відстань осей {first} і {second} дорівнює {value:.9g} мм, потрібно {required:.9g} мм "
         "(з точністю {tolerance:.2g} мм)",
     ),
+    "rack_phase": (
+        "{second} stands {value:.10g} mm along its line from where it meshes with {first} (within {tolerance:.2g} mm)",
+        "{second} зсунуто на {value:.10g} мм від положення зачеплення з {first} (з точністю {tolerance:.2g} мм)",
+    ),
     "phase": (
         "{second} stands turned by {value:.10g} deg, rotation_deg = {required:.10g} brings it into the spaces of "
         "{first} (within {tolerance:.2g} deg)",

@@ -1,68 +1,132 @@
-"""Mates of a scene: gears that mesh. A mate may change a part only in its tip diameter, before any region is built."""
+"""From the mates of a scene to pairs. A mate may change a part only in its tip diameter and its thinning.
+
+Both happen before any region is built: the shortest tip and the largest thinning that any mate asks for win.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Annotated, Any
+import math
+from dataclasses import replace
+from typing import Any
 
-from msgspec import Meta, Struct
+from msgspec import Struct
 
-from geometry.gears.spur import SpurGear
+from geometry.errors import ParameterError, at_least
+from parts.mate_kinds import (
+    ExternalGearPairSpec,
+    ExternalMating,
+    InternalGearPairSpec,
+    InternalMating,
+    Mating,
+    RackMating,
+    RackPairSpec,
+)
 
-if TYPE_CHECKING:
-    from geometry.gears.pair import ExternalPair
-
-
-class ExternalGearPairSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="external_gear_pair"):
-    """Two external spur gears in mesh: exact centre distance, tip shortening, phase."""
-
-    first: Annotated[str, Meta(description="instance that is already placed")]
-    second: Annotated[str, Meta(description="instance that is brought into mesh")]
-    direction_deg: Annotated[
-        float, Meta(ge=-360, le=360, description="direction of the line of centres", extra={"unit": "degrees"})
-    ] = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class Mating:
-    """Two instances in mesh, with the gears as they are built."""
-
-    first: str
-    second: str
-    direction_deg: float
-    pair: ExternalPair
+MATES: dict[str, type[Struct]] = {
+    "external_gear_pair": ExternalGearPairSpec,
+    "internal_gear_pair": InternalGearPairSpec,
+    "rack_pair": RackPairSpec,
+}
+# what each kind of mate joins, first and second in every order that works
+JOINS = {
+    "external_gear_pair": (("spur_gear", "spur_gear"),),
+    "internal_gear_pair": (("ring_gear", "spur_gear"), ("spur_gear", "ring_gear")),
+    "rack_pair": (("spur_gear", "rack"),),
+}
 
 
-def mated(
-    gears: dict[str, SpurGear], mates: list[Any], part_of: dict[str, str]
-) -> tuple[dict[str, SpurGear], list[Mating]]:
-    """The gears with their tips shortened, the shortest asked for by any mate, and the pairs of them.
+def mated(gears: dict[str, Any], mates: list[Any], part_of: dict[str, str]) -> tuple[dict[str, Any], list[Mating]]:
+    """The gears as their mates want them, and the pairs of them.
 
     ``gears`` by part, ``part_of`` the part of every instance that ``mates`` name.
 
     Raises
     ------
     ParameterError
-        Two gears cannot mesh; names the key of the second gear and what would work.
+        Two gears cannot mesh; names the key of the second gear, or of the mate as ``mate.KEY``, and what would work.
     """
     if not mates:
         return gears, []
-    # only scenes with mates pay for the mathematics of pairs
-    from geometry.gears.pair import external_pair
-
-    pairs = [external_pair(gears[part_of[m.first]], gears[part_of[m.second]]) for m in mates]
-    final = dict(gears)
+    final = _thinned(gears, mates, part_of)
+    pairs = [_pair(m, final[part_of[m.first]], final[part_of[m.second]]) for m in mates]
     for mate, pair in zip(mates, pairs, strict=True):
-        for name, gear in ((part_of[mate.first], pair.first), (part_of[mate.second], pair.second)):
-            if gear.tip_radius < final[name].tip_radius:
-                final[name] = replace(final[name], given_tip_diameter=2 * gear.tip_radius)
-    matings = [
-        Mating(
-            m.first,
-            m.second,
-            m.direction_deg,
-            replace(p, first=final[part_of[m.first]], second=final[part_of[m.second]]),
-        )
-        for m, p in zip(mates, pairs, strict=True)
+        if isinstance(mate, ExternalGearPairSpec):
+            for name, gear in ((part_of[mate.first], pair.first), (part_of[mate.second], pair.second)):
+                if gear.tip_radius < final[name].tip_radius:
+                    final[name] = replace(final[name], given_tip_diameter=2 * gear.tip_radius)
+    return final, [
+        _mating(m, p, final[part_of[m.first]], final[part_of[m.second]]) for m, p in zip(mates, pairs, strict=True)
     ]
-    return final, matings
+
+
+def _pair(mate: Any, first: Any, second: Any) -> Any:
+    """The pair of a mate, the mathematics loaded only for the kinds that a scene has."""
+    distance = mate.working_centre_distance
+    try:
+        if isinstance(mate, ExternalGearPairSpec):
+            from geometry.gears.pair import external_pair
+
+            return external_pair(first, second, distance)
+        if isinstance(mate, InternalGearPairSpec):
+            from geometry.gears.internal_pair import internal_pair
+
+            pinion, ring = _pinion_and_ring(first, second)
+            return internal_pair(pinion, ring, distance)
+        from geometry.gears.rack_pair import rack_pair
+
+        return rack_pair(first, second, distance)
+    except ParameterError as error:
+        if error.name == "working_centre_distance":
+            raise ParameterError("mate.working_centre_distance", error.value, error.allowed) from error
+        raise
+
+
+def _mating(mate: Any, pair: Any, first: Any, second: Any) -> Mating:
+    """The mate with its gears as they are built at last."""
+    if isinstance(mate, ExternalGearPairSpec):
+        return ExternalMating(mate.first, mate.second, mate.direction_deg, replace(pair, first=first, second=second))
+    if isinstance(mate, InternalGearPairSpec):
+        pinion, ring = _pinion_and_ring(first, second)
+        whole = replace(pair, pinion=pinion, ring=ring)
+        return InternalMating(mate.first, mate.second, mate.direction_deg, whole, ring is first)
+    return RackMating(mate.first, mate.second, mate.direction_deg, replace(pair, gear=first, rack=second))
+
+
+def _pinion_and_ring(first: Any, second: Any) -> tuple[Any, Any]:
+    from geometry.gears.ring import RingGear
+
+    return (second, first) if isinstance(first, RingGear) else (first, second)
+
+
+def _thinned(gears: dict[str, Any], mates: list[Any], part_of: dict[str, str]) -> dict[str, Any]:
+    """The gears with the thinning that their mates' backlash asks for: half each, unless a part sets its own."""
+    asked: dict[str, float] = {}
+    for mate in mates:
+        if mate.normal_backlash is None:
+            continue
+        names = part_of[mate.first], part_of[mate.second]
+        bare = [replace(gears[n], circumferential_thinning=0.0) for n in names]
+        angle = _pressure_angle(bare[0])
+        # backlash that the distance alone gives goes before thinning
+        given = _backlash_at(mate, bare[0], bare[1])
+        total = (mate.normal_backlash - given) / math.cos(angle)
+        own = [gears[n].circumferential_thinning for n in names]
+        free = [n for n, thinning in zip(names, own, strict=True) if thinning == 0]
+        rest = total - sum(own)
+        if rest < -1e-12 * gears[names[0]].module:
+            least = (sum(own) * math.cos(angle)) + given
+            text = f"the gears' own thinning and distance give more; at least {at_least(least)} mm works"
+            raise ParameterError("mate.normal_backlash", mate.normal_backlash, text)
+        for name in free:
+            share = rest / len(free)
+            asked[name] = max(asked.get(name, 0.0), share)
+    return {n: replace(g, circumferential_thinning=asked[n]) if asked.get(n) else g for n, g in gears.items()}
+
+
+def _backlash_at(mate: Any, first: Any, second: Any) -> float:
+    """Backlash of two gears without thinning at the mate's centre distance, mm; negative distances are refused."""
+    return _pair(mate, first, second).normal_backlash if mate.working_centre_distance is not None else 0.0
+
+
+def _pressure_angle(gear: Any) -> float:
+    return gear.rack.pressure_angle if hasattr(gear, "rack") else gear.pressure_angle

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from geometry.placement import Placement3, Vector
 from geometry.tolerance import PLACED_MM, TOLERANCES
 from parts.instances import DriveSpec, InstanceSpec
-from parts.mates import Mating
+from parts.mate_kinds import Mating
 from parts.part import Part
 from parts.schema import SceneError
 
@@ -157,8 +157,7 @@ class _Placed:
             remedy = f"mates[{index + 1}] turns it into mesh; remove it, or give `at` too: then the mate only checks"
             raise SceneError(self.source, f"instances.{second}.rotation_deg", self.specs[second].rotation_deg, remedy)
         direction = math.radians(mating.direction_deg)
-        centre = here.centre + mating.pair.working_centre_distance * cmath.exp(1j * direction)
-        turned = mating.pair.second_rotation(here.rotation, direction)
+        centre, turned = mating.second_pose(here.centre, here.rotation, direction)
         at = (centre.real, centre.imag, here.at[2])
         self.stand[second] = Instance(second, str(self.specs[second].part), at, turned, "mate")
         for group in self.free:
@@ -231,9 +230,12 @@ def _train(start: str, matings: Sequence[Mating]) -> dict[str, float]:
     while queue:
         here = queue.pop(0)
         for mating in matings:
+            if mating.ratio is None:
+                # a rack moves straight: it carries no turns on
+                continue
             for one, two, ratio in (
-                (mating.first, mating.second, _ratio(mating)),
-                (mating.second, mating.first, 1 / _ratio(mating)),
+                (mating.first, mating.second, mating.ratio),
+                (mating.second, mating.first, 1 / mating.ratio),
             ):
                 if one == here and two not in found:
                     found[two] = found[here] * ratio
@@ -241,28 +243,23 @@ def _train(start: str, matings: Sequence[Mating]) -> dict[str, float]:
     return found
 
 
-def _ratio(mating: Mating) -> float:
-    """Turns of the second for one of the first, negative where they turn against each other."""
-    return mating.pair.second_rotation(1.0) - mating.pair.second_rotation(0.0)
-
-
 def _closed(mate: PlacedMate) -> PlacedMate:
     """A mate between two instances that stood before it: centre distance and phase, with the numbers."""
     if not mate.only_checks:
         return mate
-    pair = mate.mating.pair
-    distance = abs(mate.second.centre - mate.first.centre)
-    required = pair.working_centre_distance
-    shift = distance - required
+    first, second = mate.first, mate.second
+    found = mate.mating.standing((first.centre, first.rotation), (second.centre, second.rotation))
+    required, shift = mate.mating.distance, found.distance - mate.mating.distance
     # numbers that large cannot be known better
     allowed = PLACED_MM + TOLERANCES.relative_join * (abs(mate.first.centre) + abs(mate.second.centre))
-    conditions = [Condition("centre_distance", distance, required, allowed, abs(shift) <= allowed)]
-    middle = pair.second_rotation(mate.first.rotation, mate.direction)
-    turn = math.remainder(mate.second.rotation - middle, 2 * math.pi / pair.second.number_of_teeth)
-    play = (pair.normal_backlash / 2 + allowed) / pair.second.base_radius
-    turned, right = math.degrees(mate.second.rotation), math.degrees(mate.second.rotation - turn)
-    conditions.append(Condition("phase", turned, right, math.degrees(play), abs(turn) <= play))
-    return replace(mate, conditions=tuple(conditions), second_turn=turn, centre_shift=shift)
+    conditions = [Condition("centre_distance", found.distance, required, allowed, abs(shift) <= allowed)]
+    off, met = found.phase_off, abs(found.phase_off) <= found.play + found.slack(allowed)
+    if mate.mating.ratio is None:
+        conditions.append(Condition("rack_phase", off, 0.0, found.play + allowed, met))
+    else:
+        turned, right = math.degrees(second.rotation), math.degrees(second.rotation - off)
+        conditions.append(Condition("phase", turned, right, math.degrees(found.play + found.slack(allowed)), met))
+    return replace(mate, conditions=tuple(conditions), second_turn=off, centre_shift=shift)
 
 
 def _with_faces_and_speeds(mates: tuple[PlacedMate, ...], parts: dict[str, Part]) -> tuple[PlacedMate, ...]:
@@ -274,8 +271,8 @@ def _with_faces_and_speeds(mates: tuple[PlacedMate, ...], parts: dict[str, Part]
             width = _common_width(mate.first, mate.second, parts)
             more.append(Condition("common_face_width", width, 0.0, 0.0, width > 0))
             before = _train(mate.mating.first, [m.mating for m in mates[:index]])
-            ratio, other = _ratio(mate.mating), before.get(mate.mating.second)
-            if other is not None:
+            ratio, other = mate.mating.ratio, before.get(mate.mating.second)
+            if other is not None and ratio is not None:
                 allowed = 1e3 * TOLERANCES.relative_rounding * max(abs(ratio), abs(other))
                 more.append(Condition("train", other, ratio, allowed, abs(other - ratio) <= allowed))
         done.append(replace(mate, conditions=(*mate.conditions, *more)))

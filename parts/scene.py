@@ -13,7 +13,8 @@ from msgspec import Meta, Struct
 from geometry.errors import ParameterError
 from parts.instances import DriveSpec, InstanceSpec, check_instance, drive_spec, instance_specs
 from parts.keys import DEVICE_NAMES, IDENTIFIER, Identifier, mm
-from parts.mates import ExternalGearPairSpec, Mating, mated
+from parts.mate_kinds import Mating
+from parts.mates import JOINS, MATES, mated
 from parts.part import Part
 from parts.rack import RackSpec, checked_rack_part, rack_part
 from parts.ring_gear import RingGearSpec, checked_ring_gear, ring_gear_part
@@ -27,7 +28,6 @@ KINDS: dict[str, tuple[type[Struct], Any, Any]] = {
     "ring_gear": (RingGearSpec, checked_ring_gear, ring_gear_part),
     "rack": (RackSpec, checked_rack_part, rack_part),
 }
-MATES: dict[str, type[Struct]] = {"external_gear_pair": ExternalGearPairSpec}
 # purposes of each format, the default first, and the tolerance (mm) of an export that names none
 _DEFAULTS: dict[str, dict[str, float]] = {
     "dxf": {"laser": 0.005, "drawing": 1e-6},
@@ -274,19 +274,31 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
     matings: list[Mating] = []
     part_of = {key: str(spec.part) for key, spec in scene.instances.items()}
     for index, mate in enumerate(scene.mates):
-        for key in ("first", "second"):
-            kind = scene.parts[part_of[getattr(mate, key)]].__struct_config__.tag
-            if kind != "spur_gear":
-                remedy = f"is a {kind}; an external_gear_pair joins two spur_gear parts"
-                raise SceneError(source, f"mates[{index + 1}].{key}", getattr(mate, key), remedy)
+        _check_kinds(scene, mate, part_of, source, f"mates[{index + 1}]")
         try:
             mated(gears, [mate], part_of)
         except ParameterError as error:
-            place = f"mates[{index + 1}]: parts.{part_of[mate.second]}.{error.name}"
-            raise SceneError(source, place, error.value, error.allowed) from error
+            owner, _, key = error.name.rpartition(".")
+            place = f".{key}" if owner == "mate" else f": parts.{part_of[mate.second]}.{error.name}"
+            raise SceneError(source, f"mates[{index + 1}]{place}", error.value, error.allowed) from error
     gears, matings = mated(gears, scene.mates, part_of)
     parts = {key: KINDS[spec.__struct_config__.tag][2](key, spec, gears[key]) for key, spec in scene.parts.items()}
     return parts, matings
+
+
+def _check_kinds(scene: SceneFile, mate: Any, part_of: dict[str, str], source: str, place: str) -> None:
+    """A mate joins the kinds of parts that it is for."""
+    mate_kind = mate.__struct_config__.tag
+    found = tuple(scene.parts[part_of[i]].__struct_config__.tag for i in (mate.first, mate.second))
+    if found in JOINS[mate_kind]:
+        return
+    index = 0 if all(first != found[0] for first, _ in JOINS[mate_kind]) else 1
+    key = ("first", "second")[index]
+    wanted = " or ".join(f"{a} and {b}" for a, b in JOINS[mate_kind])
+    other = next((m for m, joins in JOINS.items() if found in joins), None)
+    hint = f'; kind = "{other}" joins these two' if other else ""
+    remedy = f"is a {found[index]}; an {mate_kind} joins {wanted}{hint}"
+    raise SceneError(source, f"{place}.{key}", getattr(mate, key), remedy)
 
 
 def resolved(scene: SceneFile) -> dict[str, Any]:
