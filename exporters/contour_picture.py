@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from geometry.gears.blocking_contour import BlockingContour, ContourLine, least_margin
 
-_SIZE, _LEFT, _TOP, _BOTTOM, _KEY = 560.0, 60.0, 40.0, 50.0, 330.0
+_SIZE, _LEFT, _TOP, _BOTTOM, _KEY = 560.0, 60.0, 40.0, 50.0, 430.0
 _GRID = "stroke:#dde2e6;stroke-width:0.7"
 
 

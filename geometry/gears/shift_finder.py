@@ -28,8 +28,8 @@ from geometry.roots import bracketed_root
 _STEP = 0.05
 # no margin rises faster than this many modules a module
 _STEEPEST = 8.0
-# golden sections until the argument is known to a few 1e-9, halvings to rounding
-_SECTIONS, _HALVINGS = 40, 50
+# golden sections within a line and between lines: to 1e-9 and 1e-7; halvings at an end: to 1e-12
+_SECTIONS, _OUTER_SECTIONS, _HALVINGS = 40, 28, 36
 _GOLDEN = (math.sqrt(5) - 1) / 2
 
 
@@ -172,7 +172,7 @@ def _greatest_of(pair: ShiftPair, function: Callable[[float], float]) -> float |
     for k in (best - 1, best + 1):
         end = sums[min(max(k, 0), count)]
         ends.append(end if function(end) > -math.inf else _last_inside(function, sums[best], end))
-    return max((_golden(function, ends[0], ends[1]), sums[best]), key=function)
+    return max((_golden(function, ends[0], ends[1], _OUTER_SECTIONS), sums[best]), key=function)
 
 
 def _last_inside(function: Callable[[float], float], inside: float, outside: float) -> float:
@@ -182,11 +182,11 @@ def _last_inside(function: Callable[[float], float], inside: float, outside: flo
     return inside
 
 
-def _golden(function: Callable[[float], float], low: float, high: float) -> float:
+def _golden(function: Callable[[float], float], low: float, high: float, sections: int = _SECTIONS) -> float:
     """Where a function of one hill is greatest; -inf outside its domain only pushes inwards."""
     one, two = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
     values = function(one), function(two)
-    for _ in range(_SECTIONS):
+    for _ in range(sections):
         if values[0] >= values[1]:
             high, two = two, one
             one = high - _GOLDEN * (high - low)

@@ -174,7 +174,9 @@ def test_no_pair_below_inv_zero() -> None:
 
 
 @pytest.mark.parametrize(("teeth", "wish"), [
-    ((13, 21), WISH), ((20, 60), Requirements(0.4, 1.2)), ((25, 18), Requirements(0.25, 1.3)),
+    ((13, 21), WISH),
+    pytest.param((25, 18), Requirements(0.25, 1.3), marks=pytest.mark.heavy),
+    pytest.param((20, 60), Requirements(0.4, 1.2), marks=pytest.mark.heavy),
     ((10, 30), Requirements(0.25, 1.05, allow_undercut=True)),
 ], ids=str)  # fmt: skip
 def test_proposals_beat_random_legal_shifts(teeth: tuple[int, int], wish: Requirements) -> None:
@@ -186,7 +188,7 @@ def test_proposals_beat_random_legal_shifts(teeth: tuple[int, int], wish: Requir
         assert found.margin >= -1e-9
     assert wear.root_sliding[0] == pytest.approx(wear.root_sliding[1], rel=1e-6)
     rng, legal = random.Random(5), 0
-    for _ in range(4000):
+    for _ in range(2500):
         x1, x2 = rng.uniform(-0.6, 1.6), rng.uniform(-0.6, 2.2)
         if least_margin(pair, wish, x1, x2) < 0:
             continue
@@ -196,7 +198,7 @@ def test_proposals_beat_random_legal_shifts(teeth: tuple[int, int], wish: Requir
         one, two = state.root_sliding(pair.gear_ratio)
         if abs(one - two) < 0.01:
             assert min(one, two) <= wear.root_sliding[0] + 0.02
-    assert legal > 100
+    assert legal > 60
 
 
 def test_a_centre_distance_gets_equal_sliding() -> None:

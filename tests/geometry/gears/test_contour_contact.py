@@ -23,7 +23,7 @@ from geometry.gears.spur import SpurGear
 BAND = 1e-3
 # rounding of a gap, in modules
 NOTHING = 2e-12
-FEW = [(13, 21, "A"), (20, 30, "A")]
+FEW = [(13, 21, "A")]
 MANY = [(z1, z2, rack) for rack in "ABCD" for z1, z2 in ((10, 10), (13, 21), (17, 40), (20, 30), (25, 60), (12, 80))]
 
 
@@ -93,8 +93,8 @@ def test_both_sides_of_the_interference_lines() -> None:
     for z1, z2, rack in FEW:
         for kind, count in compare(ShiftPair(z1, z2, iso_53(rack)), 2).items():
             seen[kind] = seen.get(kind, 0) + count
-    assert seen["fillet_interference"] >= 4
-    assert seen["undercut_to_active_flank"] >= 2
+    assert seen["fillet_interference"] >= 2
+    assert seen["undercut_to_active_flank"] >= 1
 
 
 @pytest.mark.heavy
