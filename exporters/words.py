@@ -108,26 +108,45 @@ FINDINGS: dict[str, tuple[str, str]] = {
     ),
     **{
         f"{code}_{who}": (en.format(en_who), uk.format(uk_who))
-        for who, en_who, uk_who in (("first", "first", "першого"), ("second", "second", "другого"))
+        for who, en_who, uk_who in (
+            ("first", "first gear", "першого колеса"),
+            ("second", "second gear", "другого колеса"),
+            ("pinion", "pinion", "шестірні"),
+            ("ring", "ring", "вінця"),
+            ("gear", "gear", "колеса"),
+            ("rack", "rack", "рейки"),
+        )
         for code, en, uk in (
             (
                 "fillet_interference",
-                "the mate's tip reaches the fillet of the {} gear: {{value:.4f}} mm, the involute begins at "
+                "the mate's tip reaches the fillet of the {}: {{value:.4f}} mm, the involute begins at "
                 "{{limit:.4f}} mm",
-                "головка спряженого колеса впирається в галтель {} колеса: {{value:.4f}} мм проти {{limit:.4f}} мм",
+                "головка спряженого колеса впирається в галтель {}: {{value:.4f}} мм проти {{limit:.4f}} мм",
             ),
             (
                 "active_flank_cut_away",
-                "undercut has taken active flank of the {} gear: {{value:.4f}} mm is asked, {{limit:.4f}} mm is there",
-                "підріз зняв робочу частину профілю {} колеса: потрібно {{value:.4f}} мм, є {{limit:.4f}} мм",
+                "undercut has taken active flank of the {}: {{value:.4f}} mm is asked, {{limit:.4f}} mm is there",
+                "підріз зняв робочу частину профілю {}: потрібно {{value:.4f}} мм, є {{limit:.4f}} мм",
             ),
             (
                 "tip_clearance",
-                "the tip of the {} gear strikes the mate's root: clearance {{value:.4f}} mm",
-                "вершина {} колеса торкається западини: зазор {{value:.4f}} мм",
+                "the tip of the {} strikes the mate's root: clearance {{value:.4f}} mm",
+                "вершина {} торкається западини: зазор {{value:.4f}} мм",
             ),
         )
     },
+    "involute_interference": (
+        "involute interference: the ring's tips reach below the pinion's base circle ({value:.4f} against {limit:.4f})",
+        "інтерференція евольвент: вершини вінця заходять за основне коло шестірні ({value:.4f} проти {limit:.4f})",
+    ),
+    "trochoid_interference": (
+        "tip interference: the pinion's tips strike the ring's on their way out ({value:.4f} against {limit:.4f} mm)",
+        "інтерференція вершин: вершини шестірні вдаряють об вершини вінця ({value:.4f} проти {limit:.4f} мм)",
+    ),
+    "radial_assembly": (
+        "the pinion cannot go into the ring radially ({value:.4f} against {limit:.4f} mm); put it in along the axis",
+        "шестірню не можна ввести у вінець радіально ({value:.4f} проти {limit:.4f} мм); вводьте її вздовж осі",
+    ),
     "contact_ratio": (
         "contact ratio {value:.4f} is below {limit:.1f}: the drive is interrupted",
         "коефіцієнт перекриття {value:.4f} менший за {limit:.1f}: зачеплення переривається",

@@ -283,7 +283,7 @@ class InternalMating:
             "working_centre_distance": self.distance,
             "contact_ratio": self.pair.contact_ratio,
             "normal_backlash": self.normal_backlash,
-            "margins": {m.name: m.margin for m in self.pair.margins()},
+            "margins": {m.name: m.margin for m in self.pair.margins() if math.isfinite(m.margin)},
         }
 
 
