@@ -61,10 +61,10 @@ def scene_preview(plan: Plan, checks: dict[str, Any], folder: Path) -> Path:
     language = plan.scene.scene.language
     outlines = {i.part: _outlines(plan.parts[i.part]) for i in plan.placing.instances}
     stand = sorted(plan.placing.instances, key=lambda i: i.at[2])
-    radii = {name: max(float(np.abs(b.geometry.vertices).max()) for b in made) for name, made in outlines.items()}
-    corners = [(i.centre, radii[i.part]) for i in stand]
-    left, right = min(c.real - r for c, r in corners), max(c.real + r for c, r in corners)
-    low, high = min(c.imag - r for c, r in corners), max(c.imag + r for c, r in corners)
+    outers = [_placed(outlines[i.part][-1].geometry, cmath.exp(1j * i.rotation), i.centre).vertices for i in stand]
+    points = np.concatenate(outers)
+    left, right = float(points.real.min()), float(points.real.max())
+    low, high = float(points.imag.min()), float(points.imag.max())
     reach = max(right - left, high - low) / 2
     middle, shift = reach * 1.08, -complex(left + right, low + high) / 2
     # a wide scene is drawn wide: what is above and below it is cut off
@@ -83,10 +83,11 @@ def scene_preview(plan: Plan, checks: dict[str, Any], folder: Path) -> Path:
         fill = plan.parts[instance.part].colour or _FILLS[index % len(_FILLS)]
         style = f"fill:{fill};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 600:.4g}"
         lines.append(f'<path d="{data}" style="{style}"/>')
-        x, y = middle + (instance.centre + shift).real, middle - (instance.centre + shift).imag
+        # names stand above the lowest point of the outline, where rings and racks have material too
+        foot = outers[index][int(np.argmin(outers[index].imag))] + shift
+        x, y = middle + (instance.centre + shift).real, middle - foot.imag
         text = f"font-family:sans-serif;font-size:{size:.4g}px;text-anchor:middle;fill:#202830"
-        label = y + 0.6 * radii[instance.part]
-        lines.append(f'<text x="{x:.4g}" y="{label:.4g}" style="{text}">{_escaped(instance.id)}</text>')
+        lines.append(f'<text x="{x:.4g}" y="{y - size:.4g}" style="{text}">{_escaped(instance.id)}</text>')
     lines.append("</g>")
     lines += _caption(rows, size, size)
     file = folder / f"{scene_preview_name(plan)}"
