@@ -16,14 +16,12 @@ import numpy as np
 from exporters.assembly import AssemblyJob, declared_assembly_error, write_assembly
 from exporters.job import Job, Shape, Written, declared_error, shape_of
 from exporters.plan import Plan
+from exporters.preview import part_preview, scene_preview
 from exporters.report import NAME, read_report, write_report
-from exporters.words import finding_text
-from geometry.approximate import approximate_profile
 from geometry.contour import Approximation
 from geometry.errors import ConvergenceError, ParameterError
 from geometry.findings import Finding
 from geometry.tolerance import LEAST_SEGMENT_MM
-from parts.part import Part
 from parts.schema import SceneError
 
 # teeth lose their shape where the tolerance is a larger part of the module
@@ -63,7 +61,9 @@ def build(
             members = {m.part.id: made[_shape_key(m)] for m in assembly.members}
             written.append(_write_assembly(assembly, members, staging / assembly.path, verify=verify))
         wanted = dict.fromkeys(j.part.id for j in (*plan.jobs, *(m for a in plan.assemblies for m in a.members)))
-        previews = [_preview(plan.parts[p], staging, plan.scene.scene.language) for p in wanted]
+        previews = [part_preview(plan.parts[p], staging, plan.scene.scene.language) for p in wanted]
+        if (plan.scene.mates or plan.scene.instances) and len(wanted) == len(plan.parts):
+            previews.append(scene_preview(plan, checks, staging))
         before = read_report(folder) if partial else None
         write_report(staging / NAME, plan, written, previews, checks, time.perf_counter() - start, before)
         names = [item.job.path for item in written if not item.failures]
@@ -196,7 +196,7 @@ def _job_findings(job: Job, made: Shape) -> list[Finding]:
     """Remarks on one file: a tolerance too coarse for the teeth, edges too short for a laser."""
     found = [] if job.is_solid or job.part.is_plate else [Finding("flat_outline", 0.0, 0.0)]
     limit = _COARSE_SHARE * job.part.quantities["pitch"] / math.pi
-    if (job.export.tolerance or 0.0) > limit:
+    if not job.is_cad and (job.export.tolerance or 0.0) > limit:
         found.append(Finding("coarse_tolerance", float(job.export.tolerance or 0.0), limit))
     if not job.is_mesh and not job.is_cad:
         short = sum(
@@ -208,18 +208,6 @@ def _job_findings(job: Job, made: Shape) -> list[Finding]:
         if short:
             found.append(Finding("short_edges", short, LEAST_SEGMENT_MM))
     return found
-
-
-def _preview(part: Part, folder: Path, language: str) -> Path:
-    from exporters.svg import write_preview
-
-    region = part.section(0.0).region
-    tolerance = max(2e-4 * region.outer.reach(), 1e-6)
-    made = tuple(approximate_profile(p, tolerance, arcs=True) for p in region.profiles())
-    remarks = [finding_text(language, f) for f in part.findings]
-    file = folder / f"{part.id}.preview.svg"
-    write_preview(file, part, made, remarks, language)
-    return file
 
 
 @contextmanager

@@ -76,7 +76,7 @@ def _interrupt(number: int, frame: object) -> NoReturn:
 
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
-        prog="higherpair", description="Exact gears as DXF, SVG and STL, each file read back and measured."
+        prog="higherpair", description="Exact gears as DXF, SVG, STL, 3MF and STEP, each file read back and measured."
     )
     parser.add_argument("--version", action="version", version=f"higherpair {__version__}")
     commands = parser.add_subparsers(prog="higherpair", required=True, metavar="COMMAND", parser_class=_Parser)

@@ -130,7 +130,9 @@ def _wanted_exports(scene: SceneFile, source: str, only_formats: list[str]) -> l
             exports.append((f"--format {name}", spec))
     exports = [(where, e) for where, e in exports if not only_formats or e.format in only_formats]
     if not exports:
-        remedy = 'the scene asks for no file; add [[exports]] with format = "dxf", "svg" or "stl", or use --format'
+        remedy = (
+            'the scene asks for no file; add [[exports]] with format = "dxf" (or svg, stl, 3mf, step), or use --format'
+        )
         raise SceneError(source, "exports", None, remedy)
     return exports
 

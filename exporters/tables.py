@@ -110,18 +110,19 @@ def converge_tables(rungs: list[Rung], found: list[Order], files: list[Path]) ->
         for r in rungs
     ]
     _show("error against run time", header, rows, [])
+    from exporters.converge import LEAST_PIECES
+
     header = ["curve", "method", "order of the method", "observed order", "pieces", "error there, mm"]
     rows = [
         [
             f"{o.part} {o.curve}",
             o.method,
             f"{o.theory:g}",
-            f"{o.observed:.3f}",
-            f"{o.counts[0]} to {o.counts[-1]}",
-            f"{o.errors[-1]:.3g}",
+            "-" if o.observed is None else f"{o.observed:.3f}",
+            f"{o.counts[0]} to {o.counts[-1]}" if o.counts else f"below rounding at {LEAST_PIECES}",
+            f"{o.errors[-1]:.3g}" if o.errors else "-",
         ]
         for o in found
-        if o.counts
     ]
     _show("orders of convergence", header, rows, [str(file) for file in files])
 

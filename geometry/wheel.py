@@ -13,7 +13,7 @@ from geometry.hub_holes import HubHoles
 from geometry.profile import Label, Profile, Region, circle
 from geometry.tolerance import TOLERANCES
 
-_LARGEST_CHAMFER_STEPS = 24
+_BISECTIONS = 24
 # diameters of steps differ by this much at least, mm: thinner ones are mistakes of the keyboard
 _LEAST_STEP = 0.01
 
@@ -68,12 +68,14 @@ class WheelSections:
     """The boundaries of a wheel's section. A cut keeps sharp corners, so that chamfer faces meet in edges."""
 
     outline: Boundary
+    root_radius: float
+    core: HubHoles
     bore: Boundary | None
     holes: tuple[Boundary, ...] = ()
 
 
-def wheel_sections(outline: Boundary, holes: HubHoles) -> WheelSections:
-    """The boundaries of a wheel: its outline and its holes."""
+def wheel_sections(outline: Boundary, root_radius: float, holes: HubHoles) -> WheelSections:
+    """The boundaries of a wheel: its outline, which stays outside ``root_radius`` mm, and its holes."""
 
     def hole(index: int) -> Boundary:
         def boundary(offset: float, depth: float) -> Profile:
@@ -86,7 +88,7 @@ def wheel_sections(outline: Boundary, holes: HubHoles) -> WheelSections:
 
     boundaries = tuple(hole(i) for i in range(holes.number))
     first = 0 if holes.bore is None else 1
-    return WheelSections(outline, boundaries[0] if first else None, boundaries[first:])
+    return WheelSections(outline, root_radius, holes, boundaries[0] if first else None, boundaries[first:])
 
 
 def wheel_body(shape: WheelShape, sections: WheelSections, offset: float = 0.0) -> Body:
@@ -101,6 +103,7 @@ def wheel_body(shape: WheelShape, sections: WheelSections, offset: float = 0.0) 
     if shape.is_plate:
         holes = [s(offset, 0.0) for s in ((sections.bore,) if sections.bore else ()) + sections.holes]
         return plate(Region(sections.outline(offset, 0.0), tuple(holes)), 0.0, shape.face_width)
+    _check_faces(shape, sections.root_radius, sections.core, offset)
     return _Wheel(shape, sections, offset).body()
 
 
@@ -247,10 +250,7 @@ def _inset(profile: Boundary, offset: float, chamfer: float, side: str, who: str
     found = attempt(chamfer)
     if found is not None:
         return found
-    low, high = 0.0, chamfer
-    for _ in range(_LARGEST_CHAMFER_STEPS):
-        middle = (low + high) / 2
-        low, high = (middle, high) if attempt(middle) is not None else (low, middle)
+    low = _bisected(lambda depth: attempt(depth) is not None, chamfer)
     text = f"leaves nothing of {who} at the face; at most {at_most(low, 4)} mm works"
     raise ParameterError(f"face_chamfer.{side}", chamfer, text)
 
@@ -273,34 +273,54 @@ def check_wheel(shape: WheelShape, root_diameter: float, holes: HubHoles) -> Non
         _between("web.rim_diameter", web.rim_diameter, core, (root_diameter, "the root"))
         _between("web.rim_diameter", web.rim_diameter, (outer, "the holes"), (math.inf, ""))
     _check_heights(shape)
+    _check_faces(shape, root_diameter / 2, holes, 0.0)
+
+
+def _check_faces(shape: WheelShape, root_radius: float, holes: HubHoles, offset: float) -> None:
+    """Offset and chamfers leave an end face between every two boundaries."""
+
+    def fits(moved: float, depth: float) -> bool:
+        return _leaves_faces(shape, root_radius, holes, moved, depth)
+
+    if not fits(offset, 0.0):
+        limit = _bisected(lambda v: fits(v, 0.0), offset)
+        text = f"at least {at_least(limit, 4)}" if offset < 0 else f"at most {at_most(limit, 4)}"
+        raise ParameterError("offset", offset, f"leaves no face between two edges; {text} mm works")
     for side, depth in (("below", shape.chamfer_below), ("above", shape.chamfer_above)):
-        _check_chamfer(shape, side, depth, root_diameter / 2, holes)
+        if not fits(offset, depth):
+            limit = _bisected(lambda v: fits(offset, v), depth)
+            text = f"leaves no face between two edges; at most {at_most(limit, 4)} mm works"
+            raise ParameterError(f"face_chamfer.{side}", depth, text)
 
 
-def _check_chamfer(shape: WheelShape, side: str, depth: float, root_radius: float, holes: HubHoles) -> None:
-    """A chamfer leaves an end face between every two boundaries."""
+def _leaves_faces(shape: WheelShape, root_radius: float, holes: HubHoles, offset: float, depth: float) -> bool:
+    """Whether every ring of the end faces, and the floor of a recess, keeps some width."""
+    inset = depth - offset
+    try:
+        wide = holes.widened(max(inset, 0.0))
+    except OffsetError:
+        return False
+    inner, outer = wide.beside_bore()
+    rings = [(max(wide.bore_reach, outer), root_radius - inset)]
+    if shape.hub is not None:
+        rings += [(wide.bore_reach, shape.hub.diameter / 2 - inset), (shape.hub.diameter / 2 + offset, inner)]
+    if shape.web is not None:
+        core = shape.hub.diameter / 2 + offset if shape.hub else wide.bore_reach
+        rings += [
+            (shape.web.rim_diameter / 2 + inset, root_radius - inset),
+            (core, shape.web.rim_diameter / 2 - offset),
+            (outer, shape.web.rim_diameter / 2 - offset),
+        ]
+    return all(low < high for low, high in rings)
 
-    def leaves_faces(c: float) -> bool:
-        try:
-            wide = holes.widened(c)
-        except OffsetError:
-            return False
-        inner, outer = wide.beside_bore()
-        rings = [(max(wide.bore_reach, outer), root_radius - c)]
-        if shape.hub is not None:
-            rings += [(wide.bore_reach, shape.hub.diameter / 2 - c), (shape.hub.diameter / 2, inner)]
-        if shape.web is not None:
-            rings.append((shape.web.rim_diameter / 2 + c, root_radius - c))
-        return all(low < high for low, high in rings)
 
-    if leaves_faces(depth):
-        return
-    low, high = 0.0, depth
-    for _ in range(_LARGEST_CHAMFER_STEPS):
+def _bisected(works: Callable[[float], bool], refused: float) -> float:
+    """The value between 0, which works, and a refused one that still works."""
+    low, high = 0.0, refused
+    for _ in range(_BISECTIONS):
         middle = (low + high) / 2
-        low, high = (middle, high) if leaves_faces(middle) else (low, middle)
-    text = f"leaves no face between two edges; at most {at_most(low, 4)} mm works"
-    raise ParameterError(f"face_chamfer.{side}", depth, text)
+        low, high = (middle, high) if works(middle) else (low, middle)
+    return low
 
 
 def _between(key: str, value: float, low: tuple[float, str], high: tuple[float, str]) -> None:

@@ -116,7 +116,7 @@ def spur_gear_part(part_id: str, spec: SpurGearSpec, gear: SpurGear) -> Part:
     def outline(offset: float, depth: float) -> Profile:
         return section(offset).region.outer if depth == 0 else chamfered_outline(gear, depth - offset)
 
-    shape, sections = _shape_of(spec), wheel_sections(outline, gear.holes)
+    shape, sections = _shape_of(spec), wheel_sections(outline, gear.root_radius, gear.holes)
     return Part(
         part_id,
         "spur_gear",

@@ -185,3 +185,18 @@ def test_a_step_has_the_same_bytes_in_another_process_and_after_another(step_bui
     expected = step_build.read_bytes()
     assert (tmp_path / "a" / "s" / "g.step").read_bytes() == expected
     assert (tmp_path / "b" / "s" / "g.step").read_bytes() == expected
+
+
+def test_every_order_of_the_practicum_pair_is_the_method_s_own() -> None:
+    """Within 5 %, from 16 pieces a curve down to 100 roundings; degree 7 is below them at once."""
+    from exporters.converge import METHODS, orders
+    from exporters.plan import plan_build
+    from parts.scene import load_scene
+
+    found = orders(plan_build(load_scene("practicum_pair"), "practicum_pair", [], ["dxf"]))
+    assert {o.method for o in found} == set(METHODS)
+    for order in found:
+        if order.method == "degree 7 splines":
+            assert max(order.errors, default=0.0) < 1e-9
+        else:
+            assert order.observed == pytest.approx(order.theory, rel=0.05), order

@@ -47,7 +47,7 @@ SHAPES = {
 
 def wheel(shape: WheelShape, holes: HubHoles, offset: float = 0.0):  # type: ignore[no-untyped-def]
     gear = SpurGear(2.0, 23, iso_53("A"), hub=holes)
-    return wheel_body(shape, wheel_sections(lambda d, c: gear_region(gear, d - c).region.outer, holes), offset)
+    return wheel_body(shape, wheel_sections(lambda d, c: gear_region(gear, d - c).region.outer, 20.5, holes), offset)
 
 
 def judged(body, tolerance: float = 0.002) -> trimesh.Trimesh:  # type: ignore[no-untyped-def]
@@ -93,7 +93,7 @@ def test_a_chamfered_disk_is_a_cylinder_and_two_frustums() -> None:
     """Pappus: frustum volume pi h (R^2 + R r + r^2) / 3."""
     body = wheel_body(
         WheelShape(5.0, chamfer_below=0.5, chamfer_above=1.0),
-        wheel_sections(lambda d, c: circle(10.0 + d - c, Label.HUB), HubHoles()),
+        wheel_sections(lambda d, c: circle(10.0 + d - c, Label.HUB), 10.0, HubHoles()),
     )
 
     def frustum(h: float) -> float:
@@ -107,7 +107,7 @@ def test_a_turned_wheel_is_the_sum_of_its_rings() -> None:
     """Rim, web and hub of a wheel without teeth, each an annulus."""
     shape = WheelShape(10.0, Web(4.0, 30.0, 1.0), Hub(12.0, 2.0, 3.0))
     holes = HubHoles(RoundBore(6.0), (RoundHoles(4, 5.0, 21.0),))
-    body = wheel_body(shape, wheel_sections(lambda d, c: circle(20.0 + d - c, Label.HUB), holes))
+    body = wheel_body(shape, wheel_sections(lambda d, c: circle(20.0 + d - c, Label.HUB), 20.0, holes))
 
     def ring(outer: float, inner: float, height: float) -> float:
         return math.pi / 4 * (outer**2 - inner**2) * height
