@@ -147,3 +147,14 @@ def test_an_external_pair_refuses_a_ring() -> None:
     scene = scene_from_toml(text.encode(), "scene.toml", "scene")
     with pytest.raises(SceneError, match="ring_gear"):
         make_parts(scene, "scene.toml")
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("text", [RING, RACK])
+def test_converge_measures_rings_and_racks(text: str, tmp_path: Path) -> None:
+    """The curves of a ring stand in its hole; a rack has none but lines and arcs."""
+    file = tmp_path / "s.toml"
+    file.write_text(f'[parts.p]\n{text}[[exports]]\nformat = "dxf"\n', encoding="utf-8")
+    assert main(["converge", str(file), "--out", str(tmp_path)]) == 0
+    rows = (tmp_path / "s" / "converge.csv").read_text(encoding="utf-8")
+    assert ("root_fillet" in rows) == (text is RING)
