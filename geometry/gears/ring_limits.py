@@ -60,7 +60,7 @@ def tip_above_base(gear: RingGear) -> Margin:
 def rim(gear: RingGear) -> Margin:
     """Rim outside the root circle against one module, mm; without any there is no ring."""
     value = gear.outer_radius - gear.root_radius
-    return Margin("thin_rim", value, gear.module, value - gear.module)
+    return Margin("thin_ring_rim", value, gear.module, value - gear.module)
 
 
 def root_form_diameter(gear: RingGear) -> float:

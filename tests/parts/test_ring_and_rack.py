@@ -9,7 +9,9 @@ import pytest
 
 from exporters.cli import main
 from exporters.report import read_report
+from exporters.words import finding_text
 from geometry.errors import OffsetError
+from geometry.findings import Finding
 from parts.scene import KINDS, make_parts, scene_from_toml
 from parts.schema import SceneError
 
@@ -147,6 +149,21 @@ def test_an_external_pair_refuses_a_ring() -> None:
     scene = scene_from_toml(text.encode(), "scene.toml", "scene")
     with pytest.raises(SceneError, match="ring_gear"):
         make_parts(scene, "scene.toml")
+
+
+def test_every_finding_of_rings_and_their_pairs_has_words() -> None:
+    from geometry.gears.internal_pair import internal_pair
+    from geometry.gears.rack_pair import rack_pair
+
+    text = f"[parts.a]\n{RING}outer_diameter = 103.0\n[parts.b]\n{SHAPED}[parts.c]\n{RACK}"
+    scene = scene_from_toml(text.encode(), "scene.toml", "scene")
+    ring, gear, rack = (KINDS[s.__struct_config__.tag][1](s) for s in scene.parts.values())
+    margins = [*internal_pair(gear, ring).margins(), *rack_pair(gear, rack).margins()]
+    found = [Finding(m.name, m.value, m.limit) for m in margins]
+    found += make_parts(scene, "scene.toml")[0]["a"].findings
+    assert "thin_ring_rim" in {f.code for f in found}
+    for language in ("en", "uk"):
+        assert all(finding_text(language, f) for f in found)
 
 
 @pytest.mark.heavy
