@@ -111,10 +111,6 @@ FINDINGS: dict[str, tuple[str, str]] = {
         for who, en_who, uk_who in (
             ("first", "first gear", "першого колеса"),
             ("second", "second gear", "другого колеса"),
-            ("pinion", "pinion", "шестірні"),
-            ("ring", "ring", "вінця"),
-            ("gear", "gear", "колеса"),
-            ("rack", "rack", "рейки"),
         )
         for code, en, uk in (
             (
@@ -135,18 +131,6 @@ FINDINGS: dict[str, tuple[str, str]] = {
             ),
         )
     },
-    "involute_interference": (
-        "involute interference: the ring's tips reach below the pinion's base circle ({value:.4f} against {limit:.4f})",
-        "інтерференція евольвент: вершини вінця заходять за основне коло шестірні ({value:.4f} проти {limit:.4f})",
-    ),
-    "trochoid_interference": (
-        "tip interference: the pinion's tips strike the ring's on their way out ({value:.4f} against {limit:.4f} mm)",
-        "інтерференція вершин: вершини шестірні вдаряють об вершини вінця ({value:.4f} проти {limit:.4f} мм)",
-    ),
-    "radial_assembly": (
-        "the pinion cannot go into the ring radially ({value:.4f} against {limit:.4f} mm); put it in along the axis",
-        "шестірню не можна ввести у вінець радіально ({value:.4f} проти {limit:.4f} мм); вводьте її вздовж осі",
-    ),
     "contact_ratio": (
         "contact ratio {value:.4f} is below {limit:.1f}: the drive is interrupted",
         "коефіцієнт перекриття {value:.4f} менший за {limit:.1f}: зачеплення переривається",
