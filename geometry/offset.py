@@ -11,8 +11,8 @@ from geometry.curve import Complex, Curve, Real, Reversed, curvature_from_deriva
 from geometry.errors import CuspError
 from geometry.placement import Placement2
 from geometry.roots import bracketed_root
+from geometry.series import FACTORIALS, conjugate, power, product
 
-_FACTORIALS = (1, 1, 2, 6, 24, 120)
 _CUSP_SAMPLES = 257
 
 
@@ -32,10 +32,10 @@ class OffsetCurve:
 
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
         """Taylor arithmetic: n = i c' / sqrt(c' conj(c'))."""
-        first = [self.base.derivative(t, k + 1) / _FACTORIALS[k] for k in range(order + 1)]
-        square = _product(first, [np.conj(x) for x in first])
-        normal = _product(first, _reciprocal_root([x.real for x in square]))
-        return self.base.derivative(t, order) + 1j * self.distance * _FACTORIALS[order] * normal[order]
+        first = [self.base.derivative(t, k + 1) / FACTORIALS[k] for k in range(order + 1)]
+        square = product(first, conjugate(first))
+        normal = product(first, power([x.real for x in square], -0.5))
+        return self.base.derivative(t, order) + 1j * self.distance * FACTORIALS[order] * normal[order]
 
     def _stretch(self, t: ArrayLike) -> Real:
         return 1 - self.distance * self.base.curvature(t)
@@ -84,17 +84,3 @@ class OffsetCurve:
 
     def mirrored(self) -> OffsetCurve:
         return replace(self, base=self.base.mirrored())
-
-
-def _product(a: list, b: list) -> list:
-    """Taylor coefficients of a product."""
-    return [sum(a[j] * b[k - j] for j in range(k + 1)) for k in range(len(a))]
-
-
-def _reciprocal_root(a: list) -> list:
-    """Taylor coefficients of a^(-1/2), from a y' = -1/2 a' y."""
-    y = [a[0] ** -0.5]
-    for k in range(1, len(a)):
-        total = sum((-0.5 * j - (k - j)) * a[j] * y[k - j] for j in range(1, k + 1))
-        y.append(total / (k * a[0]))
-    return y

@@ -1,0 +1,158 @@
+"""One analytic piece of a law of motion: a polynomial in Bernstein form plus sine waves.
+
+Every diagram of the textbooks (constant, linear, trapezoid, sines, cosines, polynomials, splines) integrates twice
+to such pieces in closed form. Bernstein's basis keeps high degrees exact to rounding where powers of u lose digits:
+11 of them for a polynomial of degree 31.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Real = NDArray[np.float64]
+
+_EXTREME_SAMPLES = 65
+_BISECTIONS = 60
+
+
+@dataclass(frozen=True, slots=True)
+class Wave:
+    """amplitude sin(frequency (t - start of the piece) + phase); frequency in rad per unit of t."""
+
+    amplitude: float
+    frequency: float
+    phase: float
+
+
+@dataclass(frozen=True, slots=True)
+class LawPiece:
+    """s(t) on [start, end]: Bernstein coefficients over that interval, and waves; exact derivatives of every order.
+
+    Units are the owner's: a normalised law runs from 0 to 1 in both, a follower's motion in rad of cam angle and mm
+    (or rad for an oscillating follower). Beyond its interval the formula goes on.
+    """
+
+    start: float
+    end: float
+    coefficients: tuple[float, ...]
+    waves: tuple[Wave, ...] = ()
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        """The interval [start, end]."""
+        return self.start, self.end
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether the piece is a dwell."""
+        return not self.waves and len(set(self.coefficients)) == 1
+
+    def _differences(self, order: int) -> Real:
+        """Bernstein coefficients of a derivative of the polynomial part."""
+        values = np.array(self.coefficients, dtype=float)
+        for _ in range(order):
+            if len(values) == 1:
+                return np.zeros(1)
+            values = np.diff(values) * ((len(values) - 1) / (self.end - self.start))
+        return values
+
+    def value(self, t: ArrayLike, order: int = 0) -> Real:
+        """s or a derivative of it, of the shape of ``t``."""
+        t = np.asarray(t, dtype=float)
+        local = (t - self.start) / (self.end - self.start)
+        rest = (self.end - t) / (self.end - self.start)
+        result = _casteljau(self._differences(order), local, rest)
+        for wave in self.waves:
+            angle = wave.frequency * (t - self.start) + wave.phase
+            result = result + wave.amplitude * wave.frequency**order * _sine_derivative(angle, order)
+        return result
+
+    def bound(self, order: int, a: ArrayLike, b: ArrayLike) -> Real:
+        """Proven bound of |s^(order)| on each of the intervals [a, b] within the piece."""
+        a, b = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
+        width = self.end - self.start
+        hull = _bernstein_hull(self._differences(order), (a - self.start) / width, (b - self.start) / width)
+        for wave in self.waves:
+            low, high = (wave.frequency * (x - self.start) + wave.phase + order * math.pi / 2 for x in (a, b))
+            # a crest lies inside where pi/2 plus a multiple of pi does
+            crest = np.floor(high / math.pi - 0.5) > np.floor(low / math.pi - 0.5)
+            most = np.where(crest, 1.0, np.maximum(np.abs(np.sin(low)), np.abs(np.sin(high))))
+            hull = hull + abs(wave.amplitude) * abs(wave.frequency) ** order * most
+        return hull * (1 + 1e-12)
+
+    def placed(self, origin: float, length: float, base: float, lift: float) -> LawPiece:
+        """The piece with t -> origin + length t and s -> base + lift s."""
+        waves = tuple(
+            Wave(lift * w.amplitude, w.frequency / length, w.phase) for w in self.waves if w.amplitude * lift != 0
+        )
+        values = tuple(base + lift * c for c in self.coefficients)
+        return LawPiece(origin + length * self.start, origin + length * self.end, values, waves)
+
+    def spanning(self, start: float, end: float) -> LawPiece:
+        """The piece with its ends set to given numbers that differ from its own by roundings."""
+        return replace(self, start=start, end=end)
+
+    def reversed_in_time(self) -> LawPiece:
+        """s(start + end - t)."""
+        width = self.end - self.start
+        waves = tuple(Wave(-w.amplitude, w.frequency, -w.frequency * width - w.phase) for w in self.waves)
+        return replace(self, coefficients=self.coefficients[::-1], waves=waves)
+
+    def extremes(self, order: int) -> Real:
+        """Arguments, ends included, at which |s^(order)| may be greatest: sign changes of the next derivative."""
+        t = np.linspace(self.start, self.end, _EXTREME_SAMPLES)
+        inner = sign_changes(lambda x: self.value(x, order + 1), t)
+        return np.concatenate([[self.start], inner, [self.end]])
+
+
+def _sine_derivative(angle: Real, order: int) -> Real:
+    """sin^(order)(angle) without adding to the angle, which would round."""
+    kind = order % 4
+    return (np.sin, np.cos, lambda x: -np.sin(x), lambda x: -np.cos(x))[kind](angle)
+
+
+def _casteljau(values: Real, local: Real, rest: Real) -> Real:
+    """De Casteljau's scheme for many parameters at once; rest = 1 - local, given apart to keep its digits."""
+    if len(values) == 1:
+        return np.full(np.shape(local), values[0])
+    layer = [rest * values[k] + local * values[k + 1] for k in range(len(values) - 1)]
+    while len(layer) > 1:
+        layer = [rest * layer[k] + local * layer[k + 1] for k in range(len(layer) - 1)]
+    return layer[0]
+
+
+def _bernstein_hull(values: Real, low: Real, high: Real) -> Real:
+    """Largest modulus of the Bernstein coefficients on sub-intervals [low, high] of [0, 1]: a bound of the polynomial.
+
+    The coefficients on [low, high] are the polar form's values at low (n - k times) and high (k times).
+    """
+    best = np.zeros(np.broadcast(low, high).shape)
+    n = len(values) - 1
+    for k in range(n + 1):
+        layer: list[Real] = [np.broadcast_to(v, best.shape) for v in values]
+        for step in range(n):
+            x = high if step < k else low
+            layer = [(1 - x) * layer[j] + x * layer[j + 1] for j in range(len(layer) - 1)]
+        best = np.maximum(best, np.abs(layer[0]))
+    return best
+
+
+def sign_changes(function: Callable[[Real], Real], t: Real) -> Real:
+    """Rising roots of a vectorised function between samples of opposite sign, all bisected together.
+
+    A root that falls on a sample counts where the samples beside it have opposite signs.
+    """
+    values = function(t)
+    exact = t[1:-1][(values[1:-1] == 0) & (values[:-2] * values[2:] < 0)]
+    at = np.flatnonzero(values[:-1] * values[1:] < 0)
+    low, high, sign = t[at], t[at + 1], np.sign(values[at])
+    for _ in range(_BISECTIONS):
+        middle = (low + high) / 2
+        same = np.sign(function(middle)) == sign
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return np.sort(np.concatenate([(low + high) / 2, exact]))
