@@ -28,6 +28,8 @@ class Label(StrEnum):
     TIP_LAND = "tip_land"
     CORNER = "corner_arc"
     BORE = "bore"
+    CAM = "cam"
+    DWELL = "dwell"
 
 
 @dataclass(frozen=True, slots=True)

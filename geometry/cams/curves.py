@@ -102,6 +102,14 @@ class CentreEnvelope:
         _, (first, second) = self._fixed(np.asarray(t, dtype=float), 1)
         return ((np.conj(first) * second).imag / np.abs(first) ** 2 - 1) / np.abs(first)
 
+    def vertex_function(self, t: ArrayLike) -> Real:
+        """Changes its sign where the curvature, of the path and of every parallel, is greatest or least."""
+        _, (w, first, second) = self._fixed(np.asarray(t, dtype=float), 2)
+        # of exp(-i t) w: its derivatives in the turning frame
+        v, a, j = w, first - 1j * w, 2 * second - 2j * first - w
+        cross = (np.conj(v) * a).imag
+        return (np.conj(v) * j).imag * np.abs(v) ** 2 - 3 * cross * (np.conj(v) * a).real
+
     def stretch(self, t: ArrayLike) -> Real:
         """1 - distance x curvature of the path: the curve's speed in that of the path, negative where it runs back."""
         return 1 - self.distance * self.pitch_curvature(t)
@@ -234,6 +242,11 @@ class FaceEnvelope:
     def speed(self, t: ArrayLike) -> Real:
         """v, mm/rad: negative where the cam is whole, its modulus then the radius of curvature times |phi'|."""
         return self._speed(t, 0)[0][0]
+
+    def vertex_function(self, t: ArrayLike) -> Real:
+        """Changes its sign where the curvature phi'/v is greatest or least."""
+        speed, angle = self._speed(t, 1)
+        return 2 * angle[2] * speed[0] - angle[1] * speed[1]
 
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
         speed, angle = self._speed(t, order - 1)

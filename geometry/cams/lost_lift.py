@@ -1,0 +1,71 @@
+"""How far a follower drops that rides on a corner: closed forms for every guide and shape."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Callable
+
+import numpy as np
+
+from geometry.cams.disk import DiskCam
+from geometry.cams.mounts import Oscillating, Translating
+from geometry.curve import Complex, Real
+
+_SAMPLES = 257
+_REFINEMENTS = 5
+
+
+def lost_lift(cam: DiskCam, angle: Real, corner: complex) -> Real:
+    """S of the motion less S where the follower rests on ``corner`` (cam's frame), at cam angles, mm or rad."""
+    fixed = corner * np.exp(1j * angle)
+    if isinstance(cam.mount, Translating):
+        return _translating(cam, cam.mount, angle, fixed)
+    return _oscillating(cam, cam.mount, angle, fixed)
+
+
+def _translating(cam: DiskCam, mount: Translating, angle: Real, corner: Complex) -> Real:
+    height = mount.start_height + cam.motion.value(angle)
+    if cam.is_flat:
+        return height - corner.imag
+    # the centre stands straight above the corner, a radius away from it
+    across = corner.real - mount.offset
+    return height - corner.imag - np.sqrt(np.maximum(cam.radius**2 - across**2, 0))
+
+
+def _oscillating(cam: DiskCam, mount: Oscillating, angle: Real, corner: Complex) -> Real:
+    psi = mount.start_angle + cam.motion.value(angle)
+    arm = mount.centre_distance - corner
+    length, phase = np.abs(arm), np.angle(arm)
+    if cam.is_flat:
+        # |u| sin(sense psi + arg u) = sense f, u from the corner to the pivot
+        base = np.arcsin(np.clip(mount.sense * mount.face_offset / length, -1, 1))
+        found = [base - phase, np.pi - base - phase]
+    else:
+        # |u - L exp(-i sense psi)| = r
+        cosine = (length**2 + mount.arm_length**2 - cam.radius**2) / (2 * length * mount.arm_length)
+        base = np.arccos(np.clip(cosine, -1, 1))
+        found = [base - phase, -base - phase]
+    drops = [np.angle(np.exp(1j * (psi - mount.sense * x))) for x in found]
+    return np.where(np.abs(drops[0]) < np.abs(drops[1]), drops[0], drops[1])
+
+
+def greatest_loss(cam: DiskCam, start: float, end: float, corner: complex) -> float:
+    """The most that is lost between two cam angles."""
+    return greatest_value(lambda t: lost_lift(cam, t, corner), start, end)
+
+
+def greatest_value(function: Callable[[Real], Real], start: float, end: float) -> float:
+    """Greatest value of a smooth function between two arguments: samples, refined about the largest."""
+    low, high, best = start, end, -np.inf
+    for _ in range(_REFINEMENTS):
+        t = np.linspace(low, high, _SAMPLES)
+        values = function(t)
+        at = int(np.argmax(values))
+        best = max(best, float(values[at]))
+        low, high = t[max(at - 1, 0)], t[min(at + 1, _SAMPLES - 1)]
+    return best
+
+
+def turned_into_cam(point: complex, angle: float) -> complex:
+    """A point of the fixed frame in the cam's frame."""
+    return point * cmath.exp(-1j * angle)
