@@ -1,33 +1,52 @@
-"""Sharp proven bounds of derivatives out of crude ones."""
+"""Sharp proven bounds of a curve's derivatives out of crude ones."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from functools import lru_cache
+from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from geometry.curve import Complex
+from geometry.series import FACTORIALS, Series
 
 Real = NDArray[np.float64]
 
 # an interval is cut in so many parts
 _PARTS = 8
+# orders are bounded together: arcs ask for 1 and 2, splines for 2 to 4
+_LOW, _HIGH = 2, 4
 
 
-def refined_bound(
-    derivative: Callable[[Real, int], Complex], crude: Callable[[int, Real, Real], Real], order: int, a: float, b: float
-) -> float | None:
-    """Bound of |c^(order)| on [a, b]: its value at the middle of each part plus half the part times a crude bound.
+class Bounded(Protocol):
+    """A curve that knows its Taylor series and some bound of it; hashable."""
 
-    ``crude(order, starts, ends)`` bounds a derivative on many intervals, inf where it knows none; then the result
-    is None.
-    """
+    def __hash__(self) -> int: ...
+
+    def series(self, t: ArrayLike, order: int) -> Series:
+        """Taylor coefficients 0 to ``order`` at ``t``."""
+
+    def series_bound(self, order: int, a: Real, b: Real) -> Series:
+        """Bounds of their moduli on each interval [a, b], by right, however crude; inf where none is known."""
+
+
+def derivative_bound(curve: Bounded, order: int, a: float, b: float) -> float | None:
+    """Proven bound of |c^(order)| on [a, b], order 1 to 4; None where the curve knows none."""
+    top = _LOW if order <= _LOW else _HIGH
+    return _bounds(curve, top, a, b)[order]
+
+
+@lru_cache(maxsize=64)
+def _bounds(curve: Bounded, top: int, a: float, b: float) -> tuple[float | None, ...]:
+    """On each part: the value at its middle plus half the part times the bound of the next derivative."""
     edges = np.linspace(a, b, _PARTS + 1)
     low, high = edges[:-1], edges[1:]
-    rest = crude(order + 1, low, high)
-    if not np.all(np.isfinite(rest)):
-        return None
-    middle = np.abs(derivative((low + high) / 2, order))
-    # the factor covers the roundings of both terms
-    return float(np.max(middle + (high - low) / 2 * rest)) * (1 + 1e-12)
+    middle = curve.series((low + high) / 2, top)
+    rest = curve.series_bound(top + 1, low, high)
+    half = (b - a) / (2 * _PARTS)
+    result: list[float | None] = []
+    for k in range(top + 1):
+        # the factor covers the roundings of both terms
+        most = float(np.max(np.abs(middle[k]) + half * (k + 1) * rest[k + 1])) * FACTORIALS[k] * (1 + 1e-12)
+        result.append(most if np.isfinite(most) else None)
+    return tuple(result)

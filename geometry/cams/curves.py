@@ -14,7 +14,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from geometry.bounds import refined_bound
+from geometry.bounds import derivative_bound
 from geometry.cams.mounts import Mount
 from geometry.carried import Carried, Mirrored
 from geometry.curve import Complex, Curve, Real, Reversed, check_interval
@@ -43,8 +43,8 @@ class Lift(Protocol):
     def value(self, t: ArrayLike, order: int = 0) -> Real:
         """S^(order), of the shape of ``t``."""
 
-    def bound(self, order: int, a: ArrayLike, b: ArrayLike) -> Real:
-        """Proven bound of |S^(order)| on each interval [a, b]; inf where none is known."""
+    def bounds(self, order: int, a: Real, b: Real) -> list[Real]:
+        """Proven bounds of |S|, |S'| ... |S^(order)| on each interval [a, b]; inf where none is known."""
 
 
 def lift_series(lift: Lift, t: Real, order: int) -> Series:
@@ -53,7 +53,7 @@ def lift_series(lift: Lift, t: Real, order: int) -> Series:
 
 
 def _bound_series(lift: Lift, order: int, a: Real, b: Real) -> Series:
-    return [lift.bound(k, a, b) / FACTORIALS[k] for k in range(order + 1)]
+    return [x / FACTORIALS[k] for k, x in enumerate(lift.bounds(order, a, b))]
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,7 +125,8 @@ class CentreEnvelope:
         with np.errstate(divide="ignore"):
             return path / np.abs(1 - self.distance * path)
 
-    def _crude_bound(self, order: int, a: Real, b: Real) -> Real:
+    def series_bound(self, order: int, a: Real, b: Real) -> Series:
+        """Bounds of the moduli of the Taylor coefficients on each interval: geometry/bounds.py."""
         half = (b - a) / 2
         at_middle = self._fixed((a + b) / 2, order + 1)
         whole = self.mount.centre_bound(_bound_series(self.lift, order + 2, a, b))
@@ -140,10 +141,10 @@ class CentreEnvelope:
             unit[0] = np.ones(np.shape(a))
             unit = [abs(self.distance) * np.where(least > 0, x, np.inf) for x in unit]
             centre = [x + y for x, y in zip(centre, unit, strict=False)]
-        return FACTORIALS[order] * product(centre[: order + 1], [1 / FACTORIALS[k] for k in range(order + 1)])[order]
+        return product(centre[: order + 1], [1 / FACTORIALS[k] for k in range(order + 1)])
 
     def derivative_bound(self, order: int, a: float, b: float) -> float | None:
-        return refined_bound(self.derivative, self._crude_bound, order, a, b)
+        return derivative_bound(self, order, a, b)
 
     def offset(self, distance: float) -> CentreEnvelope:
         moved = replace(self, distance=self.distance + distance)
@@ -248,10 +249,14 @@ class FaceEnvelope:
         speed, angle = self._speed(t, 1)
         return 2 * angle[2] * speed[0] - angle[1] * speed[1]
 
+    def series(self, t: ArrayLike, order: int) -> Series:
+        """Taylor coefficients of c at ``t``."""
+        speed, angle = self._speed(t, max(order - 1, 0))
+        rate = product(speed, exponential([1j * x for x in angle[: len(speed)]]))
+        return [self.point(t), *(1j * rate[k] / (k + 1) for k in range(order))]
+
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
-        speed, angle = self._speed(t, order - 1)
-        normal = exponential([1j * x for x in angle[:order]])
-        return FACTORIALS[order - 1] * 1j * product(speed, normal)[order - 1]
+        return FACTORIALS[order] * self.series(t, order)[order]
 
     def tangent(self, t: ArrayLike) -> Complex:
         speed, angle = self._speed(t, 0)
@@ -262,7 +267,8 @@ class FaceEnvelope:
         with np.errstate(divide="ignore"):
             return angle[1] / np.abs(speed[0])
 
-    def _crude_bound(self, order: int, a: Real, b: Real) -> Real:
+    def series_bound(self, order: int, a: Real, b: Real) -> Series:
+        """Bounds of the moduli of the Taylor coefficients (the first one left out: 0) on each interval."""
         s = _bound_series(self.lift, order + 1, a, b)
         height, rate = self.mount.face_bound(s)
         height[0] = height[0] + abs(self.distance)
@@ -276,11 +282,11 @@ class FaceEnvelope:
             arm = product(derived(height), inverse)
         speed = [x + y for x, y in zip(product(height, rate), derived(arm), strict=False)]
         normal = exponential([0.0 * rate[0], *(rate[k - 1] / k for k in range(1, order))])
-        found = FACTORIALS[order - 1] * product(speed, normal)[order - 1]
-        return np.where(least > 0, found, np.inf)
+        found = product(speed, normal)
+        return [0.0 * least, *(np.where(least > 0, found[k] / (k + 1), np.inf) for k in range(order))]
 
     def derivative_bound(self, order: int, a: float, b: float) -> float | None:
-        return refined_bound(self.derivative, self._crude_bound, order, a, b)
+        return derivative_bound(self, order, a, b)
 
     def offset(self, distance: float) -> FaceEnvelope:
         moved = replace(self, distance=self.distance + distance)

@@ -93,6 +93,10 @@ class FollowerMotion:
         folded = np.mod(np.asarray(angle, dtype=float), TURN)
         return piecewise_value(self.pieces, folded, order)
 
+    def bounds(self, order: int, a: Real, b: Real) -> list[Real]:
+        """None are known for the whole turn: ask the pieces."""
+        return [np.full(np.shape(a), np.inf)] * (order + 1)
+
     def extremes(self, order: int = 0) -> tuple[float, float]:
         """Least and greatest S^(order) over the turn (finite parts)."""
         found = [p.value(p.extremes(order), order) for p in self.pieces]
@@ -110,7 +114,8 @@ class FollowerMotion:
         if kind is None:
             return moving
         sign = 1.0 if kind is PhaseKind.RISE else -1.0
-        return [p for p in moving if np.any(sign * p.value(np.linspace(*p.domain, 33), 1) > 0)]
+        rates = [sign * p.value(np.linspace(*p.domain, 33), 1) for p in moving]
+        return [p for p, rate in zip(moving, rates, strict=True) if rate.max() > _JUMP * np.abs(rate).max()]
 
     def joints(self) -> list[Joint]:
         """Every joint between pieces, the one at cam angle 0 first."""

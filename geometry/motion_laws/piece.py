@@ -64,26 +64,35 @@ class LawPiece:
     def value(self, t: ArrayLike, order: int = 0) -> Real:
         """s or a derivative of it, of the shape of ``t``."""
         t = np.asarray(t, dtype=float)
-        local = (t - self.start) / (self.end - self.start)
-        rest = (self.end - t) / (self.end - self.start)
-        result = _casteljau(self._differences(order), local, rest)
+        result = _casteljau(self._differences(order), *self._shares(t))
         for wave in self.waves:
             angle = wave.frequency * (t - self.start) + wave.phase
             result = result + wave.amplitude * wave.frequency**order * _sine_derivative(angle, order)
         return result
 
-    def bound(self, order: int, a: ArrayLike, b: ArrayLike) -> Real:
-        """Proven bound of |s^(order)| on each of the intervals [a, b] within the piece."""
-        a, b = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
+    def bounds(self, order: int, a: Real, b: Real) -> list[Real]:
+        """Proven bounds of |s|, |s'| ... |s^(order)| on each of the intervals [a, b].
+
+        Taylor's series about the middle ends with the polynomial's degree; waves are at most their amplitude.
+        """
+        middle, half = (a + b) / 2, (b - a) / 2
+        top = max(order, len(self.coefficients) - 1)
+        values = [np.abs(_casteljau(self._differences(k), *self._shares(middle))) for k in range(top + 1)]
+        result = []
+        for k in range(order + 1):
+            terms = [values[j] * half ** (j - k) / math.factorial(j - k) for j in range(k, top + 1)]
+            total = np.asarray(sum(terms))
+            for wave in self.waves:
+                at = wave.frequency * (middle - self.start) + wave.phase
+                most = np.abs(_sine_derivative(at, k)) + abs(wave.frequency) * half
+                total = total + abs(wave.amplitude) * abs(wave.frequency) ** k * np.minimum(most, 1.0)
+            result.append(total * (1 + 1e-12))
+        return result
+
+    def _shares(self, t: Real) -> tuple[Real, Real]:
+        """Where ``t`` stands in the piece, from its start and from its end, each to full digits."""
         width = self.end - self.start
-        hull = _bernstein_hull(self._differences(order), (a - self.start) / width, (b - self.start) / width)
-        for wave in self.waves:
-            low, high = (wave.frequency * (x - self.start) + wave.phase + order * math.pi / 2 for x in (a, b))
-            # a crest lies inside where pi/2 plus a multiple of pi does
-            crest = np.floor(high / math.pi - 0.5) > np.floor(low / math.pi - 0.5)
-            most = np.where(crest, 1.0, np.maximum(np.abs(np.sin(low)), np.abs(np.sin(high))))
-            hull = hull + abs(wave.amplitude) * abs(wave.frequency) ** order * most
-        return hull * (1 + 1e-12)
+        return (t - self.start) / width, (self.end - t) / width
 
     def placed(self, origin: float, length: float, base: float, lift: float) -> LawPiece:
         """The piece with t -> origin + length t and s -> base + lift s."""
@@ -124,22 +133,6 @@ def _casteljau(values: Real, local: Real, rest: Real) -> Real:
     while len(layer) > 1:
         layer = [rest * layer[k] + local * layer[k + 1] for k in range(len(layer) - 1)]
     return layer[0]
-
-
-def _bernstein_hull(values: Real, low: Real, high: Real) -> Real:
-    """Largest modulus of the Bernstein coefficients on sub-intervals [low, high] of [0, 1]: a bound of the polynomial.
-
-    The coefficients on [low, high] are the polar form's values at low (n - k times) and high (k times).
-    """
-    best = np.zeros(np.broadcast(low, high).shape)
-    n = len(values) - 1
-    for k in range(n + 1):
-        layer: list[Real] = [np.broadcast_to(v, best.shape) for v in values]
-        for step in range(n):
-            x = high if step < k else low
-            layer = [(1 - x) * layer[j] + x * layer[j + 1] for j in range(len(layer) - 1)]
-        best = np.maximum(best, np.abs(layer[0]))
-    return best
 
 
 def sign_changes(function: Callable[[Real], Real], t: Real) -> Real:
