@@ -129,8 +129,7 @@ def tabulated(width: float, places: Sequence[float], ordinates: Sequence[float])
 def law_of_diagram(name: str, stretches: Sequence[Stretch], *, balance: bool = False) -> Law:
     """The law whose acceleration is the diagram, scaled so that lift and phase are 1.
 
-    ``balance``: scale the ordinates below the axis so that velocity returns to 0; for this every segment must keep
-    to one side of the axis at its ends and middle.
+    ``balance``: scale the segments whose area lies below the axis so that velocity returns to 0.
 
     Raises
     ------
@@ -148,17 +147,17 @@ def law_of_diagram(name: str, stretches: Sequence[Stretch], *, balance: bool = F
     if balance and above > 0 and below > 0:
         parts = [s.scaled(above / below) if a < 0 else s for s, a in zip(parts, areas, strict=True)]
         areas = [_area(s) for s in parts]
-        above, below = sum(a for a in areas if a > 0), -sum(a for a in areas if a < 0)
-    if not above > 0:
-        raise ParameterError("diagram", above, "has nothing above the axis: the follower does not rise")
-    if not abs(sum(areas)) <= _CLOSING * above:
+    size = sum(_size(s) for s in parts)
+    if not size > 0:
+        raise ParameterError("diagram", size, "lies on the axis or holds what is no number: the follower does not rise")
+    if not abs(math.fsum(areas)) <= _CLOSING * size:
         remedy = f"does not close: area above {above:.9g}, below {below:.9g}, so velocity does not return to 0"
-        if below > 0:
-            remedy += f"; ordinates below the axis times {above / below:.9g} work"
+        if above > 0 and below > 0:
+            remedy += f"; ordinates below the axis times {above / below:.12g} work"
         raise ParameterError("diagram", above - below, remedy)
     pieces = _integrated(parts, 0.0, 1.0)
     lift = float(pieces[-1].value(pieces[-1].end))
-    if not lift > 1e-9 * above:
+    if not lift > _CLOSING * size:
         raise ParameterError("diagram", lift, "lifts nothing: put the segments above the axis first")
     pieces = _integrated(parts, 0.0, 1 / lift)
     return Law(name, tuple(pieces))
@@ -194,6 +193,11 @@ def _area(stretch: Stretch) -> float:
         w.amplitude / w.frequency * (math.cos(w.phase) - math.cos(w.frequency + w.phase)) for w in stretch.waves
     )
     return stretch.width * (sum(stretch.coefficients) / len(stretch.coefficients) + waves)
+
+
+def _size(stretch: Stretch) -> float:
+    """A bound of the area between a segment and the axis."""
+    return stretch.width * (max(map(abs, stretch.coefficients)) + sum(abs(w.amplitude) for w in stretch.waves))
 
 
 def _integrated(parts: Sequence[Stretch], velocity: float, factor: float) -> list[LawPiece]:

@@ -46,10 +46,12 @@ RESOLUTION = 2e-8
 def piece_deviations(curve: Curve, t: np.ndarray, bulges: np.ndarray, count: int = 401) -> np.ndarray:
     """Largest distance of dense curve points from each piece's own edge."""
     points = curve.point(t)
-    return np.array([
-        brute.distance_to_edge(curve.point(np.linspace(a, b, count)), complex(s), complex(e), float(q)).max()
-        for a, b, s, e, q in zip(t[:-1], t[1:], points[:-1], points[1:], bulges, strict=True)
-    ])
+    return np.array(
+        [
+            brute.distance_to_edge(curve.point(np.linspace(a, b, count)), complex(s), complex(e), float(q)).max()
+            for a, b, s, e, q in zip(t[:-1], t[1:], points[:-1], points[1:], bulges, strict=True)
+        ]
+    )
 
 
 def joint_angles(points: np.ndarray, bulges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -60,7 +60,8 @@ def test_signed_area_against_polygons_and_shapely(corners: list[tuple[float, flo
     areas = []
     for count in (2001, 4001):  # polygons of two densities, then Richardson: error of order count^-4
         outline = np.concatenate(
-            [brute.arc_points(s, e, b, count)[:-1] for s, e, b in zip(vertices, ends, sizes, strict=True)])
+            [brute.arc_points(s, e, b, count)[:-1] for s, e, b in zip(vertices, ends, sizes, strict=True)]
+        )
         areas.append(0.5 * float(np.sum((np.conj(outline) * np.roll(outline, -1)).imag)))
     ring = shapely.LinearRing(np.column_stack([outline.real, outline.imag]))
     if ring.is_simple:
@@ -153,8 +154,7 @@ def test_distance_to_profile_sees_a_moved_vertex(gear: SpurGear, place: str, arc
     index = {"start": 1, "middle": len(vertices) // 2 + 1, "end": len(vertices) - 1}[place]
     turn = np.exp(2j * math.pi / profile.count * (index // (len(vertices) // profile.count)))
     local = vertices[index] / turn
-    segment = min(
-        profile.period, key=lambda s: float(np.abs(brute.dense(s.curve) - local).min()))
+    segment = min(profile.period, key=lambda s: float(np.abs(brute.dense(s.curve) - local).min()))
     at = np.argmin(np.abs(brute.dense(segment.curve) - local))
     tangent = complex(segment.curve.tangent(np.linspace(*segment.curve.domain, 400)[at]))
     vertices[index] += 2 * tolerance * 1j * tangent * turn

@@ -85,7 +85,8 @@ def test_least_number_of_teeth_and_fillet_of_the_practicum() -> None:
     assert limits.undercut(SpurGear(1.0, least["printed"], sharp)).margin < 0
     assert limits.undercut(SpurGear(1.0, least["printed"] + 1, sharp)).margin > 0
     zero = limits.least_shift_without_undercut(SpurGear(1.0, 1, sharp)) - limits.least_shift_without_undercut(
-        SpurGear(1.0, 2, sharp))
+        SpurGear(1.0, 2, sharp)
+    )
     assert 1 / zero == pytest.approx(least["recomputed"], rel=1e-12)
     fillet = PRACTICUM["rack_fillet"]
     assert default_tip_radius(math.radians(20), 1.0, 0.25, 1.0) == pytest.approx(fillet["recomputed"], rel=1e-14)
@@ -111,8 +112,12 @@ def test_lesson_three_of_the_practicum(wheel: dict) -> None:
     tip = (wheel["z"] / 2 + 1 + x - PRACTICUM["lesson_3"]["dy"]) * m
     gear = SpurGear(m, wheel["z"], iso_53(), x, given_tip_diameter=2 * tip)
     found = {
-        "r": gear.reference_radius, "r_b": gear.base_radius, "r_a": gear.tip_radius, "r_f": gear.root_radius,
-        "S": gear.reference_thickness, "alpha_a_deg": math.degrees(math.acos(gear.base_radius / gear.tip_radius)),
+        "r": gear.reference_radius,
+        "r_b": gear.base_radius,
+        "r_a": gear.tip_radius,
+        "r_f": gear.root_radius,
+        "S": gear.reference_thickness,
+        "alpha_a_deg": math.degrees(math.acos(gear.base_radius / gear.tip_radius)),
     }
     for key, value in found.items():
         assert value == pytest.approx(wheel[key], rel=1e-13), key
@@ -248,8 +253,11 @@ def test_a_refused_rack_names_a_value_that_works(rack: BasicRack) -> None:
         field = {"height_coefficient": "height", "depth_coefficient": "depth"}[key]
         changed = replace(rack, relief=replace(rack.relief, **{field: value}))
     else:
-        field = {"tip_radius_coefficient": "tip_radius", "tip_clearance_coefficient": "tip_clearance",
-                 "addendum_coefficient": "addendum"}[key]
+        field = {
+            "tip_radius_coefficient": "tip_radius",
+            "tip_clearance_coefficient": "tip_clearance",
+            "addendum_coefficient": "addendum",
+        }[key]
         less = 1e-6 if "less than" in allowed else 0.0
         changed = replace(rack, **{field: value - less})
     again = brute.refusal(lambda: checked_rack(changed))

@@ -52,7 +52,8 @@ CASES = {
     "wider rack tooth": SpurGear(2.0, 23, iso_53(), 0.1, circumferential_thinning=0.15),
     "deeper cut": SpurGear(2.0, 23, iso_53(), 0.1, circumferential_thinning=0.15, thinning_by_deeper_cut=True),
     "deeper cut, relief": SpurGear(
-        2.0, 23, iso_53(relief=RELIEF), circumferential_thinning=0.1, thinning_by_deeper_cut=True),
+        2.0, 23, iso_53(relief=RELIEF), circumferential_thinning=0.1, thinning_by_deeper_cut=True
+    ),
     **{f"centre on the pitch line, {name}": _on_pitch_line(name) for name in "ABCD"},
     "centre beyond the pitch line": SpurGear(1.0, 23, iso_53(), 0.95),
 }
@@ -95,8 +96,13 @@ def test_joint_and_labels_against_the_oracle(gear: SpurGear) -> None:
     parameters = brute.exact_parameters(gear)
     # at a full round the root land is an angle of rounding only
     pieces = {s.kind: s for s in exact_gear.half_tooth(parameters) if s.kind != "root" or s.hi - s.lo > 1e-11}
-    names = {"root": Label.ROOT_LAND, "fillet": Label.ROOT_FILLET, "flank": Label.FLANK, "relief": Label.RELIEF,
-             "tip": Label.TIP_LAND}
+    names = {
+        "root": Label.ROOT_LAND,
+        "fillet": Label.ROOT_FILLET,
+        "flank": Label.FLANK,
+        "relief": Label.RELIEF,
+        "tip": Label.TIP_LAND,
+    }
     side = tooth_side(gear).segments
     assert [s.label for s in side] == [label for kind, label in names.items() if kind in pieces]
     joint = exact_gear.junction(parameters)
