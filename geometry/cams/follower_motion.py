@@ -117,6 +117,11 @@ class FollowerMotion:
         rates = [sign * p.value(np.linspace(*p.domain, 33), 1) for p in moving]
         return [p for p, rate in zip(moving, rates, strict=True) if rate.max() > _JUMP * np.abs(rate).max()]
 
+    def negated(self) -> FollowerMotion:
+        """-S: what the counter-follower of a conjugate cam does."""
+        phases = tuple(Phase(p.angle, -p.lift, p.law) for p in self.phases)
+        return FollowerMotion(tuple(p.placed(0.0, 1.0, 0.0, -1.0) for p in self.pieces), phases)
+
     def joints(self) -> list[Joint]:
         """Every joint between pieces, the one at cam angle 0 first."""
         found = []

@@ -128,7 +128,7 @@ def kept_arcs(cam: DiskCam, grow: float = 0.0) -> Kept:
         begin = crossings[k - 1][1]
         arcs.append((begin, leave if leave > begin else leave + TURN))
         end = enter if enter > leave else enter + TURN
-        gaps.append(Gap(leave, end, corner, greatest_loss(cam, leave, end, corner)))
+        gaps.append(Gap(leave, end, corner, greatest_loss(cam, leave, end, corner, grow - cam.radius)))
     return Kept(tuple(arcs), tuple(gaps))
 
 
