@@ -125,14 +125,16 @@ class FollowerMotion:
     def joints(self) -> list[Joint]:
         """Every joint between pieces, the one at cam angle 0 first."""
         found = []
+        scales = [self._scale(order) for order in range(4)]
         for index, after in enumerate(self.pieces):
             before = self.pieces[index - 1]
             length = min(before.end - before.start, after.end - after.start)
             jumps, continuity, whole = [], -1, True
             for order in range(4):
                 left, right = float(before.value(before.end, order)), float(after.value(after.start, order))
-                scale = max(self._scale(order), abs(self.lift) / length**order)
-                jump = right - left if abs(right - left) > _JUMP * scale else 0.0
+                # a rounding of S is one of S^(order) over so short a piece
+                rounding = 1e-15 * scales[0] / length**order
+                jump = right - left if abs(right - left) > _JUMP * scales[order] + rounding else 0.0
                 whole = whole and jump == 0
                 continuity = order if whole else continuity
                 jumps.append(jump)

@@ -35,7 +35,7 @@ SWING = gutman_13().pieces[0].placed(0.0, D(110), 0.0, D(19))
 MOUNTS = {
     "translating": (RISE, Translating(6.0, 41.0)),
     "against": (SWING, Oscillating(95.0, 80.0, D(28), 1, 5.0)),
-    "with": (SWING, Oscillating(95.0, 80.0, D(28), -1, -5.0)),
+    "with": (SWING, Oscillating(95.0, 80.0, D(50), -1, -5.0)),
 }
 CURVES: dict[str, CentreEnvelope | FaceEnvelope] = {}
 for _name, (_lift, _mount) in MOUNTS.items():
@@ -128,7 +128,7 @@ def test_bounds_hold_and_are_sharp_on_short_intervals(name: str) -> None:
             largest = float(np.abs(curve.derivative(t, order)).max())
             assert largest <= bound
             if b - a < 0.3 and order <= 2:
-                assert bound <= 1.6 * largest
+                assert bound <= 2 * largest
 
 
 @EVERY
