@@ -12,16 +12,15 @@ from typing import Any
 
 import numpy as np
 
+from exporters.assembly import AssemblyJob, declared_assembly_error, write_assembly
 from exporters.job import Job, Shape, Written, declared_error, shape_of
 from exporters.plan import Plan
+from exporters.preview import part_preview, scene_preview
 from exporters.report import NAME, read_report, write_report
-from exporters.words import finding_text
-from geometry.approximate import approximate_profile
 from geometry.contour import Approximation
 from geometry.errors import ConvergenceError, ParameterError
 from geometry.findings import Finding
 from geometry.tolerance import LEAST_SEGMENT_MM
-from parts.part import Part
 from parts.schema import SceneError
 
 # teeth lose their shape where the tolerance is a larger part of the module
@@ -47,13 +46,23 @@ def build(
     start = time.perf_counter()
     checks = _checks(plan)
     shapes = [_shapes(job, plan.source) for job in plan.jobs]
+    made = {_shape_key(job): shape for job, (shape, _) in zip(plan.jobs, shapes, strict=True)}
+    for job in (member for assembly in plan.assemblies for member in assembly.members):
+        if _shape_key(job) not in made:
+            made[_shape_key(job)] = _shapes(job, plan.source)[0]
     with staging_folder(folder) as staging:
         written = []
         for job, shape in zip(plan.jobs, shapes, strict=True):
             progress(job.path)
             written.append(_write(job, shape, staging / job.path, verify=verify))
-        wanted = dict.fromkeys(job.part.id for job in plan.jobs)
-        previews = [_preview(plan.parts[p], staging, plan.scene.scene.language) for p in wanted]
+        for assembly in plan.assemblies:
+            progress(assembly.path)
+            members = {m.part.id: made[_shape_key(m)] for m in assembly.members}
+            written.append(_write_assembly(assembly, members, staging / assembly.path, verify=verify))
+        wanted = dict.fromkeys(j.part.id for j in (*plan.jobs, *(m for a in plan.assemblies for m in a.members)))
+        previews = [part_preview(plan.parts[p], staging, plan.scene.scene.language) for p in wanted]
+        if len(plan.placing.instances) > 1:
+            previews.append(scene_preview(plan, checks, staging))
         before = read_report(folder) if partial else None
         write_report(staging / NAME, plan, written, previews, checks, time.perf_counter() - start, before)
         names = [item.job.path for item in written if not item.failures]
@@ -63,13 +72,12 @@ def build(
 
 def _checks(plan: Plan) -> dict[str, Any]:
     """The pairs of a scene: calculated always, held against each other where the scene asks for it."""
-    if not plan.matings:
+    if not plan.placing.needs_check:
         return {}
-    from exporters.check import check_pair, pair_quantities
+    from exporters.check import scene_checks
 
-    language = plan.scene.scene.language
-    asked = plan.scene.checks.interference
-    return {"mates": [check_pair(m, language) if asked else pair_quantities(m) for m in plan.matings]}
+    scene = plan.scene
+    return scene_checks(plan.placing, scene.drives, scene.scene.language, contact=scene.checks.interference)
 
 
 def move_into(folder: Path, staging: Path, names: list[str]) -> None:
@@ -79,6 +87,12 @@ def move_into(folder: Path, staging: Path, names: list[str]) -> None:
             raise IsADirectoryError(errno.EISDIR, "a folder stands where a file should go", str(folder / name))
     for name in names:
         os.replace(staging / name, folder / name)
+
+
+def _shape_key(job: Job) -> tuple[object, ...]:
+    """What a job's boundaries depend on: a part's file and an assembly may share them."""
+    export = job.export
+    return (job.part.id, export.format, export.purpose, export.tolerance, export.curves, job.section.offset)
 
 
 def _shapes(job: Job, source: str) -> tuple[Shape, float]:
@@ -107,9 +121,28 @@ def _write(job: Job, shape: tuple[Shape, float], file: Path, *, verify: bool) ->
 
     start = time.perf_counter()
     tolerance = float(job.export.tolerance or 0.0)
-    verdict = verify_file(file, job.kind, job.section.region, job.part.face_width, max_error, tolerance)
+    verdict = verify_file(file, job.kind, job.exact, max_error, tolerance, job.part.id)
     seconds["verify"] = time.perf_counter() - start
     return Written(job, file, max_error, bound, entities, verdict.measured, findings, verdict.failures, seconds)
+
+
+def _write_assembly(job: AssemblyJob, members: dict[str, Shape], file: Path, *, verify: bool) -> Written:
+    start = time.perf_counter()
+    entities = write_assembly(job, members, file)
+    seconds = {"write": time.perf_counter() - start}
+    max_error, bound = declared_assembly_error(job, members)
+    found = dict.fromkeys(f for m in job.members for f in (*m.section.findings, *_job_findings(m, members[m.part.id])))
+    if not verify:
+        return Written(job, file, max_error, bound, entities, {}, tuple(found), (), seconds)
+    from exporters.verify_assembly import expected_of, verify_assembly
+
+    start = time.perf_counter()
+    bodies = {m.part.id: m.body for m in job.members}
+    expected = expected_of(job.name, {m.part.id: m.part for m in job.members}, bodies, job.instances)
+    tolerance = float(job.export.tolerance or 0.0)
+    verdict = verify_assembly(file, job.export.format, expected, max_error, tolerance)
+    seconds["verify"] = time.perf_counter() - start
+    return Written(job, file, max_error, bound, entities, verdict.measured, tuple(found), verdict.failures, seconds)
 
 
 def _write_dxf(job: Job, made: Any, file: Path) -> dict[str, int]:
@@ -130,27 +163,23 @@ def _write_svg(job: Job, made: Any, file: Path) -> dict[str, int]:
 
 def _write_stl(job: Job, made: Any, file: Path) -> dict[str, int]:
     from exporters.stl import write_stl
-    from parts.solids import extruded_gear
+    from parts.solids import body_mesh
 
-    outer, bore = made[-1].geometry, made[0].geometry if len(made) > 1 else None
-    return write_stl(file, extruded_gear(outer, bore, job.part.face_width))
+    return write_stl(file, body_mesh(job.body, made))
 
 
 def _write_3mf(job: Job, made: Any, file: Path) -> dict[str, int]:
     from exporters.threemf import write_3mf
-    from parts.solids import extruded_gear
+    from parts.solids import body_mesh
 
-    outer, bore = made[-1].geometry, made[0].geometry if len(made) > 1 else None
-    mesh = extruded_gear(outer, bore, job.part.face_width)
-    return write_3mf(file, job.part.id, mesh, job.part.colour)
+    return write_3mf(file, job.part.id, body_mesh(job.body, made), job.part.colour)
 
 
 def _write_step(job: Job, made: Any, file: Path) -> dict[str, int]:
     from exporters.step import write_step
-    from parts.brep import extruded_solid
+    from parts.brep import body_solid
 
-    *holes, outer = (list(outline.curves()) for outline in made)
-    return write_step(file, job.part.id, extruded_solid(outer, holes, job.part.face_width), job.part.colour)
+    return write_step(file, job.part.id, body_solid(job.body, made), job.part.colour)
 
 
 WRITERS: dict[str, Callable[[Job, Any, Path], dict[str, int]]] = {
@@ -164,9 +193,9 @@ WRITERS: dict[str, Callable[[Job, Any, Path], dict[str, int]]] = {
 
 def _job_findings(job: Job, made: Shape) -> list[Finding]:
     """Remarks on one file: a tolerance too coarse for the teeth, edges too short for a laser."""
-    found = []
+    found = [] if job.is_solid or job.part.is_plate else [Finding("flat_outline", 0.0, 0.0)]
     limit = _COARSE_SHARE * job.part.circles["reference_diameter"] / job.section.region.outer.count
-    if (job.export.tolerance or 0.0) > limit:
+    if not job.is_cad and (job.export.tolerance or 0.0) > limit:
         found.append(Finding("coarse_tolerance", float(job.export.tolerance or 0.0), limit))
     if not job.is_mesh and not job.is_cad:
         short = sum(
@@ -178,18 +207,6 @@ def _job_findings(job: Job, made: Shape) -> list[Finding]:
         if short:
             found.append(Finding("short_edges", short, LEAST_SEGMENT_MM))
     return found
-
-
-def _preview(part: Part, folder: Path, language: str) -> Path:
-    from exporters.svg import write_preview
-
-    region = part.section(0.0).region
-    tolerance = max(2e-4 * region.outer.reach(), 1e-6)
-    made = tuple(approximate_profile(p, tolerance, arcs=True) for p in region.profiles())
-    remarks = [finding_text(language, f) for f in part.findings]
-    file = folder / f"{part.id}.preview.svg"
-    write_preview(file, part, made, remarks, language)
-    return file
 
 
 @contextmanager

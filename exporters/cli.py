@@ -76,7 +76,7 @@ def _interrupt(number: int, frame: object) -> NoReturn:
 
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
-        prog="higherpair", description="Exact gears as DXF, SVG and STL, each file read back and measured."
+        prog="higherpair", description="Exact gears as DXF, SVG, STL, 3MF and STEP, each file read back and measured."
     )
     parser.add_argument("--version", action="version", version=f"higherpair {__version__}")
     commands = parser.add_subparsers(prog="higherpair", required=True, metavar="COMMAND", parser_class=_Parser)
@@ -121,7 +121,7 @@ def _build(options: argparse.Namespace) -> int:
         from rich.progress import Progress
 
         with Progress(transient=True) as bar:
-            task = bar.add_task(scene.name, total=len(plan.jobs))
+            task = bar.add_task(scene.name, total=len(plan.jobs) + len(plan.assemblies))
 
             def advance(path: str) -> None:
                 bar.update(task, advance=1, description=path)
@@ -134,16 +134,18 @@ def _build(options: argparse.Namespace) -> int:
 
 
 def _check(options: argparse.Namespace) -> int:
-    from exporters.check import check_pair
+    from exporters.check import scene_checks
     from exporters.tables import check_lines, has_bad_verdict
+    from parts.placing import place
     from parts.scene import load_scene, make_parts
     from parts.schema import SceneError
 
     scene = load_scene(options.scene)
-    _, matings = make_parts(scene, options.scene)
-    if not matings:
+    parts, matings = make_parts(scene, options.scene)
+    placing = place(scene.instances, scene.drives, parts, matings, options.scene)
+    if not matings and not placing.close:
         raise SceneError(options.scene, "mates", None, 'nothing to check; add [[mates]] kind = "external_gear_pair"')
-    checks = {"mates": [check_pair(m, scene.scene.language) for m in matings]}
+    checks = scene_checks(placing, scene.drives, scene.scene.language, contact=True)
     print("\n".join(check_lines(checks, scene.scene.language)))
     return FAILED if has_bad_verdict(checks) else DONE
 
@@ -173,9 +175,12 @@ def _converge(options: argparse.Namespace) -> int:
     from exporters.plan import plan_build
     from exporters.tables import converge_tables
     from parts.scene import load_scene
+    from parts.schema import SceneError
 
     scene = load_scene(options.scene)
     plan = plan_build(scene, options.scene, options.part, options.format)
+    if not plan.jobs:
+        raise SceneError(options.scene, "exports", None, "hold no file of a single part to measure; add one")
     folder = options.out / scene.name
     with staging_folder(folder) as staging:
         rungs, found = ladder(plan, staging), orders(plan)

@@ -7,14 +7,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from geometry.approximate import approximate_profile
+from geometry.body import Body
 from geometry.contour import Approximation
 from geometry.errors import ParameterError, at_least
 from geometry.findings import Finding
 from geometry.gears.offset_tooth import OffsetRegion
+from geometry.profile import Region
 from geometry.tolerance import LEAST_SEGMENT_MM
 from parts.part import Part
 from parts.scene import ExportSpec
 
+SOLID_FORMATS = ("stl", "3mf", "step")
 # more edges than any receiving program opens; one file of them is some 300 MB
 _MOST_EDGES = 4_000_000
 # a float32 coordinate is good to 2^-24 of its size, both of them together to sqrt(2) of that
@@ -36,6 +39,26 @@ class Job:
     section: OffsetRegion
     path: str
     place: str
+
+    @property
+    def members(self) -> tuple[Job, ...]:
+        """The jobs of the parts in the file: itself; an assembly has more."""
+        return (self,)
+
+    @property
+    def body(self) -> Body:
+        """The exact solid, moved like the section."""
+        return self.part.body(self.section.offset)
+
+    @property
+    def is_solid(self) -> bool:
+        """Whether the format holds a solid, not a flat outline."""
+        return self.export.format in SOLID_FORMATS
+
+    @property
+    def exact(self) -> Region | Body:
+        """What the file must agree with."""
+        return self.body if self.is_solid else self.section.region
 
     @property
     def is_mesh(self) -> bool:
@@ -62,7 +85,7 @@ class Job:
 class Written:
     """A file that was written and read back, with what was measured on it."""
 
-    job: Job
+    job: Job | AssemblyJob
     file: Path
     max_error: float
     bound: str
@@ -74,13 +97,14 @@ class Written:
 
 
 if TYPE_CHECKING:
+    from exporters.assembly import AssemblyJob
     from geometry.outline import Outline
 
 Shape: TypeAlias = "tuple[Approximation, ...] | tuple[Outline, ...]"
 
 
 def shape_of(job: Job) -> Shape:
-    """The boundaries of a job's section, holes first: splines for CAD, else lines and arcs.
+    """The boundaries of a job's section, holes first, or of its solid: splines for CAD, else lines and arcs.
 
     Raises
     ------
@@ -92,15 +116,16 @@ def shape_of(job: Job) -> Shape:
     from geometry.outline import spline_outline
 
     tolerance = float(job.export.tolerance or 0.0) - number_rounding(job)
-    # cubics are what drawings read everywhere; the kernel's files pay by the pole, so it gets a high degree
-    degree = 3 if job.export.format == "dxf" else 7
-    return tuple(
-        spline_outline(p, tolerance, degree=degree, continuity=degree - 1) for p in job.section.region.profiles()
-    )
+    if job.is_solid:
+        from parts.brep import body_outlines
+
+        return body_outlines(job.body, tolerance)
+    # cubics are what drawings read everywhere
+    return tuple(spline_outline(p, tolerance, degree=3, continuity=2) for p in job.section.region.profiles())
 
 
 def approximations(job: Job) -> tuple[Approximation, ...]:
-    """The boundaries of a job's section, holes first, as its format and tolerance want them.
+    """The boundaries of a job's section, holes first, or of its mesh, as its format and tolerance want them.
 
     Raises
     ------
@@ -108,16 +133,20 @@ def approximations(job: Job) -> tuple[Approximation, ...]:
         The tolerance asks for more edges than a file can carry, or is below what a mesh file's numbers resolve.
     """
     tolerance, rounding = float(job.export.tolerance or 0.0), number_rounding(job)
-    arcs, least = job.export.curves == "arcs" and not job.is_mesh, LEAST_SEGMENT_MM
+    arcs = job.export.curves == "arcs" and not job.is_mesh
+    # the rounding of the file's numbers takes its share of the tolerance first
     if job.is_mesh:
-        least = 64 * rounding
+        from parts.solids import mesh_outlines
+
         if tolerance < 8 * rounding:
             remedy = f"a mesh file stores 7 digits, at this size at least {at_least(8 * rounding)} mm works"
             raise ParameterError("tolerance", tolerance, remedy)
-    # the rounding of the file's numbers takes its share of the tolerance first
-    made = tuple(
-        approximate_profile(p, tolerance - rounding, arcs=arcs, least_edge=least) for p in job.section.region.profiles()
-    )
+        made = mesh_outlines(job.body, tolerance - rounding, 64 * rounding)
+    else:
+        made = tuple(
+            approximate_profile(p, tolerance - rounding, arcs=arcs, least_edge=LEAST_SEGMENT_MM)
+            for p in job.section.region.profiles()
+        )
     edges = sum(len(a.geometry) for a in made)
     if edges > _MOST_EDGES:
         factor = (edges / _MOST_EDGES) ** (3 if arcs else 2)
@@ -128,9 +157,10 @@ def approximations(job: Job) -> tuple[Approximation, ...]:
 
 def number_rounding(job: Job) -> float:
     """How far the rounding of a file's numbers may move an outline, mm."""
-    reach = job.section.region.outer.reach()
+    reach = max(p.reach() for p in job.body.profiles) if job.is_solid else job.section.region.outer.reach()
     if job.is_mesh:
-        return _FLOAT32 * reach
+        # 3MF writes its float32 numbers as text, which rounds them once more
+        return _FLOAT32 * reach * (2 if job.export.format == "3mf" else 1)
     if job.export.format == "step":
         return _STEP_ROUNDING * reach
     return _SVG_ROUNDING if job.export.format == "svg" else _DXF_ROUNDING * reach

@@ -24,7 +24,47 @@ _EXAMPLES = {
     "tolerance": "0.005",
     "name": '"laser"',
     "parts": '["gear"]',
+    "thickness": "3.0",
+    "rim_diameter": "36.0",
+    "density": "0.65",
+    "diameter": "12.0",
+    "flat": "10.5",
+    "across_flats": "10.0",
+    "width": "4.0",
+    "depth": "1.8",
+    "corner_radius": "0.16",
+    "count": "5",
+    "pitch_circle_diameter": "28.0",
+    "inner_diameter": "20.0",
+    "outer_diameter": "36.0",
 }
+# where the same key means another size
+_TABLE_EXAMPLES = {("HolesTable", "diameter"): "6.0", ("HubTable", "diameter"): "17.0"}
+
+# what a scene of several parts may add
+_ASSEMBLY = """
+# With a second part, [parts.wheel], the two can be put in mesh and written as one assembly:
+# [[mates]]
+# kind = "external_gear_pair"                # centre distance, tip shortening, phase
+# first = "gear"
+# second = "wheel"
+# direction_deg = 0.0                        # direction of the line of centres
+#
+# [instances.second_wheel]                   # a part may stand more than once
+# part = "wheel"
+# at = [100.0, 0.0, 0.0]                     # mm; or let a mate place it
+# rotation_deg = 0.0
+#
+# [[drives]]
+# instance = "gear"
+# turns = 1.0
+#
+# [checks]
+# interference = true                        # contact and overlap through a whole pitch
+#
+# [[exports]]
+# format = "step"
+# assembly = true                            # one file, named parts, true instances""".splitlines()
 
 
 def new_scene(kind: str) -> str:
@@ -50,6 +90,7 @@ def new_scene(kind: str) -> str:
         "",
         "[[exports]]",
         'format = "stl"',
+        *_ASSEMBLY,
     ]
     return "\n".join(lines) + "\n"
 
@@ -60,8 +101,10 @@ def _keys(owner: type[Struct]) -> list[str]:
     for field in msgspec.structs.fields(owner):
         code = f"{field.encode_name} = {_value(field)}"
         lines.append(_line(code if field.required else f"# {code}", describe_type(field.type)))
-        if (table := _table_of(field)) is not None and field.default is not None:
-            lines.append(f"# {field.encode_name} = {_table_value(table)}  # ... or this")
+        tables = _tables_of(field)
+        for table in tables if field.default is not None else tables[1:]:
+            meant = describe_type(table).removeprefix("table: ")
+            lines.append(f"# {field.encode_name} = {_table_value(table)}  # ... or this: {meant}")
     return lines
 
 
@@ -72,16 +115,23 @@ def _line(code: str, text: str) -> str:
 def _value(field: msgspec.structs.FieldInfo) -> str:
     """The default of a key as TOML, or an example where it has none."""
     if field.required or field.default is None:
-        table = _table_of(field)
-        return _EXAMPLES[field.encode_name] if table is None else _table_value(table)
+        tables = _tables_of(field)
+        return _table_value(tables[0]) if tables else _EXAMPLES[field.encode_name]
+    if isinstance(field.default, bool):
+        return str(field.default).lower()
     return f'"{field.default}"' if isinstance(field.default, str) else str(field.default)
 
 
-def _table_of(field: msgspec.structs.FieldInfo) -> type[Struct] | None:
-    """The kind of table that a key takes, if it takes one."""
-    return next((a for a in get_args(field.type) if isinstance(a, type) and issubclass(a, Struct)), None)
+def _tables_of(field: msgspec.structs.FieldInfo) -> list[type[Struct]]:
+    """The kinds of table that a key takes."""
+    return [a for a in get_args(field.type) if isinstance(a, type) and issubclass(a, Struct)]
 
 
 def _table_value(table: type[Struct]) -> str:
-    inner = (f"{f.encode_name} = {_value(f)}" for f in msgspec.structs.fields(table))
-    return "{ " + ", ".join(inner) + " }"
+    config = table.__struct_config__
+    tag = [f'{config.tag_field} = "{config.tag}"'] if config.tag_field else []
+    inner = (
+        f"{f.encode_name} = {_TABLE_EXAMPLES.get((table.__name__, f.encode_name)) or _value(f)}"
+        for f in msgspec.structs.fields(table)
+    )
+    return "{ " + ", ".join([*tag, *inner]) + " }"

@@ -5,24 +5,26 @@ from __future__ import annotations
 from dataclasses import dataclass
 from importlib.util import find_spec
 
+from exporters.assembly import AssemblyJob, assembly_name
 from exporters.job import Job
-from geometry.errors import GeometryError, at_least, at_most
+from geometry.errors import GeometryError, ParameterError, at_least, at_most
 from geometry.gears.offset_tooth import OffsetError, OffsetRegion
-from parts.mates import Mating
 from parts.part import Part
+from parts.placing import Placing, place
 from parts.scene import FORMATS, ExportSpec, SceneFile, default_export, make_parts
 from parts.schema import SceneError, near
 
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """The files of a build, the parts they need, and what was left out and why."""
+    """The files of a build, the parts they need, where these stand, and what was left out and why."""
 
     source: str
     scene: SceneFile
     parts: dict[str, Part]
-    matings: tuple[Mating, ...]
+    placing: Placing
     jobs: tuple[Job, ...]
+    assemblies: tuple[AssemblyJob, ...]
     left_out: tuple[tuple[str, str], ...]
 
 
@@ -42,6 +44,7 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
         if name not in FORMATS:
             raise SceneError(source, "--format", name, f"unknown format; formats: {', '.join(FORMATS)}")
     parts, matings = make_parts(scene, source)
+    placing = place(scene.instances, scene.drives, parts, matings, source)
     exports = _wanted_exports(scene, source, only_formats)
     left_out = [
         (f"exports[{i + 1}]", f"format {e.format} was not asked for")
@@ -49,26 +52,73 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
         if only_formats and e.format not in only_formats
     ]
     left_out += [(f"parts.{p}", "was not asked for") for p in parts if only_parts and p not in only_parts]
-    for place, export in exports:
-        if export.format == "step" and find_spec("OCP") is None:
-            remedy = 'needs the CAD kernel: pip install "higherpair[step-lite]" (or [step], with cadquery)'
-            raise SceneError(source, f"{place}.format", "step", remedy)
+    exports, unmakeable = _without_kernel(exports, source, only_formats)
+    left_out += unmakeable
     used = {p for _, e in exports for p in e.parts or parts}
     left_out += [(f"parts.{p}", "no export asks for it") for p in parts if p not in used]
     jobs: list[Job] = []
+    assemblies: list[AssemblyJob] = []
     taken = {f"{part}.preview.svg".lower(): "the preview of the part" for part in parts}
-    for place, export in exports:
+    for where, export in exports:
+        if export.assembly and only_parts:
+            left_out.append((where, "an assembly of all its parts was not asked for"))
+            continue
+        made = []
         for part_id in export.parts or list(parts):
             if only_parts and part_id not in only_parts:
                 continue
-            path = _file_name(part_id, export, [e for _, e in exports])
-            if path.lower() in taken:
-                remedy = f"writes the same file as {taken[path.lower()]}; give one of them another name"
-                raise SceneError(source, f"{place}.name", path, remedy)
-            taken[path.lower()] = place
-            section = _section(parts[part_id], export, source, place)
-            jobs.append(Job(parts[part_id], export, section, path, place))
-    return Plan(source, scene, parts, tuple(matings), tuple(jobs), tuple(left_out))
+            path = "" if export.assembly else _file_name(part_id, export, [e for _, e in exports])
+            _take(path, where, taken, source)
+            job = Job(parts[part_id], export, _section(parts[part_id], export, source, where), path, where)
+            if job.is_solid:
+                _check_body(job, source)
+            made.append(job)
+        if not export.assembly:
+            jobs += made
+        else:
+            path = _assembly_path(scene, export, [e for _, e in exports])
+            _take(path, where, taken, source)
+            stand = tuple(i for i in placing.instances if i.part in (export.parts or parts))
+            assemblies.append(AssemblyJob(assembly_name(scene.name), export, tuple(made), stand, path, where))
+    return Plan(source, scene, parts, placing, tuple(jobs), tuple(assemblies), tuple(left_out))
+
+
+def _take(path: str, where: str, taken: dict[str, str], source: str) -> None:
+    """Note the name of a file; two exports into one file are refused."""
+    if not path:
+        return
+    if path.lower() in taken:
+        remedy = f"writes the same file as {taken[path.lower()]}; give one of them another name"
+        raise SceneError(source, f"{where}.name", path, remedy)
+    taken[path.lower()] = where
+
+
+def _without_kernel(
+    exports: list[tuple[str, ExportSpec]], source: str, only_formats: list[str]
+) -> tuple[list[tuple[str, ExportSpec]], list[tuple[str, str]]]:
+    """The exports that can be made, and those left out because the CAD kernel is not installed.
+
+    Raises
+    ------
+    SceneError
+        STEP was asked for by name, or nothing else was.
+    """
+    places = [where for where, export in exports if export.format == "step"]
+    if not places or find_spec("OCP") is not None:
+        return exports, []
+    remedy = 'needs the CAD kernel: pip install "higherpair[step-lite]" (or [step], with cadquery)'
+    if "step" in only_formats or len(places) == len(exports):
+        raise SceneError(source, f"{places[0]}.format", "step", remedy)
+    return [(w, e) for w, e in exports if w not in places], [(where, f"STEP {remedy}") for where in places]
+
+
+def _check_body(job: Job, source: str) -> None:
+    """Refuse a solid that does not exist, in the key that asks for it."""
+    try:
+        _ = job.body
+    except ParameterError as error:
+        place = f"{job.place}.offset" if error.name == "offset" else f"parts.{job.part.id}.{error.name}"
+        raise SceneError(source, place, error.value, error.allowed) from error
 
 
 def _wanted_exports(scene: SceneFile, source: str, only_formats: list[str]) -> list[tuple[str, ExportSpec]]:
@@ -78,19 +128,33 @@ def _wanted_exports(scene: SceneFile, source: str, only_formats: list[str]) -> l
         if not any(e.format == name for _, e in exports):
             spec = default_export(name)
             exports.append((f"--format {name}", spec))
-    exports = [(place, e) for place, e in exports if not only_formats or e.format in only_formats]
+    exports = [(where, e) for where, e in exports if not only_formats or e.format in only_formats]
     if not exports:
-        remedy = 'the scene asks for no file; add [[exports]] with format = "dxf", "svg" or "stl", or use --format'
+        remedy = (
+            'the scene asks for no file; add [[exports]] with format = "dxf" (or svg, stl, 3mf, step), or use --format'
+        )
         raise SceneError(source, "exports", None, remedy)
     return exports
 
 
 def _file_name(part_id: str, export: ExportSpec, exports: list[ExportSpec]) -> str:
     """``<part>.<ext>``; with the export's name (default: its purpose) in between where two exports share an ending."""
-    sharing = [e for e in exports if e.format == export.format and (e.parts is None or part_id in e.parts)]
+    sharing = [
+        e for e in exports if e.format == export.format and not e.assembly and (e.parts is None or part_id in e.parts)
+    ]
     if len(sharing) > 1:
         return f"{part_id}.{export.name or export.purpose}.{export.format}"
     return f"{part_id}.{export.format}"
+
+
+def _assembly_path(scene: SceneFile, export: ExportSpec, exports: list[ExportSpec]) -> str:
+    """``<scene>.<ext>``; with a word in between where the export has a name, or another file would be the same."""
+    alike = [e for e in exports if e.format == export.format]
+    if export.name or sum(e.assembly for e in alike) > 1:
+        return f"{scene.name}.{export.name or export.purpose}.{export.format}"
+    parts = {p.lower() for e in alike if not e.assembly for p in e.parts or scene.parts}
+    word = ".assembly" if scene.name.lower() in parts else ""
+    return f"{scene.name}{word}.{export.format}"
 
 
 def _section(part: Part, export: ExportSpec, source: str, place: str) -> OffsetRegion:

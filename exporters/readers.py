@@ -6,12 +6,15 @@ import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geometry.curve import Complex, Real
+
+if TYPE_CHECKING:
+    from xml.etree.ElementTree import Element
 
 
 class ReadError(ValueError):
@@ -180,8 +183,11 @@ def _check_normals(corners: NDArray[np.float64], normals: NDArray[np.float64]) -
 _3MF_CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
 
 
-def read_3mf(file: Path) -> ReadMesh:
-    """The single object of a 3MF file, in mm; read with zipfile and an XML parser, without lib3mf."""
+def read_3mf(file: Path, name: str | None = None) -> ReadMesh:
+    """The single object of a 3MF file, in mm; read with zipfile and an XML parser, without lib3mf.
+
+    ``name``: what the object must be called.
+    """
     import zipfile
     from xml.etree import ElementTree
 
@@ -193,12 +199,27 @@ def read_3mf(file: Path) -> ReadMesh:
     objects, items = root.findall(f".//{_3MF_CORE}object"), root.findall(f".//{_3MF_CORE}item")
     if root.get("unit") != "millimeter" or len(objects) != 1 or len(items) != 1:
         raise ReadError("the 3MF does not hold one object in mm, built once")
+    if name is not None and objects[0].get("name") != name:
+        raise ReadError(f'the part is named "{objects[0].get("name")}" instead of "{name}"')
+    if items[0].get("transform") is not None:
+        raise ReadError("the part of the 3MF has been moved out of its frame")
+    return mesh_of_3mf(objects[0])
+
+
+def mesh_of_3mf(item: Element) -> ReadMesh:
+    """The mesh of an object of a 3MF file."""
     try:
-        corners = [[float(v.get(k, "")) for k in "xyz"] for v in objects[0].iter(f"{_3MF_CORE}vertex")]
-        rows = [[int(t.get(k, "")) for k in ("v1", "v2", "v3")] for t in objects[0].iter(f"{_3MF_CORE}triangle")]
+        corners = [[float(v.get(k, "")) for k in "xyz"] for v in item.iter(f"{_3MF_CORE}vertex")]
+        rows = [[int(t.get(k, "")) for k in ("v1", "v2", "v3")] for t in item.iter(f"{_3MF_CORE}triangle")]
     except ValueError as error:
         raise ReadError(f"a broken number in the 3MF: {error}") from error
     vertices, triangles = np.array(corners).reshape(-1, 3), np.array(rows, dtype=np.int64).reshape(-1, 3)
     if not len(triangles) or triangles.min() < 0 or triangles.max() >= len(vertices):
         raise ReadError("a 3MF triangle names a vertex that is not there")
     return ReadMesh(vertices, triangles)
+
+
+def step_names(file: Path) -> list[str]:
+    """Names of the products of a STEP file, from its text alone."""
+    text = file.read_text(encoding="utf-8", errors="replace")
+    return [name.replace("''", "'") for name in re.findall(r"=\s*PRODUCT\s*\(\s*'((?:[^']|'')*)'", text)]

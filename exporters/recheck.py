@@ -8,10 +8,13 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+from exporters.assembly import assembly_name
+from exporters.job import SOLID_FORMATS
 from exporters.report import NAME, read_report
 from exporters.verify import Verdict, verify_file
 from geometry.errors import GeometryError
-from parts.scene import FORMATS, make_parts, scene_from_resolved
+from parts.placing import place
+from parts.scene import ASSEMBLY_FORMATS, FORMATS, SceneFile, make_parts, scene_from_resolved
 from parts.schema import SceneError
 
 
@@ -67,13 +70,38 @@ def recheck(file: Path) -> Recheck:
 
 def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, Any], digest: str) -> Recheck:
     scene = scene_from_resolved(report["scene"], source)
+    if entry["part"] is None:
+        return _against_assembly(file, source, scene, entry, digest)
     part = make_parts(scene, source)[0][entry["part"]]
-    region = part.section(float(entry["offset"])).region
+    offset = float(entry["offset"])
     declared, tolerance, kind = float(entry["max_error"]), float(entry["tolerance"]), entry["format"]
     if kind not in FORMATS:
         raise KeyError(f"format {kind}")
+    _needs_kernel(file, kind)
+    exact = part.body(offset) if kind in SOLID_FORMATS else part.section(offset).region
+    kind = "drawing" if entry["purpose"] == "drawing" else kind
+    verdict = verify_file(file, kind, exact, declared, tolerance, part.id)
+    return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
+
+
+def _against_assembly(file: Path, source: str, scene: SceneFile, entry: dict[str, Any], digest: str) -> Recheck:
+    """An assembly file: its instances by the report, their places worked out again."""
+    from exporters.verify_assembly import expected_of, verify_assembly
+
+    made, matings = make_parts(scene, source)
+    stand = {i.id: i for i in place(scene.instances, scene.drives, made, matings, source).instances}
+    instances = [stand[name] for name in entry["instances"]]
+    declared, tolerance, kind = float(entry["max_error"]), float(entry["tolerance"]), entry["format"]
+    if kind not in ASSEMBLY_FORMATS or not instances:
+        raise KeyError(f"an assembly of {len(instances)} instances, format {kind}")
+    _needs_kernel(file, kind)
+    used = {i.part: made[i.part] for i in instances}
+    bodies = {name: part.body(float(entry["offset"])) for name, part in used.items()}
+    expected = expected_of(assembly_name(scene.name), used, bodies, instances)
+    verdict = verify_assembly(file, kind, expected, declared, tolerance)
+    return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
+
+
+def _needs_kernel(file: Path, kind: str) -> None:
     if kind == "step" and find_spec("OCP") is None:
         raise SceneError(str(file), "", None, 'needs the CAD kernel to be read: pip install "cadquery-ocp-novtk<8"')
-    kind = "drawing" if entry["purpose"] == "drawing" else kind
-    verdict = verify_file(file, kind, region, part.face_width, declared, tolerance)
-    return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])

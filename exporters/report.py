@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import sys
 from pathlib import Path
 from typing import Any
@@ -11,10 +12,13 @@ from typing import Any
 import numpy as np
 
 from exporters import __version__
+from exporters.assembly import AssemblyJob
 from exporters.job import Written
 from exporters.plan import Plan
 from exporters.words import finding_text
 from geometry.findings import Finding
+from parts.part import Part
+from parts.placing import Instance
 from parts.scene import resolved
 
 NAME = "report.json"
@@ -38,10 +42,12 @@ def write_report(
                 "kind": part.kind,
                 **part.circles,
                 **part.quantities,
+                **_mass(part, written),
                 "findings": _findings(part.findings, language),
             }
             for part in plan.parts.values()
         },
+        "instances": {instance.id: _placement(instance) for instance in plan.placing.instances},
         "files": [_entry(item, language) for item in written if not item.failures],
         "failed": [{"path": item.job.path, "failures": list(item.failures)} for item in written if item.failures],
         "previews": [{"path": p.name, "bytes": p.stat().st_size, "sha256": _sha256(p)} for p in previews],
@@ -78,16 +84,32 @@ def _merge(report: dict[str, Any], before: dict[str, Any] | None) -> None:
         report[key] = sorted([*kept, *report[key]], key=lambda entry: entry["path"])
 
 
+def _mass(part: Part, written: list[Written]) -> dict[str, Any]:
+    """Mass properties of a part that is built as a solid or whose density is known."""
+    solid = {m.part.id for item in written for m in item.job.members if m.is_solid}
+    if part.density is None and part.id not in solid:
+        return {}
+    from parts.materials import mass_properties
+
+    return mass_properties(part)
+
+
 def _entry(item: Written, language: str) -> dict[str, Any]:
-    export = item.job.export
+    job, export = item.job, item.job.export
+    if isinstance(job, AssemblyJob):
+        part, more = None, {"instances": [instance.id for instance in job.instances]}
+        offset = job.members[0].section.offset
+    else:
+        part, more, offset = job.part.id, {}, job.section.offset
     return {
-        "path": item.job.path,
+        "path": job.path,
         "format": export.format,
         "purpose": export.purpose,
-        "part": item.job.part.id,
+        "part": part,
+        **more,
         "unit": "mm",
         "tolerance": export.tolerance,
-        "offset": item.job.section.offset,
+        "offset": offset,
         "max_error": item.max_error,
         "bound": item.bound,
         "verified": bool(item.measured),
@@ -96,6 +118,15 @@ def _entry(item: Written, language: str) -> dict[str, Any]:
         "bytes": item.file.stat().st_size,
         "sha256": _sha256(item.file),
         "findings": _findings(item.findings, language),
+    }
+
+
+def _placement(instance: Instance) -> dict[str, Any]:
+    return {
+        "part": instance.part,
+        "at": list(instance.at),
+        "rotation_deg": math.degrees(instance.rotation),
+        "placed_by": instance.placed_by,
     }
 
 

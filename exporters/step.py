@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from geometry.errors import GeometryError
+from geometry.placement import Placement3
 
 _HEADER_TIME = "2000-01-01T00:00:00"
 _SETTINGS = {
@@ -20,43 +22,100 @@ _SETTINGS = {
 }
 
 
+@dataclass(frozen=True, slots=True)
+class StepPart:
+    """A named solid (TopoDS_Solid) with its colour, like "#c08040"."""
+
+    name: str
+    solid: Any
+    colour: str | None
+
+
 def write_step(file: Path, name: str, solid: Any, colour: str | None) -> dict[str, int]:
     """Write one named solid; counts entities of the file by kind."""
+    with silent_kernel():
+        document, shapes = _document()
+        _add_part(document, shapes, StepPart(name, solid, colour))
+        return _written(file, document, name)
+
+
+def write_step_assembly(
+    file: Path, name: str, parts: Sequence[StepPart], occurrences: Sequence[tuple[str, str, Placement3]]
+) -> dict[str, int]:
+    """Write one product per part and an occurrence of it for each of ``occurrences``: its name, the part's, its place.
+
+    Counts entities of the file by kind.
+    """
+    from OCP.TopLoc import TopLoc_Location
+
+    with silent_kernel():
+        document, shapes = _document()
+        labels = {part.name: _add_part(document, shapes, part) for part in parts}
+        root = shapes.NewShape()
+        _name(root, name)
+        for occurrence, part, scene_from_part in occurrences:
+            place = TopLoc_Location(_transformation(scene_from_part))
+            _name(shapes.AddComponent(root, labels[part], place), occurrence)
+        shapes.UpdateAssemblies()
+        return _written(file, document, name)
+
+
+def _written(file: Path, document: Any, name: str) -> dict[str, int]:
+    """Translate and write a document; called with the kernel silent."""
     from OCP.IFSelect import IFSelect_RetDone
     from OCP.STEPCAFControl import STEPCAFControl_Writer
     from OCP.STEPControl import STEPControl_StepModelType
 
-    with silent_kernel():
-        document = _document(name, solid, colour)
-        # the controller must exist before its settings do
-        writer = STEPCAFControl_Writer()
-        _apply_settings()
-        writer.SetNameMode(True)
-        writer.SetColorMode(True)
-        if not writer.Transfer(document, STEPControl_StepModelType.STEPControl_AsIs):
-            raise GeometryError("the kernel cannot translate the solid to STEP")
-        _fix_header(writer, name)
-        if writer.Write(str(file)) != IFSelect_RetDone:
-            raise OSError(f"the kernel cannot write {file}")
+    # the controller must exist before its settings do
+    writer = STEPCAFControl_Writer()
+    _apply_settings()
+    writer.SetNameMode(True)
+    writer.SetColorMode(True)
+    if not writer.Transfer(document, STEPControl_StepModelType.STEPControl_AsIs):
+        raise GeometryError("the kernel cannot translate the solid to STEP")
+    _fix_header(writer, name)
+    if writer.Write(str(file)) != IFSelect_RetDone:
+        raise OSError(f"the kernel cannot write {file}")
     return _tidied(file)
 
 
-def _document(name: str, solid: Any, colour: str | None) -> Any:
-    from OCP.Quantity import Quantity_Color, Quantity_TOC_sRGB
+def _document() -> tuple[Any, Any]:
+    """An empty document and its tool for shapes."""
     from OCP.TCollection import TCollection_ExtendedString
-    from OCP.TDataStd import TDataStd_Name
     from OCP.TDocStd import TDocStd_Document
-    from OCP.XCAFDoc import XCAFDoc_ColorGen, XCAFDoc_DocumentTool
+    from OCP.XCAFDoc import XCAFDoc_DocumentTool
 
     document = TDocStd_Document(TCollection_ExtendedString("XmlOcaf"))
-    shapes = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
-    label = shapes.AddShape(solid, False)
-    TDataStd_Name.Set_s(label, TCollection_ExtendedString(name, True))
-    if colour is not None:
-        red, green, blue = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
+    return document, XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
+
+
+def _add_part(document: Any, shapes: Any, part: StepPart) -> Any:
+    """The label of a part that was added to a document."""
+    from OCP.Quantity import Quantity_Color, Quantity_TOC_sRGB
+    from OCP.XCAFDoc import XCAFDoc_ColorGen, XCAFDoc_DocumentTool
+
+    label = shapes.AddShape(part.solid, False)
+    _name(label, part.name)
+    if part.colour is not None:
+        red, green, blue = (int(part.colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
         shade = Quantity_Color(red, green, blue, Quantity_TOC_sRGB)
         XCAFDoc_DocumentTool.ColorTool_s(document.Main()).SetColor(label, shade, XCAFDoc_ColorGen)
-    return document
+    return label
+
+
+def _name(label: Any, name: str) -> None:
+    from OCP.TCollection import TCollection_ExtendedString
+    from OCP.TDataStd import TDataStd_Name
+
+    TDataStd_Name.Set_s(label, TCollection_ExtendedString(name, True))
+
+
+def _transformation(placement: Placement3) -> Any:
+    from OCP.gp import gp_Trsf
+
+    transformation = gp_Trsf()
+    transformation.SetValues(*(float(x) for x in placement.matrix().ravel()))
+    return transformation
 
 
 def _apply_settings() -> None:
@@ -87,14 +146,14 @@ def _fix_header(writer: Any, name: str) -> None:
     header.SetAuthorisation(text(""))
 
 
-_OCCURRENCE = re.compile(rb"(NEXT_ASSEMBLY_USAGE_OCCURRENCE\(')(\d+)(')")
+_OCCURRENCE = re.compile(rb"(NEXT_ASSEMBLY_USAGE_OCCURRENCE\(')\d+('[^;]*;)")
 
 
 def _tidied(file: Path) -> dict[str, int]:
-    """Renumber the occurrence ids, which count on through the process, and count entities."""
+    """Renumber the occurrence ids, which count on through the process and shift line ends, and count entities."""
     data = file.read_bytes()
     numbers = iter(range(1, data.count(b"NEXT_ASSEMBLY_USAGE_OCCURRENCE(") + 1))
-    fixed = _OCCURRENCE.sub(lambda m: m[1] + str(next(numbers)).encode() + m[3], data)
+    fixed = _OCCURRENCE.sub(lambda m: m[1] + str(next(numbers)).encode() + re.sub(rb"\s*\n\s*", b"", m[2]), data)
     if fixed != data:
         file.write_bytes(fixed)
     kinds = ("CYLINDRICAL_SURFACE", "SURFACE_OF_LINEAR_EXTRUSION", "PLANE", "MANIFOLD_SOLID_BREP")

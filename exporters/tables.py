@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from exporters.assembly import AssemblyJob
 from exporters.job import Written
 from exporters.plan import Plan
 from exporters.words import finding_text, words
@@ -42,7 +43,7 @@ def _remarks(written: list[Written], language: str) -> list[str]:
     for item in written:
         lines += [f"{words(language, 'bad')}: {item.job.path}: {failure}" for failure in item.failures]
     for item in written:
-        part = item.job.part.id
+        part = item.job.path if isinstance(item.job, AssemblyJob) else item.job.part.id
         lines += [f"{words(language, 'finding')}: {part}: {finding_text(language, f)}" for f in item.findings]
     return lines
 
@@ -62,12 +63,21 @@ def check_lines(checks: dict[str, Any], language: str) -> list[str]:
             text += f": {words(language, mate['verdict'])}, {words(language, 'gap').format(gap=mate['gap'])}"
         lines.append(text)
         lines += [f"{words(language, 'finding')}: {f['text']}" for f in mate.get("findings", [])]
+        lines += [f"{words(language, 'broken')}: {c['text']}" for c in mate.get("conditions", []) if not c["met"]]
+    for close in checks.get("neighbours", []):
+        head = words(language, close.get("verdict", "finding"))
+        lines.append(f"{head}: {close['text']}")
+    for drive in checks.get("drives", []):
+        train = ", ".join(f"{name} {turns:.6g}" for name, turns in drive["train"].items())
+        lines.append(words(language, "drive").format(instance=drive["instance"], train=train))
     return lines
 
 
 def has_bad_verdict(checks: dict[str, Any]) -> bool:
-    """Whether a pair overlaps or could not be decided."""
-    return any(mate.get("verdict") in ("overlap", "undecided") for mate in checks.get("mates", []))
+    """Whether something overlaps, could not be decided, or breaks a condition."""
+    mates = checks.get("mates", [])
+    bad = any(found.get("verdict") in ("overlap", "undecided") for found in (*mates, *checks.get("neighbours", [])))
+    return bad or any(not condition["met"] for mate in mates for condition in mate.get("conditions", []))
 
 
 def verify_table(results: list[Recheck]) -> None:
@@ -100,18 +110,19 @@ def converge_tables(rungs: list[Rung], found: list[Order], files: list[Path]) ->
         for r in rungs
     ]
     _show("error against run time", header, rows, [])
+    from exporters.converge import LEAST_PIECES
+
     header = ["curve", "method", "order of the method", "observed order", "pieces", "error there, mm"]
     rows = [
         [
             f"{o.part} {o.curve}",
             o.method,
             f"{o.theory:g}",
-            f"{o.observed:.3f}",
-            f"{o.counts[0]} to {o.counts[-1]}",
-            f"{o.errors[-1]:.3g}",
+            "-" if o.observed is None else f"{o.observed:.3f}",
+            f"{o.counts[0]} to {o.counts[-1]}" if o.counts else f"below rounding at {LEAST_PIECES}",
+            f"{o.errors[-1]:.3g}" if o.errors else "-",
         ]
         for o in found
-        if o.counts
     ]
     _show("orders of convergence", header, rows, [str(file) for file in files])
 

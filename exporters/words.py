@@ -35,6 +35,40 @@ WORDS: dict[str, tuple[str, str]] = {
         "pair {first} - {second}: a_w = {a_w:.5f} mm, alpha_w = {alpha_w:.4f} deg, contact ratio {ratio:.4f}",
         "пара {first} - {second}: a_w = {a_w:.5f} мм, alpha_w = {alpha_w:.4f} град, коефіцієнт перекриття {ratio:.4f}",
     ),
+    "broken": ("BROKEN", "ПОРУШЕНО"),
+    "centre_distance": (
+        "the centres of {first} and {second} stand {value:.9g} mm apart, {required:.9g} mm is asked "
+        "(within {tolerance:.2g} mm)",
+        "відстань осей {first} і {second} дорівнює {value:.9g} мм, потрібно {required:.9g} мм "
+        "(з точністю {tolerance:.2g} мм)",
+    ),
+    "phase": (
+        "{second} stands turned by {value:.10g} deg, rotation_deg = {required:.10g} brings it into the spaces of "
+        "{first} (within {tolerance:.2g} deg)",
+        "{second} повернуто на {value:.10g} град, rotation_deg = {required:.10g} вводить його в западини {first} "
+        "(з точністю {tolerance:.2g} град)",
+    ),
+    "common_face_width": (
+        "{first} and {second} share {value:.6g} mm of their face width, more than {required:g} mm is asked",
+        "спільна ширина вінців {first} і {second} дорівнює {value:.6g} мм, потрібно більше за {required:g} мм",
+    ),
+    "train": (
+        "the other mates turn {second} {value:.9g} times for one turn of {first}, this one {required:.9g} times: "
+        "unlike numbers lock the train",
+        "інші пари повертають {second} {value:.9g} разів за один оберт {first}, ця {required:.9g} разів: "
+        "різні числа заклинюють передачу",
+    ),
+    "neighbours_collide": (
+        "{first} and {second} run into each other: {value:.6g} mm apart, their tips reach {limit:.6g} mm, no mate "
+        "joins them",
+        "{first} і {second} стикаються: між осями {value:.6g} мм, вершини сягають {limit:.6g} мм, пари між ними немає",
+    ),
+    "neighbours_close": (
+        "{first} and {second} may touch: {value:.6g} mm apart, their tips reach {limit:.6g} mm, no mate joins them",
+        "{first} і {second} можуть торкатися: між осями {value:.6g} мм, вершини сягають {limit:.6g} мм, "
+        "пари між ними немає",
+    ),
+    "drive": ("drive {instance}: {train} turns", "привід {instance}: {train} обертів"),
     "gap": ("least gap {gap:.2g} mm", "найменший зазор {gap:.2g} мм"),
     "left_out": ("left out", "не зроблено"),
 }
@@ -97,6 +131,10 @@ FINDINGS: dict[str, tuple[str, str]] = {
     "normal_backlash": (
         "the flanks overlap: normal backlash {value:.6f} mm",
         "профілі перекриваються: бічний зазор {value:.6f} мм",
+    ),
+    "flat_outline": (
+        "web, hub and face chamfers are not in a flat outline; STL, 3MF and STEP have them",
+        "диск, маточина і фаски не входять у плоский контур; вони є в STL, 3MF і STEP",
     ),
     "coarse_tolerance": (
         "tolerance {value:.4g} mm is more than 5 % of the module ({limit:.4g} mm): the teeth lose their shape",

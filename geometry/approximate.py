@@ -7,6 +7,7 @@ the deviation is exact. Arcs: geometry/arc_spline.py. A parametric bound h^2 M2 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -69,6 +70,63 @@ def approximate_profile(profile: Profile, tolerance: float, *, arcs: bool, least
         error = max(error, merged_error)
         bound = "sampled" if merged_error > 0 else bound
     return Approximation(contour, error, bound if error > 0 else "exact", tolerance)
+
+
+def approximate_together(
+    profiles: Sequence[Profile], tolerance: float, least_edge: float = 0.0
+) -> tuple[Approximation, ...]:
+    """Chords of profiles of equal segments, at equal shares of each: the ends of ruled walls.
+
+    The error holds on the walls too: a wall's two triangles leave the ruled surface between them by a quarter
+    of the normal part of their twist at most.
+    """
+    slack = min(least_edge, tolerance / 4)
+    shares = []
+    for curves in zip(*([s.curve for s in p.period] for p in profiles), strict=True):
+        shares.append(_shared_chords(curves, tolerance - slack))
+    made = [[c.curve.point(_spread(c.curve, t)) for c, (t, _) in zip(p.period, shares, strict=True)] for p in profiles]
+    vertices = np.array([np.concatenate([points[:-1] for points in pieces]) for pieces in made])
+    error = max(e for _, e in shares)
+    ends = np.append(vertices[:, 1:], vertices[:, :1] * np.exp(2j * np.pi / profiles[0].count), axis=1)
+    short = np.abs(ends - vertices).min(axis=0) < slack
+    if short.any() and not short.all():
+        # a vertex at the start of a short edge goes; its neighbours move by less than that edge
+        vertices, error = vertices[:, ~short], error + slack
+    bound: Bound = "certified" if error > 0 else "exact"
+    zeros = np.zeros(vertices.shape[1])
+    return tuple(
+        Approximation(Contour(v, zeros, p.count), error, bound, tolerance)
+        for v, p in zip(vertices, profiles, strict=True)
+    )
+
+
+def _shared_chords(curves: Sequence[Curve], tolerance: float) -> tuple[Real, float]:
+    """Shares (n + 1,) of matching curves at which all are cut into chords, and the greatest error, mm."""
+    counts = [chord_parameters(c, tolerance)[0] for c in curves]
+    finest = max(range(len(curves)), key=lambda i: len(counts[i]))
+    low, high = curves[finest].domain
+    shares = (counts[finest] - low) / (high - low)
+    shares[[0, -1]] = 0.0, 1.0
+    while len(shares) <= _MAX_CHORDS:
+        error = max(0.0 if isinstance(c, Line) else chord_error(c, _spread(c, shares)) for c in curves)
+        error += _twist(np.array([c.point(_spread(c, shares)) for c in curves]))
+        if error <= tolerance:
+            return shares, error
+        finer = np.linspace(0, len(shares) - 1, math.ceil(1.2 * len(shares)) + 1)
+        shares = np.interp(finer, np.arange(len(shares)), shares)
+    raise ConvergenceError("chords for the tolerance", tolerance, _MAX_CHORDS)
+
+
+def _spread(curve: Curve, shares: Real) -> Real:
+    low, high = curve.domain
+    return low + (high - low) * shares
+
+
+def _twist(points: Complex) -> float:
+    """Bound of the distance between ruled walls over matching chords and their triangles, mm; points (k, n)."""
+    chords = np.diff(points, axis=1)
+    along = np.conj(chords / np.abs(chords))
+    return float(max(np.abs((a * (chords - c)).imag).max() for a, c in zip(along, chords, strict=True))) / 4
 
 
 def _arc_piece(curve: Curve, tolerance: float) -> Piece:

@@ -59,8 +59,9 @@ def edge_points(starts: Complex, ends: Complex, bulges: Real, fractions: Real) -
 
 def signed_area(vertices: Complex, bulges: Real) -> float:
     """Area of a closed contour of lines and arcs, mm^2; positive where counter-clockwise."""
+    # about its own first vertex: a small hole far from the axis loses no digits
     ends = np.roll(vertices, -1)
-    polygon = 0.5 * np.sum((np.conj(vertices) * ends).imag)
+    polygon = 0.5 * np.sum((np.conj(vertices - vertices[0]) * (ends - vertices[0])).imag)
     sweep = 4 * np.arctan(bulges)
     with np.errstate(invalid="ignore", divide="ignore"):
         radius = np.abs(ends - vertices) * (1 + bulges**2) / (4 * np.abs(bulges))

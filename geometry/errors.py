@@ -32,6 +32,15 @@ class PointedTipError(ParameterError):
     """Both flanks of a tooth meet below its tip circle."""
 
 
+class OffsetError(ParameterError):
+    """An offset that no outline survives, mm, with the one nearest to it that works."""
+
+    def __init__(self, offset: float, reason: str, nearest: float) -> None:
+        self.reason, self.nearest = reason, nearest
+        text = f"at most {at_most(nearest)}" if nearest >= 0 else f"at least {at_least(nearest)}"
+        super().__init__("offset", offset, f"{reason}; {text} mm works")
+
+
 class CuspError(GeometryError):
     """An offset curve turns back on itself where 1 - curvature * distance changes sign."""
 

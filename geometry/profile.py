@@ -28,6 +28,12 @@ class Label(StrEnum):
     TIP_LAND = "tip_land"
     CORNER = "corner_arc"
     BORE = "bore"
+    HUB = "hub"
+    RIM = "rim"
+    KEYWAY = "keyway"
+    FLAT = "bore_flat"
+    HOLE = "lightening_hole"
+    WINDOW = "spoke_window"
     CAM = "cam"
     DWELL = "dwell"
 
@@ -93,10 +99,10 @@ class Region:
         return (*self.holes, self.outer)
 
 
-def circle(radius: float, label: Label, *, hole: bool = False) -> Profile:
-    """A full circle about the origin; a hole runs clockwise."""
+def circle(radius: float, label: Label, *, hole: bool = False, centre: complex = 0j) -> Profile:
+    """A full circle about ``centre``; a hole runs clockwise."""
     half = math.pi if not hole else -math.pi
-    upper, lower = Arc(0j, radius, 0.0, half), Arc(0j, radius, half, half)
+    upper, lower = Arc(centre, radius, 0.0, half), Arc(centre, radius, half, half)
     return Profile((Segment(upper, label), Segment(lower, label)))
 
 

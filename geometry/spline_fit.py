@@ -142,10 +142,18 @@ def fit_spline(curve: Curve, tolerance: float, *, degree: int, continuity: int) 
     raise ConvergenceError("spline for the tolerance", draft.error, draft.spans)
 
 
-def spline_of_spans(curve: Curve, spans: int, *, degree: int, continuity: int) -> SplineFit:
-    """The spline of a given number of knot spans and its error, mm; arguments and errors as in fit_spline."""
+def spline_of_spans(curve: Curve, spans: int, *, degree: int, continuity: int, refined: bool = True) -> SplineFit:
+    """The spline of a given number of knot spans and its error, mm; arguments and errors as in fit_spline.
+
+    Not ``refined``: one least-squares fit on knots even in the curve's best parameter, the bare method, whose
+    error falls by its order; refining lessens the error by sliding feet and knots, unevenly from one number to another.
+    """
     parameter, _ = _first_parameter(curve, degree, continuity, 0.0)
-    draft = _fitted(curve, parameter, spans, degree, continuity, 0.0)
+    if refined:
+        draft = _fitted(curve, parameter, spans, degree, continuity, 0.0)
+    else:
+        layout = _layout(degree, continuity, np.linspace(0.0, 1.0, spans + 1))
+        draft = _relaxed(curve, layout, curve.point(parameter(layout.greville())), parameter(layout.x), math.inf)
     if not math.isfinite(draft.error):
         raise ConvergenceError(f"spline of {spans} spans", draft.error, len(_FIRST_WEIGHTS))
     error, bound = _bound(curve, draft)

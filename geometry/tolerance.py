@@ -25,3 +25,6 @@ TOLERANCES = Tolerances()
 
 # Laser controllers stall on shorter moves; research on receiving programs, section 1.3.
 LEAST_SEGMENT_MM = 0.02
+
+# Places and angles that people type have five decimals: parts that a scene puts together by hand fit this well, mm.
+PLACED_MM = 1e-5

@@ -34,5 +34,7 @@ Identifier = Annotated[
     ),
 ]
 Colour = Annotated[str, Meta(pattern=r"^#[0-9a-fA-F]{6}$", description="colour in pictures, like #c08040")]
+Material = Annotated[str, Meta(max_length=200, description="material; names like steel, PLA, plywood give the mass")]
+Density = Annotated[float, Meta(gt=0, le=30, description="density for the mass", extra={"unit": "g/cm^3"})]
 FaceWidth = Annotated[float, mm("thickness of the part along its axis", least=0.01, most=10_000)]
 BoreDiameter = Annotated[float, mm("round bore; 0 is none", least=0, most=100_000)]

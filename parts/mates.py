@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 class ExternalGearPairSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="external_gear_pair"):
     """Two external spur gears in mesh: exact centre distance, tip shortening, phase."""
 
-    first: Annotated[str, Meta(description="part that is already placed")]
-    second: Annotated[str, Meta(description="part that is brought into mesh")]
+    first: Annotated[str, Meta(description="instance that is already placed")]
+    second: Annotated[str, Meta(description="instance that is brought into mesh")]
     direction_deg: Annotated[
         float, Meta(ge=-360, le=360, description="direction of the line of centres", extra={"unit": "degrees"})
     ] = 0.0
@@ -25,7 +25,7 @@ class ExternalGearPairSpec(Struct, forbid_unknown_fields=True, tag_field="kind",
 
 @dataclass(frozen=True, slots=True)
 class Mating:
-    """Two parts in mesh, with the gears as they are built."""
+    """Two instances in mesh, with the gears as they are built."""
 
     first: str
     second: str
@@ -33,8 +33,12 @@ class Mating:
     pair: ExternalPair
 
 
-def mated(gears: dict[str, SpurGear], mates: list[Any]) -> tuple[dict[str, SpurGear], list[Mating]]:
+def mated(
+    gears: dict[str, SpurGear], mates: list[Any], part_of: dict[str, str]
+) -> tuple[dict[str, SpurGear], list[Mating]]:
     """The gears with their tips shortened, the shortest asked for by any mate, and the pairs of them.
+
+    ``gears`` by part, ``part_of`` the part of every instance that ``mates`` name.
 
     Raises
     ------
@@ -46,14 +50,19 @@ def mated(gears: dict[str, SpurGear], mates: list[Any]) -> tuple[dict[str, SpurG
     # only scenes with mates pay for the mathematics of pairs
     from geometry.gears.pair import external_pair
 
-    pairs = [external_pair(gears[m.first], gears[m.second]) for m in mates]
+    pairs = [external_pair(gears[part_of[m.first]], gears[part_of[m.second]]) for m in mates]
     final = dict(gears)
     for mate, pair in zip(mates, pairs, strict=True):
-        for name, gear in ((mate.first, pair.first), (mate.second, pair.second)):
+        for name, gear in ((part_of[mate.first], pair.first), (part_of[mate.second], pair.second)):
             if gear.tip_radius < final[name].tip_radius:
                 final[name] = replace(final[name], given_tip_diameter=2 * gear.tip_radius)
     matings = [
-        Mating(m.first, m.second, m.direction_deg, replace(p, first=final[m.first], second=final[m.second]))
+        Mating(
+            m.first,
+            m.second,
+            m.direction_deg,
+            replace(p, first=final[part_of[m.first]], second=final[part_of[m.second]]),
+        )
         for m, p in zip(mates, pairs, strict=True)
     ]
     return final, matings

@@ -1,28 +1,55 @@
-"""A part: parameters turned into exact sections, ready for every exporter."""
+"""A part: parameters turned into exact sections and solids, ready for every exporter."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
+from geometry.body import Body
 from geometry.findings import Finding
 from geometry.gears.offset_tooth import OffsetRegion
 
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A plate of one exact section, ``face_width`` mm thick, lower face at z = 0.
+    """A part with one flat section for plane formats and one solid, lower face of its rim at z = 0.
 
-    ``section(offset)`` gives the exact region with every boundary moved ``offset`` mm out of the material.
-    ``circles`` are named diameters in mm for drawings and reports, ``quantities`` all other named results.
+    ``section(offset)`` and ``body(offset)`` give the exact geometry with every boundary moved ``offset`` mm out of
+    the material; both are computed when an export asks. ``face_width``: height of the toothed rim, mm.
+    ``circles`` are named diameters in mm for drawings and
+    reports, ``quantities`` all other named results. ``density`` in g/cm^3, None where the material is not known.
     """
 
     id: str
     kind: str
-    face_width: float
     section: Callable[[float], OffsetRegion]
+    body: Callable[[float], Body]
+    face_width: float
+    is_plate: bool = True
     findings: tuple[Finding, ...] = ()
     circles: dict[str, float] = field(default_factory=dict)
     quantities: dict[str, float] = field(default_factory=dict)
     material: str | None = None
     colour: str | None = None
+    density: float | None = None
+
+    def to_trimesh(self, tolerance: float = 0.01, offset: float = 0.0) -> Any:
+        """A ``trimesh.Trimesh`` within ``tolerance`` mm of the exact solid."""
+        import trimesh
+
+        from parts.solids import body_mesh, mesh_outlines
+
+        body = self.body(offset)
+        mesh = body_mesh(body, mesh_outlines(body, tolerance, 0.0))
+        return trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False)
+
+    def to_cadquery(self, tolerance: float = 1e-6, offset: float = 0.0) -> Any:
+        """A ``cadquery.Workplane`` that holds the solid, splines within ``tolerance`` mm; needs cadquery."""
+        import cadquery
+
+        from parts.brep import body_outlines, body_solid
+
+        body = self.body(offset)
+        solid = cadquery.Solid(body_solid(body, body_outlines(body, tolerance)))
+        return cadquery.Workplane("XY").newObject([solid])

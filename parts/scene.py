@@ -11,6 +11,7 @@ import msgspec
 from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError
+from parts.instances import DriveSpec, InstanceSpec, check_instance, drive_spec, instance_specs
 from parts.keys import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.mates import ExternalGearPairSpec, Mating, mated
 from parts.part import Part
@@ -30,6 +31,8 @@ _DEFAULTS: dict[str, dict[str, float]] = {
     "step": {"model": 1e-6},
 }
 FORMATS = tuple(_DEFAULTS)
+# formats that hold parts in their places
+ASSEMBLY_FORMATS = ("step", "3mf")
 # a scene that is larger than this is not one
 _MAX_SCENE_BYTES = 4_000_000
 
@@ -62,6 +65,7 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     dxf_version: Annotated[Literal["R2000", "R12"], Meta(description="dxf only")] = "R2000"
     name: Annotated[Identifier, Meta(description="tells files of one part apart; default: the purpose")] | None = None
     parts: Annotated[list[str], Meta(min_length=1, description="parts to export; default: all")] | None = None
+    assembly: Annotated[bool, Meta(description="step, 3mf: one file of all instances in their places")] = False
 
 
 class ChecksSpec(Struct, forbid_unknown_fields=True):
@@ -77,7 +81,9 @@ class SceneFile(Struct, forbid_unknown_fields=True):
     scene: SceneInfo
     parts: dict[str, Any]
     exports: list[ExportSpec]
+    instances: dict[str, InstanceSpec] = {}
     mates: list[Any] = []
+    drives: list[DriveSpec] = []
     checks: ChecksSpec = msgspec.field(default_factory=ChecksSpec)
 
 
@@ -145,7 +151,8 @@ def scene_from_toml(raw_bytes: bytes, source: str, name: str) -> SceneFile:
 def scene_from_dict(raw: dict[str, Any], source: str, name: str) -> SceneFile:
     """Validate the tables of a scene."""
     refuse_infinite(raw, source, "")
-    tables = {"scene": dict, "parts": dict, "mates": list, "exports": list, "checks": dict}
+    tables: dict[str, type] = {key: dict for key in ("scene", "parts", "instances", "checks")}
+    tables |= {key: list for key in ("mates", "drives", "exports")}
     for key, value in raw.items():
         if key not in tables:
             raise SceneError(source, key, None, f"unknown table{near(key, tables)}; known: {', '.join(tables)}")
@@ -165,12 +172,14 @@ def scene_from_dict(raw: dict[str, Any], source: str, name: str) -> SceneFile:
     exports = [
         _export_spec(table, parts, source, f"exports[{i + 1}]") for i, table in enumerate(raw.get("exports", []))
     ]
-    mates = [_mate_spec(t, parts, source, f"mates[{i + 1}]") for i, t in enumerate(raw.get("mates", []))]
+    instances = instance_specs(raw.get("instances", {}), parts, source)
+    mates = [_mate_spec(t, instances, source, f"mates[{i + 1}]") for i, t in enumerate(raw.get("mates", []))]
+    drives = [drive_spec(t, instances, source, f"drives[{i + 1}]") for i, t in enumerate(raw.get("drives", []))]
     checks = converted(raw.get("checks", {}), ChecksSpec, source, "checks")
-    return SceneFile(name, info, parts, exports, mates, checks)
+    return SceneFile(name, info, parts, exports, instances, mates, drives, checks)
 
 
-def _mate_spec(table: Any, parts: dict[str, Struct], source: str, place: str) -> Struct:
+def _mate_spec(table: Any, instances: dict[str, InstanceSpec], source: str, place: str) -> Struct:
     if not isinstance(table, dict):
         raise SceneError(source, place, table, "write it as a table, [[mates]]")
     kind = table.get("kind")
@@ -179,13 +188,9 @@ def _mate_spec(table: Any, parts: dict[str, Struct], source: str, place: str) ->
         raise SceneError(source, f"{place}.kind", kind, f"{remedy}; known: {', '.join(MATES)}")
     mate = converted(table, MATES[kind], source, place)
     for key in ("first", "second"):
-        name = getattr(mate, key)
-        if name not in parts:
-            raise SceneError(
-                source, f"{place}.{key}", name, f"no such part{near(name, parts)}; parts: {', '.join(parts)}"
-            )
+        check_instance(getattr(mate, key), instances, source, f"{place}.{key}")
     if mate.first == mate.second:
-        raise SceneError(source, f"{place}.second", mate.second, "a gear does not mesh with itself; name another part")
+        raise SceneError(source, f"{place}.second", mate.second, "a gear does not mesh with itself; name another one")
     return mate
 
 
@@ -223,6 +228,11 @@ def _export_spec(table: Any, parts: dict[str, Struct], source: str, place: str) 
         raise SceneError(
             source, f"{place}.dxf_version", spec.dxf_version, f'only for format = "dxf", not {spec.format}; remove it'
         )
+    if spec.assembly and spec.format not in ASSEMBLY_FORMATS:
+        known = " or ".join(f'"{f}"' for f in ASSEMBLY_FORMATS)
+        raise SceneError(
+            source, f"{place}.assembly", spec.assembly, f"only for format = {known}, not {spec.format}; remove it"
+        )
     purposes = _DEFAULTS[spec.format]
     if spec.purpose is None:
         spec.purpose = default_export(spec.format).purpose
@@ -256,13 +266,14 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
         except ParameterError as error:
             raise SceneError(source, f"parts.{key}.{error.name}", error.value, error.allowed) from error
     matings: list[Mating] = []
+    part_of = {key: str(spec.part) for key, spec in scene.instances.items()}
     for index, mate in enumerate(scene.mates):
         try:
-            mated(gears, [mate])
+            mated(gears, [mate], part_of)
         except ParameterError as error:
-            place = f"mates[{index + 1}]: parts.{mate.second}.{error.name}"
+            place = f"mates[{index + 1}]: parts.{part_of[mate.second]}.{error.name}"
             raise SceneError(source, place, error.value, error.allowed) from error
-    gears, matings = mated(gears, scene.mates)
+    gears, matings = mated(gears, scene.mates, part_of)
     parts = {key: KINDS[spec.__struct_config__.tag][2](key, spec, gears[key]) for key, spec in scene.parts.items()}
     return parts, matings
 
@@ -274,10 +285,11 @@ def resolved(scene: SceneFile) -> dict[str, Any]:
 
 def scene_from_resolved(data: dict[str, Any], source: str) -> SceneFile:
     """A scene from what a report has kept."""
-    known = ("scene", "parts", "mates", "exports", "checks")
+    known = ("scene", "parts", "instances", "mates", "drives", "exports", "checks")
     tables: dict[str, Any] = {key: data[key] for key in known if key in data}
     tables["exports"] = [{k: v for k, v in e.items() if v is not None} for e in tables.get("exports", [])]
-    tables["parts"] = {k: _without_none(v) for k, v in tables.get("parts", {}).items()}
+    for name in ("parts", "instances"):
+        tables[name] = {k: _without_none(v) for k, v in tables.get(name, {}).items()}
     return scene_from_dict(tables, source, str(data.get("name", "scene")))
 
 

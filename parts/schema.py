@@ -52,17 +52,18 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
     keys = [k for k in re.split(r"[.\[\]]+", path.group(1) if path else "") if k]
     where = ".".join([place, *(f"item {int(k) + 1}" if k.isdigit() else k for k in keys)])
     if unknown := re.search(r"unknown field `(.*?)`", message):
-        owner, name = _owner(kind, keys), unknown.group(1)
-        known = (["kind"] if owner.__struct_config__.tag else []) + [
-            f.encode_name for f in msgspec.structs.fields(owner)
-        ]
+        owner, name = _owner(kind, keys, table), unknown.group(1)
+        tag = owner.__struct_config__.tag_field
+        known = ([tag] if tag else []) + [f.encode_name for f in msgspec.structs.fields(owner)]
         remedy = f"unknown key{near(name, known)}; known keys: {', '.join(known)}"
         return SceneError(source, f"{where}.{name}", _lookup(table, [*keys, name]), remedy)
     if missing := re.search(r"missing required field `(.*?)`", message):
         name = missing.group(1)
-        return SceneError(source, f"{where}.{name}", None, f"is missing: {describe_key(_owner(kind, keys), name)}")
-    named = [k for k in keys if not k.isdigit()]
-    hint = describe_key(_owner(kind, named[:-1]), named[-1]) if named else ""
+        meant = _describe_tags(kind, [*keys, name], table) or describe_key(_owner(kind, keys, table), name)
+        return SceneError(source, f"{where}.{name}", None, f"is missing: {meant}")
+    hint = _describe_tags(kind, keys, table)
+    if not hint and (named := [i for i, k in enumerate(keys) if not k.isdigit()]):
+        hint = describe_key(_owner(kind, keys[: named[-1]], table), keys[named[-1]])
     wrong_type = re.match(r"Expected `(.*?)`, got `(.*?)`", message)
     kinds = f"must be {_TYPE_WORDS.get(wrong_type.group(1), wrong_type.group(1))}" if wrong_type else ""
     remedy = "; ".join(filter(None, (kinds, hint)))
@@ -72,6 +73,7 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
 _TYPE_WORDS = {
     "float": "a number",
     "int": "a whole number",
+    "bool": "true or false",
     "str": "text in quotes",
     "float | null": "a number",
     "str | null": "text in quotes",
@@ -79,17 +81,40 @@ _TYPE_WORDS = {
     "object | null": "a table",
     "object": "a table",
     "str | object": "text or a table",
+    "array | object | null": "a table or a list of tables",
+    "object | array | null": "a table or a list of tables",
 }
 
 
-def _owner(kind: type[Struct], keys: list[str]) -> type[Struct]:
-    """The struct that holds the last key of a path."""
+def _owner(kind: type[Struct], keys: list[str], table: Any) -> type[Struct]:
+    """The struct that holds the last key of a path; of several, the one whose tag stands in the table."""
     for key in keys:
+        table = _lookup(table, [key])
         field = next((f for f in msgspec.structs.fields(kind) if f.encode_name == key), None)
-        if field is not None:
-            inner = (a for a in (*get_args(field.type), field.type) if isinstance(a, type) and issubclass(a, Struct))
-            kind = next(inner, kind)
+        if field is not None and (structs := _structs_of(field.type)):
+            tag = table.get(structs[0].__struct_config__.tag_field) if isinstance(table, dict) else None
+            kind = next((s for s in structs if s.__struct_config__.tag == tag), structs[0])
     return kind
+
+
+def _structs_of(kind: Any) -> list[type[Struct]]:
+    """The structs that a type allows, those in a list too."""
+    found = [a for a in (*get_args(kind), kind) if isinstance(a, type) and issubclass(a, Struct)]
+    return found or [a for k in get_args(kind) for a in get_args(k) if isinstance(a, type) and issubclass(a, Struct)]
+
+
+def _describe_tags(kind: type[Struct], keys: list[str], table: Any) -> str:
+    """The words that the last key of a path may hold, where it tells several tables apart; else nothing."""
+    if len(keys) < 2:
+        return ""
+    owner = _owner(kind, keys[:-2], table)
+    field = next((f for f in msgspec.structs.fields(owner) if f.encode_name == keys[-2]), None)
+    structs = _structs_of(field.type) if field is not None else []
+    return _tag_words(structs) if len(structs) > 1 and structs[0].__struct_config__.tag_field == keys[-1] else ""
+
+
+def _tag_words(structs: list[type[Struct]]) -> str:
+    return "one of " + ", ".join(f'"{s.__struct_config__.tag}"' for s in structs)
 
 
 def _lookup(table: Any, keys: list[str]) -> Any:
@@ -115,7 +140,10 @@ def describe_type(kind: Any) -> str:
     if meta is None:
         if isinstance(kind, type) and issubclass(kind, Struct):
             return f"table: {(kind.__doc__ or '').splitlines()[0].rstrip('.')}"
-        return " or ".join(filter(None, (describe_type(a) for a in get_args(kind))))
+        tagged = [s for s in _structs_of(kind) if s.__struct_config__.tag]
+        if len(tagged) > 1:
+            return f"table with {tagged[0].__struct_config__.tag_field} = {_tag_words(tagged)}"
+        return " or ".join(dict.fromkeys(filter(None, (describe_type(a) for a in get_args(kind)))))
     low = f"above {meta.gt:g}" if meta.gt is not None else f"at least {meta.ge:g}" if meta.ge is not None else ""
     high = f"at most {meta.le:g}" if meta.le is not None else ""
     unit = meta.extra["unit"] if meta.extra else ""

@@ -1,7 +1,7 @@
-"""The only builder of solids. Meshes of extruded sections come straight from numpy: no kernel, no boolean.
+"""The only builder of solids, mesh half: exact bodies become closed triangle meshes straight from numpy.
 
-One period of the section is triangulated and placed ``count`` times; both caps share their vertices with the
-walls, so the mesh is closed by construction.
+Every loop of a body is approximated once; the walls and caps that meet in it share its vertices, so the mesh is
+closed by construction. parts/brep.py is the other half.
 """
 
 from __future__ import annotations
@@ -11,11 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.contour import Contour
+from geometry.approximate import approximate_profile, approximate_together
+from geometry.body import Body
+from geometry.contour import Approximation, Contour
 from geometry.curve import Complex
-from geometry.errors import GeometryError
-
-Triangles = NDArray[np.int64]
+from parts.caps import CapError, Triangles, aligned_bore, begun_at, cap_triangles, is_round, start_in_space
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,205 +26,99 @@ class Mesh:
     triangles: Triangles
 
 
-def extruded_gear(outer: Contour, bore: Contour | None, thickness: float) -> Mesh:
-    """The mesh of a toothed section with an optional round bore, from z = 0 to ``thickness`` mm.
+def mesh_outlines(body: Body, tolerance: float, least_edge: float) -> tuple[Approximation, ...]:
+    """Chords of every profile of a body within ``tolerance`` mm; edges below ``least_edge`` mm are merged.
 
-    ``outer``: chords only, one tooth a period about +x, its first vertex anywhere in the period.
+    Profiles that a chamfer joins get matching vertices.
     """
-    outline = _starting_in_space(outer)
+    made: dict[int, Approximation] = {}
+    for group in body.groups():
+        profiles = [body.profiles[i] for i in group]
+        if len(group) == 1:
+            made[group[0]] = approximate_profile(profiles[0], tolerance, arcs=False, least_edge=least_edge)
+        else:
+            made |= dict(zip(group, approximate_together(profiles, tolerance, least_edge), strict=True))
+    return tuple(made[i] for i in range(len(body.profiles)))
+
+
+def body_mesh(body: Body, outlines: tuple[Approximation, ...]) -> Mesh:
+    """The closed mesh of a body from the chords of its profiles.
+
+    Raises
+    ------
+    CapError
+        The chords touch or cross at this tolerance.
+    """
+    contours = _begun_in_spaces(body, [a.geometry for a in outlines])
     try:
-        points, top, loops = _cap_of_rings(outline, bore)
-    except _CapError:
-        points, top, loops = _cap_of_sectors(outline, bore)
-    return _extruded(points, top, loops, thickness)
+        caps = _cap_triangles(body, contours)
+    except CapError:
+        contours = _with_aligned_bores(body, contours)
+        caps = _cap_triangles(body, contours)
+    return _assembled(body, contours, caps)
 
 
-def _cap_of_rings(outline: Contour, bore: Contour | None) -> tuple[Complex, Triangles, list[Triangles]]:
-    """Teeth above the chords between their spaces, and the hub between those chords and the bore."""
-    points, _ = outline.expanded()
-    size, count = len(outline.vertices), outline.count
-    # the period begins with the tooth and ends with the root land, whose corners all stand on the hub's ring
-    tooth_end = _last_of_tooth(outline)
-    land = np.append(np.arange(tooth_end, size), 0) if tooth_end < size else np.array([0])
-    ring = np.unique((land + (np.arange(count) * size)[:, None]) % (size * count))
-    polygon = np.append(outline.vertices, outline.period_ends()[-1])[: tooth_end + 1]
-    caps = [_placed(_polygon_triangles(polygon), size, count)]
-    loops = [np.arange(len(points))]
-    if bore is None:
-        hub = len(points)
-        points = np.append(points, 0j)
-        caps.append(np.stack([np.full(len(ring), hub), ring, np.roll(ring, -1)], axis=1))
-    else:
-        inner, _ = bore.expanded()
-        order = np.arange(len(inner)) + len(points)
-        points = np.append(points, inner)
-        loops.append(order)
-        caps.append(_annulus(points, ring, order[::-1]))
-    top = np.concatenate(caps)
-    _check_cap(points, top, loops)
-    return points, top, loops
+def _begun_in_spaces(body: Body, contours: list[Contour]) -> list[Contour]:
+    """Toothed contours begun where a tooth leaves the root circle; joined ones at the same vertex."""
+    begun = list(contours)
+    for group in body.groups():
+        leader = contours[group[0]]
+        if leader.count > 2 and not is_round(leader):
+            index = start_in_space(leader)
+            for i in group:
+                begun[i] = begun_at(contours[i], index)
+    return begun
 
 
-def _cap_of_sectors(outline: Contour, bore: Contour | None) -> tuple[Complex, Triangles, list[Triangles]]:
-    """One whole sector from the bore to the tooth, clipped and placed: for rims thinner than their chords."""
-    if bore is None:
-        raise GeometryError("the outline of a tooth crosses itself at this tolerance; make it smaller")
-    size, count = len(outline.vertices), outline.count
-    steps = -(-len(bore) // count)
-    pitch = 2 * np.pi / count
-    spoke = abs(bore.vertices[0]) * np.exp(1j * np.angle(outline.vertices[0]))
-    arc = spoke * np.exp(1j * pitch * np.arange(steps + 1) / steps)
-    sector = np.concatenate([outline.vertices, outline.period_ends()[-1:], arc[::-1]])
-    local = _ear_clipped(sector)
-    points = np.concatenate([outline.expanded()[0], Contour(arc[:-1], np.zeros(steps), count).expanded()[0]])
-    # sector corner -> vertex of period 0, and which period's copy of it
-    inner = size * count + np.append(np.arange(steps), 0)[::-1]
-    index = np.concatenate([np.arange(size), [0], inner])
-    step = np.concatenate([np.full(size + 1, size), np.full(steps + 1, steps)])
-    ahead = np.concatenate([np.zeros(size), [1], [1], np.zeros(steps)]).astype(int)
-    base = np.where(np.arange(len(sector)) > size, size * count, 0)
-    period = np.arange(count)[:, None] + ahead
-    places = base + (index - base + period * step) % np.where(base > 0, steps * count, size * count)
-    top = np.concatenate([row[local] for row in places])
-    loops = [np.arange(size * count), (np.arange(steps * count) + size * count)[::-1]]
-    _check_cap(points, top, loops)
-    return points, top, loops
+_Caps = dict[tuple[int, ...], tuple[Triangles, Complex]]
 
 
-def _starting_in_space(contour: Contour) -> Contour:
-    """The contour begun where a tooth leaves the root circle: after the last vertex nearest to the axis."""
-    half = np.pi / contour.count
-    ahead = np.flatnonzero(np.angle(contour.vertices) > half - 1e-12)
-    first = int(ahead[0]) if ahead.size else 0
-    vertices = np.concatenate([contour.vertices[first:] * np.exp(-2j * half), contour.vertices[:first]])
-    bulges = np.concatenate([contour.bulges[first:], contour.bulges[:first]])
-    lowest = np.abs(vertices) <= np.abs(vertices).min() * (1 + 1e-9)
-    lead = 0
-    while lead + 1 < len(vertices) and lowest[lead] and lowest[lead + 1]:
-        lead += 1
-    turn = np.exp(2j * np.pi / contour.count)
-    vertices = np.concatenate([vertices[lead:], vertices[:lead] * turn])
-    return Contour(vertices, np.concatenate([bulges[lead:], bulges[:lead]]), contour.count)
+def _cap_triangles(body: Body, contours: list[Contour]) -> _Caps:
+    """Triangles of every cap by its profiles; both faces of a plate share theirs."""
+    keys = {tuple(body.loops[i].profile for i in (cap.outer, *cap.holes)) for cap in body.caps}
+    return {key: cap_triangles(contours[key[0]], [contours[i] for i in key[1:]]) for key in sorted(keys)}
 
 
-def _last_of_tooth(outline: Contour) -> int:
-    """Index of the vertex at which a tooth comes back to the root circle (the period's length: at its end)."""
-    radii = np.abs(outline.vertices)
-    lowest = np.flatnonzero(radii <= radii.min() * (1 + 1e-9))
-    after = lowest[lowest > int(np.argmax(radii))]
-    return int(after[0]) if after.size else len(radii)
+def _with_aligned_bores(body: Body, contours: list[Contour]) -> list[Contour]:
+    """Round bores with corners behind every tooth, where chords of a thin rim have crossed."""
+    alone = {group[0] for group in body.groups() if len(group) == 1}
+    aligned = list(contours)
+    for cap in body.caps:
+        outer, *holes = (body.loops[i].profile for i in (cap.outer, *cap.holes))
+        if len(holes) == 1 and holes[0] in alone and is_round(contours[holes[0]]) and contours[outer].count > 2:
+            aligned[holes[0]] = aligned_bore(contours[outer], contours[holes[0]])
+    return aligned
 
 
-def _placed(triangles: Triangles, size: int, count: int) -> Triangles:
-    """One period's triangles on every period; vertex ``size`` of a period is the first of the next one."""
-    offsets = (np.arange(count) * size)[:, None, None]
-    return ((triangles + offsets) % (size * count)).reshape(-1, 3)
-
-
-def _polygon_triangles(polygon: Complex) -> Triangles:
-    """Triangles of one tooth above the chord between its roots: a ladder up both sides, or ear clipping."""
-    ladder = _ladder(polygon)
-    doubled = _cross(polygon, ladder)
-    area = 0.5 * float(np.sum((np.conj(polygon) * np.roll(polygon, -1)).imag))
-    if np.all(doubled > 0) and np.isclose(0.5 * doubled.sum(), area, rtol=1e-9):
-        return ladder
-    return _ear_clipped(polygon)
-
-
-def _ladder(polygon: Complex) -> Triangles:
-    """Both sides of a polygon zipped upwards from the ends of its closing edge, always the lower one next."""
-    low, high = 0, len(polygon) - 1
-    base = polygon[-1] - polygon[0]
-    x = (polygon * np.conj(-1j * base / abs(base))).real
+def _assembled(body: Body, contours: list[Contour], caps: _Caps) -> Mesh:
+    plane = [c.expanded()[0] for c in contours]
+    starts, pieces, place = [], [], 0
+    for loop in body.loops:
+        points = plane[loop.profile]
+        starts.append(place)
+        pieces.append(np.stack([points.real, points.imag, np.full(len(points), loop.z)], axis=1))
+        place += len(points)
     triangles = []
-    while high - low > 1:
-        if x[low + 1] <= x[high - 1]:
-            triangles.append((low, low + 1, high))
-            low += 1
-        else:
-            triangles.append((low, high - 1, high))
-            high -= 1
-    return np.array(triangles, dtype=np.int64).reshape(-1, 3)
+    for wall in body.walls:
+        triangles.append(
+            _wall_triangles(len(plane[body.loops[wall.lower].profile]), starts[wall.lower], starts[wall.upper])
+        )
+    for cap in body.caps:
+        loops = (cap.outer, *cap.holes)
+        found, added = caps[tuple(body.loops[i].profile for i in loops)]
+        index = [starts[i] + np.arange(len(plane[body.loops[i].profile])) for i in loops]
+        index.append(place + np.arange(len(added)))
+        pieces.append(np.stack([added.real, added.imag, np.full(len(added), body.loops[cap.outer].z)], axis=1))
+        place += len(added)
+        face = np.concatenate(index)[found]
+        triangles.append(face if cap.up else face[:, ::-1])
+    return Mesh(np.concatenate(pieces), np.concatenate(triangles))
 
 
-def _ear_clipped(polygon: Complex) -> Triangles:
-    """Triangles of any simple counter-clockwise polygon; for the rare tooth that is no ladder."""
-    left = list(range(len(polygon)))
-    triangles = []
-    while len(left) > 3:
-        for i in range(len(left)):
-            a, b, c = left[i - 1], left[i], left[(i + 1) % len(left)]
-            if _is_ear(polygon, a, b, c, left):
-                triangles.append((a, b, c))
-                left.pop(i)
-                break
-        else:
-            raise GeometryError("the outline of a tooth crosses itself at this tolerance; make it smaller")
-    triangles.append((left[0], left[1], left[2]))
-    return np.array(triangles, dtype=np.int64)
-
-
-def _is_ear(polygon: Complex, a: int, b: int, c: int, left: list[int]) -> bool:
-    corner = polygon[[a, b, c]]
-    after = np.roll(corner, -1)
-    if ((np.conj(corner[1] - corner[0])) * (corner[2] - corner[0])).imag <= 0:
-        return False
-    others = polygon[[i for i in left if i not in (a, b, c)]]
-    inside = (np.conj(after - corner)[:, None] * (others - corner[:, None])).imag >= 0
-    return not bool(np.any(np.all(inside, axis=0)))
-
-
-def _annulus(points: Complex, outer: Triangles, inner: Triangles) -> Triangles:
-    """Triangles between two rings of vertex indices, both counter-clockwise about the origin.
-
-    Every edge of a ring takes its apex from the other: the edges of both are merged by their middle angles.
-    """
-    rings = []
-    for ring in (outer, inner):
-        angle = np.mod(np.angle(points[ring]), 2 * np.pi)
-        rings.append(np.roll(ring, -int(np.argmin(angle))))
-    outer, inner = rings
-    middles = [_middle_angles(points[ring]) for ring in (outer, inner)]
-    n, k = len(outer), len(inner)
-    apex_in = np.searchsorted(middles[1], middles[0]) % k
-    apex_out = np.searchsorted(middles[0], middles[1], side="right") % n
-    outwards = np.stack([outer, np.roll(outer, -1), inner[apex_in]], axis=1)
-    inwards = np.stack([inner, outer[apex_out], np.roll(inner, -1)], axis=1)
-    return np.concatenate([outwards, inwards])
-
-
-def _middle_angles(ring: Complex) -> NDArray[np.float64]:
-    """Increasing angles of the middles of a ring's edges, the ring starting near angle 0."""
-    start = np.mod(np.angle(ring), 2 * np.pi)
-    return (start + np.append(start[1:], start[0] + 2 * np.pi)) / 2
-
-
-def _cross(points: Complex, triangles: Triangles) -> NDArray[np.float64]:
-    """Twice the signed area of each triangle."""
-    a, b, c = points[triangles].T
-    return (np.conj(b - a) * (c - a)).imag
-
-
-def _check_cap(points: Complex, triangles: Triangles, loops: list[Triangles]) -> None:
-    """Raise where the cap's triangles overlap: all must be positive and fill the section's area."""
-    doubled = _cross(points, triangles)
-    area = sum(0.5 * float(np.sum((np.conj(points[w]) * np.roll(points[w], -1)).imag)) for w in loops)
-    if not (np.all(doubled > 0) and np.isclose(0.5 * doubled.sum(), area, rtol=1e-9)):
-        raise _CapError("the cap cannot be triangulated from rings")
-
-
-class _CapError(GeometryError):
-    """The ring between root circle and bore is too thin for its chords."""
-
-
-def _extruded(points: Complex, top: Triangles, loops: list[Triangles], thickness: float) -> Mesh:
-    """Both caps and the walls; material lies left of every loop."""
-    n = len(points)
-    flat = np.stack([points.real, points.imag, np.zeros(n)], axis=1)
-    vertices = np.concatenate([flat, flat + np.array([0.0, 0.0, thickness])])
-    walls = []
-    for loop in loops:
-        after = np.roll(loop, -1)
-        walls.append(np.stack([loop, after, after + n], axis=1))
-        walls.append(np.stack([loop, after + n, loop + n], axis=1))
-    return Mesh(vertices, np.concatenate([top[:, ::-1], top + n, *walls]))
+def _wall_triangles(count: int, lower: int, upper: int) -> Triangles:
+    """Two triangles an edge between loops whose vertices begin at two indices; material lies left of them."""
+    here = np.arange(count)
+    after = np.roll(here, -1)
+    first = np.stack([lower + here, lower + after, upper + after], axis=1)
+    second = np.stack([lower + here, upper + after, upper + here], axis=1)
+    return np.concatenate([first, second])

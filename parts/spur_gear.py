@@ -12,10 +12,15 @@ from msgspec import Meta, Struct
 from geometry.errors import GeometryError, ParameterError, at_most
 from geometry.gears.basic_rack import BasicRack, TipRelief, checked_rack, default_tip_radius, iso_53
 from geometry.gears.limits import checked_gear, findings, root_form_diameter, tip_thickness
-from geometry.gears.offset_tooth import gear_region
+from geometry.gears.offset_tooth import chamfered_outline, gear_region
 from geometry.gears.spur import SpurGear
-from parts.keys import BoreDiameter, Colour, FaceWidth, in_modules, mm
+from geometry.profile import Profile
+from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
+from parts.hole_keys import BoreTable, HolesTable, SpokesTable, hub_holes, with_remedy
+from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, in_modules, mm
+from parts.materials import density_of
 from parts.part import Part
+from parts.wheel_keys import FaceChamfer, FaceChamferTable, HubTable, WebTable, wheel_shape
 
 # the radius that ISO 53 gives at the usual clearance; the default for racks given as a table
 _TABLE_TIP_RADIUS = 0.38
@@ -63,7 +68,14 @@ class SpurGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="sp
     tip_rounding: Annotated[float, mm("radius of the tip corner", least=0, most=1000)] = 0.0
     face_width: FaceWidth = 10.0
     bore_diameter: BoreDiameter = 0.0
-    material: str | None = None
+    bore: BoreTable | None = None
+    holes: HolesTable | list[HolesTable] | None = None
+    spokes: SpokesTable | None = None
+    web: WebTable | None = None
+    hub: HubTable | None = None
+    face_chamfer: FaceChamfer | FaceChamferTable = 0.0
+    material: Material | None = None
+    density: Density | None = None
     colour: Colour | None = None
 
 
@@ -76,9 +88,11 @@ def checked_spur_gear(spec: SpurGearSpec) -> SpurGear:
         The gear cannot exist; names the key and the nearest value that works.
     """
     try:
-        return checked_gear(_gear_of(spec))
+        gear = checked_gear(_gear_of(spec))
     except ParameterError as refusal:
-        raise _with_rack_remedy(spec, refusal) from refusal
+        raise with_remedy(_with_rack_remedy(spec, refusal), spec, _builds) from refusal
+    check_wheel(_shape_of(spec), 2 * gear.root_radius, gear.holes)
+    return gear
 
 
 def spur_gear_part(part_id: str, spec: SpurGearSpec, gear: SpurGear) -> Part:
@@ -95,17 +109,30 @@ def spur_gear_part(part_id: str, spec: SpurGearSpec, gear: SpurGear) -> Part:
         "tooth_thickness": gear.reference_thickness,
         "tip_tooth_thickness": tip_thickness(gear),
     }
+    section = lru_cache(maxsize=8)(lambda offset: gear_region(gear, offset))
+
+    def outline(offset: float, depth: float) -> Profile:
+        return section(offset).region.outer if depth == 0 else chamfered_outline(gear, depth - offset)
+
+    shape, sections = _shape_of(spec), wheel_sections(outline, gear.root_radius, gear.holes)
     return Part(
         part_id,
         "spur_gear",
+        section,
+        lru_cache(maxsize=2)(lambda offset: wheel_body(shape, sections, offset)),
         spec.face_width,
-        lru_cache(maxsize=8)(lambda offset: gear_region(gear, offset)),
+        shape.is_plate,
         findings(gear),
         circles,
         quantities,
         spec.material,
         spec.colour,
+        spec.density or density_of(spec.material),
     )
+
+
+def _shape_of(spec: SpurGearSpec) -> WheelShape:
+    return wheel_shape(spec.face_width, spec.web, spec.hub, spec.face_chamfer)
 
 
 def _with_rack_remedy(spec: SpurGearSpec, refusal: ParameterError) -> ParameterError:
@@ -117,11 +144,7 @@ def _with_rack_remedy(spec: SpurGearSpec, refusal: ParameterError) -> ParameterE
 
     def builds(value: float) -> bool:
         changed = msgspec.structs.replace(table, **{key: value})
-        try:
-            checked_gear(_gear_of(msgspec.structs.replace(spec, **{owner: changed})))
-        except GeometryError:
-            return False
-        return True
+        return _builds(msgspec.structs.replace(spec, **{owner: changed}))
 
     low, high = (0.5 if key == "addendum_coefficient" else 0.0), float(getattr(table, key))
     if builds(high) or not builds(low):
@@ -133,9 +156,19 @@ def _with_rack_remedy(spec: SpurGearSpec, refusal: ParameterError) -> ParameterE
     return ParameterError(refusal.name, getattr(table, key), f"{reason}; at most {at_most(low, 4)} works")
 
 
+def _builds(spec: SpurGearSpec) -> bool:
+    try:
+        checked_gear(_gear_of(spec))
+    except GeometryError:
+        return False
+    return True
+
+
 def _gear_of(spec: SpurGearSpec) -> SpurGear:
     if spec.tip_chamfer > 0 and spec.tip_rounding > 0:
         raise ParameterError("tip_rounding", spec.tip_rounding, "give either tip_chamfer or tip_rounding; 0 works")
+    if spec.bore is not None and spec.bore_diameter > 0:
+        raise ParameterError("bore_diameter", spec.bore_diameter, "give either bore_diameter or bore; 0 works")
     return SpurGear(
         module=spec.module,
         number_of_teeth=spec.number_of_teeth,
@@ -147,6 +180,7 @@ def _gear_of(spec: SpurGearSpec) -> SpurGear:
         tip_chamfer=spec.tip_chamfer,
         tip_rounding=spec.tip_rounding,
         bore_diameter=spec.bore_diameter,
+        hub=hub_holes(spec.bore, spec.holes, spec.spokes),
     )
 
 

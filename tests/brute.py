@@ -146,7 +146,11 @@ def rack_tool(gear: SpurGear) -> RackTool:
     rack, deeper = gear.rack, gear.thinning_by_deeper_cut
     infeed = gear.circumferential_thinning / (2 * math.tan(rack.pressure_angle)) if deeper else 0.0
     return RackTool(
-        m=gear.module, alpha=rack.pressure_angle, ha=rack.addendum, c=rack.tip_clearance, rho=rack.tip_radius,
+        m=gear.module,
+        alpha=rack.pressure_angle,
+        ha=rack.addendum,
+        c=rack.tip_clearance,
+        rho=rack.tip_radius,
         x=gear.profile_shift_coefficient - infeed / gear.module,
         thinning=0.0 if deeper else gear.circumferential_thinning,
         relief_depth=rack.relief.depth if rack.relief else 0.0,
@@ -158,7 +162,15 @@ def exact_parameters(gear: SpurGear) -> GearParameters:
     """The 50-digit oracle's gear, with the product's own tip radius."""
     tool = rack_tool(gear)
     return GearParameters(
-        z=gear.number_of_teeth, m=tool.m, alpha=tool.alpha, ha=tool.ha, c=tool.c, rho=tool.rho, x=tool.x,
-        thinning=tool.thinning, tip_radius=gear.tip_radius,
-        relief_depth=tool.relief_depth, relief_height=tool.relief_height,
+        z=gear.number_of_teeth,
+        m=tool.m,
+        alpha=tool.alpha,
+        ha=tool.ha,
+        c=tool.c,
+        rho=tool.rho,
+        x=tool.x,
+        thinning=tool.thinning,
+        tip_radius=gear.tip_radius,
+        relief_depth=tool.relief_depth,
+        relief_height=tool.relief_height,
     )

@@ -118,8 +118,12 @@ def gears(draw: st.DrawFn) -> SpurGear:
     )
     thinning = gear.module * draw(st.sampled_from((0.0, 0.02, 0.1)))
     gear = SpurGear(
-        gear.module, gear.number_of_teeth, rack, gear.profile_shift_coefficient,
-        circumferential_thinning=thinning, thinning_by_deeper_cut=draw(st.booleans()),
+        gear.module,
+        gear.number_of_teeth,
+        rack,
+        gear.profile_shift_coefficient,
+        circumferential_thinning=thinning,
+        thinning_by_deeper_cut=draw(st.booleans()),
     )
     if not _exists(gear):
         gear = SpurGear(gear.module, 30, iso_53())
@@ -142,8 +146,15 @@ hostile_numbers = st.one_of(
 @st.composite
 def hostile_gears(draw: st.DrawFn) -> SpurGear:
     """A sound gear with one parameter replaced by a number that nobody has checked."""
-    keys = ("module", "profile_shift_coefficient", "given_tip_diameter", "circumferential_thinning",
-            "tip_chamfer", "tip_rounding", "bore_diameter")
+    keys = (
+        "module",
+        "profile_shift_coefficient",
+        "given_tip_diameter",
+        "circumferential_thinning",
+        "tip_chamfer",
+        "tip_rounding",
+        "bore_diameter",
+    )
     values: dict[str, object] = {"module": 2.0, "number_of_teeth": draw(st.integers(-3, 30)), "rack": iso_53()}
     values[draw(st.sampled_from(keys))] = draw(hostile_numbers)
     return SpurGear(**values)  # type: ignore[arg-type]

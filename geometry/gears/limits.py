@@ -79,8 +79,8 @@ def thin_tip(gear: SpurGear) -> Margin:
 
 
 def root_below_bore(gear: SpurGear) -> Margin:
-    """Bore diameter against the root diameter, mm."""
-    value, limit = gear.bore_diameter, 2 * gear.root_radius
+    """Diameter that the bore reaches against the root diameter, mm."""
+    value, limit = 2 * gear.bore_radius, 2 * gear.root_radius
     return Margin("root_below_bore", value, limit, limit - value)
 
 
@@ -119,6 +119,7 @@ def checked_gear(gear: SpurGear) -> SpurGear:
         tooth_side(gear)
     except ParameterError as refusal:
         raise _with_remedy(gear, refusal) from refusal
+    gear.holes.check(gear.root_radius)
     return gear
 
 
@@ -127,7 +128,7 @@ def _builds(gear: SpurGear) -> bool:
         tooth_side(gear)
     except GeometryError:
         return False
-    return gear.root_radius > gear.bore_radius
+    return gear.holes.fits(gear.root_radius)
 
 
 def _check_numbers(gear: SpurGear) -> None:

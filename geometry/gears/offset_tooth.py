@@ -15,27 +15,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from geometry.curve import Curve, end_point, start_point
-from geometry.errors import GeometryError, ParameterError, at_least, at_most
+from geometry.errors import GeometryError, OffsetError
 from geometry.findings import Finding
 from geometry.gears.spur import SpurGear
 from geometry.gears.tooth import SideCurves, ToothSide, assemble_side, tooth_side
 from geometry.intersect import first_above
 from geometry.line_arc import Arc
-from geometry.profile import Label, Profile, Region, Segment, circle, joint_turn
+from geometry.profile import Label, Profile, Region, Segment, joint_turn
 from geometry.roots import bracketed_root
 from geometry.tolerance import TOLERANCES
 from geometry.trochoid import TrochoidFillet
 
 _SAMPLES = 65
-
-
-class OffsetError(ParameterError):
-    """An offset that no outline survives, mm, with the one nearest to it that works."""
-
-    def __init__(self, offset: float, reason: str, nearest: float) -> None:
-        self.reason, self.nearest = reason, nearest
-        text = f"at most {at_most(nearest)}" if nearest >= 0 else f"at least {at_least(nearest)}"
-        super().__init__("offset", offset, f"{reason}; {text} mm works")
+# share of a tip rounding's radius that is left at the edge of a deep face chamfer
+_KEPT_ROUNDING = 0.25
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,17 +46,21 @@ def gear_region(gear: SpurGear, offset: float = 0.0) -> OffsetRegion:
     Raises
     ------
     ParameterError
-        The gear cannot exist, or the offset closes a space or the bore, or leaves no tooth or rim; the
-        largest offset that works is named.
+        The gear cannot exist, or the offset closes a space or a hole, or leaves no tooth, rim or wall between
+        holes; the largest offset that works is named.
     """
     side = offset_side(gear, offset)
-    findings = list(side.findings)
-    holes: tuple[Profile, ...] = ()
-    if gear.bore_radius > 0:
-        if gear.bore_radius - offset <= 0:
-            raise OffsetError(offset, "closes the bore", gear.bore_radius * (1 - 1e-6))
-        holes = (circle(gear.bore_radius - offset, Label.BORE, hole=True),)
-    return OffsetRegion(Region(side.profile(), holes), offset, tuple(findings))
+    return OffsetRegion(Region(side.profile(), gear.holes.profiles(offset)), offset, side.findings)
+
+
+def chamfered_outline(gear: SpurGear, depth: float) -> Profile:
+    """The outline moved ``depth`` > 0 mm into the material, segment for segment: the edge of a face chamfer.
+
+    A rounded tip corner keeps a part of its radius, where a parallel one would vanish.
+    """
+    curves = SideCurves.of(gear).shrunk(depth)
+    curves = replace(curves, tip_rounding=max(curves.tip_rounding, _KEPT_ROUNDING * gear.tip_rounding))
+    return assemble_side(curves, gear.pitch_angle).profile()
 
 
 def offset_side(gear: SpurGear, offset: float) -> ToothSide:
@@ -83,7 +80,7 @@ def offset_side(gear: SpurGear, offset: float) -> ToothSide:
 
 def _moved_side(gear: SpurGear, offset: float) -> ToothSide:
     if offset < 0:
-        if gear.root_radius + offset <= gear.bore_radius - offset:
+        if gear.root_radius + offset <= gear.holes.reach - offset:
             raise OffsetError(offset, "leaves no rim", 0.0)
         return assemble_side(SideCurves.of(gear).shrunk(-offset), gear.pitch_angle, blunt=True)
     return grown_side(tooth_side(gear), offset)
@@ -96,6 +93,7 @@ def _largest_offset(gear: SpurGear, refused: float) -> float:
         middle = (works + fails) / 2
         try:
             _moved_side(gear, middle)
+            gear.holes.profiles(middle)
             works = middle
         except GeometryError:
             fails = middle

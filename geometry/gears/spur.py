@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from geometry.angles import involute_function
+from geometry.bores import RoundBore
 from geometry.gears.basic_rack import BasicRack
+from geometry.hub_holes import HubHoles
 from geometry.involute import Involute
 from geometry.trochoid import TrochoidFillet
+
+_NO_HOLES = HubHoles()
 
 
 @dataclass(frozen=True)
@@ -31,6 +35,7 @@ class SpurGear:
     tip_chamfer: float = 0.0
     tip_rounding: float = 0.0
     bore_diameter: float = 0.0
+    hub: HubHoles = _NO_HOLES
 
     @cached_property
     def generating_shift_coefficient(self) -> float:
@@ -72,10 +77,15 @@ class SpurGear:
             return self.given_tip_diameter / 2
         return self.reference_radius + (self.rack.addendum + self.profile_shift_coefficient) * self.module
 
+    @cached_property
+    def holes(self) -> HubHoles:
+        """All holes; ``bore_diameter`` above 0 is the short form of a round bore in ``hub``."""
+        return replace(self.hub, bore=RoundBore(self.bore_diameter)) if self.bore_diameter > 0 else self.hub
+
     @property
     def bore_radius(self) -> float:
-        """Half of the bore diameter, mm; 0 is no bore."""
-        return self.bore_diameter / 2
+        """Greatest distance of the bore from the axis, mm; 0 is no bore."""
+        return self.holes.bore_reach
 
     @property
     def rounding_depth(self) -> float:

@@ -12,6 +12,7 @@ import ezdxf
 import pytest
 
 from exporters.verify import verify_file
+from geometry.body import plate
 from geometry.gears.offset_tooth import gear_region
 from parts.scene import make_parts, scene_from_resolved
 
@@ -51,6 +52,11 @@ def region() -> Any:
     return gear_region(SpurGear(2.0, 23, iso_53("A"), bore_diameter=8.0)).region
 
 
+def exact(kind: str) -> Any:
+    """What a file of a format must match: the section, or the plate of it."""
+    return plate(region(), 0.0, WIDTH) if kind == "stl" else region()
+
+
 def copied(originals: Path, name: str, folder: Path) -> tuple[Path, dict[str, Any]]:
     """A copy of a good file with its report; and its entry."""
     place = folder / "s"
@@ -61,7 +67,7 @@ def copied(originals: Path, name: str, folder: Path) -> tuple[Path, dict[str, An
 
 def failures(file: Path, entry: dict[str, Any]) -> tuple[str, ...]:
     """What the read-back finds wrong."""
-    verdict = verify_file(file, entry["format"], region(), WIDTH, entry["max_error"], entry["tolerance"])
+    verdict = verify_file(file, entry["format"], exact(entry["format"]), entry["max_error"], entry["tolerance"])
     return verdict.failures
 
 
@@ -185,13 +191,15 @@ def test_another_gear_under_the_same_name_is_caught(originals: Path, tmp_path: P
 def test_a_declared_error_that_is_too_small_is_caught(originals: Path, tmp_path: Path) -> None:
     for name in FORMATS:
         file, entry = copied(originals, name, tmp_path / name)
-        verdict = verify_file(file, entry["format"], region(), WIDTH, 0.4 * entry["max_error"], entry["tolerance"])
+        verdict = verify_file(
+            file, entry["format"], exact(entry["format"]), 0.4 * entry["max_error"], entry["tolerance"]
+        )
         assert any("declared" in f for f in verdict.failures), name
 
 
 def test_the_report_names_the_very_section_that_is_held_against_the_file(originals: Path) -> None:
     report = read_report(originals / "stl" / "out" / "s")
     part = make_parts(scene_from_resolved(report["scene"], "report"), "report")[0]["g"]
-    assert part.face_width == WIDTH
+    assert part.body(0.0).levels() == (0.0, WIDTH)
     assert part.circles["tip_diameter"] == pytest.approx(50)
     assert part.section(0.0).region == region()

@@ -187,6 +187,7 @@ def flank_speed(parameters: GearParameters, rack_y: Mpf) -> Mpf:
 
 def _at_radius(curve: Curve, lo: Mpf, radius: Mpf, step: Mpf) -> Mpf:
     """Parameter >= lo at which a curve of growing radius reaches `radius` (lo if it is there at once)."""
+
     def off(value: Mpf) -> Mpf:
         return abs(curve(value)[0]) - radius
 
@@ -232,6 +233,7 @@ def junction(parameters: GearParameters) -> Junction:
 
 def _meet(one: Curve, other: Curve, u: Mpf, v: Mpf) -> tuple[Mpf, Mpf]:
     """Parameters of the crossing of two curves near (u, v)."""
+
     def apart(a: Mpf, b: Mpf) -> list[Mpf]:
         gap = one(a)[0] - other(b)[0]
         return [gap.real, gap.imag]
@@ -292,14 +294,16 @@ def _coarse(parameters: GearParameters, index: int) -> tuple[complex, ...]:
 
 def _foot(segment: Segment, coarse: tuple[complex, ...], point: Mpc) -> tuple[Mpf, Mpf]:
     """(distance, signed normal part) of a piece's nearest point: bracketed root of (p - c).tangent = 0."""
+
     def along(value: Mpf) -> Mpf:
         where, normal = segment.curve(value)
         return (MP.conj(normal) * (point - where)).imag
 
     near = complex(point)
     k = min(range(len(coarse)), key=lambda i: abs(coarse[i] - near))
-    lo, hi = (segment.lo + (segment.hi - segment.lo) * MP.mpf(j) / _SAMPLES
-              for j in (max(k - 1, 0), min(k + 1, _SAMPLES)))
+    lo, hi = (
+        segment.lo + (segment.hi - segment.lo) * MP.mpf(j) / _SAMPLES for j in (max(k - 1, 0), min(k + 1, _SAMPLES))
+    )
     candidates = [lo, hi]
     if along(lo) * along(hi) < 0:
         candidates = [MP.findroot(along, (lo, hi), solver="anderson", verify=False, maxsteps=200)]
@@ -347,6 +351,7 @@ def undercut_limit_shift(z: int, alpha: Mpf, hf: Mpf, rho: Mpf) -> Mpf:
 
     Shape only: at the limit the flank's envelope starts with speed 0 (its cusp). hf, rho in modules.
     """
+
     def runs_back(x: Mpf) -> bool:
         p = GearParameters(z=z, m=1, alpha=alpha, ha=hf, c=0, rho=rho, x=x, tip_radius=1)
         return flank_speed(p, straight_start(p)) < 0

@@ -217,8 +217,10 @@ def test_thickness(name: str) -> None:
 def test_fillet_is_an_arc_when_the_rounding_centre_is_on_the_pitch_line() -> None:
     p = CASES["rounding centre on pitch line"]
     a, b, *rest = exact.sample(exact.half_tooth(p)[1], 9)
-    centres = [q + p.rho * p.m * exact.half_tooth(p)[1].curve(exact.junction(p).angle * k / 8)[1]
-               for k, q in enumerate([a, b, *rest])]
+    centres = [
+        q + p.rho * p.m * exact.half_tooth(p)[1].curve(exact.junction(p).angle * k / 8)[1]
+        for k, q in enumerate([a, b, *rest])
+    ]
     assert max(abs(c - centres[0]) for c in centres) < MP.mpf(10) ** -50
 
 
@@ -240,12 +242,14 @@ def test_signed_depth_against_a_dense_boundary(relief: float) -> None:
     turn = np.linspace(0, np.pi / 2 - tool.alpha, 4001)
     straight = np.linspace(tool.straight_from, h0, 8001)
     above = np.linspace(h0, 3, 20001)
-    half = np.concatenate([
-        -tool.depth_mm + 1j * np.linspace(0, uc, 2001),
-        hc + 1j * uc - 0.3 * np.exp(-1j * turn),
-        straight + 1j * (tool.half + straight * np.tan(tool.alpha)),
-        above + 1j * (u0 + (above - h0) * np.tan(tool.relief_angle)),
-    ])
+    half = np.concatenate(
+        [
+            -tool.depth_mm + 1j * np.linspace(0, uc, 2001),
+            hc + 1j * uc - 0.3 * np.exp(-1j * turn),
+            straight + 1j * (tool.half + straight * np.tan(tool.alpha)),
+            above + 1j * (u0 + (above - h0) * np.tan(tool.relief_angle)),
+        ]
+    )
     boundary = np.concatenate([half, np.conj(half)])
     rng = np.random.default_rng(1)
     q = rng.uniform(-1.8, 1.2, 300) + 1j * rng.uniform(-1.6, 1.6, 300)

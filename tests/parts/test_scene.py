@@ -46,7 +46,7 @@ def test_a_minimal_scene_gets_the_defaults_of_the_standard() -> None:
     assert part.circles["base_diameter"] == pytest.approx(46 * math.cos(math.radians(20)))
     assert part.quantities["pitch"] == pytest.approx(2 * math.pi)
     assert part.quantities["tooth_thickness"] == pytest.approx(math.pi)
-    assert part.face_width == 10.0
+    assert part.body(0.0).levels() == (0.0, 10.0)
     assert part.section(0.0).region.holes == ()
 
 

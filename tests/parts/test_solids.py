@@ -12,11 +12,13 @@ from hypothesis import strategies as st
 
 from exporters.job import approximations
 from exporters.plan import plan_build
-from geometry.contour import Contour
+from geometry.body import plate
+from geometry.contour import Approximation, Contour
 from geometry.errors import GeometryError, ParameterError
+from geometry.profile import Label, Region, circle
 from parts.scene import scene_from_dict
 from parts.schema import SceneError
-from parts.solids import Mesh, extruded_gear
+from parts.solids import Mesh, body_mesh
 
 WIDTH = 4.0
 GEARS: dict[str, dict[str, Any]] = {
@@ -50,8 +52,15 @@ def contours(keys: dict[str, Any], tolerance: float, offset: float = 0.0) -> tup
     gear = {"kind": "spur_gear", "module": 2.0, "face_width": WIDTH, **keys}
     raw = {"parts": {"g": gear}, "exports": [{"format": "stl", "tolerance": tolerance, "offset": offset}]}
     plan = plan_build(scene_from_dict(raw, "test", "test"), "test", [], [])
-    made = approximations(plan.jobs[0])
-    return made[-1].geometry, made[0].geometry if len(made) > 1 else None
+    outer, *bores = (a.geometry for a in approximations(plan.jobs[0]))
+    return outer, bores[0] if bores else None
+
+
+def extruded_gear(outer: Contour, bore: Contour | None, width: float) -> Mesh:
+    """The mesh of a plate with these outlines; only the number of the exact profiles matters here."""
+    stands_for = circle(1.0, Label.BORE)
+    body = plate(Region(stands_for, () if bore is None else (circle(0.5, Label.BORE, hole=True),)), 0.0, width)
+    return body_mesh(body, tuple(Approximation(c, 0.0, "exact", 0.0) for c in (outer, bore) if c is not None))
 
 
 def shoelace(contour: Contour) -> float:

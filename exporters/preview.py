@@ -1,0 +1,136 @@
+"""Pictures for people: every part with its circles, and the scene with all its instances in their places."""
+
+from __future__ import annotations
+
+import cmath
+from pathlib import Path
+from textwrap import wrap
+from typing import Any
+
+import numpy as np
+
+from exporters.plan import Plan
+from exporters.svg import head, number, path_data, save
+from exporters.tables import check_lines
+from exporters.words import finding_text, words
+from geometry.approximate import approximate_profile
+from geometry.contour import Approximation, Contour
+from parts.part import Part
+
+# letters of the caption that fit beside a part, and above a scene
+_CAPTION_LETTERS, _WIDE_LETTERS = 42, 100
+_FILLS = ("#b8c4d0", "#d9c39a", "#b5cfae", "#d3b3b3", "#bdb6d6")
+
+
+def part_preview(part: Part, folder: Path, language: str) -> Path:
+    """The filled part, its circles with their diameters, and what was noticed."""
+    boundaries = _outlines(part)
+    remarks = [finding_text(language, f) for f in part.findings]
+    reach = max(float(np.abs(b.geometry.vertices).max()) for b in boundaries)
+    middle = reach * 1.08
+    text = reach / 22
+    rows = [f"{words(language, name)}  {value:.4f}" for name, value in (part.circles | part.quantities).items()]
+    remarks = [line for remark in remarks for line in wrap(remark, _CAPTION_LETTERS)]
+    lines = [
+        head(
+            middle,
+            extra_width=text * 24,
+            extra_height=max(0.0, text * 1.7 * (len(rows) + len(remarks) + 2) - 2 * middle),
+        )
+    ]
+    lines.append('<rect width="100%" height="100%" style="fill:#ffffff"/>')
+    data = " ".join(path_data(b.geometry, middle) for b in reversed(boundaries))
+    fill = part.colour or "#b8c4d0"
+    lines.append(
+        f'<path d="{data}" style="fill:{fill};fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 400:.4g}"/>'
+    )
+    dash = f"{reach / 30:.4g} {reach / 120:.4g} {reach / 200:.4g} {reach / 120:.4g}"
+    for name, diameter in part.circles.items():
+        colour = _CIRCLE_COLOURS.get(name, "#808080")
+        line = f"fill:none;stroke:{colour};stroke-width:{reach / 600:.4g};stroke-dasharray:{dash}"
+        lines.append(f'<circle cx="{number(middle)}" cy="{number(middle)}" r="{number(diameter / 2)}" style="{line}"/>')
+    lines += _cross(middle, reach)
+    lines += _caption([part.id, *rows, *remarks], 2 * middle + text, text)
+    file = folder / f"{part.id}.preview.svg"
+    save(file, lines)
+    return file
+
+
+def scene_preview(plan: Plan, checks: dict[str, Any], folder: Path) -> Path:
+    """All instances in their places, the upper ones last, and what the checks found."""
+    language = plan.scene.scene.language
+    outlines = {i.part: _outlines(plan.parts[i.part]) for i in plan.placing.instances}
+    stand = sorted(plan.placing.instances, key=lambda i: i.at[2])
+    radii = {name: max(float(np.abs(b.geometry.vertices).max()) for b in made) for name, made in outlines.items()}
+    corners = [(i.centre, radii[i.part]) for i in stand]
+    left, right = min(c.real - r for c, r in corners), max(c.real + r for c, r in corners)
+    low, high = min(c.imag - r for c, r in corners), max(c.imag + r for c, r in corners)
+    reach = max(right - left, high - low) / 2
+    middle, shift = reach * 1.08, -complex(left + right, low + high) / 2
+    # a wide scene is drawn wide: what is above and below it is cut off
+    spare = max(0.0, 2 * (middle - (high - low) / 2 - 0.08 * reach))
+    rows = [plan.scene.scene.title or plan.scene.name, *check_lines(checks, language)]
+    rows = [line for row in rows for line in wrap(row, _WIDE_LETTERS)]
+    size = reach / 30
+    caption = size * 1.7 * (len(rows) + 1)
+    lines = [head(middle, extra_height=caption - spare)]
+    lines.append('<rect width="100%" height="100%" style="fill:#ffffff"/>')
+    lines.append(f'<g transform="translate(0 {number(caption - spare / 2)})">')
+    for index, instance in enumerate(stand):
+        turn = cmath.exp(1j * instance.rotation)
+        placed = [_placed(b.geometry, turn, instance.centre + shift) for b in reversed(outlines[instance.part])]
+        data = " ".join(path_data(contour, middle) for contour in placed)
+        fill = plan.parts[instance.part].colour or _FILLS[index % len(_FILLS)]
+        style = f"fill:{fill};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 600:.4g}"
+        lines.append(f'<path d="{data}" style="{style}"/>')
+        x, y = middle + (instance.centre + shift).real, middle - (instance.centre + shift).imag
+        text = f"font-family:sans-serif;font-size:{size:.4g}px;text-anchor:middle;fill:#202830"
+        label = y + 0.6 * radii[instance.part]
+        lines.append(f'<text x="{x:.4g}" y="{label:.4g}" style="{text}">{_escaped(instance.id)}</text>')
+    lines.append("</g>")
+    lines += _caption(rows, size, size)
+    file = folder / f"{scene_preview_name(plan)}"
+    save(file, lines)
+    return file
+
+
+def scene_preview_name(plan: Plan) -> str:
+    """``<scene>.preview.svg``; with a word in between where a part has the scene's name."""
+    alike = plan.scene.name.lower() in {p.lower() for p in plan.parts}
+    return f"{plan.scene.name}{'.assembly' if alike else ''}.preview.svg"
+
+
+def _outlines(part: Part) -> tuple[Approximation, ...]:
+    region = part.section(0.0).region
+    tolerance = max(2e-4 * region.outer.reach(), 1e-6)
+    return tuple(approximate_profile(p, tolerance, arcs=True) for p in region.profiles())
+
+
+def _placed(contour: Contour, turn: complex, shift: complex) -> Contour:
+    vertices, bulges = contour.expanded()
+    return Contour(vertices * turn + shift, bulges)
+
+
+_CIRCLE_COLOURS = {"reference_diameter": "#c03020", "base_diameter": "#2060c0", "root_form_diameter": "#209050"}
+
+
+def _cross(middle: float, reach: float) -> list[str]:
+    """Centre lines."""
+    style = f'style="stroke:#c03020;stroke-width:{reach / 600:.4g}"'
+    ends = number(middle - reach * 1.05), number(middle + reach * 1.05), number(middle)
+    return [
+        f'<line x1="{ends[0]}" y1="{ends[2]}" x2="{ends[1]}" y2="{ends[2]}" {style}/>',
+        f'<line x1="{ends[2]}" y1="{ends[0]}" x2="{ends[2]}" y2="{ends[1]}" {style}/>',
+    ]
+
+
+def _caption(rows: list[str], left: float, size: float) -> list[str]:
+    style = f"font-family:sans-serif;font-size:{size:.4g}px;fill:#202830"
+    return [
+        f'<text x="{left:.4g}" y="{(i + 1.5) * size * 1.7:.4g}" style="{style}">{_escaped(row)}</text>'
+        for i, row in enumerate(rows)
+    ]
+
+
+def _escaped(text: str) -> str:
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")

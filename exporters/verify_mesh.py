@@ -1,0 +1,177 @@
+"""Meshes against exact bodies: closed and manifold, every outline, wall and face in its place, the volume right."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exporters.readers import Loop, ReadError, ReadMesh
+from exporters.verify import Verdict, verify_loops
+from geometry.body import Body, Wall
+from geometry.mass import body_moments
+from geometry.measure import profile_area, profile_length
+
+# heights are float32 numbers, rounded twice where a file holds them as text
+_LEVEL = 2.0**-23
+Triangles = NDArray[np.int64]
+
+
+def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -> Verdict:
+    """Hold a mesh against its exact body.
+
+    All triangles lie in the caps or in the walls between two levels; the outlines of the walls are measured where
+    they end, and closedness makes them the outlines of the caps too.
+    """
+    count = {"triangles": float(len(mesh.triangles))}
+    failures = _topology_failures(mesh)
+    if failures:
+        return Verdict(count, tuple(failures))
+    corners = mesh.vertices[mesh.triangles]
+    measured = count | {"volume": float(np.einsum("ij,ij->i", corners[:, 0], _normals(corners)).sum() / 6)}
+    levels = np.array(body.levels())
+    index = np.abs(mesh.vertices[:, 2, None] - levels).argmin(axis=1)
+    if np.any(np.abs(mesh.vertices[:, 2] - levels[index]) > _LEVEL * np.abs(levels).max()):
+        return Verdict(measured, ("a vertex stands off every face",))
+    mesh = ReadMesh(np.column_stack([mesh.vertices[:, :2], levels[index]]), mesh.triangles)
+    corners = mesh.vertices[mesh.triangles]
+    heights = corners[:, :, 2]
+    low, high = heights.min(axis=1), heights.max(axis=1)
+    upright = low != high
+    failures += _cap_failures(body, corners[~upright], declared)
+    worst, edges = 0.0, [np.inf]
+    border = 0.0
+    for pair, walls in _walls_by_height(body).items():
+        mine = upright & (low == pair[0]) & (high == pair[1])
+        upright &= ~mine
+        for verdict, length in _verify_walls(mesh, mesh.triangles[mine], pair, body, walls, declared, tolerance):
+            failures += verdict.failures
+            worst = max(worst, verdict.measured.get("max_deviation", np.inf))
+            edges.append(verdict.measured.get("shortest_edge", np.inf))
+            border = max(border, length)
+    if np.any(upright):
+        failures.append("a wall does not end at the faces of the part")
+    exact = body_moments(body).volume
+    if abs(measured["volume"] - exact) > border * declared * (levels[-1] - levels[0]):
+        failures.append(f"volume {measured['volume']:.9g} mm^3 instead of {exact:.9g} mm^3")
+    measured |= {
+        "volume_error": measured["volume"] / exact - 1,
+        "max_deviation": worst,
+        "shortest_edge": min(edges),
+        "least_triangle_area": float(np.linalg.norm(_normals(corners), axis=1).min() / 2),
+    }
+    return Verdict(measured, tuple(dict.fromkeys(failures)))
+
+
+def _normals(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Twice the area of each triangle along its normal, (n, 3)."""
+    return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+
+
+def _walls_by_height(body: Body) -> dict[tuple[float, float], list[Wall]]:
+    """The walls between each two levels."""
+    found: dict[tuple[float, float], list[Wall]] = {}
+    for wall in body.walls:
+        low, high = body.height(wall)
+        found.setdefault((low, high), []).append(wall)
+    return found
+
+
+def _cap_failures(body: Body, corners: NDArray[np.float64], declared: float) -> list[str]:
+    """Flat triangles against the caps: level by level, looking the right way, of the right area."""
+    doubled, heights = _normals(corners)[:, 2], corners[:, 0, 2]
+    expected: dict[tuple[float, bool], list[float]] = {}
+    for cap in body.caps:
+        profiles = [body.loop_profile(i) for i in (cap.outer, *cap.holes)]
+        outer, *holes = (abs(profile_area(p)) for p in profiles)
+        slack = declared * sum(profile_length(p) for p in profiles)
+        key = (body.loops[cap.outer].z, cap.up)
+        total = expected.setdefault(key, [0.0, 0.0])
+        total[0] += outer - sum(holes)
+        total[1] += slack
+    failures = []
+    for (z, up), (area, slack) in expected.items():
+        mine = (heights == z) & ((doubled > 0) == up)
+        found = float(np.abs(doubled[mine]).sum() / 2)
+        if abs(found - area) > slack + 1e-12 * area:
+            failures.append(f"the face at z = {z:g} has {found:.9g} mm^2 instead of {area:.9g} mm^2")
+    known = np.array([[z, up] for z, up in expected])
+    strange = ~np.any((heights[:, None] == known[:, 0]) & ((doubled > 0)[:, None] == known[:, 1]), axis=1)
+    if np.any(strange):
+        failures.append("triangles of a face overlap")
+    return failures
+
+
+def _verify_walls(
+    mesh: ReadMesh,
+    triangles: Triangles,
+    pair: tuple[float, float],
+    body: Body,
+    walls: list[Wall],
+    declared: float,
+    tolerance: float,
+) -> list[tuple[Verdict, float]]:
+    """The outlines of the walls between two levels, each with its length; both ends of ruled walls are measured."""
+    z, places = mesh.vertices[:, 2], mesh.vertices[:, 0] + 1j * mesh.vertices[:, 1]
+    if all(body.is_upright(w) for w in walls):
+        corners = places[triangles]
+        if not np.all(np.any(corners == np.roll(corners, 1, axis=1), axis=1)):
+            return [(Verdict({}, ("the walls do not stand upright between both faces",)), 0.0)]
+        ends = [pair[0]]
+    else:
+        ends = list(pair)
+    found = []
+    for level in ends:
+        loops = [places[chain] for chain in _chains(triangles, z == level, len(z))]
+        profiles = [body.loop_profile(w.lower if level == pair[0] else w.upper) for w in walls]
+        verdict = verify_loops(
+            [Loop(v, np.zeros(len(v)), "") for v in loops],
+            profiles,
+            [""] * len(profiles),
+            declared,
+            tolerance,
+            # triangles that all turn one way, with outlines this near to the exact ones, cannot overlap
+            known_simple=True,
+        )
+        found.append((verdict, float(sum(np.abs(np.roll(v, -1) - v).sum() for v in loops))))
+    return found
+
+
+def _chains(triangles: Triangles, on_level: NDArray[np.bool_], count: int) -> list[list[int]]:
+    """Closed chains of the triangles' edges that lie on a level, as vertex numbers."""
+    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    edges = edges[on_level[edges].all(axis=1)]
+    if not len(edges):
+        raise ReadError("a wall has no edge at one of its ends")
+    if np.bincount(edges[:, 0], minlength=count).max() > 1:
+        raise ReadError("an outline touches itself in a point")
+    following = dict(zip(edges[:, 0].tolist(), edges[:, 1].tolist(), strict=True))
+    chains = []
+    while following:
+        start, vertex = following.popitem()
+        chain = [start]
+        while vertex != start:
+            chain.append(vertex)
+            if vertex not in following:
+                raise ReadError("the outline of a wall is not closed")
+            vertex = following.pop(vertex)
+        chains.append(chain)
+    return chains
+
+
+def _topology_failures(mesh: ReadMesh) -> list[str]:
+    """Watertight, manifold, consistently turned, no triangle without area."""
+    t = mesh.triangles
+    if np.any((t[:, 0] == t[:, 1]) | (t[:, 1] == t[:, 2]) | (t[:, 2] == t[:, 0])):
+        return ["a triangle has two equal corners"]
+    corners = mesh.vertices[t]
+    doubled = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    if not np.all(doubled > 0):
+        return ["a triangle has no area"]
+    n = len(mesh.vertices)
+    edges = np.concatenate([t[:, [0, 1]], t[:, [1, 2]], t[:, [2, 0]]]).astype(np.int64)
+    forward, backward = np.sort(edges[:, 0] * n + edges[:, 1]), np.sort(edges[:, 1] * n + edges[:, 0])
+    if np.any(forward[1:] == forward[:-1]):
+        return ["two triangles run along one edge the same way"]
+    if not np.array_equal(forward, backward):
+        return ["the mesh is not closed: an edge has a triangle on one side only"]
+    return []
