@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import math
 import os
 import time
 from collections.abc import Callable, Iterator
@@ -194,7 +195,8 @@ WRITERS: dict[str, Callable[[Job, Any, Path], dict[str, int]]] = {
 def _job_findings(job: Job, made: Shape) -> list[Finding]:
     """Remarks on one file: a tolerance too coarse for the teeth, edges too short for a laser."""
     found = [] if job.is_solid or job.part.is_plate else [Finding("flat_outline", 0.0, 0.0)]
-    limit = _COARSE_SHARE * job.part.circles["reference_diameter"] / job.section.region.outer.count
+    # a part without teeth has none to lose
+    limit = _COARSE_SHARE * job.part.circles.get("reference_diameter", math.inf) / job.section.region.outer.count
     if not job.is_cad and (job.export.tolerance or 0.0) > limit:
         found.append(Finding("coarse_tolerance", float(job.export.tolerance or 0.0), limit))
     if not job.is_mesh and not job.is_cad:

@@ -37,6 +37,12 @@ _EXAMPLES = {
     "pitch_circle_diameter": "28.0",
     "inner_diameter": "20.0",
     "outer_diameter": "36.0",
+    "follower": '"roller"',
+    "phases": '[{ move = "rise", angle_deg = 180.0, law = "sine" }, { move = "return_", angle_deg = 180.0, law = "sine" }]',
+    "motion_table": "[[0.0, 0.0], [120.0, 10.0], [240.0, 5.0]]",
+    "base_circle_radius": "30.0",
+    "least_transmission_angle_deg": "60.0",
+    "centre_distance": "90.0",
 }
 # where the same key means another size
 _TABLE_EXAMPLES = {("HolesTable", "diameter"): "6.0", ("HubTable", "diameter"): "17.0"}
