@@ -38,11 +38,25 @@ _EXAMPLES = {
     "inner_diameter": "20.0",
     "outer_diameter": "36.0",
     "follower": '"roller"',
-    "phases": '[{ move = "rise", angle_deg = 180.0, law = "sine" }, { move = "return_", angle_deg = 180.0, law = "sine" }]',
     "motion_table": "[[0.0, 0.0], [120.0, 10.0], [240.0, 5.0]]",
     "base_circle_radius": "30.0",
     "least_transmission_angle_deg": "60.0",
     "centre_distance": "90.0",
+}
+_PHASES = (
+    '{ move = "rise", angle_deg = 120.0, law = "sine" }',
+    '{ move = "dwell", angle_deg = 60.0 }',
+    '{ move = "return_", angle_deg = 120.0, law = "polynomial_345" }',
+    '{ move = "dwell", angle_deg = 60.0 }',
+)
+# keys with a default that a scene to start from sets nevertheless
+_SET = {
+    "CamSpec": {
+        "lift": "20.0",
+        "phases": f"[{', '.join(_PHASES)}]",
+        "follower_radius": "8.0",
+        "base_circle_radius": "30.0",
+    }
 }
 # where the same key means another size
 _TABLE_EXAMPLES = {("HolesTable", "diameter"): "6.0", ("HubTable", "diameter"): "17.0"}
@@ -105,8 +119,9 @@ def _keys(owner: type[Struct]) -> list[str]:
     """One line a key; keys with a default stand commented out."""
     lines = []
     for field in msgspec.structs.fields(owner):
-        code = f"{field.encode_name} = {_value(field)}"
-        lines.append(_line(code if field.required else f"# {code}", describe_type(field.type)))
+        value = _SET.get(owner.__name__, {}).get(field.encode_name)
+        code = f"{field.encode_name} = {value or _value(field)}"
+        lines.append(_line(code if field.required or value else f"# {code}", describe_type(field.type)))
         tables = _tables_of(field)
         for table in tables if field.default is not None else tables[1:]:
             meant = describe_type(table).removeprefix("table: ")
