@@ -40,8 +40,8 @@ _CUSP_SAMPLES = 257
 class Lift(Protocol):
     """A piece of a follower's motion: S over the cam angle with derivatives of every order."""
 
-    def value(self, t: ArrayLike, order: int = 0) -> Real:
-        """S^(order), of the shape of ``t``."""
+    def values(self, t: Real, order: int) -> list[Real]:
+        """S, S' ... S^(order), each of the shape of ``t``."""
 
     def bounds(self, order: int, a: Real, b: Real) -> list[Real]:
         """Proven bounds of |S|, |S'| ... |S^(order)| on each interval [a, b]; inf where none is known."""
@@ -49,7 +49,7 @@ class Lift(Protocol):
 
 def lift_series(lift: Lift, t: Real, order: int) -> Series:
     """Taylor coefficients of S at many cam angles."""
-    return [lift.value(t, k) / FACTORIALS[k] for k in range(order + 1)]
+    return [x / FACTORIALS[k] for k, x in enumerate(lift.values(t, order))]
 
 
 def _bound_series(lift: Lift, order: int, a: Real, b: Real) -> Series:

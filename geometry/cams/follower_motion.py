@@ -93,6 +93,10 @@ class FollowerMotion:
         folded = np.mod(np.asarray(angle, dtype=float), TURN)
         return piecewise_value(self.pieces, folded, order)
 
+    def values(self, t: Real, order: int) -> list[Real]:
+        """S, S' ... S^(order)."""
+        return [self.value(t, k) for k in range(order + 1)]
+
     def bounds(self, order: int, a: Real, b: Real) -> list[Real]:
         """None are known for the whole turn: ask the pieces."""
         return [np.full(np.shape(a), np.inf)] * (order + 1)

@@ -8,8 +8,9 @@ to such pieces in closed form. Bernstein's basis keeps high degrees exact to rou
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -52,22 +53,31 @@ class LawPiece:
         """Whether the piece is a dwell."""
         return not self.waves and len(set(self.coefficients)) == 1
 
-    def _differences(self, order: int) -> Real:
-        """Bernstein coefficients of a derivative of the polynomial part."""
-        values = np.array(self.coefficients, dtype=float)
-        for _ in range(order):
-            if len(values) == 1:
-                return np.zeros(1)
-            values = np.diff(values) * ((len(values) - 1) / (self.end - self.start))
-        return values
-
     def value(self, t: ArrayLike, order: int = 0) -> Real:
         """s or a derivative of it, of the shape of ``t``."""
-        t = np.asarray(t, dtype=float)
-        result = _casteljau(self._differences(order), *self._shares(t))
-        for wave in self.waves:
-            angle = wave.frequency * (t - self.start) + wave.phase
-            result = result + wave.amplitude * wave.frequency**order * _sine_derivative(angle, order)
+        return self._values(np.asarray(t, dtype=float), (order,))[0]
+
+    def values(self, t: Real, order: int) -> list[Real]:
+        """s, s' ... s^(order)."""
+        return self._values(t, range(order + 1))
+
+    def _values(self, t: Real, orders: Iterable[int]) -> list[Real]:
+        """Derivatives of several orders, which share their powers."""
+        width = self.end - self.start
+        n = len(self.coefficients) - 1
+        # where t stands from the start and from the end, each to full digits
+        local, rest = _powers((t - self.start) / width, n), _powers((self.end - t) / width, n)
+        result = []
+        for order in orders:
+            weights = _weights(self.coefficients, width, order)
+            total = np.zeros(np.shape(t))
+            for i, weight in enumerate(weights):
+                if weight:
+                    total = total + weight * local[i] * rest[len(weights) - 1 - i]
+            for wave in self.waves:
+                angle = wave.frequency * (t - self.start) + wave.phase
+                total = total + wave.amplitude * wave.frequency**order * _sine_derivative(angle, order)
+            result.append(total)
         return result
 
     def bounds(self, order: int, a: Real, b: Real) -> list[Real]:
@@ -77,7 +87,7 @@ class LawPiece:
         """
         middle, half = (a + b) / 2, (b - a) / 2
         top = max(order, len(self.coefficients) - 1)
-        values = [np.abs(_casteljau(self._differences(k), *self._shares(middle))) for k in range(top + 1)]
+        values = [np.abs(v) for v in replace(self, waves=()).values(middle, top)]
         result = []
         for k in range(order + 1):
             terms = [values[j] * half ** (j - k) / math.factorial(j - k) for j in range(k, top + 1)]
@@ -88,11 +98,6 @@ class LawPiece:
                 total = total + abs(wave.amplitude) * abs(wave.frequency) ** k * np.minimum(most, 1.0)
             result.append(total * (1 + 1e-12))
         return result
-
-    def _shares(self, t: Real) -> tuple[Real, Real]:
-        """Where ``t`` stands in the piece, from its start and from its end, each to full digits."""
-        width = self.end - self.start
-        return (t - self.start) / width, (self.end - t) / width
 
     def placed(self, origin: float, length: float, base: float, lift: float) -> LawPiece:
         """The piece with t -> origin + length t and s -> base + lift s."""
@@ -125,14 +130,23 @@ def _sine_derivative(angle: Real, order: int) -> Real:
     return (np.sin, np.cos, lambda x: -np.sin(x), lambda x: -np.cos(x))[kind](angle)
 
 
-def _casteljau(values: Real, local: Real, rest: Real) -> Real:
-    """De Casteljau's scheme for many parameters at once; rest = 1 - local, given apart to keep its digits."""
-    if len(values) == 1:
-        return np.full(np.shape(local), values[0])
-    layer = [rest * values[k] + local * values[k + 1] for k in range(len(values) - 1)]
-    while len(layer) > 1:
-        layer = [rest * layer[k] + local * layer[k + 1] for k in range(len(layer) - 1)]
-    return layer[0]
+def _powers(x: Real, most: int) -> list[Real]:
+    """x^0 to x^most."""
+    result = [np.ones(np.shape(x))]
+    for _ in range(most):
+        result.append(result[-1] * x)
+    return result
+
+
+@lru_cache(maxsize=512)
+def _weights(coefficients: tuple[float, ...], width: float, order: int) -> tuple[float, ...]:
+    """Bernstein coefficients of a derivative times the binomials of its degree: factors of local^i rest^(m - i)."""
+    values = np.array(coefficients, dtype=float)
+    for _ in range(order):
+        if len(values) == 1:
+            return (0.0,)
+        values = np.diff(values) * ((len(values) - 1) / width)
+    return tuple(math.comb(len(values) - 1, i) * v for i, v in enumerate(values.tolist()))
 
 
 def sign_changes(function: Callable[[Real], Real], t: Real) -> Real:
