@@ -111,8 +111,8 @@ def checked_cam(spec: CamSpec) -> DiskCam:
         raise UndercutError(
             "base_circle_radius", base_radius(cam), f"the cam is undercut and loses {lost}; {_whole(spec, cam)}"
         )
-    check_wheel(_shape_of(spec), 2 * inner_radius(cam), _holes_of(spec))
     _check_bore(spec, cam)
+    check_wheel(_shape_of(spec), 2 * inner_radius(cam), _holes_of(spec))
     return cam
 
 
