@@ -2,7 +2,7 @@
 
 A roller's cam is a parallel curve of the path; a point's cam is the path itself. Both curves are described in the
 cam's frame with growing cam angle, so they run clockwise about the axis; the follower lies on their left.
-Derivation: DERIVATIONS.md, section 6.
+Derivation: DERIVATIONS.md, section 8.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ of the follower reaches into it: a roller's centre nearer than its radius, a fac
 local cusp (radius of curvature below the roller's), loops between distant arcs, and a groove wall cut from afar.
 Whether anything is lost at all is decided without sweeping: a regular envelope that runs once around the axis with
 a monotone polar angle has no double point, and then the strip between path and envelope is simply covered
-(DERIVATIONS.md, section 6).
+(DERIVATIONS.md, section 8).
 """
 
 from __future__ import annotations
