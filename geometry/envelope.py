@@ -72,6 +72,11 @@ class Pair:
         turned_back = product(derived(place), exponential([-1j * x for x in angle]))
         return place[: order + 1], angle[: order + 1], turned_back, derived(angle)
 
+    def seen_from_second(self, points: Complex, t: Real) -> Complex:
+        """Points of frame 1 in frame 2."""
+        place, angle = relative_pose(self.first, self.second, np.asarray(t, dtype=float), 0)
+        return (points - place[0]) * np.exp(-1j * angle[0])
+
     def condition(self, tau: Real, t: Real) -> Real:
         """The contact condition; 0 at a contact. Broadcasts ``tau`` against ``t``."""
         _, _, u, w = self._relative(np.asarray(t, dtype=float), 0)
