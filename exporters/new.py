@@ -39,6 +39,7 @@ _EXAMPLES = {
     "outer_diameter": "36.0",
     "follower": '"roller"',
     "motion_table": "[[0.0, 0.0], [120.0, 10.0], [240.0, 5.0]]",
+    "plate_diameter": "60.0",
     "base_circle_radius": "30.0",
     "least_transmission_angle_deg": "60.0",
     "centre_distance": "90.0",

@@ -24,6 +24,7 @@ WORDS: dict[str, tuple[str, str]] = {
     "pressure_angle_return_deg": ("greatest pressure angle, return, deg", "найбільший кут тиску, наближення, град"),
     "least_curvature_radius": ("least convex radius rho, mm", "найменший радіус кривини rho, мм"),
     "face_from": ("face contact from, mm", "контакт на тарілці від, мм"),
+    "least_plate_diameter": ("least plate diameter, mm", "найменший діаметр тарілки, мм"),
     "face_to": ("face contact to, mm", "контакт на тарілці до, мм"),
     "file": ("file", "файл"),
     "error": ("max error, mm", "найбільша похибка, мм"),

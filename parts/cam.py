@@ -66,6 +66,9 @@ class CamSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="cam"):
     follower_offset: Annotated[float, mm("line of motion at x = e; e > 0 eases the rise", least=-_MOST, most=_MOST)] = (
         0.0
     )
+    plate_diameter: (
+        Annotated[float, mm("round plate of a translating flat or mushroom follower", above=0, most=_MOST)] | None
+    ) = None
     oscillating: OscillatingTable | None = None
     base_circle_radius: (
         Annotated[float, mm("base circle; default: the least by least_transmission_angle_deg", above=0, most=_MOST)]
@@ -111,6 +114,7 @@ def checked_cam(spec: CamSpec) -> DiskCam:
         raise UndercutError(
             "base_circle_radius", base_radius(cam), f"the cam is undercut and loses {lost}; {_whole(spec, cam)}"
         )
+    _check_plate(spec, cam)
     _check_bore(spec, cam)
     check_wheel(_shape_of(spec), 2 * inner_radius(cam), _holes_of(spec))
     return cam
@@ -263,6 +267,20 @@ def _shape_of(spec: CamSpec) -> WheelShape:
     return wheel_shape(spec.face_width, None, spec.hub, spec.face_chamfer)
 
 
+def _check_plate(spec: CamSpec, cam: DiskCam) -> None:
+    """The contact stays on the follower's face."""
+    if spec.plate_diameter is None:
+        return
+    if spec.follower not in ("flat", "mushroom") or spec.oscillating is not None:
+        raise ParameterError(
+            "plate_diameter", spec.plate_diameter, "is for translating flat and mushroom followers only"
+        )
+    least = cam.least_plate_diameter()
+    if not spec.plate_diameter >= least:
+        remedy = f"the contact runs over the plate's edge; at least {at_least(least, 4)} mm works"
+        raise ParameterError("plate_diameter", spec.plate_diameter, remedy)
+
+
 def _check_bore(spec: CamSpec, cam: DiskCam) -> None:
     """The holes stay inside the circle that is surely material."""
     holes, inside = _holes_of(spec), inner_radius(cam)
@@ -336,6 +354,8 @@ def _quantities(spec: CamSpec, cam: DiskCam) -> dict[str, float]:
     found["least_curvature_radius"] = least_convex_radius(cam).value
     if cam.kind in ("flat", "mushroom"):
         found["face_from"], found["face_to"] = cam.face_reach()
+        if spec.oscillating is None:
+            found["least_plate_diameter"] = cam.least_plate_diameter()
     return found
 
 

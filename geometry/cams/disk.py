@@ -131,6 +131,15 @@ class DiskCam:
             low, high = min(low, float(values.min())), max(high, float(values.max()))
         return low, high
 
+    def least_plate_diameter(self) -> float:
+        """Least diameter of a round plate about the stem on which the contact of a translating face stays, mm.
+
+        Beyond its edge the follower would ride on the edge and lose lift: the stem's offset counts here.
+        """
+        offset = self.mount.offset if isinstance(self.mount, Translating) and self.is_flat else 0.0
+        low, high = self.face_reach()
+        return 2 * max(abs(high - offset), abs(low - offset))
+
     def _reach_of(self, piece: LawPiece) -> Real:
         if self.is_flat and isinstance(self.mount, Translating):
             return piece.value(piece.extremes(1), 1)

@@ -236,6 +236,8 @@ WRONG: dict[str, tuple[dict[str, Any], str, str]] = {
     "bore beyond": (ROLLER | {"bore_diameter": 70.5}, "bore_diameter", "below 70"),
     "holes beyond": (ROLLER | {"holes": {"count": 4, "diameter": 10.0, "pitch_circle_diameter": 64.0}},
                      "holes", "within"),
+    "small plate": (CAMS["flat"] | {"follower_offset": 4.0, "plate_diameter": 30.0}, "plate_diameter", "at least"),
+    "plate of a roller": (ROLLER | {"plate_diameter": 30.0}, "plate_diameter", "flat"),
     "two bores": (ROLLER | {"bore": {"shape": "round", "diameter": 9.0}}, "bore_diameter", "0 works"),
     "lift of a rocker": (CAMS["oscillating roller"] | {"lift": 3.0}, "lift", "0 works"),
     "short arm": (CAMS["oscillating roller"] | {"oscillating": SWING | {"arm_length": 30.0}},
@@ -272,6 +274,18 @@ def test_an_undercut_cam_is_told_the_base_circle_that_works(keys: dict[str, Any]
     part_of(keys | {"base_circle_radius": limit})
     with pytest.raises(SceneError):
         part_of(keys | {"base_circle_radius": limit * 0.999})
+
+
+def test_the_plate_is_as_large_as_the_contact_runs() -> None:
+    """Contact at S' beside the axis, the stem at e: the named diameter is the least one."""
+    keys = CAMS["flat"] | {"follower_offset": 4.0}
+    cam = cam_of(keys)
+    reach = cam.motion.value(np.linspace(0, 2 * math.pi, 7201), 1) - 4.0
+    least = cam.least_plate_diameter()
+    assert least == pytest.approx(2 * float(np.abs(reach).max()), rel=1e-6)
+    part_of(keys | {"plate_diameter": least * 1.0001})
+    with pytest.raises(SceneError):
+        part_of(keys | {"plate_diameter": least * 0.9999})
 
 
 def test_a_cam_does_not_mate_as_a_gear() -> None:

@@ -195,8 +195,9 @@ def whole_cams() -> dict[str, DiskCam]:
     }
 
 
-@pytest.mark.parametrize("name", whole_cams())
-@pytest.mark.parametrize("arcs", [True, False])
+@pytest.mark.parametrize(("name", "arcs"), [
+    *((name, True) for name in whole_cams()), ("concave roller", False), ("oscillating flat", False), ("flat", False),
+])  # fmt: skip
 def test_outlines_stay_within_their_declared_error(name: str, arcs: bool) -> None:
     """Arcs and chords, measured densely both ways; curves with inflections are split there."""
     cam = whole_cams()[name]
@@ -205,15 +206,16 @@ def test_outlines_stay_within_their_declared_error(name: str, arcs: bool) -> Non
     assert made.bound == "certified"
     assert made.max_error <= 0.005
     contour = made.geometry
-    points = edge_points(contour.vertices, contour.period_ends(), contour.bulges, np.linspace(0, 1, 41)).ravel()
+    points = edge_points(
+        contour.vertices, contour.period_ends(), contour.bulges, np.linspace(0, 1, 21 if arcs else 9)
+    ).ravel()
     measured = float(distance_to_profile(points, profile, trusted=0.0).max())
     assert measured <= made.max_error * (1 + 1e-9)
     assert measured >= 0.3 * made.max_error
     assert len(contour) <= (60 if arcs else 400)
 
 
-@pytest.mark.parametrize("name", ["roller", "flat"])
-@pytest.mark.parametrize("degree", [3, 7])
+@pytest.mark.parametrize(("name", "degree"), [("roller", 3), ("flat", 7)])
 def test_splines_stay_within_a_nanometre(name: str, degree: int) -> None:
     cam = whole_cams()[name]
     profile = cam_shape(cam).profile

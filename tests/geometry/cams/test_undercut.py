@@ -98,9 +98,9 @@ def classify(count: int, seed: int) -> tuple[int, int]:
 
 
 def test_random_cams_are_classified_as_a_sweep_does() -> None:
-    legal, illegal = classify(30, 11)
-    assert legal >= 8
-    assert illegal >= 8
+    legal, illegal = classify(14, 11)
+    assert legal >= 3
+    assert illegal >= 3
 
 
 @pytest.mark.heavy
