@@ -64,28 +64,28 @@ _TABLE_EXAMPLES = {("HolesTable", "diameter"): "6.0", ("HubTable", "diameter"): 
 
 # what a scene of several parts may add
 _ASSEMBLY = """
-# With a second part, [parts.wheel], the two can be put in mesh and written as one assembly:
-# [[mates]]
-# kind = "external_gear_pair"                # centre distance, tip shortening, phase
-# first = "gear"
-# second = "wheel"
-# direction_deg = 0.0                        # direction of the line of centres
-#
-# [instances.second_wheel]                   # a part may stand more than once
-# part = "wheel"
-# at = [100.0, 0.0, 0.0]                     # mm; or let a mate place it
-# rotation_deg = 0.0
-#
-# [[drives]]
-# instance = "gear"
-# turns = 1.0
-#
-# [checks]
-# interference = true                        # contact and overlap through a whole pitch
-#
-# [[exports]]
-# format = "step"
-# assembly = true                            # one file, named parts, true instances""".splitlines()
+# With a second part, [parts.wheel], the two can be put in mesh and written as one assembly; remove both #:
+## [[mates]]
+## kind = "external_gear_pair"                # centre distance, tip shortening, phase
+## first = "gear"
+## second = "wheel"
+## direction_deg = 0.0                        # direction of the line of centres
+##
+## [instances.second_wheel]                   # a part may stand more than once
+## part = "wheel"
+## at = [100.0, 0.0, 0.0]                     # mm; or let a mate place it
+## rotation_deg = 0.0
+##
+## [[drives]]
+## instance = "gear"
+## turns = 1.0
+##
+## [checks]
+## interference = true                        # contact and overlap through a whole pitch
+##
+## [[exports]]
+## format = "step"
+## assembly = true                            # one file, named parts, true instances""".splitlines()
 
 
 def new_scene(kind: str) -> str:

@@ -71,7 +71,10 @@ class OffsetCurve:
         raise CuspError(bracketed_root(lambda s: float(self._stretch(s)), float(low), float(high)).value, self.distance)
 
     def offset(self, distance: float) -> OffsetCurve:
-        return OffsetCurve(self.base, self.distance + distance).checked()
+        try:
+            return OffsetCurve(self.base, self.distance + distance).checked()
+        except CuspError as cusp:
+            raise CuspError(cusp.t, distance) from None
 
     def trimmed(self, a: float, b: float) -> OffsetCurve:
         return replace(self, base=self.base.trimmed(a, b))

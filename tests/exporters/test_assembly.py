@@ -225,7 +225,8 @@ def kernel_absent(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_without_the_kernel_the_other_files_are_made(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder = made(tmp_path, {"format": "svg"}, {"format": "step"}, THREEMF, STEP)
     assert {p.name for p in folder.iterdir()} == {
-        "sun.svg", "planet.svg", "train.3mf", "sun.preview.svg", "planet.preview.svg", "report.json",
+        "sun.svg", "planet.svg", "train.3mf", "sun.preview.svg", "planet.preview.svg", "train.preview.svg",
+        "report.json",
     }  # fmt: skip
     left_out = {e["what"]: e["why"] for e in read_report(folder)["left_out"]}
     assert set(left_out) == {"exports[2]", "exports[4]"}

@@ -74,7 +74,7 @@ def test_only_what_was_asked_for_lies_in_the_folder(tmp_path: Path) -> None:
     run("build", pair(tmp_path), "--out", tmp_path / "out")
     names = {p.name for p in (tmp_path / "out" / "s").iterdir()}
     files = {f"{p}.{e}" for p in "ab" for e in ("dxf", "svg", "stl", "preview.svg")}
-    assert names == files | {"report.json"}
+    assert names == files | {"report.json", "s.preview.svg"}
     assert {p.name for p in tmp_path.iterdir()} == {"s.toml", "out"}
 
 
@@ -105,7 +105,7 @@ def test_partial_builds_merge_into_the_report_by_path(tmp_path: Path) -> None:
     report = read_report(folder)
     assert {e["path"]: e for e in report["files"]} == before
     assert len(report["files"]) == len(before)
-    assert {e["path"] for e in report["previews"]} == {"a.preview.svg", "b.preview.svg"}
+    assert {e["path"] for e in report["previews"]} == {"a.preview.svg", "b.preview.svg", "s.preview.svg"}
     assert {k: v for k, v in contents(folder).items() if k != "report.json"} == {
         k: v for k, v in whole.items() if k != "report.json"
     }
@@ -188,12 +188,13 @@ def test_no_verify_says_that_nothing_was_verified(tmp_path: Path, monkeypatch: p
     assert all(e["verified"] is False and not e["measured"] for e in read_report(tmp_path / "o" / "s")["files"])
 
 
-@pytest.mark.parametrize("name", ["write_laser_dxf", "write_laser_svg", "write_stl", "write_preview"])
+@pytest.mark.parametrize("name", ["write_laser_dxf", "write_laser_svg", "write_stl", "save"])
 @pytest.mark.parametrize("error", STOPS, ids=["full", "stop"])
 def test_a_writer_that_stops_half_way_leaves_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, error: BaseException
 ) -> None:
     import exporters.dxf
+    import exporters.preview
     import exporters.stl
     import exporters.svg
 
@@ -201,7 +202,7 @@ def test_a_writer_that_stops_half_way_leaves_nothing(
         file.write_bytes(b"half")
         raise error
 
-    owner = next(m for m in (exporters.dxf, exporters.svg, exporters.stl) if hasattr(m, name))
+    owner = next(m for m in (exporters.preview, exporters.dxf, exporters.svg, exporters.stl) if hasattr(m, name))
     monkeypatch.setattr(owner, name, stopped)
     assert run("build", pair(tmp_path), "--out", tmp_path / "new" / "o") in (2, 130)
     assert {p.name for p in tmp_path.iterdir()} == {"s.toml"}

@@ -102,12 +102,12 @@ def test_a_scene_is_found_by_name_and_by_path_and_the_path_wins(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    assert set(load_scene("print_gear").parts) == {"gear"}
+    assert set(load_scene("print_gear").parts) == {"gear", "wheel"}
     (tmp_path / "print_gear").write_text(MINIMAL.replace("gear]", "mine]"), encoding="utf-8")
     assert set(load_scene("print_gear").parts) == {"mine"}
     (tmp_path / "print_gear").unlink()
     (tmp_path / "print_gear").mkdir()
-    assert set(load_scene("print_gear").parts) == {"gear"}
+    assert set(load_scene("print_gear").parts) == {"gear", "wheel"}
 
 
 @pytest.mark.parametrize("name", built_in_scenes())
