@@ -38,6 +38,27 @@ _EXAMPLES = {
     "inner_diameter": "20.0",
     "outer_diameter": "36.0",
     "body_height": "6.0",
+    "follower": '"roller"',
+    "motion_table": "[[0.0, 0.0], [120.0, 10.0], [240.0, 5.0]]",
+    "plate_diameter": "60.0",
+    "base_circle_radius": "30.0",
+    "least_transmission_angle_deg": "60.0",
+    "centre_distance": "90.0",
+}
+_PHASES = (
+    '{ move = "rise", angle_deg = 120.0, law = "sine" }',
+    '{ move = "dwell", angle_deg = 60.0 }',
+    '{ move = "return_", angle_deg = 120.0, law = "polynomial_345" }',
+    '{ move = "dwell", angle_deg = 60.0 }',
+)
+# keys with a default that a scene to start from sets nevertheless
+_SET = {
+    "CamSpec": {
+        "lift": "20.0",
+        "phases": f"[{', '.join(_PHASES)}]",
+        "follower_radius": "8.0",
+        "base_circle_radius": "30.0",
+    }
 }
 # where the same key means another size
 _TABLE_EXAMPLES = {
@@ -110,9 +131,10 @@ def _keys(owner: type[Struct]) -> list[str]:
     """One line a key; keys with a default stand commented out."""
     lines = []
     for field in msgspec.structs.fields(owner):
-        value = _TABLE_EXAMPLES.get((owner.__name__, field.encode_name)) or _value(field)
-        code = f"{field.encode_name} = {value}"
-        lines.append(_line(code if field.required else f"# {code}", describe_type(field.type)))
+        value = _SET.get(owner.__name__, {}).get(field.encode_name)
+        shown = value or _TABLE_EXAMPLES.get((owner.__name__, field.encode_name)) or _value(field)
+        code = f"{field.encode_name} = {shown}"
+        lines.append(_line(code if field.required or value else f"# {code}", describe_type(field.type)))
         tables = _tables_of(field)
         for table in tables if field.default is not None else tables[1:]:
             meant = describe_type(table).removeprefix("table: ")

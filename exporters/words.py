@@ -13,6 +13,19 @@ WORDS: dict[str, tuple[str, str]] = {
     "pitch": ("pitch p, mm", "крок p, мм"),
     "tooth_thickness": ("tooth thickness s, mm", "товщина зуба S, мм"),
     "tip_tooth_thickness": ("tip tooth thickness s_a, mm", "товщина зуба на колі вершин S_a, мм"),
+    "base_circle_diameter": ("base circle diameter 2 R_b, mm", "діаметр основного кола 2 R_min, мм"),
+    "prime_circle_diameter": ("prime circle diameter 2 r_0, mm", "діаметр кола теоретичного профілю 2 r_0, мм"),
+    "lift": ("lift H, mm", "хід штовхача H, мм"),
+    "swing_deg": ("swing, deg", "розмах коромисла, град"),
+    "start_angle_deg": ("lowest angle from the line of centres, deg", "найменший кут від лінії центрів, град"),
+    "follower_radius": ("follower radius, mm", "радіус ролика, мм"),
+    "follower_offset": ("follower offset E, mm", "зміщення штовхача E, мм"),
+    "pressure_angle_rise_deg": ("greatest pressure angle, rise, deg", "кут тиску, віддалення, град"),
+    "pressure_angle_return_deg": ("greatest pressure angle, return, deg", "кут тиску, наближення, град"),
+    "least_curvature_radius": ("least convex radius rho, mm", "найменший радіус кривини rho, мм"),
+    "face_from": ("face contact from, mm", "контакт на тарілці від, мм"),
+    "least_plate_diameter": ("least plate diameter, mm", "найменший діаметр тарілки, мм"),
+    "face_to": ("face contact to, mm", "контакт на тарілці до, мм"),
     "file": ("file", "файл"),
     "error": ("max error, mm", "найбільша похибка, мм"),
     "tolerance": ("tolerance, mm", "допуск, мм"),
@@ -179,6 +192,26 @@ FINDINGS: dict[str, tuple[str, str]] = {
     "flat_outline": (
         "web, hub and face chamfers are not in a flat outline; STL, 3MF and STEP have them",
         "диск, маточина і фаски не входять у плоский контур; вони є в STL, 3MF і STEP",
+    ),
+    "rigid_impact": (
+        "rigid impact: velocity jumps by {value:.4g} per rad at cam angle {limit:.4g} deg",
+        "жорсткий удар: аналог швидкості стрибає на {value:.4g} при куті {limit:.4g} град",
+    ),
+    "soft_impact": (
+        "soft impact: acceleration jumps by {value:.4g} per rad^2 at cam angle {limit:.4g} deg",
+        "м'який удар: аналог прискорення стрибає на {value:.4g} при куті {limit:.4g} град",
+    ),
+    "steep_pressure_angle": (
+        "pressure angle {value:.2f} deg on the rise, usual is at most {limit:.0f} deg",
+        "кут тиску {value:.2f} град при віддаленні, допустимо {limit:.0f} град",
+    ),
+    "large_roller": (
+        "roller radius {value:.4g} mm is above 0.8 of the least radius of the pitch curve ({limit:.4g} mm)",
+        "радіус ролика {value:.4g} мм більший за 0,8 найменшого радіуса теоретичного профілю ({limit:.4g} мм)",
+    ),
+    "outline_trimmed": (
+        "the outline moved by {limit:.4g} mm crosses itself in {value:.0f} places: it is trimmed there",
+        "зсунутий на {limit:.4g} мм контур перетинає себе у {value:.0f} місцях: там його обрізано",
     ),
     "coarse_tolerance": (
         "tolerance {value:.4g} mm is more than 5 % of the module ({limit:.4g} mm): the teeth lose their shape",

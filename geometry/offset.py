@@ -11,7 +11,7 @@ from geometry.curve import Complex, Curve, Real, Reversed, curvature_from_deriva
 from geometry.errors import CuspError
 from geometry.placement import Placement2
 from geometry.roots import bracketed_root
-from geometry.series import FACTORIALS, power, product
+from geometry.series import FACTORIALS, conjugate, power, product
 
 _CUSP_SAMPLES = 257
 
@@ -33,7 +33,7 @@ class OffsetCurve:
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
         """Taylor arithmetic: n = i c' / sqrt(c' conj(c'))."""
         first = [self.base.derivative(t, k + 1) / FACTORIALS[k] for k in range(order + 1)]
-        square = product(first, [np.conj(x) for x in first])
+        square = product(first, conjugate(first))
         normal = product(first, power([x.real for x in square], -0.5))
         return self.base.derivative(t, order) + 1j * self.distance * FACTORIALS[order] * normal[order]
 

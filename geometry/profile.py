@@ -35,6 +35,8 @@ class Label(StrEnum):
     HOLE = "lightening_hole"
     WINDOW = "spoke_window"
     BODY = "body"
+    CAM = "cam"
+    DWELL = "dwell"
 
 
 @dataclass(frozen=True, slots=True)

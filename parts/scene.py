@@ -11,6 +11,7 @@ import msgspec
 from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError
+from parts.cam import CamSpec, cam_part, checked_cam
 from parts.instances import DriveSpec, InstanceSpec, check_instance, drive_spec, instance_specs
 from parts.keys import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.mate_kinds import Mating
@@ -27,6 +28,7 @@ KINDS: dict[str, tuple[type[Struct], Any, Any]] = {
     "spur_gear": (SpurGearSpec, checked_spur_gear, spur_gear_part),
     "ring_gear": (RingGearSpec, checked_ring_gear, ring_gear_part),
     "rack": (RackSpec, checked_rack_part, rack_part),
+    "cam": (CamSpec, checked_cam, cam_part),
 }
 # purposes of each format, the default first, and the tolerance (mm) of an export that names none
 _DEFAULTS: dict[str, dict[str, float]] = {
@@ -179,13 +181,15 @@ def scene_from_dict(raw: dict[str, Any], source: str, name: str) -> SceneFile:
         _export_spec(table, parts, source, f"exports[{i + 1}]") for i, table in enumerate(raw.get("exports", []))
     ]
     instances = instance_specs(raw.get("instances", {}), parts, source)
-    mates = [_mate_spec(t, instances, source, f"mates[{i + 1}]") for i, t in enumerate(raw.get("mates", []))]
+    mates = [_mate_spec(t, instances, parts, source, f"mates[{i + 1}]") for i, t in enumerate(raw.get("mates", []))]
     drives = [drive_spec(t, instances, source, f"drives[{i + 1}]") for i, t in enumerate(raw.get("drives", []))]
     checks = converted(raw.get("checks", {}), ChecksSpec, source, "checks")
     return SceneFile(name, info, parts, exports, instances, mates, drives, checks)
 
 
-def _mate_spec(table: Any, instances: dict[str, InstanceSpec], source: str, place: str) -> Struct:
+def _mate_spec(
+    table: Any, instances: dict[str, InstanceSpec], parts: dict[str, Struct], source: str, place: str
+) -> Struct:
     if not isinstance(table, dict):
         raise SceneError(source, place, table, "write it as a table, [[mates]]")
     kind = table.get("kind")
@@ -194,7 +198,10 @@ def _mate_spec(table: Any, instances: dict[str, InstanceSpec], source: str, plac
         raise SceneError(source, f"{place}.kind", kind, f"{remedy}; known: {', '.join(MATES)}")
     mate = converted(table, MATES[kind], source, place)
     for key in ("first", "second"):
-        check_instance(getattr(mate, key), instances, source, f"{place}.{key}")
+        name = getattr(mate, key)
+        check_instance(name, instances, source, f"{place}.{key}")
+        if not isinstance(parts[str(instances[name].part)], SpurGearSpec):
+            raise SceneError(source, f"{place}.{key}", name, "is no gear; a gear pair needs two spur_gear parts")
     if mate.first == mate.second:
         raise SceneError(source, f"{place}.second", mate.second, "a gear does not mesh with itself; name another one")
     return mate

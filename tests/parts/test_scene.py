@@ -118,7 +118,9 @@ def test_every_built_in_scene_builds_parts_without_a_bad_remark(name: str) -> No
     plan = plan_build(scene, name, [], [])
     assert len(plan.jobs) >= len(scene.parts)
     for part in plan.parts.values():
-        assert not part.findings, part.findings
+        # the law of table 2.2 does begin and end with a soft impact, and says so
+        codes = {f.code for f in part.findings}
+        assert codes == ({"soft_impact"} if name == "guidelines_cam" else set()), part.findings
 
 
 def test_the_practicum_pair_has_the_dimensions_of_the_practicum() -> None:

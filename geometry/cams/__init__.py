@@ -1,0 +1,1 @@
+"""Cams: follower motions, exact profiles, undercut, and the synthesis of their sizes."""

@@ -1,0 +1,247 @@
+"""Disk cams: what a follower of given shape and guide asks of the cam at every angle.
+
+Frame: axis at the origin, the cam turns counter-clockwise, cam angle 0 at the start of the first phase. Formulas:
+practicum, lessons 4 and 5; the general method behind them: geometry/envelope.py, which the tests hold them against.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from geometry.cams.curves import CentreEnvelope, FaceEnvelope
+from geometry.cams.follower_motion import TURN, FollowerMotion
+from geometry.cams.mounts import Mount, Oscillating, Translating, oscillating_start_angle
+from geometry.curve import Complex, Real
+from geometry.errors import ParameterError, at_least, at_most
+from geometry.motion_laws.piece import LawPiece
+from geometry.series import FACTORIALS, Series
+
+
+class FollowerKind(StrEnum):
+    """Shape of the follower."""
+
+    POINTED = "pointed"
+    ROLLER = "roller"
+    MUSHROOM = "mushroom"
+    FLAT = "flat"
+
+
+@dataclass(frozen=True, slots=True)
+class DiskCam:
+    """A follower's motion, its guide and its shape; ``radius`` of the roller or mushroom, 0 of a point, mm.
+
+    All methods take cam angles (rad) of any shape and are vectorised; at a joint the value from the right.
+    """
+
+    motion: FollowerMotion
+    mount: Mount
+    kind: FollowerKind
+    radius: float = 0.0
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether the follower is a plane."""
+        return self.kind is FollowerKind.FLAT
+
+    def curve(self, piece: LawPiece, grow: float = 0.0) -> CentreEnvelope | FaceEnvelope:
+        """The exact cam over one piece of the motion, over growing cam angle; ``grow`` mm out of the material."""
+        if self.is_flat:
+            return FaceEnvelope(piece, self.mount, piece.start, piece.end, grow)
+        return CentreEnvelope(piece, self.mount, piece.start, piece.end, grow - self.radius)
+
+    def _series(self, angle: Real, order: int) -> Series:
+        return [self.motion.value(angle, k) / FACTORIALS[k] for k in range(order + 1)]
+
+    def reference_point(self, angle: ArrayLike) -> Complex:
+        """Roller centre, point, or the foot of the axis on a flat face, in the fixed frame, mm."""
+        s = self._series(np.asarray(angle, dtype=float), 0)
+        if not self.is_flat:
+            return self.mount.centre(s)[0]
+        height, normal = self.mount.face(s)
+        return height[0] * np.exp(1j * normal[0])
+
+    def normal(self, angle: ArrayLike) -> Complex:
+        """Unit normal of the contact in the fixed frame, from the cam into the follower."""
+        s = self._series(np.asarray(angle, dtype=float), 1)
+        if self.is_flat:
+            return np.exp(1j * self.mount.face(s)[1][0])
+        centre = self.mount.centre(s)
+        path = centre[1] - 1j * centre[0]
+        return 1j * path / np.abs(path)
+
+    def contact(self, angle: ArrayLike) -> Complex:
+        """Contact point in the fixed frame, mm."""
+        at = np.asarray(angle, dtype=float)
+        if not self.is_flat:
+            return self.reference_point(at) - self.radius * self.normal(at)
+        s = self._series(at, 1)
+        height, normal = self.mount.face(s)
+        return np.exp(1j * normal[0]) * (height[0] + 1j * height[1] / (normal[1] - 1.0))
+
+    def profile_point(self, angle: ArrayLike) -> Complex:
+        """The same point in the cam's frame, mm."""
+        at = np.asarray(angle, dtype=float)
+        return self.contact(at) * np.exp(-1j * at)
+
+    def pressure_angle(self, angle: ArrayLike) -> Real:
+        """Signed pressure angle, rad: positive where tan nu = (S' - e)/(s_0 + S) is.
+
+        Between the normal and the velocity of the roller's centre (the point, the flat face's contact) while it
+        rises; of an oscillating roller tan nu = (L (1 + sense psi') - d cos psi)/(d sin psi).
+        """
+        at = np.asarray(angle, dtype=float)
+        point = self.contact(at) if self.is_flat else self.reference_point(at)
+        way = self.mount.velocity(np.ones(np.shape(at)), point)
+        sense = getattr(self.mount, "sense", 1)
+        return sense * np.angle(self.normal(at) / way)
+
+    def pitch_curvature_radius(self, angle: ArrayLike) -> Real:
+        """Radius of curvature of the centre's path, mm, positive where convex; of the cam itself for a flat face.
+
+        Translating roller: (y^2 + (S' - e)^2)^(3/2) / (y^2 - y S'' + (S' - e)(2 S' - e)), y = s_0 + S. Flat:
+        R_b + S + S''.
+        """
+        at = np.asarray(angle, dtype=float)
+        if self.is_flat:
+            whole = FaceEnvelope(self.motion, self.mount, 0.0, TURN)
+            height, normal = whole.support(at, 1)
+            del height
+            return whole.speed(at) / normal[1]
+        with np.errstate(divide="ignore"):
+            return -1 / CentreEnvelope(self.motion, self.mount, 0.0, TURN).pitch_curvature(at)
+
+    def curvature_radius(self, angle: ArrayLike) -> Real:
+        """Radius of curvature of the cam, mm: positive where it is convex, negative where concave."""
+        return self.pitch_curvature_radius(angle) - self.radius
+
+    def face_reach(self) -> tuple[float, float]:
+        """Least and greatest place of the contact on the follower's face, mm along it in its direction +x (or along
+        the arm, towards the pivot): what a flat or mushroom face must at least cover.
+
+        Translating, flat: S'_min and S'_max, from the axis' height line; the stem stands at x = e.
+        """
+        low, high = math.inf, -math.inf
+        for piece in self.motion.pieces:
+            values = self._reach_of(piece)
+            low, high = min(low, float(values.min())), max(high, float(values.max()))
+        return low, high
+
+    def least_plate_diameter(self) -> float:
+        """Least diameter of a round plate about the stem on which the contact of a translating face stays, mm.
+
+        Beyond its edge the follower would ride on the edge and lose lift: the stem's offset counts here.
+        """
+        offset = self.mount.offset if isinstance(self.mount, Translating) and self.is_flat else 0.0
+        low, high = self.face_reach()
+        return 2 * max(abs(high - offset), abs(low - offset))
+
+    def _reach_of(self, piece: LawPiece) -> Real:
+        if self.is_flat and isinstance(self.mount, Translating):
+            return piece.value(piece.extremes(1), 1)
+        t = np.linspace(*piece.domain, 257)
+        if self.is_flat:
+            return -self.mount.sense * FaceEnvelope(piece, self.mount, *piece.domain).reach(t)  # type: ignore[union-attr]
+        return self.radius * np.sin(self.pressure_angle(np.clip(t, piece.start, np.nextafter(piece.end, 0))))
+
+
+def translating_cam(
+    motion: FollowerMotion,
+    kind: FollowerKind,
+    base_circle_radius: float,
+    *,
+    radius: float = 0.0,
+    follower_offset: float = 0.0,
+) -> DiskCam:
+    """A disk cam whose follower moves along +y at x = ``follower_offset``.
+
+    The prime circle R_p = R_b + radius passes through the lowest roller centre: s_0 = sqrt(R_p^2 - e^2). A flat
+    face stands at R_b, and its offset does not enter the profile.
+
+    Raises
+    ------
+    ParameterError
+        A radius that is not positive (of a point: not 0), or an offset beyond the prime circle.
+    """
+    _check_sizes(kind, base_circle_radius, radius)
+    if kind is FollowerKind.FLAT:
+        return DiskCam(motion, Translating(follower_offset, base_circle_radius), kind, 0.0)
+    prime = base_circle_radius + radius
+    if not abs(follower_offset) < prime:
+        remedy = f"must lie inside the prime circle: at most {at_most(prime * (1 - 1e-6))} mm to either side works"
+        raise ParameterError("follower_offset", follower_offset, remedy)
+    height = math.sqrt((prime - follower_offset) * (prime + follower_offset))
+    lowest = motion.extremes()[0]
+    if not height + lowest > 0:
+        remedy = (
+            f"the follower passes the axis; at least {at_least(math.hypot(follower_offset, -lowest) - radius)} works"
+        )
+        raise ParameterError("base_circle_radius", base_circle_radius, remedy)
+    return DiskCam(motion, Translating(follower_offset, height), kind, radius)
+
+
+def oscillating_cam(
+    motion: FollowerMotion,
+    kind: FollowerKind,
+    base_circle_radius: float,
+    *,
+    centre_distance: float,
+    arm_length: float = 0.0,
+    radius: float = 0.0,
+    sense: int = 1,
+    face_offset: float = 0.0,
+) -> DiskCam:
+    """A disk cam whose follower swings about a pivot at x = ``centre_distance``; S is psi - psi_0 in rad.
+
+    ``sense``, ``face_offset``: geometry/cams/mounts.py. psi_0 follows from the base circle.
+
+    Raises
+    ------
+    ParameterError
+        Sizes that do not meet, a swing beyond the line of centres, or a flat follower that turns as fast as the
+        cam or faster, for which no contact exists (1 + sense psi' <= 0).
+    """
+    _check_sizes(kind, base_circle_radius, radius)
+    if sense not in (1, -1):
+        raise ParameterError("sense", sense, "1 (rises against the cam's turning) or -1 (with it) works")
+    if not centre_distance > 0:
+        raise ParameterError("centre_distance", centre_distance, "must be above 0")
+    if kind is FollowerKind.FLAT:
+        if not abs(base_circle_radius + face_offset) < centre_distance:
+            most = centre_distance - face_offset
+            remedy = f"the face must stand nearer to the axis than the pivot; below {at_most(most)} mm works"
+            raise ParameterError("base_circle_radius", base_circle_radius, remedy)
+        start = math.asin((base_circle_radius + face_offset) / centre_distance)
+        slowest = _slowest_turning(motion, sense)
+        if not slowest > 0:
+            remedy = "the flat follower turns as fast as the cam somewhere: less lift or a longer phase works"
+            raise ParameterError("lift", motion.lift, remedy)
+    else:
+        if not arm_length > 0:
+            raise ParameterError("arm_length", arm_length, "must be above 0")
+        start = oscillating_start_angle(base_circle_radius + radius, centre_distance, arm_length)
+    low, high = motion.extremes()
+    if not (start + low > 0 and start + high < math.pi):
+        remedy = "the follower swings beyond the line of centres: less lift or another base circle works"
+        raise ParameterError("lift", motion.lift, remedy)
+    return DiskCam(motion, Oscillating(centre_distance, arm_length, start, sense, face_offset), kind, radius)
+
+
+def _slowest_turning(motion: FollowerMotion, sense: int) -> float:
+    """Least 1 + sense psi' over the turn."""
+    low, high = motion.extremes(1)
+    return 1 + min(sense * low, sense * high)
+
+
+def _check_sizes(kind: FollowerKind, base_circle_radius: float, radius: float) -> None:
+    if not base_circle_radius > 0 or not math.isfinite(base_circle_radius):
+        raise ParameterError("base_circle_radius", base_circle_radius, "must be above 0")
+    if kind in (FollowerKind.ROLLER, FollowerKind.MUSHROOM):
+        if not radius > 0 or not math.isfinite(radius):
+            raise ParameterError("radius", radius, f"a {kind} has a radius above 0")
+    elif radius != 0:
+        raise ParameterError("radius", radius, f"a {kind} follower has none; 0 works")

@@ -1,0 +1,184 @@
+"""Noncircular centrodes: two curves that roll on each other about fixed centres, from a radius or a ratio.
+
+Savvin's (4), (5) with zero relative velocity: the common point lies on the line of centres, r_1 + r_2 = A, and
+d phi_2 / d phi_1 = r_1 / (A - r_1). Both bodies turn against each other (external pair); phi_1, phi_2 > 0 forwards.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from geometry.curve import Complex, Real
+from geometry.errors import ParameterError
+from geometry.motion import Pose
+from geometry.roots import bracketed_root
+from geometry.series import Series, power, quotient
+
+_PANELS, _NODES = 64, 16
+_SAMPLES = 1025
+
+
+class PolarCentrode(Protocol):
+    """r(phi) of period 2 pi, as a Taylor series."""
+
+    def series(self, angle: Real, order: int) -> Series:
+        """Taylor coefficients 0 to ``order`` of the radius, mm."""
+
+
+def _cosine(angle: Real, order: int, times: int) -> Series:
+    """Taylor coefficients of cos(times angle)."""
+    return [times**k * np.cos(times * angle + k * math.pi / 2) / math.factorial(k) for k in range(order + 1)]
+
+
+@dataclass(frozen=True, slots=True)
+class FocalEllipse:
+    """Ellipse about a focus, r = a (1 - e^2)/(1 - e cos phi), from its long radius; rolls on its equal at A = 2a."""
+
+    semi_axis: float
+    eccentricity: float
+
+    def series(self, angle: Real, order: int) -> Series:
+        """Taylor coefficients of the radius."""
+        under = [-self.eccentricity * x for x in _cosine(angle, order, 1)]
+        under[0] = under[0] + 1.0
+        return [self.semi_axis * (1 - self.eccentricity**2) * x for x in power(under, -1.0)]
+
+    def mate_angle(self, angle: ArrayLike) -> Real:
+        """phi_2 by tan(phi_2/2) = (1 + e)/(1 - e) tan(phi_1/2), rad, continuous."""
+        half = np.asarray(angle, dtype=float) / 2
+        ratio = (1 + self.eccentricity) / (1 - self.eccentricity)
+        return 2 * _stretched(half, ratio)
+
+
+@dataclass(frozen=True, slots=True)
+class Oval:
+    """Two-lobed oval r = 2ab/((a + b) - (a - b) cos 2 phi), from its long radius a; rolls on its equal at A = a + b."""
+
+    long_radius: float
+    short_radius: float
+
+    def series(self, angle: Real, order: int) -> Series:
+        """Taylor coefficients of the radius."""
+        a, b = self.long_radius, self.short_radius
+        under = [-(a - b) * x for x in _cosine(angle, order, 2)]
+        under[0] = under[0] + (a + b)
+        return [2 * a * b * x for x in power(under, -1.0)]
+
+    def mate_angle(self, angle: ArrayLike) -> Real:
+        """phi_2 by tan(phi_2) = (a/b) tan(phi_1), rad, continuous."""
+        return _stretched(np.asarray(angle, dtype=float), self.long_radius / self.short_radius)
+
+
+def _stretched(angle: Real, ratio: float) -> Real:
+    """atan(ratio tan(angle)) on the angle's own branch."""
+    turns = np.round(angle / math.pi) * math.pi
+    rest = angle - turns
+    return turns + np.arctan2(ratio * np.sin(rest), np.cos(rest))
+
+
+@dataclass(frozen=True, slots=True)
+class RatioCentrode:
+    """The centrode of a ratio function d phi_2 / d phi_1 > 0, given as a Taylor series: r = A i/(1 + i)."""
+
+    ratio: Callable[[Real, int], Series]
+    centre_distance: float
+
+    def series(self, angle: Real, order: int) -> Series:
+        """Taylor coefficients of the radius."""
+        ratio = self.ratio(angle, order)
+        over = [self.centre_distance * x for x in ratio]
+        return quotient(over, [ratio[0] + 1.0, *ratio[1:]])
+
+
+@dataclass(frozen=True, slots=True)
+class CentrodePair:
+    """A centrode and its mate at a centre distance; the first turns about 0, the second about +A."""
+
+    first: PolarCentrode
+    centre_distance: float
+
+    def ratio(self, angle: ArrayLike) -> Real:
+        """d phi_2 / d phi_1 = r_1/(A - r_1).
+
+        Raises
+        ------
+        ParameterError
+            The first centrode reaches the other centre.
+        """
+        radius = self.first.series(np.asarray(angle, dtype=float), 0)[0]
+        if not np.all(radius < self.centre_distance):
+            least = float(np.max(radius))
+            raise ParameterError(
+                "centre_distance", self.centre_distance, f"must be above the largest radius, {least:.6g}"
+            )
+        return radius / (self.centre_distance - radius)
+
+    def mate_angle(self, angle: ArrayLike) -> Real:
+        """phi_2, rad: the integral of the ratio by Gauss' rule on panels, to rounding for smooth centrodes."""
+        at = np.atleast_1d(np.asarray(angle, dtype=float))
+        nodes, weights = np.polynomial.legendre.leggauss(_NODES)
+        edges = at[:, None] * np.linspace(0, 1, _PANELS + 1)
+        half = np.diff(edges)[..., None] / 2
+        t = (edges[:, :-1, None] + edges[:, 1:, None]) / 2 + half * nodes
+        return np.sum(self.ratio(t) * weights * half, axis=(1, 2)).reshape(np.shape(angle))
+
+    def mate_turns(self) -> float:
+        """Turns of the second body for one of the first: a whole number over a whole number where both close."""
+        return float(self.mate_angle(2 * math.pi)) / (2 * math.pi)
+
+    def pose(self, t: Real, order: int) -> Pose:
+        """The second body as a motion over phi_1 (the first one is Rotation(1.0)): it turns clockwise about +A."""
+        radius = self.first.series(np.asarray(t, dtype=float), max(order - 1, 0))
+        rest = [self.centre_distance - radius[0], *(-x for x in radius[1:])]
+        rate = quotient(radius, rest)
+        angle = [-self.mate_angle(t), *(-rate[k] / (k + 1) for k in range(order))]
+        zero = 0.0 * np.asarray(t, dtype=float)
+        return [self.centre_distance + zero, *([zero] * order)], angle
+
+    def mate_point(self, angle: ArrayLike) -> Complex:
+        """The second centrode in its own body's frame, which agrees with the fixed axes at phi_1 = 0."""
+        at = np.asarray(angle, dtype=float)
+        radius = self.centre_distance - self.first.series(at, 0)[0]
+        return -radius * np.exp(1j * self.mate_angle(at))
+
+    def is_convex(self) -> tuple[bool, bool]:
+        """Whether each centrode is convex: r^2 + 2 r'^2 - r r'' > 0 at 1025 angles, for the second one over phi_2."""
+        t = np.linspace(0, 2 * math.pi, _SAMPLES)
+        r = self.first.series(t, 2)
+        first = r[0] ** 2 + 2 * r[1] ** 2 - 2 * r[0] * r[2]
+        # of the second: derivatives over phi_2 by the chain rule, d phi_1 = d phi_2 (A - r)/r
+        q = self.centre_distance - r[0]
+        slow = q / r[0]
+        rate = -r[1] * slow
+        second = slow * (-2 * r[2] * slow + r[1] ** 2 * self.centre_distance / r[0] ** 2)
+        return bool(np.all(first > 0)), bool(np.all(q**2 + 2 * rate**2 - q * second > 0))
+
+
+def closing_distance(first: PolarCentrode, mate_turns: float) -> float:
+    """The centre distance at which the mate turns ``mate_turns`` times for one turn of the first, mm.
+
+    Raises
+    ------
+    ParameterError
+        ``mate_turns`` is not positive.
+    """
+    if not mate_turns > 0:
+        raise ParameterError("mate_turns", mate_turns, "must be above 0, a whole number or one over it")
+    largest = float(np.max(first.series(np.linspace(0, 2 * math.pi, _SAMPLES), 0)[0]))
+
+    def excess(logarithm: float) -> float:
+        pair = CentrodePair(first, largest * (1 + math.exp(logarithm)))
+        return math.log(pair.mate_turns() / mate_turns)
+
+    low, high = -12.0, 3.0
+    while excess(high) > 0 and high < 30:
+        high += 3
+    if excess(low) < 0:
+        raise ParameterError("mate_turns", mate_turns, f"at most {math.exp(excess(low)) * mate_turns:.6g} turns work")
+    return largest * (1 + math.exp(bracketed_root(excess, low, high).value))

@@ -1,0 +1,379 @@
+"""The part kind ``cam``: a disk cam for a pointed, roller, mushroom or flat follower."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from msgspec import Meta, Struct
+
+from geometry.errors import GeometryError, OffsetError, ParameterError, UndercutError, at_least
+from geometry.findings import Finding
+from geometry.gears.offset_tooth import OffsetRegion
+from geometry.hub_holes import HubHoles
+from geometry.profile import Profile, Region
+from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
+from parts.cam_keys import PhaseTable, motion_of
+from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes
+from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, mm
+from parts.materials import density_of
+from parts.part import Part
+from parts.wheel_keys import FaceChamfer, FaceChamferTable, HubTable, wheel_shape
+
+if TYPE_CHECKING:
+    from geometry.cams.disk import DiskCam
+    from geometry.cams.follower_motion import FollowerMotion
+
+_MOST = 100_000.0
+_BISECTIONS = 40
+# usual limits of the pressure angle: translating 30, swinging 45 degrees (practicum: 30 to 35, 40 to 50)
+_USUAL_PRESSURE_ANGLE = {False: 30.0, True: 45.0}
+# rollers are kept below this share of the least convex radius of the pitch curve
+_USUAL_ROLLER_SHARE = 0.8
+
+
+class OscillatingTable(Struct, forbid_unknown_fields=True):
+    """A follower that swings about a pivot on +x."""
+
+    centre_distance: Annotated[float, mm("from the cam's axis to the pivot", above=0, most=_MOST)]
+    arm_length: Annotated[float, mm("from the pivot to the roller's centre; not for flat", least=0, most=_MOST)] = 0.0
+    sense: Annotated[
+        Literal["against", "with"], Meta(description="how the follower rises: against or with the cam's turning")
+    ] = "against"
+    face_offset: Annotated[float, mm("flat face nearer to the axis than the pivot", least=-_MOST, most=_MOST)] = 0.0
+
+
+class CamSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="cam"):
+    """Disk cam; it turns counter-clockwise, cam angle 0 is the start of the first phase."""
+
+    follower: Annotated[
+        Literal["pointed", "roller", "mushroom", "flat"], Meta(description="shape of the follower's end")
+    ]
+    lift: Annotated[float, mm("lift H of a translating follower", least=0, most=_MOST)] = 0.0
+    swing_deg: Annotated[
+        float, Meta(ge=0, lt=180, description="swing of an oscillating follower", extra={"unit": "degrees"})
+    ] = 0.0
+    phases: Annotated[list[PhaseTable], Meta(min_length=1, max_length=100)] | None = None
+    motion_table: (
+        Annotated[
+            list[tuple[float, float]],
+            Meta(min_length=3, max_length=2000, description="in place of phases: [cam angle deg, lift mm or deg]"),
+        ]
+        | None
+    ) = None
+    follower_radius: Annotated[float, mm("radius of the roller or mushroom", least=0, most=_MOST)] = 0.0
+    follower_offset: Annotated[float, mm("line of motion at x = e; e > 0 eases the rise", least=-_MOST, most=_MOST)] = (
+        0.0
+    )
+    plate_diameter: (
+        Annotated[float, mm("round plate of a translating flat or mushroom follower", above=0, most=_MOST)] | None
+    ) = None
+    oscillating: OscillatingTable | None = None
+    base_circle_radius: (
+        Annotated[float, mm("base circle; default: the least by least_transmission_angle_deg", above=0, most=_MOST)]
+        | None
+    ) = None
+    least_transmission_angle_deg: (
+        Annotated[
+            float,
+            Meta(gt=0, lt=90, description="gamma_min = 90 - pressure angle; flat: 45", extra={"unit": "degrees"}),
+        ]
+        | None
+    ) = None
+    least_curvature_radius: Annotated[float, mm("rho: least convex radius of the cam", least=0, most=_MOST)] = 0.0
+    face_width: FaceWidth = 10.0
+    bore_diameter: BoreDiameter = 0.0
+    bore: BoreTable | None = None
+    holes: HolesTable | list[HolesTable] | None = None
+    hub: HubTable | None = None
+    face_chamfer: FaceChamfer | FaceChamferTable = 0.0
+    material: Material | None = None
+    density: Density | None = None
+    colour: Colour | None = None
+
+
+def checked_cam(spec: CamSpec) -> DiskCam:
+    """The cam of a part, checked to exist and to move its follower all the way.
+
+    Raises
+    ------
+    ParameterError
+        Names the key and what would work; an undercut cam is told the base circle that is large enough.
+    """
+    from geometry.cams.undercut import kept_arcs
+
+    cam = _cam_of(spec)
+    try:
+        gaps = kept_arcs(cam).gaps
+    except UndercutError:
+        gaps, lost = None, "all of the profile"
+    if gaps:
+        lost = f"{max(g.lost_lift for g in gaps):.4g} {'rad' if spec.oscillating else 'mm'} of lift"
+    if gaps is None or gaps:
+        raise UndercutError(
+            "base_circle_radius", base_radius(cam), f"the cam is undercut and loses {lost}; {_whole(spec, cam)}"
+        )
+    _check_plate(spec, cam)
+    _check_bore(spec, cam)
+    check_wheel(_shape_of(spec), 2 * inner_radius(cam), _holes_of(spec))
+    return cam
+
+
+def cam_part(part_id: str, spec: CamSpec, cam: DiskCam) -> Part:
+    """The part of a cam; sections are computed when an export asks."""
+    holes, shape = _holes_of(spec), _shape_of(spec)
+    section = lru_cache(maxsize=8)(lambda offset: _section(cam, holes, offset))
+
+    def outline(offset: float, depth: float) -> Profile:
+        return section(offset).region.outer if depth == 0 else _outline(cam, offset - depth)
+
+    sections = wheel_sections(outline, inner_radius(cam), holes)
+    return Part(
+        part_id,
+        "cam",
+        section,
+        lru_cache(maxsize=2)(lambda offset: wheel_body(shape, sections, offset)),
+        spec.face_width,
+        shape.is_plate,
+        _findings(spec, cam),
+        _circles(cam),
+        _quantities(spec, cam),
+        spec.material,
+        spec.colour,
+        spec.density or density_of(spec.material),
+    )
+
+
+def base_radius(cam: DiskCam) -> float:
+    """Radius of the base circle, mm."""
+    return float(abs(cam.reference_point(0.0))) - cam.radius
+
+
+def inner_radius(cam: DiskCam) -> float:
+    """The largest circle about the axis inside the cam, mm: that of the lowest follower."""
+    import numpy as np
+
+    angles = np.concatenate([p.extremes(0) for p in cam.motion.pieces])
+    # both sides of every joint are the same in S
+    return float(np.abs(cam.reference_point(angles)).min()) - cam.radius
+
+
+def _cam_of(spec: CamSpec) -> DiskCam:
+    from geometry.cams.disk import FollowerKind, oscillating_cam, translating_cam
+
+    swing = spec.oscillating
+    if (spec.lift if swing else spec.swing_deg) != 0:
+        key, other = ("lift", "swing_deg") if swing else ("swing_deg", "lift")
+        raise ParameterError(key, getattr(spec, key), f"this follower has {other} instead; 0 works")
+    scale = math.radians(1.0) if swing else 1.0
+    table = None if spec.motion_table is None else [(a, s * scale) for a, s in spec.motion_table]
+    lift = math.radians(spec.swing_deg) if swing else spec.lift
+    motion = motion_of(spec.phases, table, lift, "swing_deg" if swing else "lift")
+    kind = FollowerKind(spec.follower)
+    base = spec.base_circle_radius
+    try:
+        if swing is None:
+            base = _least_base(spec, motion) if base is None else base
+            return translating_cam(
+                motion, kind, base, radius=spec.follower_radius, follower_offset=spec.follower_offset
+            )
+        if base is None:
+            raise ParameterError("base_circle_radius", None, "is missing: an oscillating follower needs it")
+        if spec.follower_offset:
+            raise ParameterError("follower_offset", spec.follower_offset, "an oscillating follower has none; 0 works")
+        return oscillating_cam(
+            motion,
+            kind,
+            base,
+            centre_distance=swing.centre_distance,
+            arm_length=swing.arm_length,
+            radius=spec.follower_radius,
+            sense=1 if swing.sense == "against" else -1,
+            face_offset=swing.face_offset,
+        )
+    except ParameterError as refusal:
+        raise _in_keys(spec, refusal) from refusal
+
+
+def _in_keys(spec: CamSpec, refusal: ParameterError) -> ParameterError:
+    """A refusal of the mathematics under the name of the scene's key."""
+    swing = spec.oscillating is not None
+    names = {"radius": "follower_radius"} | ({"lift": "swing_deg"} if swing else {})
+    if swing:
+        names |= {key: f"oscillating.{key}" for key in ("centre_distance", "arm_length", "face_offset", "sense")}
+    value = math.degrees(refusal.value) if refusal.name == "lift" and swing else refusal.value  # type: ignore[arg-type]
+    return ParameterError(names.get(refusal.name, refusal.name), value, refusal.allowed)
+
+
+def _least_base(spec: CamSpec, motion: FollowerMotion) -> float:
+    """The base circle by the textbook's condition: r_0 + rho of a flat face, r_0 - r of a roller."""
+    from geometry.cams.synthesis import convex_roller_base_radius, flat_base_radius, roller_prime_radius
+
+    angle = spec.least_transmission_angle_deg
+    if angle is None:
+        remedy = "is missing; give it, or least_transmission_angle_deg, from which the least one follows"
+        raise ParameterError("base_circle_radius", None, remedy)
+    if spec.follower == "flat":
+        if angle != 45:
+            remedy = "a flat face always pushes along its normal; 45 stands for the tangent's slope in S(S'') and works"
+            raise ParameterError("least_transmission_angle_deg", angle, remedy)
+        return max(flat_base_radius(motion, spec.least_curvature_radius).value, 1e-3 * motion.lift)
+    prime = roller_prime_radius(motion, spec.follower_offset, math.radians(90 - angle))
+    base = prime - spec.follower_radius
+    if not base > 0:
+        remedy = f"the prime circle is {prime:.6g} mm only; a smaller roller or a base_circle_radius works"
+        raise ParameterError("follower_radius", spec.follower_radius, remedy)
+    if spec.follower == "pointed":
+        return base
+    rho = spec.least_curvature_radius
+    return max(base, convex_roller_base_radius(motion, spec.follower_radius, rho, follower_offset=spec.follower_offset))
+
+
+def _whole(spec: CamSpec, cam: DiskCam) -> str:
+    """What base circle leaves the cam whole, in words."""
+    from geometry.cams.undercut import is_whole
+
+    def works(base: float) -> bool:
+        try:
+            from msgspec.structs import replace
+
+            return is_whole(_cam_of(replace(spec, base_circle_radius=base)))
+        except GeometryError:
+            return False
+
+    low = base_radius(cam)
+    high = 2 * low
+    for _ in range(12):
+        if works(high):
+            break
+        high *= 1.5
+    else:
+        return "a smaller lift, longer phases or a smaller follower_radius work"
+    for _ in range(_BISECTIONS):
+        middle = (low + high) / 2
+        low, high = (low, middle) if works(middle) else (middle, high)
+    return f"at least {at_least(high, 4)} mm works"
+
+
+def _holes_of(spec: CamSpec) -> HubHoles:
+    if spec.bore is not None and spec.bore_diameter > 0:
+        raise ParameterError("bore_diameter", spec.bore_diameter, "give either bore_diameter or bore; 0 works")
+    bore = RoundBoreTable(spec.bore_diameter) if spec.bore_diameter > 0 else spec.bore
+    return hub_holes(bore, spec.holes, None)
+
+
+def _shape_of(spec: CamSpec) -> WheelShape:
+    return wheel_shape(spec.face_width, None, spec.hub, spec.face_chamfer)
+
+
+def _check_plate(spec: CamSpec, cam: DiskCam) -> None:
+    """The contact stays on the follower's face."""
+    if spec.plate_diameter is None:
+        return
+    if spec.follower not in ("flat", "mushroom") or spec.oscillating is not None:
+        raise ParameterError(
+            "plate_diameter", spec.plate_diameter, "is for translating flat and mushroom followers only"
+        )
+    least = cam.least_plate_diameter()
+    if not spec.plate_diameter >= least:
+        remedy = f"the contact runs over the plate's edge; at least {at_least(least, 4)} mm works"
+        raise ParameterError("plate_diameter", spec.plate_diameter, remedy)
+
+
+def _check_bore(spec: CamSpec, cam: DiskCam) -> None:
+    """The holes stay inside the circle that is surely material."""
+    holes, inside = _holes_of(spec), inner_radius(cam)
+    if not holes.bore_reach < inside:
+        key = "bore_diameter" if spec.bore_diameter > 0 else "bore.diameter"
+        value = spec.bore_diameter or 2 * holes.bore_reach
+        raise ParameterError(key, value, f"leaves no wall to the base circle; below {2 * inside:.6g} mm works")
+    if holes.reach > inside:
+        remedy = f"the holes must stay inside the base circle: within {inside:.6g} mm of the axis works"
+        raise ParameterError("holes", 2 * holes.reach, remedy)
+
+
+def _outline(cam: DiskCam, offset: float) -> Profile:
+    from geometry.cams.shape import cam_shape
+
+    return cam_shape(cam, offset).profile
+
+
+def _section(cam: DiskCam, holes: HubHoles, offset: float) -> OffsetRegion:
+    """The exact section with every boundary moved out of the material."""
+    from geometry.cams.shape import cam_shape
+
+    inside = inner_radius(cam)
+    if not inside + offset > holes.reach - offset:
+        raise OffsetError(offset, "leaves no rim", (holes.reach - inside) / 2 * (1 - 1e-9))
+    try:
+        shape = cam_shape(cam, offset)
+    except GeometryError as refusal:
+        raise OffsetError(offset, "leaves no outline", _nearest_offset(cam, offset)) from refusal
+    found = (Finding("outline_trimmed", float(len(shape.gaps)), offset),) if shape.gaps else ()
+    return OffsetRegion(Region(shape.profile, holes.profiles(offset)), offset, found)
+
+
+def _nearest_offset(cam: DiskCam, refused: float) -> float:
+    works, fails = 0.0, refused
+    for _ in range(24):
+        middle = (works + fails) / 2
+        try:
+            _outline(cam, middle)
+            works = middle
+        except GeometryError:
+            fails = middle
+    return works
+
+
+def _circles(cam: DiskCam) -> dict[str, float]:
+    circles = {"base_circle_diameter": 2 * base_radius(cam)}
+    if cam.radius > 0:
+        circles["prime_circle_diameter"] = 2 * (base_radius(cam) + cam.radius)
+    return circles
+
+
+def _quantities(spec: CamSpec, cam: DiskCam) -> dict[str, float]:
+    from geometry.cams.follower_motion import PhaseKind
+    from geometry.cams.synthesis import greatest_pressure_angle, least_convex_radius
+
+    found: dict[str, float] = {}
+    if spec.oscillating is None:
+        found["lift"] = cam.motion.lift
+    else:
+        found["swing_deg"] = math.degrees(cam.motion.lift)
+        found["start_angle_deg"] = math.degrees(cam.mount.start_angle)  # type: ignore[union-attr]
+    if cam.radius > 0:
+        found["follower_radius"] = cam.radius
+    if spec.oscillating is None and not cam.is_flat:
+        found["follower_offset"] = spec.follower_offset
+    for kind in (PhaseKind.RISE, PhaseKind.RETURN):
+        if cam.motion.moving_pieces(kind):
+            name = f"pressure_angle_{'rise' if kind is PhaseKind.RISE else 'return'}_deg"
+            found[name] = math.degrees(greatest_pressure_angle(cam, kind).value)
+    found["least_curvature_radius"] = least_convex_radius(cam).value
+    if cam.kind in ("flat", "mushroom"):
+        found["face_from"], found["face_to"] = cam.face_reach()
+        if spec.oscillating is None:
+            found["least_plate_diameter"] = cam.least_plate_diameter()
+    return found
+
+
+def _findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
+    from geometry.cams.follower_motion import PhaseKind
+    from geometry.cams.synthesis import greatest_pressure_angle, least_convex_radius
+
+    found = []
+    for impact, order in (("rigid", 1), ("soft", 2)):
+        jumps = [(abs(j.jumps[order]), math.degrees(j.angle)) for j in cam.motion.impacts() if j.impact == impact]
+        if jumps:
+            size, angle = max(jumps)
+            found.append(Finding(f"{impact}_impact", size, angle))
+    swings = spec.oscillating is not None
+    steepest = math.degrees(greatest_pressure_angle(cam, PhaseKind.RISE).value)
+    if steepest > _USUAL_PRESSURE_ANGLE[swings] + 1e-9:
+        found.append(Finding("steep_pressure_angle", steepest, _USUAL_PRESSURE_ANGLE[swings]))
+    pitch = least_convex_radius(cam).value + cam.radius
+    if cam.kind == "roller" and cam.radius > _USUAL_ROLLER_SHARE * pitch:
+        found.append(Finding("large_roller", cam.radius, _USUAL_ROLLER_SHARE * pitch))
+    return tuple(found)

@@ -1,0 +1,310 @@
+"""The part kind ``cam``: built-in scenes, refusals with a remedy that works, and the follower rolled over the files."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+from typing import Any, get_args
+
+import ezdxf
+import numpy as np
+import pytest
+
+from exporters.cli import main
+from geometry.cams.disk import DiskCam
+from geometry.cams.follower_motion import PhaseKind
+from geometry.cams.mounts import Translating
+from geometry.cams.synthesis import greatest_pressure_angle
+from geometry.measure import distance_to_profile
+from geometry.motion_laws.named import NAMED_LAWS
+from parts.cam import CamSpec, checked_cam
+from parts.cam_keys import LawName
+from parts.part import Part
+from parts.scene import load_scene, make_parts, scene_from_toml
+from parts.schema import SceneError
+from tests.exporters.making import read_report, toml
+from tests.geometry.cams.oracle import followed
+
+PHASES = [
+    {"move": "rise", "angle_deg": 120.0, "law": "sine"},
+    {"move": "dwell", "angle_deg": 40.0},
+    {"move": "return_", "angle_deg": 130.0, "law": "polynomial_345"},
+    {"move": "dwell", "angle_deg": 70.0},
+]
+STEEP = [PHASES[0] | {"angle_deg": 55.0}, PHASES[1], PHASES[2] | {"angle_deg": 70.0}, PHASES[3] | {"angle_deg": 195.0}]
+ROLLER: dict[str, Any] = {"kind": "cam", "follower": "roller", "lift": 20.0, "phases": PHASES, "follower_radius": 8.0,
+                          "base_circle_radius": 35.0, "bore_diameter": 12.0}  # fmt: skip
+SWING = {"centre_distance": 95.0, "arm_length": 80.0}
+CAMS: dict[str, dict[str, Any]] = {
+    "roller": ROLLER | {"follower_offset": 5.0},
+    "pointed": ROLLER | {"follower": "pointed", "follower_radius": 0.0},
+    "mushroom": ROLLER | {"follower": "mushroom", "follower_radius": 70.0},
+    "flat": ROLLER | {"follower": "flat", "follower_radius": 0.0, "base_circle_radius": 42.0},
+    "oscillating roller": ROLLER | {"lift": 0.0, "swing_deg": 18.0, "oscillating": SWING},
+    "oscillating flat": ROLLER | {"lift": 0.0, "swing_deg": 12.0, "follower": "flat", "follower_radius": 0.0,
+                                  "oscillating": {"centre_distance": 95.0, "sense": "with", "face_offset": 4.0}},
+}  # fmt: skip
+
+
+def scene_text(keys: dict[str, Any], tail: str = "") -> str:
+    def value(x: Any) -> str:
+        return (
+            f"[{', '.join(value(y) for y in x)}]"
+            if isinstance(x, list)
+            else toml(x)
+            if not isinstance(x, dict)
+            else _table(x)
+        )
+
+    def _table(x: dict[str, Any]) -> str:
+        return "{ " + ", ".join(f"{k} = {value(v)}" for k, v in x.items()) + " }"
+
+    lines = ["[parts.cam]", *(f"{k} = {value(v)}" for k, v in keys.items())]
+    return "\n".join([*lines, '[[exports]]\nformat = "dxf"', tail, ""])
+
+
+def part_of(keys: dict[str, Any]) -> Part:
+    return make_parts(scene_from_toml(scene_text(keys).encode(), "s.toml", "s"), "s.toml")[0]["cam"]
+
+
+def cam_of(name_or_keys: str | dict[str, Any]) -> DiskCam:
+    """The cam of a built-in scene or of keys."""
+    if isinstance(name_or_keys, str):
+        spec = load_scene(name_or_keys).parts["cam"]
+    else:
+        spec = scene_from_toml(scene_text(name_or_keys).encode(), "s.toml", "s").parts["cam"]
+    assert isinstance(spec, CamSpec)
+    return checked_cam(spec)
+
+
+def test_scenes_know_every_named_law() -> None:
+    assert get_args(LawName) == tuple(NAMED_LAWS)
+
+
+def test_the_practicums_cams_have_the_least_sizes() -> None:
+    """Lessons 4 and 5: r_0 of the taken laws, recomputed at 40 digits; R_min = r_0 + 10 of the flat one."""
+    flat, roller = cam_of("practicum_flat_cam"), cam_of("practicum_roller_cam")
+    assert isinstance(flat.mount, Translating)
+    assert flat.mount.start_height == pytest.approx(30.26159019146893, rel=1e-12)
+    assert flat.motion.lift == pytest.approx(38, rel=1e-14)
+    assert abs(complex(roller.reference_point(0.0))) == pytest.approx(25.176679221264166, rel=1e-12)
+    assert roller.motion.lift == pytest.approx(30, rel=1e-14)
+    assert greatest_pressure_angle(roller, PhaseKind.RISE).value == pytest.approx(math.radians(30), abs=1e-12)
+    ends = [math.degrees(p.angle) for p in roller.motion.phases]
+    assert ends == pytest.approx([130, 50, 130, 50])
+
+
+def test_the_guidelines_cam() -> None:
+    cam = cam_of("guidelines_cam")
+    assert isinstance(cam.mount, Translating)
+    assert cam.mount.start_height == pytest.approx(45.81466903731541 + 10, rel=1e-12)
+    assert float(cam.motion.value(math.radians(90 * 3 / 8))) == pytest.approx(10.125, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", CAMS)
+def test_sections_move_outwards_by_the_offset(name: str) -> None:
+    part = part_of(CAMS[name])
+    plain = part.section(0.0).region
+    for offset in (-0.4, 0.4):
+        moved = part.section(offset).region
+        points = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 33)) for s in moved.outer.segments()])
+        assert np.allclose(distance_to_profile(points, plain.outer), 0.4, atol=1e-9)
+        assert abs(complex(moved.holes[0].period[0].curve.point(0.0))) == pytest.approx(6 - offset)
+
+
+def polyline(file: Path) -> np.ndarray:
+    """The outer contour of a laser DXF, its arcs finely flattened by ezdxf."""
+    space = ezdxf.readfile(file).modelspace()
+    outline = next(e for e in space.query("LWPOLYLINE") if e.dxf.layer == "CUT_OUTER")
+    path = ezdxf.path.make_path(outline)
+    return np.array([complex(p.x, p.y) for p in path.flattening(1e-6)])
+
+
+@pytest.mark.parametrize("name", ["roller", "flat", "mushroom", "oscillating roller", "oscillating flat"])
+def test_the_follower_rolled_over_the_file_lifts_as_it_should(name: str, tmp_path: Path) -> None:
+    """|dS| <= tolerance / cos nu; of a swinging follower, over the arm of the contact."""
+    scene = tmp_path / "s.toml"
+    scene.write_text(scene_text(CAMS[name]), encoding="utf-8")
+    assert main(["build", str(scene), "--out", str(tmp_path / "o")]) == 0
+    report = read_report(tmp_path / "o" / "s")
+    declared = report["files"][0]["max_error"]
+    assert declared <= 0.005
+    outline = polyline(tmp_path / "o" / "s" / "cam.dxf")
+    cam = cam_of(CAMS[name])
+    worst = 0.0
+    for angle in np.linspace(0, 2 * math.pi, 181):
+        if isinstance(cam.mount, Translating):
+            start, arm = cam.mount.start_height, math.cos(float(cam.pressure_angle(angle)))
+        else:
+            start = cam.mount.start_angle
+            point = complex(cam.reference_point(angle) if not cam.is_flat else cam.contact(angle))
+            arm = abs(point - cam.mount.centre_distance) * math.cos(float(cam.pressure_angle(angle)))
+        error = abs(start + float(cam.motion.value(angle)) - followed(cam, outline, float(angle)))
+        assert error * arm <= declared * 1.01 + 2e-6
+        worst = max(worst, error * arm)
+    assert worst >= 0.2 * declared
+
+
+@pytest.mark.parametrize("name", ["concave", "oscillating roller"])
+def test_every_format_is_written_and_read_back(name: str, tmp_path: Path) -> None:
+    keys = CAMS.get(name, ROLLER | {"base_circle_radius": 18.0, "lift": 25.0})
+    formats = ["svg", "stl", "3mf"]
+    tail = (
+        "".join(f'[[exports]]\nformat = "{f}"\n' for f in formats)
+        + '[[exports]]\nformat = "dxf"\npurpose = "drawing"\n'
+    )
+    scene = tmp_path / "s.toml"
+    scene.write_text(scene_text(keys, tail), encoding="utf-8")
+    assert main(["build", str(scene), "--out", str(tmp_path / "o")]) == 0
+    files = read_report(tmp_path / "o" / "s")["files"]
+    assert {f["format"] for f in files} == {"dxf", "svg", "stl", "3mf"}
+    assert all(f["verified"] and f["measured"]["max_deviation"] <= f["max_error"] for f in files)
+
+
+def test_own_diagrams_and_tables() -> None:
+    half = {"shape": "half_sine", "width": 1.0, "peak": 1.0}
+    down = {"shape": "half_sine", "width": 1.0, "peak": -1.0}
+    law = {"diagram": [half, down]}
+    phases = [PHASES[0] | {"law": law}, *PHASES[1:]]
+    angle = np.linspace(0, 2 * math.pi, 99)
+    assert np.allclose(cam_of(ROLLER | {"phases": phases}).profile_point(angle), cam_of(ROLLER).profile_point(angle))
+    every = [
+        {"shape": "constant", "width": 1.0, "ordinate": 1.0},
+        {"shape": "linear", "width": 1.0, "first": 1.0, "last": 0.5},
+        {"shape": "quarter_sine", "width": 1.0, "peak": 2.0},
+        {"shape": "quarter_cosine", "width": 1.0, "peak": 2.0},
+        {"shape": "half_cosine", "width": 1.0, "first": 1.0, "last": -1.0},
+        {"shape": "points", "width": 1.0, "points": [[0.0, -1.0], [0.5, -2.0], [1.0, -1.0]]},
+        {"shape": "trapezoid", "width": 5.0, "ordinate": -1.0, "up": 0.2},
+    ]
+    shared = [PHASES[0] | {"law": {"diagram": every, "balance": True}, "share": 0.5, "angle_deg": 60.0},
+              {"move": "rise", "angle_deg": 60.0, "law": "sine", "share": 0.5}, *PHASES[1:]]  # fmt: skip
+    cam = cam_of(ROLLER | {"phases": shared, "base_circle_radius": 60.0})
+    assert float(cam.motion.value(math.radians(60))) == pytest.approx(10)
+    table = [[a, 10 - 10 * math.cos(math.radians(a))] for a in range(0, 360, 10)]
+    read = {k: v for k, v in ROLLER.items() if k not in ("phases", "lift")} | {"motion_table": table}
+    assert cam_of(read).motion.lift == pytest.approx(20, rel=1e-4)
+
+
+def test_a_chamfered_hub_and_keyway() -> None:
+    keys = ROLLER | {"bore_diameter": 0.0, "bore": {"shape": "keyway", "diameter": 16.0}, "face_chamfer": 0.5,
+                     "hub": {"diameter": 34.0, "above": 6.0}}  # fmt: skip
+    part = part_of(keys)
+    assert not part.is_plate
+    mesh = part.to_trimesh()
+    assert mesh.is_watertight
+    assert mesh.bounds[1][2] == pytest.approx(16.0)
+
+
+def test_notes_on_impacts_rollers_and_pressure() -> None:
+    jerky = [p | ({"law": "constant_velocity"} if p["move"] == "rise" else {}) for p in PHASES]
+    codes = {
+        f.code for f in part_of(ROLLER | {"follower": "pointed", "follower_radius": 0.0, "phases": jerky}).findings
+    }
+    assert "rigid_impact" in codes
+    codes = {f.code for f in part_of(ROLLER | {"base_circle_radius": 12.0, "bore_diameter": 0.0}).findings}
+    assert "steep_pressure_angle" in codes
+    assert part_of(ROLLER).findings == ()
+
+
+def without(key: str) -> dict[str, Any]:
+    return {k: v for k, v in ROLLER.items() if k != key}
+
+
+LEVEL = {"shape": "constant", "width": 1.0, "ordinate": 1.0}
+# keys, the key that is blamed, words of the remedy
+WRONG: dict[str, tuple[dict[str, Any], str, str]] = {
+    "no motion": (without("phases"), "phases", "motion_table"),
+    "no lift": (ROLLER | {"lift": 0.0}, "lift", "above 0"),
+    "no law": (ROLLER | {"phases": [{"move": "rise", "angle_deg": 180.0}, *PHASES[2:]]}, "phases.item 1.law", "sine"),
+    "dwell with a law": (ROLLER | {"phases": [*PHASES[:3], PHASES[3] | {"law": "sine"}]}, "phases.item 4", "dwell"),
+    "phases of 290 degrees": (ROLLER | {"phases": PHASES[:3]}, "phases", "+70 degrees works"),
+    "never back": (ROLLER | {"phases": [*PHASES[:3], PHASES[0] | {"angle_deg": 70.0}]}, "phases", "come back"),
+    "unknown law": (ROLLER | {"phases": [PHASES[0] | {"law": "sinus"}, *PHASES[1:]]}, "phases.item 1.law", ""),
+    "open diagram": (ROLLER | {"phases": [PHASES[0] | {"law": {"diagram": [LEVEL]}}, *PHASES[1:]]},
+                     "phases.item 1.law.diagram", "does not close"),
+    "no roller": (ROLLER | {"follower_radius": 0.0}, "follower_radius", "above 0"),
+    "radius of a flat": (ROLLER | {"follower": "flat"}, "follower_radius", "0 works"),
+    "no base circle": (without("base_circle_radius"), "base_circle_radius", "least_transmission_angle_deg"),
+    "flat at 60": (without("base_circle_radius") | {"follower": "flat", "follower_radius": 0.0,
+                                                    "least_transmission_angle_deg": 60.0},
+                   "least_transmission_angle_deg", "45"),
+    "large roller": (without("base_circle_radius") | {"follower_radius": 80.0, "least_transmission_angle_deg": 60.0},
+                     "follower_radius", "smaller"),
+    "offset beyond": (ROLLER | {"follower_offset": 50.0}, "follower_offset", "at most"),
+    "bore beyond": (ROLLER | {"bore_diameter": 70.5}, "bore_diameter", "below 70"),
+    "holes beyond": (ROLLER | {"holes": {"count": 4, "diameter": 10.0, "pitch_circle_diameter": 64.0}},
+                     "holes", "within"),
+    "small plate": (CAMS["flat"] | {"follower_offset": 4.0, "plate_diameter": 30.0}, "plate_diameter", "at least"),
+    "plate of a roller": (ROLLER | {"plate_diameter": 30.0}, "plate_diameter", "flat"),
+    "two bores": (ROLLER | {"bore": {"shape": "round", "diameter": 9.0}}, "bore_diameter", "0 works"),
+    "lift of a rocker": (CAMS["oscillating roller"] | {"lift": 3.0}, "lift", "0 works"),
+    "short arm": (CAMS["oscillating roller"] | {"oscillating": SWING | {"arm_length": 30.0}},
+                  "base_circle_radius", "above"),
+    "rocker without base": ({k: v for k, v in CAMS["oscillating roller"].items() if k != "base_circle_radius"},
+                            "base_circle_radius", "needs it"),
+    "wild swing": (CAMS["oscillating roller"] | {"swing_deg": 170.0}, "swing_deg", "line of centres"),
+    "fast flat rocker": (CAMS["oscillating flat"] | {"swing_deg": 75.0}, "swing_deg", "turns as fast"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_wrong_keys_are_refused_in_the_users_terms(name: str) -> None:
+    keys, blamed, words = WRONG[name]
+    with pytest.raises(SceneError) as caught:
+        part_of(keys)
+    message = str(caught.value)
+    assert f"parts.cam.{blamed}" in message
+    assert words in message
+    assert "\n" not in message
+
+
+@pytest.mark.parametrize("keys", [
+    CAMS["flat"] | {"base_circle_radius": 9.0, "bore_diameter": 0.0, "lift": 30.0},
+    ROLLER | {"base_circle_radius": 9.0, "bore_diameter": 0.0, "follower_radius": 25.0, "phases": STEEP},
+    CAMS["oscillating flat"] | {"base_circle_radius": 12.0, "bore_diameter": 0.0, "swing_deg": 20.0},
+])  # fmt: skip
+def test_an_undercut_cam_is_told_the_base_circle_that_works(keys: dict[str, Any]) -> None:
+    with pytest.raises(SceneError, match="loses") as caught:
+        part_of(keys)
+    found = re.search(r"at least ([\d.]+) mm works", str(caught.value))
+    assert found, caught.value
+    limit = float(found.group(1))
+    part_of(keys | {"base_circle_radius": limit})
+    with pytest.raises(SceneError):
+        part_of(keys | {"base_circle_radius": limit * 0.999})
+
+
+def test_the_plate_is_as_large_as_the_contact_runs() -> None:
+    """Contact at S' beside the axis, the stem at e: the named diameter is the least one."""
+    keys = CAMS["flat"] | {"follower_offset": 4.0}
+    cam = cam_of(keys)
+    reach = cam.motion.value(np.linspace(0, 2 * math.pi, 7201), 1) - 4.0
+    least = cam.least_plate_diameter()
+    assert least == pytest.approx(2 * float(np.abs(reach).max()), rel=1e-6)
+    part_of(keys | {"plate_diameter": least * 1.0001})
+    with pytest.raises(SceneError):
+        part_of(keys | {"plate_diameter": least * 0.9999})
+
+
+def test_a_cam_does_not_mate_as_a_gear() -> None:
+    tail = '[parts.gear]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 20\n' \
+           '[[mates]]\nkind = "external_gear_pair"\nfirst = "gear"\nsecond = "cam"\n'  # fmt: skip
+    with pytest.raises(SceneError, match="is no gear"):
+        scene_from_toml(scene_text(ROLLER, tail).encode(), "s.toml", "s")
+
+
+def test_a_closing_offset_names_one_that_works() -> None:
+    part = part_of(ROLLER)
+    with pytest.raises(Exception, match="works"):
+        part.section(-18.0)
+
+
+def test_gear_scenes_load_no_cams(tmp_path: Path) -> None:
+    import subprocess
+    import sys
+
+    code = ("import sys; from parts.scene import load_scene, make_parts; make_parts(load_scene('print_gear'), 'x'); "
+            "assert not [m for m in sys.modules if m.startswith(('geometry.cams', 'geometry.motion'))]")  # fmt: skip
+    subprocess.run([sys.executable, "-c", code], check=True, cwd=Path(__file__).parents[2])
