@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 
 from exporters.assembly import AssemblyJob, declared_assembly_error, write_assembly
-from exporters.job import Job, Shape, Written, declared_error, shape_of
+from exporters.job import Job, Shape, Written, declared_error, number_rounding, shape_of
 from exporters.plan import Plan
 from exporters.preview import part_preview, scene_preview
 from exporters.report import NAME, read_report, write_report
 from geometry.contour import Approximation
-from geometry.errors import ConvergenceError, ParameterError
+from geometry.errors import ConvergenceError, ParameterError, ThinWallError, at_most
 from geometry.findings import Finding
 from geometry.tolerance import LEAST_SEGMENT_MM
 from parts.schema import SceneError
@@ -55,11 +55,11 @@ def build(
         written = []
         for job, shape in zip(plan.jobs, shapes, strict=True):
             progress(job.path)
-            written.append(_write(job, shape, staging / job.path, verify=verify))
+            written.append(_write(job, shape, staging / job.path, plan.source, verify=verify))
         for assembly in plan.assemblies:
             progress(assembly.path)
             members = {m.part.id: made[_shape_key(m)] for m in assembly.members}
-            written.append(_write_assembly(assembly, members, staging / assembly.path, verify=verify))
+            written.append(_write_assembly(assembly, members, staging / assembly.path, plan.source, verify=verify))
         wanted = dict.fromkeys(j.part.id for j in (*plan.jobs, *(m for a in plan.assemblies for m in a.members)))
         previews = [part_preview(plan.parts[p], staging, plan.scene.scene.language) for p in wanted]
         if (plan.scene.mates or plan.scene.instances) and len(wanted) == len(plan.parts):
@@ -73,12 +73,13 @@ def build(
 
 def _checks(plan: Plan) -> dict[str, Any]:
     """The pairs of a scene: calculated always, held against each other where the scene asks for it."""
-    if not plan.placing.needs_check:
+    scene = plan.scene
+    if not plan.placing.needs_check and not scene.checks.interference:
         return {}
     from exporters.check import scene_checks
 
-    scene = plan.scene
-    return scene_checks(plan.placing, scene.drives, scene.scene.language, contact=scene.checks.interference)
+    contact = scene.checks.interference
+    return scene_checks(plan.placing, plan.parts, scene.drives, scene.scene.language, contact=contact)
 
 
 def move_into(folder: Path, staging: Path, names: list[str]) -> None:
@@ -108,11 +109,14 @@ def _shapes(job: Job, source: str) -> tuple[Shape, float]:
         raise SceneError(source, f"{job.place}.tolerance", job.export.tolerance, remedy) from error
 
 
-def _write(job: Job, shape: tuple[Shape, float], file: Path, *, verify: bool) -> Written:
+def _write(job: Job, shape: tuple[Shape, float], file: Path, source: str, *, verify: bool) -> Written:
     made, spent = shape
     seconds = {"approximate": spent}
     start = time.perf_counter()
-    entities = WRITERS[job.export.format](job, made, file)
+    try:
+        entities = WRITERS[job.export.format](job, made, file)
+    except ThinWallError as error:
+        raise _too_coarse(job, source) from error
     seconds["write"] = time.perf_counter() - start
     max_error, bound = declared_error(job, made)
     findings = (*job.part.findings, *job.section.findings, *_job_findings(job, made))
@@ -127,12 +131,17 @@ def _write(job: Job, shape: tuple[Shape, float], file: Path, *, verify: bool) ->
     return Written(job, file, max_error, bound, entities, verdict.measured, findings, verdict.failures, seconds)
 
 
-def _write_assembly(job: AssemblyJob, members: dict[str, Shape], file: Path, *, verify: bool) -> Written:
+def _write_assembly(job: AssemblyJob, members: dict[str, Shape], file: Path, source: str, *, verify: bool) -> Written:
     start = time.perf_counter()
-    entities = write_assembly(job, members, file)
+    try:
+        entities = write_assembly(job, members, file)
+    except ThinWallError as error:
+        raise next(_too_coarse(m, source) for m in job.members if _is_thin(m, members[m.part.id])) from error
     seconds = {"write": time.perf_counter() - start}
     max_error, bound = declared_assembly_error(job, members)
     found = dict.fromkeys(f for m in job.members for f in (*m.section.findings, *_job_findings(m, members[m.part.id])))
+    if job.export.offset > 0 and len(job.instances) > 1:
+        found[Finding("offset_in_mesh", job.export.offset, 2 * job.export.offset)] = None
     if not verify:
         return Written(job, file, max_error, bound, entities, {}, tuple(found), (), seconds)
     from exporters.verify_assembly import expected_of, verify_assembly
@@ -144,6 +153,34 @@ def _write_assembly(job: AssemblyJob, members: dict[str, Shape], file: Path, *, 
     verdict = verify_assembly(file, job.export.format, expected, max_error, tolerance)
     seconds["verify"] = time.perf_counter() - start
     return Written(job, file, max_error, bound, entities, verdict.measured, tuple(found), verdict.failures, seconds)
+
+
+def _is_thin(job: Job, made: Any) -> bool:
+    from parts.solids import body_mesh
+
+    try:
+        body_mesh(job.body, made)
+    except ThinWallError:
+        return True
+    return False
+
+
+def _too_coarse(job: Job, source: str) -> SceneError:
+    """The refusal of a tolerance whose chords cross a thin wall, with the nearest one that works, if any does."""
+    from parts.solids import body_mesh, mesh_outlines
+
+    tolerance = float(job.export.tolerance or 0.0)
+    place, why = f"{job.place}.tolerance", f"its chords cross a thin wall of {job.part.id}"
+    finer = tolerance / 2
+    while finer >= 8 * number_rounding(job):
+        try:
+            body_mesh(job.body, mesh_outlines(job.body, finer - number_rounding(job), 64 * number_rounding(job)))
+        except ThinWallError:
+            finer /= 2
+            continue
+        return SceneError(source, place, tolerance, f"{why}; at most {at_most(finer, 9)} mm works")
+    text = f"{why}, too thin for the digits of a mesh file; make the wall thicker, or write STEP"
+    return SceneError(source, place, tolerance, text)
 
 
 def _write_dxf(job: Job, made: Any, file: Path) -> dict[str, int]:

@@ -4,16 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from exporters.words import finding_text, words
 from geometry.tolerance import PLACED_MM
 from parts.instances import DriveSpec
 from parts.mate_kinds import Mating
+from parts.part import Part
 from parts.placing import Closeness, Condition, PlacedMate, Placing
 
+if TYPE_CHECKING:
+    from parts.interference import SolidOverlap
 
-def scene_checks(placing: Placing, drives: Sequence[DriveSpec], language: str, *, contact: bool) -> dict[str, Any]:
+
+def scene_checks(
+    placing: Placing, parts: dict[str, Part], drives: Sequence[DriveSpec], language: str, *, contact: bool
+) -> dict[str, Any]:
     """All that is known of how a scene's instances stand to each other; ``contact``: interference of the pairs too."""
     checks: dict[str, Any] = {}
     if placing.mates:
@@ -24,7 +30,13 @@ def scene_checks(placing: Placing, drives: Sequence[DriveSpec], language: str, *
                 # contact is held against a whole pitch, whatever part of it the drive runs through
                 found["driven_pitches"] = turns[0] * mate.mating.first_teeth
     if placing.close:
-        checks["neighbours"] = [_neighbours(c, language, judged=contact) for c in placing.close]
+        checks["neighbours"] = [_neighbours(c, language) for c in placing.close]
+    if contact and len(placing.instances) > 1:
+        from parts.interference import solid_overlaps
+
+        overlaps = solid_overlaps(placing, parts)
+        if overlaps:
+            checks["solids"] = [_overlap(o, language) for o in overlaps]
     if placing.turns:
         checks["drives"] = [
             {"instance": d.instance, "turns": d.turns, "train": train}
@@ -99,17 +111,18 @@ def _condition(condition: Condition, mate: PlacedMate, language: str) -> dict[st
     return {"code": condition.code, "met": condition.met, **numbers, "text": text}
 
 
-def _neighbours(close: Closeness, language: str, *, judged: bool) -> dict[str, Any]:
-    code = "neighbours_collide" if close.overlap else "neighbours_close"
-    found: dict[str, Any] = {
+def _neighbours(close: Closeness, language: str) -> dict[str, Any]:
+    return {
         "first": close.first,
         "second": close.second,
         "distance": close.distance,
         "sum_of_tip_radii": close.tip_sum,
-        "text": words(language, code).format(
+        "text": words(language, "neighbours_close").format(
             first=close.first, second=close.second, value=close.distance, limit=close.tip_sum
         ),
     }
-    if close.overlap and judged:
-        found["verdict"] = "overlap"
-    return found
+
+
+def _overlap(found: SolidOverlap, language: str) -> dict[str, Any]:
+    text = words(language, "solids_overlap").format(first=found.first, second=found.second, value=found.volume)
+    return {"first": found.first, "second": found.second, "volume": found.volume, "verdict": "overlap", "text": text}

@@ -26,15 +26,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
     # numpy is not loaded yet: its threads would take longer to start than all that we compute
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     options = _parser().parse_args(arguments)
-    stops = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
-    previous = {stop: signal.signal(stop, _interrupt) for stop in stops}
+    stops = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    interrupt = _Interrupt()
+    previous = {stop: signal.signal(stop, interrupt) for stop in stops}
     try:
         code = options.run(options)
         sys.stdout.flush()
         return code
     except KeyboardInterrupt:
-        print("higherpair: interrupted; nothing half-written is left", file=sys.stderr)
-        return INTERRUPTED
+        return _interrupted()
+    except ImportError:
+        # a library that is stopped while it loads says only that it could not be loaded
+        if not interrupt.came:
+            raise
+        return _interrupted()
     except BrokenPipeError:
         # whoever read the output has left: nothing more can be said to it
         sys.stdout = _nowhere()
@@ -70,8 +75,19 @@ def _nowhere() -> TextIO:
     return open(os.devnull, "w", encoding="utf-8")
 
 
-def _interrupt(number: int, frame: object) -> NoReturn:
-    raise KeyboardInterrupt
+class _Interrupt:
+    """A signal handler that stops the command, and remembers that it did."""
+
+    came = False
+
+    def __call__(self, number: int, frame: object) -> NoReturn:
+        self.came = True
+        raise KeyboardInterrupt
+
+
+def _interrupted() -> int:
+    print("higherpair: interrupted; nothing half-written is left", file=sys.stderr)
+    return INTERRUPTED
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -149,9 +165,9 @@ def _check(options: argparse.Namespace) -> int:
     scene = load_scene(options.scene)
     parts, matings = make_parts(scene, options.scene)
     placing = place(scene.instances, scene.drives, parts, matings, options.scene)
-    if not matings and not placing.close:
+    if len(placing.instances) < 2:
         raise SceneError(options.scene, "mates", None, 'nothing to check; add [[mates]] kind = "external_gear_pair"')
-    checks = scene_checks(placing, scene.drives, scene.scene.language, contact=True)
+    checks = scene_checks(placing, parts, scene.drives, scene.scene.language, contact=True)
     print("\n".join(check_lines(checks, scene.scene.language)))
     return FAILED if has_bad_verdict(checks) else DONE
 

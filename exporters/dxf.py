@@ -94,6 +94,9 @@ def fixed_metadata() -> Iterator[None]:
 
 def save(drawing: Drawing, file: Path) -> None:
     """Write a drawing with its own encoding."""
+    # ezdxf takes the classes that a version needs out of a set, whose order differs from process to process
+    drawing.classes.add_required_classes(drawing.dxfversion)
+    drawing.classes.classes = dict(sorted(drawing.classes.classes.items()))
     # "\n" on every system, so that the bytes are the same there too
     with file.open("w", encoding=drawing.output_encoding, errors="dxfreplace", newline="\n") as stream:
         drawing.write(stream)

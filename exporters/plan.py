@@ -13,6 +13,7 @@ from parts.part import Part
 from parts.placing import Placing, place
 from parts.scene import FORMATS, ExportSpec, SceneFile, default_export, make_parts
 from parts.schema import SceneError, near
+from parts.wheel_keys import as_typed
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +72,7 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
             _take(path, where, taken, source)
             job = Job(parts[part_id], export, _section(parts[part_id], export, source, where), path, where)
             if job.is_solid:
-                _check_body(job, source)
+                _check_body(job, scene, source)
             made.append(job)
         if not export.assembly:
             jobs += made
@@ -112,11 +113,12 @@ def _without_kernel(
     return [(w, e) for w, e in exports if w not in places], [(where, f"STEP {remedy}") for where in places]
 
 
-def _check_body(job: Job, source: str) -> None:
+def _check_body(job: Job, scene: SceneFile, source: str) -> None:
     """Refuse a solid that does not exist, in the key that asks for it."""
     try:
         _ = job.body
-    except ParameterError as error:
+    except ParameterError as refusal:
+        error = as_typed(scene.parts[job.part.id], refusal)
         place = f"{job.place}.offset" if error.name == "offset" else f"parts.{job.part.id}.{error.name}"
         raise SceneError(source, place, error.value, error.allowed) from error
 

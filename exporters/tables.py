@@ -57,14 +57,17 @@ def check_lines(checks: dict[str, Any], language: str) -> list[str]:
             second=mate["second"],
             a_w=mate["working_centre_distance"],
             alpha_w=mate["working_pressure_angle_deg"],
-            ratio=mate["contact_ratio"],
+            # what undercut and fillets leave of it
+            ratio=min(mate["contact_ratio"], mate["effective_contact_ratio"]),
         )
         if "verdict" in mate:
             text += f": {words(language, mate['verdict'])}, {words(language, 'gap').format(gap=mate['gap'])}"
+            if mate["verdict"] == "clear" and mate["gap"] <= mate["tolerance"]:
+                text += f"; {words(language, 'interrupted')}"
         lines.append(text)
         lines += [f"{words(language, 'finding')}: {f['text']}" for f in mate.get("findings", [])]
         lines += [f"{words(language, 'broken')}: {c['text']}" for c in mate.get("conditions", []) if not c["met"]]
-    for close in checks.get("neighbours", []):
+    for close in (*checks.get("neighbours", []), *checks.get("solids", [])):
         head = words(language, close.get("verdict", "finding"))
         lines.append(f"{head}: {close['text']}")
     for drive in checks.get("drives", []):
@@ -76,7 +79,7 @@ def check_lines(checks: dict[str, Any], language: str) -> list[str]:
 def has_bad_verdict(checks: dict[str, Any]) -> bool:
     """Whether something overlaps, could not be decided, or breaks a condition."""
     mates = checks.get("mates", [])
-    bad = any(found.get("verdict") in ("overlap", "undecided") for found in (*mates, *checks.get("neighbours", [])))
+    bad = any(found.get("verdict") in ("overlap", "undecided") for found in (*mates, *checks.get("solids", [])))
     return bad or any(not condition["met"] for mate in mates for condition in mate.get("conditions", []))
 
 

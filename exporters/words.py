@@ -75,11 +75,11 @@ WORDS: dict[str, tuple[str, str]] = {
         "інші пари повертають {second} {value:.9g} разів за один оберт {first}, ця {required:.9g} разів: "
         "різні числа заклинюють передачу",
     ),
-    "neighbours_collide": (
-        "{first} and {second} run into each other: {value:.6g} mm apart, their tips reach {limit:.6g} mm, no mate "
-        "joins them",
-        "{first} і {second} стикаються: між осями {value:.6g} мм, вершини сягають {limit:.6g} мм, пари між ними немає",
+    "solids_overlap": (
+        "{first} and {second} run into each other: {value:.4g} mm^3 in common as they stand",
+        "{first} і {second} перетинаються: {value:.4g} мм^3 спільного об'єму",
     ),
+    "interrupted": ("the teeth part on their way", "зуби розходяться на шляху"),
     "neighbours_close": (
         "{first} and {second} may touch: {value:.6g} mm apart, their tips reach {limit:.6g} mm, no mate joins them",
         "{first} і {second} можуть торкатися: між осями {value:.6g} мм, вершини сягають {limit:.6g} мм, "
@@ -188,6 +188,10 @@ FINDINGS: dict[str, tuple[str, str]] = {
     "thin_ring_rim": (
         "thin rim: {value:.3f} mm outside the root circle, less than one module ({limit:.3f} mm)",
         "тонкий обід: {value:.3f} мм зовні кола западин, менше за модуль ({limit:.3f} мм)",
+    ),
+    "offset_in_mesh": (
+        "the outlines are moved out by {value:.4g} mm: gears in mesh lose {limit:.4g} mm of backlash, unchecked",
+        "контури зсунуто назовні на {value:.4g} мм: пара втрачає {limit:.4g} мм зазору, чого перевірка не знає",
     ),
     "flat_outline": (
         "web, hub and face chamfers are not in a flat outline; STL, 3MF and STEP have them",

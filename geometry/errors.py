@@ -68,6 +68,10 @@ class ConvergenceError(GeometryError, ArithmeticError):
         super().__init__(f"{what}: residual {residual:.3g} after {iterations} iterations")
 
 
+class ThinWallError(GeometryError):
+    """Chords of two outlines touch or cross: a wall is thinner than the tolerance."""
+
+
 def at_most(value: float, digits: int = 6) -> str:
     """An upper limit rounded down, so that the printed number itself still works."""
     return _rounded(value, digits, math.floor)

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geometry.bores import Bore
+from geometry.bores import Bore, RoundBore
 from geometry.curve import Curve
 from geometry.errors import OffsetError, ParameterError
 from geometry.line_arc import Arc
@@ -20,6 +20,13 @@ from geometry.profile import Profile
 from geometry.windows import RoundHoles, Spokes
 
 _INSIDE = 1 - 1e-6
+# mm, and for the smallest wheels as a part of their radius
+_LEAST_WALL, _LEAST_WALL_SHARE = 0.05, 0.005
+
+
+def least_wall(root_radius: float) -> float:
+    """Thinnest wall between two boundaries of a wheel, mm: thinner ones neither cut nor print."""
+    return min(_LEAST_WALL, _LEAST_WALL_SHARE * root_radius)
 
 
 class Wall(NamedTuple):
@@ -126,9 +133,13 @@ class HubHoles:
             group.check(key)
         if self.spokes is not None:
             self.spokes.check("spokes")
+        least = least_wall(root_radius)
         for wall in (*self._rims(root_radius), *self._walls_between()):
-            if not wall.thickness > 0:
-                raise ParameterError(wall.key, wall.value, wall.why)
+            # a round bore may leave as thin a rim as it likes
+            plain = wall.key == "bore.diameter" and isinstance(self.bore, RoundBore) and "root" in wall.why
+            if not wall.thickness > (0.0 if plain else least):
+                why = wall.why if wall.thickness <= 0 else f"leaves a wall below {least:.3g} mm: {wall.why}"
+                raise ParameterError(wall.key, wall.value, why)
 
     def fits(self, root_radius: float) -> bool:
         """Whether ``check`` finds no fault."""

@@ -8,14 +8,17 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from geometry.body import Body, BodyBuilder, plate
+from geometry.curve import Curve, end_point, start_point
 from geometry.errors import GeometryError, OffsetError, ParameterError, at_least, at_most
-from geometry.hub_holes import HubHoles
+from geometry.hub_holes import HubHoles, least_wall
 from geometry.profile import Label, Profile, Region, circle
-from geometry.tolerance import TOLERANCES
+from geometry.tolerance import LEAST_SEGMENT_MM, TOLERANCES
 
 _BISECTIONS = 24
+# of a short piece, at least this share stays
+_KEPT_SHARE = 0.1
 # diameters of steps differ by this much at least, mm: thinner ones are mistakes of the keyboard
-_LEAST_STEP = 0.01
+_LEAST_STEP = 0.05
 
 
 @dataclass(frozen=True, slots=True)
@@ -235,7 +238,8 @@ def _snapped(z: float, face: float) -> float:
 
 def _inset(profile: Boundary, offset: float, chamfer: float, side: str, who: str) -> Profile:
     """A boundary moved ``chamfer`` mm into the material, segment for segment that of the whole boundary."""
-    whole = [s.label for s in profile(offset, 0.0).period]
+    before = profile(offset, 0.0).period
+    whole = [s.label for s in before]
     if offset > 0:
         text = "rounds the edges that face_chamfer would cut; at most 0 mm works with face_chamfer"
         raise ParameterError("offset", offset, text)
@@ -245,7 +249,9 @@ def _inset(profile: Boundary, offset: float, chamfer: float, side: str, who: str
             inset = profile(offset, depth)
         except GeometryError:
             return None
-        return inset if [s.label for s in inset.period] == whole else None
+        if [s.label for s in inset.period] != whole:
+            return None
+        return inset if all(_keeps(a.curve, b.curve) for a, b in zip(before, inset.period, strict=True)) else None
 
     found = attempt(chamfer)
     if found is not None:
@@ -311,7 +317,15 @@ def _leaves_faces(shape: WheelShape, root_radius: float, holes: HubHoles, offset
             (core, shape.web.rim_diameter / 2 - offset),
             (outer, shape.web.rim_diameter / 2 - offset),
         ]
-    return all(low < high for low, high in rings)
+    # a ring that is no face at all (a hub as wide as what it stands on) was refused before
+    least = least_wall(root_radius) if depth > 0 or offset != 0 else 0.0
+    return all(low + least < high for low, high in rings)
+
+
+def _keeps(whole: Curve, inset: Curve) -> bool:
+    """Whether a boundary's piece keeps some length at the edge of a chamfer: what is less is lost to rounding."""
+    before, after = (abs(end_point(c) - start_point(c)) for c in (whole, inset))
+    return after >= min(LEAST_SEGMENT_MM, _KEPT_SHARE * before)
 
 
 def _bisected(works: Callable[[float], bool], refused: float) -> float:

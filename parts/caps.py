@@ -13,13 +13,9 @@ from numpy.typing import NDArray
 
 from geometry.contour import Contour
 from geometry.curve import Complex
-from geometry.errors import GeometryError
+from geometry.errors import ThinWallError
 
 Triangles = NDArray[np.int64]
-
-
-class CapError(GeometryError):
-    """The outlines of a cap touch or cross at this tolerance."""
 
 
 def cap_triangles(outer: Contour, holes: Sequence[Contour]) -> tuple[Triangles, Complex]:
@@ -30,7 +26,7 @@ def cap_triangles(outer: Contour, holes: Sequence[Contour]) -> tuple[Triangles, 
 
     Raises
     ------
-    CapError
+    ThinWallError
         No triangulation fills the region: chords touch or cross.
     """
     loops = [c.expanded()[0] for c in (outer, *holes)]
@@ -45,13 +41,13 @@ def cap_triangles(outer: Contour, holes: Sequence[Contour]) -> tuple[Triangles, 
     for attempt in (_by_teeth, _by_sectors, _whole):
         try:
             triangles, added = attempt(outer, holes, points, rings)
-        except CapError:
+        except ThinWallError:
             continue
         doubled = _cross(np.append(points, added), triangles)
         # positive triangles that fill the area cannot overlap
         if np.all(doubled > 0) and np.isclose(0.5 * doubled.sum(), area, rtol=1e-9):
             return triangles, added
-    raise CapError("the outlines touch or cross at this tolerance; make it smaller")
+    raise ThinWallError("the outlines touch or cross at this tolerance; make it smaller")
 
 
 def _area(polygon: Complex) -> float:
@@ -131,7 +127,7 @@ def _by_sectors(
     """One whole sector between an aligned bore and a tooth, clipped and placed."""
     size, count = len(outer.vertices), outer.count
     if count < 2 or len(holes) != 1 or len(holes[0]) % count or not is_round(holes[0]):
-        raise CapError("the bore has no corners of its own behind every tooth")
+        raise ThinWallError("the bore has no corners of its own behind every tooth")
     total, steps = size * count, len(holes[0]) // count
     period = np.arange(count)[:, None]
     outside = rings[0][(period * size + np.arange(size + 1)) % total]
@@ -212,7 +208,7 @@ def _ear_clipped(polygon: Complex) -> Triangles:
                 left.pop(i)
                 break
         else:
-            raise CapError("the outline of a tooth crosses itself at this tolerance; make it smaller")
+            raise ThinWallError("the outline of a tooth crosses itself at this tolerance; make it smaller")
     triangles.append((left[0], left[1], left[2]))
     return np.array(triangles, dtype=np.int64)
 

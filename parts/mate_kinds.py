@@ -204,6 +204,7 @@ class ExternalMating:
             "working_centre_distance": self.distance,
             "tip_shortening_coefficient": self.pair.tip_shortening_coefficient,
             "contact_ratio": self.pair.contact_ratio,
+            "effective_contact_ratio": self.pair.effective_contact_ratio,
             "normal_backlash": self.normal_backlash,
         }
 
@@ -282,6 +283,7 @@ class InternalMating:
             "working_pressure_angle_deg": math.degrees(self.pair.working_pressure_angle),
             "working_centre_distance": self.distance,
             "contact_ratio": self.pair.contact_ratio,
+            "effective_contact_ratio": self.pair.effective_contact_ratio,
             "normal_backlash": self.normal_backlash,
             "margins": {m.name: m.margin for m in self.pair.margins() if math.isfinite(m.margin)},
         }
@@ -359,5 +361,6 @@ class RackMating:
             "working_centre_distance": self.distance,
             "travel_per_turn": self.pair.travel_per_turn,
             "contact_ratio": self.pair.contact_ratio,
+            "effective_contact_ratio": self.pair.effective_contact_ratio,
             "normal_backlash": self.normal_backlash,
         }

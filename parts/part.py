@@ -46,8 +46,11 @@ class Part:
 
     def to_cadquery(self, tolerance: float = 1e-6, offset: float = 0.0) -> Any:
         """A ``cadquery.Workplane`` that holds the solid, splines within ``tolerance`` mm; needs cadquery."""
-        import cadquery
-
+        try:
+            import cadquery
+        except ImportError as error:
+            text = 'to_cadquery needs cadquery: pip install "cadquery" in place of cadquery-ocp-novtk'
+            raise ImportError(text) from error
         from parts.brep import body_outlines, body_solid
 
         body = self.body(offset)

@@ -83,13 +83,12 @@ class PlacedMate:
 
 @dataclass(frozen=True, slots=True)
 class Closeness:
-    """Two instances that no mate joins, nearer than their tip circles allow; ``overlap``: they collide for certain."""
+    """Two instances that no mate joins, nearer than their tip circles allow: they may touch as they turn."""
 
     first: str
     second: str
     distance: float
     tip_sum: float
-    overlap: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -296,12 +295,12 @@ def _close_ones(
         for two in gears[index + 1 :]:
             if frozenset((one.id, two.id)) in joined or _common_width(one, two, parts) <= 0:
                 continue
-            tips, roots = ([parts[i.part].circles[f"{k}_diameter"] / 2 for i in (one, two)] for k in ("tip", "root"))
+            tips = [parts[i.part].circles["tip_diameter"] / 2 for i in (one, two)]
             distance = abs(two.centre - one.centre)
-            if distance < sum(tips) - TOLERANCES.relative_join * (abs(one.centre) + abs(two.centre) + sum(tips)):
-                # as they turn, the tips of one sweep a whole circle
-                certain = distance < max(tips[0] + roots[1], tips[1] + roots[0])
-                found.append(Closeness(one.id, two.id, distance, sum(tips), certain))
+            slack = TOLERANCES.relative_join * (abs(one.centre) + abs(two.centre) + sum(tips))
+            # one within the other's bore is for the solids to tell
+            if abs(tips[0] - tips[1]) < distance < sum(tips) - slack:
+                found.append(Closeness(one.id, two.id, distance, sum(tips)))
     return tuple(found)
 
 

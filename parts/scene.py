@@ -198,10 +198,7 @@ def _mate_spec(
         raise SceneError(source, f"{place}.kind", kind, f"{remedy}; known: {', '.join(MATES)}")
     mate = converted(table, MATES[kind], source, place)
     for key in ("first", "second"):
-        name = getattr(mate, key)
-        check_instance(name, instances, source, f"{place}.{key}")
-        if not isinstance(parts[str(instances[name].part)], SpurGearSpec):
-            raise SceneError(source, f"{place}.{key}", name, "is no gear; a gear pair needs two spur_gear parts")
+        check_instance(getattr(mate, key), instances, source, f"{place}.{key}")
     if mate.first == mate.second:
         raise SceneError(source, f"{place}.second", mate.second, "a gear does not mesh with itself; name another one")
     return mate
@@ -209,10 +206,12 @@ def _mate_spec(
 
 def _part_spec(key: str, table: Any, source: str) -> Struct:
     place = f"parts.{key}"
-    if not re.fullmatch(IDENTIFIER, key) or key.lower() in DEVICE_NAMES:
-        raise SceneError(
-            source, place, None, "a part's name is made of letters, digits, _ and - (at most 64); rename it"
-        )
+    if key.lower() in DEVICE_NAMES:
+        remedy = f"is a name that Windows keeps for a device; {key}_1 works"
+        raise SceneError(source, place, None, remedy)
+    if not re.fullmatch(IDENTIFIER, key):
+        remedy = "a part's name is made of the letters A to Z, digits, _ and - (at most 64); part_1 works"
+        raise SceneError(source, place, None, remedy)
     if not isinstance(table, dict):
         raise SceneError(source, place, table, f"write it as a table, [parts.{key}]")
     kind = table.get("kind")
@@ -251,6 +250,9 @@ def _export_spec(table: Any, parts: dict[str, Struct], source: str, place: str) 
         spec.purpose = default_export(spec.format).purpose
     if spec.purpose not in purposes:
         raise SceneError(source, f"{place}.purpose", spec.purpose, f"{spec.format} is for {' or '.join(purposes)}")
+    if spec.kerf and spec.format in ("stl", "3mf"):
+        remedy = f"a print has no kerf; offset = {spec.kerf / 2:.12g} moves every outline by as much"
+        raise SceneError(source, f"{place}.kerf", spec.kerf, remedy)
     if spec.format == "step" or spec.purpose == "drawing":
         who = "a STEP file" if spec.format == "step" else "a drawing"
         if spec.kerf:

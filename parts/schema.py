@@ -76,6 +76,7 @@ _TYPE_WORDS = {
     "bool": "true or false",
     "str": "text in quotes",
     "float | null": "a number",
+    "float | object": "a number or a table",
     "str | null": "text in quotes",
     "array | null": "a list in brackets",
     "object | null": "a table",
@@ -146,6 +147,8 @@ def describe_type(kind: Any) -> str:
         return " or ".join(dict.fromkeys(filter(None, (describe_type(a) for a in get_args(kind)))))
     low = f"above {meta.gt:g}" if meta.gt is not None else f"at least {meta.ge:g}" if meta.ge is not None else ""
     high = f"at most {meta.le:g}" if meta.le is not None else ""
+    if meta.min_length is not None and get_origin(get_args(kind)[0]) is list:
+        low = f"{meta.min_length} values" if meta.max_length == meta.min_length else f"at least {meta.min_length}"
     unit = meta.extra["unit"] if meta.extra else ""
     span = " ".join(filter(None, (", ".join(filter(None, (low, high))), unit)))
     return ": ".join(filter(None, (meta.description, span, describe_type(get_args(kind)[0]))))

@@ -15,7 +15,8 @@ from geometry.approximate import approximate_profile, approximate_together
 from geometry.body import Body
 from geometry.contour import Approximation, Contour
 from geometry.curve import Complex
-from parts.caps import CapError, Triangles, aligned_bore, begun_at, cap_triangles, is_round, start_in_space
+from geometry.errors import ThinWallError
+from parts.caps import Triangles, aligned_bore, begun_at, cap_triangles, is_round, start_in_space
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,13 +47,13 @@ def body_mesh(body: Body, outlines: tuple[Approximation, ...]) -> Mesh:
 
     Raises
     ------
-    CapError
+    ThinWallError
         The chords touch or cross at this tolerance.
     """
     contours = _begun_in_spaces(body, [a.geometry for a in outlines])
     try:
         caps = _cap_triangles(body, contours)
-    except CapError:
+    except ThinWallError:
         contours = _with_aligned_bores(body, contours)
         caps = _cap_triangles(body, contours)
     return _assembled(body, contours, caps)

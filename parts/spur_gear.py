@@ -21,7 +21,7 @@ from parts.hole_keys import BoreTable, HolesTable, SpokesTable, hub_holes, with_
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, in_modules, mm
 from parts.materials import density_of
 from parts.part import Part
-from parts.wheel_keys import FaceChamfer, FaceChamferTable, HubTable, WebTable, wheel_shape
+from parts.wheel_keys import FaceChamfer, FaceChamferTable, HubTable, WebTable, as_typed, wheel_shape
 
 # the radius that ISO 53 gives at the usual clearance; the default for racks given as a table
 _TABLE_TIP_RADIUS = 0.38
@@ -93,7 +93,10 @@ def checked_spur_gear(spec: SpurGearSpec) -> SpurGear:
         gear = checked_gear(gear_of(spec))
     except ParameterError as refusal:
         raise with_remedy(_with_rack_remedy(spec, refusal), spec, _builds) from refusal
-    check_wheel(_shape_of(spec), 2 * gear.root_radius, gear.holes)
+    try:
+        check_wheel(_shape_of(spec), 2 * gear.root_radius, gear.holes)
+    except ParameterError as refusal:
+        raise as_typed(spec, refusal) from refusal
     return gear
 
 

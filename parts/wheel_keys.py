@@ -6,6 +6,7 @@ from typing import Annotated
 
 from msgspec import Struct
 
+from geometry.errors import ParameterError
 from geometry.wheel import Hub, Web, WheelShape
 from parts.keys import mm
 
@@ -34,6 +35,13 @@ class FaceChamferTable(Struct, forbid_unknown_fields=True):
 
 
 FaceChamfer = Annotated[float, mm("45 degree chamfer along every edge of both end faces", least=0, most=100)]
+
+
+def as_typed(spec: object, error: ParameterError) -> ParameterError:
+    """A refusal of one face's chamfer in the key that the scene has: one number for both, or a table."""
+    if error.name.startswith("face_chamfer.") and isinstance(getattr(spec, "face_chamfer", None), float):
+        return ParameterError("face_chamfer", error.value, error.allowed)
+    return error
 
 
 def wheel_shape(
