@@ -12,13 +12,15 @@ from geometry.curve import Curve, end_point, start_point
 from geometry.errors import GeometryError, OffsetError, ParameterError, at_least, at_most
 from geometry.hub_holes import HubHoles, least_wall
 from geometry.profile import Label, Profile, Region, circle
-from geometry.tolerance import LEAST_SEGMENT_MM, TOLERANCES
+from geometry.tolerance import LEAST_SEGMENT_MM
 
 _BISECTIONS = 24
 # of a short piece, at least this share stays
 _KEPT_SHARE = 0.1
 # diameters of steps differ by this much at least, mm: thinner ones are mistakes of the keyboard
 _LEAST_STEP = 0.05
+# lower steps and chamfers are none, mm
+_LEAST_HEIGHT = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,8 +141,8 @@ class _Wheel:
         middle = width / 2 + (web.shift if web else 0.0)
         half = (web.thickness if web else width) / 2
         self.web = (_snapped(middle - half, 0.0), _snapped(middle + half, width))
-        self.hub = (-hub.below, width + hub.above) if hub else self.web
-        self.chamfer = (shape.chamfer_below, shape.chamfer_above)
+        self.hub = (_snapped(-hub.below, 0.0), _snapped(width + hub.above, width)) if hub else self.web
+        self.chamfer = (_snapped(shape.chamfer_below, 0.0), _snapped(shape.chamfer_above, 0.0))
         self.hub_circle = circle(hub.diameter / 2 + offset, Label.HUB) if hub else None
         recess = web is not None and self.web != self.rim
         self.rim_circle = circle(web.rim_diameter / 2 - offset, Label.RIM, hole=True) if web and recess else None
@@ -232,8 +234,8 @@ class _Wheel:
 
 
 def _snapped(z: float, face: float) -> float:
-    """A height, or the face that it meets but for rounding."""
-    return face if abs(z - face) <= TOLERANCES.relative_length * max(abs(z), abs(face)) else z
+    """A height, or the face that it meets but for a step that no file shows."""
+    return face if abs(z - face) <= _LEAST_HEIGHT else z
 
 
 def _inset(profile: Boundary, offset: float, chamfer: float, side: str, who: str) -> Profile:
@@ -339,7 +341,9 @@ def _bisected(works: Callable[[float], bool], refused: float) -> float:
 
 def _between(key: str, value: float, low: tuple[float, str], high: tuple[float, str]) -> None:
     if value <= low[0]:
-        text = f"is within {low[1]}, {at_least(low[0])} mm; at least {at_least(low[0] + _LEAST_STEP)} mm works"
+        text = (
+            f"is within {low[1]}, {at_least(low[0])} mm; at least {at_least(round(low[0] + _LEAST_STEP, 9))} mm works"
+        )
         raise ParameterError(key, value, text)
     if value >= high[0]:
         text = f"reaches {high[1]}, {at_most(high[0])} mm; at most {at_most(high[0] - _LEAST_STEP)} mm works"

@@ -210,7 +210,7 @@ def _part_spec(key: str, table: Any, source: str) -> Struct:
         remedy = f"is a name that Windows keeps for a device; {key}_1 works"
         raise SceneError(source, place, None, remedy)
     if not re.fullmatch(IDENTIFIER, key):
-        remedy = "a part's name is made of the letters A to Z, digits, _ and - (at most 64); part_1 works"
+        remedy = "a part's name is made of letters, digits, _ and - (A to Z, at most 64); part_1 works"
         raise SceneError(source, place, None, remedy)
     if not isinstance(table, dict):
         raise SceneError(source, place, table, f"write it as a table, [parts.{key}]")

@@ -106,12 +106,6 @@ def findings(gear: SpurGear) -> tuple[Finding, ...]:
     return tuple(found)
 
 
-def _below_root(gear: SpurGear, rim: Margin) -> str:
-    """What to say of a bore that reaches the root circle: one module of rim is sound."""
-    sound = max(rim.limit - 2 * gear.module, rim.limit / 2)
-    return f"must be below the root diameter, {at_most(rim.limit)} mm; at most {at_most(sound)} mm leaves a sound rim"
-
-
 def checked_gear(gear: SpurGear) -> SpurGear:
     """The gear itself if it can be built, else a refusal that names the nearest value that works.
 
@@ -123,7 +117,8 @@ def checked_gear(gear: SpurGear) -> SpurGear:
     _check_numbers(gear)
     rim = root_below_bore(gear)
     if gear.root_radius > 0 and gear.bore_diameter > 0 and rim.margin <= 0:
-        raise ParameterError("bore_diameter", rim.value, _below_root(gear, rim))
+        most = at_most(rim.limit - 1e-4, 4)
+        raise ParameterError("bore_diameter", rim.value, f"reaches the root circle; at most {most} mm works")
     check_shaping(gear)
     try:
         tooth_side(gear)

@@ -164,9 +164,9 @@ def test_any_wheel_is_refused_or_sound(
         (WheelShape(8.0, Web(9.0, 36.0)), "web.thickness", 8.0),
         (WheelShape(8.0, Web(4.0, 36.0, 3.0)), "web.shift", 2.0),
         (WheelShape(8.0, chamfer_below=5.0, chamfer_above=4.0), "face_chamfer.below", 4.0),
-        (WheelShape(8.0, None, Hub(41.5)), "hub.diameter", 40.99),
-        (WheelShape(8.0, None, Hub(8.0)), "hub.diameter", 8.01),
-        (WheelShape(8.0, Web(4.0, 12.0), Hub(14.0)), "web.rim_diameter", 14.01),
+        (WheelShape(8.0, None, Hub(41.5)), "hub.diameter", 40.95),
+        (WheelShape(8.0, None, Hub(8.0)), "hub.diameter", 8.05),
+        (WheelShape(8.0, Web(4.0, 12.0), Hub(14.0)), "web.rim_diameter", 14.05),
     ],
     ids=lambda v: v if isinstance(v, str) else "",
 )

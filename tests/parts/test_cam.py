@@ -291,8 +291,8 @@ def test_the_plate_is_as_large_as_the_contact_runs() -> None:
 def test_a_cam_does_not_mate_as_a_gear() -> None:
     tail = '[parts.gear]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 20\n' \
            '[[mates]]\nkind = "external_gear_pair"\nfirst = "gear"\nsecond = "cam"\n'  # fmt: skip
-    with pytest.raises(SceneError, match="is no gear"):
-        scene_from_toml(scene_text(ROLLER, tail).encode(), "s.toml", "s")
+    with pytest.raises(SceneError, match="is a cam"):
+        make_parts(scene_from_toml(scene_text(ROLLER, tail).encode(), "s.toml", "s"), "s.toml")
 
 
 def test_a_closing_offset_names_one_that_works() -> None:

@@ -202,7 +202,7 @@ def test_gears_that_run_into_each_other_without_a_mate_are_noticed(
     folded = ABC + MATE.format("a", "b") + MATE.format("b", "c") + "direction_deg = 170\n"
     _, stand = placed(folded)
     (close,) = stand.close
-    assert (close.first, close.second, close.overlap) == ("a", "c", True)
+    assert (close.first, close.second) == ("a", "c")
     scene = tmp_path_factory.mktemp("s") / "s.toml"
     scene.write_text(folded, encoding="utf-8")
     assert main(["check", str(scene)]) == 1

@@ -172,7 +172,7 @@ gear_tables = st.fixed_dictionaries(
     },
 )
 export_tables = st.fixed_dictionaries(
-    {"format": st.sampled_from(["dxf", "svg", "stl"])},
+    {"format": st.sampled_from(["dxf", "svg"])},
     optional={
         "tolerance": st.floats(1e-7, 1),
         "curves": st.sampled_from(["arcs", "lines"]),

@@ -105,7 +105,7 @@ def test_the_guidelines() -> None:
     (kudryavtsev, (8, 20), "10/25"), (kudryavtsev, (13, 80), "16/80"), (kudryavtsev, (20, 30), "18/30"),
     (kudryavtsev, (12, 61), "12/60"), (kudryavtsev, (21, 13), "at most 13"), (guidelines, (13, 21), "12/12"),
     (gost_16532, (9, 30), "at least 10"),
-], ids=str)  # fmt: skip
+], ids=lambda v: getattr(v, "__name__", str(v)))  # fmt: skip
 def test_pairs_beyond_the_tables_get_the_nearest(function, pair, expected) -> None:  # type: ignore[no-untyped-def]
     with pytest.raises(ParameterError, match=expected):
         function(*pair)
