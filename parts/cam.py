@@ -304,8 +304,9 @@ def _section(cam: DiskCam, holes: HubHoles, offset: float) -> OffsetRegion:
     from geometry.cams.shape import cam_shape
 
     inside = inner_radius(cam)
-    if not inside + offset > holes.reach - offset:
-        raise OffsetError(offset, "leaves no rim", (holes.reach - inside) / 2 * (1 - 1e-9))
+    if not inside + offset > (holes.reach - offset if holes.number else 0.0):
+        least = (holes.reach - inside) / 2 if holes.number else -inside
+        raise OffsetError(offset, "leaves no rim", least * (1 - 1e-9))
     try:
         shape = cam_shape(cam, offset)
     except GeometryError as refusal:

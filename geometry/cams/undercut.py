@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -22,11 +23,14 @@ from geometry.cams.follower_motion import TURN
 from geometry.cams.lost_lift import greatest_loss
 from geometry.curve import Complex, Real
 from geometry.errors import UndercutError
+from geometry.motion_laws.piece import sign_changes
 
 # samples a piece of the motion: of the quick test, and of the sweep that finds what is lost
 _QUICK_SAMPLES = 129
-_SWEEP_SAMPLES = 721
+_SWEEP_SAMPLES = 361
 _NEWTON_STEPS = 40
+# shares of a piece's length from its ends at which small loops are looked for
+_CROWD = 10.0 ** -np.linspace(1, 12, 89)
 # a follower reaches into a point if it does so by more than this part of the cam's size
 _REACH = 1e-9
 
@@ -126,9 +130,9 @@ def kept_arcs(cam: DiskCam, grow: float = 0.0) -> Kept:
     arcs, gaps = [], []
     for k, (leave, enter, corner) in enumerate(crossings):
         begin = crossings[k - 1][1]
-        arcs.append((begin, leave if leave > begin else leave + TURN))
+        arcs.append((float(begin), float(leave if leave > begin else leave + TURN)))
         end = enter if enter > leave else enter + TURN
-        gaps.append(Gap(leave, end, corner, greatest_loss(cam, leave, end, corner, grow - cam.radius)))
+        gaps.append(Gap(float(leave), float(end), corner, greatest_loss(cam, leave, end, corner, grow - cam.radius)))
     return Kept(tuple(arcs), tuple(gaps))
 
 
@@ -137,15 +141,36 @@ def _size(cam: DiskCam) -> float:
 
 
 def _samples(cam: DiskCam, grow: float) -> tuple[Real, np.ndarray, Complex]:
-    """Cam angles, the piece of each, and the envelope's points; both sides of every joint."""
+    """Cam angles, the piece of each, and the envelope's points; both sides of every joint.
+
+    Even steps, and crowds where a small loop may hide: at the ends of the pieces and about every cusp.
+    """
     angles, index, points = [], [], []
     for k, piece in enumerate(cam.motion.pieces):
-        count = 9 if piece.is_constant else _SWEEP_SAMPLES
-        t = np.linspace(*piece.domain, max(count, math.ceil((piece.end - piece.start) * 40)))
+        curve = cam.curve(piece, grow)
+        length = piece.end - piece.start
+        near = length * _CROWD
+        even = np.linspace(*piece.domain, 9 if piece.is_constant else _SWEEP_SAMPLES)
+        cusps = [] if piece.is_constant else _about_cusps(curve)
+        t = np.unique(np.clip(np.concatenate([even, piece.start + near, piece.end - near, *cusps]), *piece.domain))
         angles.append(t)
         index.append(np.full(len(t), k))
-        points.append(cam.curve(piece, grow).point(t))
+        points.append(curve.point(t))
     return np.concatenate(angles), np.concatenate(index), np.concatenate(points)
+
+
+def _about_cusps(curve: CentreEnvelope | FaceEnvelope) -> list[Real]:
+    """Crowded samples about each pair of cusps: a loop reaches a few times their distance beyond them."""
+    forward = _forward(curve)
+    t = np.linspace(*curve.domain, _QUICK_SAMPLES)
+    values = forward(t)
+    lowest = int(np.argmin(values))
+    near = np.linspace(t[max(lowest - 1, 0)], t[min(lowest + 1, len(t) - 1)], _QUICK_SAMPLES)
+    cusps = sign_changes(forward, np.unique(np.concatenate([t, near])))
+    found = []
+    for a, b in pairwise(cusps.tolist()):
+        found.append(np.linspace(a - 3 * (b - a), b + 3 * (b - a), _QUICK_SAMPLES))
+    return found
 
 
 def _reached(cam: DiskCam, grow: float, angles: Real, points: Complex) -> np.ndarray:

@@ -16,6 +16,7 @@ from geometry.cams.disk import DiskCam
 from geometry.cams.follower_motion import PhaseKind
 from geometry.cams.mounts import Translating
 from geometry.cams.synthesis import greatest_pressure_angle
+from geometry.errors import OffsetError
 from geometry.measure import distance_to_profile
 from geometry.motion_laws.named import NAMED_LAWS
 from parts.cam import CamSpec, checked_cam
@@ -197,6 +198,17 @@ def test_a_chamfered_hub_and_keyway() -> None:
     assert mesh.bounds[1][2] == pytest.approx(16.0)
 
 
+@pytest.mark.parametrize("tolerance", [1.0, 0.1, 0.01])
+def test_a_cam_without_bore_whose_base_circle_has_few_corners(tolerance: float) -> None:
+    """What stands on the lowest circle of a cam is no ring of spaces between teeth."""
+    phases = [PHASES[0] | {"angle_deg": 2.0}, PHASES[2] | {"angle_deg": 120.0}, PHASES[3] | {"angle_deg": 238.0}]
+    part = part_of(CAMS["flat"] | {"phases": phases, "lift": 0.05, "base_circle_radius": 900.0, "bore_diameter": 0.0})
+    for offset in (0.0, -400.0):
+        mesh = part.to_trimesh(tolerance, offset)
+        assert mesh.is_watertight
+        assert mesh.volume > 0
+
+
 def test_notes_on_impacts_rollers_and_pressure() -> None:
     jerky = [p | ({"law": "constant_velocity"} if p["move"] == "rise" else {}) for p in PHASES]
     codes = {
@@ -296,9 +308,12 @@ def test_a_cam_does_not_mate_as_a_gear() -> None:
 
 
 def test_a_closing_offset_names_one_that_works() -> None:
-    part = part_of(ROLLER)
-    with pytest.raises(Exception, match="works"):
-        part.section(-18.0)
+    for keys, most in ((ROLLER, -14.5), (ROLLER | {"bore_diameter": 0.0}, -35.0)):
+        part = part_of(keys)
+        with pytest.raises(OffsetError, match="works") as caught:
+            part.section(-36.0)
+        assert caught.value.nearest >= most
+        part.section(caught.value.nearest)
 
 
 def test_gear_scenes_load_no_cams(tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ from geometry.cams.mounts import Oscillating, Translating
 from geometry.cams.shape import cam_shape, whole_profile
 from geometry.cams.undercut import kept_arcs
 from geometry.errors import ParameterError, UndercutError
-from geometry.measure import profile_area
+from geometry.measure import distance_to_profile, profile_area
 from geometry.motion_laws.named import NAMED_LAWS, constant_velocity, polynomial_345, sine
 from geometry.profile import Label, Profile
 
@@ -203,6 +203,19 @@ def test_a_jump_of_velocity(kind: FollowerKind) -> None:
     else:
         assert shape.gaps == ()
         assert profile_area(shape.profile) > 0
+
+
+@pytest.mark.parametrize("grow", [-2.0, -0.05, -1e-3, 1e-3, 0.05, 2.0])
+def test_small_loops_at_corners_are_seen(grow: float) -> None:
+    """A parallel of a cornered outline: the loops are as small as the offset, and every point keeps its distance."""
+    motion = follower_motion(
+        [rise(D(80), 8, sine()), dwell(D(20)), return_(D(45), 8, constant_velocity()), dwell(D(215))]
+    )
+    cam = translating_cam(motion, POINTED, 60.0)
+    plain, moved = cam_shape(cam), cam_shape(cam, grow)
+    assert len(moved.gaps) == 1
+    points = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 65)) for s in moved.profile.period])
+    assert np.allclose(distance_to_profile(points, plain.profile), abs(grow), rtol=1e-6, atol=1e-10)
 
 
 def test_a_roller_rolls_over_its_own_corner() -> None:
