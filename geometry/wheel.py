@@ -341,9 +341,7 @@ def _bisected(works: Callable[[float], bool], refused: float) -> float:
 
 def _between(key: str, value: float, low: tuple[float, str], high: tuple[float, str]) -> None:
     if value <= low[0]:
-        text = (
-            f"is within {low[1]}, {at_least(low[0])} mm; at least {at_least(round(low[0] + _LEAST_STEP, 9))} mm works"
-        )
+        text = f"is within {low[1]}, {at_least(low[0])} mm; at least {low[0] + _LEAST_STEP:.9g} mm works"
         raise ParameterError(key, value, text)
     if value >= high[0]:
         text = f"reaches {high[1]}, {at_most(high[0])} mm; at most {at_most(high[0] - _LEAST_STEP)} mm works"
