@@ -117,7 +117,7 @@ def checked_gear(gear: SpurGear) -> SpurGear:
     _check_numbers(gear)
     rim = root_below_bore(gear)
     if gear.root_radius > 0 and gear.bore_diameter > 0 and rim.margin <= 0:
-        text = f"reaches the root circle, {at_most(rim.limit)} mm; at most {at_most(rim.limit * (1 - 1e-9))} mm works"
+        text = f"reaches the root circle, {at_most(rim.limit)} mm; at most {at_most(rim.limit - 1.5e-4, 5)} mm works"
         raise ParameterError("bore_diameter", rim.value, text)
     check_shaping(gear)
     try:
