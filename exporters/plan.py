@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from importlib.util import find_spec
+from typing import TYPE_CHECKING
 
 from exporters.assembly import AssemblyJob, assembly_name
 from exporters.job import Job
@@ -13,6 +14,9 @@ from parts.part import Part
 from parts.placing import Placing, place
 from parts.scene import FORMATS, ExportSpec, SceneFile, default_export, make_parts
 from parts.schema import SceneError, near
+
+if TYPE_CHECKING:
+    from exporters.sheets.job import SheetJob
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,6 +30,7 @@ class Plan:
     jobs: tuple[Job, ...]
     assemblies: tuple[AssemblyJob, ...]
     left_out: tuple[tuple[str, str], ...]
+    sheets: tuple[SheetJob, ...] = ()
 
 
 def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_formats: list[str]) -> Plan:
@@ -58,10 +63,22 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
     left_out += [(f"parts.{p}", "no export asks for it") for p in parts if p not in used]
     jobs: list[Job] = []
     assemblies: list[AssemblyJob] = []
+    sheets: list[SheetJob] = []
     taken = {f"{part}.preview.svg".lower(): "the preview of the part" for part in parts}
     for where, export in exports:
         if export.assembly and only_parts:
             left_out.append((where, "an assembly of all its parts was not asked for"))
+            continue
+        if export.format == "sheet":
+            if only_parts:
+                left_out.append((where, "a sheet of several parts was not asked for"))
+                continue
+            from exporters.sheets.job import sheet_jobs
+
+            found = sheet_jobs(scene, matings, export, where, source)
+            for path in (job.path for job in found):
+                _take(path, where, taken, source)
+            sheets += found
             continue
         made = []
         for part_id in export.parts or list(parts):
@@ -80,7 +97,7 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
             _take(path, where, taken, source)
             stand = tuple(i for i in placing.instances if i.part in (export.parts or parts))
             assemblies.append(AssemblyJob(assembly_name(scene.name), export, tuple(made), stand, path, where))
-    return Plan(source, scene, parts, placing, tuple(jobs), tuple(assemblies), tuple(left_out))
+    return Plan(source, scene, parts, placing, tuple(jobs), tuple(assemblies), tuple(left_out), tuple(sheets))
 
 
 def _take(path: str, where: str, taken: dict[str, str], source: str) -> None:

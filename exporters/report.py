@@ -13,7 +13,7 @@ import numpy as np
 
 from exporters import __version__
 from exporters.assembly import AssemblyJob
-from exporters.job import Written
+from exporters.job import Job, Written
 from exporters.plan import Plan
 from exporters.words import finding_text
 from geometry.findings import Finding
@@ -99,6 +99,8 @@ def _entry(item: Written, language: str) -> dict[str, Any]:
     if isinstance(job, AssemblyJob):
         part, more = None, {"instances": [instance.id for instance in job.instances]}
         offset = job.members[0].section.offset
+    elif not isinstance(job, Job):
+        part, more, offset = None, {"paper": job.canvas.paper}, 0.0
     else:
         part, more, offset = job.part.id, {}, job.section.offset
     return {
@@ -139,7 +141,7 @@ def _versions(written: list[Written]) -> dict[str, str]:
     python = ".".join(map(str, sys.version_info[:3]))
     versions = {"higherpair": __version__, "python": python, "numpy": np.__version__}
     formats = {item.job.export.format for item in written}
-    for name, users in (("ezdxf", {"dxf"}), ("lib3mf", {"3mf"})):
+    for name, users in (("ezdxf", {"dxf", "sheet"}), ("lib3mf", {"3mf"})):
         if formats & users and name in sys.modules:
             versions[name] = str(getattr(sys.modules[name], "__version__", "installed"))
     return versions

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -77,6 +78,16 @@ def distance_to_profile(points: Complex, profile: Profile, *, trusted: float = 0
     if doubtful.size:
         result[doubtful] = _thorough_distance(points[doubtful], profile)
     return result
+
+
+def distance_to_curves(points: Complex, curves: Sequence[Curve]) -> Real:
+    """Distance of each point (n,) from the nearest of some exact curves, mm."""
+    best = np.full(points.shape, np.inf)
+    for curve in curves:
+        t = np.linspace(*curve.domain, _FINE_SAMPLES)
+        start = _nearest_index(points, curve.point(t))
+        best = np.minimum(best, _projected(points, curve, t, start, newton=True))
+    return best
 
 
 def _quick_distance(points: Complex, profile: Profile) -> Real:

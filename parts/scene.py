@@ -35,6 +35,7 @@ _DEFAULTS: dict[str, dict[str, float]] = {
     "stl": {"print": 0.01},
     "3mf": {"print": 0.01},
     "step": {"model": 1e-6},
+    "sheet": {"meshing": 1e-6},
 }
 FORMATS = tuple(_DEFAULTS)
 # formats that hold parts in their places
@@ -53,10 +54,11 @@ class SceneInfo(Struct, forbid_unknown_fields=True):
 class ExportSpec(Struct, forbid_unknown_fields=True):
     """Keys of ``[[exports]]``."""
 
-    format: Annotated[Literal["dxf", "svg", "stl", "3mf", "step"], Meta(description="file format")]
+    format: Annotated[Literal["dxf", "svg", "stl", "3mf", "step", "sheet"], Meta(description="file format")]
     purpose: (
         Annotated[
-            Literal["laser", "print", "drawing", "model"], Meta(description="dxf: laser (arcs) or drawing (splines)")
+            Literal["laser", "print", "drawing", "model", "meshing"],
+            Meta(description="dxf: laser (arcs) or drawing (splines); sheet: meshing (picture of each pair)"),
         ]
         | None
     ) = None
@@ -72,6 +74,7 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     name: Annotated[Identifier, Meta(description="tells files of one part apart; default: the purpose")] | None = None
     parts: Annotated[list[str], Meta(min_length=1, description="parts to export; default: all")] | None = None
     assembly: Annotated[bool, Meta(description="step, 3mf: one file of all instances in their places")] = False
+    mate: Annotated[int, Meta(ge=1, description="sheet: the pair that is shown, by number; default: all")] | None = None
 
 
 class ChecksSpec(Struct, forbid_unknown_fields=True):
@@ -244,14 +247,20 @@ def _export_spec(table: Any, parts: dict[str, Struct], source: str, place: str) 
         spec.purpose = default_export(spec.format).purpose
     if spec.purpose not in purposes:
         raise SceneError(source, f"{place}.purpose", spec.purpose, f"{spec.format} is for {' or '.join(purposes)}")
-    if spec.format == "step" or spec.purpose == "drawing":
-        who = "a STEP file" if spec.format == "step" else "a drawing"
+    if spec.mate is not None and spec.purpose != "meshing":
+        raise SceneError(source, f"{place}.mate", spec.mate, 'only for purpose = "meshing"; remove it')
+    if spec.format in ("step", "sheet") or spec.purpose == "drawing":
+        who = {"step": "a STEP file", "sheet": "a sheet"}.get(spec.format, "a drawing")
         if spec.kerf:
             raise SceneError(source, f"{place}.kerf", spec.kerf, f"{who} shows the part, not the cut; remove it")
         if spec.curves != "arcs":
             raise SceneError(source, f"{place}.curves", spec.curves, f"{who} has true splines; remove it")
         if spec.dxf_version != "R2000":
             raise SceneError(source, f"{place}.dxf_version", spec.dxf_version, f"{who} is not for R12; remove it")
+    if spec.format == "sheet" and spec.offset:
+        raise SceneError(source, f"{place}.offset", spec.offset, "a sheet shows the exact profile; remove it")
+    if spec.format == "sheet" and spec.parts is not None and spec.purpose == "meshing":
+        raise SceneError(source, f"{place}.parts", None, "a picture of meshing shows a pair; use mate = 1, 2, …")
     if spec.tolerance is None:
         spec.tolerance = purposes[str(spec.purpose)]
     return spec

@@ -26,7 +26,7 @@ SCALES = (100, 50, 40, 20, 10, 5, 4, 2.5, 2, 1, 1 / 2, 1 / 2.5, 1 / 4, 1 / 5, 1 
           1 / 50, 1 / 75, 1 / 100, 1 / 200, 1 / 400, 1 / 500, 1 / 800, 1 / 1000)  # fmt: skip
 _SUBSCRIPT, _DROP = 0.7, 0.3
 # widths of letters as parts of the height of a capital
-_NARROW, _WIDE = set("iljtfrI.,:;'|()[]! °"), set("mwMWшщжюмфШЩЖЮМФ@—")
+_NARROW, _WIDE = set("iljtfrIі.,:;'|()[]! °"), set("mwMWшщжюмфШЩЖЮМФ@—")
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,7 +154,13 @@ def text_width(text: str, height: float = TEXT_HEIGHT) -> float:
 
 def plain_width(text: str, height: float) -> float:
     """Length of letters of one height, mm."""
-    return height * sum(0.45 if c in _NARROW else 1.1 if c in _WIDE else 0.8 for c in text)
+    return height * sum(_letter_width(c) for c in text)
+
+
+def _letter_width(letter: str) -> float:
+    if letter in _NARROW:
+        return 0.45
+    return 1.15 if letter in _WIDE else 1.02 if letter.isupper() else 0.8
 
 
 @dataclass(slots=True)

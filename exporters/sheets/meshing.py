@@ -15,6 +15,7 @@ from exporters.sheets.canvas import (
     Box,
     Canvas,
     Paper,
+    Stroke,
     decimal,
     draw,
     scale_text,
@@ -41,10 +42,10 @@ SYMBOLS = {"tip": "a", "working": "w", "reference": "", "base": "b", "root": "f"
 
 @dataclass(frozen=True, slots=True)
 class Facts:
-    """What the table beside the picture says: rows of name, symbol and value; mm, degrees."""
+    """What stands beside the picture: its title and the rows of its table."""
 
     title: str
-    rows: tuple[tuple[str, str, str], ...]
+    rows: tuple[Row, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,8 +57,10 @@ class View:
     room: Box
 
 
-def meshing_canvas(picture: MeshingPicture, module: float, facts: Facts, language: str, tolerance: float) -> Canvas:
-    """The sheet of a picture; ``module`` in mm, ``tolerance`` of its splines in mm on paper."""
+def meshing_canvas(
+    picture: MeshingPicture, module: float, facts: Facts, language: str, tolerance: float
+) -> tuple[Canvas, Paper]:
+    """The sheet of a picture and where its plane lies on it; ``module`` in mm, ``tolerance`` of its splines in mm on paper."""
     canvas, view = _layout(picture, module, facts)
     scale = view.paper.scale
     canvas.box("FRAME", canvas.frame)
@@ -72,7 +75,7 @@ def meshing_canvas(picture: MeshingPicture, module: float, facts: Facts, languag
     title = facts.title
     top = canvas.frame.high - 9.0
     canvas.write(title, complex(canvas.frame.left + _GAP, top), 5.0, canvas.frame.right - canvas.frame.left - 2 * _GAP)
-    rows = [Row(*row) for row in facts.rows]
+    rows = list(facts.rows)
     rows.append(Row(sheet_words(language, "scale"), "", scale_text(scale, language)))
     width, height = table_size(rows)
     corner = complex(canvas.frame.right - width, canvas.frame.low)
@@ -81,24 +84,23 @@ def meshing_canvas(picture: MeshingPicture, module: float, facts: Facts, languag
     for index, (found, body) in enumerate(zip(ends, picture.bodies, strict=True)):
         left = index == 0
         edge = view.room.left + _NAMES - 3 if left else view.room.right - _NAMES + 3
-        low = view.room.low + TEXT_HEIGHT if left or corner.real > view.room.right else view.room.low + TEXT_HEIGHT
+        low = view.room.low + TEXT_HEIGHT
         names = [(_circle_name(body, name, index, language), end[0 if left else 1]) for name, end in found]
         labels.column(names, edge, low, view.room.high - TEXT_HEIGHT, left=left)
     _names(labels, picture, view, dimensions, language)
-    return canvas
+    return canvas, view.paper
 
 
 def _circle_name(body: Body, name: str, index: int, language: str) -> str:
     symbol = f"{SYMBOLS[name]}{index + 1}"
     if body.centre is None:
-        return sheet_words(language, name if name == "reference" else name)
+        return sheet_words(language, f"{name}_line")
     return f"r_{{{symbol}}} = {decimal(f'{body.radii[name]:.2f}', language)}"
 
 
 def _layout(picture: MeshingPicture, module: float, facts: Facts) -> tuple[Canvas, View]:
     """The smallest sheet on which the teeth can be seen, with as much of the axes as they leave room for."""
-    rows = [Row(*row) for row in facts.rows] + [Row("", "", "")]
-    table = table_size(rows)
+    table = table_size([*facts.rows, Row("")])
     best: tuple[float, str, bool, Box] | None = None
     for depth in (2, 1, 0):
         window = _window(picture, module, depth)
@@ -377,7 +379,5 @@ def _arc(paper: Paper, arc: Arc) -> Arc:
     return made
 
 
-def _stroke(layer: str, paper: Paper, curve: Arc | Line):
-    from exporters.sheets.canvas import Stroke
-
+def _stroke(layer: str, paper: Paper, curve: Arc | Line) -> Stroke:
     return Stroke(layer, paper.scaled(curve))

@@ -14,11 +14,12 @@ _INDENT = 1.5
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A row; a heading has a name alone."""
+    """A row; a heading has a name alone; ``sample`` is a layer whose line stands in place of a symbol."""
 
     name: str
     symbol: str = ""
     value: str = ""
+    sample: str = ""
 
 
 def table_size(rows: list[Row]) -> tuple[float, float]:
@@ -36,7 +37,7 @@ def draw_table(canvas: Canvas, corner: complex, rows: list[Row]) -> None:
             canvas.line("TABLE", complex(corner.real, y + ROW), complex(corner.real + width, y + ROW))
         x = corner.real
         cells = (row.name, row.symbol, row.value)
-        single = not row.symbol and not row.value
+        single = not row.symbol and not row.value and not row.sample
         for column, (text, wide) in enumerate(zip(cells, COLUMNS, strict=True)):
             if column and not single:
                 canvas.line("TABLE", complex(x, y), complex(x, y + ROW))
@@ -44,3 +45,6 @@ def draw_table(canvas: Canvas, corner: complex, rows: list[Row]) -> None:
                 most = (width if single else wide) - 2 * _INDENT
                 canvas.write(text, complex(x + _INDENT, y + (ROW - TEXT_HEIGHT) / 2), most=most)
             x += wide
+        if row.sample:
+            middle = complex(corner.real + COLUMNS[0], y + ROW / 2)
+            canvas.line(row.sample, middle + 1.5, middle + COLUMNS[1] + COLUMNS[2] - 1.5)

@@ -32,6 +32,10 @@ SHEET_WORDS: dict[str, tuple[str, str]] = {
     "reference": ("reference circle", "ділильне коло"),
     "base": ("base circle", "основне коло"),
     "root": ("root circle", "коло западин"),
+    "tip_line": ("tip line", "лінія вершин"),
+    "working_line": ("working line", "початкова пряма"),
+    "reference_line": ("datum line", "ділильна пряма"),
+    "root_line": ("root line", "лінія западин"),
 }
 
 
