@@ -35,7 +35,7 @@ _DEFAULTS: dict[str, dict[str, float]] = {
     "stl": {"print": 0.01},
     "3mf": {"print": 0.01},
     "step": {"model": 1e-6},
-    "sheet": {"meshing": 1e-6},
+    "sheet": {"meshing": 1e-6, "generating": 1e-6},
 }
 FORMATS = tuple(_DEFAULTS)
 # formats that hold parts in their places
@@ -57,8 +57,11 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     format: Annotated[Literal["dxf", "svg", "stl", "3mf", "step", "sheet"], Meta(description="file format")]
     purpose: (
         Annotated[
-            Literal["laser", "print", "drawing", "model", "meshing"],
-            Meta(description="dxf: laser (arcs) or drawing (splines); sheet: meshing (picture of each pair)"),
+            Literal["laser", "print", "drawing", "model", "meshing", "generating"],
+            Meta(
+                description="dxf: laser (arcs) or drawing (splines); sheet: meshing (picture of each pair) or "
+                "generating (device TMM-42)"
+            ),
         ]
         | None
     ) = None
@@ -74,6 +77,10 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     name: Annotated[Identifier, Meta(description="tells files of one part apart; default: the purpose")] | None = None
     parts: Annotated[list[str], Meta(min_length=1, description="parts to export; default: all")] | None = None
     assembly: Annotated[bool, Meta(description="step, 3mf: one file of all instances in their places")] = False
+    rack_step: (
+        Annotated[float, mm("sheet, generating: way of the rack from position to position", least=0.01, most=1000)]
+        | None
+    ) = None
     mate: Annotated[int, Meta(ge=1, description="sheet: the pair that is shown, by number; default: all")] | None = None
 
 
@@ -249,6 +256,8 @@ def _export_spec(table: Any, parts: dict[str, Struct], source: str, place: str) 
         raise SceneError(source, f"{place}.purpose", spec.purpose, f"{spec.format} is for {' or '.join(purposes)}")
     if spec.mate is not None and spec.purpose != "meshing":
         raise SceneError(source, f"{place}.mate", spec.mate, 'only for purpose = "meshing"; remove it')
+    if spec.rack_step is not None and spec.purpose != "generating":
+        raise SceneError(source, f"{place}.rack_step", spec.rack_step, 'only for purpose = "generating"; remove it')
     if spec.format in ("step", "sheet") or spec.purpose == "drawing":
         who = {"step": "a STEP file", "sheet": "a sheet"}.get(spec.format, "a drawing")
         if spec.kerf:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +19,10 @@ from geometry.gears.meshing_picture import MeshingPicture, meshing_picture
 from parts.mate_kinds import Mating
 from parts.scene import ExportSpec, SceneFile
 from parts.schema import SceneError
+from parts.spur_gear import SpurGearSpec, checked_spur_gear
 
+# by how much the device moves its rack at each press of the key, mm: 4 to 5 in practicum, lesson 1
+RACK_STEP = 4.5
 ENDINGS = ("dxf", "svg")
 
 
@@ -54,7 +56,9 @@ class SheetJob:
         return self.canvas.max_error + rounding, "sampled" if self.canvas.sampled else "certified"
 
 
-def sheet_jobs(scene: SceneFile, matings: list[Mating], export: ExportSpec, where: str, source: str) -> list[SheetJob]:
+def sheet_jobs(
+    scene: SceneFile, matings: list[Mating], export: ExportSpec, where: str, source: str
+) -> list[SheetJob]:
     """The files of one export.
 
     Raises
@@ -62,6 +66,10 @@ def sheet_jobs(scene: SceneFile, matings: list[Mating], export: ExportSpec, wher
     SceneError
         The scene has no such pair, or there is nothing to draw of it.
     """
+    if export.purpose == "generating":
+        expected = _generating(scene, export, where, source)
+        name = f"{scene.name}.{export.name or export.purpose}"
+        return [SheetJob(export, expected, f"{name}.{ending}", where) for ending in ENDINGS]
     if not matings:
         raise SceneError(source, f"{where}.purpose", export.purpose, "shows pairs; add [[mates]] or remove it")
     if export.mate is not None and not 1 <= export.mate <= len(matings):
@@ -77,6 +85,31 @@ def sheet_jobs(scene: SceneFile, matings: list[Mating], export: ExportSpec, wher
         name = f"{scene.name}.{export.name or export.purpose}.{index}"
         jobs += [SheetJob(export, expected, f"{name}.{ending}", where) for ending in ENDINGS]
     return jobs
+
+
+def _generating(scene: SceneFile, export: ExportSpec, where: str, source: str) -> Expected:
+    """The sheet of the device TMM-42 for one or two wheels of a scene."""
+    from exporters.calculations import tmm42
+    from exporters.sheets.generating import generating_sheet
+
+    ids = export.parts or [key for key, spec in scene.parts.items() if isinstance(spec, SpurGearSpec)]
+    for part in ids:
+        if not isinstance(scene.parts[part], SpurGearSpec):
+            raise SceneError(source, f"{where}.parts", part, "the device draws external gears; name a spur_gear")
+    if not ids:
+        raise SceneError(source, f"{where}.purpose", export.purpose, "shows external gears; add one or remove it")
+    gears = [checked_spur_gear(scene.parts[part]) for part in ids]
+    tables = tmm42.sheet(tmm42.table_from(scene, source, {"part": _most_shifted(ids, gears)}))
+    try:
+        step = export.rack_step or RACK_STEP
+        return generating_sheet(gears, step, tables, scene.scene.language, float(export.tolerance or 0.0))
+    except ParameterError as error:
+        raise SceneError(source, f"{where}.{error.name}", error.value, error.allowed) from error
+
+
+def _most_shifted(ids: list[str], gears: list[Any]) -> str:
+    """The wheel of table 1.2."""
+    return max(zip(ids, gears, strict=True), key=lambda pair: abs(pair[1].profile_shift_coefficient))[0]
 
 
 def _meshing(mating: Mating, language: str, tolerance: float) -> Expected:
@@ -141,7 +174,7 @@ def _facts(mating: Mating, picture: MeshingPicture, language: str) -> Facts:
         Row(word("active"), "ab", say(picture.end - picture.start, 3)),
         Row(word("arc"), "dd'", say(arc.radius * arc.sweep, 3)),
         Row(word("pitch"), "p_{w}", say(picture.working_pitch, 3)),
-        Row(word("ratio"), "ε_{α} = dd'/p_{w}", say(picture.contact_ratio, 4)),
+        Row(word("ratio"), "ε_{α}", say(picture.contact_ratio, 4)),
         Row(word("start"), sample="TOOTH_START"),
         Row(word("end"), sample="TOOTH_END"),
         Row(word("flank"), sample="ACTIVE_FLANK"),
@@ -149,5 +182,9 @@ def _facts(mating: Mating, picture: MeshingPicture, language: str) -> Facts:
         Row(word("arc"), sample="ARC_OF_ACTION"),
         Row(word("pitch"), sample="WORKING_PITCH"),
     ]
-    names = word("mate").format(first=mating.first, second=mating.second)
+    first, second = mating.first, mating.second
+    if getattr(mating, "ring_first", False):
+        # the picture counts the pinion first
+        first, second = second, first
+    names = word("mate").format(first=first, second=second)
     return Facts(f"{word(picture.kind)}: {names}", tuple(rows))

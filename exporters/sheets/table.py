@@ -22,14 +22,14 @@ class Row:
     sample: str = ""
 
 
-def table_size(rows: list[Row]) -> tuple[float, float]:
+def table_size(rows: list[Row], columns: tuple[float, ...] = COLUMNS) -> tuple[float, float]:
     """Width and height, mm."""
-    return sum(COLUMNS), ROW * len(rows)
+    return sum(columns), ROW * len(rows)
 
 
-def draw_table(canvas: Canvas, corner: complex, rows: list[Row]) -> None:
+def draw_table(canvas: Canvas, corner: complex, rows: list[Row], columns: tuple[float, ...] = COLUMNS) -> None:
     """A table with its lower left corner at ``corner``; words are squeezed into their cells."""
-    width, height = table_size(rows)
+    width, height = table_size(rows, columns)
     canvas.box("TABLE", Box(corner.real, corner.imag, corner.real + width, corner.imag + height))
     for index, row in enumerate(rows):
         y = corner.imag + height - ROW * (index + 1)
@@ -38,13 +38,13 @@ def draw_table(canvas: Canvas, corner: complex, rows: list[Row]) -> None:
         x = corner.real
         cells = (row.name, row.symbol, row.value)
         single = not row.symbol and not row.value and not row.sample
-        for column, (text, wide) in enumerate(zip(cells, COLUMNS, strict=True)):
-            if column and not single:
+        for column, (text, wide) in enumerate(zip(cells, columns, strict=True)):
+            if column and not single and not (row.sample and column == 2):
                 canvas.line("TABLE", complex(x, y), complex(x, y + ROW))
             if text:
                 most = (width if single else wide) - 2 * _INDENT
                 canvas.write(text, complex(x + _INDENT, y + (ROW - TEXT_HEIGHT) / 2), most=most)
             x += wide
         if row.sample:
-            middle = complex(corner.real + COLUMNS[0], y + ROW / 2)
-            canvas.line(row.sample, middle + 1.5, middle + COLUMNS[1] + COLUMNS[2] - 1.5)
+            middle = complex(corner.real + columns[0], y + ROW / 2)
+            canvas.line(row.sample, middle + 1.5, middle + columns[1] + columns[2] - 1.5)

@@ -20,7 +20,6 @@ from geometry.line_arc import Arc, Line
 from geometry.outline import CadCurve
 
 _MILLIMETRES = 4
-# widths that DXF knows, in hundredths of a millimetre
 _FONT = "arial.ttf"
 # height of a capital as a part of an SVG font's size
 _CAPITAL = 0.72
@@ -60,7 +59,9 @@ def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
         left, right = (run.at.real, run.at.imag), (run.at.real + run.width, run.at.imag)
         entity.set_placement(left, right, align=TextEntityAlignment.FIT)
         counts["TEXT"] = counts.get("TEXT", 0) + 1
-    space.reset_extents((0.0, 0.0, 0.0), (canvas.width, canvas.height, 0.0))
+    # all stands within the frame; ezdxf takes a corner at 0, 0 for none
+    frame = canvas.frame
+    space.reset_extents((frame.left, frame.low, 0.0), (frame.right, frame.high, 0.0))
     with fixed_metadata():
         save_dxf(drawing, file)
     return counts
@@ -83,7 +84,6 @@ def write_sheet_svg(file: Path, canvas: Canvas) -> dict[str, int]:
         lines.append(f'<g id="{name}" style="{look}">')
         lines += [f'<path d="{_path(c, canvas.height)}"/>' for c in curves]
         lines.append("</g>")
-    # a white edge keeps words legible where they must cross a line
     lines.append(f'<g id="TEXT" style="font-family:Arial,Liberation Sans,sans-serif;fill:{STYLES["TEXT"].colour}">')
     lines += [_text(run, canvas.height) for t in canvas.texts for run in t.runs]
     lines.append("</g>")
