@@ -17,7 +17,8 @@ from geometry.outline import CadCurve
 from geometry.placement import Placement2
 from geometry.spline_fit import fit_spline
 
-TEXT_HEIGHT = 3.5
+# heights of capitals, mm; GOST 2.304
+TEXT_HEIGHT, SMALL_TEXT = 3.5, 2.5
 # paper sizes (width, height of the upright sheet) and frame, mm; GOST 2.301, 2.104
 PAPERS = {"A3": (297.0, 420.0), "A2": (420.0, 594.0), "A1": (594.0, 841.0), "A0": (841.0, 1189.0)}
 FRAME_LEFT, FRAME = 20.0, 5.0
@@ -44,6 +45,7 @@ _DASHED = (4.0, 1.5)
 STYLES: dict[str, Style] = {
     "FRAME": Style(0.5, (), 7, "#000000"),
     "TABLE": Style(0.25, (), 7, "#000000"),
+    "RACK": Style(0.18, (), 8, "#808080"),
     "OUTLINE": Style(0.5, (), 7, "#000000"),
     "ACTIVE_FLANK": Style(1.0, (), 1, "#c00000"),
     "TOOTH_START": Style(0.25, _DASHED, 5, "#2040c0"),
@@ -59,7 +61,6 @@ STYLES: dict[str, Style] = {
     "ACTIVE_LINE": Style(0.7, (), 1, "#c00000"),
     "ARC_OF_ACTION": Style(0.7, (), 5, "#2040c0"),
     "WORKING_PITCH": Style(0.7, (), 3, "#007020"),
-    "RACK": Style(0.18, (), 8, "#808080"),
     "DISK": Style(0.5, (), 7, "#000000"),
     "DIMENSION": Style(0.18, (), 8, "#505050"),
     "TEXT": Style(0.25, (), 7, "#000000"),
@@ -125,7 +126,9 @@ class Text:
 
 
 def text_of(text: str, at: complex, height: float = TEXT_HEIGHT, most: float | None = None) -> Text:
-    """A line of text from the left end of its base line, made narrower where it would be wider than ``most`` mm."""
+    """A line of text from the left end of its base line; one longer than ``most`` mm is made smaller, then narrower."""
+    if most is not None and text_width(text, height) > most:
+        height *= max(SMALL_TEXT / height, most / text_width(text, height)) if height > SMALL_TEXT else 1.0
     pieces = [(p, False) if i % 2 == 0 else (p, True) for i, p in enumerate(re.split(r"_\{([^}]*)\}", text)) if p]
     natural = text_width(text, height)
     squeeze = min(1.0, (most or natural) / natural) if natural else 1.0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+import re
 
 from exporters.calculations.render import numbers_text, result_text, step_name
 from exporters.calculations.sheet import Sheet, formula_text
@@ -12,9 +13,11 @@ from exporters.sheets.canvas import (
     FRAME_LEFT,
     PAPERS,
     SCALES,
+    SMALL_TEXT,
     Box,
     Canvas,
     Paper,
+    decimal,
     draw,
     scale_text,
 )
@@ -32,7 +35,9 @@ from geometry.line_arc import Arc
 from geometry.placement import Placement2
 
 TEETH = 3
-COLUMNS = (80.0, 72.0, 28.0)
+COLUMNS = (94.0, 104.0, 34.0)
+# an undercut is named where it takes more than this of the involute, in modules
+_SEEN_UNDERCUT = 0.01
 _MARGIN, _TITLE, _NAMES = 6.0, 14.0, 32.0
 _CIRCLES = ("tip", "reference", "base", "root")
 _SYMBOLS = {"tip": "a", "reference": "", "base": "b", "root": "f"}
@@ -75,7 +80,7 @@ def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, language
         draw(canvas, layer, curves[layer], paper, tolerance)
     rows.append(Row(sheet_words(language, "scale"), "", scale_text(paper.scale, language)))
     width, _ = table_size(rows, COLUMNS)
-    draw_table(canvas, complex(canvas.frame.right - width, canvas.frame.low), rows, COLUMNS)
+    draw_table(canvas, complex(canvas.frame.right - width, canvas.frame.low), rows, COLUMNS, SMALL_TEXT)
     _label(canvas, paper, room, gears, names, language)
     return Expected(canvas, paper, tuple(circles), curves)
 
@@ -115,8 +120,14 @@ def _rows(tables: Sheet, language: str) -> list[Row]:
         rows.append(Row(section.title[index]))
         for step in section.steps:
             formula = f"{formula_text(step, language)} = {numbers_text(step, language)}" if step.formula else ""
-            rows.append(Row(f"{step_name(step, language)}, {step.symbol}", formula, result_text(step, language)))
+            cells = f"{step_name(step, language)}, {step.symbol}", formula, result_text(step, language)
+            rows.append(Row(*(decimal(_lowered(cell), language) for cell in cells)))
     return rows
+
+
+def _lowered(text: str) -> str:
+    """S_t1 with its index lowered."""
+    return re.sub(r"_(\w[\w,]*)", r"_{\1}", text)
 
 
 def _layout(disk: float, rows: list[Row]) -> tuple[Canvas, Paper, Box]:
@@ -163,8 +174,8 @@ def _label(
         way = 1j if index == 0 else -1j
         below = paper.origin + way * paper.scale * gear.root_radius * 0.55
         labels.name(sheet_words(language, key), below, 5.0)
-        if undercut(gear).margin < 0:
-            form, side = root_form_diameter(gear) / 2, tooth_side(gear)
+        form, side = root_form_diameter(gear) / 2, tooth_side(gear)
+        if undercut(gear).margin < 0 and form - gear.base_radius > _SEEN_UNDERCUT * gear.module:
             at = next(
                 complex(s.curve.point(t)) for s in side.segments for t in s.curve.domain
                 if abs(abs(complex(s.curve.point(t))) - form) < 1e-9 * form

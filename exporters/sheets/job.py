@@ -15,6 +15,7 @@ from exporters.sheets.words import sheet_words
 from exporters.sheets.write import write_sheet
 from exporters.verify import Verdict
 from geometry.errors import ParameterError
+from geometry.gears.limits import practicum_undercut
 from geometry.gears.meshing_picture import MeshingPicture, meshing_picture
 from parts.mate_kinds import Mating
 from parts.scene import ExportSpec, SceneFile
@@ -99,7 +100,11 @@ def _generating(scene: SceneFile, export: ExportSpec, where: str, source: str) -
     if not ids:
         raise SceneError(source, f"{where}.purpose", export.purpose, "shows external gears; add one or remove it")
     gears = [checked_spur_gear(scene.parts[part]) for part in ids]
-    tables = tmm42.sheet(tmm42.table_from(scene, source, {"part": _most_shifted(ids, gears)}))
+    table = tmm42.table_from(scene, source, {"part": _most_shifted(ids, gears)})
+    if abs(table.get("profile_shift_coefficient", math.inf) - practicum_undercut(gears[0]).limit) < 1e-12:
+        # the very shift of (1.2), which the table then derives
+        table.pop("profile_shift_coefficient")
+    tables = tmm42.sheet(table)
     try:
         step = export.rack_step or RACK_STEP
         return generating_sheet(gears, step, tables, scene.scene.language, float(export.tolerance or 0.0))

@@ -27,7 +27,13 @@ def table_size(rows: list[Row], columns: tuple[float, ...] = COLUMNS) -> tuple[f
     return sum(columns), ROW * len(rows)
 
 
-def draw_table(canvas: Canvas, corner: complex, rows: list[Row], columns: tuple[float, ...] = COLUMNS) -> None:
+def draw_table(
+    canvas: Canvas,
+    corner: complex,
+    rows: list[Row],
+    columns: tuple[float, ...] = COLUMNS,
+    height_of_text: float = TEXT_HEIGHT,
+) -> None:
     """A table with its lower left corner at ``corner``; words are squeezed into their cells."""
     width, height = table_size(rows, columns)
     canvas.box("TABLE", Box(corner.real, corner.imag, corner.real + width, corner.imag + height))
@@ -43,7 +49,7 @@ def draw_table(canvas: Canvas, corner: complex, rows: list[Row], columns: tuple[
                 canvas.line("TABLE", complex(x, y), complex(x, y + ROW))
             if text:
                 most = (width if single else wide) - 2 * _INDENT
-                canvas.write(text, complex(x + _INDENT, y + (ROW - TEXT_HEIGHT) / 2), most=most)
+                canvas.write(text, complex(x + _INDENT, y + (ROW - height_of_text) / 2), height_of_text, most)
             x += wide
         if row.sample:
             middle = complex(corner.real + columns[0], y + ROW / 2)
