@@ -10,6 +10,7 @@ from exporters.assembly import AssemblyJob, assembly_name
 from exporters.job import Job
 from geometry.errors import GeometryError, ParameterError, at_least, at_most
 from geometry.gears.offset_tooth import OffsetError, OffsetRegion
+from parts.mate_kinds import Mating
 from parts.part import Part
 from parts.placing import Placing, place
 from parts.scene import FORMATS, ExportSpec, SceneFile, default_export, make_parts
@@ -66,19 +67,12 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
     sheets: list[SheetJob] = []
     taken = {f"{part}.preview.svg".lower(): "the preview of the part" for part in parts}
     for where, export in exports:
-        if export.assembly and only_parts:
-            left_out.append((where, "an assembly of all its parts was not asked for"))
+        if only_parts and (export.assembly or export.format == "sheet"):
+            what = "an assembly of all its parts" if export.assembly else "a sheet of several parts"
+            left_out.append((where, f"{what} was not asked for"))
             continue
         if export.format == "sheet":
-            if only_parts:
-                left_out.append((where, "a sheet of several parts was not asked for"))
-                continue
-            from exporters.sheets.job import sheet_jobs
-
-            found = sheet_jobs(scene, matings, export, where, source)
-            for path in (job.path for job in found):
-                _take(path, where, taken, source)
-            sheets += found
+            sheets += _sheets(scene, matings, export, where, source, taken)
             continue
         made = []
         for part_id in export.parts or list(parts):
@@ -98,6 +92,17 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
             stand = tuple(i for i in placing.instances if i.part in (export.parts or parts))
             assemblies.append(AssemblyJob(assembly_name(scene.name), export, tuple(made), stand, path, where))
     return Plan(source, scene, parts, placing, tuple(jobs), tuple(assemblies), tuple(left_out), tuple(sheets))
+
+
+def _sheets(
+    scene: SceneFile, matings: list[Mating], export: ExportSpec, where: str, source: str, taken: dict[str, str]
+) -> list[SheetJob]:
+    from exporters.sheets.job import sheet_jobs
+
+    found = sheet_jobs(scene, matings, export, where, source)
+    for job in found:
+        _take(job.path, where, taken, source)
+    return found
 
 
 def _take(path: str, where: str, taken: dict[str, str], source: str) -> None:

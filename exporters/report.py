@@ -96,13 +96,14 @@ def _mass(part: Part, written: list[Written]) -> dict[str, Any]:
 
 def _entry(item: Written, language: str) -> dict[str, Any]:
     job, export = item.job, item.job.export
+    more: dict[str, Any] = {}
     if isinstance(job, AssemblyJob):
         part, more = None, {"instances": [instance.id for instance in job.instances]}
         offset = job.members[0].section.offset
     elif not isinstance(job, Job):
         part, more, offset = None, {"paper": job.canvas.paper}, 0.0
     else:
-        part, more, offset = job.part.id, {}, job.section.offset
+        part, offset = job.part.id, job.section.offset
     return {
         "path": job.path,
         "format": export.format,

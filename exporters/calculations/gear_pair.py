@@ -1,4 +1,4 @@
-"""``higherpair calc gear-pair``: pairs of gears; here the external one, practicum (3.2) to (3.22), and what more a maker asks for."""
+"""``higherpair calc gear-pair``: pairs of gears; here the external one, practicum (3.2) to (3.22), and more."""
 
 from __future__ import annotations
 

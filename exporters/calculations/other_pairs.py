@@ -1,4 +1,4 @@
-"""``higherpair calc gear-pair kind=internal_gear_pair`` and ``kind=rack_pair``: a pinion in a ring, a gear on a rack."""
+"""``higherpair calc gear-pair`` of the kinds internal_gear_pair and rack_pair: a pinion in a ring, a gear on a rack."""
 
 from __future__ import annotations
 
@@ -16,8 +16,9 @@ from exporters.words import FINDINGS
 from geometry.angles import involute_function
 from geometry.errors import ParameterError
 from geometry.gears import limits, measurement, ring_limits
-from geometry.gears.internal_pair import InternalPair, internal_pair, shift_difference
+from geometry.gears.internal_pair import InternalPair, shift_difference
 from geometry.gears.rack_pair import RackPair
+from geometry.gears.ring import RingGear, RoundedRoot
 from geometry.gears.sliding import specific_sliding_internal
 from parts.keys import mm
 from parts.mate_kinds import InternalGearPairSpec, RackPairSpec
@@ -83,15 +84,16 @@ def internal_sheet(table: dict[str, Any]) -> Sheet:
     keys, table = _keys(table, "internal_gear_pair")
     mate = InternalGearPairSpec("first", "second", 0.0, keys.working_centre_distance, keys.normal_backlash)
     try:
-        gears = {"first": checked_spur_gear(keys.first), "second": checked_ring_gear(keys.second)}
-        wanted = keys.working_centre_distance
-        if wanted is not None and "profile_shift_coefficient" not in table["second"]:
-            internal_pair(gears["first"], gears["second"])
-            shift = gears["first"].profile_shift_coefficient + shift_difference(gears["first"], gears["second"], wanted)
-            spec = msgspec.structs.replace(keys.second, profile_shift_coefficient=shift)
-            gears["second"] = checked_ring_gear(spec)
+        pinion, wanted = checked_spur_gear(keys.first), keys.working_centre_distance
+        ring_keys = keys.second
+        teeth = pinion.number_of_teeth, ring_keys.number_of_teeth
+        if wanted is not None and "profile_shift_coefficient" not in table["second"] and teeth[0] < teeth[1]:
+            bare = RingGear(ring_keys.module, teeth[1], math.radians(ring_keys.pressure_angle_deg), 1e9, RoundedRoot())
+            shift = pinion.profile_shift_coefficient + shift_difference(pinion, bare, wanted)
+            ring_keys = msgspec.structs.replace(ring_keys, profile_shift_coefficient=shift)
             # shifts that were found for a distance give it back but for rounding
             mate = InternalGearPairSpec("first", "second", 0.0, None, keys.normal_backlash)
+        gears: dict[str, Any] = {"first": pinion, "second": checked_ring_gear(ring_keys)}
         pair = mated(gears, [mate], {name: name for name in _GEARS})[1][0].pair  # type: ignore[attr-defined]
         return _internal_page(pair, wanted is not None)
     except ParameterError as error:
@@ -179,7 +181,7 @@ def _internal_mesh(page: Sheet, pair: InternalPair, wanted_distance: bool) -> No
 def _internal_sizes(page: Sheet, pair: InternalPair) -> None:
     """Radii, pitch, thicknesses, angles at the tips."""
     pinion, ring = pair.pinion, pair.ring
-    gears = (pinion, ring)
+    gears: tuple[Any, Any] = (pinion, ring)
     page.section("Radii", "Радіуси кіл")
     page.both("reference_radius", (pinion.reference_radius, ring.reference_radius), "{m} * {z#} / 2", _ISO)
     page.both("base_radius", (pinion.base_radius, ring.base_radius), "{r#} * cos({alpha})", _ISO)
@@ -215,9 +217,7 @@ def _internal_contact(page: Sheet, pair: InternalPair) -> None:
     formula = "({z1} * tan({alpha_a1}) - {z2} * tan({alpha_a2}) + ({z2} - {z1}) * tan({alpha_w})) / (2 * pi)"
     page.add("contact_ratio", pair.contact_ratio, formula, "GOST 19274")
     page.add("working_pitch", pair.working_pitch, "2 * pi * {r_w1} / {z1}", "practicum (3.21)")
-    formula = (
-        "{r_w1} * ({r_b1} * tan({alpha_a1}) - {r_b2} * tan({alpha_a2}) + {a_w} * sin({alpha_w})) / {r_b1}"
-    )
+    formula = "{r_w1} * ({r_b1} * tan({alpha_a1}) - {r_b2} * tan({alpha_a2}) + {a_w} * sin({alpha_w})) / {r_b1}"
     page.add("arc_of_action", pair.arc_of_action, formula, "practicum, fig. 3.13")
     page.add("contact_ratio_by_arc", pair.contact_ratio_by_arc, "{dd} / {p_w}", "practicum (3.21)")
     if abs(pair.effective_contact_ratio - pair.contact_ratio) > 1e-9:

@@ -100,9 +100,7 @@ class Box:
 
     def overlaps(self, other: Box) -> bool:
         """Whether both have an inner point in common."""
-        return (
-            self.left < other.right and other.left < self.right and self.low < other.high and other.low < self.high
-        )
+        return self.left < other.right and other.left < self.right and self.low < other.high and other.low < self.high
 
     def within(self, other: Box) -> bool:
         """Whether this one lies in the other."""
@@ -219,12 +217,18 @@ def draw(canvas: Canvas, layer: str, curves: list[Curve], to_paper: Paper, toler
     """Exact curves in model mm, splines where they are neither line nor arc, within ``tolerance`` mm on paper."""
     for curve in curves:
         placed = curve.placed(to_paper.turn)
-        if not isinstance(placed, Arc | Line):
+        drawn: CadCurve
+        if isinstance(placed, Arc | Line):
+            drawn = placed
+        else:
             fit = fit_spline(placed, tolerance / to_paper.scale, degree=3, continuity=2)
             canvas.max_error = max(canvas.max_error, fit.max_error * to_paper.scale)
             canvas.sampled = canvas.sampled or fit.bound == "sampled"
-            placed = fit.spline
-        canvas.strokes.append(Stroke(layer, to_paper.scaled(placed)))
+            drawn = fit.spline
+        canvas.strokes.append(Stroke(layer, to_paper.scaled(drawn)))
+
+
+_UNTURNED = Placement2()
 
 
 @dataclass(frozen=True, slots=True)
@@ -233,7 +237,7 @@ class Paper:
 
     scale: float
     origin: complex
-    turn: Placement2 = Placement2()
+    turn: Placement2 = _UNTURNED
 
     def point(self, point: complex) -> complex:
         """A model point on paper."""

@@ -107,9 +107,7 @@ def _teeth(gear: SpurGear, place: Placement2) -> list[Curve]:
     """The exact outline of the teeth that the rack has finished."""
     period = [s.curve for s in tooth_side(gear).profile().period]
     middle = TEETH // 2
-    return [
-        c.placed(place @ Placement2(k * gear.pitch_angle)) for k in range(-middle, TEETH - middle) for c in period
-    ]
+    return [c.placed(place @ Placement2(k * gear.pitch_angle)) for k in range(-middle, TEETH - middle) for c in period]
 
 
 def _rows(tables: Sheet, language: str) -> list[Row]:

@@ -57,9 +57,7 @@ class SheetJob:
         return self.canvas.max_error + rounding, "sampled" if self.canvas.sampled else "certified"
 
 
-def sheet_jobs(
-    scene: SceneFile, matings: list[Mating], export: ExportSpec, where: str, source: str
-) -> list[SheetJob]:
+def sheet_jobs(scene: SceneFile, matings: list[Mating], export: ExportSpec, where: str, source: str) -> list[SheetJob]:
     """The files of one export.
 
     Raises
@@ -160,7 +158,9 @@ def _facts(mating: Mating, picture: MeshingPicture, language: str) -> Facts:
     def say(value: float, digits: int) -> str:
         return decimal(f"{value:.{digits}f}", language)
 
-    gears = [g for name in ("first", "second", "pinion", "ring", "gear") if (g := getattr(pair, name, None)) is not None]
+    gears = [
+        g for name in ("first", "second", "pinion", "ring", "gear") if (g := getattr(pair, name, None)) is not None
+    ]
     rows = [Row(word("module"), "m", decimal(f"{mating.module:g}", language))]
     for index, gear in enumerate(gears, 1):
         rows.append(Row(word("number_of_teeth"), f"z_{{{index}}}", str(gear.number_of_teeth)))
@@ -191,5 +191,5 @@ def _facts(mating: Mating, picture: MeshingPicture, language: str) -> Facts:
     if getattr(mating, "ring_first", False):
         # the picture counts the pinion first
         first, second = second, first
-    names = word("mate").format(first=first, second=second)
-    return Facts(f"{word(picture.kind)}: {names}", tuple(rows))
+    title = word("mate").format(first=first, second=second)
+    return Facts(f"{word(picture.kind)}: {title}", tuple(rows))

@@ -1,4 +1,4 @@
-"""Places for words: beside what they name, over nothing that is written already, and off the lines where there is room."""
+"""Places for words: beside what they name, over nothing that is written, off the lines where there is room."""
 
 from __future__ import annotations
 
@@ -33,9 +33,13 @@ class Labeller:
         for reach in _REACHES:
             for k in range(_DIRECTIONS):
                 way = cmath.exp(2j * math.pi * k / _DIRECTIONS)
-                middle = point + way * reach + complex(
-                    math.copysign(min(abs(way.real) * 2, 1) * width / 2, way.real),
-                    math.copysign(min(abs(way.imag) * 2, 1) * height / 2, way.imag),
+                middle = (
+                    point
+                    + way * reach
+                    + complex(
+                        math.copysign(min(abs(way.real) * 2, 1) * width / 2, way.real),
+                        math.copysign(min(abs(way.imag) * 2, 1) * height / 2, way.imag),
+                    )
                 )
                 at = middle - complex(width, height) / 2
                 cost = self._cost(text, at, height, point, reach, way)
@@ -58,7 +62,7 @@ class Labeller:
         cost = _PER_POINT * box.holds(self._points) + _PER_MM * reach
         if reach > _NEAR:
             cost += 0.6
-            path = point + (nearest(box, point) - point) * np.linspace(0, 1, 20)
+            path = (point + (nearest(box, point) - point) * np.linspace(0, 1, 20)).astype(np.complex128)
             if any(t.box.holds(path) for t in self._canvas.texts):
                 return None
         return cost

@@ -40,6 +40,10 @@ _WIDEST = math.radians(75)
 SYMBOLS = {"tip": "a", "working": "w", "reference": "", "base": "b", "root": "f"}
 
 
+# names of circles and where each ends on the left and on the right
+Ends = list[tuple[str, tuple[complex, complex]]]
+
+
 @dataclass(frozen=True, slots=True)
 class Facts:
     """What stands beside the picture: its title and the rows of its table."""
@@ -60,7 +64,7 @@ class View:
 def meshing_canvas(
     picture: MeshingPicture, module: float, facts: Facts, language: str, tolerance: float
 ) -> tuple[Canvas, Paper]:
-    """The sheet of a picture and where its plane lies on it; ``module`` in mm, ``tolerance`` of its splines in mm on paper."""
+    """The sheet of a picture and where its plane lies on it; ``module`` in mm, ``tolerance`` in mm on paper."""
     canvas, view = _layout(picture, module, facts)
     scale = view.paper.scale
     canvas.box("FRAME", canvas.frame)
@@ -77,7 +81,7 @@ def meshing_canvas(
     canvas.write(title, complex(canvas.frame.left + _GAP, top), 5.0, canvas.frame.right - canvas.frame.left - 2 * _GAP)
     rows = list(facts.rows)
     rows.append(Row(sheet_words(language, "scale"), "", scale_text(scale, language)))
-    width, height = table_size(rows)
+    width, _ = table_size(rows)
     corner = complex(canvas.frame.right - width, canvas.frame.low)
     draw_table(canvas, corner, rows)
     labels = Labeller(canvas, view.room)
@@ -109,7 +113,7 @@ def _layout(picture: MeshingPicture, module: float, facts: Facts) -> tuple[Canva
                 scale = _greatest_scale(window, _field(name, upright, table))
                 enough = scale * module >= _LEAST_MODULE
                 better = best is None or scale > best[0] * 1.01
-                if (enough or depth == 0 and name == "A1") and better:
+                if (enough or (depth == 0 and name == "A1")) and better:
                     best = scale, name, upright, window
             if best is not None and best[0] * module >= _LEAST_MODULE:
                 break
@@ -194,9 +198,11 @@ def _is_up(body: Body, window: Box) -> bool:
     return body.centre.imag < (window.low + window.high) / 2 or body.centre == 0
 
 
-def _circles(canvas: Canvas, body: Body, fan: tuple[float, float], view: View) -> list[tuple[str, tuple[complex, complex]]]:
+def _circles(
+    canvas: Canvas, body: Body, fan: tuple[float, float], view: View
+) -> list[tuple[str, tuple[complex, complex]]]:
     """The circles of a body as arcs about the mesh; the names and both ends of each, on paper."""
-    found = []
+    found: Ends = []
     for name in CIRCLES:
         if name not in body.radii:
             continue
@@ -327,7 +333,9 @@ def _arrow(canvas: Canvas, tip: complex, way: complex) -> None:
         canvas.line("DIMENSION", tip, tip - 3.0 * way * cmath.exp(1j * side * math.radians(12)))
 
 
-def _names(labels: Labeller, picture: MeshingPicture, view: View, dimensions: dict[str, complex], language: str) -> None:
+def _names(
+    labels: Labeller, picture: MeshingPicture, view: View, dimensions: dict[str, complex], language: str
+) -> None:
     """Names of points, arcs and angles."""
     to, window = view.paper.point, view.window
     pole = picture.on_line(picture.pole)
@@ -353,7 +361,9 @@ def _names(labels: Labeller, picture: MeshingPicture, view: View, dimensions: di
         if _inside(body.centre, window):
             labels.name(f"O_{{{index + 1}}}", to(body.centre), prefer=1 + 0j)
         else:
-            outside.setdefault(window.low if body.centre.imag < window.low else window.high, []).append(f"O_{{{index + 1}}}")
+            outside.setdefault(window.low if body.centre.imag < window.low else window.high, []).append(
+                f"O_{{{index + 1}}}"
+            )
     for y, names in outside.items():
         labels.name(sheet_words(language, "towards").format(name=", ".join(names)), to(complex(0, y)))
     phase = cmath.phase(picture.direction)

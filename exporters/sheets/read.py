@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-import ezdxf
 import numpy as np
 
 from exporters.readers import ReadError
@@ -62,7 +61,7 @@ class ReadSheet:
     def add_line(self, layer: str, start: complex, end: complex) -> None:
         """A straight line with its samples."""
         self.lines.append(ReadLine(layer, start, end))
-        self.samples.append((layer, start + (end - start) * np.linspace(0, 1, _PER_CURVE)))
+        self.samples.append((layer, (start + (end - start) * np.linspace(0, 1, _PER_CURVE)).astype(np.complex128)))
 
     def add_arc(self, layer: str, centre: complex, radius: float, first: float, sweep: float) -> None:
         """An arc with its samples; angles in rad."""
@@ -82,11 +81,14 @@ def read_sheet(file: Path) -> ReadSheet:
 
 
 def _read_dxf(file: Path) -> ReadSheet:
+    import ezdxf
+
     try:
         drawing = ezdxf.readfile(file)
     except (ezdxf.DXFError, OSError, UnicodeDecodeError) as error:
         raise ReadError(f"is not a DXF file: {error}") from error
     sheet = ReadSheet()
+    entity: Any
     for entity in drawing.modelspace():
         layer, kind = entity.dxf.layer, entity.dxftype()
         if layer not in drawing.layers:

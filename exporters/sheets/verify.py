@@ -86,10 +86,15 @@ def _check_circles(
     for circle in expected.circles:
         if circle.centre is None:
             rows = [line for line in sheet.lines if line.layer == circle.layer]
-            off = min((max(abs(x.start.imag - circle.radius), abs(x.end.imag - circle.radius)) for x in rows), default=math.inf)
+            off = min(
+                (max(abs(x.start.imag - circle.radius), abs(x.end.imag - circle.radius)) for x in rows),
+                default=math.inf,
+            )
         else:
             arcs = [arc for arc in sheet.arcs if arc.layer == circle.layer]
-            off = min((max(abs(a.centre - circle.centre), abs(a.radius - circle.radius)) for a in arcs), default=math.inf)
+            off = min(
+                (max(abs(a.centre - circle.centre), abs(a.radius - circle.radius)) for a in arcs), default=math.inf
+            )
         worst = max(worst, off)
         if not off <= allowed:
             failures.append(f"{circle.layer}: no circle of {circle.radius:.6f} mm within {off:.3g} mm")

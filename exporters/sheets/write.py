@@ -6,13 +6,8 @@ import math
 from html import escape
 from pathlib import Path
 
-import ezdxf
 import numpy as np
-from ezdxf.enums import TextEntityAlignment
 
-from exporters.drawing import add_curve
-from exporters.dxf import fixed_metadata
-from exporters.dxf import save as save_dxf
 from exporters.sheets.canvas import STYLES, Canvas, Run
 from exporters.svg import number, save
 from geometry.bspline import BSpline
@@ -32,6 +27,13 @@ def write_sheet(file: Path, canvas: Canvas) -> dict[str, int]:
 
 def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
     """DXF R2010 in mm on paper: lines, arcs, circles and cubic splines on their layers, text fitted to its length."""
+    import ezdxf
+    from ezdxf.enums import TextEntityAlignment
+
+    from exporters.drawing import add_curve
+    from exporters.dxf import fixed_metadata
+    from exporters.dxf import save as save_dxf
+
     with fixed_metadata():
         drawing = ezdxf.new("R2010", setup=False, units=_MILLIMETRES)
     drawing.header["$LUNITS"] = 2

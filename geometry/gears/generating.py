@@ -1,13 +1,14 @@
 """A gear as the device TMM-42 draws it: the rack's successive positions on a paper disk; practicum, lesson 1.
 
-In the gear's frame the rack rolls on the reference circle. Its tooth k stands over the middle of the space between the
-gear's teeth k and k + 1; after rolling to the polar angle theta it is r (gamma_k - theta) away from the line of centres.
+In the gear's frame the rack rolls on the reference circle. Its tooth k belongs to the middle gamma_k of a space; after
+rolling to the polar angle theta that tooth is r (gamma_k - theta) away from the line of centres.
 """
 
 from __future__ import annotations
 
 import cmath
 import math
+from itertools import pairwise
 
 import numpy as np
 
@@ -23,10 +24,13 @@ _MOST_POSITIONS = 2000
 def rack_tooth(gear: SpurGear) -> tuple[Line | Arc, ...]:
     """Contour of one tooth of the cutting rack, mm: x outwards from its datum line, y along it, centred on y = 0.
 
-    From root to root: flank (and relief), rounding, tip, rounding, flank. A rack widened for thinning is wider here too.
+    From root to root: flank (and relief), rounding, tip, rounding, flank. A rack that thins is wider here too.
     """
     rack, m = gear.rack, gear.module
-    alpha, wide = rack.pressure_angle, gear.root_land_half_angle * gear.reference_radius / m - rack.rounding_half_distance
+    alpha, wide = (
+        rack.pressure_angle,
+        gear.root_land_half_angle * gear.reference_radius / m - rack.rounding_half_distance,
+    )
     base = math.pi / 4 + wide
     centre = complex(-rack.rounding_depth, rack.rounding_half_distance + wide)
     joint = complex(-rack.form_dedendum, base - rack.form_dedendum * math.tan(alpha))
@@ -36,7 +40,7 @@ def rack_tooth(gear: SpurGear) -> tuple[Line | Arc, ...]:
     if rack.relief is not None:
         reach = (outer - corner) * math.tan(rack.relief_angle)
         points.insert(0, complex(outer, points[0].imag + reach))
-    half: list[Line | Arc] = [Line(m * a, m * b) for a, b in zip(points, points[1:], strict=False)]
+    half: list[Line | Arc] = [Line(m * a, m * b) for a, b in pairwise(points)]
     if rack.tip_radius > 0:
         half.append(Arc(m * centre, m * rack.tip_radius, math.pi / 2 + alpha, math.pi / 2 - alpha))
     edge = complex(-rack.dedendum, centre.imag)

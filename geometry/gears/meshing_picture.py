@@ -93,7 +93,7 @@ class MeshingPicture:
 
     @property
     def shown(self) -> float:
-        """The place of contact in the main position: the pole, or the middle of the active line if that leaves it out."""
+        """The place of contact in the main position: the pole, or the middle of an active line that leaves it out."""
         return self.pole if self.start <= self.pole <= self.end else (self.start + self.end) / 2
 
 
@@ -105,8 +105,10 @@ def meshing_picture(pair: Pair) -> MeshingPicture:
     ParameterError
         The flanks do not reach each other: there is no contact to draw.
     """
-    make = _external if isinstance(pair, ExternalPair) else _internal if isinstance(pair, InternalPair) else _rack
-    picture = make(pair)  # type: ignore[operator]
+    if isinstance(pair, ExternalPair):
+        picture = _external(pair)
+    else:
+        picture = _internal(pair) if isinstance(pair, InternalPair) else _rack(pair)
     if not picture.end > picture.start:
         length = picture.end - picture.start
         raise ParameterError("mate", length, "the flanks do not reach each other: an active line longer than 0 works")
@@ -137,7 +139,14 @@ def _external(pair: ExternalPair) -> MeshingPicture:
         ends = pair.active_profile_radii[index]
         side = pair.sides[index]
         bodies.append(
-            Body((0j, axis)[index], radii, Placement2(gear.pitch_angle), *_external_tooth(side), _active(side, ends), place)
+            Body(
+                (0j, axis)[index],
+                radii,
+                Placement2(gear.pitch_angle),
+                *_external_tooth(side),
+                _active(side, ends),
+                place,
+            )
         )
     back = (pair.working_radii[1], two)
     shown = pole if low <= pole <= high else (low + high) / 2
@@ -207,18 +216,21 @@ def _rack(pair: RackPair) -> MeshingPicture:
         "root": pair.distance + rack.dedendum,
     }  # fmt: skip
     radii = dict(
-        zip(CIRCLES, (gear.tip_radius, gear.reference_radius, gear.reference_radius, one, gear.root_radius), strict=True)
+        zip(
+            CIRCLES, (gear.tip_radius, gear.reference_radius, gear.reference_radius, one, gear.root_radius), strict=True
+        )
     )
     tooth = [s for s in pair.sides[1].segments if s.label is not Label.ROOT_LAND]
     land = [s for s in pair.sides[1].segments if s.label is Label.ROOT_LAND]
     depths = sorted((spoke * (one + 1j * s)).imag - pair.distance for s in (low, high))
     flank = next(s.curve for s in tooth if s.label is Label.FLANK)
-    gaps = tuple(c for s in land for c in (s.curve, s.curve.mirrored().placed(Placement2(0.0, -1j * rack.pitch))))
+    step, active = Placement2(0.0, 1j * rack.pitch), _active(pair.sides[0], ends)
+    # the land above a tooth: the upper half of its own space and the lower half of the next tooth's
+    gap = tuple(c for s in land for c in (s.curve.mirrored(), s.curve.placed(step)))
     bodies = (
-        Body(0j, radii, Placement2(gear.pitch_angle), *_external_tooth(pair.sides[0]), _active(pair.sides[0], ends), first),
-        Body(None, heights, Placement2(0.0, 1j * rack.pitch), _both(tooth), tuple(c.placed(Placement2(0.0, 1j * rack.pitch))
-             for c in gaps), (_between(flank, *depths),), second),
-    )  # fmt: skip
+        Body(0j, radii, Placement2(gear.pitch_angle), *_external_tooth(pair.sides[0]), active, first),
+        Body(None, heights, step, _both(tooth), gap, (_between(flank, *depths),), second),
+    )
     shown = pole if low <= pole <= high else (low + high) / 2
     at = complex((pole - shown) * gear.reference_radius / one, gear.reference_radius)
     arc = Arc(0j, gear.reference_radius, math.pi / 2 + (low - pole) / one, (high - low) / one)
