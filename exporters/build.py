@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -23,6 +23,9 @@ from geometry.errors import ConvergenceError, ParameterError, ThinWallError, at_
 from geometry.findings import Finding
 from geometry.tolerance import LEAST_SEGMENT_MM
 from parts.schema import SceneError
+
+if TYPE_CHECKING:
+    from exporters.sheets.job import SheetJob
 
 # teeth lose their shape where the tolerance is a larger part of the module
 _COARSE_SHARE = 0.05
@@ -60,6 +63,9 @@ def build(
             progress(assembly.path)
             members = {m.part.id: made[_shape_key(m)] for m in assembly.members}
             written.append(_write_assembly(assembly, members, staging / assembly.path, plan.source, verify=verify))
+        for sheet in plan.sheets:
+            progress(sheet.path)
+            written.append(_write_sheet(sheet, staging / sheet.path, verify=verify))
         wanted = dict.fromkeys(j.part.id for j in (*plan.jobs, *(m for a in plan.assemblies for m in a.members)))
         previews = [part_preview(plan.parts[p], staging, plan.scene.scene.language) for p in wanted]
         if (plan.scene.mates or plan.scene.instances) and len(wanted) == len(plan.parts):
@@ -181,6 +187,19 @@ def _too_coarse(job: Job, source: str) -> SceneError:
         return SceneError(source, place, tolerance, f"{why}; at most {at_most(finer, 9)} mm works")
     text = f"{why}, too thin for the digits of a mesh file; make the wall thicker, or write STEP"
     return SceneError(source, place, tolerance, text)
+
+
+def _write_sheet(job: SheetJob, file: Path, *, verify: bool) -> Written:
+    start = time.perf_counter()
+    entities = job.write(file)
+    seconds = {"write": time.perf_counter() - start}
+    max_error, bound = job.declared
+    if not verify:
+        return Written(job, file, max_error, bound, entities, {}, (), (), seconds)
+    start = time.perf_counter()
+    verdict = job.verify(file)
+    seconds["verify"] = time.perf_counter() - start
+    return Written(job, file, max_error, bound, entities, verdict.measured, (), verdict.failures, seconds)
 
 
 def _write_dxf(job: Job, made: Any, file: Path) -> dict[str, int]:

@@ -143,7 +143,7 @@ def _build(options: argparse.Namespace) -> int:
         from rich.progress import Progress
 
         with Progress(transient=True) as bar:
-            task = bar.add_task(scene.name, total=len(plan.jobs) + len(plan.assemblies))
+            task = bar.add_task(scene.name, total=len(plan.jobs) + len(plan.assemblies) + len(plan.sheets))
 
             def advance(path: str) -> None:
                 bar.update(task, advance=1, description=path)

@@ -27,7 +27,7 @@ def write_drawing_dxf(file: Path, boundaries: tuple[Outline, ...]) -> dict[str, 
     reach = 0.0
     for boundary in boundaries:
         for curve in boundary.curves():
-            kind = _add(space, curve)
+            kind = add_curve(space, curve, _LAYER)
             counts[kind] = counts.get(kind, 0) + 1
         reach = max(reach, *(abs(complex(c.point(c.domain[0]))) for c in boundary.period))
     space.reset_extents((-reach, -reach, 0.0), (reach, reach, 0.0))
@@ -36,8 +36,9 @@ def write_drawing_dxf(file: Path, boundaries: tuple[Outline, ...]) -> dict[str, 
     return counts
 
 
-def _add(space, curve: CadCurve) -> str:
-    attributes = {"layer": _LAYER}
+def add_curve(space, curve: CadCurve, layer: str) -> str:
+    """One curve on a layer as the DXF entity that it is; returns that entity's name."""
+    attributes = {"layer": layer}
     if isinstance(curve, Line):
         space.add_line(_xy(curve.start), _xy(curve.end), dxfattribs=attributes)
         return "LINE"

@@ -85,7 +85,7 @@ class Job:
 class Written:
     """A file that was written and read back, with what was measured on it."""
 
-    job: Job | AssemblyJob
+    job: Job | AssemblyJob | SheetJob
     file: Path
     max_error: float
     bound: str
@@ -98,6 +98,7 @@ class Written:
 
 if TYPE_CHECKING:
     from exporters.assembly import AssemblyJob
+    from exporters.sheets.job import SheetJob
     from geometry.outline import Outline
 
 Shape: TypeAlias = "tuple[Approximation, ...] | tuple[Outline, ...]"

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from importlib.util import find_spec
+from typing import TYPE_CHECKING
 
 from exporters.assembly import AssemblyJob, assembly_name
 from exporters.job import Job
 from geometry.errors import GeometryError, ParameterError, at_least, at_most
 from geometry.gears.offset_tooth import OffsetError, OffsetRegion
+from parts.mate_kinds import Mating
 from parts.part import Part
 from parts.placing import Placing, place
 from parts.scene import FORMATS, ExportSpec, SceneFile, default_export, make_parts
 from parts.schema import SceneError, near
 from parts.wheel_keys import as_typed
+
+if TYPE_CHECKING:
+    from exporters.sheets.job import SheetJob
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +32,7 @@ class Plan:
     jobs: tuple[Job, ...]
     assemblies: tuple[AssemblyJob, ...]
     left_out: tuple[tuple[str, str], ...]
+    sheets: tuple[SheetJob, ...] = ()
 
 
 def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_formats: list[str]) -> Plan:
@@ -59,10 +65,15 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
     left_out += [(f"parts.{p}", "no export asks for it") for p in parts if p not in used]
     jobs: list[Job] = []
     assemblies: list[AssemblyJob] = []
+    sheets: list[SheetJob] = []
     taken = {f"{part}.preview.svg".lower(): "the preview of the part" for part in parts}
     for where, export in exports:
-        if export.assembly and only_parts:
-            left_out.append((where, "an assembly of all its parts was not asked for"))
+        if only_parts and (export.assembly or export.format == "sheet"):
+            what = "an assembly of all its parts" if export.assembly else "a sheet of several parts"
+            left_out.append((where, f"{what} was not asked for"))
+            continue
+        if export.format == "sheet":
+            sheets += _sheets(scene, matings, export, where, source, taken)
             continue
         made = []
         for part_id in export.parts or list(parts):
@@ -81,7 +92,18 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
             _take(path, where, taken, source)
             stand = tuple(i for i in placing.instances if i.part in (export.parts or parts))
             assemblies.append(AssemblyJob(assembly_name(scene.name), export, tuple(made), stand, path, where))
-    return Plan(source, scene, parts, placing, tuple(jobs), tuple(assemblies), tuple(left_out))
+    return Plan(source, scene, parts, placing, tuple(jobs), tuple(assemblies), tuple(left_out), tuple(sheets))
+
+
+def _sheets(
+    scene: SceneFile, matings: list[Mating], export: ExportSpec, where: str, source: str, taken: dict[str, str]
+) -> list[SheetJob]:
+    from exporters.sheets.job import sheet_jobs
+
+    found = sheet_jobs(scene, matings, export, where, source)
+    for job in found:
+        _take(job.path, where, taken, source)
+    return found
 
 
 def _take(path: str, where: str, taken: dict[str, str], source: str) -> None:

@@ -70,6 +70,8 @@ def recheck(file: Path) -> Recheck:
 
 def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, Any], digest: str) -> Recheck:
     scene = scene_from_resolved(report["scene"], source)
+    if entry["format"] == "sheet":
+        return _against_sheet(file, source, scene, entry, digest)
     if entry["part"] is None:
         return _against_assembly(file, source, scene, entry, digest)
     part = make_parts(scene, source)[0][entry["part"]]
@@ -82,6 +84,16 @@ def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, A
     kind = "drawing" if entry["purpose"] == "drawing" else kind
     verdict = verify_file(file, kind, exact, declared, tolerance, part.id)
     return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
+
+
+def _against_sheet(file: Path, source: str, scene: SceneFile, entry: dict[str, Any], digest: str) -> Recheck:
+    """A sheet: drawn again from the scene, and the file measured against that."""
+    from exporters.plan import plan_build
+
+    plan = plan_build(scene, source, [], ["sheet"])
+    job = {sheet.path: sheet for sheet in plan.sheets}[entry["path"]]
+    declared, tolerance = float(entry["max_error"]), float(entry["tolerance"])
+    return Recheck(file, job.verify(file), declared, tolerance, digest == entry["sha256"])
 
 
 def _against_assembly(file: Path, source: str, scene: SceneFile, entry: dict[str, Any], digest: str) -> Recheck:

@@ -13,7 +13,7 @@ import numpy as np
 
 from exporters import __version__
 from exporters.assembly import AssemblyJob
-from exporters.job import Written
+from exporters.job import Job, Written
 from exporters.plan import Plan
 from exporters.words import finding_text
 from geometry.findings import Finding
@@ -96,11 +96,14 @@ def _mass(part: Part, written: list[Written]) -> dict[str, Any]:
 
 def _entry(item: Written, language: str) -> dict[str, Any]:
     job, export = item.job, item.job.export
+    more: dict[str, Any] = {}
     if isinstance(job, AssemblyJob):
         part, more = None, {"instances": [instance.id for instance in job.instances]}
         offset = job.members[0].section.offset
+    elif not isinstance(job, Job):
+        part, more, offset = None, {"paper": job.canvas.paper}, 0.0
     else:
-        part, more, offset = job.part.id, {}, job.section.offset
+        part, offset = job.part.id, job.section.offset
     return {
         "path": job.path,
         "format": export.format,
@@ -139,7 +142,7 @@ def _versions(written: list[Written]) -> dict[str, str]:
     python = ".".join(map(str, sys.version_info[:3]))
     versions = {"higherpair": __version__, "python": python, "numpy": np.__version__}
     formats = {item.job.export.format for item in written}
-    for name, users in (("ezdxf", {"dxf"}), ("lib3mf", {"3mf"})):
+    for name, users in (("ezdxf", {"dxf", "sheet"}), ("lib3mf", {"3mf"})):
         if formats & users and name in sys.modules:
             versions[name] = str(getattr(sys.modules[name], "__version__", "installed"))
     return versions

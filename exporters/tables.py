@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from exporters.assembly import AssemblyJob
-from exporters.job import Written
+from exporters.job import Job, Written
 from exporters.plan import Plan
 from exporters.words import finding_text, words
 
@@ -43,7 +42,7 @@ def _remarks(written: list[Written], language: str) -> list[str]:
     for item in written:
         lines += [f"{words(language, 'bad')}: {item.job.path}: {failure}" for failure in item.failures]
     for item in written:
-        part = item.job.path if isinstance(item.job, AssemblyJob) else item.job.part.id
+        part = item.job.part.id if isinstance(item.job, Job) else item.job.path
         lines += [f"{words(language, 'finding')}: {part}: {finding_text(language, f)}" for f in item.findings]
     return lines
 

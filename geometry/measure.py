@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -83,6 +84,11 @@ def distance_to_curve(points: Complex, curve: Curve) -> Real:
     """Distance of each point (n,) from one curve, mm: projection from its nearest of 65 samples."""
     t = np.linspace(*curve.domain, _FINE_SAMPLES)
     return _projected(points, curve, t, _nearest_index(points, curve.point(t)), newton=True)
+
+
+def distance_to_curves(points: Complex, curves: Sequence[Curve]) -> Real:
+    """Distance of each point (n,) from the nearest of some exact curves, mm."""
+    return np.min([distance_to_curve(points, curve) for curve in curves], axis=0)
 
 
 def _quick_distance(points: Complex, profile: Profile) -> Real:

@@ -37,6 +37,7 @@ _DEFAULTS: dict[str, dict[str, float]] = {
     "stl": {"print": 0.01},
     "3mf": {"print": 0.01},
     "step": {"model": 1e-6},
+    "sheet": {"meshing": 1e-6, "generating": 1e-6},
 }
 FORMATS = tuple(_DEFAULTS)
 # formats that hold parts in their places
@@ -55,10 +56,14 @@ class SceneInfo(Struct, forbid_unknown_fields=True):
 class ExportSpec(Struct, forbid_unknown_fields=True):
     """Keys of ``[[exports]]``."""
 
-    format: Annotated[Literal["dxf", "svg", "stl", "3mf", "step"], Meta(description="file format")]
+    format: Annotated[Literal["dxf", "svg", "stl", "3mf", "step", "sheet"], Meta(description="file format")]
     purpose: (
         Annotated[
-            Literal["laser", "print", "drawing", "model"], Meta(description="dxf: laser (arcs) or drawing (splines)")
+            Literal["laser", "print", "drawing", "model", "meshing", "generating"],
+            Meta(
+                description="dxf: laser (arcs) or drawing (splines); sheet: meshing (picture of each pair) or "
+                "generating (device TMM-42)"
+            ),
         ]
         | None
     ) = None
@@ -74,6 +79,11 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     name: Annotated[Identifier, Meta(description="tells files of one part apart; default: the purpose")] | None = None
     parts: Annotated[list[str], Meta(min_length=1, description="parts to export; default: all")] | None = None
     assembly: Annotated[bool, Meta(description="step, 3mf: one file of all instances in their places")] = False
+    rack_step: (
+        Annotated[float, mm("sheet, generating: way of the rack from position to position", least=0.01, most=1000)]
+        | None
+    ) = None
+    mate: Annotated[int, Meta(ge=1, description="sheet: the pair that is shown, by number; default: all")] | None = None
 
 
 class ChecksSpec(Struct, forbid_unknown_fields=True):
@@ -250,17 +260,25 @@ def _export_spec(table: Any, parts: dict[str, Struct], source: str, place: str) 
         spec.purpose = default_export(spec.format).purpose
     if spec.purpose not in purposes:
         raise SceneError(source, f"{place}.purpose", spec.purpose, f"{spec.format} is for {' or '.join(purposes)}")
+    if spec.mate is not None and spec.purpose != "meshing":
+        raise SceneError(source, f"{place}.mate", spec.mate, 'only for purpose = "meshing"; remove it')
+    if spec.rack_step is not None and spec.purpose != "generating":
+        raise SceneError(source, f"{place}.rack_step", spec.rack_step, 'only for purpose = "generating"; remove it')
     if spec.kerf and spec.format in ("stl", "3mf"):
         remedy = f"a print has no kerf; offset = {spec.kerf / 2:.12g} moves every outline by as much"
         raise SceneError(source, f"{place}.kerf", spec.kerf, remedy)
-    if spec.format == "step" or spec.purpose == "drawing":
-        who = "a STEP file" if spec.format == "step" else "a drawing"
+    if spec.format in ("step", "sheet") or spec.purpose == "drawing":
+        who = {"step": "a STEP file", "sheet": "a sheet"}.get(spec.format, "a drawing")
         if spec.kerf:
             raise SceneError(source, f"{place}.kerf", spec.kerf, f"{who} shows the part, not the cut; remove it")
         if spec.curves != "arcs":
             raise SceneError(source, f"{place}.curves", spec.curves, f"{who} has true splines; remove it")
         if spec.dxf_version != "R2000":
             raise SceneError(source, f"{place}.dxf_version", spec.dxf_version, f"{who} is not for R12; remove it")
+    if spec.format == "sheet" and spec.offset:
+        raise SceneError(source, f"{place}.offset", spec.offset, "a sheet shows the exact profile; remove it")
+    if spec.format == "sheet" and spec.parts is not None and spec.purpose == "meshing":
+        raise SceneError(source, f"{place}.parts", None, "a picture of meshing shows a pair; use mate = 1, 2, …")
     if spec.tolerance is None:
         spec.tolerance = purposes[str(spec.purpose)]
     return spec

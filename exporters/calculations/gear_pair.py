@@ -1,4 +1,4 @@
-"""``higherpair calc gear-pair``: an external pair, practicum (3.2) to (3.22), and what more a maker asks for."""
+"""``higherpair calc gear-pair``: pairs of gears; here the external one, practicum (3.2) to (3.22), and more."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from exporters.calculations.contact_steps import (
 )
 from exporters.calculations.inputs import PLACE, checked, checked_section, given, keys_of, refusal
 from exporters.calculations.misprints import printed_for_pair
+from exporters.calculations.other_pairs import internal_sheet, merged, rack_sheet
 from exporters.calculations.sheet import Sheet
 from exporters.calculations.spur import addendum_formula, dedendum_formula, given_data, thickness_formula
 from geometry.angles import involute_function
@@ -28,6 +29,7 @@ from geometry.gears.side_clearance import guaranteed_normal_backlash, normal_fro
 from geometry.gears.spur import SpurGear
 from geometry.gears.transverse import base_helix_angle, transverse_gear
 from parts.keys import in_modules, mm
+from parts.ring_gear import RingGearSpec
 from parts.schema import SceneError, near
 from parts.spur_gear import SpurGearSpec, gear_of
 
@@ -76,8 +78,16 @@ def table_from(scene: Any, source: str, table: dict[str, Any]) -> dict[str, Any]
     if not isinstance(index, int) or not 1 <= index <= len(pairs):
         raise SceneError(source, "mate", index, f"must be from 1 to {len(pairs)}, the number of pairs of the scene")
     mate = pairs[index - 1]
-    parts = {name: given(scene.parts[getattr(mate, name)]) for name in GEARS}
-    return _merged({"kind": mate.__struct_config__.tag, **parts}, table)
+    kind = mate.__struct_config__.tag
+    specs = [scene.parts[scene.instances[getattr(mate, name)].part] for name in GEARS]
+    if isinstance(specs[0], RingGearSpec):
+        # a pinion is the first of its sheet
+        specs.reverse()
+    known = {"kind": kind, **{name: given(spec) for name, spec in zip(GEARS, specs, strict=True)}}
+    if kind == "external_gear_pair":
+        return _merged(known, table)
+    wishes = {key: getattr(mate, key) for key in ("working_centre_distance", "normal_backlash")}
+    return merged(known | {k: v for k, v in wishes.items() if v is not None}, table, kind)
 
 
 def _merged(under: dict[str, Any], over: dict[str, Any]) -> dict[str, Any]:
@@ -337,4 +347,4 @@ def _thicknesses(page: Sheet, asked: Asked) -> None:
 
 
 # the kinds of pairs that have a sheet; each takes the table of its keys
-PAIRS = {"external_gear_pair": external_sheet}
+PAIRS = {"external_gear_pair": external_sheet, "internal_gear_pair": internal_sheet, "rack_pair": rack_sheet}

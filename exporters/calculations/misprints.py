@@ -66,3 +66,17 @@ def printed_for_pair(
     if _GUIDELINE_SHIFTS.get(teeth) == shifts:
         return {("working_pressure_angle_deg", 0): Printed(*_GUIDELINES[teeth])}
     return {}
+
+
+# thesis, section 2.3: z 96/144, m 3
+_THESIS: dict[tuple[str, int], Printed] = {
+    ("contact_ratio", 0): Printed(
+        "1.87", "an approximate formula's; the tip circles give less", "за наближеною формулою; кола вершин дають менше"
+    ),
+    ("pitch", 0): Printed("9.42", "cut off with pi = 3.14", "обрізано при π = 3,14"),
+}
+
+
+def printed_for_internal(teeth: tuple[int, int], module: float) -> Mapping[tuple[str, int], Printed]:
+    """What the thesis prints wrongly for its internal pair; empty for any other."""
+    return _THESIS if (teeth, module) == ((96, 144), 3.0) else {}

@@ -139,5 +139,15 @@ measured_base_thickness|S_bm|S_b|mm|measured: thickness on the base circle|ви�
 measured_tip_thickness|S_am|S_a|mm|measured: tooth thickness on the tip circle|виміряно: товщина зуба на колі вершин
 measured_form_diameter|d_Fm|d_Ff|mm|measured: where the involute begins|виміряно: діаметр початку евольвенти
 disk_diameter|d_disk|d_0|mm|diameter of the paper disk|діаметр паперового диска
+rack_distance|a_w|a_w|mm|from the axis to the rack's datum line|від осі колеса до ділильної прямої рейки
+travel_per_turn|L_1|L_1|mm|way of the rack for one turn|хід рейки за один оберт
+rack_addendum|h_aR|h_a2|mm|addendum of the rack|висота головки зуба рейки
+profile_shift_difference|x_diff|x_2-x_1||difference of the profile shift coefficients|різниця коефіцієнтів зміщення
+involute_interference_margin|q_1|q_1|mm|no involute interference: margin|інтерференція евольвент відсутня: запас
+trochoid_interference_margin|q_2|q_2|mm|no tip interference: margin|інтерференція вершин відсутня: запас
+radial_assembly_margin|q_3|q_3|mm|radial assembly: margin|радіальне складання: запас
+fillet_interference_margin|q_f|q_f|mm|no fillet interference: margin|інтерференція з перехідною кривою відсутня: запас
+greatest_tip_diameter_pinion|d_a1max|d_a1max|mm|largest tip diameter of the pinion|найбільший діаметр вершин шестірні
+least_tip_diameter_ring|d_a2min|d_a2min|mm|least tip diameter of the ring|найменший діаметр вершин вінця
 least_face_width|b_min|b_min|mm|face width that the span needs|ширина вінця, потрібна для виміру нормалі
 """)

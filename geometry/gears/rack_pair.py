@@ -82,8 +82,14 @@ class RackPair:
     @property
     def effective_contact_ratio(self) -> float:
         """eps_alpha between the ends of the active profiles: less where a fillet ends a flank."""
+        low, high = self.active_ends
+        return (high - low) / self.base_pitch
+
+    @property
+    def active_ends(self) -> tuple[float, float]:
+        """Where contact begins and ends on the line of action, mm from the gear's base circle."""
         gear, rack = self._gear_tangents(), self._rack_tangents()
-        return (min(gear[1], rack[1]) - max(gear[0], rack[0])) / self.base_pitch
+        return max(gear[0], rack[0]), min(gear[1], rack[1])
 
     @property
     def tip_clearances(self) -> tuple[float, float]:

@@ -74,5 +74,15 @@ def specific_sliding(position: float, line_length: float, gear_ratio: float) -> 
     return first, second
 
 
+def specific_sliding_internal(position: float, line_length: float, gear_ratio: float) -> tuple[float, float]:
+    """The same for a pinion (1) in a ring (2), ``position`` from the pinion's base circle, mm.
+
+    zeta_1 = 1 - (g + L) / (u g), zeta_2 = 1 - u g / (g + L), with u = z_2 / z_1 and L = a_w sin(alpha_w).
+    """
+    other = position + line_length
+    first = 1 - other / (gear_ratio * position) if position > 0 else -math.inf
+    return first, 1 - gear_ratio * position / other
+
+
 def _along(radius: float, base: float) -> float:
     return math.sqrt(max((radius - base) * (radius + base), 0.0))

@@ -1,0 +1,1 @@
+"""Sheets: drawings that explain, in mm on paper, with words."""

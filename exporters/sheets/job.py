@@ -1,0 +1,195 @@
+"""Sheets among the files of a build: which are asked for, what is on them, how they are written and held to account."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from exporters.sheets.canvas import Canvas, decimal
+from exporters.sheets.meshing import Facts, meshing_canvas
+from exporters.sheets.table import Row
+from exporters.sheets.verify import Circle, Expected, Meshing, verify_sheet
+from exporters.sheets.words import sheet_words
+from exporters.sheets.write import write_sheet
+from exporters.verify import Verdict
+from geometry.errors import ParameterError
+from geometry.gears.limits import practicum_undercut
+from geometry.gears.meshing_picture import MeshingPicture, meshing_picture
+from parts.mate_kinds import Mating
+from parts.scene import ExportSpec, SceneFile
+from parts.schema import SceneError
+from parts.spur_gear import SpurGearSpec, checked_spur_gear
+
+# by how much the device moves its rack at each press of the key, mm: 4 to 5 in practicum, lesson 1
+RACK_STEP = 4.5
+ENDINGS = ("dxf", "svg")
+
+
+@dataclass(frozen=True)
+class SheetJob:
+    """One file of a sheet; ``members`` are the jobs of parts in it: none."""
+
+    export: ExportSpec
+    expected: Expected
+    path: str
+    place: str
+    members: tuple[()] = ()
+
+    @property
+    def canvas(self) -> Canvas:
+        """What is drawn."""
+        return self.expected.canvas
+
+    def write(self, file: Path) -> dict[str, int]:
+        """Write the file; counts of what is in it."""
+        return write_sheet(file, self.canvas)
+
+    def verify(self, file: Path) -> Verdict:
+        """Read it back and measure."""
+        return verify_sheet(file, self.expected, float(self.export.tolerance or 0.0))
+
+    @property
+    def declared(self) -> tuple[float, str]:
+        """Bound of its splines, mm on paper, and what kind of bound that is."""
+        rounding = 2e-9 if self.path.endswith(".svg") else 2e-15 * max(self.canvas.width, self.canvas.height)
+        return self.canvas.max_error + rounding, "sampled" if self.canvas.sampled else "certified"
+
+
+def sheet_jobs(scene: SceneFile, matings: list[Mating], export: ExportSpec, where: str, source: str) -> list[SheetJob]:
+    """The files of one export.
+
+    Raises
+    ------
+    SceneError
+        The scene has no such pair, or there is nothing to draw of it.
+    """
+    if export.purpose == "generating":
+        expected = _generating(scene, export, where, source)
+        name = f"{scene.name}.{export.name or export.purpose}"
+        return [SheetJob(export, expected, f"{name}.{ending}", where) for ending in ENDINGS]
+    if not matings:
+        raise SceneError(source, f"{where}.purpose", export.purpose, "shows pairs; add [[mates]] or remove it")
+    if export.mate is not None and not 1 <= export.mate <= len(matings):
+        raise SceneError(source, f"{where}.mate", export.mate, f"must be from 1 to {len(matings)}, the number of mates")
+    jobs = []
+    for index, mating in enumerate(matings, 1):
+        if export.mate not in (None, index):
+            continue
+        try:
+            expected = _meshing(mating, scene.scene.language, float(export.tolerance or 0.0))
+        except ParameterError as error:
+            raise SceneError(source, f"mates[{index}]", error.value, error.allowed) from error
+        name = f"{scene.name}.{export.name or export.purpose}.{index}"
+        jobs += [SheetJob(export, expected, f"{name}.{ending}", where) for ending in ENDINGS]
+    return jobs
+
+
+def _generating(scene: SceneFile, export: ExportSpec, where: str, source: str) -> Expected:
+    """The sheet of the device TMM-42 for one or two wheels of a scene."""
+    from exporters.calculations import tmm42
+    from exporters.sheets.generating import generating_sheet
+
+    ids = export.parts or [key for key, spec in scene.parts.items() if isinstance(spec, SpurGearSpec)]
+    for part in ids:
+        if not isinstance(scene.parts[part], SpurGearSpec):
+            raise SceneError(source, f"{where}.parts", part, "the device draws external gears; name a spur_gear")
+    if not ids:
+        raise SceneError(source, f"{where}.purpose", export.purpose, "shows external gears; add one or remove it")
+    gears = [checked_spur_gear(scene.parts[part]) for part in ids]
+    table = tmm42.table_from(scene, source, {"part": _most_shifted(ids, gears)})
+    if abs(table.get("profile_shift_coefficient", math.inf) - practicum_undercut(gears[0]).limit) < 1e-12:
+        # the very shift of (1.2), which the table then derives
+        table.pop("profile_shift_coefficient")
+    tables = tmm42.sheet(table)
+    try:
+        step = export.rack_step or RACK_STEP
+        return generating_sheet(gears, step, tables, scene.scene.language, float(export.tolerance or 0.0))
+    except ParameterError as error:
+        raise SceneError(source, f"{where}.{error.name}", error.value, error.allowed) from error
+
+
+def _most_shifted(ids: list[str], gears: list[Any]) -> str:
+    """The wheel of table 1.2."""
+    return max(zip(ids, gears, strict=True), key=lambda pair: abs(pair[1].profile_shift_coefficient))[0]
+
+
+def _meshing(mating: Mating, language: str, tolerance: float) -> Expected:
+    pair: Any = mating.pair  # type: ignore[attr-defined]
+    picture = meshing_picture(pair)
+    canvas, paper = meshing_canvas(picture, mating.module, _facts(mating, picture, language), language, tolerance)
+    circles = []
+    for body in picture.bodies:
+        for name, radius in body.radii.items():
+            layer = f"CIRCLE_{name.upper()}"
+            if body.centre is None:
+                circles.append(Circle(layer, None, paper.point(1j * radius).imag))
+            else:
+                circles.append(Circle(layer, paper.point(body.centre), paper.scale * radius))
+    tangents = tuple(
+        (paper.point(b.centre), paper.scale * b.radii["base"]) for b in picture.bodies if b.centre is not None
+    )
+    teeth = {
+        "OUTLINE": [c for b in picture.bodies for c in b.chain(picture.shown, 3)],
+        "TOOTH_START": [c for b in picture.bodies for c in b.tooth_at(picture.start)],
+        "TOOTH_END": [c for b in picture.bodies for c in b.tooth_at(picture.end)],
+        "ACTIVE_FLANK": [c for b in picture.bodies for c in b.active_at(picture.shown)],
+    }
+    ratio, gear = pair.effective_contact_ratio, _driver(pair)
+    pitch = paper.scale * 2 * math.pi * picture.bodies[0].radii["working"] / gear.number_of_teeth
+    length = paper.scale * ratio * 2 * math.pi * gear.base_radius / gear.number_of_teeth
+    meshing = Meshing(tangents, gear.number_of_teeth, length, ratio * pitch, pitch, ratio)
+    return Expected(canvas, paper, tuple(circles), teeth, meshing)
+
+
+def _driver(pair: Any) -> Any:
+    """The first body of the picture: a gear or a pinion."""
+    return next(getattr(pair, name) for name in ("first", "pinion", "gear") if hasattr(pair, name))
+
+
+def _facts(mating: Mating, picture: MeshingPicture, language: str) -> Facts:
+    """Title and table of the sheet."""
+    pair: Any = mating.pair  # type: ignore[attr-defined]
+
+    def word(key: str) -> str:
+        return sheet_words(language, key)
+
+    def say(value: float, digits: int) -> str:
+        return decimal(f"{value:.{digits}f}", language)
+
+    gears = [
+        g for name in ("first", "second", "pinion", "ring", "gear") if (g := getattr(pair, name, None)) is not None
+    ]
+    rows = [Row(word("module"), "m", decimal(f"{mating.module:g}", language))]
+    for index, gear in enumerate(gears, 1):
+        rows.append(Row(word("number_of_teeth"), f"z_{{{index}}}", str(gear.number_of_teeth)))
+    for index, gear in enumerate(gears, 1):
+        rows.append(Row(word("shift"), f"x_{{{index}}}", decimal(f"{gear.profile_shift_coefficient:.6g}", language)))
+    distance = "rack_distance" if picture.kind == "rack" else "centre_distance"
+    arc = picture.arc_of_action
+    rows += [
+        Row(word(distance), "a_{w}", f"{say(mating.distance, 3)}"),
+        Row(word("working_angle"), "α_{w}", f"{say(math.degrees(picture.angle), 4)}°"),
+    ]
+    if picture.tangent_points[1] is not None:
+        length = abs(picture.tangent_points[1] - picture.tangent_points[0])
+        rows.append(Row(word("line"), "N_{1}N_{2}", say(length, 3)))
+    rows += [
+        Row(word("active"), "ab", say(picture.end - picture.start, 3)),
+        Row(word("arc"), "dd'", say(arc.radius * arc.sweep, 3)),
+        Row(word("pitch"), "p_{w}", say(picture.working_pitch, 3)),
+        Row(word("ratio"), "ε_{α}", say(picture.contact_ratio, 4)),
+        Row(word("start"), sample="TOOTH_START"),
+        Row(word("end"), sample="TOOTH_END"),
+        Row(word("flank"), sample="ACTIVE_FLANK"),
+        Row(word("active"), sample="ACTIVE_LINE"),
+        Row(word("arc"), sample="ARC_OF_ACTION"),
+        Row(word("pitch"), sample="WORKING_PITCH"),
+    ]
+    first, second = mating.first, mating.second
+    if getattr(mating, "ring_first", False):
+        # the picture counts the pinion first
+        first, second = second, first
+    title = word("mate").format(first=first, second=second)
+    return Facts(f"{word(picture.kind)}: {title}", tuple(rows))

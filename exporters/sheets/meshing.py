@@ -1,0 +1,393 @@
+"""The picture of meshing as a sheet: both bodies, all circles, the line of action, the arc of action, with names."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+
+from exporters.sheets.canvas import (
+    FRAME,
+    FRAME_LEFT,
+    PAPERS,
+    SCALES,
+    TEXT_HEIGHT,
+    Box,
+    Canvas,
+    Paper,
+    Stroke,
+    decimal,
+    draw,
+    scale_text,
+)
+from exporters.sheets.labels import Labeller
+from exporters.sheets.table import Row, draw_table, table_size
+from exporters.sheets.words import sheet_words
+from geometry.curve import Curve
+from geometry.gears.meshing_picture import CIRCLES, Body, MeshingPicture
+from geometry.line_arc import Arc, Line
+
+# teeth drawn in the main position
+_TEETH = 3
+# the least module on paper, mm, below which more of the axes is left off the sheet
+_LEAST_MODULE = 12.0
+# on both sides of the picture, for the names of circles; above it, for the title; mm
+_NAMES, _TITLE, _GAP = 34.0, 14.0, 6.0
+# how far inside a body its dimension arc runs, mm on paper
+_INSIDE = 11.0
+# circles are drawn at most this far from the line of centres
+_WIDEST = math.radians(75)
+SYMBOLS = {"tip": "a", "working": "w", "reference": "", "base": "b", "root": "f"}
+
+
+# names of circles and where each ends on the left and on the right
+Ends = list[tuple[str, tuple[complex, complex]]]
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """What stands beside the picture: its title and the rows of its table."""
+
+    title: str
+    rows: tuple[Row, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """The part of the plane that is drawn (model mm), where it lies on paper, and what of the axes it holds."""
+
+    window: Box
+    paper: Paper
+    room: Box
+
+
+def meshing_canvas(
+    picture: MeshingPicture, module: float, facts: Facts, language: str, tolerance: float
+) -> tuple[Canvas, Paper]:
+    """The sheet of a picture and where its plane lies on it; ``module`` in mm, ``tolerance`` in mm on paper."""
+    canvas, view = _layout(picture, module, facts)
+    scale = view.paper.scale
+    canvas.box("FRAME", canvas.frame)
+    fans = [_fan(body, view.window) for body in picture.bodies]
+    ends = [_circles(canvas, body, fan, view) for body, fan in zip(picture.bodies, fans, strict=True)]
+    _teeth(canvas, picture, view, tolerance)
+    _lines(canvas, picture, view)
+    canvas.arc("ARC_OF_ACTION", _arc(view.paper, picture.arc_of_action))
+    mark = picture.pitch
+    canvas.strokes += [_stroke("WORKING_PITCH", view.paper, mark)]
+    dimensions = _dimensions(canvas, picture, view)
+    title = facts.title
+    top = canvas.frame.high - 9.0
+    canvas.write(title, complex(canvas.frame.left + _GAP, top), 5.0, canvas.frame.right - canvas.frame.left - 2 * _GAP)
+    rows = list(facts.rows)
+    rows.append(Row(sheet_words(language, "scale"), "", scale_text(scale, language)))
+    width, _ = table_size(rows)
+    corner = complex(canvas.frame.right - width, canvas.frame.low)
+    draw_table(canvas, corner, rows)
+    labels = Labeller(canvas, view.room)
+    for index, (found, body) in enumerate(zip(ends, picture.bodies, strict=True)):
+        left = index == 0
+        edge = view.room.left + _NAMES - 3 if left else view.room.right - _NAMES + 3
+        low = view.room.low + TEXT_HEIGHT
+        names = [(_circle_name(body, name, index, language), end[0 if left else 1]) for name, end in found]
+        labels.column(names, edge, low, view.room.high - TEXT_HEIGHT, left=left)
+    _names(labels, picture, view, dimensions, language)
+    return canvas, view.paper
+
+
+def _circle_name(body: Body, name: str, index: int, language: str) -> str:
+    symbol = f"{SYMBOLS[name]}{index + 1}"
+    if body.centre is None:
+        return sheet_words(language, f"{name}_line")
+    return f"r_{{{symbol}}} = {decimal(f'{body.radii[name]:.2f}', language)}"
+
+
+def _layout(picture: MeshingPicture, module: float, facts: Facts) -> tuple[Canvas, View]:
+    """The smallest sheet on which the teeth can be seen, with as much of the axes as they leave room for."""
+    table = table_size([*facts.rows, Row("")])
+    best: tuple[float, str, bool, Box] | None = None
+    for depth in (2, 1, 0):
+        window = _window(picture, module, depth)
+        for name in ("A3", "A2", "A1"):
+            for upright in (False, True):
+                scale = _greatest_scale(window, _field(name, upright, table))
+                enough = scale * module >= _LEAST_MODULE
+                better = best is None or scale > best[0] * 1.01
+                if (enough or (depth == 0 and name == "A1")) and better:
+                    best = scale, name, upright, window
+            if best is not None and best[0] * module >= _LEAST_MODULE:
+                break
+        if best is not None and best[0] * module >= _LEAST_MODULE:
+            break
+    assert best is not None
+    scale, name, upright, window = best
+    size = PAPERS[name]
+    width, height = size if upright else size[::-1]
+    canvas = Canvas(width, height, name)
+    left, low, right, high = _field(name, upright, table)
+    middle = complex(left + right, low + high) / 2
+    origin = middle - scale * complex(window.left + window.right, window.low + window.high) / 2
+    room = Box(left - _NAMES, low, right + _NAMES, high)
+    return canvas, View(window, Paper(scale, origin), room)
+
+
+def _field(name: str, upright: bool, table: tuple[float, float]) -> tuple[float, float, float, float]:
+    """Where the picture itself may lie: left, low, right, high, mm; the table stands below it or on its right."""
+    size = PAPERS[name]
+    width, height = size if upright else size[::-1]
+    left, right = FRAME_LEFT + _NAMES + 2, width - FRAME - _NAMES - 2
+    low, high = FRAME + _GAP, height - FRAME - _TITLE
+    if upright:
+        return left, low + table[1], right, high
+    return left, low, right - table[0], high
+
+
+def _greatest_scale(window: Box, field: tuple[float, float, float, float]) -> float:
+    left, low, right, high = field
+    most = min((right - left) / (window.right - window.left), (high - low) / (window.high - window.low))
+    return next((s for s in SCALES if s <= most), most)
+
+
+def _window(picture: MeshingPicture, module: float, depth: int) -> Box:
+    """What must be seen, model mm: teeth and contact; from depth 1 on N1 and N2, at depth 2 the axes too."""
+    points: list[complex] = [picture.on_line(s) for s in (picture.start, picture.end, picture.pole)]
+    for s in (picture.start, picture.end):
+        for body in picture.bodies:
+            points += [_ends(c)[k] for c in body.tooth_at(s) for k in (0, 1)]
+    for body in picture.bodies:
+        points += [_ends(c)[k] for c in body.chain(picture.shown, _TEETH) for k in (0, 1)]
+    arc = picture.arc_of_action
+    points += [complex(arc.point(t)) for t in (0.0, arc.sweep / 2, arc.sweep)]
+    # room for the dimension arcs inside the bodies
+    points += [complex(0, p.imag + sign * 1.2 * module) for p in points for sign in (-1, 1)]
+    if depth >= 1:
+        points += [p for p in picture.tangent_points if p is not None]
+    if depth >= 2:
+        points += [b.centre for b in picture.bodies if b.centre is not None]
+    xs, ys = [p.real for p in points], [p.imag for p in points]
+    pad = 0.6 * module
+    return Box(min(xs) - pad, min(ys) - pad, max(xs) + pad, max(ys) + pad)
+
+
+def _ends(curve: Curve) -> tuple[complex, complex]:
+    a, b = curve.domain
+    return complex(curve.point(a)), complex(curve.point(b))
+
+
+def _fan(body: Body, window: Box) -> tuple[float, float]:
+    """How far the circles run to the left and to the right of the line of centres, rad; a rack's lines, mm."""
+    if body.centre is None:
+        return -window.left, window.right
+    up = _is_up(body, window)
+    sides = []
+    for reach in (body.centre.real - window.left, window.right - body.centre.real):
+        angles = [_WIDEST]
+        for radius in body.radii.values():
+            if radius > reach:
+                angles.append(math.asin(reach / radius))
+            drop = (window.low - body.centre.imag) if up else (body.centre.imag - window.high)
+            if abs(drop) < radius and drop > 0:
+                angles.append(math.acos(drop / radius))
+        sides.append(min(angles))
+    return sides[0], sides[1]
+
+
+def _is_up(body: Body, window: Box) -> bool:
+    """Whether the mesh lies above the body's axis."""
+    assert body.centre is not None
+    return body.centre.imag < (window.low + window.high) / 2 or body.centre == 0
+
+
+def _circles(
+    canvas: Canvas, body: Body, fan: tuple[float, float], view: View
+) -> list[tuple[str, tuple[complex, complex]]]:
+    """The circles of a body as arcs about the mesh; the names and both ends of each, on paper."""
+    found: Ends = []
+    for name in CIRCLES:
+        if name not in body.radii:
+            continue
+        layer, radius = f"CIRCLE_{name.upper()}", body.radii[name]
+        if body.centre is None:
+            line = Line(complex(-fan[0], radius), complex(fan[1], radius))
+            canvas.strokes.append(_stroke(layer, view.paper, line))
+            found.append((name, (view.paper.point(line.start), view.paper.point(line.end))))
+            continue
+        if _is_up(body, view.window):
+            arc = Arc(body.centre, radius, math.pi / 2 - fan[1], fan[0] + fan[1])
+            ends = _ends(arc)[1], _ends(arc)[0]
+        else:
+            arc = Arc(body.centre, radius, -math.pi / 2 - fan[0], fan[0] + fan[1])
+            ends = _ends(arc)
+        canvas.arc(layer, _arc(view.paper, arc))
+        found.append((name, (view.paper.point(ends[0]), view.paper.point(ends[1]))))
+    return found
+
+
+def _teeth(canvas: Canvas, picture: MeshingPicture, view: View, tolerance: float) -> None:
+    """Three teeth of each body in the main position, one at both ends of contact, and the working flanks."""
+    for body in picture.bodies:
+        for layer, s in (("TOOTH_START", picture.start), ("TOOTH_END", picture.end)):
+            draw(canvas, layer, body.tooth_at(s), view.paper, tolerance)
+        draw(canvas, "OUTLINE", body.chain(picture.shown, _TEETH), view.paper, tolerance)
+        draw(canvas, "ACTIVE_FLANK", body.active_at(picture.shown), view.paper, tolerance)
+
+
+def _lines(canvas: Canvas, picture: MeshingPicture, view: View) -> None:
+    """Line of centres, T-T, the theoretical and the active line of action, the spokes to N1 and N2."""
+    window, to = view.window, view.paper.point
+    canvas.line("CENTRE", to(complex(0, window.low)), to(complex(0, window.high)))
+    pole = picture.on_line(picture.pole)
+    canvas.line("TANGENT", to(complex(window.left, pole.imag)), to(complex(window.right, pole.imag)))
+    low, high = _clipped(picture, window)
+    canvas.line("LINE_OF_ACTION", to(picture.on_line(low)), to(picture.on_line(high)))
+    canvas.line("ACTIVE_LINE", to(picture.on_line(picture.start)), to(picture.on_line(picture.end)))
+    for body, point in zip(picture.bodies, picture.tangent_points, strict=True):
+        if body.centre is not None and point is not None and _inside(body.centre, window) and _inside(point, window):
+            canvas.line("DIMENSION", to(body.centre), to(point))
+    for point in _marks(picture):
+        if _inside(point, window):
+            canvas.arc("DIMENSION", Arc(to(point), 0.8, 0.0, 2 * math.pi))
+    radius = _angle_radius(picture, view)
+    phase = cmath.phase(picture.direction)
+    canvas.arc("DIMENSION", Arc(to(pole), radius, phase, math.pi - phase))
+
+
+def _angle_radius(picture: MeshingPicture, view: View) -> float:
+    """Radius of the arc that shows alpha_w, mm on paper: outside of the active line where there is room."""
+    most = view.paper.scale * -view.window.left * 0.85
+    return min(max(1.35 * view.paper.scale * (picture.end - picture.pole), 14.0), most)
+
+
+def _line_ends(picture: MeshingPicture) -> tuple[float, float]:
+    """Places s of N1 and N2; of a rack the end lies beyond the active line."""
+    last = picture.tangent_points[1]
+    if last is None:
+        return 0.0, picture.end + 0.35 * (picture.end - picture.start)
+    reach = ((last - picture.tangent_points[0]) / picture.direction).real
+    return min(0.0, reach), max(picture.end if reach < 0 else reach, reach)
+
+
+def _clipped(picture: MeshingPicture, window: Box) -> tuple[float, float]:
+    """The part of the line of action between N1 and N2 (and the active line) that the window holds."""
+    low, high = _line_ends(picture)
+    start, way = picture.tangent_points[0], picture.direction
+    for at, step, least, most in (
+        (start.real, way.real, window.left, window.right),
+        (start.imag, way.imag, window.low, window.high),
+    ):
+        if abs(step) > 1e-12:
+            ends = sorted(((least - at) / step, (most - at) / step))
+            low, high = max(low, ends[0]), min(high, ends[1])
+    return low, high
+
+
+def _marks(picture: MeshingPicture) -> list[complex]:
+    points = [picture.on_line(s) for s in (picture.start, picture.end, picture.pole)]
+    points += [p for p in picture.tangent_points if p is not None]
+    points += [b.centre for b in picture.bodies if b.centre is not None]
+    return points
+
+
+def _dimensions(canvas: Canvas, picture: MeshingPicture, view: View) -> dict[str, complex]:
+    """Arcs inside the bodies that carry d d' and p_w, with lines out to where these lie; the middle of each."""
+    first, second = picture.bodies
+    scale = view.paper.scale
+    radius = min(first.radii["root"], first.radii["base"]) - _INSIDE / scale
+    found = {}
+    if radius > 0:
+        arc = picture.arc_of_action
+        found["arc"] = _dimension_arc(canvas, view, arc, radius)
+    mark = picture.pitch
+    if isinstance(mark, Line):
+        depth = second.radii["root"] + _INSIDE / scale
+        start, end = complex(mark.start.real, depth), complex(mark.end.real, depth)
+        for a, b in ((mark.start, start), (mark.end, end)):
+            canvas.line("DIMENSION", view.paper.point(a), view.paper.point(b))
+        canvas.line("DIMENSION", view.paper.point(start), view.paper.point(end))
+        _arrow(canvas, view.paper.point(start), -1)
+        _arrow(canvas, view.paper.point(end), 1)
+        found["pitch"] = view.paper.point((start + end) / 2)
+        return found
+    outside = picture.kind == "internal"
+    radii = second.radii
+    radius = max(radii["root"], radii["base"]) + _INSIDE / scale if outside else radii["root"] - _INSIDE / scale
+    if radius > 0:
+        found["pitch"] = _dimension_arc(canvas, view, mark, radius)
+    return found
+
+
+def _dimension_arc(canvas: Canvas, view: View, arc: Arc, radius: float) -> complex:
+    """An arc about the same centre with arrows at its ends; its middle on paper."""
+    shown = Arc(arc.centre, radius, arc.start_angle, arc.sweep)
+    canvas.arc("DIMENSION", _arc(view.paper, shown))
+    for t, sense in ((0.0, -1), (arc.sweep, 1)):
+        inner, outer = complex(shown.point(t)), complex(arc.point(t))
+        canvas.line("DIMENSION", view.paper.point(outer), view.paper.point(inner))
+        _arrow(canvas, view.paper.point(inner), sense * complex(shown.tangent(t)))
+    return view.paper.point(complex(shown.point(arc.sweep / 2)))
+
+
+def _arrow(canvas: Canvas, tip: complex, way: complex) -> None:
+    """An open arrow head of 3 mm that points along ``way``."""
+    for side in (1, -1):
+        canvas.line("DIMENSION", tip, tip - 3.0 * way * cmath.exp(1j * side * math.radians(12)))
+
+
+def _names(
+    labels: Labeller, picture: MeshingPicture, view: View, dimensions: dict[str, complex], language: str
+) -> None:
+    """Names of points, arcs and angles."""
+    to, window = view.paper.point, view.window
+    pole = picture.on_line(picture.pole)
+    arc = picture.arc_of_action
+    labels.name("P", to(pole), prefer=1 + 0.3j)
+    labels.name("a", to(picture.on_line(picture.start)), prefer=1 - 1j)
+    labels.name("b", to(picture.on_line(picture.end)), prefer=-1 + 1j)
+    labels.name("d", to(complex(arc.point(0.0))), prefer=1 - 1j)
+    labels.name("d'", to(complex(arc.point(arc.sweep))), prefer=-1 - 1j)
+    low, high = _clipped(picture, window)
+    for index, point in enumerate(picture.tangent_points):
+        if point is None:
+            continue
+        if _inside(point, window):
+            labels.name(f"N_{{{index + 1}}}", to(point))
+        else:
+            end = low if abs(picture.on_line(low) - point) < abs(picture.on_line(high) - point) else high
+            labels.name(sheet_words(language, "towards").format(name=f"N_{{{index + 1}}}"), to(picture.on_line(end)))
+    outside: dict[float, list[str]] = {}
+    for index, body in enumerate(picture.bodies):
+        if body.centre is None:
+            continue
+        if _inside(body.centre, window):
+            labels.name(f"O_{{{index + 1}}}", to(body.centre), prefer=1 + 0j)
+        else:
+            outside.setdefault(window.low if body.centre.imag < window.low else window.high, []).append(
+                f"O_{{{index + 1}}}"
+            )
+    for y, names in outside.items():
+        labels.name(sheet_words(language, "towards").format(name=", ".join(names)), to(complex(0, y)))
+    phase = cmath.phase(picture.direction)
+    middle = to(pole) + cmath.rect(_angle_radius(picture, view), (math.pi + phase) / 2)
+    labels.name("α_{w}", middle, prefer=-1 + 0j)
+    labels.name("T", to(complex(window.left, pole.imag)), prefer=1 + 1j)
+    labels.name("T", to(complex(window.right, pole.imag)), prefer=-1 + 1j)
+    if "arc" in dimensions:
+        length = decimal(f"{abs(arc.sweep) * arc.radius:.3f}", language)
+        labels.name(f"dd' = {length}", dimensions["arc"], prefer=-1j)
+    if "pitch" in dimensions:
+        length = decimal(f"{picture.working_pitch:.3f}", language)
+        labels.name(f"p_{{w}} = {length}", dimensions["pitch"], prefer=1j)
+
+
+def _inside(point: complex, window: Box) -> bool:
+    return window.left <= point.real <= window.right and window.low <= point.imag <= window.high
+
+
+def _arc(paper: Paper, arc: Arc) -> Arc:
+    made = paper.scaled(arc)
+    assert isinstance(made, Arc)
+    return made
+
+
+def _stroke(layer: str, paper: Paper, curve: Arc | Line) -> Stroke:
+    return Stroke(layer, paper.scaled(curve))
