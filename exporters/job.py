@@ -136,18 +136,19 @@ def approximations(job: Job) -> tuple[Approximation, ...]:
     arcs = job.export.curves == "arcs" and not job.is_mesh
     # the rounding of the file's numbers takes its share of the tolerance first
     if job.is_mesh:
-        from parts.solids import mesh_outlines
+        from parts.solids import count_edges, mesh_outlines
 
         if tolerance < 8 * rounding:
             remedy = f"a mesh file stores 7 digits, at this size at least {at_least(8 * rounding)} mm works"
             raise ParameterError("tolerance", tolerance, remedy)
         made = mesh_outlines(job.body, tolerance - rounding, 64 * rounding)
+        edges = count_edges(job.body, made)
     else:
         made = tuple(
             approximate_profile(p, tolerance - rounding, arcs=arcs, least_edge=LEAST_SEGMENT_MM)
             for p in job.section.region.profiles()
         )
-    edges = sum(len(a.geometry) for a in made)
+        edges = sum(len(a.geometry) for a in made)
     if edges > _MOST_EDGES:
         factor = (edges / _MOST_EDGES) ** (3 if arcs else 2)
         remedy = f"would need {edges} edges; {at_least(tolerance * factor)} mm works"

@@ -13,6 +13,8 @@ WORDS: dict[str, tuple[str, str]] = {
     "pitch": ("pitch p, mm", "крок p, мм"),
     "tooth_thickness": ("tooth thickness s, mm", "товщина зуба S, мм"),
     "tip_tooth_thickness": ("tip tooth thickness s_a, mm", "товщина зуба на колі вершин S_a, мм"),
+    "normal_pitch": ("normal pitch p_n, mm", "нормальний крок p_n, мм"),
+    "lead": ("lead of the helix p_z, mm", "хід гвинтової лінії p_z, мм"),
     "file": ("file", "файл"),
     "error": ("max error, mm", "найбільша похибка, мм"),
     "tolerance": ("tolerance, mm", "допуск, мм"),
@@ -158,6 +160,11 @@ FINDINGS: dict[str, tuple[str, str]] = {
     "flat_outline": (
         "web, hub and face chamfers are not in a flat outline; STL, 3MF and STEP have them",
         "диск, маточина і фаски не входять у плоский контур; вони є в STL, 3MF і STEP",
+    ),
+    "transverse_section": (
+        "helical teeth, {value:.6g} degrees: a flat outline is their transverse section; STL, 3MF and STEP have the "
+        "screw surfaces",
+        "косі зуби, {value:.6g} град: плоский контур є торцевим перерізом; гвинтові поверхні є в STL, 3MF і STEP",
     ),
     "coarse_tolerance": (
         "tolerance {value:.4g} mm is more than 5 % of the module ({limit:.4g} mm): the teeth lose their shape",

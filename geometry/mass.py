@@ -16,6 +16,8 @@ _GAUSS_POINTS = 20
 _GAUSS_PANELS = 4
 # sections of a ruled wall are polynomials of degree 4 in z, times z^2: four nodes integrate degree 7 exactly
 _HEIGHT_POINTS = 4
+# turned sections vary like cosines of twice the turn
+_TURNED_POINTS = 20
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,15 +47,28 @@ def _wall_share(body: Body, wall: Wall) -> Real:
     """Integrals of 1, x, y, z, xx, yy, xy, zz, xz, yz over what a wall carries, (10,)."""
     low, high = body.height(wall)
     lower, upper = body.loop_profile(wall.lower), body.loop_profile(wall.upper)
-    nodes, weights = gauss_rule(_HEIGHT_POINTS)
+    one_section = None if body.is_ruled(wall) else section_moments(lower)
+    # the moments of three periods or more do not feel a turn
+    turned = one_section is not None and lower.count < 3
+    nodes, weights = gauss_rule(_TURNED_POINTS if turned else _HEIGHT_POINTS)
     share = np.zeros(10)
-    upright = section_moments(lower) if body.is_upright(wall) else None
     for node, weight in zip(nodes.tolist(), weights.tolist(), strict=True):
         z = (low + high) / 2 + (high - low) / 2 * node
-        section = upright if upright is not None else section_moments(lower, upper, (node + 1) / 2)
+        section = one_section if one_section is not None else section_moments(lower, upper, (node + 1) / 2)
+        if turned:
+            section = _turned(section, float(body.turn_at(wall, z)))
         a, x, y, xx, yy, xy = section.tolist()
         share += weight * (high - low) / 2 * np.array([a, x, y, a * z, xx, yy, xy, a * z * z, x * z, y * z])
     return share
+
+
+def _turned(section: Real, angle: float) -> Real:
+    """Integrals of 1, x, y, xx, yy, xy over a section turned by an angle, rad."""
+    a, x, y, xx, yy, xy = section.tolist()
+    first = (x + 1j * y) * np.exp(1j * angle)
+    # integral of the square of x + iy
+    second, polar = (xx - yy + 2j * xy) * np.exp(2j * angle), xx + yy
+    return np.array([a, first.real, first.imag, (polar + second.real) / 2, (polar - second.real) / 2, second.imag / 2])
 
 
 def ruled_excess(body: Body, wall: Wall) -> float:
