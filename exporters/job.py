@@ -161,6 +161,7 @@ def number_rounding(job: Job) -> float:
     reach = max(p.reach() for p in job.body.profiles) if job.is_solid else job.section.region.outer.reach()
     if job.is_mesh:
         # 3MF writes its float32 numbers as text, which rounds them once more
+        reach += job.body.steepness() * max(map(abs, job.body.levels()))
         return _FLOAT32 * reach * (2 if job.export.format == "3mf" else 1)
     if job.export.format == "step":
         return _STEP_ROUNDING * reach

@@ -91,6 +91,11 @@ class Body:
         """The profiles (indices) that some wall twists."""
         return frozenset(self.loops[w.lower].profile for w in self.walls if not self.is_ruled(w) and self.twist(w))
 
+    def steepness(self) -> float:
+        """How far a boundary may move sideways for a step along the axis on screw surfaces: their tan(beta)."""
+        rates = [abs(self.twist(w)) / (b - a) for w in self.walls for a, b in [self.height(w)] if not self.is_ruled(w)]
+        return max(rates, default=0.0) * max(p.reach() for p in self.profiles)
+
     def turn_at(self, wall: Wall, z: ArrayLike) -> Real:
         """Turn of a wall's section at heights z, rad; a ruled wall is not turned."""
         low, high = self.height(wall)
