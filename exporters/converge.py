@@ -120,9 +120,9 @@ def orders(plan: Plan) -> list[Order]:
     """Observed orders of every method on every curve that is not a circle or a line."""
     found = []
     for part_id in dict.fromkeys(job.part.id for job in plan.jobs):
-        profile = plan.parts[part_id].section(0.0).region.outer
+        region = plan.parts[part_id].section(0.0).region
         seen = set()
-        for segment in profile.period:
+        for segment in (s for profile in region.profiles() for s in profile.period):
             if isinstance(segment.curve, Arc | Line) or segment.label in seen:
                 continue
             seen.add(segment.label)
@@ -176,6 +176,8 @@ def write_pictures(folder: Path, rungs: list[Rung], found: list[Order]) -> list[
     curves: list[Series] = [
         (f"{o.part} {o.curve} {o.method}{_order_text(o)}", [float(c) for c in o.counts], list(o.errors)) for o in found
     ]
+    if not curves:
+        return names[:1]
     write_loglog(folder / names[1], "error against pieces; order in the key", "pieces of a curve", "error, mm", curves)
     return names
 

@@ -46,6 +46,10 @@ _TABLE_EXAMPLES = {
     ("RingGearSpec", "number_of_teeth"): "60",
     ("RingGearSpec", "tip_diameter"): "117.0",
     ("RingGearSpec", "outer_diameter"): "140.0",
+    ("RimHolesTable", "diameter"): "6.0",
+    ("RimHolesTable", "pitch_circle_diameter"): "140.0",
+    ("RackHolesTable", "diameter"): "2.5",
+    ("RackHolesTable", "depth"): "2.5",
 }
 
 # what a scene of several parts may add

@@ -14,7 +14,8 @@ from exporters.svg import head, number, path_data, save
 from exporters.tables import check_lines
 from exporters.words import finding_text, words
 from geometry.approximate import approximate_profile
-from geometry.contour import Approximation, Contour
+from geometry.contour import Approximation, Contour, edge_points
+from geometry.curve import Complex
 from parts.part import Part
 
 # letters of the caption that fit beside a part, and above a scene
@@ -61,10 +62,10 @@ def scene_preview(plan: Plan, checks: dict[str, Any], folder: Path) -> Path:
     language = plan.scene.scene.language
     outlines = {i.part: _outlines(plan.parts[i.part]) for i in plan.placing.instances}
     stand = sorted(plan.placing.instances, key=lambda i: i.at[2])
-    radii = {name: max(float(np.abs(b.geometry.vertices).max()) for b in made) for name, made in outlines.items()}
-    corners = [(i.centre, radii[i.part]) for i in stand]
-    left, right = min(c.real - r for c, r in corners), max(c.real + r for c, r in corners)
-    low, high = min(c.imag - r for c, r in corners), max(c.imag + r for c, r in corners)
+    outers = [_samples(outlines[i.part][-1].geometry) * cmath.exp(1j * i.rotation) + i.centre for i in stand]
+    points = np.concatenate(outers)
+    left, right = float(points.real.min()), float(points.real.max())
+    low, high = float(points.imag.min()), float(points.imag.max())
     reach = max(right - left, high - low) / 2
     middle, shift = reach * 1.08, -complex(left + right, low + high) / 2
     # a wide scene is drawn wide: what is above and below it is cut off
@@ -83,10 +84,13 @@ def scene_preview(plan: Plan, checks: dict[str, Any], folder: Path) -> Path:
         fill = plan.parts[instance.part].colour or _FILLS[index % len(_FILLS)]
         style = f"fill:{fill};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 600:.4g}"
         lines.append(f'<path d="{data}" style="{style}"/>')
-        x, y = middle + (instance.centre + shift).real, middle - (instance.centre + shift).imag
+        place = instance.centre + shift
+        x, y = (
+            middle + place.real,
+            middle - place.imag - _label_height(outlines[instance.part], outers[index] - instance.centre),
+        )
         text = f"font-family:sans-serif;font-size:{size:.4g}px;text-anchor:middle;fill:#202830"
-        label = y + 0.6 * radii[instance.part]
-        lines.append(f'<text x="{x:.4g}" y="{label:.4g}" style="{text}">{_escaped(instance.id)}</text>')
+        lines.append(f'<text x="{x:.4g}" y="{y:.4g}" style="{text}">{_escaped(instance.id)}</text>')
     lines.append("</g>")
     lines += _caption(rows, size, size)
     file = folder / f"{scene_preview_name(plan)}"
@@ -104,6 +108,23 @@ def _outlines(part: Part) -> tuple[Approximation, ...]:
     region = part.section(0.0).region
     tolerance = max(2e-4 * region.outer.reach(), 1e-6)
     return tuple(approximate_profile(p, tolerance, arcs=True) for p in region.profiles())
+
+
+def _samples(contour: Contour) -> Complex:
+    """Points all along a contour."""
+    vertices, bulges = contour.expanded()
+    return edge_points(vertices, np.roll(vertices, -1), bulges, np.linspace(0, 1, 9)[:-1]).ravel()
+
+
+def _label_height(outlines: tuple[Approximation, ...], outer: Complex) -> float:
+    """Height over the axis at which a name stands on material: half way from the largest hole about it to the teeth."""
+    inner = max((float(np.abs(a.geometry.vertices).max()) for a in outlines[:-1]), default=0.0)
+    if not outlines[:-1] and outlines[-1].geometry.count == 1:
+        # no wheel: just above its lowest edge
+        return float(outer.imag.min()) + 0.03 * float(np.ptp(outer.real))
+    if inner >= float(np.abs(outer).min()):
+        inner = 0.0
+    return -(inner + float(np.abs(outer).min())) / 2
 
 
 def _placed(contour: Contour, turn: complex, shift: complex) -> Contour:

@@ -113,10 +113,6 @@ FINDINGS: dict[str, tuple[str, str]] = {
         for who, en_who, uk_who in (
             ("first", "first gear", "першого колеса"),
             ("second", "second gear", "другого колеса"),
-            ("pinion", "pinion", "шестірні"),
-            ("ring", "ring", "вінця"),
-            ("gear", "gear", "колеса"),
-            ("rack", "rack", "рейки"),
         )
         for code, en, uk in (
             (
@@ -137,18 +133,6 @@ FINDINGS: dict[str, tuple[str, str]] = {
             ),
         )
     },
-    "involute_interference": (
-        "involute interference: the ring's tips reach below the pinion's base circle ({value:.4f} against {limit:.4f})",
-        "інтерференція евольвент: вершини вінця заходять за основне коло шестірні ({value:.4f} проти {limit:.4f})",
-    ),
-    "trochoid_interference": (
-        "tip interference: the pinion's tips strike the ring's on their way out ({value:.4f} against {limit:.4f} mm)",
-        "інтерференція вершин: вершини шестірні вдаряють об вершини вінця ({value:.4f} проти {limit:.4f} мм)",
-    ),
-    "radial_assembly": (
-        "the pinion cannot go into the ring radially ({value:.4f} against {limit:.4f} mm); put it in along the axis",
-        "шестірню не можна ввести у вінець радіально ({value:.4f} проти {limit:.4f} мм); вводьте її вздовж осі",
-    ),
     "contact_ratio": (
         "contact ratio {value:.4f} is below {limit:.1f}: the drive is interrupted",
         "коефіцієнт перекриття {value:.4f} менший за {limit:.1f}: зачеплення переривається",
@@ -156,6 +140,43 @@ FINDINGS: dict[str, tuple[str, str]] = {
     "normal_backlash": (
         "the flanks overlap: normal backlash {value:.6f} mm",
         "профілі перекриваються: бічний зазор {value:.6f} мм",
+    ),
+    **{
+        f"{code}_{who}": (en.format(en_who), uk.format(uk_who))
+        for who, en_who, uk_who in (
+            ("pinion", "pinion", "шестерні"),
+            ("ring", "ring", "вінця"),
+            ("gear", "gear", "колеса"),
+            ("rack", "rack", "рейки"),
+        )
+        for code, en, uk in (
+            (
+                "fillet_interference",
+                "the mate's tip reaches the fillet of the {}: {{value:.4f}} mm, the involute ends at {{limit:.4f}} mm",
+                "вершина спряженої деталі впирається в галтель {}: {{value:.4f}} мм проти {{limit:.4f}} мм",
+            ),
+            (
+                "tip_clearance",
+                "the mate's tip strikes the root of the {}: clearance {{value:.4f}} mm",
+                "вершина спряженої деталі торкається западини {}: зазор {{value:.4f}} мм",
+            ),
+        )
+    },
+    "involute_interference": (
+        "involute interference: the ring's flank begins at {value:.4f} mm, the pinion's involute at {limit:.4f} mm",
+        "інтерференція евольвент: профіль вінця починається на {value:.4f} мм, евольвента шестерні на {limit:.4f} мм",
+    ),
+    "trochoid_interference": (
+        "the tips of pinion and ring strike each other on their way out: {value:.4f} mm of arc, {limit:.4f} mm needed",
+        "вершини шестерні і вінця зачіпаються на виході: {value:.4f} мм дуги замість {limit:.4f} мм",
+    ),
+    "radial_assembly": (
+        "the pinion goes into the ring only along its axis: room {value:.4f} mm, {limit:.4f} mm needed",
+        "шестерню можна вставити у вінець лише вздовж осі: місця {value:.4f} мм замість {limit:.4f} мм",
+    ),
+    "thin_ring_rim": (
+        "thin rim: {value:.3f} mm outside the root circle, less than one module ({limit:.3f} mm)",
+        "тонкий обід: {value:.3f} мм зовні кола западин, менше за модуль ({limit:.3f} мм)",
     ),
     "flat_outline": (
         "web, hub and face chamfers are not in a flat outline; STL, 3MF and STEP have them",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Annotated, Any, Literal
 
 import msgspec
@@ -98,7 +98,7 @@ class SpokesTable(Struct, forbid_unknown_fields=True):
     start_deg: Direction = 0.0
 
 
-HolesKey = HolesTable | list[HolesTable] | None
+HolesKey = HolesTable | Sequence[HolesTable] | None
 
 
 def hub_holes(bore: BoreTable | None, holes: HolesKey, spokes: SpokesTable | None) -> HubHoles:
@@ -109,7 +109,7 @@ def hub_holes(bore: BoreTable | None, holes: HolesKey, spokes: SpokesTable | Non
     ParameterError
         A keyway has no row in its standard, or one of its sizes is missing.
     """
-    groups = holes if isinstance(holes, list) else [holes] if holes is not None else []
+    groups = [holes] if isinstance(holes, HolesTable) else holes or []
     windows = None
     if spokes is not None:
         windows = Spokes(

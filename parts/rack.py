@@ -21,6 +21,18 @@ if TYPE_CHECKING:
 _BODY = 2.5
 
 
+class RackHolesTable(Struct, forbid_unknown_fields=True):
+    """A row of round holes in the body, symmetric about the middle."""
+
+    count: Annotated[int, Meta(ge=1, le=1000, description="number of holes")]
+    diameter: Annotated[float, mm("diameter of each hole", above=0, most=100_000)]
+    spacing: Annotated[float, mm("from hole to hole", above=0, most=100_000)] = 20.0
+    depth: (
+        Annotated[float, mm("centres below the root line; default: the middle of the body", above=0, most=100_000)]
+        | None
+    ) = None
+
+
 class RackSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="rack"):
     """Straight rack; its teeth are those of the basic rack."""
 
@@ -37,6 +49,7 @@ class RackSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="rack")
     tip_chamfer: Annotated[float, mm("height of a 45 degree tip chamfer", least=0, most=1000)] = 0.0
     tip_rounding: Annotated[float, mm("radius of the tip corner", least=0, most=1000)] = 0.0
     face_width: FaceWidth = 10.0
+    holes: RackHolesTable | None = None
     material: Material | None = None
     density: Density | None = None
     colour: Colour | None = None
@@ -52,11 +65,16 @@ def checked_rack_part(spec: RackSpec) -> Rack:
     """
     from geometry.errors import ParameterError
     from geometry.gears.rack import Rack, checked_part_rack
+    from geometry.gears.rack_holes import RackHoles
 
     if spec.tip_chamfer > 0 and spec.tip_rounding > 0:
         raise ParameterError("tip_rounding", spec.tip_rounding, "give either tip_chamfer or tip_rounding; 0 works")
     basic = basic_rack_of(spec.basic_rack, math.radians(spec.pressure_angle_deg))
     body = spec.body_height if spec.body_height is not None else _BODY * spec.module
+    holes = None
+    if (row := spec.holes) is not None:
+        depth = row.depth if row.depth is not None else body / 2
+        holes = RackHoles(row.count, row.diameter, row.spacing, depth)
     rack = Rack(
         spec.module,
         spec.number_of_teeth,
@@ -65,6 +83,7 @@ def checked_rack_part(spec: RackSpec) -> Rack:
         spec.circumferential_thinning,
         spec.tip_chamfer,
         spec.tip_rounding,
+        holes,
     )
     return checked_part_rack(rack)
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from msgspec import Meta, Struct
 
 from parts.cutter_keys import CutterTable, cutter_of
+from parts.hole_keys import HolesTable, hub_holes, with_remedy
 from parts.keys import Colour, Density, FaceWidth, Material, in_modules, mm
 from parts.materials import density_of
 from parts.part import Part
@@ -28,6 +29,10 @@ class RoundedRootTable(Struct, forbid_unknown_fields=True):
     )
     radius_coefficient: Annotated[float, in_modules("radius of the arcs; 0 with full_round", least=0, most=2)] = 0.0
     full_round: Annotated[bool, Meta(description="one arc from flank to flank, the largest there is")] = True
+
+
+class RimHolesTable(HolesTable, forbid_unknown_fields=True):
+    """Round holes in the rim (bolt circle), or a list of such tables."""
 
 
 class RingGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="ring_gear"):
@@ -58,9 +63,11 @@ class RingGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="ri
     tip_chamfer: Annotated[float, mm("radial height of a 45 degree tip chamfer", least=0, most=1000)] = 0.0
     tip_rounding: Annotated[float, mm("radius of the tip corner", least=0, most=1000)] = 0.0
     outer_diameter: (
-        Annotated[float, mm("outside of the rim; default: root diameter + 5 m", above=0, most=200_000)] | None
+        Annotated[float, mm("outside of the rim; default: root diameter + 5 m, or holes + 2 m", above=0, most=200_000)]
+        | None
     ) = None
     face_width: FaceWidth = 10.0
+    holes: RimHolesTable | list[RimHolesTable] | None = None
     material: Material | None = None
     density: Density | None = None
     colour: Colour | None = None
@@ -74,6 +81,25 @@ def checked_ring_gear(spec: RingGearSpec) -> RingGear:
     ParameterError
         The ring cannot exist or its cutter cannot make it; names the key and the nearest value that works.
     """
+    from geometry.errors import ParameterError
+
+    try:
+        return _ring_of(spec)
+    except ParameterError as refusal:
+        raise with_remedy(refusal, spec, _builds) from refusal
+
+
+def _builds(spec: RingGearSpec) -> bool:
+    from geometry.errors import GeometryError
+
+    try:
+        _ring_of(spec)
+    except GeometryError:
+        return False
+    return True
+
+
+def _ring_of(spec: RingGearSpec) -> RingGear:
     from dataclasses import replace
 
     from geometry.errors import ParameterError
@@ -107,11 +133,16 @@ def checked_ring_gear(spec: RingGearSpec) -> RingGear:
         thinning_by_deeper_cut=spec.thinning_method == "deeper_cut",
         tip_chamfer=spec.tip_chamfer,
         tip_rounding=spec.tip_rounding,
+        holes=hub_holes(None, spec.holes, None),
     )
     if spec.cutter is None and isinstance(root, PinionCutter):
         gear = with_default_cutter(gear)
     gear = checked_ring(gear)
-    return gear if rim is not None else replace(gear, outer_diameter=2 * (gear.root_radius + _RIM * spec.module))
+    if rim is not None:
+        return gear
+    # holes keep a module to the outside
+    radius = max(gear.root_radius + _RIM * spec.module, *(g.reach + spec.module for g in gear.holes.round_holes), 0.0)
+    return replace(gear, outer_diameter=2 * radius)
 
 
 def ring_gear_part(part_id: str, spec: RingGearSpec, gear: RingGear) -> Part:

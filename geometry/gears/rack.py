@@ -17,6 +17,7 @@ from geometry.errors import GeometryError, ParameterError, PointedTipError, at_l
 from geometry.findings import Finding
 from geometry.gears.basic_rack import BasicRack, checked_rack
 from geometry.gears.offset_tooth import OffsetError, OffsetRegion
+from geometry.gears.rack_holes import RackHoles
 from geometry.intersect import first_above
 from geometry.line_arc import Arc, Line, arc_between
 from geometry.placement import Placement2
@@ -40,6 +41,7 @@ class Rack:
     circumferential_thinning: float = 0.0
     tip_chamfer: float = 0.0
     tip_rounding: float = 0.0
+    holes: RackHoles | None = None
 
     @property
     def pitch(self) -> float:
@@ -295,7 +297,9 @@ def _region(rack: Rack, offset: float) -> OffsetRegion:
     outline = _closed(rack, _joined(chain), offset)
     # into the rack frame: a quarter turn back
     turned = tuple(Segment(s.curve.placed(Placement2(-math.pi / 2)), s.label) for s in outline)
-    return OffsetRegion(Region(Profile(turned)), offset, side.findings)
+    row, body = rack.holes, rack.body_height
+    holes = () if row is None else row.profiles(rack.dedendum, offset, row.thinnest(rack.length, body))
+    return OffsetRegion(Region(Profile(turned), holes), offset, side.findings)
 
 
 def _joined(chain: list[Segment]) -> list[Segment]:
@@ -389,5 +393,7 @@ def checked_part_rack(rack: Rack) -> Rack:
     if rack.tip_rounding > largest:
         text = f"does not fit the tip land; at most {at_most(largest, 4)} mm works"
         raise ParameterError("tip_rounding", rack.tip_rounding, text)
+    if rack.holes is not None:
+        rack.holes.check(rack.length, rack.body_height)
     rack_region(rack)
     return rack

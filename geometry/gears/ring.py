@@ -14,6 +14,7 @@ from geometry.angles import inverse_involute, involute_function
 from geometry.cutter_fillet import CutterFillet
 from geometry.errors import ParameterError, at_least
 from geometry.gears.cutter import PinionCutter
+from geometry.hub_holes import HubHoles
 from geometry.involute import Involute
 
 
@@ -28,6 +29,9 @@ class RoundedRoot:
     radius: float | None = None
 
 
+_NO_HOLES = HubHoles()
+
+
 @dataclass(frozen=True)
 class RingGear:
     """Internal spur gear; lengths in mm, coefficients in modules, angles in rad.
@@ -37,7 +41,7 @@ class RingGear:
     at the reference circle: cut by a wider cutter tooth (root diameter kept) or, with ``thinning_by_deeper_cut``, by
     feeding the cutter out (root diameter raised).
     ``any_cutter``: nobody named the cutter, so that another may be taken (``ring_limits.with_default_cutter``).
-    Source of the dimensions: GOST 19274, ISO 21771.
+    ``holes``: round holes in the rim, like a bolt circle. Source of the dimensions: GOST 19274, ISO 21771.
     """
 
     module: float
@@ -54,6 +58,7 @@ class RingGear:
     tip_chamfer: float = 0.0
     tip_rounding: float = 0.0
     any_cutter: bool = False
+    holes: HubHoles = _NO_HOLES
 
     @cached_property
     def generating_shift_coefficient(self) -> float:

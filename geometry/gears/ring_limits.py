@@ -60,7 +60,7 @@ def tip_above_base(gear: RingGear) -> Margin:
 def rim(gear: RingGear) -> Margin:
     """Rim outside the root circle against one module, mm; without any there is no ring."""
     value = gear.outer_radius - gear.root_radius
-    return Margin("thin_rim", value, gear.module, value - gear.module)
+    return Margin("thin_ring_rim", value, gear.module, value - gear.module)
 
 
 def root_form_diameter(gear: RingGear) -> float:
@@ -97,7 +97,26 @@ def checked_ring(gear: RingGear) -> RingGear:
     if gear.outer_diameter <= least:
         text = f"must be above the root diameter; at least {at_least(least + gear.module, 4)} mm leaves a rim"
         raise ParameterError("outer_diameter", gear.outer_diameter, text)
+    gear.holes.check(math.inf)
+    for wall, key, value, why in rim_walls(gear):
+        if not wall > 0:
+            raise ParameterError(key, value, why)
     return gear
+
+
+def rim_walls(gear: RingGear) -> list[tuple[float, str, float, str]]:
+    """Material, mm, between each group of holes and the root circle, and the outside; key, value, reason where none."""
+    walls = []
+    groups = gear.holes.round_holes
+    for index, group in enumerate(groups):
+        key = "holes" if len(groups) == 1 else f"holes.item {index + 1}"
+        size, radius = group.pitch_circle_diameter, group.diameter / 2
+        blamed = f"{key}.pitch_circle_diameter"
+        inside = f"the holes reach the root circle, {2 * gear.root_radius:.6g} mm"
+        outside = f"the holes reach the outside of the rim, {gear.outer_diameter:.6g} mm"
+        walls.append((size / 2 - radius - gear.root_radius, blamed, size, inside))
+        walls.append((gear.outer_radius - size / 2 - radius, blamed, size, outside))
+    return walls
 
 
 def _check_made(gear: RingGear) -> None:

@@ -18,6 +18,7 @@ from geometry.errors import CuspError, GeometryError
 from geometry.findings import Finding
 from geometry.gears.offset_tooth import OffsetError, OffsetRegion
 from geometry.gears.ring import RingGear
+from geometry.gears.ring_limits import rim_walls
 from geometry.gears.ring_tooth import RingCurves, RingSide, assemble_ring_side, ring_side
 from geometry.intersect import first_above
 from geometry.line_arc import Arc
@@ -37,27 +38,32 @@ def ring_region(gear: RingGear, offset: float = 0.0) -> OffsetRegion:
         The ring cannot exist, or the offset closes the spaces or leaves no tooth or rim; the nearest offset that
         works is named.
     """
-    side = offset_ring_side(gear, offset)
-    outer = circle(gear.outer_radius + offset, Label.RIM)
-    return OffsetRegion(Region(outer, (side.profile(),)), offset, side.findings)
-
-
-def offset_ring_side(gear: RingGear, offset: float) -> RingSide:
-    """The lower side of space 1 moved out of the material by ``offset`` mm (into it where negative)."""
-    if offset == 0:
-        return ring_side(gear)
     if not math.isfinite(offset):
         raise OffsetError(offset, "is no finite number", 0.0)
     try:
-        return _moved_side(gear, offset)
+        return _section(gear, offset)
     except GeometryError as refusal:
-        ring_side(gear)
+        if offset == 0:
+            raise
+        _section(gear, 0.0)
         word = "closes the tooth spaces" if offset > 0 else "leaves no tooth"
         reason = refusal.reason if isinstance(refusal, OffsetError) else word
         raise OffsetError(offset, reason, _largest_offset(gear, offset)) from refusal
 
 
+def _section(gear: RingGear, offset: float) -> OffsetRegion:
+    side = _moved_side(gear, offset)
+    thinnest = min((wall for wall, *_ in rim_walls(gear)), default=math.inf)
+    if -2 * offset >= thinnest:
+        raise OffsetError(offset, "leaves no wall beside the holes", -thinnest / 2 * (1 - 1e-6))
+    outer = circle(gear.outer_radius + offset, Label.RIM)
+    return OffsetRegion(Region(outer, (side.profile(), *gear.holes.profiles(offset))), offset, side.findings)
+
+
 def _moved_side(gear: RingGear, offset: float) -> RingSide:
+    """The lower side of space 1 moved out of the material by ``offset`` mm (into it where negative)."""
+    if offset == 0:
+        return ring_side(gear)
     if offset < 0:
         if gear.root_radius - offset >= gear.outer_radius + offset:
             raise OffsetError(offset, "leaves no rim", 0.0)
@@ -71,7 +77,7 @@ def _largest_offset(gear: RingGear, refused: float) -> float:
     for _ in range(24):
         middle = (works + fails) / 2
         try:
-            _moved_side(gear, middle)
+            _section(gear, middle)
             works = middle
         except GeometryError:
             fails = middle

@@ -9,6 +9,9 @@ import pytest
 
 from exporters.cli import main
 from exporters.report import read_report
+from exporters.words import finding_text
+from geometry.errors import OffsetError
+from geometry.findings import Finding
 from parts.scene import KINDS, make_parts, scene_from_toml
 from parts.schema import SceneError
 
@@ -35,7 +38,8 @@ def made(text: str) -> dict[str, object]:
 
 @pytest.mark.parametrize("text", [
     RING + "cutter = { number_of_teeth = 25, full_round = true }\n", RING + "rounded_root = { full_round = true }\n",
-    RING + "tip_chamfer = 0.2\n", RACK + "tip_rounding = 0.3\n", SHAPED,
+    RING + "holes = { count = 4, diameter = 4.0, pitch_circle_diameter = 112.0 }\ntip_chamfer = 0.2\n", SHAPED,
+    RACK + "tip_rounding = 0.3\nholes = { count = 2, diameter = 2.0 }\n",
 ])  # fmt: skip
 def test_every_plane_format_and_mesh_is_built_and_read_back(text: str, tmp_path: Path) -> None:
     file = tmp_path / "s.toml"
@@ -82,6 +86,11 @@ REFUSED = {
     "outer_diameter": RING + "outer_diameter = 100.0\n",
     "pressure_angle_deg": RING + "pressure_angle_deg = 32.0\n",
     "circumferential_thinning": RACK + "circumferential_thinning = 2.5\n",
+    "holes.pitch_circle_diameter": RING + "holes = { count = 4, diameter = 4.0, pitch_circle_diameter = 104.0 }\n",
+    "holes.diameter": RACK + "holes = { count = 1, diameter = 7.0 }\n",
+    "holes.depth": RACK + "holes = { count = 1, diameter = 3.0, depth = 1.0 }\n",
+    "holes.count": RACK + "holes = { count = 9, diameter = 2.0, spacing = 20.0 }\n",
+    "holes.spacing": RACK + "holes = { count = 3, diameter = 2.0, spacing = 1.0 }\n",
     "tip_rounding": RACK + "tip_rounding = 2.0\n",
 }
 
@@ -116,8 +125,53 @@ def test_the_rim_follows_the_root_where_nobody_asks() -> None:
     assert part.section(0.0).region.outer.reach() == pytest.approx(part.circles["root_diameter"] / 2 + 5.0)
 
 
+@pytest.mark.parametrize("text", [
+    RING + "outer_diameter = 130.0\nholes = { count = 4, diameter = 4.0, pitch_circle_diameter = 112.0 }\n",
+    RACK + "holes = { count = 2, diameter = 2.0 }\n",
+])  # fmt: skip
+def test_offsets_that_use_up_a_wall_or_close_the_holes_are_refused(text: str) -> None:
+    scene = scene_from_toml(f"[parts.p]\n{text}".encode(), "scene.toml", "scene")
+    section = make_parts(scene, "scene.toml")[0]["p"].section
+    holes = section(0.0).region.holes
+    small = [h for h in holes if h.count == 1]
+    for offset, word in ((-2.9, "leaves no"), (2.1, "closes the")):
+        with pytest.raises(OffsetError, match=word) as refusal:
+            section(offset)
+        assert len(section(refusal.value.nearest * (1 - 1e-6)).region.holes) == len(holes)
+    moved = [h for h in section(0.1).region.holes if h.count == 1]
+    for before, after in zip(small, moved, strict=True):
+        radii = [abs(h.period[0].curve.point(0.0) - h.period[0].curve.centre) for h in (before, after)]  # type: ignore[attr-defined]
+        assert radii[0] - radii[1] == pytest.approx(0.1)
+
+
 def test_an_external_pair_refuses_a_ring() -> None:
     text = f'[parts.a]\n{RING}[parts.b]\n{SHAPED}[[mates]]\nkind = "external_gear_pair"\nfirst = "b"\nsecond = "a"\n'
     scene = scene_from_toml(text.encode(), "scene.toml", "scene")
     with pytest.raises(SceneError, match="ring_gear"):
         make_parts(scene, "scene.toml")
+
+
+def test_every_finding_of_rings_and_their_pairs_has_words() -> None:
+    from geometry.gears.internal_pair import internal_pair
+    from geometry.gears.rack_pair import rack_pair
+
+    text = f"[parts.a]\n{RING}outer_diameter = 103.0\n[parts.b]\n{SHAPED}[parts.c]\n{RACK}"
+    scene = scene_from_toml(text.encode(), "scene.toml", "scene")
+    ring, gear, rack = (KINDS[s.__struct_config__.tag][1](s) for s in scene.parts.values())
+    margins = [*internal_pair(gear, ring).margins(), *rack_pair(gear, rack).margins()]
+    found = [Finding(m.name, m.value, m.limit) for m in margins]
+    found += make_parts(scene, "scene.toml")[0]["a"].findings
+    assert "thin_ring_rim" in {f.code for f in found}
+    for language in ("en", "uk"):
+        assert all(finding_text(language, f) for f in found)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("text", [RING, RACK])
+def test_converge_measures_rings_and_racks(text: str, tmp_path: Path) -> None:
+    """The curves of a ring stand in its hole; a rack has none but lines and arcs."""
+    file = tmp_path / "s.toml"
+    file.write_text(f'[parts.p]\n{text}[[exports]]\nformat = "dxf"\n', encoding="utf-8")
+    assert main(["converge", str(file), "--out", str(tmp_path)]) == 0
+    rows = (tmp_path / "s" / "converge.csv").read_text(encoding="utf-8")
+    assert ("root_fillet" in rows) == (text is RING)
