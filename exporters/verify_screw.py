@@ -1,4 +1,4 @@
-"""Screw surfaces in STEP files: points of the kernel's faces and edges, turned back and held against the exact section."""
+"""Screw surfaces in STEP files: points of the kernel's faces and edges, held against the exact section."""
 
 from __future__ import annotations
 

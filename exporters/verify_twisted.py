@@ -61,8 +61,8 @@ def verify_twisted(
         layer = min(number, len(levels) - 2)
         mine = triangles[order[starts[layer] : starts[layer + 1]]]
         loops = chains(mine, z == level, len(z))
-        points = turned_back(body, wall, mesh.vertices[loops[0]])
-        found = 0.5 * abs(float(np.sum((np.conj(points) * np.roll(points, -1)).imag)))
+        outline = turned_back(body, wall, mesh.vertices[loops[0]])
+        found = 0.5 * abs(float(np.sum((np.conj(outline) * np.roll(outline, -1)).imag)))
         if len(loops) > 1:
             failures.append(f"the slice at z = {level:.6g} mm has {len(loops)} outlines")
         elif abs(found - area) > declared * length + 1e-12 * area:
@@ -98,5 +98,3 @@ def chains(triangles: Triangles, on_level: NDArray[np.bool_], count: int) -> lis
             vertex = following.pop(vertex)
         chains.append(chain)
     return chains
-
-

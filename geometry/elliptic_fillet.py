@@ -1,4 +1,4 @@
-"""The root fillet of a helical gear in its transverse section: what the ellipse of a rounded normal rack leaves there."""
+"""The root fillet of a helical gear in its transverse section: what the ellipse of a rounded rack leaves."""
 
 from __future__ import annotations
 
@@ -64,17 +64,7 @@ class EllipticFillet:
         waves = (np.cos(u), -np.sin(u), -np.cos(u), np.sin(u))
         cosine = [waves[k % 4] / FACTORIALS[k] for k in range(order + 1)]
         sine = [-waves[(k + 1) % 4] / FACTORIALS[k] for k in range(order + 1)]
-        return self._joined(support, power(cosine, -1.0), sine, (self.depth, -1.0))
-
-    def _joined(self, support: Series, secant: Series, sine: Series, signs: tuple[float, float]) -> tuple[Series, ...]:
-        depth, sign = signs
-        slope = _slope(support)
-        tangent = product(sine, secant)
-        shift = [depth * a + sign * b for a, b in zip(tangent, product(slope, secant), strict=True)]
-        terms = zip(secant, support, product(slope, tangent), strict=False)
-        normal = [depth * a + b + sign * c for a, b, c in terms][:-1]
-        bend = [a + b for a, b in zip(support, _slope(slope), strict=False)]
-        return shift, normal, bend
+        return _joined(support, power(cosine, -1.0), sine, self.depth, -1.0)
 
     def normal_length(self, t: ArrayLike) -> Real:
         """n: distance of the contact point from the pitch point, mm."""
@@ -131,7 +121,7 @@ class EllipticFillet:
         cosine = [waves[k % 4] / FACTORIALS[k] for k in range(order + 1)]
         secant = power(cosine, -1.0)
         sine = [(sines[0], math.cos(far), -sines[0], -math.cos(far))[k % 4] / FACTORIALS[k] for k in range(order + 1)]
-        shift, normal, bend = self._joined(support, secant, sine, (abs(self.depth), 1.0))
+        shift, normal, bend = _joined(support, secant, sine, abs(self.depth), 1.0)
         phase = [0.0, *(x / self.pitch_radius for x in shift[1:order])]
         if order > 1:
             phase[1] += 1
@@ -178,3 +168,14 @@ class EllipticFillet:
 def _slope(series: Series) -> Series:
     """Coefficients of the derivative, one fewer."""
     return [(k + 1) * x for k, x in enumerate(series[1:])]
+
+
+def _joined(support: Series, secant: Series, sine: Series, depth: float, sign: float) -> tuple[Series, Series, Series]:
+    """s, n and p + p'' from p; with ``sign`` 1 and bounds for all of them, their bounds."""
+    slope = _slope(support)
+    tangent = product(sine, secant)
+    shift = [depth * a + sign * b for a, b in zip(tangent, product(slope, secant), strict=True)]
+    terms = zip(secant, support, product(slope, tangent), strict=False)
+    normal = [depth * a + b + sign * c for a, b, c in terms][:-1]
+    bend = [a + b for a, b in zip(support, _slope(slope), strict=False)]
+    return shift, normal, bend

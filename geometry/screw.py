@@ -1,6 +1,6 @@
 """Screw surfaces over splines: the section's spline times a spline of the turn, with a proven bound.
 
-The surface over a section c(t) that turns by theta over the height is c(t) exp(i theta v), v from 0 to 1 along the axis.
+The surface over a section c(t) that turns by theta over its height is c(t) exp(i theta v), v from 0 to 1 upwards.
 With splines C of c and E of the turn, C(t) E(v) is a tensor product, and it is off by at most
 |C - c| |E| + |c| |E - exp|: what both splines are off. E interpolates value and three derivatives at both ends of each
 span (Hermite, degree 7), which leaves |E - exp| <= delta^8 / (8! 2^8) for a span of delta rad.
@@ -63,7 +63,7 @@ def turn_spline(twist: float, spans: int) -> BSpline:
     np.put_along_axis(matrix, first[:, None] + np.arange(_DEGREE + 1), values, axis=1)
     found = np.linalg.lstsq(matrix, pieces.point(v), rcond=None)[0]
     found[0], found[-1] = pieces.poles[0], pieces.poles[-1]
-    return BSpline(_DEGREE, knots, found)
+    return BSpline(_DEGREE, knots, np.asarray(found, dtype=np.complex128))
 
 
 def _knots(edges: Real, multiplicity: int) -> Real:

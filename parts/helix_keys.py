@@ -16,9 +16,9 @@ from geometry.gears.helix import Helix
 HelixAngle = Annotated[
     float,
     Meta(
-        ge=0,
+        ge=-60,
         le=60,
-        description="helix angle on the reference cylinder; above 0, module, coefficients and pressure angle are normal",
+        description="helix angle on the reference cylinder; the module and all else is then normal; negative turns the hand",
         extra={"unit": "degrees"},
     ),
 ]
@@ -28,8 +28,10 @@ Double = Annotated[bool, Meta(description="two helices of opposite hands that me
 
 def helix_of(spec: Any) -> Helix:
     """The helix of a part's keys; that of spur gears for parts without such keys."""
-    angle = math.radians(getattr(spec, "helix_angle_deg", 0.0))
-    return Helix(angle, getattr(spec, "hand", "right"), getattr(spec, "double_helical", False))
+    angle, hand = math.radians(getattr(spec, "helix_angle_deg", 0.0)), getattr(spec, "hand", "right")
+    if angle < 0:
+        hand = "left" if hand == "right" else "right"
+    return Helix(abs(angle), hand, getattr(spec, "double_helical", False))
 
 
 def checked_helix(spec: Any) -> Helix:

@@ -107,7 +107,7 @@ def checked_spur_gear(spec: SpurGearSpec) -> SpurGear:
     helix = checked_helix(spec)
     _check_face_chamfer(spec)
     try:
-        gear = checked_gear(gear_of(spec))
+        gear = checked_gear(_section_of(spec))
     except ParameterError as refusal:
         if helix.angle:
             refusal = in_normal_terms(spec, refusal, _builds)
@@ -190,14 +190,14 @@ def _with_rack_remedy(spec: SpurGearSpec, refusal: ParameterError) -> ParameterE
 
 def _builds(spec: SpurGearSpec) -> bool:
     try:
-        checked_gear(gear_of(spec))
+        checked_gear(_section_of(spec))
     except GeometryError:
         return False
     return True
 
 
 def gear_of(spec: SpurGearSpec) -> SpurGear:
-    """The gear of a part as its keys say, not checked to exist; a helical one's transverse section.
+    """The gear of a part as its keys say, not checked to exist: in normal data where it is helical.
 
     Raises
     ------
@@ -209,7 +209,7 @@ def gear_of(spec: SpurGearSpec) -> SpurGear:
     if spec.bore is not None and spec.bore_diameter > 0:
         raise ParameterError("bore_diameter", spec.bore_diameter, "give either bore_diameter or bore; 0 works")
     cutter = None if spec.cutter is None else cutter_of(spec.cutter, spec.module, math.radians(spec.pressure_angle_deg))
-    normal = SpurGear(
+    return SpurGear(
         module=spec.module,
         number_of_teeth=spec.number_of_teeth,
         rack=_rack_of(spec),
@@ -223,7 +223,11 @@ def gear_of(spec: SpurGearSpec) -> SpurGear:
         hub=hub_holes(spec.bore, spec.holes, spec.spokes),
         cutter=cutter,
     )
-    return transverse_gear(normal, math.radians(spec.helix_angle_deg)) if spec.helix_angle_deg else normal
+
+
+def _section_of(spec: SpurGearSpec) -> SpurGear:
+    """The transverse section of the gear of a part: the gear itself where it is not helical."""
+    return transverse_gear(gear_of(spec), math.radians(spec.helix_angle_deg))
 
 
 def _rack_of(spec: SpurGearSpec) -> BasicRack:

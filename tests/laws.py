@@ -76,7 +76,7 @@ def _enveloped(curve: TrochoidFillet, u: Any) -> Any:
 
 
 def _rolled_off(curve: EllipticFillet, u: Any) -> Any:
-    """Contact point of an ellipse moved outwards: where its normal of direction exp(-iu) touches, by its own equation."""
+    """Contact point of an ellipse moved outwards: where its gradient is along exp(-iu)."""
     normal, radius = MP.expj(-u), MP.mpf(curve.pitch_radius)
     deep, wide = MP.mpf(curve.semi_axis), MP.mpf(curve.semi_axis) * MP.mpf(curve.stretch)
     # the gradient (x / deep^2, y / wide^2) of the ellipse is parallel to the normal
