@@ -61,8 +61,8 @@ def section_finding(spec: Any) -> tuple[Finding, ...]:
     return (Finding("transverse_section", spec.helix_angle_deg, 0.0),) if spec.helix_angle_deg else ()
 
 
-# coefficients whose refusals speak of the transverse section until they are said in normal modules
-_COEFFICIENTS = ("coefficient",)
+# keys whose refusals speak of the transverse section until they are said in normal terms, and the steps of the search
+_STEPS = {"coefficient": 0.05, "pressure_angle_deg": 0.5}
 
 
 def in_normal_terms(spec: Any, refusal: ParameterError, builds: Callable[[Any], bool]) -> ParameterError:
@@ -70,7 +70,8 @@ def in_normal_terms(spec: Any, refusal: ParameterError, builds: Callable[[Any], 
     cosine = math.cos(helix_of(spec).angle)
     owner, _, key = refusal.name.rpartition(".")
     table = getattr(spec, owner, None) if owner else spec
-    if cosine == 1 or table is None or not refusal.name.endswith(_COEFFICIENTS) or getattr(table, key, None) is None:
+    step = next((size for ending, size in _STEPS.items() if key.endswith(ending)), None)
+    if cosine == 1 or step is None or not isinstance(table, msgspec.Struct) or getattr(table, key, None) is None:
         return refusal
     given = float(getattr(table, key))
 
@@ -79,14 +80,14 @@ def in_normal_terms(spec: Any, refusal: ParameterError, builds: Callable[[Any], 
         return builds(msgspec.structs.replace(spec, **{owner: changed}) if owner else changed)
 
     reason = refusal.allowed.partition(";")[0]
-    found = _nearest_working(works, given)
+    found = _nearest_working(works, given, step)
     text = "" if found is None else f"; at least {at_least(found, 4)} works"
     if found is not None and found < given:
         text = f"; at most {at_most(found, 4)} works"
     return type(refusal)(refusal.name, given, f"{reason}{text}")
 
 
-def _nearest_working(works: Callable[[float], bool], given: float) -> float | None:
+def _nearest_working(works: Callable[[float], bool], given: float, step: float) -> float | None:
     """The value nearest to a refused one that works, found by steps and bisection."""
 
     def safe(value: float) -> bool:
@@ -95,8 +96,8 @@ def _nearest_working(works: Callable[[float], bool], given: float) -> float | No
         except GeometryError:
             return False
 
-    steps = [given + sign * step / 20 for step in range(1, 61) for sign in (1, -1)]
-    good = next((value for value in steps if safe(value)), None)
+    tried = (given + sign * k * step for k in range(1, 61) for sign in (1, -1))
+    good = next((value for value in tried if safe(value)), None)
     if good is None:
         return None
     bad = given

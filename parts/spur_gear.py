@@ -104,13 +104,12 @@ def checked_spur_gear(spec: SpurGearSpec) -> SpurGear:
     ParameterError
         The gear cannot exist; names the key and the nearest value that works.
     """
-    helix = checked_helix(spec)
+    checked_helix(spec)
     _check_face_chamfer(spec)
     try:
         gear = checked_gear(_section_of(spec))
     except ParameterError as refusal:
-        if helix.angle:
-            refusal = in_normal_terms(spec, refusal, _builds)
+        refusal = in_normal_terms(spec, refusal, _builds)
         raise with_remedy(_with_rack_remedy(spec, refusal), spec, _builds) from refusal
     check_wheel(_shape_of(spec), 2 * gear.root_radius, gear.holes)
     return gear
