@@ -158,7 +158,7 @@ def approximations(job: Job) -> tuple[Approximation, ...]:
 
 def number_rounding(job: Job) -> float:
     """How far the rounding of a file's numbers may move an outline, mm."""
-    reach = max(p.reach() for p in job.body.profiles) if job.is_solid else job.section.region.outer.reach()
+    reach = job.body.section_reach() if job.is_solid else job.section.region.outer.reach()
     if job.is_mesh:
         # 3MF writes its float32 numbers as text, which rounds them once more
         reach += job.body.steepness() * max(map(abs, job.body.levels()))

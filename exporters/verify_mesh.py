@@ -45,7 +45,7 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
     border = 0.0
     for pair, walls in _walls_by_height(body).items():
         mine = upright & (low == pair[0]) & (high == pair[1])
-        if body.twisted_profiles() and all(body.is_upright(w) for w in walls):
+        if body.has_screws() and all(body.is_upright(w) for w in walls):
             # a slice of a screw surface may stand between the same heights
             mine &= _stands(mesh, mesh.triangles)
         upright &= ~mine
@@ -55,7 +55,7 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
             edges.append(verdict.measured.get("shortest_edge", np.inf))
             border = max(border, length)
     for wall in body.walls:
-        if body.is_ruled(wall) or not body.twist(wall):
+        if not body.is_screw(wall):
             continue
         mine = upright & (low >= body.height(wall)[0]) & (high <= body.height(wall)[1])
         upright &= ~mine
@@ -93,7 +93,7 @@ def _walls_by_height(body: Body) -> dict[tuple[float, float], list[Wall]]:
     """The walls between each two levels, without screw surfaces."""
     found: dict[tuple[float, float], list[Wall]] = {}
     for wall in body.walls:
-        if not body.is_ruled(wall) and body.twist(wall):
+        if body.is_screw(wall):
             continue
         low, high = body.height(wall)
         found.setdefault((low, high), []).append(wall)

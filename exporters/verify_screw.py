@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exporters.readers import ReadError
-from exporters.verify_twisted import turned_back
 from geometry.body import Body
 from geometry.measure import distance_to_profile
 
@@ -26,11 +25,11 @@ def screw_deviation(samples: list[Points], body: Body, declared: float) -> float
     points = np.concatenate(samples)
     best = np.full(len(points), np.inf)
     for wall in body.walls:
-        if body.is_ruled(wall) or not body.twist(wall):
+        if not body.is_screw(wall):
             continue
         low, high = body.height(wall)
         mine = np.flatnonzero((points[:, 2] > low - _AXIS) & (points[:, 2] < high + _AXIS))
-        back = turned_back(body, wall, points[mine])
+        back = body.moved_back(wall, points[mine])
         found = distance_to_profile(back, body.loop_profile(wall.lower), trusted=declared)
         best[mine] = np.minimum(best[mine], found)
     return float(best.max())
@@ -51,15 +50,20 @@ def cylinder_samples(face: Any, surface: Any) -> Points:
     ReadError
         Its axis is not that of the part.
     """
+    axis = surface.Cylinder().Axis()
+    place, way = axis.Location(), axis.Direction()
+    if max(abs(place.X()), abs(place.Y()), abs(way.X()), abs(way.Y())) > _AXIS:
+        raise ReadError("a cylinder between screw surfaces is not about the axis")
+    return face_samples(face, surface)
+
+
+def face_samples(face: Any, surface: Any) -> Points:
+    """Points inside a face and on its edges, (n, 3)."""
     from OCP.BRepAdaptor import BRepAdaptor_Curve
     from OCP.BRepClass import BRepClass_FaceClassifier
     from OCP.gp import gp_Pnt2d
     from OCP.TopAbs import TopAbs_State
 
-    axis = surface.Cylinder().Axis()
-    place, way = axis.Location(), axis.Direction()
-    if max(abs(place.X()), abs(place.Y()), abs(way.X()), abs(way.Y())) > _AXIS:
-        raise ReadError("a cylinder between screw surfaces is not about the axis")
     u = np.linspace(surface.FirstUParameter(), surface.LastUParameter(), _ALONG)
     v = np.linspace(surface.FirstVParameter(), surface.LastVParameter(), _ACROSS)
     grid = [(a, b) for a in u.tolist() for b in v.tolist()]

@@ -17,13 +17,12 @@ from numpy.typing import NDArray
 from exporters.readers import ReadError
 from exporters.verify import Verdict, deviation_failures
 from exporters.verify_cad import chained, verify_samples
-from exporters.verify_screw import cylinder_samples, has_helix, screw_deviation, screw_samples
+from exporters.verify_screw import cylinder_samples, face_samples, has_helix, screw_deviation, screw_samples
 from geometry.body import Body
 from geometry.curve import Complex
 from geometry.line_arc import Arc
 from geometry.mass import body_moments, ruled_excess
 from geometry.measure import distance_to_profile
-from geometry.placement import Placement2
 from geometry.profile import Profile
 from geometry.screw import cut_twists
 
@@ -41,7 +40,8 @@ def verify_step(file: Path, body: Body, declared: float, tolerance: float) -> Ve
 def verify_solid(solid: Any, body: Body, declared: float, tolerance: float) -> Verdict:
     """Hold a re-read solid against its exact body: caps, walls, cylinders, volume."""
     body = cut_twists(body)
-    faces = _measured_faces(solid, screws=bool(body.twisted_profiles()))
+    sheared = body.has_screws() and not body.twisted_profiles()
+    faces = _measured_faces(solid, screws=bool(body.twisted_profiles()), sheared=sheared)
     exact = body_moments(body).volume
     failures = _solid_failures(solid, body, faces.cylinders)
     reach = max(p.reach() for p in body.profiles)
@@ -49,7 +49,7 @@ def verify_solid(solid: Any, body: Body, declared: float, tolerance: float) -> V
         failures.append(f"volume {faces.volume:.12g} mm^3 instead of {exact:.12g} mm^3")
     worst, walls_found = _wall_deviation(faces, body, declared)
     failures += walls_found
-    if body.twisted_profiles():
+    if body.has_screws():
         worst = max(worst, screw_deviation(faces.screws, body, declared))
     contours, expected = 0, _cap_profiles(body)
     if len(expected) != len(faces.caps):
@@ -88,7 +88,7 @@ def _cap_profiles(body: Body) -> dict[float, list[Profile]]:
     for cap in body.caps:
         loops = (cap.outer, *cap.holes)
         found.setdefault(body.loops[cap.outer].z, []).extend(
-            body.loop_profile(i).placed(Placement2(body.loops[i].turn)) for i in loops
+            body.loop_profile(i).placed(body.loops[i].placement) for i in loops
         )
     return found
 
@@ -148,7 +148,7 @@ def _solid_failures(solid: Any, body: Body, cylinders: int) -> list[str]:
     if max(abs(box.CornerMin().Z() - levels[0]), abs(box.CornerMax().Z() - levels[-1])) > 1e-6:
         failures.append("the solid is not as thick as the part")
     arcs = sum(
-        _cylinders(body.loop_profile(w.lower), turned=body.twist(w) != 0) for w in body.walls if not body.is_ruled(w)
+        _cylinders(body.loop_profile(w.lower), turned=body.is_screw(w)) for w in body.walls if not body.is_ruled(w)
     )
     if cylinders != arcs:
         failures.append(f"{cylinders} cylinders instead of {arcs}")
@@ -175,8 +175,11 @@ class _Faces:
     volume: float = 0.0
 
 
-def _measured_faces(solid: Any, *, screws: bool) -> _Faces:
-    """Every face of a solid, measured with the kernel's own evaluation; ``screws``: slanted faces are such."""
+def _measured_faces(solid: Any, *, screws: bool, sheared: bool) -> _Faces:
+    """Every face of a solid, measured with the kernel's own evaluation; ``screws``: slanted faces are such.
+
+    The walls of a ``sheared`` body carry no volume: the field z along their slope has divergence 1 and runs in them.
+    """
     from OCP.BRepAdaptor import BRepAdaptor_Surface
     from OCP.GeomAbs import GeomAbs_SurfaceType
     from OCP.TopAbs import TopAbs_ShapeEnum
@@ -196,6 +199,8 @@ def _measured_faces(solid: Any, *, screws: bool) -> _Faces:
             pieces, share = _face_edges(face)
             found.caps.setdefault(z, []).extend(pieces)
             found.volume += z * share
+        elif sheared:
+            found.screws.append(face_samples(face, surface))
         elif screws and kind == GeomAbs_SurfaceType.GeomAbs_Cylinder and has_helix(face):
             found.screws.append(cylinder_samples(face, surface))
         elif kind in _upright_kinds() or 0 <= slope < 1e-12:

@@ -1,7 +1,7 @@
-"""Screw surfaces in meshes: every slice and what lies between the slices, held against the exact surface.
+"""Screw surfaces and sheared walls in meshes: every slice and what lies between the slices, held against them.
 
-A point is turned back by the twist at its own height and measured against the exact section: that is its distance
-within the plane of its height, which is never less than its distance from the surface.
+A point is turned and moved back by what the wall has turned and moved at the point's own height, and measured against
+the exact section: its distance within the plane of its height, which is never less than that from the surface.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from exporters.readers import ReadError, ReadMesh
 from exporters.verify import Verdict, deviation_failures
 from geometry.body import Body, Wall
-from geometry.curve import Complex
 from geometry.measure import distance_to_profile, profile_area, profile_length
 
 Triangles = NDArray[np.int64]
@@ -26,15 +25,10 @@ def on_twisted_walls(body: Body, z: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Which heights lie between the ends of a screw surface."""
     found = np.zeros(len(z), dtype=bool)
     for wall in body.walls:
-        if not body.is_ruled(wall) and body.twist(wall):
+        if body.is_screw(wall):
             low, high = body.height(wall)
             found |= (low < z) & (z < high)
     return found
-
-
-def turned_back(body: Body, wall: Wall, points: NDArray[np.float64]) -> Complex:
-    """Points (n, 3) in the plane of the wall's profile, (n,)."""
-    return np.asarray((points[:, 0] + 1j * points[:, 1]) * np.exp(-1j * body.turn_at(wall, points[:, 2])))
 
 
 def verify_twisted(
@@ -61,7 +55,7 @@ def verify_twisted(
         layer = min(number, len(levels) - 2)
         mine = triangles[order[starts[layer] : starts[layer + 1]]]
         loops = chains(mine, z == level, len(z))
-        outline = turned_back(body, wall, mesh.vertices[loops[0]])
+        outline = body.moved_back(wall, mesh.vertices[loops[0]])
         found = 0.5 * abs(float(np.sum((np.conj(outline) * np.roll(outline, -1)).imag)))
         if len(loops) > 1:
             failures.append(f"the slice at z = {level:.6g} mm has {len(loops)} outlines")
@@ -72,7 +66,7 @@ def verify_twisted(
     shares = places / places.sum(axis=1, keepdims=True)
     inside = np.einsum("pk,nkc->npc", shares, corners).reshape(-1, 3)
     points = np.concatenate([mesh.vertices[np.unique(triangles)], inside])
-    deviation = float(distance_to_profile(turned_back(body, wall, points), profile, trusted=declared).max())
+    deviation = float(distance_to_profile(body.moved_back(wall, points), profile, trusted=declared).max())
     failures += deviation_failures(deviation, declared, tolerance, profile.reach())
     edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
     return Verdict({"max_deviation": deviation, "shortest_edge": float(edges.min())}, tuple(failures))

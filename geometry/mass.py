@@ -49,25 +49,27 @@ def _wall_share(body: Body, wall: Wall) -> Real:
     lower, upper = body.loop_profile(wall.lower), body.loop_profile(wall.upper)
     one_section = None if body.is_ruled(wall) else section_moments(lower)
     # the moments of three periods or more do not feel a turn
-    turned = one_section is not None and lower.count < 3
-    nodes, weights = gauss_rule(_TURNED_POINTS if turned else _HEIGHT_POINTS)
+    moved = one_section is not None and (lower.count < 3 or body.shear(wall) != 0)
+    nodes, weights = gauss_rule(_TURNED_POINTS if moved else _HEIGHT_POINTS)
     share = np.zeros(10)
     for node, weight in zip(nodes.tolist(), weights.tolist(), strict=True):
         z = (low + high) / 2 + (high - low) / 2 * node
         section = one_section if one_section is not None else section_moments(lower, upper, (node + 1) / 2)
-        if turned:
-            section = _turned(section, float(body.turn_at(wall, z)))
+        if moved:
+            section = _moved(section, float(body.turn_at(wall, z)), complex(body.shift_at(wall, z)))
         a, x, y, xx, yy, xy = section.tolist()
         share += weight * (high - low) / 2 * np.array([a, x, y, a * z, xx, yy, xy, a * z * z, x * z, y * z])
     return share
 
 
-def _turned(section: Real, angle: float) -> Real:
-    """Integrals of 1, x, y, xx, yy, xy over a section turned by an angle, rad."""
+def _moved(section: Real, angle: float, shift: complex) -> Real:
+    """Integrals of 1, x, y, xx, yy, xy over a section turned by an angle, rad, and then moved, mm."""
     a, x, y, xx, yy, xy = section.tolist()
     first = (x + 1j * y) * np.exp(1j * angle)
-    # integral of the square of x + iy
-    second, polar = (xx - yy + 2j * xy) * np.exp(2j * angle), xx + yy
+    # integrals of the square of x + iy, and of its modulus
+    second = (xx - yy + 2j * xy) * np.exp(2j * angle) + 2 * shift * first + a * shift**2
+    polar = xx + yy + 2 * (shift.conjugate() * first).real + a * abs(shift) ** 2
+    first += a * shift
     return np.array([a, first.real, first.imag, (polar + second.real) / 2, (polar - second.real) / 2, second.imag / 2])
 
 

@@ -106,7 +106,7 @@ def cut_twists(body: Body) -> Body:
         below = wall.lower
         for k in range(1, count):
             z = low + (high - low) * k / count
-            loops.append(Loop(first.profile, z, first.turn + twist * k / count))
+            loops.append(Loop(first.profile, z, first.turn + twist * k / count, first.shift))
             walls.append(Wall(below, len(loops) - 1))
             below = len(loops) - 1
         walls.append(Wall(below, wall.upper))

@@ -13,6 +13,7 @@ from geometry.body import Body, Cap, Wall
 from geometry.errors import GeometryError
 from geometry.measure import profile_area
 from geometry.outline import Outline, spline_outline
+from geometry.placement import Placement2
 from geometry.screw import cut_twists, turn_error, with_turn_error
 from parts.brep_curves import closed_wire
 from parts.brep_screw import ScrewFaces
@@ -58,7 +59,7 @@ def body_solid(body: Body, outlines: Sequence[Outline]) -> Any:
     builder.MakeShell(shell)
     # upright walls first: chamfers take their edges
     for wall in sorted(body.walls, key=body.is_ruled):
-        if not body.is_ruled(wall) and body.twist(wall):
+        if body.is_screw(wall) and body.twist(wall):
             faces = screws.faces(wall)
         else:
             faces = (_ruled_faces if body.is_ruled(wall) else _upright_faces)(body, wall, outlines, wires)
@@ -78,15 +79,18 @@ def body_solid(body: Body, outlines: Sequence[Outline]) -> Any:
 
 
 def _upright_faces(body: Body, wall: Wall, outlines: Sequence[Outline], wires: dict[int, Any]) -> list[Any]:
-    """Faces of a wall swept upwards; its two wires are kept for caps and chamfers."""
+    """Faces of a wall swept upwards or slantwise; its two wires are kept for caps and chamfers."""
     from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
     from OCP.gp import gp_Vec
     from OCP.TopoDS import TopoDS
 
     low, high = body.height(wall)
+    place, shear = body.loops[wall.lower], body.shear(wall)
     if wall.lower not in wires:
-        wires[wall.lower] = closed_wire(list(outlines[body.loops[wall.lower].profile].curves()), low)
-    prism = BRepPrimAPI_MakePrism(wires[wall.lower], gp_Vec(0, 0, high - low))
+        curves = outlines[place.profile].curves()
+        moved = place.placement != Placement2()
+        wires[wall.lower] = closed_wire([c.placed(place.placement) if moved else c for c in curves], low)
+    prism = BRepPrimAPI_MakePrism(wires[wall.lower], gp_Vec(shear.real, shear.imag, high - low))
     if not prism.IsDone():
         raise GeometryError("the kernel makes no wall of this outline")
     wires[wall.upper] = TopoDS.Wire_s(prism.LastShape())

@@ -11,14 +11,14 @@ from msgspec import Meta
 
 from geometry.errors import GeometryError, ParameterError, at_least, at_most
 from geometry.findings import Finding
-from geometry.gears.helix import Helix
+from geometry.gears.helix import Hand, Helix
 
 HelixAngle = Annotated[
     float,
     Meta(
         ge=-60,
         le=60,
-        description="helix angle on the reference cylinder; the module and all else is then normal; negative turns the hand",
+        description="helix angle on the reference cylinder, all else is then normal; negative turns the hand",
         extra={"unit": "degrees"},
     ),
 ]
@@ -28,7 +28,8 @@ Double = Annotated[bool, Meta(description="two helices of opposite hands that me
 
 def helix_of(spec: Any) -> Helix:
     """The helix of a part's keys; that of spur gears for parts without such keys."""
-    angle, hand = math.radians(getattr(spec, "helix_angle_deg", 0.0)), getattr(spec, "hand", "right")
+    angle = math.radians(getattr(spec, "helix_angle_deg", 0.0))
+    hand: Hand = getattr(spec, "hand", "right")
     if angle < 0:
         hand = "left" if hand == "right" else "right"
     return Helix(abs(angle), hand, getattr(spec, "double_helical", False))

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from msgspec import Meta, Struct
 
 from parts.cutter_keys import CutterTable, cutter_of
-from parts.hole_keys import HolesTable, hub_holes, with_remedy
 from parts.helix_keys import (
     Double,
     HandName,
@@ -20,6 +19,7 @@ from parts.helix_keys import (
     in_normal_terms,
     section_finding,
 )
+from parts.hole_keys import HolesTable, hub_holes, with_remedy
 from parts.keys import Colour, Density, FaceWidth, Material, in_modules, mm
 from parts.materials import density_of
 from parts.part import Part

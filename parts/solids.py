@@ -83,27 +83,30 @@ def _begun_in_spaces(body: Body, contours: list[Contour]) -> list[Contour]:
     return begun
 
 
-_Caps = dict[tuple[tuple[int, float], ...], tuple[Triangles, Complex]]
+_Key = tuple[tuple[int, float, complex], ...]
+_Caps = dict[_Key, tuple[Triangles, Complex]]
 
 
-def _cap_key(body: Body, cap: Cap) -> tuple[tuple[int, float], ...]:
-    """The profiles of a cap's loops with their turns."""
+def _cap_key(body: Body, cap: Cap) -> _Key:
+    """The profiles of a cap's loops with their turns and shifts, the latter from that of the outer one."""
     loops = [body.loops[i] for i in (cap.outer, *cap.holes)]
-    return tuple((loop.profile, loop.turn) for loop in loops)
+    return tuple((loop.profile, loop.turn, loop.shift - loops[0].shift) for loop in loops)
 
 
 def _cap_triangles(body: Body, contours: list[Contour]) -> _Caps:
     """Triangles of every cap by its profiles and turns; both faces of a plate share theirs."""
     keys = {_cap_key(body, cap) for cap in body.caps}
     made = {}
-    for key in sorted(keys):
-        outer, *holes = (_turned(contours[profile], turn) for profile, turn in key)
+    for key in sorted(keys, key=lambda k: [(p, t, s.real, s.imag) for p, t, s in k]):
+        outer, *holes = (_moved(contours[profile], turn, shift) for profile, turn, shift in key)
         made[key] = cap_triangles(outer, holes)
     return made
 
 
-def _turned(contour: Contour, turn: float) -> Contour:
-    return contour if turn == 0 else replace(contour, vertices=contour.vertices * np.exp(1j * turn))
+def _moved(contour: Contour, turn: float, shift: complex) -> Contour:
+    if turn == 0 and shift == 0:
+        return contour
+    return replace(contour, vertices=contour.vertices * np.exp(1j * turn) + shift)
 
 
 def _with_aligned_bores(body: Body, contours: list[Contour]) -> list[Contour]:
@@ -130,7 +133,7 @@ def _assembled(body: Body, contours: list[Contour], steps: list[float], caps: _C
 
     for loop in body.loops:
         turn = np.exp(1j * loop.turn) if loop.turn else 1.0
-        starts.append(added(plane[loop.profile] * turn, loop.z))
+        starts.append(added(plane[loop.profile] * turn + loop.shift, loop.z))
     triangles = []
     for wall in body.walls:
         loop = body.loops[wall.lower]
@@ -149,7 +152,7 @@ def _assembled(body: Body, contours: list[Contour], steps: list[float], caps: _C
         loops = (cap.outer, *cap.holes)
         found, middle = caps[_cap_key(body, cap)]
         index = [starts[i] + np.arange(len(plane[body.loops[i].profile])) for i in loops]
-        index.append(added(middle, body.loops[cap.outer].z) + np.arange(len(middle)))
+        index.append(added(middle + body.loops[cap.outer].shift, body.loops[cap.outer].z) + np.arange(len(middle)))
         face = np.concatenate(index)[found]
         triangles.append(face if cap.up else face[:, ::-1])
     return Mesh(np.concatenate(pieces), np.concatenate(triangles))

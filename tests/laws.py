@@ -16,6 +16,7 @@ import numpy as np
 
 from geometry.curve import Curve, Reversed
 from geometry.cutter_fillet import CutterFillet
+from geometry.ellipse import EllipticArc
 from geometry.elliptic_fillet import EllipticFillet
 from geometry.errors import CuspError
 from geometry.involute import Involute
@@ -44,6 +45,8 @@ def exact_point(curve: Curve) -> ExactPoint:
         return lambda s: _rolled(curve, s, MP.mpc(curve.pitch_radius - MP.mpf(curve.depth), s))
     if isinstance(curve, TrochoidFillet):
         return lambda u: _enveloped(curve, u)
+    if isinstance(curve, EllipticArc):
+        return lambda t: _stretched(curve, exact_point(curve.arc)(t))
     if isinstance(curve, EllipticFillet):
         return lambda u: _rolled_off(curve, u)
     if isinstance(curve, CutterFillet):
@@ -73,6 +76,11 @@ def _enveloped(curve: TrochoidFillet, u: Any) -> Any:
     shift = -MP.mpf(curve.depth) * normal.imag / normal.real
     centre = MP.mpc(radius - MP.mpf(curve.depth), shift)
     return _rolled(curve, shift, centre - curve.tip_radius * normal)
+
+
+def _stretched(curve: EllipticArc, point: Any) -> Any:
+    place = curve.placement
+    return MP.expj(place.angle) * MP.mpc(point.real, curve.stretch * point.imag) + MP.mpc(place.translation)
 
 
 def _rolled_off(curve: EllipticFillet, u: Any) -> Any:

@@ -36,6 +36,14 @@ class Helix:
             return None
         return Twist(math.tan(self.signed_angle) / reference_radius, self.double)
 
+    def shear(self) -> Twist | None:
+        """How the teeth of a rack move along its length; None for straight ones.
+
+        Seen from the tips with the gear's axis upright, right-hand teeth rise to the right: towards -x in the rack
+        frame, whose teeth point to +y.
+        """
+        return None if self.angle == 0 else Twist(slope=complex(-math.tan(self.signed_angle)), double=self.double)
+
     def lead(self, reference_radius: float) -> float:
         """p_z = 2 pi r / tan(beta): rise of a tooth in one turn, mm; inf for spur gears."""
         return 2 * math.pi * reference_radius / math.tan(self.angle) if self.angle else math.inf
