@@ -137,18 +137,19 @@ def approximations(job: Job) -> tuple[Approximation, ...]:
     arcs = job.export.curves == "arcs" and not job.is_mesh
     # the rounding of the file's numbers takes its share of the tolerance first
     if job.is_mesh:
-        from parts.solids import mesh_outlines
+        from parts.solids import count_edges, mesh_outlines
 
         if tolerance < 8 * rounding:
             remedy = f"a mesh file stores 7 digits, at this size at least {at_least(8 * rounding)} mm works"
             raise ParameterError("tolerance", tolerance, remedy)
         made = mesh_outlines(job.body, tolerance - rounding, 64 * rounding)
+        edges = count_edges(job.body, made)
     else:
         made = tuple(
             approximate_profile(p, tolerance - rounding, arcs=arcs, least_edge=LEAST_SEGMENT_MM)
             for p in job.section.region.profiles()
         )
-    edges = sum(len(a.geometry) for a in made)
+        edges = sum(len(a.geometry) for a in made)
     if edges > _MOST_EDGES:
         factor = (edges / _MOST_EDGES) ** (3 if arcs else 2)
         remedy = f"would need {edges} edges; {at_least(tolerance * factor)} mm works"
@@ -158,9 +159,10 @@ def approximations(job: Job) -> tuple[Approximation, ...]:
 
 def number_rounding(job: Job) -> float:
     """How far the rounding of a file's numbers may move an outline, mm."""
-    reach = max(p.reach() for p in job.body.profiles) if job.is_solid else job.section.region.outer.reach()
+    reach = job.body.section_reach() if job.is_solid else job.section.region.outer.reach()
     if job.is_mesh:
         # 3MF writes its float32 numbers as text, which rounds them once more
+        reach += job.body.steepness() * max(map(abs, job.body.levels()))
         return _FLOAT32 * reach * (2 if job.export.format == "3mf" else 1)
     if job.export.format == "step":
         return _STEP_ROUNDING * reach

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from exporters.readers import Loop, ReadError, ReadMesh
+from exporters.readers import Loop, ReadMesh
 from exporters.verify import Verdict, verify_loops
+from exporters.verify_twisted import chains, on_twisted_walls, verify_twisted
 from geometry.body import Body, Wall
 from geometry.mass import body_moments
 from geometry.measure import profile_area, profile_length
@@ -30,9 +31,11 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
     measured = count | {"volume": float(np.einsum("ij,ij->i", corners[:, 0], _normals(corners)).sum() / 6)}
     levels = np.array(body.levels())
     index = np.abs(mesh.vertices[:, 2, None] - levels).argmin(axis=1)
-    if np.any(np.abs(mesh.vertices[:, 2] - levels[index]) > _LEVEL * np.abs(levels).max()):
+    off = np.abs(mesh.vertices[:, 2] - levels[index]) > _LEVEL * np.abs(levels).max()
+    if np.any(off & ~on_twisted_walls(body, mesh.vertices[:, 2])):
         return Verdict(measured, ("a vertex stands off every face",))
-    mesh = ReadMesh(np.column_stack([mesh.vertices[:, :2], levels[index]]), mesh.triangles)
+    heights = np.where(off, mesh.vertices[:, 2], levels[index])
+    mesh = ReadMesh(np.column_stack([mesh.vertices[:, :2], heights]), mesh.triangles)
     corners = mesh.vertices[mesh.triangles]
     heights = corners[:, :, 2]
     low, high = heights.min(axis=1), heights.max(axis=1)
@@ -42,12 +45,25 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
     border = 0.0
     for pair, walls in _walls_by_height(body).items():
         mine = upright & (low == pair[0]) & (high == pair[1])
+        if body.has_screws() and all(body.is_upright(w) for w in walls):
+            # a slice of a screw surface may stand between the same heights
+            mine &= _stands(mesh, mesh.triangles)
         upright &= ~mine
         for verdict, length in _verify_walls(mesh, mesh.triangles[mine], pair, body, walls, declared, tolerance):
             failures += verdict.failures
             worst = max(worst, verdict.measured.get("max_deviation", np.inf))
             edges.append(verdict.measured.get("shortest_edge", np.inf))
             border = max(border, length)
+    for wall in body.walls:
+        if not body.is_screw(wall):
+            continue
+        mine = upright & (low >= body.height(wall)[0]) & (high <= body.height(wall)[1])
+        upright &= ~mine
+        verdict = verify_twisted(mesh, mesh.triangles[mine], body, wall, declared, tolerance)
+        failures += verdict.failures
+        worst = max(worst, verdict.measured["max_deviation"])
+        edges.append(verdict.measured["shortest_edge"])
+        border += profile_length(body.loop_profile(wall.lower))
     if np.any(upright):
         failures.append("a wall does not end at the faces of the part")
     exact = body_moments(body).volume
@@ -67,10 +83,18 @@ def _normals(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
 
 
+def _stands(mesh: ReadMesh, triangles: Triangles) -> NDArray[np.bool_]:
+    """Which triangles have an upright edge."""
+    corners = (mesh.vertices[:, 0] + 1j * mesh.vertices[:, 1])[triangles]
+    return np.asarray(np.any(corners == np.roll(corners, 1, axis=1), axis=1))
+
+
 def _walls_by_height(body: Body) -> dict[tuple[float, float], list[Wall]]:
-    """The walls between each two levels."""
+    """The walls between each two levels, without screw surfaces."""
     found: dict[tuple[float, float], list[Wall]] = {}
     for wall in body.walls:
+        if body.is_screw(wall):
+            continue
         low, high = body.height(wall)
         found.setdefault((low, high), []).append(wall)
     return found
@@ -113,15 +137,14 @@ def _verify_walls(
     """The outlines of the walls between two levels, each with its length; both ends of ruled walls are measured."""
     z, places = mesh.vertices[:, 2], mesh.vertices[:, 0] + 1j * mesh.vertices[:, 1]
     if all(body.is_upright(w) for w in walls):
-        corners = places[triangles]
-        if not np.all(np.any(corners == np.roll(corners, 1, axis=1), axis=1)):
+        if not np.all(_stands(mesh, triangles)):
             return [(Verdict({}, ("the walls do not stand upright between both faces",)), 0.0)]
         ends = [pair[0]]
     else:
         ends = list(pair)
     found = []
     for level in ends:
-        loops = [places[chain] for chain in _chains(triangles, z == level, len(z))]
+        loops = [places[chain] for chain in chains(triangles, z == level, len(z))]
         profiles = [body.loop_profile(w.lower if level == pair[0] else w.upper) for w in walls]
         verdict = verify_loops(
             [Loop(v, np.zeros(len(v)), "") for v in loops],
@@ -134,28 +157,6 @@ def _verify_walls(
         )
         found.append((verdict, float(sum(np.abs(np.roll(v, -1) - v).sum() for v in loops))))
     return found
-
-
-def _chains(triangles: Triangles, on_level: NDArray[np.bool_], count: int) -> list[list[int]]:
-    """Closed chains of the triangles' edges that lie on a level, as vertex numbers."""
-    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    edges = edges[on_level[edges].all(axis=1)]
-    if not len(edges):
-        raise ReadError("a wall has no edge at one of its ends")
-    if np.bincount(edges[:, 0], minlength=count).max() > 1:
-        raise ReadError("an outline touches itself in a point")
-    following = dict(zip(edges[:, 0].tolist(), edges[:, 1].tolist(), strict=True))
-    chains = []
-    while following:
-        start, vertex = following.popitem()
-        chain = [start]
-        while vertex != start:
-            chain.append(vertex)
-            if vertex not in following:
-                raise ReadError("the outline of a wall is not closed")
-            vertex = following.pop(vertex)
-        chains.append(chain)
-    return chains
 
 
 def _topology_failures(mesh: ReadMesh) -> list[str]:

@@ -12,16 +12,19 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from exporters.readers import ReadError
 from exporters.verify import Verdict, deviation_failures
 from exporters.verify_cad import chained, verify_samples
+from exporters.verify_screw import cylinder_samples, face_samples, has_helix, screw_deviation, screw_samples
 from geometry.body import Body
 from geometry.curve import Complex
 from geometry.line_arc import Arc
 from geometry.mass import body_moments, ruled_excess
 from geometry.measure import distance_to_profile
 from geometry.profile import Profile
+from geometry.screw import cut_twists
 
 _PER_CURVE, _PER_WALL = 25, 13
 _VOLUME = 1e-7
@@ -36,7 +39,9 @@ def verify_step(file: Path, body: Body, declared: float, tolerance: float) -> Ve
 
 def verify_solid(solid: Any, body: Body, declared: float, tolerance: float) -> Verdict:
     """Hold a re-read solid against its exact body: caps, walls, cylinders, volume."""
-    faces = _measured_faces(solid)
+    body = cut_twists(body)
+    sheared = body.has_screws() and not body.twisted_profiles()
+    faces = _measured_faces(solid, screws=bool(body.twisted_profiles()), sheared=sheared)
     exact = body_moments(body).volume
     failures = _solid_failures(solid, body, faces.cylinders)
     reach = max(p.reach() for p in body.profiles)
@@ -44,6 +49,8 @@ def verify_solid(solid: Any, body: Body, declared: float, tolerance: float) -> V
         failures.append(f"volume {faces.volume:.12g} mm^3 instead of {exact:.12g} mm^3")
     worst, walls_found = _wall_deviation(faces, body, declared)
     failures += walls_found
+    if body.has_screws():
+        worst = max(worst, screw_deviation(faces.screws, body, declared))
     contours, expected = 0, _cap_profiles(body)
     if len(expected) != len(faces.caps):
         failures.append(f"plane faces at {len(faces.caps)} heights instead of {len(expected)}")
@@ -72,14 +79,17 @@ def _chamfer_play(body: Body) -> float:
 
     The edges are measured; the kernel rules between them by its own parameters.
     """
-    return sum(abs(ruled_excess(body, wall)) for wall in body.walls if not body.is_upright(wall))
+    return sum(abs(ruled_excess(body, wall)) for wall in body.walls if body.is_ruled(wall))
 
 
 def _cap_profiles(body: Body) -> dict[float, list[Profile]]:
-    """The profiles that bound the caps at each height."""
+    """The profiles that bound the caps at each height, turned as they stand there."""
     found: dict[float, list[Profile]] = {}
     for cap in body.caps:
-        found.setdefault(body.loops[cap.outer].z, []).extend(body.loop_profile(i) for i in (cap.outer, *cap.holes))
+        loops = (cap.outer, *cap.holes)
+        found.setdefault(body.loops[cap.outer].z, []).extend(
+            body.loop_profile(i).placed(body.loops[i].placement) for i in loops
+        )
     return found
 
 
@@ -137,31 +147,39 @@ def _solid_failures(solid: Any, body: Body, cylinders: int) -> list[str]:
     levels = body.levels()
     if max(abs(box.CornerMin().Z() - levels[0]), abs(box.CornerMax().Z() - levels[-1])) > 1e-6:
         failures.append("the solid is not as thick as the part")
-    arcs = sum(_cylinders(body.loop_profile(w.lower)) for w in body.walls if body.is_upright(w))
+    arcs = sum(
+        _cylinders(body.loop_profile(w.lower), turned=body.is_screw(w)) for w in body.walls if not body.is_ruled(w)
+    )
     if cylinders != arcs:
         failures.append(f"{cylinders} cylinders instead of {arcs}")
     return failures
 
 
-def _cylinders(profile: Profile) -> int:
-    """How many cylinders stand on a profile; a full circle is one."""
-    arcs = [s.curve for s in profile.period if isinstance(s.curve, Arc)]
+def _cylinders(profile: Profile, *, turned: bool) -> int:
+    """How many cylinders stand on a profile; a full circle is one. A ``turned`` one has those about the axis only."""
+    arcs = [s.curve for s in profile.period if isinstance(s.curve, Arc) and not (turned and s.curve.centre)]
     whole = profile.count == 1 and len(arcs) == len(profile.period) and len({(a.centre, a.radius) for a in arcs}) == 1
     return 1 if whole else len(arcs) * profile.count
 
 
 @dataclass(slots=True)
 class _Faces:
-    """Samples of cap edges by height and of upright walls by the height of their middle, cylinders, volume."""
+    """Samples of cap edges by height, of upright walls by the height of their middle and of screw surfaces (n, 3);
+    cylinders, volume.
+    """
 
     caps: dict[float, list[Complex]] = field(default_factory=dict)
     walls: dict[float, list[Complex]] = field(default_factory=dict)
+    screws: list[NDArray[np.float64]] = field(default_factory=list)
     cylinders: int = 0
     volume: float = 0.0
 
 
-def _measured_faces(solid: Any) -> _Faces:
-    """Every face of a solid, measured with the kernel's own evaluation."""
+def _measured_faces(solid: Any, *, screws: bool, sheared: bool) -> _Faces:
+    """Every face of a solid, measured with the kernel's own evaluation; ``screws``: slanted faces are such.
+
+    The walls of a ``sheared`` body carry no volume: the field z along their slope has divergence 1 and runs in them.
+    """
     from OCP.BRepAdaptor import BRepAdaptor_Surface
     from OCP.GeomAbs import GeomAbs_SurfaceType
     from OCP.TopAbs import TopAbs_ShapeEnum
@@ -181,11 +199,17 @@ def _measured_faces(solid: Any) -> _Faces:
             pieces, share = _face_edges(face)
             found.caps.setdefault(z, []).extend(pieces)
             found.volume += z * share
+        elif sheared:
+            found.screws.append(face_samples(face, surface))
+        elif screws and kind == GeomAbs_SurfaceType.GeomAbs_Cylinder and has_helix(face):
+            found.screws.append(cylinder_samples(face, surface))
         elif kind in _upright_kinds() or 0 <= slope < 1e-12:
             z, samples = _wall_samples(surface)
             found.walls.setdefault(_level(found.walls, z), []).append(samples)
         else:
             found.volume += _slanted_share(face, surface, flat=slope >= 0)
+            if screws:
+                found.screws.append(screw_samples(surface))
         faces.Next()
     return found
 

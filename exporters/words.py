@@ -26,6 +26,8 @@ WORDS: dict[str, tuple[str, str]] = {
     "face_from": ("face contact from, mm", "контакт на тарілці від, мм"),
     "least_plate_diameter": ("least plate diameter, mm", "найменший діаметр тарілки, мм"),
     "face_to": ("face contact to, mm", "контакт на тарілці до, мм"),
+    "normal_pitch": ("normal pitch p_n, mm", "нормальний крок p_n, мм"),
+    "lead": ("lead of the helix p_z, mm", "хід гвинтової лінії p_z, мм"),
     "file": ("file", "файл"),
     "error": ("max error, mm", "найбільша похибка, мм"),
     "tolerance": ("tolerance, mm", "допуск, мм"),
@@ -216,6 +218,11 @@ FINDINGS: dict[str, tuple[str, str]] = {
     "outline_trimmed": (
         "the outline moved by {limit:.4g} mm crosses itself in {value:.0f} places: it is trimmed there",
         "зсунутий на {limit:.4g} мм контур перетинає себе у {value:.0f} місцях: там його обрізано",
+    ),
+    "transverse_section": (
+        "helical teeth, {value:.6g} degrees: a flat outline is their transverse section; STL, 3MF and STEP have the "
+        "screw surfaces",
+        "косі зуби, {value:.6g} град: плоский контур є торцевим перерізом; гвинтові поверхні є в STL, 3MF і STEP",
     ),
     "coarse_tolerance": (
         "tolerance {value:.4g} mm is more than 5 % of the module ({limit:.4g} mm): the teeth lose their shape",

@@ -45,12 +45,16 @@ class Contour:
 
 @dataclass(frozen=True, slots=True)
 class Approximation:
-    """An approximated boundary with the bound of its deviation from the exact one, mm."""
+    """An approximated boundary with the bound of its deviation from the exact one, mm.
+
+    ``turn_step``: how far a twisted wall over it may turn from slice to slice, rad; the bound holds on that wall too.
+    """
 
     geometry: Contour
     max_error: float
     bound: Bound
     tolerance: float
+    turn_step: float = math.inf
 
 
 def edge_points(starts: Complex, ends: Complex, bulges: Real, fractions: Real) -> Complex:

@@ -16,6 +16,8 @@ _GAUSS_POINTS = 20
 _GAUSS_PANELS = 4
 # sections of a ruled wall are polynomials of degree 4 in z, times z^2: four nodes integrate degree 7 exactly
 _HEIGHT_POINTS = 4
+# turned sections vary like cosines of twice the turn
+_TURNED_POINTS = 20
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,15 +47,30 @@ def _wall_share(body: Body, wall: Wall) -> Real:
     """Integrals of 1, x, y, z, xx, yy, xy, zz, xz, yz over what a wall carries, (10,)."""
     low, high = body.height(wall)
     lower, upper = body.loop_profile(wall.lower), body.loop_profile(wall.upper)
-    nodes, weights = gauss_rule(_HEIGHT_POINTS)
+    one_section = None if body.is_ruled(wall) else section_moments(lower)
+    # the moments of three periods or more do not feel a turn
+    moved = one_section is not None and (lower.count < 3 or body.shear(wall) != 0)
+    nodes, weights = gauss_rule(_TURNED_POINTS if moved else _HEIGHT_POINTS)
     share = np.zeros(10)
-    upright = section_moments(lower) if body.is_upright(wall) else None
     for node, weight in zip(nodes.tolist(), weights.tolist(), strict=True):
         z = (low + high) / 2 + (high - low) / 2 * node
-        section = upright if upright is not None else section_moments(lower, upper, (node + 1) / 2)
+        section = one_section if one_section is not None else section_moments(lower, upper, (node + 1) / 2)
+        if moved:
+            section = _moved(section, float(body.turn_at(wall, z)), complex(body.shift_at(wall, z)))
         a, x, y, xx, yy, xy = section.tolist()
         share += weight * (high - low) / 2 * np.array([a, x, y, a * z, xx, yy, xy, a * z * z, x * z, y * z])
     return share
+
+
+def _moved(section: Real, angle: float, shift: complex) -> Real:
+    """Integrals of 1, x, y, xx, yy, xy over a section turned by an angle, rad, and then moved, mm."""
+    a, x, y, xx, yy, xy = section.tolist()
+    first = (x + 1j * y) * np.exp(1j * angle)
+    # integrals of the square of x + iy, and of its modulus
+    second = (xx - yy + 2j * xy) * np.exp(2j * angle) + 2 * shift * first + a * shift**2
+    polar = xx + yy + 2 * (shift.conjugate() * first).real + a * abs(shift) ** 2
+    first += a * shift
+    return np.array([a, first.real, first.imag, (polar + second.real) / 2, (polar - second.real) / 2, second.imag / 2])
 
 
 def ruled_excess(body: Body, wall: Wall) -> float:

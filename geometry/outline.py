@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+import numpy as np
+
 from geometry.bspline import BSpline
 from geometry.contour import Bound
 from geometry.curve import Curve
@@ -41,13 +43,21 @@ class Outline:
                 yield curve if k == 0 else curve.placed(placement)
 
 
-def spline_outline(profile: Profile, tolerance: float, *, degree: int, continuity: int) -> Outline:
-    """An exact profile as arcs, lines and B-splines within ``tolerance`` mm."""
+def spline_outline(
+    profile: Profile, tolerance: float, *, degree: int, continuity: int, turned: bool = False
+) -> Outline:
+    """An exact profile as arcs, lines and B-splines within ``tolerance`` mm.
+
+    ``turned``: for screw surfaces; only arcs about the axis stay arcs, all else becomes a B-spline.
+    """
     done: dict[Curve, BSpline] = {}
     period: list[CadCurve] = []
     worst, certified = 0.0, True
     for curve in (s.curve for s in profile.period):
-        if isinstance(curve, Arc | Line):
+        if isinstance(curve, Line) and turned:
+            period.append(BSpline(1, np.array([0.0, 0.0, 1.0, 1.0]), np.array([curve.start, curve.end])))
+            continue
+        if isinstance(curve, Line) or (isinstance(curve, Arc) and not (turned and curve.centre)):
             period.append(curve)
             continue
         twin = done.get(curve.mirrored())

@@ -81,6 +81,12 @@ class Profile:
             for segment in self.period:
                 yield segment if k == 0 else Segment(segment.curve.placed(placement), segment.label)
 
+    def placed(self, placement: Placement2) -> Profile:
+        """The profile turned about the origin; one of a single period may be moved too."""
+        return Profile(
+            tuple(Segment(s.curve.placed(placement), s.label) for s in self.period), self.count, self.clockwise
+        )
+
     def labelled(self, label: Label) -> list[Curve]:
         """The curves of one period that carry a label."""
         return [s.curve for s in self.period if s.label is label]

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
-from geometry.body import Body, BodyBuilder, plate
+from geometry.body import Body, BodyBuilder, Twist, plate
 from geometry.curve import Curve, end_point, start_point
 from geometry.errors import GeometryError, OffsetError, ParameterError, at_least, at_most
 from geometry.hub_holes import HubHoles, least_wall
@@ -49,7 +49,7 @@ class WheelShape:
     """What turns the section of a wheel into a solid, lengths in mm; lower face of the rim at z = 0.
 
     ``chamfer_below``, ``chamfer_above``: axial and radial height of the 45 degree chamfer along every edge of
-    the end faces (below, it takes the elephant foot of a print).
+    the end faces (below, it takes the elephant foot of a print). ``twist``: of helical teeth, which have no chamfers.
     """
 
     face_width: float
@@ -57,11 +57,12 @@ class WheelShape:
     hub: Hub | None = None
     chamfer_below: float = 0.0
     chamfer_above: float = 0.0
+    twist: Twist | None = None
 
     @property
     def is_plate(self) -> bool:
         """Whether the wheel is its section and nothing else."""
-        return self == WheelShape(self.face_width)
+        return self == WheelShape(self.face_width, twist=self.twist)
 
 
 # a boundary moved ``offset`` mm out of the material and then cut ``depth`` mm into it, segment for segment
@@ -107,7 +108,8 @@ def wheel_body(shape: WheelShape, sections: WheelSections, offset: float = 0.0) 
     _check_heights(shape)
     if shape.is_plate:
         holes = [s(offset, 0.0) for s in ((sections.bore,) if sections.bore else ()) + sections.holes]
-        return plate(Region(sections.outline(offset, 0.0), tuple(holes)), 0.0, shape.face_width)
+        outline = sections.outline(offset, 0.0)
+        return plate(Region(outline, tuple(holes)), 0.0, shape.face_width, shape.twist, toothed=outline)
     _check_faces(shape, sections.root_radius, sections.core, offset)
     return _Wheel(shape, sections, offset).body()
 
@@ -135,7 +137,7 @@ class _Wheel:
     """Builds one wheel; z values of both sides in mm, side 0 below and side 1 above."""
 
     def __init__(self, shape: WheelShape, sections: WheelSections, offset: float) -> None:
-        self.sections, self.offset = sections, offset
+        self.sections, self.offset, self.twist = sections, offset, shape.twist
         width, web, hub = shape.face_width, shape.web, shape.hub
         self.rim = (0.0, width)
         middle = width / 2 + (web.shift if web else 0.0)
@@ -152,7 +154,10 @@ class _Wheel:
     def body(self) -> Body:
         """Walls first, then the caps of both sides."""
         recessed = self._recessed
-        outline = self._run(self.sections.outline, self.rim, (True, True), "the tooth outline")
+        if self.twist is None:
+            outline = self._run(self.sections.outline, self.rim, (True, True), "the tooth outline")
+        else:
+            outline = self.made.run(self.sections.outline(self.offset, 0.0), self.twist.stations(*self.rim))
         self.holes = [
             self._run(hole, self.web, (not recessed(0), not recessed(1)), "a hole") for hole in self.sections.holes
         ]

@@ -6,28 +6,34 @@ modules of OCP that are needed are imported, and only here and in exporters/step
 
 from __future__ import annotations
 
-import cmath
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
 from geometry.body import Body, Cap, Wall
-from geometry.bspline import BSpline
 from geometry.errors import GeometryError
-from geometry.line_arc import Arc, Line
 from geometry.measure import profile_area
-from geometry.outline import CadCurve, Outline, spline_outline
+from geometry.outline import Outline, spline_outline
+from geometry.placement import Placement2
+from geometry.screw import cut_twists, turn_error, with_turn_error
+from parts.brep_curves import closed_wire
+from parts.brep_screw import ScrewFaces
 
 _DEGREE = 7
 
 
 def body_outlines(body: Body, tolerance: float) -> tuple[Outline, ...]:
-    """Every profile of a body as finished curves within ``tolerance`` mm.
+    """Every profile of a body as finished curves within ``tolerance`` mm, on screw surfaces over them too.
 
     Degree 7: the kernel's files pay by the pole.
     """
-    return tuple(spline_outline(p, tolerance, degree=_DEGREE, continuity=_DEGREE - 1) for p in body.profiles)
+    twisted = body.twisted_profiles()
+    made = []
+    for index, profile in enumerate(body.profiles):
+        turned = index in twisted
+        own = tolerance - 2 * turn_error(profile.reach()) if turned else tolerance
+        outline = spline_outline(profile, own, degree=_DEGREE, continuity=_DEGREE - 1, turned=turned)
+        made.append(with_turn_error(outline, profile.reach()) if turned else outline)
+    return tuple(made)
 
 
 def body_solid(body: Body, outlines: Sequence[Outline]) -> Any:
@@ -46,13 +52,18 @@ def body_solid(body: Body, outlines: Sequence[Outline]) -> Any:
     from OCP.ShapeFix import ShapeFix_Shell
     from OCP.TopoDS import TopoDS_Shell
 
+    body = cut_twists(body)
     wires: dict[int, Any] = {}
+    screws = ScrewFaces(body, outlines, wires)
     builder, shell = BRep_Builder(), TopoDS_Shell()
     builder.MakeShell(shell)
     # upright walls first: chamfers take their edges
-    for wall in sorted(body.walls, key=lambda w: not body.is_upright(w)):
-        make = _upright_faces if body.is_upright(wall) else _ruled_faces
-        for face in make(body, wall, outlines, wires):
+    for wall in sorted(body.walls, key=body.is_ruled):
+        if body.is_screw(wall) and body.twist(wall):
+            faces = screws.faces(wall)
+        else:
+            faces = (_ruled_faces if body.is_ruled(wall) else _upright_faces)(body, wall, outlines, wires)
+        for face in faces:
             builder.Add(shell, face)
     for cap in body.caps:
         builder.Add(shell, _cap_face(body, cap, wires))
@@ -68,15 +79,18 @@ def body_solid(body: Body, outlines: Sequence[Outline]) -> Any:
 
 
 def _upright_faces(body: Body, wall: Wall, outlines: Sequence[Outline], wires: dict[int, Any]) -> list[Any]:
-    """Faces of a wall swept upwards; its two wires are kept for caps and chamfers."""
+    """Faces of a wall swept upwards or slantwise; its two wires are kept for caps and chamfers."""
     from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
     from OCP.gp import gp_Vec
     from OCP.TopoDS import TopoDS
 
     low, high = body.height(wall)
+    place, shear = body.loops[wall.lower], body.shear(wall)
     if wall.lower not in wires:
-        wires[wall.lower] = _wire(list(outlines[body.loops[wall.lower].profile].curves()), low)
-    prism = BRepPrimAPI_MakePrism(wires[wall.lower], gp_Vec(0, 0, high - low))
+        curves = outlines[place.profile].curves()
+        moved = place.placement != Placement2()
+        wires[wall.lower] = closed_wire([c.placed(place.placement) if moved else c for c in curves], low)
+    prism = BRepPrimAPI_MakePrism(wires[wall.lower], gp_Vec(shear.real, shear.imag, high - low))
     if not prism.IsDone():
         raise GeometryError("the kernel makes no wall of this outline")
     wires[wall.upper] = TopoDS.Wire_s(prism.LastShape())
@@ -91,7 +105,7 @@ def _ruled_faces(body: Body, wall: Wall, outlines: Sequence[Outline], wires: dic
     for loop in (wall.lower, wall.upper):
         if loop not in wires:
             place = body.loops[loop]
-            wires[loop] = _wire(list(outlines[place.profile].curves()), place.z)
+            wires[loop] = closed_wire(list(outlines[place.profile].curves()), place.z)
         generator.AddWire(wires[loop])
     generator.Perform()
     return _faces(generator.Shell())
@@ -129,62 +143,3 @@ def _as_wire(shape: Any) -> Any:
     from OCP.TopoDS import TopoDS
 
     return TopoDS.Wire_s(shape)
-
-
-def _wire(curves: Sequence[CadCurve], z: float) -> Any:
-    """A closed wire at height ``z`` mm whose neighbours share their vertices."""
-    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_MakeVertex, BRepBuilderAPI_MakeWire
-    from OCP.gp import gp_Pnt
-
-    starts = [complex(c.point(c.domain[0])) for c in curves]
-    vertices = [BRepBuilderAPI_MakeVertex(gp_Pnt(p.real, p.imag, z)).Vertex() for p in starts]
-    wire = BRepBuilderAPI_MakeWire()
-    for index, curve in enumerate(curves):
-        after = vertices[(index + 1) % len(curves)]
-        handle, low, high = _kernel_curve(curve, z)
-        edge = BRepBuilderAPI_MakeEdge(handle, vertices[index], after, low, high)
-        if not edge.IsDone():
-            raise GeometryError(f"the kernel makes no edge of curve {index}: {edge.Error()}")
-        wire.Add(edge.Edge())
-    return wire.Wire()
-
-
-def _kernel_curve(curve: CadCurve, z: float) -> tuple[Any, float, float]:
-    """The kernel's curve and its parameter interval."""
-    from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
-
-    if isinstance(curve, Arc):
-        from OCP.Geom import Geom_Circle
-
-        direction = cmath.exp(1j * curve.start_angle)
-        sense = 1 if curve.sweep > 0 else -1
-        axis = gp_Ax2(
-            gp_Pnt(curve.centre.real, curve.centre.imag, z),
-            gp_Dir(0, 0, sense),
-            gp_Dir(direction.real, direction.imag, 0),
-        )
-        return Geom_Circle(axis, curve.radius), 0.0, abs(curve.sweep)
-    if isinstance(curve, Line):
-        from OCP.Geom import Geom_Line
-
-        way = curve.end - curve.start
-        start = gp_Pnt(curve.start.real, curve.start.imag, z)
-        return Geom_Line(start, gp_Dir(way.real, way.imag, 0)), 0.0, abs(way)
-    return _kernel_spline(curve, z)
-
-
-def _kernel_spline(curve: BSpline, z: float) -> tuple[Any, float, float]:
-    from OCP.Geom import Geom_BSplineCurve
-    from OCP.gp import gp_Pnt
-    from OCP.TColgp import TColgp_Array1OfPnt
-    from OCP.TColStd import TColStd_Array1OfInteger, TColStd_Array1OfReal
-
-    knots, counts = np.unique(curve.knots, return_counts=True)
-    poles = TColgp_Array1OfPnt(1, len(curve.poles))
-    for i, pole in enumerate(curve.poles.tolist()):
-        poles.SetValue(i + 1, gp_Pnt(pole.real, pole.imag, z))
-    reals, integers = TColStd_Array1OfReal(1, len(knots)), TColStd_Array1OfInteger(1, len(knots))
-    for i, (knot, count) in enumerate(zip(knots.tolist(), counts.tolist(), strict=True)):
-        reals.SetValue(i + 1, knot)
-        integers.SetValue(i + 1, count)
-    return Geom_BSplineCurve(poles, reals, integers, curve.degree), float(knots[0]), float(knots[-1])

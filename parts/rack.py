@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Annotated
 from msgspec import Meta, Struct
 
 from parts.cutter_keys import RackName
+from parts.helix_keys import Double, HandName, HelixAngle, checked_helix, helix_of, in_normal_terms, section_finding
 from parts.keys import Colour, Density, FaceWidth, Material, mm
 from parts.materials import density_of
 from parts.part import Part
 from parts.spur_gear import RackTable, basic_rack_of
 
 if TYPE_CHECKING:
+    from geometry.body import Body
     from geometry.gears.rack import Rack
 
 # modules below the root line where no body was asked for
@@ -34,9 +36,9 @@ class RackHolesTable(Struct, forbid_unknown_fields=True):
 
 
 class RackSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="rack"):
-    """Straight rack; its teeth are those of the basic rack."""
+    """Straight rack, spur or helical; its teeth are those of the basic rack."""
 
-    module: Annotated[float, mm("module m", least=0.01, most=1000)]
+    module: Annotated[float, mm("module m; the normal module where helix_angle_deg is not 0", least=0.01, most=1000)]
     number_of_teeth: Annotated[int, Meta(ge=1, le=500, description="number of teeth")]
     pressure_angle_deg: Annotated[float, Meta(ge=5, le=40, description="pressure angle", extra={"unit": "degrees"})] = (
         20.0
@@ -48,6 +50,9 @@ class RackSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="rack")
     ] = 0.0
     tip_chamfer: Annotated[float, mm("height of a 45 degree tip chamfer", least=0, most=1000)] = 0.0
     tip_rounding: Annotated[float, mm("radius of the tip corner", least=0, most=1000)] = 0.0
+    helix_angle_deg: HelixAngle = 0.0
+    hand: HandName = "right"
+    double_helical: Double = False
     face_width: FaceWidth = 10.0
     holes: RackHolesTable | None = None
     material: Material | None = None
@@ -56,7 +61,7 @@ class RackSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="rack")
 
 
 def checked_rack_part(spec: RackSpec) -> Rack:
-    """The rack of a part, checked to exist.
+    """The rack of a part, checked to exist: its transverse section, where it is helical.
 
     Raises
     ------
@@ -64,8 +69,10 @@ def checked_rack_part(spec: RackSpec) -> Rack:
         The rack cannot exist; names the key and the nearest value that works.
     """
     from geometry.errors import ParameterError
+    from geometry.gears.basic_rack import checked_rack
     from geometry.gears.rack import Rack, checked_part_rack
     from geometry.gears.rack_holes import RackHoles
+    from geometry.gears.transverse import transverse_rack
 
     if spec.tip_chamfer > 0 and spec.tip_rounding > 0:
         raise ParameterError("tip_rounding", spec.tip_rounding, "give either tip_chamfer or tip_rounding; 0 works")
@@ -75,17 +82,35 @@ def checked_rack_part(spec: RackSpec) -> Rack:
     if (row := spec.holes) is not None:
         depth = row.depth if row.depth is not None else body / 2
         holes = RackHoles(row.count, row.diameter, row.spacing, depth)
+    helix = checked_helix(spec)
+    if helix.angle and spec.holes is not None:
+        raise ParameterError("holes.count", spec.holes.count, "helical racks have none; remove holes")
+    # the normal rack must have teeth before its transverse section is looked at
+    checked_rack(basic)
     rack = Rack(
-        spec.module,
+        spec.module / math.cos(helix.angle),
         spec.number_of_teeth,
-        basic,
+        transverse_rack(basic, helix.angle) if helix.angle else basic,
         body,
         spec.circumferential_thinning,
         spec.tip_chamfer,
         spec.tip_rounding,
         holes,
     )
-    return checked_part_rack(rack)
+    try:
+        return checked_part_rack(rack)
+    except ParameterError as refusal:
+        raise in_normal_terms(spec, refusal, _builds) from refusal
+
+
+def _builds(spec: RackSpec) -> bool:
+    from geometry.errors import GeometryError
+
+    try:
+        checked_rack_part(spec)
+    except GeometryError:
+        return False
+    return True
 
 
 def rack_part(part_id: str, spec: RackSpec, rack: Rack) -> Part:
@@ -97,14 +122,22 @@ def rack_part(part_id: str, spec: RackSpec, rack: Rack) -> Part:
         "pitch": rack.pitch,
         "tooth_thickness": rack.tooth_thickness,
         "tip_tooth_thickness": rack.tip_thickness,
+        **({"normal_pitch": math.pi * spec.module} if spec.helix_angle_deg else {}),
     }
     section = lru_cache(maxsize=8)(lambda offset: rack_region(rack, offset))
+    shear = helix_of(spec).shear()
+
+    def body(offset: float) -> Body:
+        region = section(offset).region
+        return plate(region, 0.0, spec.face_width, shear, toothed=region.outer)
+
     return Part(
         part_id,
         "rack",
         section=section,
-        body=lru_cache(maxsize=2)(lambda offset: plate(section(offset).region, 0.0, spec.face_width)),
+        body=lru_cache(maxsize=2)(body),
         face_width=spec.face_width,
+        findings=section_finding(spec),
         quantities=quantities,
         material=spec.material,
         colour=spec.colour,

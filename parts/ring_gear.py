@@ -9,12 +9,23 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from msgspec import Meta, Struct
 
 from parts.cutter_keys import CutterTable, cutter_of
+from parts.helix_keys import (
+    Double,
+    HandName,
+    HelixAngle,
+    checked_helix,
+    helix_of,
+    helix_quantities,
+    in_normal_terms,
+    section_finding,
+)
 from parts.hole_keys import HolesTable, hub_holes, with_remedy
 from parts.keys import Colour, Density, FaceWidth, Material, in_modules, mm
 from parts.materials import density_of
 from parts.part import Part
 
 if TYPE_CHECKING:
+    from geometry.body import Body
     from geometry.gears.ring import RingGear
 
 # modules outside the root circle where no rim was asked for
@@ -36,9 +47,9 @@ class RimHolesTable(HolesTable, forbid_unknown_fields=True):
 
 
 class RingGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="ring_gear"):
-    """Ring gear (internal teeth), cut by a pinion cutter."""
+    """Ring gear (internal teeth), spur or helical, cut by a pinion cutter."""
 
-    module: Annotated[float, mm("module m", least=0.01, most=1000)]
+    module: Annotated[float, mm("module m; the normal module where helix_angle_deg is not 0", least=0.01, most=1000)]
     number_of_teeth: Annotated[int, Meta(ge=4, le=10_000, description="number of teeth z_2")]
     profile_shift_coefficient: Annotated[
         float, in_modules("profile shift x_2, positive away from the axis", least=-10, most=10)
@@ -62,6 +73,9 @@ class RingGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="ri
     thinning_method: Literal["wider_cutter_tooth", "deeper_cut"] = "wider_cutter_tooth"
     tip_chamfer: Annotated[float, mm("radial height of a 45 degree tip chamfer", least=0, most=1000)] = 0.0
     tip_rounding: Annotated[float, mm("radius of the tip corner", least=0, most=1000)] = 0.0
+    helix_angle_deg: HelixAngle = 0.0
+    hand: HandName = "right"
+    double_helical: Double = False
     outer_diameter: (
         Annotated[float, mm("outside of the rim; default: root diameter + 5 m, or holes + 2 m", above=0, most=200_000)]
         | None
@@ -74,7 +88,7 @@ class RingGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="ri
 
 
 def checked_ring_gear(spec: RingGearSpec) -> RingGear:
-    """The ring of a part, checked to exist.
+    """The ring of a part, checked to exist: its transverse section, where it is helical.
 
     Raises
     ------
@@ -86,6 +100,7 @@ def checked_ring_gear(spec: RingGearSpec) -> RingGear:
     try:
         return _ring_of(spec)
     except ParameterError as refusal:
+        refusal = in_normal_terms(spec, refusal, _builds)
         raise with_remedy(refusal, spec, _builds) from refusal
 
 
@@ -106,6 +121,7 @@ def _ring_of(spec: RingGearSpec) -> RingGear:
     from geometry.gears.cutter import PinionCutter
     from geometry.gears.ring import RingGear, RoundedRoot
     from geometry.gears.ring_limits import checked_ring, with_default_cutter
+    from geometry.gears.transverse_ring import transverse_ring
 
     if spec.tip_chamfer > 0 and spec.tip_rounding > 0:
         raise ParameterError("tip_rounding", spec.tip_rounding, "give either tip_chamfer or tip_rounding; 0 works")
@@ -135,6 +151,7 @@ def _ring_of(spec: RingGearSpec) -> RingGear:
         tip_rounding=spec.tip_rounding,
         holes=hub_holes(None, spec.holes, None),
     )
+    gear = transverse_ring(gear, checked_helix(spec).angle)
     if spec.cutter is None and isinstance(root, PinionCutter):
         gear = with_default_cutter(gear)
     gear = checked_ring(gear)
@@ -162,15 +179,22 @@ def ring_gear_part(part_id: str, spec: RingGearSpec, gear: RingGear) -> Part:
         "pitch": math.pi * gear.module,
         "tooth_thickness": gear.reference_thickness,
         "tip_tooth_thickness": tip_thickness(gear),
+        **helix_quantities(spec, gear.reference_radius),
     }
     section = lru_cache(maxsize=8)(lambda offset: ring_region(gear, offset))
+    twist = helix_of(spec).twist(gear.reference_radius)
+
+    def body(offset: float) -> Body:
+        region = section(offset).region
+        return plate(region, 0.0, spec.face_width, twist, toothed=region.holes[0])
+
     return Part(
         part_id,
         "ring_gear",
         section=section,
-        body=lru_cache(maxsize=2)(lambda offset: plate(section(offset).region, 0.0, spec.face_width)),
+        body=lru_cache(maxsize=2)(body),
         face_width=spec.face_width,
-        findings=findings(gear),
+        findings=(*findings(gear), *section_finding(spec)),
         circles=circles,
         quantities=quantities,
         material=spec.material,

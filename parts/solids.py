@@ -6,13 +6,14 @@ closed by construction. parts/brep.py is the other half.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geometry.approximate import approximate_profile, approximate_together
-from geometry.body import Body
+from geometry.approximate_twisted import approximate_twisted, rising_diagonals, slice_turns
+from geometry.body import Body, Cap
 from geometry.contour import Approximation, Contour
 from geometry.curve import Complex
 from geometry.errors import ThinWallError
@@ -33,13 +34,25 @@ def mesh_outlines(body: Body, tolerance: float, least_edge: float) -> tuple[Appr
     Profiles that a chamfer joins get matching vertices.
     """
     made: dict[int, Approximation] = {}
+    twisted = body.twisted_profiles()
     for group in body.groups():
         profiles = [body.profiles[i] for i in group]
-        if len(group) == 1:
+        if group[0] in twisted:
+            made[group[0]] = approximate_twisted(profiles[0], tolerance, least_edge)
+        elif len(group) == 1:
             made[group[0]] = approximate_profile(profiles[0], tolerance, arcs=False, least_edge=least_edge)
         else:
             made |= dict(zip(group, approximate_together(profiles, tolerance, least_edge), strict=True))
     return tuple(made[i] for i in range(len(body.profiles)))
+
+
+def count_edges(body: Body, outlines: tuple[Approximation, ...]) -> int:
+    """How many edges the slices of a mesh have in all: what its size goes by."""
+    total = sum(len(a.geometry) for a in outlines)
+    for wall in body.walls:
+        own = outlines[body.loops[wall.lower].profile]
+        total += len(own.geometry) * (len(slice_turns(body.twist(wall), own.turn_step)) - 2)
+    return total
 
 
 def body_mesh(body: Body, outlines: tuple[Approximation, ...]) -> Mesh:
@@ -56,7 +69,7 @@ def body_mesh(body: Body, outlines: tuple[Approximation, ...]) -> Mesh:
     except ThinWallError:
         contours = _with_aligned_bores(body, contours)
         caps = _cap_triangles(body, contours)
-    return _assembled(body, contours, caps)
+    return _assembled(body, contours, [a.turn_step for a in outlines], caps)
 
 
 def _begun_in_spaces(body: Body, contours: list[Contour]) -> list[Contour]:
@@ -71,13 +84,30 @@ def _begun_in_spaces(body: Body, contours: list[Contour]) -> list[Contour]:
     return begun
 
 
-_Caps = dict[tuple[int, ...], tuple[Triangles, Complex]]
+_Key = tuple[tuple[int, float, complex], ...]
+_Caps = dict[_Key, tuple[Triangles, Complex]]
+
+
+def _cap_key(body: Body, cap: Cap) -> _Key:
+    """The profiles of a cap's loops with their turns and shifts, the latter from that of the outer one."""
+    loops = [body.loops[i] for i in (cap.outer, *cap.holes)]
+    return tuple((loop.profile, loop.turn, loop.shift - loops[0].shift) for loop in loops)
 
 
 def _cap_triangles(body: Body, contours: list[Contour]) -> _Caps:
-    """Triangles of every cap by its profiles; both faces of a plate share theirs."""
-    keys = {tuple(body.loops[i].profile for i in (cap.outer, *cap.holes)) for cap in body.caps}
-    return {key: cap_triangles(contours[key[0]], [contours[i] for i in key[1:]]) for key in sorted(keys)}
+    """Triangles of every cap by its profiles and turns; both faces of a plate share theirs."""
+    keys = {_cap_key(body, cap) for cap in body.caps}
+    made = {}
+    for key in sorted(keys, key=lambda k: [(p, t, s.real, s.imag) for p, t, s in k]):
+        outer, *holes = (_moved(contours[profile], turn, shift) for profile, turn, shift in key)
+        made[key] = cap_triangles(outer, holes)
+    return made
+
+
+def _moved(contour: Contour, turn: float, shift: complex) -> Contour:
+    if turn == 0 and shift == 0:
+        return contour
+    return replace(contour, vertices=contour.vertices * np.exp(1j * turn) + shift)
 
 
 def _with_aligned_bores(body: Body, contours: list[Contour]) -> list[Contour]:
@@ -91,35 +121,54 @@ def _with_aligned_bores(body: Body, contours: list[Contour]) -> list[Contour]:
     return aligned
 
 
-def _assembled(body: Body, contours: list[Contour], caps: _Caps) -> Mesh:
+def _assembled(body: Body, contours: list[Contour], steps: list[float], caps: _Caps) -> Mesh:
     plane = [c.expanded()[0] for c in contours]
     starts, pieces, place = [], [], 0
-    for loop in body.loops:
-        points = plane[loop.profile]
-        starts.append(place)
-        pieces.append(np.stack([points.real, points.imag, np.full(len(points), loop.z)], axis=1))
+
+    def added(points: Complex, z: float) -> int:
+        """Puts points at a height; the number of the first one."""
+        nonlocal place
+        pieces.append(np.stack([points.real, points.imag, np.full(len(points), z)], axis=1))
         place += len(points)
+        return place - len(points)
+
+    for loop in body.loops:
+        turn = np.exp(1j * loop.turn) if loop.turn else 1.0
+        starts.append(added(plane[loop.profile] * turn + loop.shift, loop.z))
     triangles = []
     for wall in body.walls:
-        triangles.append(
-            _wall_triangles(len(plane[body.loops[wall.lower].profile]), starts[wall.lower], starts[wall.upper])
-        )
+        loop = body.loops[wall.lower]
+        points, (low, high), twist = plane[loop.profile], body.height(wall), body.twist(wall)
+        turns, rising, below = np.zeros(2), None, starts[wall.lower]
+        if twist:
+            turns = slice_turns(twist, steps[loop.profile])
+            contour = contours[loop.profile]
+            rising = np.tile(rising_diagonals(contour, float(turns[1])), contour.count)
+        for k, turn in enumerate(turns[1:-1].tolist(), 1):
+            here = added(points * np.exp(1j * (loop.turn + turn)), low + (high - low) * k / (len(turns) - 1))
+            triangles.append(_wall_triangles(len(points), below, here, rising))
+            below = here
+        triangles.append(_wall_triangles(len(points), below, starts[wall.upper], rising))
     for cap in body.caps:
         loops = (cap.outer, *cap.holes)
-        found, added = caps[tuple(body.loops[i].profile for i in loops)]
+        found, middle = caps[_cap_key(body, cap)]
         index = [starts[i] + np.arange(len(plane[body.loops[i].profile])) for i in loops]
-        index.append(place + np.arange(len(added)))
-        pieces.append(np.stack([added.real, added.imag, np.full(len(added), body.loops[cap.outer].z)], axis=1))
-        place += len(added)
+        index.append(added(middle + body.loops[cap.outer].shift, body.loops[cap.outer].z) + np.arange(len(middle)))
         face = np.concatenate(index)[found]
         triangles.append(face if cap.up else face[:, ::-1])
     return Mesh(np.concatenate(pieces), np.concatenate(triangles))
 
 
-def _wall_triangles(count: int, lower: int, upper: int) -> Triangles:
-    """Two triangles an edge between loops whose vertices begin at two indices; material lies left of them."""
+def _wall_triangles(count: int, lower: int, upper: int, rising: NDArray[np.bool_] | None = None) -> Triangles:
+    """Two triangles an edge between loops whose vertices begin at two indices; material lies left of them.
+
+    ``rising`` (count,): which edges take the diagonal from their lower start to their upper end; all without it.
+    """
     here = np.arange(count)
     after = np.roll(here, -1)
     first = np.stack([lower + here, lower + after, upper + after], axis=1)
     second = np.stack([lower + here, upper + after, upper + here], axis=1)
+    if rising is not None:
+        first[~rising, 2] = (upper + here)[~rising]
+        second[~rising, 0] = (lower + after)[~rising]
     return np.concatenate([first, second])

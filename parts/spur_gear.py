@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import lru_cache
 from typing import Annotated, Literal
 
@@ -14,9 +15,20 @@ from geometry.gears.basic_rack import BasicRack, TipRelief, checked_rack, defaul
 from geometry.gears.limits import checked_gear, findings, root_form_diameter, tip_thickness
 from geometry.gears.offset_tooth import chamfered_outline, gear_region
 from geometry.gears.spur import SpurGear
+from geometry.gears.transverse import transverse_gear
 from geometry.profile import Profile
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.cutter_keys import CutterTable, RackName, cutter_of
+from parts.helix_keys import (
+    Double,
+    HandName,
+    HelixAngle,
+    checked_helix,
+    helix_of,
+    helix_quantities,
+    in_normal_terms,
+    section_finding,
+)
 from parts.hole_keys import BoreTable, HolesTable, SpokesTable, hub_holes, with_remedy
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, in_modules, mm
 from parts.materials import density_of
@@ -50,9 +62,9 @@ class ReliefTable(Struct, forbid_unknown_fields=True):
 
 
 class SpurGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="spur_gear"):
-    """External spur gear, cut by a rack or by a pinion cutter."""
+    """External gear, spur or helical, cut by a rack or by a pinion cutter."""
 
-    module: Annotated[float, mm("module m", least=0.01, most=1000)]
+    module: Annotated[float, mm("module m; the normal module where helix_angle_deg is not 0", least=0.01, most=1000)]
     number_of_teeth: Annotated[int, Meta(ge=3, le=10_000, description="number of teeth z")]
     profile_shift_coefficient: Annotated[float, in_modules("profile shift x (the seeds' xi)", least=-10, most=10)] = 0.0
     pressure_angle_deg: Annotated[
@@ -68,6 +80,9 @@ class SpurGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="sp
     tip_relief: ReliefTable | None = None
     tip_chamfer: Annotated[float, mm("radial height of a 45 degree tip chamfer", least=0, most=1000)] = 0.0
     tip_rounding: Annotated[float, mm("radius of the tip corner", least=0, most=1000)] = 0.0
+    helix_angle_deg: HelixAngle = 0.0
+    hand: HandName = "right"
+    double_helical: Double = False
     face_width: FaceWidth = 10.0
     bore_diameter: BoreDiameter = 0.0
     bore: BoreTable | None = None
@@ -82,16 +97,19 @@ class SpurGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="sp
 
 
 def checked_spur_gear(spec: SpurGearSpec) -> SpurGear:
-    """The gear of a part, checked to exist.
+    """The gear of a part, checked to exist: its transverse section, where it is helical.
 
     Raises
     ------
     ParameterError
         The gear cannot exist; names the key and the nearest value that works.
     """
+    checked_helix(spec)
+    _check_face_chamfer(spec)
     try:
-        gear = checked_gear(gear_of(spec))
+        gear = checked_gear(_section_of(spec))
     except ParameterError as refusal:
+        refusal = in_normal_terms(spec, refusal, _builds)
         raise with_remedy(_with_rack_remedy(spec, refusal), spec, _builds) from refusal
     try:
         check_wheel(_shape_of(spec), 2 * gear.root_radius, gear.holes)
@@ -113,13 +131,15 @@ def spur_gear_part(part_id: str, spec: SpurGearSpec, gear: SpurGear) -> Part:
         "pitch": math.pi * gear.module,
         "tooth_thickness": gear.reference_thickness,
         "tip_tooth_thickness": tip_thickness(gear),
+        **helix_quantities(spec, gear.reference_radius),
     }
     section = lru_cache(maxsize=8)(lambda offset: gear_region(gear, offset))
 
     def outline(offset: float, depth: float) -> Profile:
         return section(offset).region.outer if depth == 0 else chamfered_outline(gear, depth - offset)
 
-    shape, sections = _shape_of(spec), wheel_sections(outline, gear.root_radius, gear.holes)
+    shape = replace(_shape_of(spec), twist=helix_of(spec).twist(gear.reference_radius))
+    sections = wheel_sections(outline, gear.root_radius, gear.holes)
     return Part(
         part_id,
         "spur_gear",
@@ -127,7 +147,7 @@ def spur_gear_part(part_id: str, spec: SpurGearSpec, gear: SpurGear) -> Part:
         lru_cache(maxsize=2)(lambda offset: wheel_body(shape, sections, offset)),
         spec.face_width,
         shape.is_plate,
-        findings(gear),
+        (*findings(gear), *section_finding(spec)),
         circles,
         quantities,
         spec.material,
@@ -138,6 +158,15 @@ def spur_gear_part(part_id: str, spec: SpurGearSpec, gear: SpurGear) -> Part:
 
 def _shape_of(spec: SpurGearSpec) -> WheelShape:
     return wheel_shape(spec.face_width, spec.web, spec.hub, spec.face_chamfer)
+
+
+def _check_face_chamfer(spec: SpurGearSpec) -> None:
+    """A plane chamfer of a screw surface is no ruled wall between parallel outlines."""
+    given = spec.face_chamfer
+    both = {"": given} if not isinstance(given, FaceChamferTable) else {".below": given.below, ".above": given.above}
+    for key, value in both.items():
+        if spec.helix_angle_deg and value > 0:
+            raise ParameterError(f"face_chamfer{key}", value, "is not made on helical teeth; 0 works")
 
 
 def _with_rack_remedy(spec: SpurGearSpec, refusal: ParameterError) -> ParameterError:
@@ -163,14 +192,14 @@ def _with_rack_remedy(spec: SpurGearSpec, refusal: ParameterError) -> ParameterE
 
 def _builds(spec: SpurGearSpec) -> bool:
     try:
-        checked_gear(gear_of(spec))
+        checked_gear(_section_of(spec))
     except GeometryError:
         return False
     return True
 
 
 def gear_of(spec: SpurGearSpec) -> SpurGear:
-    """The gear of a part as its keys say, not checked to exist.
+    """The gear of a part as its keys say, not checked to exist: in normal data where it is helical.
 
     Raises
     ------
@@ -196,6 +225,11 @@ def gear_of(spec: SpurGearSpec) -> SpurGear:
         hub=hub_holes(spec.bore, spec.holes, spec.spokes),
         cutter=cutter,
     )
+
+
+def _section_of(spec: SpurGearSpec) -> SpurGear:
+    """The transverse section of the gear of a part: the gear itself where it is not helical."""
+    return transverse_gear(gear_of(spec), math.radians(spec.helix_angle_deg))
 
 
 def _rack_of(spec: SpurGearSpec) -> BasicRack:

@@ -16,6 +16,8 @@ import numpy as np
 
 from geometry.curve import Curve, Reversed
 from geometry.cutter_fillet import CutterFillet
+from geometry.ellipse import EllipticArc
+from geometry.elliptic_fillet import EllipticFillet
 from geometry.errors import CuspError
 from geometry.involute import Involute
 from geometry.line_arc import Arc, Line
@@ -43,6 +45,10 @@ def exact_point(curve: Curve) -> ExactPoint:
         return lambda s: _rolled(curve, s, MP.mpc(curve.pitch_radius - MP.mpf(curve.depth), s))
     if isinstance(curve, TrochoidFillet):
         return lambda u: _enveloped(curve, u)
+    if isinstance(curve, EllipticArc):
+        return lambda t: _stretched(curve, exact_point(curve.arc)(t))
+    if isinstance(curve, EllipticFillet):
+        return lambda u: _rolled_off(curve, u)
     if isinstance(curve, CutterFillet):
         return lambda u: _shaped(curve, u)
     if isinstance(curve, OffsetCurve):
@@ -58,7 +64,7 @@ def _string_end(curve: Involute, roll: Any) -> Any:
     return MP.mpc(curve.centre) + curve.base_radius * spoke + curve.base_radius * roll * (-1j * spoke)
 
 
-def _rolled(curve: Trochoid | TrochoidFillet, shift: Any, point: Any) -> Any:
+def _rolled(curve: Trochoid | TrochoidFillet | EllipticFillet, shift: Any, point: Any) -> Any:
     """A fixed-frame point in the frame of the gear that has rolled by ``shift`` along the rack."""
     return MP.mpc(curve.centre) + MP.expj(MP.mpf(curve.angle) - shift / MP.mpf(curve.pitch_radius)) * point
 
@@ -70,6 +76,26 @@ def _enveloped(curve: TrochoidFillet, u: Any) -> Any:
     shift = -MP.mpf(curve.depth) * normal.imag / normal.real
     centre = MP.mpc(radius - MP.mpf(curve.depth), shift)
     return _rolled(curve, shift, centre - curve.tip_radius * normal)
+
+
+def _stretched(curve: EllipticArc, point: Any) -> Any:
+    place = curve.placement
+    return MP.expj(place.angle) * MP.mpc(point.real, curve.stretch * point.imag) + MP.mpc(place.translation)
+
+
+def _rolled_off(curve: EllipticFillet, u: Any) -> Any:
+    """Contact point of an ellipse moved outwards: where its gradient is along exp(-iu)."""
+    normal, radius = MP.expj(-u), MP.mpf(curve.pitch_radius)
+    deep, wide = MP.mpf(curve.semi_axis), MP.mpf(curve.semi_axis) * MP.mpf(curve.stretch)
+    # the gradient (x / deep^2, y / wide^2) of the ellipse is parallel to the normal
+    touch = MP.mpc(deep**2 * normal.real, wide**2 * normal.imag)
+    touch /= MP.sqrt((touch.real / deep) ** 2 + (touch.imag / wide) ** 2)
+    touch += (MP.mpf(curve.tip_radius) - deep) * normal
+    # the rack's position for which the line from the contact to the pitch point is parallel to the normal
+    depth = MP.mpf(curve.depth) + touch.real
+    contact = MP.mpc(radius - depth, -depth * normal.imag / normal.real)
+    shift = contact.imag + touch.imag
+    return _rolled(curve, shift, contact)
 
 
 def _shaped(curve: CutterFillet, u: Any) -> Any:
@@ -156,7 +182,7 @@ def check_derivative_bound(curve: Curve) -> None:
                 continue
             largest = float(np.max(np.abs(curve.derivative(t, order))))
             assert bound >= largest * (1 - 1e-13)
-            if not isinstance(getattr(curve, "original", curve), TrochoidFillet | CutterFillet):
+            if not isinstance(getattr(curve, "original", curve), TrochoidFillet | EllipticFillet | CutterFillet):
                 assert bound <= largest * (1 + 1e-13)  # these bounds are attained
 
 

@@ -42,9 +42,6 @@ class PairKeys(Struct, forbid_unknown_fields=True):
 
     first: SpurGearSpec
     second: SpurGearSpec
-    helix_angle_deg: Annotated[
-        float, Meta(ge=-60, le=60, description="helix angle; the other data are then normal", extra={"unit": "degrees"})
-    ] = 0.0
     working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
     normal_backlash: Annotated[float, mm("wanted normal backlash", least=0, most=1000)] | None = None
     circumferential_backlash: (
@@ -139,7 +136,10 @@ def external_sheet(table: dict[str, Any]) -> Sheet:
 
 def asked_pair(keys: PairKeys, shifts_given: tuple[bool, ...]) -> Asked:
     """The pair that the keys ask for: shifts from the distance, thinning from the backlash, tips from Delta y."""
-    helix = math.radians(keys.helix_angle_deg)
+    helix = math.radians(keys.first.helix_angle_deg)
+    if keys.second.helix_angle_deg != keys.first.helix_angle_deg:
+        text = f"must be that of the first gear; {keys.first.helix_angle_deg:.12g} works"
+        raise ParameterError("helix_angle_deg", keys.second.helix_angle_deg, text)
     normal = (gear_of(keys.first), gear_of(keys.second))
     if normal[0].module != normal[1].module:
         # before any shift is looked for; the pair itself says it best

@@ -25,9 +25,6 @@ TOPIC = "spur"
 class SpurKeys(SpurGearSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     """Keys of the topic: those of a spur gear, and what is measured."""
 
-    helix_angle_deg: Annotated[
-        float, Meta(ge=-60, le=60, description="helix angle; the other data are then normal", extra={"unit": "degrees"})
-    ] = 0.0
     teeth_spanned: Annotated[int, Meta(ge=1, le=10_000, description="teeth in the span")] | None = None
     pin_diameter: Annotated[float, mm("pin or ball", above=0, most=10_000)] | None = None
     kerf: Annotated[float, mm("full width of a cut that was not corrected for", least=0, most=10)] | None = None

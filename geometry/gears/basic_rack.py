@@ -30,13 +30,18 @@ class TipRelief:
 
 @dataclass(frozen=True, slots=True)
 class BasicRack:
-    """A cutting rack: pressure angle in rad, the rest in modules."""
+    """A cutting rack: pressure angle in rad, the rest in modules.
+
+    ``stretch``: how much longer the tip rounding is along the pitch line than along the depth, ``tip_radius``; 1 is the
+    circle of a rack in its own section, 1 / cos(beta) the ellipse in the transverse section of a helical one.
+    """
 
     pressure_angle: float
     addendum: float
     tip_clearance: float
     tip_radius: float
     relief: TipRelief | None = None
+    stretch: float = 1.0
 
     @property
     def dedendum(self) -> float:
@@ -44,9 +49,15 @@ class BasicRack:
         return self.addendum + self.tip_clearance
 
     @property
+    def _support(self) -> float:
+        """Distance of the flank from the rounding's centre, in tip radii; 1 for a circle."""
+        return math.hypot(math.sin(self.pressure_angle), self.stretch * math.cos(self.pressure_angle))
+
+    @property
     def form_dedendum(self) -> float:
         """h_Ff: depth at which the straight flank ends and the rounding begins."""
-        return self.dedendum - self.tip_radius * (1 - math.sin(self.pressure_angle))
+        sine = math.sin(self.pressure_angle)
+        return self.dedendum - self.tip_radius * (1 - sine / self._support)
 
     @property
     def rounding_depth(self) -> float:
@@ -57,7 +68,7 @@ class BasicRack:
     def rounding_half_distance(self) -> float:
         """Distance of the rounding centre from the centre line of the rack tooth; 0 is the full round."""
         alpha = self.pressure_angle
-        reach = math.pi / 4 - self.rounding_depth * math.tan(alpha) - self.tip_radius / math.cos(alpha)
+        reach = math.pi / 4 - self.rounding_depth * math.tan(alpha) - self.tip_radius * self._support / math.cos(alpha)
         return max(reach, 0.0)
 
     @property

@@ -11,18 +11,19 @@ import math
 from dataclasses import replace
 
 from geometry.cutter_fillet import CutterFillet
+from geometry.elliptic_fillet import EllipticFillet
 from geometry.intersect import crossing_circle
 from geometry.involute import Involute
 from geometry.roots import bracketed_root
 from geometry.trochoid import TrochoidFillet
 
-GearFillet = TrochoidFillet | CutterFillet
+GearFillet = TrochoidFillet | EllipticFillet | CutterFillet
 
 
 def joint_roll(fillet: GearFillet, base_radius: float) -> float:
     """Roll angle of the flank point cut by the end of the cutter's flank, rad; negative: undercut."""
-    if isinstance(fillet, CutterFillet):
-        return (fillet.pitch_radius * math.cos(fillet.end) - fillet.normal_length(fillet.end)) / base_radius
+    if not isinstance(fillet, TrochoidFillet):
+        return float(fillet.pitch_radius * math.cos(fillet.end) - fillet.normal_length(fillet.end)) / base_radius
     alpha = math.pi / 2 - fillet.end
     reach = fillet.pitch_radius * math.sin(alpha) - fillet.depth / math.sin(alpha) - fillet.tip_radius
     return reach / base_radius

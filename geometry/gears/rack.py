@@ -17,6 +17,7 @@ from geometry.errors import GeometryError, ParameterError, PointedTipError, at_l
 from geometry.findings import Finding
 from geometry.gears.basic_rack import BasicRack, checked_rack
 from geometry.gears.offset_tooth import OffsetError, OffsetRegion
+from geometry.gears.rack_fillet import root_fillet
 from geometry.gears.rack_holes import RackHoles
 from geometry.intersect import first_above
 from geometry.line_arc import Arc, Line, arc_between
@@ -107,14 +108,14 @@ class _Numbers:
     half_pitch: float
     chamfer: float
     rounding: float
-    grown: float = 0.0
+    stretch: float = 1.0
 
     @classmethod
     def of(cls, rack: Rack) -> _Numbers:
         basic = rack.rack
         return cls(
             rack.addendum, rack.dedendum, rack.tooth_thickness / 2, basic.tip_radius * rack.module,
-            basic.pressure_angle, rack.pitch / 2, rack.tip_chamfer, rack.tip_rounding,
+            basic.pressure_angle, rack.pitch / 2, rack.tip_chamfer, rack.tip_rounding, basic.stretch,
         )  # fmt: skip
 
     def flank_at(self, height: float) -> complex:
@@ -134,19 +135,13 @@ def rack_side(rack: Rack, offset: float = 0.0) -> RackSide:
     findings: list[Finding] = []
     tip = _tip_lines(numbers)
     upper, start = _moved_tip(tip, offset, findings)
-    centre, cosine = _fillet_centre(numbers), math.cos(numbers.angle)
-    fillet = numbers.fillet - offset
     along = cmath.exp(-1j * numbers.angle)
-    if fillet > TOLERANCES.relative_length * rack.module:
-        foot, root = centre + fillet * 1j * along, centre + fillet
-        lower = [Segment(arc_between(centre, foot, root, turns_left=False), Label.ROOT_FILLET)]
-    else:
-        if offset > 0:
-            findings.append(Finding("fillet_cusp_trimmed", offset, numbers.fillet))
-        depth = numbers.depth - offset
-        wide = numbers.half + offset / cosine
-        foot = root = complex(depth, -(wide + depth * math.tan(numbers.angle)))
-        lower = []
+    fillet, foot, root = root_fillet(
+        numbers.depth, numbers.half, numbers.angle, numbers.fillet, numbers.stretch, offset
+    )
+    lower = [] if fillet is None else [Segment(fillet, Label.ROOT_FILLET)]
+    if fillet is None and offset > 0:
+        findings.append(Finding("fillet_cusp_trimmed", offset, numbers.fillet))
     if root.imag < -numbers.half_pitch * (1 + TOLERANCES.relative_length):
         raise OffsetError(offset, "closes the tooth spaces", 0.0)
     if not ((foot - start) * along.conjugate()).real > 0:
@@ -156,11 +151,6 @@ def rack_side(rack: Rack, offset: float = 0.0) -> RackSide:
     if root.imag - end.imag > TOLERANCES.relative_length * rack.module:
         segments.append(Segment(Line(root, end), Label.ROOT_LAND))
     return RackSide(tuple(segments), tuple(findings))
-
-
-def _fillet_centre(numbers: _Numbers) -> complex:
-    depth = numbers.depth - numbers.fillet
-    return complex(depth, -(numbers.half + depth * math.tan(numbers.angle) + numbers.fillet / math.cos(numbers.angle)))
 
 
 @dataclass(frozen=True, slots=True)

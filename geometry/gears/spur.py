@@ -9,6 +9,7 @@ from functools import cached_property
 from geometry.angles import inverse_involute, involute_function
 from geometry.bores import RoundBore
 from geometry.cutter_fillet import CutterFillet
+from geometry.elliptic_fillet import EllipticFillet
 from geometry.errors import ParameterError, at_least
 from geometry.gears.basic_rack import BasicRack
 from geometry.gears.cutter import PinionCutter
@@ -175,13 +176,16 @@ class SpurGear:
         base_radius = self.reference_radius * math.cos(alpha_g)
         return Involute(base_radius, -half, 0.0, 1 + self.tip_radius / base_radius)
 
-    def fillet(self) -> TrochoidFillet | CutterFillet:
+    def fillet(self) -> TrochoidFillet | EllipticFillet | CutterFillet:
         """The lower root fillet of tooth 1 as far as the rounding reaches, whether cut away or not."""
         if self.cutter is not None:
             return self._cutter_fillet(replace(self.cutter, widening=self._widening))
         angle = -self.pitch_angle / 2 + self.root_land_half_angle
         end = math.pi / 2 - self.rack.pressure_angle
-        return TrochoidFillet(self.reference_radius, self.rounding_depth, self.rounding_radius, angle, 0.0, end)
+        radii = self.reference_radius, self.rounding_depth, self.rounding_radius
+        if self.rack.stretch != 1 and self.rounding_radius > 0:
+            return EllipticFillet(*radii, angle, 0.0, end, self.rounding_radius, self.rack.stretch)
+        return TrochoidFillet(*radii, angle, 0.0, end)
 
     def _cutter_fillet(self, cutter: PinionCutter) -> CutterFillet:
         teeth = self.number_of_teeth + cutter.number_of_teeth

@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from geometry.errors import ParameterError
 from geometry.gears.basic_rack import BasicRack, TipRelief
+from geometry.gears.cutter import PinionCutter
 from geometry.gears.spur import SpurGear
 
 
@@ -33,8 +34,9 @@ def transverse_gear(normal: SpurGear, helix_angle: float) -> SpurGear:
     """The transverse section of a helical gear whose normal data stand in ``normal``; the angle in rad.
 
     Lengths stay, coefficients become those of the transverse module. The circle that rounds the normal rack is an
-    ellipse here; its stand-in begins at the same form height h_Ff, so that form diameters and the limit of undercut
-    stay exact and only the fillet below them is drawn nearly. ``circumferential_thinning`` is transverse already.
+    ellipse here, and the fillet is what this ellipse leaves: nothing is approximated. ``circumferential_thinning`` is
+    transverse already. A pinion cutter's data are normal too, but for its tip rounding: a circle, in normal modules,
+    in the transverse section.
 
     Raises
     ------
@@ -46,8 +48,10 @@ def transverse_gear(normal: SpurGear, helix_angle: float) -> SpurGear:
     if not abs(helix_angle) < math.pi / 2:
         raise ParameterError("helix_angle_deg", math.degrees(helix_angle), "must be below 90 degrees; 60 works")
     cosine = math.cos(helix_angle)
+    cutter = normal.cutter
     return replace(
         normal,
+        cutter=None if cutter is None else transverse_cutter(cutter, helix_angle),
         module=normal.module / cosine,
         rack=transverse_rack(normal.rack, helix_angle),
         profile_shift_coefficient=normal.profile_shift_coefficient * cosine,
@@ -57,14 +61,26 @@ def transverse_gear(normal: SpurGear, helix_angle: float) -> SpurGear:
 def transverse_rack(rack: BasicRack, helix_angle: float) -> BasicRack:
     """The rack of a transverse section, in transverse modules; the angle in rad."""
     cosine, angle = math.cos(helix_angle), transverse_angle(rack.pressure_angle, helix_angle)
-    # the same depth of the rounding along the radius
-    radius = rack.tip_radius * cosine * (1 - math.sin(rack.pressure_angle)) / (1 - math.sin(angle))
     relief = rack.relief
     if relief is not None:
-        # depth along the normal of the flank grows with 1 / cos(beta_b)
-        base_helix = base_helix_angle(angle, helix_angle)
-        relief = TipRelief(relief.depth * cosine / math.cos(base_helix), relief.height * cosine)
-    return BasicRack(angle, rack.addendum * cosine, rack.tip_clearance * cosine, radius, relief)
+        # the relieved flank is a plane as well: its angle goes the way of the main one's
+        height, relieved = relief.height * cosine, transverse_angle(rack.relief_angle, helix_angle)
+        relief = TipRelief(height * math.tan(relieved - angle) / math.cos(angle), height)
+    values = rack.addendum * cosine, rack.tip_clearance * cosine, rack.tip_radius * cosine
+    return BasicRack(angle, *values, relief, rack.stretch / cosine)
+
+
+def transverse_cutter(cutter: PinionCutter, helix_angle: float) -> PinionCutter:
+    """The transverse section of a helical pinion cutter given in normal modules; the angle in rad."""
+    cosine = math.cos(helix_angle)
+    return replace(
+        cutter,
+        module=cutter.module / cosine,
+        pressure_angle=transverse_angle(cutter.pressure_angle, helix_angle),
+        profile_shift_coefficient=cutter.profile_shift_coefficient * cosine,
+        addendum=cutter.addendum * cosine,
+        tip_rounding=cutter.tip_rounding * cosine,
+    )
 
 
 def overlap_ratio(face_width: float, helix_angle: float, normal_module: float) -> float:

@@ -12,6 +12,8 @@ from hypothesis import strategies as st
 
 from geometry.curve import Curve, Reversed
 from geometry.cutter_fillet import CutterFillet
+from geometry.ellipse import EllipticArc
+from geometry.elliptic_fillet import EllipticFillet
 from geometry.errors import CuspError
 from geometry.involute import Involute
 from geometry.line_arc import Arc, Line
@@ -45,6 +47,10 @@ EXAMPLES: dict[str, Curve] = {
     "fillet, centre outside": TrochoidFillet(23.0, -0.26, 0.76, -0.131, 0.0, 1.2217),
     "fillet, upper side": TrochoidFillet(23.0, 1.74, 0.76, 0.131, -1.2217, 0.0, -1j),
     "fillet of a small gear": TrochoidFillet(3.0, 1.4, 0.76, 0.1, 0.0, 1.2217),
+    "elliptic fillet": EllipticFillet(23.0, 1.74, 0.76, -0.131, 0.0, 1.2217, 0.76, 1.1547),
+    "elliptic fillet, grown": EllipticFillet(23.0, -0.26, 1.1, -0.131, 0.0, 1.2217, 0.76, 2.0),
+    "elliptic fillet, upper side": EllipticFillet(3.0, 1.4, 0.5, 0.131, -1.1, 0.0, 0.76, 1.4, -1j),
+    "elliptic arc": EllipticArc(Arc(0j, 0.76, 1.2, -1.2), 1.4, Placement2(0.3, 2 - 1j)),
     "ring fillet": CutterFillet(60.0, 25.0, 2.05, 0.4, -0.003, 0.0, 1.2217),
     "ring fillet, centre on the pitch line": CutterFillet(60.0, 25.0, 0.0, 0.4, -0.003, 0.0, 1.2217),
     "ring fillet, centre inside": CutterFillet(60.0, 25.0, -0.2, 0.4, -0.003, 0.0, 1.1, 2 - 1j),
@@ -60,7 +66,8 @@ EVERY = pytest.mark.parametrize("curve", EXAMPLES.values(), ids=EXAMPLES.keys())
 
 def test_every_class_is_among_the_examples() -> None:
     kinds = {type(c) for c in EXAMPLES.values()}
-    assert kinds == {Line, Arc, Involute, Trochoid, TrochoidFillet, CutterFillet, OffsetCurve, Reversed}
+    fillets = {TrochoidFillet, EllipticFillet, CutterFillet}
+    assert kinds == {Line, Arc, EllipticArc, Involute, Trochoid, OffsetCurve, Reversed} | fillets
     assert {type(c.original) for c in EXAMPLES.values() if isinstance(c, Reversed)} == kinds - {Reversed}
     assert all(isinstance(c, Curve) for c in EXAMPLES.values())
 
