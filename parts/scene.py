@@ -12,6 +12,7 @@ from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError
 from parts.cam import CamSpec, cam_part, checked_cam
+from parts.helix_keys import helix_of
 from parts.instances import DriveSpec, InstanceSpec, check_instance, drive_spec, instance_specs
 from parts.keys import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.mate_kinds import Mating
@@ -302,6 +303,7 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
     part_of = {key: str(spec.part) for key, spec in scene.instances.items()}
     for index, mate in enumerate(scene.mates):
         _check_kinds(scene, mate, part_of, source, f"mates[{index + 1}]")
+        _check_helices(scene, mate, part_of, source, f"mates[{index + 1}]")
         try:
             mated(gears, [mate], part_of)
         except ParameterError as error:
@@ -326,6 +328,22 @@ def _check_kinds(scene: SceneFile, mate: Any, part_of: dict[str, str], source: s
     hint = f'; kind = "{other}" joins these two' if other else ""
     remedy = f"is a {found[index]}; an {mate_kind} joins {wanted}{hint}"
     raise SceneError(source, f"{place}.{key}", getattr(mate, key), remedy)
+
+
+def _check_helices(scene: SceneFile, mate: Any, part_of: dict[str, str], source: str, place: str) -> None:
+    """Helices that mesh, and one normal module: told in the keys of the parts, before their transverse sections."""
+    one, two = (scene.parts[part_of[i]] for i in (mate.first, mate.second))
+    first, second = helix_of(one), helix_of(two)
+    if first.angle == 0 and second.angle == 0:
+        return
+    from geometry.gears.helix import mesh_fault
+
+    fault = mesh_fault(first, second, internal=mate.__struct_config__.tag == "internal_gear_pair")
+    if fault is None and one.module != two.module:  # type: ignore[attr-defined]
+        fault = "module", two.module, f"must be that of its mate; {one.module:.12g} works"
+    if fault is not None:
+        key, value, remedy = fault
+        raise SceneError(source, f"{place}: parts.{part_of[mate.second]}.{key}", value, remedy)
 
 
 def resolved(scene: SceneFile) -> dict[str, Any]:

@@ -143,3 +143,39 @@ def test_a_planet_between_sun_and_ring_closes_only_in_the_right_place() -> None:
         }
         _, _, again = scene(parts, *mates, instances=fixed)
         assert all(c.met for c in again.mates[1].conditions) is met
+
+
+HELICAL = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 19, "helix_angle_deg": 25.0}
+
+
+@pytest.mark.parametrize(
+    ("other", "key", "remedy"),
+    [
+        ({"hand": "right"}, "hand", '"left" works'),
+        ({"helix_angle_deg": 20.0, "hand": "left"}, "helix_angle_deg", "25 works"),
+        ({"double_helical": True, "hand": "left"}, "double_helical", "false works"),
+        ({"module": 2.5, "hand": "left"}, "module", "2 works"),
+        ({"helix_angle_deg": 0.0}, "helix_angle_deg", "25 works"),
+    ],
+)
+def test_helices_that_do_not_mesh_are_refused_in_the_parts_own_keys(
+    other: dict[str, Any], key: str, remedy: str
+) -> None:
+    mate = {"kind": "external_gear_pair", "first": "a", "second": "b"}
+    with pytest.raises(SceneError) as caught:
+        scene({"a": HELICAL, "b": {**HELICAL, **other}}, mate)
+    assert caught.value.key == f"mates[1]: parts.b.{key}"
+    assert remedy in caught.value.remedy
+
+
+def test_helical_gears_mesh_at_every_height() -> None:
+    """Sections turned by the lead of each gear touch and do not overlap, by polygons."""
+    mate = {"kind": "external_gear_pair", "first": "a", "second": "b"}
+    made, matings, stand = scene({"a": HELICAL, "b": {**HELICAL, "number_of_teeth": 33, "hand": "left"}}, mate)
+    assert matings[0].distance == pytest.approx(52 / math.cos(math.radians(25)), rel=1e-12)
+    by_id = {i.id: i for i in stand.instances}
+    for z in (0.0, 3.3, 8.0):
+        turns = [math.tan(math.radians(25)) * z / (2 * t / math.cos(math.radians(25)) / 2) for t in (19, -33)]
+        one, two = (polygon(made[k], by_id[k], extra) for k, extra in zip("ab", turns, strict=True))
+        assert one.intersection(two).area < 2e-3
+        assert one.distance(two) < 0.004
