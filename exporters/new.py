@@ -60,6 +60,8 @@ _SET = {
         "base_circle_radius": "30.0",
     }
 }
+# keys of sheets, which a scene of one part has not
+_SHEET_KEYS = ("mate", "rack_step")
 # where the same key means another size
 _TABLE_EXAMPLES = {
     ("HolesTable", "diameter"): "6.0",
@@ -93,6 +95,10 @@ _ASSEMBLY = """
 ##
 ## [checks]
 ## interference = true                        # contact and overlap through a whole pitch
+##
+## [[exports]]
+## format = "sheet"
+## purpose = "meshing"                         # the picture of the mesh: circles, line of action, arc of action
 ##
 ## [[exports]]
 ## format = "step"
@@ -131,6 +137,8 @@ def _keys(owner: type[Struct]) -> list[str]:
     """One line a key; keys with a default stand commented out."""
     lines = []
     for field in msgspec.structs.fields(owner):
+        if field.encode_name in _SHEET_KEYS:
+            continue
         value = _SET.get(owner.__name__, {}).get(field.encode_name)
         shown = value or _TABLE_EXAMPLES.get((owner.__name__, field.encode_name)) or _value(field)
         code = f"{field.encode_name} = {shown}"

@@ -339,7 +339,7 @@ def _check_helices(scene: SceneFile, mate: Any, part_of: dict[str, str], source:
     from geometry.gears.helix import mesh_fault
 
     fault = mesh_fault(first, second, internal=mate.__struct_config__.tag == "internal_gear_pair")
-    if fault is None and one.module != two.module:  # type: ignore[attr-defined]
+    if fault is None and one.module != two.module:
         fault = "module", two.module, f"must be that of its mate; {one.module:.12g} works"
     if fault is not None:
         key, value, remedy = fault
