@@ -45,7 +45,8 @@ def tool_of(normal: SpurGear, helix: float) -> RackTool:
     rack, relief = normal.rack, normal.rack.relief or TipRelief(0.0)
     return RackTool(
         normal.module, rack.pressure_angle, rack.addendum, rack.tip_clearance, rack.tip_radius,
-        normal.profile_shift_coefficient, normal.circumferential_thinning * math.cos(helix), relief.depth, relief.height,
+        normal.profile_shift_coefficient, normal.circumferential_thinning * math.cos(helix), relief.depth,
+        relief.height,
     )  # fmt: skip
 
 
