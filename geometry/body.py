@@ -212,6 +212,8 @@ def plate(
     region: Region, bottom: float, top: float, twist: Twist | None = None, *, toothed: Profile | None = None
 ) -> Body:
     """A region extruded from z = ``bottom`` to ``top`` mm; its ``toothed`` boundary follows a twist."""
+    if twist is not None and not any(p is toothed for p in (region.outer, *region.holes)):
+        raise ValueError("the toothed boundary is none of the region's")
     made = BodyBuilder()
     upright = (bottom, 0.0, 0j), (top, 0.0, 0j)
     ends = [

@@ -97,12 +97,12 @@ def _nearest_working(works: Callable[[float], bool], given: float, step: float) 
         except GeometryError:
             return False
 
-    tried = (given + sign * k * step for k in range(1, 61) for sign in (1, -1))
+    tried = (given + sign * step * 1.4**k for k in range(13) for sign in (1, -1))
     good = next((value for value in tried if safe(value)), None)
     if good is None:
         return None
     bad = given
-    for _ in range(40):
+    for _ in range(24):
         middle = (good + bad) / 2
         good, bad = (middle, bad) if safe(middle) else (good, middle)
     return good

@@ -96,11 +96,12 @@ def checked_ring_gear(spec: RingGearSpec) -> RingGear:
         The ring cannot exist or its cutter cannot make it; names the key and the nearest value that works.
     """
     from geometry.errors import ParameterError
+    from geometry.gears.ring_limits import makes
 
     try:
         return _ring_of(spec)
     except ParameterError as refusal:
-        refusal = in_normal_terms(spec, refusal, _builds)
+        refusal = in_normal_terms(spec, refusal, lambda changed: makes(_section_of(changed)))
         raise with_remedy(refusal, spec, _builds) from refusal
 
 
@@ -117,10 +118,24 @@ def _builds(spec: RingGearSpec) -> bool:
 def _ring_of(spec: RingGearSpec) -> RingGear:
     from dataclasses import replace
 
+    from geometry.gears.ring_limits import checked_ring, with_default_cutter
+
+    gear = _section_of(spec)
+    if gear.any_cutter:
+        gear = with_default_cutter(gear)
+    gear = checked_ring(gear)
+    if spec.outer_diameter is not None:
+        return gear
+    # holes keep a module to the outside
+    radius = max(gear.root_radius + _RIM * spec.module, *(g.reach + spec.module for g in gear.holes.round_holes), 0.0)
+    return replace(gear, outer_diameter=2 * radius)
+
+
+def _section_of(spec: RingGearSpec) -> RingGear:
+    """The transverse section that the keys describe, with any cutter where none is named, not checked to exist."""
     from geometry.errors import ParameterError
     from geometry.gears.cutter import PinionCutter
     from geometry.gears.ring import RingGear, RoundedRoot
-    from geometry.gears.ring_limits import checked_ring, with_default_cutter
     from geometry.gears.transverse_ring import transverse_ring
 
     if spec.tip_chamfer > 0 and spec.tip_rounding > 0:
@@ -149,17 +164,10 @@ def _ring_of(spec: RingGearSpec) -> RingGear:
         thinning_by_deeper_cut=spec.thinning_method == "deeper_cut",
         tip_chamfer=spec.tip_chamfer,
         tip_rounding=spec.tip_rounding,
+        any_cutter=spec.cutter is None and isinstance(root, PinionCutter),
         holes=hub_holes(None, spec.holes, None),
     )
-    gear = transverse_ring(gear, checked_helix(spec).angle)
-    if spec.cutter is None and isinstance(root, PinionCutter):
-        gear = with_default_cutter(gear)
-    gear = checked_ring(gear)
-    if rim is not None:
-        return gear
-    # holes keep a module to the outside
-    radius = max(gear.root_radius + _RIM * spec.module, *(g.reach + spec.module for g in gear.holes.round_holes), 0.0)
-    return replace(gear, outer_diameter=2 * radius)
+    return transverse_ring(gear, checked_helix(spec).angle)
 
 
 def ring_gear_part(part_id: str, spec: RingGearSpec, gear: RingGear) -> Part:

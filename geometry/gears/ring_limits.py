@@ -178,7 +178,7 @@ def _check_numbers(gear: RingGear) -> None:
                 raise ParameterError(f"rounded_root.{key}_coefficient", value, "must be a finite number, at least 0")
 
 
-def _makes(gear: RingGear) -> bool:
+def makes(gear: RingGear) -> bool:
     """Whether the ring can be made, by any cutter where nobody named one."""
     return next(_made(gear), None) is not None
 
@@ -225,17 +225,17 @@ def _with_remedy(gear: RingGear, refusal: ParameterError) -> ParameterError:
     if teeth is not None:
         return kind(refusal.name, refusal.value, f"{reason}; {teeth} works")
     for key in sorted(_suspects(gear), key=lambda k: k.name != refusal.name):
-        if _makes(key.gear_with(key.harmless)):
-            works = _boundary(lambda v, k=key: _makes(k.gear_with(v)), key.harmless, key.value)  # type: ignore[misc]
+        if makes(key.gear_with(key.harmless)):
+            works = _boundary(lambda v, k=key: makes(k.gear_with(v)), key.harmless, key.value)  # type: ignore[misc]
             text = f"at most {at_most(works, 4)}" if works < key.value else f"at least {at_least(works, 4)}"
             return kind(key.name, key.value, f"{reason}; {text}{key.unit} works")
     x = gear.profile_shift_coefficient
-    nearest = _nearest(lambda v: _makes(replace(gear, profile_shift_coefficient=v)), x)
+    nearest = _nearest(lambda v: makes(replace(gear, profile_shift_coefficient=v)), x)
     if nearest is not None:
         text = f"at least {at_least(nearest, 4)}" if nearest > x else f"at most {at_most(nearest, 4)}"
         return kind("profile_shift_coefficient", x, f"{reason}; {text} works")
     z = gear.number_of_teeth
-    more = next((n for n in range(z + 1, z + 80) if _makes(replace(gear, number_of_teeth=n))), None)
+    more = next((n for n in range(z + 1, z + 80) if makes(replace(gear, number_of_teeth=n))), None)
     if more is None:
         return refusal
     return ParameterError("number_of_teeth", z, f"{refusal.name}: {reason}; {more} teeth work")
@@ -311,9 +311,9 @@ def _harmless_tip(gear: RingGear) -> float:
     step = (2 * gear.reference_radius + 2 * gear.module - least) / 64
     tries = (least + k * step for k in range(1, 65))
     default = replace(gear, given_tip_diameter=None)
-    if gear.given_tip_diameter is not None and _makes(default):
+    if gear.given_tip_diameter is not None and makes(default):
         return 2 * default.tip_radius
-    return next((d for d in tries if _makes(replace(gear, given_tip_diameter=d))), 2 * gear.reference_radius)
+    return next((d for d in tries if makes(replace(gear, given_tip_diameter=d))), 2 * gear.reference_radius)
 
 
 def _cutter_teeth(gear: RingGear) -> int | None:
@@ -323,7 +323,7 @@ def _cutter_teeth(gear: RingGear) -> int | None:
         return None
     z = root.number_of_teeth
     near = sorted(range(LEAST_CUTTER_TEETH, gear.number_of_teeth), key=lambda n: (abs(n - z), n))
-    return next((n for n in near if _makes(replace(gear, root=replace(root, number_of_teeth=n)))), None)
+    return next((n for n in near if makes(replace(gear, root=replace(root, number_of_teeth=n)))), None)
 
 
 def with_default_cutter(gear: RingGear) -> RingGear:
