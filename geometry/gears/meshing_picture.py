@@ -256,7 +256,8 @@ def _ring_tooth(side: RingSide) -> tuple[Curves, Curves]:
     period = side.profile().period
     tip = tuple(s.curve.placed(turn) for s in period if s.label is Label.TIP_LAND)
     land = tuple(s.curve.placed(turn) for s in period if s.label is Label.ROOT_LAND)
-    return (*(s.curve.mirrored() for s in reversed(lower)), *tip, *(s.curve.placed(turn) for s in lower)), land
+    # from root to root, whichever way each curve is travelled
+    return (*(s.curve.mirrored() for s in lower), *tip, *(s.curve.placed(turn) for s in reversed(lower))), land
 
 
 def _both(lower: list[Segment]) -> Curves:

@@ -118,7 +118,9 @@ def test_every_built_in_scene_builds_parts_without_a_bad_remark(name: str) -> No
     plan = plan_build(scene, name, [], [])
     assert len(plan.jobs) >= len(scene.parts)
     for part in plan.parts.values():
-        assert not part.findings, part.findings
+        found = {f.code for f in part.findings}
+        # lesson 1 shows what undercut is
+        assert found <= ({"undercut"} if (name, part.id) == ("tmm42", "zero") else set()), found
 
 
 def test_the_practicum_pair_has_the_dimensions_of_the_practicum() -> None:
