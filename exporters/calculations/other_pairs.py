@@ -11,7 +11,7 @@ from msgspec import Struct
 from exporters.calculations.inputs import PLACE, checked, keys_of, refusal
 from exporters.calculations.misprints import printed_for_internal
 from exporters.calculations.sheet import Sheet
-from exporters.calculations.spur import given_data
+from exporters.calculations.spur import dedendum_formula, given_data
 from exporters.words import FINDINGS
 from geometry.angles import involute_function
 from geometry.errors import ParameterError
@@ -193,7 +193,8 @@ def _internal_sizes(page: Sheet, pair: InternalPair) -> None:
         short = ring.tip_shortening_coefficient
         formula = f"{plain} - (0.25 - 0.125 * {{x2}})) * {{m}}" if short else f"{plain}) * {{m}}"
     page.add("tip_radius", ring.tip_radius, formula, "GOST 19274", 2)
-    page.both("root_radius", (pinion.root_radius, ring.root_radius), "", _ISO)
+    _root_radius(page, pinion)
+    page.add("root_radius", ring.root_radius, "", "ISO 21771", 2)
     page.section("Pitch and tooth thickness", "Крок і товщина зубців")
     page.add("pitch", math.pi * pair.module, "pi * {m}", "practicum (3.15)")
     for index, gear, sign in ((1, pinion, "+"), (2, ring, "-")):
@@ -241,6 +242,12 @@ def _internal_contact(page: Sheet, pair: InternalPair) -> None:
     page.both("root_sliding", (starts[0], ends[1]), "", _ISO)
     page.both("tip_sliding", (ends[0], starts[1]), "", _ISO)
     _backlash(page, pair.circumferential_backlash, pair.normal_backlash, pair.tip_clearances)
+
+
+def _root_radius(page: Sheet, gear: Any) -> None:
+    """Of the first gear; one cut by a pinion has the cutter's."""
+    formula = f"{{r1}} - {dedendum_formula(gear, 0.0)}" if gear.cutter is None else ""
+    page.add("root_radius", gear.root_radius, formula, "practicum (3.13)", 1)
 
 
 def _backlash(page: Sheet, circumferential: float, normal: float, clearances: tuple[float, float]) -> None:
@@ -297,7 +304,7 @@ def _rack_page(pair: RackPair) -> Sheet:
     page.add("base_radius", gear.base_radius, "{r1} * cos({alpha})", "practicum (3.9)", 1)
     formula = "{r1} + ({h_a1} + {x1}) * {m}" if gear.given_tip_diameter is None else ""
     page.add("tip_radius", gear.tip_radius, formula, "practicum (3.11)", 1)
-    page.add("root_radius", gear.root_radius, "", "practicum (3.13)", 1)
+    _root_radius(page, gear)
     page.section("Pitch and tooth thickness", "Крок і товщина зубців")
     page.add("pitch", rack.pitch, "pi * {m}", "practicum (3.15)")
     less = " - {A1}" if gear.circumferential_thinning else ""

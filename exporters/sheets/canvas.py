@@ -7,14 +7,15 @@ SVG states its length. Sizes and line types follow GOST 2.303 and 2.304.
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from geometry.bspline import BSpline
 from geometry.curve import Complex, Curve
 from geometry.line_arc import Arc, Line
 from geometry.outline import CadCurve
-from geometry.placement import Placement2
 from geometry.spline_fit import fit_spline
 
 # heights of capitals, mm; GOST 2.304
@@ -213,38 +214,43 @@ class Canvas:
         return np.concatenate(rows) if rows else np.zeros(0, dtype=complex)
 
 
-def draw(canvas: Canvas, layer: str, curves: list[Curve], to_paper: Paper, tolerance: float) -> None:
-    """Exact curves in model mm, splines where they are neither line nor arc, within ``tolerance`` mm on paper."""
+def fitted(canvas: Canvas, curves: Sequence[Curve], scale: float, tolerance: float) -> tuple[CadCurve, ...]:
+    """Exact curves in model mm as what a file holds: splines where they are neither line nor arc.
+
+    ``tolerance`` in mm on paper; mirror images share one fit.
+    """
+    done: dict[Curve, CadCurve] = {}
     for curve in curves:
-        placed = curve.placed(to_paper.turn)
-        drawn: CadCurve
-        if isinstance(placed, Arc | Line):
-            drawn = placed
+        if isinstance(curve, Arc | Line):
+            done[curve] = curve
+        elif (twin := done.get(curve.mirrored())) is not None and isinstance(twin, BSpline):
+            done[curve] = twin.mirrored()
         else:
-            fit = fit_spline(placed, tolerance / to_paper.scale, degree=3, continuity=2)
-            canvas.max_error = max(canvas.max_error, fit.max_error * to_paper.scale)
+            fit = fit_spline(curve, tolerance / scale, degree=3, continuity=2)
+            canvas.max_error = max(canvas.max_error, fit.max_error * scale)
             canvas.sampled = canvas.sampled or fit.bound == "sampled"
-            drawn = fit.spline
-        canvas.strokes.append(Stroke(layer, to_paper.scaled(drawn)))
+            done[curve] = fit.spline
+    return tuple(done[curve] for curve in curves)
 
 
-_UNTURNED = Placement2()
+def draw(canvas: Canvas, layer: str, curves: Sequence[CadCurve], paper: Paper) -> None:
+    """Curves in model mm on a layer."""
+    canvas.strokes += [Stroke(layer, paper.scaled(curve)) for curve in curves]
 
 
 @dataclass(frozen=True, slots=True)
 class Paper:
-    """Where the model's plane lies on the paper: turned, enlarged ``scale`` times, its origin at ``origin``."""
+    """Where the model's plane lies on the paper: enlarged ``scale`` times, its origin at ``origin``."""
 
     scale: float
     origin: complex
-    turn: Placement2 = _UNTURNED
 
     def point(self, point: complex) -> complex:
         """A model point on paper."""
-        return self.origin + self.scale * complex(self.turn.apply(point))
+        return self.origin + self.scale * point
 
     def scaled(self, curve: CadCurve) -> CadCurve:
-        """A curve that is turned already."""
+        """A curve on paper."""
         if isinstance(curve, Line):
             return Line(self.origin + self.scale * curve.start, self.origin + self.scale * curve.end)
         if isinstance(curve, Arc):

@@ -19,6 +19,7 @@ from exporters.sheets.canvas import (
     Paper,
     decimal,
     draw,
+    fitted,
     scale_text,
 )
 from exporters.sheets.labels import Labeller
@@ -77,7 +78,7 @@ def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, language
             circles.append(Circle(layer, paper.origin, paper.scale * radius))
             names.append((gear, index, name, paper.scale * radius, turn))
     for layer in ("RACK", "OUTLINE"):
-        draw(canvas, layer, curves[layer], paper, tolerance)
+        draw(canvas, layer, fitted(canvas, curves[layer], paper.scale, tolerance), paper)
     rows.append(Row(sheet_words(language, "scale"), "", scale_text(paper.scale, language)))
     width, _ = table_size(rows, COLUMNS)
     draw_table(canvas, complex(canvas.frame.right - width, canvas.frame.low), rows, COLUMNS, SMALL_TEXT)

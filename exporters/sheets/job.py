@@ -118,10 +118,12 @@ def _most_shifted(ids: list[str], gears: list[Any]) -> str:
 def _meshing(mating: Mating, language: str, tolerance: float) -> Expected:
     pair: Any = mating.pair  # type: ignore[attr-defined]
     picture = meshing_picture(pair)
-    canvas, paper = meshing_canvas(picture, mating.module, _facts(mating, picture, language), language, tolerance)
-    circles = []
+    canvas, view = meshing_canvas(picture, mating.module, _facts(mating, picture, language), language, tolerance)
+    circles, paper = [], view.paper
     for body in picture.bodies:
         for name, radius in body.radii.items():
+            if not view.shows(body, name):
+                continue
             layer = f"CIRCLE_{name.upper()}"
             if body.centre is None:
                 circles.append(Circle(layer, None, paper.point(1j * radius).imag))

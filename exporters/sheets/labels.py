@@ -8,6 +8,7 @@ import math
 import numpy as np
 
 from exporters.sheets.canvas import TEXT_HEIGHT, Box, Canvas, text_of, text_width
+from geometry.curve import Complex
 
 _DIRECTIONS = 24
 _REACHES = (1.5, 3.0, 5.0, 8.0, 12.0, 17.0, 23.0, 30.0, 40.0, 55.0)
@@ -29,6 +30,10 @@ class Labeller:
     def name(self, text: str, point: complex, height: float = TEXT_HEIGHT, prefer: complex = 0j) -> None:
         """A word beside a point, in the direction ``prefer`` where that costs nothing."""
         width = text_width(text, height)
+        reach = 2 * _REACHES[-1] + width
+        near = self._points[np.abs(self._points - point) < reach]
+        texts = [t.box for t in self._canvas.texts if abs(nearest(t.box, point) - point) < reach]
+        below = text_of(text, 0j, height).box
         best: tuple[float, complex, float] | None = None
         for reach in _REACHES:
             for k in range(_DIRECTIONS):
@@ -42,7 +47,8 @@ class Labeller:
                     )
                 )
                 at = middle - complex(width, height) / 2
-                cost = self._cost(text, at, height, point, reach, way)
+                box = Box(at.real + below.left, at.imag + below.low, at.real + below.right, at.imag + below.high)
+                cost = self._cost(box, point, reach, near, texts)
                 if cost is not None and prefer:
                     cost += 0.5 * abs(way - prefer / abs(prefer))
                 if cost is not None and (best is None or cost < best[0]):
@@ -54,16 +60,16 @@ class Labeller:
         if reach > _NEAR:
             self._lead(point, made.box)
 
-    def _cost(self, text: str, at: complex, height: float, point: complex, reach: float, way: complex) -> float | None:
-        """What a place costs; None where it may not be."""
-        box = text_of(text, at, height).box.grown(_CLEARANCE)
-        if not box.within(self._room) or any(box.overlaps(t.box) for t in self._canvas.texts):
+    def _cost(self, box: Box, point: complex, reach: float, near: Complex, texts: list[Box]) -> float | None:
+        """What a place costs beside the strokes' points and the words that are near; None where it may not be."""
+        box = box.grown(_CLEARANCE)
+        if not box.within(self._room) or any(box.overlaps(other) for other in texts):
             return None
-        cost = _PER_POINT * box.holds(self._points) + _PER_MM * reach
+        cost = _PER_POINT * box.holds(near) + _PER_MM * reach
         if reach > _NEAR:
             cost += 0.6
             path = (point + (nearest(box, point) - point) * np.linspace(0, 1, 20)).astype(np.complex128)
-            if any(t.box.holds(path) for t in self._canvas.texts):
+            if any(other.holds(path) for other in texts):
                 return None
         return cost
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from exporters.sheets.canvas import (
     FRAME,
@@ -18,6 +18,7 @@ from exporters.sheets.canvas import (
     Stroke,
     decimal,
     draw,
+    fitted,
     scale_text,
 )
 from exporters.sheets.labels import Labeller
@@ -60,11 +61,18 @@ class View:
     paper: Paper
     room: Box
 
+    def shows(self, body: Body, name: str) -> bool:
+        """Whether a circle of a body crosses the line of centres in the window."""
+        if body.centre is None:
+            return self.window.low <= body.radii[name] <= self.window.high
+        height = body.centre.imag + (1 if _is_up(body, self.window) else -1) * body.radii[name]
+        return self.window.low <= height <= self.window.high
+
 
 def meshing_canvas(
     picture: MeshingPicture, module: float, facts: Facts, language: str, tolerance: float
-) -> tuple[Canvas, Paper]:
-    """The sheet of a picture and where its plane lies on it; ``module`` in mm, ``tolerance`` in mm on paper."""
+) -> tuple[Canvas, View]:
+    """The sheet of a picture and what of the plane it shows, where; ``module`` in mm, ``tolerance`` in mm on paper."""
     canvas, view = _layout(picture, module, facts)
     scale = view.paper.scale
     canvas.box("FRAME", canvas.frame)
@@ -80,6 +88,11 @@ def meshing_canvas(
     top = canvas.frame.high - 9.0
     canvas.write(title, complex(canvas.frame.left + _GAP, top), 5.0, canvas.frame.right - canvas.frame.left - 2 * _GAP)
     rows = list(facts.rows)
+    for index, body in enumerate(picture.bodies, 1):
+        # what a picture of large gears leaves out
+        for name in (n for n in body.radii if not view.shows(body, n)):
+            value = decimal(f"{body.radii[name]:.3f}", language)
+            rows.append(Row(sheet_words(language, "off_sheet"), f"r_{{{SYMBOLS[name]}{index}}}", value))
     rows.append(Row(sheet_words(language, "scale"), "", scale_text(scale, language)))
     width, _ = table_size(rows)
     corner = complex(canvas.frame.right - width, canvas.frame.low)
@@ -92,7 +105,7 @@ def meshing_canvas(
         names = [(_circle_name(body, name, index, language), end[0 if left else 1]) for name, end in found]
         labels.column(names, edge, low, view.room.high - TEXT_HEIGHT, left=left)
     _names(labels, picture, view, dimensions, language)
-    return canvas, view.paper
+    return canvas, view
 
 
 def _circle_name(body: Body, name: str, index: int, language: str) -> str:
@@ -104,7 +117,8 @@ def _circle_name(body: Body, name: str, index: int, language: str) -> str:
 
 def _layout(picture: MeshingPicture, module: float, facts: Facts) -> tuple[Canvas, View]:
     """The smallest sheet on which the teeth can be seen, with as much of the axes as they leave room for."""
-    table = table_size([*facts.rows, Row("")])
+    # the scale, and base circles that lie off the sheet
+    table = table_size([*facts.rows, *[Row("")] * 3])
     best: tuple[float, str, bool, Box] | None = None
     for depth in (2, 1, 0):
         window = _window(picture, module, depth)
@@ -204,7 +218,7 @@ def _circles(
     """The circles of a body as arcs about the mesh; the names and both ends of each, on paper."""
     found: Ends = []
     for name in CIRCLES:
-        if name not in body.radii:
+        if name not in body.radii or not view.shows(body, name):
             continue
         layer, radius = f"CIRCLE_{name.upper()}", body.radii[name]
         if body.centre is None:
@@ -225,11 +239,18 @@ def _circles(
 
 def _teeth(canvas: Canvas, picture: MeshingPicture, view: View, tolerance: float) -> None:
     """Three teeth of each body in the main position, one at both ends of contact, and the working flanks."""
-    for body in picture.bodies:
-        for layer, s in (("TOOTH_START", picture.start), ("TOOTH_END", picture.end)):
-            draw(canvas, layer, body.tooth_at(s), view.paper, tolerance)
-        draw(canvas, "OUTLINE", body.chain(picture.shown, _TEETH), view.paper, tolerance)
-        draw(canvas, "ACTIVE_FLANK", body.active_at(picture.shown), view.paper, tolerance)
+    for exact in picture.bodies:
+        tooth, gap, active = (
+            fitted(canvas, curves, view.paper.scale, tolerance) for curves in (exact.tooth, exact.gap, exact.active)
+        )
+        body = replace(exact, tooth=tooth, gap=gap, active=active)
+        for layer, made in (
+            ("TOOTH_START", body.tooth_at(picture.start)),
+            ("TOOTH_END", body.tooth_at(picture.end)),
+            ("OUTLINE", body.chain(picture.shown, _TEETH)),
+            ("ACTIVE_FLANK", body.active_at(picture.shown)),
+        ):
+            draw(canvas, layer, made, view.paper)
 
 
 def _lines(canvas: Canvas, picture: MeshingPicture, view: View) -> None:
@@ -292,7 +313,8 @@ def _dimensions(canvas: Canvas, picture: MeshingPicture, view: View) -> dict[str
     """Arcs inside the bodies that carry d d' and p_w, with lines out to where these lie; the middle of each."""
     first, second = picture.bodies
     scale = view.paper.scale
-    radius = min(first.radii["root"], first.radii["base"]) - _INSIDE / scale
+    inner = first.radii["base"] if view.shows(first, "base") else first.radii["root"]
+    radius = min(first.radii["root"], inner) - _INSIDE / scale
     found = {}
     if radius > 0:
         arc = picture.arc_of_action
@@ -310,7 +332,8 @@ def _dimensions(canvas: Canvas, picture: MeshingPicture, view: View) -> dict[str
         return found
     outside = picture.kind == "internal"
     radii = second.radii
-    radius = max(radii["root"], radii["base"]) + _INSIDE / scale if outside else radii["root"] - _INSIDE / scale
+    inner = radii["base"] if view.shows(second, "base") else radii["root"]
+    radius = radii["root"] + _INSIDE / scale if outside else min(radii["root"], inner) - _INSIDE / scale
     if radius > 0:
         found["pitch"] = _dimension_arc(canvas, view, mark, radius)
     return found

@@ -115,7 +115,7 @@ def _check_curves(
             continue
         # files keep the order of drawing within a layer
         for points, curve in zip(found, curves, strict=False):
-            model = ((points - paper.origin) / paper.scale - paper.turn.translation) * np.exp(-1j * paper.turn.angle)
+            model = (points - paper.origin) / paper.scale
             off = float(distance_to_curves(model, [curve]).max())
             ends = np.abs(curve.point(np.array(curve.domain))[:, None] - model).min(1).max()
             worst = max(worst, off * paper.scale, float(ends) * paper.scale)

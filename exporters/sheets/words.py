@@ -30,6 +30,7 @@ SHEET_WORDS: dict[str, tuple[str, str]] = {
     "zero_wheel": ("zero wheel", "нульове колесо"),
     "shifted_wheel": ("shifted wheel", "колесо зі зміщенням"),
     "undercut": ("undercut", "підріз"),
+    "off_sheet": ("base circle, off the sheet", "основне коло, поза аркушем"),
     "tip_line": ("tip line", "лінія вершин"),
     "working_line": ("working line", "початкова пряма"),
     "reference_line": ("datum line", "ділильна пряма"),

@@ -11,6 +11,7 @@ import cmath
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from geometry.curve import Curve, Reversed
 from geometry.errors import ParameterError
@@ -25,7 +26,8 @@ from geometry.placement import Placement2
 from geometry.profile import Label, Segment
 
 Pair = ExternalPair | InternalPair | RackPair
-Curves = tuple[Curve, ...]
+# exact, or the curves that a file holds in place of them
+Curves = tuple[Any, ...]
 CIRCLES = ("tip", "working", "reference", "base", "root")
 
 
@@ -45,7 +47,7 @@ class Body:
     active: Curves
     place: Callable[[float], Placement2]
 
-    def chain(self, s: float, count: int) -> list[Curve]:
+    def chain(self, s: float, count: int) -> list[Any]:
         """``count`` teeth in a row and the lands at both of their ends, with contact at s."""
         at = self.place(s)
         first = -(count // 2)
@@ -56,11 +58,11 @@ class Body:
     def _stepped(self, k: int) -> Placement2:
         return Placement2(self.step.angle * k, self.step.translation * k)
 
-    def tooth_at(self, s: float) -> list[Curve]:
+    def tooth_at(self, s: float) -> list[Any]:
         """The tooth in contact at s."""
         return [c.placed(self.place(s)) for c in self.tooth]
 
-    def active_at(self, s: float) -> list[Curve]:
+    def active_at(self, s: float) -> list[Any]:
         """The working part of its flank there."""
         return [c.placed(self.place(s)) for c in self.active]
 
@@ -254,7 +256,8 @@ def _ring_tooth(side: RingSide) -> tuple[Curves, Curves]:
     period = side.profile().period
     tip = tuple(s.curve.placed(turn) for s in period if s.label is Label.TIP_LAND)
     land = tuple(s.curve.placed(turn) for s in period if s.label is Label.ROOT_LAND)
-    return (*(s.curve.mirrored() for s in reversed(lower)), *tip, *(s.curve.placed(turn) for s in lower)), land
+    # from root to root, whichever way each curve is travelled
+    return (*(s.curve.mirrored() for s in lower), *tip, *(s.curve.placed(turn) for s in reversed(lower))), land
 
 
 def _both(lower: list[Segment]) -> Curves:

@@ -1,0 +1,123 @@
+"""``higherpair calc gear-pair`` of internal and rack pairs: published cases, formulas, margins, wishes, refusals."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+
+from exporters.calculations.render import FORMATS, render
+from exporters.calculations.topics import calculate
+from exporters.words import FINDINGS
+from geometry.gears.sliding import specific_sliding_internal
+from parts.scene import load_scene, make_parts
+from parts.schema import SceneError
+
+from .test_calc import PUBLISHED, evaluated, sheet_for, values_of
+
+DATA = json.loads((PUBLISHED / "internal_and_rack_pairs.json").read_text(encoding="utf-8"))
+WORDS: dict[str, str] = DATA["words"]
+SHEETS = [
+    *WORDS.values(),
+    "gear-pair thesis_internal_pair",
+    "gear-pair rack_and_pinion",
+    "gear-pair kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=80 normal_backlash=0.1",
+    "gear-pair kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=80 "
+    "working_centre_distance=61 first.tip_chamfer=0.1",
+    "gear-pair kind=rack_pair module=2 first.number_of_teeth=20 second.number_of_teeth=9 normal_backlash=0.1",
+    "gear-pair kind=rack_pair module=2 first.number_of_teeth=20 second.number_of_teeth=9 working_centre_distance=20.3",
+]
+
+
+@pytest.mark.parametrize("case", DATA["cases"], ids=lambda c: f"{c['id']} {c['name']} {c.get('gear', '')}")
+def test_published_cases(case: dict[str, Any]) -> None:
+    data = values_of(WORDS[case["words"]])
+    found = data["values"][case["name"]]
+    found = found[case["gear"]] if "gear" in case else found
+    assert found == pytest.approx(case["value"], abs=0.6 * 10 ** -case["digits"], rel=1e-12)
+    step = next(s for s in data["steps"] if (s["name"], s.get("gear")) == (case["name"], case.get("gear")))
+    assert case.get("misprint", "") in step.get("misprint", "")
+    assert ("misprint" in step) == ("misprint" in case)
+
+
+@pytest.mark.parametrize("words", SHEETS)
+def test_every_printed_formula_gives_its_value(words: str) -> None:
+    checked = [step for step in sheet_for(words).steps() if step.formula]
+    assert len(checked) >= 13
+    for step in checked:
+        assert evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), (step.name, step.formula)
+    assert any(abs(evaluated(step, 1e-3) - float(step.value)) > 1e-6 for step in checked)
+
+
+@pytest.mark.parametrize("language", ["en", "uk"])
+@pytest.mark.parametrize("words", ["gear-pair thesis_internal_pair", "gear-pair rack_and_pinion"])
+def test_every_form_and_language(words: str, language: str) -> None:
+    for form in FORMATS:
+        assert len(render(sheet_for(words), form, language)) > 1000
+
+
+def test_a_scene_gives_the_pair_that_it_builds() -> None:
+    """The ring stands first in the scene; the pinion is the first of the sheet."""
+    data = values_of("gear-pair thesis_internal_pair")["values"]
+    mating: Any = make_parts(load_scene("thesis_internal_pair"), "t")[1][0]
+    assert data["number_of_teeth"] == {"first": 96, "second": 144}
+    margins = {m.name: m.margin for m in mating.pair.margins()}
+    for name in ("involute_interference", "trochoid_interference", "radial_assembly"):
+        assert data[f"{name}_margin"] == pytest.approx(margins[name], rel=1e-12)
+    fillets = data["fillet_interference_margin"]
+    assert fillets["first"] == pytest.approx(margins["fillet_interference_pinion"], rel=1e-12)
+    assert fillets["second"] == pytest.approx(margins["fillet_interference_ring"], rel=1e-12)
+
+
+def test_broken_conditions_are_named() -> None:
+    words = ["kind=internal_gear_pair", "module=2", "first.number_of_teeth=28", "second.number_of_teeth=32",
+             "second.rounded_root.full_round=true"]  # fmt: skip
+    text = calculate("gear-pair", words, "text", "uk")
+    assert FINDINGS["trochoid_interference"][1].split(":")[0] in text
+
+
+def test_wishes_are_met() -> None:
+    values = values_of(SHEETS[7])["values"]
+    assert values["normal_backlash"] == pytest.approx(0.1, rel=1e-9)
+    assert values["circumferential_thinning"]["first"] == pytest.approx(values["circumferential_thinning"]["second"])
+    values = values_of(SHEETS[8])["values"]
+    assert values["working_centre_distance"] == pytest.approx(61, rel=1e-12)
+    assert values["normal_backlash"] == pytest.approx(0, abs=1e-9)
+    values = values_of(SHEETS[9])["values"]
+    assert values["normal_backlash"] == pytest.approx(0.1, rel=1e-9)
+
+
+def test_sliding_vanishes_at_the_pole_and_is_that_of_speeds() -> None:
+    mating: Any = make_parts(load_scene("thesis_internal_pair"), "t")[1][0]
+    pair = mating.pair
+    line = pair.working_centre_distance * 0.3420201433256687
+    pole = pair.pinion.base_radius * 0.36397023426620236
+    assert specific_sliding_internal(pole, line, pair.gear_ratio) == pytest.approx((0, 0), abs=1e-12)
+    # speeds of both flanks along themselves: omega times the distance from their base circles
+    for s in (pole - 5, pole + 5):
+        one, two = s, (s + line) / pair.gear_ratio
+        wanted = (1 - two / one, 1 - one / two)
+        assert specific_sliding_internal(s, line, pair.gear_ratio) == pytest.approx(wanted, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("words", "key"),
+    [
+        ("kind=internal_gear_pair module=2 first.number_of_teeth=20", "gear-pair.second"),
+        ("kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=60 modul=3", "modul"),
+        ("kind=internal_gear_pair module=2 first.number_of_teeth=60 second.number_of_teeth=60", "number_of_teeth"),
+        ("kind=internal_gear_pair module=2 first.number_of_teeth=60 second.number_of_teeth=50 "
+         "working_centre_distance=9", "number_of_teeth"),
+        ("kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=60 "
+         "second.profile_shift_coefficient=0 working_centre_distance=44", "working_centre_distance"),
+        ("kind=rack_pair module=2 first.number_of_teeth=20 second.number_of_teeth=6 second.module=3", "module"),
+        ("kind=rack_pair module=2 first.number_of_teeth=20 second.number_of_teeth=6 working_centre_distance=19",
+         "working_centre_distance"),
+        ("kind=rack_pairs module=2", "kind"),
+    ],
+)  # fmt: skip
+def test_refusals_name_the_key(words: str, key: str) -> None:
+    with pytest.raises(SceneError) as caught:
+        calculate("gear-pair", words.split(), "text", None)
+    assert key in str(caught.value)
