@@ -28,7 +28,7 @@ class EllipticFillet:
 
         e(u) = centre + exp(i (angle - s/r)) (r - n exp(-i u)),    speed (s'/r) n + p + p''.
 
-    A left offset d has tip_radius + d. Derivation: DERIVATIONS.md, section 8.
+    A left offset d has tip_radius + d. Derivation: DERIVATIONS.md, section 9.
     """
 
     pitch_radius: float

@@ -115,6 +115,7 @@ REMARKS = {
     "guidelines_cam": {"soft_impact"},
     "tmm42": {"undercut", "thin_tip"},
     "helical_pair": {"transverse_section"},
+    "helical_gears": {"transverse_section"},
 }
 
 
