@@ -68,7 +68,7 @@ def build(
             written.append(_write_sheet(sheet, staging / sheet.path, verify=verify))
         wanted = dict.fromkeys(j.part.id for j in (*plan.jobs, *(m for a in plan.assemblies for m in a.members)))
         previews = [part_preview(plan.parts[p], staging, plan.scene.scene.language) for p in wanted]
-        if (plan.scene.mates or plan.scene.instances) and len(wanted) == len(plan.parts):
+        if len(plan.placing.instances) > 1 and len(wanted) == len(plan.parts):
             previews.append(scene_preview(plan, checks, staging))
         before = read_report(folder) if partial else None
         write_report(staging / NAME, plan, written, previews, checks, time.perf_counter() - start, before)
