@@ -85,7 +85,9 @@ def distance_to_curves(points: Complex, curves: Sequence[Curve]) -> Real:
     best = np.full(points.shape, np.inf)
     for curve in curves:
         t = np.linspace(*curve.domain, _FINE_SAMPLES)
-        start = _nearest_index(points, curve.point(t))
+        # lines and arcs have their foot in closed form
+        plain = isinstance(curve, Arc | Line)
+        start = np.zeros(points.shape, dtype=np.int64) if plain else _nearest_index(points, curve.point(t))
         best = np.minimum(best, _projected(points, curve, t, start, newton=True))
     return best
 
