@@ -71,7 +71,14 @@ _ASSEMBLY = """
 ##
 ## [[exports]]
 ## format = "step"
-## assembly = true                            # one file, named parts, true instances""".splitlines()
+## assembly = true                            # one file, named parts, true instances
+##
+## [[exports]]
+## format = "sheet"                           # picture of meshing of every pair, DXF and SVG
+## mate = 1                                   # only of this one; purpose = "generating": device TMM-42""".splitlines()
+
+# keys that only sheets have: they stand in the part for several parts
+_SHEET_KEYS = ("mate", "rack_step")
 
 
 def new_scene(kind: str) -> str:
@@ -90,7 +97,7 @@ def new_scene(kind: str) -> str:
         *_keys(spec),
         "",
         "[[exports]]",
-        *_keys(ExportSpec),
+        *_keys(ExportSpec, without=_SHEET_KEYS),
         "",
         "[[exports]]",
         'format = "svg"',
@@ -102,10 +109,10 @@ def new_scene(kind: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _keys(owner: type[Struct]) -> list[str]:
+def _keys(owner: type[Struct], without: tuple[str, ...] = ()) -> list[str]:
     """One line a key; keys with a default stand commented out."""
     lines = []
-    for field in msgspec.structs.fields(owner):
+    for field in (f for f in msgspec.structs.fields(owner) if f.encode_name not in without):
         value = _TABLE_EXAMPLES.get((owner.__name__, field.encode_name)) or _value(field)
         code = f"{field.encode_name} = {value}"
         lines.append(_line(code if field.required else f"# {code}", describe_type(field.type)))
