@@ -217,6 +217,15 @@ def test_the_tables_of_lesson_1_stand_on_the_sheet() -> None:
     assert any("17" in text and "/" in text for text in texts)
 
 
+def test_the_scene_of_the_device_has_its_calculation() -> None:
+    """Both wheels are of one disk: the shifted one brings both tables."""
+    from .test_calc import values_of
+
+    values = values_of("tmm42 tmm42")["values"]
+    assert values["number_of_teeth"] == 10
+    assert values["profile_shift_coefficient"] == pytest.approx(7 / 17, rel=1e-12)
+
+
 def gear(teeth: int = 20, **more: Any) -> dict[str, Any]:
     return {"kind": "spur_gear", "module": 2.0, "number_of_teeth": teeth, **more}
 
