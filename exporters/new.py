@@ -60,8 +60,6 @@ _SET = {
         "base_circle_radius": "30.0",
     }
 }
-# keys of sheets, which a scene of one part has not
-_SHEET_KEYS = ("mate", "rack_step")
 # where the same key means another size
 _TABLE_EXAMPLES = {
     ("HolesTable", "diameter"): "6.0",
@@ -97,12 +95,15 @@ _ASSEMBLY = """
 ## interference = true                        # contact and overlap through a whole pitch
 ##
 ## [[exports]]
-## format = "sheet"
-## purpose = "meshing"                         # the picture of the mesh: circles, line of action, arc of action
+## format = "step"
+## assembly = true                            # one file, named parts, true instances
 ##
 ## [[exports]]
-## format = "step"
-## assembly = true                            # one file, named parts, true instances""".splitlines()
+## format = "sheet"                           # picture of meshing of every pair, DXF and SVG
+## mate = 1                                   # only of this one; purpose = "generating": device TMM-42""".splitlines()
+
+# keys that only sheets have: they stand in the part for several parts
+_SHEET_KEYS = ("mate", "rack_step")
 
 
 def new_scene(kind: str) -> str:
@@ -121,7 +122,7 @@ def new_scene(kind: str) -> str:
         *_keys(spec),
         "",
         "[[exports]]",
-        *_keys(ExportSpec),
+        *_keys(ExportSpec, without=_SHEET_KEYS),
         "",
         "[[exports]]",
         'format = "svg"',
@@ -133,12 +134,10 @@ def new_scene(kind: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _keys(owner: type[Struct]) -> list[str]:
+def _keys(owner: type[Struct], without: tuple[str, ...] = ()) -> list[str]:
     """One line a key; keys with a default stand commented out."""
     lines = []
-    for field in msgspec.structs.fields(owner):
-        if field.encode_name in _SHEET_KEYS:
-            continue
+    for field in (f for f in msgspec.structs.fields(owner) if f.encode_name not in without):
         value = _SET.get(owner.__name__, {}).get(field.encode_name)
         shown = value or _TABLE_EXAMPLES.get((owner.__name__, field.encode_name)) or _value(field)
         code = f"{field.encode_name} = {shown}"

@@ -83,7 +83,10 @@ def distance_to_profile(points: Complex, profile: Profile, *, trusted: float = 0
 def distance_to_curve(points: Complex, curve: Curve) -> Real:
     """Distance of each point (n,) from one curve, mm: projection from its nearest of 65 samples."""
     t = np.linspace(*curve.domain, _FINE_SAMPLES)
-    return _projected(points, curve, t, _nearest_index(points, curve.point(t)), newton=True)
+    # lines and arcs have their foot in closed form
+    plain = isinstance(curve, Arc | Line)
+    start = np.zeros(points.shape, dtype=np.int64) if plain else _nearest_index(points, curve.point(t))
+    return _projected(points, curve, t, start, newton=True)
 
 
 def distance_to_curves(points: Complex, curves: Sequence[Curve]) -> Real:

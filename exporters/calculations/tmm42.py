@@ -44,7 +44,7 @@ class Tmm42Keys(Struct, forbid_unknown_fields=True):
 
 def table_from(scene: Any, source: str, table: dict[str, Any]) -> dict[str, Any]:
     """The keys of a part of a scene that the device knows, changed by those of the command line."""
-    part = given(scene.parts[only_part(scene, source, table.pop("part", None))])
+    part = given(scene.parts[_part(scene, source, table.pop("part", None))])
     known = {
         k: part[k]
         for k in ("module", "number_of_teeth", "pressure_angle_deg", "profile_shift_coefficient")
@@ -53,6 +53,14 @@ def table_from(scene: Any, source: str, table: dict[str, Any]) -> dict[str, Any]
     if not known.get("profile_shift_coefficient"):
         known.pop("profile_shift_coefficient", None)
     return known | table
+
+
+def _part(scene: Any, source: str, wanted: str | None) -> str:
+    """The part asked for; of several wheels of one disk the one with the greatest shift, which has both tables."""
+    gears = {key: spec for key, spec in scene.parts.items() if isinstance(spec, SpurGearSpec)}
+    if wanted is None and gears and len({(g.module, g.number_of_teeth) for g in gears.values()}) == 1:
+        return max(gears, key=lambda key: abs(gears[key].profile_shift_coefficient))
+    return only_part(scene, source, wanted)
 
 
 def sheet(table: dict[str, Any]) -> Sheet:

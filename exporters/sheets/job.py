@@ -11,6 +11,7 @@ from exporters.sheets.canvas import Canvas, decimal
 from exporters.sheets.meshing import Facts, meshing_canvas
 from exporters.sheets.table import Row
 from exporters.sheets.verify import Circle, Expected, Meshing, verify_sheet
+from exporters.sheets.view import TEETH
 from exporters.sheets.words import sheet_words
 from exporters.sheets.write import write_sheet
 from exporters.verify import Verdict
@@ -133,7 +134,7 @@ def _meshing(mating: Mating, language: str, tolerance: float) -> Expected:
         (paper.point(b.centre), paper.scale * b.radii["base"]) for b in picture.bodies if b.centre is not None
     )
     teeth = {
-        "OUTLINE": [c for b in picture.bodies for c in b.chain(picture.shown, 3)],
+        "OUTLINE": [c for b in picture.bodies for c in b.chain(picture.shown, TEETH)],
         "TOOTH_START": [c for b in picture.bodies for c in b.tooth_at(picture.start)],
         "TOOTH_END": [c for b in picture.bodies for c in b.tooth_at(picture.end)],
         "ACTIVE_FLANK": [c for b in picture.bodies for c in b.active_at(picture.shown)],

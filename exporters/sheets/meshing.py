@@ -7,10 +7,6 @@ import math
 from dataclasses import dataclass, replace
 
 from exporters.sheets.canvas import (
-    FRAME,
-    FRAME_LEFT,
-    PAPERS,
-    SCALES,
     TEXT_HEIGHT,
     Box,
     Canvas,
@@ -23,17 +19,11 @@ from exporters.sheets.canvas import (
 )
 from exporters.sheets.labels import Labeller
 from exporters.sheets.table import Row, draw_table, table_size
+from exporters.sheets.view import GAP, NAMES, TEETH, View, ends_of, is_up, layout
 from exporters.sheets.words import sheet_words
-from geometry.curve import Curve
 from geometry.gears.meshing_picture import CIRCLES, Body, MeshingPicture
 from geometry.line_arc import Arc, Line
 
-# teeth drawn in the main position
-_TEETH = 3
-# the least module on paper, mm, below which more of the axes is left off the sheet
-_LEAST_MODULE = 12.0
-# on both sides of the picture, for the names of circles; above it, for the title; mm
-_NAMES, _TITLE, _GAP = 34.0, 14.0, 6.0
 # how far inside a body its dimension arc runs, mm on paper
 _INSIDE = 11.0
 # circles are drawn at most this far from the line of centres
@@ -53,27 +43,11 @@ class Facts:
     rows: tuple[Row, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class View:
-    """The part of the plane that is drawn (model mm), where it lies on paper, and what of the axes it holds."""
-
-    window: Box
-    paper: Paper
-    room: Box
-
-    def shows(self, body: Body, name: str) -> bool:
-        """Whether a circle of a body crosses the line of centres in the window."""
-        if body.centre is None:
-            return self.window.low <= body.radii[name] <= self.window.high
-        height = body.centre.imag + (1 if _is_up(body, self.window) else -1) * body.radii[name]
-        return self.window.low <= height <= self.window.high
-
-
 def meshing_canvas(
     picture: MeshingPicture, module: float, facts: Facts, language: str, tolerance: float
 ) -> tuple[Canvas, View]:
     """The sheet of a picture and what of the plane it shows, where; ``module`` in mm, ``tolerance`` in mm on paper."""
-    canvas, view = _layout(picture, module, facts)
+    canvas, view = layout(picture, module, facts.rows)
     scale = view.paper.scale
     canvas.box("FRAME", canvas.frame)
     fans = [_fan(body, view.window) for body in picture.bodies]
@@ -86,7 +60,7 @@ def meshing_canvas(
     dimensions = _dimensions(canvas, picture, view)
     title = facts.title
     top = canvas.frame.high - 9.0
-    canvas.write(title, complex(canvas.frame.left + _GAP, top), 5.0, canvas.frame.right - canvas.frame.left - 2 * _GAP)
+    canvas.write(title, complex(canvas.frame.left + GAP, top), 5.0, canvas.frame.right - canvas.frame.left - 2 * GAP)
     rows = list(facts.rows)
     for index, body in enumerate(picture.bodies, 1):
         # what a picture of large gears leaves out
@@ -100,7 +74,7 @@ def meshing_canvas(
     labels = Labeller(canvas, view.room)
     for index, (found, body) in enumerate(zip(ends, picture.bodies, strict=True)):
         left = index == 0
-        edge = view.room.left + _NAMES - 3 if left else view.room.right - _NAMES + 3
+        edge = view.room.left + NAMES - 3 if left else view.room.right - NAMES + 3
         low = view.room.low + TEXT_HEIGHT
         names = [(_circle_name(body, name, index, language), end[0 if left else 1]) for name, end in found]
         labels.column(names, edge, low, view.room.high - TEXT_HEIGHT, left=left)
@@ -115,84 +89,11 @@ def _circle_name(body: Body, name: str, index: int, language: str) -> str:
     return f"r_{{{symbol}}} = {decimal(f'{body.radii[name]:.2f}', language)}"
 
 
-def _layout(picture: MeshingPicture, module: float, facts: Facts) -> tuple[Canvas, View]:
-    """The smallest sheet on which the teeth can be seen, with as much of the axes as they leave room for."""
-    # the scale, and base circles that lie off the sheet
-    table = table_size([*facts.rows, *[Row("")] * 3])
-    best: tuple[float, str, bool, Box] | None = None
-    for depth in (2, 1, 0):
-        window = _window(picture, module, depth)
-        for name in ("A3", "A2", "A1"):
-            for upright in (False, True):
-                scale = _greatest_scale(window, _field(name, upright, table))
-                enough = scale * module >= _LEAST_MODULE
-                better = best is None or scale > best[0] * 1.01
-                if (enough or (depth == 0 and name == "A1")) and better:
-                    best = scale, name, upright, window
-            if best is not None and best[0] * module >= _LEAST_MODULE:
-                break
-        if best is not None and best[0] * module >= _LEAST_MODULE:
-            break
-    assert best is not None
-    scale, name, upright, window = best
-    size = PAPERS[name]
-    width, height = size if upright else size[::-1]
-    canvas = Canvas(width, height, name)
-    left, low, right, high = _field(name, upright, table)
-    middle = complex(left + right, low + high) / 2
-    origin = middle - scale * complex(window.left + window.right, window.low + window.high) / 2
-    room = Box(left - _NAMES, low, right + _NAMES, high)
-    return canvas, View(window, Paper(scale, origin), room)
-
-
-def _field(name: str, upright: bool, table: tuple[float, float]) -> tuple[float, float, float, float]:
-    """Where the picture itself may lie: left, low, right, high, mm; the table stands below it or on its right."""
-    size = PAPERS[name]
-    width, height = size if upright else size[::-1]
-    left, right = FRAME_LEFT + _NAMES + 2, width - FRAME - _NAMES - 2
-    low, high = FRAME + _GAP, height - FRAME - _TITLE
-    if upright:
-        return left, low + table[1], right, high
-    return left, low, right - table[0], high
-
-
-def _greatest_scale(window: Box, field: tuple[float, float, float, float]) -> float:
-    left, low, right, high = field
-    most = min((right - left) / (window.right - window.left), (high - low) / (window.high - window.low))
-    return next((s for s in SCALES if s <= most), most)
-
-
-def _window(picture: MeshingPicture, module: float, depth: int) -> Box:
-    """What must be seen, model mm: teeth and contact; from depth 1 on N1 and N2, at depth 2 the axes too."""
-    points: list[complex] = [picture.on_line(s) for s in (picture.start, picture.end, picture.pole)]
-    for s in (picture.start, picture.end):
-        for body in picture.bodies:
-            points += [_ends(c)[k] for c in body.tooth_at(s) for k in (0, 1)]
-    for body in picture.bodies:
-        points += [_ends(c)[k] for c in body.chain(picture.shown, _TEETH) for k in (0, 1)]
-    arc = picture.arc_of_action
-    points += [complex(arc.point(t)) for t in (0.0, arc.sweep / 2, arc.sweep)]
-    # room for the dimension arcs inside the bodies
-    points += [complex(0, p.imag + sign * 1.2 * module) for p in points for sign in (-1, 1)]
-    if depth >= 1:
-        points += [p for p in picture.tangent_points if p is not None]
-    if depth >= 2:
-        points += [b.centre for b in picture.bodies if b.centre is not None]
-    xs, ys = [p.real for p in points], [p.imag for p in points]
-    pad = 0.6 * module
-    return Box(min(xs) - pad, min(ys) - pad, max(xs) + pad, max(ys) + pad)
-
-
-def _ends(curve: Curve) -> tuple[complex, complex]:
-    a, b = curve.domain
-    return complex(curve.point(a)), complex(curve.point(b))
-
-
 def _fan(body: Body, window: Box) -> tuple[float, float]:
     """How far the circles run to the left and to the right of the line of centres, rad; a rack's lines, mm."""
     if body.centre is None:
         return -window.left, window.right
-    up = _is_up(body, window)
+    up = is_up(body, window)
     sides = []
     for reach in (body.centre.real - window.left, window.right - body.centre.real):
         angles = [_WIDEST]
@@ -204,12 +105,6 @@ def _fan(body: Body, window: Box) -> tuple[float, float]:
                 angles.append(math.acos(drop / radius))
         sides.append(min(angles))
     return sides[0], sides[1]
-
-
-def _is_up(body: Body, window: Box) -> bool:
-    """Whether the mesh lies above the body's axis."""
-    assert body.centre is not None
-    return body.centre.imag < (window.low + window.high) / 2 or body.centre == 0
 
 
 def _circles(
@@ -226,12 +121,12 @@ def _circles(
             canvas.strokes.append(_stroke(layer, view.paper, line))
             found.append((name, (view.paper.point(line.start), view.paper.point(line.end))))
             continue
-        if _is_up(body, view.window):
+        if is_up(body, view.window):
             arc = Arc(body.centre, radius, math.pi / 2 - fan[1], fan[0] + fan[1])
-            ends = _ends(arc)[1], _ends(arc)[0]
+            ends = ends_of(arc)[1], ends_of(arc)[0]
         else:
             arc = Arc(body.centre, radius, -math.pi / 2 - fan[0], fan[0] + fan[1])
-            ends = _ends(arc)
+            ends = ends_of(arc)
         canvas.arc(layer, _arc(view.paper, arc))
         found.append((name, (view.paper.point(ends[0]), view.paper.point(ends[1]))))
     return found
@@ -247,7 +142,7 @@ def _teeth(canvas: Canvas, picture: MeshingPicture, view: View, tolerance: float
         for layer, made in (
             ("TOOTH_START", body.tooth_at(picture.start)),
             ("TOOTH_END", body.tooth_at(picture.end)),
-            ("OUTLINE", body.chain(picture.shown, _TEETH)),
+            ("OUTLINE", body.chain(picture.shown, TEETH)),
             ("ACTIVE_FLANK", body.active_at(picture.shown)),
         ):
             draw(canvas, layer, made, view.paper)
@@ -279,7 +174,7 @@ def _angle_radius(picture: MeshingPicture, view: View) -> float:
     return min(max(1.35 * view.paper.scale * (picture.end - picture.pole), 14.0), most)
 
 
-def _line_ends(picture: MeshingPicture) -> tuple[float, float]:
+def _lineends_of(picture: MeshingPicture) -> tuple[float, float]:
     """Places s of N1 and N2; of a rack the end lies beyond the active line."""
     last = picture.tangent_points[1]
     if last is None:
@@ -290,7 +185,7 @@ def _line_ends(picture: MeshingPicture) -> tuple[float, float]:
 
 def _clipped(picture: MeshingPicture, window: Box) -> tuple[float, float]:
     """The part of the line of action between N1 and N2 (and the active line) that the window holds."""
-    low, high = _line_ends(picture)
+    low, high = _lineends_of(picture)
     start, way = picture.tangent_points[0], picture.direction
     for at, step, least, most in (
         (start.real, way.real, window.left, window.right),
