@@ -125,9 +125,7 @@ def _write(job: Job, shape: tuple[Shape, float], file: Path, source: str, *, ver
         raise _too_coarse(job, source) from error
     seconds["write"] = time.perf_counter() - start
     max_error, bound = declared_error(job, made)
-    # what is said of flat outlines does not concern solids
-    general = [f for f in job.part.findings if not (job.is_solid and f.code == "transverse_section")]
-    findings = (*general, *job.section.findings, *_job_findings(job, made))
+    findings = (*job.part.findings, *job.section.findings, *_job_findings(job, made))
     if not verify:
         return Written(job, file, max_error, bound, entities, {}, findings, (), seconds)
     from exporters.verify import verify_file

@@ -114,8 +114,6 @@ def test_a_scene_is_found_by_name_and_by_path_and_the_path_wins(
 REMARKS = {
     "guidelines_cam": {"soft_impact"},
     "tmm42": {"undercut", "thin_tip"},
-    "helical_pair": {"transverse_section"},
-    "helical_gears": {"transverse_section"},
 }
 
 
