@@ -251,6 +251,7 @@ WRITERS: dict[str, Callable[[Job, Any, Path], dict[str, int]]] = {
 def _job_findings(job: Job, made: Shape) -> list[Finding]:
     """Remarks on one file: a tolerance too coarse for the teeth, edges too short for a laser."""
     found = [] if job.is_solid or job.part.is_plate else [Finding("flat_outline", 0.0, 0.0)]
+    found += [] if job.is_solid else job.part.flat_findings
     # a part without teeth has none to lose
     limit = _COARSE_SHARE * job.part.quantities.get("pitch", math.inf) / math.pi
     if not job.is_cad and (job.export.tolerance or 0.0) > limit:

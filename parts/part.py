@@ -19,6 +19,7 @@ class Part:
     the material; both are computed when an export asks. ``face_width``: height of the toothed rim, mm.
     ``circles`` are named diameters in mm for drawings and
     reports, ``quantities`` all other named results. ``density`` in g/cm^3, None where the material is not known.
+    ``flat_findings``: remarks on each flat outline of the part.
     """
 
     id: str
@@ -33,6 +34,7 @@ class Part:
     material: str | None = None
     colour: str | None = None
     density: float | None = None
+    flat_findings: tuple[Finding, ...] = ()
 
     def to_trimesh(self, tolerance: float = 0.01, offset: float = 0.0) -> Any:
         """A ``trimesh.Trimesh`` within ``tolerance`` mm of the exact solid."""

@@ -137,7 +137,7 @@ def rack_part(part_id: str, spec: RackSpec, rack: Rack) -> Part:
         section=section,
         body=lru_cache(maxsize=2)(body),
         face_width=spec.face_width,
-        findings=section_finding(spec),
+        flat_findings=section_finding(spec),
         quantities=quantities,
         material=spec.material,
         colour=spec.colour,

@@ -147,12 +147,13 @@ def spur_gear_part(part_id: str, spec: SpurGearSpec, gear: SpurGear) -> Part:
         lru_cache(maxsize=2)(lambda offset: wheel_body(shape, sections, offset)),
         spec.face_width,
         shape.is_plate,
-        (*findings(gear), *section_finding(spec)),
+        findings(gear),
         circles,
         quantities,
         spec.material,
         spec.colour,
         spec.density or density_of(spec.material),
+        section_finding(spec),
     )
 
 
