@@ -171,8 +171,9 @@ def _label(
     for index, gear in enumerate(gears):
         key = "zero_wheel" if gear.profile_shift_coefficient == 0 else "shifted_wheel"
         way = 1j if index == 0 else -1j
-        below = paper.origin + way * paper.scale * gear.root_radius * 0.55
-        labels.name(sheet_words(language, key), below, 5.0)
+        # on its own side of the axis, right of the centre line
+        reach = paper.scale * gear.root_radius
+        canvas.write(sheet_words(language, key), paper.origin + 2.0 + 0.3 * reach * way, most=0.9 * reach)
         form, side = root_form_diameter(gear) / 2, tooth_side(gear)
         if undercut(gear).margin < 0 and form - gear.base_radius > _SEEN_UNDERCUT * gear.module:
             at = next(
