@@ -191,6 +191,10 @@ FINDINGS: dict[str, tuple[str, str]] = {
         "thin rim: {value:.3f} mm outside the root circle, less than one module ({limit:.3f} mm)",
         "тонкий обід: {value:.3f} мм зовні кола западин, менше за модуль ({limit:.3f} мм)",
     ),
+    "short_rack": (
+        "the rack has {value:.0f} teeth: fewer than {limit:.0f}; the check knows nothing of its ends",
+        "рейка має {value:.0f} зубців: менше за {limit:.0f}; перевірка не знає її країв",
+    ),
     "offset_in_mesh": (
         "the outlines are moved out by {value:.4g} mm: gears in mesh lose {limit:.4g} mm of backlash, unchecked",
         "контури зсунуто назовні на {value:.4g} мм: пара втрачає {limit:.4g} мм зазору, чого перевірка не знає",

@@ -89,6 +89,8 @@ def _rounded(value: float, digits: int, rounding: Callable[[float], int]) -> str
 
 def format_value(value: object) -> str:
     """A value as it would stand in a scene file."""
+    if isinstance(value, bool):
+        return str(value).lower()
     if isinstance(value, float):
         text = f"{value:.12g}"
         return f"{text}.0" if text.lstrip("-").isdigit() else text

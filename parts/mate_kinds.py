@@ -27,7 +27,10 @@ _Direction = Annotated[
     float, Meta(ge=-360, le=360, description="direction of the line of centres", extra={"unit": "degrees"})
 ]
 _Distance = Annotated[float, mm("centre distance; default: that of the shifts, without backlash", above=0, most=1e6)]
-_Backlash = Annotated[float, mm("backlash along the line of action: thins both gears by half", least=0, most=100)]
+_Backlash = Annotated[
+    float,
+    mm("backlash along the line of action (in the transverse plane): thins both gears by half", least=0, most=100),
+]
 
 
 class ExternalGearPairSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="external_gear_pair"):
@@ -351,8 +354,12 @@ class RackMating:
         return rack_contact(self.pair, rack_shift=phase_off, distance_shift=distance_off, tolerance=tolerance)
 
     def findings(self) -> tuple[Finding, ...]:
-        """Conditions of the pair that are not kept."""
-        return self.pair.findings()
+        """Conditions of the pair that are not kept; a rack has the teeth that are in contact at once, and one more."""
+        from geometry.findings import Finding
+
+        teeth, needed = self.pair.rack.number_of_teeth, math.ceil(self.pair.contact_ratio) + 1
+        short = (Finding("short_rack", float(teeth), float(needed)),) if teeth < needed else ()
+        return (*self.pair.findings(), *short)
 
     def quantities(self) -> dict[str, Any]:
         """Working quantities; the working circle is the reference circle."""

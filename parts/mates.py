@@ -11,7 +11,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from geometry.errors import ParameterError, at_least
+from geometry.errors import GeometryError, ParameterError, at_least, at_most
 from parts.mate_kinds import (
     ExternalGearPairSpec,
     ExternalMating,
@@ -62,6 +62,21 @@ def mated(gears: dict[str, Any], mates: list[Any], part_of: dict[str, str]) -> t
 def _pair(mate: Any, first: Any, second: Any) -> Any:
     """The pair of a mate, the mathematics loaded only for the kinds that a scene has."""
     distance = mate.working_centre_distance
+    pair = _pair_at(mate, first, second, distance)
+    if distance is not None and pair.contact_ratio <= 0:
+        nominal = _pair_at(mate, first, second, None)
+        low, high = nominal.distance if hasattr(nominal, "distance") else nominal.working_centre_distance, distance
+        for _ in range(40):
+            middle = (low + high) / 2
+            reaches = _pair_at(mate, first, second, middle).contact_ratio >= min(1.0, nominal.contact_ratio)
+            low, high = (middle, high) if reaches else (low, middle)
+        limit = f"at most {at_most(low, 4)}" if distance > low else f"at least {at_least(low, 4)}"
+        text = f"the teeth do not reach each other; {limit} mm works"
+        raise ParameterError("mate.working_centre_distance", distance, text)
+    return pair
+
+
+def _pair_at(mate: Any, first: Any, second: Any, distance: float | None) -> Any:
     try:
         if isinstance(mate, ExternalGearPairSpec):
             from geometry.gears.pair import external_pair
@@ -117,10 +132,55 @@ def _thinned(gears: dict[str, Any], mates: list[Any], part_of: dict[str, str]) -
             least = (sum(own) * math.cos(angle)) + given
             text = f"the gears' own thinning and distance give more; at least {at_least(least)} mm works"
             raise ParameterError("mate.normal_backlash", mate.normal_backlash, text)
+        if not free:
+            continue
+        terms = (sum(own), len(free), given, math.cos(angle))
+        share = _possible([gears[n] for n in free], rest / len(free), mate, terms)
         for name in free:
-            share = rest / len(free)
             asked[name] = max(asked.get(name, 0.0), share)
     return {n: replace(g, circumferential_thinning=asked[n]) if asked.get(n) else g for n, g in gears.items()}
+
+
+def _possible(free: list[Any], share: float, mate: Any, terms: tuple[float, int, float, float]) -> float:
+    """A thinning of each gear that leaves whole teeth, mm; else refused with the largest backlash that does."""
+
+    def whole(thinning: float) -> bool:
+        try:
+            for gear in free:
+                _build(replace(gear, circumferential_thinning=thinning))
+        except GeometryError:
+            return False
+        return True
+
+    if share <= 0 or whole(share):
+        return share
+    low, high = 0.0, share
+    for _ in range(30):
+        middle = (low + high) / 2
+        low, high = (middle, high) if whole(middle) else (low, middle)
+    own, number, given, cosine = terms
+    most = (own + number * low) * cosine + given
+    text = f"leaves no whole teeth; at most {at_most(most, 4)} mm works"
+    raise ParameterError("mate.normal_backlash", mate.normal_backlash, text)
+
+
+def _build(gear: Any) -> None:
+    """Build a tooth of any kind of gear."""
+    from geometry.gears.rack import Rack
+    from geometry.gears.spur import SpurGear
+
+    if isinstance(gear, SpurGear):
+        from geometry.gears.tooth import tooth_side
+
+        tooth_side(gear)
+    elif isinstance(gear, Rack):
+        from geometry.gears.rack import checked_part_rack
+
+        checked_part_rack(gear)
+    else:
+        from geometry.gears.ring_limits import checked_ring
+
+        checked_ring(gear)
 
 
 def _backlash_at(mate: Any, first: Any, second: Any) -> float:

@@ -308,11 +308,18 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
             mated(gears, [mate], part_of)
         except ParameterError as error:
             owner, _, key = error.name.rpartition(".")
-            place = f".{key}" if owner == "mate" else f": parts.{part_of[mate.second]}.{error.name}"
+            place = f".{key}" if owner == "mate" else f": parts.{_blamed(scene, mate, part_of)}.{error.name}"
             raise SceneError(source, f"mates[{index + 1}]{place}", error.value, error.allowed) from error
     gears, matings = mated(gears, scene.mates, part_of)
     parts = {key: KINDS[spec.__struct_config__.tag][2](key, spec, gears[key]) for key, spec in scene.parts.items()}
     return parts, matings
+
+
+def _blamed(scene: SceneFile, mate: Any, part_of: dict[str, str]) -> str:
+    """The part in whose keys a pair's refusals speak: the ring of an internal pair, else the second."""
+    names = [part_of[mate.first], part_of[mate.second]]
+    rings = [name for name in names if scene.parts[name].__struct_config__.tag == "ring_gear"]
+    return rings[0] if rings else names[1]
 
 
 def _check_kinds(scene: SceneFile, mate: Any, part_of: dict[str, str], source: str, place: str) -> None:
@@ -326,7 +333,7 @@ def _check_kinds(scene: SceneFile, mate: Any, part_of: dict[str, str], source: s
     wanted = " or ".join(f"{a} and {b}" for a, b in JOINS[mate_kind])
     other = next((m for m, joins in JOINS.items() if found in joins), None)
     hint = f'; kind = "{other}" joins these two' if other else ""
-    remedy = f"is a {found[index]}; an {mate_kind} joins {wanted}{hint}"
+    remedy = f"is a {found[index]}; {mate_kind} joins {wanted}{hint}"
     raise SceneError(source, f"{place}.{key}", getattr(mate, key), remedy)
 
 
@@ -341,6 +348,9 @@ def _check_helices(scene: SceneFile, mate: Any, part_of: dict[str, str], source:
     fault = mesh_fault(first, second, internal=mate.__struct_config__.tag == "internal_gear_pair")
     if fault is None and one.module != two.module:
         fault = "module", two.module, f"must be that of its mate; {one.module:.12g} works"
+    if fault is None and first.double and one.face_width != two.face_width:
+        # the points of both herringbones stand half way up
+        fault = "face_width", two.face_width, f"must be that of its mate; {one.face_width:.12g} works"
     if fault is not None:
         key, value, remedy = fault
         raise SceneError(source, f"{place}: parts.{part_of[mate.second]}.{key}", value, remedy)

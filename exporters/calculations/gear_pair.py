@@ -81,9 +81,15 @@ def table_from(scene: Any, source: str, table: dict[str, Any]) -> dict[str, Any]
         # a pinion is the first of its sheet
         specs.reverse()
     known = {"kind": kind, **{name: given(spec) for name, spec in zip(GEARS, specs, strict=True)}}
-    if kind == "external_gear_pair":
-        return _merged(known, table)
     wishes = {key: getattr(mate, key) for key in ("working_centre_distance", "normal_backlash")}
+    if kind == "external_gear_pair":
+        if (distance := wishes.pop("working_centre_distance")) is not None and "working_centre_distance" not in table:
+            remedy = (
+                "the sheet takes the distance from the shifts; working_centre_distance=... on the command line finds "
+                "shifts for one"
+            )
+            raise SceneError(source, f"mates[{index}].working_centre_distance", distance, remedy)
+        return _merged(known | {k: v for k, v in wishes.items() if v is not None}, table)
     return merged(known | {k: v for k, v in wishes.items() if v is not None}, table, kind)
 
 

@@ -74,6 +74,12 @@ def table_from(scene: Any, source: str, table: dict[str, Any]) -> dict[str, Any]
     """The keys of a mate of a scene that matter here, changed by those of the command line."""
     pair = gear_pair.table_from(scene, source, {k: table.pop(k) for k in ("mate",) if k in table})
     first = pair["first"]
+    if pair.get("kind", "external_gear_pair") != "external_gear_pair":
+        remedy = "is chosen for external pairs only; give mate = the number of one"
+        raise SceneError(source, "mate", pair["kind"], remedy)
+    if any(pair[name].get("helix_angle_deg") for name in gear_pair.GEARS):
+        angle = first.get("helix_angle_deg", 0.0)
+        raise SceneError(source, "helix_angle_deg", angle, "shifts are chosen for spur gears only; 0 works")
     known = {k: first[k] for k in ("module", "pressure_angle_deg", "basic_rack") if k in first}
     teeth = {name: {"number_of_teeth": pair[name]["number_of_teeth"]} for name in gear_pair.GEARS}
     return {**known, **teeth, **table}

@@ -179,3 +179,48 @@ def test_helical_gears_mesh_at_every_height() -> None:
         one, two = (polygon(made[k], by_id[k], extra) for k, extra in zip("ab", turns, strict=True))
         assert one.intersection(two).area < 2e-3
         assert one.distance(two) < 0.004
+
+
+@pytest.mark.parametrize("kind", ["internal_gear_pair", "rack_pair", "external_gear_pair"])
+def test_a_backlash_that_leaves_no_teeth_names_one_that_does(kind: str) -> None:
+    parts = {"internal_gear_pair": (RING, SUN), "rack_pair": (WHEEL, RACK), "external_gear_pair": (SUN, WHEEL)}[kind]
+    mate = {"kind": kind, "first": "a", "second": "b", "normal_backlash": 6.0}
+    with pytest.raises(SceneError) as caught:
+        scene({"a": parts[0], "b": parts[1]}, mate)
+    assert caught.value.key == "mates[1].normal_backlash"
+    most = float(caught.value.remedy.split("at most ")[1].split(" mm")[0])
+    assert scene({"a": parts[0], "b": parts[1]}, {**mate, "normal_backlash": most})[1]
+
+
+@pytest.mark.parametrize(
+    ("kind", "distance"), [("external_gear_pair", 60.0), ("rack_pair", 40.0), ("internal_gear_pair", 37.7)]
+)
+def test_gears_that_do_not_reach_each_other_are_refused(kind: str, distance: float) -> None:
+    parts = {"internal_gear_pair": (RING, SUN), "rack_pair": (WHEEL, RACK), "external_gear_pair": (SUN, WHEEL)}[kind]
+    mate = {"kind": kind, "first": "a", "second": "b", "working_centre_distance": distance}
+    with pytest.raises(SceneError) as caught:
+        scene({"a": parts[0], "b": parts[1]}, mate)
+    assert caught.value.key == "mates[1].working_centre_distance"
+    value = float(caught.value.remedy.split(" mm works")[0].split()[-1])
+    assert scene({"a": parts[0], "b": parts[1]}, {**mate, "working_centre_distance": value})[1]
+
+
+def test_a_ring_is_blamed_for_what_is_the_ring_s() -> None:
+    mate = {"kind": "internal_gear_pair", "first": "ring", "second": "sun"}
+    with pytest.raises(SceneError) as caught:
+        scene({"ring": RING, "sun": {**SUN, "module": 3.0}}, mate)
+    assert caught.value.key == "mates[1]: parts.ring.module"
+
+
+def test_a_rack_that_is_shorter_than_its_mesh_says_so() -> None:
+    mate = {"kind": "rack_pair", "first": "a", "second": "b"}
+    for teeth, codes in ((1, {"short_rack"}), (8, set())):
+        _, matings, _ = scene({"a": WHEEL, "b": {**RACK, "number_of_teeth": teeth}}, mate)
+        assert {f.code for f in matings[0].findings()} & {"short_rack"} == codes
+
+
+def test_herringbones_need_one_width() -> None:
+    double = {**HELICAL, "double_helical": True}
+    mate = {"kind": "external_gear_pair", "first": "a", "second": "b"}
+    with pytest.raises(SceneError, match="face_width"):
+        scene({"a": {**double, "face_width": 10.0}, "b": {**double, "hand": "left", "face_width": 20.0}}, mate)
