@@ -233,7 +233,9 @@ def test_cut_twists_leave_the_surface_alone() -> None:
     assert body_moments(cut).volume == pytest.approx(body_moments(body).volume, rel=1e-13)
 
 
-@pytest.mark.parametrize(("first", "second", "internal"), list(product(("right", "left"), ("right", "left"), (False, True))))
+@pytest.mark.parametrize(
+    ("first", "second", "internal"), list(product(("right", "left"), ("right", "left"), (False, True)))
+)
 def test_hands_mesh_where_the_pitch_lines_move_alike(first: str, second: str, internal: bool) -> None:
     """On the pitch line both sections must move alike with the height: r_1 w_1 = -r_2 w_2, or + for a ring."""
     helices = [Helix(0.3, hand) for hand in (first, second)]  # type: ignore[arg-type]
