@@ -179,8 +179,6 @@ def _drawing_pieces(file: Path) -> list[Complex]:
 def _step_pieces(file: Path, z: float) -> list[Complex]:
     """Samples of every smooth span of the upright walls at a height, (8,) each, evaluated by the kernel."""
     from OCP.BRepAdaptor import BRepAdaptor_Surface
-    from OCP.GeomAbs import GeomAbs_Shape, GeomAbs_SurfaceType
-    from OCP.TColStd import TColStd_Array1OfReal
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopExp import TopExp_Explorer
     from OCP.TopoDS import TopoDS
@@ -193,20 +191,31 @@ def _step_pieces(file: Path, z: float) -> list[Complex]:
         surface: Any = BRepAdaptor_Surface(TopoDS.Face_s(faces.Current()))
         faces.Next()
         low, high = surface.FirstVParameter(), surface.LastVParameter()
-        kind, begin = surface.GetType(), surface.FirstUParameter()
-        bottom, top = surface.Value(begin, low), surface.Value(begin, high)
+        bottom, top = (surface.Value(surface.FirstUParameter(), v) for v in (low, high))
         if not min(bottom.Z(), top.Z()) < z < max(bottom.Z(), top.Z()) or abs(bottom.X() - top.X()) > _JOINT:
             continue
-        spans = surface.NbUIntervals(GeomAbs_Shape.GeomAbs_CN)
-        marks = TColStd_Array1OfReal(1, spans + 1)
-        surface.UIntervals(marks, GeomAbs_Shape.GeomAbs_CN)
-        edges = np.array([marks.Value(k) for k in range(1, spans + 2)])
-        if kind == GeomAbs_SurfaceType.GeomAbs_Cylinder:
-            edges = np.linspace(edges[0], edges[-1], max(2, math.ceil((edges[-1] - edges[0]) / math.radians(5))) + 1)
+        edges = _smooth_spans(surface)
         for a, b in zip(edges[:-1], edges[1:], strict=True):
             places = [surface.Value(u, low) for u in (a + share * (b - a)).tolist()]
             pieces.append(np.array([complex(p.X(), p.Y()) for p in places]))
     return pieces
+
+
+def _smooth_spans(surface: Any) -> Real:
+    """Parameters between which a wall is smooth: knots of its spline (the kernel's intervals pass over simple ones)."""
+    from OCP.GeomAbs import GeomAbs_CurveType, GeomAbs_SurfaceType
+
+    low, high = surface.FirstUParameter(), surface.LastUParameter()
+    kind = surface.GetType()
+    if kind == GeomAbs_SurfaceType.GeomAbs_Cylinder:
+        return np.linspace(low, high, max(2, math.ceil((high - low) / math.radians(5))) + 1)
+    if kind == GeomAbs_SurfaceType.GeomAbs_SurfaceOfExtrusion:
+        basis = surface.BasisCurve()
+        if basis.GetType() == GeomAbs_CurveType.GeomAbs_BSplineCurve:
+            spline = basis.BSpline()
+            knots = np.array([spline.Knot(k) for k in range(1, spline.NbKnots() + 1)])
+            return np.array([low, *knots[(knots > low + _JOINT) & (knots < high - _JOINT)], high])
+    return np.array([low, high])
 
 
 def _nodes() -> Real:
