@@ -73,7 +73,10 @@ def reroll(
     if not excess[worst] <= 0:
         found = f"{abs(error[worst]) * unit:.6g} {'mm' if unit == 1.0 else 'degrees'}"
         place = f"cam angle {math.degrees(angle[worst]):.6g} degrees"
-        failures = (*failures, f"the follower's lift is wrong by {found} at {place}, more than the outline's error allows")
+        failures = (
+            *failures,
+            f"the follower's lift is wrong by {found} at {place}, more than the outline's error allows",
+        )
     told = kind in ("dxf", "svg") and jump > _JUMP_SHARE * peak
     return Verdict(measured, failures), ((Finding("rolled_jumps", jump, peak),) if told else ())
 

@@ -25,6 +25,20 @@ from parts.cam import CamSpec, base_radius, checked_cam
 from parts.schema import SceneError, near
 
 TOPIC = "cam"
+_LAWS = {
+    "constant velocity": "стала швидкість",
+    "constant acceleration": "стале прискорення",
+    "linearly decreasing acceleration": "лінійно спадне прискорення",
+    "cosine acceleration": "косинусоїдальне прискорення",
+    "sine acceleration": "синусоїдальне прискорення",
+    "trapezoidal acceleration": "трапецеїдальне прискорення",
+    "triangular acceleration": "трикутне прискорення",
+    "modified trapezoid": "модифікована трапеція",
+    "modified sine": "модифікована синусоїда",
+    "3-4-5 polynomial": "поліном 3-4-5",
+    "4-5-6-7 polynomial": "поліном 4-5-6-7",
+    "Gutman 1-3": "закон Гутмана 1-3",
+}
 _ANGLES = {
     "rise": "rise_angle_deg",
     "far": "far_dwell_angle_deg",
@@ -68,6 +82,10 @@ def sheet(table: dict[str, Any]) -> Sheet:
     _characteristics(page, keys, cam)
     _coefficients(page, cam)
     _sizes(page, keys, cam)
+    page.data["phases"] = [
+        {"move": name, "angle_deg": math.degrees(phase.angle), "law": phase.law.name if phase.law else None}
+        for name, phase in _phase_names(cam)
+    ]
     page.tables.append(_positions(cam, keys.step))
     _impacts(page, cam)
     return page
@@ -112,13 +130,13 @@ def _phase_names(cam: DiskCam) -> list[tuple[str, Phase]]:
 def _coefficients(page: Sheet, cam: DiskCam) -> None:
     """Law, h and the peaks of each moving phase: S'_max = C_v h / phi, S''_max = C_a h / phi^2."""
     swings = not isinstance(cam.mount, Translating)
-    titles = {"rise": ("Rise", "Віддалення"), "return": ("Return", "Повернення")}
+    titles = {"rise": ("Rise", "Віддалення"), "return": ("Return", "Наближення")}
     for name, phase in _phase_names(cam):
         if phase.law is None:
             continue
         en, uk = titles[name]
-        page.section(f"{en}: law and coefficients", f"{uk}: закон і коефіцієнти")
-        page.add("law", phase.law.name.replace("_", " "))
+        law = phase.law.name
+        page.section(f"{en}: {law}", f"{uk}: {_LAWS.get(law, 'власна діаграма прискорення')}")
         angle, h = math.degrees(phase.angle), abs(phase.lift)
         page.add(_ANGLES[name], angle, key="phi")
         if swings:

@@ -178,7 +178,7 @@ def _html_section(section: Section, language: str) -> str:
 
 def _subscripts(text: str) -> str:
     """r_b1 as r with a lowered b1, z1 as z with a lowered 1."""
-    text = re.sub(r"_([0-9A-Za-zΑ-ωΣ.]+)", r"<sub>\1</sub>", html.escape(text))
+    text = re.sub(r"_([0-9A-Za-zΑ-ωΣа-яіїєґ.]+)", r"<sub>\1</sub>", html.escape(text))
     return re.sub(r"(?<![\w&;#>])([A-Za-zα-ω])([12])(?![\w.])", r"\1<sub>\2</sub>", text)
 
 

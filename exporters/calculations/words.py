@@ -152,11 +152,10 @@ least_tip_diameter_ring|d_a2min|d_a2min|mm|least tip diameter of the ring|най
 least_face_width|b_min|b_min|mm|face width that the span needs|ширина вінця, потрібна для виміру нормалі
 lift|H|H|mm|lift|найбільше переміщення штовхача
 swing_deg|H|Ψ|deg|swing|кут розмаху коромисла
-rise_angle_deg|phi_r|φ_в|deg|cam angle of the rise|кут віддалення
-far_dwell_angle_deg|phi_f|φ_дс|deg|cam angle of the far dwell|кут дальнього стояння
-return_angle_deg|phi_b|φ_п|deg|cam angle of the return|кут повернення
-near_dwell_angle_deg|phi_n|φ_бс|deg|cam angle of the near dwell|кут ближнього стояння
-law|law|закон||law of motion|закон руху
+rise_angle_deg|phi_r|φ_від|deg|cam angle of the rise|кут віддалення
+far_dwell_angle_deg|phi_f|φ_д.в.|deg|cam angle of the far dwell|кут далекого відстою
+return_angle_deg|phi_b|φ_наб|deg|cam angle of the return|кут наближення
+near_dwell_angle_deg|phi_n|φ_б.в.|deg|cam angle of the near dwell|кут ближнього відстою
 lift_of_phase|h|h|mm|lift of the phase|переміщення на фазі
 swing_of_phase_deg|h|ψ|deg|swing of the phase|кут повороту на фазі
 velocity_coefficient|c_v|C_v||peak velocity coefficient|коефіцієнт найбільшої швидкості
@@ -166,8 +165,8 @@ peak_acceleration|S2|S''_max|mm/rad2|peak of the acceleration's analogue|най�
 follower_offset|E|E|mm|offset of the follower|ексцентриситет штовхача
 least_transmission_angle_deg|gamma|γ_min|deg|least transmission angle|найменший кут передачі руху
 transmission_angle_reached_deg|gamma_r|γ|deg|least transmission angle on the rise, reached|досягнутий найменший кут передачі при віддаленні
-pressure_angle_rise_deg|nu_r|ν_в|deg|greatest pressure angle, rise|найбільший кут тиску при віддаленні
-pressure_angle_return_deg|nu_b|ν_п|deg|greatest pressure angle, return|найбільший кут тиску при поверненні
+pressure_angle_rise_deg|nu_r|ν_від|deg|greatest pressure angle, rise|найбільший кут тиску при віддаленні
+pressure_angle_return_deg|nu_b|ν_наб|deg|greatest pressure angle, return|найбільший кут тиску при наближенні
 least_base_radius|r_0|r_0|mm|least radius by the condition|найменший радіус за умовою
 curvature_reserve|rho|ρ|mm|least convex radius of curvature kept|запас на радіус кривини профілю
 least_cam_radius|R_min|R_min|mm|least radius of the cam|найменший радіус кулачка

@@ -18,9 +18,9 @@ from geometry.cams.disk import FollowerKind, oscillating_cam, translating_cam
 from geometry.cams.mounts import Oscillating, Translating
 from geometry.cams.rolled import lift_bound, outline_of_loop, rolled_lift
 from tests.geometry.cams.oracle import MP, Eccentric, followed
-from tests.parts.test_cam import CAMS, part_of, polyline, scene_text
+from tests.parts.test_cam import CAMS, part_of, scene_text
 
-from .making import read_report, run
+from .making import dxf_chains, read_report, run
 
 TAIL = "".join(f'[[exports]]\nformat = "{f}"\n' for f in ("svg", "stl", "3mf")) + (
     '[[exports]]\nformat = "dxf"\npurpose = "drawing"\n[[exports]]\nformat = "dxf"\nkerf = 0.2\nname = "cut"\n'
@@ -32,6 +32,16 @@ def built(folder: Path, keys: dict[str, Any], tail: str = "") -> tuple[Path, dic
     scene.write_text(scene_text(keys, tail), encoding="utf-8")
     assert run("build", scene, "--out", folder / "o") == 0
     return folder / "o" / "s", read_report(folder / "o" / "s")
+
+
+def dense(file: Path) -> np.ndarray:
+    """Points of the outer contour, some 0.01 mm apart, on the arcs themselves (ezdxf's paths make them Beziers)."""
+    chain = next(c for c in dxf_chains(file) if c.layer == "CUT_OUTER")
+    share, points = np.linspace(0, 1, 3000), []
+    for start, end, sweep in zip(chain.vertices, np.roll(chain.vertices, -1), chain.sweeps, strict=True):
+        part = share if sweep == 0 else (1 - np.exp(1j * sweep * share)) / (1 - np.exp(1j * sweep))
+        points.append(start + (end - start) * part)
+    return np.concatenate(points)
 
 
 @pytest.mark.parametrize("kind", FollowerKind)
@@ -74,11 +84,14 @@ def test_every_file_is_rolled_and_agrees_with_a_sweep(name: str, tmp_path: Path)
     drawing = next(f for f in report["files"] if f["purpose"] == "drawing")["measured"]
     suffix = "_deg" if swings else ""
     assert drawing[f"acceleration_jump{suffix}"] < 0.01 * drawing[f"acceleration_peak{suffix}"]
-    path = next(f["path"] for f in report["files"] if f["format"] == "dxf" and not f["offset"] and f["tolerance"] > 1e-3)
+    path = next(
+        f["path"] for f in report["files"] if f["format"] == "dxf" and not f["offset"] and f["tolerance"] > 1e-3
+    )
     if name == "pointed":
         return
     rolled = rolled_lift(cam, outline_of_file(folder / path, "dxf", part), 24)
-    swept = [followed(cam, polyline(folder / path), 2 * math.pi * k / 24) for k in range(24)]
+    outline = dense(folder / path)
+    swept = [followed(cam, outline, 2 * math.pi * k / 24) for k in range(24)]
     start = cam.mount.start_angle if isinstance(cam.mount, Oscillating) else cam.mount.start_height
     assert np.allclose(rolled, np.array(swept) - start, atol=1e-5)
 
