@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -198,7 +199,7 @@ def _step_pieces(file: Path, z: float) -> list[Complex]:
         if not min(bottom.Z(), top.Z()) < z < max(bottom.Z(), top.Z()) or abs(bottom.X() - top.X()) > _JOINT:
             continue
         edges = _smooth_spans(surface)
-        for a, b in zip(edges[:-1], edges[1:], strict=True):
+        for a, b in pairwise(edges):
             places = [surface.Value(u, low) for u in (a + share * (b - a)).tolist()]
             pieces.append(np.array([complex(p.X(), p.Y()) for p in places]))
     return pieces

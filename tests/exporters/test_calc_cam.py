@@ -25,7 +25,8 @@ def phases(rise: float, far: float, back: float, law: str) -> str:
     """The phases of a cam as a key of the command."""
     near = 360 - rise - far - back
     moves = [("rise", rise, law), ("dwell", far, ""), ("return_", back, law), ("dwell", near, "")]
-    text = ", ".join(f'{{ move = "{m}", angle_deg = {a}{f', law = "{w}"' if w else ""} }}' for m, a, w in moves if a)
+    law_of = {"": ""} | {law: f', law = "{law}"'}
+    text = ", ".join(f'{{ move = "{m}", angle_deg = {a}{law_of[w]} }}' for m, a, w in moves if a)
     return f"phases=[{text}]"
 
 
