@@ -48,8 +48,8 @@ def reroll(
         return verdict, ()
     try:
         outline = outline_of_file(file, kind, part)
-    except ReadError as error:
-        return replace(verdict, failures=(*verdict.failures, str(error))), ()
+    except ReadError as refusal:
+        return replace(verdict, failures=(*verdict.failures, str(refusal))), ()
     angle = np.arange(ANGLES) * (TURN / ANGLES)
     error = rolled_lift(cam, outline, ANGLES, offset) - cam.motion.value(angle)
     if np.any(np.isnan(error)):
@@ -161,11 +161,12 @@ def _drawing_pieces(file: Path) -> list[Complex]:
 
     share = _nodes()
     pieces: list[Complex] = []
-    for entity in ezdxf.readfile(str(file)).modelspace():
+    entities: list[Any] = list(ezdxf.readfile(str(file)).modelspace())
+    for entity in entities:
         kind = entity.dxftype()
         if kind == "LINE":
             a, b = (complex(p.x, p.y) for p in (entity.dxf.start, entity.dxf.end))
-            pieces.append(a + share * (b - a))
+            pieces.append(np.asarray(a + share * (b - a), dtype=np.complex128))
         elif kind in ("ARC", "CIRCLE"):
             low = 0.0 if kind == "CIRCLE" else entity.dxf.start_angle
             sweep = 360.0 if kind == "CIRCLE" else (entity.dxf.end_angle - low) % 360 or 360.0

@@ -196,8 +196,9 @@ def _positions(cam: DiskCam, step: float) -> Table:
     unit = 180 / math.pi if swings else 1.0
     u = "deg" if swings else "mm"
     profile = cam.profile_point(angle)
-    columns = [degrees, *(cam.motion.value(angle, k) * unit for k in range(3)),
-               np.degrees(cam.pressure_angle(angle)), cam.curvature_radius(angle), profile.real, profile.imag]  # fmt: skip
+    motion = [cam.motion.value(angle, k) * unit for k in range(3)]
+    slope, bend = np.degrees(cam.pressure_angle(angle)), cam.curvature_radius(angle)
+    columns = [degrees, *motion, slope, bend, profile.real, profile.imag]
     heads = (("phi", "deg"), ("S", u), ("S'", f"{u}/rad"), ("S''", f"{u}/rad2"), ("nu", "deg"), ("rho", "mm"),
              ("x", "mm"), ("y", "mm"))  # fmt: skip
     rows = tuple(tuple(float(x) for x in row) for row in zip(*columns, strict=True))

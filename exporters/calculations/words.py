@@ -164,7 +164,7 @@ peak_velocity|S1|S'_max|mm/rad|peak of the velocity's analogue|найбільш�
 peak_acceleration|S2|S''_max|mm/rad2|peak of the acceleration's analogue|найбільший аналог прискорення
 follower_offset|E|E|mm|offset of the follower|ексцентриситет штовхача
 least_transmission_angle_deg|gamma|γ_min|deg|least transmission angle|найменший кут передачі руху
-transmission_angle_reached_deg|gamma_r|γ|deg|least transmission angle on the rise, reached|досягнутий найменший кут передачі при віддаленні
+transmission_angle_reached_deg|gamma_r|γ|deg|transmission angle reached, rise|досягнутий кут передачі при віддаленні
 pressure_angle_rise_deg|nu_r|ν_від|deg|greatest pressure angle, rise|найбільший кут тиску при віддаленні
 pressure_angle_return_deg|nu_b|ν_наб|deg|greatest pressure angle, return|найбільший кут тиску при наближенні
 least_base_radius|r_0|r_0|mm|least radius by the condition|найменший радіус за умовою

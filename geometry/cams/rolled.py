@@ -149,7 +149,7 @@ def rolled_lift(cam: DiskCam, outline: Outline, count: int, offset: float = 0.0)
         if not len(family) or (cam.is_flat and isinstance(family, Lines)):
             continue
         edge, t0, t1, target = _crossings(cam, family, step, offset)
-        t = _solve(cam, family, edge, t0, t1, target * step, offset)
+        t = _solve(cam, family, edge, t0, t1, step * target.astype(np.float64), offset)
         height = _stop(cam, *family.at(edge, t), offset)[1]
         np.fmax.at(lift, target % count, height)
     return np.where(np.isfinite(lift), lift, np.nan)
