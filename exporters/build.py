@@ -133,6 +133,11 @@ def _write(job: Job, shape: tuple[Shape, float], file: Path, source: str, *, ver
     start = time.perf_counter()
     tolerance = float(job.export.tolerance or 0.0)
     verdict = verify_file(file, job.kind, job.exact, max_error, tolerance, job.part.id)
+    if job.part.cam is not None:
+        from exporters.reroll import reroll
+
+        verdict, found = reroll(file, job.kind, job.part, job.section.offset, max_error, verdict)
+        findings = (*findings, *found)
     seconds["verify"] = time.perf_counter() - start
     return Written(job, file, max_error, bound, entities, verdict.measured, findings, verdict.failures, seconds)
 

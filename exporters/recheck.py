@@ -83,6 +83,10 @@ def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, A
     exact = part.body(offset) if kind in SOLID_FORMATS else part.section(offset).region
     kind = "drawing" if entry["purpose"] == "drawing" else kind
     verdict = verify_file(file, kind, exact, declared, tolerance, part.id)
+    if part.cam is not None:
+        from exporters.reroll import reroll
+
+        verdict, _ = reroll(file, kind, part, offset, declared, verdict)
     return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
 
 

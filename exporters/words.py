@@ -228,6 +228,12 @@ FINDINGS: dict[str, tuple[str, str]] = {
         "screw surfaces",
         "косі зуби, {value:.6g} град: плоский контур є торцевим перерізом; гвинтові поверхні є в STL, 3MF і STEP",
     ),
+    "rolled_jumps": (
+        "rolled over this file the follower's acceleration S'' jumps by {value:.3g} at joints of arcs or lines, its "
+        "peak is {limit:.3g}: a drawing DXF or STEP has splines; a smaller tolerance makes the jumps smaller",
+        "на цьому контурі аналог прискорення S'' стрибає на {value:.3g} у стиках дуг чи відрізків при найбільшому "
+        "{limit:.3g}: креслення DXF і STEP мають сплайни; менший допуск зменшує стрибки",
+    ),
     "coarse_tolerance": (
         "tolerance {value:.4g} mm is more than 5 % of the module ({limit:.4g} mm): the teeth lose their shape",
         "допуск {value:.4g} мм більший за 5 % модуля ({limit:.4g} мм): зуби втрачають форму",

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from geometry.body import Body
 from geometry.findings import Finding
 from geometry.gears.offset_tooth import OffsetRegion
+
+if TYPE_CHECKING:
+    from geometry.cams.disk import DiskCam
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,6 +23,7 @@ class Part:
     ``circles`` are named diameters in mm for drawings and
     reports, ``quantities`` all other named results. ``density`` in g/cm^3, None where the material is not known.
     ``flat_findings``: remarks on each flat outline of the part.
+    ``cam``: of a disk cam, whose follower is rolled over every file.
     """
 
     id: str
@@ -35,6 +39,7 @@ class Part:
     colour: str | None = None
     density: float | None = None
     flat_findings: tuple[Finding, ...] = ()
+    cam: DiskCam | None = None
 
     def to_trimesh(self, tolerance: float = 0.01, offset: float = 0.0) -> Any:
         """A ``trimesh.Trimesh`` within ``tolerance`` mm of the exact solid."""

@@ -8,6 +8,7 @@ import re
 from typing import Any
 
 from exporters.calculations.sheet import Section, Sheet, Step, formula_text, number, numbers_text, unit_text
+from exporters.calculations.tables import html_table, markdown_table, plain_table, table_data
 from exporters.calculations.words import TERMS
 
 _GEARS = {1: "first", 2: "second"}
@@ -90,6 +91,8 @@ def _text(sheet: Sheet, language: str) -> str:
             if step.printed is not None:
                 lines.append(f"    ! {printed_text(step, language)}")
         lines.append("")
+    for table in sheet.tables:
+        lines += [*plain_table(table, language), ""]
     if sheet.plain_picture:
         lines += [sheet.plain_picture, ""]
     lines += [f"{_pick(_LABELS['note'], language)}: {_pick(note, language)}" for note in sheet.notes]
@@ -103,6 +106,8 @@ def _markdown(sheet: Sheet, language: str) -> str:
         lines += [f"## {_pick(section.title, language)}", "", _row(head), _row(["---"] * 4)]
         lines += [_row([_escaped_md(cell) for cell in _cells(step, language)]) for step in section.steps]
         lines.append("")
+    for table in sheet.tables:
+        lines += [*markdown_table(table, language), ""]
     if sheet.plain_picture:
         lines += ["```", sheet.plain_picture, "```", ""]
     lines += [f"- {_escaped_md(_pick(note, language))}" for note in sheet.notes]
@@ -144,6 +149,7 @@ def _html(sheet: Sheet, language: str) -> str:
     ]
     for section in sheet.sections:
         lines.append(_html_section(section, language))
+    lines += [html_table(table, language) for table in sheet.tables]
     if language in sheet.pictures:
         lines.append(f"<figure>{sheet.pictures[language]}</figure>")
     if sheet.notes:
@@ -172,7 +178,7 @@ def _html_section(section: Section, language: str) -> str:
 
 def _subscripts(text: str) -> str:
     """r_b1 as r with a lowered b1, z1 as z with a lowered 1."""
-    text = re.sub(r"_([0-9A-Za-zΑ-ωΣ.]+)", r"<sub>\1</sub>", html.escape(text))
+    text = re.sub(r"_([0-9A-Za-zΑ-ωΣа-яіїєґ.]+)", r"<sub>\1</sub>", html.escape(text))
     return re.sub(r"(?<![\w&;#>])([A-Za-zα-ω])([12])(?![\w.])", r"\1<sub>\2</sub>", text)
 
 
@@ -185,6 +191,7 @@ def _json(sheet: Sheet, language: str) -> str:
             steps.append({"section": _pick(section.title, language), **_json_step(step, language)})
     notes = [_pick(note, language) for note in sheet.notes]
     data = {"topic": sheet.topic, "values": values, "steps": steps, "notes": notes, **sheet.data}
+    data |= {table.name: table_data(table) for table in sheet.tables}
     return json.dumps(data, ensure_ascii=False, indent=1, allow_nan=False) + "\n"
 
 

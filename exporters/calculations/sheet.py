@@ -18,7 +18,7 @@ Value = float | int | str
 _SUPERSCRIPTS = {"2": "²", "3": "³"}
 _UKRAINIAN = {"arctan": "arctg", "tan": "tg"}
 # decimals shown for each unit; json has all of them
-_DECIMALS = {"mm": 5, "deg": 5, "": 6, "%": 3}
+_DECIMALS = {"mm": 5, "deg": 5, "": 6, "%": 3, "mm/rad": 5, "mm/rad2": 5}
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +62,16 @@ class Section:
     steps: list[Step] = field(default_factory=list)
 
 
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Rows of numbers under heads (symbol, unit), by ``name`` in json; ``title`` in both languages."""
+
+    name: str
+    title: tuple[str, str]
+    heads: tuple[tuple[str, str], ...]
+    rows: tuple[tuple[float, ...], ...]
+
+
 @dataclass(slots=True)
 class Sheet:
     """A calculation that grows step by step; ``notes`` are remarks in both languages."""
@@ -74,6 +84,7 @@ class Sheet:
     # an SVG for each language, a drawing in letters, and what only json carries
     pictures: dict[str, str] = field(default_factory=dict)
     plain_picture: str = ""
+    tables: list[Table] = field(default_factory=list)
     picture_file: str | None = None
     data: dict[str, Any] = field(default_factory=dict)
     printed: Mapping[tuple[str, int], Printed] = field(default_factory=dict)
@@ -181,6 +192,10 @@ def pretty(text: str, language: str) -> str:
     return text
 
 
+_UNITS = {"deg": "°", "mm/rad2": "mm/rad²", "deg/rad2": "°/rad²", "deg/rad": "°/rad"}
+
+
 def unit_text(unit: str, language: str) -> str:
     """A unit in a language."""
-    return {"mm": "мм"}.get(unit, {"deg": "°"}.get(unit, unit)) if language == "uk" else {"deg": "°"}.get(unit, unit)
+    text = _UNITS.get(unit, unit)
+    return text.replace("mm", "мм").replace("rad", "рад") if language == "uk" else text

@@ -17,6 +17,7 @@ TOPICS = {
     "tmm42": "tmm42",
     "gear-pair": "gear_pair",
     "shift-choice": "shift_choice",
+    "cam": "cam",
 }
 LANGUAGES = ("en", "uk")
 

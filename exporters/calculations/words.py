@@ -150,4 +150,28 @@ fillet_interference_margin|q_f|q_f|mm|no fillet interference: margin|інтер�
 greatest_tip_diameter_pinion|d_a1max|d_a1max|mm|largest tip diameter of the pinion|найбільший діаметр вершин шестірні
 least_tip_diameter_ring|d_a2min|d_a2min|mm|least tip diameter of the ring|найменший діаметр вершин вінця
 least_face_width|b_min|b_min|mm|face width that the span needs|ширина вінця, потрібна для виміру нормалі
+lift|H|H|mm|lift|найбільше переміщення штовхача
+swing_deg|H|Ψ|deg|swing|кут розмаху коромисла
+rise_angle_deg|phi_r|φ_від|deg|cam angle of the rise|кут віддалення
+far_dwell_angle_deg|phi_f|φ_д.в.|deg|cam angle of the far dwell|кут далекого відстою
+return_angle_deg|phi_b|φ_наб|deg|cam angle of the return|кут наближення
+near_dwell_angle_deg|phi_n|φ_б.в.|deg|cam angle of the near dwell|кут ближнього відстою
+lift_of_phase|h|h|mm|lift of the phase|переміщення на фазі
+swing_of_phase_deg|h|ψ|deg|swing of the phase|кут повороту на фазі
+velocity_coefficient|c_v|C_v||peak velocity coefficient|коефіцієнт найбільшої швидкості
+acceleration_coefficient|c_a|C_a||peak acceleration coefficient|коефіцієнт найбільшого прискорення
+peak_velocity|S1|S'_max|mm/rad|peak of the velocity's analogue|найбільший аналог швидкості
+peak_acceleration|S2|S''_max|mm/rad2|peak of the acceleration's analogue|найбільший аналог прискорення
+follower_offset|E|E|mm|offset of the follower|ексцентриситет штовхача
+least_transmission_angle_deg|gamma|γ_min|deg|least transmission angle|найменший кут передачі руху
+transmission_angle_reached_deg|gamma_r|γ|deg|transmission angle reached, rise|досягнутий кут передачі при віддаленні
+pressure_angle_rise_deg|nu_r|ν_від|deg|greatest pressure angle, rise|найбільший кут тиску при віддаленні
+pressure_angle_return_deg|nu_b|ν_наб|deg|greatest pressure angle, return|найбільший кут тиску при наближенні
+least_base_radius|r_0|r_0|mm|least radius by the condition|найменший радіус за умовою
+curvature_reserve|rho|ρ|mm|least convex radius of curvature kept|запас на радіус кривини профілю
+least_cam_radius|R_min|R_min|mm|least radius of the cam|найменший радіус кулачка
+follower_radius|r|r|mm|radius of the roller or mushroom|радіус ролика або грибка
+initial_height|s_0|s_0|mm|initial height of the follower|початкова відстань штовхача від осі
+least_curvature_radius|rho_min|ρ_min|mm|least convex radius of curvature|найменший радіус кривини опуклого профілю
+least_plate_diameter|D_pl|D_т|mm|least diameter of the plate|найменший діаметр тарілки штовхача
 """)

@@ -51,6 +51,9 @@ SHEETS = [
     ("gear-pair", "module=2", "first.number_of_teeth=150", "second.number_of_teeth=8", "tip_chamfer=0.1"),
     ("shift-choice", "first.number_of_teeth=17", "second.number_of_teeth=33", "module=2",
      "working_centre_distance=51.5"),
+    ("cam", "practicum_flat_cam"),
+    ("cam", "guidelines_cam", "step=2.5"),
+    ("cam", "practicum_roller_cam"),
 ]  # fmt: skip
 
 
@@ -112,7 +115,7 @@ def evaluated(step: Step, spoilt: float = 0.0) -> float:
 def test_every_printed_formula_gives_its_value(words: tuple[str, ...]) -> None:
     sheet = sheet_for(" ".join(words))
     checked = [step for step in sheet.steps() if step.formula]
-    assert len(checked) >= 8
+    assert len(checked) >= (4 if words[0] == "cam" else 8)
     for step in checked:
         assert evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), (step.name, step.formula)
 
