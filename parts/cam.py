@@ -142,7 +142,7 @@ def cam_part(part_id: str, spec: CamSpec, cam: DiskCam) -> Part:
         spec.material,
         spec.colour,
         spec.density or density_of(spec.material),
-        cam,
+        cam=cam,
     )
 
 
