@@ -20,6 +20,7 @@ _WORDS = {
     "GOST": ("GOST", "ГОСТ"),
     "table": ("table", "табл."),
     "fig": ("fig", "рис"),
+    "lesson": ("lesson", "заняття"),
 }
 _LABELS = {
     "printed": ("printed in the source", "у джерелі надруковано"),
