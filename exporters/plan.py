@@ -129,7 +129,7 @@ def _without_kernel(
     places = [where for where, export in exports if export.format == "step"]
     if not places or find_spec("OCP") is not None:
         return exports, []
-    remedy = 'needs the CAD kernel: pip install "higherpair[step-lite]" (or [step], with cadquery)'
+    remedy = 'needs the CAD kernel: pip install "cadquery-ocp-novtk<8" (small), or cadquery in its place'
     if "step" in only_formats or len(places) == len(exports):
         raise SceneError(source, f"{places[0]}.format", "step", remedy)
     return [(w, e) for w, e in exports if w not in places], [(where, f"STEP {remedy}") for where in places]

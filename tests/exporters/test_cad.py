@@ -108,7 +108,7 @@ def test_without_the_kernel_a_step_is_refused_in_one_line(
     assert run("build", scene, "--out", tmp_path / "out") == 2
     complaint = capsys.readouterr().err.strip()
     assert "\n" not in complaint
-    assert 'pip install "higherpair[step-lite]"' in complaint
+    assert 'pip install "cadquery-ocp-novtk<8"' in complaint
     assert not (tmp_path / "out").exists()
 
 
