@@ -89,9 +89,12 @@ def approximate_together(
     vertices = np.array([np.concatenate([points[:-1] for points in pieces]) for pieces in made])
     error = max(e for _, e in shares)
     ends = np.append(vertices[:, 1:], vertices[:, :1] * np.exp(1j * profiles[0].pitch_angle), axis=1)
-    short = np.abs(ends - vertices).min(axis=0) < slack
+    lengths = np.abs(ends - vertices)
+    short = lengths.min(axis=0) < slack
+    # a vertex at the start of a short edge goes; a chord then moves by less than the edges it swallows, all of them
+    # together no longer than the slack
+    short &= np.cumsum(np.where(short, lengths.max(axis=0), 0.0)) <= slack
     if short.any() and not short.all():
-        # a vertex at the start of a short edge goes; its neighbours move by less than that edge
         vertices, error = vertices[:, ~short], error + slack
     bound: Bound = "certified" if error > 0 else "exact"
     zeros = np.zeros(vertices.shape[1])

@@ -92,7 +92,7 @@ def _inner_solid(part: Part) -> Any:
 
 
 def _common_volume(pair: Sequence[Any]) -> float:
-    """Volume in common, mm^3; mm-sized slivers of rounding count as nothing."""
+    """Volume in common, mm^3; slivers of a billionth of the lesser solid are rounding."""
     common = pair[0] ^ pair[1]
     least = 1e-9 * min(solid.volume() for solid in pair)
     return float(common.volume()) if common.volume() > least else 0.0

@@ -105,6 +105,10 @@ class Mating(Protocol):
         """Direction from the first to the second, as the scene has it."""
 
     @property
+    def pair(self) -> Any:
+        """The calculated pair of its kind."""
+
+    @property
     def distance(self) -> float:
         """Working centre distance, or from the axis to the datum line of a rack, mm."""
 

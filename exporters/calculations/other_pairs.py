@@ -94,7 +94,7 @@ def internal_sheet(table: dict[str, Any]) -> Sheet:
             # shifts that were found for a distance give it back but for rounding
             mate = InternalGearPairSpec("first", "second", 0.0, None, keys.normal_backlash)
         gears: dict[str, Any] = {"first": pinion, "second": checked_ring_gear(ring_keys)}
-        pair = mated(gears, [mate], {name: name for name in _GEARS})[1][0].pair  # type: ignore[attr-defined]
+        pair = mated(gears, [mate], {name: name for name in _GEARS})[1][0].pair
         return _internal_page(pair, wanted is not None)
     except ParameterError as error:
         raise _refused(error, keys) from error
@@ -106,7 +106,7 @@ def rack_sheet(table: dict[str, Any]) -> Sheet:
     mate = RackPairSpec("first", "second", 0.0, keys.working_centre_distance, keys.normal_backlash)
     try:
         gears = {"first": checked_spur_gear(keys.first), "second": checked_rack_part(keys.second)}
-        pair = mated(gears, [mate], {name: name for name in _GEARS})[1][0].pair  # type: ignore[attr-defined]
+        pair = mated(gears, [mate], {name: name for name in _GEARS})[1][0].pair
         return _rack_page(pair)
     except ParameterError as error:
         raise _refused(error, keys) from error

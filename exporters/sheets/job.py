@@ -117,7 +117,7 @@ def _most_shifted(ids: list[str], gears: list[Any]) -> str:
 
 
 def _meshing(mating: Mating, language: str, tolerance: float) -> Expected:
-    pair: Any = mating.pair  # type: ignore[attr-defined]
+    pair: Any = mating.pair
     picture = meshing_picture(pair)
     canvas, view = meshing_canvas(picture, mating.module, _facts(mating, picture, language), language, tolerance)
     circles, paper = [], view.paper
@@ -153,7 +153,7 @@ def _driver(pair: Any) -> Any:
 
 def _facts(mating: Mating, picture: MeshingPicture, language: str) -> Facts:
     """Title and table of the sheet."""
-    pair: Any = mating.pair  # type: ignore[attr-defined]
+    pair: Any = mating.pair
 
     def word(key: str) -> str:
         return sheet_words(language, key)

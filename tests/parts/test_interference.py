@@ -1,4 +1,4 @@
-"""Solids against solids: what runs into what, judged by volumes known beforehand and by trimesh's booleans."""
+"""Solids against solids: what runs into what, judged by volumes known beforehand and by polygons of GEOS."""
 
 from __future__ import annotations
 
