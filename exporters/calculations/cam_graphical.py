@@ -29,7 +29,9 @@ def graphical_section(page: Sheet, cam: DiskCam, transmission_angle_deg: float |
     """Both integrations by mid-ordinates, the least radius and the profile that follow, each with its error."""
     fault = graphical_fault(cam.motion)
     if fault is not None:
-        page.notes.append((f"no graphical method: {fault}", "графічний метод не застосовний: немає діаграми прискорень"))
+        page.notes.append(
+            (f"no graphical method: {fault}", "графічний метод не застосовний: немає діаграми прискорень")
+        )
         return
     drawn = graphical_motion(cam.motion, intervals)
     swings = not isinstance(cam.mount, Translating)

@@ -181,5 +181,5 @@ graphical_swing_error_deg|dS|Δψ|deg|greatest error of the swing by the drawing
 graphical_velocity_error|dS1|ΔS'|mm/rad|greatest error of S' by the drawing|найбільша похибка побудови аналога швидкості
 graphical_base_radius|r_0g|r_0g|mm|least radius by the drawing|найменший радіус за побудовою
 graphical_radius_error|dr_0|Δr_0|mm|its error|похибка радіуса за побудовою
-graphical_profile_error|dn|Δn|mm|greatest error of the drawn profile, same base circle|найбільша похибка профілю за побудовою
+graphical_profile_error|dn|Δn|mm|greatest error of the drawn profile|найбільша похибка профілю за побудовою
 """)

@@ -45,8 +45,8 @@ class Drawing(StrEnum):
 class GraphicalPhase:
     """A rise or return as it comes out on paper; every array over the n intervals or their n + 1 ends.
 
-    ``first``: number of its first position; ``angles`` rad; ``middles``: ordinates of S'' at the middles, mm/rad^2;
-    ``bend``: (n, 2), S'' at both ends of each interval, seen from inside; ``rate``: S', mm/rad; ``lift``: S, mm (rad
+    ``first``: number of its first position; ``angles`` rad; ``middles``: ordinates of S'' at the middles, mm/rad^2, and
+    ``rate_middles`` of S', mm/rad; ``bend``: (n, 2), S'' at both ends of each interval, seen from inside; ``rate``: S', mm/rad; ``lift``: S, mm (rad
     in place of mm if oscillating). ``factor``: by how much (4.2) has stretched the scales.
     """
 
@@ -55,6 +55,7 @@ class GraphicalPhase:
     first: int
     angles: Real
     middles: Real
+    rate_middles: Real
     bend: Real
     rate: Real
     lift: Real
@@ -135,6 +136,7 @@ def graphical_motion(
                     position,
                     np.linspace(at, end, intervals + 1),
                     drawn.middles * phase.lift / step**2,
+                    drawn.rate_middles * phase.lift / step,
                     drawn.bend * phase.lift / step**2,
                     drawn.rate * phase.lift / step,
                     height + drawn.lift * phase.lift,
@@ -151,6 +153,7 @@ class _Drawn:
     """A phase of stroke 1 and length 1."""
 
     middles: Real
+    rate_middles: Real
     bend: Real
     rate: Real
     lift: Real
@@ -171,7 +174,7 @@ def _integrated(law: Law, n: int, drawing: Drawing) -> _Drawn:
         text = "mid-ordinates of its diagram raise nothing; more intervals work"
         raise ParameterError("intervals", n, text)
     factor = 1 / float(lift[-1])
-    return _Drawn(middles * factor, bend * factor, rate * factor, lift * factor, factor)
+    return _Drawn(middles * factor, halves * factor, bend * factor, rate * factor, lift * factor, factor)
 
 
 def _limit(law: Law, u: float, side: int) -> float:
