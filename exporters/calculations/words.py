@@ -178,7 +178,7 @@ graphical_intervals|n|n||intervals of each phase|кількість інтерв
 graphical_factor|k|k||stretch of the scales by y_max, (4.2)|поправка масштабів за y_max, (4.2)
 graphical_lift_error|dS|ΔS|mm|greatest error of S by the drawing|найбільша похибка побудови S
 graphical_swing_error_deg|dS|Δψ|deg|greatest error of the swing by the drawing|найбільша похибка побудови кута коромисла
-graphical_velocity_error|dS1|ΔS'|mm/rad|greatest error of S' by the drawing|найбільша похибка побудови аналога швидкості
+graphical_velocity_error|dS1|ΔS'|mm/rad|greatest error of S' by the drawing|найбільша похибка побудови S'
 graphical_base_radius|r_0g|r_0g|mm|least radius by the drawing|найменший радіус за побудовою
 graphical_radius_error|dr_0|Δr_0|mm|its error|похибка радіуса за побудовою
 graphical_profile_error|dn|Δn|mm|greatest error of the drawn profile|найбільша похибка профілю за побудовою

@@ -1,4 +1,4 @@
-"""The sheet of a disk cam: practicum, lessons 4 and 5: diagrams of motion, least radius, profile by inversion, tables."""
+"""The sheet of a disk cam, practicum, lessons 4 and 5: diagrams of motion, least radius, profile, tables."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from exporters.sheets.cam_diagrams import LEFT, RIGHT, Drawn, draw_diagrams, hei
 from exporters.sheets.cam_joint import Joint, draw_joint, joint_of, joint_paper, joint_window, name_joint
 from exporters.sheets.cam_picture import CamPicture, Scales, scales_of
 from exporters.sheets.cam_profile import draw_profile, name_profile, number_positions, profile_paper
+from exporters.sheets.cam_swing import draw_swing, name_swing, swing_of, swing_window
 from exporters.sheets.cam_tables import WIDTH, Grid, characteristics, draw_grid, graphical_grid, scale_rows
 from exporters.sheets.canvas import FRAME, FRAME_LEFT, PAPERS, TEXT_HEIGHT, Box, Canvas, Paper, scale_text
 from exporters.sheets.labels import Labeller
@@ -36,22 +37,26 @@ class _Layout:
 
 
 def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, tolerance: float) -> Expected:
-    """The sheet of a cam of that name; ``calculation`` is that of ``higherpair calc cam``, ``tolerance`` in mm on paper.
+    """The sheet of a cam; ``calculation`` is that of ``higherpair calc cam``, ``tolerance`` in mm on paper.
 
     Raises
     ------
     ParameterError
         The tables of so many intervals fit no paper.
     """
-    joint = joint_of(picture)
+    joint, swing = joint_of(picture), swing_of(picture)
     first = characteristics(calculation, picture)
     graphical = graphical_grid(calculation, picture)
-    layout = _layout(picture, first, graphical, has_joint=joint is not None)
+    layout = _layout(picture, first, graphical, has_joint=joint is not None or swing is not None)
     canvas = layout.canvas
     canvas.box("FRAME", canvas.frame)
     left = canvas.frame.left + 6.0
-    canvas.write(f"{_title(picture)}: {name}", complex(left, canvas.frame.high - 9.0), 5.0, canvas.frame.right - left - 6.0)
-    scales = scales_of(picture, layout.diagrams.right - layout.diagrams.left - LEFT - RIGHT, heights_of(layout.diagrams))
+    canvas.write(
+        f"{_title(picture)}: {name}", complex(left, canvas.frame.high - 9.0), 5.0, canvas.frame.right - left - 6.0
+    )
+    scales = scales_of(
+        picture, layout.diagrams.right - layout.diagrams.left - LEFT - RIGHT, heights_of(layout.diagrams)
+    )
     drawn = [draw_diagrams(canvas, picture, layout.diagrams, scales, tolerance)]
     paper = profile_paper(picture, layout.profile)
     made, circles, curves = draw_profile(canvas, picture, paper, tolerance)
@@ -60,6 +65,9 @@ def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, tolerance: flo
     if joint is not None:
         joint_place, window = joint_paper(joint_window(picture, joint), layout.joint)
         drawn.append(draw_joint(canvas, picture, joint, joint_place, window, tolerance))
+    elif swing is not None:
+        joint_place, window = joint_paper(swing_window(picture, swing), layout.joint)
+        drawn.append(draw_swing(canvas, picture, swing, joint_place, window, tolerance))
     _captions(canvas, picture, layout, joint_place, paper)
     corner = layout.tables
     scale = None if joint_place is None else joint_place.scale
@@ -71,6 +79,8 @@ def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, tolerance: flo
     name_profile(Labeller(canvas, layout.profile.grown(2.0)), picture, paper)
     if joint is not None and joint_place is not None and window is not None:
         name_joint(Labeller(canvas, layout.joint), picture, joint, joint_place, window)
+    elif swing is not None and joint_place is not None:
+        name_swing(Labeller(canvas, layout.joint), picture, swing, joint_place)
     measures = _measures(picture, scales, joint, joint_place, drawn)
     return Expected(canvas, paper, tuple(circles), curves, cam=measures)
 
@@ -84,7 +94,9 @@ def _measures(
     lift = (high - low) * picture.unit
     if joint is None or place is None:
         return CamMeasures(curves, lines, scales.lift, lift)
-    return CamMeasures(curves, lines, scales.lift, lift, place, joint.offset if joint.order == 1 else 0.0, abs(joint.least))
+    return CamMeasures(
+        curves, lines, scales.lift, lift, place, joint.offset if joint.order == 1 else 0.0, abs(joint.least)
+    )
 
 
 def _title(picture: CamPicture) -> str:
@@ -102,7 +114,7 @@ def _layout(picture: CamPicture, first: Grid, graphical: Grid | None, *, has_joi
         most = max(2, rows // phases - 2)
         raise ParameterError("intervals", picture.intervals, f"its table fits no paper; at most {most} works")
     layouts = [_areas(name, has_joint=has_joint) for name in fitting]
-    for layout in layouts:
+    for layout in layouts[:2]:
         if profile_paper(picture, layout.profile).scale >= 1:
             return layout
     return next((x for x in layouts if x.canvas.paper == "A1"), layouts[0])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from geometry.line_arc import Arc, Line
 
 LAYERS = {2: "DIAGRAM_BEND", 1: "DIAGRAM_RATE", 0: "DIAGRAM_LIFT"}
 # room on the left for the pole, on the right for the numbers of the ordinate; below for the phases; mm
-LEFT, RIGHT, BELOW = 36.0, 20.0, 16.0
+LEFT, RIGHT, BELOW = 36.0, 17.0, 16.0
 # between diagrams, for their names and numbers
 _GAP = 15.0
 _ORDERS = (2, 1, 0)
@@ -101,7 +102,7 @@ def _axes(
     unit = sheet_words(picture.language, f"{'swing' if picture.swings else 'lift'}_unit_{order}")
     name = ("ψ" if picture.swings else "S") + "'" * order
     canvas.write(f"{name}, {unit}", top + complex(2.5, -2.0))
-    canvas.write("φ", right + complex(-3.0, 2.2))
+    canvas.write("φ", right + complex(-3.0, 3.0))
     scale = scales.of(order)
     step = standard_scale(max(high - low, 1e-9) * scale / _TICKS)
     for k in range(math.ceil(low * scale / step - 1e-9), math.floor(high * scale / step + 1e-9) + 1):
@@ -119,9 +120,7 @@ def _arrow(canvas: Canvas, tip: complex, way: complex) -> None:
         canvas.line("AXIS", tip, tip - 3.0 * way * np.exp(1j * side * math.radians(12)))
 
 
-def _ordinates(
-    canvas: Canvas, drawn: Drawn, picture: CamPicture, zero: complex, scales: Scales, order: int
-) -> None:
+def _ordinates(canvas: Canvas, drawn: Drawn, picture: CamPicture, zero: complex, scales: Scales, order: int) -> None:
     """A line up to the curve at each position, and its number on the other side of the axis."""
     motion, up = picture.cam.motion, picture.unit / scales.of(order)
     places = [(p.number, p.angle) for p in picture.positions] + [(0, 2 * math.pi)]
@@ -162,9 +161,10 @@ def _curve(
             drawn.add(canvas, LAYERS[order], Line(before, start), tolerance)
         drawn.add(canvas, LAYERS[order], curve, tolerance)
         first, before = start if first is None else first, end
-    assert first is not None and before is not None
+    assert first is not None
+    assert before is not None
     closing = first + 2 * math.pi * along
-    # the jump from the end of the turn to its start; and the rise from rest with a jump
+    # the jump from the end of the turn to its start
     if abs(closing - before) > 1e-6:
         drawn.add(canvas, LAYERS[order], Line(before, closing), tolerance)
 
@@ -209,9 +209,7 @@ def _phases(
         canvas.line("PHASE", complex(x, low), complex(x, zeros[0].imag))
 
 
-def _graphical(
-    canvas: Canvas, drawn: Drawn, picture: CamPicture, zeros: dict[int, complex], scales: Scales
-) -> None:
+def _graphical(canvas: Canvas, drawn: Drawn, picture: CamPicture, zeros: dict[int, complex], scales: Scales) -> None:
     """The broken lines of both integrations, and the poles with their rays for the first rise (fig. 4.6, 4.7)."""
     motion = picture.drawn
     assert motion is not None
@@ -220,7 +218,7 @@ def _graphical(
         x = phase.angles / scales.phi
         for order, values in ((1, phase.rate), (0, phase.lift)):
             points = (zeros[order] + x + 1j * values * unit / scales.of(order)).tolist()
-            for start, end in zip(points[:-1], points[1:], strict=True):
+            for start, end in pairwise(points):
                 drawn.line(canvas, "GRAPHICAL", start, end)
     if not motion.phases:
         return

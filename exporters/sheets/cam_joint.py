@@ -29,8 +29,8 @@ _MARK = 0.7
 class Joint:
     """The joint diagram in model mm: abscissa S^(order); S_0 is 0, the axis of the cam stands below it.
 
-    ``borders``: lines y = slope x - a as (a, slope) below which the axis may stand; ``least``: O'_1, the nearest axis on
-    the line of the offset; ``centre``: the cam's own axis; ``return_line`` for form closure.
+    ``borders``: lines y = slope x - a as (a, slope) below which the axis may stand; ``least``: O'_1, the nearest
+    axis on the line of the offset; ``centre``: the cam's own axis; ``return_line`` for form closure.
     """
 
     order: int
@@ -77,7 +77,9 @@ def joint_window(picture: CamPicture, joint: Joint) -> Box:
 
 def joint_paper(window: Box, area: Box) -> tuple[Paper, Box]:
     """The largest standard scale, and the window widened to the area, model mm."""
-    room = min((area.right - area.left) / (window.right - window.left), (area.high - area.low) / (window.high - window.low))
+    room = min(
+        (area.right - area.left) / (window.right - window.left), (area.high - area.low) / (window.high - window.low)
+    )
     scale = next((s for s in SCALES if s <= room), room)
     middle = complex(window.left + window.right, window.low + window.high) / 2
     origin = complex(area.left + area.right, area.low + area.high) / 2 - scale * middle
@@ -86,9 +88,7 @@ def joint_paper(window: Box, area: Box) -> tuple[Paper, Box]:
     return Paper(scale, origin), Box(middle.real - spread, window.low, middle.real + spread, window.high)
 
 
-def draw_joint(
-    canvas: Canvas, picture: CamPicture, joint: Joint, paper: Paper, window: Box, tolerance: float
-) -> Drawn:
+def draw_joint(canvas: Canvas, picture: CamPicture, joint: Joint, paper: Paper, window: Box, tolerance: float) -> Drawn:
     """The diagram with its axes, positions, tangents, admissible region and centres; names come with ``name_joint``."""
     drawn, to = Drawn(), paper.point
     canvas.line("AXIS", to(1j * window.low), to(1j * window.high))
@@ -113,7 +113,7 @@ def draw_joint(
             drawn.line(canvas, "RETURN_TANGENT", to(ends[0]), to(ends[1]))
     if joint.offset:
         drawn.line(canvas, "OFFSET_AXIS", to(complex(joint.offset, window.low)), to(complex(joint.offset, window.high)))
-    for point in {0j, joint.least, joint.centre}:
+    for point in dict.fromkeys((0j, joint.least, joint.centre)):
         canvas.arc("DIMENSION", Arc(to(point), 0.9, 0.0, 2 * math.pi))
     drawn.line(canvas, "DIMENSION", to(0j), to(joint.least))
     _angle(canvas, picture, joint, paper)
@@ -176,7 +176,10 @@ def _numbers(picture: CamPicture, joint: Joint, paper: Paper) -> list[tuple[str,
 def _clipped(point: complex, way: complex, box: Box) -> tuple[complex, complex]:
     """The part of a line within a box; both ends the point itself where there is none."""
     low, high = -math.inf, math.inf
-    for at, step, least, most in ((point.real, way.real, box.left, box.right), (point.imag, way.imag, box.low, box.high)):
+    for at, step, least, most in (
+        (point.real, way.real, box.left, box.right),
+        (point.imag, way.imag, box.low, box.high),
+    ):
         if step:
             a, b = sorted(((least - at) / step, (most - at) / step))
             low, high = max(low, a), min(high, b)

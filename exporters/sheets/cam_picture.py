@@ -84,9 +84,7 @@ def cam_picture(
     if cam.is_flat:
         gamma = None if not isinstance(cam.mount, Translating) else math.pi / 4
     positions = _positions(cam, intervals)
-    return CamPicture(
-        cam, intervals, gamma, gamma_deg is not None, least_curvature_radius, positions, drawn, language
-    )
+    return CamPicture(cam, intervals, gamma, gamma_deg is not None, least_curvature_radius, positions, drawn, language)
 
 
 def _positions(cam: DiskCam, intervals: int) -> tuple[Position, ...]:
@@ -145,7 +143,7 @@ class Scales:
 
 def scales_of(picture: CamPicture, width: float, height: float) -> Scales:
     """Scales that keep a turn within ``width`` mm and every diagram within ``height`` mm."""
-    found = []
+    found: list[float] = []
     for order in range(3):
         low, high = picture.cam.motion.extremes(order)
         reach = (max(high, 0.0) - min(low, 0.0)) * picture.unit

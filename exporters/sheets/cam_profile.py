@@ -21,9 +21,11 @@ from geometry.line_arc import Arc
 from parts.cam import base_radius
 
 # lines of motion run beyond the farthest centre by this, and numbers stand this far from their ends, mm of paper
-_BEYOND, _NUMBER = 6.0, 3.0
+_BEYOND, _NUMBER = 4.0, 3.0
 # a flat face is drawn as far beyond its contact, and at least as long to each side, mm of paper
 _FACE_BEYOND, _FACE_LEAST = 6.0, 12.0
+# a mushroom's face to each side of its contact, rad
+_FACE_HALF = math.radians(25)
 _TURN = 2 * math.pi
 
 
@@ -48,9 +50,10 @@ def reach_of(picture: CamPicture, scale: float) -> Reach:
     if isinstance(mount, Oscillating):
         whole = max(far + cam.radius, mount.centre_distance)
     elif cam.is_flat:
-        whole = max(whole, max(math.hypot(abs(p), max(map(abs, _face_ends(picture, a, scale)))) for a, p in (
-            (p.angle, far) for p in picture.positions)))  # fmt: skip
-    else:
+        for position in picture.positions:
+            height = abs(complex(cam.reference_point(position.angle)))
+            whole = max(whole, *(math.hypot(height, end) for end in _face_ends(picture, position.angle, scale)))
+    elif cam.kind is FollowerKind.ROLLER:
         whole = max(whole, far + cam.radius)
     return Reach(base, base + cam.radius, far, whole)
 
@@ -105,7 +108,13 @@ def draw_profile(
     for position in picture.positions:
         _follower(canvas, drawn, picture, paper, reach, position.angle)
         centre = _turned(picture, position.angle, complex(cam.reference_point(position.angle)))
-        if cam.radius:
+        if cam.kind is FollowerKind.MUSHROOM:
+            # the part of the face about the contact
+            down = cmath.phase(-_turned(picture, position.angle, complex(cam.normal(position.angle))))
+            face = Arc(paper.point(centre), paper.scale * cam.radius, down - _FACE_HALF, 2 * _FACE_HALF)
+            canvas.arc("ROLLER", face)
+            circles.append(Circle("ROLLER", face.centre, face.radius))
+        elif cam.radius:
             circle("ROLLER", centre, cam.radius)
         elif not cam.is_flat:
             canvas.arc("ROLLER", Arc(paper.point(centre), 0.6, 0.0, _TURN))
@@ -124,14 +133,14 @@ def _turned(picture: CamPicture, angle: float, point: complex) -> complex:
     return point * cmath.exp(-1j * angle)
 
 
-def _follower(
-    canvas: Canvas, drawn: Drawn, picture: CamPicture, paper: Paper, reach: Reach, angle: float
-) -> None:
+def _follower(canvas: Canvas, drawn: Drawn, picture: CamPicture, paper: Paper, reach: Reach, angle: float) -> None:
     """The follower of one position: its line of motion, and its flat face; or pivot and arm."""
     cam, mount = picture.cam, picture.cam.mount
 
     def line(layer: str, start: complex, end: complex) -> None:
-        drawn.line(canvas, layer, paper.point(_turned(picture, angle, start)), paper.point(_turned(picture, angle, end)))
+        drawn.line(
+            canvas, layer, paper.point(_turned(picture, angle, start)), paper.point(_turned(picture, angle, end))
+        )
 
     here = complex(cam.reference_point(angle))
     if isinstance(mount, Translating):

@@ -12,8 +12,8 @@ from exporters.sheets.canvas import SMALL_TEXT, Box, Canvas, decimal, scale_text
 from exporters.sheets.words import sheet_words
 
 ROW = 5.0
-WIDTH = 130.0
-_COLUMNS = (78.0, 18.0, 34.0)
+WIDTH = 126.0
+_COLUMNS = (76.0, 16.0, 34.0)
 _INDENT = 1.2
 # steps of the calculation that the sheet's other rows say already
 _PHASES = {"rise_angle_deg", "return_angle_deg"}
@@ -89,13 +89,23 @@ def graphical_grid(calculation: Sheet, picture: CamPicture) -> Grid | None:
         return None
     language = picture.language
     name = "ψ" if picture.swings else "S"
-    heads = ("№", "φ, °", f"{name}''_{{g}}", f"{name}'_{{g}}", f"{name}'", f"Δ{name}'", f"{name}_{{g}}", name, f"Δ{name}")
+    heads = (
+        "№",
+        "φ, °",
+        f"{name}''_{{g}}",
+        f"{name}'_{{g}}",
+        f"{name}'",
+        f"Δ{name}'",
+        f"{name}_{{g}}",
+        name,
+        f"Δ{name}",
+    )
     rows: list[tuple[str, ...]] = [(table.title[1 if language == "uk" else 0],), heads]
     say = picture.say
     for number, phi, bend, rate, exact_rate, lift, exact in table.rows:
         rows.append((f"{number:.0f}", say(phi), say(bend), say(rate), say(exact_rate), say(rate - exact_rate, 3),
                      say(lift), say(exact), say(lift - exact, 3)))  # fmt: skip
-    return Grid((9.0, 15.0, 16.0, 15.0, 15.0, 16.0, 15.0, 15.0, 14.0), tuple(rows))
+    return Grid((9.0, 15.0, 15.0, 14.0, 14.0, 16.0, 14.0, 14.0, 15.0), tuple(rows))
 
 
 def draw_grid(canvas: Canvas, corner: complex, grid: Grid) -> None:

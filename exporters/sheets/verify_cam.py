@@ -54,9 +54,7 @@ class CamMeasures:
         if self.joint is not None:
             self._check_radius(sheet, allowed, measured, failures)
 
-    def _check_lines(
-        self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]
-    ) -> None:
+    def _check_lines(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:
         """Every line of the construction is there, whichever way it runs."""
         worst = 0.0
         rows: dict[str, tuple[Complex, Complex]] = {}
@@ -77,9 +75,7 @@ class CamMeasures:
         measured["lines"] = float(len(self.lines))
         measured["line_deviation"] = worst
 
-    def _check_lift(
-        self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]
-    ) -> None:
+    def _check_lift(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:
         """The highest ordinate of S times mu_S is the stroke."""
         heights = [points.imag for name, points in sheet.samples if name == "DIAGRAM_LIFT"]
         if not heights:
@@ -90,9 +86,7 @@ class CamMeasures:
         if not measured["lift_by_diagram"] <= self.lift + 2 * allowed * self.lift_scale:
             failures.append(f"the diagram of S measures {measured['lift_by_diagram']:.6f} instead of {self.lift:.6f}")
 
-    def _check_radius(
-        self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]
-    ) -> None:
+    def _check_radius(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:
         """The lowest point in which a tangent at gamma_min meets the line of the offset is the nearest axis."""
         assert self.joint is not None
         tangents = [x for x in sheet.lines if x.layer == "GAMMA_TANGENT"]

@@ -60,7 +60,7 @@ class _Drawn(ABC):
             most = float(np.abs(self.derivative(grid, order)).max())
             good = (found == 0) & (np.abs(value) > _STILL * most)
             found = np.where(good, value, found)
-        return found / np.abs(found)
+        return np.asarray(found / np.abs(found), dtype=complex)
 
     def curvature(self, t: ArrayLike) -> Real:
         """Signed curvature, 1/mm of paper; nan where the curve stands still."""
@@ -117,7 +117,7 @@ class MotionCurve(_Drawn):
     def _part(self, at: Real, order: int) -> Complex:
         p, q = self.orders
         real = self.across * self.piece.value(at, order + p) if self.across else 0.0
-        return real + 1j * (self.up * self.piece.value(at, order + q))
+        return np.asarray(real + 1j * (self.up * self.piece.value(at, order + q)), dtype=complex)
 
     def derivative_bound(self, order: int, a: float, b: float) -> float | None:
         """Of each part of the interval: the law's own bounds."""
@@ -130,10 +130,11 @@ class MotionCurve(_Drawn):
 
 @dataclass(frozen=True, slots=True)
 class ArmCurve(_Drawn):
-    """L (1 + sense psi'(t)) exp(i (direction - psi_0 - psi(t))) from the pivot, enlarged ``scale`` times, at ``origin``.
+    """L (1 + sense psi'(t)) exp(i (direction - sense S(t))) from the pivot at ``origin``, enlarged ``scale`` times.
 
-    Of an oscillating roller: at the pressure angle nu the axis lies on the line through this point that is inclined by
-    90 degrees - nu to the arm, from tan nu = (L (1 + sense psi') - d cos psi) / (d sin psi).
+    Of an oscillating roller, psi' being S'; ``direction`` of the lowest arm, rad. At the pressure angle nu the axis
+    lies on the line through this point that is inclined by 90 degrees - nu to the arm, from
+    tan nu = (L (1 + sense psi') - d cos psi) / (d sin psi).
     """
 
     piece: LawPiece
@@ -147,7 +148,7 @@ class ArmCurve(_Drawn):
 
     def _series(self, at: Real, order: int) -> Series:
         s = [x / FACTORIALS[k] for k, x in enumerate(self.piece.values(at, order + 1))]
-        turn = exponential([1j * self.direction - 1j * s[0], *(-1j * x for x in s[1:])])
+        turn = exponential([1j * (self.direction - self.sense * s[0]), *(-1j * self.sense * x for x in s[1:])])
         reach = [self.sense * x for x in derived(s)]
         reach[0] = reach[0] + 1.0
         return [self.scale * self.arm_length * x for x in product(reach, turn)]

@@ -46,8 +46,8 @@ class GraphicalPhase:
     """A rise or return as it comes out on paper; every array over the n intervals or their n + 1 ends.
 
     ``first``: number of its first position; ``angles`` rad; ``middles``: ordinates of S'' at the middles, mm/rad^2, and
-    ``rate_middles`` of S', mm/rad; ``bend``: (n, 2), S'' at both ends of each interval, seen from inside; ``rate``: S', mm/rad; ``lift``: S, mm (rad
-    in place of mm if oscillating). ``factor``: by how much (4.2) has stretched the scales.
+    ``rate_middles`` of S', mm/rad; ``bend``: (n, 2), S'' at both ends of each interval, seen from inside; ``rate``: S',
+    mm/rad; ``lift``: S, mm (rad in place of mm if oscillating). ``factor``: by how much (4.2) has stretched the scales.
     """
 
     kind: PhaseKind
