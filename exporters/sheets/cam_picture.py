@@ -93,7 +93,8 @@ def _positions(cam: DiskCam, intervals: int) -> tuple[Position, ...]:
     if not phases:
         count = _TURN_SHARE * intervals
         return tuple(Position(k, 2 * math.pi * k / count, k == 0) for k in range(count))
-    found, at = [], 0.0
+    found: list[Position] = []
+    at = 0.0
     for index, phase in enumerate(phases):
         end = 2 * math.pi if index == len(phases) - 1 else at + phase.angle
         count = intervals if phase.law is not None else 1
