@@ -1,4 +1,4 @@
-"""The graphical method against the lessons' steps done by hand in mm of paper, and its error against the exact motion."""
+"""The graphical method against the lessons' steps done by hand in mm of paper, and its error against exact motion."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def test_it_is_what_pencil_and_ruler_give(law: str, n: int, drawing: Drawing) ->
 
 
 def test_table_2_2_by_drawing() -> None:
-    """Mid-ordinates of a straight S'' are exact; the parabola of S' gives 1 + 1/(2 n^2), the scales 128/129 of theirs."""
+    """Mid-ordinates of a straight S'' are exact; the parabola of S' gives 1 + 1/(2 n^2), scales 128/129 of theirs."""
     drawn = graphical_motion(motion("linearly_decreasing", 32.0, 90.0), 8)
     phase = drawn.phases[0]
     assert phase.factor == pytest.approx(128 / 129, rel=1e-14)
