@@ -87,6 +87,9 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     intervals: (
         Annotated[int, Meta(ge=2, le=72, description="sheet, cam: parts of each phase on paper; default: 8")] | None
     ) = None
+    speed_rpm: (
+        Annotated[float, Meta(gt=0, le=1e6, description="sheet, cam: adds velocities", extra={"unit": "rpm"})] | None
+    ) = None
     mate: Annotated[int, Meta(ge=1, description="sheet: the pair that is shown, by number; default: all")] | None = None
 
 
@@ -268,8 +271,9 @@ def _export_spec(table: Any, parts: dict[str, Struct], source: str, place: str) 
         raise SceneError(source, f"{place}.mate", spec.mate, 'only for purpose = "meshing"; remove it')
     if spec.rack_step is not None and spec.purpose != "generating":
         raise SceneError(source, f"{place}.rack_step", spec.rack_step, 'only for purpose = "generating"; remove it')
-    if spec.intervals is not None and spec.purpose != "cam":
-        raise SceneError(source, f"{place}.intervals", spec.intervals, 'only for purpose = "cam"; remove it')
+    for key in ("intervals", "speed_rpm"):
+        if getattr(spec, key) is not None and spec.purpose != "cam":
+            raise SceneError(source, f"{place}.{key}", getattr(spec, key), 'only for purpose = "cam"; remove it')
     if spec.kerf and spec.format in ("stl", "3mf"):
         remedy = f"a print has no kerf; offset = {spec.kerf / 2:.12g} moves every outline by as much"
         raise SceneError(source, f"{place}.kerf", spec.kerf, remedy)

@@ -9,6 +9,7 @@ import numpy as np
 from msgspec import Meta
 
 from exporters.calculations.cam_graphical import graphical_section
+from exporters.calculations.cam_speed import speed_section
 from exporters.calculations.inputs import checked, given, keys_of, refusal
 from exporters.calculations.sheet import Sheet, Table
 from exporters.calculations.words import TERMS
@@ -59,6 +60,9 @@ class CamKeys(CamSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     intervals: Annotated[
         int, Meta(ge=LEAST_INTERVALS, le=MOST_INTERVALS, description="of each phase in the graphical method")
     ] = INTERVALS
+    speed_rpm: (
+        Annotated[float, Meta(gt=0, le=1e6, description="of the cam: adds velocities", extra={"unit": "rpm"})] | None
+    ) = None
 
 
 def table_from(scene: Any, source: str, table: dict[str, Any]) -> dict[str, Any]:
@@ -93,6 +97,8 @@ def sheet(table: dict[str, Any]) -> Sheet:
     ]
     page.tables.append(_positions(cam, keys.step))
     graphical_section(page, cam, keys.least_transmission_angle_deg, keys.intervals)
+    if keys.speed_rpm is not None:
+        speed_section(page, cam, keys.speed_rpm)
     _impacts(page, cam)
     return page
 

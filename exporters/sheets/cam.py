@@ -10,7 +10,7 @@ from exporters.sheets.cam_joint import Joint, draw_joint, joint_of, joint_paper,
 from exporters.sheets.cam_picture import CamPicture, Scales, scales_of
 from exporters.sheets.cam_profile import draw_profile, name_profile, number_positions, profile_paper
 from exporters.sheets.cam_swing import draw_swing, name_swing, swing_of, swing_window
-from exporters.sheets.cam_tables import WIDTH, Grid, characteristics, draw_grid, graphical_grid, scale_rows
+from exporters.sheets.cam_tables import ROW, WIDTH, Grid, characteristics, draw_grid, graphical_grid, legend, scale_rows
 from exporters.sheets.canvas import FRAME, FRAME_LEFT, PAPERS, TEXT_HEIGHT, Box, Canvas, Paper, scale_text
 from exporters.sheets.labels import Labeller
 from exporters.sheets.verify import Expected
@@ -21,6 +21,9 @@ from geometry.errors import ParameterError
 # a turn on the axis of abscissae, mm, on each paper
 _TURNS = {"A2": 180.0, "A1": 360.0, "A0": 360.0}
 _TITLE, _MARGIN, _CAPTION = 14.0, 4.0, 9.0
+# between tables; rows of the scales and the meaning of lines with the gaps around them, mm
+_GRID_GAP = 3.0
+_SMALL_GRIDS = 17 * ROW + 3 * _GRID_GAP
 # least share of the middle column's height for the joint diagram
 _JOINT_SHARE = 0.42
 
@@ -71,10 +74,11 @@ def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, tolerance: flo
     _captions(canvas, picture, layout, joint_place, paper)
     corner = layout.tables
     scale = None if joint_place is None else joint_place.scale
-    for grid in (first, scale_rows(picture, scales, scale, paper.scale), graphical):
+    lines = legend(picture, has_return=joint is not None and joint.return_line is not None)
+    for grid in (first, scale_rows(picture, scales, scale, paper.scale), lines, graphical):
         if grid is not None:
             draw_grid(canvas, corner, grid)
-            corner -= 1j * (grid.height + _MARGIN)
+            corner -= 1j * (grid.height + _GRID_GAP)
     number_positions(canvas, picture, paper)
     name_profile(Labeller(canvas, layout.profile.grown(2.0)), picture, paper)
     if joint is not None and joint_place is not None and window is not None:
@@ -106,10 +110,10 @@ def _title(picture: CamPicture) -> str:
 
 def _layout(picture: CamPicture, first: Grid, graphical: Grid | None, *, has_joint: bool) -> _Layout:
     """The smallest paper that holds the tables and the profile in full size; A1 for a larger cam."""
-    tables = first.height + 11 * 5.0 + (graphical.height if graphical else 0.0) + 2 * _MARGIN
+    tables = first.height + _SMALL_GRIDS + (graphical.height if graphical else 0.0)
     fitting = [name for name in _TURNS if tables <= PAPERS[name][0] - 2 * FRAME - _TITLE - _MARGIN]
     if not fitting:
-        rows = int((PAPERS["A0"][0] - 100.0 - first.height) / 5.0)
+        rows = int((PAPERS["A0"][0] - 2 * FRAME - _TITLE - _MARGIN - _SMALL_GRIDS - first.height) / ROW)
         phases = max(len(picture.drawn.phases) if picture.drawn else 1, 1)
         most = max(2, rows // phases - 2)
         raise ParameterError("intervals", picture.intervals, f"its table fits no paper; at most {most} works")

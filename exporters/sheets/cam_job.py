@@ -31,13 +31,15 @@ def cam_sheets(scene: SceneFile, export: ExportSpec, where: str, source: str) ->
     intervals, found = export.intervals or INTERVALS, []
     for part in export.parts or cams:
         spec = scene.parts[part]
-        table = calculation.table_from(scene, source, {"part": part, "intervals": intervals})
+        more = {"part": part, "intervals": intervals, "speed_rpm": export.speed_rpm}
+        table = calculation.table_from(scene, source, {k: v for k, v in more.items() if v is not None})
         picture = cam_picture(
             checked_cam(spec),
             intervals,
             spec.least_transmission_angle_deg,
             spec.least_curvature_radius,
             scene.scene.language,
+            export.speed_rpm,
         )
         try:
             made = cam_sheet(part, picture, calculation.sheet(table), float(export.tolerance or 0.0))

@@ -46,6 +46,7 @@ class CamPicture:
     positions: tuple[Position, ...]
     drawn: GraphicalMotion | None
     language: str
+    speed_rpm: float | None = None
 
     @property
     def swings(self) -> bool:
@@ -64,7 +65,12 @@ class CamPicture:
 
 
 def cam_picture(
-    cam: DiskCam, intervals: int, gamma_deg: float | None, least_curvature_radius: float, language: str
+    cam: DiskCam,
+    intervals: int,
+    gamma_deg: float | None,
+    least_curvature_radius: float,
+    language: str,
+    speed_rpm: float | None = None,
 ) -> CamPicture:
     """The picture of a cam with ``intervals`` parts of each phase.
 
@@ -84,7 +90,9 @@ def cam_picture(
     if cam.is_flat:
         gamma = None if not isinstance(cam.mount, Translating) else math.pi / 4
     positions = _positions(cam, intervals)
-    return CamPicture(cam, intervals, gamma, gamma_deg is not None, least_curvature_radius, positions, drawn, language)
+    return CamPicture(
+        cam, intervals, gamma, gamma_deg is not None, least_curvature_radius, positions, drawn, language, speed_rpm
+    )
 
 
 def _positions(cam: DiskCam, intervals: int) -> tuple[Position, ...]:

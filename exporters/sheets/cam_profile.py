@@ -31,11 +31,14 @@ _TURN = 2 * math.pi
 
 @dataclass(frozen=True, slots=True)
 class Reach:
-    """Radii of the construction, mm: base circle, that of S = 0 and of the highest follower, and all that is drawn."""
+    """Radii of the construction, mm: base circle, that of S = 0, of the highest follower, where the lines of motion
+    end, and of all that is drawn.
+    """
 
     base: float
     prime: float
     far: float
+    rays: float
     whole: float
 
 
@@ -45,17 +48,15 @@ def reach_of(picture: CamPicture, scale: float) -> Reach:
     base = base_radius(cam)
     angles = np.concatenate([p.extremes(0) for p in cam.motion.pieces] + [np.linspace(0, _TURN, 181)])
     far = float(np.abs(cam.reference_point(angles)).max())
-    whole = far + _BEYOND / scale
-    mount = cam.mount
+    rays = far + (cam.radius if cam.kind is FollowerKind.ROLLER else 0.0) + _BEYOND / scale
+    whole, mount = rays, cam.mount
     if isinstance(mount, Oscillating):
         whole = max(far + cam.radius, mount.centre_distance)
     elif cam.is_flat:
         for position in picture.positions:
             height = abs(complex(cam.reference_point(position.angle)))
             whole = max(whole, *(math.hypot(height, end) for end in _face_ends(picture, position.angle, scale)))
-    elif cam.kind is FollowerKind.ROLLER:
-        whole = max(whole, far + cam.radius)
-    return Reach(base, base + cam.radius, far, whole)
+    return Reach(base, base + cam.radius, far, rays, whole)
 
 
 def _face_ends(picture: CamPicture, angle: float, scale: float) -> tuple[float, float]:
@@ -145,7 +146,7 @@ def _follower(canvas: Canvas, drawn: Drawn, picture: CamPicture, paper: Paper, r
     here = complex(cam.reference_point(angle))
     if isinstance(mount, Translating):
         beside = 0.0 if cam.is_flat else mount.offset
-        top = math.sqrt((reach.far + _BEYOND / paper.scale) ** 2 - beside**2)
+        top = math.sqrt(reach.rays**2 - beside**2)
         line("CONSTRUCTION", complex(beside, 0.0), complex(beside, top))
     else:
         line("CONSTRUCTION", 0j, complex(mount.centre_distance, 0.0))
@@ -191,7 +192,7 @@ def number_positions(canvas: Canvas, picture: CamPicture, paper: Paper) -> None:
     cam, mount, reach = picture.cam, picture.cam.mount, reach_of(picture, paper.scale)
     if isinstance(mount, Translating):
         beside = 0.0 if cam.is_flat else mount.offset
-        radius = reach.far + (_BEYOND + _NUMBER) / paper.scale
+        radius = reach.rays + _NUMBER / paper.scale
         start = complex(beside, math.sqrt(radius**2 - beside**2))
     else:
         radius = mount.centre_distance + _NUMBER / paper.scale

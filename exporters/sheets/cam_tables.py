@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 
@@ -11,7 +12,7 @@ from exporters.sheets.cam_picture import CamPicture, Scales
 from exporters.sheets.canvas import SMALL_TEXT, Box, Canvas, decimal, scale_text, text_width
 from exporters.sheets.words import sheet_words
 
-ROW = 5.0
+ROW = 4.5
 WIDTH = 126.0
 _COLUMNS = (76.0, 16.0, 34.0)
 _INDENT = 1.2
@@ -22,10 +23,11 @@ _LEFT_OUT = {"lift_of_phase", "swing_of_phase_deg", "graphical_intervals"}
 
 @dataclass(frozen=True, slots=True)
 class Grid:
-    """Columns (mm) and rows of cells; a row of one cell is a heading."""
+    """Columns (mm) and rows of cells; a row of one cell is a heading; ``samples``: layers whose line a row shows."""
 
     columns: tuple[float, ...]
     rows: tuple[tuple[str, ...], ...]
+    samples: tuple[tuple[int, str], ...] = ()
 
     @property
     def height(self) -> float:
@@ -76,10 +78,39 @@ def scale_rows(picture: CamPicture, scales: Scales, joint: float | None, profile
         rows.append((word(f"scale_{order}"), f"μ_{{{name}{order * chr(39)}}}", decimal(text, language)))
     for k, pole in enumerate(scales.poles, 1):
         rows.append((word(f"pole_{k}"), f"H_{{{k}}}", f"{picture.say(pole, 3)} {mm}"))
+    if picture.speed_rpm is not None:
+        rows += _time_rows(picture, scales)
     if joint is not None:
         rows.append((word("scale_joint"), "M", scale_text(joint, language)))
     rows.append((word("scale_profile"), "M", scale_text(profile, language)))
     return Grid(_COLUMNS, tuple(rows))
+
+
+def _time_rows(picture: CamPicture, scales: Scales) -> list[tuple[str, ...]]:
+    """Scales that make the same diagrams those of S(t), v(t) and a(t): mu_phi / omega, mu_S' omega, mu_S'' omega^2."""
+    assert picture.speed_rpm is not None
+    omega, language = math.pi * picture.speed_rpm / 30, picture.language
+    # mm to m for accelerations, degrees to rad for a rocker
+    small, large = (math.radians(1.0),) * 2 if picture.swings else (1.0, 1e-3)
+    units = ("rad/s", "rad/s2") if picture.swings else ("mm/s", "m/s2")
+    rows: list[tuple[str, ...]] = []
+    for key, symbol, value, unit in (
+        ("scale_time", "μ_{t}", scales.phi / omega, "s"),
+        ("scale_velocity", "μ_{v}", scales.rate * omega * small, units[0]),
+        ("scale_acceleration", "μ_{a}", scales.bend * omega**2 * large, units[1]),
+    ):
+        shown = unit_text(unit, language)
+        text = f"{value:.6g} {f'({shown})' if '/' in shown else shown}/{unit_text('mm', language)}"
+        rows.append((sheet_words(language, key), symbol, decimal(text, language)))
+    return rows
+
+
+def legend(picture: CamPicture, *, has_return: bool) -> Grid:
+    """What the lines mean that have no name of their own."""
+    layers = ["CAM"] + ["PITCH_CURVE"] * bool(picture.cam.radius) + ["GRAPHICAL"] * (picture.drawn is not None)
+    layers += ["RETURN_TANGENT"] * has_return
+    rows = tuple((sheet_words(picture.language, layer.lower()), "") for layer in layers)
+    return Grid((_COLUMNS[0], sum(_COLUMNS[1:])), rows, tuple(enumerate(layers)))
 
 
 def graphical_grid(calculation: Sheet, picture: CamPicture) -> Grid | None:
@@ -127,3 +158,6 @@ def draw_grid(canvas: Canvas, corner: complex, grid: Grid) -> None:
             if k:
                 canvas.line("TABLE", complex(x, y), complex(x, y + ROW))
             x += wide
+    for index, layer in grid.samples:
+        y = top - ROW * (index + 0.5)
+        canvas.line(layer, complex(corner.real + grid.columns[0] + 3.0, y), complex(corner.real + width - 3.0, y))
