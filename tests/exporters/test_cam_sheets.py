@@ -247,6 +247,23 @@ def test_a_rocker_has_its_pivots_arms_and_axis(tmp_path: Path) -> None:
     assert "12" in texts
 
 
+def test_a_given_speed_adds_scales_of_time() -> None:
+    """The same diagrams are S(t), v(t), a(t) with mu_phi / omega, mu_S' omega and mu_S'' omega^2."""
+    part = {"kind": "cam", "follower": "flat", "lift": 0.3, "phases": RISE_AND_RETURN,
+            "least_transmission_angle_deg": 45.0, "least_curvature_radius": 1.0}  # fmt: skip
+    texts = [
+        t.text for t in plan_build(cam_scene(part, speed_rpm=600.0, intervals=2), "t", [], []).sheets[0].canvas.texts
+    ]
+
+    def after(symbol: str) -> float:
+        return float(texts[texts.index(symbol) + 1].split()[0])
+
+    omega = 20 * math.pi
+    assert after("μt") == pytest.approx(math.radians(2) / omega, rel=1e-5)
+    assert after("μv") == pytest.approx(after("μS'") * omega, rel=1e-5)
+    assert after("μa") == pytest.approx(after("μS''") * omega**2 / 1000, rel=1e-5)
+
+
 LEGAL: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "points of a table": ({"motion_table": [[a, 10 - 10 * math.cos(math.radians(a))] for a in range(0, 360, 30)],
                            "follower": "roller", "follower_radius": 6.0, "base_circle_radius": 40.0}, {}),
@@ -298,8 +315,9 @@ def test_refusals_name_the_key_and_what_works() -> None:
         plan_build(cam_scene(gear, parts=["rocker"]), "t", [], [])
     with pytest.raises(SceneError, match="intervals"):
         cam_scene(ROCKER, intervals=1)
-    with pytest.raises(SceneError, match='only for purpose = "cam"'):
-        cam_scene(ROCKER, intervals=8, purpose="generating")
+    for key in ("intervals", "speed_rpm"):
+        with pytest.raises(SceneError, match='only for purpose = "cam"'):
+            cam_scene(ROCKER, purpose="generating", **{key: 8})
     with pytest.raises(SceneError, match="shows the part, not the cut"):
         cam_scene(ROCKER, kerf=0.1)
 
