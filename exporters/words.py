@@ -50,7 +50,12 @@ WORDS: dict[str, tuple[str, str]] = {
         "pair {first} - {second}: a_w = {a_w:.5f} mm, alpha_w = {alpha_w:.4f} deg, contact ratio {ratio:.4f}",
         "пара {first} - {second}: a_w = {a_w:.5f} мм, alpha_w = {alpha_w:.4f} град, коефіцієнт перекриття {ratio:.4f}",
     ),
+    "mate_fixed": ("{first} - {second}: fixed to each other", "{first} - {second}: нерухомо з'єднані"),
     "broken": ("BROKEN", "ПОРУШЕНО"),
+    "height": (
+        "{second} stands {value:.9g} mm above {first}, {required:.9g} mm is asked",
+        "{second} стоїть на {value:.9g} мм вище за {first}, потрібно {required:.9g} мм",
+    ),
     "centre_distance": (
         "the centres of {first} and {second} stand {value:.9g} mm apart, {required:.9g} mm is asked "
         "(within {tolerance:.2g} mm)",

@@ -16,7 +16,7 @@ from parts.helix_keys import helix_of
 from parts.instances import DriveSpec, InstanceSpec, check_instance, drive_spec, instance_specs
 from parts.keys import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.mate_kinds import Mating
-from parts.mates import JOINS, MATES, mated
+from parts.mates import GEAR_PAIRS, JOINS, MATES, mated
 from parts.part import Part
 from parts.rack import RackSpec, checked_rack_part, rack_part
 from parts.ring_gear import RingGearSpec, checked_ring_gear, ring_gear_part
@@ -326,12 +326,13 @@ def _check_kinds(scene: SceneFile, mate: Any, part_of: dict[str, str], source: s
     """A mate joins the kinds of parts that it is for."""
     mate_kind = mate.__struct_config__.tag
     found = tuple(scene.parts[part_of[i]].__struct_config__.tag for i in (mate.first, mate.second))
-    if found in JOINS[mate_kind]:
+    joins = JOINS[mate_kind]
+    if joins is None or found in joins:
         return
-    index = 0 if all(first != found[0] for first, _ in JOINS[mate_kind]) else 1
+    index = 0 if all(first != found[0] for first, _ in joins) else 1
     key = ("first", "second")[index]
-    wanted = " or ".join(f"{a} and {b}" for a, b in JOINS[mate_kind])
-    other = next((m for m, joins in JOINS.items() if found in joins), None)
+    wanted = " or ".join(f"{a} and {b}" for a, b in joins)
+    other = next((m for m, others in JOINS.items() if others and found in others), None)
     hint = f'; kind = "{other}" joins these two' if other else ""
     remedy = f"is a {found[index]}; {mate_kind} joins {wanted}{hint}"
     raise SceneError(source, f"{place}.{key}", getattr(mate, key), remedy)
@@ -339,6 +340,8 @@ def _check_kinds(scene: SceneFile, mate: Any, part_of: dict[str, str], source: s
 
 def _check_helices(scene: SceneFile, mate: Any, part_of: dict[str, str], source: str, place: str) -> None:
     """Helices that mesh, and one normal module: told in the keys of the parts, before their transverse sections."""
+    if not isinstance(mate, GEAR_PAIRS):
+        return
     one, two = (scene.parts[part_of[i]] for i in (mate.first, mate.second))
     first, second = helix_of(one), helix_of(two)
     if first.angle == 0 and second.angle == 0:
