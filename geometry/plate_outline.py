@@ -22,6 +22,8 @@ from geometry.tolerance import TOLERANCES
 
 Edge = Line | Arc
 _BISECTIONS, _ARC_SAMPLES = 30, 24
+# as a part of the edges beside it
+_LEAST_ROUNDING = 1e-9
 # what is left for a hole at a place that has no room for one, mm
 _LEAST_HOLE = 1e-3
 
@@ -107,7 +109,8 @@ class PlateOutline:
         size = "diameter" if isinstance(hole, PlateHole) else "width"
 
         def fits(value: float) -> bool:
-            return PlateOutline(self.edges, (*self.holes[: count - 1], replace(hole, **{size: value})))._exists(0.0)
+            smaller = replace(hole, diameter=value) if isinstance(hole, PlateHole) else replace(hole, width=value)
+            return PlateOutline(self.edges, (*self.holes[: count - 1], smaller))._exists(0.0)
 
         works, fails = 0.0, float(getattr(hole, size))
         for _ in range(_BISECTIONS):
@@ -163,7 +166,9 @@ def _carrier(edge: Edge, offset: float) -> Edge | None:
     return edge.offset(-offset)
 
 
-def _joint(edge: Edge, carrier: Edge, following: Edge, after: Edge, offset: float) -> tuple[complex, Arc | None, complex]:
+def _joint(
+    edge: Edge, carrier: Edge, following: Edge, after: Edge, offset: float
+) -> tuple[complex, Arc | None, complex]:
     """Where a moved edge ends, the arc about the corner if there is one, and where the next one starts."""
     corner = end_point(edge)
     adjacent = abs(start_point(following) - corner) <= TOLERANCES.relative_join * (abs(corner) + 1)
@@ -211,7 +216,8 @@ def _crossings(one: Edge, two: Edge) -> list[complex]:
         along = (distance**2 + one.radius**2 - two.radius**2) / (2 * distance)
         return _both(one.centre + along * apart / distance, 1j * apart / distance, one.radius**2 - along**2)
     line, arc = (one, two) if isinstance(one, Line) else (two, one)
-    assert isinstance(line, Line) and isinstance(arc, Arc)
+    assert isinstance(line, Line)
+    assert isinstance(arc, Arc)
     way = complex(line.tangent(0.0))
     foot = line.start + way * ((arc.centre - line.start) * way.conjugate()).real
     return _both(foot, way, arc.radius**2 - abs(foot - arc.centre) ** 2)
@@ -260,6 +266,8 @@ def _winding(point: complex, polygon: Complex) -> int:
 def rounded(corners: Sequence[tuple[complex, float]]) -> tuple[Edge, ...]:
     """The closed outline through corners (point, rounding radius), counter-clockwise; mm.
 
+    A rounding that is lost beside its corner's neighbours is none.
+
     Raises
     ------
     GeometryError
@@ -270,6 +278,7 @@ def rounded(corners: Sequence[tuple[complex, float]]) -> tuple[Edge, ...]:
         before, after = corners[index - 1][0] - corner, corners[(index + 1) % len(corners)][0] - corner
         u, v = before / abs(before), after / abs(after)
         turn = cmath.phase(-v / u)
+        radius = radius if radius > _LEAST_ROUNDING * min(abs(before), abs(after)) else 0.0
         reach = radius * abs(math.tan(turn / 2))
         cut.append((corner + reach * u, corner + reach * v, turn, u, radius))
     edges: list[Edge] = []

@@ -11,6 +11,7 @@ from typing import Any
 
 from msgspec import Struct
 
+from parts.cam_mate import CamFollowerSpec, cam_follower_mating
 from parts.fixed_mate import FixedSpec, fixed_mating
 from parts.mate_kinds import Mating
 
@@ -29,6 +30,8 @@ class Joint:
     mating: Callable[[Any, Any, Any], Mating]
 
 
+_FOLLOWERS = ("follower", "follower_arm", "roller")
 JOINTS: dict[str, Joint] = {
+    "cam_follower": Joint(CamFollowerSpec, tuple(("cam", f) for f in _FOLLOWERS), cam_follower_mating),
     "fixed": Joint(FixedSpec, None, fixed_mating),
 }

@@ -12,12 +12,23 @@ from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError
 from parts.cam import CamSpec, cam_part, checked_cam
+from parts.follower import (
+    FollowerArmSpec,
+    FollowerSpec,
+    RollerSpec,
+    checked_arm,
+    checked_follower,
+    checked_roller,
+    follower_part,
+    roller_part,
+)
 from parts.helix_keys import helix_of
 from parts.instances import DriveSpec, InstanceSpec, check_instance, drive_spec, instance_specs
 from parts.keys import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.mate_kinds import Mating
 from parts.mates import GEAR_PAIRS, JOINS, MATES, mated
 from parts.part import Part
+from parts.plate import PlateSpec, checked_plate, plate_part
 from parts.rack import RackSpec, checked_rack_part, rack_part
 from parts.ring_gear import RingGearSpec, checked_ring_gear, ring_gear_part
 from parts.schema import SceneError, converted, near, refuse_infinite
@@ -30,6 +41,10 @@ KINDS: dict[str, tuple[type[Struct], Any, Any]] = {
     "ring_gear": (RingGearSpec, checked_ring_gear, ring_gear_part),
     "rack": (RackSpec, checked_rack_part, rack_part),
     "cam": (CamSpec, checked_cam, cam_part),
+    "follower": (FollowerSpec, checked_follower, follower_part),
+    "follower_arm": (FollowerArmSpec, checked_arm, follower_part),
+    "roller": (RollerSpec, checked_roller, roller_part),
+    "plate": (PlateSpec, checked_plate, plate_part),
 }
 # purposes of each format, the default first, and the tolerance (mm) of an export that names none
 _DEFAULTS: dict[str, dict[str, float]] = {

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from geometry.cams.disk import FollowerKind
 from geometry.errors import ParameterError, at_least, at_most
-from geometry.line_arc import Arc, Line
+from geometry.line_arc import Arc, Line, arc_between
 from geometry.plate_outline import Edge, PlateOutline, belt, rounded, tangent_point
 
 
@@ -77,7 +77,9 @@ def plate_stem(
     diameter, thickness = plate
     half, stem = diameter / 2, width / 2
     if not diameter >= width:
-        raise ParameterError("plate_diameter", diameter, f"is below the stem's width; at least {at_least(width)} mm works")
+        raise ParameterError(
+            "plate_diameter", diameter, f"is below the stem's width; at least {at_least(width)} mm works"
+        )
     if radius is not None and not diameter < 2 * radius:
         text = f"the arc ends at its own diameter; below {at_most(2 * radius * (1 - 1e-6))} mm works"
         raise ParameterError("plate_diameter", diameter, text)
@@ -110,7 +112,7 @@ def _joins(edge: Edge, first: complex, last: complex) -> bool:
 
 
 def round_arm(length: float, pivot: float, end: float) -> tuple[Edge, ...]:
-    """An arm between a boss of diameter ``pivot`` and a round end of diameter ``end``: roller's pin or mushroom.
+    """An arm between a boss of diameter ``pivot`` and a round end of diameter ``end`` about the roller's pin.
 
     Raises
     ------
@@ -157,18 +159,38 @@ def pointed_arm(length: float, width: float, boss: float, tip: tuple[float, floa
     if not length - half > boss / 2:
         most = (length - boss / 2) * 0.999 / math.tan(angle / 2)
         raise ParameterError("tip_height", height, f"the hook reaches the pivot; at most {at_most(most, 4)} mm works")
-    # for a cam on the left; its mirror image for the other side
-    shoulder, heel = complex(length - half, -height), complex(length + half, -height - width)
+    shoulder = complex(length - half, -height)
+    front = complex(length + half, -height)
+    hook = (Line(front, length + 0j), Line(length + 0j, shoulder))
+    return _hooked(shoulder, front, width, boss, hook, sense)
+
+
+def mushroom_arm(length: float, width: float, boss: float, cap: tuple[float, float], sense: int) -> tuple[Edge, ...]:
+    """An arm with a cap of a circle (radius, height of its centre over the arm, mm) about (``length``, 0).
+
+    Raises
+    ------
+    ParameterError
+        The cap does not fit on the arm.
+    """
+    radius, height = cap
+    if not height < radius:
+        raise ParameterError("tip_height", height, f"is no cap; at most {at_most(radius * 0.999, 4)} mm works")
+    half = math.sqrt((radius - height) * (radius + height))
+    if not length - radius > boss / 2:
+        text = f"the cap reaches the pivot; at most {at_most((length - boss / 2) * 0.999, 4)} mm works"
+        raise ParameterError("follower_radius", radius, text)
+    shoulder, front = complex(length - half, -height), complex(length + half, -height)
+    return _hooked(shoulder, front, width, boss, (arc_between(length + 0j, front, shoulder, turns_left=True),), sense)
+
+
+def _hooked(
+    shoulder: complex, front: complex, width: float, boss: float, hook: tuple[Edge, ...], sense: int
+) -> tuple[Edge, ...]:
+    """An arm from the boss about the pivot to a hook that stands on its upper side, for a cam on the left or right."""
+    heel, toe = shoulder - 1j * width, front - 1j * width
     upper, lower = tangent_point(shoulder, 0j, boss / 2, -1), tangent_point(heel, 0j, boss / 2, 1)
     turn = cmath.phase(lower / upper)
-    edges: list[Edge] = [
-        Line(length + 0j, shoulder),
-        Line(shoulder, upper),
-        Arc(0j, boss / 2, cmath.phase(upper), turn if turn > 0 else turn + 2 * math.pi),
-        Line(lower, heel),
-        Line(heel, complex(length + half, -height)),
-        Line(complex(length + half, -height), length + 0j),
-    ]
-    if sense > 0:
-        return tuple(edges)
-    return tuple(e.mirrored() for e in reversed(edges))
+    around = Arc(0j, boss / 2, cmath.phase(upper), turn if turn > 0 else turn + 2 * math.pi)
+    edges = (*hook, Line(shoulder, upper), around, Line(lower, heel), Line(heel, toe), Line(toe, front))
+    return edges if sense > 0 else tuple(e.mirrored() for e in reversed(edges))
