@@ -51,6 +51,9 @@ _PHASES = (
     '{ move = "return_", angle_deg = 120.0, law = "polynomial_345" }',
     '{ move = "dwell", angle_deg = 60.0 }',
 )
+# holes and slots of flat bodies
+_AT_HOLE = "[{ at = [0.0, 20.0], diameter = 3.0 }]"
+_AT_SLOT = "[{ start = [0.0, 28.0], end = [0.0, 36.0], width = 3.0 }]"
 # keys with a default that a scene to start from sets nevertheless
 _SET = {
     "CamSpec": {
@@ -71,6 +74,16 @@ _TABLE_EXAMPLES = {
     ("RimHolesTable", "pitch_circle_diameter"): "140.0",
     ("RackHolesTable", "diameter"): "2.5",
     ("RackHolesTable", "depth"): "2.5",
+    ("FollowerSpec", "end"): '"roller"',
+    ("FollowerArmSpec", "end"): '"roller"',
+    ("FollowerArmSpec", "arm_length"): "60.0",
+    ("RollerSpec", "diameter"): "16.0",
+    ("PlateSpec", "width"): "60.0",
+    ("PlateSpec", "height"): "90.0",
+    **{(owner, "holes"): _AT_HOLE for owner in ("PlateSpec", "FollowerSpec")},
+    **{(owner, "slots"): _AT_SLOT for owner in ("PlateSpec", "FollowerSpec")},
+    ("FollowerArmSpec", "holes"): "[{ at = [20.0, 0.0], diameter = 3.0 }]",
+    ("FollowerArmSpec", "slots"): "[{ start = [28.0, 0.0], end = [36.0, 0.0], width = 3.0 }]",
 }
 
 # what a scene of several parts may add
@@ -160,6 +173,8 @@ def _value(field: msgspec.structs.FieldInfo) -> str:
         return _table_value(tables[0]) if tables else _EXAMPLES[field.encode_name]
     if isinstance(field.default, bool):
         return str(field.default).lower()
+    if isinstance(field.default, tuple):
+        return str(list(field.default))
     return f'"{field.default}"' if isinstance(field.default, str) else str(field.default)
 
 
