@@ -7,6 +7,7 @@ from typing import get_args
 import msgspec
 from msgspec import Struct
 
+from parts.mates import JOINS, MATES
 from parts.scene import KINDS, ExportSpec, SceneInfo
 from parts.schema import describe_type
 
@@ -20,6 +21,10 @@ _EXAMPLES = {
     "tip_radius_coefficient": "0.38",
     "material": '"plywood 3 mm"',
     "colour": '"#c08040"',
+    "first": '"gear"',
+    "second": '"wheel"',
+    "working_centre_distance": "60.5",
+    "normal_backlash": "0.1",
     "purpose": '"laser"',
     "tolerance": "0.005",
     "name": '"laser"',
@@ -145,6 +150,17 @@ def new_scene(kind: str) -> str:
         *_ASSEMBLY,
     ]
     return "\n".join(lines) + "\n"
+
+
+def new_mate(kind: str) -> str:
+    """The table of a kind of mate, to be put into a scene."""
+    joined = JOINS[kind]
+    who = "any two instances" if joined is None else " or ".join(f"{a} and {b}" for a, b in joined)
+    lines = [
+        f"# {(MATES[kind].__doc__ or '').splitlines()[0]}",
+        f"# Joins {who}; see higherpair new KIND for their keys.",
+    ]
+    return "\n".join([*lines, "[[mates]]", f'kind = "{kind}"', *_keys(MATES[kind])]) + "\n"
 
 
 def _keys(owner: type[Struct], without: tuple[str, ...] = ()) -> list[str]:

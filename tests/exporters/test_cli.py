@@ -7,11 +7,13 @@ import os
 import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
 
 from exporters import __version__
+from parts.mates import MATES
 from parts.scene import KINDS, built_in_scenes
 
 from .making import build_gear, part_keys, read_report, run, write_scene
@@ -212,6 +214,13 @@ def test_the_scene_to_start_from_builds(kind: str, tmp_path: Path, capsys: pytes
     file.write_text(new_scene(capsys, kind), encoding="utf-8")
     assert run("build", file, "--out", tmp_path / "o") == 0
     assert {e["format"] for e in read_report(tmp_path / "o" / "mine")["files"]} >= {"dxf", "svg", "stl"}
+
+
+@pytest.mark.parametrize("kind", MATES)
+def test_new_prints_every_mate_with_its_keys(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+    table = tomllib.loads(new_scene(capsys, kind))["mates"][0]
+    assert table["kind"] == kind
+    assert {"first", "second"} <= set(table)
 
 
 def test_every_commented_key_may_be_set_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
