@@ -19,6 +19,9 @@ WORDS: dict[str, tuple[str, str]] = {
     "swing_deg": ("swing, deg", "розмах коромисла, град"),
     "start_angle_deg": ("lowest angle from the line of centres, deg", "найменший кут від лінії центрів, град"),
     "follower_radius": ("follower radius, mm", "радіус ролика, мм"),
+    "outer_diameter": ("outer diameter, mm", "зовнішній діаметр, мм"),
+    "groove_width": ("groove width, mm", "ширина паза, мм"),
+    "groove_depth": ("groove depth, mm", "глибина паза, мм"),
     "follower_offset": ("follower offset E, mm", "зміщення штовхача E, мм"),
     "pressure_angle_rise_deg": ("greatest pressure angle, rise, deg", "кут тиску, віддалення, град"),
     "pressure_angle_return_deg": ("greatest pressure angle, return, deg", "кут тиску, наближення, град"),
@@ -214,6 +217,20 @@ FINDINGS: dict[str, tuple[str, str]] = {
     "steep_pressure_angle": (
         "pressure angle {value:.2f} deg on the rise, usual is at most {limit:.0f} deg",
         "кут тиску {value:.2f} град при віддаленні, допустимо {limit:.0f} град",
+    ),
+    "steep_return_pressure_angle": (
+        "pressure angle {value:.2f} deg on the return, which the cam drives too; usual is at most {limit:.0f} deg",
+        "кут тиску {value:.2f} град при наближенні, яке теж веде кулачок; допустимо {limit:.0f} град",
+    ),
+    "roller_play": (
+        "the roller's play in its groove is {value:.4g} mm; with none it jams, above {limit:.4g} mm it knocks",
+        "зазор ролика в пазу {value:.4g} мм; без зазору ролик заклинює, понад {limit:.4g} мм - стукає",
+    ),
+    "engraved_groove": (
+        "the groove is {value:.4g} mm deep of {limit:.4g} mm: its walls stand on layer ENGRAVE, not cut through; "
+        "groove_piece gives plates to glue",
+        "паз має глибину {value:.4g} мм із {limit:.4g} мм: його стінки на шарі ENGRAVE, наскрізь їх не ріжуть; "
+        "groove_piece дає пластини для склеювання",
     ),
     "large_roller": (
         "roller radius {value:.4g} mm is above 0.8 of the least radius of the pitch curve ({limit:.4g} mm)",

@@ -103,7 +103,7 @@ def checked_cam(spec: CamSpec) -> DiskCam:
     """
     from geometry.cams.undercut import kept_arcs
 
-    cam = _cam_of(spec)
+    cam = cam_of(spec)
     try:
         gaps = kept_arcs(cam).gaps
     except UndercutError:
@@ -160,7 +160,8 @@ def inner_radius(cam: DiskCam) -> float:
     return float(np.abs(cam.reference_point(angles)).min()) - cam.radius
 
 
-def _cam_of(spec: CamSpec) -> DiskCam:
+def cam_of(spec: CamSpec) -> DiskCam:
+    """The cam of the keys, not yet checked for undercut; refusals speak in the scene's keys."""
     from geometry.cams.disk import FollowerKind, oscillating_cam, translating_cam
 
     swing = spec.oscillating
@@ -239,7 +240,7 @@ def _whole(spec: CamSpec, cam: DiskCam) -> str:
         try:
             from msgspec.structs import replace
 
-            return is_whole(_cam_of(replace(spec, base_circle_radius=base)))
+            return is_whole(cam_of(replace(spec, base_circle_radius=base)))
         except GeometryError:
             return False
 

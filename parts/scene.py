@@ -12,6 +12,8 @@ from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError
 from parts.cam import CamSpec, cam_part, checked_cam
+from parts.groove_cam import GrooveCamSpec, checked_groove, groove_part
+from parts.groove_piece import GroovePieceSpec, checked_piece, piece_part
 from parts.helix_keys import helix_of
 from parts.instances import DriveSpec, InstanceSpec, check_instance, drive_spec, instance_specs
 from parts.keys import DEVICE_NAMES, IDENTIFIER, Identifier, mm
@@ -30,6 +32,8 @@ KINDS: dict[str, tuple[type[Struct], Any, Any]] = {
     "ring_gear": (RingGearSpec, checked_ring_gear, ring_gear_part),
     "rack": (RackSpec, checked_rack_part, rack_part),
     "cam": (CamSpec, checked_cam, cam_part),
+    "groove_cam": (GrooveCamSpec, checked_groove, groove_part),
+    "groove_piece": (GroovePieceSpec, checked_piece, piece_part),
 }
 # purposes of each format, the default first, and the tolerance (mm) of an export that names none
 _DEFAULTS: dict[str, dict[str, float]] = {
@@ -294,9 +298,11 @@ def default_export(name: str) -> ExportSpec:
 def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mating]]:
     """The parts of a scene, each checked to exist, as its mates want them; and the mates."""
     gears = {}
-    for key, spec in scene.parts.items():
+    for key, spec in sorted(scene.parts.items(), key=lambda item: hasattr(item[1], "of")):
         try:
-            gears[key] = KINDS[spec.__struct_config__.tag][1](spec)
+            checked = KINDS[spec.__struct_config__.tag][1]
+            # what is made from another part's keys looks for it in the scene
+            gears[key] = checked(spec, scene.parts) if hasattr(spec, "of") else checked(spec)
         except ParameterError as error:
             raise SceneError(source, f"parts.{key}.{error.name}", error.value, error.allowed) from error
     matings: list[Mating] = []
