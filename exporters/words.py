@@ -19,6 +19,8 @@ WORDS: dict[str, tuple[str, str]] = {
     "swing_deg": ("swing, deg", "розмах коромисла, град"),
     "start_angle_deg": ("lowest angle from the line of centres, deg", "найменший кут від лінії центрів, град"),
     "follower_radius": ("follower radius, mm", "радіус ролика, мм"),
+    "roller_distance": ("distance of both rollers, mm", "відстань між роликами, мм"),
+    "roller_angle_deg": ("angle between both arms, deg", "кут між плечима коромисла, град"),
     "outer_diameter": ("outer diameter, mm", "зовнішній діаметр, мм"),
     "groove_width": ("groove width, mm", "ширина паза, мм"),
     "groove_depth": ("groove depth, mm", "глибина паза, мм"),

@@ -136,9 +136,9 @@ def cam_part(part_id: str, spec: CamSpec, cam: DiskCam) -> Part:
         lru_cache(maxsize=2)(lambda offset: wheel_body(shape, sections, offset)),
         spec.face_width,
         shape.is_plate,
-        _findings(spec, cam),
-        _circles(cam),
-        _quantities(spec, cam),
+        cam_findings(spec, cam),
+        cam_circles(cam),
+        cam_quantities(spec, cam),
         spec.material,
         spec.colour,
         spec.density or density_of(spec.material),
@@ -312,12 +312,13 @@ def _section(cam: DiskCam, holes: HubHoles, offset: float) -> OffsetRegion:
     try:
         shape = cam_shape(cam, offset)
     except GeometryError as refusal:
-        raise OffsetError(offset, "leaves no outline", _nearest_offset(cam, offset)) from refusal
+        raise OffsetError(offset, "leaves no outline", nearest_offset(cam, offset)) from refusal
     found = (Finding("outline_trimmed", float(len(shape.gaps)), offset),) if shape.gaps else ()
     return OffsetRegion(Region(shape.profile, holes.profiles(offset)), offset, found)
 
 
-def _nearest_offset(cam: DiskCam, refused: float) -> float:
+def nearest_offset(cam: DiskCam, refused: float) -> float:
+    """The offset of the outline nearest to a refused one that works, mm."""
     works, fails = 0.0, refused
     for _ in range(24):
         middle = (works + fails) / 2
@@ -329,14 +330,16 @@ def _nearest_offset(cam: DiskCam, refused: float) -> float:
     return works
 
 
-def _circles(cam: DiskCam) -> dict[str, float]:
+def cam_circles(cam: DiskCam) -> dict[str, float]:
+    """Named diameters of a cam, mm."""
     circles = {"base_circle_diameter": 2 * base_radius(cam)}
     if cam.radius > 0:
         circles["prime_circle_diameter"] = 2 * (base_radius(cam) + cam.radius)
     return circles
 
 
-def _quantities(spec: CamSpec, cam: DiskCam) -> dict[str, float]:
+def cam_quantities(spec: CamSpec, cam: DiskCam) -> dict[str, float]:
+    """Named results of a cam: sizes in mm, angles in degrees."""
     from geometry.cams.follower_motion import PhaseKind
     from geometry.cams.synthesis import greatest_pressure_angle, least_convex_radius
 
@@ -362,7 +365,8 @@ def _quantities(spec: CamSpec, cam: DiskCam) -> dict[str, float]:
     return found
 
 
-def _findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
+def cam_findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
+    """Impacts, steep pressure angles and large rollers of a cam."""
     from geometry.cams.follower_motion import PhaseKind
     from geometry.cams.synthesis import greatest_pressure_angle, least_convex_radius
 

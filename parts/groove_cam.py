@@ -16,7 +16,7 @@ from geometry.gears.offset_tooth import OffsetRegion
 from geometry.hub_holes import HubHoles
 from geometry.profile import Label, Profile, Region, circle
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
-from parts.cam import CamSpec, OscillatingTable, base_radius, cam_of, inner_radius
+from parts.cam import CamSpec, OscillatingTable, base_radius, cam_circles, cam_of, cam_quantities, inner_radius
 from parts.cam_keys import PhaseTable
 from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, mm
@@ -175,11 +175,7 @@ def groove_part(part_id: str, spec: GrooveCamSpec, disk: GrooveDisk) -> Part:
         spec.face_width,
         disk.shape.is_plate,
         _findings(spec, disk),
-        {
-            "outer_diameter": 2 * disk.outer_radius,
-            "base_circle_diameter": 2 * base_radius(disk.cam),
-            "prime_circle_diameter": 2 * (base_radius(disk.cam) + disk.cam.radius),
-        },
+        {"outer_diameter": 2 * disk.outer_radius} | cam_circles(disk.cam),
         _quantities(spec, disk),
         spec.material,
         spec.colour,
@@ -190,10 +186,15 @@ def groove_part(part_id: str, spec: GrooveCamSpec, disk: GrooveDisk) -> Part:
     )
 
 
+def _as_cam(spec: GrooveCamSpec) -> CamSpec:
+    """The keys that a groove cam shares with a disk cam."""
+    shared = {f.name for f in fields(CamSpec)} & {f.name for f in fields(GrooveCamSpec)}
+    return CamSpec(follower="roller", **{name: getattr(spec, name) for name in shared})
+
+
 def _roller_cam(spec: GrooveCamSpec) -> DiskCam:
     """The roller and its motion; a groove's least base circle serves the return too."""
-    shared = {f.name for f in fields(CamSpec)} & {f.name for f in fields(GrooveCamSpec)}
-    as_cam = CamSpec(follower="roller", **{name: getattr(spec, name) for name in shared})
+    as_cam = _as_cam(spec)
     angle = spec.least_transmission_angle_deg
     if spec.base_circle_radius is None and angle is not None and spec.oscillating is None:
         from geometry.cams.synthesis import roller_prime_radius
@@ -258,22 +259,36 @@ def _holes_of(spec: GrooveCamSpec) -> HubHoles:
 
 def groove_section(disk: GrooveDisk, offset: float) -> OffsetRegion:
     """The exact section with every boundary moved out of the material; the groove's walls are marks on it."""
-    inside, width = inner_radius(disk.cam), 2 * disk.cam.radius + disk.clearance
-    if not offset < width / 2:
-        raise OffsetError(offset, "closes the groove", width / 2 * (1 - 1e-6))
-    rim = disk.outer_radius - disk.outermost
-    if not -2 * offset < rim:
-        raise OffsetError(offset, "leaves no rim", -rim / 2 * (1 - 1e-6))
-    if not inside + offset > (disk.holes.reach - offset if disk.holes.number else 0.0):
-        least = (disk.holes.reach - inside) / 2 if disk.holes.number else -inside
-        raise OffsetError(offset, "leaves no wall inside the groove", least * (1 - 1e-9))
+    refusals = _offset_limits(disk, offset)
+    try:
+        holes = disk.holes.profiles(offset)
+    except OffsetError as refusal:
+        refusals.append(refusal)
+    if refusals:
+        # what works for the narrowest of them works for all
+        raise min(refusals, key=lambda r: abs(r.nearest))
     try:
         marks, gaps = _moved_walls(disk, offset)
     except GeometryError as refusal:
         raise OffsetError(offset, "leaves no groove", _nearest_offset(disk, offset)) from refusal
     outer = circle(disk.outer_radius + offset, Label.BODY)
     found = (Finding("outline_trimmed", float(gaps), offset),) if gaps else ()
-    return OffsetRegion(Region(outer, disk.holes.profiles(offset), marks), offset, found)
+    return OffsetRegion(Region(outer, holes, marks), offset, found)
+
+
+def _offset_limits(disk: GrooveDisk, offset: float) -> list[OffsetError]:
+    """Refusals of an offset that closes the groove, or leaves no rim or no wall within it."""
+    inside, width = inner_radius(disk.cam), 2 * disk.cam.radius + disk.clearance
+    found = []
+    if not offset < width / 2:
+        found.append(OffsetError(offset, "closes the groove", width / 2 * (1 - 1e-6)))
+    rim = disk.outer_radius - disk.outermost
+    if not -2 * offset < rim:
+        found.append(OffsetError(offset, "leaves no rim", -rim / 2 * (1 - 1e-6)))
+    if not inside + offset > (disk.holes.reach - offset if disk.holes.number else 0.0):
+        least = (disk.holes.reach - inside) / 2 if disk.holes.number else -inside
+        found.append(OffsetError(offset, "leaves no wall inside the groove", least * (1 - 1e-9)))
+    return found
 
 
 def _moved_walls(disk: GrooveDisk, offset: float) -> tuple[tuple[Profile, Profile], int]:
@@ -310,28 +325,8 @@ def _body(disk: GrooveDisk, region: Region, offset: float) -> Body:
 
 
 def _quantities(spec: GrooveCamSpec, disk: GrooveDisk) -> dict[str, float]:
-    from geometry.cams.follower_motion import PhaseKind
-    from geometry.cams.synthesis import greatest_pressure_angle, least_convex_radius
-
-    cam = disk.cam
-    found: dict[str, float] = {}
-    if spec.oscillating is None:
-        found["lift"] = cam.motion.lift
-        found["follower_offset"] = spec.follower_offset
-    else:
-        found["swing_deg"] = math.degrees(cam.motion.lift)
-        found["start_angle_deg"] = math.degrees(cam.mount.start_angle)  # type: ignore[union-attr]
-    found |= {
-        "follower_radius": cam.radius,
-        "groove_width": 2 * cam.radius + disk.clearance,
-        "groove_depth": disk.depth,
-    }
-    for kind in (PhaseKind.RISE, PhaseKind.RETURN):
-        if cam.motion.moving_pieces(kind):
-            name = f"pressure_angle_{'rise' if kind is PhaseKind.RISE else 'return'}_deg"
-            found[name] = math.degrees(greatest_pressure_angle(cam, kind).value)
-    found["least_curvature_radius"] = least_convex_radius(cam).value
-    return found
+    groove = {"groove_width": 2 * disk.cam.radius + disk.clearance, "groove_depth": disk.depth}
+    return cam_quantities(_as_cam(spec), disk.cam) | groove
 
 
 def _findings(spec: GrooveCamSpec, disk: GrooveDisk) -> tuple[Finding, ...]:

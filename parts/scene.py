@@ -12,6 +12,7 @@ from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError
 from parts.cam import CamSpec, cam_part, checked_cam
+from parts.conjugate_cam import ConjugateCamSpec, checked_conjugate, conjugate_part
 from parts.groove_cam import GrooveCamSpec, checked_groove, groove_part
 from parts.groove_piece import GroovePieceSpec, checked_piece, piece_part
 from parts.helix_keys import helix_of
@@ -32,6 +33,7 @@ KINDS: dict[str, tuple[type[Struct], Any, Any]] = {
     "ring_gear": (RingGearSpec, checked_ring_gear, ring_gear_part),
     "rack": (RackSpec, checked_rack_part, rack_part),
     "cam": (CamSpec, checked_cam, cam_part),
+    "conjugate_cam": (ConjugateCamSpec, checked_conjugate, conjugate_part),
     "groove_cam": (GrooveCamSpec, checked_groove, groove_part),
     "groove_piece": (GroovePieceSpec, checked_piece, piece_part),
 }
