@@ -19,6 +19,7 @@ from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, mm
 from parts.materials import density_of
 from parts.part import Part
+from parts.timing_mark import TimingMarkTable, with_timing_mark
 from parts.wheel_keys import FaceChamfer, FaceChamferTable, HubTable, wheel_shape
 
 if TYPE_CHECKING:
@@ -86,6 +87,7 @@ class CamSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="cam"):
     bore_diameter: BoreDiameter = 0.0
     bore: BoreTable | None = None
     holes: HolesTable | list[HolesTable] | None = None
+    timing_mark: TimingMarkTable | None = None
     hub: HubTable | None = None
     face_chamfer: FaceChamfer | FaceChamferTable = 0.0
     material: Material | None = None
@@ -116,13 +118,13 @@ def checked_cam(spec: CamSpec) -> DiskCam:
         )
     _check_plate(spec, cam)
     _check_bore(spec, cam)
-    check_wheel(_shape_of(spec), 2 * inner_radius(cam), _holes_of(spec))
+    check_wheel(_shape_of(spec), 2 * inner_radius(cam), _holes_of(spec, cam))
     return cam
 
 
 def cam_part(part_id: str, spec: CamSpec, cam: DiskCam) -> Part:
     """The part of a cam; sections are computed when an export asks."""
-    holes, shape = _holes_of(spec), _shape_of(spec)
+    holes, shape = _holes_of(spec, cam), _shape_of(spec)
     section = lru_cache(maxsize=8)(lambda offset: _section(cam, holes, offset))
 
     def outline(offset: float, depth: float) -> Profile:
@@ -258,7 +260,11 @@ def _whole(spec: CamSpec, cam: DiskCam) -> str:
     return f"at least {at_least(high, 4)} mm works"
 
 
-def _holes_of(spec: CamSpec) -> HubHoles:
+def _holes_of(spec: CamSpec, cam: DiskCam) -> HubHoles:
+    return with_timing_mark(_core_of(spec), spec.timing_mark, cam, inner_radius(cam))
+
+
+def _core_of(spec: CamSpec) -> HubHoles:
     if spec.bore is not None and spec.bore_diameter > 0:
         raise ParameterError("bore_diameter", spec.bore_diameter, "give either bore_diameter or bore; 0 works")
     bore = RoundBoreTable(spec.bore_diameter) if spec.bore_diameter > 0 else spec.bore
@@ -285,7 +291,7 @@ def _check_plate(spec: CamSpec, cam: DiskCam) -> None:
 
 def _check_bore(spec: CamSpec, cam: DiskCam) -> None:
     """The holes stay inside the circle that is surely material."""
-    holes, inside = _holes_of(spec), inner_radius(cam)
+    holes, inside = _core_of(spec), inner_radius(cam)
     if not holes.bore_reach < inside:
         key = "bore_diameter" if spec.bore_diameter > 0 else "bore.diameter"
         value = spec.bore_diameter or 2 * holes.bore_reach

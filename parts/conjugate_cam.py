@@ -23,6 +23,7 @@ from parts.keys import Colour, Density, Material, mm
 from parts.links import owner_of
 from parts.materials import density_of
 from parts.part import Part
+from parts.timing_mark import TimingMarkTable, with_timing_mark
 from parts.wheel_keys import FaceChamfer, FaceChamferTable, HubTable, wheel_shape
 
 if TYPE_CHECKING:
@@ -64,6 +65,7 @@ class ConjugateCamSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag
     bore_diameter: Annotated[float, mm("round bore; default: that of the first", least=0, most=_MOST)] | None = None
     bore: BoreTable | None = None
     holes: HolesTable | list[HolesTable] | None = None
+    timing_mark: TimingMarkTable | None = None
     hub: HubTable | None = None
     face_chamfer: FaceChamfer | FaceChamferTable = 0.0
     material: Material | None = None
@@ -115,6 +117,8 @@ def checked_conjugate(spec: ConjugateCamSpec, parts: dict[str, Struct]) -> Secon
         raise ParameterError(
             key, 2 * holes.reach, f"leaves no wall to the base circle; below {2 * inside:.6g} mm works"
         )
+    # where the first cam has its mark
+    holes = with_timing_mark(holes, spec.timing_mark, first, inside)
     check_wheel(shape, 2 * inside, holes)
     keys = replace(
         owner, follower_radius=pair.cam.radius, follower_offset=-owner.follower_offset, base_circle_radius=None

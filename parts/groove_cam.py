@@ -22,6 +22,7 @@ from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, mm
 from parts.materials import density_of
 from parts.part import Part
+from parts.timing_mark import TimingMarkTable, with_timing_mark
 from parts.wheel_keys import FaceChamfer, FaceChamferTable, HubTable, wheel_shape
 
 if TYPE_CHECKING:
@@ -82,6 +83,7 @@ class GrooveCamSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="g
     bore_diameter: BoreDiameter = 0.0
     bore: BoreTable | None = None
     holes: HolesTable | list[HolesTable] | None = None
+    timing_mark: TimingMarkTable | None = None
     hub: HubTable | None = None
     face_chamfer: FaceChamfer | FaceChamferTable = 0.0
     material: Material | None = None
@@ -153,8 +155,9 @@ def checked_groove(spec: GrooveCamSpec) -> GrooveDisk:
     if disk.holes.reach > inside:
         remedy = f"the holes must stay inside the groove: within {inside:.6g} mm of the axis works"
         raise ParameterError("holes", 2 * disk.holes.reach, remedy)
-    check_wheel(shape, 2 * inside, disk.holes)
-    return GrooveDisk(cam, disk.clearance, disk.depth, radius, shape, disk.holes)
+    holes = with_timing_mark(disk.holes, spec.timing_mark, cam, inside)
+    check_wheel(shape, 2 * inside, holes)
+    return GrooveDisk(cam, disk.clearance, disk.depth, radius, shape, holes)
 
 
 def groove_part(part_id: str, spec: GrooveCamSpec, disk: GrooveDisk) -> Part:

@@ -1,4 +1,4 @@
-"""Groove cams: walls against an eccentric disk, the roller rolled on both walls of every file, spoiled files, refusals."""
+"""Groove cams: walls against an eccentric disk, the roller rolled on both in every file, spoiled files, refusals."""
 
 from __future__ import annotations
 
