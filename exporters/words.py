@@ -19,6 +19,11 @@ WORDS: dict[str, tuple[str, str]] = {
     "swing_deg": ("swing, deg", "розмах коромисла, град"),
     "start_angle_deg": ("lowest angle from the line of centres, deg", "найменший кут від лінії центрів, град"),
     "follower_radius": ("follower radius, mm", "радіус ролика, мм"),
+    "yoke_breadth": ("breadth between faces or roller centres, mm", "відстань між гранями чи осями роликів, мм"),
+    "yoke_breadth_error": (
+        "greatest departure of S(phi) + S(phi + 180) from H, mm",
+        "найбільше відхилення S(phi) + S(phi + 180) від H, мм",
+    ),
     "roller_distance": ("distance of both rollers, mm", "відстань між роликами, мм"),
     "roller_angle_deg": ("angle between both arms, deg", "кут між плечима коромисла, град"),
     "outer_diameter": ("outer diameter, mm", "зовнішній діаметр, мм"),
