@@ -45,6 +45,10 @@ def reroll(
     already are not rolled, nor are outlines trimmed by their offset, whose part of the lift is gone.
     """
     cam = part.cam
+    if part.wedge is not None and not verdict.failures:
+        from exporters.reroll_wedge import reroll_wedge
+
+        return reroll_wedge(file, kind, part, offset, declared, verdict)
     if part.walls and not verdict.failures:
         from exporters.reroll_walls import reroll_walls
 

@@ -24,6 +24,8 @@ WORDS: dict[str, tuple[str, str]] = {
         "greatest departure of S(phi) + S(phi + 180) from H, mm",
         "найбільше відхилення S(phi) + S(phi + 180) від H, мм",
     ),
+    "travel": ("travel of the plate, mm", "хід плоского кулачка, мм"),
+    "pressure_angle_deg": ("greatest pressure angle, deg", "найбільший кут тиску, град"),
     "roller_distance": ("distance of both rollers, mm", "відстань між роликами, мм"),
     "roller_angle_deg": ("angle between both arms, deg", "кут між плечима коромисла, град"),
     "outer_diameter": ("outer diameter, mm", "зовнішній діаметр, мм"),
@@ -238,6 +240,14 @@ FINDINGS: dict[str, tuple[str, str]] = {
         "groove_piece gives plates to glue",
         "паз має глибину {value:.4g} мм із {limit:.4g} мм: його стінки на шарі ENGRAVE, наскрізь їх не ріжуть; "
         "groove_piece дає пластини для склеювання",
+    ),
+    "wedge_rigid_impact": (
+        "rigid impact: S' jumps by {value:.4g} at {limit:.4g} mm of travel",
+        "жорсткий удар: аналог швидкості стрибає на {value:.4g} на {limit:.4g} мм шляху",
+    ),
+    "wedge_soft_impact": (
+        "soft impact: S'' jumps by {value:.4g} per mm^2 at {limit:.4g} mm of travel",
+        "м'який удар: аналог прискорення стрибає на {value:.4g} на {limit:.4g} мм шляху",
     ),
     "large_roller": (
         "roller radius {value:.4g} mm is above 0.8 of the least radius of the pitch curve ({limit:.4g} mm)",

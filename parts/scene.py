@@ -25,6 +25,7 @@ from parts.rack import RackSpec, checked_rack_part, rack_part
 from parts.ring_gear import RingGearSpec, checked_ring_gear, ring_gear_part
 from parts.schema import SceneError, converted, near, refuse_infinite
 from parts.spur_gear import SpurGearSpec, checked_spur_gear, spur_gear_part
+from parts.wedge_cam import WedgeCamSpec, checked_wedge, wedge_part
 from parts.yoke_frame import YokeFrameSpec, checked_yoke, yoke_part
 
 SCENE_FOLDER = Path(__file__).parent / "scenes"
@@ -36,6 +37,7 @@ KINDS: dict[str, tuple[type[Struct], Any, Any]] = {
     "cam": (CamSpec, checked_cam, cam_part),
     "yoke_frame": (YokeFrameSpec, checked_yoke, yoke_part),
     "conjugate_cam": (ConjugateCamSpec, checked_conjugate, conjugate_part),
+    "wedge_cam": (WedgeCamSpec, checked_wedge, wedge_part),
     "groove_cam": (GrooveCamSpec, checked_groove, groove_part),
     "groove_piece": (GroovePieceSpec, checked_piece, piece_part),
 }

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from geometry.cams.disk import DiskCam
 from geometry.cams.follower_motion import TURN
 from geometry.cams.mounts import Translating
+from geometry.cams.wedge import WedgeCam
 from geometry.contour import signed_area
 from geometry.curve import Complex, Real
 
@@ -139,7 +140,9 @@ def outline_of_polynomials(coefficients: Complex, *, clockwise: bool = False) ->
     return Outline((Smooth(coefficients),), np.arange(len(coefficients)))
 
 
-def rolled_lift(cam: DiskCam, outline: Outline, count: int, offset: float = 0.0, *, below: bool = True) -> Real:
+def rolled_lift(
+    cam: DiskCam | WedgeCam, outline: Outline, count: int, offset: float = 0.0, *, below: bool = True
+) -> Real:
     """S at ``count`` equal cam angles from 0, mm or rad, of the cam's own follower on an outline in the cam's frame.
 
     ``offset``: the outline is the cam's moved out of the material by this much, mm, for a cutter's width: the follower
@@ -160,8 +163,10 @@ def rolled_lift(cam: DiskCam, outline: Outline, count: int, offset: float = 0.0,
     return np.where(np.isfinite(lift), sign * lift, np.nan)
 
 
-def _stop(cam: DiskCam, point: Complex, normal: Complex, offset: float) -> tuple[Real, Real]:
+def _stop(cam: DiskCam | WedgeCam, point: Complex, normal: Complex, offset: float) -> tuple[Real, Real]:
     """Cam angle at which (p, n) touches the follower, and its S there."""
+    if isinstance(cam, WedgeCam):
+        return cam.stop(point, normal, offset)
     mount = cam.mount
     with np.errstate(invalid="ignore"):
         if cam.is_flat:
@@ -187,7 +192,7 @@ def _folded(angle: Real) -> Real:
     return angle - TURN * np.round(angle / TURN)
 
 
-def _crossings(cam: DiskCam, family: Edges, step: float, offset: float) -> tuple[Index, Real, Real, Index]:
+def _crossings(cam: DiskCam | WedgeCam, family: Edges, step: float, offset: float) -> tuple[Index, Real, Real, Index]:
     """Which edges are touched at which angles of the grid: edge, its t from and to, number of the angle."""
     cells = _CELLS[type(family).__name__]
     t = np.broadcast_to(np.linspace(0, 1, cells + 1), (len(family), cells + 1))
@@ -204,7 +209,7 @@ def _crossings(cam: DiskCam, family: Edges, step: float, offset: float) -> tuple
     return edge[:, :-1].ravel()[cell], t[:, :-1].ravel()[cell], t[:, 1:].ravel()[cell], target
 
 
-def _solve(cam: DiskCam, family: Edges, edge: Index, a: Real, b: Real, target: Real, offset: float) -> Real:
+def _solve(cam: DiskCam | WedgeCam, family: Edges, edge: Index, a: Real, b: Real, target: Real, offset: float) -> Real:
     """t at which each edge is touched at its angle, by the Illinois rule within [a, b]."""
 
     def miss(t: Real) -> Real:

@@ -29,7 +29,7 @@ def test_a_moved_polygon_is_the_buffer(offset: float, radius: float) -> None:
     # shapely simplifies by a hundredth of the distance first
     expected = shape(plain).buffer(offset, quad_segs=2000)
     assert shape(moved).symmetric_difference(expected).area < 2e-2
-    assert profile_area(moved) == pytest.approx(expected.area, abs=1e-2)
+    assert profile_area(moved) == pytest.approx(expected.area, abs=2e-2)
 
 
 @pytest.mark.parametrize("offset", [0.3, -0.3])
