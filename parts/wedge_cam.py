@@ -183,9 +183,7 @@ def _mount(spec: WedgeCamSpec, motion: WedgeMotion) -> Upright | Swinging:
     side, start = 1 if arm.side == "trailing" else -1, math.asin(drop / arm.arm_length)
     low, high = motion.extremes()
     if not (start + high < math.pi / 2 and start + low > -math.pi / 2):
-        most = math.degrees(min(math.pi / 2 - start, math.pi / 2 + start)) * spec.swing_deg
-        most /= math.degrees(max(high, -low))
-        text = f"the arm swings beyond the upright; at most {at_most(most * (1 - 1e-6), 4)} degrees works"
+        text = f"the arm swings beyond the upright; at most {at_most(_most(spec, 'swing_deg'), 4)} degrees works"
         raise ParameterError("swing_deg", spec.swing_deg, text)
     pivot = complex(side * arm.arm_length * math.cos(start), arm.pivot_height)
     return Swinging(pivot, arm.arm_length, start, side)
@@ -193,7 +191,7 @@ def _mount(spec: WedgeCamSpec, motion: WedgeMotion) -> Upright | Swinging:
 
 def _refusal(spec: WedgeCamSpec, cam: WedgeCam, fault: str, travel: float) -> ParameterError:
     """A profile that is not whole, in the scene's keys with what works."""
-    from geometry.cams.wedge import sharpest_crest, wedge_fault
+    from geometry.cams.wedge import sharpest_crest
 
     if fault == "corner":
         text = (
@@ -207,6 +205,15 @@ def _refusal(spec: WedgeCamSpec, cam: WedgeCam, fault: str, travel: float) -> Pa
             return UndercutError("follower_radius", cam.radius, text)
 
     key = "swing_deg" if spec.oscillating else "lift"
+    why = "the follower runs along with the plate" if fault == "steep" else "the follower undercuts the plate"
+    unit = "degrees" if spec.oscillating else "mm"
+    text = f"{why} at {travel:.4g} mm of travel; at most {at_most(_most(spec, key), 4)} {unit} works"
+    return UndercutError(key, getattr(spec, key), text)
+
+
+def _most(spec: WedgeCamSpec, key: str) -> float:
+    """The greatest lift or swing that leaves a whole profile."""
+    from geometry.cams.wedge import wedge_fault
 
     def works(value: float) -> bool:
         try:
@@ -218,10 +225,7 @@ def _refusal(spec: WedgeCamSpec, cam: WedgeCam, fault: str, travel: float) -> Pa
     for _ in range(_BISECTIONS):
         middle = (low + high) / 2
         low, high = (middle, high) if works(middle) else (low, middle)
-    why = "the follower runs along with the plate" if fault == "steep" else "the follower undercuts the plate"
-    unit = "degrees" if spec.oscillating else "mm"
-    text = f"{why} at {travel:.4g} mm of travel; at most {at_most(low, 4)} {unit} works"
-    return UndercutError(key, getattr(spec, key), text)
+    return low
 
 
 def _holes_of(spec: WedgeCamSpec) -> list[WedgeHoleTable]:
