@@ -106,7 +106,7 @@ class Mating(Protocol):
 
     @property
     def pair(self) -> Any:
-        """The calculated pair of its kind."""
+        """The calculated pair of gears, None of other mates."""
 
     @property
     def distance(self) -> float:
@@ -128,14 +128,22 @@ class Mating(Protocol):
     def ratio(self) -> float | None:
         """Turns of the second for one of the first, negative where they turn against each other; None: a rack."""
 
+    @property
+    def height(self) -> float:
+        """How far the second's lower face stands above the first's, mm."""
+
+    @property
+    def has_contact(self) -> bool:
+        """Whether ``contact`` decides how the outlines of two plates stand to each other; else their solids do."""
+
     def second_pose(self, centre: complex, rotation: float, direction: float) -> tuple[complex, float]:
         """Axis (mm) and rotation (rad) of the second where the first stands so."""
 
     def standing(self, first: tuple[complex, float], second: tuple[complex, float]) -> Standing:
         """How two placed instances (axis, rotation) stand to each other."""
 
-    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
-        """Verdict over one pitch, the second that far off its exact place."""
+    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact | None:
+        """Verdict over one pitch, the second that far off its exact place; None where nothing moves."""
 
     def findings(self) -> tuple[Finding, ...]:
         """Conditions of the pair that are not kept."""
@@ -153,6 +161,8 @@ class ExternalMating:
     direction_deg: float
     pair: ExternalPair
     kind: str = "external_gear_pair"
+    height: float = 0.0
+    has_contact: bool = True
 
     @property
     def distance(self) -> float:
@@ -226,6 +236,8 @@ class InternalMating:
     pair: InternalPair
     ring_first: bool
     kind: str = "internal_gear_pair"
+    height: float = 0.0
+    has_contact: bool = True
 
     @property
     def distance(self) -> float:
@@ -305,6 +317,8 @@ class RackMating:
     direction_deg: float
     pair: RackPair
     kind: str = "rack_pair"
+    height: float = 0.0
+    has_contact: bool = True
 
     @property
     def distance(self) -> float:

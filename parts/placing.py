@@ -157,7 +157,7 @@ class _Placed:
             raise SceneError(self.source, f"instances.{second}.rotation_deg", self.specs[second].rotation_deg, remedy)
         direction = math.radians(mating.direction_deg)
         centre, turned = mating.second_pose(here.centre, here.rotation, direction)
-        at = (centre.real, centre.imag, here.at[2])
+        at = (centre.real, centre.imag, here.at[2] + mating.height)
         self.stand[second] = Instance(second, str(self.specs[second].part), at, turned, "mate")
         for group in self.free:
             if first in group:
@@ -267,8 +267,7 @@ def _with_faces_and_speeds(mates: tuple[PlacedMate, ...], parts: dict[str, Part]
     for index, mate in enumerate(mates):
         more: list[Condition] = []
         if mate.only_checks:
-            width = _common_width(mate.first, mate.second, parts)
-            more.append(Condition("common_face_width", width, 0.0, 0.0, width > 0))
+            more.append(_height(mate, parts))
             before = _train(mate.mating.first, [m.mating for m in mates[:index]])
             ratio, other = mate.mating.ratio, before.get(mate.mating.second)
             if other is not None and ratio is not None:
@@ -276,6 +275,15 @@ def _with_faces_and_speeds(mates: tuple[PlacedMate, ...], parts: dict[str, Part]
                 more.append(Condition("train", other, ratio, allowed, abs(other - ratio) <= allowed))
         done.append(replace(mate, conditions=(*mate.conditions, *more)))
     return tuple(done)
+
+
+def _height(mate: PlacedMate, parts: dict[str, Part]) -> Condition:
+    """Bodies that touch need a common height; bodies that are fixed stand at a height to each other."""
+    if mate.mating.has_contact:
+        width = _common_width(mate.first, mate.second, parts)
+        return Condition("common_face_width", width, 0.0, 0.0, width > 0)
+    height, required = mate.second.at[2] - mate.first.at[2], mate.mating.height
+    return Condition("height", height, required, PLACED_MM, abs(height - required) <= PLACED_MM)
 
 
 def _common_width(one: Instance, two: Instance, parts: dict[str, Part]) -> float:

@@ -12,21 +12,28 @@ from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError
 from parts.cam import CamSpec, cam_part, checked_cam
-from parts.conjugate_cam import ConjugateCamSpec, checked_conjugate, conjugate_part
-from parts.groove_cam import GrooveCamSpec, checked_groove, groove_part
-from parts.groove_piece import GroovePieceSpec, checked_piece, piece_part
+from parts.follower import (
+    FollowerArmSpec,
+    FollowerSpec,
+    RollerSpec,
+    checked_arm,
+    checked_follower,
+    checked_roller,
+    follower_part,
+    roller_part,
+)
 from parts.helix_keys import helix_of
 from parts.instances import DriveSpec, InstanceSpec, check_instance, drive_spec, instance_specs
 from parts.keys import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.mate_kinds import Mating
-from parts.mates import JOINS, MATES, mated
+from parts.mates import GEAR_PAIRS, JOINS, MATES, mated
 from parts.part import Part
+from parts.plate import PlateSpec, checked_plate, plate_part
+from parts.positive_kinds import POSITIVE_KINDS
 from parts.rack import RackSpec, checked_rack_part, rack_part
 from parts.ring_gear import RingGearSpec, checked_ring_gear, ring_gear_part
 from parts.schema import SceneError, converted, near, refuse_infinite
 from parts.spur_gear import SpurGearSpec, checked_spur_gear, spur_gear_part
-from parts.wedge_cam import WedgeCamSpec, checked_wedge, wedge_part
-from parts.yoke_frame import YokeFrameSpec, checked_yoke, yoke_part
 
 SCENE_FOLDER = Path(__file__).parent / "scenes"
 # each kind: its keys, what checks them and gives the gear, and what makes the part of it
@@ -35,11 +42,11 @@ KINDS: dict[str, tuple[type[Struct], Any, Any]] = {
     "ring_gear": (RingGearSpec, checked_ring_gear, ring_gear_part),
     "rack": (RackSpec, checked_rack_part, rack_part),
     "cam": (CamSpec, checked_cam, cam_part),
-    "yoke_frame": (YokeFrameSpec, checked_yoke, yoke_part),
-    "conjugate_cam": (ConjugateCamSpec, checked_conjugate, conjugate_part),
-    "wedge_cam": (WedgeCamSpec, checked_wedge, wedge_part),
-    "groove_cam": (GrooveCamSpec, checked_groove, groove_part),
-    "groove_piece": (GroovePieceSpec, checked_piece, piece_part),
+    "follower": (FollowerSpec, checked_follower, follower_part),
+    "follower_arm": (FollowerArmSpec, checked_arm, follower_part),
+    "roller": (RollerSpec, checked_roller, roller_part),
+    "plate": (PlateSpec, checked_plate, plate_part),
+    **POSITIVE_KINDS,
 }
 # purposes of each format, the default first, and the tolerance (mm) of an export that names none
 _DEFAULTS: dict[str, dict[str, float]] = {
@@ -338,12 +345,13 @@ def _check_kinds(scene: SceneFile, mate: Any, part_of: dict[str, str], source: s
     """A mate joins the kinds of parts that it is for."""
     mate_kind = mate.__struct_config__.tag
     found = tuple(scene.parts[part_of[i]].__struct_config__.tag for i in (mate.first, mate.second))
-    if found in JOINS[mate_kind]:
+    joins = JOINS[mate_kind]
+    if joins is None or found in joins:
         return
-    index = 0 if all(first != found[0] for first, _ in JOINS[mate_kind]) else 1
+    index = 0 if all(first != found[0] for first, _ in joins) else 1
     key = ("first", "second")[index]
-    wanted = " or ".join(f"{a} and {b}" for a, b in JOINS[mate_kind])
-    other = next((m for m, joins in JOINS.items() if found in joins), None)
+    wanted = " or ".join(f"{a} and {b}" for a, b in joins)
+    other = next((m for m, others in JOINS.items() if others and found in others), None)
     hint = f'; kind = "{other}" joins these two' if other else ""
     remedy = f"is a {found[index]}; {mate_kind} joins {wanted}{hint}"
     raise SceneError(source, f"{place}.{key}", getattr(mate, key), remedy)
@@ -351,6 +359,8 @@ def _check_kinds(scene: SceneFile, mate: Any, part_of: dict[str, str], source: s
 
 def _check_helices(scene: SceneFile, mate: Any, part_of: dict[str, str], source: str, place: str) -> None:
     """Helices that mesh, and one normal module: told in the keys of the parts, before their transverse sections."""
+    if not isinstance(mate, GEAR_PAIRS):
+        return
     one, two = (scene.parts[part_of[i]] for i in (mate.first, mate.second))
     first, second = helix_of(one), helix_of(two)
     if first.angle == 0 and second.angle == 0:
