@@ -7,6 +7,7 @@ from typing import get_args
 import msgspec
 from msgspec import Struct
 
+from exporters import new_examples
 from parts.mates import JOINS, MATES
 from parts.scene import KINDS, ExportSpec, SceneInfo
 from parts.schema import describe_type
@@ -66,7 +67,8 @@ _SET = {
         "phases": f"[{', '.join(_PHASES)}]",
         "follower_radius": "8.0",
         "base_circle_radius": "30.0",
-    }
+    },
+    **new_examples.SET,
 }
 # where the same key means another size
 _TABLE_EXAMPLES = {
@@ -89,6 +91,7 @@ _TABLE_EXAMPLES = {
     **{(owner, "slots"): _AT_SLOT for owner in ("PlateSpec", "FollowerSpec")},
     ("FollowerArmSpec", "holes"): "[{ at = [20.0, 0.0], diameter = 3.0 }]",
     ("FollowerArmSpec", "slots"): "[{ start = [28.0, 0.0], end = [36.0, 0.0], width = 3.0 }]",
+    **new_examples.EXAMPLES,
 }
 
 # what a scene of several parts may add
@@ -135,6 +138,7 @@ def new_scene(kind: str) -> str:
         "[scene]",
         *_keys(SceneInfo),
         "",
+        *new_examples.OWNERS.get(kind, ()),
         "[parts.gear]",
         f'kind = "{kind}"',
         *_keys(spec),

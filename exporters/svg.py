@@ -9,7 +9,7 @@ import numpy as np
 from geometry.contour import Approximation, Contour, edge_points
 from geometry.curve import Complex, Real
 
-STROKES = {"CUT_INNER": "#00ff00", "CUT_OUTER": "#ff0000"}
+STROKES = {"ENGRAVE": "#0000ff", "CUT_INNER": "#00ff00", "CUT_OUTER": "#ff0000"}
 # exporters/job.py states what this rounding may do to an outline
 _DIGITS = 9
 _MARGIN = 2.0

@@ -19,6 +19,18 @@ WORDS: dict[str, tuple[str, str]] = {
     "swing_deg": ("swing, deg", "розмах коромисла, град"),
     "start_angle_deg": ("lowest angle from the line of centres, deg", "найменший кут від лінії центрів, град"),
     "follower_radius": ("follower radius, mm", "радіус ролика, мм"),
+    "yoke_breadth": ("breadth between faces or roller centres, mm", "відстань між гранями чи осями роликів, мм"),
+    "yoke_breadth_error": (
+        "greatest departure of S(phi) + S(phi + 180) from H, mm",
+        "найбільше відхилення S(phi) + S(phi + 180) від H, мм",
+    ),
+    "travel": ("travel of the plate, mm", "хід плоского кулачка, мм"),
+    "pressure_angle_deg": ("greatest pressure angle, deg", "найбільший кут тиску, град"),
+    "roller_distance": ("distance of both rollers, mm", "відстань між роликами, мм"),
+    "roller_angle_deg": ("angle between both arms, deg", "кут між плечима коромисла, град"),
+    "outer_diameter": ("outer diameter, mm", "зовнішній діаметр, мм"),
+    "groove_width": ("groove width, mm", "ширина паза, мм"),
+    "groove_depth": ("groove depth, mm", "глибина паза, мм"),
     "follower_offset": ("follower offset E, mm", "зміщення штовхача E, мм"),
     "pressure_angle_rise_deg": ("greatest pressure angle, rise, deg", "кут тиску, віддалення, град"),
     "pressure_angle_return_deg": ("greatest pressure angle, return, deg", "кут тиску, наближення, град"),
@@ -224,6 +236,28 @@ FINDINGS: dict[str, tuple[str, str]] = {
     "steep_pressure_angle": (
         "pressure angle {value:.2f} deg on the rise, usual is at most {limit:.0f} deg",
         "кут тиску {value:.2f} град при віддаленні, допустимо {limit:.0f} град",
+    ),
+    "steep_return_pressure_angle": (
+        "pressure angle {value:.2f} deg on the return, which the cam drives too; usual is at most {limit:.0f} deg",
+        "кут тиску {value:.2f} град при наближенні, яке теж веде кулачок; допустимо {limit:.0f} град",
+    ),
+    "roller_play": (
+        "the roller's play in its groove is {value:.4g} mm; with none it jams, above {limit:.4g} mm it knocks",
+        "зазор ролика в пазу {value:.4g} мм; без зазору ролик заклинює, понад {limit:.4g} мм - стукає",
+    ),
+    "engraved_groove": (
+        "the groove is {value:.4g} mm deep of {limit:.4g} mm: its walls stand on layer ENGRAVE, not cut through; "
+        "groove_piece gives plates to glue",
+        "паз має глибину {value:.4g} мм із {limit:.4g} мм: його стінки на шарі ENGRAVE, наскрізь їх не ріжуть; "
+        "groove_piece дає пластини для склеювання",
+    ),
+    "wedge_rigid_impact": (
+        "rigid impact: S' jumps by {value:.4g} at {limit:.4g} mm of travel",
+        "жорсткий удар: аналог швидкості стрибає на {value:.4g} на {limit:.4g} мм шляху",
+    ),
+    "wedge_soft_impact": (
+        "soft impact: S'' jumps by {value:.4g} per mm^2 at {limit:.4g} mm of travel",
+        "м'який удар: аналог прискорення стрибає на {value:.4g} на {limit:.4g} мм шляху",
     ),
     "large_roller": (
         "roller radius {value:.4g} mm is above 0.8 of the least radius of the pitch curve ({limit:.4g} mm)",

@@ -29,6 +29,7 @@ from parts.mate_kinds import Mating
 from parts.mates import GEAR_PAIRS, JOINS, MATES, mated
 from parts.part import Part
 from parts.plate import PlateSpec, checked_plate, plate_part
+from parts.positive_kinds import POSITIVE_KINDS
 from parts.rack import RackSpec, checked_rack_part, rack_part
 from parts.ring_gear import RingGearSpec, checked_ring_gear, ring_gear_part
 from parts.schema import SceneError, converted, near, refuse_infinite
@@ -45,6 +46,7 @@ KINDS: dict[str, tuple[type[Struct], Any, Any]] = {
     "follower_arm": (FollowerArmSpec, checked_arm, follower_part),
     "roller": (RollerSpec, checked_roller, roller_part),
     "plate": (PlateSpec, checked_plate, plate_part),
+    **POSITIVE_KINDS,
 }
 # purposes of each format, the default first, and the tolerance (mm) of an export that names none
 _DEFAULTS: dict[str, dict[str, float]] = {
@@ -309,9 +311,11 @@ def default_export(name: str) -> ExportSpec:
 def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mating]]:
     """The parts of a scene, each checked to exist, as its mates want them; and the mates."""
     gears = {}
-    for key, spec in scene.parts.items():
+    for key, spec in sorted(scene.parts.items(), key=lambda item: hasattr(item[1], "of")):
         try:
-            gears[key] = KINDS[spec.__struct_config__.tag][1](spec)
+            checked = KINDS[spec.__struct_config__.tag][1]
+            # what is made from another part's keys looks for it in the scene
+            gears[key] = checked(spec, scene.parts) if hasattr(spec, "of") else checked(spec)
         except ParameterError as error:
             raise SceneError(source, f"parts.{key}.{error.name}", error.value, error.allowed) from error
     matings: list[Mating] = []
