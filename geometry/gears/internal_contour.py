@@ -1,0 +1,245 @@
+"""The blocking contour of an internal pair: which profile shifts x1 (pinion), x2 (ring) give a pair that works.
+
+All in modules. Each condition is a function of x1, x2 that is >= 0 where it is kept; its line is where it is 0. The
+ring's root and fillet are those of one cutter for the whole plane. Source: GOST 19274, KHK, ISO 21771.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+
+from geometry.angles import involute_function
+from geometry.gears.blocking_contour import (
+    CONTACT_RATIOS,
+    TIP_THICKNESSES,
+    BlockingContour,
+    Condition,
+    Requirements,
+    contour_lines,
+)
+from geometry.gears.cutter import PinionCutter
+from geometry.gears.internal_shifts import (
+    CUTTING,
+    InternalShiftPair,
+    InternalState,
+    equal_sliding,
+    interferences,
+    internal_state,
+    least_pinion_shift,
+    pinion_form,
+)
+from geometry.gears.limits import Margin
+from geometry.implicit import Box, level_lines
+
+# value and limit of a condition at x1, x2
+_Sides = Callable[[float, float], tuple[float, float]]
+# no margin rises faster than this many modules a module; the smallest square looked at for legal shifts
+_STEEPEST, _FINE = 8.0, 0.05
+_COSTLY = frozenset({"trochoid_interference", "radial_assembly", "active_flank_first"})
+
+
+@dataclass(frozen=True, slots=True)
+class InternalRequirements(Requirements):
+    """What a choice of shifts must keep: those of an external pair, bottom clearance in modules, radial assembly.
+
+    Interference of any kind, a ring that its cutter cannot make and tips below the base circle are never legal.
+    """
+
+    tip_clearance: float = 0.0
+    radial_assembly: bool = False
+
+
+def _always(pair: InternalShiftPair) -> dict[str, _Sides]:
+    """Both sides, value >= limit, of every condition without a level, those that cost a root last."""
+
+    def state(x1: float, x2: float) -> InternalState:
+        return internal_state(pair, x1, x2)
+
+    least = least_pinion_shift(pair)
+    sides: dict[str, _Sides] = {
+        "working_angle": lambda x1, x2: (state(x1, x2).involute, 0.0),
+        "tip_above_base": lambda x1, x2: (state(x1, x2).ring.tip_radius, pair.ring(0.0).base_radius),
+        "undercut_first": lambda x1, x2: (x1, least),
+        "fillet_interference_second": lambda x1, x2: (state(x1, x2).ring.reach, state(x1, x2).end + state(x1, x2).line),
+        "approach": lambda x1, x2: (state(x1, x2).pole, state(x1, x2).start),
+        "recess": lambda x1, x2: (state(x1, x2).end, state(x1, x2).pole),
+    }
+    if pair.pinion_cutter is not None:
+        sides["cutter_working_angle_first"] = lambda x1, x2: (state(x1, x2).pinion.cut_involute, 0.0)
+        sides["cutter_reach_first"] = lambda x1, x2: (state(x1, x2).pinion.reach, state(x1, x2).end)
+    if isinstance(pair.root, PinionCutter):
+        sides["cutter_working_angle"] = lambda x1, x2: (state(x1, x2).ring.cut_involute, 0.0)
+        for k, name in enumerate(CUTTING):
+            sides[f"cutter_{name}"] = lambda x1, x2, k=k: (state(x1, x2).ring.cutting[k], 0.0)  # type: ignore[misc]
+    for k, name in enumerate(CUTTING):
+        sides[name] = lambda x1, x2, k=k: (interferences(pair, x1, x2)[k], 0.0)  # type: ignore[misc]
+    sides["active_flank_first"] = lambda x1, x2: (state(x1, x2).start, pinion_form(pair, x1))
+    return sides
+
+
+def _levelled(pair: InternalShiftPair) -> dict[str, Callable[[float, float], float]]:
+    """What is compared with a level of one's choice."""
+
+    def state(x1: float, x2: float) -> InternalState:
+        return internal_state(pair, x1, x2)
+
+    return {
+        "tip_thickness_first": lambda x1, x2: state(x1, x2).tip_thicknesses[0],
+        "tip_thickness_second": lambda x1, x2: state(x1, x2).tip_thicknesses[1],
+        "contact_ratio": lambda x1, x2: state(x1, x2).contact_ratio,
+        "tip_clearance_first": lambda x1, x2: state(x1, x2).tip_clearances[0],
+        "tip_clearance_second": lambda x1, x2: state(x1, x2).tip_clearances[1],
+    }
+
+
+@dataclass(frozen=True, slots=True)
+class _Checks:
+    """All checks of a pair, made once."""
+
+    always: dict[str, _Sides]
+    levelled: dict[str, Callable[[float, float], float]]
+
+
+@lru_cache(maxsize=64)
+def _checks(pair: InternalShiftPair) -> _Checks:
+    return _Checks(_always(pair), _levelled(pair))
+
+
+def conditions(pair: InternalShiftPair) -> dict[str, Condition]:
+    """All conditions of the contour by name and level; ``first`` is the pinion, ``second`` the ring.
+
+    ``active_flank_first`` as for an external pair: fillet interference, or undercut that reaches the active flank.
+    ``cutter_*`` are those of cutting the ring, ``tip_above_base`` is the ring's, ``cutter_*_first`` those of a shaped
+    pinion. ``approach`` and ``recess`` keep the pole inside the active line.
+    """
+    checks = _checks(pair)
+    found = [
+        Condition(name, None, lambda x1, x2, sides=sides: _difference(sides(x1, x2)))  # type: ignore[misc]
+        for name, sides in checks.always.items()
+    ]
+    for name, value in checks.levelled.items():
+        levels = CONTACT_RATIOS if name == "contact_ratio" else TIP_THICKNESSES
+        found += [
+            Condition(name, level, lambda x1, x2, value=value, level=level: value(x1, x2) - level)  # type: ignore[misc]
+            for level in ((0.0,) if name.startswith("tip_clearance") else levels)
+        ]
+    found.append(Condition("equal_sliding", None, lambda x1, x2: equal_sliding(pair, x1, x2)))
+    return {c.name if c.level is None else f"{c.name} {c.level:g}": c for c in found}
+
+
+def _difference(sides: tuple[float, float]) -> float:
+    return sides[0] - sides[1]
+
+
+def margins(pair: InternalShiftPair, wish: InternalRequirements, x1: float, x2: float) -> tuple[Margin, ...]:
+    """Every requirement with its margin; nan where the pair does not exist."""
+    return tuple(_margins(pair, wish, x1, x2))
+
+
+def _margins(pair: InternalShiftPair, wish: InternalRequirements, x1: float, x2: float) -> Iterator[Margin]:
+    """The requirements, those that cost a root last."""
+    checks = _checks(pair)
+    yield from _sided("working_angle", checks.always["working_angle"], x1, x2)
+    for name, value in checks.levelled.items():
+        found, limit = value(x1, x2), _limit(wish, name)
+        yield Margin(name, found, limit, found - limit)
+    left_out = {"working_angle"}
+    if wish.allow_undercut:
+        left_out.add("undercut_first")
+    if not wish.pole_inside:
+        left_out |= {"approach", "recess"}
+    if not wish.radial_assembly:
+        left_out.add("radial_assembly")
+    for name, sides in checks.always.items():
+        if name not in left_out:
+            yield from _sided(name, sides, x1, x2)
+
+
+def _sided(name: str, sides: _Sides, x1: float, x2: float) -> Iterator[Margin]:
+    value, limit = sides(x1, x2)
+    yield Margin(name, value, limit, value - limit)
+
+
+def _limit(wish: InternalRequirements, name: str) -> float:
+    if name == "contact_ratio":
+        return wish.contact_ratio
+    return wish.tip_thickness if name.startswith("tip_thickness") else wish.tip_clearance
+
+
+def least_margin(pair: InternalShiftPair, wish: InternalRequirements, x1: float, x2: float) -> float:
+    """The least of all margins, -1 where the pair does not exist; what costs a root only where all else is kept."""
+    least = math.inf
+    for margin in _margins(pair, wish, x1, x2):
+        if math.isnan(margin.margin) or margin.margin == -math.inf:
+            return -1.0
+        if least < 0 and margin.name in _COSTLY:
+            break
+        least = min(least, margin.margin)
+    return least
+
+
+@dataclass(frozen=True, slots=True)
+class Window:
+    """Where legal shifts lie: a box around them, and the range of x2 - x1 and how finely to look at it."""
+
+    box: Box
+    lowest: float
+    highest: float
+    step: float
+
+
+@lru_cache(maxsize=64)
+def window(pair: InternalShiftPair) -> Window | None:
+    """A box around all pairs that turn at all (contact ratio 1, pointed tips, undercut unseen); None: there are none.
+
+    Squares of the plane of x1 and x2 - x1, both shifts from -3 to 5, are halved down to ``_FINE`` unless their middle
+    is too far from every legal pair.
+    """
+    loose = InternalRequirements(0.0, 1.0, allow_undercut=True)
+    alpha = pair.rack.pressure_angle
+    lowest = -involute_function(alpha) * (pair.second_teeth - pair.first_teeth) / (2 * math.tan(alpha))
+    size, first, last = 0.4, -3.0, 5.0
+    rows = math.ceil((last - first - lowest) / size)
+    squares = [(first + size * (i + 0.5), lowest + size * (j + 0.5)) for i in range(20) for j in range(rows)]
+    while True:
+        values = [least_margin(pair, loose, x1, x1 + d) if first <= x1 + d <= last else -math.inf for x1, d in squares]
+        if size <= _FINE:
+            break
+        kept = [
+            square
+            for square, value in zip(squares, values, strict=True)
+            if value == -1.0 or value > -_STEEPEST * size or not first <= sum(square) <= last
+        ]
+        size /= 2
+        squares = [(x1 + i * size / 2, d + j * size / 2) for x1, d in kept for i in (-1, 1) for j in (-1, 1)]
+    hits = [square for square, value in zip(squares, values, strict=True) if value >= 0]
+    if not hits:
+        return None
+    room = 0.2
+    ones, twos, differences = [x1 for x1, _ in hits], [x1 + d for x1, d in hits], [d for _, d in hits]
+    left, right, bottom, top = min(ones) - room, max(ones) + room, min(twos) - room, max(twos) + room
+    low, high = max(min(differences) - size, lowest), max(differences) + size
+    cells = math.ceil(min(120.0, max(40.0, 4 * max(right - left, top - bottom) / (high - low))))
+    return Window(Box(left, right, bottom, top, cells), low, high, max((high - low) / 40, 1e-3))
+
+
+def internal_contour(
+    pair: InternalShiftPair,
+    wish: InternalRequirements,
+    box: Box,
+    tolerance: float = 2e-4,
+    names: Iterable[str] | None = None,
+) -> BlockingContour:
+    """The lines of the contour in a box; chords within ``tolerance`` of them, points to rounding."""
+    lines = contour_lines(conditions(pair), lambda _: least_pinion_shift(pair), box, tolerance, names)
+
+    def inside(x1: float, x2: float) -> float:
+        # closed along the box where the region goes on beyond it
+        within = box.left < x1 < box.right and box.bottom < x2 < box.top
+        return least_margin(pair, wish, x1, x2) if within else -1.0
+
+    region = level_lines(inside, box, tolerance)
+    return BlockingContour(pair, wish, box, lines, tuple(tuple(r) for r in region))
