@@ -34,10 +34,13 @@ from geometry.gears.internal_shifts import (
 from geometry.gears.limits import Margin
 from geometry.implicit import Box, level_lines
 
+# levels of the bottom clearance, modules: the tip at the root, and the least that contact searches found free
+TIP_CLEARANCES = (0.0, 0.2)
 # value and limit of a condition at x1, x2
 _Sides = Callable[[float, float], tuple[float, float]]
 # no margin rises faster than this many modules a module; the smallest square looked at for legal shifts
 _STEEPEST, _FINE = 8.0, 0.05
+_LEVELS = {"contact_ratio": CONTACT_RATIOS, "tip_thickness": TIP_THICKNESSES, "tip_clearance": TIP_CLEARANCES}
 _COSTLY = frozenset({"trochoid_interference", "radial_assembly", "active_flank_first"})
 
 
@@ -45,10 +48,11 @@ _COSTLY = frozenset({"trochoid_interference", "radial_assembly", "active_flank_f
 class InternalRequirements(Requirements):
     """What a choice of shifts must keep: those of an external pair, bottom clearance in modules, radial assembly.
 
-    Interference of any kind, a ring that its cutter cannot make and tips below the base circle are never legal.
+    Interference of any kind, a ring that its cutter cannot make and tips below the base circle are never legal. With
+    less bottom clearance than the default a sharp tip may strike the mate's fillet beside the flanks.
     """
 
-    tip_clearance: float = 0.0
+    tip_clearance: float = 0.2
     radial_assembly: bool = False
 
 
@@ -74,6 +78,8 @@ def _always(pair: InternalShiftPair) -> dict[str, _Sides]:
         sides["cutter_working_angle"] = lambda x1, x2: (state(x1, x2).ring.cut_involute, 0.0)
         for k, name in enumerate(CUTTING):
             sides[f"cutter_{name}"] = lambda x1, x2, k=k: (state(x1, x2).ring.cutting[k], 0.0)  # type: ignore[misc]
+    else:
+        sides["rounded_root"] = lambda x1, x2: (state(x1, x2).ring.room, 0.0)
     for k, name in enumerate(CUTTING):
         sides[name] = lambda x1, x2, k=k: (interferences(pair, x1, x2)[k], 0.0)  # type: ignore[misc]
     sides["active_flank_first"] = lambda x1, x2: (state(x1, x2).start, pinion_form(pair, x1))
@@ -113,7 +119,8 @@ def conditions(pair: InternalShiftPair) -> dict[str, Condition]:
 
     ``active_flank_first`` as for an external pair: fillet interference, or undercut that reaches the active flank.
     ``cutter_*`` are those of cutting the ring, ``tip_above_base`` is the ring's, ``cutter_*_first`` those of a shaped
-    pinion. ``approach`` and ``recess`` keep the pole inside the active line.
+    pinion, ``rounded_root`` that of a ring's rounding in its space. ``approach`` and ``recess`` keep the pole inside
+    the active line.
     """
     checks = _checks(pair)
     found = [
@@ -121,10 +128,10 @@ def conditions(pair: InternalShiftPair) -> dict[str, Condition]:
         for name, sides in checks.always.items()
     ]
     for name, value in checks.levelled.items():
-        levels = CONTACT_RATIOS if name == "contact_ratio" else TIP_THICKNESSES
+        kind = next(k for k in _LEVELS if name.startswith(k))
         found += [
             Condition(name, level, lambda x1, x2, value=value, level=level: value(x1, x2) - level)  # type: ignore[misc]
-            for level in ((0.0,) if name.startswith("tip_clearance") else levels)
+            for level in _LEVELS[kind]
         ]
     found.append(Condition("equal_sliding", None, lambda x1, x2: equal_sliding(pair, x1, x2)))
     return {c.name if c.level is None else f"{c.name} {c.level:g}": c for c in found}
@@ -198,7 +205,7 @@ def window(pair: InternalShiftPair) -> Window | None:
     Squares of the plane of x1 and x2 - x1, both shifts from -3 to 5, are halved down to ``_FINE`` unless their middle
     is too far from every legal pair.
     """
-    loose = InternalRequirements(0.0, 1.0, allow_undercut=True)
+    loose = InternalRequirements(0.0, 1.0, allow_undercut=True, tip_clearance=0.0)
     alpha = pair.rack.pressure_angle
     lowest = -involute_function(alpha) * (pair.second_teeth - pair.first_teeth) / (2 * math.tan(alpha))
     size, first, last = 0.4, -3.0, 5.0

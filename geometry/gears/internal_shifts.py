@@ -8,11 +8,11 @@ GOST 19274 or 0. Source: GOST 19274, KHK, ISO 21771.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from geometry.angles import inverse_involute, involute_function
-from geometry.errors import ConvergenceError, GeometryError, ParameterError
+from geometry.errors import ConvergenceError, ParameterError
 from geometry.gears.basic_rack import BasicRack
 from geometry.gears.cutter import PinionCutter
 from geometry.gears.internal_limits import InternalMesh
@@ -65,7 +65,8 @@ class GearNumbers:
 
     ``reach``: where the cutter's flank ends, on the ring from its base circle; of a shaped pinion how far its cutter's
     involute reaches. ``cutting``: margins of the ring's cutting in the order of ``CUTTING``, and inv(alpha_w0) with
-    the cutter; inf without one. nan where the gear does not exist.
+    the cutter; inf without one. ``room`` is what a rounded root leaves of the space's bottom, half of it. nan where
+    the gear does not exist.
     """
 
     tip_radius: float
@@ -75,6 +76,7 @@ class GearNumbers:
     reach: float
     cut_involute: float = math.inf
     cutting: tuple[float, float, float] = (math.inf, math.inf, math.inf)
+    room: float = math.inf
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,13 +157,14 @@ def ring_numbers(pair: InternalShiftPair, shift: float) -> GearNumbers:
 
 
 def _rounded_ring(gear: RingGear, tip: float, tangent: float, thick: float) -> GearNumbers:
-    """A ring whose root no cutter made; its involute ends where the rounding begins, nan where that does not fit."""
-    try:
-        plug = rounded_root_plug(gear)
-    except GeometryError:
-        return GearNumbers(tip, gear.root_radius, tangent, thick, _NAN)
-    fits = plug.tip_radius > plug.base_radius and plug.corner_angle >= -1e-12
-    return GearNumbers(tip, gear.root_radius, tangent, thick, plug.form_length if fits else _NAN)
+    """A ring whose root no cutter made; its involute ends where the rounding begins."""
+    root = gear.root
+    assert isinstance(root, RoundedRoot)
+    # the body that fills the space, sharp where the rounding is as large as it takes
+    asked = rounded_root_plug(replace(gear, root=replace(root, radius=root.radius or 0.0)))
+    room = min(asked.corner_angle * asked.tip_radius, asked.tip_radius - asked.base_radius - asked.rounding_radius)
+    reach = rounded_root_plug(gear).form_length if room >= 0 else _NAN
+    return GearNumbers(tip, gear.root_radius, tangent, thick, reach, room=room)
 
 
 def _cut_involute(teeth: int, cutter: PinionCutter, shift: float, alpha: float) -> float:
