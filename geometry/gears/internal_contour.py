@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from geometry.angles import involute_function
@@ -17,6 +17,7 @@ from geometry.gears.blocking_contour import (
     TIP_THICKNESSES,
     BlockingContour,
     Condition,
+    ContourLine,
     Requirements,
     contour_lines,
 )
@@ -206,8 +207,7 @@ def window(pair: InternalShiftPair) -> Window | None:
     is too far from every legal pair.
     """
     loose = InternalRequirements(0.0, 1.0, allow_undercut=True, tip_clearance=0.0)
-    alpha = pair.rack.pressure_angle
-    lowest = -involute_function(alpha) * (pair.second_teeth - pair.first_teeth) / (2 * math.tan(alpha))
+    lowest = least_difference(pair)
     size, first, last = 0.4, -3.0, 5.0
     rows = math.ceil((last - first - lowest) / size)
     squares = [(first + size * (i + 0.5), lowest + size * (j + 0.5)) for i in range(20) for j in range(rows)]
@@ -240,13 +240,51 @@ def internal_contour(
     tolerance: float = 2e-4,
     names: Iterable[str] | None = None,
 ) -> BlockingContour:
-    """The lines of the contour in a box; chords within ``tolerance`` of them, points to rounding."""
-    lines = contour_lines(conditions(pair), lambda _: least_pinion_shift(pair), box, tolerance, names)
+    """The lines of the contour in a box; chords within ``tolerance`` of them, points to rounding.
 
-    def inside(x1: float, x2: float) -> float:
+    They are sought in the plane of x1 and x2 - x1, which ends where inv(alpha_w) = 0: up to there margins are defined.
+    """
+    lowest = least_difference(pair)
+    # inv(alpha_w) stays above its rounding
+    low, high = max(lowest + 1e-12, box.bottom - box.right), box.top - box.left
+    sheared = Box(box.left, box.right, low, high, math.ceil(1.5 * box.cells))
+
+    def within(x1: float, x2: float) -> bool:
+        return box.left <= x1 <= box.right and box.bottom <= x2 <= box.top
+
+    def field(condition: Condition) -> Condition:
+        margin = condition.margin
+        return replace(condition, margin=lambda x1, d: margin(x1, x1 + d) if within(x1, x1 + d) else math.nan)
+
+    def legal(x1: float, d: float) -> float:
         # closed along the box where the region goes on beyond it
-        within = box.left < x1 < box.right and box.bottom < x2 < box.top
-        return least_margin(pair, wish, x1, x2) if within else -1.0
+        inside = box.left < x1 < box.right and box.bottom < x1 + d < box.top and d > low
+        return least_margin(pair, wish, x1, x1 + d) if inside else -1.0
 
-    region = level_lines(inside, box, tolerance)
-    return BlockingContour(pair, wish, box, lines, tuple(tuple(r) for r in region))
+    known = {name: field(c) for name, c in conditions(pair).items() if name != "working_angle"}
+    fine = tolerance / 2
+    lines = contour_lines(known, lambda _: least_pinion_shift(pair), sheared, fine, names)
+    lines = tuple(replace(line, points=_unsheared(line.points)) for line in lines)
+    region = tuple(_unsheared(ring) for ring in level_lines(legal, sheared, fine))
+    if names is None or "working_angle" in names:
+        lines = (*_line_of_no_angle(box, lowest), *lines)
+    return BlockingContour(pair, wish, box, lines, region)
+
+
+def least_difference(pair: InternalShiftPair) -> float:
+    """x2 - x1 at which inv(alpha_w) = 0."""
+    alpha = pair.rack.pressure_angle
+    return -involute_function(alpha) * (pair.second_teeth - pair.first_teeth) / (2 * math.tan(alpha))
+
+
+def _unsheared(points: Iterable[complex]) -> tuple[complex, ...]:
+    return tuple(complex(p.real, p.real + p.imag) for p in points)
+
+
+def _line_of_no_angle(box: Box, difference: float) -> tuple[ContourLine, ...]:
+    """The straight line inv(alpha_w) = 0 inside the box."""
+    low, high = max(box.left, box.bottom - difference), min(box.right, box.top - difference)
+    if not low < high:
+        return ()
+    shifts = [low + (high - low) * k / 8 for k in range(9)]
+    return (ContourLine("working_angle", None, tuple(complex(x, x + difference) for x in shifts)),)
