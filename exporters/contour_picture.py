@@ -12,6 +12,7 @@ from geometry.gears.internal_contour import InternalRequirements
 from geometry.gears.internal_shifts import InternalShiftPair
 from geometry.gears.ring import RoundedRoot
 from geometry.gears.shift_finder import AnyShiftPair, least_margin
+from geometry.implicit import Box
 
 _SIZE, _LEFT, _TOP, _BOTTOM, _KEY = 560.0, 60.0, 40.0, 50.0, 430.0
 _GRID = "stroke:#dde2e6;stroke-width:0.7"
@@ -75,6 +76,18 @@ def line_name(name: str, language: str) -> str:
     return style.uk if language == "uk" else style.en
 
 
+def line_title(name: str, level: float | None, language: str) -> str:
+    """A line of the contour in words, with its level."""
+    unit = " m" if name.startswith("tip") and level else ""
+    return line_name(name, language) + ("" if level is None else f" = {level:g}{unit}")
+
+
+def grid_step(box: Box) -> float:
+    """Modules between the grid lines of a picture."""
+    size = max(box.right - box.left, box.top - box.bottom)
+    return next(s for s in (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0) if size / s <= 14)
+
+
 def contour_svg(contour: BlockingContour, marks: dict[str, tuple[float, float]], language: str) -> str:
     """The contour with its legal region filled, ``marks`` (name: x1, x2) as points, and a key."""
     box = contour.box
@@ -128,12 +141,10 @@ def _key(contour: BlockingContour, marks: dict[str, tuple[float, float]], left: 
     lines, y = [], _TOP + 4
     for line in _kinds(contour):
         style = _STYLES[line.name]
-        unit = " m" if line.name.startswith("tip") else ""
-        level = "" if line.level is None else f" = {line.level:g}{unit if line.level else ''}"
         lines.append(
             f'<line x1="{left:.1f}" y1="{y:.1f}" x2="{left + 34:.1f}" y2="{y:.1f}" style="{_stroke(line, style)}"/>'
         )
-        lines.append(_text(left + 42, y + 4, line_name(line.name, language) + level))
+        lines.append(_text(left + 42, y + 4, line_title(line.name, line.level, language)))
         y += 19
     y += 8
     lines.append(f'<rect x="{left:.1f}" y="{y - 8:.1f}" width="34" height="12" style="fill:#e4f2e4;stroke:#a0c0a0"/>')
@@ -184,7 +195,7 @@ def tool_texts(pair: AnyShiftPair, language: str) -> list[str]:
 
 def _axes(contour: BlockingContour, scale: float, width: float, height: float) -> list[str]:
     box, lines = contour.box, []
-    step = next(s for s in (0.05, 0.1, 0.2, 0.5, 1.0) if max(box.right - box.left, box.top - box.bottom) / s <= 14)
+    step = grid_step(box)
     for k in range(math.ceil(box.left / step), math.floor(box.right / step) + 1):
         x = _LEFT + (k * step - box.left) * scale
         heavy = "stroke:#808890;stroke-width:1" if k == 0 else _GRID

@@ -35,6 +35,8 @@ from parts.spur_gear import RackTable, basic_rack_of
 
 TOPIC = "shift-choice"
 KIND = "internal_gear_pair"
+# modules between a line of the picture and its chords
+_TOLERANCE = 5e-4
 RACKS = ("ISO 53 A", "ISO 53 B", "ISO 53 C", "ISO 53 D", "GOST 13755")
 
 
@@ -189,7 +191,7 @@ def _page(keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequir
     if found is None:
         page.notes.append(("no shifts give a pair that turns", "жодні зміщення не дають працездатної пари"))
         return page
-    contour = internal_contour(pair, wish, found.box)
+    contour = internal_contour(pair, wish, found.box, _TOLERANCE)
     marks = [(c.en, c.uk, (c.found.first, c.found.second)) for c in choices]
     contour_pictures(page, contour, marks, keys.picture)
     page.data["choices"] = [contour_data(c.en, "", c.found) for c in choices]

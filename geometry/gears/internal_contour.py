@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import pairwise
 
 from geometry.angles import involute_function
 from geometry.gears.blocking_contour import (
@@ -26,6 +27,7 @@ from geometry.gears.internal_shifts import (
     CUTTING,
     InternalShiftPair,
     InternalState,
+    cutting_margins,
     equal_sliding,
     interferences,
     internal_state,
@@ -34,6 +36,7 @@ from geometry.gears.internal_shifts import (
 )
 from geometry.gears.limits import Margin
 from geometry.implicit import Box, level_lines
+from geometry.roots import bracketed_root
 
 # levels of the bottom clearance, modules: the tip at the root, and the least that contact searches found free
 TIP_CLEARANCES = (0.0, 0.2)
@@ -42,7 +45,10 @@ _Sides = Callable[[float, float], tuple[float, float]]
 # no margin rises faster than this many modules a module; the smallest square looked at for legal shifts
 _STEEPEST, _FINE = 8.0, 0.05
 _LEVELS = {"contact_ratio": CONTACT_RATIOS, "tip_thickness": TIP_THICKNESSES, "tip_clearance": TIP_CLEARANCES}
-_COSTLY = frozenset({"trochoid_interference", "radial_assembly", "active_flank_first"})
+_COSTLY = frozenset({"cutter_radial_assembly", "trochoid_interference", "radial_assembly", "active_flank_first"})
+# conditions of one gear alone: their lines are vertical (pinion) or horizontal (ring)
+_OF_PINION = frozenset({"undercut_first", "tip_thickness_first", "cutter_working_angle_first", "cutter_reach_first"})
+_OF_RING = frozenset({"tip_above_base", "tip_thickness_second", "rounded_root", "cutter_working_angle"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +84,7 @@ def _always(pair: InternalShiftPair) -> dict[str, _Sides]:
     if isinstance(pair.root, PinionCutter):
         sides["cutter_working_angle"] = lambda x1, x2: (state(x1, x2).ring.cut_involute, 0.0)
         for k, name in enumerate(CUTTING):
-            sides[f"cutter_{name}"] = lambda x1, x2, k=k: (state(x1, x2).ring.cutting[k], 0.0)  # type: ignore[misc]
+            sides[f"cutter_{name}"] = lambda x1, x2, k=k: (cutting_margins(pair, x2)[k], 0.0)  # type: ignore[misc]
     else:
         sides["rounded_root"] = lambda x1, x2: (state(x1, x2).ring.room, 0.0)
     for k, name in enumerate(CUTTING):
@@ -261,14 +267,15 @@ def internal_contour(
         inside = box.left < x1 < box.right and box.bottom < x1 + d < box.top and d > low
         return least_margin(pair, wish, x1, x1 + d) if inside else -1.0
 
-    known = {name: field(c) for name, c in conditions(pair).items() if name != "working_angle"}
+    wanted = {n: c for n, c in conditions(pair).items() if names is None or n in names}
+    known = {n: field(c) for n, c in wanted.items() if _alone(c.name) is None and n != "working_angle"}
     fine = tolerance / 2
-    lines = contour_lines(known, lambda _: least_pinion_shift(pair), sheared, fine, names)
-    lines = tuple(replace(line, points=_unsheared(line.points)) for line in lines)
+    found = contour_lines(known, lambda _: least_pinion_shift(pair), sheared, fine)
+    lines = [replace(line, points=_unsheared(line.points)) for line in found]
+    lines += [line for c in wanted.values() for line in _straight_lines(pair, c, box, lowest)]
     region = tuple(_unsheared(ring) for ring in level_lines(legal, sheared, fine))
-    if names is None or "working_angle" in names:
-        lines = (*_line_of_no_angle(box, lowest), *lines)
-    return BlockingContour(pair, wish, box, lines, region)
+    order = {name: k for k, name in enumerate(dict.fromkeys(c.name for c in wanted.values()))}
+    return BlockingContour(pair, wish, box, tuple(sorted(lines, key=lambda li: order.get(li.name, 99))), region)
 
 
 def least_difference(pair: InternalShiftPair) -> float:
@@ -281,10 +288,53 @@ def _unsheared(points: Iterable[complex]) -> tuple[complex, ...]:
     return tuple(complex(p.real, p.real + p.imag) for p in points)
 
 
-def _line_of_no_angle(box: Box, difference: float) -> tuple[ContourLine, ...]:
-    """The straight line inv(alpha_w) = 0 inside the box."""
-    low, high = max(box.left, box.bottom - difference), min(box.right, box.top - difference)
-    if not low < high:
-        return ()
-    shifts = [low + (high - low) * k / 8 for k in range(9)]
-    return (ContourLine("working_angle", None, tuple(complex(x, x + difference) for x in shifts)),)
+def _alone(name: str) -> int | None:
+    """Which shift alone decides: 0, 1, or None: both."""
+    if name in _OF_PINION:
+        return 0
+    return 1 if name in _OF_RING or (name.removeprefix("cutter_") != name and not name.endswith("_first")) else None
+
+
+def _straight_lines(pair: InternalShiftPair, condition: Condition, box: Box, difference: float) -> list[ContourLine]:
+    """inv(alpha_w) = 0, and the lines of one gear alone, as far as inv(alpha_w) >= 0 inside the box."""
+    which = _alone(condition.name)
+    if condition.name == "working_angle":
+        low, high = max(box.left, box.bottom - difference), min(box.right, box.top - difference)
+        return (
+            _segment(condition, complex(low, low + difference), complex(high, high + difference)) if low < high else []
+        )
+    if which is None:
+        return []
+    lines: list[ContourLine] = []
+    for root in _shifts_on_line(condition, which, box, difference):
+        if which == 0:
+            ends = complex(root, max(box.bottom, root + difference)), complex(root, box.top)
+        else:
+            ends = complex(box.left, root), complex(min(box.right, root - difference), root)
+        if abs(ends[1] - ends[0]) > 0:
+            lines += _segment(condition, *ends)
+    return lines
+
+
+def _shifts_on_line(condition: Condition, which: int, box: Box, difference: float) -> list[float]:
+    """The shifts of one gear at which its condition is just kept; the other shift leaves a working angle."""
+    count = 4 * box.cells
+    low, high = (box.left, box.right) if which == 0 else (box.bottom, box.top)
+
+    def margin(shift: float) -> float:
+        other = shift + difference + 1.0 if which == 0 else shift - difference - 1.0
+        return condition.margin(shift, other) if which == 0 else condition.margin(other, shift)
+
+    marks = [low + (high - low) * k / count for k in range(count + 1)]
+    values = [margin(m) for m in marks]
+    return [
+        bracketed_root(margin, one, two).value
+        for (one, two), (a, b) in zip(pairwise(marks), pairwise(values), strict=True)
+        if math.isfinite(a) and math.isfinite(b) and (a >= 0) != (b >= 0)
+    ]
+
+
+def _segment(condition: Condition, start: complex, end: complex) -> list[ContourLine]:
+    """A straight line in eight pieces."""
+    points = tuple(start + (end - start) * k / 8 for k in range(9))
+    return [ContourLine(condition.name, condition.level, points)]

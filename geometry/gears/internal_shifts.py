@@ -64,9 +64,8 @@ class GearNumbers:
     """What one gear alone says, modules: tip and root radius, length along the line of action to its tip, thickness.
 
     ``reach``: where the cutter's flank ends, on the ring from its base circle; of a shaped pinion how far its cutter's
-    involute reaches. ``cutting``: margins of the ring's cutting in the order of ``CUTTING``, and inv(alpha_w0) with
-    the cutter; inf without one. ``room`` is what a rounded root leaves of the space's bottom, half of it. nan where
-    the gear does not exist.
+    involute reaches. ``cut_involute`` is inv(alpha_w0) with the cutter, inf without one. ``room`` is what a rounded
+    root leaves of the space's bottom, half of it. nan where the gear does not exist.
     """
 
     tip_radius: float
@@ -75,7 +74,6 @@ class GearNumbers:
     tip_thickness: float
     reach: float
     cut_involute: float = math.inf
-    cutting: tuple[float, float, float] = (math.inf, math.inf, math.inf)
     room: float = math.inf
 
 
@@ -137,7 +135,7 @@ def pinion_numbers(pair: InternalShiftPair, shift: float) -> GearNumbers:
 
 @lru_cache(maxsize=1 << 14)
 def ring_numbers(pair: InternalShiftPair, shift: float) -> GearNumbers:
-    """The ring alone; closed forms, but for the full round of a rounded root and the cutter's radial feed."""
+    """The ring alone; closed forms, but for the full round of a rounded root."""
     gear, alpha = pair.ring(shift), pair.rack.pressure_angle
     tip, base = gear.tip_radius, gear.base_radius
     tangent = math.sqrt((tip - base) * (tip + base)) if tip >= base else _NAN
@@ -147,13 +145,20 @@ def ring_numbers(pair: InternalShiftPair, shift: float) -> GearNumbers:
         return _rounded_ring(gear, tip, tangent, thick)
     involute = _cut_involute(-pair.second_teeth, pair.root, shift, alpha)
     if not involute >= 0:
-        return GearNumbers(tip, _NAN, tangent, thick, _NAN, involute, (_NAN, _NAN, _NAN))
-    mesh = generation(gear)
-    assert mesh is not None
-    cutting = tuple(m.margin for m in mesh.margins())
-    return GearNumbers(
-        tip, gear.root_radius, tangent, thick, gear.cut_form_length, involute, (cutting[0], cutting[1], cutting[2])
-    )
+        return GearNumbers(tip, _NAN, tangent, thick, _NAN, involute)
+    return GearNumbers(tip, gear.root_radius, tangent, thick, gear.cut_form_length, involute)
+
+
+@lru_cache(maxsize=1 << 14)
+def cutting_margins(pair: InternalShiftPair, shift: float) -> tuple[float, float, float]:
+    """Margins of the ring's cutting in the order of ``CUTTING``, modules; inf without a cutter, nan beyond any cut."""
+    if not ring_numbers(pair, shift).cut_involute >= 0:
+        return _NAN, _NAN, _NAN
+    mesh = generation(pair.ring(shift))
+    if mesh is None:
+        return math.inf, math.inf, math.inf
+    found = [m.margin for m in mesh.margins()]
+    return found[0], found[1], found[2]
 
 
 def _rounded_ring(gear: RingGear, tip: float, tangent: float, thick: float) -> GearNumbers:
