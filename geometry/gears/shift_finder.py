@@ -26,6 +26,8 @@ _STEP = 0.05
 _STEEPEST = 8.0
 # golden sections within a line and between lines: to 1e-9 and 1e-7; halvings at an end: to 1e-12
 _SECTIONS, _OUTER_SECTIONS, _HALVINGS = 40, 28, 36
+# what a root leaves of a margin of 0
+_ROUNDING = 1e-9
 _GOLDEN = (math.sqrt(5) - 1) / 2
 
 
@@ -152,7 +154,7 @@ def least_wear(pair: AnyShiftPair, wish: Requirements) -> Proposal | None:
         parts = legal_shifts(pair, wish, total)
         for low, high in parts:
             x1 = equal_sliding_shift(pair, total, low, high)
-            if low < x1 < high:
+            if low < x1 < high and least_margin(pair, wish, x1, second_shift(pair, total, x1)) >= -_ROUNDING:
                 return x1
         return None
 
@@ -179,8 +181,9 @@ def least_sliding(pair: AnyShiftPair, wish: Requirements) -> Proposal | None:
         return min(state_of(pair, x1, second_shift(pair, total, x1)).root_sliding(pair.gear_ratio))
 
     def shift(total: float) -> float | None:
-        found = (equal_sliding_shift(pair, total, low, high) for low, high in legal_shifts(pair, wish, total))
-        return max(found, key=lambda x1: wear_at(total, x1), default=None)
+        found = [equal_sliding_shift(pair, total, low, high) for low, high in legal_shifts(pair, wish, total)]
+        legal = [x1 for x1 in found if least_margin(pair, wish, x1, second_shift(pair, total, x1)) >= -_ROUNDING]
+        return max(legal, key=lambda x1: wear_at(total, x1), default=None)
 
     def wear(total: float) -> float:
         x1 = shift(total)
@@ -197,7 +200,10 @@ def greatest_contact_ratio(pair: AnyShiftPair, wish: Requirements) -> Proposal |
     def shift(total: float) -> float | None:
         parts = legal_shifts(pair, wish, total)
         ratio: Callable[[float], float] = lambda x1: state_of(pair, x1, second_shift(pair, total, x1)).contact_ratio  # noqa: E731
-        return max((_golden(ratio, low, high) for low, high in parts), key=ratio, default=None)
+        found = [x1 for low, high in parts for x1 in (_golden(ratio, low, high), low, high)]
+        # between marks a narrow gap in the legal shifts may have been overlooked
+        legal = [x1 for x1 in found if least_margin(pair, wish, x1, second_shift(pair, total, x1)) >= -_ROUNDING]
+        return max(legal, key=ratio, default=None)
 
     def ratio_of(total: float) -> float:
         x1 = shift(total)
