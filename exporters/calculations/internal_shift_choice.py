@@ -183,8 +183,9 @@ def _root_of(keys: InternalShiftKeys, angle: float) -> PinionCutter | RoundedRoo
 
 def _page(keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequirements) -> Sheet:
     page = Sheet(TOPIC, ("Choice of profile shifts, internal pair", "Вибір коефіцієнтів зміщення, внутрішня пара"))
+    wanted = _wanted_difference(keys, pair)
     _given(page, keys, pair, wish)
-    choices = [*_own_choices(keys, pair, wish), *_found_choices(page, keys, pair, wish)]
+    choices = [*_own_choices(keys, pair, wish), *_found_choices(page, keys, pair, wish, wanted)]
     for number, choice in enumerate(choices, 1):
         _choice(page, pair, wish, choice, number)
     found = window(pair)
@@ -230,8 +231,17 @@ def _own_choices(keys: InternalShiftKeys, pair: InternalShiftPair, wish: Interna
     return [Choice(en, uk, proposal(pair, wish, shifts[0] or 0.0, shifts[1] or 0.0))]
 
 
+def _wanted_difference(keys: InternalShiftKeys, pair: InternalShiftPair) -> float | None:
+    """x2 - x1 that a wanted centre distance asks for; refused before anything is sought."""
+    if keys.working_centre_distance is None:
+        return None
+    pinion = SpurGear(keys.module, pair.first_teeth, pair.rack)
+    ring = RingGear(keys.module, pair.second_teeth, pair.rack.pressure_angle, 1e9, RoundedRoot())
+    return shift_difference(pinion, ring, keys.working_centre_distance)
+
+
 def _found_choices(
-    page: Sheet, keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequirements
+    page: Sheet, keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequirements, wanted: float | None
 ) -> list[Choice]:
     """What the finder proposes inside the contour."""
     wear, words = least_wear(pair, wish), ("least wear: equal sliding", "найменше стирання: однакове ковзання")
@@ -241,14 +251,10 @@ def _found_choices(
         (*words, wear),
         ("greatest contact ratio", "найбільший коефіцієнт перекриття", greatest_contact_ratio(pair, wish)),
     ]
-    if keys.working_centre_distance is not None:
-        module, angle = keys.module, pair.rack.pressure_angle
-        pinion = SpurGear(module, pair.first_teeth, pair.rack)
-        ring = RingGear(module, pair.second_teeth, angle, 1e9, RoundedRoot())
-        total = shift_difference(pinion, ring, keys.working_centre_distance)
-        found, name = for_sum(pair, wish, total), f"a_w = {keys.working_centre_distance:g} mm"
-        proposals.append((name, name.replace("mm", "мм"), found))
-        page.notes.append((f"a_w asks for x2 - x1 = {total:.4f}", f"a_w потребує x2 - x1 = {total:.4f}"))
+    if wanted is not None:
+        name = f"a_w = {keys.working_centre_distance:g} mm"
+        proposals.append((name, name.replace("mm", "мм"), for_sum(pair, wish, wanted)))
+        page.notes.append((f"a_w asks for x2 - x1 = {wanted:.4f}", f"a_w потребує x2 - x1 = {wanted:.4f}"))
     result = []
     for en, uk, found in proposals:
         if found is not None:

@@ -7,7 +7,7 @@ ring's root and fillet are those of one cutter for the whole plane. Source: GOST
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
@@ -45,7 +45,7 @@ _Sides = Callable[[float, float], tuple[float, float]]
 # no margin rises faster than this many modules a module; the smallest square looked at for legal shifts
 _STEEPEST, _FINE = 8.0, 0.05
 _LEVELS = {"contact_ratio": CONTACT_RATIOS, "tip_thickness": TIP_THICKNESSES, "tip_clearance": TIP_CLEARANCES}
-_COSTLY = frozenset({"cutter_radial_assembly", "trochoid_interference", "radial_assembly", "active_flank_first"})
+_COSTLY = frozenset({f"cutter_{name}" for name in CUTTING} | set(CUTTING) | {"active_flank_first"})
 # conditions of one gear alone: their lines are vertical (pinion) or horizontal (ring)
 _OF_PINION = frozenset({"undercut_first", "tip_thickness_first", "cutter_working_angle_first", "cutter_reach_first"})
 _OF_RING = frozenset({"tip_above_base", "tip_thickness_second", "rounded_root", "cutter_working_angle"})
@@ -148,18 +148,10 @@ def _difference(sides: tuple[float, float]) -> float:
     return sides[0] - sides[1]
 
 
-def margins(pair: InternalShiftPair, wish: InternalRequirements, x1: float, x2: float) -> tuple[Margin, ...]:
-    """Every requirement with its margin; nan where the pair does not exist."""
-    return tuple(_margins(pair, wish, x1, x2))
-
-
-def _margins(pair: InternalShiftPair, wish: InternalRequirements, x1: float, x2: float) -> Iterator[Margin]:
+@lru_cache(maxsize=64)
+def _required(pair: InternalShiftPair, wish: InternalRequirements) -> tuple[tuple[str, _Sides], ...]:
     """The requirements, those that cost a root last."""
     checks = _checks(pair)
-    yield from _sided("working_angle", checks.always["working_angle"], x1, x2)
-    for name, value in checks.levelled.items():
-        found, limit = value(x1, x2), _limit(wish, name)
-        yield Margin(name, found, limit, found - limit)
     left_out = {"working_angle"}
     if wish.allow_undercut:
         left_out.add("undercut_first")
@@ -167,14 +159,14 @@ def _margins(pair: InternalShiftPair, wish: InternalRequirements, x1: float, x2:
         left_out |= {"approach", "recess"}
     if not wish.radial_assembly:
         left_out.add("radial_assembly")
-    for name, sides in checks.always.items():
-        if name not in left_out:
-            yield from _sided(name, sides, x1, x2)
+    found: list[tuple[str, _Sides]] = [("working_angle", checks.always["working_angle"])]
+    found += [(name, _against(value, _limit(wish, name))) for name, value in checks.levelled.items()]
+    found += [(name, sides) for name, sides in checks.always.items() if name not in left_out]
+    return tuple(sorted(found, key=lambda check: check[0] in _COSTLY))
 
 
-def _sided(name: str, sides: _Sides, x1: float, x2: float) -> Iterator[Margin]:
-    value, limit = sides(x1, x2)
-    yield Margin(name, value, limit, value - limit)
+def _against(value: Callable[[float, float], float], limit: float) -> _Sides:
+    return lambda x1, x2: (value(x1, x2), limit)
 
 
 def _limit(wish: InternalRequirements, name: str) -> float:
@@ -183,15 +175,23 @@ def _limit(wish: InternalRequirements, name: str) -> float:
     return wish.tip_thickness if name.startswith("tip_thickness") else wish.tip_clearance
 
 
+def margins(pair: InternalShiftPair, wish: InternalRequirements, x1: float, x2: float) -> tuple[Margin, ...]:
+    """Every requirement with its margin; nan where the pair does not exist."""
+    every = ((name, sides(x1, x2)) for name, sides in _required(pair, wish))
+    return tuple(Margin(name, value, limit, value - limit) for name, (value, limit) in every)
+
+
 def least_margin(pair: InternalShiftPair, wish: InternalRequirements, x1: float, x2: float) -> float:
     """The least of all margins, -1 where the pair does not exist; what costs a root only where all else is kept."""
     least = math.inf
-    for margin in _margins(pair, wish, x1, x2):
-        if math.isnan(margin.margin) or margin.margin == -math.inf:
-            return -1.0
-        if least < 0 and margin.name in _COSTLY:
+    for name, sides in _required(pair, wish):
+        if least < 0 and name in _COSTLY:
             break
-        least = min(least, margin.margin)
+        value, limit = sides(x1, x2)
+        margin = value - limit
+        if not margin > -math.inf:
+            return -1.0
+        least = min(least, margin)
     return least
 
 

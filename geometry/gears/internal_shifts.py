@@ -39,6 +39,10 @@ class InternalShiftPair:
     plain_tip: bool = False
     pinion_cutter: PinionCutter | None = None
 
+    def __hash__(self) -> int:
+        # what all caches are asked by: cheap rather than fine
+        return hash((self.first_teeth, self.second_teeth, self.rack.pressure_angle))
+
     @property
     def gear_ratio(self) -> float:
         """u = z2 / z1."""

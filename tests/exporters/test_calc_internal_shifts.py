@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import ezdxf
 import pytest
 
-from exporters.calculations.contour_files import checked_picture
+from exporters.calculations import shift_choice, topics
+from exporters.calculations.contour_files import checked_picture, contour_pictures
+from exporters.calculations.inputs import checked, table_of
+from exporters.calculations.internal_shift_choice import InternalShiftKeys, shift_pair
 from exporters.calculations.render import FORMATS, render
+from exporters.calculations.sheet import Sheet
 from exporters.calculations.topics import calculate
 from exporters.contour_dxf import SCALE, write_contour_dxf
 from exporters.contour_picture import contour_svg, line_name, tool_texts
@@ -20,6 +25,7 @@ from geometry.gears.internal_contour import InternalRequirements, conditions, in
 from geometry.gears.internal_pair import internal_pair
 from geometry.gears.internal_shifts import InternalShiftPair
 from geometry.gears.ring import RoundedRoot
+from parts.scene import load_scene
 from parts.schema import SceneError
 
 from .making import run
@@ -92,7 +98,7 @@ def contour() -> Any:
     pair = InternalShiftPair(30, 44, iso_53(), PinionCutter(1.0, 20, iso_53().pressure_angle))
     found = window(pair)
     assert found is not None
-    return internal_contour(pair, InternalRequirements(), found.box, 1e-2)
+    return internal_contour(pair, InternalRequirements(), replace(found.box, cells=16), 1e-2)
 
 
 def test_every_line_has_a_style_and_words() -> None:
@@ -147,11 +153,15 @@ def test_the_picture_has_a_line_and_a_key_for_each_condition(contour: Any) -> No
         assert line_name(name, "uk").split(":")[0] in text
 
 
-def test_pictures_are_written_by_their_ending(tmp_path: Path) -> None:
-    words = [*GIVEN.replace("=20", "=30", 1).replace("=60", "=50").split(), "second.cutter.number_of_teeth=20"]
+def test_pictures_are_written_by_their_ending(contour: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for name, start in (("c.svg", "<svg"), ("c.DXF", "  0\nSECTION")):
-        calculate("shift-choice", [*words, f'picture="{(tmp_path / name).as_posix()}"'], "text", "uk")
-        assert (tmp_path / name).read_text(encoding="utf-8").startswith(start)
+        page = Sheet("shift-choice", ("contour", "контур"))
+        contour_pictures(page, contour, [("here", "тут", (0.1, 0.2))], str(tmp_path / name))
+        monkeypatch.setattr(topics, "sheet_of", lambda _topic, _words, page=page: (page, "uk"))
+        calculate("shift-choice", [], "text", "uk")
+        text = (tmp_path / name).read_text(encoding="utf-8")
+        assert text.startswith(start)
+        assert "1: тут" in text
 
 
 @pytest.mark.parametrize("name", ["contour.txt", "contour", "contour.svg.gz", ".txt", "no_such_folder/contour.svg"])
@@ -169,18 +179,33 @@ def test_both_kinds_of_pairs_refuse_a_text_file(kind: str, capsys: pytest.Captur
     assert "contour.svg works" in complaint(capsys, "calc", "shift-choice", *kind.split(), "picture=contour.txt")
 
 
-def test_a_scene_gives_pair_cutter_and_shifts(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_scene_gives_pair_cutter_and_shifts(tmp_path: Path) -> None:
     file = tmp_path / "pair.toml"
     file.write_text(SCENE, encoding="utf-8")
-    assert run("calc", "shift-choice", file) == 0
+    scene = load_scene(str(file))
+    for typed, teeth, cutter in (
+        ({}, 24, 20),
+        ({"second.cutter.number_of_teeth": 30, "first.number_of_teeth": 22}, 22, 30),
+    ):
+        table = shift_choice.table_from(scene, str(file), table_of([f"{k}={v}" for k, v in typed.items()]))
+        assert table.pop("kind") == "internal_gear_pair"
+        keys = checked(table, InternalShiftKeys, "shift-choice")
+        pair = shift_pair(keys)
+        assert pair.teeth == (teeth, 60)
+        assert pair.plain_tip
+        assert isinstance(pair.root, PinionCutter)
+        assert pair.root.number_of_teeth == cutter
+        assert (keys.first.profile_shift_coefficient, keys.second.profile_shift_coefficient) == (0.1, 0.3)
+
+
+@pytest.mark.heavy
+def test_the_pair_of_the_power_module(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "contour.svg"
+    assert run("calc", "shift-choice", "thesis_internal_pair", f"picture={file.as_posix()}") == 0
     text = capsys.readouterr().out
     assert "as given" in text
-    for line in ("z1 = 24", "z2 = 60", "z_0 = 20", "x1 = 0.1", "x2 = 0.3"):
-        assert line in text, line
-    assert run("calc", "shift-choice", file, "second.cutter.number_of_teeth=30", "first.number_of_teeth=22") == 0
-    text = capsys.readouterr().out
-    assert "z_0 = 30" in text
-    assert "z1 = 22" in text
+    assert "outside the contour" not in text
+    assert file.read_text(encoding="utf-8").startswith("<svg")
 
 
 @pytest.mark.parametrize(
