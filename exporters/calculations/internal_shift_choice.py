@@ -11,7 +11,7 @@ from msgspec import Meta, Struct
 from exporters.calculations.contour_files import checked_picture, contour_data, contour_pictures
 from exporters.calculations.inputs import PLACE, checked, refusal
 from exporters.calculations.sheet import Sheet
-from geometry.errors import ParameterError
+from geometry.errors import ParameterError, at_least, at_most
 from geometry.gears.cutter import PinionCutter, checked_cutter
 from geometry.gears.internal_contour import InternalRequirements, internal_contour, margins, window
 from geometry.gears.internal_pair import shift_difference
@@ -24,6 +24,7 @@ from geometry.gears.shift_finder import (
     greatest_contact_ratio,
     least_sliding,
     least_wear,
+    nearest_sum,
     proposal,
 )
 from geometry.gears.spur import SpurGear
@@ -253,7 +254,10 @@ def _found_choices(
     ]
     if wanted is not None:
         name = f"a_w = {keys.working_centre_distance:g} mm"
-        proposals.append((name, name.replace("mm", "мм"), for_sum(pair, wish, wanted)))
+        found = for_sum(pair, wish, wanted)
+        if found is None:
+            _nearest_distance(page, keys.module, pair, wish, wanted)
+        proposals.append((name, name.replace("mm", "мм"), found))
         page.notes.append((f"a_w asks for x2 - x1 = {wanted:.4f}", f"a_w потребує x2 - x1 = {wanted:.4f}"))
     result = []
     for en, uk, found in proposals:
@@ -269,6 +273,20 @@ def _found_choices(
             )
         )
     return result
+
+
+def _nearest_distance(
+    page: Sheet, module: float, pair: InternalShiftPair, wish: InternalRequirements, wanted: float
+) -> None:
+    """The distance nearest to the wanted one that has legal shifts."""
+    nearest = nearest_sum(pair, wish, wanted)
+    if nearest is None:
+        return
+    distance = module * internal_state(pair, 0.0, nearest).working_centre_distance
+    text = at_most(distance, 4) if nearest < wanted else at_least(distance, 4)
+    less = nearest < wanted
+    page.notes.append((f"a_w: {'at most' if less else 'at least'} {text} mm works",
+                       f"a_w: підходить {'не більше' if less else 'не менше'} {text} мм"))  # fmt: skip
 
 
 def _choice(page: Sheet, pair: InternalShiftPair, wish: InternalRequirements, choice: Choice, number: int) -> None:

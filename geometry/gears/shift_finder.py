@@ -129,6 +129,16 @@ def for_sum(pair: AnyShiftPair, wish: Requirements, shift_sum: float) -> Proposa
     return proposal(pair, wish, wanted, second_shift(pair, shift_sum, wanted))
 
 
+def nearest_sum(pair: AnyShiftPair, wish: Requirements, shift_sum: float) -> float | None:
+    """The sum (x2 - x1 of an internal pair) nearest to an illegal one that has legal shifts; None: there is none."""
+
+    def legal(total: float) -> float:
+        return 0.0 if legal_shifts(pair, wish, total) else -math.inf
+
+    good = min((s for s in _sums(pair) if legal(s) == 0), key=lambda s: abs(s - shift_sum), default=None)
+    return None if good is None else _last_inside(legal, good, shift_sum)
+
+
 def equal_sliding_shift(pair: AnyShiftPair, shift_sum: float, low: float, high: float) -> float:
     """x1 of equal sliding between two x1 of one sum, or the end nearer to it: with x1 the first foot slides less."""
 

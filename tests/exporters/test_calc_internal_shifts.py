@@ -10,7 +10,7 @@ from typing import Any
 import ezdxf
 import pytest
 
-from exporters.calculations import shift_choice, topics
+from exporters.calculations import internal_shift_choice, shift_choice, topics
 from exporters.calculations.contour_files import checked_picture, contour_pictures
 from exporters.calculations.inputs import checked, table_of
 from exporters.calculations.internal_shift_choice import InternalShiftKeys, shift_pair
@@ -25,6 +25,7 @@ from geometry.gears.internal_contour import InternalRequirements, conditions, in
 from geometry.gears.internal_pair import internal_pair
 from geometry.gears.internal_shifts import InternalShiftPair
 from geometry.gears.ring import RoundedRoot
+from geometry.gears.shift_finder import for_sum
 from parts.scene import load_scene
 from parts.schema import SceneError
 
@@ -196,6 +197,31 @@ def test_a_scene_gives_pair_cutter_and_shifts(tmp_path: Path) -> None:
         assert isinstance(pair.root, PinionCutter)
         assert pair.root.number_of_teeth == cutter
         assert (keys.first.profile_shift_coefficient, keys.second.profile_shift_coefficient) == (0.1, 0.3)
+
+
+@pytest.mark.parametrize(("wanted", "word"), [("38", "at least"), ("45", "at most")])
+def test_the_nearest_distance_that_works_is_named_and_works(wanted: str, word: str) -> None:
+    words = WORDS.replace("40.5", wanted).replace("shift-choice ", "").split()
+    table = table_of(words)
+    table.pop("kind")
+    keys = checked(table, InternalShiftKeys, "shift-choice")
+    pair, page = shift_pair(keys), Sheet("shift-choice", ("", ""))
+    found = internal_shift_choice._wanted_difference(keys, pair)
+    assert found is not None
+    assert for_sum(pair, InternalRequirements(), found) is None
+    internal_shift_choice._nearest_distance(page, keys.module, pair, InternalRequirements(), found)
+    match = re.search(rf"{word} ([\d.]+) mm works", page.notes[0][0])
+    assert match
+    again = checked(table | {"working_centre_distance": float(match[1])}, InternalShiftKeys, "shift-choice")
+    total = internal_shift_choice._wanted_difference(again, pair)
+    assert total is not None
+    assert for_sum(pair, InternalRequirements(), total) is not None
+    # and is the nearest but for its last digits
+    farther = float(match[1]) + (2e-4 if word == "at most" else -2e-4)
+    again = checked(table | {"working_centre_distance": farther}, InternalShiftKeys, "shift-choice")
+    total = internal_shift_choice._wanted_difference(again, pair)
+    assert total is not None
+    assert for_sum(pair, InternalRequirements(), total) is None
 
 
 @pytest.mark.heavy
