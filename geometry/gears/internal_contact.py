@@ -109,8 +109,12 @@ class _InternalMesh(MeshSearch):
         turned = np.exp(1j * self.second_position(drive)) * points
         return turned - self.distance, 1j * self.rate * turned
 
-    def to_second(self, points: Complex, drive: Real) -> tuple[Complex, Complex]:
-        back = np.exp(-1j * self.second_position(drive))
+    @property
+    def reach(self) -> float:
+        return self.pair.ring.root_radius
+
+    def to_second(self, points: Complex, drive: Real, turn: Real | float = 0.0) -> tuple[Complex, Complex]:
+        back = np.exp(-1j * (self.second_position(drive) + turn))
         moved = np.exp(1j * drive) * points
         return back * (moved + self.distance), 1j * back * (moved - self.rate * (moved + self.distance))
 

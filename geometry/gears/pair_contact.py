@@ -85,8 +85,12 @@ class _ExternalMesh(MeshSearch):
         turned = np.exp(1j * self.second_position(drive)) * points
         return self.distance + turned, 1j * self.rate * turned
 
-    def to_second(self, points: Complex, drive: Real) -> tuple[Complex, Complex]:
-        second = self.second_position(drive)
+    @property
+    def reach(self) -> float:
+        return self.pair.second.tip_radius
+
+    def to_second(self, points: Complex, drive: Real, turn: Real | float = 0.0) -> tuple[Complex, Complex]:
+        second = self.second_position(drive) + turn
         turned = np.exp(1j * (drive - second)) * points
         centre = -self.distance * np.exp(-1j * second)
         return centre + turned, -1j * self.rate * centre + 1j * (1 - self.rate) * turned

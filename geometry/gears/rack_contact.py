@@ -91,9 +91,17 @@ class _RackMesh(MeshSearch):
         moved = np.asarray(self.distance - points + 1j * self.second_position(drive))
         return moved, np.full_like(moved, 1j * self.rate)
 
-    def to_second(self, points: Complex, drive: Real) -> tuple[Complex, Complex]:
+    @property
+    def relative_turning(self) -> float:
+        return 1.0
+
+    @property
+    def reach(self) -> float:
+        return 1.0
+
+    def to_second(self, points: Complex, drive: Real, turn: Real | float = 0.0) -> tuple[Complex, Complex]:
         turned = np.exp(1j * drive) * points
-        return self.distance + 1j * self.second_position(drive) - turned, 1j * self.rate - 1j * turned
+        return self.distance + 1j * (self.second_position(drive) + turn) - turned, 1j * self.rate - 1j * turned
 
     def second_folded(self, points: Complex, vectors: Complex) -> tuple[Complex, Complex]:
         points = points - 1j * self.pitches[1] * np.round(points.imag / self.pitches[1])
