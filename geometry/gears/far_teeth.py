@@ -16,7 +16,7 @@ from geometry.contact import Indices
 from geometry.curve import Real
 
 # steps along the way, in modules: the first, and how much finer each next one is; so many of them
-_FIRST_STEP, _FINER, _ROUNDS = 0.2, 4.0, 4
+_FIRST_STEP, _FINER, _ROUNDS = 0.2, 4.0, 5
 # room for what the speed does between two places
 _ROOM = 1.05
 # so few places are not worth another step
@@ -25,8 +25,28 @@ _FEW = 64
 Measure = Callable[[Indices, Indices], Real]
 
 
+class Measured:
+    """Places on a way that have been measured, for the next search along the same way: positions and least gaps, mm."""
+
+    def __init__(self) -> None:
+        self.way = np.zeros(0)
+        self.gap = np.zeros((0, 0))
+
+    def add(self, way: Real, gap: Real) -> None:
+        """More places; nan where a column of a place is not known."""
+        some = ~np.isnan(gap).all(axis=1)
+        self.gap = np.concatenate([self.gap.reshape(-1, gap.shape[1]), gap[some]])
+        self.way = np.concatenate([self.way, way[some]])
+
+
 def promising_places(
-    way: Real, speed: Real, module: float, measure: Measure, least: Real, slack: float = 0.0
+    way: Real,
+    speed: Callable[[Real], Real],
+    module: float,
+    measure: Measure,
+    least: Real,
+    known: Measured,
+    slack: float = 0.0,
 ) -> tuple[Indices, Indices]:
     """Rows and columns of the places on a way that may hold less than ``least``.
 
@@ -35,28 +55,36 @@ def promising_places(
     way
         (n,) positions of the places, in order, in the unit of the motion.
     speed
-        (n,) greatest speed of a point of the tooth against the mate, mm per unit.
+        For positions the greatest speed of a point of the tooth against the mate, mm per unit.
     measure
         Takes rows and columns of places and gives what their gap is at least, mm; a column is one part of the tooth.
     least
         (n, columns) what a place must go below, mm.
+    known
+        Places that are known already; those that this search measures are added.
     slack
         mm that places may stand off the common way.
     """
-    steps = np.maximum(speed[1:], speed[:-1]) * np.diff(way)
-    travelled = _ROOM * np.concatenate([[0.0], np.cumsum(steps)])
-    left = np.ones(least.shape, dtype=bool)
-    known = np.full(left.shape, np.nan)
+    everywhere = np.concatenate([way, known.way])
+    order = np.argsort(everywhere, kind="stable")
+    speeds = speed(everywhere[order])
+    steps = np.maximum(speeds[1:], speeds[:-1]) * np.diff(everywhere[order])
+    travelled = np.empty(len(order))
+    travelled[order] = _ROOM * np.concatenate([[0.0], np.cumsum(steps)])
+    old, travelled = travelled[len(way) :], travelled[: len(way)]
+    found = np.full(least.shape, np.nan)
+    left = _bounds(known.gap, old, travelled, least.shape[1]) - slack < least
     step = _FIRST_STEP * module
     for _ in range(_ROUNDS):
-        row, column = np.nonzero(left & np.isnan(known))
+        row, column = np.nonzero(left & np.isnan(found))
         if row.size <= _FEW:
             break
         chosen = _one_a_step(np.floor(travelled[row] / step).astype(np.intp), column)
         row, column = row[chosen], column[chosen]
-        known[row, column] = measure(row, column)
-        left &= _bounds(known, travelled) - slack < least
+        found[row, column] = measure(row, column)
+        left &= _bounds(found, travelled, travelled, least.shape[1]) - slack < least
         step /= _FINER
+    known.add(way, found)
     rows, columns = np.nonzero(left)
     return rows, columns
 
@@ -67,19 +95,17 @@ def _one_a_step(cell: Indices, column: Indices) -> Indices:
     return np.concatenate([rows[np.diff(cell[rows], prepend=-1) > 0] for rows in mine])
 
 
-def _bounds(known: Real, travelled: Real) -> Real:
-    """What each place's gap is at least by the nearest measured ones on either side; -inf without any."""
-    bound = np.full(known.shape, -np.inf)
-    rows = np.arange(len(known))
-    for column in range(known.shape[1]):
-        measured = np.flatnonzero(~np.isnan(known[:, column]))
+def _bounds(gap: Real, at: Real, wanted: Real, columns: int) -> Real:
+    """What gaps are at least where ``wanted`` has been travelled, by the nearest measured ones on either side."""
+    bound = np.full((len(wanted), columns), -np.inf)
+    for column in range(columns if gap.size else 0):
+        measured = np.flatnonzero(~np.isnan(gap[:, column]))
+        measured = measured[np.argsort(at[measured], kind="stable")]
         if not measured.size:
             continue
-        values, places = known[measured, column], travelled[measured]
-        for after in (0, 1):
-            nearest = np.searchsorted(measured, rows, side="right") - 1 + after
-            there = (nearest >= 0) & (nearest < len(measured))
-            at = nearest[there]
-            other = values[at] - np.abs(travelled[there] - places[at])
-            bound[there, column] = np.maximum(bound[there, column], other)
+        values, places = gap[measured, column], at[measured]
+        before = np.searchsorted(places, wanted, side="right") - 1
+        for nearest in (np.maximum(before, 0), np.minimum(before + 1, len(places) - 1)):
+            other = values[nearest] - np.abs(wanted - places[nearest])
+            bound[:, column] = np.maximum(bound[:, column], other)
     return bound

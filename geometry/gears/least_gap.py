@@ -4,8 +4,8 @@ Every piece of a curve between samples that may hold less than what its group ha
 distance is 1-Lipschitz, so a piece of length l with the ends a and b stays above (a + b - l) / 2. Where the nearest
 point jumps from one flank to another the distance has a peak, and a minimum may lie beside it between two samples
 that both fall: pieces whose ends have different feet are therefore halved until the peak is caught. Inside the
-material the jump is a trough and hides nothing. Within one foot the distance is taken to be smooth with one minimum at
-most in half a sample step.
+material the jump is a trough and hides nothing. Within one foot the distance is taken to be smooth: a minimum that
+neither end's slope tells of shows in the cubic through both ends.
 """
 
 from __future__ import annotations
@@ -24,11 +24,13 @@ _SAMPLE_STEP = 0.2
 ACCURACY = 1e-12
 # a change of feet is caught to this part of the module: a minimum beside it is missed by its square
 _PEAK = 2e-5
-# pieces shorter than this part of the module lie above their end tangents where they have one foot
-_SHORT = 0.02
+# a minimum in a piece that short (modules) is above the tangents of its ends; by this it is no candidate any more
+_SHORT, _BEATEN = 0.02, 1e-9
 # an arc is at most that much longer than its chord: steps are short against radii
 _BULGE = 1.2
 _STEPS = 80
+# what rounding leaves of a distance, as a part of the coordinates
+_ROUNDINGS = 4 * float(np.finfo(float).eps)
 
 
 class Gaps(NamedTuple):
@@ -108,6 +110,18 @@ class _Pieces(NamedTuple):
         return (self.low.foot != self.high.foot) & ((self.low.value > 0) | (self.high.value > 0))
 
     @property
+    def hides_minimum(self) -> Flags:
+        """Ends that both fall or both rise, and a cubic through them that turns in between."""
+        a, b = self.low.slope, self.high.slope
+        with np.errstate(divide="ignore", invalid="ignore"):
+            secant = (self.high.value - self.low.value) / (self.high.t - self.low.t)
+            # the cubic's slope is a + linear x + square x^2, x from 0 to 1
+            linear, square = 6 * secant - 4 * a - 2 * b, 3 * (a + b) - 6 * secant
+            top = -linear / (2 * square)
+            turns = (a + top * linear / 2) * np.sign(a) < 0
+        return (a * b > 0) & (top > 0) & (top < 1) & turns
+
+    @property
     def crossing(self) -> Real:
         """Where the tangents of both ends cross, from the low end on; nan or inf where they are parallel."""
         low, high = self.low, self.high
@@ -123,6 +137,11 @@ class LeastGap:
         self.first, self.pitch, self.segments, self.module = first, pitch, segments, module
         self.samples: list[Samples] = [sampled(s.curve, _SAMPLE_STEP * module) for s in segments]
         self.rates = [np.asarray(s.curve.derivative(q.parameters)) for s, q in zip(segments, self.samples, strict=True)]
+
+    @property
+    def size(self) -> float:
+        """The farthest of the samples from the second body's origin, mm."""
+        return max(float(np.abs(s.points).max()) for s in self.samples)
 
     @property
     def longest(self) -> float:
@@ -142,9 +161,10 @@ class LeastGap:
 
         ``chosen`` (n,) tells for each curve which copies of it are looked at.
         """
-        pieces, least = self._sampled(copies, chosen, found), accuracy * self.module
+        largest = float(np.abs(copies.shift).max(initial=0.0)) + self.size
+        pieces, least = self._sampled(copies, chosen, found), max(accuracy * self.module, _ROUNDINGS * largest)
         for step in range(_STEPS):
-            pieces = pieces.take(self._hopeful(pieces, found.gap[copies.group[pieces.row]] - least, least, step))
+            pieces = pieces.take(self._hopeful(pieces, found.gap[copies.group[pieces.row]] - least, least))
             if not pieces.row.size:
                 return
             pieces = self._divided(pieces, _split(pieces, step), copies, found)
@@ -175,19 +195,18 @@ class LeastGap:
         foot = fold_images(points, self.pitch) * len(self.first.curves) + feet.curve_index
         return _Ends(t, points, feet.distance, (np.conj(feet.normal) * turned).real, foot)
 
-    def _hopeful(self, pieces: _Pieces, best: Real, accuracy: float, step: int) -> Flags:
-        """Pieces that may hold less than ``best``; steps between samples are halved whatever their ends do."""
-        hopeful = pieces.bound < best
-        if step == 0:
-            return hopeful
+    def _hopeful(self, pieces: _Pieces, best: Real, accuracy: float) -> Flags:
+        """Pieces that may hold less than ``best``."""
         length = np.abs(pieces.high.point - pieces.low.point)
         flatter = np.minimum(np.abs(pieces.low.slope), np.abs(pieces.high.slope))
         with np.errstate(invalid="ignore"):
             tangents = pieces.low.value + pieces.low.slope * pieces.crossing
-            above = (length < _SHORT * self.module) & (tangents >= best)
-        # of a convex function the least is within slope * width, and above the tangents
+        room = np.where(pieces.low.foot == pieces.high.foot, _BEATEN * self.module, 0.0)
+        above = (length < _SHORT * self.module) & (tangents >= best + room)
+        # of a convex function the least is within slope * width
         trough = pieces.falls_and_rises & (flatter * (pieces.high.t - pieces.low.t) > accuracy) & ~above
-        return hopeful & (trough | (pieces.has_peak & (length > _PEAK * self.module)))
+        jump = (pieces.has_peak | pieces.hides_minimum) & (length > _PEAK * self.module)
+        return (pieces.bound < best) & (trough | jump)
 
     def _divided(self, pieces: _Pieces, t: Real, copies: Copies, found: Gaps) -> _Pieces:
         points, rates = np.empty(len(t), complex), np.empty(len(t), complex)
@@ -216,7 +235,7 @@ def _split(pieces: _Pieces, step: int) -> Real:
     low, high = pieces.low, pieces.high
     width = high.t - low.t
     share = np.full(width.shape, 0.5)
-    if step % 3 != 0:
+    if step % 3 != 2:
         with np.errstate(divide="ignore", invalid="ignore"):
             slopes = low.slope / (low.slope - high.slope)
             found = np.where(low.foot != high.foot, pieces.crossing / width, slopes)

@@ -8,13 +8,13 @@ gear's teeth, 1 at the upper ones.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geometry.contact import Flags, Indices
 from geometry.curve import Complex, Real
-from geometry.gears.far_teeth import promising_places
+from geometry.gears.far_teeth import Measured, promising_places
 from geometry.gears.least_gap import Copies, Gaps
 
 if TYPE_CHECKING:
@@ -23,19 +23,32 @@ if TYPE_CHECKING:
 # teeth on either side of the line of centres that are measured at once where there are more than _MOST_NEAR
 _NEAR_TEETH, _MOST_NEAR = 2, 4
 # far teeth are excluded by gaps that are known to this part of the module
-_ROUGH = 2e-3
+_ROUGH = 5e-4
 
 
-def least_gaps(mesh: MeshSearch, drive: Real, turn: Real | float = 0.0) -> Gaps:
+class FarTeeth(NamedTuple):
+    """What earlier searches of a mesh, at one turn of its second body, have learned of far teeth."""
+
+    second: Measured
+    corners: Measured
+
+    @classmethod
+    def unknown(cls) -> FarTeeth:
+        """Nothing yet."""
+        return cls(Measured(), Measured())
+
+
+def least_gaps(mesh: MeshSearch, drive: Real, turn: Real | float = 0.0, far: FarTeeth | None = None) -> Gaps:
     """Least gaps at drive angles (n,), rad, for both sides: groups 2 k + side.
 
     ``turn``: the second body's motion beyond ``mesh.second_position``, rad or mm: (n,) or one number for all.
+    ``far``: what is known of far teeth at that turn, and learns more.
     """
     offset = np.broadcast_to(np.asarray(turn, dtype=float), drive.shape)
-    found = Gaps.unknown(2 * len(drive))
-    _Second(mesh, drive, offset, mesh.second_position(drive) + offset, found).search()
+    found, far = Gaps.unknown(2 * len(drive)), far or FarTeeth.unknown()
+    _Second(mesh, drive, offset, mesh.second_position(drive) + offset, found, far.second).search()
     if mesh.outlines[0].convex_corners:
-        _Corners(mesh, drive, offset, found).search()
+        _Corners(mesh, drive, offset, found, far.corners).search()
     return found
 
 
@@ -57,6 +70,7 @@ class _Second:
     offset: Real
     position: Real
     found: Gaps
+    known: Measured
 
     def search(self) -> None:
         """Teeth near the line of centres first: they tell how little a far one must have to matter."""
@@ -97,7 +111,7 @@ class _Second:
 
         least = self.found.gap.reshape(-1, 2)[angle]
         slack = _slack(mesh, self.offset)
-        rows, sides = promising_places(way, self._speed(way), mesh.module, measure, least, slack)
+        rows, sides = promising_places(way, self._speed, mesh.module, measure, least, self.known, slack)
         half.search(*placed(rows, sides), self.found)
 
     def _copies(self, angle: Indices, copy: Real, side: Indices) -> Copies:
@@ -122,6 +136,7 @@ class _Corners:
     drive: Real
     offset: Real
     found: Gaps
+    known: Measured
 
     @property
     def _points(self) -> Complex:
@@ -148,13 +163,18 @@ class _Corners:
         order = np.argsort(way, kind="stable")
         way, angle, tooth = way[order], angle[order], tooth[order]
         points = self._points
-        speed = np.max([np.abs(self.mesh.to_second(np.full(way.shape, p), way)[1]) for p in points], axis=0)
         least = self.found.gap[2 * angle[:, None] + np.arange(len(points)) % 2]
+        slack = _slack(self.mesh, self.offset)
+
+        def speed(at: Real) -> Real:
+            return np.asarray(
+                np.max([np.abs(self.mesh.to_second(np.full(at.shape, p), at)[1]) for p in points], axis=0)
+            )
 
         def measure(rows: Indices, columns: Indices) -> Real:
             return self._measured(angle[rows], tooth[rows], columns)
 
-        measure(*promising_places(way, speed, self.mesh.module, measure, least, _slack(self.mesh, self.offset)))
+        measure(*promising_places(way, speed, self.mesh.module, measure, least, self.known, slack))
 
     def _measured(self, angle: Indices, tooth: Real, column: Indices) -> Real:
         """Gaps of corners, mm, entered into what is found."""

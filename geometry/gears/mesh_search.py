@@ -20,7 +20,7 @@ import numpy as np
 from geometry.contact import Boundary, Verdict, folded, least_in_brackets
 from geometry.curve import Complex, Real
 from geometry.gears.least_gap import ACCURACY, Gaps, LeastGap
-from geometry.gears.mesh_gaps import least_gaps
+from geometry.gears.mesh_gaps import FarTeeth, least_gaps
 from geometry.gears.tooth import ToothSide
 from geometry.profile import Label, Segment
 
@@ -78,12 +78,13 @@ class PairContact:
 def searched(mesh: MeshSearch, allowed: float) -> PairContact:
     """The exact gap of a mesh over one pitch of the first gear; ``allowed``: |gap| in mm that is contact."""
     angles = mesh.drive_angles()
-    found = least_gaps(mesh, angles)
+    far = FarTeeth.unknown()
+    found = least_gaps(mesh, angles, far=far)
     for _ in range(2):
         if _decided(found.gap, allowed):
             break
         extra = _around_the_least(angles, found.gap.reshape(-1, 2).min(axis=1), mesh.pitches[0])
-        angles, found = _merged(angles, found, extra, least_gaps(mesh, extra))
+        angles, found = _merged(angles, found, extra, least_gaps(mesh, extra, far=far))
     sides = found.gap.reshape(-1, 2)
     finite = np.isfinite(sides)
     closed = mesh.closed_form(angles)
