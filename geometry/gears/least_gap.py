@@ -81,7 +81,11 @@ class _Ends(NamedTuple):
     foot: Indices
 
     def take(self, rows: Indices | Flags) -> _Ends:
-        return _Ends(*(a[rows] for a in self))
+        return _Ends(self.t[rows], self.point[rows], self.value[rows], self.slope[rows], self.foot[rows])
+
+    def and_then(self, more: _Ends) -> _Ends:
+        t, point, value, slope, foot = (np.concatenate(pair) for pair in zip(self, more, strict=True))
+        return _Ends(t, point, value, slope, foot)
 
 
 class _Pieces(NamedTuple):
@@ -216,15 +220,9 @@ class LeastGap:
                 points[mine], rates[mine] = segment.curve.point(t[mine]), segment.curve.derivative(t[mine])
         placed = copies.place(pieces.row, points, rates)
         middle = self._measured(pieces.curve, pieces.row, t, *placed, copies, found)
-        halves = pieces._replace(high=middle), pieces._replace(low=middle)
-        both = [_joined(a, b) for a, b in zip(*halves, strict=True)]
-        return _Pieces(*both)  # type: ignore[arg-type]
-
-
-def _joined(a: Indices | _Ends, b: Indices | _Ends) -> Indices | _Ends:
-    if isinstance(a, _Ends) and isinstance(b, _Ends):
-        return _Ends(*(np.concatenate(pair) for pair in zip(a, b, strict=True)))
-    return np.concatenate([a, b])  # type: ignore[list-item]
+        return _Pieces(
+            np.tile(pieces.curve, 2), np.tile(pieces.row, 2), pieces.low.and_then(middle), middle.and_then(pieces.high)
+        )
 
 
 def _split(pieces: _Pieces, step: int) -> Real:
