@@ -59,6 +59,8 @@ def check_lines(checks: dict[str, Any], language: str) -> list[str]:
             # what undercut and fillets leave of it
             ratio=min(mate["contact_ratio"], mate["effective_contact_ratio"]),
         )
+        if "total_contact_ratio" in mate:
+            text += words(language, "total_ratio").format(total=mate["total_contact_ratio"])
         if "verdict" in mate:
             text += f": {words(language, mate['verdict'])}, {words(language, 'gap').format(gap=mate['gap'])}"
             if mate["verdict"] == "clear" and mate["gap"] <= mate["tolerance"]:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Protocol
 
 from msgspec import Meta, Struct
 
+from parts.common_face import STRAIGHT, CommonFace
 from parts.keys import mm
 
 if TYPE_CHECKING:
@@ -109,6 +110,10 @@ class Mating(Protocol):
         """The calculated pair of its kind."""
 
     @property
+    def face(self) -> CommonFace:
+        """What helical teeth have in common along their axes."""
+
+    @property
     def distance(self) -> float:
         """Working centre distance, or from the axis to the datum line of a rack, mm."""
 
@@ -153,6 +158,7 @@ class ExternalMating:
     direction_deg: float
     pair: ExternalPair
     kind: str = "external_gear_pair"
+    face: CommonFace = STRAIGHT
 
     @property
     def distance(self) -> float:
@@ -197,11 +203,14 @@ class ExternalMating:
         """Verdict over one pitch of the first gear."""
         from geometry.gears.pair_contact import pair_contact
 
-        return pair_contact(self.pair, second_turn=phase_off, centre_shift=distance_off, tolerance=tolerance)
+        overlap = self.face.overlap_ratio
+        return pair_contact(
+            self.pair, second_turn=phase_off, centre_shift=distance_off, tolerance=tolerance, overlap_ratio=overlap
+        )
 
     def findings(self) -> tuple[Finding, ...]:
         """Conditions of the pair that are not kept."""
-        return self.pair.findings()
+        return self.face.findings(self.pair.findings(), self.pair.effective_contact_ratio)
 
     def quantities(self) -> dict[str, Any]:
         """Practicum, lesson 3."""
@@ -212,6 +221,7 @@ class ExternalMating:
             "tip_shortening_coefficient": self.pair.tip_shortening_coefficient,
             "contact_ratio": self.pair.contact_ratio,
             "effective_contact_ratio": self.pair.effective_contact_ratio,
+            **self.face.quantities(self.pair.effective_contact_ratio),
             "normal_backlash": self.normal_backlash,
         }
 
@@ -226,6 +236,7 @@ class InternalMating:
     pair: InternalPair
     ring_first: bool
     kind: str = "internal_gear_pair"
+    face: CommonFace = STRAIGHT
 
     @property
     def distance(self) -> float:
@@ -277,11 +288,14 @@ class InternalMating:
 
         # a pinion that is ahead meets the flanks that a ring would meet that lags behind
         turn = -phase_off / self.pair.gear_ratio if self.ring_first else phase_off
-        return internal_contact(self.pair, ring_turn=turn, centre_shift=distance_off, tolerance=tolerance)
+        overlap = self.face.overlap_ratio
+        return internal_contact(
+            self.pair, ring_turn=turn, centre_shift=distance_off, tolerance=tolerance, overlap_ratio=overlap
+        )
 
     def findings(self) -> tuple[Finding, ...]:
         """Conditions of the pair that are not kept: interference, assembly, clearance."""
-        return self.pair.findings()
+        return self.face.findings(self.pair.findings(), self.pair.effective_contact_ratio)
 
     def quantities(self) -> dict[str, Any]:
         """Working quantities and the margins of the internal conditions."""
@@ -291,6 +305,7 @@ class InternalMating:
             "working_centre_distance": self.distance,
             "contact_ratio": self.pair.contact_ratio,
             "effective_contact_ratio": self.pair.effective_contact_ratio,
+            **self.face.quantities(self.pair.effective_contact_ratio),
             "normal_backlash": self.normal_backlash,
             "margins": {m.name: m.margin for m in self.pair.margins() if math.isfinite(m.margin)},
         }
@@ -305,6 +320,7 @@ class RackMating:
     direction_deg: float
     pair: RackPair
     kind: str = "rack_pair"
+    face: CommonFace = STRAIGHT
 
     @property
     def distance(self) -> float:
@@ -355,7 +371,10 @@ class RackMating:
         """Verdict over one pitch of the gear."""
         from geometry.gears.rack_contact import rack_contact
 
-        return rack_contact(self.pair, rack_shift=phase_off, distance_shift=distance_off, tolerance=tolerance)
+        overlap = self.face.overlap_ratio
+        return rack_contact(
+            self.pair, rack_shift=phase_off, distance_shift=distance_off, tolerance=tolerance, overlap_ratio=overlap
+        )
 
     def findings(self) -> tuple[Finding, ...]:
         """Conditions of the pair that are not kept; a rack has the teeth that are in contact at once, and one more."""
@@ -363,7 +382,7 @@ class RackMating:
 
         teeth, needed = self.pair.rack.number_of_teeth, math.ceil(self.pair.contact_ratio) + 1
         short = (Finding("short_rack", float(teeth), float(needed)),) if teeth < needed else ()
-        return (*self.pair.findings(), *short)
+        return self.face.findings((*self.pair.findings(), *short), self.pair.effective_contact_ratio)
 
     def quantities(self) -> dict[str, Any]:
         """Working quantities; the working circle is the reference circle."""
@@ -373,5 +392,6 @@ class RackMating:
             "travel_per_turn": self.pair.travel_per_turn,
             "contact_ratio": self.pair.contact_ratio,
             "effective_contact_ratio": self.pair.effective_contact_ratio,
+            **self.face.quantities(self.pair.effective_contact_ratio),
             "normal_backlash": self.normal_backlash,
         }

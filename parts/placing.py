@@ -247,7 +247,9 @@ def _closed(mate: PlacedMate) -> PlacedMate:
     if not mate.only_checks:
         return mate
     first, second = mate.first, mate.second
-    found = mate.mating.standing((first.centre, first.rotation), (second.centre, second.rotation))
+    # helical teeth are compared at one height: that of the second's lower face
+    turned = first.rotation + mate.mating.face.turn(mate.mating.first_teeth, second.at[2] - first.at[2])
+    found = mate.mating.standing((first.centre, turned), (second.centre, second.rotation))
     required, shift = mate.mating.distance, found.distance - mate.mating.distance
     # numbers that large cannot be known better
     allowed = PLACED_MM + TOLERANCES.relative_join * (abs(mate.first.centre) + abs(mate.second.centre))
@@ -269,6 +271,11 @@ def _with_faces_and_speeds(mates: tuple[PlacedMate, ...], parts: dict[str, Part]
         if mate.only_checks:
             width = _common_width(mate.first, mate.second, parts)
             more.append(Condition("common_face_width", width, 0.0, 0.0, width > 0))
+            face = mate.mating.face
+            if face.helix.double:
+                height = mate.second.at[2] - mate.first.at[2]
+                more.append(Condition("herringbone_height", height, 0.0, PLACED_MM, abs(height) <= PLACED_MM))
+            mate = replace(mate, mating=replace(mate.mating, face=replace(face, width=max(width, 0.0))))  # type: ignore[type-var]
             before = _train(mate.mating.first, [m.mating for m in mates[:index]])
             ratio, other = mate.mating.ratio, before.get(mate.mating.second)
             if other is not None and ratio is not None:

@@ -19,7 +19,12 @@ _CLEAR_CORNERS = 0.1
 
 
 def internal_contact(
-    pair: InternalPair, *, ring_turn: float = 0.0, centre_shift: float = 0.0, tolerance: float | None = None
+    pair: InternalPair,
+    *,
+    ring_turn: float = 0.0,
+    centre_shift: float = 0.0,
+    tolerance: float | None = None,
+    overlap_ratio: float = 0.0,
 ) -> PairContact:
     """The exact gap of pinion and ring over one pitch of the pinion.
 
@@ -35,6 +40,8 @@ def internal_contact(
         mm by which the centre distance is more than the pair's.
     tolerance
         mm; default 1e-8 module.
+    overlap_ratio
+        Of helical teeth whose section the pair is: drive angle that their face covers, in pitches.
 
     Raises
     ------
@@ -42,7 +49,7 @@ def internal_contact(
         A gear of the pair cannot be built.
     """
     allowed = CONTACT_TOLERANCE * pair.module if tolerance is None else tolerance
-    return searched(_InternalMesh(pair, ring_turn, centre_shift), allowed)
+    return searched(_InternalMesh(pair, ring_turn, centre_shift), allowed, overlap_ratio)
 
 
 def ring_outline(side: RingSide) -> Boundary:

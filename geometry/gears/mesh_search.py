@@ -13,12 +13,14 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from geometry.contact import Boundary, Verdict, folded, least_in_brackets
+from geometry.contact import Boundary, Flags, Verdict, folded, least_in_brackets
 from geometry.curve import Complex, Real
+from geometry.gears.face_overlap import is_bridged
 from geometry.gears.least_gap import ACCURACY, Gaps, LeastGap
 from geometry.gears.mesh_gaps import FarTeeth, least_gaps
 from geometry.gears.tooth import ToothSide
@@ -53,12 +55,12 @@ class PairContact:
     """What a mesh cycle showed; lengths in mm, angles in rad.
 
     OVERLAP: a gap below -tolerance at some drive angle. CONTACT: no overlap, and on one side of the teeth at least
-    a gap within +-tolerance at every drive angle, so that the drive is never interrupted. CLEAR: otherwise, with
-    ``touches`` telling whether there is contact at some drive angles. UNDECIDED: the search missed what the closed form
-    for two involutes finds, or a number is not finite.
+    a gap within +-tolerance at every drive angle, so that the drive is never interrupted; of helical teeth somewhere
+    along their face. CLEAR: otherwise, with ``touches`` telling whether there is contact at some drive angles.
+    UNDECIDED: the search missed what the closed form for two involutes finds, or a number is not finite.
 
-    ``side_gaps`` are the gap curves at the lower and the upper sides of the first gear's teeth, ``gaps`` the
-    lesser of both.
+    Gaps are those of one transverse section. ``side_gaps`` are the gap curves at the lower and the upper sides of the
+    first gear's teeth, ``gaps`` the lesser of both.
     """
 
     verdict: Verdict
@@ -75,8 +77,11 @@ class PairContact:
         return self.verdict is Verdict.CONTACT or (self.verdict is Verdict.CLEAR and self.worst.gap <= self.tolerance)
 
 
-def searched(mesh: MeshSearch, allowed: float) -> PairContact:
-    """The exact gap of a mesh over one pitch of the first gear; ``allowed``: |gap| in mm that is contact."""
+def searched(mesh: MeshSearch, allowed: float, overlap_ratio: float = 0.0) -> PairContact:
+    """The exact gap of a mesh over one pitch of the first gear; ``allowed``: |gap| in mm that is contact.
+
+    ``overlap_ratio``: that of helical teeth, whose transverse section the mesh is: pitches that the face covers.
+    """
     angles = mesh.drive_angles()
     far = FarTeeth.unknown()
     found = least_gaps(mesh, angles, far=far)
@@ -90,8 +95,11 @@ def searched(mesh: MeshSearch, allowed: float) -> PairContact:
     closed = mesh.closed_form(angles)
     missed = (np.abs(closed) < _COMPARED * mesh.module) & (closed < sides - allowed)
     gaps = sides.min(axis=1)
+    verdict = _verdict(sides, allowed) if finite.all() and not missed.any() else Verdict.UNDECIDED
+    if verdict is Verdict.CLEAR and overlap_ratio and _bridged(mesh, angles, sides, allowed, overlap_ratio):
+        verdict = Verdict.CONTACT
     return PairContact(
-        _verdict(sides, allowed) if finite.all() and not missed.any() else Verdict.UNDECIDED,
+        verdict,
         allowed,
         tuple(angles.tolist()),
         tuple(gaps.tolist()),
@@ -99,6 +107,17 @@ def searched(mesh: MeshSearch, allowed: float) -> PairContact:
         mesh.place(angles, found),
         float(gaps.max()),
     )
+
+
+def _bridged(mesh: MeshSearch, angles: Real, sides: Real, allowed: float, overlap_ratio: float) -> bool:
+    """Whether one side of helical teeth is in contact somewhere along the face at every drive angle."""
+
+    def touches(side: int) -> Callable[[Real], Flags]:
+        return lambda more: np.abs(least_gaps(mesh, more).gap.reshape(-1, 2)[:, side]) <= allowed
+
+    pitch = mesh.pitches[0]
+    flags = np.abs(sides) <= allowed
+    return any(is_bridged(angles, flags[:, k], pitch, overlap_ratio * pitch, touches(k)) for k in (0, 1))
 
 
 def _decided(gap: Real, allowed: float) -> bool:

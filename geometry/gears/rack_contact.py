@@ -15,7 +15,12 @@ from geometry.profile import Segment
 
 
 def rack_contact(
-    pair: RackPair, *, rack_shift: float = 0.0, distance_shift: float = 0.0, tolerance: float | None = None
+    pair: RackPair,
+    *,
+    rack_shift: float = 0.0,
+    distance_shift: float = 0.0,
+    tolerance: float | None = None,
+    overlap_ratio: float = 0.0,
 ) -> PairContact:
     """The exact gap of gear and rack over one pitch; "first" is the gear, "second" the rack, taken without ends.
 
@@ -28,6 +33,8 @@ def rack_contact(
         mm by which the distance is more than the pair's.
     tolerance
         mm; default 1e-8 module.
+    overlap_ratio
+        Of helical teeth whose section the pair is: drive angle that their face covers, in pitches.
 
     Raises
     ------
@@ -35,7 +42,7 @@ def rack_contact(
         A part of the pair cannot be built.
     """
     allowed = CONTACT_TOLERANCE * pair.module if tolerance is None else tolerance
-    return searched(_RackMesh(pair, rack_shift, distance_shift), allowed)
+    return searched(_RackMesh(pair, rack_shift, distance_shift), allowed, overlap_ratio)
 
 
 def _as_gear(segments: tuple[Segment, ...]) -> tuple[Segment, ...]:
