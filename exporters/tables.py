@@ -52,6 +52,8 @@ def check_lines(checks: dict[str, Any], language: str) -> list[str]:
     lines = []
     for mate in checks.get("mates", []):
         text = _mate_head(mate, language)
+        if "total_contact_ratio" in mate:
+            text += words(language, "total_ratio").format(total=mate["total_contact_ratio"])
         if "verdict" in mate:
             text += f": {words(language, mate['verdict'])}, {words(language, 'gap').format(gap=mate['gap'])}"
             if mate["verdict"] == "clear" and mate["gap"] <= mate["tolerance"]:

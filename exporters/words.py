@@ -68,6 +68,7 @@ WORDS: dict[str, tuple[str, str]] = {
         "{first} рухає {second} на {travel:.6g} {unit}",
     ),
     "mate_fixed": ("{first} - {second}: fixed to each other", "{first} - {second}: нерухомо з'єднані"),
+    "total_ratio": (", total {total:.4f}", ", сумарний {total:.4f}"),
     "broken": ("BROKEN", "ПОРУШЕНО"),
     "height": (
         "{second} stands {value:.9g} mm above {first}, {required:.9g} mm is asked",
@@ -92,6 +93,11 @@ WORDS: dict[str, tuple[str, str]] = {
     "common_face_width": (
         "{first} and {second} share {value:.6g} mm of their face width, more than {required:g} mm is asked",
         "спільна ширина вінців {first} і {second} дорівнює {value:.6g} мм, потрібно більше за {required:g} мм",
+    ),
+    "herringbone_height": (
+        "the points of the herringbones of {second} stand {value:.6g} mm above those of {first} "
+        "(within {tolerance:.2g} mm)",
+        "вершини шевронів {second} стоять на {value:.6g} мм вище від вершин {first} (з точністю {tolerance:.2g} мм)",
     ),
     "train": (
         "the other mates turn {second} {value:.9g} times for one turn of {first}, this one {required:.9g} times: "
@@ -171,6 +177,16 @@ FINDINGS: dict[str, tuple[str, str]] = {
     "contact_ratio": (
         "contact ratio {value:.4f} is below {limit:.1f}: the drive is interrupted",
         "коефіцієнт перекриття {value:.4f} менший за {limit:.1f}: зачеплення переривається",
+    ),
+    "transverse_contact_ratio": (
+        "transverse contact ratio {value:.4f} is below 1: the drive runs on along the face, total contact ratio "
+        "{limit:.4f}",
+        "коефіцієнт торцевого перекриття {value:.4f} менший за 1: зачеплення триває завдяки осьовому перекриттю, "
+        "сумарний коефіцієнт {limit:.4f}",
+    ),
+    "total_contact_ratio": (
+        "total contact ratio {value:.4f} is below {limit:.1f}: the drive is interrupted",
+        "сумарний коефіцієнт перекриття {value:.4f} менший за {limit:.1f}: зачеплення переривається",
     ),
     "normal_backlash": (
         "the flanks overlap: normal backlash {value:.6f} mm",

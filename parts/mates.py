@@ -13,15 +13,8 @@ from msgspec import Struct
 
 from geometry.errors import GeometryError, ParameterError, at_least, at_most
 from parts.joints import JOINTS
-from parts.mate_kinds import (
-    ExternalGearPairSpec,
-    ExternalMating,
-    InternalGearPairSpec,
-    InternalMating,
-    Mating,
-    RackMating,
-    RackPairSpec,
-)
+from parts.mate_keys import ExternalGearPairSpec, InternalGearPairSpec, RackPairSpec
+from parts.mate_kinds import ExternalMating, InternalMating, Mating, RackMating
 
 MATES: dict[str, type[Struct]] = {
     "external_gear_pair": ExternalGearPairSpec,

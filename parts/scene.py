@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 import tomllib
 from pathlib import Path
@@ -22,7 +23,7 @@ from parts.follower import (
     follower_part,
     roller_part,
 )
-from parts.helix_keys import helix_of
+from parts.helix_keys import common_face, helix_of
 from parts.instances import DriveSpec, InstanceSpec, check_instance, drive_spec, instance_specs
 from parts.keys import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.mate_kinds import Mating
@@ -330,6 +331,8 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
             place = f".{key}" if owner == "mate" else f": parts.{_blamed(scene, mate, part_of)}.{error.name}"
             raise SceneError(source, f"mates[{index + 1}]{place}", error.value, error.allowed) from error
     gears, matings = mated(gears, scene.mates, part_of)
+    faces = [common_face(*(scene.parts[part_of[i]] for i in (m.first, m.second))) for m in matings]
+    matings = [dataclasses.replace(m, face=face) for m, face in zip(matings, faces, strict=True)]  # type: ignore[type-var]
     parts = {key: KINDS[spec.__struct_config__.tag][2](key, spec, gears[key]) for key, spec in scene.parts.items()}
     return parts, matings
 
