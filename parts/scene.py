@@ -56,7 +56,7 @@ _DEFAULTS: dict[str, dict[str, float]] = {
     "stl": {"print": 0.01},
     "3mf": {"print": 0.01},
     "step": {"model": 1e-6},
-    "sheet": {"meshing": 1e-6, "generating": 1e-6},
+    "sheet": {"meshing": 1e-6, "generating": 1e-6, "cam": 1e-6},
 }
 FORMATS = tuple(_DEFAULTS)
 # formats that hold parts in their places
@@ -78,10 +78,10 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     format: Annotated[Literal["dxf", "svg", "stl", "3mf", "step", "sheet"], Meta(description="file format")]
     purpose: (
         Annotated[
-            Literal["laser", "print", "drawing", "model", "meshing", "generating"],
+            Literal["laser", "print", "drawing", "model", "meshing", "generating", "cam"],
             Meta(
-                description="dxf: laser (arcs) or drawing (splines); sheet: meshing (picture of each pair) or "
-                "generating (device TMM-42)"
+                description="dxf: laser (arcs) or drawing (splines); sheet: meshing (picture of each pair), "
+                "generating (device TMM-42) or cam (diagrams, least radius, profile)"
             ),
         ]
         | None
@@ -101,6 +101,12 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     rack_step: (
         Annotated[float, mm("sheet, generating: way of the rack from position to position", least=0.01, most=1000)]
         | None
+    ) = None
+    intervals: (
+        Annotated[int, Meta(ge=2, le=72, description="sheet, cam: parts of each phase on paper; default: 8")] | None
+    ) = None
+    speed_rpm: (
+        Annotated[float, Meta(gt=0, le=1e6, description="sheet, cam: adds velocities", extra={"unit": "rpm"})] | None
     ) = None
     mate: Annotated[int, Meta(ge=1, description="sheet: the pair that is shown, by number; default: all")] | None = None
 
@@ -283,6 +289,9 @@ def _export_spec(table: Any, parts: dict[str, Struct], source: str, place: str) 
         raise SceneError(source, f"{place}.mate", spec.mate, 'only for purpose = "meshing"; remove it')
     if spec.rack_step is not None and spec.purpose != "generating":
         raise SceneError(source, f"{place}.rack_step", spec.rack_step, 'only for purpose = "generating"; remove it')
+    for key in ("intervals", "speed_rpm"):
+        if getattr(spec, key) is not None and spec.purpose != "cam":
+            raise SceneError(source, f"{place}.{key}", getattr(spec, key), 'only for purpose = "cam"; remove it')
     if spec.kerf and spec.format in ("stl", "3mf"):
         remedy = f"a print has no kerf; offset = {spec.kerf / 2:.12g} moves every outline by as much"
         raise SceneError(source, f"{place}.kerf", spec.kerf, remedy)

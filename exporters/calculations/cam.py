@@ -8,11 +8,14 @@ from typing import Annotated, Any
 import numpy as np
 from msgspec import Meta
 
+from exporters.calculations.cam_graphical import graphical_section
+from exporters.calculations.cam_speed import speed_section
 from exporters.calculations.inputs import checked, given, keys_of, refusal
 from exporters.calculations.sheet import Sheet, Table
 from exporters.calculations.words import TERMS
 from geometry.cams.disk import DiskCam
 from geometry.cams.follower_motion import Phase, PhaseKind
+from geometry.cams.graphical import INTERVALS, LEAST_INTERVALS, MOST_INTERVALS
 from geometry.cams.mounts import Translating
 from geometry.cams.synthesis import (
     flat_base_radius,
@@ -54,6 +57,12 @@ class CamKeys(CamSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     step: Annotated[
         float, Meta(ge=0.1, le=90, description="step of the table over the cam angle", extra={"unit": "degrees"})
     ] = 10.0
+    intervals: Annotated[
+        int, Meta(ge=LEAST_INTERVALS, le=MOST_INTERVALS, description="of each phase in the graphical method")
+    ] = INTERVALS
+    speed_rpm: (
+        Annotated[float, Meta(gt=0, le=1e6, description="of the cam: adds velocities", extra={"unit": "rpm"})] | None
+    ) = None
 
 
 def table_from(scene: Any, source: str, table: dict[str, Any]) -> dict[str, Any]:
@@ -87,6 +96,9 @@ def sheet(table: dict[str, Any]) -> Sheet:
         for name, phase in _phase_names(cam)
     ]
     page.tables.append(_positions(cam, keys.step))
+    graphical_section(page, cam, keys.least_transmission_angle_deg, keys.intervals)
+    if keys.speed_rpm is not None:
+        speed_section(page, cam, keys.speed_rpm)
     _impacts(page, cam)
     return page
 

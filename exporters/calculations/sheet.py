@@ -19,7 +19,20 @@ Value = float | int | str
 _SUPERSCRIPTS = {"2": "²", "3": "³"}
 _UKRAINIAN = {"arctan": "arctg", "tan": "tg"}
 # decimals shown for each unit; json has all of them
-_DECIMALS = {"mm": 5, "deg": 5, "": 6, "%": 3, "mm/rad": 5, "mm/rad2": 5}
+_DECIMALS = {
+    "mm": 5,
+    "deg": 5,
+    "": 6,
+    "%": 3,
+    "mm/rad": 5,
+    "mm/rad2": 5,
+    "rpm": 3,
+    "rad/s": 5,
+    "s": 6,
+    "mm/s": 3,
+    "m/s2": 4,
+    "rad/s2": 3,
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,10 +208,22 @@ def pretty(text: str, language: str) -> str:
     return text
 
 
-_UNITS = {"deg": "°", "mm/rad2": "mm/rad²", "deg/rad2": "°/rad²", "deg/rad": "°/rad"}
+_UNITS = {
+    "deg": "°",
+    "m/s2": "m/s²",
+    "rad/s2": "rad/s²",
+    "mm/rad2": "mm/rad²",
+    "deg/rad2": "°/rad²",
+    "deg/rad": "°/rad",
+}
+
+_UKRAINIAN_UNITS = {"s": "с", "s/mm": "с/мм", "rpm": "об/хв", "rad/s": "рад/с", "rad/s²": "рад/с²", "mm/s": "мм/с",
+                    "m/s²": "м/с²"}  # fmt: skip
 
 
 def unit_text(unit: str, language: str) -> str:
     """A unit in a language."""
     text = _UNITS.get(unit, unit)
-    return text.replace("mm", "мм").replace("rad", "рад") if language == "uk" else text
+    if language != "uk":
+        return text
+    return _UKRAINIAN_UNITS.get(text, text.replace("mm", "мм").replace("rad", "рад"))

@@ -179,4 +179,19 @@ follower_radius|r|r|mm|radius of the roller or mushroom|радіус ролик�
 initial_height|s_0|s_0|mm|initial height of the follower|початкова відстань штовхача від осі
 least_curvature_radius|rho_min|ρ_min|mm|least convex radius of curvature|найменший радіус кривини опуклого профілю
 least_plate_diameter|D_pl|D_т|mm|least diameter of the plate|найменший діаметр тарілки штовхача
+speed_rpm|n_rpm|n|rpm|speed of the cam|частота обертання кулачка
+angular_speed|omega|ω|rad/s|angular speed of the cam|кутова швидкість кулачка
+time_of_phase|t|t|s|time of the phase|тривалість фази
+greatest_velocity|v_max|v_max|mm/s|greatest velocity of the follower|найбільша швидкість штовхача
+greatest_acceleration|a_max|a_max|m/s2|greatest acceleration of the follower|найбільше прискорення штовхача
+greatest_angular_velocity|v_max|ω_max|rad/s|greatest angular velocity|найбільша кутова швидкість коромисла
+greatest_angular_acceleration|a_max|ε_max|rad/s2|greatest angular acceleration|найбільше кутове прискорення коромисла
+graphical_intervals|n|n||intervals of each phase|кількість інтервалів фази
+graphical_factor|k|k||stretch of the scales by y_max, (4.2)|поправка масштабів за y_max, (4.2)
+graphical_lift_error|dS|ΔS|mm|greatest error of S by the drawing|найбільша похибка побудови S
+graphical_swing_error_deg|dS|Δψ|deg|greatest error of the swing by the drawing|найбільша похибка побудови кута коромисла
+graphical_velocity_error|dS1|ΔS'|mm/rad|greatest error of S' by the drawing|найбільша похибка побудови S'
+graphical_base_radius|r_0g|r_0g|mm|least radius by the drawing|найменший радіус за побудовою
+graphical_radius_error|dr_0|Δr_0|mm|its error|похибка радіуса за побудовою
+graphical_profile_error|dn|Δn|mm|greatest error of the drawn profile|найбільша похибка профілю за побудовою
 """)

@@ -70,6 +70,12 @@ def sheet_jobs(scene: SceneFile, matings: list[Mating], export: ExportSpec, wher
         expected = _generating(scene, export, where, source)
         name = f"{scene.name}.{export.name or export.purpose}"
         return [SheetJob(export, expected, f"{name}.{ending}", where) for ending in ENDINGS]
+    if export.purpose == "cam":
+        from exporters.sheets.cam_job import cam_sheets
+
+        name = f"{scene.name}.{export.name or export.purpose}"
+        made = cam_sheets(scene, export, where, source)
+        return [SheetJob(export, x, f"{name}.{part}.{ending}", where) for part, x in made for ending in ENDINGS]
     if all(m.pair is None for m in matings):
         raise SceneError(source, f"{where}.purpose", export.purpose, "shows pairs; add [[mates]] or remove it")
     if export.mate is not None and not 1 <= export.mate <= len(matings):

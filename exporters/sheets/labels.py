@@ -36,6 +36,10 @@ class Labeller:
         below = text_of(text, 0j, height).box
         best: tuple[float, complex, float] | None = None
         for reach in _REACHES:
+            least = math.inf if best is None else best[0]
+            # what is farther costs more
+            if _PER_MM * reach >= least:
+                break
             for k in range(_DIRECTIONS):
                 way = cmath.exp(2j * math.pi * k / _DIRECTIONS)
                 middle = (
@@ -48,7 +52,7 @@ class Labeller:
                 )
                 at = middle - complex(width, height) / 2
                 box = Box(at.real + below.left, at.imag + below.low, at.real + below.right, at.imag + below.high)
-                cost = self._cost(box, point, reach, near, texts)
+                cost = self._cost(box, point, reach, near, texts, math.inf if best is None else best[0])
                 if cost is not None and prefer:
                     cost += 0.5 * abs(way - prefer / abs(prefer))
                 if cost is not None and (best is None or cost < best[0]):
@@ -60,14 +64,21 @@ class Labeller:
         if reach > _NEAR:
             self._lead(point, made.box)
 
-    def _cost(self, box: Box, point: complex, reach: float, near: Complex, texts: list[Box]) -> float | None:
-        """What a place costs beside the strokes' points and the words that are near; None where it may not be."""
+    def _cost(
+        self, box: Box, point: complex, reach: float, near: Complex, texts: list[Box], most: float
+    ) -> float | None:
+        """What a place costs beside the strokes' points and the words that are near; None where it may not be or costs
+        ``most`` or more.
+        """
         box = box.grown(_CLEARANCE)
         if not box.within(self._room) or any(box.overlaps(other) for other in texts):
             return None
         cost = _PER_POINT * box.holds(near) + _PER_MM * reach
         if reach > _NEAR:
             cost += 0.6
+        if cost >= most:
+            return None
+        if reach > _NEAR:
             path = (point + (nearest(box, point) - point) * np.linspace(0, 1, 20)).astype(np.complex128)
             if any(other.holds(path) for other in texts):
                 return None

@@ -12,6 +12,7 @@ import numpy as np
 from exporters.readers import ReadError
 from exporters.sheets.canvas import Box, Canvas, Paper
 from exporters.sheets.read import ReadSheet, ReadText, read_sheet
+from exporters.sheets.verify_cam import CamMeasures
 from exporters.verify import Verdict
 from geometry.curve import Curve
 from geometry.measure import distance_to_curves
@@ -56,6 +57,7 @@ class Expected:
     circles: tuple[Circle, ...]
     curves: dict[str, list[Curve]] = field(default_factory=dict)
     meshing: Meshing | None = None
+    cam: CamMeasures | None = None
 
 
 def verify_sheet(file: Path, expected: Expected, tolerance: float) -> Verdict:
@@ -74,6 +76,8 @@ def verify_sheet(file: Path, expected: Expected, tolerance: float) -> Verdict:
     _check_curves(sheet, expected, allowed, measured, failures)
     if expected.meshing is not None:
         _check_meshing(sheet, expected.meshing, allowed, measured, failures)
+    if expected.cam is not None:
+        expected.cam.check(sheet, allowed, measured, failures)
     _check_words(sheet, expected.canvas, measured, failures)
     _check_frame(sheet, expected.canvas.frame.grown(allowed), failures)
     return Verdict(measured, tuple(failures))

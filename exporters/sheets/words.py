@@ -38,6 +38,52 @@ SHEET_WORDS: dict[str, tuple[str, str]] = {
 }
 
 
+SHEET_WORDS |= {
+    **{
+        f"cam_{kind}_{how}": (
+            f"Synthesis of a cam mechanism with {en_how} {en} follower",
+            f"Синтез кулачкового механізму з {uk_how}{uk} штовхачем",
+        )
+        for kind, en, uk in (
+            ("pointed", "pointed", "загостреним"),
+            ("roller", "roller", "роликовим"),
+            ("mushroom", "mushroom", "грибковим"),
+            ("flat", "flat", "плоским"),
+        )
+        for how, en_how, uk_how in (("slide", "a", ""), ("swing", "an oscillating", "коромисловим "))
+    },
+    "cam_profile": ("Profile of the cam by inversion", "Побудова профілю кулачка"),
+    "cam_joint": ("Least radius by the joint diagram", "Визначення мінімального радіуса кулачка"),
+    "cam": ("actual profile", "практичний профіль кулачка"),
+    "pitch_curve": ("path of the follower's centre", "теоретичний профіль кулачка"),
+    "graphical": ("graphical method", "графічний метод"),
+    "return_tangent": ("tangent of the return, for form closure", "дотична фази наближення (геометричне замикання)"),
+    "phase_rise": ("rise", "від"),
+    "phase_return_": ("ret", "наб"),
+    "phase_far": ("far", "д.в."),
+    "phase_near": ("near", "б.в."),
+    "lift_unit_0": ("mm", "мм"),
+    "lift_unit_1": ("mm/rad", "мм/рад"),
+    "lift_unit_2": ("mm/rad²", "мм/рад²"),
+    "swing_unit_0": ("°", "°"),
+    "swing_unit_1": ("°/rad", "°/рад"),
+    "swing_unit_2": ("°/rad²", "°/рад²"),
+    "scales": ("Scales, (4.1) - (4.4), (5.1) - (5.4)", "Масштаби, (4.1) - (4.4), (5.1) - (5.4)"),
+    "scale_phi": ("scale of the cam angle", "масштаб кута повороту кулачка"),
+    "scale_phi_deg": ("the same in degrees", "те саме в градусах"),
+    "scale_0": ("scale of the follower's way", "масштаб переміщення штовхача"),
+    "scale_1": ("scale of the velocity's analogue", "масштаб аналога швидкості штовхача"),
+    "scale_2": ("scale of the acceleration's analogue", "масштаб аналога прискорення штовхача"),
+    "pole_1": ("pole distance of the second integration", "полюсна відстань другого інтегрування"),
+    "pole_2": ("pole distance of the first integration", "полюсна відстань першого інтегрування"),
+    "scale_time": ("scale of time", "масштаб часу"),
+    "scale_velocity": ("scale of the velocity", "масштаб швидкості штовхача"),
+    "scale_acceleration": ("scale of the acceleration", "масштаб прискорення штовхача"),
+    "scale_joint": ("scale of the joint diagram", "масштаб сумісної діаграми"),
+    "scale_profile": ("scale of the profile", "масштаб побудови профілю"),
+}
+
+
 def sheet_words(language: str, key: str) -> str:
     """A term in a language ("en" or "uk")."""
     return SHEET_WORDS[key][1 if language == "uk" else 0]

@@ -109,3 +109,47 @@ def test_wrong_input_gets_one_clear_line(
     arguments: tuple[str, ...], expected: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert expected in complaint(capsys, "calc", "cam", *arguments)
+
+
+def test_the_graphical_method_stands_beside_the_exact_motion() -> None:
+    """Table 2.2 by drawing: a straight S'' gives S' exactly, the scales by (4.2) are 128/129 of the true ones."""
+    data = calculated("guidelines_cam")
+    values, rows = data["values"], data["graphical"]
+    assert values["graphical_factor"] == pytest.approx(128 / 129, rel=1e-13)
+    assert values["graphical_base_radius"] == pytest.approx((45.81466903731541 + 32) * 128 / 129 - 32, rel=1e-12)
+    error = values["graphical_base_radius"] - values["least_base_radius"]
+    assert values["graphical_radius_error"] == pytest.approx(error, rel=1e-12)
+    for case in (c for c in CASES if "table2_2.k" in c["id"]):
+        row = rows[round(8 * case["inputs"]["k"])]
+        assert row["phi"] == pytest.approx(90 * case["inputs"]["k"])
+        assert row["S"] == pytest.approx(case["recomputed"]["S_mm"], abs=1e-9)
+        assert row["S'"] == pytest.approx(case["recomputed"]["S1_mm"], abs=1e-9)
+        assert row["S'g"] == pytest.approx(case["recomputed"]["S1_mm"] * 128 / 129, abs=1e-9)
+    assert values["graphical_lift_error"] == pytest.approx(max(abs(r["Sg"] - r["S"]) for r in rows), rel=1e-12)
+    finer = calculated("guidelines_cam", "intervals=16")
+    assert len(finer["graphical"]) == 34
+    assert 3.8 < values["graphical_velocity_error"] / finer["values"]["graphical_velocity_error"] < 4.2
+    for language, words in (("uk", "Графічний метод"), ("en", "Graphical method")):
+        text = calculate("cam", ["guidelines_cam"], "text", language)
+        assert words in text
+    assert "практикум, заняття 4, 3.1, рис. 4.5" in calculate("cam", ["guidelines_cam"], "text", "uk")
+
+
+def test_a_law_with_a_rigid_impact_has_no_graphical_method() -> None:
+    data = calculated("follower=pointed", "lift=10", phases(120, 30, 120, "constant_velocity"), "base_circle_radius=60")
+    assert "graphical" not in data
+    assert any("rigid impact: its acceleration diagram is infinite" in note for note in data["notes"])
+
+
+def test_speeds_are_those_of_the_sine_law() -> None:
+    """H = 38 in T = phi / omega: v = 2 H / T, a = 2 pi H / T^2 (cycloidal motion)."""
+    import math
+
+    values = calculated("practicum_flat_cam", "speed_rpm=300")["values"]
+    time = 60 / 300 * 120 / 360
+    assert values["angular_speed"] == pytest.approx(10 * math.pi)
+    assert values["time_of_phase"] == pytest.approx(time)
+    assert values["greatest_velocity"] == pytest.approx(2 * 38 / time)
+    assert values["greatest_acceleration"] == pytest.approx(2 * math.pi * 38e-3 / time**2)
+    assert "angular_speed" not in calculated("practicum_flat_cam")["values"]
+    assert "об/хв" in calculate("cam", ["practicum_flat_cam", "speed_rpm=300"], "text", "uk")
