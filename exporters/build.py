@@ -133,7 +133,7 @@ def _write(job: Job, shape: tuple[Shape, float], file: Path, source: str, *, ver
     start = time.perf_counter()
     tolerance = float(job.export.tolerance or 0.0)
     verdict = verify_file(file, job.kind, job.exact, max_error, tolerance, job.part.id)
-    if job.part.cam is not None:
+    if job.part.cam is not None or job.part.wedge is not None:
         from exporters.reroll import reroll
 
         verdict, found = reroll(file, job.kind, job.part, job.section.offset, max_error, verdict)

@@ -69,6 +69,8 @@ def check_pair(
     ``second_turn`` (rad) and ``centre_shift`` (mm): how far the pair stands off the exact one; ``tolerance`` in mm.
     """
     found = mating.contact(second_turn, centre_shift, tolerance)
+    if found is None:
+        return pair_quantities(mating)
     worst = found.worst
     return {
         **pair_quantities(mating),

@@ -6,7 +6,13 @@ import html
 import math
 from dataclasses import dataclass
 
-from geometry.gears.blocking_contour import BlockingContour, ContourLine, least_margin
+from geometry.gears.blocking_contour import BlockingContour, ContourLine
+from geometry.gears.cutter import PinionCutter
+from geometry.gears.internal_contour import InternalRequirements
+from geometry.gears.internal_shifts import InternalShiftPair
+from geometry.gears.ring import RoundedRoot
+from geometry.gears.shift_finder import AnyShiftPair, least_margin
+from geometry.implicit import Box
 
 _SIZE, _LEFT, _TOP, _BOTTOM, _KEY = 560.0, 60.0, 40.0, 50.0, 430.0
 _GRID = "stroke:#dde2e6;stroke-width:0.7"
@@ -43,6 +49,21 @@ _STYLES = {
     "contact_ratio": _Style("#209050", "", "ε_α", "ε_α"),
     "approach": _Style("#8030a0", "7 2 2 2", "pole at the start of action", "полюс на початку зачеплення"),
     "recess": _Style("#8030a0", "2 2", "pole at the end of action", "полюс у кінці зачеплення"),
+    "involute_interference": _Style("#b01070", "", "involute interference", "інтерференція евольвент"),
+    "trochoid_interference": _Style("#b01070", "6 2", "tip (trochoid) interference", "інтерференція вершин"),
+    "radial_assembly": _Style("#704010", "6 2 2 2", "radial assembly", "радіальне складання"),
+    "tip_above_base": _Style("#808080", "", "r_a2 = r_b2: ring tips on the base circle", "r_a2 = r_b2: вершини вінця"),
+    "tip_clearance_first": _Style("#6080a0", "1 2", "c_1: clearance at the pinion's root", "c_1: зазор у шестерні"),
+    "tip_clearance_second": _Style("#6080a0", "5 2", "c_2: clearance at the ring's root", "c_2: зазор у вінця"),
+    "rounded_root": _Style("#607020", "2 2", "the rounding fills the space", "округлення заповнює западину"),
+    "cutter_working_angle": _Style("#607020", "1 3", "cutter: inv α_w0 = 0", "довбач: inv α_w0 = 0"),
+    "cutter_involute_interference": _Style(
+        "#607020", "", "cutter: involute interference", "довбач: інтерференція евольвент"
+    ),
+    "cutter_trochoid_interference": _Style("#607020", "6 2", "cutter trims the tips", "довбач зрізає вершини"),
+    "cutter_radial_assembly": _Style("#607020", "6 2 2 2", "cutter: radial feed", "довбач: радіальне врізання"),
+    "cutter_working_angle_first": _Style("#a0a020", "1 3", "pinion's cutter: inv α_w0 = 0", "довбач шестерні: inv = 0"),
+    "cutter_reach_first": _Style("#a0a020", "", "pinion's cutter: tip reached", "довбач шестерні: вершина"),
     "equal_sliding": _Style("#000000", "9 3", "equal sliding ζ_f1 = ζ_f2", "однакове ковзання ζ_f1 = ζ_f2"),
 }
 # the tighter the level the fainter the line
@@ -50,9 +71,21 @@ _OPACITY = {0.0: 1.0, 0.25: 0.75, 0.3: 0.6, 0.4: 0.4, 1.0: 1.0, 1.1: 0.7, 1.2: 0
 
 
 def line_name(name: str, language: str) -> str:
-    """A line of the contour in words."""
-    style = _STYLES[name]
+    """A line of the contour, or a condition, in words."""
+    style = _STYLES[name if name in _STYLES else name.replace("active_flank", "fillet_interference")]
     return style.uk if language == "uk" else style.en
+
+
+def line_title(name: str, level: float | None, language: str) -> str:
+    """A line of the contour in words, with its level."""
+    unit = " m" if name.startswith("tip") and level else ""
+    return line_name(name, language) + ("" if level is None else f" = {level:g}{unit}")
+
+
+def grid_step(box: Box) -> float:
+    """Modules between the grid lines of a picture."""
+    size = max(box.right - box.left, box.top - box.bottom)
+    return next(s for s in (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0) if size / s <= 14)
 
 
 def contour_svg(contour: BlockingContour, marks: dict[str, tuple[float, float]], language: str) -> str:
@@ -64,7 +97,7 @@ def contour_svg(contour: BlockingContour, marks: dict[str, tuple[float, float]],
     def at(point: complex) -> str:
         return f"{_LEFT + (point.real - box.left) * scale:.2f},{_TOP + (box.top - point.imag) * scale:.2f}"
 
-    total = (_LEFT + width + _KEY, max(_TOP + height + _BOTTOM, 19.0 * (_key_rows(contour) + len(marks) + 4) + _TOP))
+    total = (_LEFT + width + _KEY, max(_TOP + height + _BOTTOM, 19.0 * (_key_rows(contour) + len(marks) + 6) + _TOP))
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {total[0]:.0f} {total[1]:.0f}" '
         f'width="{total[0]:.0f}" height="{total[1]:.0f}">',
@@ -108,26 +141,17 @@ def _key(contour: BlockingContour, marks: dict[str, tuple[float, float]], left: 
     lines, y = [], _TOP + 4
     for line in _kinds(contour):
         style = _STYLES[line.name]
-        unit = " m" if line.name.startswith("tip") else ""
-        level = "" if line.level is None else f" = {line.level:g}{unit if line.level else ''}"
         lines.append(
             f'<line x1="{left:.1f}" y1="{y:.1f}" x2="{left + 34:.1f}" y2="{y:.1f}" style="{_stroke(line, style)}"/>'
         )
-        lines.append(_text(left + 42, y + 4, line_name(line.name, language) + level))
+        lines.append(_text(left + 42, y + 4, line_title(line.name, line.level, language)))
         y += 19
-    wish, rack = contour.requirements, contour.pair.rack
     y += 8
-    ratio, thickness = f"{wish.contact_ratio:g}", f"{wish.tip_thickness:g}"
-    legal = (
-        f"область: ε ≥ {ratio}, S_a ≥ {thickness} m"
-        if language == "uk"
-        else f"region: ε ≥ {ratio}, S_a ≥ {thickness} m"
-    )
     lines.append(f'<rect x="{left:.1f}" y="{y - 8:.1f}" width="34" height="12" style="fill:#e4f2e4;stroke:#a0c0a0"/>')
-    lines.append(_text(left + 42, y + 3, legal))
-    y += 19
-    shape = f"α = {math.degrees(rack.pressure_angle):g}°, h_a* = {rack.addendum:g}, c* = {rack.tip_clearance:g}"
-    lines.append(_text(left, y + 3, f"{shape}, ρ_f* = {rack.tip_radius:.4g}"))
+    lines.append(_text(left + 42, y + 3, region_text(contour, language)))
+    for text in tool_texts(contour.pair, language):
+        y += 19
+        lines.append(_text(left, y + 3, text))
     y += 19
     for name, (x1, x2) in marks.items():
         lines.append(f'<circle cx="{left + 17:.1f}" cy="{y:.1f}" r="4" style="fill:#d00060"/>')
@@ -136,9 +160,42 @@ def _key(contour: BlockingContour, marks: dict[str, tuple[float, float]], left: 
     return lines
 
 
+def region_text(contour: BlockingContour, language: str) -> str:
+    """What the region keeps."""
+    wish = contour.requirements
+    asked = [f"ε ≥ {wish.contact_ratio:g}", f"S_a ≥ {wish.tip_thickness:g} m"]
+    if isinstance(wish, InternalRequirements):
+        asked.append(f"c ≥ {wish.tip_clearance:g} m")
+    return f"{'область' if language == 'uk' else 'region'}: {', '.join(asked)}"
+
+
+def tool_texts(pair: AnyShiftPair, language: str) -> list[str]:
+    """Rack, tip rule and cutter for which the contour holds."""
+    rack, uk = pair.rack, language == "uk"
+    shape = f"α = {math.degrees(rack.pressure_angle):g}°, h_a* = {rack.addendum:g}, c* = {rack.tip_clearance:g}"
+    lines = [f"{shape}, ρ_f* = {rack.tip_radius:.4g}"]
+    if not isinstance(pair, InternalShiftPair):
+        return lines
+    rule = "k_2 = 0" if pair.plain_tip else "k_2 = 0.25 - 0.125 x_2"
+    lines.append(f"r_a2 = r_2 - ({pair.ring_addendum:g} - x_2 - k_2) m, {rule}")
+    tools = [("ring", "вінця", pair.root), ("pinion", "шестерні", pair.pinion_cutter)]
+    for en, uk_name, tool in tools:
+        if isinstance(tool, PinionCutter):
+            who = f"довбач {uk_name}" if uk else f"cutter of the {en}"
+            lines.append(
+                f"{who}: z_0 = {tool.number_of_teeth}, x_0 = {tool.profile_shift_coefficient:g}, "
+                f"h_a0* = {tool.addendum:g}, ρ_0* = {tool.tip_rounding:.4g}"
+            )
+        elif isinstance(tool, RoundedRoot):
+            radius = ("повне" if uk else "full") if tool.radius is None else f"{tool.radius:g} m"
+            text = "округлена западина вінця" if uk else "rounded root of the ring"
+            lines.append(f"{text}: h_f2* = {tool.dedendum:g}, ρ = {radius}")
+    return lines
+
+
 def _axes(contour: BlockingContour, scale: float, width: float, height: float) -> list[str]:
     box, lines = contour.box, []
-    step = next(s for s in (0.05, 0.1, 0.2, 0.5, 1.0) if max(box.right - box.left, box.top - box.bottom) / s <= 14)
+    step = grid_step(box)
     for k in range(math.ceil(box.left / step), math.floor(box.right / step) + 1):
         x = _LEFT + (k * step - box.left) * scale
         heavy = "stroke:#808890;stroke-width:1" if k == 0 else _GRID

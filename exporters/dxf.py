@@ -13,8 +13,8 @@ from ezdxf.document import Drawing
 
 from geometry.contour import Approximation, Contour
 
-# ACI colours: inner contours green, cut first; outer contours red
-LAYER_COLOURS = {"CUT_INNER": 3, "CUT_OUTER": 1}
+# ACI colours: engraving blue, first of all; inner contours green, cut before the outer ones, red
+LAYER_COLOURS = {"ENGRAVE": 5, "CUT_INNER": 3, "CUT_OUTER": 1}
 _MILLIMETRES = 4
 
 

@@ -78,7 +78,7 @@ class Job:
     @property
     def layer_order(self) -> tuple[str, ...]:
         """Layer of each boundary in ``approximations``: inner ones are cut first."""
-        return (*("CUT_INNER" for _ in self.section.region.holes), "CUT_OUTER")
+        return self.section.region.layers()
 
 
 @dataclass(frozen=True, slots=True)

@@ -83,7 +83,7 @@ def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, A
     exact = part.body(offset) if kind in SOLID_FORMATS else part.section(offset).region
     kind = "drawing" if entry["purpose"] == "drawing" else kind
     verdict = verify_file(file, kind, exact, declared, tolerance, part.id)
-    if part.cam is not None:
+    if part.cam is not None or part.wedge is not None:
         from exporters.reroll import reroll
 
         verdict, _ = reroll(file, kind, part, offset, declared, verdict)

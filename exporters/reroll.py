@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from exporters.readers import Loop, ReadError, ReadMesh, read_3mf, read_dxf, read_stl, read_svg
 from exporters.verify import Verdict
+from geometry.cams.disk import DiskCam
 from geometry.cams.follower_motion import TURN
 from geometry.cams.mounts import Translating
 from geometry.cams.rolled import Outline, lift_bound, outline_of_loop, outline_of_polynomials, rolled_lift
@@ -44,6 +45,14 @@ def reroll(
     already are not rolled, nor are outlines trimmed by their offset, whose part of the lift is gone.
     """
     cam = part.cam
+    if part.wedge is not None and not verdict.failures:
+        from exporters.reroll_wedge import reroll_wedge
+
+        return reroll_wedge(file, kind, part, offset, declared, verdict)
+    if part.walls and not verdict.failures:
+        from exporters.reroll_walls import reroll_walls
+
+        return reroll_walls(file, kind, part, offset, declared, verdict)
     if cam is None or verdict.failures or part.section(offset).findings:
         return verdict, ()
     try:
@@ -55,31 +64,42 @@ def reroll(
     if np.any(np.isnan(error)):
         text = f"the follower finds no outline at cam angle {math.degrees(angle[np.isnan(error)][0]):.6g} degrees"
         return replace(verdict, failures=(*verdict.failures, text)), ()
+    measured, jump, peak = rolled_differences(cam, error)
+    size = _ROUNDING * float(np.abs(cam.contact(angle)).max())
+    failure = rolled_failure(cam, error, lift_bound(cam, ANGLES, declared + size))
+    failures = verdict.failures if failure is None else (*verdict.failures, failure)
+    told = kind in ("dxf", "svg") and jump > _JUMP_SHARE * peak
+    return Verdict(verdict.measured | measured, failures), ((Finding("rolled_jumps", jump, peak),) if told else ())
+
+
+def rolled_differences(cam: DiskCam, error: Real) -> tuple[dict[str, float], float, float]:
+    """What is measured of a lift's errors over the turn (mm or rad), and the jump and the peak of S'' among it."""
     unit = 1.0 if isinstance(cam.mount, Translating) else math.degrees(1.0)
     names = ("lift_error", "") if unit == 1.0 else ("swing_error_deg", "_deg")
     first, second = _differences(error * unit)
+    angle = np.arange(ANGLES) * (TURN / ANGLES)
     peak = float(np.abs(_differences(cam.motion.value(angle) * unit)[1]).max())
     jump = float(np.abs(np.roll(second, -_JUMP_WIDTH) - second).max())
-    measured = verdict.measured | {
+    measured = {
         names[0]: float(np.abs(error).max() * unit),
         f"velocity_error{names[1]}": float(np.abs(first).max()),
         f"acceleration_error{names[1]}": float(np.abs(second).max()),
         f"acceleration_jump{names[1]}": jump,
         f"acceleration_peak{names[1]}": peak,
     }
-    size = _ROUNDING * float(np.abs(cam.contact(angle)).max())
-    excess = np.abs(error) - lift_bound(cam, ANGLES, declared + size)
+    return measured, jump, peak
+
+
+def rolled_failure(cam: DiskCam, error: Real, bound: Real) -> str | None:
+    """What is wrong with a lift whose errors (mm or rad) exceed their bound somewhere; None where they do not."""
+    excess = np.abs(error) - bound
     worst = int(np.argmax(excess))
-    failures = verdict.failures
-    if not excess[worst] <= 0:
-        found = f"{abs(error[worst]) * unit:.6g} {'mm' if unit == 1.0 else 'degrees'}"
-        place = f"cam angle {math.degrees(angle[worst]):.6g} degrees"
-        failures = (
-            *failures,
-            f"the follower's lift is wrong by {found} at {place}, more than the outline's error allows",
-        )
-    told = kind in ("dxf", "svg") and jump > _JUMP_SHARE * peak
-    return Verdict(measured, failures), ((Finding("rolled_jumps", jump, peak),) if told else ())
+    if excess[worst] <= 0:
+        return None
+    slides = isinstance(cam.mount, Translating)
+    size = abs(error[worst]) if slides else math.degrees(abs(error[worst]))
+    found, place = f"{size:.6g} {'mm' if slides else 'degrees'}", f"{worst * 360 / ANGLES:.6g} degrees"
+    return f"the follower's lift is wrong by {found} at cam angle {place}, more than the outline's error allows"
 
 
 def _differences(values: Real) -> tuple[Real, Real]:
@@ -102,11 +122,16 @@ def outline_of_file(file: Path, kind: str, part: Part) -> Outline:
     if kind in ("stl", "3mf"):
         mesh = read_stl(file) if kind == "stl" else read_3mf(file, part.id)
         return _largest([Loop(loop, np.zeros(len(loop)), "") for loop in mesh_slices(mesh, middle)])
-    pieces = _drawing_pieces(file) if kind == "drawing" else _step_pieces(file, middle)
-    loops = [_coefficients(loop) for loop in _chained(pieces)]
+    loops = smooth_loops(file, kind, middle)
     if not loops:
         raise ReadError("there is no outline for the follower to touch")
     return outline_of_polynomials(max(loops, key=lambda c: float(np.ptp(c[:, 0].real))))
+
+
+def smooth_loops(file: Path, kind: str, z: float) -> list[Complex]:
+    """The closed loops of a drawing, or of a STEP solid at a height, as polynomials (n, 8) of rising powers."""
+    pieces = _drawing_pieces(file) if kind == "drawing" else _step_pieces(file, z)
+    return [_coefficients(loop) for loop in _chained(pieces)]
 
 
 def _largest(loops: list[Loop]) -> Outline:

@@ -19,6 +19,18 @@ WORDS: dict[str, tuple[str, str]] = {
     "swing_deg": ("swing, deg", "розмах коромисла, град"),
     "start_angle_deg": ("lowest angle from the line of centres, deg", "найменший кут від лінії центрів, град"),
     "follower_radius": ("follower radius, mm", "радіус ролика, мм"),
+    "yoke_breadth": ("breadth between faces or roller centres, mm", "відстань між гранями чи осями роликів, мм"),
+    "yoke_breadth_error": (
+        "greatest departure of S(phi) + S(phi + 180) from H, mm",
+        "найбільше відхилення S(phi) + S(phi + 180) від H, мм",
+    ),
+    "travel": ("travel of the plate, mm", "хід плоского кулачка, мм"),
+    "pressure_angle_deg": ("greatest pressure angle, deg", "найбільший кут тиску, град"),
+    "roller_distance": ("distance of both rollers, mm", "відстань між роликами, мм"),
+    "roller_angle_deg": ("angle between both arms, deg", "кут між плечима коромисла, град"),
+    "outer_diameter": ("outer diameter, mm", "зовнішній діаметр, мм"),
+    "groove_width": ("groove width, mm", "ширина паза, мм"),
+    "groove_depth": ("groove depth, mm", "глибина паза, мм"),
     "follower_offset": ("follower offset E, mm", "зміщення штовхача E, мм"),
     "pressure_angle_rise_deg": ("greatest pressure angle, rise, deg", "кут тиску, віддалення, град"),
     "pressure_angle_return_deg": ("greatest pressure angle, return, deg", "кут тиску, наближення, град"),
@@ -50,7 +62,18 @@ WORDS: dict[str, tuple[str, str]] = {
         "pair {first} - {second}: a_w = {a_w:.5f} mm, alpha_w = {alpha_w:.4f} deg, contact ratio {ratio:.4f}",
         "пара {first} - {second}: a_w = {a_w:.5f} мм, alpha_w = {alpha_w:.4f} град, коефіцієнт перекриття {ratio:.4f}",
     ),
+    "roller_diameter": ("roller diameter", "діаметр ролика"),
+    "mate_cam_follower": (
+        "{first} moves {second} by {travel:.6g} {unit}",
+        "{first} рухає {second} на {travel:.6g} {unit}",
+    ),
+    "mate_fixed": ("{first} - {second}: fixed to each other", "{first} - {second}: нерухомо з'єднані"),
+    "total_ratio": (", total {total:.4f}", ", сумарний {total:.4f}"),
     "broken": ("BROKEN", "ПОРУШЕНО"),
+    "height": (
+        "{second} stands {value:.9g} mm above {first}, {required:.9g} mm is asked",
+        "{second} стоїть на {value:.9g} мм вище за {first}, потрібно {required:.9g} мм",
+    ),
     "centre_distance": (
         "the centres of {first} and {second} stand {value:.9g} mm apart, {required:.9g} mm is asked "
         "(within {tolerance:.2g} mm)",
@@ -58,8 +81,8 @@ WORDS: dict[str, tuple[str, str]] = {
         "(з точністю {tolerance:.2g} мм)",
     ),
     "rack_phase": (
-        "{second} stands {value:.10g} mm along its line from where it meshes with {first} (within {tolerance:.2g} mm)",
-        "{second} зсунуто на {value:.10g} мм від положення зачеплення з {first} (з точністю {tolerance:.2g} мм)",
+        "{second} stands {value:.10g} mm along its way from where it meets {first} (within {tolerance:.2g} mm)",
+        "{second} зсунуто на {value:.10g} мм від положення контакту з {first} (з точністю {tolerance:.2g} мм)",
     ),
     "phase": (
         "{second} stands turned by {value:.10g} deg, rotation_deg = {required:.10g} brings it into the spaces of "
@@ -70,6 +93,11 @@ WORDS: dict[str, tuple[str, str]] = {
     "common_face_width": (
         "{first} and {second} share {value:.6g} mm of their face width, more than {required:g} mm is asked",
         "спільна ширина вінців {first} і {second} дорівнює {value:.6g} мм, потрібно більше за {required:g} мм",
+    ),
+    "herringbone_height": (
+        "the points of the herringbones of {second} stand {value:.6g} mm above those of {first} "
+        "(within {tolerance:.2g} mm)",
+        "вершини шевронів {second} стоять на {value:.6g} мм вище від вершин {first} (з точністю {tolerance:.2g} мм)",
     ),
     "train": (
         "the other mates turn {second} {value:.9g} times for one turn of {first}, this one {required:.9g} times: "
@@ -150,6 +178,16 @@ FINDINGS: dict[str, tuple[str, str]] = {
         "contact ratio {value:.4f} is below {limit:.1f}: the drive is interrupted",
         "коефіцієнт перекриття {value:.4f} менший за {limit:.1f}: зачеплення переривається",
     ),
+    "transverse_contact_ratio": (
+        "transverse contact ratio {value:.4f} is below 1: the drive runs on along the face, total contact ratio "
+        "{limit:.4f}",
+        "коефіцієнт торцевого перекриття {value:.4f} менший за 1: зачеплення триває завдяки осьовому перекриттю, "
+        "сумарний коефіцієнт {limit:.4f}",
+    ),
+    "total_contact_ratio": (
+        "total contact ratio {value:.4f} is below {limit:.1f}: the drive is interrupted",
+        "сумарний коефіцієнт перекриття {value:.4f} менший за {limit:.1f}: зачеплення переривається",
+    ),
     "normal_backlash": (
         "the flanks overlap: normal backlash {value:.6f} mm",
         "профілі перекриваються: бічний зазор {value:.6f} мм",
@@ -214,6 +252,28 @@ FINDINGS: dict[str, tuple[str, str]] = {
     "steep_pressure_angle": (
         "pressure angle {value:.2f} deg on the rise, usual is at most {limit:.0f} deg",
         "кут тиску {value:.2f} град при віддаленні, допустимо {limit:.0f} град",
+    ),
+    "steep_return_pressure_angle": (
+        "pressure angle {value:.2f} deg on the return, which the cam drives too; usual is at most {limit:.0f} deg",
+        "кут тиску {value:.2f} град при наближенні, яке теж веде кулачок; допустимо {limit:.0f} град",
+    ),
+    "roller_play": (
+        "the roller's play in its groove is {value:.4g} mm; with none it jams, above {limit:.4g} mm it knocks",
+        "зазор ролика в пазу {value:.4g} мм; без зазору ролик заклинює, понад {limit:.4g} мм - стукає",
+    ),
+    "engraved_groove": (
+        "the groove is {value:.4g} mm deep of {limit:.4g} mm: its walls stand on layer ENGRAVE, not cut through; "
+        "groove_piece gives plates to glue",
+        "паз має глибину {value:.4g} мм із {limit:.4g} мм: його стінки на шарі ENGRAVE, наскрізь їх не ріжуть; "
+        "groove_piece дає пластини для склеювання",
+    ),
+    "wedge_rigid_impact": (
+        "rigid impact: S' jumps by {value:.4g} at {limit:.4g} mm of travel",
+        "жорсткий удар: аналог швидкості стрибає на {value:.4g} на {limit:.4g} мм шляху",
+    ),
+    "wedge_soft_impact": (
+        "soft impact: S'' jumps by {value:.4g} per mm^2 at {limit:.4g} mm of travel",
+        "м'який удар: аналог прискорення стрибає на {value:.4g} на {limit:.4g} мм шляху",
     ),
     "large_roller": (
         "roller radius {value:.4g} mm is above 0.8 of the least radius of the pitch curve ({limit:.4g} mm)",

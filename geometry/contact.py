@@ -297,6 +297,11 @@ def folded(points: Complex, vectors: Complex, pitch: float) -> tuple[Complex, Co
     return np.where(upper, np.conj(points), points), np.where(upper, np.conj(vectors), vectors)
 
 
+def fold_images(points: Complex, pitch: float) -> Indices:
+    """Which half pitch each point lies in, counted from the x axis: points with one number are folded alike."""
+    return np.floor(np.angle(points) / (pitch / 2)).astype(np.intp)
+
+
 def involute_gap(first: Involute, second: Involute) -> tuple[float, float, float] | None:
     """Distance of two facing involutes along their common normal, mm, and both roll angles; None where it misses one.
 

@@ -119,7 +119,8 @@ def _between(field: Field, one: complex, two: complex, tolerance: float, depth: 
         point = middle + t * normal
         return field(point.real, point.imag)
 
-    reach = length / 2
+    # a little more than half, which a right-angled corner of the line takes
+    reach = 0.55 * length
     if not _crosses(along(-reach), along(reach)):
         return []
     height = _root(along, -reach, reach)

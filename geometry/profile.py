@@ -98,14 +98,22 @@ class Profile:
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """Material of a plane section: outer boundary counter-clockwise, holes clockwise (material on the left)."""
+    """Material of a plane section: outer boundary counter-clockwise, holes clockwise (material on the left).
+
+    ``marks``: boundaries that do not go through, like the walls of a groove with a floor; engraved, not cut.
+    """
 
     outer: Profile
     holes: tuple[Profile, ...] = ()
+    marks: tuple[Profile, ...] = ()
 
     def profiles(self) -> tuple[Profile, ...]:
-        """Holes first, then the outer boundary: the order in which they are cut."""
-        return (*self.holes, self.outer)
+        """Marks, then holes, then the outer boundary: the order in which they are cut."""
+        return (*self.marks, *self.holes, self.outer)
+
+    def layers(self) -> tuple[str, ...]:
+        """The layer of each of these in a cutting file."""
+        return (*("ENGRAVE" for _ in self.marks), *("CUT_INNER" for _ in self.holes), "CUT_OUTER")
 
 
 def circle(radius: float, label: Label, *, hole: bool = False, centre: complex = 0j) -> Profile:

@@ -19,6 +19,7 @@ from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, mm
 from parts.materials import density_of
 from parts.part import Part
+from parts.timing_mark import TimingMarkTable, with_timing_mark
 from parts.wheel_keys import FaceChamfer, FaceChamferTable, HubTable, wheel_shape
 
 if TYPE_CHECKING:
@@ -86,6 +87,7 @@ class CamSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="cam"):
     bore_diameter: BoreDiameter = 0.0
     bore: BoreTable | None = None
     holes: HolesTable | list[HolesTable] | None = None
+    timing_mark: TimingMarkTable | None = None
     hub: HubTable | None = None
     face_chamfer: FaceChamfer | FaceChamferTable = 0.0
     material: Material | None = None
@@ -103,7 +105,7 @@ def checked_cam(spec: CamSpec) -> DiskCam:
     """
     from geometry.cams.undercut import kept_arcs
 
-    cam = _cam_of(spec)
+    cam = cam_of(spec)
     try:
         gaps = kept_arcs(cam).gaps
     except UndercutError:
@@ -116,13 +118,13 @@ def checked_cam(spec: CamSpec) -> DiskCam:
         )
     _check_plate(spec, cam)
     _check_bore(spec, cam)
-    check_wheel(_shape_of(spec), 2 * inner_radius(cam), _holes_of(spec))
+    check_wheel(_shape_of(spec), 2 * inner_radius(cam), _holes_of(spec, cam))
     return cam
 
 
 def cam_part(part_id: str, spec: CamSpec, cam: DiskCam) -> Part:
     """The part of a cam; sections are computed when an export asks."""
-    holes, shape = _holes_of(spec), _shape_of(spec)
+    holes, shape = _holes_of(spec, cam), _shape_of(spec)
     section = lru_cache(maxsize=8)(lambda offset: _section(cam, holes, offset))
 
     def outline(offset: float, depth: float) -> Profile:
@@ -136,9 +138,9 @@ def cam_part(part_id: str, spec: CamSpec, cam: DiskCam) -> Part:
         lru_cache(maxsize=2)(lambda offset: wheel_body(shape, sections, offset)),
         spec.face_width,
         shape.is_plate,
-        _findings(spec, cam),
-        _circles(cam),
-        _quantities(spec, cam),
+        cam_findings(spec, cam),
+        cam_circles(cam),
+        cam_quantities(spec, cam),
         spec.material,
         spec.colour,
         spec.density or density_of(spec.material),
@@ -160,7 +162,8 @@ def inner_radius(cam: DiskCam) -> float:
     return float(np.abs(cam.reference_point(angles)).min()) - cam.radius
 
 
-def _cam_of(spec: CamSpec) -> DiskCam:
+def cam_of(spec: CamSpec) -> DiskCam:
+    """The cam of the keys, not yet checked for undercut; refusals speak in the scene's keys."""
     from geometry.cams.disk import FollowerKind, oscillating_cam, translating_cam
 
     swing = spec.oscillating
@@ -239,7 +242,7 @@ def _whole(spec: CamSpec, cam: DiskCam) -> str:
         try:
             from msgspec.structs import replace
 
-            return is_whole(_cam_of(replace(spec, base_circle_radius=base)))
+            return is_whole(cam_of(replace(spec, base_circle_radius=base)))
         except GeometryError:
             return False
 
@@ -257,7 +260,11 @@ def _whole(spec: CamSpec, cam: DiskCam) -> str:
     return f"at least {at_least(high, 4)} mm works"
 
 
-def _holes_of(spec: CamSpec) -> HubHoles:
+def _holes_of(spec: CamSpec, cam: DiskCam) -> HubHoles:
+    return with_timing_mark(_core_of(spec), spec.timing_mark, cam, inner_radius(cam))
+
+
+def _core_of(spec: CamSpec) -> HubHoles:
     if spec.bore is not None and spec.bore_diameter > 0:
         raise ParameterError("bore_diameter", spec.bore_diameter, "give either bore_diameter or bore; 0 works")
     bore = RoundBoreTable(spec.bore_diameter) if spec.bore_diameter > 0 else spec.bore
@@ -284,7 +291,7 @@ def _check_plate(spec: CamSpec, cam: DiskCam) -> None:
 
 def _check_bore(spec: CamSpec, cam: DiskCam) -> None:
     """The holes stay inside the circle that is surely material."""
-    holes, inside = _holes_of(spec), inner_radius(cam)
+    holes, inside = _core_of(spec), inner_radius(cam)
     if not holes.bore_reach < inside:
         key = "bore_diameter" if spec.bore_diameter > 0 else "bore.diameter"
         value = spec.bore_diameter or 2 * holes.bore_reach
@@ -311,12 +318,13 @@ def _section(cam: DiskCam, holes: HubHoles, offset: float) -> OffsetRegion:
     try:
         shape = cam_shape(cam, offset)
     except GeometryError as refusal:
-        raise OffsetError(offset, "leaves no outline", _nearest_offset(cam, offset)) from refusal
+        raise OffsetError(offset, "leaves no outline", nearest_offset(cam, offset)) from refusal
     found = (Finding("outline_trimmed", float(len(shape.gaps)), offset),) if shape.gaps else ()
     return OffsetRegion(Region(shape.profile, holes.profiles(offset)), offset, found)
 
 
-def _nearest_offset(cam: DiskCam, refused: float) -> float:
+def nearest_offset(cam: DiskCam, refused: float) -> float:
+    """The offset of the outline nearest to a refused one that works, mm."""
     works, fails = 0.0, refused
     for _ in range(24):
         middle = (works + fails) / 2
@@ -328,14 +336,16 @@ def _nearest_offset(cam: DiskCam, refused: float) -> float:
     return works
 
 
-def _circles(cam: DiskCam) -> dict[str, float]:
+def cam_circles(cam: DiskCam) -> dict[str, float]:
+    """Named diameters of a cam, mm."""
     circles = {"base_circle_diameter": 2 * base_radius(cam)}
     if cam.radius > 0:
         circles["prime_circle_diameter"] = 2 * (base_radius(cam) + cam.radius)
     return circles
 
 
-def _quantities(spec: CamSpec, cam: DiskCam) -> dict[str, float]:
+def cam_quantities(spec: CamSpec, cam: DiskCam) -> dict[str, float]:
+    """Named results of a cam: sizes in mm, angles in degrees."""
     from geometry.cams.follower_motion import PhaseKind
     from geometry.cams.synthesis import greatest_pressure_angle, least_convex_radius
 
@@ -361,7 +371,8 @@ def _quantities(spec: CamSpec, cam: DiskCam) -> dict[str, float]:
     return found
 
 
-def _findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
+def cam_findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
+    """Impacts, steep pressure angles and large rollers of a cam."""
     from geometry.cams.follower_motion import PhaseKind
     from geometry.cams.synthesis import greatest_pressure_angle, least_convex_radius
 

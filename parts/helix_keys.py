@@ -12,6 +12,7 @@ from msgspec import Meta
 from geometry.errors import GeometryError, ParameterError, at_least, at_most
 from geometry.findings import Finding
 from geometry.gears.helix import Hand, Helix
+from parts.common_face import CommonFace
 
 HelixAngle = Annotated[
     float,
@@ -47,6 +48,11 @@ def checked_helix(spec: Any) -> Helix:
     if helix.double and helix.angle == 0:
         raise ParameterError("double_helical", True, "needs helix_angle_deg above 0; false works")
     return helix
+
+
+def common_face(first: Any, second: Any) -> CommonFace:
+    """The face that two mates' keys give them, both at one height."""
+    return CommonFace(helix_of(first), first.module, min(first.face_width, second.face_width))
 
 
 def helix_quantities(spec: Any, reference_radius: float) -> dict[str, float]:

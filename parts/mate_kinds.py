@@ -1,4 +1,4 @@
-"""Mates of a scene, kind by kind: their keys, how the second instance stands to the first, contact, quantities.
+"""Mates of a scene, kind by kind: how the second instance stands to the first, contact, quantities.
 
 Every kind answers the same questions, so that placing, checks and reports need not know which one they have.
 """
@@ -8,11 +8,9 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
-from msgspec import Meta, Struct
-
-from parts.keys import mm
+from parts.common_face import STRAIGHT, CommonFace
 
 if TYPE_CHECKING:
     from geometry.findings import Finding
@@ -20,50 +18,6 @@ if TYPE_CHECKING:
     from geometry.gears.mesh_search import PairContact
     from geometry.gears.pair import ExternalPair
     from geometry.gears.rack_pair import RackPair
-
-_First = Annotated[str, Meta(description="instance that is already placed")]
-_Second = Annotated[str, Meta(description="instance that is brought into mesh")]
-_Direction = Annotated[
-    float, Meta(ge=-360, le=360, description="direction of the line of centres", extra={"unit": "degrees"})
-]
-_Distance = Annotated[float, mm("centre distance; default: that of the shifts, without backlash", above=0, most=1e6)]
-_Backlash = Annotated[
-    float,
-    mm("backlash along the line of action (in the transverse plane): thins both gears by half", least=0, most=100),
-]
-
-
-class ExternalGearPairSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="external_gear_pair"):
-    """Two external spur gears in mesh: exact centre distance, tip shortening, phase."""
-
-    first: _First
-    second: _Second
-    direction_deg: _Direction = 0.0
-    working_centre_distance: _Distance | None = None
-    normal_backlash: _Backlash | None = None
-
-
-class InternalGearPairSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="internal_gear_pair"):
-    """A pinion in a ring gear, in either order."""
-
-    first: _First
-    second: _Second
-    direction_deg: _Direction = 0.0
-    working_centre_distance: _Distance | None = None
-    normal_backlash: _Backlash | None = None
-
-
-class RackPairSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="rack_pair"):
-    """A gear (first) and a rack (second) that moves across the direction from the gear to it."""
-
-    first: _First
-    second: _Second
-    direction_deg: _Direction = 0.0
-    working_centre_distance: (
-        Annotated[float, mm("from the gear's axis to the rack's datum line; default: r + x m", above=0, most=1e6)]
-        | None
-    ) = None
-    normal_backlash: _Backlash | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +60,11 @@ class Mating(Protocol):
 
     @property
     def pair(self) -> Any:
-        """The calculated pair of its kind."""
+        """The calculated pair of gears, None of other mates."""
+
+    @property
+    def face(self) -> CommonFace:
+        """What helical teeth have in common along their axes."""
 
     @property
     def distance(self) -> float:
@@ -128,14 +86,22 @@ class Mating(Protocol):
     def ratio(self) -> float | None:
         """Turns of the second for one of the first, negative where they turn against each other; None: a rack."""
 
+    @property
+    def height(self) -> float:
+        """How far the second's lower face stands above the first's, mm."""
+
+    @property
+    def has_contact(self) -> bool:
+        """Whether ``contact`` decides how the outlines of two plates stand to each other; else their solids do."""
+
     def second_pose(self, centre: complex, rotation: float, direction: float) -> tuple[complex, float]:
         """Axis (mm) and rotation (rad) of the second where the first stands so."""
 
     def standing(self, first: tuple[complex, float], second: tuple[complex, float]) -> Standing:
         """How two placed instances (axis, rotation) stand to each other."""
 
-    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
-        """Verdict over one pitch, the second that far off its exact place."""
+    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact | None:
+        """Verdict over one pitch, the second that far off its exact place; None where nothing moves."""
 
     def findings(self) -> tuple[Finding, ...]:
         """Conditions of the pair that are not kept."""
@@ -153,6 +119,9 @@ class ExternalMating:
     direction_deg: float
     pair: ExternalPair
     kind: str = "external_gear_pair"
+    height: float = 0.0
+    has_contact: bool = True
+    face: CommonFace = STRAIGHT
 
     @property
     def distance(self) -> float:
@@ -197,11 +166,14 @@ class ExternalMating:
         """Verdict over one pitch of the first gear."""
         from geometry.gears.pair_contact import pair_contact
 
-        return pair_contact(self.pair, second_turn=phase_off, centre_shift=distance_off, tolerance=tolerance)
+        overlap = self.face.overlap_ratio
+        return pair_contact(
+            self.pair, second_turn=phase_off, centre_shift=distance_off, tolerance=tolerance, overlap_ratio=overlap
+        )
 
     def findings(self) -> tuple[Finding, ...]:
         """Conditions of the pair that are not kept."""
-        return self.pair.findings()
+        return self.face.findings(self.pair.findings(), self.pair.effective_contact_ratio)
 
     def quantities(self) -> dict[str, Any]:
         """Practicum, lesson 3."""
@@ -212,6 +184,7 @@ class ExternalMating:
             "tip_shortening_coefficient": self.pair.tip_shortening_coefficient,
             "contact_ratio": self.pair.contact_ratio,
             "effective_contact_ratio": self.pair.effective_contact_ratio,
+            **self.face.quantities(self.pair.effective_contact_ratio),
             "normal_backlash": self.normal_backlash,
         }
 
@@ -226,6 +199,9 @@ class InternalMating:
     pair: InternalPair
     ring_first: bool
     kind: str = "internal_gear_pair"
+    height: float = 0.0
+    has_contact: bool = True
+    face: CommonFace = STRAIGHT
 
     @property
     def distance(self) -> float:
@@ -277,11 +253,14 @@ class InternalMating:
 
         # a pinion that is ahead meets the flanks that a ring would meet that lags behind
         turn = -phase_off / self.pair.gear_ratio if self.ring_first else phase_off
-        return internal_contact(self.pair, ring_turn=turn, centre_shift=distance_off, tolerance=tolerance)
+        overlap = self.face.overlap_ratio
+        return internal_contact(
+            self.pair, ring_turn=turn, centre_shift=distance_off, tolerance=tolerance, overlap_ratio=overlap
+        )
 
     def findings(self) -> tuple[Finding, ...]:
         """Conditions of the pair that are not kept: interference, assembly, clearance."""
-        return self.pair.findings()
+        return self.face.findings(self.pair.findings(), self.pair.effective_contact_ratio)
 
     def quantities(self) -> dict[str, Any]:
         """Working quantities and the margins of the internal conditions."""
@@ -291,6 +270,7 @@ class InternalMating:
             "working_centre_distance": self.distance,
             "contact_ratio": self.pair.contact_ratio,
             "effective_contact_ratio": self.pair.effective_contact_ratio,
+            **self.face.quantities(self.pair.effective_contact_ratio),
             "normal_backlash": self.normal_backlash,
             "margins": {m.name: m.margin for m in self.pair.margins() if math.isfinite(m.margin)},
         }
@@ -305,6 +285,9 @@ class RackMating:
     direction_deg: float
     pair: RackPair
     kind: str = "rack_pair"
+    height: float = 0.0
+    has_contact: bool = True
+    face: CommonFace = STRAIGHT
 
     @property
     def distance(self) -> float:
@@ -355,7 +338,10 @@ class RackMating:
         """Verdict over one pitch of the gear."""
         from geometry.gears.rack_contact import rack_contact
 
-        return rack_contact(self.pair, rack_shift=phase_off, distance_shift=distance_off, tolerance=tolerance)
+        overlap = self.face.overlap_ratio
+        return rack_contact(
+            self.pair, rack_shift=phase_off, distance_shift=distance_off, tolerance=tolerance, overlap_ratio=overlap
+        )
 
     def findings(self) -> tuple[Finding, ...]:
         """Conditions of the pair that are not kept; a rack has the teeth that are in contact at once, and one more."""
@@ -363,7 +349,7 @@ class RackMating:
 
         teeth, needed = self.pair.rack.number_of_teeth, math.ceil(self.pair.contact_ratio) + 1
         short = (Finding("short_rack", float(teeth), float(needed)),) if teeth < needed else ()
-        return (*self.pair.findings(), *short)
+        return self.face.findings((*self.pair.findings(), *short), self.pair.effective_contact_ratio)
 
     def quantities(self) -> dict[str, Any]:
         """Working quantities; the working circle is the reference circle."""
@@ -373,5 +359,6 @@ class RackMating:
             "travel_per_turn": self.pair.travel_per_turn,
             "contact_ratio": self.pair.contact_ratio,
             "effective_contact_ratio": self.pair.effective_contact_ratio,
+            **self.face.quantities(self.pair.effective_contact_ratio),
             "normal_backlash": self.normal_backlash,
         }

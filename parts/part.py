@@ -12,6 +12,8 @@ from geometry.gears.offset_tooth import OffsetRegion
 
 if TYPE_CHECKING:
     from geometry.cams.disk import DiskCam
+    from geometry.cams.walls import CamWall
+    from geometry.cams.wedge import WedgeCam
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +25,8 @@ class Part:
     ``circles`` are named diameters in mm for drawings and
     reports, ``quantities`` all other named results. ``density`` in g/cm^3, None where the material is not known.
     ``flat_findings``: remarks on each flat outline of the part.
-    ``cam``: of a disk cam, whose follower is rolled over every file.
+    ``cam``: of a disk cam, whose follower is rolled over every file; over the ``walls`` where there are some.
+    ``wedge``: of a sliding cam, likewise.
     """
 
     id: str
@@ -40,6 +43,8 @@ class Part:
     density: float | None = None
     flat_findings: tuple[Finding, ...] = ()
     cam: DiskCam | None = None
+    walls: tuple[CamWall, ...] = ()
+    wedge: WedgeCam | None = None
 
     def to_trimesh(self, tolerance: float = 0.01, offset: float = 0.0) -> Any:
         """A ``trimesh.Trimesh`` within ``tolerance`` mm of the exact solid."""

@@ -157,7 +157,7 @@ class _Placed:
             raise SceneError(self.source, f"instances.{second}.rotation_deg", self.specs[second].rotation_deg, remedy)
         direction = math.radians(mating.direction_deg)
         centre, turned = mating.second_pose(here.centre, here.rotation, direction)
-        at = (centre.real, centre.imag, here.at[2])
+        at = (centre.real, centre.imag, here.at[2] + mating.height)
         self.stand[second] = Instance(second, str(self.specs[second].part), at, turned, "mate")
         for group in self.free:
             if first in group:
@@ -247,7 +247,9 @@ def _closed(mate: PlacedMate) -> PlacedMate:
     if not mate.only_checks:
         return mate
     first, second = mate.first, mate.second
-    found = mate.mating.standing((first.centre, first.rotation), (second.centre, second.rotation))
+    # helical teeth are compared at one height: that of the second's lower face
+    turned = first.rotation + mate.mating.face.turn(mate.mating.first_teeth, second.at[2] - first.at[2])
+    found = mate.mating.standing((first.centre, turned), (second.centre, second.rotation))
     required, shift = mate.mating.distance, found.distance - mate.mating.distance
     # numbers that large cannot be known better
     allowed = PLACED_MM + TOLERANCES.relative_join * (abs(mate.first.centre) + abs(mate.second.centre))
@@ -267,8 +269,10 @@ def _with_faces_and_speeds(mates: tuple[PlacedMate, ...], parts: dict[str, Part]
     for index, mate in enumerate(mates):
         more: list[Condition] = []
         if mate.only_checks:
-            width = _common_width(mate.first, mate.second, parts)
-            more.append(Condition("common_face_width", width, 0.0, 0.0, width > 0))
+            more.append(_height(mate, parts))
+            if mate.mating.pair is not None:
+                mate, found = _with_common_face(mate, parts)
+                more += found
             before = _train(mate.mating.first, [m.mating for m in mates[:index]])
             ratio, other = mate.mating.ratio, before.get(mate.mating.second)
             if other is not None and ratio is not None:
@@ -276,6 +280,26 @@ def _with_faces_and_speeds(mates: tuple[PlacedMate, ...], parts: dict[str, Part]
                 more.append(Condition("train", other, ratio, allowed, abs(other - ratio) <= allowed))
         done.append(replace(mate, conditions=(*mate.conditions, *more)))
     return tuple(done)
+
+
+def _with_common_face(mate: PlacedMate, parts: dict[str, Part]) -> tuple[PlacedMate, list[Condition]]:
+    """The mate with the width that its teeth have in common as they stand; herringbones meet at one height only."""
+    face, conditions = mate.mating.face, []
+    if face.helix.double:
+        height = mate.second.at[2] - mate.first.at[2]
+        conditions.append(Condition("herringbone_height", height, 0.0, PLACED_MM, abs(height) <= PLACED_MM))
+    width = max(_common_width(mate.first, mate.second, parts), 0.0)
+    mating = replace(mate.mating, face=replace(face, width=width))  # type: ignore[type-var]
+    return replace(mate, mating=mating), conditions
+
+
+def _height(mate: PlacedMate, parts: dict[str, Part]) -> Condition:
+    """Bodies that touch need a common height; bodies that are fixed stand at a height to each other."""
+    if mate.mating.has_contact:
+        width = _common_width(mate.first, mate.second, parts)
+        return Condition("common_face_width", width, 0.0, 0.0, width > 0)
+    height, required = mate.second.at[2] - mate.first.at[2], mate.mating.height
+    return Condition("height", height, required, PLACED_MM, abs(height - required) <= PLACED_MM)
 
 
 def _common_width(one: Instance, two: Instance, parts: dict[str, Part]) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 import tomllib
 from pathlib import Path
@@ -12,12 +13,24 @@ from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError
 from parts.cam import CamSpec, cam_part, checked_cam
-from parts.helix_keys import helix_of
+from parts.follower import (
+    FollowerArmSpec,
+    FollowerSpec,
+    RollerSpec,
+    checked_arm,
+    checked_follower,
+    checked_roller,
+    follower_part,
+    roller_part,
+)
+from parts.helix_keys import common_face, helix_of
 from parts.instances import DriveSpec, InstanceSpec, check_instance, drive_spec, instance_specs
 from parts.keys import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.mate_kinds import Mating
-from parts.mates import JOINS, MATES, mated
+from parts.mates import GEAR_PAIRS, JOINS, MATES, mated
 from parts.part import Part
+from parts.plate import PlateSpec, checked_plate, plate_part
+from parts.positive_kinds import POSITIVE_KINDS
 from parts.rack import RackSpec, checked_rack_part, rack_part
 from parts.ring_gear import RingGearSpec, checked_ring_gear, ring_gear_part
 from parts.schema import SceneError, converted, near, refuse_infinite
@@ -30,6 +43,11 @@ KINDS: dict[str, tuple[type[Struct], Any, Any]] = {
     "ring_gear": (RingGearSpec, checked_ring_gear, ring_gear_part),
     "rack": (RackSpec, checked_rack_part, rack_part),
     "cam": (CamSpec, checked_cam, cam_part),
+    "follower": (FollowerSpec, checked_follower, follower_part),
+    "follower_arm": (FollowerArmSpec, checked_arm, follower_part),
+    "roller": (RollerSpec, checked_roller, roller_part),
+    "plate": (PlateSpec, checked_plate, plate_part),
+    **POSITIVE_KINDS,
 }
 # purposes of each format, the default first, and the tolerance (mm) of an export that names none
 _DEFAULTS: dict[str, dict[str, float]] = {
@@ -303,9 +321,11 @@ def default_export(name: str) -> ExportSpec:
 def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mating]]:
     """The parts of a scene, each checked to exist, as its mates want them; and the mates."""
     gears = {}
-    for key, spec in scene.parts.items():
+    for key, spec in sorted(scene.parts.items(), key=lambda item: hasattr(item[1], "of")):
         try:
-            gears[key] = KINDS[spec.__struct_config__.tag][1](spec)
+            checked = KINDS[spec.__struct_config__.tag][1]
+            # what is made from another part's keys looks for it in the scene
+            gears[key] = checked(spec, scene.parts) if hasattr(spec, "of") else checked(spec)
         except ParameterError as error:
             raise SceneError(source, f"parts.{key}.{error.name}", error.value, error.allowed) from error
     matings: list[Mating] = []
@@ -320,6 +340,8 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
             place = f".{key}" if owner == "mate" else f": parts.{_blamed(scene, mate, part_of)}.{error.name}"
             raise SceneError(source, f"mates[{index + 1}]{place}", error.value, error.allowed) from error
     gears, matings = mated(gears, scene.mates, part_of)
+    faces = [common_face(*(scene.parts[part_of[i]] for i in (m.first, m.second))) for m in matings]
+    matings = [dataclasses.replace(m, face=face) for m, face in zip(matings, faces, strict=True)]  # type: ignore[type-var]
     parts = {key: KINDS[spec.__struct_config__.tag][2](key, spec, gears[key]) for key, spec in scene.parts.items()}
     return parts, matings
 
@@ -335,12 +357,13 @@ def _check_kinds(scene: SceneFile, mate: Any, part_of: dict[str, str], source: s
     """A mate joins the kinds of parts that it is for."""
     mate_kind = mate.__struct_config__.tag
     found = tuple(scene.parts[part_of[i]].__struct_config__.tag for i in (mate.first, mate.second))
-    if found in JOINS[mate_kind]:
+    joins = JOINS[mate_kind]
+    if joins is None or found in joins:
         return
-    index = 0 if all(first != found[0] for first, _ in JOINS[mate_kind]) else 1
+    index = 0 if all(first != found[0] for first, _ in joins) else 1
     key = ("first", "second")[index]
-    wanted = " or ".join(f"{a} and {b}" for a, b in JOINS[mate_kind])
-    other = next((m for m, joins in JOINS.items() if found in joins), None)
+    wanted = " or ".join(f"{a} and {b}" for a, b in joins)
+    other = next((m for m, others in JOINS.items() if others and found in others), None)
     hint = f'; kind = "{other}" joins these two' if other else ""
     remedy = f"is a {found[index]}; {mate_kind} joins {wanted}{hint}"
     raise SceneError(source, f"{place}.{key}", getattr(mate, key), remedy)
@@ -348,6 +371,8 @@ def _check_kinds(scene: SceneFile, mate: Any, part_of: dict[str, str], source: s
 
 def _check_helices(scene: SceneFile, mate: Any, part_of: dict[str, str], source: str, place: str) -> None:
     """Helices that mesh, and one normal module: told in the keys of the parts, before their transverse sections."""
+    if not isinstance(mate, GEAR_PAIRS):
+        return
     one, two = (scene.parts[part_of[i]] for i in (mate.first, mate.second))
     first, second = helix_of(one), helix_of(two)
     if first.angle == 0 and second.angle == 0:

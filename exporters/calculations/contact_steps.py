@@ -10,7 +10,8 @@ from geometry.gears import limits
 from geometry.gears.limits import LEAST_TIP_THICKNESS
 from geometry.gears.pair import ExternalPair
 from geometry.gears.sliding import active_line
-from geometry.gears.transverse import base_helix_angle, overlap_ratio
+from geometry.gears.transverse import base_helix_angle
+from parts.common_face import CommonFace
 
 # from the base circles to the tips, along the line of action
 _TANGENTS = "{r_b1} * tan({alpha_a1}) + {r_b2} * tan({alpha_a2})"
@@ -21,7 +22,7 @@ def _tips_are_broken(pair: ExternalPair) -> bool:
     return any(abs(f - g.tip_radius) > 1e-12 * f for f, g in zip(pair.tip_form_radii, pair.gears, strict=True))
 
 
-def contact_steps(page: Sheet, pair: ExternalPair, helix: float, face_width: float, normal_module: float) -> None:
+def contact_steps(page: Sheet, pair: ExternalPair, face: CommonFace) -> None:
     """(3.20) to (3.22), form and active diameters, axial overlap."""
     page.section("Contact ratio", "Коефіцієнт перекриття")
     formula = "({z1} * tan({alpha_a1}) + {z2} * tan({alpha_a2}) - ({z1} + {z2}) * tan({alpha_w})) / (2 * pi)"
@@ -36,11 +37,7 @@ def contact_steps(page: Sheet, pair: ExternalPair, helix: float, face_width: flo
     page.add("contact_ratio_difference_percent", difference, formula, "practicum (3.22)")
     if abs(pair.effective_contact_ratio - pair.contact_ratio) > 1e-9:
         page.add("effective_contact_ratio", pair.effective_contact_ratio, "", "ISO 21771")
-    if helix:
-        page.add("face_width", face_width)
-        value = overlap_ratio(face_width, helix, normal_module)
-        page.add("overlap_ratio", value, "{b} * sin(abs({beta})) / (pi * {m_n})", "ISO 21771")
-        page.add("total_contact_ratio", value + pair.contact_ratio, "{eps} + {eps_beta}", "ISO 21771")
+    overlap_steps(page, pair.contact_ratio, face, "{b}@ * sin(abs({beta})) / (pi * {m_n})")
     active = pair.active_profile_radii
     forms, tips = pair.root_form_radii, pair.tip_form_radii
     for name, values in (
@@ -50,6 +47,16 @@ def contact_steps(page: Sheet, pair: ExternalPair, helix: float, face_width: flo
         ("tip_form_diameter", tips),
     ):
         page.both(name, (2 * values[0], 2 * values[1]), "", ("ISO 21771", "ISO 21771"))
+
+
+def overlap_steps(page: Sheet, contact_ratio: float, face: CommonFace, formula: str) -> None:
+    """Overlap and total contact ratio of helical teeth; ``@`` in the formula: what halves a double helix's width."""
+    if face.helix.angle == 0:
+        return
+    page.add("face_width", face.width)
+    half = " / 2" if face.helix.double else ""
+    page.add("overlap_ratio", face.overlap_ratio, formula.replace("@", half), "ISO 21771")
+    page.add("total_contact_ratio", face.overlap_ratio + contact_ratio, "{eps} + {eps_beta}", "ISO 21771")
 
 
 def measured_steps(page: Sheet, pair: ExternalPair, arc: float, pitch: float) -> None:
@@ -109,8 +116,9 @@ def backlash_steps(page: Sheet, pair: ExternalPair, helix: float) -> None:
     page.both("tip_clearance", pair.tip_clearances, "{a_w} - {r_f#} - {r_a~}", ("ISO 21771", "ISO 21771"))
 
 
-def limit_steps(page: Sheet, pair: ExternalPair, helix: float) -> None:
+def limit_steps(page: Sheet, pair: ExternalPair, face: CommonFace) -> None:
     """Undercut and the thickness of the tips, with remarks where a limit is not kept."""
+    helix = face.helix.angle
     page.section("Limits", "Умови")
     if not helix:
         rules = [limits.practicum_undercut(g).limit for g in pair.gears]
@@ -122,7 +130,7 @@ def limit_steps(page: Sheet, pair: ExternalPair, helix: float) -> None:
     page.add(
         "least_tip_thickness", LEAST_TIP_THICKNESS * pair.module, f"{LEAST_TIP_THICKNESS} * {{m}}", "practicum (1.3)"
     )
-    found = [(f, "") for f in pair.findings()]
+    found = [(f, "") for f in face.findings(pair.findings(), pair.effective_contact_ratio)]
     for index, gear in enumerate(pair.gears, 1):
         found += [(f, str(index)) for f in limits.findings(gear) if f.code != "thin_rim"]
     for finding, owner in found:

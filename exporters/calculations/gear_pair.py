@@ -23,11 +23,13 @@ from exporters.calculations.spur import addendum_formula, dedendum_formula, give
 from geometry.angles import involute_function
 from geometry.errors import ParameterError
 from geometry.gears import limits, measurement
+from geometry.gears.helix import Helix
 from geometry.gears.pair import ExternalPair, external_pair
 from geometry.gears.shift_choice import shifts_for_distance
 from geometry.gears.side_clearance import guaranteed_normal_backlash, normal_from_circumferential, thinning_for
 from geometry.gears.spur import SpurGear
 from geometry.gears.transverse import base_helix_angle, transverse_gear
+from parts.common_face import CommonFace
 from parts.keys import in_modules, mm
 from parts.ring_gear import RingGearSpec
 from parts.schema import SceneError, near
@@ -59,11 +61,15 @@ class Asked:
 
     pair: ExternalPair
     normal: tuple[SpurGear, SpurGear]
-    helix: float
-    face_width: float
+    face: CommonFace
     wanted_distance: bool
     given_shortening: float | None
     keys: PairKeys
+
+    @property
+    def helix(self) -> float:
+        """Helix angle, rad."""
+        return self.face.helix.angle
 
 
 def table_from(scene: Any, source: str, table: dict[str, Any]) -> dict[str, Any]:
@@ -169,8 +175,9 @@ def asked_pair(keys: PairKeys, shifts_given: tuple[bool, ...]) -> Asked:
     distance = None if follow else keys.working_centre_distance
     pair = external_pair(gears[0], gears[1], distance)
     width = min(keys.first.face_width, keys.second.face_width)
+    face = CommonFace(Helix(helix, double=keys.first.double_helical), normal[0].module, width)
     wanted = keys.working_centre_distance is not None
-    return Asked(pair, normal, helix, width, wanted, keys.tip_shortening_coefficient, keys)
+    return Asked(pair, normal, face, wanted, keys.tip_shortening_coefficient, keys)
 
 
 def checked_of(name: str, normal: SpurGear, helix: float) -> SpurGear:
@@ -243,14 +250,14 @@ def _page(asked: Asked) -> Sheet:
     _mesh(page, asked)
     _radii(page, asked)
     _thicknesses(page, asked)
-    contact_steps(page, pair, asked.helix, asked.face_width, asked.normal[0].module)
+    contact_steps(page, pair, asked.face)
     if (keys.measured_arc_of_action is None) != (keys.measured_working_pitch is None):
         raise ParameterError("measured_arc_of_action", keys.measured_arc_of_action, "needs measured_working_pitch too")
     if keys.measured_arc_of_action is not None and keys.measured_working_pitch is not None:
         measured_steps(page, pair, keys.measured_arc_of_action, keys.measured_working_pitch)
     sliding_steps(page, pair)
     backlash_steps(page, pair, asked.helix)
-    limit_steps(page, pair, asked.helix)
+    limit_steps(page, pair, asked.face)
     if printed:
         note = (
             "practicum (3.4) prints alpha_w on its left side for a_w",

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 import msgspec
 from msgspec import Struct
 
+from exporters.calculations.contact_steps import overlap_steps
 from exporters.calculations.inputs import PLACE, checked, keys_of, refusal
 from exporters.calculations.misprints import printed_for_internal
 from exporters.calculations.sheet import Sheet
@@ -20,8 +21,10 @@ from geometry.gears.internal_pair import InternalPair, shift_difference
 from geometry.gears.rack_pair import RackPair
 from geometry.gears.ring import RingGear, RoundedRoot
 from geometry.gears.sliding import specific_sliding_internal
+from parts.common_face import CommonFace
+from parts.helix_keys import common_face
 from parts.keys import mm
-from parts.mate_kinds import InternalGearPairSpec, RackPairSpec
+from parts.mate_keys import InternalGearPairSpec, RackPairSpec
 from parts.mates import mated
 from parts.rack import RackSpec, checked_rack_part
 from parts.ring_gear import RingGearSpec, checked_ring_gear
@@ -95,7 +98,7 @@ def internal_sheet(table: dict[str, Any]) -> Sheet:
             mate = InternalGearPairSpec("first", "second", 0.0, None, keys.normal_backlash)
         gears: dict[str, Any] = {"first": pinion, "second": checked_ring_gear(ring_keys)}
         pair = mated(gears, [mate], {name: name for name in _GEARS})[1][0].pair
-        return _internal_page(pair, wanted is not None)
+        return _internal_page(pair, wanted is not None, common_face(keys.first, keys.second))
     except ParameterError as error:
         raise _refused(error, keys) from error
 
@@ -107,7 +110,7 @@ def rack_sheet(table: dict[str, Any]) -> Sheet:
     try:
         gears = {"first": checked_spur_gear(keys.first), "second": checked_rack_part(keys.second)}
         pair = mated(gears, [mate], {name: name for name in _GEARS})[1][0].pair
-        return _rack_page(pair)
+        return _rack_page(pair, common_face(keys.first, keys.second))
     except ParameterError as error:
         raise _refused(error, keys) from error
 
@@ -133,7 +136,7 @@ def _refused(error: ParameterError, keys: Struct) -> SceneError:
     return refusal(TOPIC, ParameterError(name, error.value, error.allowed), owner)
 
 
-def _internal_page(pair: InternalPair, wanted_distance: bool) -> Sheet:
+def _internal_page(pair: InternalPair, wanted_distance: bool, face: CommonFace) -> Sheet:
     pinion, ring = pair.pinion, pair.ring
     printed = printed_for_internal(pair.teeth, pair.module)
     page = Sheet(TOPIC, ("Internal gear pair", "Внутрішнє евольвентне зачеплення"), printed=printed)
@@ -146,8 +149,8 @@ def _internal_page(pair: InternalPair, wanted_distance: bool) -> Sheet:
         page.add("circumferential_thinning", ring.circumferential_thinning, gear=2)
     _internal_mesh(page, pair, wanted_distance)
     _internal_sizes(page, pair)
-    _internal_contact(page, pair)
-    _internal_limits(page, pair)
+    _internal_contact(page, pair, face)
+    _internal_limits(page, pair, face)
     return page
 
 
@@ -212,7 +215,7 @@ def _internal_sizes(page: Sheet, pair: InternalPair) -> None:
     page.add("tip_thickness", ring_limits.tip_thickness(ring), formula if forms[1] else "", "ISO 21771", 2)
 
 
-def _internal_contact(page: Sheet, pair: InternalPair) -> None:
+def _internal_contact(page: Sheet, pair: InternalPair, face: CommonFace) -> None:
     """Contact ratio both ways, the line of action, form and active diameters, sliding."""
     page.section("Contact ratio", "Коефіцієнт перекриття")
     formula = "({z1} * tan({alpha_a1}) - {z2} * tan({alpha_a2}) + ({z2} - {z1}) * tan({alpha_w})) / (2 * pi)"
@@ -223,6 +226,7 @@ def _internal_contact(page: Sheet, pair: InternalPair) -> None:
     page.add("contact_ratio_by_arc", pair.contact_ratio_by_arc, "{dd} / {p_w}", "practicum (3.21)")
     if abs(pair.effective_contact_ratio - pair.contact_ratio) > 1e-9:
         page.add("effective_contact_ratio", pair.effective_contact_ratio, "", "ISO 21771")
+    _overlap(page, pair.contact_ratio, face)
     active, forms, tips = pair.active_profile_radii, pair.root_form_radii, pair.tip_form_radii
     page.both("root_form_diameter", (2 * forms[0], 2 * forms[1]), "", _ISO)
     page.both("start_of_active_profile_diameter", (2 * active[0][0], 2 * active[1][1]), "", _ISO)
@@ -257,7 +261,7 @@ def _backlash(page: Sheet, circumferential: float, normal: float, clearances: tu
     page.both("tip_clearance", clearances, "", _ISO)
 
 
-def _internal_limits(page: Sheet, pair: InternalPair) -> None:
+def _internal_limits(page: Sheet, pair: InternalPair, face: CommonFace) -> None:
     """The conditions of an internal pair, each with its margin, mm; negative: broken."""
     page.section("Conditions: margins", "Умови: запаси")
     found = {m.name: m for m in pair.margins()}
@@ -268,7 +272,7 @@ def _internal_limits(page: Sheet, pair: InternalPair) -> None:
     page.add("greatest_tip_diameter_pinion", pair.tip_limits[0], "", "ISO 21771")
     page.add("least_tip_diameter_ring", pair.tip_limits[1], "", "ISO 21771")
     _gear_limits(page, pair.pinion)
-    _notes(page, pair)
+    _notes(page, pair, face)
 
 
 def _gear_limits(page: Sheet, gear: Any) -> None:
@@ -278,13 +282,20 @@ def _gear_limits(page: Sheet, gear: Any) -> None:
     page.add("least_tip_thickness", value, f"{limits.LEAST_TIP_THICKNESS} * {{m}}", "practicum (1.3)")
 
 
-def _notes(page: Sheet, pair: InternalPair | RackPair) -> None:
-    for finding in pair.findings():
+def _overlap(page: Sheet, contact_ratio: float, face: CommonFace) -> None:
+    """The sheet's numbers are those of the transverse section; only here is the helix seen."""
+    if face.helix.angle:
+        page.add("helix_angle_deg", math.degrees(face.helix.angle))
+    overlap_steps(page, contact_ratio, face, "{b}@ * tan({beta}) / (pi * {m})")
+
+
+def _notes(page: Sheet, pair: InternalPair | RackPair, face: CommonFace) -> None:
+    for finding in face.findings(pair.findings(), pair.effective_contact_ratio):
         en, uk = (text.format(value=finding.value, limit=finding.limit) for text in FINDINGS[finding.code])
         page.notes.append((en, uk))
 
 
-def _rack_page(pair: RackPair) -> Sheet:
+def _rack_page(pair: RackPair, face: CommonFace) -> Sheet:
     gear, rack = pair.gear, pair.rack
     alpha = rack.rack.pressure_angle
     page = Sheet(TOPIC, ("Gear and rack", "Рейкове зачеплення"))
@@ -315,11 +326,11 @@ def _rack_page(pair: RackPair) -> Sheet:
     angle = measurement.angle_at(gear, gear.tip_radius)
     page.add("tip_pressure_angle_deg", math.degrees(angle), "arccos({r_b1} / {r_a1})", "practicum (3.18)", 1)
     page.add("tip_thickness", limits.tip_thickness(gear), "", "ISO 21771", 1)
-    _rack_contact(page, pair)
+    _rack_contact(page, pair, face)
     return page
 
 
-def _rack_contact(page: Sheet, pair: RackPair) -> None:
+def _rack_contact(page: Sheet, pair: RackPair, face: CommonFace) -> None:
     """Contact ratio, backlash and the conditions."""
     page.section("Contact ratio", "Коефіцієнт перекриття")
     formula = (
@@ -331,6 +342,7 @@ def _rack_contact(page: Sheet, pair: RackPair) -> None:
     page.add("contact_ratio", pair.contact_ratio, formula if plain else "", "ISO 21771")
     if abs(pair.effective_contact_ratio - pair.contact_ratio) > 1e-9:
         page.add("effective_contact_ratio", pair.effective_contact_ratio, "", "ISO 21771")
+    _overlap(page, pair.contact_ratio, face)
     low, high = pair.active_ends
     pole = gear.base_radius * math.tan(rack.rack.pressure_angle)
     page.add("active_line_length", high - low, "", "practicum, fig. 3.11")
@@ -343,4 +355,4 @@ def _rack_contact(page: Sheet, pair: RackPair) -> None:
     fillets = found["fillet_interference_gear"].margin, found["fillet_interference_rack"].margin
     page.both("fillet_interference_margin", fillets, "", _ISO)
     _gear_limits(page, gear)
-    _notes(page, pair)
+    _notes(page, pair, face)

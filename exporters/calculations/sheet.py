@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Any
 
 from exporters.calculations.words import TERMS
@@ -99,6 +100,8 @@ class Sheet:
     plain_picture: str = ""
     tables: list[Table] = field(default_factory=list)
     picture_file: str | None = None
+    # what writes the picture as a drawing DXF, for each language
+    drawings: dict[str, Callable[[Path], None]] = field(default_factory=dict)
     data: dict[str, Any] = field(default_factory=dict)
     printed: Mapping[tuple[str, int], Printed] = field(default_factory=dict)
 

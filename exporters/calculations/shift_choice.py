@@ -8,13 +8,14 @@ from typing import Annotated, Any
 
 from msgspec import Meta, Struct
 
-from exporters.calculations import gear_pair
+from exporters.calculations import gear_pair, internal_shift_choice
+from exporters.calculations.contour_files import checked_picture, contour_data, contour_pictures
 from exporters.calculations.inputs import PLACE, checked, refusal
+from exporters.calculations.internal_shift_choice import RACKS
 from exporters.calculations.sheet import Printed, Sheet
 from geometry.errors import ParameterError, at_most
 from geometry.gears import shift_tables
 from geometry.gears.blocking_contour import (
-    BlockingContour,
     Requirements,
     ShiftPair,
     blocking_contour,
@@ -27,11 +28,11 @@ from geometry.gears.shift_choice import shift_sum_for_distance
 from geometry.gears.shift_finder import Proposal, for_sum, greatest_contact_ratio, least_wear, proposal
 from geometry.gears.spur import SpurGear
 from parts.keys import in_modules, mm
-from parts.schema import SceneError
+from parts.schema import SceneError, near
 from parts.spur_gear import RackTable, SpurGearSpec, gear_of
 
 TOPIC = "shift-choice"
-_RACKS = ("ISO 53 A", "ISO 53 B", "ISO 53 C", "ISO 53 D", "GOST 13755")
+_KINDS = ("external_gear_pair", internal_shift_choice.KIND)
 
 
 class Teeth(Struct, forbid_unknown_fields=True):
@@ -56,7 +57,7 @@ class ShiftChoiceKeys(Struct, forbid_unknown_fields=True):
     allow_undercut: Annotated[bool, Meta(description="undercut that stays below the active flank is legal")] = False
     pole_inside: Annotated[bool, Meta(description="the pole must lie inside the active line of action")] = False
     shortened_tips: Annotated[bool, Meta(description="tips shortened by x1 + x2 - y")] = True
-    picture: Annotated[str, Meta(description="SVG file of the contour to write")] | None = None
+    picture: Annotated[str, Meta(description="SVG or DXF file of the contour to write")] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,10 +74,12 @@ class Choice:
 def table_from(scene: Any, source: str, table: dict[str, Any]) -> dict[str, Any]:
     """The keys of a mate of a scene that matter here, changed by those of the command line."""
     pair = gear_pair.table_from(scene, source, {k: table.pop(k) for k in ("mate",) if k in table})
-    first = pair["first"]
-    if pair.get("kind", "external_gear_pair") != "external_gear_pair":
-        remedy = "is chosen for external pairs only; give mate = the number of one"
-        raise SceneError(source, "mate", pair["kind"], remedy)
+    first, kind = pair["first"], pair.get("kind", "external_gear_pair")
+    if kind == internal_shift_choice.KIND:
+        return internal_shift_choice.table_from(pair, table, source)
+    if kind not in _KINDS:
+        remedy = "shifts are chosen for external and internal pairs only; give mate = the number of one"
+        raise SceneError(source, "mate", kind, remedy)
     if any(pair[name].get("helix_angle_deg") for name in gear_pair.GEARS):
         angle = first.get("helix_angle_deg", 0.0)
         raise SceneError(source, "helix_angle_deg", angle, "shifts are chosen for spur gears only; 0 works")
@@ -86,10 +89,17 @@ def table_from(scene: Any, source: str, table: dict[str, Any]) -> dict[str, Any]
 
 
 def sheet(table: dict[str, Any]) -> Sheet:
-    """The choices and the contour."""
+    """The choices and the contour, by the kind of pair."""
+    kind = table.pop("kind", "external_gear_pair")
+    if kind not in _KINDS:
+        remedy = f"unknown kind of pair{near(str(kind), _KINDS)}; known: {', '.join(_KINDS)}"
+        raise SceneError(PLACE, f"{TOPIC}.kind", kind, remedy)
+    if kind == internal_shift_choice.KIND:
+        return internal_shift_choice.internal_sheet(table)
     keys: ShiftChoiceKeys = checked(table, ShiftChoiceKeys, TOPIC)
-    if isinstance(keys.basic_rack, str) and keys.basic_rack not in _RACKS:
-        raise SceneError(PLACE, f"{TOPIC}.basic_rack", keys.basic_rack, f"must be one of {', '.join(_RACKS)}")
+    checked_picture(TOPIC, keys.picture)
+    if isinstance(keys.basic_rack, str) and keys.basic_rack not in RACKS:
+        raise SceneError(PLACE, f"{TOPIC}.basic_rack", keys.basic_rack, f"must be one of {', '.join(RACKS)}")
     try:
         gear = gear_of(
             SpurGearSpec(
@@ -129,7 +139,9 @@ def _page(keys: ShiftChoiceKeys, pair: ShiftPair, wish: Requirements) -> Sheet:
         page.notes.append(("no shifts give a pair that turns", "жодні зміщення не дають працездатної пари"))
         return page
     contour = blocking_contour(pair, wish, box)
-    _pictures(page, contour, choices, keys)
+    marks = [(c.en, c.uk, (c.found.first, c.found.second)) for c in choices]
+    contour_pictures(page, contour, marks, keys.picture)
+    page.data["choices"] = [contour_data(c.en, c.source, c.found) for c in choices]
     return page
 
 
@@ -229,43 +241,3 @@ def _choice(page: Sheet, pair: ShiftPair, wish: Requirements, choice: Choice, nu
     if broken:
         names = ", ".join(f"{m.name} {m.margin:.4g}" for m in broken)
         page.notes.append((f"{number}: outside the contour: {names}", f"{number}: поза контуром: {names}"))
-
-
-def _pictures(page: Sheet, contour: BlockingContour, choices: list[Choice], keys: ShiftChoiceKeys) -> None:
-    from exporters.contour_picture import contour_svg, contour_text
-
-    for language in ("en", "uk"):
-        marks = {
-            f"{n}: {c.uk if language == 'uk' else c.en}": (c.found.first, c.found.second)
-            for n, c in enumerate(choices, 1)
-            if _inside(contour, c.found)
-        }
-        page.pictures[language] = contour_svg(contour, marks, language)
-    page.plain_picture = contour_text(
-        contour, {f"{n}": (c.found.first, c.found.second) for n, c in enumerate(choices, 1)}
-    )
-    page.data["choices"] = [
-        {
-            "name": choice.en,
-            "source": choice.source,
-            "profile_shift_coefficient": {"first": choice.found.first, "second": choice.found.second},
-            "contact_ratio": _number(choice.found.contact_ratio),
-            "root_sliding": dict(zip(gear_pair.GEARS, map(_number, choice.found.root_sliding), strict=True)),
-            "margin": choice.found.margin,
-        }
-        for choice in choices
-    ]
-    page.data["blocking_contour"] = [
-        {"name": line.name, "level": line.level, "points": [[p.real, p.imag] for p in line.points]}
-        for line in contour.lines
-    ]
-    page.picture_file = keys.picture
-
-
-def _number(value: float) -> float | None:
-    return value if math.isfinite(value) else None
-
-
-def _inside(contour: BlockingContour, found: Proposal) -> bool:
-    box = contour.box
-    return box.left <= found.first <= box.right and box.bottom <= found.second <= box.top

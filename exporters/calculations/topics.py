@@ -37,7 +37,9 @@ def calculate(topic: str, words: Sequence[str], form: str, language: str | None)
             raise SceneError(PLACE, name, value, f"must be one of {', '.join(known)}{near(value, known)}")
     sheet, spoken = sheet_of(topic, words)
     language = language or spoken
-    if sheet.picture_file is not None and language in sheet.pictures:
+    if sheet.picture_file is not None and language in sheet.drawings:
+        sheet.drawings[language](Path(sheet.picture_file))
+    elif sheet.picture_file is not None and language in sheet.pictures:
         Path(sheet.picture_file).write_text(sheet.pictures[language], encoding="utf-8", newline="\n")
     return render(sheet, form, language)
 

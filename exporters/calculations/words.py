@@ -108,6 +108,11 @@ pointed_diameter|d_p|d_p|mm|diameter at which the tooth is pointed|діамет�
 least_tip_thickness|S_min|S_min|mm|least tip thickness|найменша товщина зуба на колі вершин
 required_contact_ratio|eps_0|[ε]||contact ratio to keep|найменший допустимий коефіцієнт перекриття
 required_tip_thickness|s_0|[S_a/m]||tip thickness to keep, in modules|найменша товщина вершини в модулях
+required_tip_clearance|c_0|[c/m]||bottom clearance to keep, in modules|найменший радіальний зазор у модулях
+cutter_teeth|z_0|z_0||teeth of the ring's cutter|число зубців довбача
+cutter_shift|x_0|x_0||profile shift of the cutter|коефіцієнт зміщення довбача
+cutter_addendum|h_a0|h_a0*||addendum of the cutter|коефіцієнт висоти головки довбача
+cutter_tip_rounding|rho_0|ρ_0*||rounding of the cutter's corner, in modules|радіус округлення довбача в модулях
 teeth_spanned|k|k||teeth in the span|число зубців у довжині загальної нормалі
 teeth_to_span|k_t|k_t||teeth to span, before rounding|число зубців у нормалі до округлення
 span|W|W|mm|span over k teeth|довжина загальної нормалі

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from geometry.cams.disk import DiskCam
 from geometry.cams.follower_motion import TURN
 from geometry.cams.mounts import Translating
+from geometry.cams.wedge import WedgeCam
 from geometry.contour import signed_area
 from geometry.curve import Complex, Real
 
@@ -89,7 +90,7 @@ Edges = Rounds | Lines | Smooth
 
 @dataclass(frozen=True, slots=True)
 class Outline:
-    """A closed counter-clockwise outline: its edges by family, and the place of each of them along it."""
+    """A closed outline, material on its left: its edges by family, and the place of each of them along it."""
 
     edges: tuple[Edges, ...]
     order: Index
@@ -109,9 +110,9 @@ class Outline:
         return [*whole, corners]
 
 
-def outline_of_loop(vertices: Complex, bulges: Real) -> Outline:
-    """A closed chain of lines and arcs, in either sense."""
-    if signed_area(vertices, bulges) < 0:
+def outline_of_loop(vertices: Complex, bulges: Real, *, clockwise: bool = False) -> Outline:
+    """A closed chain of lines and arcs, in either sense; ``clockwise``: made to run so, about a hole."""
+    if (signed_area(vertices, bulges) < 0) is not clockwise:
         vertices, bulges = vertices[::-1], -np.roll(bulges[::-1], -1)
     ends = np.roll(vertices, -1)
     flat = np.abs(bulges) < _FLAT_BULGE
@@ -123,12 +124,15 @@ def outline_of_loop(vertices: Complex, bulges: Real) -> Outline:
     return Outline((rounds, Lines(vertices[flat], ends[flat])), order)
 
 
-def outline_of_polynomials(coefficients: Complex) -> Outline:
-    """A closed chain of polynomial edges in either sense, rows of rising powers of t from 0 to 1."""
+def outline_of_polynomials(coefficients: Complex, *, clockwise: bool = False) -> Outline:
+    """A closed chain of polynomial edges in either sense, rows of rising powers of t from 0 to 1.
+
+    ``clockwise``: made to run so, about a hole.
+    """
     starts = coefficients[:, 0]
     middles = coefficients @ 0.5 ** np.arange(coefficients.shape[1])
     polygon = np.stack([starts, middles], axis=1).ravel()
-    if signed_area(polygon, np.zeros(len(polygon))) < 0:
+    if (signed_area(polygon, np.zeros(len(polygon))) < 0) is not clockwise:
         # t becomes 1 - t
         degree = coefficients.shape[1] - 1
         turn = [[math.comb(k, j) * (-1.0) ** j for j in range(degree + 1)] for k in range(degree + 1)]
@@ -136,12 +140,16 @@ def outline_of_polynomials(coefficients: Complex) -> Outline:
     return Outline((Smooth(coefficients),), np.arange(len(coefficients)))
 
 
-def rolled_lift(cam: DiskCam, outline: Outline, count: int, offset: float = 0.0) -> Real:
+def rolled_lift(
+    cam: DiskCam | WedgeCam, outline: Outline, count: int, offset: float = 0.0, *, below: bool = True
+) -> Real:
     """S at ``count`` equal cam angles from 0, mm or rad, of the cam's own follower on an outline in the cam's frame.
 
     ``offset``: the outline is the cam's moved out of the material by this much, mm, for a cutter's width: the follower
-    is that much smaller. Not a number where no edge is touched.
+    is that much smaller. ``below``: the outline holds the follower up; else it is the outer wall of a groove, which
+    holds it down, and the lowest stop counts. Not a number where no edge is touched.
     """
+    sign = 1.0 if below else -1.0
     lift = np.full(count, -np.inf)
     step = TURN / count
     for family in outline.families():
@@ -151,12 +159,14 @@ def rolled_lift(cam: DiskCam, outline: Outline, count: int, offset: float = 0.0)
         edge, t0, t1, target = _crossings(cam, family, step, offset)
         t = _solve(cam, family, edge, t0, t1, step * target.astype(np.float64), offset)
         height = _stop(cam, *family.at(edge, t), offset)[1]
-        np.fmax.at(lift, target % count, height)
-    return np.where(np.isfinite(lift), lift, np.nan)
+        np.fmax.at(lift, target % count, sign * height)
+    return np.where(np.isfinite(lift), sign * lift, np.nan)
 
 
-def _stop(cam: DiskCam, point: Complex, normal: Complex, offset: float) -> tuple[Real, Real]:
+def _stop(cam: DiskCam | WedgeCam, point: Complex, normal: Complex, offset: float) -> tuple[Real, Real]:
     """Cam angle at which (p, n) touches the follower, and its S there."""
+    if isinstance(cam, WedgeCam):
+        return cam.stop(point, normal, offset)
     mount = cam.mount
     with np.errstate(invalid="ignore"):
         if cam.is_flat:
@@ -182,7 +192,7 @@ def _folded(angle: Real) -> Real:
     return angle - TURN * np.round(angle / TURN)
 
 
-def _crossings(cam: DiskCam, family: Edges, step: float, offset: float) -> tuple[Index, Real, Real, Index]:
+def _crossings(cam: DiskCam | WedgeCam, family: Edges, step: float, offset: float) -> tuple[Index, Real, Real, Index]:
     """Which edges are touched at which angles of the grid: edge, its t from and to, number of the angle."""
     cells = _CELLS[type(family).__name__]
     t = np.broadcast_to(np.linspace(0, 1, cells + 1), (len(family), cells + 1))
@@ -199,7 +209,7 @@ def _crossings(cam: DiskCam, family: Edges, step: float, offset: float) -> tuple
     return edge[:, :-1].ravel()[cell], t[:, :-1].ravel()[cell], t[:, 1:].ravel()[cell], target
 
 
-def _solve(cam: DiskCam, family: Edges, edge: Index, a: Real, b: Real, target: Real, offset: float) -> Real:
+def _solve(cam: DiskCam | WedgeCam, family: Edges, edge: Index, a: Real, b: Real, target: Real, offset: float) -> Real:
     """t at which each edge is touched at its angle, by the Illinois rule within [a, b]."""
 
     def miss(t: Real) -> Real:

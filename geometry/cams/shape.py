@@ -122,10 +122,10 @@ def _segments(cam: DiskCam, piece: LawPiece | _Cut, grow: float) -> list[Segment
         return [Segment(Arc(0j, abs(first), cmath.phase(first), piece.start - piece.end), Label.DWELL)]
     if isinstance(piece, _Cut):
         curve = curve.trimmed(piece.start, piece.end)
-    return [Segment(curve.trimmed(a, b), Label.CAM) for a, b in pairwise(_quiet_edges(curve))]
+    return [Segment(curve.trimmed(a, b), Label.CAM) for a, b in pairwise(quiet_edges(curve))]
 
 
-def _quiet_edges(curve: CamCurve) -> list[float]:
+def quiet_edges(curve: CamCurve) -> list[float]:
     """Ends, inflections and vertices of a curve: between them the curvature keeps its sign and its trend.
 
     Arcs and chords need the first (geometry/approximate.py), and few arcs the second: DERIVATIONS.md, section 4.

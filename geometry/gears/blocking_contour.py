@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 from geometry.angles import inverse_involute, involute_function
 from geometry.errors import ConvergenceError
@@ -19,6 +20,9 @@ from geometry.gears.joints import fillet_flank_joint
 from geometry.gears.limits import Margin, least_shift_without_undercut
 from geometry.gears.spur import SpurGear
 from geometry.implicit import Box, level_lines
+
+if TYPE_CHECKING:
+    from geometry.gears.internal_shifts import InternalShiftPair
 
 TIP_THICKNESSES = (0.0, 0.25, 0.3, 0.4)
 CONTACT_RATIOS = (1.0, 1.1, 1.2)
@@ -270,7 +274,7 @@ class ContourLine:
 class BlockingContour:
     """All lines inside a box, and the borders of the region that keeps the requirements."""
 
-    pair: ShiftPair
+    pair: ShiftPair | InternalShiftPair
     requirements: Requirements
     box: Box
     lines: tuple[ContourLine, ...]
@@ -298,23 +302,35 @@ def blocking_contour(
 
     ``active_flank`` lines are told apart by undercut: ``fillet_interference_*`` and ``undercut_to_active_flank_*``.
     """
+    lines = contour_lines(conditions(pair), lambda index: least_shift(pair, index), box, tolerance, names)
+    region = level_lines(lambda x1, x2: least_margin(pair, wish, x1, x2), box, tolerance)
+    return BlockingContour(pair, wish, box, lines, tuple(tuple(r) for r in region))
+
+
+def contour_lines(
+    known: dict[str, Condition],
+    least: Callable[[int], float],
+    box: Box,
+    tolerance: float,
+    names: Iterable[str] | None = None,
+) -> tuple[ContourLine, ...]:
+    """The lines of conditions in a box; ``least`` is x_min of the first (0) or second (1) gear."""
     lines: list[ContourLine] = []
-    for name, condition in conditions(pair).items():
+    for name, condition in known.items():
         if names is not None and name not in names:
             continue
         for points in level_lines(condition.margin, box, tolerance):
             if not condition.name.startswith("active_flank"):
                 lines.append(ContourLine(condition.name, condition.level, tuple(points)))
                 continue
-            lines += _by_undercut(pair, condition.name.removeprefix("active_flank_"), points)
-    region = level_lines(lambda x1, x2: least_margin(pair, wish, x1, x2), box, tolerance)
-    return BlockingContour(pair, wish, box, tuple(lines), tuple(tuple(r) for r in region))
+            who = condition.name.removeprefix("active_flank_")
+            lines += _by_undercut(who, least(0 if who == "first" else 1), points)
+    return tuple(lines)
 
 
-def _by_undercut(pair: ShiftPair, who: str, points: list[complex]) -> list[ContourLine]:
+def _by_undercut(who: str, least: float, points: list[complex]) -> list[ContourLine]:
     """A line cut where it crosses x_min; both pieces share the point next to it."""
     index = 0 if who == "first" else 1
-    least = least_shift(pair, index)
     pieces: list[ContourLine] = []
     run: list[complex] = []
     name = ""

@@ -19,7 +19,12 @@ _CLEAR_CORNERS = 0.1
 
 
 def internal_contact(
-    pair: InternalPair, *, ring_turn: float = 0.0, centre_shift: float = 0.0, tolerance: float | None = None
+    pair: InternalPair,
+    *,
+    ring_turn: float = 0.0,
+    centre_shift: float = 0.0,
+    tolerance: float | None = None,
+    overlap_ratio: float = 0.0,
 ) -> PairContact:
     """The exact gap of pinion and ring over one pitch of the pinion.
 
@@ -35,6 +40,8 @@ def internal_contact(
         mm by which the centre distance is more than the pair's.
     tolerance
         mm; default 1e-8 module.
+    overlap_ratio
+        Of helical teeth whose section the pair is: drive angle that their face covers, in pitches.
 
     Raises
     ------
@@ -42,7 +49,7 @@ def internal_contact(
         A gear of the pair cannot be built.
     """
     allowed = CONTACT_TOLERANCE * pair.module if tolerance is None else tolerance
-    return searched(_InternalMesh(pair, ring_turn, centre_shift), allowed)
+    return searched(_InternalMesh(pair, ring_turn, centre_shift), allowed, overlap_ratio)
 
 
 def ring_outline(side: RingSide) -> Boundary:
@@ -109,8 +116,12 @@ class _InternalMesh(MeshSearch):
         turned = np.exp(1j * self.second_position(drive)) * points
         return turned - self.distance, 1j * self.rate * turned
 
-    def to_second(self, points: Complex, drive: Real) -> tuple[Complex, Complex]:
-        back = np.exp(-1j * self.second_position(drive))
+    @property
+    def reach(self) -> float:
+        return self.pair.ring.root_radius
+
+    def to_second(self, points: Complex, drive: Real, turn: Real | float = 0.0) -> tuple[Complex, Complex]:
+        back = np.exp(-1j * (self.second_position(drive) + turn))
         moved = np.exp(1j * drive) * points
         return back * (moved + self.distance), 1j * back * (moved - self.rate * (moved + self.distance))
 

@@ -17,7 +17,12 @@ __all__ = ["CONTACT_TOLERANCE", "ContactPlace", "PairContact", "pair_contact"]
 
 
 def pair_contact(
-    pair: ExternalPair, *, second_turn: float = 0.0, centre_shift: float = 0.0, tolerance: float | None = None
+    pair: ExternalPair,
+    *,
+    second_turn: float = 0.0,
+    centre_shift: float = 0.0,
+    tolerance: float | None = None,
+    overlap_ratio: float = 0.0,
 ) -> PairContact:
     """The exact gap of a pair over one pitch of the first gear.
 
@@ -30,6 +35,8 @@ def pair_contact(
         mm by which the centre distance is more than the pair's.
     tolerance
         mm; default 1e-8 module.
+    overlap_ratio
+        Of helical teeth whose section the pair is: drive angle that their face covers, in pitches.
 
     Raises
     ------
@@ -37,7 +44,7 @@ def pair_contact(
         A gear of the pair cannot be built.
     """
     allowed = CONTACT_TOLERANCE * pair.module if tolerance is None else tolerance
-    return searched(_ExternalMesh(pair, second_turn, centre_shift), allowed)
+    return searched(_ExternalMesh(pair, second_turn, centre_shift), allowed, overlap_ratio)
 
 
 class _ExternalMesh(MeshSearch):
@@ -85,8 +92,12 @@ class _ExternalMesh(MeshSearch):
         turned = np.exp(1j * self.second_position(drive)) * points
         return self.distance + turned, 1j * self.rate * turned
 
-    def to_second(self, points: Complex, drive: Real) -> tuple[Complex, Complex]:
-        second = self.second_position(drive)
+    @property
+    def reach(self) -> float:
+        return self.pair.second.tip_radius
+
+    def to_second(self, points: Complex, drive: Real, turn: Real | float = 0.0) -> tuple[Complex, Complex]:
+        second = self.second_position(drive) + turn
         turned = np.exp(1j * (drive - second)) * points
         centre = -self.distance * np.exp(-1j * second)
         return centre + turned, -1j * self.rate * centre + 1j * (1 - self.rate) * turned

@@ -15,7 +15,12 @@ from geometry.profile import Segment
 
 
 def rack_contact(
-    pair: RackPair, *, rack_shift: float = 0.0, distance_shift: float = 0.0, tolerance: float | None = None
+    pair: RackPair,
+    *,
+    rack_shift: float = 0.0,
+    distance_shift: float = 0.0,
+    tolerance: float | None = None,
+    overlap_ratio: float = 0.0,
 ) -> PairContact:
     """The exact gap of gear and rack over one pitch; "first" is the gear, "second" the rack, taken without ends.
 
@@ -28,6 +33,8 @@ def rack_contact(
         mm by which the distance is more than the pair's.
     tolerance
         mm; default 1e-8 module.
+    overlap_ratio
+        Of helical teeth whose section the pair is: drive angle that their face covers, in pitches.
 
     Raises
     ------
@@ -35,7 +42,7 @@ def rack_contact(
         A part of the pair cannot be built.
     """
     allowed = CONTACT_TOLERANCE * pair.module if tolerance is None else tolerance
-    return searched(_RackMesh(pair, rack_shift, distance_shift), allowed)
+    return searched(_RackMesh(pair, rack_shift, distance_shift), allowed, overlap_ratio)
 
 
 def _as_gear(segments: tuple[Segment, ...]) -> tuple[Segment, ...]:
@@ -91,9 +98,17 @@ class _RackMesh(MeshSearch):
         moved = np.asarray(self.distance - points + 1j * self.second_position(drive))
         return moved, np.full_like(moved, 1j * self.rate)
 
-    def to_second(self, points: Complex, drive: Real) -> tuple[Complex, Complex]:
+    @property
+    def relative_turning(self) -> float:
+        return 1.0
+
+    @property
+    def reach(self) -> float:
+        return 1.0
+
+    def to_second(self, points: Complex, drive: Real, turn: Real | float = 0.0) -> tuple[Complex, Complex]:
         turned = np.exp(1j * drive) * points
-        return self.distance + 1j * self.second_position(drive) - turned, 1j * self.rate - 1j * turned
+        return self.distance + 1j * (self.second_position(drive) + turn) - turned, 1j * self.rate - 1j * turned
 
     def second_folded(self, points: Complex, vectors: Complex) -> tuple[Complex, Complex]:
         points = points - 1j * self.pitches[1] * np.round(points.imag / self.pitches[1])

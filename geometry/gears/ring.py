@@ -72,7 +72,7 @@ class RingGear:
     def _widening(self) -> float:
         return 0.0 if self.thinning_by_deeper_cut else self.circumferential_thinning / 2
 
-    @property
+    @cached_property
     def cutter(self) -> PinionCutter | None:
         """The cutter with the teeth it really has: wider where that thins the ring's; None for a rounded root."""
         if not isinstance(self.root, PinionCutter):
@@ -135,7 +135,7 @@ class RingGear:
             raise ParameterError("profile_shift_coefficient", self.profile_shift_coefficient, text)
         return inverse_involute(value).value
 
-    @property
+    @cached_property
     def generating_distance(self) -> float:
         """a_0: distance of the cutter's axis from the ring's, mm."""
         difference = self.base_radius - self._known_cutter.base_radius

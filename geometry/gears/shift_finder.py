@@ -1,7 +1,7 @@
 """Shifts inside the blocking contour: for least wear, for the greatest contact ratio, for a centre distance.
 
-Everything is sought along lines x1 + x2 = s of one working angle: on them equal sliding has one root, and the legal
-part is found by its sign on a grid with bracketed ends.
+Everything is sought along lines of one working angle, x1 + x2 = s, or x2 - x1 = s for an internal pair: on them equal
+sliding has one root, and the legal part is found by its sign on a grid with bracketed ends.
 """
 
 from __future__ import annotations
@@ -13,14 +13,10 @@ from functools import lru_cache
 from itertools import pairwise
 
 from geometry.errors import ParameterError
-from geometry.gears.blocking_contour import (
-    Requirements,
-    ShiftPair,
-    equal_sliding,
-    least_margin,
-    state_of,
-    usual_box,
-)
+from geometry.gears import blocking_contour, internal_contour, internal_shifts
+from geometry.gears.blocking_contour import PairState, Requirements, ShiftPair, usual_box
+from geometry.gears.internal_contour import InternalRequirements
+from geometry.gears.internal_shifts import InternalShiftPair, InternalState
 from geometry.implicit import Box
 from geometry.roots import bracketed_root
 
@@ -30,6 +26,8 @@ _STEP = 0.05
 _STEEPEST = 8.0
 # golden sections within a line and between lines: to 1e-9 and 1e-7; halvings at an end: to 1e-12
 _SECTIONS, _OUTER_SECTIONS, _HALVINGS = 40, 28, 36
+# what a root leaves of a margin of 0
+_ROUNDING = 1e-9
 _GOLDEN = (math.sqrt(5) - 1) / 2
 
 
@@ -44,6 +42,9 @@ class Proposal:
     margin: float
 
 
+AnyShiftPair = ShiftPair | InternalShiftPair
+
+
 @lru_cache(maxsize=64)
 def _window(pair: ShiftPair) -> Box | None:
     """Where to look: no shifts outside are legal."""
@@ -55,34 +56,97 @@ def _step(box: Box) -> float:
     return max(_STEP, max(box.right - box.left, box.top - box.bottom) / 60)
 
 
-def legal_shifts(pair: ShiftPair, wish: Requirements, shift_sum: float) -> list[tuple[float, float]]:
-    """The intervals of x1 that keep the requirements at x1 + x2 = ``shift_sum``."""
+def state_of(pair: AnyShiftPair, x1: float, x2: float) -> PairState | InternalState:
+    """A pair of either kind at two shifts."""
+    if isinstance(pair, InternalShiftPair):
+        return internal_shifts.internal_state(pair, x1, x2)
+    return blocking_contour.state_of(pair, x1, x2)
+
+
+def least_margin(pair: AnyShiftPair, wish: Requirements, x1: float, x2: float) -> float:
+    """The least margin of a pair of either kind; an internal one may have ``InternalRequirements``."""
+    if not isinstance(pair, InternalShiftPair):
+        return blocking_contour.least_margin(pair, wish, x1, x2)
+    if not isinstance(wish, InternalRequirements):
+        wish = InternalRequirements(wish.tip_thickness, wish.contact_ratio, wish.allow_undercut, wish.pole_inside)
+    return internal_contour.least_margin(pair, wish, x1, x2)
+
+
+def second_shift(pair: AnyShiftPair, shift_sum: float, x1: float) -> float:
+    """x2 on the line of one working angle."""
+    return shift_sum + x1 if isinstance(pair, InternalShiftPair) else shift_sum - x1
+
+
+def _first_shifts(pair: AnyShiftPair, shift_sum: float) -> tuple[float, float, float] | None:
+    """Where to look for x1 on a line of one working angle: from, to, step; None: nowhere."""
+    if isinstance(pair, InternalShiftPair):
+        found = internal_contour.window(pair)
+        if found is None:
+            return None
+        box = found.box
+        low, high = max(box.left, box.bottom - shift_sum), min(box.right, box.top - shift_sum)
+    else:
+        known = _window(pair)
+        if known is None:
+            return None
+        box = known
+        low, high = max(box.left, shift_sum - box.top), min(box.right, shift_sum - box.bottom)
+    return (low, high, _step(box)) if low < high else None
+
+
+def _sums(pair: AnyShiftPair) -> list[float]:
+    """The lines of one working angle that are looked at."""
+    if isinstance(pair, InternalShiftPair):
+        found = internal_contour.window(pair)
+        if found is None:
+            return []
+        low, high, step = found.lowest, found.highest, found.step
+    else:
+        box = _window(pair)
+        if box is None:
+            return []
+        low, high, step = box.left + box.bottom, box.right + box.top, _step(box)
+    return [low + step * k for k in range(math.ceil((high - low) / step) + 1)]
+
+
+def legal_shifts(pair: AnyShiftPair, wish: Requirements, shift_sum: float) -> list[tuple[float, float]]:
+    """The intervals of x1 that keep the requirements at x1 + x2, or x2 - x1 of an internal pair, = ``shift_sum``."""
 
     def margin(x1: float) -> float:
-        return least_margin(pair, wish, x1, shift_sum - x1)
+        return least_margin(pair, wish, x1, second_shift(pair, shift_sum, x1))
 
-    box = _window(pair)
-    if box is None:
-        return []
-    low, high = max(box.left, shift_sum - box.top), min(box.right, shift_sum - box.bottom)
-    return _positive(margin, low, high, _step(box)) if low < high else []
+    found = _first_shifts(pair, shift_sum)
+    return [] if found is None else _positive(margin, *found)
 
 
-def for_sum(pair: ShiftPair, wish: Requirements, shift_sum: float) -> Proposal | None:
+def for_sum(pair: AnyShiftPair, wish: Requirements, shift_sum: float) -> Proposal | None:
     """The legal shifts of a given sum (a given centre distance) whose feet slide most equally; None: none is legal."""
     found = legal_shifts(pair, wish, shift_sum)
     if not found:
         return None
     low, high = max(found, key=lambda part: part[1] - part[0])
     wanted = equal_sliding_shift(pair, shift_sum, low, high)
-    return proposal(pair, wish, wanted, shift_sum - wanted)
+    return proposal(pair, wish, wanted, second_shift(pair, shift_sum, wanted))
 
 
-def equal_sliding_shift(pair: ShiftPair, shift_sum: float, low: float, high: float) -> float:
+def nearest_sum(pair: AnyShiftPair, wish: Requirements, shift_sum: float) -> float | None:
+    """The sum (x2 - x1 of an internal pair) nearest to an illegal one that has legal shifts; None: there is none."""
+
+    def legal(total: float) -> float:
+        return 0.0 if legal_shifts(pair, wish, total) else -math.inf
+
+    good = min((s for s in _sums(pair) if legal(s) == 0), key=lambda s: abs(s - shift_sum), default=None)
+    return None if good is None else _last_inside(legal, good, shift_sum)
+
+
+def equal_sliding_shift(pair: AnyShiftPair, shift_sum: float, low: float, high: float) -> float:
     """x1 of equal sliding between two x1 of one sum, or the end nearer to it: with x1 the first foot slides less."""
 
     def difference(x1: float) -> float:
-        return equal_sliding(pair, x1, shift_sum - x1)
+        x2 = second_shift(pair, shift_sum, x1)
+        if isinstance(pair, InternalShiftPair):
+            return internal_shifts.equal_sliding(pair, x1, x2)
+        return blocking_contour.equal_sliding(pair, x1, x2)
 
     ends = difference(low), difference(high)
     # beyond the base circle of the first gear sliding has no bound, so the root lies above; of the second, below
@@ -93,14 +157,14 @@ def equal_sliding_shift(pair: ShiftPair, shift_sum: float, low: float, high: flo
     return high if ends[1] >= 0 else bracketed_root(difference, low, high).value
 
 
-def least_wear(pair: ShiftPair, wish: Requirements) -> Proposal | None:
+def least_wear(pair: AnyShiftPair, wish: Requirements) -> Proposal | None:
     """The legal shifts with equal sliding of both feet and the least of it; None where no such pair is legal."""
 
     def shift(total: float) -> float | None:
         parts = legal_shifts(pair, wish, total)
         for low, high in parts:
             x1 = equal_sliding_shift(pair, total, low, high)
-            if low < x1 < high:
+            if low < x1 < high and least_margin(pair, wish, x1, second_shift(pair, total, x1)) >= -_ROUNDING:
                 return x1
         return None
 
@@ -108,35 +172,61 @@ def least_wear(pair: ShiftPair, wish: Requirements) -> Proposal | None:
         x1 = shift(total)
         if x1 is None:
             return -math.inf
-        return min(state_of(pair, x1, total - x1).root_sliding(pair.gear_ratio))
+        return min(state_of(pair, x1, second_shift(pair, total, x1)).root_sliding(pair.gear_ratio))
 
     best = _greatest_of(pair, wear)
     if best is None:
         return None
     x1 = shift(best)
-    return None if x1 is None else proposal(pair, wish, x1, best - x1)
+    return None if x1 is None else proposal(pair, wish, x1, second_shift(pair, best, x1))
 
 
-def greatest_contact_ratio(pair: ShiftPair, wish: Requirements) -> Proposal | None:
+def least_sliding(pair: AnyShiftPair, wish: Requirements) -> Proposal | None:
+    """The legal shifts with the least sliding at the foot that slides more, equal or not; None: no pair is legal.
+
+    For pairs whose legal shifts all lie on one side of equal sliding.
+    """
+
+    def wear_at(total: float, x1: float) -> float:
+        return min(state_of(pair, x1, second_shift(pair, total, x1)).root_sliding(pair.gear_ratio))
+
+    def shift(total: float) -> float | None:
+        found = [equal_sliding_shift(pair, total, low, high) for low, high in legal_shifts(pair, wish, total)]
+        legal = [x1 for x1 in found if least_margin(pair, wish, x1, second_shift(pair, total, x1)) >= -_ROUNDING]
+        return max(legal, key=lambda x1: wear_at(total, x1), default=None)
+
+    def wear(total: float) -> float:
+        x1 = shift(total)
+        return -math.inf if x1 is None else wear_at(total, x1)
+
+    best = _greatest_of(pair, wear)
+    x1 = None if best is None else shift(best)
+    return None if best is None or x1 is None else proposal(pair, wish, x1, second_shift(pair, best, x1))
+
+
+def greatest_contact_ratio(pair: AnyShiftPair, wish: Requirements) -> Proposal | None:
     """The legal shifts with the greatest contact ratio; None where no pair is legal."""
 
     def shift(total: float) -> float | None:
         parts = legal_shifts(pair, wish, total)
-        ratio: Callable[[float], float] = lambda x1: state_of(pair, x1, total - x1).contact_ratio  # noqa: E731
-        return max((_golden(ratio, low, high) for low, high in parts), key=ratio, default=None)
+        ratio: Callable[[float], float] = lambda x1: state_of(pair, x1, second_shift(pair, total, x1)).contact_ratio  # noqa: E731
+        found = [x1 for low, high in parts for x1 in (_golden(ratio, low, high), low, high)]
+        # between marks a narrow gap in the legal shifts may have been overlooked
+        legal = [x1 for x1 in found if least_margin(pair, wish, x1, second_shift(pair, total, x1)) >= -_ROUNDING]
+        return max(legal, key=ratio, default=None)
 
     def ratio_of(total: float) -> float:
         x1 = shift(total)
-        return -math.inf if x1 is None else state_of(pair, x1, total - x1).contact_ratio
+        return -math.inf if x1 is None else state_of(pair, x1, second_shift(pair, total, x1)).contact_ratio
 
     best = _greatest_of(pair, ratio_of)
     if best is None:
         return None
     x1 = shift(best)
-    return None if x1 is None else proposal(pair, wish, x1, best - x1)
+    return None if x1 is None else proposal(pair, wish, x1, second_shift(pair, best, x1))
 
 
-def proposal(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> Proposal:
+def proposal(pair: AnyShiftPair, wish: Requirements, x1: float, x2: float) -> Proposal:
     """What a pair of shifts gives."""
     state = state_of(pair, x1, x2)
     return Proposal(x1, x2, state.contact_ratio, state.root_sliding(pair.gear_ratio), least_margin(pair, wish, x1, x2))
@@ -156,21 +246,18 @@ def checked_proposal(found: Proposal | None, name: str, value: object) -> Propos
     return found
 
 
-def _greatest_of(pair: ShiftPair, function: Callable[[float], float]) -> float | None:
+def _greatest_of(pair: AnyShiftPair, function: Callable[[float], float]) -> float | None:
     """The sum of shifts at which a function is greatest; -inf is outside its domain, whose ends are halved in on."""
-    box = _window(pair)
-    if box is None:
+    sums = _sums(pair)
+    if not sums:
         return None
-    step = _step(box)
-    count = math.ceil((box.right + box.top - box.left - box.bottom) / step)
-    sums = [box.left + box.bottom + step * k for k in range(count + 1)]
     values = [function(s) for s in sums]
     best = max(range(len(sums)), key=lambda k: values[k])
     if values[best] == -math.inf:
         return None
     ends = []
     for k in (best - 1, best + 1):
-        end = sums[min(max(k, 0), count)]
+        end = sums[min(max(k, 0), len(sums) - 1)]
         ends.append(end if function(end) > -math.inf else _last_inside(function, sums[best], end))
     return max((_golden(function, ends[0], ends[1], _OUTER_SECTIONS), sums[best]), key=function)
 

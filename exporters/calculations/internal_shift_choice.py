@@ -1,0 +1,333 @@
+"""``higherpair calc shift-choice`` of a pinion in a ring: shifts inside the blocking contour of internal pairs."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Annotated, Any, Literal
+
+from msgspec import Meta, Struct
+
+from exporters.calculations.contour_files import checked_picture, contour_data, contour_pictures
+from exporters.calculations.inputs import PLACE, checked, refusal
+from exporters.calculations.sheet import Sheet
+from geometry.errors import ParameterError, at_least, at_most
+from geometry.gears.cutter import PinionCutter, checked_cutter
+from geometry.gears.internal_contour import InternalRequirements, internal_contour, margins, window
+from geometry.gears.internal_pair import shift_difference
+from geometry.gears.internal_shifts import InternalShiftPair, internal_state, least_pinion_shift
+from geometry.gears.ring import RingGear, RoundedRoot
+from geometry.gears.ring_limits import with_default_cutter
+from geometry.gears.shift_finder import (
+    Proposal,
+    for_sum,
+    greatest_contact_ratio,
+    least_sliding,
+    least_wear,
+    nearest_sum,
+    proposal,
+)
+from geometry.gears.spur import SpurGear
+from parts.cutter_keys import CutterTable, cutter_of
+from parts.keys import in_modules, mm
+from parts.ring_gear import RoundedRootTable
+from parts.schema import SceneError
+from parts.spur_gear import RackTable, basic_rack_of
+
+TOPIC = "shift-choice"
+KIND = "internal_gear_pair"
+# modules between a line of the picture and its chords
+_TOLERANCE = 5e-4
+RACKS = ("ISO 53 A", "ISO 53 B", "ISO 53 C", "ISO 53 D", "GOST 13755")
+
+
+class PinionKeys(Struct, forbid_unknown_fields=True):
+    """What the topic needs of the pinion."""
+
+    number_of_teeth: Annotated[int, Meta(ge=3, le=1000, description="number of teeth z_1")]
+    profile_shift_coefficient: Annotated[float, in_modules("shift x_1 to judge", least=-10, most=10)] | None = None
+    cutter: CutterTable | None = None
+
+
+class RingKeys(Struct, forbid_unknown_fields=True):
+    """What the topic needs of the ring."""
+
+    number_of_teeth: Annotated[int, Meta(ge=4, le=1000, description="number of teeth z_2")]
+    profile_shift_coefficient: Annotated[float, in_modules("shift x_2 to judge", least=-10, most=10)] | None = None
+    addendum_coefficient: Annotated[float, in_modules("addendum h_a2", least=0.1, most=3)] = 1.0
+    tip_rule: Literal["GOST 19274", "KHK"] = "GOST 19274"
+    cutter: CutterTable | None = None
+    rounded_root: RoundedRootTable | None = None
+
+
+class InternalShiftKeys(Struct, forbid_unknown_fields=True):
+    """Keys of the topic for a pinion (first) in a ring (second)."""
+
+    first: PinionKeys
+    second: RingKeys
+    module: Annotated[float, mm("module, for a centre distance", least=0.01, most=1000)] = 1.0
+    pressure_angle_deg: Annotated[float, Meta(ge=5, le=45, description="pressure angle", extra={"unit": "degrees"})] = (
+        20.0
+    )
+    basic_rack: str | RackTable = "ISO 53 A"
+    working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
+    least_contact_ratio: Annotated[float, Meta(ge=0.5, le=3, description="contact ratio to keep")] = 1.1
+    least_tip_thickness: Annotated[float, in_modules("tip thickness to keep", least=0, most=1)] = 0.3
+    least_tip_clearance: Annotated[float, in_modules("bottom clearance to keep", least=0, most=1)] = 0.2
+    allow_undercut: Annotated[bool, Meta(description="undercut that stays below the active flank is legal")] = False
+    pole_inside: Annotated[bool, Meta(description="the pole must lie inside the active line of action")] = False
+    radial_assembly: Annotated[bool, Meta(description="the pinion must go into the ring radially")] = False
+    picture: Annotated[str, Meta(description="SVG or DXF file of the contour to write")] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """Shifts with the rule that gave them, in both languages."""
+
+    en: str
+    uk: str
+    found: Proposal
+
+
+def table_from(pair: dict[str, Any], table: dict[str, Any], source: str) -> dict[str, Any]:
+    """The keys of a scene's pair (pinion first) that matter here, changed by those of the command line."""
+    for name in ("first", "second"):
+        if angle := pair[name].get("helix_angle_deg"):
+            raise SceneError(source, "helix_angle_deg", angle, "shifts are chosen for spur gears only; 0 works")
+    known: dict[str, Any] = {k: pair["first"][k] for k in ("module", "pressure_angle_deg", "basic_rack")}
+    for name, kind in (("first", PinionKeys), ("second", RingKeys)):
+        own = {k: v for k, v in pair[name].items() if k in kind.__struct_fields__}
+        typed = table.pop(name, {})
+        if not isinstance(typed, dict):
+            raise SceneError(PLACE, f"{TOPIC}.{name}", typed, f"write {name}.number_of_teeth=…")
+        # one root goes when the other is typed
+        for one, other in (("cutter", "rounded_root"), ("rounded_root", "cutter")):
+            if one in typed and other not in typed:
+                own.pop(other, None)
+        known[name] = own | typed
+    return {"kind": KIND, **known, **table}
+
+
+def internal_sheet(table: dict[str, Any]) -> Sheet:
+    """The choices and the contour of a pinion in a ring."""
+    keys: InternalShiftKeys = checked(table, InternalShiftKeys, TOPIC)
+    checked_picture(TOPIC, keys.picture)
+    if isinstance(keys.basic_rack, str) and keys.basic_rack not in RACKS:
+        raise SceneError(PLACE, f"{TOPIC}.basic_rack", keys.basic_rack, f"must be one of {', '.join(RACKS)}")
+    teeth = keys.first.number_of_teeth, keys.second.number_of_teeth
+    if teeth[0] >= teeth[1]:
+        text = f"must be above the pinion's; at least {teeth[0] + 1} works"
+        raise SceneError(PLACE, f"{TOPIC}.second.number_of_teeth", teeth[1], text)
+    pair = shift_pair(keys)
+    wish = InternalRequirements(
+        keys.least_tip_thickness,
+        keys.least_contact_ratio,
+        keys.allow_undercut,
+        keys.pole_inside,
+        keys.least_tip_clearance,
+        keys.radial_assembly,
+    )
+    try:
+        return _page(keys, pair, wish)
+    except ParameterError as error:
+        raise refusal(TOPIC, error) from error
+
+
+def shift_pair(keys: InternalShiftKeys) -> InternalShiftPair:
+    """The pair of the keys, module 1.
+
+    Raises
+    ------
+    SceneError
+        A rack or cutter cannot exist, or the ring has two roots.
+    """
+    angle, owner = math.radians(keys.pressure_angle_deg), ""
+    try:
+        rack = basic_rack_of(keys.basic_rack, angle)  # type: ignore[arg-type]
+        owner = "first"
+        shaper = None if keys.first.cutter is None else checked_cutter(cutter_of(keys.first.cutter, 1.0, angle))
+        owner = "second"
+        root = _root_of(keys, angle)
+    except ParameterError as error:
+        raise refusal(TOPIC, error, owner) from error
+    ring = keys.second
+    return InternalShiftPair(
+        keys.first.number_of_teeth,
+        ring.number_of_teeth,
+        rack,
+        root,
+        ring.addendum_coefficient,
+        ring.tip_rule == "KHK",
+        shaper,
+    )
+
+
+def _root_of(keys: InternalShiftKeys, angle: float) -> PinionCutter | RoundedRoot:
+    """The ring's cutter or rounded root; where none is named, the cutter that a ring without shift gets."""
+    ring = keys.second
+    if (table := ring.rounded_root) is not None:
+        if ring.cutter is not None:
+            text = "give either cutter or rounded_root; remove one of them"
+            raise ParameterError("rounded_root.dedendum_coefficient", table.dedendum_coefficient, text)
+        return RoundedRoot(table.dedendum_coefficient, None if table.full_round else table.radius_coefficient)
+    if ring.cutter is not None:
+        cutter = checked_cutter(cutter_of(ring.cutter, 1.0, angle))
+        if cutter.number_of_teeth >= ring.number_of_teeth:
+            text = f"must be less than the ring's; at most {ring.number_of_teeth - 1}"
+            raise ParameterError("cutter.number_of_teeth", cutter.number_of_teeth, text)
+        return cutter
+    bare = RingGear(1.0, ring.number_of_teeth, angle, 1e9, PinionCutter(1.0, 25, angle), any_cutter=True)
+    made = with_default_cutter(bare).root
+    assert isinstance(made, PinionCutter)
+    return made
+
+
+def _page(keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequirements) -> Sheet:
+    page = Sheet(TOPIC, ("Choice of profile shifts, internal pair", "Вибір коефіцієнтів зміщення, внутрішня пара"))
+    wanted = _wanted_difference(keys, pair)
+    _given(page, keys, pair, wish)
+    choices = [*_own_choices(keys, pair, wish), *_found_choices(page, keys, pair, wish, wanted)]
+    for number, choice in enumerate(choices, 1):
+        _choice(page, pair, wish, choice, number)
+    found = window(pair)
+    if found is None:
+        page.notes.append(("no shifts give a pair that turns", "жодні зміщення не дають працездатної пари"))
+        return page
+    contour = internal_contour(pair, wish, found.box, _TOLERANCE)
+    marks = [(c.en, c.uk, (c.found.first, c.found.second)) for c in choices]
+    contour_pictures(page, contour, marks, keys.picture)
+    page.data["choices"] = [contour_data(c.en, "", c.found) for c in choices]
+    return page
+
+
+def _given(page: Sheet, keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequirements) -> None:
+    page.section("Given", "Вихідні дані")
+    page.both("number_of_teeth", pair.teeth)
+    page.add("gear_ratio", pair.gear_ratio, "{z2} / {z1}", "practicum (3.2)")
+    page.add("module", keys.module)
+    page.add("pressure_angle_deg", math.degrees(pair.rack.pressure_angle))
+    page.both("addendum_coefficient", (pair.rack.addendum, pair.ring_addendum))
+    page.add("tip_clearance_coefficient", pair.rack.tip_clearance)
+    page.add("tip_radius_coefficient", pair.rack.tip_radius)
+    if isinstance(pair.root, PinionCutter):
+        page.add("cutter_teeth", pair.root.number_of_teeth)
+        page.add("cutter_shift", pair.root.profile_shift_coefficient)
+        page.add("cutter_addendum", pair.root.addendum)
+        page.add("cutter_tip_rounding", pair.root.tip_rounding)
+        if keys.second.cutter is None:
+            page.notes.append(("nobody named the ring's cutter: that of a ring with x2 = 0 is taken",
+                               "довбач для вінця не задано: взято той, що для вінця з x2 = 0"))  # fmt: skip
+    page.add("required_contact_ratio", wish.contact_ratio, "", "practicum 1")
+    page.add("required_tip_thickness", wish.tip_thickness, "", "practicum (1.3)")
+    page.add("required_tip_clearance", wish.tip_clearance)
+    formula = "({h_a1} + {c} - {rho_f} * (1 - sin({alpha}))) - {z1} * sin({alpha})**2 / 2"
+    formula = formula if pair.pinion_cutter is None else ""
+    page.add("least_shift_without_undercut", least_pinion_shift(pair), formula, "ISO 21771", 1)
+
+
+def _own_choices(keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequirements) -> list[Choice]:
+    """The shifts that were typed, or none at all."""
+    shifts = keys.first.profile_shift_coefficient, keys.second.profile_shift_coefficient
+    en, uk = ("as given", "задані зміщення") if any(x is not None for x in shifts) else ("no shift", "без зміщення")
+    return [Choice(en, uk, proposal(pair, wish, shifts[0] or 0.0, shifts[1] or 0.0))]
+
+
+def _wanted_difference(keys: InternalShiftKeys, pair: InternalShiftPair) -> float | None:
+    """x2 - x1 that a wanted centre distance asks for; refused before anything is sought."""
+    if keys.working_centre_distance is None:
+        return None
+    pinion = SpurGear(keys.module, pair.first_teeth, pair.rack)
+    ring = RingGear(keys.module, pair.second_teeth, pair.rack.pressure_angle, 1e9, RoundedRoot())
+    return shift_difference(pinion, ring, keys.working_centre_distance)
+
+
+def _found_choices(
+    page: Sheet, keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequirements, wanted: float | None
+) -> list[Choice]:
+    """What the finder proposes inside the contour."""
+    wear, words = least_wear(pair, wish), ("least wear: equal sliding", "найменше стирання: однакове ковзання")
+    if wear is None:
+        wear, words = least_sliding(pair, wish), ("least sliding", "найменше ковзання")
+    proposals = [
+        (*words, wear),
+        ("greatest contact ratio", "найбільший коефіцієнт перекриття", greatest_contact_ratio(pair, wish)),
+    ]
+    if wanted is not None:
+        name = f"a_w = {keys.working_centre_distance:g} mm"
+        found = for_sum(pair, wish, wanted)
+        if found is None:
+            _nearest_distance(page, keys.module, pair, wish, wanted)
+        proposals.append((name, name.replace("mm", "мм"), found))
+        page.notes.append((f"a_w asks for x2 - x1 = {wanted:.4f}", f"a_w потребує x2 - x1 = {wanted:.4f}"))
+    result = []
+    for en, uk, found in proposals:
+        if found is not None:
+            result.append(Choice(en, uk, found))
+            continue
+        page.notes.append(
+            (
+                f"{en}: no shifts keep all requirements; less least_contact_ratio, least_tip_thickness or "
+                "least_tip_clearance, or a smaller addendum_coefficient may work",
+                f"{uk}: усіх умов не виконати; зменшіть least_contact_ratio, least_tip_thickness, "
+                "least_tip_clearance або addendum_coefficient",
+            )
+        )
+    return result
+
+
+def _nearest_distance(
+    page: Sheet, module: float, pair: InternalShiftPair, wish: InternalRequirements, wanted: float
+) -> None:
+    """The distance nearest to the wanted one that has legal shifts."""
+    nearest = nearest_sum(pair, wish, wanted)
+    if nearest is None:
+        return
+    distance = module * internal_state(pair, 0.0, nearest).working_centre_distance
+    text = at_most(distance, 4) if nearest < wanted else at_least(distance, 4)
+    less = nearest < wanted
+    page.notes.append((f"a_w: {'at most' if less else 'at least'} {text} mm works",
+                       f"a_w: підходить {'не більше' if less else 'не менше'} {text} мм"))  # fmt: skip
+
+
+def _choice(page: Sheet, pair: InternalShiftPair, wish: InternalRequirements, choice: Choice, number: int) -> None:
+    """One proposal and what it gives."""
+    found, module = choice.found, float(page.known["m"].value)
+    page.section(f"{number}. {choice.en}", f"{number}. {choice.uk}")
+    page.both("profile_shift_coefficient", (found.first, found.second))
+    state = internal_state(pair, found.first, found.second)
+    if not state.involute >= 0:
+        page.notes.append((f"{number}: no working angle", f"{number}: кута зачеплення немає"))
+        return
+    formula = "2 * ({x2} - {x1}) * tan({alpha}) / ({z2} - {z1}) + inv({alpha})"
+    page.add("involute_of_working_pressure_angle", state.involute, formula, "GOST 19274")
+    angle = math.degrees(state.working_pressure_angle)
+    page.add("working_pressure_angle_deg", angle, "arcinv({inv_alpha_w})", "GOST 19274")
+    formula = "{m} * ({z2} - {z1}) / 2 * cos({alpha}) / cos({alpha_w})"
+    page.add("working_centre_distance", state.working_centre_distance * module, formula, "GOST 19274")
+    iso = ("ISO 21771", "ISO 21771")
+    if math.isfinite(state.contact_ratio):
+        page.add("contact_ratio", state.contact_ratio, "", "GOST 19274")
+        page.both("root_sliding", found.root_sliding, "", iso)
+    for name, pairs in (("tip_thickness", state.tip_thicknesses), ("tip_clearance", state.tip_clearances)):
+        if all(math.isfinite(v) for v in pairs):
+            page.both(name, (pairs[0] * module, pairs[1] * module), "", iso)
+    _broken(page, pair, wish, choice, number)
+
+
+def _broken(page: Sheet, pair: InternalShiftPair, wish: InternalRequirements, choice: Choice, number: int) -> None:
+    """What a choice breaks, and whether the pinion goes in radially."""
+    from exporters.contour_picture import line_name
+
+    x1, x2 = choice.found.first, choice.found.second
+    found = {m.name: m for m in margins(pair, replace(wish, radial_assembly=True), x1, x2)}
+    if not wish.radial_assembly and not found.pop("radial_assembly").margin >= -1e-9:
+        page.notes.append((f"{number}: the pinion goes into the ring along its axis only",
+                           f"{number}: шестерню можна вставити у вінець лише вздовж осі"))  # fmt: skip
+    broken = [m for m in found.values() if not m.margin >= -1e-9]
+    if not broken:
+        return
+    texts = [
+        ", ".join(line_name(m.name, k) + ("" if math.isnan(m.margin) else f" ({m.margin:.4g})") for m in broken)
+        for k in ("en", "uk")
+    ]
+    page.notes.append((f"{number}: outside the contour: {texts[0]}", f"{number}: поза контуром: {texts[1]}"))

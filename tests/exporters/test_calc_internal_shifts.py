@@ -1,0 +1,263 @@
+"""``higherpair calc shift-choice`` of internal pairs: formulas, languages, pictures read back, refusals that mend."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import ezdxf
+import pytest
+
+from exporters.calculations import internal_shift_choice, shift_choice, topics
+from exporters.calculations.contour_files import checked_picture, contour_pictures
+from exporters.calculations.inputs import checked, table_of
+from exporters.calculations.internal_shift_choice import InternalShiftKeys, shift_pair
+from exporters.calculations.render import FORMATS, render
+from exporters.calculations.sheet import Sheet
+from exporters.calculations.topics import calculate
+from exporters.contour_dxf import SCALE, write_contour_dxf
+from exporters.contour_picture import contour_svg, line_name, tool_texts
+from geometry.gears.basic_rack import iso_53
+from geometry.gears.cutter import PinionCutter
+from geometry.gears.internal_contour import InternalRequirements, conditions, internal_contour, window
+from geometry.gears.internal_pair import internal_pair
+from geometry.gears.internal_shifts import InternalShiftPair
+from geometry.gears.ring import RoundedRoot
+from geometry.gears.shift_finder import for_sum
+from parts.scene import load_scene
+from parts.schema import SceneError
+
+from .making import run
+from .test_calc import evaluated, sheet_for, values_of
+from .test_cli import complaint
+
+GIVEN = "kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=60"
+WORDS = f"shift-choice {GIVEN} working_centre_distance=40.5 second.cutter.number_of_teeth=25"
+SCENE = """
+[parts.ring]
+kind = "ring_gear"
+module = 2.0
+number_of_teeth = 60
+profile_shift_coefficient = 0.3
+tip_rule = "KHK"
+cutter.number_of_teeth = 20
+[parts.pinion]
+kind = "spur_gear"
+module = 2.0
+number_of_teeth = 24
+profile_shift_coefficient = 0.1
+[[mates]]
+kind = "internal_gear_pair"
+first = "ring"
+second = "pinion"
+"""
+
+
+def test_every_printed_formula_gives_its_value() -> None:
+    checked = [step for step in sheet_for(WORDS).steps() if step.formula]
+    assert len(checked) >= 12
+    for step in checked:
+        assert evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), (step.name, step.formula)
+    assert any(abs(evaluated(step, 1e-3) - float(step.value)) > 1e-6 for step in checked)
+
+
+def test_choices_are_those_of_built_pairs() -> None:
+    data = values_of(WORDS)
+    choices = data["choices"]
+    assert [c["name"] for c in choices] == [
+        "no shift", "least wear: equal sliding", "greatest contact ratio", "a_w = 40.5 mm",
+    ]  # fmt: skip
+    alpha = iso_53().pressure_angle
+    pair = InternalShiftPair(20, 60, iso_53(), PinionCutter(1.0, 25, alpha))
+    for choice in choices:
+        x1, x2 = (choice["profile_shift_coefficient"][name] for name in ("first", "second"))
+        made = internal_pair(pair.pinion(x1), pair.ring(x2))
+        assert choice["contact_ratio"] == pytest.approx(made.contact_ratio, rel=1e-9)
+        if choice["name"].startswith("a_w"):
+            assert 2 * made.working_centre_distance == pytest.approx(40.5, rel=1e-12)
+        if "equal" in choice["name"]:
+            assert choice["root_sliding"]["first"] == pytest.approx(choice["root_sliding"]["second"], rel=1e-6)
+    names = {line["name"] for line in data["blocking_contour"]}
+    assert names >= {"working_angle", "undercut_first", "contact_ratio", "equal_sliding", "cutter_radial_assembly"}
+
+
+@pytest.mark.parametrize("language", ["en", "uk"])
+def test_every_form_and_language(language: str) -> None:
+    for form in FORMATS:
+        assert len(render(sheet_for(WORDS), form, language)) > 1000
+    for note in sheet_for(WORDS).notes:
+        assert not re.search(r"[а-яіїєґ]{2}", note[0])
+    text = render(sheet_for(WORDS), "text", language)
+    assert ("внутрішня пара" if language == "uk" else "internal pair") in text
+    assert text.count("#") > 100
+
+
+@pytest.fixture(scope="module")
+def contour() -> Any:
+    pair = InternalShiftPair(30, 44, iso_53(), PinionCutter(1.0, 20, iso_53().pressure_angle))
+    found = window(pair)
+    assert found is not None
+    return internal_contour(pair, InternalRequirements(), replace(found.box, cells=16), 1e-2)
+
+
+def test_every_line_has_a_style_and_words() -> None:
+    alpha = iso_53().pressure_angle
+    shaper = PinionCutter(1.0, 20, alpha)
+    for root in (shaper, RoundedRoot()):
+        pair = InternalShiftPair(14, 60, iso_53(), root, pinion_cutter=shaper)
+        names = {c.name for c in conditions(pair).values()}
+        for name in (*names, "undercut_to_active_flank_first", "fillet_interference_first"):
+            assert line_name(name, "en").isprintable()
+            assert not re.search(r"[а-яіїєґ]{2}", line_name(name, "en"))
+        texts = [tool_texts(pair, language) for language in ("en", "uk")]
+        assert len(texts[0]) == len(texts[1]) == 4
+        assert "k_2" in texts[0][1]
+
+
+def test_the_drawing_has_the_lines_of_the_contour(contour: Any, tmp_path: Path) -> None:
+    """Read back by ezdxf: each vertex of each line's layer keeps the condition at 0."""
+    file = tmp_path / "contour.dxf"
+    marks = {"1: here": (0.1, 0.2)}
+    counts = write_contour_dxf(file, contour, marks, "uk")
+    drawing = ezdxf.readfile(file)
+    assert not drawing.audit().errors
+    space = drawing.modelspace()
+    lines = [e for e in space.query("LWPOLYLINE") if e.dxf.layer not in ("AXES", "REGION")]
+    assert len(lines) == len(contour.lines)
+    assert counts["LWPOLYLINE"] == len(lines) + len(contour.region) + 1
+    known = {n.upper().replace(" ", "_"): c for n, c in conditions(contour.pair).items()}
+    checked = 0
+    for entity in lines:
+        name = entity.dxf.layer.replace("FILLET_INTERFERENCE_FIRST", "ACTIVE_FLANK_FIRST")
+        name = name.replace("UNDERCUT_TO_", "")
+        for x, y, *_ in list(entity.get_points())[1:-1]:
+            assert abs(known[name].margin(x / SCALE, y / SCALE)) < 1e-6, name
+            checked += 1
+    assert checked > 100
+    circle = space.query("CIRCLE").first
+    assert (circle.dxf.center.x, circle.dxf.center.y) == pytest.approx((10, 20))
+    texts = " ".join(e.dxf.text for e in space.query("TEXT"))
+    assert "довбач вінця: z_0 = 20" in texts
+    assert "інтерференція" in texts
+    # the same bytes every time
+    first = file.read_bytes()
+    write_contour_dxf(file, contour, marks, "uk")
+    assert file.read_bytes() == first
+
+
+def test_the_picture_has_a_line_and_a_key_for_each_condition(contour: Any) -> None:
+    text = contour_svg(contour, {"1: here": (0.1, 0.2)}, "uk")
+    assert text.count("<polyline") == len(contour.lines)
+    for name in {line.name for line in contour.lines}:
+        assert line_name(name, "uk").split(":")[0] in text
+
+
+def test_pictures_are_written_by_their_ending(contour: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, start in (("c.svg", "<svg"), ("c.DXF", "  0\nSECTION")):
+        page = Sheet("shift-choice", ("contour", "контур"))
+        contour_pictures(page, contour, [("here", "тут", (0.1, 0.2))], str(tmp_path / name))
+        monkeypatch.setattr(topics, "sheet_of", lambda _topic, _words, page=page: (page, "uk"))
+        calculate("shift-choice", [], "text", "uk")
+        text = (tmp_path / name).read_text(encoding="utf-8")
+        assert text.startswith(start)
+        assert "1: тут" in text
+
+
+@pytest.mark.parametrize("name", ["contour.txt", "contour", "contour.svg.gz", ".txt", "no_such_folder/contour.svg"])
+def test_other_endings_are_refused_with_one_that_works(name: str) -> None:
+    with pytest.raises(SceneError) as caught:
+        checked_picture("shift-choice", name)
+    works = re.search(r"(\S+) works", str(caught.value))
+    assert works
+    checked_picture("shift-choice", works[1])
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("kind", [GIVEN, "first.number_of_teeth=13 second.number_of_teeth=21"])
+def test_both_kinds_of_pairs_refuse_a_text_file(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert "contour.svg works" in complaint(capsys, "calc", "shift-choice", *kind.split(), "picture=contour.txt")
+
+
+def test_a_scene_gives_pair_cutter_and_shifts(tmp_path: Path) -> None:
+    file = tmp_path / "pair.toml"
+    file.write_text(SCENE, encoding="utf-8")
+    scene = load_scene(str(file))
+    for typed, teeth, cutter in (
+        ({}, 24, 20),
+        ({"second.cutter.number_of_teeth": 30, "first.number_of_teeth": 22}, 22, 30),
+    ):
+        table = shift_choice.table_from(scene, str(file), table_of([f"{k}={v}" for k, v in typed.items()]))
+        assert table.pop("kind") == "internal_gear_pair"
+        keys = checked(table, InternalShiftKeys, "shift-choice")
+        pair = shift_pair(keys)
+        assert pair.teeth == (teeth, 60)
+        assert pair.plain_tip
+        assert isinstance(pair.root, PinionCutter)
+        assert pair.root.number_of_teeth == cutter
+        assert (keys.first.profile_shift_coefficient, keys.second.profile_shift_coefficient) == (0.1, 0.3)
+
+
+@pytest.mark.parametrize(("wanted", "word"), [("38", "at least"), ("45", "at most")])
+def test_the_nearest_distance_that_works_is_named_and_works(wanted: str, word: str) -> None:
+    words = WORDS.replace("40.5", wanted).replace("shift-choice ", "").split()
+    table = table_of(words)
+    table.pop("kind")
+    keys = checked(table, InternalShiftKeys, "shift-choice")
+    pair, page = shift_pair(keys), Sheet("shift-choice", ("", ""))
+    found = internal_shift_choice._wanted_difference(keys, pair)
+    assert found is not None
+    assert for_sum(pair, InternalRequirements(), found) is None
+    internal_shift_choice._nearest_distance(page, keys.module, pair, InternalRequirements(), found)
+    match = re.search(rf"{word} ([\d.]+) mm works", page.notes[0][0])
+    assert match
+    again = checked(table | {"working_centre_distance": float(match[1])}, InternalShiftKeys, "shift-choice")
+    total = internal_shift_choice._wanted_difference(again, pair)
+    assert total is not None
+    assert for_sum(pair, InternalRequirements(), total) is not None
+    # and is the nearest but for its last digits
+    farther = float(match[1]) + (2e-4 if word == "at most" else -2e-4)
+    again = checked(table | {"working_centre_distance": farther}, InternalShiftKeys, "shift-choice")
+    total = internal_shift_choice._wanted_difference(again, pair)
+    assert total is not None
+    assert for_sum(pair, InternalRequirements(), total) is None
+
+
+@pytest.mark.heavy
+def test_the_pair_of_the_power_module(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "contour.svg"
+    assert run("calc", "shift-choice", "thesis_internal_pair", f"picture={file.as_posix()}") == 0
+    text = capsys.readouterr().out
+    assert "as given" in text
+    assert "outside the contour" not in text
+    assert file.read_text(encoding="utf-8").startswith("<svg")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        ("kind=internal_gear_pair first.number_of_teeth=20", "second: is missing"),
+        (f"{GIVEN} kind2=1", "unknown key"),
+        ("kind=internal_gear first.number_of_teeth=20", "did you mean internal_gear_pair"),
+        (f"{GIVEN} least_tip_clearence=0.1", "did you mean least_tip_clearance"),
+        (f"{GIVEN} basic_rack=ISO", "ISO 53 A"),
+        ("kind=internal_gear_pair first.number_of_teeth=60 second.number_of_teeth=60", "at least 61 works"),
+        (f"{GIVEN} second.cutter.number_of_teeth=60", "at most 59"),
+        (f"{GIVEN} second.cutter.number_of_teeth=20 second.rounded_root.full_round=true", "remove one"),
+        (f"{GIVEN} second.cutter.number_of_teeth=20 second.cutter.tip_rounding_coefficient=2", "second.cutter.tip_r"),
+        (f"{GIVEN} working_centre_distance=10", "works"),
+        (f"{GIVEN} second.tip_rule=DIN", "tip_rule"),
+        (f"{GIVEN} second=60", "second"),
+        ("rack_and_pinion", "external and internal pairs only"),
+        ("thesis_internal_pair second=3", "second.number_of_teeth"),
+    ],
+)
+def test_wrong_input_gets_one_clear_line(arguments: str, expected: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert expected in complaint(capsys, "calc", "shift-choice", *arguments.split())
+
+
+def test_a_helical_pair_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "pair.toml"
+    file.write_text(SCENE.replace("module = 2.0\n", "module = 2.0\nhelix_angle_deg = 10.0\n"), encoding="utf-8")
+    assert "spur gears only" in complaint(capsys, "calc", "shift-choice", file)

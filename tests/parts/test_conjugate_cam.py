@@ -1,0 +1,153 @@
+"""Conjugate cams: both rollers touch at once, files rolled in the frame of the shaft, a turned file, refusals."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+from pathlib import Path
+
+import ezdxf
+import numpy as np
+import pytest
+
+from exporters.recheck import recheck
+from geometry.measure import distance_to_profile
+from parts.part import Part
+from parts.schema import SceneError
+from tests.exporters.making import read_report, run
+
+from .positive_scenes import PHASES, ROLLER, SWING, Keys, parts_of, scene, without
+
+FIRST: dict[str, Keys] = {
+    "translating": ROLLER | {"follower_offset": 5.0},
+    "against": ROLLER | {"lift": 0.0, "swing_deg": 18.0, "oscillating": SWING},
+    "with": ROLLER | {"lift": 0.0, "swing_deg": 18.0, "oscillating": SWING | {"sense": "with"}},
+}
+SECOND: Keys = {"kind": "conjugate_cam", "of": "cam", "follower_radius": 9.0}
+
+
+def pair(name: str, **second: object) -> tuple[Part, Part]:
+    made = parts_of({"cam": FIRST[name], "two": SECOND | second})
+    return made["cam"], made["two"]
+
+
+def second_centres(first: Part, two: Part, angle: np.ndarray) -> np.ndarray:
+    """The second roller's centres on the follower that the first one's law moves; the second cam is not asked."""
+    assert first.cam is not None
+    centre = first.cam.reference_point(angle)
+    if "roller_distance" in two.quantities:
+        return np.asarray(centre - 1j * two.quantities["roller_distance"])
+    mount = first.cam.mount
+    turn = cmath.exp(-1j * mount.sense * math.radians(two.quantities["roller_angle_deg"]))  # type: ignore[union-attr]
+    pivot = mount.centre_distance  # type: ignore[union-attr]
+    return np.asarray(pivot + (centre - pivot) * turn)
+
+
+@pytest.mark.parametrize("name", FIRST)
+def test_both_rollers_touch_at_every_angle(name: str) -> None:
+    """Breadth over a full turn: neither lifts off nor cuts in by 1e-9 mm, on the section as it sits on the shaft."""
+    first, two = pair(name)
+    angle = np.linspace(0, 2 * math.pi, 361)
+    gap = distance_to_profile(second_centres(first, two, angle) * np.exp(-1j * angle), two.section(0.0).region.outer)
+    assert np.abs(gap - 9.0).max() < 1e-9
+    assert first.cam is not None
+    other = first.cam.reference_point(angle) * np.exp(-1j * angle)
+    assert np.abs(distance_to_profile(other, first.section(0.0).region.outer) - 8.0).max() < 1e-9
+    # a second cam turned on the shaft by a hundredth of a degree does not
+    turned = second_centres(first, two, angle) * np.exp(-1j * (angle + math.radians(0.01)))
+    assert np.abs(distance_to_profile(turned, two.section(0.0).region.outer) - 9.0).max() > 1e-3
+
+
+@pytest.mark.parametrize("name", FIRST)
+def test_files_are_rolled_as_they_sit_on_the_shaft(name: str, tmp_path: Path) -> None:
+    file = tmp_path / "s.toml"
+    drawing = 'format = "dxf"\npurpose = "drawing"'
+    file.write_text(scene({"cam": FIRST[name], "two": SECOND}, "dxf", "stl", drawing), encoding="utf-8")
+    assert run("build", file, "--out", tmp_path / "o") == 0
+    folder = tmp_path / "o" / "s"
+    key = "lift_error" if name == "translating" else "swing_error_deg"
+    for entry in read_report(folder)["files"]:
+        assert 0 < entry["measured"][key] < 3 * entry["tolerance"]
+    path = folder / "two.laser.dxf"
+    assert not recheck(path).verdict.failures
+    drawing_file = ezdxf.readfile(path)
+    outline = next(e for e in drawing_file.modelspace() if e.dxf.layer == "CUT_OUTER")
+    outline.transform(ezdxf.math.Matrix44.z_rotate(0.002))
+    drawing_file.saveas(path)
+    assert recheck(path).verdict.failures
+    part = pair(name)[1]
+    from exporters.reroll import reroll
+    from exporters.verify import Verdict
+
+    verdict, _ = reroll(path, "dxf", part, 0.0, 0.005, Verdict({}, ()))
+    assert any("lift is wrong" in f for f in verdict.failures)
+
+
+def test_one_shaft_goes_through_both() -> None:
+    bore = {"shape": "keyway", "diameter": 14.0}
+    parts = {"cam": without(FIRST["against"], "bore_diameter") | {"bore": bore}, "two": SECOND}
+    made = parts_of(parts)
+    one, two = (made[p].section(0.0).region.holes[0] for p in ("cam", "two"))
+    points = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 9)) for s in one.segments()])
+    assert distance_to_profile(points, two).max() < 1e-12
+    # by default the second cam is as large as the first
+    assert made["two"].circles["base_circle_diameter"] == pytest.approx(70.0, abs=1e-9)
+
+
+@pytest.mark.parametrize(("name", "key"), [("translating", "roller_distance"), ("with", "roller_angle_deg")])
+def test_the_distance_of_the_rollers_or_the_base_circle(name: str, key: str) -> None:
+    plain = pair(name, base_circle_radius=33.0)[1]
+    again = pair(name, **{key: plain.quantities[key]})[1]
+    assert again.circles["base_circle_diameter"] == pytest.approx(66.0, abs=1e-9)
+
+
+WRONG: dict[str, tuple[str, Keys, str, str]] = {
+    "near rollers": ("translating", {"roller_distance": 60.0}, "roller_distance", "works"),
+    "narrow arms": ("against", {"roller_angle_deg": 20.0}, "roller_angle_deg", "works"),
+    "angle of a stem": ("translating", {"roller_angle_deg": 20.0}, "roller_angle_deg", "roller_distance instead"),
+    "arm of a stem": ("translating", {"arm_length": 20.0}, "arm_length", "remove"),
+    "both": ("translating", {"roller_distance": 150.0, "base_circle_radius": 30.0}, "base_circle_radius", "remove"),
+    "short arm": ("against", {"arm_length": 20.0}, "arm_length", "must be"),
+    "unknown": ("against", {"of": "cma"}, "of", "cam works"),
+    "itself": ("against", {"of": "two"}, "of", "cam works"),
+    "wide bore": ("against", {"bore_diameter": 90.0}, "bore_diameter", "below 70"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_wrong_keys_are_refused_in_the_users_terms(name: str) -> None:
+    first, keys, blamed, words = WRONG[name]
+    with pytest.raises(SceneError) as caught:
+        pair(first, **keys)
+    message = str(caught.value)
+    assert f"parts.two.{blamed}" in message
+    assert words in message
+    assert "\n" not in message
+
+
+def test_offered_distances_work() -> None:
+    for name, key, bad in (("translating", "roller_distance", 60.0), ("against", "roller_angle_deg", 20.0)):
+        with pytest.raises(SceneError) as caught:
+            pair(name, **{key: bad})
+        found = re.search(r"; ([\d.]+) \w+ works", str(caught.value))
+        assert found, caught.value
+        pair(name, **{key: float(found.group(1))})
+
+
+def test_a_flat_first_cam_and_an_undercut_second_one_are_refused() -> None:
+    flat = without(ROLLER, "follower_radius") | {"follower": "flat", "base_circle_radius": 42.0}
+    with pytest.raises(SceneError, match="needs a roller"):
+        parts_of({"cam": flat, "two": SECOND})
+    steep = [
+        PHASES[0] | {"angle_deg": 60.0},
+        PHASES[1],
+        PHASES[2] | {"angle_deg": 60.0},
+        PHASES[3] | {"angle_deg": 200},
+    ]
+    keys = {"cam": ROLLER | {"phases": steep}, "two": SECOND | {"base_circle_radius": 14.0, "follower_radius": 30.0}}
+    with pytest.raises(SceneError, match="second cam is undercut") as caught:
+        parts_of(keys)
+    found = re.search(r"at least ([\d.]+) mm works", str(caught.value))
+    assert found, caught.value
+    parts_of({"cam": keys["cam"], "two": keys["two"] | {"base_circle_radius": float(found.group(1))}})
