@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
+from msgspec.structs import replace
+
 from exporters.assembly import AssemblyJob, assembly_name
 from exporters.job import Job
 from geometry.errors import GeometryError, ParameterError, at_least, at_most
@@ -68,12 +70,12 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
     sheets: list[SheetJob] = []
     taken = {f"{part}.preview.svg".lower(): "the preview of the part" for part in parts}
     for where, export in exports:
-        if only_parts and (export.assembly or export.format == "sheet"):
+        if only_parts and (export.assembly or (export.format == "sheet" and export.purpose != "cam")):
             what = "an assembly of all its parts" if export.assembly else "a sheet of several parts"
             left_out.append((where, f"{what} was not asked for"))
             continue
         if export.format == "sheet":
-            sheets += _sheets(scene, matings, export, where, source, taken)
+            sheets += _sheets(scene, matings, _of_cams(export, parts, only_parts), where, source, taken)
             continue
         made = []
         for part_id in export.parts or list(parts):
@@ -95,9 +97,18 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
     return Plan(source, scene, parts, placing, tuple(jobs), tuple(assemblies), tuple(left_out), tuple(sheets))
 
 
+def _of_cams(export: ExportSpec, parts: dict[str, Part], only_parts: list[str]) -> ExportSpec:
+    """The export of the cams that were asked for by name: theirs is the one sheet of a single part."""
+    if not only_parts:
+        return export
+    return replace(export, parts=[p for p in export.parts or parts if p in only_parts and parts[p].kind == "cam"])
+
+
 def _sheets(
     scene: SceneFile, matings: list[Mating], export: ExportSpec, where: str, source: str, taken: dict[str, str]
 ) -> list[SheetJob]:
+    if export.parts == []:
+        return []
     from exporters.sheets.job import sheet_jobs
 
     found = sheet_jobs(scene, matings, export, where, source)

@@ -18,6 +18,7 @@ from exporters.verify import Verdict
 from geometry.errors import ParameterError
 from geometry.gears.limits import practicum_undercut
 from geometry.gears.meshing_picture import MeshingPicture, meshing_picture
+from parts.cam import CamSpec
 from parts.mate_kinds import Mating
 from parts.scene import ExportSpec, SceneFile
 from parts.schema import SceneError
@@ -77,7 +78,9 @@ def sheet_jobs(scene: SceneFile, matings: list[Mating], export: ExportSpec, wher
         made = cam_sheets(scene, export, where, source)
         return [SheetJob(export, x, f"{name}.{part}.{ending}", where) for part, x in made for ending in ENDINGS]
     if all(m.pair is None for m in matings):
-        raise SceneError(source, f"{where}.purpose", export.purpose, "shows pairs; add [[mates]] or remove it")
+        has_cam = any(isinstance(spec, CamSpec) for spec in scene.parts.values())
+        remedy = 'purpose = "cam" draws the cams that are here' if has_cam else "add [[mates]] or remove it"
+        raise SceneError(source, f"{where}.purpose", export.purpose, f"shows pairs; {remedy}")
     if export.mate is not None and not 1 <= export.mate <= len(matings):
         raise SceneError(source, f"{where}.mate", export.mate, f"must be from 1 to {len(matings)}, the number of mates")
     jobs = []

@@ -308,6 +308,11 @@ def test_refusals_name_the_key_and_what_works() -> None:
     with pytest.raises(SceneError, match="intervals") as caught:
         plan_build(cam_scene(ROCKER, intervals=72), "t", [], [])
     assert re.search(r"at most \d+ works", str(caught.value))
+    scene = cam_scene(ROCKER)
+    assert [j.path for j in plan_build(scene, "t", ["rocker"], []).sheets] == ["t.cam.rocker.dxf", "t.cam.rocker.svg"]
+    scene.exports[0].purpose = "meshing"
+    with pytest.raises(SceneError, match='purpose = "cam" draws the cams'):
+        plan_build(scene, "t", [], [])
     gear = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20}
     with pytest.raises(SceneError, match="shows cams"):
         plan_build(cam_scene(gear), "t", [], [])
