@@ -139,6 +139,26 @@ def test_closed_forms_agree_with_built_pairs() -> None:
     assert {(name, sign) for name in both for sign in (True, False)} <= kinds
 
 
+def test_internal_pair_of_khk() -> None:
+    """m 3, 16/24, x2 = 0.516: inv alpha_w 0.0618565, alpha_w 31.3209 deg, a 13.2000, d_a2 69.096."""
+    pair = InternalShiftPair(16, 24, iso_53(), RoundedRoot(), plain_tip=True)
+    state = internal_state(pair, 0.0, 0.516)
+    assert state.involute == pytest.approx(0.0618565, abs=5e-8)
+    assert math.degrees(state.working_pressure_angle) == pytest.approx(31.3209, abs=5e-5)
+    assert 3 * state.working_centre_distance == pytest.approx(13.2, abs=5e-5)
+    assert 6 * state.ring.tip_radius == pytest.approx(69.096, abs=5e-4)
+
+
+@pytest.mark.parametrize(("teeth", "tips", "radial", "least"), [(40, 9, 17, 24), (60, 9, 17, 21), (80, 8, 16, 20)])
+def test_published_least_differences_of_teeth(teeth: int, tips: int, radial: int, least: int) -> None:
+    """x = 0, full addenda, 20 degrees: by brute force of others."""
+    found = {d: interferences(InternalShiftPair(teeth - d, teeth, iso_53(), RoundedRoot(), plain_tip=True), 0.0, 0.0)
+             for d in range(1, teeth - 5)}  # fmt: skip
+    assert next(d for d, m in found.items() if m[1] >= 0) == tips
+    assert next(d for d, m in found.items() if m[2] >= 0) == radial
+    assert min(teeth - d for d, m in found.items() if m[0] >= 0) == least
+
+
 def contour_of(
     pair: InternalShiftPair, wish: InternalRequirements = WISH, names: list[str] | None = None
 ) -> BlockingContour:
