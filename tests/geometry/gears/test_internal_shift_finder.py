@@ -21,7 +21,7 @@ from .test_internal_contour import ALPHA, CLOSE, NEAR, PAIR, ROUND, WISH, built,
 
 
 @pytest.mark.parametrize(("pair", "wish"), [
-    (PAIR, WISH), (ROUND, replace(WISH, tip_clearance=0.0)),
+    (PAIR, WISH), pytest.param(ROUND, replace(WISH, tip_clearance=0.0), marks=pytest.mark.heavy),
     pytest.param(CLOSE, replace(WISH, radial_assembly=True), marks=pytest.mark.heavy),
 ], ids=["20/60", "16/24", "40/50"])  # fmt: skip
 def test_proposals_beat_random_legal_shifts(pair: InternalShiftPair, wish: InternalRequirements) -> None:
@@ -48,6 +48,7 @@ def test_proposals_beat_random_legal_shifts(pair: InternalShiftPair, wish: Inter
     assert legal > 60
 
 
+@pytest.mark.heavy
 def test_proposals_have_contact_of_exact_outlines() -> None:
     for pair, find in ((CLOSE, greatest_contact_ratio), (NEAR, least_sliding)):
         found = find(pair, WISH)
