@@ -260,7 +260,7 @@ def internal_contour(
     beyond = (sheared.right - sheared.left + sheared.top - sheared.bottom) / sheared.cells
 
     def within(x1: float, x2: float) -> bool:
-        return box.left - beyond <= x1 <= box.right + beyond and bottom <= x2 <= box.top
+        return box.left - beyond <= x1 <= box.right + beyond and bottom <= x2 <= box.top + 1e-9
 
     def field(condition: Condition) -> Condition:
         margin = condition.margin
