@@ -118,7 +118,10 @@ def swept(cam: WedgeCam, outline: np.ndarray, travel: float) -> float:
     return float((np.angle(down) + np.arccos(cosine[near])).max()) - cam.mount.start_angle
 
 
-@pytest.mark.parametrize("name", ["roller", "trailing", "leading"])
+@pytest.mark.parametrize(
+    "name",
+    ["trailing", pytest.param("roller", marks=pytest.mark.heavy), pytest.param("leading", marks=pytest.mark.heavy)],
+)
 def test_the_follower_rolled_over_the_file_agrees_with_a_sweep(name: str, tmp_path: Path) -> None:
     file = tmp_path / "s.toml"
     file.write_text(scene({"cam": CAMS[name]}, "dxf", "stl", 'format = "dxf"\npurpose = "drawing"'), encoding="utf-8")
