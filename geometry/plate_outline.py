@@ -89,19 +89,16 @@ class PlateOutline:
             works, fails = 0.0, offset
             for _ in range(_BISECTIONS):
                 middle = (works + fails) / 2
-                works, fails = (middle, fails) if self._exists(middle) else (works, middle)
+                works, fails = (middle, fails) if self.exists(middle) else (works, middle)
             reason = refusal.reason if isinstance(refusal, OffsetError) else str(refusal)
             raise OffsetError(offset, reason, works * (1 - 1e-6)) from refusal
 
-    def check_holes(self, holes: str, slots: str) -> None:
-        """Refuse holes that touch each other or the edge; ``holes``, ``slots``: names of their lists."""
-        numbers = {PlateHole: 0, PlateSlot: 0}
+    def check_holes(self, keys: Sequence[str]) -> None:
+        """Refuse holes that touch each other or the edge; ``keys`` name the size of each."""
         for count, hole in enumerate(self.holes, 1):
-            numbers[type(hole)] += 1
-            if PlateOutline(self.edges, self.holes[:count])._exists(0.0):
-                continue
-            key, size = (holes, "diameter") if isinstance(hole, PlateHole) else (slots, "width")
-            raise ParameterError(f"{key}.item {numbers[type(hole)]}.{size}", getattr(hole, size), self._room(count))
+            if not PlateOutline(self.edges, self.holes[:count]).exists():
+                size = hole.diameter if isinstance(hole, PlateHole) else hole.width
+                raise ParameterError(keys[count - 1], size, self._room(count))
 
     def _room(self, count: int) -> str:
         """What size of the last of so many holes still fits, in words."""
@@ -110,7 +107,7 @@ class PlateOutline:
 
         def fits(value: float) -> bool:
             smaller = replace(hole, diameter=value) if isinstance(hole, PlateHole) else replace(hole, width=value)
-            return PlateOutline(self.edges, (*self.holes[: count - 1], smaller))._exists(0.0)
+            return PlateOutline(self.edges, (*self.holes[: count - 1], smaller)).exists()
 
         works, fails = 0.0, float(getattr(hole, size))
         for _ in range(_BISECTIONS):
@@ -120,7 +117,8 @@ class PlateOutline:
             return "lies outside of the part or in another hole; move it inside"
         return f"reaches the edge or another hole; at most {at_most(works * (1 - 1e-3), 4)} mm works"
 
-    def _exists(self, offset: float) -> bool:
+    def exists(self, offset: float = 0.0) -> bool:
+        """Whether there is such a section."""
         try:
             self._region(offset)
         except GeometryError:

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar
 
 from msgspec import Meta, Struct
 
-from geometry.errors import ParameterError, at_least, at_most
+from geometry.errors import GeometryError, ParameterError, at_least, at_most
 from parts.hole_keys import BoreTable, RoundBoreTable, hub_holes
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, mm
 from parts.materials import density_of
 from parts.part import Part
-from parts.plate import FlatKeys, HoleAtTable, checked_outline, flat_part
+from parts.plate import FlatKeys, checked_outline, flat_part
 from parts.wheel_keys import FaceChamfer, FaceChamferTable, HubTable, wheel_shape
 
 if TYPE_CHECKING:
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from geometry.profile import Profile
 
 _MOST = 100_000.0
+_BISECTIONS, _LEAST = 40, 1e-3
 EndName = Literal["pointed", "roller", "mushroom", "flat"]
 End = Annotated[EndName, Meta(description="what touches the cam; a roller is a part of its own")]
 Tip = Annotated[float, Meta(ge=5, le=170, description="angle of a pointed tip", extra={"unit": "degrees"})]
@@ -65,6 +67,9 @@ class FollowerArmSpec(FlatKeys, forbid_unknown_fields=True, tag_field="kind", ta
     pin_diameter: Pin = 0.0
 
 
+AnyFollower = TypeVar("AnyFollower", FollowerSpec, FollowerArmSpec)
+
+
 class RollerSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="roller"):
     """Roller of a cam follower."""
 
@@ -87,55 +92,112 @@ def checked_follower(spec: FollowerSpec) -> FollowerEnd:
     ParameterError
         Sizes that do not fit, or keys that this end has no use for.
     """
-    from geometry.cams import follower_shape as shape
     from geometry.cams.disk import FollowerKind
+    from geometry.cams.follower_shape import FollowerEnd
 
     _check_end(spec, {"plate_diameter": ("flat", "mushroom"), "corner_radius": ("flat", "mushroom")})
+    if spec.end in ("flat", "mushroom") and spec.plate_diameter == 0:
+        text = f"a {spec.end} follower has a plate; {2 * spec.stem_width:.6g} mm works"
+        raise ParameterError("plate_diameter", 0.0, text)
+    _check_pin(spec.pin_diameter, spec.stem_width)
+    edges = _whole(spec, _stem_edges, ("corner_radius", "plate_thickness"))
+    outline = checked_outline(edges, spec, [("pin_diameter", 0j, spec.pin_diameter)] if spec.pin_diameter else ())
+    radius = spec.follower_radius if spec.end == "mushroom" else 0.0
+    reach = (-spec.plate_diameter / 2, spec.plate_diameter / 2) if spec.plate_diameter else None
+    return FollowerEnd(FollowerKind(spec.end), radius, reach, outline=outline)
+
+
+def _stem_edges(spec: FollowerSpec) -> tuple[Edge, ...]:
+    from geometry.cams import follower_shape as shape
+
     width, length = spec.stem_width, spec.stem_length
-    reach = None
     if spec.end == "pointed":
-        edges = shape.pointed_stem(width, length, math.radians(spec.tip_angle_deg))
-    elif spec.end == "roller":
-        edges = shape.roller_stem(width, length)
+        return shape.pointed_stem(width, length, math.radians(spec.tip_angle_deg))
+    if spec.end == "roller":
         if not length > width / 2:
             text = f"must be longer than half its width; at least {at_least(width)} mm works"
             raise ParameterError("stem_length", length, text)
-    else:
-        if spec.plate_diameter == 0:
-            raise ParameterError("plate_diameter", 0.0, f"a {spec.end} follower has a plate; {2 * width:.6g} mm works")
-        radius = spec.follower_radius if spec.end == "mushroom" else None
-        plate = spec.plate_diameter, spec.plate_thickness
-        edges = shape.plate_stem(width, length, plate, radius, spec.corner_radius)
-        reach = -spec.plate_diameter / 2, spec.plate_diameter / 2
-    outline = checked_outline(edges, _with_hole(spec, 0.0))
-    radius = spec.follower_radius if spec.end == "mushroom" else 0.0
-    return shape.FollowerEnd(FollowerKind(spec.end), radius, reach, outline=outline)
+        return shape.roller_stem(width, length)
+    radius = spec.follower_radius if spec.end == "mushroom" else None
+    return shape.plate_stem(width, length, (spec.plate_diameter, spec.plate_thickness), radius, spec.corner_radius)
 
 
 def checked_arm(spec: FollowerArmSpec) -> FollowerEnd:
     """The same of an arm."""
-    from geometry.cams import follower_shape as shape
     from geometry.cams.disk import FollowerKind
+    from geometry.cams.follower_shape import FollowerEnd
 
     _check_end(spec, {"face_offset": ("flat",)})
-    sense = 1 if spec.sense == "against" else -1
-    boss, length = spec.boss_diameter, spec.arm_length
-    if not spec.pivot_diameter < boss:
-        text = f"leaves no wall in the boss; below {at_most(boss * 0.999, 4)} mm works"
+    if not spec.pivot_diameter < spec.boss_diameter:
+        text = f"leaves no wall in the boss; below {at_most(spec.boss_diameter * 0.999, 4)} mm works"
         raise ParameterError("pivot_diameter", spec.pivot_diameter, text)
-    edges: tuple[Edge, ...]
+    _check_pin(spec.pin_diameter, spec.width)
+    edges = _whole(spec, _arm_edges, ("tip_height", "width", "boss_diameter"))
+    own = [("pivot_diameter", 0j, spec.pivot_diameter), ("pin_diameter", spec.arm_length + 0j, spec.pin_diameter)]
+    outline = checked_outline(edges, spec, [hole for hole in own if hole[2] > 0])
+    return FollowerEnd(
+        FollowerKind(spec.end),
+        spec.follower_radius if spec.end == "mushroom" else 0.0,
+        (0.0, spec.arm_length) if spec.end == "flat" else None,
+        spec.arm_length,
+        spec.face_offset,
+        1 if spec.sense == "against" else -1,
+        outline,
+    )
+
+
+def _arm_edges(spec: FollowerArmSpec) -> tuple[Edge, ...]:
+    from geometry.cams import follower_shape as shape
+
+    sense, boss, length = 1 if spec.sense == "against" else -1, spec.boss_diameter, spec.arm_length
     if spec.end == "flat":
-        edges = shape.flat_arm(length, spec.width, spec.face_offset, boss, sense)
-    elif spec.end == "pointed":
-        edges = shape.pointed_arm(length, spec.width, boss, (math.radians(spec.tip_angle_deg), spec.tip_height), sense)
-    elif spec.end == "mushroom":
-        edges = shape.mushroom_arm(length, spec.width, boss, (spec.follower_radius, spec.tip_height), sense)
-    else:
-        edges = shape.round_arm(length, boss, spec.width)
-    outline = checked_outline(edges, _with_hole(spec, length))
-    reach = (0.0, length) if spec.end == "flat" else None
-    radius = spec.follower_radius if spec.end == "mushroom" else 0.0
-    return shape.FollowerEnd(FollowerKind(spec.end), radius, reach, length, spec.face_offset, sense, outline)
+        return shape.flat_arm(length, spec.width, spec.face_offset, boss, sense)
+    if spec.end == "pointed":
+        tip = math.radians(spec.tip_angle_deg), spec.tip_height
+        return shape.pointed_arm(length, spec.width, boss, tip, sense)
+    if spec.end == "mushroom":
+        return shape.mushroom_arm(length, spec.width, boss, (spec.follower_radius, spec.tip_height), sense)
+    return shape.round_arm(length, boss, spec.width)
+
+
+def _whole(spec: AnyFollower, edges_of: Callable[[AnyFollower], tuple[Edge, ...]], keys: Sequence[str]) -> Any:
+    """The edges of a spec where they make an outline; else refused by the first key whose lesser value does."""
+    from msgspec.structs import replace
+
+    from geometry.plate_outline import PlateOutline
+
+    def whole(trial: AnyFollower) -> bool:
+        try:
+            return PlateOutline(edges_of(trial)).exists()
+        except (GeometryError, ArithmeticError, ValueError):
+            return False
+
+    if whole(spec):
+        return edges_of(spec)
+    # what names its own key comes first
+    refusal: ParameterError | None = None
+    try:
+        edges_of(spec)
+    except ParameterError as found:
+        refusal = found
+    except (GeometryError, ArithmeticError, ValueError):
+        pass
+    if refusal is not None:
+        raise refusal
+    for key in keys:
+        low, high = 0.0, float(getattr(spec, key))
+        for _ in range(_BISECTIONS):
+            middle = (low + high) / 2
+            low, high = (middle, high) if whole(replace(spec, **{key: middle})) else (low, middle)
+        if low > _LEAST:
+            text = f"leaves no whole outline; at most {at_most(low * (1 - 1e-3), 4)} mm works"
+            raise ParameterError(key, getattr(spec, key), text)
+    raise ParameterError(keys[0], getattr(spec, keys[0]), "leaves no whole outline with the other sizes; change them")
+
+
+def _check_pin(diameter: float, width: float) -> None:
+    if not diameter < width:
+        raise ParameterError("pin_diameter", diameter, f"leaves no wall; below {at_most(width * 0.999, 4)} mm works")
 
 
 def _check_end(spec: FollowerSpec | FollowerArmSpec, more: dict[str, tuple[str, ...]]) -> None:
@@ -148,21 +210,6 @@ def _check_end(spec: FollowerSpec | FollowerArmSpec, more: dict[str, tuple[str, 
             raise ParameterError(key, value, f"is for {' and '.join(ends)} followers{hint}; 0 works")
     if spec.end == "mushroom" and not spec.follower_radius:
         raise ParameterError("follower_radius", 0.0, "a mushroom has a radius above 0; 20 works")
-
-
-def _with_hole(spec: FollowerSpec | FollowerArmSpec, place: float) -> FlatKeys:
-    """The holes of a follower with its own: pin and pivot."""
-    own = [HoleAtTable((place, 0.0), spec.pin_diameter)] if spec.pin_diameter else []
-    if isinstance(spec, FollowerArmSpec):
-        if spec.pin_diameter and not spec.pin_diameter < spec.width:
-            text = f"leaves no wall; below {at_most(spec.width * 0.999, 4)} mm works"
-            raise ParameterError("pin_diameter", spec.pin_diameter, text)
-        own += [HoleAtTable((0.0, 0.0), spec.pivot_diameter)] if spec.pivot_diameter else []
-    elif spec.pin_diameter and not spec.pin_diameter < spec.stem_width:
-        text = f"leaves no wall; below {at_most(spec.stem_width * 0.999, 4)} mm works"
-        raise ParameterError("pin_diameter", spec.pin_diameter, text)
-    # holes of the user's come first, so that refusals name them by their numbers
-    return FlatKeys(holes=[*spec.holes, *own], slots=spec.slots)
 
 
 def checked_roller(spec: RollerSpec) -> FollowerEnd:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated
 
@@ -79,18 +80,22 @@ def checked_plate(spec: PlateSpec) -> PlateOutline:
     return checked_outline(rounded([(c, spec.corner_radius) for c in corners]), spec)
 
 
-def checked_outline(edges: tuple[Edge, ...], keys: FlatKeys) -> PlateOutline:
-    """Edges with the holes and slots of a part's keys, checked one after the other."""
+def checked_outline(
+    edges: tuple[Edge, ...], keys: FlatKeys, own: Sequence[tuple[str, complex, float]] = ()
+) -> PlateOutline:
+    """Edges with the holes and slots of a part's keys, checked one after the other; ``own``: key, centre, diameter."""
     from geometry.plate_outline import PlateHole, PlateOutline, PlateSlot
 
-    holes = tuple(PlateHole(complex(*h.at), h.diameter) for h in keys.holes)
+    holes = (*(PlateHole(at, d) for _, at, d in own), *(PlateHole(complex(*h.at), h.diameter) for h in keys.holes))
     slots = tuple(PlateSlot(complex(*s.start), complex(*s.end), s.width) for s in keys.slots)
     for number, slot in enumerate(slots, 1):
         if slot.start == slot.end:
             text = "is where it starts; a hole of that diameter works"
             raise ParameterError(f"slots.item {number}.end", list(keys.slots[number - 1].end), text)
     outline = PlateOutline(edges, (*holes, *slots))
-    outline.check_holes("holes", "slots")
+    names = [key for key, _, _ in own]
+    names += [f"holes.item {i + 1}.diameter" for i in range(len(keys.holes))]
+    outline.check_holes([*names, *(f"slots.item {i + 1}.width" for i in range(len(slots)))])
     return outline
 
 

@@ -12,9 +12,11 @@ import math
 from dataclasses import dataclass
 
 from geometry.cams.disk import FollowerKind
+from geometry.curve import end_point, start_point
 from geometry.errors import ParameterError, at_least, at_most
 from geometry.line_arc import Arc, Line, arc_between
 from geometry.plate_outline import Edge, PlateOutline, belt, rounded, tangent_point
+from geometry.tolerance import TOLERANCES
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,6 +78,9 @@ def plate_stem(
     """
     diameter, thickness = plate
     half, stem = diameter / 2, width / 2
+    if radius is not None and not width < 2 * radius:
+        text = f"is narrower than the stem; at least {at_least(width * 0.51, 4)} mm works"
+        raise ParameterError("follower_radius", radius, text)
     if not diameter >= width:
         raise ParameterError(
             "plate_diameter", diameter, f"is below the stem's width; at least {at_least(width)} mm works"
@@ -134,7 +139,8 @@ def flat_arm(length: float, width: float, face_offset: float, boss: float, sense
         The pivot's hole (``boss``: its diameter and wall) lies outside of the bar.
     """
     low, high = boss / 2, width - boss / 2
-    if not low <= face_offset <= high:
+    slack = TOLERANCES.relative_join * width
+    if not low - slack <= face_offset <= high + slack:
         if low > high:
             raise ParameterError("width", width, f"has no room for the pivot; at least {at_least(boss, 4)} mm works")
         limit = f"at least {at_least(low, 4)}" if face_offset < low else f"at most {at_most(high, 4)}"
@@ -154,6 +160,7 @@ def pointed_arm(length: float, width: float, boss: float, tip: tuple[float, floa
     ParameterError
         The hook does not fit on the arm.
     """
+    _reaches(length, boss)
     angle, height = tip
     half = height * math.tan(angle / 2)
     if not length - half > boss / 2:
@@ -173,6 +180,7 @@ def mushroom_arm(length: float, width: float, boss: float, cap: tuple[float, flo
     ParameterError
         The cap does not fit on the arm.
     """
+    _reaches(length, boss)
     radius, height = cap
     if not height < radius:
         raise ParameterError("tip_height", height, f"is no cap; at most {at_most(radius * 0.999, 4)} mm works")
@@ -184,6 +192,12 @@ def mushroom_arm(length: float, width: float, boss: float, cap: tuple[float, flo
     return _hooked(shoulder, front, width, boss, (arc_between(length + 0j, front, shoulder, turns_left=True),), sense)
 
 
+def _reaches(length: float, boss: float) -> None:
+    if not length > boss / 2:
+        text = f"ends within the pivot's boss; at least {at_least(boss, 4)} mm works"
+        raise ParameterError("arm_length", length, text)
+
+
 def _hooked(
     shoulder: complex, front: complex, width: float, boss: float, hook: tuple[Edge, ...], sense: int
 ) -> tuple[Edge, ...]:
@@ -192,5 +206,7 @@ def _hooked(
     upper, lower = tangent_point(shoulder, 0j, boss / 2, -1), tangent_point(heel, 0j, boss / 2, 1)
     turn = cmath.phase(lower / upper)
     around = Arc(0j, boss / 2, cmath.phase(upper), turn if turn > 0 else turn + 2 * math.pi)
-    edges = (*hook, Line(shoulder, upper), around, Line(lower, heel), Line(heel, toe), Line(toe, front))
+    lines = (Line(lower, heel), Line(heel, toe), Line(toe, front))
+    # a tip of no height is no edge
+    edges = tuple(e for e in (*hook, Line(shoulder, upper), around, *lines) if end_point(e) != start_point(e))
     return edges if sense > 0 else tuple(e.mirrored() for e in reversed(edges))
