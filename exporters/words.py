@@ -67,6 +67,14 @@ WORDS: dict[str, tuple[str, str]] = {
         "{first} moves {second} by {travel:.6g} {unit}",
         "{first} рухає {second} на {travel:.6g} {unit}",
     ),
+    "mate_conjugate_cams": (
+        "{first} - {second}: conjugate cams, rollers {between_rollers:.9g} {unit} from each other",
+        "{first} - {second}: спряжені кулачки, між роликами {between_rollers:.9g} {unit}",
+    ),
+    "mate_cam_yoke": (
+        "{first} moves the yoke {second} by {lift:.6g} mm, breadth {yoke_breadth:.9g} mm",
+        "{first} рухає рамку {second} на {lift:.6g} мм, відстань між гранями {yoke_breadth:.9g} мм",
+    ),
     "mate_fixed": ("{first} - {second}: fixed to each other", "{first} - {second}: нерухомо з'єднані"),
     "total_ratio": (", total {total:.4f}", ", сумарний {total:.4f}"),
     "broken": ("BROKEN", "ПОРУШЕНО"),
