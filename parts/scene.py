@@ -34,6 +34,7 @@ from parts.positive_kinds import POSITIVE_KINDS
 from parts.rack import RackSpec, checked_rack_part, rack_part
 from parts.ring_gear import RingGearSpec, checked_ring_gear, ring_gear_part
 from parts.schema import SceneError, converted, near, refuse_infinite
+from parts.sheet_keys import CamSpeed, Intervals, MateNumber, RackStep, check_sheet_keys
 from parts.spur_gear import SpurGearSpec, checked_spur_gear, spur_gear_part
 
 SCENE_FOLDER = Path(__file__).parent / "scenes"
@@ -98,17 +99,10 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     name: Annotated[Identifier, Meta(description="tells files of one part apart; default: the purpose")] | None = None
     parts: Annotated[list[str], Meta(min_length=1, description="parts to export; default: all")] | None = None
     assembly: Annotated[bool, Meta(description="step, 3mf: one file of all instances in their places")] = False
-    rack_step: (
-        Annotated[float, mm("sheet, generating: way of the rack from position to position", least=0.01, most=1000)]
-        | None
-    ) = None
-    intervals: (
-        Annotated[int, Meta(ge=2, le=72, description="sheet, cam: parts of each phase on paper; default: 8")] | None
-    ) = None
-    speed_rpm: (
-        Annotated[float, Meta(gt=0, le=1e6, description="sheet, cam: adds velocities", extra={"unit": "rpm"})] | None
-    ) = None
-    mate: Annotated[int, Meta(ge=1, description="sheet: the pair that is shown, by number; default: all")] | None = None
+    rack_step: RackStep | None = None
+    intervals: Intervals | None = None
+    speed_rpm: CamSpeed | None = None
+    mate: MateNumber | None = None
 
 
 class ChecksSpec(Struct, forbid_unknown_fields=True):
@@ -285,13 +279,7 @@ def _export_spec(table: Any, parts: dict[str, Struct], source: str, place: str) 
         spec.purpose = default_export(spec.format).purpose
     if spec.purpose not in purposes:
         raise SceneError(source, f"{place}.purpose", spec.purpose, f"{spec.format} is for {' or '.join(purposes)}")
-    if spec.mate is not None and spec.purpose != "meshing":
-        raise SceneError(source, f"{place}.mate", spec.mate, 'only for purpose = "meshing"; remove it')
-    if spec.rack_step is not None and spec.purpose != "generating":
-        raise SceneError(source, f"{place}.rack_step", spec.rack_step, 'only for purpose = "generating"; remove it')
-    for key in ("intervals", "speed_rpm"):
-        if getattr(spec, key) is not None and spec.purpose != "cam":
-            raise SceneError(source, f"{place}.{key}", getattr(spec, key), 'only for purpose = "cam"; remove it')
+    check_sheet_keys(spec, source, place)
     if spec.kerf and spec.format in ("stl", "3mf"):
         remedy = f"a print has no kerf; offset = {spec.kerf / 2:.12g} moves every outline by as much"
         raise SceneError(source, f"{place}.kerf", spec.kerf, remedy)
@@ -303,10 +291,6 @@ def _export_spec(table: Any, parts: dict[str, Struct], source: str, place: str) 
             raise SceneError(source, f"{place}.curves", spec.curves, f"{who} has true splines; remove it")
         if spec.dxf_version != "R2000":
             raise SceneError(source, f"{place}.dxf_version", spec.dxf_version, f"{who} is not for R12; remove it")
-    if spec.format == "sheet" and spec.offset:
-        raise SceneError(source, f"{place}.offset", spec.offset, "a sheet shows the exact profile; remove it")
-    if spec.format == "sheet" and spec.parts is not None and spec.purpose == "meshing":
-        raise SceneError(source, f"{place}.parts", None, "a picture of meshing shows a pair; use mate = 1, 2, …")
     if spec.tolerance is None:
         spec.tolerance = purposes[str(spec.purpose)]
     return spec

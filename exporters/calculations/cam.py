@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from msgspec import Meta
@@ -60,6 +60,9 @@ class CamKeys(CamSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     intervals: Annotated[
         int, Meta(ge=LEAST_INTERVALS, le=MOST_INTERVALS, description="of each phase in the graphical method")
     ] = INTERVALS
+    drawing: Annotated[
+        Literal["smooth", "chords"], Meta(description="S' of the graphical method: a smooth curve or a broken line")
+    ] = "smooth"
     speed_rpm: (
         Annotated[float, Meta(gt=0, le=1e6, description="of the cam: adds velocities", extra={"unit": "rpm"})] | None
     ) = None
@@ -96,7 +99,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
         for name, phase in _phase_names(cam)
     ]
     page.tables.append(_positions(cam, keys.step))
-    graphical_section(page, cam, keys.least_transmission_angle_deg, keys.intervals)
+    graphical_section(page, cam, keys.least_transmission_angle_deg, keys.intervals, keys.drawing)
     if keys.speed_rpm is not None:
         speed_section(page, cam, keys.speed_rpm)
     _impacts(page, cam)

@@ -9,6 +9,7 @@ import numpy as np
 from exporters.calculations.sheet import Sheet, Table
 from geometry.cams.disk import DiskCam
 from geometry.cams.graphical import (
+    Drawing,
     GraphicalMotion,
     graphical_fault,
     graphical_motion,
@@ -25,7 +26,9 @@ _SOURCES = {
 }  # fmt: skip
 
 
-def graphical_section(page: Sheet, cam: DiskCam, transmission_angle_deg: float | None, intervals: int) -> None:
+def graphical_section(
+    page: Sheet, cam: DiskCam, transmission_angle_deg: float | None, intervals: int, drawing: str = "smooth"
+) -> None:
     """Both integrations by mid-ordinates, the least radius and the profile that follow, each with its error."""
     fault = graphical_fault(cam.motion)
     if fault is not None:
@@ -33,7 +36,7 @@ def graphical_section(page: Sheet, cam: DiskCam, transmission_angle_deg: float |
             (f"no graphical method: {fault}", "графічний метод не застосовний: немає діаграми прискорень")
         )
         return
-    drawn = graphical_motion(cam.motion, intervals)
+    drawn = graphical_motion(cam.motion, intervals, Drawing(drawing))
     swings = not isinstance(cam.mount, Translating)
     integration, radius, profile = _SOURCES[cam.is_flat]
     page.section("Graphical method", "Графічний метод")

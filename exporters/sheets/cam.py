@@ -8,7 +8,7 @@ from exporters.calculations.sheet import Sheet
 from exporters.sheets.cam_diagrams import LEFT, RIGHT, Drawn, draw_diagrams, heights_of
 from exporters.sheets.cam_joint import Joint, draw_joint, joint_of, joint_paper, joint_window, name_joint
 from exporters.sheets.cam_picture import CamPicture, Scales, scales_of
-from exporters.sheets.cam_profile import draw_profile, name_profile, number_positions, profile_paper
+from exporters.sheets.cam_profile import draw_profile, name_profile, number_positions, profile_paper, profile_side
 from exporters.sheets.cam_swing import draw_swing, name_swing, swing_of, swing_window
 from exporters.sheets.cam_tables import ROW, WIDTH, Grid, characteristics, draw_grid, graphical_grid, legend, scale_rows
 from exporters.sheets.canvas import FRAME, FRAME_LEFT, PAPERS, TEXT_HEIGHT, Box, Canvas, Paper, scale_text
@@ -16,6 +16,7 @@ from exporters.sheets.labels import Labeller
 from exporters.sheets.verify import Expected
 from exporters.sheets.verify_cam import CamMeasures
 from exporters.sheets.words import sheet_words
+from geometry.cams.graphical import LEAST_INTERVALS
 from geometry.errors import ParameterError
 
 # a turn on the axis of abscissae, mm, on each paper
@@ -24,8 +25,12 @@ _TITLE, _MARGIN, _CAPTION = 14.0, 4.0, 9.0
 # between tables; rows of the scales and the meaning of lines with the gaps around them, mm
 _GRID_GAP = 3.0
 _SMALL_GRIDS = 17 * ROW + 3 * _GRID_GAP
-# least share of the middle column's height for the joint diagram
-_JOINT_SHARE = 0.42
+# width and height of the main inscription, GOST 2.104, form 1: the lower right corner stays free for it, mm
+INSCRIPTION = (185.0, 55.0)
+# what tables may not use of a paper's height
+_AROUND = 2 * FRAME + _TITLE + _MARGIN + INSCRIPTION[1]
+# least height of the joint diagram
+_LEAST_JOINT = 95.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,29 +116,37 @@ def _title(picture: CamPicture) -> str:
 def _layout(picture: CamPicture, first: Grid, graphical: Grid | None, *, has_joint: bool) -> _Layout:
     """The smallest paper that holds the tables and the profile in full size; A1 for a larger cam."""
     tables = first.height + _SMALL_GRIDS + (graphical.height if graphical else 0.0)
-    fitting = [name for name in _TURNS if tables <= PAPERS[name][0] - 2 * FRAME - _TITLE - _MARGIN]
+    fitting = [name for name in _TURNS if tables <= PAPERS[name][0] - _AROUND]
     if not fitting:
-        rows = int((PAPERS["A0"][0] - 2 * FRAME - _TITLE - _MARGIN - _SMALL_GRIDS - first.height) / ROW)
+        rows = int((PAPERS["A0"][0] - _AROUND - _SMALL_GRIDS - first.height) / ROW)
         phases = max(len(picture.drawn.phases) if picture.drawn else 1, 1)
-        most = max(2, rows // phases - 2)
+        most = (rows - 2) // phases - 1
+        if most < LEAST_INTERVALS:
+            text = "has more phases than the tables of one paper hold; leave it out of parts"
+            raise ParameterError("parts", len(picture.cam.motion.phases), text)
         raise ParameterError("intervals", picture.intervals, f"its table fits no paper; at most {most} works")
-    layouts = [_areas(name, has_joint=has_joint) for name in fitting]
+    layouts = [_areas(name, picture, has_joint=has_joint) for name in fitting]
     for layout in layouts[:2]:
         if profile_paper(picture, layout.profile).scale >= 1:
             return layout
     return next((x for x in layouts if x.canvas.paper == "A1"), layouts[0])
 
 
-def _areas(name: str, *, has_joint: bool) -> _Layout:
+def _areas(name: str, picture: CamPicture, *, has_joint: bool) -> _Layout:
+    """Diagrams on the left, tables on the right, in between the joint diagram over the profile, which gets its need."""
     height, width = PAPERS[name]
     canvas = Canvas(width, height, name)
     low, high = FRAME + _MARGIN, height - FRAME - _TITLE
     split = FRAME_LEFT + _MARGIN + LEFT + _TURNS[name] + RIGHT
     right = width - FRAME - WIDTH
     diagrams = Box(FRAME_LEFT + _MARGIN, low, split, high)
-    border = low + (high - low) * (1 - _JOINT_SHARE) if has_joint else high
-    profile = Box(split + _MARGIN, low, right - _MARGIN, border - _CAPTION)
-    joint = Box(split + _MARGIN, border + _MARGIN, right - _MARGIN, high - _CAPTION)
+    foot, near, far = low + INSCRIPTION[1], split + _MARGIN, right - _MARGIN
+    top = high - _CAPTION
+    if has_joint:
+        room = top - _LEAST_JOINT - _MARGIN - _CAPTION - foot
+        top = foot + profile_side(picture, min(room, far - near))
+    profile = Box(near, foot, far, top)
+    joint = Box(near, top + _CAPTION + _MARGIN, far, high - _CAPTION)
     return _Layout(canvas, diagrams, joint, profile, complex(right, high))
 
 

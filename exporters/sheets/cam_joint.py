@@ -66,12 +66,12 @@ def joint_window(picture: CamPicture, joint: Joint) -> Box:
     low, high = picture.cam.motion.extremes(joint.order)
     depth = min(joint.least.imag, joint.centre.imag)
     least, most = picture.cam.motion.extremes(0)
-    reach = max(most - depth, high - low)
+    tall, wide = most - depth, max(high - low, 0.3 * (most - depth))
     return Box(
-        min(low, joint.offset, 0.0) - 0.1 * reach,
-        min(depth, least) - 0.12 * reach,
-        max(high, joint.offset, 0.0) + 0.1 * reach,
-        max(most, 0.0) + 0.08 * reach,
+        min(low, joint.offset, 0.0) - 0.12 * wide,
+        min(depth, least) - 0.1 * tall,
+        max(high, joint.offset, 0.0) + 0.12 * wide,
+        max(most, 0.0) + 0.08 * tall,
     )
 
 

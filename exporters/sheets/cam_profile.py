@@ -78,6 +78,12 @@ def profile_paper(picture: CamPicture, area: Box) -> Paper:
     return Paper(scale, complex(area.left + area.right, area.low + area.high) / 2)
 
 
+def profile_side(picture: CamPicture, most: float) -> float:
+    """Width and height of the construction at the scale that fits into a square of ``most`` mm."""
+    scale = profile_paper(picture, Box(0.0, 0.0, most, most)).scale
+    return min(most, 2 * (reach_of(picture, scale).whole * scale + _number_room(picture)) + 0.1)
+
+
 def _number_room(picture: CamPicture) -> float:
     return _NUMBER + text_width(str(len(picture.positions)), SMALL_TEXT) / 2 + 1.5
 

@@ -129,6 +129,7 @@ def test_the_graphical_method_stands_beside_the_exact_motion() -> None:
     finer = calculated("guidelines_cam", "intervals=16")
     assert len(finer["graphical"]) == 34
     assert 3.8 < values["graphical_velocity_error"] / finer["values"]["graphical_velocity_error"] < 4.2
+    assert calculated("guidelines_cam", "drawing=chords")["values"]["graphical_factor"] == pytest.approx(64 / 63)
     for language, words in (("uk", "Графічний метод"), ("en", "Graphical method")):
         text = calculate("cam", ["guidelines_cam"], "text", language)
         assert words in text

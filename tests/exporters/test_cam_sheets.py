@@ -226,7 +226,7 @@ def test_damage_is_noticed(sheet_file: Path, tmp_path: Path, damage: str) -> Non
 
 def test_a_rocker_has_its_pivots_arms_and_axis(tmp_path: Path) -> None:
     """The pivots stand on their circle, the arms keep their length, both cams' axes in the joint diagram."""
-    jobs = plan_build(cam_scene(ROCKER, intervals=6), "t", [], []).sheets
+    jobs = plan_build(cam_scene(ROCKER, intervals=3), "t", [], []).sheets
     assert [j.path for j in jobs] == ["t.cam.rocker.dxf", "t.cam.rocker.svg"]
     for job in jobs:
         job.write(tmp_path / job.path)
@@ -236,7 +236,7 @@ def test_a_rocker_has_its_pivots_arms_and_axis(tmp_path: Path) -> None:
     scale = jobs[0].expected.paper.scale
     assert pivots.radius == pytest.approx(90 * scale)
     arms = list(space.query('LINE[layer=="FOLLOWER"]'))
-    assert len(arms) == 14
+    assert len(arms) == 8
     for arm in arms:
         ends = arm.dxf.start, arm.dxf.end
         assert ends[0].distance(ends[1]) == pytest.approx(80 * scale, rel=1e-12)
@@ -244,7 +244,7 @@ def test_a_rocker_has_its_pivots_arms_and_axis(tmp_path: Path) -> None:
     assert list(space.query('LINE[layer=="GAMMA_TANGENT"]'))
     texts = words_of(jobs[0])
     assert "C" in texts
-    assert "12" in texts
+    assert "7" in texts
 
 
 def test_a_given_speed_adds_scales_of_time() -> None:
@@ -298,7 +298,7 @@ def test_unusual_but_legal_cams_have_their_sheet(tmp_path: Path, name: str) -> N
 def test_a_table_of_points_has_a_sheet_without_the_graphical_method() -> None:
     part = {"kind": "cam", "follower": "pointed", "base_circle_radius": 60.0,
             "motion_table": [[0, 0], [120, 5], [240, 3]]}  # fmt: skip
-    job = plan_build(cam_scene(part), "t", [], []).sheets[0]
+    job = plan_build(cam_scene(part, intervals=2), "t", [], []).sheets[0]
     assert not any("by the drawing" in t.text for t in job.canvas.texts)
     with pytest.raises(AssertionError):
         assert not any("by the drawing" in t.text for t in job_of("practicum_flat_cam", "dxf").canvas.texts)
