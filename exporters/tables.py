@@ -66,6 +66,7 @@ def check_lines(checks: dict[str, Any], language: str) -> list[str]:
             if mate["verdict"] == "clear" and mate["gap"] <= mate["tolerance"]:
                 text += f"; {words(language, 'interrupted')}"
         lines.append(text)
+        lines += _transmission(mate, language)
         lines += [f"{words(language, 'finding')}: {f['text']}" for f in mate.get("findings", [])]
         lines += [f"{words(language, 'broken')}: {c['text']}" for c in mate.get("conditions", []) if not c["met"]]
     for close in (*checks.get("neighbours", []), *checks.get("solids", [])):
@@ -74,6 +75,17 @@ def check_lines(checks: dict[str, Any], language: str) -> list[str]:
     for drive in checks.get("drives", []):
         train = ", ".join(f"{name} {turns:.6g}" for name, turns in drive["train"].items())
         lines.append(words(language, "drive").format(instance=drive["instance"], train=train))
+    return lines
+
+
+def _transmission(mate: dict[str, Any], language: str) -> list[str]:
+    """The transmission error of a mate, a line for each sense."""
+    lines = []
+    for sense, found in mate.get("transmission_error", {}).items():
+        unit = "second_arcsec" if "second_arcsec" in found else "second_travel"
+        motion = words(language, unit).format(value=found[unit], second=mate["second"])
+        text = words(language, "transmission_error")
+        lines.append(text.format(sense=words(language, sense), value=found["line_of_action"], motion=motion))
     return lines
 
 

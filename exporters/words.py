@@ -50,6 +50,14 @@ WORDS: dict[str, tuple[str, str]] = {
         "pair {first} - {second}: a_w = {a_w:.5f} mm, alpha_w = {alpha_w:.4f} deg, contact ratio {ratio:.4f}",
         "пара {first} - {second}: a_w = {a_w:.5f} мм, alpha_w = {alpha_w:.4f} град, коефіцієнт перекриття {ratio:.4f}",
     ),
+    "transmission_error": (
+        "transmission error (peak to peak, first turns {sense}): {value:.3g} mm on the line of action, {motion}",
+        "кінематична похибка (розмах, перше колесо обертається {sense}): {value:.3g} мм на лінії зачеплення, {motion}",
+    ),
+    "counter_clockwise": ("counter-clockwise", "проти годинникової стрілки"),
+    "clockwise": ("clockwise", "за годинниковою стрілкою"),
+    "second_arcsec": ('{value:.3g}" of {second}', "{value:.3g}″ на {second}"),
+    "second_travel": ("{value:.3g} mm of {second}", "{value:.3g} мм на {second}"),
     "total_ratio": (", total {total:.4f}", ", сумарний {total:.4f}"),
     "broken": ("BROKEN", "ПОРУШЕНО"),
     "centre_distance": (

@@ -29,8 +29,8 @@ _SHORT, _BEATEN = 0.02, 1e-9
 # an arc is at most that much longer than its chord: steps are short against radii
 _BULGE = 1.2
 _STEPS = 80
-# what rounding leaves of a distance, as a part of the coordinates
-_ROUNDINGS = 4 * float(np.finfo(float).eps)
+# what rounding leaves of a distance, as a part of the second body's coordinates
+_ROUNDINGS = 8 * float(np.finfo(float).eps)
 
 
 class Gaps(NamedTuple):
@@ -143,9 +143,9 @@ class LeastGap:
         self.rates = [np.asarray(s.curve.derivative(q.parameters)) for s, q in zip(segments, self.samples, strict=True)]
 
     @property
-    def size(self) -> float:
-        """The farthest of the samples from the second body's origin, mm."""
-        return max(float(np.abs(s.points).max()) for s in self.samples)
+    def rounding(self) -> float:
+        """What rounding leaves of a distance, mm."""
+        return _ROUNDINGS * max(float(np.abs(s.points).max()) for s in self.samples)
 
     @property
     def longest(self) -> float:
@@ -165,8 +165,7 @@ class LeastGap:
 
         ``chosen`` (n,) tells for each curve which copies of it are looked at.
         """
-        largest = float(np.abs(copies.shift).max(initial=0.0)) + self.size
-        pieces, least = self._sampled(copies, chosen, found), max(accuracy * self.module, _ROUNDINGS * largest)
+        pieces, least = self._sampled(copies, chosen, found), max(accuracy * self.module, self.rounding)
         for step in range(_STEPS):
             pieces = pieces.take(self._hopeful(pieces, found.gap[copies.group[pieces.row]] - least, least))
             if not pieces.row.size:

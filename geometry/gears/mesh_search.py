@@ -185,6 +185,16 @@ class MeshSearch:
         return abs(1 - self.rate)
 
     @property
+    def arm(self) -> float:
+        """How far flanks that touch move along their normal for one unit of the second body's motion, mm."""
+        raise NotImplementedError
+
+    @property
+    def closing(self) -> int:
+        """Sign of the second body's motion that closes the gap at the upper flanks of the first gear's teeth."""
+        raise NotImplementedError
+
+    @property
     def reach(self) -> float:
         """mm that a point of the second body moves at most for one unit of its motion."""
         raise NotImplementedError
