@@ -135,8 +135,10 @@ class Brute:
             self.outlines[1] = (np.exp(-2j * math.pi / z * np.arange(z))[:, None] * one).ravel()
         if isinstance(pair, RackPair):
             half = np.concatenate([brute.dense(s.curve, 151)[:-1] for s in pair.sides[1].segments])
-            # the rack frame's teeth point to +y, here to -x; its own half tooth is mirrored for the other half
-            tooth = np.concatenate([half, -np.conj(half)[::-1]]) * 1j
+            # teeth point to -x; from the space below a tooth to the one above it
+            half = half if abs(half[0].imag) > abs(half[-1].imag) else half[::-1]
+            half = half if half[0].imag < 0 else np.conj(half)
+            tooth = np.concatenate([half, np.conj(half)[::-1]])
             self.outlines.append(np.concatenate([tooth + 1j * k * pair.rack.pitch for k in range(-4, 5)]))
 
     def placed(self, drive: float, turn: float) -> tuple[shapely.Geometry, shapely.Geometry]:
@@ -170,12 +172,15 @@ SPOILT: dict[str, tuple[Any, float]] = {
                                  spur(17, 0.3, given_tip_diameter=37.0, **THIN)), 0.0),
     "pulled apart": (external(20, 33, **THIN), 2.2),
     "rounded": (external(13, 15, tip_rounding=0.6, rack=replace(RACK, addendum=0.7), **THIN), 0.0),
+    "rack": (on_rack(17, given_tip_diameter=33.4, **THIN), 0.0),
     "ring": (inside(20, 60, given_tip_diameter=39.8, **THIN), 0.0),
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", SPOILT)
-@pytest.mark.parametrize("sense", [1, -1])
+BOTH = [(name, 1) for name in SPOILT] + [("short tips", -1)]
+
+
+@pytest.mark.parametrize(("name", "sense"), BOTH + [pytest.param(n, -1, marks=pytest.mark.heavy) for n in SPOILT])
 def test_errors_against_polylines_turned_until_they_touch(name: str, sense: int) -> None:
     pair, shift = SPOILT[name]
     keys = {"centre_shift": shift} if shift else {}
