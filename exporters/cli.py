@@ -167,7 +167,8 @@ def _check(options: argparse.Namespace) -> int:
     placing = place(scene.instances, scene.drives, parts, matings, options.scene)
     if len(placing.instances) < 2:
         raise SceneError(options.scene, "mates", None, 'nothing to check; add [[mates]] kind = "external_gear_pair"')
-    checks = scene_checks(placing, parts, scene.drives, scene.scene.language, contact=True)
+    asked = scene.checks.transmission_error
+    checks = scene_checks(placing, parts, scene.drives, scene.scene.language, contact=True, transmission=asked)
     print("\n".join(check_lines(checks, scene.scene.language)))
     return FAILED if has_bad_verdict(checks) else DONE
 

@@ -114,6 +114,7 @@ _ASSEMBLY = """
 ##
 ## [checks]
 ## interference = true                        # contact and overlap through a whole pitch
+## transmission_error = true                  # how unevenly each mate runs, without load
 ##
 ## [[exports]]
 ## format = "step"

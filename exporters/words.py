@@ -76,6 +76,14 @@ WORDS: dict[str, tuple[str, str]] = {
         "{first} рухає рамку {second} на {lift:.6g} мм, відстань між гранями {yoke_breadth:.9g} мм",
     ),
     "mate_fixed": ("{first} - {second}: fixed to each other", "{first} - {second}: нерухомо з'єднані"),
+    "transmission_error": (
+        "transmission error (peak to peak, first turns {sense}): {value:.3g} mm on the line of action, {motion}",
+        "кінематична похибка (розмах, перше колесо обертається {sense}): {value:.3g} мм на лінії зачеплення, {motion}",
+    ),
+    "counter_clockwise": ("counter-clockwise", "проти годинникової стрілки"),
+    "clockwise": ("clockwise", "за годинниковою стрілкою"),
+    "second_arcsec": ('{value:.3g}" of {second}', "{value:.3g}″ на {second}"),
+    "second_travel": ("{value:.3g} mm of {second}", "{value:.3g} мм на {second}"),
     "total_ratio": (", total {total:.4f}", ", сумарний {total:.4f}"),
     "broken": ("BROKEN", "ПОРУШЕНО"),
     "height": (

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError
+from parts.common_face import STRAIGHT, CommonFace
 from parts.keys import mm
 from parts.mate_kinds import Standing
 
@@ -63,6 +64,7 @@ class ConjugateMating:
     ratio: float = 1.0
     has_contact: bool = False
     pair: Any = None
+    face: CommonFace = STRAIGHT
 
     @property
     def module(self) -> float:
@@ -115,6 +117,7 @@ class YokeMating:
     first_teeth: int = 1
     ratio: None = None
     pair: Any = None
+    face: CommonFace = STRAIGHT
 
     @property
     def has_contact(self) -> bool:

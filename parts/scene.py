@@ -109,6 +109,9 @@ class ChecksSpec(Struct, forbid_unknown_fields=True):
     """Keys of ``[checks]``."""
 
     interference: Annotated[bool, Meta(description="contact and interference of every mate")] = False
+    transmission_error: Annotated[
+        bool, Meta(description="how unevenly each mate runs: peak to peak from the exact contact, without load")
+    ] = False
 
 
 class SceneFile(Struct, forbid_unknown_fields=True):
