@@ -188,7 +188,7 @@ def _internal_sizes(page: Sheet, pair: InternalPair) -> None:
     formula = "{r1} + ({h_a1} + {x1}) * {m}" if pinion.given_tip_diameter is None else ""
     page.add("tip_radius", pinion.tip_radius, formula, "ISO 21771", 1)
     formula = ""
-    if ring.given_tip_diameter is None:
+    if ring.tip_radius == ring.default_tip_radius and ring.given_tip_diameter is None:
         plain = "{r2} - ({h_a2} - {x2}"
         short = ring.tip_shortening_coefficient
         formula = f"{plain} - (0.25 - 0.125 * {{x2}})) * {{m}}" if short else f"{plain}) * {{m}}"
