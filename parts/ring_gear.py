@@ -105,12 +105,14 @@ def checked_ring_gear(spec: RingGearSpec) -> RingGear:
     """
     from geometry.errors import ParameterError
     from geometry.gears.ring_made import makes
+    from parts.remedies import sure_remedy
 
     try:
         return _ring_of(spec)
     except ParameterError as refusal:
         refusal = in_normal_terms(spec, refusal, lambda changed: makes(_section_of(changed)))
-        raise with_remedy(refusal, spec, _builds) from refusal
+        refusal = with_remedy(refusal, spec, _builds)
+        raise sure_remedy(spec, refusal, _makes) from refusal
 
 
 def _builds(spec: RingGearSpec) -> bool:
@@ -123,13 +125,29 @@ def _builds(spec: RingGearSpec) -> bool:
     return True
 
 
-def _ring_of(spec: RingGearSpec) -> RingGear:
-    from dataclasses import replace
+def _makes(spec: RingGearSpec) -> bool:
+    """Whether the keys give a ring, without a search for what would."""
+    from geometry.gears.ring_limits import check_rim
+    from geometry.gears.ring_made import makes, settled_ring
 
+    gear = _section_of(spec)
+    if not makes(gear):
+        return False
+    check_rim(_with_rim(spec, settled_ring(gear)))
+    return True
+
+
+def _ring_of(spec: RingGearSpec) -> RingGear:
     from geometry.gears.ring_limits import checked_ring
     from geometry.gears.ring_made import settled_ring
 
-    gear = checked_ring(settled_ring(_section_of(spec)))
+    return _with_rim(spec, checked_ring(settled_ring(_section_of(spec))))
+
+
+def _with_rim(spec: RingGearSpec, gear: RingGear) -> RingGear:
+    """The ring with the outside that follows from root and holes, where nobody gave one."""
+    from dataclasses import replace
+
     if spec.outer_diameter is not None:
         return gear
     # holes keep a module to the outside

@@ -12,7 +12,7 @@ from msgspec import Meta, Struct
 
 from geometry.errors import GeometryError, ParameterError, at_most
 from geometry.gears.basic_rack import BasicRack, TipRelief, checked_rack, default_tip_radius, iso_53
-from geometry.gears.limits import checked_gear, findings, root_form_diameter, tip_thickness
+from geometry.gears.limits import checked_gear, exists, findings, root_form_diameter, tip_thickness
 from geometry.gears.offset_tooth import chamfered_outline, gear_region
 from geometry.gears.spur import SpurGear
 from geometry.gears.transverse import transverse_gear
@@ -33,6 +33,7 @@ from parts.hole_keys import BoreTable, HolesTable, SpokesTable, hub_holes, with_
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, in_modules, mm
 from parts.materials import density_of
 from parts.part import Part
+from parts.remedies import sure_remedy
 from parts.wheel_keys import FaceChamfer, FaceChamferTable, HubTable, WebTable, as_typed, wheel_shape
 
 # the radius that ISO 53 gives at the usual clearance; the default for racks given as a table
@@ -104,6 +105,14 @@ def checked_spur_gear(spec: SpurGearSpec) -> SpurGear:
     ParameterError
         The gear cannot exist; names the key and the nearest value that works.
     """
+    try:
+        return _checked(spec)
+    except ParameterError as refusal:
+        raise sure_remedy(spec, refusal, _makes) from refusal
+
+
+def _checked(spec: SpurGearSpec) -> SpurGear:
+    """The same with remedies that look at one key each."""
     checked_helix(spec)
     _check_face_chamfer(spec)
     try:
@@ -116,6 +125,18 @@ def checked_spur_gear(spec: SpurGearSpec) -> SpurGear:
     except ParameterError as refusal:
         raise as_typed(spec, refusal) from refusal
     return gear
+
+
+def _makes(spec: SpurGearSpec) -> bool:
+    """Whether the keys give a whole wheel, without a search for what would."""
+    checked_helix(spec)
+    _check_face_chamfer(spec)
+    gear = _section_of(spec)
+    if not exists(gear):
+        return False
+    gear.holes.check(gear.root_radius)
+    check_wheel(_shape_of(spec), 2 * gear.root_radius, gear.holes)
+    return True
 
 
 def spur_gear_part(part_id: str, spec: SpurGearSpec, gear: SpurGear) -> Part:
@@ -193,10 +214,9 @@ def _with_rack_remedy(spec: SpurGearSpec, refusal: ParameterError) -> ParameterE
 
 def _builds(spec: SpurGearSpec) -> bool:
     try:
-        checked_gear(_section_of(spec))
+        return exists(_section_of(spec))
     except GeometryError:
         return False
-    return True
 
 
 def gear_of(spec: SpurGearSpec) -> SpurGear:

@@ -20,6 +20,7 @@ from exporters.calculations.misprints import printed_for_pair
 from exporters.calculations.other_pairs import internal_sheet, merged, rack_sheet
 from exporters.calculations.sheet import Sheet
 from exporters.calculations.spur import addendum_formula, dedendum_formula, given_data, thickness_formula
+from exporters.calculations.wishes import wish_refused
 from geometry.angles import involute_function
 from geometry.errors import ParameterError
 from geometry.gears import limits, measurement
@@ -132,12 +133,17 @@ def external_sheet(table: dict[str, Any]) -> Sheet:
             raise SceneError(PLACE, f"{TOPIC}.{key}", table[key], remedy)
     keys: PairKeys = checked(table, PairKeys, TOPIC)
     shifts_given = tuple("profile_shift_coefficient" in table[name] for name in GEARS)
+
+    def made(changed: PairKeys) -> ExternalPair:
+        return asked_pair(changed, shifts_given).pair
+
     try:
-        asked = asked_pair(keys, shifts_given)
-        return _page(asked)
+        return _page(asked_pair(keys, shifts_given))
     except ParameterError as error:
         owner = "" if error.name in keys_of(PairKeys) else "second"
-        raise refusal(TOPIC, error, owner) from error
+        raise wish_refused(TOPIC, keys, refusal(TOPIC, error, owner), made) from error
+    except SceneError as error:
+        raise wish_refused(TOPIC, keys, error, made) from error
 
 
 def asked_pair(keys: PairKeys, shifts_given: tuple[bool, ...]) -> Asked:

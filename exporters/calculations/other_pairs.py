@@ -12,6 +12,7 @@ from exporters.calculations.inputs import PLACE, checked, keys_of, refusal
 from exporters.calculations.misprints import printed_for_internal
 from exporters.calculations.sheet import Sheet
 from exporters.calculations.spur import dedendum_formula, given_data
+from exporters.calculations.wishes import wish_refused
 from exporters.words import FINDINGS
 from geometry.angles import involute_function
 from geometry.errors import ParameterError
@@ -82,22 +83,29 @@ def merged(under: dict[str, Any], over: dict[str, Any], kind: str) -> dict[str, 
 def internal_sheet(table: dict[str, Any]) -> Sheet:
     """The calculation of a pinion in a ring."""
     keys, table = _keys(table, "internal_gear_pair")
-    mate = InternalGearPairSpec("first", "second", 0.0, keys.working_centre_distance, keys.normal_backlash)
+    given_shift = "profile_shift_coefficient" in table["second"]
     try:
-        pinion, wanted = checked_spur_gear(keys.first), keys.working_centre_distance
-        ring_keys = keys.second
-        teeth = pinion.number_of_teeth, ring_keys.number_of_teeth
-        if wanted is not None and "profile_shift_coefficient" not in table["second"] and teeth[0] < teeth[1]:
-            bare = RingGear(ring_keys.module, teeth[1], math.radians(ring_keys.pressure_angle_deg), 1e9, RoundedRoot())
-            shift = pinion.profile_shift_coefficient + shift_difference(pinion, bare, wanted)
-            ring_keys = msgspec.structs.replace(ring_keys, profile_shift_coefficient=shift)
-            # shifts that were found for a distance give it back but for rounding
-            mate = InternalGearPairSpec("first", "second", 0.0, None, keys.normal_backlash)
-        gears: dict[str, Any] = {"first": pinion, "second": checked_ring_gear(ring_keys)}
-        pair = mated(gears, [mate], {name: name for name in _GEARS})[1][0].pair
-        return _internal_page(pair, wanted is not None)
+        return _internal_page(_internal_pair(keys, given_shift), keys.working_centre_distance is not None)
     except ParameterError as error:
-        raise _refused(error, keys) from error
+        refused = _refused(error, keys)
+        raise wish_refused(TOPIC, keys, refused, lambda changed: _internal_pair(changed, given_shift)) from error
+
+
+def _internal_pair(keys: InternalKeys, given_shift: bool) -> InternalPair:
+    """The pair that the keys ask for; the ring's shift follows from a wanted distance where it is not given."""
+    mate = InternalGearPairSpec("first", "second", 0.0, keys.working_centre_distance, keys.normal_backlash)
+    pinion, wanted = checked_spur_gear(keys.first), keys.working_centre_distance
+    ring_keys = keys.second
+    teeth = pinion.number_of_teeth, ring_keys.number_of_teeth
+    if wanted is not None and not given_shift and teeth[0] < teeth[1]:
+        bare = RingGear(ring_keys.module, teeth[1], math.radians(ring_keys.pressure_angle_deg), 1e9, RoundedRoot())
+        shift = pinion.profile_shift_coefficient + shift_difference(pinion, bare, wanted)
+        ring_keys = msgspec.structs.replace(ring_keys, profile_shift_coefficient=shift)
+        # shifts that were found for a distance give it back but for rounding
+        mate = InternalGearPairSpec("first", "second", 0.0, None, keys.normal_backlash)
+    gears: dict[str, Any] = {"first": pinion, "second": checked_ring_gear(ring_keys)}
+    pair: InternalPair = mated(gears, [mate], {name: name for name in _GEARS})[1][0].pair
+    return pair
 
 
 def rack_sheet(table: dict[str, Any]) -> Sheet:

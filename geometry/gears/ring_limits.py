@@ -74,6 +74,13 @@ def checked_ring(gear: RingGear) -> RingGear:
         check_made(gear)
     except ParameterError as refusal:
         raise _with_remedy(gear, refusal) from refusal
+    check_rim(gear)
+    return gear
+
+
+def check_rim(gear: RingGear) -> None:
+    """Refuse a rim without material, or holes in it that leave none."""
+    _check_numbers(gear)
     least = 2 * gear.root_radius
     if gear.outer_diameter <= least:
         text = f"must be above the root diameter; at least {at_least(least + gear.module, 4)} mm leaves a rim"
@@ -82,7 +89,6 @@ def checked_ring(gear: RingGear) -> RingGear:
     for wall, key, value, why in rim_walls(gear):
         if not wall > 0:
             raise ParameterError(key, value, why)
-    return gear
 
 
 def rim_walls(gear: RingGear) -> list[tuple[float, str, float, str]]:

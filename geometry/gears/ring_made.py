@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import lru_cache
 
 from geometry.errors import GeometryError, ParameterError
 from geometry.gears.cutter import PinionCutter, checked_cutter
@@ -123,11 +124,16 @@ def _with_cutters(gear: RingGear) -> Iterator[RingGear]:
 
 
 def _with_teeth(gear: RingGear, teeth: int) -> RingGear | None:
-    """The ring with its cutter of another number of teeth, as high as its tooth can be, the rounding made to fit."""
+    """The ring with its cutter of another number of teeth; None where that is none."""
     assert isinstance(gear.root, PinionCutter)
-    if teeth >= gear.number_of_teeth:
-        return None
-    sharp = replace(gear.root, number_of_teeth=teeth, tip_rounding=0.0)
+    cutter = _fitted(gear.root, teeth) if teeth < gear.number_of_teeth else None
+    return None if cutter is None else replace(gear, root=cutter)
+
+
+@lru_cache(maxsize=1024)
+def _fitted(cutter: PinionCutter, teeth: int) -> PinionCutter | None:
+    """A cutter with another number of teeth, as high as its tooth can be, the rounding made to fit."""
+    sharp = replace(cutter, number_of_teeth=teeth, tip_rounding=0.0)
 
     def spare(addendum: float) -> float:
         high = replace(sharp, addendum=addendum)
@@ -140,7 +146,7 @@ def _with_teeth(gear: RingGear, teeth: int) -> RingGear | None:
     if spare(sharp.addendum) < 0:
         sharp = replace(sharp, addendum=bracketed_root(spare, low, sharp.addendum).value)
     room = sharp.largest_rounding()
-    return replace(gear, root=replace(sharp, tip_rounding=min(gear.root.tip_rounding, room))) if room > 0 else None
+    return replace(sharp, tip_rounding=min(cutter.tip_rounding, room)) if room > 0 else None
 
 
 def _clears(gear: RingGear, tip_radius: float) -> bool:
@@ -159,15 +165,23 @@ def _with_yielding_tip(gear: RingGear) -> RingGear | None:
     """The ring with the deepest tip that can be made, if its default one cannot; None where that does not help."""
     if gear.given_tip_diameter is not None or not gear.default_tip_radius > 0:
         return None
-    if isinstance(gear.root, PinionCutter) and not gear.any_cutter:
-        # a cutter that trims tips which another one leaves is to blame itself
+    cutters, others = [gear], [gear]
+    if isinstance(gear.root, PinionCutter):
+        # a named cutter that trims tips which a usual one leaves is to blame itself
         root = PinionCutter(gear.module, 25, gear.pressure_angle, addendum=gear.root.addendum)
-        if next(_made(replace(gear, root=root, any_cutter=True, least_tip_diameter=0.0)), None) is not None:
-            return None
-    elif any(_clears(cut, cut.tip_radius) for cut in _near_cutters(gear, gear.default_tip_radius)):
+        plain = gear if gear.any_cutter else replace(gear, root=root)
+        others = [g for t in DEFAULT_CUTTER_TEETH if (g := _with_teeth(plain, t)) is not None]
+        cutters = others if gear.any_cutter else cutters
+    if any(_clears(cut, gear.default_tip_radius) for cut in (*cutters, *others)):
+        # what is wrong then is no matter of the tip
         return None
     shallowest = gear.reference_radius + (gear.profile_shift_coefficient - LEAST_RING_ADDENDUM) * gear.module
-    tried = [(tip, cut) for cut in _near_cutters(gear, shallowest) if (tip := _deepest_tip(cut, shallowest))]
+    tried = _deepest_tips(cutters, shallowest)
+    if tried and len(cutters) > 1:
+        best = min(tried, key=lambda pair: pair[0])[1].root
+        assert isinstance(best, PinionCutter)
+        teeth = range(max(best.number_of_teeth - 8, LEAST_CUTTER_TEETH), best.number_of_teeth + 9)
+        tried = _deepest_tips([g for t in teeth if (g := _with_teeth(gear, t)) is not None], shallowest)
     for tip, cut in sorted(tried, key=lambda pair: pair[0]):
         shallower = replace(cut, least_tip_diameter=2 * tip)
         try:
@@ -178,15 +192,9 @@ def _with_yielding_tip(gear: RingGear) -> RingGear | None:
     return None
 
 
-def _near_cutters(gear: RingGear, tip_radius: float) -> list[RingGear]:
-    """The ring with its cutter; where nobody named it, with usual ones that clear the tip, and those near to these."""
-    if not gear.any_cutter or not isinstance(gear.root, PinionCutter):
-        return [gear]
-    usual = [t for t in DEFAULT_CUTTER_TEETH if (g := _with_teeth(gear, t)) is not None and _clears(g, tip_radius)]
-    if not usual:
-        return []
-    teeth = range(max(usual[-1] - 4, LEAST_CUTTER_TEETH), min(usual[0] + 8, gear.number_of_teeth - 1) + 1)
-    return [g for t in teeth if (g := _with_teeth(gear, t)) is not None]
+def _deepest_tips(cutters: list[RingGear], shallowest: float) -> list[tuple[float, RingGear]]:
+    """The least tip radius, mm, that each ring's cutter clears, where there is one."""
+    return [(tip, cut) for cut in cutters if (tip := _deepest_tip(cut, shallowest)) is not None]
 
 
 def _deepest_tip(gear: RingGear, shallowest: float) -> float | None:

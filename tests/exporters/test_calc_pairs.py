@@ -121,3 +121,37 @@ def test_refusals_name_the_key(words: str, key: str) -> None:
     with pytest.raises(SceneError) as caught:
         calculate("gear-pair", words.split(), "text", None)
     assert key in str(caught.value)
+
+
+WISHES = {
+    "distance": ("external_gear_pair", "module=2 first.number_of_teeth=17 second.number_of_teeth=23",
+                 "working_centre_distance", 70.0),
+    "backlash": ("external_gear_pair", "module=2 first.number_of_teeth=17 second.number_of_teeth=23",
+                 "normal_backlash", 9.0),
+    "circumferential": ("external_gear_pair", "module=2 first.number_of_teeth=17 second.number_of_teeth=23",
+                        "circumferential_backlash", 9.0),
+    "internal distance": ("internal_gear_pair", "module=2 first.number_of_teeth=20 second.number_of_teeth=60",
+                          "working_centre_distance", 70.0),
+    "internal backlash": ("internal_gear_pair", "module=2 first.number_of_teeth=20 second.number_of_teeth=60",
+                          "normal_backlash", 9.0),
+    "rack distance": ("rack_pair", "module=2 first.number_of_teeth=20 second.number_of_teeth=10",
+                      "working_centre_distance", 70.0),
+    "rack backlash": ("rack_pair", "module=2 first.number_of_teeth=20 second.number_of_teeth=10",
+                      "normal_backlash", 9.0),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("kind", "keys", "name", "value"), WISHES.values(), ids=WISHES.keys())
+def test_a_wish_that_asks_too_much_is_named_with_the_nearest(kind: str, keys: str, name: str, value: float) -> None:
+    import re
+
+    from exporters.calculations.topics import sheet_of
+
+    words = [f"kind={kind}", *keys.split()]
+    with pytest.raises(SceneError) as refused:
+        sheet_of("gear-pair", [*words, f"{name}={value}"])
+    assert refused.value.key == f"gear-pair.{name}"
+    assert refused.value.value == value
+    offered = re.search(r"at (?:most|least) ([\d.]+) mm works", refused.value.remedy)
+    assert offered, refused.value.remedy
+    sheet_of("gear-pair", [*words, f"{name}={offered[1]}"])
