@@ -183,8 +183,8 @@ def _nearest(spec: Any, path: Path, value: Any, works: Callable[[Any], bool]) ->
 
     low, high = _bounds(spec, path)
     if isinstance(value, int):
-        found = next((n for n in _whole_trials(value) if low <= n <= high and good(n)), None)
-        return None if found is None else f"at {'most' if found < value else 'least'} {found}"
+        whole = next((n for n in _whole_trials(value) if low <= n <= high and good(n)), None)
+        return None if whole is None else f"at {'most' if whole < value else 'least'} {whole}"
     trials = _trials(value, _default(spec, path), low, high)
     found = next((v for v in trials if good(v)), None)
     if found is None:

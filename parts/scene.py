@@ -81,8 +81,7 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     parts: Annotated[list[str], Meta(min_length=1, description="parts to export; default: all")] | None = None
     assembly: Annotated[bool, Meta(description="step, 3mf: one file of all instances in their places")] = False
     rack_step: (
-        Annotated[float, mm("sheet, generating: way of the rack from position to position", least=0.01, most=1000)]
-        | None
+        Annotated[float, mm("sheet, generating: way of the rack from step to step", least=0.01, most=1000)] | None
     ) = None
     mate: Annotated[int, Meta(ge=1, description="sheet: the pair that is shown, by number; default: all")] | None = None
 

@@ -91,8 +91,6 @@ def _check(gears: list[SpurGear]) -> None:
     if len(gears) > 2:
         raise ParameterError("parts", len(gears), "a disk holds two wheels; at most 2 works")
     for gear in gears:
-        if gear.cutter is not None:
-            raise ParameterError("parts", "a wheel cut by a pinion", "the device has a rack; remove its cutter")
         if (gear.module, gear.number_of_teeth) != (first.module, first.number_of_teeth):
             text = f"one disk needs module {first.module:g} and {first.number_of_teeth} teeth for both wheels"
             raise ParameterError("parts", f"module {gear.module:g}, {gear.number_of_teeth} teeth", text)

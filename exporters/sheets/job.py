@@ -23,8 +23,9 @@ from parts.scene import ExportSpec, SceneFile
 from parts.schema import SceneError
 from parts.spur_gear import SpurGearSpec, checked_spur_gear
 
-# by how much the device moves its rack at each press of the key, mm: 4 to 5 in practicum, lesson 1
-RACK_STEP = 4.5
+# by how much the device moves its rack at each press of the key, mm: 4 to 5 in practicum, lesson 1; on wheels that are
+# much smaller or larger than its own no more and no less than these parts of the pitch
+RACK_STEP, _MOST_STEP, _LEAST_STEP = 4.5, 1 / 6, 1 / 60
 ENDINGS = ("dxf", "svg")
 
 
@@ -96,6 +97,7 @@ def _generating(scene: SceneFile, export: ExportSpec, where: str, source: str) -
     for part in ids:
         if not isinstance(scene.parts[part], SpurGearSpec):
             raise SceneError(source, f"{where}.parts", part, "the device draws external gears; name a spur_gear")
+        _check_wheel(scene.parts[part], f"parts.{part}", source)
     if not ids:
         raise SceneError(source, f"{where}.purpose", export.purpose, "shows external gears; add one or remove it")
     gears = [checked_spur_gear(scene.parts[part]) for part in ids]
@@ -103,12 +105,23 @@ def _generating(scene: SceneFile, export: ExportSpec, where: str, source: str) -
     if abs(table.get("profile_shift_coefficient", math.inf) - practicum_undercut(gears[0]).limit) < 1e-12:
         # the very shift of (1.2), which the table then derives
         table.pop("profile_shift_coefficient")
-    tables = tmm42.sheet(table)
+    tables = tmm42.sheet(table, zero_only=all(g.profile_shift_coefficient == 0 for g in gears))
+    pitch = math.pi * gears[0].module
     try:
-        step = export.rack_step or RACK_STEP
+        step = export.rack_step or min(max(RACK_STEP, _LEAST_STEP * pitch), _MOST_STEP * pitch)
         return generating_sheet(gears, step, tables, scene.scene.language, float(export.tolerance or 0.0))
     except ParameterError as error:
         raise SceneError(source, f"{where}.{error.name}", error.value, error.allowed) from error
+
+
+def _check_wheel(spec: SpurGearSpec, place: str, source: str) -> None:
+    """The device cuts straight teeth with a rack."""
+    if spec.cutter is not None:
+        remedy = "the device cuts with a rack; without cutter it works, or name other gears in parts of the export"
+        raise SceneError(source, f"{place}.cutter.number_of_teeth", spec.cutter.number_of_teeth, remedy)
+    if spec.helix_angle_deg:
+        remedy = "the device cuts straight teeth; 0 works, or name other gears in parts of the export"
+        raise SceneError(source, f"{place}.helix_angle_deg", spec.helix_angle_deg, remedy)
 
 
 def _most_shifted(ids: list[str], gears: list[Any]) -> str:

@@ -110,7 +110,8 @@ def _path(curve: CadCurve, height: float) -> str:
         return f"M{xy(curve.start)} L{xy(curve.end)}"
     if isinstance(curve, Arc):
         r, flag = number(curve.radius), int(curve.sweep < 0)
-        parts = 2 if abs(curve.sweep) > math.pi else 1
+        # near half a turn the ends say little of where the centre is
+        parts = max(1, math.ceil(abs(curve.sweep) / (0.75 * math.pi)))
         ends = [complex(curve.point(abs(curve.sweep) * k / parts)) for k in range(parts + 1)]
         return f"M{xy(ends[0])} " + " ".join(f"A{r},{r} 0 0 {flag} {xy(e)}" for e in ends[1:])
     return " ".join([f"M{xy(complex(curve.poles[0]))}", *(f"C{xy(a)} {xy(b)} {xy(c)}" for a, b, c in _bezier(curve))])
