@@ -29,8 +29,9 @@ _Direction = Annotated[
 _Distance = Annotated[float, mm("centre distance; default: that of the shifts, without backlash", above=0, most=1e6)]
 _Backlash = Annotated[
     float,
-    mm("backlash along the line of action (in the transverse plane): thins both gears by half", least=0, most=100),
-]
+    mm("normal backlash j_bn = j_wt cos(alpha_wt) cos(beta_b), at right angles to the flanks: thins both gears by half",
+       least=0, most=100),
+]  # fmt: skip
 
 
 class ExternalGearPairSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="external_gear_pair"):
@@ -153,6 +154,8 @@ class ExternalMating:
     direction_deg: float
     pair: ExternalPair
     kind: str = "external_gear_pair"
+    # cos(beta_b), see ``transverse.normal_share``
+    normal_share: float = 1.0
 
     @property
     def distance(self) -> float:
@@ -171,8 +174,8 @@ class ExternalMating:
 
     @property
     def normal_backlash(self) -> float:
-        """j_bn, mm."""
-        return self.pair.normal_backlash
+        """j_bn, mm; the pair's own is that of its transverse section."""
+        return self.pair.normal_backlash * self.normal_share
 
     @property
     def ratio(self) -> float:
@@ -191,7 +194,8 @@ class ExternalMating:
         middle = self.pair.second_rotation(first[1], direction)
         turn = math.remainder(second[1] - middle, gear.pitch_angle)
         arm = gear.base_radius
-        return Standing(direction, abs(second[0] - first[0]), turn, max(self.normal_backlash, 0.0) / (2 * arm), arm)
+        play = max(self.pair.normal_backlash, 0.0) / (2 * arm)
+        return Standing(direction, abs(second[0] - first[0]), turn, play, arm)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict over one pitch of the first gear."""
@@ -226,6 +230,8 @@ class InternalMating:
     pair: InternalPair
     ring_first: bool
     kind: str = "internal_gear_pair"
+    # cos(beta_b), see ``transverse.normal_share``
+    normal_share: float = 1.0
 
     @property
     def distance(self) -> float:
@@ -244,8 +250,8 @@ class InternalMating:
 
     @property
     def normal_backlash(self) -> float:
-        """j_bn, mm."""
-        return self.pair.normal_backlash
+        """j_bn, mm; the pair's own is that of its transverse section."""
+        return self.pair.normal_backlash * self.normal_share
 
     @property
     def ratio(self) -> float:
@@ -269,7 +275,8 @@ class InternalMating:
         direction = cmath.phase(second[0] - first[0])
         turn = math.remainder(second[1] - self._middle(first[1], direction), gear.pitch_angle)
         arm = gear.base_radius
-        return Standing(direction, abs(second[0] - first[0]), turn, max(self.normal_backlash, 0.0) / (2 * arm), arm)
+        play = max(self.pair.normal_backlash, 0.0) / (2 * arm)
+        return Standing(direction, abs(second[0] - first[0]), turn, play, arm)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict over one pitch of the pinion."""
@@ -292,7 +299,8 @@ class InternalMating:
             "contact_ratio": self.pair.contact_ratio,
             "effective_contact_ratio": self.pair.effective_contact_ratio,
             "normal_backlash": self.normal_backlash,
-            "margins": {m.name: m.margin for m in self.pair.margins() if math.isfinite(m.margin)},
+            "margins": {m.name: m.margin for m in self.pair.margins() if math.isfinite(m.margin)}
+            | {"normal_backlash": self.normal_backlash},
         }
 
 
@@ -305,6 +313,8 @@ class RackMating:
     direction_deg: float
     pair: RackPair
     kind: str = "rack_pair"
+    # cos(beta_b), see ``transverse.normal_share``
+    normal_share: float = 1.0
 
     @property
     def distance(self) -> float:
@@ -323,8 +333,8 @@ class RackMating:
 
     @property
     def normal_backlash(self) -> float:
-        """j_bn, mm."""
-        return self.pair.normal_backlash
+        """j_bn, mm; the pair's own is that of its transverse section."""
+        return self.pair.normal_backlash * self.normal_share
 
     @property
     def ratio(self) -> None:
@@ -348,7 +358,7 @@ class RackMating:
         place = (second[0] - first[0]) * cmath.rect(1.0, -direction)
         middle, _ = self.second_pose(0j, first[1], direction)
         off = place.imag - (middle * cmath.rect(1.0, -direction)).imag
-        play = max(self.normal_backlash, 0.0) / (2 * math.cos(self.pair.rack.rack.pressure_angle))
+        play = max(self.pair.normal_backlash, 0.0) / (2 * math.cos(self.pair.rack.rack.pressure_angle))
         return Standing(direction, place.real, math.remainder(off, self.pair.rack.pitch), play)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:

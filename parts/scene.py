@@ -300,16 +300,17 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
             raise SceneError(source, f"parts.{key}.{error.name}", error.value, error.allowed) from error
     matings: list[Mating] = []
     part_of = {key: str(spec.part) for key, spec in scene.instances.items()}
+    helices = {key: helix_of(spec).angle for key, spec in scene.parts.items()}
     for index, mate in enumerate(scene.mates):
         _check_kinds(scene, mate, part_of, source, f"mates[{index + 1}]")
         _check_helices(scene, mate, part_of, source, f"mates[{index + 1}]")
         try:
-            mated(gears, [mate], part_of)
+            mated(gears, [mate], part_of, helices)
         except ParameterError as error:
             owner, _, key = error.name.rpartition(".")
             place = f".{key}" if owner == "mate" else f": parts.{_blamed(scene, mate, part_of)}.{error.name}"
             raise SceneError(source, f"mates[{index + 1}]{place}", error.value, error.allowed) from error
-    gears, matings = mated(gears, scene.mates, part_of)
+    gears, matings = mated(gears, scene.mates, part_of, helices)
     parts = {key: KINDS[spec.__struct_config__.tag][2](key, spec, gears[key]) for key, spec in scene.parts.items()}
     return parts, matings
 

@@ -65,6 +65,7 @@ class Asked:
     wanted_distance: bool
     given_shortening: float | None
     keys: PairKeys
+    shifts_follow: bool = False
 
 
 def table_from(scene: Any, source: str, table: dict[str, Any]) -> dict[str, Any]:
@@ -84,12 +85,6 @@ def table_from(scene: Any, source: str, table: dict[str, Any]) -> dict[str, Any]
     known = {"kind": kind, **{name: given(spec) for name, spec in zip(GEARS, specs, strict=True)}}
     wishes = {key: getattr(mate, key) for key in ("working_centre_distance", "normal_backlash")}
     if kind == "external_gear_pair":
-        if (distance := wishes.pop("working_centre_distance")) is not None and "working_centre_distance" not in table:
-            remedy = (
-                "the sheet takes the distance from the shifts; working_centre_distance=... on the command line finds "
-                "shifts for one"
-            )
-            raise SceneError(source, f"mates[{index}].working_centre_distance", distance, remedy)
         return _merged(known | {k: v for k, v in wishes.items() if v is not None}, table)
     return merged(known | {k: v for k, v in wishes.items() if v is not None}, table, kind)
 
@@ -176,7 +171,7 @@ def asked_pair(keys: PairKeys, shifts_given: tuple[bool, ...]) -> Asked:
     pair = external_pair(gears[0], gears[1], distance)
     width = min(keys.first.face_width, keys.second.face_width)
     wanted = keys.working_centre_distance is not None
-    return Asked(pair, normal, helix, width, wanted, keys.tip_shortening_coefficient, keys)
+    return Asked(pair, normal, helix, width, wanted, keys.tip_shortening_coefficient, keys, follow)
 
 
 def checked_of(name: str, normal: SpurGear, helix: float) -> SpurGear:
@@ -284,7 +279,11 @@ def _mesh(page: Sheet, asked: Asked) -> None:
         total = (one.number_of_teeth + two.number_of_teeth) * (involute_function(angle) - involute_function(alpha))
         total /= 2 * math.tan(alpha)
         formula = "({z1} + {z2}) * ({inv_alpha_w} - inv({alpha})) / (2 * tan({alpha}))"
-        page.add("profile_shift_sum", total, formula, "practicum (3.3)")
+        if asked.shifts_follow:
+            page.add("profile_shift_sum", total, formula, "practicum (3.3)")
+        else:
+            # with shifts of one's own the distance leaves backlash
+            page.add("tight_profile_shift_sum", total, formula, "practicum (3.3)")
     else:
         formula = "2 * ({x1} + {x2}) * tan({alpha}) / ({z1} + {z2}) + inv({alpha})"
         page.add("involute_of_working_pressure_angle", involute_function(angle), formula, "practicum (3.3)")
