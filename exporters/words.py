@@ -194,6 +194,12 @@ FINDINGS: dict[str, tuple[str, str]] = {
         "thin rim: {value:.3f} mm outside the root circle, less than one module ({limit:.3f} mm)",
         "тонкий обід: {value:.3f} мм зовні кола западин, менше за модуль ({limit:.3f} мм)",
     ),
+    "cutter_makes_root": (
+        "basic_rack gives the addendum alone ({value:.4g} m): the cutter makes the root, diameter {limit:.4f} mm, and "
+        "the fillet",
+        "basic_rack задає лише висоту головки ({value:.4g} m): западину діаметром {limit:.4f} мм і перехідну криву "
+        "утворює довбач",
+    ),
     "ring_tip_limited": (
         "the ring's tips are made shallower: addendum {value:.4f} m, {limit:.4f} m would lie below the base circle or "
         "be trimmed by every cutter; tip_diameter overrides",

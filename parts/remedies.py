@@ -20,7 +20,7 @@ _OFFER = re.compile(
 )
 _OFFERED = re.compile(
     r"(?:; (?:at most|at least|above|less than|-?\d[\d.e+-]* (?:mm |degrees )?(?:teeth )?work"
-    r"|a smaller|make it|change it)|\(numbers of).*$"
+    r"|a smaller|make it|change it|remove it)|\(numbers of).*$"
 )
 # tables that may be left out altogether, with what then takes their place
 _OPTIONAL = (
@@ -247,7 +247,8 @@ def _resets(spec: Any, works: Callable[[Any], bool], *, other_teeth: bool = Fals
     fields = {f.name: f.default for f in msgspec.structs.fields(spec) if f.default is not msgspec.NODEFAULT}
     tables = [_Reset((n,), fields[n]) for n in _OPTIONAL if n in fields and isinstance(getattr(spec, n), Struct | list)]
     keys = [_Reset(p, _default(spec, p)) for p in _keys(spec) if len(p) == 1 and p[0] in fields]
-    inner = [_Reset(p, d) for p in _keys(spec) if len(p) > 1 and (d := _default(spec, p)) is not None]
+    nested = [p for p in _keys(spec) if len(p) > 1 and _field(spec, p).default is not msgspec.NODEFAULT]
+    inner = [_Reset(p, _default(spec, p)) for p in nested]
     resets = [r for r in (*inner, *tables, *keys) if value_at(spec, r.path) != r.default]
     if not other_teeth:
         alone = next((r for r in resets if works(_reset(spec, [r]))), None)

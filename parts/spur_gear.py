@@ -11,6 +11,7 @@ import msgspec
 from msgspec import Meta, Struct
 
 from geometry.errors import GeometryError, ParameterError, at_most
+from geometry.findings import Finding
 from geometry.gears.basic_rack import BasicRack, TipRelief, checked_rack, default_tip_radius, iso_53
 from geometry.gears.limits import checked_gear, exists, findings, root_form_diameter, tip_thickness
 from geometry.gears.offset_tooth import chamfered_outline, gear_region
@@ -168,7 +169,7 @@ def spur_gear_part(part_id: str, spec: SpurGearSpec, gear: SpurGear) -> Part:
         lru_cache(maxsize=2)(lambda offset: wheel_body(shape, sections, offset)),
         spec.face_width,
         shape.is_plate,
-        findings(gear),
+        (*_rack_finding(spec, gear), *findings(gear)),
         circles,
         quantities,
         spec.material,
@@ -231,6 +232,7 @@ def gear_of(spec: SpurGearSpec) -> SpurGear:
         raise ParameterError("tip_rounding", spec.tip_rounding, "give either tip_chamfer or tip_rounding; 0 works")
     if spec.bore is not None and spec.bore_diameter > 0:
         raise ParameterError("bore_diameter", spec.bore_diameter, "give either bore_diameter or bore; 0 works")
+    _check_unused(spec)
     cutter = None if spec.cutter is None else cutter_of(spec.cutter, spec.module, math.radians(spec.pressure_angle_deg))
     return SpurGear(
         module=spec.module,
@@ -246,6 +248,27 @@ def gear_of(spec: SpurGearSpec) -> SpurGear:
         hub=hub_holes(spec.bore, spec.holes, spec.spokes),
         cutter=cutter,
     )
+
+
+def _check_unused(spec: SpurGearSpec) -> None:
+    """A cutter leaves of a basic rack the addendum alone: what it would do to the root is refused, not passed over."""
+    rack, default = spec.basic_rack, RackTable()
+    if spec.cutter is None or not isinstance(rack, RackTable):
+        return
+    for key in ("tip_clearance_coefficient", "tip_radius_coefficient"):
+        given, usual = getattr(rack, key), getattr(default, key)
+        if given != usual:
+            why = "the cutter makes the root, by its own addendum and tip rounding"
+            cure = f"{usual:g} works" if usual is not None else "remove it"
+            raise ParameterError(f"basic_rack.{key}", given, f"{why}; {cure}")
+
+
+def _rack_finding(spec: SpurGearSpec, gear: SpurGear) -> tuple[Finding, ...]:
+    """The remark that only the addendum of a basic rack counts beside a cutter: it, and the root diameter."""
+    if spec.cutter is None or spec.basic_rack == "ISO 53 A":
+        return ()
+    addendum = gear.rack.addendum * gear.module / spec.module
+    return (Finding("cutter_makes_root", addendum, 2 * gear.root_radius),)
 
 
 def _section_of(spec: SpurGearSpec) -> SpurGear:

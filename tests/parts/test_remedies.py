@@ -77,6 +77,14 @@ SINGLE = {
     "clearance of a wide rack": (RackSpec(2.0, 20, 30.0, RackTable(1.4, 1.0)), "basic_rack."),
     "root and rounding of a ring": (RingGearSpec(10.0, 40, rounded_root=RoundedRootTable(3.0, 1.5, False)), "rounded"),
     "tooth and rim of a small ring": (RingGearSpec(2.0, 5, outer_diameter=20.0), "number_of_teeth"),
+    "rack beside a cutter": (
+        SpurGearSpec(2.0, 30, basic_rack=RackTable(0.8, 0.3), cutter=CutterTable(25)),
+        "basic_rack.tip_clearance_coefficient",
+    ),
+    "rack rounding beside a cutter": (
+        SpurGearSpec(2.0, 30, basic_rack=RackTable(0.8, 0.25, 0.2), cutter=CutterTable(25)),
+        "basic_rack.tip_radius_coefficient",
+    ),
     "few teeth, thinned and chamfered": (SpurGearSpec(2.0, 3, tip_chamfer=1.6, circumferential_thinning=3.6), ""),
 }
 
@@ -161,3 +169,24 @@ def test_any_first_remedy_works(kind: str, data: st.DataObject) -> None:
 @settings(max_examples=300, deadline=None)
 def test_any_first_remedy_works_at_length(kind: str, data: st.DataObject) -> None:
     first_offer_works(data.draw(wild(kind)))
+
+
+def test_a_basic_rack_beside_a_cutter_gives_the_addendum_and_says_so() -> None:
+    from exporters.words import finding_text
+    from parts.spur_gear import spur_gear_part
+
+    found = {}
+    for rack in ("ISO 53 A", "ISO 53 D", RackTable(0.8)):
+        spec = SpurGearSpec(2.0, 30, basic_rack=rack, cutter=CutterTable(25))  # type: ignore[arg-type]
+        part = spur_gear_part("p", spec, checked_spur_gear(spec))
+        found[str(rack)[:10]] = part
+    plain, clearance, stub = found.values()
+    assert [f.code for f in plain.findings] == []
+    assert clearance.circles == plain.circles
+    assert stub.circles["root_diameter"] == plain.circles["root_diameter"]
+    assert stub.circles["tip_diameter"] == pytest.approx(60 + 2 * 0.8 * 2)
+    for part in (clearance, stub):
+        remark = next(f for f in part.findings if f.code == "cutter_makes_root")
+        assert remark.limit == part.circles["root_diameter"]
+        assert finding_text("en", remark)
+        assert finding_text("uk", remark)
