@@ -103,7 +103,7 @@ _ASSEMBLY = """
 ## mate = 1                                   # only of this one; purpose = "generating": device TMM-42""".splitlines()
 
 # keys that only sheets have: they stand in the part for several parts
-_SHEET_KEYS = ("mate", "rack_step")
+_SHEET_KEYS = ("mate", "rack_step", "title_block")
 
 
 def new_scene(kind: str) -> str:

@@ -27,7 +27,8 @@ _OFFER = re.compile(
 _RANGE = re.compile(r"(?:(.*?): )?(?:(at least|above) (\S+?))?(?:, )?(?:at most (\S+?))?(?: (mm|degrees|modules))?")
 _TYPES = {
     "a number": "числом", "a whole number": "цілим числом", "true or false": "true або false",
-    "text in quotes": "текстом у лапках", "a number or a table": "числом або таблицею",
+    "true, false or a table": "true, false або таблицею", "text in quotes": "текстом у лапках",
+    "a number or a table": "числом або таблицею",
     "a list in brackets": "списком у дужках", "a table": "таблицею", "text or a table": "текстом або таблицею",
     "a table or a list of tables": "таблицею або списком таблиць",
 }  # fmt: skip

@@ -22,6 +22,7 @@ from parts.rack import RackSpec, checked_rack_part, rack_part
 from parts.ring_gear import RingGearSpec, checked_ring_gear, ring_gear_part
 from parts.schema import SceneError, converted, near, refuse_infinite
 from parts.spur_gear import SpurGearSpec, checked_spur_gear, spur_gear_part
+from parts.title_keys import TitleBlockKey
 
 SCENE_FOLDER = Path(__file__).parent / "scenes"
 # each kind: its keys, what checks them and gives the gear, and what makes the part of it
@@ -83,6 +84,7 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     rack_step: (
         Annotated[float, mm("sheet, generating: way of the rack from step to step", least=0.01, most=1000)] | None
     ) = None
+    title_block: TitleBlockKey = False
     mate: Annotated[int, Meta(ge=1, description="sheet: the pair that is shown, by number; default: all")] | None = None
 
 
@@ -264,6 +266,9 @@ def _export_spec(table: Any, parts: dict[str, Struct], source: str, place: str) 
         raise SceneError(source, f"{place}.mate", spec.mate, 'only for purpose = "meshing"; remove it')
     if spec.rack_step is not None and spec.purpose != "generating":
         raise SceneError(source, f"{place}.rack_step", spec.rack_step, 'only for purpose = "generating"; remove it')
+    if spec.title_block and spec.purpose not in ("meshing", "generating"):
+        known = 'only for purpose = "meshing" or "generating"; remove it'
+        raise SceneError(source, f"{place}.title_block", spec.title_block is not False, known)
     if spec.kerf and spec.format in ("stl", "3mf"):
         remedy = f"a print has no kerf; offset = {spec.kerf / 2:.12g} moves every outline by as much"
         raise SceneError(source, f"{place}.kerf", spec.kerf, remedy)

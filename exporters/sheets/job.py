@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from exporters.sheets.canvas import Canvas, decimal
+from exporters.sheets.canvas import Canvas, decimal, scale_text
 from exporters.sheets.meshing import Facts, meshing_canvas
 from exporters.sheets.table import Row
+from exporters.sheets.title_block import TITLE_BLOCK, draw_title_block, title_block_of
 from exporters.sheets.verify import Circle, Expected, Meshing, verify_sheet
 from exporters.sheets.view import TEETH
 from exporters.sheets.words import sheet_words
@@ -80,9 +81,10 @@ def sheet_jobs(scene: SceneFile, matings: list[Mating], export: ExportSpec, wher
         if export.mate not in (None, index):
             continue
         try:
-            expected = _meshing(mating, scene.scene.language, float(export.tolerance or 0.0))
+            expected = _meshing(mating, scene.scene.language, float(export.tolerance or 0.0), _band(export))
         except ParameterError as error:
             raise SceneError(source, f"mates[{index}]", error.value, error.allowed) from error
+        _add_title_block(expected, scene, export, index, len(matings) if export.mate is None else 1)
         name = f"{scene.name}.{export.name or export.purpose}.{index}"
         jobs += [SheetJob(export, expected, f"{name}.{ending}", where) for ending in ENDINGS]
     return jobs
@@ -109,9 +111,27 @@ def _generating(scene: SceneFile, export: ExportSpec, where: str, source: str) -
     pitch = math.pi * gears[0].module
     try:
         step = export.rack_step or min(max(RACK_STEP, _LEAST_STEP * pitch), _MOST_STEP * pitch)
-        return generating_sheet(gears, step, tables, scene.scene.language, float(export.tolerance or 0.0))
+        language, tolerance = scene.scene.language, float(export.tolerance or 0.0)
+        expected = generating_sheet(gears, step, tables, language, tolerance, _band(export))
     except ParameterError as error:
         raise SceneError(source, f"{where}.{error.name}", error.value, error.allowed) from error
+    _add_title_block(expected, scene, export, 1, 1)
+    return expected
+
+
+def _band(export: ExportSpec) -> float:
+    """Height that the title block takes, mm."""
+    return TITLE_BLOCK[1] if export.title_block else 0.0
+
+
+def _add_title_block(expected: Expected, scene: SceneFile, export: ExportSpec, sheet: int, sheets: int) -> None:
+    """The title block on a sheet, where the export asks for one."""
+    if not export.title_block:
+        return
+    language = scene.scene.language
+    scale = scale_text(expected.paper.scale, language)
+    block = title_block_of(export.title_block, scene.scene.title or scene.name, scale, min(sheet, sheets), sheets)
+    draw_title_block(expected.canvas, block, language)
 
 
 def _check_wheel(spec: SpurGearSpec, place: str, source: str) -> None:
@@ -129,10 +149,11 @@ def _most_shifted(ids: list[str], gears: list[Any]) -> str:
     return max(zip(ids, gears, strict=True), key=lambda pair: abs(pair[1].profile_shift_coefficient))[0]
 
 
-def _meshing(mating: Mating, language: str, tolerance: float) -> Expected:
+def _meshing(mating: Mating, language: str, tolerance: float, band: float) -> Expected:
     pair: Any = mating.pair
     picture = meshing_picture(pair)
-    canvas, view = meshing_canvas(picture, mating.module, _facts(mating, picture, language), language, tolerance)
+    facts = _facts(mating, picture, language)
+    canvas, view = meshing_canvas(picture, mating.module, facts, language, tolerance, band)
     circles, paper = [], view.paper
     for body in picture.bodies:
         for name, radius in body.radii.items():

@@ -110,8 +110,8 @@ def _path(curve: CadCurve, height: float) -> str:
         return f"M{xy(curve.start)} L{xy(curve.end)}"
     if isinstance(curve, Arc):
         r, flag = number(curve.radius), int(curve.sweep < 0)
-        # near half a turn the ends say little of where the centre is
-        parts = max(1, math.ceil(abs(curve.sweep) / (0.75 * math.pi)))
+        # a half circle's ends leave its centre open by the root of their rounding
+        parts = math.ceil(abs(curve.sweep) / (2 * math.pi / 3) - 1e-9)
         ends = [complex(curve.point(abs(curve.sweep) * k / parts)) for k in range(parts + 1)]
         return f"M{xy(ends[0])} " + " ".join(f"A{r},{r} 0 0 {flag} {xy(e)}" for e in ends[1:])
     return " ".join([f"M{xy(complex(curve.poles[0]))}", *(f"C{xy(a)} {xy(b)} {xy(c)}" for a, b, c in _bezier(curve))])
