@@ -19,6 +19,7 @@ from exporters.verify import Verdict
 from geometry.errors import ParameterError
 from geometry.gears.limits import practicum_undercut
 from geometry.gears.meshing_picture import MeshingPicture, meshing_picture
+from geometry.gears.transverse import overlap_ratio
 from parts.mate_kinds import Mating
 from parts.scene import ExportSpec, SceneFile
 from parts.schema import SceneError
@@ -81,7 +82,7 @@ def sheet_jobs(scene: SceneFile, matings: list[Mating], export: ExportSpec, wher
         if export.mate not in (None, index):
             continue
         try:
-            expected = _meshing(mating, scene.scene.language, float(export.tolerance or 0.0), _band(export))
+            expected = _meshing(mating, scene, float(export.tolerance or 0.0), _band(export))
         except ParameterError as error:
             raise SceneError(source, f"mates[{index}]", error.value, error.allowed) from error
         _add_title_block(expected, scene, export, index, len(matings) if export.mate is None else 1)
@@ -149,10 +150,11 @@ def _most_shifted(ids: list[str], gears: list[Any]) -> str:
     return max(zip(ids, gears, strict=True), key=lambda pair: abs(pair[1].profile_shift_coefficient))[0]
 
 
-def _meshing(mating: Mating, language: str, tolerance: float, band: float) -> Expected:
+def _meshing(mating: Mating, scene: SceneFile, tolerance: float, band: float) -> Expected:
     pair: Any = mating.pair
-    picture = meshing_picture(pair)
-    facts = _facts(mating, picture, language)
+    picture, language = meshing_picture(pair), scene.scene.language
+    specs = [scene.parts[str(scene.instances[name].part)] for name in (mating.first, mating.second)]
+    facts = _facts(mating, picture, language, specs)
     canvas, view = meshing_canvas(picture, mating.module, facts, language, tolerance, band)
     circles, paper = [], view.paper
     for body in picture.bodies:
@@ -185,8 +187,8 @@ def _driver(pair: Any) -> Any:
     return next(getattr(pair, name) for name in ("first", "pinion", "gear") if hasattr(pair, name))
 
 
-def _facts(mating: Mating, picture: MeshingPicture, language: str) -> Facts:
-    """Title and table of the sheet."""
+def _facts(mating: Mating, picture: MeshingPicture, language: str, specs: list[Any]) -> Facts:
+    """Title and table of the sheet; of helical parts (``specs``) the normal data too."""
     pair: Any = mating.pair
 
     def word(key: str) -> str:
@@ -198,11 +200,20 @@ def _facts(mating: Mating, picture: MeshingPicture, language: str) -> Facts:
     gears = [
         g for name in ("first", "second", "pinion", "ring", "gear") if (g := getattr(pair, name, None)) is not None
     ]
+    helix = abs(getattr(specs[0], "helix_angle_deg", 0.0))
     rows = [Row(word("module"), "m", decimal(f"{mating.module:g}", language))]
+    if helix:
+        rows = [
+            Row(word("normal_module"), "m_{n}", decimal(f"{specs[0].module:g}", language)),
+            Row(word("helix_angle"), "β", f"{say(helix, 4)}°"),
+            Row(word("transverse_module"), "m_{t}", decimal(f"{mating.module:.6g}", language)),
+        ]
     for index, gear in enumerate(gears, 1):
         rows.append(Row(word("number_of_teeth"), f"z_{{{index}}}", str(gear.number_of_teeth)))
     for index, gear in enumerate(gears, 1):
-        rows.append(Row(word("shift"), f"x_{{{index}}}", decimal(f"{gear.profile_shift_coefficient:.6g}", language)))
+        shift = gear.profile_shift_coefficient / math.cos(math.radians(helix))
+        name, symbol = ("normal_shift", f"x_{{n{index}}}") if helix else ("shift", f"x_{{{index}}}")
+        rows.append(Row(word(name), symbol, decimal(f"{shift:.6g}", language)))
     distance = "rack_distance" if picture.kind == "rack" else "centre_distance"
     arc = picture.arc_of_action
     rows += [
@@ -217,6 +228,7 @@ def _facts(mating: Mating, picture: MeshingPicture, language: str) -> Facts:
         Row(word("arc"), "dd'", say(arc.radius * arc.sweep, 3)),
         Row(word("pitch"), "p_{w}", say(picture.working_pitch, 3)),
         Row(word("ratio"), "ε_{α}", say(picture.contact_ratio, 4)),
+        *_overlap_rows(specs, helix, language),
         Row(word("start"), sample="TOOTH_START"),
         Row(word("end"), sample="TOOTH_END"),
         Row(word("flank"), sample="ACTIVE_FLANK"),
@@ -229,4 +241,17 @@ def _facts(mating: Mating, picture: MeshingPicture, language: str) -> Facts:
         # the picture counts the pinion first
         first, second = second, first
     title = word("mate").format(first=first, second=second)
-    return Facts(f"{word(picture.kind)}: {title}", tuple(rows))
+    section = f" ({word('transverse_section')})" if helix else ""
+    return Facts(f"{word(picture.kind)}{section}: {title}", tuple(rows))
+
+
+def _overlap_rows(specs: list[Any], helix: float, language: str) -> list[Row]:
+    """Common face width and axial overlap of helical teeth."""
+    if not helix:
+        return []
+    width = min(s.face_width for s in specs)
+    value = overlap_ratio(width, math.radians(helix), specs[0].module)
+    return [
+        Row(sheet_words(language, "face_width"), "b", decimal(f"{width:g}", language)),
+        Row(sheet_words(language, "overlap"), "ε_{β}", decimal(f"{value:.4f}", language)),
+    ]

@@ -364,3 +364,32 @@ def test_what_the_device_cannot_do_is_named(part: Any, export: Any, key: str, me
         assert offered
         more = {"rack_step": float(offered[1])}
     assert plan_build(generating(gear(20, module=10.0, **keys), **more), "t", [], []).sheets
+
+
+HELICAL: dict[str, tuple[dict[str, Any], dict[str, Any], str]] = {
+    "external": (gear(20, hand="left"), gear(30), "external_gear_pair"),
+    "internal": (gear(20), {**gear(70), "kind": "ring_gear"}, "internal_gear_pair"),
+    "rack": (gear(20, hand="left"), {**gear(9), "kind": "rack"}, "rack_pair"),
+}
+
+
+@pytest.mark.parametrize("language", ["en", "uk"])
+@pytest.mark.parametrize("kind", HELICAL)
+def test_a_helical_pair_shows_its_transverse_section_and_tells_normal_data(
+    kind: str, language: str, tmp_path: Path
+) -> None:
+    first, second, mate = HELICAL[kind]
+    helix = {"helix_angle_deg": 20.0, "face_width": 30.0}
+    raw = {
+        "scene": {"language": language}, "parts": {"one": {**first, **helix}, "two": {**second, **helix}},
+        "mates": [{"kind": mate, "first": "one", "second": "two"}], "exports": [{"format": "sheet"}],
+    }  # fmt: skip
+    raw["parts"]["one"]["profile_shift_coefficient"] = 0.2  # type: ignore[index]
+    for job in plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets:
+        job.write(tmp_path / job.path)
+        assert job.verify(tmp_path / job.path).failures == ()
+        words = [t.text.replace(",", ".") for t in job.canvas.texts]
+        assert any(("торцевий переріз" if language == "uk" else "transverse section") in w for w in words)
+        assert {"mn", "mt", "β", "xn1", "20.0000°", "0.2"} <= set(words)
+        assert f"{2 / math.cos(math.radians(20)):.6g}" in words
+        assert f"{30 * math.sin(math.radians(20)) / (2 * math.pi):.4f}" in words
