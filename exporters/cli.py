@@ -54,11 +54,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
         if not isinstance(error, SceneError):
             raise
-        print(f"higherpair: {error}", file=sys.stderr)
+        from exporters.words_errors import refusal_line
+
+        print(f"higherpair: {refusal_line(error, _language(options))}", file=sys.stderr)
         return WRONG_INPUT
     finally:
         for stop, handler in previous.items():
             signal.signal(stop, handler)
+
+
+def _language(options: argparse.Namespace) -> str:
+    """The language of a refusal: that of --language, of the scene, or of a scene among the words of calc."""
+    if getattr(options, "language", None) is not None:
+        return str(options.language)
+    from exporters.words_errors import language_of
+
+    words = [options.scene] if hasattr(options, "scene") else getattr(options, "words", [])
+    return next((language_of(word) for word in words if word and "=" not in word), "en")
 
 
 def _prepare_streams() -> None:
