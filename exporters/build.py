@@ -84,8 +84,9 @@ def _checks(plan: Plan) -> dict[str, Any]:
         return {}
     from exporters.check import scene_checks
 
-    contact = scene.checks.interference
-    return scene_checks(plan.placing, plan.parts, scene.drives, scene.scene.language, contact=contact)
+    asked, language = scene.checks, scene.scene.language
+    contact, transmission = asked.interference, asked.transmission_error
+    return scene_checks(plan.placing, plan.parts, scene.drives, language, contact=contact, transmission=transmission)
 
 
 def move_into(folder: Path, staging: Path, names: list[str]) -> None:

@@ -18,12 +18,24 @@ if TYPE_CHECKING:
 
 
 def scene_checks(
-    placing: Placing, parts: dict[str, Part], drives: Sequence[DriveSpec], language: str, *, contact: bool
+    placing: Placing,
+    parts: dict[str, Part],
+    drives: Sequence[DriveSpec],
+    language: str,
+    *,
+    contact: bool,
+    transmission: bool = False,
 ) -> dict[str, Any]:
-    """All that is known of how a scene's instances stand to each other; ``contact``: interference of the pairs too."""
+    """All that is known of how a scene's instances stand to each other.
+
+    ``contact``: interference of the pairs too; ``transmission``: and their transmission error.
+    """
     checks: dict[str, Any] = {}
     if placing.mates:
         checks["mates"] = [_mate(m, language, contact=contact) for m in placing.mates]
+        if transmission:
+            for found, mate in zip(checks["mates"], placing.mates, strict=True):
+                _add_transmission(found, mate)
         for found, mate in zip(checks["mates"], placing.mates, strict=True):
             turns = [abs(train[mate.first.id]) for train in placing.turns if mate.first.id in train]
             if turns:
@@ -105,6 +117,15 @@ def _mate(mate: PlacedMate, language: str, *, contact: bool) -> dict[str, Any]:
     if mate.only_checks:
         found["conditions"] = [_condition(c, mate, language) for c in mate.conditions]
     return found
+
+
+def _add_transmission(found: dict[str, Any], mate: PlacedMate) -> None:
+    """The transmission error of a mate that meshes: nothing where its conditions are broken."""
+    if not all(c.met for c in mate.conditions):
+        return
+    from parts.transmission import transmission_error
+
+    found["transmission_error"] = transmission_error(mate.mating, mate.centre_shift)
 
 
 def _condition(condition: Condition, mate: PlacedMate, language: str) -> dict[str, Any]:

@@ -54,11 +54,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
         if not isinstance(error, SceneError):
             raise
-        print(f"higherpair: {error}", file=sys.stderr)
+        from exporters.words_errors import refusal_line
+
+        print(f"higherpair: {refusal_line(error, _language(options))}", file=sys.stderr)
         return WRONG_INPUT
     finally:
         for stop, handler in previous.items():
             signal.signal(stop, handler)
+
+
+def _language(options: argparse.Namespace) -> str:
+    """The language of a refusal: that of --language, of the scene, or of a scene among the words of calc."""
+    if getattr(options, "language", None) is not None:
+        return str(options.language)
+    from exporters.words_errors import language_of
+
+    words = [options.scene] if hasattr(options, "scene") else getattr(options, "words", [])
+    return next((language_of(word) for word in words if word and "=" not in word), "en")
 
 
 def _prepare_streams() -> None:
@@ -167,7 +179,8 @@ def _check(options: argparse.Namespace) -> int:
     placing = place(scene.instances, scene.drives, parts, matings, options.scene)
     if len(placing.instances) < 2:
         raise SceneError(options.scene, "mates", None, 'nothing to check; add [[mates]] kind = "external_gear_pair"')
-    checks = scene_checks(placing, parts, scene.drives, scene.scene.language, contact=True)
+    asked = scene.checks.transmission_error
+    checks = scene_checks(placing, parts, scene.drives, scene.scene.language, contact=True, transmission=asked)
     print("\n".join(check_lines(checks, scene.scene.language)))
     return FAILED if has_bad_verdict(checks) else DONE
 

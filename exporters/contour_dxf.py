@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from exporters.contour_picture import grid_step, line_title, region_text, tool_texts
+from exporters.contour_picture import clipped, grid_step, kinds_shown, line_title, region_text, tool_texts
 from geometry.gears.blocking_contour import BlockingContour
 
 # mm of the drawing for one module of shift
@@ -34,7 +34,8 @@ def write_contour_dxf(
         page.polyline(ring, "REGION", 3)
     colours = {name: _COLOURS[k % len(_COLOURS)] for k, name in enumerate(dict.fromkeys(i.name for i in contour.lines))}
     for line in contour.lines:
-        page.polyline(line.points, _layer(line.name, line.level), colours[line.name])
+        for piece in clipped(line.points, contour.box):
+            page.polyline(piece, _layer(line.name, line.level), colours[line.name])
     _axes(page, contour)
     bottom = _key(page, contour, marks, colours, language)
     box = contour.box
@@ -117,7 +118,7 @@ def _key(
     ):
         page.text(complex(left, row), words, "KEY", 7)
         row -= _ROW
-    for name, level in dict.fromkeys((i.name, i.level) for i in contour.lines):
+    for name, level in ((i.name, i.level) for i in kinds_shown(contour)):
         layer, middle = _layer(name, level), row + _TEXT / 2
         page.line(complex(left, middle), complex(left + 20, middle), layer, colours[name])
         page.text(complex(left + 25, row), line_title(name, level, language), layer, colours[name])

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import html
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from geometry.gears.blocking_contour import BlockingContour, ContourLine
 from geometry.gears.cutter import PinionCutter
@@ -88,6 +90,39 @@ def grid_step(box: Box) -> float:
     return next(s for s in (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0) if size / s <= 14)
 
 
+def clipped(points: Sequence[complex], box: Box) -> list[list[complex]]:
+    """A chain of points cut off at a box, where it leaves it."""
+    pieces = [list(points)]
+    sides: tuple[Callable[[complex], float], ...] = (
+        lambda p: p.real - box.left,
+        lambda p: box.right - p.real,
+        lambda p: p.imag - box.bottom,
+        lambda p: box.top - p.imag,
+    )
+    for side in sides:
+        pieces = [cut for piece in pieces for cut in _cut_off(piece, side)]
+    return pieces
+
+
+def _cut_off(points: list[complex], side: Callable[[complex], float]) -> list[list[complex]]:
+    """The pieces of a chain on which ``side`` is not below a rounding of 0."""
+    pieces: list[list[complex]] = []
+    run: list[complex] = []
+    for one, two in pairwise(points):
+        a, b = side(one), side(two)
+        if a >= -1e-9:
+            run = run or [one]
+        if (a >= -1e-9) != (b >= -1e-9):
+            border = one + (two - one) * a / (a - b)
+            run.append(border)
+        if b >= -1e-9:
+            run.append(two)
+        elif run:
+            pieces.append(run)
+            run = []
+    return [*pieces, run] if run else pieces
+
+
 def contour_svg(contour: BlockingContour, marks: dict[str, tuple[float, float]], language: str) -> str:
     """The contour with its legal region filled, ``marks`` (name: x1, x2) as points, and a key."""
     box = contour.box
@@ -97,7 +132,10 @@ def contour_svg(contour: BlockingContour, marks: dict[str, tuple[float, float]],
     def at(point: complex) -> str:
         return f"{_LEFT + (point.real - box.left) * scale:.2f},{_TOP + (box.top - point.imag) * scale:.2f}"
 
-    total = (_LEFT + width + _KEY, max(_TOP + height + _BOTTOM, 19.0 * (_key_rows(contour) + len(marks) + 6) + _TOP))
+    total = (
+        _LEFT + width + _KEY,
+        max(_TOP + height + _BOTTOM, 19.0 * (len(kinds_shown(contour)) + len(marks) + 6) + _TOP),
+    )
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {total[0]:.0f} {total[1]:.0f}" '
         f'width="{total[0]:.0f}" height="{total[1]:.0f}">',
@@ -109,8 +147,9 @@ def contour_svg(contour: BlockingContour, marks: dict[str, tuple[float, float]],
     lines += _axes(contour, scale, width, height)
     for line in contour.lines:
         style = _STYLES[line.name]
-        points = " ".join(at(p) for p in line.points)
-        lines.append(f'<polyline points="{points}" style="fill:none;{_stroke(line, style)}"/>')
+        for piece in clipped(line.points, box):
+            points = " ".join(at(p) for p in piece)
+            lines.append(f'<polyline points="{points}" style="fill:none;{_stroke(line, style)}"/>')
     lines += _key(contour, marks, _LEFT + width + 20, language)
     for name, (x1, x2) in marks.items():
         x, y = at(complex(x1, x2)).split(",")
@@ -125,21 +164,18 @@ def _stroke(line: ContourLine, style: _Style) -> str:
     return f"stroke:{style.colour};stroke-width:1.4;stroke-opacity:{opacity:g}{dashes}"
 
 
-def _kinds(contour: BlockingContour) -> list[ContourLine]:
-    """One line of each name and level, in order."""
+def kinds_shown(contour: BlockingContour) -> list[ContourLine]:
+    """One line of each name and level that reaches into the box, in order."""
     found: dict[tuple[str, float | None], ContourLine] = {}
     for line in contour.lines:
-        found.setdefault((line.name, line.level), line)
+        if clipped(line.points, contour.box):
+            found.setdefault((line.name, line.level), line)
     return list(found.values())
-
-
-def _key_rows(contour: BlockingContour) -> int:
-    return len(_kinds(contour))
 
 
 def _key(contour: BlockingContour, marks: dict[str, tuple[float, float]], left: float, language: str) -> list[str]:
     lines, y = [], _TOP + 4
-    for line in _kinds(contour):
+    for line in kinds_shown(contour):
         style = _STYLES[line.name]
         lines.append(
             f'<line x1="{left:.1f}" y1="{y:.1f}" x2="{left + 34:.1f}" y2="{y:.1f}" style="{_stroke(line, style)}"/>'

@@ -114,6 +114,7 @@ _ASSEMBLY = """
 ##
 ## [checks]
 ## interference = true                        # contact and overlap through a whole pitch
+## transmission_error = true                  # how unevenly each mate runs, without load
 ##
 ## [[exports]]
 ## format = "step"
@@ -121,10 +122,11 @@ _ASSEMBLY = """
 ##
 ## [[exports]]
 ## format = "sheet"                           # picture of meshing of every pair, DXF and SVG
-## mate = 1                                   # only of this one; purpose = "generating": device TMM-42""".splitlines()
+## mate = 1                                   # only of this one; purpose = "generating": device TMM-42
+## title_block = true                         # GOST 2.104, form 1; or { designation = "...", … }""".splitlines()
 
 # keys that only sheets have: they stand in the part for several parts
-_SHEET_KEYS = ("mate", "rack_step", "intervals", "speed_rpm")
+_SHEET_KEYS = ("mate", "rack_step", "intervals", "speed_rpm", "title_block")
 
 
 def new_scene(kind: str) -> str:

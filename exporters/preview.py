@@ -30,7 +30,8 @@ def part_preview(part: Part, folder: Path, language: str) -> Path:
     reach = max(float(np.abs(b.geometry.vertices).max()) for b in boundaries)
     middle = reach * 1.08
     text = reach / 22
-    rows = [f"{words(language, name)}  {value:.4f}" for name, value in (part.circles | part.quantities).items()]
+    named = part.circles | part.quantities
+    rows = [f"{words(language, k)}  {v if isinstance(v, int) else format(v, '.4f')}" for k, v in named.items()]
     remarks = [line for remark in remarks for line in wrap(remark, _CAPTION_LETTERS)]
     lines = [
         head(

@@ -59,6 +59,7 @@ def check_lines(checks: dict[str, Any], language: str) -> list[str]:
             if mate["verdict"] == "clear" and mate["gap"] <= mate["tolerance"]:
                 text += f"; {words(language, 'interrupted')}"
         lines.append(text)
+        lines += _transmission(mate, language)
         lines += [f"{words(language, 'finding')}: {f['text']}" for f in mate.get("findings", [])]
         lines += [f"{words(language, 'broken')}: {c['text']}" for c in mate.get("conditions", []) if not c["met"]]
     for close in (*checks.get("neighbours", []), *checks.get("solids", [])):
@@ -82,6 +83,17 @@ def _mate_head(mate: dict[str, Any], language: str) -> str:
         # what undercut and fillets leave of it
         ratio=min(mate["contact_ratio"], mate["effective_contact_ratio"]),
     )
+
+
+def _transmission(mate: dict[str, Any], language: str) -> list[str]:
+    """The transmission error of a mate, a line for each sense."""
+    lines = []
+    for sense, found in mate.get("transmission_error", {}).items():
+        unit = "second_arcsec" if "second_arcsec" in found else "second_travel"
+        motion = words(language, unit).format(value=found[unit], second=mate["second"])
+        text = words(language, "transmission_error")
+        lines.append(text.format(sense=words(language, sense), value=found["line_of_action"], motion=motion))
+    return lines
 
 
 def has_bad_verdict(checks: dict[str, Any]) -> bool:

@@ -40,6 +40,9 @@ WORDS: dict[str, tuple[str, str]] = {
     "face_to": ("face contact to, mm", "контакт на тарілці до, мм"),
     "normal_pitch": ("normal pitch p_n, mm", "нормальний крок p_n, мм"),
     "lead": ("lead of the helix p_z, mm", "хід гвинтової лінії p_z, мм"),
+    "cutter_number_of_teeth": ("teeth of the cutter z_0", "кількість зубів довбача z_0"),
+    "cutter_addendum_coefficient": ("addendum of the cutter h_a0, modules", "висота головки довбача h_a0, модулів"),
+    "cutter_tip_rounding_coefficient": ("tip rounding of the cutter, modules", "заокруглення довбача, модулів"),
     "file": ("file", "файл"),
     "error": ("max error, mm", "найбільша похибка, мм"),
     "tolerance": ("tolerance, mm", "допуск, мм"),
@@ -67,7 +70,23 @@ WORDS: dict[str, tuple[str, str]] = {
         "{first} moves {second} by {travel:.6g} {unit}",
         "{first} рухає {second} на {travel:.6g} {unit}",
     ),
+    "mate_conjugate_cams": (
+        "{first} - {second}: conjugate cams, rollers {between_rollers:.9g} {unit} from each other",
+        "{first} - {second}: спряжені кулачки, між роликами {between_rollers:.9g} {unit}",
+    ),
+    "mate_cam_yoke": (
+        "{first} moves the yoke {second} by {lift:.6g} mm, breadth {yoke_breadth:.9g} mm",
+        "{first} рухає рамку {second} на {lift:.6g} мм, відстань між гранями {yoke_breadth:.9g} мм",
+    ),
     "mate_fixed": ("{first} - {second}: fixed to each other", "{first} - {second}: нерухомо з'єднані"),
+    "transmission_error": (
+        "transmission error (peak to peak, first turns {sense}): {value:.3g} mm on the line of action, {motion}",
+        "кінематична похибка (розмах, перше колесо обертається {sense}): {value:.3g} мм на лінії зачеплення, {motion}",
+    ),
+    "counter_clockwise": ("counter-clockwise", "проти годинникової стрілки"),
+    "clockwise": ("clockwise", "за годинниковою стрілкою"),
+    "second_arcsec": ('{value:.3g}" of {second}', "{value:.3g}″ на {second}"),
+    "second_travel": ("{value:.3g} mm of {second}", "{value:.3g} мм на {second}"),
     "total_ratio": (", total {total:.4f}", ", сумарний {total:.4f}"),
     "broken": ("BROKEN", "ПОРУШЕНО"),
     "height": (
@@ -228,6 +247,18 @@ FINDINGS: dict[str, tuple[str, str]] = {
     "thin_ring_rim": (
         "thin rim: {value:.3f} mm outside the root circle, less than one module ({limit:.3f} mm)",
         "тонкий обід: {value:.3f} мм зовні кола западин, менше за модуль ({limit:.3f} мм)",
+    ),
+    "cutter_makes_root": (
+        "basic_rack gives the addendum alone ({value:.4g} m): the cutter makes the root, diameter {limit:.4f} mm, and "
+        "the fillet",
+        "basic_rack задає лише висоту головки ({value:.4g} m): западину діаметром {limit:.4f} мм і перехідну криву "
+        "утворює довбач",
+    ),
+    "ring_tip_limited": (
+        "the ring's tips are made shallower: addendum {value:.4f} m, {limit:.4f} m would lie below the base circle or "
+        "be trimmed by every cutter; tip_diameter overrides",
+        "вершини вінця вкорочено: висота головки {value:.4f} m, бо {limit:.4f} m лежить під основним колом або "
+        "зрізається кожним довбачем; tip_diameter задає іншу",
     ),
     "short_rack": (
         "the rack has {value:.0f} teeth: fewer than {limit:.0f}; the check knows nothing of its ends",

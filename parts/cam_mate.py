@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from geometry.cams.follower_shape import FollowerEnd
     from geometry.findings import Finding
     from geometry.gears.mesh_search import PairContact
+    from parts.groove_cam import GrooveDisk
 
 # radii and lengths that people type agree with those of the cam this well
 _SAME = 1e-6
@@ -122,7 +123,7 @@ class CamFollowerMating:
         return {"travel": travel, "unit": "deg" if self._swings else "mm"}
 
 
-def cam_follower_mating(mate: CamFollowerSpec, cam: DiskCam, end: FollowerEnd) -> CamFollowerMating:
+def cam_follower_mating(mate: CamFollowerSpec, first: DiskCam | GrooveDisk, end: FollowerEnd) -> CamFollowerMating:
     """The mating, its follower held against what the cam was made for.
 
     Raises
@@ -130,6 +131,7 @@ def cam_follower_mating(mate: CamFollowerSpec, cam: DiskCam, end: FollowerEnd) -
     ParameterError
         Another kind or size of follower; names its key and what the cam needs.
     """
+    cam: DiskCam = first if hasattr(first, "mount") else first.cam  # type: ignore[assignment]
     made = CamFollowerMating(mate.first, mate.second, mate.direction_deg, mate.height, cam, end)
     if end.kind != cam.kind:
         raise ParameterError("end", str(end.kind), f'the cam is made for another follower; "{cam.kind}" works')

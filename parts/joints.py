@@ -14,6 +14,7 @@ from msgspec import Struct
 from parts.cam_mate import CamFollowerSpec, cam_follower_mating
 from parts.fixed_mate import FixedSpec, fixed_mating
 from parts.mate_kinds import Mating
+from parts.positive_mates import CamYokeSpec, ConjugateCamsSpec, conjugate_mating, yoke_mating
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +33,10 @@ class Joint:
 
 _FOLLOWERS = ("follower", "follower_arm", "roller")
 JOINTS: dict[str, Joint] = {
-    "cam_follower": Joint(CamFollowerSpec, tuple(("cam", f) for f in _FOLLOWERS), cam_follower_mating),
+    "cam_follower": Joint(
+        CamFollowerSpec, tuple((c, f) for c in ("cam", "groove_cam") for f in _FOLLOWERS), cam_follower_mating
+    ),
+    "conjugate_cams": Joint(ConjugateCamsSpec, (("cam", "conjugate_cam"),), conjugate_mating),
+    "cam_yoke": Joint(CamYokeSpec, (("cam", "yoke_frame"),), yoke_mating),
     "fixed": Joint(FixedSpec, None, fixed_mating),
 }

@@ -16,8 +16,9 @@ _Direction = Annotated[
 _Distance = Annotated[float, mm("centre distance; default: that of the shifts, without backlash", above=0, most=1e6)]
 _Backlash = Annotated[
     float,
-    mm("backlash along the line of action (in the transverse plane): thins both gears by half", least=0, most=100),
-]
+    mm("normal backlash j_bn = j_wt cos(alpha_wt) cos(beta_b), at right angles to the flanks: thins both gears by half",
+       least=0, most=100),
+]  # fmt: skip
 
 
 class ExternalGearPairSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="external_gear_pair"):

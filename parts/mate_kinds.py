@@ -122,6 +122,8 @@ class ExternalMating:
     height: float = 0.0
     has_contact: bool = True
     face: CommonFace = STRAIGHT
+    # cos(beta_b), see ``transverse.normal_share``
+    normal_share: float = 1.0
 
     @property
     def distance(self) -> float:
@@ -140,8 +142,8 @@ class ExternalMating:
 
     @property
     def normal_backlash(self) -> float:
-        """j_bn, mm."""
-        return self.pair.normal_backlash
+        """j_bn, mm; the pair's own is that of its transverse section."""
+        return self.pair.normal_backlash * self.normal_share
 
     @property
     def ratio(self) -> float:
@@ -160,7 +162,8 @@ class ExternalMating:
         middle = self.pair.second_rotation(first[1], direction)
         turn = math.remainder(second[1] - middle, gear.pitch_angle)
         arm = gear.base_radius
-        return Standing(direction, abs(second[0] - first[0]), turn, max(self.normal_backlash, 0.0) / (2 * arm), arm)
+        play = max(self.pair.normal_backlash, 0.0) / (2 * arm)
+        return Standing(direction, abs(second[0] - first[0]), turn, play, arm)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict over one pitch of the first gear."""
@@ -202,6 +205,8 @@ class InternalMating:
     height: float = 0.0
     has_contact: bool = True
     face: CommonFace = STRAIGHT
+    # cos(beta_b), see ``transverse.normal_share``
+    normal_share: float = 1.0
 
     @property
     def distance(self) -> float:
@@ -220,8 +225,8 @@ class InternalMating:
 
     @property
     def normal_backlash(self) -> float:
-        """j_bn, mm."""
-        return self.pair.normal_backlash
+        """j_bn, mm; the pair's own is that of its transverse section."""
+        return self.pair.normal_backlash * self.normal_share
 
     @property
     def ratio(self) -> float:
@@ -245,7 +250,8 @@ class InternalMating:
         direction = cmath.phase(second[0] - first[0])
         turn = math.remainder(second[1] - self._middle(first[1], direction), gear.pitch_angle)
         arm = gear.base_radius
-        return Standing(direction, abs(second[0] - first[0]), turn, max(self.normal_backlash, 0.0) / (2 * arm), arm)
+        play = max(self.pair.normal_backlash, 0.0) / (2 * arm)
+        return Standing(direction, abs(second[0] - first[0]), turn, play, arm)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict over one pitch of the pinion."""
@@ -272,7 +278,8 @@ class InternalMating:
             "effective_contact_ratio": self.pair.effective_contact_ratio,
             **self.face.quantities(self.pair.effective_contact_ratio),
             "normal_backlash": self.normal_backlash,
-            "margins": {m.name: m.margin for m in self.pair.margins() if math.isfinite(m.margin)},
+            "margins": {m.name: m.margin for m in self.pair.margins() if math.isfinite(m.margin)}
+            | {"normal_backlash": self.normal_backlash},
         }
 
 
@@ -288,6 +295,8 @@ class RackMating:
     height: float = 0.0
     has_contact: bool = True
     face: CommonFace = STRAIGHT
+    # cos(beta_b), see ``transverse.normal_share``
+    normal_share: float = 1.0
 
     @property
     def distance(self) -> float:
@@ -306,8 +315,8 @@ class RackMating:
 
     @property
     def normal_backlash(self) -> float:
-        """j_bn, mm."""
-        return self.pair.normal_backlash
+        """j_bn, mm; the pair's own is that of its transverse section."""
+        return self.pair.normal_backlash * self.normal_share
 
     @property
     def ratio(self) -> None:
@@ -331,7 +340,7 @@ class RackMating:
         place = (second[0] - first[0]) * cmath.rect(1.0, -direction)
         middle, _ = self.second_pose(0j, first[1], direction)
         off = place.imag - (middle * cmath.rect(1.0, -direction)).imag
-        play = max(self.normal_backlash, 0.0) / (2 * math.cos(self.pair.rack.rack.pressure_angle))
+        play = max(self.pair.normal_backlash, 0.0) / (2 * math.cos(self.pair.rack.rack.pressure_angle))
         return Standing(direction, place.real, math.remainder(off, self.pair.rack.pitch), play)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:

@@ -6,6 +6,7 @@ Both happen before any region is built: the shortest tip and the largest thinnin
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -33,10 +34,13 @@ JOINS: dict[str, tuple[tuple[str, str], ...] | None] = {
 GEAR_PAIRS = (ExternalGearPairSpec, InternalGearPairSpec, RackPairSpec)
 
 
-def mated(gears: dict[str, Any], mates: list[Any], part_of: dict[str, str]) -> tuple[dict[str, Any], list[Mating]]:
+def mated(
+    gears: dict[str, Any], mates: list[Any], part_of: dict[str, str], helices: Mapping[str, float] | None = None
+) -> tuple[dict[str, Any], list[Mating]]:
     """The gears as their mates want them, and the pairs of them.
 
-    ``gears`` by part, ``part_of`` the part of every instance that ``mates`` name.
+    ``gears`` by part, ``part_of`` the part of every instance that ``mates`` name; ``helices`` the helix angle of parts
+    whose gears are transverse sections, rad.
 
     Raises
     ------
@@ -44,21 +48,32 @@ def mated(gears: dict[str, Any], mates: list[Any], part_of: dict[str, str]) -> t
         Two gears cannot mesh; names the key of the second gear, or of the mate as ``mate.KEY``, and what would work.
     """
     toothed = [m for m in mates if isinstance(m, GEAR_PAIRS)]
-    final = _thinned(gears, toothed, part_of)
+    shares = [_normal_share(gears[part_of[m.first]], (helices or {}).get(part_of[m.first], 0.0)) for m in toothed]
+    final = _thinned(gears, toothed, part_of, shares)
     pairs = [_pair(m, final[part_of[m.first]], final[part_of[m.second]]) for m in toothed]
     for mate, pair in zip(toothed, pairs, strict=True):
         if isinstance(mate, ExternalGearPairSpec):
             for name, gear in ((part_of[mate.first], pair.first), (part_of[mate.second], pair.second)):
                 if gear.tip_radius < final[name].tip_radius:
                     final[name] = replace(final[name], given_tip_diameter=2 * gear.tip_radius)
-    matings, left = [], iter(pairs)
+    matings, left = [], iter(zip(pairs, shares, strict=True))
     for mate in mates:
         first, second = final[part_of[mate.first]], final[part_of[mate.second]]
         if isinstance(mate, GEAR_PAIRS):
-            matings.append(_mating(mate, next(left), first, second))
+            pair, share = next(left)
+            matings.append(replace(_mating(mate, pair, first, second), normal_share=share))  # type: ignore[type-var]
         else:
             matings.append(JOINTS[mate.__struct_config__.tag].mating(mate, first, second))
     return final, matings
+
+
+def _normal_share(gear: Any, helix: float) -> float:
+    """j_bn over the backlash that a pair of transverse sections has."""
+    if not helix:
+        return 1.0
+    from geometry.gears.transverse import normal_share
+
+    return normal_share(_pressure_angle(gear), helix)
 
 
 def _pair(mate: Any, first: Any, second: Any) -> Any:
@@ -115,10 +130,10 @@ def _pinion_and_ring(first: Any, second: Any) -> tuple[Any, Any]:
     return (second, first) if isinstance(first, RingGear) else (first, second)
 
 
-def _thinned(gears: dict[str, Any], mates: list[Any], part_of: dict[str, str]) -> dict[str, Any]:
+def _thinned(gears: dict[str, Any], mates: list[Any], part_of: dict[str, str], shares: list[float]) -> dict[str, Any]:
     """The gears with the thinning that their mates' backlash asks for: half each, unless a part sets its own."""
     asked: dict[str, float] = {}
-    for mate in mates:
+    for mate, normal_share in zip(mates, shares, strict=True):
         if mate.normal_backlash is None:
             continue
         names = part_of[mate.first], part_of[mate.second]
@@ -126,24 +141,24 @@ def _thinned(gears: dict[str, Any], mates: list[Any], part_of: dict[str, str]) -
         angle = _pressure_angle(bare[0])
         # backlash that the distance alone gives goes before thinning
         given = _backlash_at(mate, bare[0], bare[1])
-        total = (mate.normal_backlash - given) / math.cos(angle)
+        total = (mate.normal_backlash / normal_share - given) / math.cos(angle)
         own = [gears[n].circumferential_thinning for n in names]
         free = [n for n, thinning in zip(names, own, strict=True) if thinning == 0]
         rest = total - sum(own)
         if rest < -1e-12 * gears[names[0]].module:
-            least = (sum(own) * math.cos(angle)) + given
+            least = ((sum(own) * math.cos(angle)) + given) * normal_share
             text = f"the gears' own thinning and distance give more; at least {at_least(least)} mm works"
             raise ParameterError("mate.normal_backlash", mate.normal_backlash, text)
         if not free:
             continue
-        terms = (sum(own), len(free), given, math.cos(angle))
+        terms = (sum(own), len(free), given, math.cos(angle), normal_share)
         share = _possible([gears[n] for n in free], rest / len(free), mate, terms)
         for name in free:
             asked[name] = max(asked.get(name, 0.0), share)
     return {n: replace(g, circumferential_thinning=asked[n]) if asked.get(n) else g for n, g in gears.items()}
 
 
-def _possible(free: list[Any], share: float, mate: Any, terms: tuple[float, int, float, float]) -> float:
+def _possible(free: list[Any], share: float, mate: Any, terms: tuple[float, int, float, float, float]) -> float:
     """A thinning of each gear that leaves whole teeth, mm; else refused with the largest backlash that does."""
 
     def whole(thinning: float) -> bool:
@@ -160,8 +175,8 @@ def _possible(free: list[Any], share: float, mate: Any, terms: tuple[float, int,
     for _ in range(30):
         middle = (low + high) / 2
         low, high = (middle, high) if whole(middle) else (low, middle)
-    own, number, given, cosine = terms
-    most = (own + number * low) * cosine + given
+    own, number, given, cosine, normal_share = terms
+    most = ((own + number * low) * cosine + given) * normal_share
     text = f"leaves no whole teeth; at most {at_most(most, 4)} mm works"
     raise ParameterError("mate.normal_backlash", mate.normal_backlash, text)
 

@@ -69,6 +69,16 @@ def checked_rack_part(spec: RackSpec) -> Rack:
         The rack cannot exist; names the key and the nearest value that works.
     """
     from geometry.errors import ParameterError
+    from parts.remedies import sure_remedy
+
+    try:
+        return _rack_of(spec)
+    except ParameterError as refusal:
+        raise sure_remedy(spec, refusal, _builds) from refusal
+
+
+def _rack_of(spec: RackSpec) -> Rack:
+    from geometry.errors import ParameterError
     from geometry.gears.basic_rack import checked_rack
     from geometry.gears.rack import Rack, checked_part_rack
     from geometry.gears.rack_holes import RackHoles
@@ -107,7 +117,7 @@ def _builds(spec: RackSpec) -> bool:
     from geometry.errors import GeometryError
 
     try:
-        checked_rack_part(spec)
+        _rack_of(spec)
     except GeometryError:
         return False
     return True

@@ -26,10 +26,13 @@ from parts.part import Part
 
 if TYPE_CHECKING:
     from geometry.body import Body
+    from geometry.findings import Finding
     from geometry.gears.ring import RingGear
 
 # modules outside the root circle where no rim was asked for
 _RIM = 2.5
+# modules between a default cutter's addendum and the ring's: the tip clearance of ISO 53 A
+_CLEARANCE = 0.25
 
 
 class RoundedRootTable(Struct, forbid_unknown_fields=True):
@@ -63,7 +66,12 @@ class RingGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="ri
     tip_rule: Literal["GOST 19274", "KHK"] = "GOST 19274"
     tip_diameter: (
         Annotated[
-            float, mm("tip diameter; default: d - 2 (h_a - x - k) m, k of tip_rule (KHK: 0)", above=0, most=100_000)
+            float,
+            mm(
+                "tip diameter; default: d - 2 (h_a - x - k) m, k of tip_rule (KHK: 0), no deeper than can be cut",
+                above=0,
+                most=100_000,
+            ),
         ]
         | None
     ) = None
@@ -96,13 +104,15 @@ def checked_ring_gear(spec: RingGearSpec) -> RingGear:
         The ring cannot exist or its cutter cannot make it; names the key and the nearest value that works.
     """
     from geometry.errors import ParameterError
-    from geometry.gears.ring_limits import makes
+    from geometry.gears.ring_made import makes
+    from parts.remedies import sure_remedy
 
     try:
         return _ring_of(spec)
     except ParameterError as refusal:
         refusal = in_normal_terms(spec, refusal, lambda changed: makes(_section_of(changed)))
-        raise with_remedy(refusal, spec, _builds) from refusal
+        refusal = with_remedy(refusal, spec, _builds)
+        raise sure_remedy(spec, refusal, _makes) from refusal
 
 
 def _builds(spec: RingGearSpec) -> bool:
@@ -115,15 +125,29 @@ def _builds(spec: RingGearSpec) -> bool:
     return True
 
 
-def _ring_of(spec: RingGearSpec) -> RingGear:
-    from dataclasses import replace
-
-    from geometry.gears.ring_limits import checked_ring, with_default_cutter
+def _makes(spec: RingGearSpec) -> bool:
+    """Whether the keys give a ring, without a search for what would."""
+    from geometry.gears.ring_limits import check_rim
+    from geometry.gears.ring_made import makes, settled_ring
 
     gear = _section_of(spec)
-    if gear.any_cutter:
-        gear = with_default_cutter(gear)
-    gear = checked_ring(gear)
+    if not makes(gear):
+        return False
+    check_rim(_with_rim(spec, settled_ring(gear)))
+    return True
+
+
+def _ring_of(spec: RingGearSpec) -> RingGear:
+    from geometry.gears.ring_limits import checked_ring
+    from geometry.gears.ring_made import settled_ring
+
+    return _with_rim(spec, checked_ring(settled_ring(_section_of(spec))))
+
+
+def _with_rim(spec: RingGearSpec, gear: RingGear) -> RingGear:
+    """The ring with the outside that follows from root and holes, where nobody gave one."""
+    from dataclasses import replace
+
     if spec.outer_diameter is not None:
         return gear
     # holes keep a module to the outside
@@ -144,7 +168,8 @@ def _section_of(spec: RingGearSpec) -> RingGear:
         text = "give either cutter or rounded_root; remove one of them"
         raise ParameterError("rounded_root.dedendum_coefficient", spec.rounded_root.dedendum_coefficient, text)
     angle, rim = math.radians(spec.pressure_angle_deg), spec.outer_diameter
-    root: PinionCutter | RoundedRoot = PinionCutter(spec.module, 25, angle)
+    height = spec.addendum_coefficient + _CLEARANCE
+    root: PinionCutter | RoundedRoot = PinionCutter(spec.module, 25, angle, addendum=height)
     if spec.cutter is not None:
         root = cutter_of(spec.cutter, spec.module, angle)
     if (table := spec.rounded_root) is not None:
@@ -188,6 +213,7 @@ def ring_gear_part(part_id: str, spec: RingGearSpec, gear: RingGear) -> Part:
         "tooth_thickness": gear.reference_thickness,
         "tip_tooth_thickness": tip_thickness(gear),
         **helix_quantities(spec, gear.reference_radius),
+        **_cutter_quantities(spec, gear),
     }
     section = lru_cache(maxsize=8)(lambda offset: ring_region(gear, offset))
     twist = helix_of(spec).twist(gear.reference_radius)
@@ -202,7 +228,7 @@ def ring_gear_part(part_id: str, spec: RingGearSpec, gear: RingGear) -> Part:
         section=section,
         body=lru_cache(maxsize=2)(body),
         face_width=spec.face_width,
-        findings=findings(gear),
+        findings=(*_tip_finding(spec, gear), *findings(gear)),
         flat_findings=section_finding(spec),
         circles=circles,
         quantities=quantities,
@@ -210,3 +236,26 @@ def ring_gear_part(part_id: str, spec: RingGearSpec, gear: RingGear) -> Part:
         colour=spec.colour,
         density=spec.density or density_of(spec.material),
     )
+
+
+def _cutter_quantities(spec: RingGearSpec, gear: RingGear) -> dict[str, float]:
+    """The cutter that makes the ring, its heights in normal modules; nothing for rounded roots."""
+    cutter, normal = gear.cutter, gear.module / spec.module
+    if cutter is None:
+        return {}
+    return {
+        "cutter_number_of_teeth": cutter.number_of_teeth,
+        "cutter_addendum_coefficient": cutter.addendum * normal,
+        "cutter_tip_rounding_coefficient": cutter.tip_rounding * normal,
+    }
+
+
+def _tip_finding(spec: RingGearSpec, gear: RingGear) -> tuple[Finding, ...]:
+    """The remark that a default tip was made shallower: addendum taken and asked, from the shifted reference circle."""
+    from geometry.findings import Finding
+
+    if gear.given_tip_diameter is not None or gear.tip_radius <= gear.default_tip_radius:
+        return ()
+    shifted = gear.reference_radius + spec.profile_shift_coefficient * spec.module
+    taken, asked = ((shifted - r) / spec.module for r in (gear.tip_radius, gear.default_tip_radius))
+    return (Finding("ring_tip_limited", taken, asked),)

@@ -36,6 +36,7 @@ from parts.ring_gear import RingGearSpec, checked_ring_gear, ring_gear_part
 from parts.schema import SceneError, converted, near, refuse_infinite
 from parts.sheet_keys import CamSpeed, Intervals, MateNumber, RackStep, check_sheet_keys
 from parts.spur_gear import SpurGearSpec, checked_spur_gear, spur_gear_part
+from parts.title_keys import TitleBlockKey
 
 SCENE_FOLDER = Path(__file__).parent / "scenes"
 # each kind: its keys, what checks them and gives the gear, and what makes the part of it
@@ -102,6 +103,7 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     rack_step: RackStep | None = None
     intervals: Intervals | None = None
     speed_rpm: CamSpeed | None = None
+    title_block: TitleBlockKey = False
     mate: MateNumber | None = None
 
 
@@ -109,6 +111,9 @@ class ChecksSpec(Struct, forbid_unknown_fields=True):
     """Keys of ``[checks]``."""
 
     interference: Annotated[bool, Meta(description="contact and interference of every mate")] = False
+    transmission_error: Annotated[
+        bool, Meta(description="how unevenly each mate runs: peak to peak from the exact contact, without load")
+    ] = False
 
 
 class SceneFile(Struct, forbid_unknown_fields=True):
@@ -314,16 +319,17 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
             raise SceneError(source, f"parts.{key}.{error.name}", error.value, error.allowed) from error
     matings: list[Mating] = []
     part_of = {key: str(spec.part) for key, spec in scene.instances.items()}
+    helices = {key: helix_of(spec).angle for key, spec in scene.parts.items()}
     for index, mate in enumerate(scene.mates):
         _check_kinds(scene, mate, part_of, source, f"mates[{index + 1}]")
         _check_helices(scene, mate, part_of, source, f"mates[{index + 1}]")
         try:
-            mated(gears, [mate], part_of)
+            mated(gears, [mate], part_of, helices)
         except ParameterError as error:
             owner, _, key = error.name.rpartition(".")
             place = f".{key}" if owner == "mate" else f": parts.{_blamed(scene, mate, part_of)}.{error.name}"
             raise SceneError(source, f"mates[{index + 1}]{place}", error.value, error.allowed) from error
-    gears, matings = mated(gears, scene.mates, part_of)
+    gears, matings = mated(gears, scene.mates, part_of, helices)
     faces = [common_face(*(scene.parts[part_of[i]] for i in (m.first, m.second))) for m in matings]
     matings = [dataclasses.replace(m, face=face) for m, face in zip(matings, faces, strict=True)]  # type: ignore[type-var]
     parts = {key: KINDS[spec.__struct_config__.tag][2](key, spec, gears[key]) for key, spec in scene.parts.items()}

@@ -82,6 +82,7 @@ _TYPE_WORDS = {
     "object | null": "a table",
     "object": "a table",
     "str | object": "text or a table",
+    "bool | object": "true, false or a table",
     "array | object | null": "a table or a list of tables",
     "object | array | null": "a table or a list of tables",
 }

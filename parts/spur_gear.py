@@ -11,8 +11,9 @@ import msgspec
 from msgspec import Meta, Struct
 
 from geometry.errors import GeometryError, ParameterError, at_most
+from geometry.findings import Finding
 from geometry.gears.basic_rack import BasicRack, TipRelief, checked_rack, default_tip_radius, iso_53
-from geometry.gears.limits import checked_gear, findings, root_form_diameter, tip_thickness
+from geometry.gears.limits import checked_gear, exists, findings, root_form_diameter, tip_thickness
 from geometry.gears.offset_tooth import chamfered_outline, gear_region
 from geometry.gears.spur import SpurGear
 from geometry.gears.transverse import transverse_gear
@@ -33,6 +34,7 @@ from parts.hole_keys import BoreTable, HolesTable, SpokesTable, hub_holes, with_
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, in_modules, mm
 from parts.materials import density_of
 from parts.part import Part
+from parts.remedies import sure_remedy
 from parts.wheel_keys import FaceChamfer, FaceChamferTable, HubTable, WebTable, as_typed, wheel_shape
 
 # the radius that ISO 53 gives at the usual clearance; the default for racks given as a table
@@ -104,6 +106,14 @@ def checked_spur_gear(spec: SpurGearSpec) -> SpurGear:
     ParameterError
         The gear cannot exist; names the key and the nearest value that works.
     """
+    try:
+        return _checked(spec)
+    except ParameterError as refusal:
+        raise sure_remedy(spec, refusal, _makes) from refusal
+
+
+def _checked(spec: SpurGearSpec) -> SpurGear:
+    """The same with remedies that look at one key each."""
     checked_helix(spec)
     _check_face_chamfer(spec)
     try:
@@ -116,6 +126,18 @@ def checked_spur_gear(spec: SpurGearSpec) -> SpurGear:
     except ParameterError as refusal:
         raise as_typed(spec, refusal) from refusal
     return gear
+
+
+def _makes(spec: SpurGearSpec) -> bool:
+    """Whether the keys give a whole wheel, without a search for what would."""
+    checked_helix(spec)
+    _check_face_chamfer(spec)
+    gear = _section_of(spec)
+    if not exists(gear):
+        return False
+    gear.holes.check(gear.root_radius)
+    check_wheel(_shape_of(spec), 2 * gear.root_radius, gear.holes)
+    return True
 
 
 def spur_gear_part(part_id: str, spec: SpurGearSpec, gear: SpurGear) -> Part:
@@ -147,7 +169,7 @@ def spur_gear_part(part_id: str, spec: SpurGearSpec, gear: SpurGear) -> Part:
         lru_cache(maxsize=2)(lambda offset: wheel_body(shape, sections, offset)),
         spec.face_width,
         shape.is_plate,
-        findings(gear),
+        (*_rack_finding(spec, gear), *findings(gear)),
         circles,
         quantities,
         spec.material,
@@ -193,10 +215,9 @@ def _with_rack_remedy(spec: SpurGearSpec, refusal: ParameterError) -> ParameterE
 
 def _builds(spec: SpurGearSpec) -> bool:
     try:
-        checked_gear(_section_of(spec))
+        return exists(_section_of(spec))
     except GeometryError:
         return False
-    return True
 
 
 def gear_of(spec: SpurGearSpec) -> SpurGear:
@@ -211,6 +232,7 @@ def gear_of(spec: SpurGearSpec) -> SpurGear:
         raise ParameterError("tip_rounding", spec.tip_rounding, "give either tip_chamfer or tip_rounding; 0 works")
     if spec.bore is not None and spec.bore_diameter > 0:
         raise ParameterError("bore_diameter", spec.bore_diameter, "give either bore_diameter or bore; 0 works")
+    _check_unused(spec)
     cutter = None if spec.cutter is None else cutter_of(spec.cutter, spec.module, math.radians(spec.pressure_angle_deg))
     return SpurGear(
         module=spec.module,
@@ -226,6 +248,27 @@ def gear_of(spec: SpurGearSpec) -> SpurGear:
         hub=hub_holes(spec.bore, spec.holes, spec.spokes),
         cutter=cutter,
     )
+
+
+def _check_unused(spec: SpurGearSpec) -> None:
+    """A cutter leaves of a basic rack the addendum alone: what it would do to the root is refused, not passed over."""
+    rack, default = spec.basic_rack, RackTable()
+    if spec.cutter is None or not isinstance(rack, RackTable):
+        return
+    for key in ("tip_clearance_coefficient", "tip_radius_coefficient"):
+        given, usual = getattr(rack, key), getattr(default, key)
+        if given != usual:
+            why = "the cutter makes the root, by its own addendum and tip rounding"
+            cure = f"{usual:g} works" if usual is not None else "remove it"
+            raise ParameterError(f"basic_rack.{key}", given, f"{why}; {cure}")
+
+
+def _rack_finding(spec: SpurGearSpec, gear: SpurGear) -> tuple[Finding, ...]:
+    """The remark that only the addendum of a basic rack counts beside a cutter: it, and the root diameter."""
+    if spec.cutter is None or spec.basic_rack == "ISO 53 A":
+        return ()
+    addendum = gear.rack.addendum * gear.module / spec.module
+    return (Finding("cutter_makes_root", addendum, 2 * gear.root_radius),)
 
 
 def _section_of(spec: SpurGearSpec) -> SpurGear:

@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 
 _MOST = 100_000.0
 _BISECTIONS = 40
+_RAISES = 12
+# a lift or swing below this, mm or degrees, is none
+_LEAST_MOTION = 1e-3
 # usual limits of the pressure angle, degrees: sliding and swinging followers
 _USUAL_PRESSURE_ANGLE = {False: 30.0, True: 45.0}
 # least wall below the profile and about holes, mm
@@ -97,13 +100,10 @@ def checked_wedge(spec: WedgeCamSpec) -> WedgeCam:
     fault = wedge_fault(cam)
     if fault is not None:
         raise _refusal(spec, cam, *fault)
-    lowest = min(float(cam.centre(p.extremes(0)).imag.min()) for p in cam.motion.pieces) - cam.radius
-    if not lowest > _LEAST_WALL + 2 * spec.corner_radius:
-        need = spec.base_height + _LEAST_WALL + 2 * spec.corner_radius - lowest
-        if spec.oscillating is not None:
-            text = f"the plate's lowest edge stands at {lowest:.4g} mm; less swing or a smaller corner_radius works"
-            raise ParameterError("base_height", spec.base_height, text)
-        text = f"leaves no plate under the lowest follower; at least {at_least(need + 1e-6, 4)} mm works"
+    if not _spare(spec, cam) > 0:
+        found = _high_enough(spec, cam)
+        remedy = "less swing works" if found is None else f"at least {at_least(found, 4)} mm works"
+        text = f"leaves no plate under the lowest follower; {remedy}"
         raise ParameterError("base_height", spec.base_height, text)
     for name in ("run_in", "run_out"):
         if not getattr(spec, name) > spec.corner_radius + _LEAST_WALL:
@@ -111,6 +111,28 @@ def checked_wedge(spec: WedgeCamSpec) -> WedgeCam:
             raise ParameterError(name, getattr(spec, name), text)
     _check_holes(spec, cam)
     return cam
+
+
+def _spare(spec: WedgeCamSpec, cam: WedgeCam) -> float:
+    """Height of the plate at its lowest place over the least that is left, mm."""
+    lowest = min(float(cam.centre(p.extremes(0)).imag.min()) for p in cam.motion.pieces) - cam.radius
+    return lowest - _LEAST_WALL - 2 * spec.corner_radius
+
+
+def _high_enough(spec: WedgeCamSpec, cam: WedgeCam) -> float | None:
+    """A height of the plate that leaves enough of it, by raising it as far as it lacks: the arm turns with it."""
+    from geometry.cams.wedge import wedge_fault
+
+    height = spec.base_height
+    for _ in range(_RAISES):
+        height += 1e-4 - _spare(spec, cam)
+        try:
+            cam = _wedge_of(replace(spec, base_height=height))
+        except GeometryError:
+            return None
+        if _spare(spec, cam) > 0:
+            return height if wedge_fault(cam) is None else None
+    return None
 
 
 def wedge_part(part_id: str, spec: WedgeCamSpec, cam: WedgeCam) -> Part:
@@ -206,8 +228,11 @@ def _refusal(spec: WedgeCamSpec, cam: WedgeCam, fault: str, travel: float) -> Pa
 
     key = "swing_deg" if spec.oscillating else "lift"
     why = "the follower runs along with the plate" if fault == "steep" else "the follower undercuts the plate"
-    unit = "degrees" if spec.oscillating else "mm"
-    text = f"{why} at {travel:.4g} mm of travel; at most {at_most(_most(spec, key), 4)} {unit} works"
+    unit, most = "degrees" if spec.oscillating else "mm", _most(spec, key)
+    remedy = f"at most {at_most(most, 4)} {unit} works"
+    if most < _LEAST_MOTION:
+        remedy = "with this law none is small enough; one without jumps of velocity, or pointed, works"
+    text = f"{why} at {travel:.4g} mm of travel; {remedy}"
     return UndercutError(key, getattr(spec, key), text)
 
 

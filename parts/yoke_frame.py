@@ -62,6 +62,7 @@ class YokeFrame:
     middle: float
     half_width: float
     thickness: float
+    play: float = 0.0
 
 
 def checked_yoke(spec: YokeFrameSpec, parts: dict[str, Struct]) -> YokeFrame:
@@ -92,9 +93,8 @@ def checked_yoke(spec: YokeFrameSpec, parts: dict[str, Struct]) -> YokeFrame:
     middle = cam.mount.start_height - (breadth / 2)  # type: ignore[union-attr]
     # the cam turns through every direction: all of it must pass beside
     reach = path_reach(cam) - cam.radius if not cam.is_flat else _flat_reach(cam)
-    frame = YokeFrame(
-        cam, breadth + spec.clearance, middle, reach + spec.side_clearance, spec.thickness or owner.face_width
-    )
+    thickness = spec.thickness or owner.face_width
+    frame = YokeFrame(cam, breadth + spec.clearance, middle, reach + spec.side_clearance, thickness, spec.clearance)
     _check_sizes(spec, frame, high - low)
     return frame
 

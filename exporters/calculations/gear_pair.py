@@ -20,6 +20,7 @@ from exporters.calculations.misprints import printed_for_pair
 from exporters.calculations.other_pairs import internal_sheet, merged, rack_sheet
 from exporters.calculations.sheet import Sheet
 from exporters.calculations.spur import addendum_formula, dedendum_formula, given_data, thickness_formula
+from exporters.calculations.wishes import wish_refused
 from geometry.angles import involute_function
 from geometry.errors import ParameterError
 from geometry.gears import limits, measurement
@@ -65,6 +66,7 @@ class Asked:
     wanted_distance: bool
     given_shortening: float | None
     keys: PairKeys
+    shifts_follow: bool = False
 
     @property
     def helix(self) -> float:
@@ -89,12 +91,6 @@ def table_from(scene: Any, source: str, table: dict[str, Any]) -> dict[str, Any]
     known = {"kind": kind, **{name: given(spec) for name, spec in zip(GEARS, specs, strict=True)}}
     wishes = {key: getattr(mate, key) for key in ("working_centre_distance", "normal_backlash")}
     if kind == "external_gear_pair":
-        if (distance := wishes.pop("working_centre_distance")) is not None and "working_centre_distance" not in table:
-            remedy = (
-                "the sheet takes the distance from the shifts; working_centre_distance=... on the command line finds "
-                "shifts for one"
-            )
-            raise SceneError(source, f"mates[{index}].working_centre_distance", distance, remedy)
         return _merged(known | {k: v for k, v in wishes.items() if v is not None}, table)
     return merged(known | {k: v for k, v in wishes.items() if v is not None}, table, kind)
 
@@ -138,12 +134,17 @@ def external_sheet(table: dict[str, Any]) -> Sheet:
             raise SceneError(PLACE, f"{TOPIC}.{key}", table[key], remedy)
     keys: PairKeys = checked(table, PairKeys, TOPIC)
     shifts_given = tuple("profile_shift_coefficient" in table[name] for name in GEARS)
+
+    def made(changed: PairKeys) -> ExternalPair:
+        return asked_pair(changed, shifts_given).pair
+
     try:
-        asked = asked_pair(keys, shifts_given)
-        return _page(asked)
+        return _page(asked_pair(keys, shifts_given))
     except ParameterError as error:
         owner = "" if error.name in keys_of(PairKeys) else "second"
-        raise refusal(TOPIC, error, owner) from error
+        raise wish_refused(TOPIC, keys, refusal(TOPIC, error, owner), made) from error
+    except SceneError as error:
+        raise wish_refused(TOPIC, keys, error, made) from error
 
 
 def asked_pair(keys: PairKeys, shifts_given: tuple[bool, ...]) -> Asked:
@@ -177,7 +178,7 @@ def asked_pair(keys: PairKeys, shifts_given: tuple[bool, ...]) -> Asked:
     width = min(keys.first.face_width, keys.second.face_width)
     face = CommonFace(Helix(helix, double=keys.first.double_helical), normal[0].module, width)
     wanted = keys.working_centre_distance is not None
-    return Asked(pair, normal, face, wanted, keys.tip_shortening_coefficient, keys)
+    return Asked(pair, normal, face, wanted, keys.tip_shortening_coefficient, keys, follow)
 
 
 def checked_of(name: str, normal: SpurGear, helix: float) -> SpurGear:
@@ -285,7 +286,11 @@ def _mesh(page: Sheet, asked: Asked) -> None:
         total = (one.number_of_teeth + two.number_of_teeth) * (involute_function(angle) - involute_function(alpha))
         total /= 2 * math.tan(alpha)
         formula = "({z1} + {z2}) * ({inv_alpha_w} - inv({alpha})) / (2 * tan({alpha}))"
-        page.add("profile_shift_sum", total, formula, "practicum (3.3)")
+        if asked.shifts_follow:
+            page.add("profile_shift_sum", total, formula, "practicum (3.3)")
+        else:
+            # with shifts of one's own the distance leaves backlash
+            page.add("tight_profile_shift_sum", total, formula, "practicum (3.3)")
     else:
         formula = "2 * ({x1} + {x2}) * tan({alpha}) / ({z1} + {z2}) + inv({alpha})"
         page.add("involute_of_working_pressure_angle", involute_function(angle), formula, "practicum (3.3)")

@@ -17,7 +17,7 @@ from geometry.gears.internal_contour import InternalRequirements, internal_conto
 from geometry.gears.internal_pair import shift_difference
 from geometry.gears.internal_shifts import InternalShiftPair, internal_state, least_pinion_shift
 from geometry.gears.ring import RingGear, RoundedRoot
-from geometry.gears.ring_limits import with_default_cutter
+from geometry.gears.ring_made import with_default_cutter
 from geometry.gears.shift_finder import (
     Proposal,
     for_sum,

@@ -8,20 +8,29 @@ from typing import Annotated, Any
 import msgspec
 from msgspec import Struct
 
-from exporters.calculations.contact_steps import overlap_steps
 from exporters.calculations.inputs import PLACE, checked, keys_of, refusal
 from exporters.calculations.misprints import printed_for_internal
+from exporters.calculations.rack_page import (
+    ISO,
+    Helical,
+    backlash_steps,
+    first_limits,
+    first_radii,
+    heading,
+    overlap,
+    pair_notes,
+    rack_page,
+)
 from exporters.calculations.sheet import Sheet
-from exporters.calculations.spur import dedendum_formula, given_data
-from exporters.words import FINDINGS
+from exporters.calculations.spur import given_data
+from exporters.calculations.wishes import wish_refused
 from geometry.angles import involute_function
 from geometry.errors import ParameterError
-from geometry.gears import limits, measurement, ring_limits
+from geometry.gears import limits, ring_limits
 from geometry.gears.internal_pair import InternalPair, shift_difference
-from geometry.gears.rack_pair import RackPair
 from geometry.gears.ring import RingGear, RoundedRoot
 from geometry.gears.sliding import specific_sliding_internal
-from parts.common_face import CommonFace
+from geometry.gears.transverse_ring import transverse_ring
 from parts.helix_keys import common_face
 from parts.keys import mm
 from parts.mate_keys import InternalGearPairSpec, RackPairSpec
@@ -29,11 +38,11 @@ from parts.mates import mated
 from parts.rack import RackSpec, checked_rack_part
 from parts.ring_gear import RingGearSpec, checked_ring_gear
 from parts.schema import SceneError, near
-from parts.spur_gear import SpurGearSpec, checked_spur_gear
+from parts.spur_gear import SpurGearSpec, checked_spur_gear, gear_of
 
 TOPIC = "gear-pair"
 _GEARS = ("first", "second")
-_ISO = ("ISO 21771", "ISO 21771")
+_SAME = {name: name for name in _GEARS}
 
 
 class InternalKeys(Struct, forbid_unknown_fields=True):
@@ -85,22 +94,51 @@ def merged(under: dict[str, Any], over: dict[str, Any], kind: str) -> dict[str, 
 def internal_sheet(table: dict[str, Any]) -> Sheet:
     """The calculation of a pinion in a ring."""
     keys, table = _keys(table, "internal_gear_pair")
-    mate = InternalGearPairSpec("first", "second", 0.0, keys.working_centre_distance, keys.normal_backlash)
+    given_shift = "profile_shift_coefficient" in table["second"]
     try:
-        pinion, wanted = checked_spur_gear(keys.first), keys.working_centre_distance
-        ring_keys = keys.second
-        teeth = pinion.number_of_teeth, ring_keys.number_of_teeth
-        if wanted is not None and "profile_shift_coefficient" not in table["second"] and teeth[0] < teeth[1]:
-            bare = RingGear(ring_keys.module, teeth[1], math.radians(ring_keys.pressure_angle_deg), 1e9, RoundedRoot())
-            shift = pinion.profile_shift_coefficient + shift_difference(pinion, bare, wanted)
-            ring_keys = msgspec.structs.replace(ring_keys, profile_shift_coefficient=shift)
-            # shifts that were found for a distance give it back but for rounding
-            mate = InternalGearPairSpec("first", "second", 0.0, None, keys.normal_backlash)
-        gears: dict[str, Any] = {"first": pinion, "second": checked_ring_gear(ring_keys)}
-        pair = mated(gears, [mate], {name: name for name in _GEARS})[1][0].pair
-        return _internal_page(pair, wanted is not None, common_face(keys.first, keys.second))
+        pair = _internal_pair(keys, given_shift)
+        return _internal_page(pair, keys, _helical(keys))
     except ParameterError as error:
-        raise _refused(error, keys) from error
+        refused = _refused(error, keys)
+        raise wish_refused(TOPIC, keys, refused, lambda changed: _internal_pair(changed, given_shift)) from error
+
+
+def _internal_pair(keys: InternalKeys, given_shift: bool) -> InternalPair:
+    """The pair that the keys ask for; the ring's shift follows from a wanted distance where it is not given."""
+    mate = InternalGearPairSpec("first", "second", 0.0, keys.working_centre_distance, keys.normal_backlash)
+    pinion, wanted = checked_spur_gear(keys.first), keys.working_centre_distance
+    ring_keys = keys.second
+    teeth = pinion.number_of_teeth, ring_keys.number_of_teeth
+    helix = _helix(keys)
+    if wanted is not None and not given_shift and teeth[0] < teeth[1]:
+        bare = RingGear(ring_keys.module, teeth[1], math.radians(ring_keys.pressure_angle_deg), 1e9, RoundedRoot())
+        shift = pinion.profile_shift_coefficient + shift_difference(pinion, transverse_ring(bare, helix), wanted)
+        ring_keys = msgspec.structs.replace(ring_keys, profile_shift_coefficient=shift / math.cos(helix))
+        # shifts that were found for a distance give it back but for rounding
+        mate = InternalGearPairSpec("first", "second", 0.0, None, keys.normal_backlash)
+    gears: dict[str, Any] = {"first": pinion, "second": checked_ring_gear(ring_keys)}
+    pair: InternalPair = mated(gears, [mate], _SAME, dict.fromkeys(_GEARS, helix))[1][0].pair
+    return pair
+
+
+def _helix(keys: Any) -> float:
+    """The helix angle of both, rad.
+
+    Raises
+    ------
+    ParameterError
+        They differ.
+    """
+    one, two = keys.first.helix_angle_deg, keys.second.helix_angle_deg
+    if one != two:
+        raise ParameterError("helix_angle_deg", two, f"must be that of the first gear; {one:.12g} works")
+    return math.radians(one)
+
+
+def _helical(keys: Any) -> Helical:
+    """What the page of a pair says beside its transverse section."""
+    _helix(keys)
+    return Helical(gear_of(keys.first), common_face(keys.first, keys.second))
 
 
 def rack_sheet(table: dict[str, Any]) -> Sheet:
@@ -109,8 +147,8 @@ def rack_sheet(table: dict[str, Any]) -> Sheet:
     mate = RackPairSpec("first", "second", 0.0, keys.working_centre_distance, keys.normal_backlash)
     try:
         gears = {"first": checked_spur_gear(keys.first), "second": checked_rack_part(keys.second)}
-        pair = mated(gears, [mate], {name: name for name in _GEARS})[1][0].pair
-        return _rack_page(pair, common_face(keys.first, keys.second))
+        pair = mated(gears, [mate], _SAME, dict.fromkeys(_GEARS, _helix(keys)))[1][0].pair
+        return rack_page(pair, TOPIC, _helical(keys))
     except ParameterError as error:
         raise _refused(error, keys) from error
 
@@ -136,28 +174,38 @@ def _refused(error: ParameterError, keys: Struct) -> SceneError:
     return refusal(TOPIC, ParameterError(name, error.value, error.allowed), owner)
 
 
-def _internal_page(pair: InternalPair, wanted_distance: bool, face: CommonFace) -> Sheet:
+def _internal_page(pair: InternalPair, keys: InternalKeys, helical: Helical) -> Sheet:
     pinion, ring = pair.pinion, pair.ring
-    printed = printed_for_internal(pair.teeth, pair.module)
+    printed = {} if helical.angle else printed_for_internal(pair.teeth, pair.module)
     page = Sheet(TOPIC, ("Internal gear pair", "Внутрішнє евольвентне зачеплення"), printed=printed)
     page.section("Given", "Вихідні дані")
-    given_data(page, pinion, pinion, 0.0, 1)
+    given_data(page, helical.normal, pinion, helical.angle, 1)
     page.add("number_of_teeth", ring.number_of_teeth, gear=2)
-    page.add("profile_shift_coefficient", ring.profile_shift_coefficient, gear=2)
-    page.add("addendum_coefficient", ring.addendum, gear=2)
+    if helical.angle:
+        normal = ring.profile_shift_coefficient / math.cos(helical.angle)
+        page.add("profile_shift_coefficient", normal, "", "", 2, symbol="x_n", key="x_n")
+        value = ring.profile_shift_coefficient
+        page.add("transverse_profile_shift_coefficient", value, "{x_n2} * cos({beta})", "ISO 21771", 2)
+    else:
+        page.add("profile_shift_coefficient", ring.profile_shift_coefficient, gear=2)
+    page.add("addendum_coefficient", keys.second.addendum_coefficient, gear=2)
     if ring.circumferential_thinning:
         page.add("circumferential_thinning", ring.circumferential_thinning, gear=2)
-    _internal_mesh(page, pair, wanted_distance)
+    heading(page, helical, "Meshing", "Зачеплення")
+    _internal_mesh(page, pair, keys.working_centre_distance is not None)
+    heading(page, helical, "Radii", "Радіуси кіл")
+    _internal_radii(page, pair, keys, helical)
+    heading(page, helical, "Pitch and tooth thickness", "Крок і товщина зубців")
     _internal_sizes(page, pair)
-    _internal_contact(page, pair, face)
-    _internal_limits(page, pair, face)
+    heading(page, helical, "Contact ratio", "Коефіцієнт перекриття")
+    _internal_contact(page, pair, helical)
+    _internal_limits(page, pair, helical)
     return page
 
 
 def _internal_mesh(page: Sheet, pair: InternalPair, wanted_distance: bool) -> None:
     """Working angle and distance, from the shifts or the other way round."""
     angle, alpha = pair.working_pressure_angle, pair.ring.pressure_angle
-    page.section("Meshing", "Зачеплення")
     page.add("gear_ratio", pair.gear_ratio, "{z2} / {z1}", "practicum (3.2)")
     page.add("involute_of_pressure_angle", involute_function(alpha), "inv({alpha})", "practicum, table Д.1")
     reference = "{m} * ({z2} - {z1}) / 2"
@@ -181,24 +229,28 @@ def _internal_mesh(page: Sheet, pair: InternalPair, wanted_distance: bool) -> No
     page.add("working_radius", pair.working_radii[1], "{a_w} * {u} / ({u} - 1)", "ISO 21771", 2)
 
 
+def _internal_radii(page: Sheet, pair: InternalPair, keys: InternalKeys, helical: Helical) -> None:
+    """Radii; a tip that was given or made shallower and the roots of rings have no formula."""
+    pinion, ring = pair.pinion, pair.ring
+    page.both("reference_radius", (pinion.reference_radius, ring.reference_radius), "{m} * {z#} / 2", ISO)
+    page.both("base_radius", (pinion.base_radius, ring.base_radius), "{r#} * cos({alpha})", ISO)
+    first_radii(page, pinion, helical)
+    formula = ""
+    if ring.tip_radius == ring.default_tip_radius and ring.given_tip_diameter is None:
+        spec, shift = keys.second, "{x_n2}" if helical.angle else "{x2}"
+        plain = spec.tip_rule == "KHK" or ring.profile_shift_coefficient >= 2 * math.cos(helical.angle)
+        short = "" if plain else f" - (0.25 - 0.125 * {shift})"
+        formula = f"{{r2}} - ({{h_a2}} - {{x2}}{short}) * {{m}}"
+        if helical.angle:
+            formula = f"{{r2}} - ({{h_a2}}{short}) * {{m_n}} + {{x2}} * {{m}}"
+    page.add("tip_radius", ring.tip_radius, formula, "GOST 19274", 2)
+    page.add("root_radius", ring.root_radius, "", "ISO 21771", 2)
+
+
 def _internal_sizes(page: Sheet, pair: InternalPair) -> None:
-    """Radii, pitch, thicknesses, angles at the tips."""
+    """Pitch, thicknesses, angles at the tips."""
     pinion, ring = pair.pinion, pair.ring
     gears: tuple[Any, Any] = (pinion, ring)
-    page.section("Radii", "Радіуси кіл")
-    page.both("reference_radius", (pinion.reference_radius, ring.reference_radius), "{m} * {z#} / 2", _ISO)
-    page.both("base_radius", (pinion.base_radius, ring.base_radius), "{r#} * cos({alpha})", _ISO)
-    formula = "{r1} + ({h_a1} + {x1}) * {m}" if pinion.given_tip_diameter is None else ""
-    page.add("tip_radius", pinion.tip_radius, formula, "ISO 21771", 1)
-    formula = ""
-    if ring.given_tip_diameter is None:
-        plain = "{r2} - ({h_a2} - {x2}"
-        short = ring.tip_shortening_coefficient
-        formula = f"{plain} - (0.25 - 0.125 * {{x2}})) * {{m}}" if short else f"{plain}) * {{m}}"
-    page.add("tip_radius", ring.tip_radius, formula, "GOST 19274", 2)
-    _root_radius(page, pinion)
-    page.add("root_radius", ring.root_radius, "", "ISO 21771", 2)
-    page.section("Pitch and tooth thickness", "Крок і товщина зубців")
     page.add("pitch", math.pi * pair.module, "pi * {m}", "practicum (3.15)")
     for index, gear, sign in ((1, pinion, "+"), (2, ring, "-")):
         less = " - {A#}" if gear.circumferential_thinning else ""
@@ -215,9 +267,8 @@ def _internal_sizes(page: Sheet, pair: InternalPair) -> None:
     page.add("tip_thickness", ring_limits.tip_thickness(ring), formula if forms[1] else "", "ISO 21771", 2)
 
 
-def _internal_contact(page: Sheet, pair: InternalPair, face: CommonFace) -> None:
+def _internal_contact(page: Sheet, pair: InternalPair, helical: Helical) -> None:
     """Contact ratio both ways, the line of action, form and active diameters, sliding."""
-    page.section("Contact ratio", "Коефіцієнт перекриття")
     formula = "({z1} * tan({alpha_a1}) - {z2} * tan({alpha_a2}) + ({z2} - {z1}) * tan({alpha_w})) / (2 * pi)"
     page.add("contact_ratio", pair.contact_ratio, formula, "GOST 19274")
     page.add("working_pitch", pair.working_pitch, "2 * pi * {r_w1} / {z1}", "practicum (3.21)")
@@ -226,12 +277,12 @@ def _internal_contact(page: Sheet, pair: InternalPair, face: CommonFace) -> None
     page.add("contact_ratio_by_arc", pair.contact_ratio_by_arc, "{dd} / {p_w}", "practicum (3.21)")
     if abs(pair.effective_contact_ratio - pair.contact_ratio) > 1e-9:
         page.add("effective_contact_ratio", pair.effective_contact_ratio, "", "ISO 21771")
-    _overlap(page, pair.contact_ratio, face)
+    overlap(page, pair, helical)
     active, forms, tips = pair.active_profile_radii, pair.root_form_radii, pair.tip_form_radii
-    page.both("root_form_diameter", (2 * forms[0], 2 * forms[1]), "", _ISO)
-    page.both("start_of_active_profile_diameter", (2 * active[0][0], 2 * active[1][1]), "", _ISO)
-    page.both("active_tip_diameter", (2 * active[0][1], 2 * active[1][0]), "", _ISO)
-    page.both("tip_form_diameter", (2 * tips[0], 2 * tips[1]), "", _ISO)
+    page.both("root_form_diameter", (2 * forms[0], 2 * forms[1]), "", ISO)
+    page.both("start_of_active_profile_diameter", (2 * active[0][0], 2 * active[1][1]), "", ISO)
+    page.both("active_tip_diameter", (2 * active[0][1], 2 * active[1][0]), "", ISO)
+    page.both("tip_form_diameter", (2 * tips[0], 2 * tips[1]), "", ISO)
     page.section("Line of action and sliding", "Лінія зачеплення і ковзання")
     line = pair.working_centre_distance * math.sin(pair.working_pressure_angle)
     page.add("line_of_action_length", line, "{a_w} * sin({alpha_w})", "practicum, fig. 3.5")
@@ -243,116 +294,20 @@ def _internal_contact(page: Sheet, pair: InternalPair, face: CommonFace) -> None
     page.add("recess_length", high - pole, "{g} - {g_f}", "ISO 21771")
     starts = specific_sliding_internal(low, line, pair.gear_ratio)
     ends = specific_sliding_internal(high, line, pair.gear_ratio)
-    page.both("root_sliding", (starts[0], ends[1]), "", _ISO)
-    page.both("tip_sliding", (ends[0], starts[1]), "", _ISO)
-    _backlash(page, pair.circumferential_backlash, pair.normal_backlash, pair.tip_clearances)
+    page.both("root_sliding", (starts[0], ends[1]), "", ISO)
+    page.both("tip_sliding", (ends[0], starts[1]), "", ISO)
+    backlash_steps(page, pair, pair.circumferential_backlash, helical)
 
 
-def _root_radius(page: Sheet, gear: Any) -> None:
-    """Of the first gear; one cut by a pinion has the cutter's."""
-    formula = f"{{r1}} - {dedendum_formula(gear, 0.0)}" if gear.cutter is None else ""
-    page.add("root_radius", gear.root_radius, formula, "practicum (3.13)", 1)
-
-
-def _backlash(page: Sheet, circumferential: float, normal: float, clearances: tuple[float, float]) -> None:
-    page.section("Backlash and clearance", "Бічний і радіальний зазори")
-    page.add("circumferential_backlash", circumferential, "", "ISO 21771")
-    page.add("normal_backlash", normal, "{j_wt} * cos({alpha_w})", "ISO 21771")
-    page.both("tip_clearance", clearances, "", _ISO)
-
-
-def _internal_limits(page: Sheet, pair: InternalPair, face: CommonFace) -> None:
+def _internal_limits(page: Sheet, pair: InternalPair, helical: Helical) -> None:
     """The conditions of an internal pair, each with its margin, mm; negative: broken."""
     page.section("Conditions: margins", "Умови: запаси")
     found = {m.name: m for m in pair.margins()}
     for name in ("involute_interference", "trochoid_interference", "radial_assembly"):
         page.add(f"{name}_margin", found[name].margin, "", "KHK")
     fillets = found["fillet_interference_pinion"].margin, found["fillet_interference_ring"].margin
-    page.both("fillet_interference_margin", fillets, "", _ISO)
+    page.both("fillet_interference_margin", fillets, "", ISO)
     page.add("greatest_tip_diameter_pinion", pair.tip_limits[0], "", "ISO 21771")
     page.add("least_tip_diameter_ring", pair.tip_limits[1], "", "ISO 21771")
-    _gear_limits(page, pair.pinion)
-    _notes(page, pair, face)
-
-
-def _gear_limits(page: Sheet, gear: Any) -> None:
-    least = limits.least_shift_without_undercut(gear)
-    page.add("least_shift_without_undercut", least, "", "ISO 21771", 1)
-    value = limits.LEAST_TIP_THICKNESS * gear.module
-    page.add("least_tip_thickness", value, f"{limits.LEAST_TIP_THICKNESS} * {{m}}", "practicum (1.3)")
-
-
-def _overlap(page: Sheet, contact_ratio: float, face: CommonFace) -> None:
-    """The sheet's numbers are those of the transverse section; only here is the helix seen."""
-    if face.helix.angle:
-        page.add("helix_angle_deg", math.degrees(face.helix.angle))
-    overlap_steps(page, contact_ratio, face, "{b}@ * tan({beta}) / (pi * {m})")
-
-
-def _notes(page: Sheet, pair: InternalPair | RackPair, face: CommonFace) -> None:
-    for finding in face.findings(pair.findings(), pair.effective_contact_ratio):
-        en, uk = (text.format(value=finding.value, limit=finding.limit) for text in FINDINGS[finding.code])
-        page.notes.append((en, uk))
-
-
-def _rack_page(pair: RackPair, face: CommonFace) -> Sheet:
-    gear, rack = pair.gear, pair.rack
-    alpha = rack.rack.pressure_angle
-    page = Sheet(TOPIC, ("Gear and rack", "Рейкове зачеплення"))
-    page.section("Given", "Вихідні дані")
-    given_data(page, gear, gear, 0.0, 1)
-    page.add("rack_addendum", rack.addendum)
-    if rack.circumferential_thinning:
-        page.add("circumferential_thinning", rack.circumferential_thinning, gear=2)
-    page.section("Meshing", "Зачеплення")
-    page.add("reference_radius", gear.reference_radius, "{m} * {z1} / 2", "practicum (3.7)", 1)
-    nominal = gear.reference_radius + gear.profile_shift_coefficient * gear.module
-    formula = "{r1} + {x1} * {m}" if abs(nominal - pair.distance) < 1e-12 * nominal else ""
-    page.add("rack_distance", pair.distance, formula, "ISO 21771")
-    page.add("working_pressure_angle_deg", math.degrees(alpha), "{alpha}", "ISO 21771")
-    page.add("travel_per_turn", pair.travel_per_turn, "pi * {m} * {z1}", "ISO 21771")
-    page.section("Radii", "Радіуси кіл")
-    page.add("base_radius", gear.base_radius, "{r1} * cos({alpha})", "practicum (3.9)", 1)
-    formula = "{r1} + ({h_a1} + {x1}) * {m}" if gear.given_tip_diameter is None else ""
-    page.add("tip_radius", gear.tip_radius, formula, "practicum (3.11)", 1)
-    _root_radius(page, gear)
-    page.section("Pitch and tooth thickness", "Крок і товщина зубців")
-    page.add("pitch", rack.pitch, "pi * {m}", "practicum (3.15)")
-    less = " - {A1}" if gear.circumferential_thinning else ""
-    formula = f"0.5 * {{p}} + 2 * {{x1}} * {{m}} * tan({{alpha}}){less}"
-    page.add("reference_thickness", gear.reference_thickness, formula, "practicum (3.16)", 1)
-    formula = "0.5 * {p} - {A2}" if rack.circumferential_thinning else "0.5 * {p}"
-    page.add("reference_thickness", rack.tooth_thickness, formula, "ISO 21771", 2)
-    angle = measurement.angle_at(gear, gear.tip_radius)
-    page.add("tip_pressure_angle_deg", math.degrees(angle), "arccos({r_b1} / {r_a1})", "practicum (3.18)", 1)
-    page.add("tip_thickness", limits.tip_thickness(gear), "", "ISO 21771", 1)
-    _rack_contact(page, pair, face)
-    return page
-
-
-def _rack_contact(page: Sheet, pair: RackPair, face: CommonFace) -> None:
-    """Contact ratio, backlash and the conditions."""
-    page.section("Contact ratio", "Коефіцієнт перекриття")
-    formula = (
-        "({r_b1} * tan({alpha_a1}) - {r1} * sin({alpha}) + ({r1} - {a_w} + {h_aR}) / sin({alpha})) "
-        "/ (pi * {m} * cos({alpha}))"
-    )
-    gear, rack = pair.gear, pair.rack
-    plain = not (gear.tip_chamfer or gear.tip_rounding or gear.rack.relief or rack.tip_chamfer or rack.tip_rounding)
-    page.add("contact_ratio", pair.contact_ratio, formula if plain else "", "ISO 21771")
-    if abs(pair.effective_contact_ratio - pair.contact_ratio) > 1e-9:
-        page.add("effective_contact_ratio", pair.effective_contact_ratio, "", "ISO 21771")
-    _overlap(page, pair.contact_ratio, face)
-    low, high = pair.active_ends
-    pole = gear.base_radius * math.tan(rack.rack.pressure_angle)
-    page.add("active_line_length", high - low, "", "practicum, fig. 3.11")
-    page.add("approach_length", pole - low, "", "ISO 21771")
-    page.add("recess_length", high - pole, "{g} - {g_f}", "ISO 21771")
-    normal = pair.normal_backlash
-    _backlash(page, normal / math.cos(rack.rack.pressure_angle), normal, pair.tip_clearances)
-    page.section("Conditions: margins", "Умови: запаси")
-    found = {m.name: m for m in pair.margins()}
-    fillets = found["fillet_interference_gear"].margin, found["fillet_interference_rack"].margin
-    page.both("fillet_interference_margin", fillets, "", _ISO)
-    _gear_limits(page, gear)
-    _notes(page, pair, face)
+    first_limits(page, pair.pinion, helical)
+    pair_notes(page, pair, pair.pinion, helical)

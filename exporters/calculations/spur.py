@@ -13,6 +13,7 @@ from exporters.calculations.sheet import Sheet
 from geometry.errors import ParameterError
 from geometry.gears import limits, measurement
 from geometry.gears.limits import LEAST_TIP_THICKNESS
+from geometry.gears.measurement import SPAN_CONTACT
 from geometry.gears.spur import SpurGear
 from geometry.gears.transverse import base_helix_angle
 from parts.keys import mm
@@ -236,7 +237,7 @@ def _measured(page: Sheet, gear: SpurGear, helix: float, keys: SpurKeys) -> None
         page.add("span_contact_diameter", best.contact_diameter, formula, "GOST 16532-70")
         _real_part(page, gear, best, helix, keys)
         if helix:
-            page.add("least_face_width", best.least_face_width, "{W} * sin(abs({beta_b}))", "ISO 21771")
+            _span_width(page, best, keys.face_width)
         if not best.touches_flanks:
             page.notes.append(("the span does not touch the involutes", "загальна нормаль не торкається евольвент"))
     _pins(page, gear, helix, keys.pin_diameter, keys.kerf)
@@ -248,6 +249,32 @@ def _measured(page: Sheet, gear: SpurGear, helix: float, keys: SpurKeys) -> None
     formulas = ("", "") if helix else ("{S} * cos({alpha})**2", "({d_a} - {d} - {S_c} * tan({alpha})) / 2")
     page.add("constant_chord", constant.thickness, formulas[0], "GOST 16532-70")
     page.add("constant_chord_height", constant.height, formulas[1], "GOST 16532-70")
+
+
+def _span_width(page: Sheet, best: measurement.Span, face_width: float) -> None:
+    """What the face must be wide for the span of helical teeth, and what it is."""
+    page.add("face_width", face_width)
+    page.add("least_face_width", best.least_face_width, "{W} * sin(abs({beta_b}))", "ISO 21771")
+    formula = f"{{b_min}} + ({SPAN_CONTACT[0]} + {SPAN_CONTACT[1]} * {{W}}) * cos({{beta_b}})"
+    page.add("secure_face_width", best.secure_face_width, formula, "DIN 3960")
+    if face_width < best.least_face_width:
+        page.notes.append(
+            (
+                f"the face width of {face_width:g} mm is too small for the span: above "
+                f"{best.least_face_width:.4f} mm is needed; measure over balls",
+                f"ширина вінця {face_width:g} мм замала для довжини загальної нормалі: потрібно понад "
+                f"{best.least_face_width:.4f} мм; вимірюйте по кульках",
+            )
+        )
+    elif face_width < best.secure_face_width:
+        page.notes.append(
+            (
+                f"the span finds little hold on a face width of {face_width:g} mm: {best.secure_face_width:.4f} mm is "
+                "secure",
+                f"на ширині вінця {face_width:g} мм нормаль виміряється непевно: певно від "
+                f"{best.secure_face_width:.4f} мм",
+            )
+        )
 
 
 def _real_part(page: Sheet, gear: SpurGear, best: measurement.Span, helix: float, keys: SpurKeys) -> None:
@@ -265,41 +292,73 @@ def _real_part(page: Sheet, gear: SpurGear, best: measurement.Span, helix: float
         page.add("thinning_from_span", thinned, f"{{E}} / (cos({{alpha}}){cosine}){own}", "ISO 21771")
 
 
+# what is laid into the spaces: cylinders (pins) with straight teeth, balls with helical ones
+_PINS = {
+    name: (name, name.replace("pin", "ball"))
+    for name in (
+        "best_pin_diameter", "least_pin_diameter", "greatest_pin_diameter", "pin_diameter", "pin_centre_angle_deg",
+        "pin_centre_diameter", "over_pins", "over_pins_nominal", "over_pins_after_kerf", "pin_contact_diameter",
+    )
+}  # fmt: skip
+
+
 def _pins(page: Sheet, gear: SpurGear, helix: float, wanted: float | None, kerf: float | None) -> None:
-    page.section("Over pins", "Розмір по роликах")
+    """Over pins, over balls where the teeth are helical, and when pins give the same there."""
+    balls = bool(helix)
+
+    def add(name: str, value: float, formula: str = "", source: str = "") -> None:
+        page.add(_PINS[name][balls], value, formula, source)
+
+    page.section(*(("Over balls", "Розмір по кульках") if balls else ("Over pins", "Розмір по роликах")))
     cosine = " / cos({beta_b})" if helix else ""
+    en, uk = ("ball", "жодна кулька") if balls else ("pin", "жоден ролик")
     try:
         best = measurement.best_pin_diameter(gear, helix)
         low, high = measurement.pin_limits(gear, helix)
     except ParameterError:
-        page.notes.append(
-            ("no pin touches both flanks of a space", "жоден ролик не торкається обох евольвент западини")
-        )
+        page.notes.append((f"no {en} touches both flanks of a space", f"{uk} не торкається обох евольвент западини"))
         return
-    page.add("best_pin_diameter", best, "", "ISO 21771")
-    page.add("least_pin_diameter", low)
-    page.add("greatest_pin_diameter", high)
+    add("best_pin_diameter", best, "", "ISO 21771")
+    add("least_pin_diameter", low)
+    add("greatest_pin_diameter", high)
     pin = best if wanted is None else wanted
     found = measurement.over_pins(gear, pin, helix)
-    page.add("pin_diameter", pin)
+    add("pin_diameter", pin)
     angle = math.degrees(math.acos(2 * gear.base_radius / found.centre_diameter))
     formula = f"arcinv({{D}} / {{d_b}}{cosine} + {{S_b}} / {{d_b}} - pi / {{z}})"
-    page.add("pin_centre_angle_deg", angle, formula, "ISO 21771")
-    page.add("pin_centre_diameter", found.centre_diameter, "{d_b} / cos({alpha_D})", "ISO 21771")
-    formula = "{d_D} + {D}" if gear.number_of_teeth % 2 == 0 else "{d_D} * cos(pi / (2 * {z})) + {D}"
-    page.add("over_pins", found.length, formula, "ISO 21771")
+    add("pin_centre_angle_deg", angle, formula, "ISO 21771")
+    add("pin_centre_diameter", found.centre_diameter, "{d_b} / cos({alpha_D})", "ISO 21771")
+    even = gear.number_of_teeth % 2 == 0
+    formula = "{d_D} + {D}" if even else "{d_D} * cos(pi / (2 * {z})) + {D}"
+    add("over_pins", found.length, formula, "ISO 21771")
     if gear.circumferential_thinning:
-        page.add("over_pins_nominal", measurement.over_pins(measurement.nominal(gear), pin, helix).length)
+        add("over_pins_nominal", measurement.over_pins(measurement.nominal(gear), pin, helix).length)
     if kerf:
         base = base_helix_angle(gear.rack.pressure_angle, helix)
         thinner = kerf / (math.cos(base) * math.cos(gear.rack.pressure_angle))
         cut = replace(gear, circumferential_thinning=gear.circumferential_thinning + thinner)
-        page.add("over_pins_after_kerf", measurement.over_pins(cut, pin, helix).length)
-    page.add("pin_contact_diameter", found.contact_diameter)
+        add("over_pins_after_kerf", measurement.over_pins(cut, pin, helix).length)
+    add("pin_contact_diameter", found.contact_diameter)
     if not (found.touches_flanks and found.stands_out):
+        who = "кулька" if balls else "ролик"
         page.notes.append(
             (
-                f"a pin of {pin:.4g} mm does not touch the involutes or does not stand out; take the best one",
-                f"ролик {pin:.4g} мм не торкається евольвент або не виступає за вершини; візьміть найкращий",
+                f"a {en} of {pin:.4g} mm does not touch the involutes or does not stand out; take the best one",
+                f"{who} {pin:.4g} мм не торкається евольвент або не виступає за вершини; краще взяти D_M",
             )
         )
+    if balls:
+        page.notes.append(_same_over_pins(even=even))
+
+
+def _same_over_pins(*, even: bool) -> tuple[str, str]:
+    """Pins lie along the screw line of their middle, which stands at right angles to both normals of contact."""
+    if even:
+        return (
+            "the number of teeth is even: pins of the ball's diameter give the same M",
+            "число зубців парне: ролики діаметра кульки дають той самий розмір M",
+        )
+    return (
+        "the number of teeth is odd: M holds for balls in one transverse plane, not for pins in helical spaces",
+        "число зубців непарне: розмір M чинний для кульок в одній торцевій площині, не для роликів у косих западинах",
+    )

@@ -63,8 +63,8 @@ def _part(scene: Any, source: str, wanted: str | None) -> str:
     return only_part(scene, source, wanted)
 
 
-def sheet(table: dict[str, Any]) -> Sheet:
-    """The calculation of both wheels."""
+def sheet(table: dict[str, Any], *, zero_only: bool = False) -> Sheet:
+    """The calculation of both wheels, or of the zero wheel alone."""
     keys: Tmm42Keys = checked(table, Tmm42Keys, TOPIC)
     teeth = _teeth(keys)
     try:
@@ -78,9 +78,13 @@ def sheet(table: dict[str, Any]) -> Sheet:
     page.add("module", zero.module)
     page.add("pressure_angle_deg", keys.pressure_angle_deg)
     page.add("reference_diameter", 2 * zero.reference_radius)
+    shifted = zero if zero_only else shifted
     page.add("disk_diameter", 2 * max(zero.tip_radius, shifted.tip_radius))
     _zero_wheel(page, zero)
     _measured(page, zero, 1)
+    if zero_only:
+        _conditions(page, zero, shifted)
+        return page
     _shifted_wheel(page, shifted, keys.profile_shift_coefficient is not None, rule)
     _measured(page, shifted, 2)
     _conditions(page, zero, shifted)
@@ -176,7 +180,8 @@ def _conditions(page: Sheet, zero: SpurGear, shifted: SpurGear) -> None:
             "у практикумі (1.3) надруковано x_0,3 ≤ x ≤ x_min; правильно x_min ≤ x ≤ x_0,3",
         )
     )
-    for gear, en, uk in ((zero, "zero wheel", "нульове колесо"), (shifted, "shifted wheel", "колесо зі зміщенням")):
+    wheels = [(zero, "zero wheel", "нульове колесо"), (shifted, "shifted wheel", "колесо зі зміщенням")]
+    for gear, en, uk in wheels[: 1 if shifted is zero else 2]:
         lost = 2 * (limits.root_form_diameter(gear) / 2 - gear.base_radius)
         if limits.undercut(gear).margin < 0:
             page.notes.append(

@@ -53,6 +53,7 @@ centre_distance_coefficient|y|y||centre distance coefficient|коефіцієн�
 tip_shortening_coefficient|dy|Δy||tip shortening coefficient|коефіцієнт зрівняльного зміщення
 exact_tip_shortening_coefficient|dy_0|Δy_0||tip shortening coefficient, exactly|коефіцієнт зрівняльного зміщення, точно
 profile_shift_sum|x_sum|x_Σ||sum of the profile shift coefficients|сума коефіцієнтів зміщення
+tight_profile_shift_sum|x_0|x_Σ0||sum of the shifts without backlash there|сума коефіцієнтів зміщення без зазору
 working_radius|r_w|r_w|mm|working radius|радіус початкового кола
 reference_radius|r|r|mm|reference radius|радіус ділильного кола
 base_radius|r_b|r_b|mm|base radius|радіус основного кола
@@ -127,12 +128,22 @@ span_contact_diameter|d_W|d_W|mm|diameter where the faces touch|діаметр �
 best_pin_diameter|D_M|D_M|mm|pin that touches at d + 2 x m|ролик, що торкається на колі d + 2 x m
 least_pin_diameter|D_min|D_min|mm|least pin that touches the involute|найменший ролик, що торкається евольвенти
 greatest_pin_diameter|D_max|D_max|mm|greatest pin that touches the involute|найбільший ролик, що торкається евольвенти
-pin_diameter|D|D|mm|pin or ball|ролик або кулька
+pin_diameter|D|D|mm|pin|ролик
 pin_centre_angle_deg|alpha_D|α_D|deg|pressure angle at the pin's centre|кут профілю в центрі ролика
 pin_centre_diameter|d_D|d_D|mm|diameter of the pins' centres|діаметр кола центрів роликів
 over_pins|M|M|mm|size over pins|розмір по роликах
 over_pins_nominal|M_0|M_0|mm|size over pins of the gear without thinning|розмір по роликах без стоншення
 pin_contact_diameter|d_DM|d_DM|mm|diameter where the pins touch|діаметр дотику роликів
+best_ball_diameter|D_M|D_M|mm|ball that touches at d + 2 x m|кулька, що торкається на колі d + 2 x m
+least_ball_diameter|D_min|D_min|mm|least ball that touches the involute|найменша кулька, що торкається евольвенти
+greatest_ball_diameter|D_max|D_max|mm|greatest ball that touches the involute|найбільша кулька, що торкається евольвенти
+ball_diameter|D|D|mm|ball|кулька
+ball_centre_angle_deg|alpha_D|α_D|deg|transverse angle at the ball's centre|торцевий кут профілю в центрі кульки
+ball_centre_diameter|d_D|d_D|mm|diameter of the balls' centres|діаметр кола центрів кульок
+over_balls|M|M|mm|size over balls|розмір по кульках
+over_balls_nominal|M_0|M_0|mm|size over balls of the gear without thinning|розмір по кульках без стоншення
+over_balls_after_kerf|M_c|M_c|mm|size over balls of the part cut so|розмір по кульках вирізаного колеса
+ball_contact_diameter|d_DM|d_DM|mm|diameter where the balls touch|діаметр дотику кульок
 chordal_thickness|S_ch|S_x|mm|chordal thickness at the reference circle|товщина зуба по хорді ділильного кола
 chordal_height|h_ch|h_x|mm|height to the chord|висота до хорди
 constant_chord|S_c|S_c|mm|constant chord|товщина по постійній хорді
@@ -155,6 +166,7 @@ fillet_interference_margin|q_f|q_f|mm|no fillet interference: margin|інтер�
 greatest_tip_diameter_pinion|d_a1max|d_a1max|mm|largest tip diameter of the pinion|найбільший діаметр вершин шестірні
 least_tip_diameter_ring|d_a2min|d_a2min|mm|least tip diameter of the ring|найменший діаметр вершин вінця
 least_face_width|b_min|b_min|mm|face width that the span needs|ширина вінця, потрібна для виміру нормалі
+secure_face_width|b_s|b_s|mm|face width that makes the span secure|ширина вінця для певного виміру нормалі
 lift|H|H|mm|lift|найбільше переміщення штовхача
 swing_deg|H|Ψ|deg|swing|кут розмаху коромисла
 rise_angle_deg|phi_r|φ_від|deg|cam angle of the rise|кут віддалення

@@ -188,7 +188,10 @@ def _letter_width(letter: str) -> float:
 
 @dataclass(slots=True)
 class Canvas:
-    """A sheet that grows: paper size (mm) with its name, strokes and texts; ``max_error`` of its splines, mm."""
+    """A sheet that grows: paper size (mm) with its name, strokes and texts; ``max_error`` of its splines, mm.
+
+    ``band``: height kept free above the frame's lower side, mm, for a title block.
+    """
 
     width: float
     height: float
@@ -197,6 +200,13 @@ class Canvas:
     texts: list[Text] = field(default_factory=list)
     max_error: float = 0.0
     sampled: bool = False
+    band: float = 0.0
+
+    @property
+    def content(self) -> Box:
+        """The frame without the band of the title block."""
+        frame = self.frame
+        return Box(frame.left, frame.low + self.band, frame.right, frame.high)
 
     @property
     def frame(self) -> Box:

@@ -44,8 +44,12 @@ _CIRCLES = ("tip", "reference", "base", "root")
 _SYMBOLS = {"tip": "a", "reference": "", "base": "b", "root": "f"}
 
 
-def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, language: str, tolerance: float) -> Expected:
+def generating_sheet(
+    gears: list[SpurGear], step: float, tables: Sheet, language: str, tolerance: float, band: float = 0.0
+) -> Expected:
     """The sheet of one or two wheels on a disk: the first at the top, the second below.
+
+    ``band``: height that a title block takes, mm.
 
     Raises
     ------
@@ -55,7 +59,7 @@ def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, language
     _check(gears)
     rows = _rows(tables, language)
     disk = max(g.tip_radius for g in gears)
-    canvas, paper, room = _layout(disk, rows)
+    canvas, paper, room = _layout(disk, rows, band)
     canvas.box("FRAME", canvas.frame)
     title = sheet_words(language, "generating")
     canvas.write(title, complex(canvas.frame.left + _MARGIN, canvas.frame.high - 9.0), 5.0)
@@ -81,7 +85,7 @@ def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, language
         draw(canvas, layer, fitted(canvas, curves[layer], paper.scale, tolerance), paper)
     rows.append(Row(sheet_words(language, "scale"), "", scale_text(paper.scale, language)))
     width, _ = table_size(rows, COLUMNS)
-    draw_table(canvas, complex(canvas.frame.right - width, canvas.frame.low), rows, COLUMNS, SMALL_TEXT)
+    draw_table(canvas, complex(canvas.frame.right - width, canvas.content.low), rows, COLUMNS, SMALL_TEXT)
     _label(canvas, paper, room, gears, names, language)
     return Expected(canvas, paper, tuple(circles), curves)
 
@@ -91,8 +95,6 @@ def _check(gears: list[SpurGear]) -> None:
     if len(gears) > 2:
         raise ParameterError("parts", len(gears), "a disk holds two wheels; at most 2 works")
     for gear in gears:
-        if gear.cutter is not None:
-            raise ParameterError("parts", "a wheel cut by a pinion", "the device has a rack; remove its cutter")
         if (gear.module, gear.number_of_teeth) != (first.module, first.number_of_teeth):
             text = f"one disk needs module {first.module:g} and {first.number_of_teeth} teeth for both wheels"
             raise ParameterError("parts", f"module {gear.module:g}, {gear.number_of_teeth} teeth", text)
@@ -129,15 +131,16 @@ def _lowered(text: str) -> str:
     return re.sub(r"_(\w[\w,]*)", r"_{\1}", text)
 
 
-def _layout(disk: float, rows: list[Row]) -> tuple[Canvas, Paper, Box]:
+def _layout(disk: float, rows: list[Row], band: float) -> tuple[Canvas, Paper, Box]:
     """The smallest sheet that holds disk and tables, the disk as large as it may be; upright tables on the right."""
     table = table_size([*rows, Row("")], COLUMNS)
     best: tuple[float, str] | None = None
     for name in ("A3", "A2", "A1"):
         height, width = PAPERS[name]
-        if table[1] > height - 2 * FRAME - _TITLE:
+        if table[1] > height - 2 * FRAME - _TITLE - band:
             continue
-        free = min(width - FRAME_LEFT - FRAME - table[0] - 2 * _NAMES, height - 2 * FRAME - _TITLE - 2 * _MARGIN)
+        room = height - 2 * FRAME - _TITLE - band
+        free = min(width - FRAME_LEFT - FRAME - table[0] - 2 * _NAMES, room - 2 * _MARGIN)
         scale = next((s for s in SCALES if s * 2.1 * disk <= free), None)
         # at full size the device's own disk is seen; a smaller picture only where no paper holds that
         if scale is not None and (best is None or best[0] < 1):
@@ -146,10 +149,10 @@ def _layout(disk: float, rows: list[Row]) -> tuple[Canvas, Paper, Box]:
         raise ParameterError("parts", disk, "the disk fits no paper; a smaller module works")
     scale, name = best
     height, width = PAPERS[name]
-    canvas = Canvas(width, height, name)
-    left, right = FRAME_LEFT, width - FRAME - table[0]
-    origin = complex((left + right) / 2, FRAME + (height - 2 * FRAME - _TITLE) / 2)
-    return canvas, Paper(scale, origin), Box(left + 1, FRAME + 1, right - 1, height - FRAME - _TITLE)
+    canvas = Canvas(width, height, name, band=band)
+    left, right, low = FRAME_LEFT, width - FRAME - table[0], FRAME + band
+    origin = complex((left + right) / 2, low + (height - low - FRAME - _TITLE) / 2)
+    return canvas, Paper(scale, origin), Box(left + 1, low + 1, right - 1, height - FRAME - _TITLE)
 
 
 def _circle(paper: Paper, arc: Arc) -> Arc:

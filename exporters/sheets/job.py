@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from exporters.sheets.canvas import Canvas, decimal
+from exporters.sheets.canvas import Canvas, decimal, scale_text
 from exporters.sheets.meshing import Facts, meshing_canvas
 from exporters.sheets.table import Row
+from exporters.sheets.title_block import TITLE_BLOCK, draw_title_block, title_block_of
 from exporters.sheets.verify import Circle, Expected, Meshing, verify_sheet
 from exporters.sheets.view import TEETH
 from exporters.sheets.words import sheet_words
@@ -18,14 +19,16 @@ from exporters.verify import Verdict
 from geometry.errors import ParameterError
 from geometry.gears.limits import practicum_undercut
 from geometry.gears.meshing_picture import MeshingPicture, meshing_picture
+from geometry.gears.transverse import overlap_ratio
 from parts.cam import CamSpec
 from parts.mate_kinds import Mating
 from parts.scene import ExportSpec, SceneFile
 from parts.schema import SceneError
 from parts.spur_gear import SpurGearSpec, checked_spur_gear
 
-# by how much the device moves its rack at each press of the key, mm: 4 to 5 in practicum, lesson 1
-RACK_STEP = 4.5
+# by how much the device moves its rack at each press of the key, mm: 4 to 5 in practicum, lesson 1; on wheels that are
+# much smaller or larger than its own no more and no less than these parts of the pitch
+RACK_STEP, _MOST_STEP, _LEAST_STEP = 4.5, 1 / 6, 1 / 60
 ENDINGS = ("dxf", "svg")
 
 
@@ -90,9 +93,10 @@ def sheet_jobs(scene: SceneFile, matings: list[Mating], export: ExportSpec, wher
         if mating.pair is None:
             raise SceneError(source, f"{where}.mate", index, f"is a {mating.kind} mate; name a pair of gears")
         try:
-            expected = _meshing(mating, scene.scene.language, float(export.tolerance or 0.0))
+            expected = _meshing(mating, scene, float(export.tolerance or 0.0), _band(export))
         except ParameterError as error:
             raise SceneError(source, f"mates[{index}]", error.value, error.allowed) from error
+        _add_title_block(expected, scene, export, index, len(matings) if export.mate is None else 1)
         name = f"{scene.name}.{export.name or export.purpose}.{index}"
         jobs += [SheetJob(export, expected, f"{name}.{ending}", where) for ending in ENDINGS]
     return jobs
@@ -107,6 +111,7 @@ def _generating(scene: SceneFile, export: ExportSpec, where: str, source: str) -
     for part in ids:
         if not isinstance(scene.parts[part], SpurGearSpec):
             raise SceneError(source, f"{where}.parts", part, "the device draws external gears; name a spur_gear")
+        _check_wheel(scene.parts[part], f"parts.{part}", source)
     if not ids:
         raise SceneError(source, f"{where}.purpose", export.purpose, "shows external gears; add one or remove it")
     gears = [checked_spur_gear(scene.parts[part]) for part in ids]
@@ -114,12 +119,41 @@ def _generating(scene: SceneFile, export: ExportSpec, where: str, source: str) -
     if abs(table.get("profile_shift_coefficient", math.inf) - practicum_undercut(gears[0]).limit) < 1e-12:
         # the very shift of (1.2), which the table then derives
         table.pop("profile_shift_coefficient")
-    tables = tmm42.sheet(table)
+    tables = tmm42.sheet(table, zero_only=all(g.profile_shift_coefficient == 0 for g in gears))
+    pitch = math.pi * gears[0].module
     try:
-        step = export.rack_step or RACK_STEP
-        return generating_sheet(gears, step, tables, scene.scene.language, float(export.tolerance or 0.0))
+        step = export.rack_step or min(max(RACK_STEP, _LEAST_STEP * pitch), _MOST_STEP * pitch)
+        language, tolerance = scene.scene.language, float(export.tolerance or 0.0)
+        expected = generating_sheet(gears, step, tables, language, tolerance, _band(export))
     except ParameterError as error:
         raise SceneError(source, f"{where}.{error.name}", error.value, error.allowed) from error
+    _add_title_block(expected, scene, export, 1, 1)
+    return expected
+
+
+def _band(export: ExportSpec) -> float:
+    """Height that the title block takes, mm."""
+    return TITLE_BLOCK[1] if export.title_block else 0.0
+
+
+def _add_title_block(expected: Expected, scene: SceneFile, export: ExportSpec, sheet: int, sheets: int) -> None:
+    """The title block on a sheet, where the export asks for one."""
+    if not export.title_block:
+        return
+    language = scene.scene.language
+    scale = scale_text(expected.paper.scale, language)
+    block = title_block_of(export.title_block, scene.scene.title or scene.name, scale, min(sheet, sheets), sheets)
+    draw_title_block(expected.canvas, block, language)
+
+
+def _check_wheel(spec: SpurGearSpec, place: str, source: str) -> None:
+    """The device cuts straight teeth with a rack."""
+    if spec.cutter is not None:
+        remedy = "the device cuts with a rack; without cutter it works, or name other gears in parts of the export"
+        raise SceneError(source, f"{place}.cutter.number_of_teeth", spec.cutter.number_of_teeth, remedy)
+    if spec.helix_angle_deg:
+        remedy = "the device cuts straight teeth; 0 works, or name other gears in parts of the export"
+        raise SceneError(source, f"{place}.helix_angle_deg", spec.helix_angle_deg, remedy)
 
 
 def _most_shifted(ids: list[str], gears: list[Any]) -> str:
@@ -127,10 +161,12 @@ def _most_shifted(ids: list[str], gears: list[Any]) -> str:
     return max(zip(ids, gears, strict=True), key=lambda pair: abs(pair[1].profile_shift_coefficient))[0]
 
 
-def _meshing(mating: Mating, language: str, tolerance: float) -> Expected:
+def _meshing(mating: Mating, scene: SceneFile, tolerance: float, band: float) -> Expected:
     pair: Any = mating.pair
-    picture = meshing_picture(pair)
-    canvas, view = meshing_canvas(picture, mating.module, _facts(mating, picture, language), language, tolerance)
+    picture, language = meshing_picture(pair), scene.scene.language
+    specs = [scene.parts[str(scene.instances[name].part)] for name in (mating.first, mating.second)]
+    facts = _facts(mating, picture, language, specs)
+    canvas, view = meshing_canvas(picture, mating.module, facts, language, tolerance, band)
     circles, paper = [], view.paper
     for body in picture.bodies:
         for name, radius in body.radii.items():
@@ -162,8 +198,8 @@ def _driver(pair: Any) -> Any:
     return next(getattr(pair, name) for name in ("first", "pinion", "gear") if hasattr(pair, name))
 
 
-def _facts(mating: Mating, picture: MeshingPicture, language: str) -> Facts:
-    """Title and table of the sheet."""
+def _facts(mating: Mating, picture: MeshingPicture, language: str, specs: list[Any]) -> Facts:
+    """Title and table of the sheet; of helical parts (``specs``) the normal data too."""
     pair: Any = mating.pair
 
     def word(key: str) -> str:
@@ -175,11 +211,20 @@ def _facts(mating: Mating, picture: MeshingPicture, language: str) -> Facts:
     gears = [
         g for name in ("first", "second", "pinion", "ring", "gear") if (g := getattr(pair, name, None)) is not None
     ]
+    helix = abs(getattr(specs[0], "helix_angle_deg", 0.0))
     rows = [Row(word("module"), "m", decimal(f"{mating.module:g}", language))]
+    if helix:
+        rows = [
+            Row(word("normal_module"), "m_{n}", decimal(f"{specs[0].module:g}", language)),
+            Row(word("helix_angle"), "β", f"{say(helix, 4)}°"),
+            Row(word("transverse_module"), "m_{t}", decimal(f"{mating.module:.6g}", language)),
+        ]
     for index, gear in enumerate(gears, 1):
         rows.append(Row(word("number_of_teeth"), f"z_{{{index}}}", str(gear.number_of_teeth)))
     for index, gear in enumerate(gears, 1):
-        rows.append(Row(word("shift"), f"x_{{{index}}}", decimal(f"{gear.profile_shift_coefficient:.6g}", language)))
+        shift = gear.profile_shift_coefficient / math.cos(math.radians(helix))
+        name, symbol = ("normal_shift", f"x_{{n{index}}}") if helix else ("shift", f"x_{{{index}}}")
+        rows.append(Row(word(name), symbol, decimal(f"{shift:.6g}", language)))
     distance = "rack_distance" if picture.kind == "rack" else "centre_distance"
     arc = picture.arc_of_action
     rows += [
@@ -194,6 +239,7 @@ def _facts(mating: Mating, picture: MeshingPicture, language: str) -> Facts:
         Row(word("arc"), "dd'", say(arc.radius * arc.sweep, 3)),
         Row(word("pitch"), "p_{w}", say(picture.working_pitch, 3)),
         Row(word("ratio"), "ε_{α}", say(picture.contact_ratio, 4)),
+        *_overlap_rows(specs, helix, language),
         Row(word("start"), sample="TOOTH_START"),
         Row(word("end"), sample="TOOTH_END"),
         Row(word("flank"), sample="ACTIVE_FLANK"),
@@ -206,4 +252,17 @@ def _facts(mating: Mating, picture: MeshingPicture, language: str) -> Facts:
         # the picture counts the pinion first
         first, second = second, first
     title = word("mate").format(first=first, second=second)
-    return Facts(f"{word(picture.kind)}: {title}", tuple(rows))
+    section = f" ({word('transverse_section')})" if helix else ""
+    return Facts(f"{word(picture.kind)}{section}: {title}", tuple(rows))
+
+
+def _overlap_rows(specs: list[Any], helix: float, language: str) -> list[Row]:
+    """Common face width and axial overlap of helical teeth."""
+    if not helix:
+        return []
+    width = min(s.face_width for s in specs)
+    value = overlap_ratio(width, math.radians(helix), specs[0].module)
+    return [
+        Row(sheet_words(language, "face_width"), "b", decimal(f"{width:g}", language)),
+        Row(sheet_words(language, "overlap"), "ε_{β}", decimal(f"{value:.4f}", language)),
+    ]

@@ -44,10 +44,13 @@ class Facts:
 
 
 def meshing_canvas(
-    picture: MeshingPicture, module: float, facts: Facts, language: str, tolerance: float
+    picture: MeshingPicture, module: float, facts: Facts, language: str, tolerance: float, band: float = 0.0
 ) -> tuple[Canvas, View]:
-    """The sheet of a picture and what of the plane it shows, where; ``module`` in mm, ``tolerance`` in mm on paper."""
-    canvas, view = layout(picture, module, facts.rows)
+    """The sheet of a picture and what of the plane it shows, where.
+
+    ``module`` in mm, ``tolerance`` and ``band``, the height of a title block, in mm on paper.
+    """
+    canvas, view = layout(picture, module, facts.rows, band)
     scale = view.paper.scale
     canvas.box("FRAME", canvas.frame)
     fans = [_fan(body, view.window) for body in picture.bodies]
@@ -69,7 +72,7 @@ def meshing_canvas(
             rows.append(Row(sheet_words(language, "off_sheet"), f"r_{{{SYMBOLS[name]}{index}}}", value))
     rows.append(Row(sheet_words(language, "scale"), "", scale_text(scale, language)))
     width, _ = table_size(rows)
-    corner = complex(canvas.frame.right - width, canvas.frame.low)
+    corner = complex(canvas.frame.right - width, canvas.content.low)
     draw_table(canvas, corner, rows)
     labels = Labeller(canvas, view.room)
     for index, (found, body) in enumerate(zip(ends, picture.bodies, strict=True)):

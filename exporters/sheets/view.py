@@ -36,8 +36,11 @@ class View:
         return self.window.low <= height <= self.window.high
 
 
-def layout(picture: MeshingPicture, module: float, rows: Sequence[Row]) -> tuple[Canvas, View]:
-    """The smallest sheet on which the teeth can be seen, with as much of the axes as they leave room for."""
+def layout(picture: MeshingPicture, module: float, rows: Sequence[Row], band: float = 0.0) -> tuple[Canvas, View]:
+    """The smallest sheet on which the teeth can be seen, with as much of the axes as they leave room for.
+
+    ``band``: height that a title block takes, mm.
+    """
     # the scale, and base circles that lie off the sheet
     table = table_size([*rows, *[Row("")] * 3])
     best: tuple[float, str, bool, Box] | None = None
@@ -45,7 +48,7 @@ def layout(picture: MeshingPicture, module: float, rows: Sequence[Row]) -> tuple
         window = _window(picture, module, depth)
         for name in ("A3", "A2", "A1"):
             for upright in (False, True):
-                scale = _greatest_scale(window, _field(name, upright, table))
+                scale = _greatest_scale(window, _field(name, upright, table, band))
                 enough = scale * module >= _LEAST_MODULE
                 better = best is None or scale > best[0] * 1.01
                 if (enough or (depth == 0 and name == "A1")) and better:
@@ -58,20 +61,20 @@ def layout(picture: MeshingPicture, module: float, rows: Sequence[Row]) -> tuple
     scale, name, upright, window = best
     size = PAPERS[name]
     width, height = size if upright else size[::-1]
-    canvas = Canvas(width, height, name)
-    left, low, right, high = _field(name, upright, table)
+    canvas = Canvas(width, height, name, band=band)
+    left, low, right, high = _field(name, upright, table, band)
     middle = complex(left + right, low + high) / 2
     origin = middle - scale * complex(window.left + window.right, window.low + window.high) / 2
     room = Box(left - NAMES, low, right + NAMES, high)
     return canvas, View(window, Paper(scale, origin), room)
 
 
-def _field(name: str, upright: bool, table: tuple[float, float]) -> tuple[float, float, float, float]:
+def _field(name: str, upright: bool, table: tuple[float, float], band: float) -> tuple[float, float, float, float]:
     """Where the picture itself may lie: left, low, right, high, mm; the table stands below it or on its right."""
     size = PAPERS[name]
     width, height = size if upright else size[::-1]
     left, right = FRAME_LEFT + NAMES + 2, width - FRAME - NAMES - 2
-    low, high = FRAME + GAP, height - FRAME - _TITLE
+    low, high = FRAME + GAP + band, height - FRAME - _TITLE
     if upright:
         return left, low + table[1], right, high
     return left, low, right - table[0], high

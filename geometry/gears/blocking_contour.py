@@ -313,13 +313,18 @@ def contour_lines(
     box: Box,
     tolerance: float,
     names: Iterable[str] | None = None,
+    shifts_at: Callable[[complex], complex] = complex,
 ) -> tuple[ContourLine, ...]:
-    """The lines of conditions in a box; ``least`` is x_min of the first (0) or second (1) gear."""
+    """The lines of conditions in a box; ``least`` is x_min of the first (0) or second (1) gear.
+
+    ``shifts_at`` gives x1 + i x2 at a point of the box, where conditions are told in other coordinates.
+    """
     lines: list[ContourLine] = []
     for name, condition in known.items():
         if names is not None and name not in names:
             continue
-        for points in level_lines(condition.margin, box, tolerance):
+        for chain in level_lines(condition.margin, box, tolerance):
+            points = [shifts_at(p) for p in chain]
             if not condition.name.startswith("active_flank"):
                 lines.append(ContourLine(condition.name, condition.level, tuple(points)))
                 continue

@@ -12,7 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from geometry.errors import ParameterError
+from geometry.errors import ParameterError, at_least, at_most
 from geometry.gears.spur import SpurGear
 from geometry.line_arc import Arc, Line
 from geometry.placement import Placement2
@@ -54,11 +54,16 @@ def rack_positions(gear: SpurGear, step: float, teeth: int) -> list[float]:
     Raises
     ------
     ParameterError
-        The step asks for more positions than a sheet can show; names one that works.
+        The step asks for more positions than a sheet can show, or leaves no profile to be seen: it is more than half
+        of the pitch. Names one that works.
     """
+    most = math.pi * gear.module / 2
+    if step > most:
+        text = f"shows no profile: it is more than half of the pitch; at most {at_most(most)} mm works"
+        raise ParameterError("rack_step", step, text)
     reach = (teeth / 2 + 1) * math.pi * gear.module
     if reach / step > _MOST_POSITIONS / 2:
-        raise ParameterError("rack_step", step, f"at least {2 * reach / _MOST_POSITIONS:.6g} mm works")
+        raise ParameterError("rack_step", step, f"at least {at_least(2 * reach / _MOST_POSITIONS)} mm works")
     count = math.ceil(reach / step)
     return [k * step / gear.reference_radius for k in range(-count, count + 1)]
 

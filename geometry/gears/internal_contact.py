@@ -13,6 +13,7 @@ from geometry.gears.internal_limits import InternalMesh
 from geometry.gears.internal_pair import InternalPair, internal_flank_gaps
 from geometry.gears.mesh_search import CONTACT_TOLERANCE, MeshSearch, PairContact, gear_outline, searched
 from geometry.gears.ring_tooth import RingSide
+from geometry.gears.transmission_error import TransmissionError, transmission_errors
 
 # where the tip corners keep this distance, in modules, only the teeth on the path of contact are looked at
 _CLEAR_CORNERS = 0.1
@@ -50,6 +51,21 @@ def internal_contact(
     """
     allowed = CONTACT_TOLERANCE * pair.module if tolerance is None else tolerance
     return searched(_InternalMesh(pair, ring_turn, centre_shift), allowed, overlap_ratio)
+
+
+def internal_transmission(
+    pair: InternalPair, *, centre_shift: float = 0.0, overlap_ratio: float = 0.0
+) -> tuple[TransmissionError, TransmissionError]:
+    """Transmission error of pinion and ring; the pinion drives: counter-clockwise, then clockwise.
+
+    ``centre_shift``: mm by which the distance is more than the pair's; ``overlap_ratio``: of helical teeth.
+
+    Raises
+    ------
+    ParameterError, ConvergenceError
+        A part of the pair cannot be built; its teeth do not reach each other.
+    """
+    return transmission_errors(_InternalMesh(pair, 0.0, centre_shift), overlap_ratio)
 
 
 def ring_outline(side: RingSide) -> Boundary:
@@ -115,6 +131,14 @@ class _InternalMesh(MeshSearch):
     def to_fixed(self, points: Complex, drive: Real) -> tuple[Complex, Complex]:
         turned = np.exp(1j * self.second_position(drive)) * points
         return turned - self.distance, 1j * self.rate * turned
+
+    @property
+    def arm(self) -> float:
+        return self.pair.ring.base_radius
+
+    @property
+    def closing(self) -> int:
+        return -1
 
     @property
     def reach(self) -> float:

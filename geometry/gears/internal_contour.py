@@ -248,32 +248,35 @@ def internal_contour(
 ) -> BlockingContour:
     """The lines of the contour in a box; chords within ``tolerance`` of them, points to rounding.
 
-    They are sought in the plane of x1 and x2 - x1, which ends where inv(alpha_w) = 0: up to there margins are defined.
+    Lines of both shifts may reach beyond the box on the left and right by a cell. They are sought in the plane of x2
+    and x2 - x1, which ends where inv(alpha_w) = 0, and where that of the ring and its cutter is 0: up to there margins
+    are defined.
     """
     lowest = least_difference(pair)
-    # inv(alpha_w) stays above its rounding
+    # both involute functions stay above their rounding
     low, high = max(lowest + 1e-12, box.bottom - box.right), box.top - box.left
-    sheared = Box(box.left, box.right, low, high, math.ceil(1.5 * box.cells))
+    bottom = max(box.bottom, _least_ring_shift(pair) + 1e-12)
+    sheared = Box(bottom, max(box.top, bottom + 1e-6), low, high, math.ceil(1.5 * box.cells))
+    beyond = (sheared.right - sheared.left + sheared.top - sheared.bottom) / sheared.cells
 
     def within(x1: float, x2: float) -> bool:
-        return box.left <= x1 <= box.right and box.bottom <= x2 <= box.top
+        return box.left - beyond <= x1 <= box.right + beyond and bottom <= x2 <= box.top + 1e-9
 
     def field(condition: Condition) -> Condition:
         margin = condition.margin
-        return replace(condition, margin=lambda x1, d: margin(x1, x1 + d) if within(x1, x1 + d) else math.nan)
+        return replace(condition, margin=lambda x2, d: margin(x2 - d, x2) if within(x2 - d, x2) else math.nan)
 
-    def legal(x1: float, d: float) -> float:
+    def legal(x2: float, d: float) -> float:
         # closed along the box where the region goes on beyond it
-        inside = box.left < x1 < box.right and box.bottom < x1 + d < box.top and d > low
-        return least_margin(pair, wish, x1, x1 + d) if inside else -1.0
+        inside = box.left < x2 - d < box.right and bottom < x2 < box.top and d > low
+        return least_margin(pair, wish, x2 - d, x2) if inside else -1.0
 
     wanted = {n: c for n, c in conditions(pair).items() if names is None or n in names}
     known = {n: field(c) for n, c in wanted.items() if _alone(c.name) is None and n != "working_angle"}
     fine = tolerance / 2
-    found = contour_lines(known, lambda _: least_pinion_shift(pair), sheared, fine)
-    lines = [replace(line, points=_unsheared(line.points)) for line in found]
+    lines = list(contour_lines(known, lambda _: least_pinion_shift(pair), sheared, fine, None, _shifts_at))
     lines += [line for c in wanted.values() for line in _straight_lines(pair, c, box, lowest)]
-    region = tuple(_unsheared(ring) for ring in level_lines(legal, sheared, fine))
+    region = tuple(tuple(map(_shifts_at, ring)) for ring in level_lines(legal, sheared, fine))
     order = {name: k for k, name in enumerate(dict.fromkeys(c.name for c in wanted.values()))}
     return BlockingContour(pair, wish, box, tuple(sorted(lines, key=lambda li: order.get(li.name, 99))), region)
 
@@ -284,8 +287,17 @@ def least_difference(pair: InternalShiftPair) -> float:
     return -involute_function(alpha) * (pair.second_teeth - pair.first_teeth) / (2 * math.tan(alpha))
 
 
-def _unsheared(points: Iterable[complex]) -> tuple[complex, ...]:
-    return tuple(complex(p.real, p.real + p.imag) for p in points)
+def _shifts_at(point: complex) -> complex:
+    """x1 + i x2 at x2 + i (x2 - x1)."""
+    return complex(point.real - point.imag, point.real)
+
+
+def _least_ring_shift(pair: InternalShiftPair) -> float:
+    """x_2 at which inv(alpha_w0) of the ring and its cutter is 0; -inf without a cutter."""
+    if not isinstance(pair.root, PinionCutter):
+        return -math.inf
+    alpha, difference = pair.rack.pressure_angle, pair.second_teeth - pair.root.number_of_teeth
+    return pair.root.profile_shift_coefficient - involute_function(alpha) * difference / (2 * math.tan(alpha))
 
 
 def _alone(name: str) -> int | None:

@@ -164,7 +164,7 @@ class InternalPair:
 
     @property
     def normal_backlash(self) -> float:
-        """j_bn, mm: (A_1 + A_2) cos(alpha) - 2 (r_b2 - r_b1) (inv alpha_w - inv alpha_w0)."""
+        """j_bt, mm (j_bn of spur gears): (A_1 + A_2) cos(alpha) - 2 (r_b2 - r_b1) (inv alpha_w - inv alpha_w0)."""
         return _normal_backlash(self.pinion, self.ring, self.working_pressure_angle)
 
     @property

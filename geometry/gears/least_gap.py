@@ -29,8 +29,10 @@ _SHORT, _BEATEN = 0.02, 1e-9
 # an arc is at most that much longer than its chord: steps are short against radii
 _BULGE = 1.2
 _STEPS = 80
-# what rounding leaves of a distance, as a part of the coordinates
-_ROUNDINGS = 4 * float(np.finfo(float).eps)
+# parts of a piece that a peak divides
+_PARTS = 4
+# what rounding leaves of a distance, as a part of the second body's coordinates
+_ROUNDINGS = 8 * float(np.finfo(float).eps)
 
 
 class Gaps(NamedTuple):
@@ -143,9 +145,9 @@ class LeastGap:
         self.rates = [np.asarray(s.curve.derivative(q.parameters)) for s, q in zip(segments, self.samples, strict=True)]
 
     @property
-    def size(self) -> float:
-        """The farthest of the samples from the second body's origin, mm."""
-        return max(float(np.abs(s.points).max()) for s in self.samples)
+    def rounding(self) -> float:
+        """What rounding leaves of a distance, mm."""
+        return _ROUNDINGS * max(float(np.abs(s.points).max()) for s in self.samples)
 
     @property
     def longest(self) -> float:
@@ -165,13 +167,12 @@ class LeastGap:
 
         ``chosen`` (n,) tells for each curve which copies of it are looked at.
         """
-        largest = float(np.abs(copies.shift).max(initial=0.0)) + self.size
-        pieces, least = self._sampled(copies, chosen, found), max(accuracy * self.module, _ROUNDINGS * largest)
+        pieces, least = self._sampled(copies, chosen, found), max(accuracy * self.module, self.rounding)
         for step in range(_STEPS):
             pieces = pieces.take(self._hopeful(pieces, found.gap[copies.group[pieces.row]] - least, least))
             if not pieces.row.size:
                 return
-            pieces = self._divided(pieces, _split(pieces, step), copies, found)
+            pieces = self._divided(pieces, step, copies, found)
 
     def _sampled(self, copies: Copies, chosen: list[Flags], found: Gaps) -> _Pieces:
         """All pieces between samples, measured in one go."""
@@ -212,31 +213,53 @@ class LeastGap:
         jump = (pieces.has_peak | pieces.hides_minimum) & (length > _PEAK * self.module)
         return (pieces.bound < best) & (trough | jump)
 
-    def _divided(self, pieces: _Pieces, t: Real, copies: Copies, found: Gaps) -> _Pieces:
+    def _divided(self, pieces: _Pieces, step: int, copies: Copies, found: Gaps) -> _Pieces:
+        """Pieces in two, those that a peak may divide in many: there is no telling where."""
+        many = pieces.has_peak | pieces.hides_minimum
+        few, more = pieces.take(~many), pieces.take(many)
+        shares = np.arange(1, _PARTS) / _PARTS
+        t = _split(few, step)[None, :], more.low.t + shares[:, None] * (more.high.t - more.low.t)
+        curve = np.concatenate([few.curve, np.tile(more.curve, len(shares))])
+        row = np.concatenate([few.row, np.tile(more.row, len(shares))])
+        middle = self._ends(curve, row, np.concatenate([a.ravel() for a in t]), copies, found)
+        halves = _chained(few, middle.take(np.arange(len(few.row))), 1)
+        parts = _chained(more, middle.take(np.arange(len(few.row), len(row))), len(shares))
+        return _Pieces(
+            np.append(halves.curve, parts.curve), np.append(halves.row, parts.row),
+            halves.low.and_then(parts.low), halves.high.and_then(parts.high),
+        )  # fmt: skip
+
+    def _ends(self, curve: Indices, row: Indices, t: Real, copies: Copies, found: Gaps) -> _Ends:
+        """Distances at parameters of curves."""
         points, rates = np.empty(len(t), complex), np.empty(len(t), complex)
         for number, segment in enumerate(self.segments):
-            mine = np.flatnonzero(pieces.curve == number)
+            mine = np.flatnonzero(curve == number)
             if mine.size:
                 points[mine], rates[mine] = segment.curve.point(t[mine]), segment.curve.derivative(t[mine])
-        placed = copies.place(pieces.row, points, rates)
-        middle = self._measured(pieces.curve, pieces.row, t, *placed, copies, found)
-        return _Pieces(
-            np.tile(pieces.curve, 2), np.tile(pieces.row, 2), pieces.low.and_then(middle), middle.and_then(pieces.high)
-        )
+        return self._measured(curve, row, t, *copies.place(row, points, rates), copies, found)
+
+
+def _chained(pieces: _Pieces, middle: _Ends, count: int) -> _Pieces:
+    """Pieces cut at ``count`` places each, place after place in ``middle``."""
+    low, high = pieces.low.and_then(middle), middle.and_then(pieces.high)
+    return _Pieces(np.tile(pieces.curve, count + 1), np.tile(pieces.row, count + 1), low, high)
 
 
 def _split(pieces: _Pieces, step: int) -> Real:
-    """Where pieces are divided: the middle each third time and where feet change; else false position on the slope.
+    """Where pieces are divided: the middle each fourth time and where feet change; else the minimum of a cubic.
 
-    Where the feet change inside the material, the trough is where the tangents of both ends cross.
+    The cubic goes through both ends with their slopes. Where the feet change inside the material, the trough is where
+    the tangents of both ends cross.
     """
     low, high = pieces.low, pieces.high
     width = high.t - low.t
     share = np.full(width.shape, 0.5)
-    if step % 3 != 2:
+    if step % 4 != 3:
         with np.errstate(divide="ignore", invalid="ignore"):
-            slopes = low.slope / (low.slope - high.slope)
-            found = np.where(low.foot != high.foot, pieces.crossing / width, slopes)
+            first = low.slope + high.slope - 3 * (high.value - low.value) / width
+            root = np.sqrt(first * first - low.slope * high.slope)
+            cubic = 1 - (high.slope + root - first) / (high.slope - low.slope + 2 * root)
+            found = np.where(low.foot != high.foot, pieces.crossing / width, cubic)
         usable = pieces.falls_and_rises & ~pieces.has_peak & np.isfinite(found)
         share = np.where(usable, np.clip(found, 0.001, 0.999), share)
     return low.t + share * width

@@ -128,6 +128,15 @@ def checked_gear(gear: SpurGear) -> SpurGear:
     return gear
 
 
+def exists(gear: SpurGear) -> bool:
+    """Whether ``checked_gear`` has nothing to say, without its search for what would work."""
+    try:
+        _check_numbers(gear)
+    except ParameterError:
+        return False
+    return (gear.bore_diameter <= 0 or root_below_bore(gear).margin > 0) and _builds(gear)
+
+
 def _builds(gear: SpurGear) -> bool:
     try:
         check_shaping(gear)

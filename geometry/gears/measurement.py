@@ -17,13 +17,17 @@ from geometry.gears.spur import SpurGear
 from geometry.gears.transverse import base_helix_angle, normal_angle
 from geometry.roots import bracketed_root
 
+# b_M, mm: length of contact that a measuring face needs on helical teeth, and its growth with W_k; DIN 3960
+SPAN_CONTACT = (1.2, 0.018)
+
 
 @dataclass(frozen=True, slots=True)
 class Span:
     """W_k over ``teeth`` teeth, mm, and where the faces touch: ``contact_diameter``, mm.
 
     ``touches_flanks``: both faces lie on the involute between its form circle and its tip.
-    ``least_face_width``: a helical gear must be wider than this, mm, for the faces to find both flanks.
+    ``least_face_width``: a helical gear must be wider than this, mm, for the faces to find both flanks;
+    ``secure_face_width``: W sin(beta_b) + b_M cos(beta_b), with b_M of them in contact on each; DIN 3960.
     """
 
     teeth: int
@@ -31,6 +35,7 @@ class Span:
     contact_diameter: float
     touches_flanks: bool
     least_face_width: float
+    secure_face_width: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +98,8 @@ def span(gear: SpurGear, teeth: int, helix_angle: float = 0.0) -> Span:
     contact = math.hypot(gear.base_radius, length * cosine / 2)
     touches = root_form_diameter(gear) / 2 <= contact <= gear.tip_radius
     width = length * abs(math.sin(base_helix_angle(gear.rack.pressure_angle, helix_angle)))
-    return Span(teeth, length, 2 * contact, touches, width)
+    secure = width + (SPAN_CONTACT[0] + SPAN_CONTACT[1] * length) * cosine
+    return Span(teeth, length, 2 * contact, touches, width, secure)
 
 
 def teeth_to_span(gear: SpurGear, helix_angle: float = 0.0) -> float:

@@ -21,7 +21,7 @@ import numpy as np
 from geometry.contact import Boundary, Flags, Verdict, folded, least_in_brackets
 from geometry.curve import Complex, Real
 from geometry.gears.face_overlap import is_bridged
-from geometry.gears.least_gap import ACCURACY, Gaps, LeastGap
+from geometry.gears.least_gap import Gaps, LeastGap
 from geometry.gears.mesh_gaps import FarTeeth, least_gaps
 from geometry.gears.tooth import ToothSide
 from geometry.profile import Label, Segment
@@ -32,6 +32,8 @@ CONTACT_TOLERANCE = 1e-8
 _DRIVE_ANGLES, _CORNER_POSITIONS = 24, 49
 # corners that pass farther away than this, in modules, set no drive angle of interest
 _CORNER_REACH = 0.05
+# least distances of passing corners, which set drive angles, are found to this part of the module
+_EVENT = 1e-9
 # closed form and search are compared below this part of the module
 _COMPARED = 0.02
 
@@ -185,6 +187,16 @@ class MeshSearch:
         return abs(1 - self.rate)
 
     @property
+    def arm(self) -> float:
+        """How far flanks that touch move along their normal for one unit of the second body's motion, mm."""
+        raise NotImplementedError
+
+    @property
+    def closing(self) -> int:
+        """Sign of the second body's motion that closes the gap at the upper flanks of the first gear's teeth."""
+        raise NotImplementedError
+
+    @property
     def reach(self) -> float:
         """mm that a point of the second body moves at most for one unit of its motion."""
         raise NotImplementedError
@@ -228,7 +240,7 @@ class MeshSearch:
         row, k = np.nonzero((slope[:, :-1] < 0) & (slope[:, 1:] >= 0))
         found, least = least_in_brackets(
             lambda t, lanes: self._corner_gap(which, both[row[lanes]], t),
-            grid[row, k], grid[row, k + 1], (slope[row, k], slope[row, k + 1]), ACCURACY * self.module,
+            grid[row, k], grid[row, k + 1], (slope[row, k], slope[row, k + 1]), _EVENT * self.module,
         )  # fmt: skip
         return found[least < _CORNER_REACH * self.module]
 

@@ -171,9 +171,9 @@ class ExternalPair:
 
     @property
     def normal_backlash(self) -> float:
-        """j_bn, mm: play along the line of action, from the thinning of both gears and the centre distance.
+        """j_bt, mm (j_bn of spur gears): play along the line of action, from thinning and centre distance.
 
-        j_bn = (A_1 + A_2) cos(alpha) + 2 (r_b1 + r_b2) (inv alpha_w - inv alpha_w0), alpha_w0 from (3.3).
+        j_bt = (A_1 + A_2) cos(alpha) + 2 (r_b1 + r_b2) (inv alpha_w - inv alpha_w0), alpha_w0 from (3.3).
         """
         return _normal_backlash(self.first, self.second, self.working_pressure_angle)
 

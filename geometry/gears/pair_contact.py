@@ -12,6 +12,7 @@ import numpy as np
 from geometry.curve import Complex, Real
 from geometry.gears.mesh_search import CONTACT_TOLERANCE, ContactPlace, MeshSearch, PairContact, gear_outline, searched
 from geometry.gears.pair import ExternalPair, flank_gaps
+from geometry.gears.transmission_error import TransmissionError, transmission_errors
 
 __all__ = ["CONTACT_TOLERANCE", "ContactPlace", "PairContact", "pair_contact"]
 
@@ -45,6 +46,21 @@ def pair_contact(
     """
     allowed = CONTACT_TOLERANCE * pair.module if tolerance is None else tolerance
     return searched(_ExternalMesh(pair, second_turn, centre_shift), allowed, overlap_ratio)
+
+
+def pair_transmission(
+    pair: ExternalPair, *, centre_shift: float = 0.0, overlap_ratio: float = 0.0
+) -> tuple[TransmissionError, TransmissionError]:
+    """Transmission error of two external gears: counter-clockwise, then clockwise.
+
+    ``centre_shift``: mm by which the distance is more than the pair's; ``overlap_ratio``: of helical teeth.
+
+    Raises
+    ------
+    ParameterError, ConvergenceError
+        A part of the pair cannot be built; its teeth do not reach each other.
+    """
+    return transmission_errors(_ExternalMesh(pair, 0.0, centre_shift), overlap_ratio)
 
 
 class _ExternalMesh(MeshSearch):
@@ -91,6 +107,14 @@ class _ExternalMesh(MeshSearch):
     def to_fixed(self, points: Complex, drive: Real) -> tuple[Complex, Complex]:
         turned = np.exp(1j * self.second_position(drive)) * points
         return self.distance + turned, 1j * self.rate * turned
+
+    @property
+    def arm(self) -> float:
+        return self.pair.second.base_radius
+
+    @property
+    def closing(self) -> int:
+        return 1
 
     @property
     def reach(self) -> float:

@@ -10,6 +10,7 @@ from geometry.contact import Boundary
 from geometry.curve import Complex, Real
 from geometry.gears.mesh_search import CONTACT_TOLERANCE, MeshSearch, PairContact, gear_outline, searched
 from geometry.gears.rack_pair import RackPair, rack_flank_gaps
+from geometry.gears.transmission_error import TransmissionError, transmission_errors
 from geometry.placement import Placement2
 from geometry.profile import Segment
 
@@ -43,6 +44,21 @@ def rack_contact(
     """
     allowed = CONTACT_TOLERANCE * pair.module if tolerance is None else tolerance
     return searched(_RackMesh(pair, rack_shift, distance_shift), allowed, overlap_ratio)
+
+
+def rack_transmission(
+    pair: RackPair, *, distance_shift: float = 0.0, overlap_ratio: float = 0.0
+) -> tuple[TransmissionError, TransmissionError]:
+    """Transmission error of gear and rack; the gear drives: counter-clockwise, then clockwise.
+
+    ``distance_shift``: mm by which the distance is more than the pair's; ``overlap_ratio``: of helical teeth.
+
+    Raises
+    ------
+    ParameterError, ConvergenceError
+        A part of the pair cannot be built; its teeth do not reach each other.
+    """
+    return transmission_errors(_RackMesh(pair, 0.0, distance_shift), overlap_ratio)
 
 
 def _as_gear(segments: tuple[Segment, ...]) -> tuple[Segment, ...]:
@@ -101,6 +117,14 @@ class _RackMesh(MeshSearch):
     @property
     def relative_turning(self) -> float:
         return 1.0
+
+    @property
+    def arm(self) -> float:
+        return math.cos(self.pair.rack.rack.pressure_angle)
+
+    @property
+    def closing(self) -> int:
+        return -1
 
     @property
     def reach(self) -> float:

@@ -101,7 +101,7 @@ class RackPair:
 
     @property
     def normal_backlash(self) -> float:
-        """j_bn, mm: (A_1 + A_2) cos(alpha) + 2 (distance - r - x m) sin(alpha)."""
+        """j_bt, mm (j_bn of spur gears): (A_1 + A_2) cos(alpha) + 2 (distance - r - x m) sin(alpha)."""
         return _normal_backlash(self.gear, self.rack, self.distance)
 
     def rack_position(self, rotation: float, *, contact: int = 0) -> float:

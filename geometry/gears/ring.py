@@ -40,7 +40,8 @@ class RingGear:
     x_2 = 2 on) keeps the tips off a mate's fillets; ``plain_tip`` leaves k_2 out (KHK). Thinning thins each ring tooth
     at the reference circle: cut by a wider cutter tooth (root diameter kept) or, with ``thinning_by_deeper_cut``, by
     feeding the cutter out (root diameter raised).
-    ``any_cutter``: nobody named the cutter, so that another may be taken (``ring_limits.with_default_cutter``).
+    ``any_cutter``: nobody named the cutter, so that another may be taken (``ring_made.settled_ring``), and
+    ``least_tip_diameter``: the default tip is made no deeper than that (0: as deep as it likes).
     ``holes``: round holes in the rim, like a bolt circle. Source of the dimensions: GOST 19274, ISO 21771.
     """
 
@@ -59,6 +60,7 @@ class RingGear:
     tip_rounding: float = 0.0
     any_cutter: bool = False
     holes: HubHoles = _NO_HOLES
+    least_tip_diameter: float = 0.0
 
     @cached_property
     def generating_shift_coefficient(self) -> float:
@@ -96,9 +98,14 @@ class RingGear:
 
     @property
     def tip_radius(self) -> float:
-        """r_a2 = r_2 - (h_a - x_2 - k_2) m, or half of the given tip diameter."""
+        """r_a2: half of the given tip diameter, else the default one, no deeper than ``least_tip_diameter``."""
         if self.given_tip_diameter is not None:
             return self.given_tip_diameter / 2
+        return max(self.default_tip_radius, self.least_tip_diameter / 2)
+
+    @property
+    def default_tip_radius(self) -> float:
+        """r_2 - (h_a - x_2 - k_2) m, mm; below the base circle no ring has it."""
         height = self.addendum - self.profile_shift_coefficient - self.tip_shortening_coefficient
         return self.reference_radius - height * self.module
 

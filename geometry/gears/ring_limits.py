@@ -1,37 +1,18 @@
-"""Limits of a ring gear, each with its margin, the search for the nearest ring that works, a default cutter."""
+"""Limits of a ring gear, each with its margin, and the search for the nearest ring that works."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from geometry.errors import GeometryError, ParameterError, at_least, at_most
+from geometry.errors import ParameterError, at_least, at_most
 from geometry.findings import Finding
-from geometry.gears.cutter import CUTTER_ROUNDING, PinionCutter, checked_cutter
-from geometry.gears.internal_limits import InternalMesh
+from geometry.gears.cutter import PinionCutter
 from geometry.gears.limits import LEAST_TIP_THICKNESS, Margin
 from geometry.gears.ring import RingGear, RoundedRoot
-from geometry.gears.ring_tooth import RingCurves, apex_radius, flank_ends, ring_side, rounded_root_plug
-from geometry.tolerance import TOLERANCES
-
-# teeth of a cutter that nobody named, in the order in which they are tried
-DEFAULT_CUTTER_TEETH = (100, 80, 64, 50, 40, 32, 25, 20, 16, 12, 10, 8)
-LEAST_CUTTER_TEETH = 8
-
-
-def generation(gear: RingGear) -> InternalMesh | None:
-    """The mesh of ring and cutter at full depth; None for a rounded root."""
-    cutter = gear.cutter
-    if cutter is None:
-        return None
-    return InternalMesh(
-        (cutter.number_of_teeth, gear.number_of_teeth),
-        (cutter.base_radius, gear.base_radius),
-        (cutter.tip_radius, gear.tip_radius),
-        gear.generating_distance,
-        gear.generating_angle,
-    )
+from geometry.gears.ring_made import LEAST_CUTTER_TEETH, check_made, generation, makes, settled_ring
+from geometry.gears.ring_tooth import RingCurves, apex_radius, flank_ends, ring_side
 
 
 def tip_thickness(gear: RingGear) -> float:
@@ -90,9 +71,16 @@ def checked_ring(gear: RingGear) -> RingGear:
     """
     _check_numbers(gear)
     try:
-        _check_made(gear)
+        check_made(gear)
     except ParameterError as refusal:
         raise _with_remedy(gear, refusal) from refusal
+    check_rim(gear)
+    return gear
+
+
+def check_rim(gear: RingGear) -> None:
+    """Refuse a rim without material, or holes in it that leave none."""
+    _check_numbers(gear)
     least = 2 * gear.root_radius
     if gear.outer_diameter <= least:
         text = f"must be above the root diameter; at least {at_least(least + gear.module, 4)} mm leaves a rim"
@@ -101,7 +89,6 @@ def checked_ring(gear: RingGear) -> RingGear:
     for wall, key, value, why in rim_walls(gear):
         if not wall > 0:
             raise ParameterError(key, value, why)
-    return gear
 
 
 def rim_walls(gear: RingGear) -> list[tuple[float, str, float, str]]:
@@ -117,40 +104,6 @@ def rim_walls(gear: RingGear) -> list[tuple[float, str, float, str]]:
         walls.append((size / 2 - radius - gear.root_radius, blamed, size, inside))
         walls.append((gear.outer_radius - size / 2 - radius, blamed, size, outside))
     return walls
-
-
-def _check_made(gear: RingGear) -> None:
-    """Refuse a ring that its cutter cannot make, or whose teeth cannot exist; the rim is another matter."""
-    if isinstance(gear.root, RoundedRoot):
-        _check_rounded(gear)
-    else:
-        checked_cutter(gear.cutter or gear.root)
-    mesh = generation(gear)
-    ring_side(gear)
-    if mesh is None:
-        return
-    words = {
-        "involute_interference": "the cutter's teeth begin above the ring's tips, which it would trim",
-        "trochoid_interference": "the cutter's tips would trim the ring's on their way out",
-        "radial_assembly": "the cutter cannot be fed in radially without trimming the ring's tips",
-    }
-    rounding = 1e3 * TOLERANCES.relative_rounding * gear.root_radius
-    for margin in mesh.margins():
-        if margin.margin < -rounding:
-            cutter = gear.root
-            assert isinstance(cutter, PinionCutter)
-            raise ParameterError("cutter.number_of_teeth", cutter.number_of_teeth, words[margin.name])
-
-
-def _check_rounded(gear: RingGear) -> None:
-    """The space as a tooth of its own must take its root rounding."""
-    try:
-        plug = rounded_root_plug(gear)
-        checked_cutter(plug)
-    except ParameterError as refusal:
-        name = {"cutter.tip_rounding_coefficient": "radius_coefficient"}.get(refusal.name, "dedendum_coefficient")
-        text = refusal.allowed.replace("the cutter's tooth", "the space")
-        raise ParameterError(f"rounded_root.{name}", refusal.value, text) from refusal
 
 
 def _check_numbers(gear: RingGear) -> None:
@@ -176,34 +129,6 @@ def _check_numbers(gear: RingGear) -> None:
         for key, value in (("dedendum", root.dedendum), ("radius", root.radius or 0.0)):
             if not 0 <= value < math.inf:
                 raise ParameterError(f"rounded_root.{key}_coefficient", value, "must be a finite number, at least 0")
-
-
-def makes(gear: RingGear) -> bool:
-    """Whether the ring can be made, by any cutter where nobody named one."""
-    return next(_made(gear), None) is not None
-
-
-def _made(gear: RingGear) -> Iterator[RingGear]:
-    """The ring with each cutter that can make it."""
-    for tried in _with_cutters(gear):
-        try:
-            _check_made(tried)
-        except GeometryError:
-            continue
-        yield tried
-
-
-def _with_cutters(gear: RingGear) -> Iterator[RingGear]:
-    """The ring itself, or with every cutter that may be tried where nobody named one, its rounding made to fit."""
-    root = gear.root
-    if not gear.any_cutter or not isinstance(root, PinionCutter):
-        yield gear
-        return
-    for teeth in DEFAULT_CUTTER_TEETH:
-        cutter = replace(root, number_of_teeth=teeth)
-        room = cutter.largest_rounding()
-        if teeth < gear.number_of_teeth and room > 0:
-            yield replace(gear, root=replace(cutter, tip_rounding=min(CUTTER_ROUNDING, room)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -310,7 +235,7 @@ def _harmless_tip(gear: RingGear) -> float:
     least = max(2 * gear.tip_radius, 0.0)
     step = (2 * gear.reference_radius + 2 * gear.module - least) / 64
     tries = (least + k * step for k in range(1, 65))
-    default = replace(gear, given_tip_diameter=None)
+    default = settled_ring(replace(gear, given_tip_diameter=None))
     if gear.given_tip_diameter is not None and makes(default):
         return 2 * default.tip_radius
     return next((d for d in tries if makes(replace(gear, given_tip_diameter=d))), 2 * gear.reference_radius)
@@ -324,21 +249,6 @@ def _cutter_teeth(gear: RingGear) -> int | None:
     z = root.number_of_teeth
     near = sorted(range(LEAST_CUTTER_TEETH, gear.number_of_teeth), key=lambda n: (abs(n - z), n))
     return next((n for n in near if makes(replace(gear, root=replace(root, number_of_teeth=n)))), None)
-
-
-def with_default_cutter(gear: RingGear) -> RingGear:
-    """The ring with the largest usual cutter that can make it, or with any where none can.
-
-    The larger the cutter, the farther out the involute reaches, and the fewer pinions touch the fillets. Its rounding
-    is the full round where its tooth has no more room.
-    """
-    root = gear.root if isinstance(gear.root, PinionCutter) else None
-    cutter = root or PinionCutter(gear.module, DEFAULT_CUTTER_TEETH[0], gear.pressure_angle)
-    gear = replace(gear, root=cutter, any_cutter=True)
-    if 0 < gear.pressure_angle < math.pi / 2 and 0 < gear.module < math.inf:
-        # where none works, the last one tells what is in the way
-        return next(_made(gear), None) or next(_with_cutters(gear), gear)
-    return gear
 
 
 def _boundary(works: Callable[[float], bool], good: float, bad: float) -> float:

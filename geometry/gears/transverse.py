@@ -30,6 +30,14 @@ def base_helix_angle(transverse_pressure_angle: float, helix_angle: float) -> fl
     return math.atan(math.tan(helix_angle) * math.cos(transverse_pressure_angle))
 
 
+def normal_share(transverse_pressure_angle: float, helix_angle: float) -> float:
+    """cos(beta_b): normal backlash j_bn over j_bt, that along the line of action in the transverse plane; ISO 21771.
+
+    j_bn = j_wt cos(alpha_wt) cos(beta_b); pairs calculate j_bt = j_wt cos(alpha_wt). 1 for straight teeth.
+    """
+    return math.cos(base_helix_angle(transverse_pressure_angle, helix_angle)) if helix_angle else 1.0
+
+
 def transverse_gear(normal: SpurGear, helix_angle: float) -> SpurGear:
     """The transverse section of a helical gear whose normal data stand in ``normal``; the angle in rad.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 import re
@@ -255,3 +256,81 @@ def test_a_formula_cannot_use_what_is_not_known_yet() -> None:
     page.section("x", "х")
     with pytest.raises(KeyError, match="not known yet"):
         page.add("pitch", 1.0, "pi * {m}")
+
+
+@pytest.mark.parametrize("teeth", [24, 25])
+def test_helical_gears_are_measured_over_balls_and_told_when_pins_do(teeth: int) -> None:
+    sheet = sheet_for(f"spur module=2 number_of_teeth={teeth} helix_angle_deg=20")
+    names = {s.name for s in sheet.steps()}
+    assert "over_balls" in names
+    assert not any("pin" in name.split("_") or "pins" in name for name in names)
+    titles = [s.title for s in sheet.sections]
+    assert ("Over balls", "Розмір по кульках") in titles
+    notes = " ".join(en for en, _ in sheet.notes)
+    assert ("same M" in notes) == (teeth % 2 == 0)
+    assert ("not for pins" in notes) == (teeth % 2 == 1)
+    straight = {s.name for s in sheet_for(f"spur module=2 number_of_teeth={teeth}").steps()}
+    assert "over_pins" in straight
+    assert "over_balls" not in straight
+
+
+@pytest.mark.parametrize(("width", "word"), [(2.0, "too small"), (7.0, "little hold"), (30.0, "")])
+def test_a_face_too_narrow_for_the_span_is_told(width: float, word: str) -> None:
+    """W sin(beta_b) by hand: beta_b = asin(sin 20 cos 20), W from the sheet."""
+    sheet = sheet_for(f"spur module=2 number_of_teeth=24 helix_angle_deg=20 face_width={width}")
+    values = {s.name: s.value for s in sheet.steps()}
+    beta_b = math.asin(math.sin(math.radians(20)) * math.cos(math.radians(20)))
+    least = float(values["span"]) * math.sin(beta_b)
+    assert values["least_face_width"] == pytest.approx(least, rel=1e-12)
+    assert float(values["secure_face_width"]) > least
+    notes = " ".join(en for en, _ in sheet.notes)
+    told = [w for w in ("too small", "little hold") if w in notes]
+    assert told == ([word] if word else [])
+
+
+def test_a_pin_in_a_helical_space_touches_where_a_ball_does() -> None:
+    """The axis of a pin, along the screw line of the ball's centre, is at right angles to the flank's normal there."""
+    import numpy as np
+
+    module, teeth, beta, size = 2.0, 24, math.radians(20), 3.5
+    alpha = math.atan(math.tan(math.radians(20)) / math.cos(beta))
+    base = module / math.cos(beta) * teeth / 2 * math.cos(alpha)
+    lead = math.pi * module * teeth / math.sin(beta)
+    values = {s.name: s.value for s in sheet_for(
+        "spur module=2 number_of_teeth=24 helix_angle_deg=20 pin_diameter=3.5").steps()}  # fmt: skip
+    centre = np.array([float(values["ball_centre_diameter"]) / 2, 0.0, 0.0])
+    screw = 2 * math.pi / lead
+
+    def flank(u: float, z: float) -> np.ndarray:
+        # an involute of the base circle, turned so that the ball touches it, carried along the helix
+        point = base * np.exp(1j * (u + start)) * (1 - 1j * u) * np.exp(1j * screw * z)
+        return np.array([point.real, point.imag, z])
+
+    def nearest(angle: float) -> tuple[float, np.ndarray, np.ndarray]:
+        nonlocal start
+        start = angle
+        u, z = 0.4, 0.0
+        for _ in range(60):
+            at = flank(u, z)
+            du, dz = (flank(u + 1e-6, z) - at) / 1e-6, (flank(u, z + 1e-6) - at) / 1e-6
+            step, *_ = np.linalg.lstsq(np.column_stack([du, dz]), centre - at, rcond=None)
+            u, z = u + 0.7 * step[0], z + 0.7 * step[1]
+        at = flank(u, z)
+        return float(np.linalg.norm(centre - at)), at, centre - at
+
+    start, touched = 0.0, []
+    gaps = [(a, nearest(a)[0] - size / 2) for a in np.linspace(-1.2, 0.6, 73)]
+    for (one, before), (two, after) in itertools.pairwise(gaps):
+        if before * after > 0:
+            continue
+        for _ in range(40):
+            middle = (one + two) / 2
+            same = (nearest(middle)[0] > size / 2) == (before > 0)
+            one, two = (middle, two) if same else (one, middle)
+        gap, at, normal = nearest(one)
+        axis = np.array([0.0, screw * centre[0], 1.0])
+        assert abs(float(axis @ normal)) / np.linalg.norm(axis) / gap < 1e-5
+        touched.append(math.hypot(at[0], at[1]))
+    # the tooth beside the ball is touched from the outside, and once from within
+    wanted = float(values["ball_contact_diameter"]) / 2
+    assert min(abs(t - wanted) for t in touched) < 1e-5

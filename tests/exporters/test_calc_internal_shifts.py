@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import html
 import re
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import ezdxf
 import pytest
+import shapely
 
 from exporters.calculations import internal_shift_choice, shift_choice, topics
 from exporters.calculations.contour_files import checked_picture, contour_pictures
@@ -18,7 +21,7 @@ from exporters.calculations.render import FORMATS, render
 from exporters.calculations.sheet import Sheet
 from exporters.calculations.topics import calculate
 from exporters.contour_dxf import SCALE, write_contour_dxf
-from exporters.contour_picture import contour_svg, line_name, tool_texts
+from exporters.contour_picture import clipped, contour_svg, kinds_shown, line_name, line_title, tool_texts
 from geometry.gears.basic_rack import iso_53
 from geometry.gears.cutter import PinionCutter
 from geometry.gears.internal_contour import InternalRequirements, conditions, internal_contour, window
@@ -26,6 +29,7 @@ from geometry.gears.internal_pair import internal_pair
 from geometry.gears.internal_shifts import InternalShiftPair
 from geometry.gears.ring import RoundedRoot
 from geometry.gears.shift_finder import for_sum
+from geometry.implicit import Box
 from parts.scene import load_scene
 from parts.schema import SceneError
 
@@ -87,8 +91,10 @@ def test_choices_are_those_of_built_pairs() -> None:
 def test_every_form_and_language(language: str) -> None:
     for form in FORMATS:
         assert len(render(sheet_for(WORDS), form, language)) > 1000
-    for note in sheet_for(WORDS).notes:
-        assert not re.search(r"[а-яіїєґ]{2}", note[0])
+    page = sheet_for(WORDS)
+    for en, uk in (page.title, *(section.title for section in page.sections), *page.notes):
+        assert not re.search(r"[а-яіїєґ]{2}", en)
+        assert re.search(r"[а-яіїєґ]{2}", uk)
     text = render(sheet_for(WORDS), "text", language)
     assert ("внутрішня пара" if language == "uk" else "internal pair") in text
     assert text.count("#") > 100
@@ -125,7 +131,7 @@ def test_the_drawing_has_the_lines_of_the_contour(contour: Any, tmp_path: Path) 
     assert not drawing.audit().errors
     space = drawing.modelspace()
     lines = [e for e in space.query("LWPOLYLINE") if e.dxf.layer not in ("AXES", "REGION")]
-    assert len(lines) == len(contour.lines)
+    assert len(lines) == sum(len(clipped(line.points, contour.box)) for line in contour.lines)
     assert counts["LWPOLYLINE"] == len(lines) + len(contour.region) + 1
     known = {n.upper().replace(" ", "_"): c for n, c in conditions(contour.pair).items()}
     checked = 0
@@ -149,9 +155,26 @@ def test_the_drawing_has_the_lines_of_the_contour(contour: Any, tmp_path: Path) 
 
 def test_the_picture_has_a_line_and_a_key_for_each_condition(contour: Any) -> None:
     text = contour_svg(contour, {"1: here": (0.1, 0.2)}, "uk")
-    assert text.count("<polyline") == len(contour.lines)
-    for name in {line.name for line in contour.lines}:
-        assert line_name(name, "uk").split(":")[0] in text
+    assert text.count("<polyline") == sum(len(clipped(line.points, contour.box)) for line in contour.lines)
+    shown = kinds_shown(contour)
+    assert {line.name for line in shown} >= {"trochoid_interference", "radial_assembly", "contact_ratio"}
+    for line in shown:
+        assert html.escape(line_title(line.name, line.level, "uk")) in text
+
+
+def test_lines_are_cut_off_at_the_box(contour: Any) -> None:
+    """As shapely cuts them."""
+    box = contour.box
+    small = Box(box.left / 2, box.right / 3, box.bottom / 2, box.top / 2, 1)
+    frame, cut = shapely.box(small.left, small.bottom, small.right, small.top), 0
+    for line in contour.lines:
+        whole = shapely.LineString([(p.real, p.imag) for p in line.points])
+        pieces = clipped(line.points, small)
+        assert sum(abs(b - a) for piece in pieces for a, b in pairwise(piece)) == pytest.approx(
+            whole.intersection(frame).length, abs=1e-7
+        )
+        cut += bool(pieces) and not frame.contains(whole)
+    assert cut > 5
 
 
 def test_pictures_are_written_by_their_ending(contour: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -199,7 +222,7 @@ def test_a_scene_gives_pair_cutter_and_shifts(tmp_path: Path) -> None:
         assert (keys.first.profile_shift_coefficient, keys.second.profile_shift_coefficient) == (0.1, 0.3)
 
 
-@pytest.mark.parametrize(("wanted", "word"), [("38", "at least"), ("45", "at most")])
+@pytest.mark.parametrize(("wanted", "word"), [("37.6", "at least"), ("45", "at most")])
 def test_the_nearest_distance_that_works_is_named_and_works(wanted: str, word: str) -> None:
     words = WORDS.replace("40.5", wanted).replace("shift-choice ", "").split()
     table = table_of(words)

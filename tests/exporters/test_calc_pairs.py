@@ -27,6 +27,12 @@ SHEETS = [
     "working_centre_distance=61 first.tip_chamfer=0.1",
     "gear-pair kind=rack_pair module=2 first.number_of_teeth=20 second.number_of_teeth=9 normal_backlash=0.1",
     "gear-pair kind=rack_pair module=2 first.number_of_teeth=20 second.number_of_teeth=9 working_centre_distance=20.3",
+    "gear-pair kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=80 helix_angle_deg=15 "
+    "face_width=30 normal_backlash=0.1 first.profile_shift_coefficient=0.2 second.profile_shift_coefficient=0.3",
+    "gear-pair kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=80 helix_angle_deg=-15 "
+    "working_centre_distance=62.5 second.tip_rule=KHK",
+    "gear-pair kind=rack_pair module=2 first.number_of_teeth=20 second.number_of_teeth=9 helix_angle_deg=20 "
+    "normal_backlash=0.1 first.profile_shift_coefficient=0.2",
 ]
 
 
@@ -121,3 +127,98 @@ def test_refusals_name_the_key(words: str, key: str) -> None:
     with pytest.raises(SceneError) as caught:
         calculate("gear-pair", words.split(), "text", None)
     assert key in str(caught.value)
+
+
+WISHES = {
+    "distance": ("external_gear_pair", "module=2 first.number_of_teeth=17 second.number_of_teeth=23",
+                 "working_centre_distance", 70.0),
+    "backlash": ("external_gear_pair", "module=2 first.number_of_teeth=17 second.number_of_teeth=23",
+                 "normal_backlash", 9.0),
+    "circumferential": ("external_gear_pair", "module=2 first.number_of_teeth=17 second.number_of_teeth=23",
+                        "circumferential_backlash", 9.0),
+    "internal distance": ("internal_gear_pair", "module=2 first.number_of_teeth=20 second.number_of_teeth=60",
+                          "working_centre_distance", 70.0),
+    "internal backlash": ("internal_gear_pair", "module=2 first.number_of_teeth=20 second.number_of_teeth=60",
+                          "normal_backlash", 9.0),
+    "rack distance": ("rack_pair", "module=2 first.number_of_teeth=20 second.number_of_teeth=10",
+                      "working_centre_distance", 70.0),
+    "rack backlash": ("rack_pair", "module=2 first.number_of_teeth=20 second.number_of_teeth=10",
+                      "normal_backlash", 9.0),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("kind", "keys", "name", "value"), WISHES.values(), ids=WISHES.keys())
+def test_a_wish_that_asks_too_much_is_named_with_the_nearest(kind: str, keys: str, name: str, value: float) -> None:
+    import re
+
+    from exporters.calculations.topics import sheet_of
+
+    words = [f"kind={kind}", *keys.split()]
+    with pytest.raises(SceneError) as refused:
+        sheet_of("gear-pair", [*words, f"{name}={value}"])
+    assert refused.value.key == f"gear-pair.{name}"
+    assert refused.value.value == value
+    offered = re.search(r"at (?:most|least) ([\d.]+) mm works", refused.value.remedy)
+    assert offered, refused.value.remedy
+    sheet_of("gear-pair", [*words, f"{name}={offered[1]}"])
+
+
+HELICAL = "first.number_of_teeth=20 module=2 helix_angle_deg=30 face_width=30"
+
+
+@pytest.mark.parametrize("kind", ["kind=external_gear_pair second.number_of_teeth=41",
+                                  "kind=internal_gear_pair second.number_of_teeth=80",
+                                  "kind=rack_pair second.number_of_teeth=9"])  # fmt: skip
+def test_a_helical_pair_has_the_normal_backlash_that_was_asked_for(kind: str) -> None:
+    """j_bn = j_wt cos(alpha_wt) cos(beta_b), worked out here from alpha_n 20 and beta 30 degrees by hand."""
+    import math
+
+    values = values_of(f"gear-pair {kind} {HELICAL} normal_backlash=0.1")["values"]
+    alpha_t = math.atan(math.tan(math.radians(20)) / math.cos(math.radians(30)))
+    beta_b = math.asin(math.sin(math.radians(30)) * math.cos(math.radians(20)))
+    assert values["normal_backlash"] == pytest.approx(0.1, rel=1e-9)
+    expected = 0.1 / math.cos(alpha_t) / math.cos(beta_b)
+    assert values["circumferential_backlash"] == pytest.approx(expected, rel=1e-9)
+    assert expected / 0.1 > 1.1
+
+
+def test_helical_pages_say_that_their_sections_are_transverse() -> None:
+    for words in SHEETS[-3:]:
+        titles = [s.title for s in sheet_for(words).sections]
+        assert any("transverse" in en and "торцевий" in uk for en, uk in titles)
+        values = values_of(words)["values"]
+        assert values["total_contact_ratio"] == pytest.approx(values["overlap_ratio"] + values["contact_ratio"])
+    assert not any("transverse" in s.title[0] for s in sheet_for(SHEETS[0]).sections)
+
+
+def test_the_shift_that_a_distance_asks_of_a_helical_ring_gives_that_distance() -> None:
+    """The found shift fed back without the distance gives the distance again."""
+    words = SHEETS[-2]
+    shift = next(s.value for s in sheet_for(words).steps() if s.symbol.startswith("x_n") and s.gear == 2)
+    again = words.replace("working_centre_distance=62.5", f"second.profile_shift_coefficient={shift!r}")
+    assert values_of(again)["values"]["working_centre_distance"] == pytest.approx(62.5, rel=1e-12)
+
+
+def test_an_undercut_pinion_is_told_in_internal_and_rack_pairs() -> None:
+    for kind, teeth in (("internal_gear_pair", 60), ("rack_pair", 9)):
+        words = f"gear-pair kind={kind} module=2 first.number_of_teeth=10 second.number_of_teeth={teeth}"
+        notes = sheet_for(words).notes
+        assert any("undercut" in en and "підрізаний" in uk for en, uk in notes)
+        assert not any("undercut" in en for en, _ in sheet_for(words.replace("=10", "=25")).notes)
+
+
+def test_a_mate_at_a_distance_of_its_own_has_its_sheet(tmp_path: Any) -> None:
+    gear = "[parts.{}]\nkind = 'spur_gear'\nmodule = 2.0\nnumber_of_teeth = {}\n"
+    text = gear.format("a", 20) + gear.format("b", 40)
+    text += "[[mates]]\nkind = 'external_gear_pair'\nfirst = 'a'\nsecond = 'b'\nworking_centre_distance = 60.2\n"
+    file = tmp_path / "far.toml"
+    file.write_text(text, encoding="utf-8")
+    sheet = sheet_for(f"gear-pair {file}")
+    values = {(s.name, s.gear): s.value for s in sheet.steps()}
+    pair = make_parts(load_scene(str(file)), "far")[1][0]
+    assert values["working_centre_distance", 0] == 60.2
+    assert values["normal_backlash", 0] == pytest.approx(pair.normal_backlash, rel=1e-9)
+    assert values["normal_backlash", 0] > 0.1
+    assert ("profile_shift_sum", 0) not in values
+    for step in sheet.steps():
+        assert not step.formula or evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), step.name

@@ -319,3 +319,77 @@ def test_names_in_a_column_keep_their_distance_and_order() -> None:
     assert all(b - a >= 7 - 1e-12 for a, b in itertools.pairwise(crowded))
     assert spread([98, 99], 7, 0, 100)[-1] <= 100
     assert spread([5] * 5, 30, 0, 100) == [0, 25, 50, 75, 100]
+
+
+def generating(part: dict[str, Any], **export: Any) -> Any:
+    """A scene of one wheel on the device TMM-42."""
+    return scene_with({"purpose": "generating", **export}, {"wheel": part}, mates=False)
+
+
+def test_one_unshifted_wheel_is_the_zero_wheel_alone(tmp_path: Path) -> None:
+    """No second wheel in tables and picture; one with a shift has both tables."""
+    for shift, number in ((0.0, 0), (0.3, 1)):
+        wheel = gear(20, module=10.0, profile_shift_coefficient=shift)
+        for job in plan_build(generating(wheel), "t", [], []).sheets:
+            job.write(tmp_path / job.path)
+            assert job.verify(tmp_path / job.path).failures == ()
+            words = " ".join(run.text for text in job.canvas.texts for run in text.runs).lower()
+            assert words.count("shifted wheel:") == number
+            assert ("zero wheel" in words) is True
+
+
+@pytest.mark.parametrize("module", [0.2, 1.0, 10.0, 400.0])
+def test_the_device_takes_wheels_of_every_size(module: float, tmp_path: Path) -> None:
+    for job in plan_build(generating(gear(12, module=module)), "t", [], []).sheets:
+        job.write(tmp_path / job.path)
+        assert job.verify(tmp_path / job.path).failures == ()
+
+
+@pytest.mark.parametrize(
+    ("part", "export", "key", "mended"),
+    [
+        ({"cutter": {"number_of_teeth": 25}}, {}, "parts.wheel.cutter.number_of_teeth = 25", ({}, {})),
+        ({"helix_angle_deg": 15.0}, {}, "parts.wheel.helix_angle_deg = 15", ({"helix_angle_deg": 0.0}, {})),
+        ({}, {"rack_step": 1000.0}, "exports[1].rack_step = 1000", ({}, {"rack_step": None})),
+        ({}, {"rack_step": 0.01}, "exports[1].rack_step = 0.01", ({}, {"rack_step": None})),
+    ],
+)
+def test_what_the_device_cannot_do_is_named(part: Any, export: Any, key: str, mended: Any) -> None:
+    with pytest.raises(SceneError) as caught:
+        plan_build(generating(gear(20, module=10.0, **part), **export), "t", [], [])
+    assert key in str(caught.value)
+    keys, more = mended
+    if "rack_step" in more:
+        offered = re.search(r"at (?:most|least) ([\d.]+) mm works", caught.value.remedy)
+        assert offered
+        more = {"rack_step": float(offered[1])}
+    assert plan_build(generating(gear(20, module=10.0, **keys), **more), "t", [], []).sheets
+
+
+HELICAL: dict[str, tuple[dict[str, Any], dict[str, Any], str]] = {
+    "external": (gear(20, hand="left"), gear(30), "external_gear_pair"),
+    "internal": (gear(20), {**gear(70), "kind": "ring_gear"}, "internal_gear_pair"),
+    "rack": (gear(20, hand="left"), {**gear(9), "kind": "rack"}, "rack_pair"),
+}
+
+
+@pytest.mark.parametrize("language", ["en", "uk"])
+@pytest.mark.parametrize("kind", HELICAL)
+def test_a_helical_pair_shows_its_transverse_section_and_tells_normal_data(
+    kind: str, language: str, tmp_path: Path
+) -> None:
+    first, second, mate = HELICAL[kind]
+    helix = {"helix_angle_deg": 20.0, "face_width": 30.0}
+    raw = {
+        "scene": {"language": language}, "parts": {"one": {**first, **helix}, "two": {**second, **helix}},
+        "mates": [{"kind": mate, "first": "one", "second": "two"}], "exports": [{"format": "sheet"}],
+    }  # fmt: skip
+    raw["parts"]["one"]["profile_shift_coefficient"] = 0.2  # type: ignore[index]
+    for job in plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets:
+        job.write(tmp_path / job.path)
+        assert job.verify(tmp_path / job.path).failures == ()
+        words = [t.text.replace(",", ".") for t in job.canvas.texts]
+        assert any(("торцевий переріз" if language == "uk" else "transverse section") in w for w in words)
+        assert {"mn", "mt", "β", "xn1", "20.0000°", "0.2"} <= set(words)
+        assert f"{2 / math.cos(math.radians(20)):.6g}" in words
+        assert f"{30 * math.sin(math.radians(20)) / (2 * math.pi):.4f}" in words

@@ -59,7 +59,10 @@ def test_both_rollers_touch_at_every_angle(name: str) -> None:
     assert np.abs(distance_to_profile(turned, two.section(0.0).region.outer) - 9.0).max() > 1e-3
 
 
-@pytest.mark.parametrize("name", FIRST)
+@pytest.mark.parametrize(
+    "name",
+    ["translating", pytest.param("against", marks=pytest.mark.heavy), pytest.param("with", marks=pytest.mark.heavy)],
+)
 def test_files_are_rolled_as_they_sit_on_the_shaft(name: str, tmp_path: Path) -> None:
     file = tmp_path / "s.toml"
     drawing = 'format = "dxf"\npurpose = "drawing"'

@@ -36,6 +36,12 @@ MOUNTS: dict[str, Mount] = {
     "with": Oscillating(95.0, 80.0, 0.0, -1),
 }
 
+HEAVY_BUT_ONE = [
+    "against",
+    pytest.param("translating", marks=pytest.mark.heavy),
+    pytest.param("with", marks=pytest.mark.heavy),
+]
+
 
 def dense(profile: Profile) -> np.ndarray:
     return np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 400)) for s in profile.segments()])
@@ -89,7 +95,7 @@ def test_the_roller_has_its_play_everywhere(name: str) -> None:
             assert np.abs(gap - (radius - offset)).max() < 1e-9
 
 
-@pytest.mark.parametrize("name", GROOVES)
+@pytest.mark.parametrize("name", HEAVY_BUT_ONE)
 def test_both_walls_of_every_file_are_rolled(name: str, tmp_path: Path) -> None:
     report = built(tmp_path, GROOVES[name] | {"face_width": 12.0}, *FORMATS)[1]
     part = parts_of({"cam": GROOVES[name]})["cam"]
@@ -124,8 +130,14 @@ def test_the_solid_is_the_disk_less_the_groove() -> None:
     assert mesh.volume == pytest.approx(disk * 12 - (outer.area - inner.area) * 5, rel=1e-4)
 
 
-@pytest.mark.parametrize("wall", ["inner", "outer"])
-@pytest.mark.parametrize("place", [0.0, 0.5, 1.0])
+SPOILED = [
+    pytest.param(w, p, marks=() if (w, p) in (("inner", 0.5), ("outer", 1.0)) else pytest.mark.heavy)
+    for w in ("inner", "outer")
+    for p in (0.0, 0.5, 1.0)
+]
+
+
+@pytest.mark.parametrize(("wall", "place"), SPOILED)
 def test_one_spoiled_wall_is_found_by_its_lift(wall: str, place: float, tmp_path: Path) -> None:
     """A vertex of one wall is moved towards the roller; the distance to the outline is not asked."""
     from exporters.reroll import reroll

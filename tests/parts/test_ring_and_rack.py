@@ -84,7 +84,6 @@ REFUSED = {
     "tip_diameter": RING + "tip_diameter = 80.0\n",
     "tip_chamfer": RING + "tip_chamfer = 3.0\n",
     "outer_diameter": RING + "outer_diameter = 100.0\n",
-    "pressure_angle_deg": RING + "pressure_angle_deg = 32.0\n",
     "circumferential_thinning": RACK + "circumferential_thinning = 2.5\n",
     "holes.pitch_circle_diameter": RING + "holes = { count = 4, diameter = 4.0, pitch_circle_diameter = 104.0 }\n",
     "holes.diameter": RACK + "holes = { count = 1, diameter = 7.0 }\n",
@@ -175,3 +174,29 @@ def test_converge_measures_rings_and_racks(text: str, tmp_path: Path) -> None:
     assert main(["converge", str(file), "--out", str(tmp_path)]) == 0
     rows = (tmp_path / "s" / "converge.csv").read_text(encoding="utf-8")
     assert ("root_fillet" in rows) == (text is RING)
+
+
+def test_a_default_tip_that_yields_is_told_and_a_given_one_is_refused() -> None:
+    small = RING.replace("48", "30")
+    scene = scene_from_toml(f"[parts.p]\n{small}".encode(), "scene.toml", "scene")
+    part = make_parts(scene, "scene.toml")[0]["p"]
+    found = next(f for f in part.findings if f.code == "ring_tip_limited")
+    assert found.limit == pytest.approx(0.75)
+    assert found.value == pytest.approx((60.0 - part.circles["tip_diameter"]) / 4)
+    assert "0.673" in finding_text("en", found)
+    assert "0.673" in finding_text("uk", found)
+    assert part.quantities["cutter_number_of_teeth"] == 15
+    with pytest.raises(SceneError, match=r"tip_diameter = 57\.0.*at least 57\.3[\d.]* mm works"):
+        made(small + "tip_diameter = 57.0\n")
+    helical = scene_from_toml(f"[parts.p]\n{small}helix_angle_deg = 20.0\n".encode(), "scene.toml", "scene")
+    part = make_parts(helical, "scene.toml")[0]["p"]
+    assert part.quantities["cutter_addendum_coefficient"] == pytest.approx(1.25)
+    assert part.quantities["cutter_tip_rounding_coefficient"] == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize("text", [RING.replace("48", "30"), RING.replace("48", "40").replace("2.0", "0.8")
+                                  + "pressure_angle_deg = 32.0\n"])  # fmt: skip
+def test_rings_that_were_refused_for_want_of_a_cutter_are_built(text: str, tmp_path: Path) -> None:
+    file = tmp_path / "s.toml"
+    file.write_text(f'[parts.p]\n{text}[[exports]]\nformat = "dxf"\n', encoding="utf-8")
+    assert main(["build", str(file), "--out", str(tmp_path)]) == 0

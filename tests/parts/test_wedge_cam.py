@@ -118,7 +118,10 @@ def swept(cam: WedgeCam, outline: np.ndarray, travel: float) -> float:
     return float((np.angle(down) + np.arccos(cosine[near])).max()) - cam.mount.start_angle
 
 
-@pytest.mark.parametrize("name", ["roller", "trailing", "leading"])
+@pytest.mark.parametrize(
+    "name",
+    ["trailing", pytest.param("roller", marks=pytest.mark.heavy), pytest.param("leading", marks=pytest.mark.heavy)],
+)
 def test_the_follower_rolled_over_the_file_agrees_with_a_sweep(name: str, tmp_path: Path) -> None:
     file = tmp_path / "s.toml"
     file.write_text(scene({"cam": CAMS[name]}, "dxf", "stl", 'format = "dxf"\npurpose = "drawing"'), encoding="utf-8")
@@ -189,6 +192,9 @@ WRONG: dict[str, tuple[Keys, str, str]] = {
     "short arm": (CAMS["trailing"] | {"oscillating": ARM | {"arm_length": 20.0}}, "oscillating.arm_length", "above"),
     "wild swing": (CAMS["trailing"] | {"swing_deg": 150.0}, "swing_deg", "at most"),
     "steep": (CAMS["leading"] | {"swing_deg": 60.0, "phases": [PHASES[0] | {"travel": 30.0}]}, "swing_deg", "at most"),
+    "low arm": (CAMS["trailing"] | {"base_height": 4.0, "phases": [PHASES[2], *PHASES]}, "base_height", "at least"),
+    "arm with a jump": (CAMS["leading"] | {"swing_deg": 48.0, "phases": [JUMP[0] | {"travel": 5.0}]},
+                        "swing_deg", "without jumps"),
     "short run": (ROLLER | {"corner_radius": 4.0, "run_in": 3.0}, "run_in", "at least"),
     "hole outside": (ROLLER | {"holes": {"diameter": 5.0, "x": -30.0, "y": 8.0}}, "holes.x", "outside"),
     "large hole": (ROLLER | {"holes": {"diameter": 15.5, "x": 0.0, "y": 8.0}}, "holes.diameter", "at most"),

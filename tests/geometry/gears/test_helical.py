@@ -16,7 +16,8 @@ from geometry.gears.helix import Helix, mesh_fault
 from geometry.gears.offset_tooth import gear_region
 from geometry.gears.rack import Rack, rack_region
 from geometry.gears.ring import RingGear
-from geometry.gears.ring_limits import root_form_diameter, with_default_cutter
+from geometry.gears.ring_limits import root_form_diameter
+from geometry.gears.ring_made import with_default_cutter
 from geometry.gears.ring_offset import ring_region
 from geometry.gears.spur import SpurGear
 from geometry.gears.transverse import transverse_gear, transverse_rack

@@ -23,7 +23,8 @@ from geometry.gears.internal_limits import InternalMesh
 from geometry.gears.internal_pair import InternalPair, internal_pair, shift_difference
 from geometry.gears.limits import undercut
 from geometry.gears.ring import RingGear, RoundedRoot
-from geometry.gears.ring_limits import checked_ring, with_default_cutter
+from geometry.gears.ring_limits import checked_ring
+from geometry.gears.ring_made import with_default_cutter
 from geometry.gears.spur import SpurGear
 from geometry.profile import Label
 from tests import brute

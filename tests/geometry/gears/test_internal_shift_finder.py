@@ -8,16 +8,20 @@ from dataclasses import replace
 import pytest
 
 from geometry.contact import Verdict
+from geometry.gears import ring_limits
+from geometry.gears.basic_rack import BasicRack
+from geometry.gears.cutter import PinionCutter, checked_cutter
 from geometry.gears.internal_contact import internal_contact
 from geometry.gears.internal_contour import InternalRequirements, least_margin, window
 from geometry.gears.internal_shifts import InternalShiftPair, internal_state
 from geometry.gears.shift_finder import for_sum, greatest_contact_ratio, least_sliding, least_wear, legal_shifts
+from tests import brute
 
-from .test_internal_contour import CLOSE, NEAR, PAIR, ROUND, WISH, built, checks
+from .test_internal_contour import ALPHA, CLOSE, NEAR, PAIR, ROUND, WISH, built, checks
 
 
 @pytest.mark.parametrize(("pair", "wish"), [
-    (PAIR, WISH), (ROUND, replace(WISH, tip_clearance=0.0)),
+    (PAIR, WISH), pytest.param(ROUND, replace(WISH, tip_clearance=0.0), marks=pytest.mark.heavy),
     pytest.param(CLOSE, replace(WISH, radial_assembly=True), marks=pytest.mark.heavy),
 ], ids=["20/60", "16/24", "40/50"])  # fmt: skip
 def test_proposals_beat_random_legal_shifts(pair: InternalShiftPair, wish: InternalRequirements) -> None:
@@ -44,6 +48,7 @@ def test_proposals_beat_random_legal_shifts(pair: InternalShiftPair, wish: Inter
     assert legal > 60
 
 
+@pytest.mark.heavy
 def test_proposals_have_contact_of_exact_outlines() -> None:
     for pair, find in ((CLOSE, greatest_contact_ratio), (NEAR, least_sliding)):
         found = find(pair, WISH)
@@ -72,3 +77,29 @@ def test_legal_intervals_end_where_a_requirement_does() -> None:
     for end, step in ((low, -1e-9), (high, 1e-9)):
         inside, outside = (least_margin(PAIR, WISH, x, x + 0.3) for x in (end, end + step))
         assert inside >= 0 > outside
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("seed", range(6))
+def test_random_proposals_have_contact_of_exact_outlines(seed: int) -> None:
+    """Whatever the finder proposes can be made, keeps the pair's own limits and touches without overlap."""
+    rng, done = random.Random(seed), 0
+    while done < 8:
+        z1, addendum = rng.randint(10, 90), rng.choice((0.8, 1.0))
+        z2 = z1 + rng.choice((rng.randint(3, 15), rng.randint(10, 90)))
+        teeth = rng.randint(10, max(11, z2 - 12))
+        cutter = PinionCutter(1.0, teeth, ALPHA, addendum=addendum + 0.25, tip_rounding=0.15)
+        if brute.refusal(lambda: checked_cutter(cutter)) is not None:  # noqa: B023
+            continue
+        rack = BasicRack(ALPHA, addendum, 0.25, 0.3)
+        pair = InternalShiftPair(z1, z2, rack, cutter, addendum, rng.random() < 0.3)
+        wish = replace(WISH, tip_thickness=rng.choice((0.25, 0.4)), contact_ratio=rng.choice((1.05, 1.2)))
+        found = rng.choice((least_sliding, greatest_contact_ratio, least_wear))(pair, wish)
+        if found is None:
+            continue
+        done += 1
+        made = built(pair, found.first, found.second)
+        assert found.margin > -1e-9
+        assert {f.code for f in made.findings()} <= {"radial_assembly"}
+        assert ring_limits.makes(made.ring)
+        assert internal_contact(made).verdict is Verdict.CONTACT, pair

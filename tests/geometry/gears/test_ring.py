@@ -17,7 +17,8 @@ from geometry.gears import ring_limits
 from geometry.gears.cutter import PinionCutter, checked_cutter, full_round
 from geometry.gears.internal_limits import InternalMesh
 from geometry.gears.ring import RingGear, RoundedRoot
-from geometry.gears.ring_limits import checked_ring, with_default_cutter
+from geometry.gears.ring_limits import checked_ring
+from geometry.gears.ring_made import with_default_cutter
 from geometry.gears.ring_offset import ring_region
 from geometry.gears.ring_tooth import flank_ends, ring_side
 from geometry.measure import profile_area
@@ -263,9 +264,8 @@ REFUSED: dict[str, RingGear] = {
     "root rounding": ring(60, RoundedRoot(1.25, 1.0)),
     "root pointed": ring(60, RoundedRoot(3.0)),
     "rim": replace(ring(), outer_diameter=120.0),
-    "small ring": with_default_cutter(ring(20)),
-    "thick angle": with_default_cutter(replace(ring(), pressure_angle=math.radians(32),
-                                               root=PinionCutter(2.0, 25, math.radians(32)))),
+    "small ring": with_default_cutter(ring(12)),
+    "shift": with_default_cutter(ring(40, x=-1.0)),
 }  # fmt: skip
 FIELDS = {"tip_diameter": "given_tip_diameter", "cutter.number_of_teeth": "number_of_teeth",
           "cutter.tip_rounding_coefficient": "tip_rounding", "cutter.addendum_coefficient": "addendum",

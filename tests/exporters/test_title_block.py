@@ -1,0 +1,117 @@
+"""The title block of a sheet: form 1 of GOST 2.104, its lines and words, and nothing of the picture under it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import ezdxf
+import numpy as np
+import pytest
+
+from exporters.plan import plan_build
+from exporters.sheets.canvas import Canvas
+from exporters.sheets.title_block import TITLE_BLOCK, TitleBlock, draw_title_block
+from parts.scene import scene_from_dict
+from parts.schema import SceneError
+
+# widths of the eleven columns and the right-hand ones, as the form has them
+COLUMNS = [7, 10, 23, 15, 10, 70, 5, 5, 5, 5, 12, 18]
+WORDS = {"designation": "TMM.03.001", "drawn": "Ann", "approved": "Bob", "date": "21.11.26", "organisation": "Group 21"}
+
+
+def scene_of(title_block: Any, language: str = "en", **export: Any) -> Any:
+    """A pair of gears whose sheet has a title block."""
+    gear = {"kind": "spur_gear", "module": 10.0, "number_of_teeth": 13, "profile_shift_coefficient": 0.3}
+    raw = {
+        "scene": {"title": "External pair", "language": language},
+        "parts": {"one": gear, "two": {**gear, "number_of_teeth": 21}},
+        "mates": [{"kind": "external_gear_pair", "first": "one", "second": "two"}],
+        "exports": [{"format": "sheet", "title_block": title_block, **export}],
+    }
+    return scene_from_dict(raw, "t", "t")
+
+
+def sheets(title_block: Any, language: str = "en", **export: Any) -> Any:
+    return plan_build(scene_of(title_block, language, **export), "t", [], []).sheets
+
+
+def test_form_1_has_its_eleven_columns_and_rows_of_5_mm() -> None:
+    canvas = Canvas(420.0, 297.0, "A3")
+    box = draw_title_block(canvas, TitleBlock("name"), "en")
+    assert (box.right - box.left, box.high - box.low) == TITLE_BLOCK == (185.0, 55.0)
+    assert (box.right, box.low) == (canvas.frame.right, canvas.frame.low)
+    lines = [(s.layer, s.curve.start - complex(box.left, box.low), s.curve.end - complex(box.left, box.low))
+             for s in canvas.strokes]  # fmt: skip
+    upright = sorted({round(a.real) for _, a, b in lines if a.real == b.real})
+    assert list(np.diff(upright)) == COLUMNS
+    level = sorted({round(a.imag) for _, a, b in lines if a.imag == b.imag})
+    assert level == list(range(0, 60, 5))
+    assert {layer for layer, *_ in lines} == {"FRAME", "TABLE"}
+
+
+@pytest.mark.parametrize("language", ["en", "uk"])
+@pytest.mark.parametrize("export", [{}, {"purpose": "generating", "parts": ["one"]}], ids=["meshing", "generating"])
+@pytest.mark.parametrize("asked", [True, WORDS], ids=["plain", "table"])
+def test_the_block_stands_in_its_corner_and_nothing_else_does(
+    asked: Any, export: dict[str, Any], language: str, tmp_path: Path
+) -> None:
+    for job in sheets(asked, language, **export):
+        job.write(tmp_path / job.path)
+        assert job.verify(tmp_path / job.path).failures == ()
+        frame = job.canvas.frame
+        left, top = frame.right - TITLE_BLOCK[0], frame.low + TITLE_BLOCK[1]
+        inside = [s.layer for s in job.canvas.strokes
+                  if any(left + 1e-6 < p.real < frame.right - 1e-6 and frame.low + 1e-6 < p.imag < top - 1e-6
+                         for p in np.atleast_1d(s.curve.point(np.linspace(*s.curve.domain, 40))))]  # fmt: skip
+        assert set(inside) == {"FRAME", "TABLE"}
+        words = [t.text for t in job.canvas.texts]
+        assert ("Масштаб" if language == "uk" else "Scale") in words
+        assert (("Аркушів 1" if language == "uk" else "Sheets 1") in words) is True
+        if asked is not True:
+            assert words.count("21.11.26") == 2
+            assert {"TMM.03.001", "Ann", "Bob", "Group 21"} <= set(words)
+
+
+def test_the_block_is_in_the_drawing_file(tmp_path: Path) -> None:
+    job = next(j for j in sheets(WORDS) if j.path.endswith("dxf"))
+    job.write(tmp_path / job.path)
+    texts = {e.dxf.text for e in ezdxf.readfile(tmp_path / job.path).modelspace().query("TEXT")}
+    assert {"TMM.03.001", "External pair", "Drawn", "Approved", "Mass"} <= texts
+
+
+def test_long_words_stay_in_their_cells() -> None:
+    canvas = Canvas(420.0, 297.0, "A3")
+    long = "a name that is much longer than any cell of the form has room for, told at length " * 2
+    draw_title_block(
+        canvas, TitleBlock(long, long, long, long, long, long, "abc", long, 1, 1, (("drawn", long),)), "en"
+    )
+    for text in canvas.texts:
+        assert text.box.left >= canvas.frame.right - TITLE_BLOCK[0]
+        assert text.box.right <= canvas.frame.right
+    names = [t for t in canvas.texts if t.box.left > canvas.frame.right - 121 and t.box.right < canvas.frame.right - 49]
+    assert all(canvas.frame.low <= t.runs[0].at.imag <= canvas.frame.low + 55 for t in names)
+
+
+@pytest.mark.parametrize(
+    ("export", "key"),
+    [
+        ({"format": "dxf", "title_block": True}, "title_block = true"),
+        ({"format": "sheet", "title_block": {"designaton": "x"}}, "did you mean designation"),
+        ({"format": "sheet", "title_block": "yes"}, "true, false or a table"),
+        ({"format": "sheet", "title_block": {"letter": "long"}}, "title_block.letter"),
+    ],
+)
+def test_refusals_name_the_key(export: dict[str, Any], key: str) -> None:
+    scene = scene_of(True)
+    raw = {"parts": {k: {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20} for k in scene.parts},
+           "exports": [export]}  # fmt: skip
+    with pytest.raises(SceneError) as caught:
+        scene_from_dict(raw, "t", "t")
+    assert key in str(caught.value)
+
+
+def test_without_the_key_a_sheet_has_none() -> None:
+    for job in sheets(False):
+        assert "Scale" not in [t.text for t in job.canvas.texts]
+        assert job.canvas.band == 0
