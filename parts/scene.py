@@ -330,8 +330,10 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
             place = f".{key}" if owner == "mate" else f": parts.{_blamed(scene, mate, part_of)}.{error.name}"
             raise SceneError(source, f"mates[{index + 1}]{place}", error.value, error.allowed) from error
     gears, matings = mated(gears, scene.mates, part_of, helices)
-    faces = [common_face(*(scene.parts[part_of[i]] for i in (m.first, m.second))) for m in matings]
-    matings = [dataclasses.replace(m, face=face) for m, face in zip(matings, faces, strict=True)]  # type: ignore[type-var]
+    for index, mating in enumerate(matings):
+        if mating.pair is not None:
+            face = common_face(*(scene.parts[part_of[i]] for i in (mating.first, mating.second)))
+            matings[index] = dataclasses.replace(mating, face=face)  # type: ignore[type-var]
     parts = {key: KINDS[spec.__struct_config__.tag][2](key, spec, gears[key]) for key, spec in scene.parts.items()}
     return parts, matings
 
