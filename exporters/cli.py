@@ -227,8 +227,9 @@ def _converge(options: argparse.Namespace) -> int:
 
 
 def _list(options: argparse.Namespace) -> int:
+    from parts.kinds import KINDS
     from parts.mates import MATES
-    from parts.scene import KINDS, built_in_scenes, load_scene
+    from parts.scene import built_in_scenes, load_scene
 
     print("kinds of parts (higherpair new KIND):")
     for kind, (spec, *_) in KINDS.items():
@@ -244,8 +245,8 @@ def _list(options: argparse.Namespace) -> int:
 
 def _new(options: argparse.Namespace) -> int:
     from exporters.new import new_mate, new_scene
+    from parts.kinds import KINDS
     from parts.mates import MATES
-    from parts.scene import KINDS
     from parts.schema import SceneError, near
 
     known = [*KINDS, *MATES]

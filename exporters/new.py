@@ -8,8 +8,9 @@ import msgspec
 from msgspec import Struct
 
 from exporters import new_examples
+from parts.kinds import KINDS
 from parts.mates import JOINS, MATES
-from parts.scene import KINDS, ExportSpec, SceneInfo
+from parts.scene import ExportSpec, SceneInfo
 from parts.schema import describe_type
 
 # values to start from, for keys that have no default or whose default depends on others

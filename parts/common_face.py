@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 from geometry.findings import Finding
 from geometry.gears.helix import Helix
-from geometry.gears.transverse import overlap_ratio
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -29,6 +28,8 @@ class CommonFace:
     @property
     def overlap_ratio(self) -> float:
         """eps_beta, of each half of double helical teeth."""
+        from geometry.gears.transverse import overlap_ratio
+
         width = self.width / 2 if self.helix.double else self.width
         return overlap_ratio(max(width, 0.0), self.helix.angle, self.normal_module)
 

@@ -1,4 +1,4 @@
-"""Mates that are no pair of involute gears: what each joins, and what makes a mating of it.
+"""Mates that are no pair of involute gears: what each joins, and where its keys and what makes a mating of it live.
 
 A mate of this registry places its second instance and may check its own contact; it changes no part.
 """
@@ -7,36 +7,61 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from importlib import import_module
 from typing import Any
 
 from msgspec import Struct
 
-from parts.cam_mate import CamFollowerSpec, cam_follower_mating
-from parts.fixed_mate import FixedSpec, fixed_mating
 from parts.mate_kinds import Mating
-from parts.positive_mates import CamYokeSpec, ConjugateCamsSpec, conjugate_mating, yoke_mating
 
 
 @dataclass(frozen=True, slots=True)
 class Joint:
-    """A kind of mate: its keys, the kinds of parts it joins (first and second; ``None``: any), and its mating.
+    """A kind of mate: the kinds of parts it joins (first and second; ``None``: any), its keys, its mating.
 
-    ``mating`` takes the keys and both parts as their kind's check gives them.
-
-    Raises ``ParameterError`` with the key of the second part, or of the mate as ``mate.KEY``.
+    ``spec_at`` and ``mating_at``: module and name; loaded when a scene has such a mate.
     """
 
-    spec: type[Struct]
     joins: tuple[tuple[str, str], ...] | None
-    mating: Callable[[Any, Any, Any], Mating]
+    spec_at: tuple[str, str]
+    mating_at: tuple[str, str]
+
+    @property
+    def spec(self) -> type[Struct]:
+        """Its keys."""
+        spec: type[Struct] = _loaded(self.spec_at)
+        return spec
+
+    @property
+    def mating(self) -> Callable[[Any, Any, Any], Mating]:
+        """Takes the keys and both parts as their kind's check gives them.
+
+        Raises ``ParameterError`` with the key of the second part, or of the mate as ``mate.KEY``.
+        """
+        mating: Callable[[Any, Any, Any], Mating] = _loaded(self.mating_at)
+        return mating
+
+
+def _loaded(place: tuple[str, str]) -> Any:
+    return getattr(import_module(place[0]), place[1])
+
+
+def _joint(module: str, spec: str, mating: str, joins: tuple[tuple[str, str], ...] | None) -> Joint:
+    """A kind of mate that lives in one module."""
+    return Joint(joins, (module, spec), (module, mating))
 
 
 _FOLLOWERS = ("follower", "follower_arm", "roller")
 JOINTS: dict[str, Joint] = {
-    "cam_follower": Joint(
-        CamFollowerSpec, tuple((c, f) for c in ("cam", "groove_cam") for f in _FOLLOWERS), cam_follower_mating
+    "cam_follower": _joint(
+        "parts.cam_mate",
+        "CamFollowerSpec",
+        "cam_follower_mating",
+        tuple((cam, follower) for cam in ("cam", "groove_cam") for follower in _FOLLOWERS),
     ),
-    "conjugate_cams": Joint(ConjugateCamsSpec, (("cam", "conjugate_cam"),), conjugate_mating),
-    "cam_yoke": Joint(CamYokeSpec, (("cam", "yoke_frame"),), yoke_mating),
-    "fixed": Joint(FixedSpec, None, fixed_mating),
+    "conjugate_cams": _joint(
+        "parts.positive_mates", "ConjugateCamsSpec", "conjugate_mating", (("cam", "conjugate_cam"),)
+    ),
+    "cam_yoke": _joint("parts.positive_mates", "CamYokeSpec", "yoke_mating", (("cam", "yoke_frame"),)),
+    "fixed": _joint("parts.fixed_mate", "FixedSpec", "fixed_mating", None),
 }

@@ -10,19 +10,21 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from msgspec import Struct
-
 from geometry.errors import GeometryError, ParameterError, at_least, at_most
 from parts.joints import JOINTS
+from parts.lazy import LazyTable
 from parts.mate_keys import ExternalGearPairSpec, InternalGearPairSpec, RackPairSpec
 from parts.mate_kinds import ExternalMating, InternalMating, Mating, RackMating
 
-MATES: dict[str, type[Struct]] = {
-    "external_gear_pair": ExternalGearPairSpec,
-    "internal_gear_pair": InternalGearPairSpec,
-    "rack_pair": RackPairSpec,
-    **{kind: joint.spec for kind, joint in JOINTS.items()},
-}
+# the keys of every kind of mate
+MATES = LazyTable(
+    {
+        "external_gear_pair": ("parts.mate_keys", "ExternalGearPairSpec"),
+        "internal_gear_pair": ("parts.mate_keys", "InternalGearPairSpec"),
+        "rack_pair": ("parts.mate_keys", "RackPairSpec"),
+        **{kind: joint.spec_at for kind, joint in JOINTS.items()},
+    }
+)
 # what each kind of mate joins, first and second in every order that works; None: anything
 JOINS: dict[str, tuple[tuple[str, str], ...] | None] = {
     "external_gear_pair": (("spur_gear", "spur_gear"),),

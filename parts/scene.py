@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 import re
 import tomllib
 from pathlib import Path
@@ -12,45 +13,17 @@ import msgspec
 from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError
-from parts.cam import CamSpec, cam_part, checked_cam
-from parts.follower import (
-    FollowerArmSpec,
-    FollowerSpec,
-    RollerSpec,
-    checked_arm,
-    checked_follower,
-    checked_roller,
-    follower_part,
-    roller_part,
-)
-from parts.helix_keys import common_face, helix_of
 from parts.instances import DriveSpec, InstanceSpec, check_instance, drive_spec, instance_specs
 from parts.keys import DEVICE_NAMES, IDENTIFIER, Identifier, mm
+from parts.kinds import KINDS
 from parts.mate_kinds import Mating
 from parts.mates import GEAR_PAIRS, JOINS, MATES, mated
 from parts.part import Part
-from parts.plate import PlateSpec, checked_plate, plate_part
-from parts.positive_kinds import POSITIVE_KINDS
-from parts.rack import RackSpec, checked_rack_part, rack_part
-from parts.ring_gear import RingGearSpec, checked_ring_gear, ring_gear_part
 from parts.schema import SceneError, converted, near, refuse_infinite
 from parts.sheet_keys import CamSpeed, Intervals, MateNumber, RackStep, check_sheet_keys
-from parts.spur_gear import SpurGearSpec, checked_spur_gear, spur_gear_part
 from parts.title_keys import TitleBlockKey
 
 SCENE_FOLDER = Path(__file__).parent / "scenes"
-# each kind: its keys, what checks them and gives the gear, and what makes the part of it
-KINDS: dict[str, tuple[type[Struct], Any, Any]] = {
-    "spur_gear": (SpurGearSpec, checked_spur_gear, spur_gear_part),
-    "ring_gear": (RingGearSpec, checked_ring_gear, ring_gear_part),
-    "rack": (RackSpec, checked_rack_part, rack_part),
-    "cam": (CamSpec, checked_cam, cam_part),
-    "follower": (FollowerSpec, checked_follower, follower_part),
-    "follower_arm": (FollowerArmSpec, checked_arm, follower_part),
-    "roller": (RollerSpec, checked_roller, roller_part),
-    "plate": (PlateSpec, checked_plate, plate_part),
-    **POSITIVE_KINDS,
-}
 # purposes of each format, the default first, and the tolerance (mm) of an export that names none
 _DEFAULTS: dict[str, dict[str, float]] = {
     "dxf": {"laser": 0.005, "drawing": 1e-6},
@@ -319,7 +292,7 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
             raise SceneError(source, f"parts.{key}.{error.name}", error.value, error.allowed) from error
     matings: list[Mating] = []
     part_of = {key: str(spec.part) for key, spec in scene.instances.items()}
-    helices = {key: helix_of(spec).angle for key, spec in scene.parts.items()}
+    helices = {key: math.radians(abs(getattr(spec, "helix_angle_deg", 0.0))) for key, spec in scene.parts.items()}
     for index, mate in enumerate(scene.mates):
         _check_kinds(scene, mate, part_of, source, f"mates[{index + 1}]")
         _check_helices(scene, mate, part_of, source, f"mates[{index + 1}]")
@@ -332,6 +305,8 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
     gears, matings = mated(gears, scene.mates, part_of, helices)
     for index, mating in enumerate(matings):
         if mating.pair is not None:
+            from parts.helix_keys import common_face
+
             face = common_face(*(scene.parts[part_of[i]] for i in (mating.first, mating.second)))
             matings[index] = dataclasses.replace(mating, face=face)  # type: ignore[type-var]
     parts = {key: KINDS[spec.__struct_config__.tag][2](key, spec, gears[key]) for key, spec in scene.parts.items()}
@@ -365,6 +340,8 @@ def _check_helices(scene: SceneFile, mate: Any, part_of: dict[str, str], source:
     """Helices that mesh, and one normal module: told in the keys of the parts, before their transverse sections."""
     if not isinstance(mate, GEAR_PAIRS):
         return
+    from parts.helix_keys import helix_of
+
     one, two = (scene.parts[part_of[i]] for i in (mate.first, mate.second))
     first, second = helix_of(one), helix_of(two)
     if first.angle == 0 and second.angle == 0:

@@ -13,8 +13,9 @@ from pathlib import Path
 import pytest
 
 from exporters import __version__
+from parts.kinds import KINDS
 from parts.mates import MATES
-from parts.scene import KINDS, built_in_scenes
+from parts.scene import built_in_scenes
 
 from .making import build_gear, part_keys, read_report, run, write_scene
 from .outside import Gear

@@ -12,7 +12,8 @@ from exporters.report import read_report
 from exporters.words import finding_text
 from geometry.errors import OffsetError
 from geometry.findings import Finding
-from parts.scene import KINDS, make_parts, scene_from_toml
+from parts.kinds import KINDS
+from parts.scene import make_parts, scene_from_toml
 from parts.schema import SceneError
 
 RING = 'kind = "ring_gear"\nmodule = 2.0\nnumber_of_teeth = 48\n'

@@ -1,0 +1,23 @@
+"""The kinds of parts: for each its keys, what checks them and gives the thing itself, and what makes the part of it."""
+
+from __future__ import annotations
+
+from parts.lazy import LazyTable
+
+KINDS = LazyTable(
+    {
+        "spur_gear": ("parts.spur_gear", "SpurGearSpec", "checked_spur_gear", "spur_gear_part"),
+        "ring_gear": ("parts.ring_gear", "RingGearSpec", "checked_ring_gear", "ring_gear_part"),
+        "rack": ("parts.rack", "RackSpec", "checked_rack_part", "rack_part"),
+        "cam": ("parts.cam", "CamSpec", "checked_cam", "cam_part"),
+        "groove_cam": ("parts.groove_cam", "GrooveCamSpec", "checked_groove", "groove_part"),
+        "groove_piece": ("parts.groove_piece", "GroovePieceSpec", "checked_piece", "piece_part"),
+        "conjugate_cam": ("parts.conjugate_cam", "ConjugateCamSpec", "checked_conjugate", "conjugate_part"),
+        "yoke_frame": ("parts.yoke_frame", "YokeFrameSpec", "checked_yoke", "yoke_part"),
+        "wedge_cam": ("parts.wedge_cam", "WedgeCamSpec", "checked_wedge", "wedge_part"),
+        "follower": ("parts.follower", "FollowerSpec", "checked_follower", "follower_part"),
+        "follower_arm": ("parts.follower", "FollowerArmSpec", "checked_arm", "follower_part"),
+        "roller": ("parts.follower", "RollerSpec", "checked_roller", "roller_part"),
+        "plate": ("parts.plate", "PlateSpec", "checked_plate", "plate_part"),
+    }
+)
