@@ -20,7 +20,7 @@ _OFFER = re.compile(
 )
 _OFFERED = re.compile(
     r"(?:; (?:at most|at least|above|less than|-?\d[\d.e+-]* (?:mm |degrees )?(?:teeth )?work"
-    r"|a smaller|make it|change it|remove it)|\(numbers of).*$"
+    r"|a smaller|make it|change it|remove \w+)|\(numbers of).*$"
 )
 # tables that may be left out altogether, with what then takes their place
 _OPTIONAL = (
@@ -65,7 +65,10 @@ def sure_remedy(spec: Any, refusal: ParameterError, builds: Callable[[Any], bool
     reason = _OFFERED.sub("", refusal.allowed).strip()
     keys = _candidates(spec, path)
     own = [k for k in keys if len(k) > 1 or k[0] not in _LAST]
-    found = _one_key(spec, own, works) or _resets(spec, works)
+    # the table that is to blame before all else: its keys, then the table itself
+    blamed = [k for k in own if k == path or (len(path) > 1 and k[0] == path[0])]
+    found = _one_key(spec, blamed, works) or _without(spec, path[0], works)
+    found = found or _one_key(spec, [k for k in own if k not in blamed], works) or _resets(spec, works)
     found = found or _one_key(spec, [k for k in keys if k not in own], works) or _resets(spec, works, other_teeth=True)
     if found is None:
         return refusal
@@ -73,6 +76,14 @@ def sure_remedy(spec: Any, refusal: ParameterError, builds: Callable[[Any], bool
     if key is None or ".".join(key) == refusal.name:
         return _told(refusal, refusal.name, refusal.value, f"{reason}; {text}")
     return _told(refusal, ".".join(key), value_at(spec, key), f"{refusal.name}: {reason}; {text}")
+
+
+def _without(spec: Any, name: str, works: Callable[[Any], bool]) -> tuple[None, str] | None:
+    """A table left out, if it can be and that does."""
+    field = next((f for f in msgspec.structs.fields(spec) if f.name == name and name in _OPTIONAL), None)
+    if field is None or field.default is msgspec.NODEFAULT or not isinstance(getattr(spec, name), Struct | list):
+        return None
+    return (None, f"with no {name} it works") if works(changed(spec, (name,), field.default)) else None
 
 
 def _one_key(spec: Any, keys: list[Path], works: Callable[[Any], bool]) -> tuple[Path, str] | None:

@@ -158,7 +158,7 @@ def wild(draw: st.DrawFn, kind: str) -> Any:
 
 @pytest.mark.parametrize("kind", CHECKS)
 @given(data=st.data())
-@settings(max_examples=6, deadline=None)
+@settings(max_examples=4, deadline=None)
 def test_any_first_remedy_works(kind: str, data: st.DataObject) -> None:
     first_offer_works(data.draw(wild(kind)))
 
