@@ -78,7 +78,8 @@ class Job:
     @property
     def layer_order(self) -> tuple[str, ...]:
         """Layer of each boundary in ``approximations``: inner ones are cut first."""
-        return (*("CUT_INNER" for _ in self.section.region.holes), "CUT_OUTER")
+        region = self.section.region
+        return (*("CUT_INNER" for _ in region.holes), *("CUT_OUTER" for _ in (*region.apart, region.outer)))
 
 
 @dataclass(frozen=True, slots=True)

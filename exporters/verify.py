@@ -57,7 +57,7 @@ def verify_file(
 
             return verify_drawing(file, exact, declared, tolerance)
         loops = read_dxf(file) if kind == "dxf" else read_svg(file)
-        layers = (*("CUT_INNER" for _ in exact.holes), "CUT_OUTER")
+        layers = (*("CUT_INNER" for _ in exact.holes), *("CUT_OUTER" for _ in (*exact.apart, exact.outer)))
         return verify_loops(loops, exact.profiles(), layers, declared, tolerance)
     except (ReadError, OSError) as error:
         return Verdict({}, (str(error),))

@@ -98,14 +98,18 @@ class Profile:
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """Material of a plane section: outer boundary counter-clockwise, holes clockwise (material on the left)."""
+    """Material of a plane section: outer boundary counter-clockwise, holes clockwise (material on the left).
+
+    ``apart``: outer boundaries of further pieces that lie beside the first, without holes.
+    """
 
     outer: Profile
     holes: tuple[Profile, ...] = ()
+    apart: tuple[Profile, ...] = ()
 
     def profiles(self) -> tuple[Profile, ...]:
-        """Holes first, then the outer boundary: the order in which they are cut."""
-        return (*self.holes, self.outer)
+        """Holes first, then the outer boundaries: the order in which they are cut."""
+        return (*self.holes, *self.apart, self.outer)
 
 
 def circle(radius: float, label: Label, *, hole: bool = False, centre: complex = 0j) -> Profile:

@@ -11,6 +11,7 @@ from geometry.findings import Finding
 from geometry.gears.offset_tooth import OffsetRegion
 
 if TYPE_CHECKING:
+    from geometry.cams.barrel_body import BarrelBody
     from geometry.cams.disk import DiskCam
 
 
@@ -23,13 +24,13 @@ class Part:
     ``circles`` are named diameters in mm for drawings and
     reports, ``quantities`` all other named results. ``density`` in g/cm^3, None where the material is not known.
     ``flat_findings``: remarks on each flat outline of the part.
-    ``cam``: of a disk cam, whose follower is rolled over every file.
+    ``cam``: of a disk cam, whose follower is rolled over every file. ``barrel``: of a cylindrical cam, likewise.
     """
 
     id: str
     kind: str
     section: Callable[[float], OffsetRegion]
-    body: Callable[[float], Body]
+    body: Callable[[float], Body | BarrelBody]
     face_width: float
     is_plate: bool = True
     findings: tuple[Finding, ...] = ()
@@ -40,6 +41,7 @@ class Part:
     density: float | None = None
     flat_findings: tuple[Finding, ...] = ()
     cam: DiskCam | None = None
+    barrel: BarrelBody | None = None
 
     def to_trimesh(self, tolerance: float = 0.01, offset: float = 0.0) -> Any:
         """A ``trimesh.Trimesh`` within ``tolerance`` mm of the exact solid."""

@@ -11,6 +11,8 @@ import msgspec
 from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError
+from parts.barrel_cam import barrel_cam_part, checked_barrel_cam
+from parts.barrel_keys import BarrelCamSpec
 from parts.cam import CamSpec, cam_part, checked_cam
 from parts.helix_keys import helix_of
 from parts.instances import DriveSpec, InstanceSpec, check_instance, drive_spec, instance_specs
@@ -30,6 +32,7 @@ KINDS: dict[str, tuple[type[Struct], Any, Any]] = {
     "ring_gear": (RingGearSpec, checked_ring_gear, ring_gear_part),
     "rack": (RackSpec, checked_rack_part, rack_part),
     "cam": (CamSpec, checked_cam, cam_part),
+    "barrel_cam": (BarrelCamSpec, checked_barrel_cam, barrel_cam_part),
 }
 # purposes of each format, the default first, and the tolerance (mm) of an export that names none
 _DEFAULTS: dict[str, dict[str, float]] = {
