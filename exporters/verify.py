@@ -13,6 +13,7 @@ import numpy as np
 
 from exporters.readers import Loop, ReadError, read_3mf, read_dxf, read_stl, read_svg, step_names
 from geometry.body import Body
+from geometry.cams.barrel_body import BarrelBody
 from geometry.contour import edge_points, signed_area
 from geometry.curve import Complex
 from geometry.measure import distance_to_profile, profile_area
@@ -33,7 +34,7 @@ class Verdict:
 
 
 def verify_file(
-    file: Path, kind: str, exact: Region | Body, declared: float, tolerance: float, name: str | None = None
+    file: Path, kind: str, exact: Region | Body | BarrelBody, declared: float, tolerance: float, name: str | None = None
 ) -> Verdict:
     """Read a file back and hold it against its exact section or, for STL, 3MF and STEP, its exact solid.
 
@@ -41,6 +42,10 @@ def verify_file(
     ``name``: what the part must be called where the format has names.
     """
     try:
+        if isinstance(exact, BarrelBody):
+            from exporters.verify_barrel import verify_barrel
+
+            return verify_barrel(file, kind, exact, declared, tolerance, name)
         if isinstance(exact, Body):
             if kind == "step":
                 from exporters.verify_step import verify_step
