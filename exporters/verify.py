@@ -8,16 +8,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from exporters.readers import Loop, ReadError, read_3mf, read_dxf, read_stl, read_svg, step_names
 from geometry.body import Body
-from geometry.cams.barrel_body import BarrelBody
 from geometry.contour import edge_points, signed_area
 from geometry.curve import Complex
 from geometry.measure import distance_to_profile, profile_area
 from geometry.profile import Profile, Region
+
+if TYPE_CHECKING:
+    from geometry.cams.barrel_body import BarrelBody
 
 # how many points of a file are measured: all edges get at least 3 between their ends
 _POINTS = 10_000
@@ -42,7 +45,7 @@ def verify_file(
     ``name``: what the part must be called where the format has names.
     """
     try:
-        if isinstance(exact, BarrelBody):
+        if not isinstance(exact, Body | Region):
             from exporters.verify_barrel import verify_barrel
 
             return verify_barrel(file, kind, exact, declared, tolerance, name)

@@ -238,8 +238,8 @@ FINDINGS: dict[str, tuple[str, str]] = {
         "половина ширини паза {value:.4g} мм більша за 0,8 межі підрізу ({limit:.4g} мм)",
     ),
     "development": (
-        "flat outline: the outer cylinder unrolled, seen from outside, {value:.9g} mm around; wrap it on {limit:.9g} mm",
-        "плоский контур: розгортка зовнішнього циліндра, вид ззовні, довжина кола {value:.9g} мм; діаметр {limit:.9g} мм",
+        "flat outline: the outer cylinder of {limit:.9g} mm unrolled, seen from outside, {value:.9g} mm around",
+        "плоский контур: розгортка зовнішнього циліндра {limit:.9g} мм, вид ззовні, довжина кола {value:.9g} мм",
     ),
     "outline_trimmed": (
         "the outline moved by {limit:.4g} mm crosses itself in {value:.0f} places: it is trimmed there",

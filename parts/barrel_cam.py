@@ -221,7 +221,8 @@ def _check_hub(spec: BarrelCamSpec, body: BarrelBody) -> None:
     # inside a tube the hub stands within its inner cylinder
     most = 2 * ((cam.inner if not cam.is_groove and spec.hub.above > 0 else cam.outer) - wall)
     if not spec.hub.diameter <= most:
-        raise ParameterError("hub.diameter", spec.hub.diameter, f"must stay inside; at most {at_most(most, 4)} mm works")
+        remedy = f"must stay inside; at most {at_most(most, 4)} mm works"
+        raise ParameterError("hub.diameter", spec.hub.diameter, remedy)
     if not spec.hub.diameter >= 2 * (reach + wall):
         remedy = f"leaves no wall around the bore; at least {at_least(2 * (reach + wall), 4)} mm works"
         raise ParameterError("hub.diameter", spec.hub.diameter, remedy)

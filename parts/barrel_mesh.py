@@ -128,7 +128,7 @@ def _normals(cam: BarrelCam, angles: Real, side: int, radii: Real, piece: LawPie
 
 
 def wall_triangles(shape: tuple[int, ...]) -> Triangles:
-    """Triangles of a grid of (radii, angles) points whose last angle meets the first; seen from the rollers side below."""
+    """Triangles of a grid of (radii, angles) points whose last angle meets the first, facing up."""
     levels, count = shape[:2]
     here = np.arange(count)
     after = np.roll(here, -1)

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from geometry.body import Body
 from geometry.findings import Finding
 from geometry.gears.offset_tooth import OffsetRegion
 
@@ -19,8 +18,8 @@ if TYPE_CHECKING:
 class Part:
     """A part with one flat section for plane formats and one solid, lower face of its rim at z = 0.
 
-    ``section(offset)`` and ``body(offset)`` give the exact geometry with every boundary moved ``offset`` mm out of
-    the material; both are computed when an export asks. ``face_width``: height of the toothed rim, mm.
+    ``section(offset)`` and ``body(offset)`` (a Body; a BarrelBody of a cylindrical cam) give the exact geometry with
+    every boundary moved ``offset`` mm out of the material; both are computed when an export asks. ``face_width``: height of the toothed rim, mm.
     ``circles`` are named diameters in mm for drawings and
     reports, ``quantities`` all other named results. ``density`` in g/cm^3, None where the material is not known.
     ``flat_findings``: remarks on each flat outline of the part.
@@ -30,7 +29,7 @@ class Part:
     id: str
     kind: str
     section: Callable[[float], OffsetRegion]
-    body: Callable[[float], Body | BarrelBody]
+    body: Callable[[float], Any]
     face_width: float
     is_plate: bool = True
     findings: tuple[Finding, ...] = ()

@@ -14,11 +14,9 @@ from numpy.typing import NDArray
 from geometry.approximate import approximate_profile, approximate_together
 from geometry.approximate_twisted import approximate_twisted, rising_diagonals, slice_turns
 from geometry.body import Body, Cap
-from geometry.cams.barrel_body import BarrelBody
 from geometry.contour import Approximation, Contour
 from geometry.curve import Complex
 from geometry.errors import ThinWallError
-from parts.barrel_mesh import barrel_mesh
 from parts.caps import Triangles, aligned_bore, begun_at, cap_triangles, is_round, start_in_space
 
 
@@ -35,7 +33,9 @@ def mesh_outlines(body: Body, tolerance: float, least_edge: float) -> tuple[Appr
 
     Profiles that a chamfer joins get matching vertices. A cylindrical cam's mesh is made whole.
     """
-    if isinstance(body, BarrelBody):
+    if not isinstance(body, Body):
+        from parts.barrel_mesh import barrel_mesh
+
         return (barrel_mesh(body, tolerance),)
     made: dict[int, Approximation] = {}
     twisted = body.twisted_profiles()
@@ -67,7 +67,7 @@ def body_mesh(body: Body, outlines: tuple[Approximation, ...]) -> Mesh:
     ThinWallError
         The chords touch or cross at this tolerance.
     """
-    if isinstance(body, BarrelBody):
+    if not isinstance(body, Body):
         return Mesh(outlines[0].vertices, outlines[0].geometry)
     contours = _begun_in_spaces(body, [a.geometry for a in outlines])
     try:

@@ -100,13 +100,13 @@ class BarrelCam:
         source = self.motion if piece is None else piece
         return self.guide.place([source.value(at, k) / FACTORIALS[k] for k in range(order + 1)])
 
-    def distance_along(self, place: Series, side: ArrayLike, radius: ArrayLike) -> Real:
+    def distance_along(self, place: Series, side: int, radius: ArrayLike) -> Real:
         """rho at which a wall passes through the cylinder of ``radius`` mm; ``place``: p and p'.
 
         Root of rho^2 + y(rho)^2 = R^2 between 0 and R by Newton's steps, bisected where they leave the bracket.
         """
         p, rate, radius = place[0], place[1], np.asarray(radius, dtype=float)
-        shape = np.broadcast_shapes(np.shape(p), radius.shape, np.shape(side))
+        shape = np.broadcast_shapes(np.shape(p), radius.shape)
         low, high = np.zeros(shape), np.broadcast_to(radius, shape).copy()
         # the root itself where the roller stays over the cam's axis: rho^2 from a quadratic equation
         square, slant = radius**2, rate.imag**2
@@ -128,7 +128,7 @@ class BarrelCam:
             rho = after
         return rho
 
-    def contact(self, place: Series, side: ArrayLike, rho: ArrayLike) -> Complex:
+    def contact(self, place: Series, side: int, rho: ArrayLike) -> Complex:
         """Where the roller touches a wall at the distance rho along its axis, y + iz, mm."""
         w = rho - place[1]
         return np.asarray(place[0] + side * self.radius * 1j * w / np.abs(w))
