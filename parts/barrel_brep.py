@@ -1,6 +1,6 @@
 """Cylindrical cams for the kernel: walls as spline surfaces, true cylinders between their edges, plane ends.
 
-Walls are one face for each piece of the motion. Cylinders are cut upright where the roller stands still, for there the
+Walls are one face for each stretch of the motion. Cylinders are cut upright where the roller stands still, for there the
 edges of all walls stand above each other. Every edge is made once, with its curve in the parameters of each face.
 """
 
@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from geometry.bspline import BSpline
-from geometry.cams.barrel import BarrelCam
 from geometry.cams.barrel_body import BarrelBody, BoreWall, Cylinder, Plane, Ring, Track
 from geometry.cams.barrel_splines import BarrelSplines, WallSpline
+from geometry.cams.follower_motion import TURN
 from geometry.curve import Real
 from geometry.errors import GeometryError
 from geometry.outline import spline_outline
@@ -26,7 +26,6 @@ from parts.brep_screw import _CONFUSION, _straight
 _FROM_SEAM = 0.1
 # one face of a cylinder goes round by no more than this, rad, where the roller's rests allow it
 _MOST_TURN = 3.5
-_STILL = 1e-9
 _DEGREE = 7
 
 
@@ -60,13 +59,6 @@ def barrel_solid(body: BarrelBody, splines: BarrelSplines, tolerance: float = 1e
     return result
 
 
-def resting_joints(cam: BarrelCam) -> list[int]:
-    """Pieces (indices) at whose start the roller stands still; there the cylinders are cut."""
-    pieces = cam.motion.pieces
-    peak = max(float(np.abs(p.value(np.linspace(*p.domain, 17), 1)).max()) for p in pieces)
-    return [k for k, p in enumerate(pieces) if abs(float(p.value(p.start, 1))) <= _STILL * max(peak, 1e-300)]
-
-
 class _Maker:
     """Vertices, edges and faces of one cam."""
 
@@ -74,7 +66,7 @@ class _Maker:
         self.body, self.cam, self.tolerance = body, body.cam, tolerance
         self.splines = splines.walls
         self.count = len(next(iter(self.splines.values())))
-        self.cuts = _cuts(self.cam, next(iter(self.splines.values())))
+        self.cuts = _cuts(next(iter(self.splines.values())))
         self.vertices: dict[object, Any] = {}
         self.edges: dict[object, Any] = {}
         self.wires: dict[object, Any] = {}
@@ -111,19 +103,19 @@ class _Maker:
         return self.edges[key]
 
     def _corner(self, side: int, row: int, k: int) -> tuple[Any, Real]:
-        """The vertex of a wall at the start of piece k on the inner (0) or outer (1) cylinder, and its point."""
+        """The vertex of a wall at the start of stretch k on the inner (0) or outer (1) cylinder, and its point."""
         point = self.splines[side][k % self.count].poles[0, -row]
         return self._vertex((side, row, k % self.count), point), point
 
     def _rim(self, side: int, row: int, k: int) -> Any:
-        """The edge of a wall along the inner (0) or outer (1) cylinder over piece k, with growing cam angle."""
+        """The edge of a wall along the inner (0) or outer (1) cylinder over stretch k, with growing cam angle."""
         spline = self.splines[side][k]
         start, end = self._corner(side, row, k)[0], self._corner(side, row, k + 1)[0]
         curve = _kernel_curve(spline.poles[:, -row], spline.along)
         return self._edge(("rim", side, row, k), curve, start, end, (spline.along[0], spline.along[-1]))
 
     def _wall(self, spline: WallSpline) -> Any:
-        """The face of a wall over one piece."""
+        """The face of a wall over one stretch."""
         k = self.splines[spline.side].index(spline)
         sides = []
         for j in (k, k + 1):
@@ -152,7 +144,7 @@ class _Maker:
         return found
 
     def _cylinder_part(self, face: Cylinder, row: int, first: int, last: int, following: int) -> Any:
-        """The part of a cylinder over the pieces from ``first`` to before ``last``; its polar angle goes down."""
+        """The part of a cylinder over the stretches from ``first`` to before ``last``; its polar angle goes down."""
         from OCP.Geom import Geom_CylindricalSurface
         from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt
 
@@ -190,12 +182,12 @@ class _Maker:
         return [(arc, _straight((left - base, ring.z), (right - base, ring.z), (0.0, right - left)))]
 
     def _on_circle(self, ring: Ring, k: int, polar: float) -> Any:
-        """The vertex of a circle at the cut before piece k."""
+        """The vertex of a circle at the cut before stretch k."""
         point = np.array([ring.radius * math.cos(polar), ring.radius * math.sin(polar), ring.z])
         return self._vertex((ring, k), point)
 
     def _seam(self, face: Cylinder, row: int, k: int, polar: float, base: float) -> tuple[Any, Any]:
-        """The upright edge of a cylinder at the cut before piece k, upwards, with its path."""
+        """The upright edge of a cylinder at the cut before stretch k, upwards, with its path."""
         from OCP.Geom import Geom_Line
         from OCP.gp import gp_Dir, gp_Pnt
 
@@ -256,14 +248,14 @@ class _Maker:
         return made.Face() if face.up else made.Face().Reversed()
 
 
-def _cuts(cam: BarrelCam, splines: tuple[WallSpline, ...]) -> list[tuple[int, int]]:
-    """Runs of pieces (first, beyond the last) between cuts of the cylinders."""
-    joints = resting_joints(cam)
-    if not joints or joints[0] != 0:
-        raise GeometryError("the roller does not stand still at cam angle 0")
+def _cuts(splines: tuple[WallSpline, ...]) -> list[tuple[int, int]]:
+    """Runs of stretches (first, beyond the last) between cuts of the cylinders, all at rests of the roller."""
+    starts = [s.stretch.start + TURN * s.stretch.turns for s in splines]
+    ends = [*starts[1:], starts[0] + TURN]
+    joints = [k for k, s in enumerate(splines) if s.stretch.rests]
     kept = [0]
-    for k, following in zip(joints, [*joints[1:], len(splines)], strict=True):
-        if k and following and splines[following - 1].piece.end - splines[kept[-1]].piece.start > _MOST_TURN:
+    for k, following in zip(joints[1:], [*joints[2:], len(splines)], strict=True):
+        if ends[following - 1] - starts[kept[-1]] > _MOST_TURN:
             kept.append(k)
     return list(zip(kept, [*kept[1:], len(splines)], strict=True))
 

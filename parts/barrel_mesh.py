@@ -265,8 +265,10 @@ def zipped(lower: Triangles, upper: Triangles, low: Complex, high: Complex) -> T
     n, m = len(lower), len(upper)
     base = float(np.angle(low[0]))
     first = base + np.concatenate([[0.0], np.cumsum(np.angle(np.roll(low, -1) / low))])
-    second = first[0] + float(np.angle(high[0] / low[0])) + np.concatenate(
-        [[0.0], np.cumsum(np.angle(np.roll(high, -1) / high))]
+    second = (
+        first[0]
+        + float(np.angle(high[0] / low[0]))
+        + np.concatenate([[0.0], np.cumsum(np.angle(np.roll(high, -1) / high))])
     )
     # the step whose middle comes first is taken first
     keys = np.concatenate([(first[1:] + first[:-1]) / 2, (second[1:] + second[:-1]) / 2])

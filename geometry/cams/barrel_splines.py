@@ -1,21 +1,23 @@
 """The walls of a cylindrical cam as B-spline surfaces with finished poles, and their edges on both cylinders.
 
-One surface for each piece of the motion, over the cam angle and the share of the way from the inner to the outer
-cylinder: the walls are analytic there. Poles interpolate the exact wall at Greville's places.
+One surface for each piece of the motion, cut where the roller rests, over the cam angle and the share of the way from
+the inner to the outer cylinder: the walls are analytic there. Poles interpolate the exact wall at Greville's places.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
 from geometry.bspline import basis
 from geometry.cams.barrel import BarrelCam
+from geometry.cams.follower_motion import TURN
 from geometry.contour import Bound
 from geometry.curve import Real
 from geometry.errors import ConvergenceError
-from geometry.motion_laws.piece import LawPiece
+from geometry.motion_laws.piece import LawPiece, sign_changes
 
 _DEGREE = 7
 # the kernel joins curves and surfaces within 1e-7 mm: edges are kept well below that, mm
@@ -25,8 +27,26 @@ _SPANS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256)
 _ACROSS = (1, 2, 4, 8)
 # samples a span, none at the places of interpolation
 _SAMPLES = 13
+# the roller rests where S' is below this part of its peak; no stretch is shorter than this part of its piece
+_STILL, _LEAST_STRETCH, _REST_SAMPLES = 1e-12, 1e-6, 65
+# dwells are cut into parts of at most this, rad
+_MOST_DWELL = 2.1
 # rounding of fitting and measuring, part of the size
 _ROUNDING = 3e-15
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """Cam angles ``start`` to ``end`` (rad) of one piece of the motion; ``rests``: the roller stands still at the start.
+
+    ``turns``: how often the cam has gone round before, counted from the first stretch.
+    """
+
+    piece: LawPiece
+    start: float
+    end: float
+    rests: bool
+    turns: int = 0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,7 +57,7 @@ class WallSpline:
     """
 
     side: int
-    piece: LawPiece
+    stretch: Stretch
     along: Real
     across: Real
     poles: Real
@@ -52,7 +72,7 @@ class WallSpline:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BarrelSplines:
-    """All walls as splines, in the order of the motion's pieces, side by side, and the worst error, mm."""
+    """All walls as splines, in the order of the motion's stretches, side by side, and the worst error, mm."""
 
     walls: dict[int, tuple[WallSpline, ...]]
     max_error: float
@@ -68,16 +88,38 @@ def barrel_splines(cam: BarrelCam, tolerance: float) -> BarrelSplines:
         256 spans are not enough.
     """
     target = max(min(tolerance, _TARGET) / _MARGIN, 4 * _ROUNDING * cam.outer)
-    walls = {side: tuple(_fitted(cam, side, piece, target) for piece in cam.motion.pieces) for side in cam.sides}
+    found = stretches(cam)
+    walls = {side: tuple(_fitted(cam, side, stretch, target) for stretch in found) for side in cam.sides}
     return BarrelSplines(walls, _MARGIN * max(w.max_error for found in walls.values() for w in found))
 
 
-def _fitted(cam: BarrelCam, side: int, piece: LawPiece, target: float) -> WallSpline:
+def stretches(cam: BarrelCam) -> list[Stretch]:
+    """The motion from a rest of the roller on, cut at all its rests; long dwells are cut too."""
+    pieces = cam.motion.pieces
+    peak = max(float(np.abs(p.value(np.linspace(*p.domain, _REST_SAMPLES), 1)).max()) for p in pieces)
+    found: list[Stretch] = []
+    for piece in pieces:
+        if piece.is_constant:
+            parts = int(np.ceil((piece.end - piece.start) / _MOST_DWELL))
+            places = np.linspace(piece.start, piece.end, parts + 1).tolist()
+        else:
+            inner = sign_changes(lambda t, p=piece: p.value(t, 1), np.linspace(*piece.domain, _REST_SAMPLES))  # type: ignore[misc]
+            least = _LEAST_STRETCH * (piece.end - piece.start)
+            kept = inner[(inner > piece.start + least) & (inner < piece.end - least)]
+            places = [piece.start, *kept.tolist(), piece.end]
+        for k, (start, end) in enumerate(pairwise(places)):
+            rests = k > 0 or abs(float(piece.value(start, 1))) <= _STILL * peak
+            found.append(Stretch(piece, start, end, rests))
+    first = next(k for k, stretch in enumerate(found) if stretch.rests)
+    return [*found[first:], *(replace(stretch, turns=1) for stretch in found[:first])]
+
+
+def _fitted(cam: BarrelCam, side: int, stretch: Stretch, target: float) -> WallSpline:
     best = None
     for across in _ACROSS:
         previous = np.inf
         for spans in _SPANS:
-            best = _interpolated(cam, side, piece, spans, across)
+            best = _interpolated(cam, side, stretch, spans, across)
             if best.max_error <= target:
                 return best
             # where more spans along the wall do not help, those across it have to
@@ -88,23 +130,24 @@ def _fitted(cam: BarrelCam, side: int, piece: LawPiece, target: float) -> WallSp
     raise ConvergenceError("spline surfaces of the walls", best.max_error, _SPANS[-1])
 
 
-def _interpolated(cam: BarrelCam, side: int, piece: LawPiece, spans: int, across: int) -> WallSpline:
-    u_knots, v_knots = _knots(piece.start, piece.end, spans), _knots(0.0, 1.0, across)
+def _interpolated(cam: BarrelCam, side: int, stretch: Stretch, spans: int, across: int) -> WallSpline:
+    u_knots, v_knots = _knots(stretch.start, stretch.end, spans), _knots(0.0, 1.0, across)
     u, v = _greville(u_knots), _greville(v_knots)
     radii = cam.inner + v * (cam.outer - cam.inner)
-    points = cam.wall(u[:, None], side, radii, piece)
+    points = cam.wall(u[:, None], side, radii, stretch.piece)
     along, crosswise = _matrix(u_knots, u), _matrix(v_knots, v)
-    poles = np.einsum("ij,jkc->ikc", np.linalg.inv(crosswise), np.linalg.solve(along, points.reshape(len(u), -1))
-                      .reshape(points.shape).transpose(1, 0, 2)).transpose(1, 0, 2)  # fmt: skip
-    edges = np.array([np.linalg.solve(along, _polar(cam, side, piece, radius, u)) for radius in (cam.inner, cam.outer)])
-    made = WallSpline(side, piece, u_knots, v_knots, poles, edges, 0.0)
-    return WallSpline(side, piece, u_knots, v_knots, poles, edges, _error(cam, made))
+    half = np.linalg.solve(along, points.reshape(len(u), -1)).reshape(points.shape)
+    poles = np.linalg.solve(crosswise, half.transpose(1, 0, 2).reshape(len(v), -1)).reshape(len(v), len(u), 3)
+    poles = poles.transpose(1, 0, 2)
+    edges = np.array([np.linalg.solve(along, _polar(cam, side, stretch, r, u)) for r in (cam.inner, cam.outer)])
+    made = WallSpline(side, stretch, u_knots, v_knots, poles, edges, 0.0)
+    return replace(made, max_error=_error(cam, made))
 
 
-def _polar(cam: BarrelCam, side: int, piece: LawPiece, radius: float, angle: Real) -> Real:
+def _polar(cam: BarrelCam, side: int, stretch: Stretch, radius: float, angle: Real) -> Real:
     """Polar angle (not folded) and height of an edge, (n, 2)."""
-    polar, height = cam.edge_series(piece, side, radius, angle, 0)
-    return np.stack([polar[0], height[0]], axis=1)
+    polar, height = cam.edge_series(stretch.piece, side, radius, angle, 0)
+    return np.stack([polar[0] - TURN * stretch.turns, height[0]], axis=1)
 
 
 def _knots(low: float, high: float, spans: int) -> Real:
