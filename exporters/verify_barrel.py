@@ -6,6 +6,7 @@ A wall is measured by the distance of its points from the roller's way, which kn
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -31,6 +32,15 @@ def verify_barrel(
         return verify_barrel_step(file, body, declared, tolerance, name)
     mesh = read_stl(file) if kind == "stl" else read_3mf(file, name)
     return verify_barrel_mesh(mesh, body, declared, tolerance)
+
+
+def verify_barrel_shape(shape: Any, kind: str, body: BarrelBody, declared: float, tolerance: float) -> Verdict:
+    """Hold one part of an assembly file ("step" or "3mf") against its exact solid."""
+    if kind == "3mf":
+        return verify_barrel_mesh(shape, body, declared, tolerance)
+    from exporters.verify_barrel_step import verify_barrel_solid
+
+    return verify_barrel_solid(shape, body, declared, tolerance)
 
 
 def verify_barrel_mesh(mesh: ReadMesh, body: BarrelBody, declared: float, tolerance: float) -> Verdict:

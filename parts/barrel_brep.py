@@ -1,7 +1,7 @@
 """Cylindrical cams for the kernel: walls as spline surfaces, true cylinders between their edges, plane ends.
 
-Walls are one face for each stretch of the motion. Cylinders are cut upright where the roller stands still, for there the
-edges of all walls stand above each other. Every edge is made once, with its curve in the parameters of each face.
+Walls are one face for each stretch of the motion. Cylinders are cut upright where the roller stands still, for there
+the edges of all walls stand above each other. Every edge is made once, with its curve in the parameters of each face.
 """
 
 from __future__ import annotations
@@ -203,7 +203,7 @@ class _Maker:
         radius, u = face.lower.radius, polar - base
         line = Geom_Line(gp_Pnt(radius * math.cos(polar), radius * math.sin(polar), heights[0]), gp_Dir(0, 0, 1))
         rise = heights[1] - heights[0]
-        edge = self._edge(("seam", face, k), line, *ends, (0.0, rise))
+        edge = self._edge(("seam", face, k), line, ends[0], ends[1], (0.0, rise))
         return edge, _straight((u, heights[0]), (u, heights[1]), (0.0, rise))
 
     def _upright(self, profile: Profile, low: float, high: float, lower: object, upper: object) -> list[Any]:

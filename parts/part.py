@@ -19,7 +19,8 @@ class Part:
     """A part with one flat section for plane formats and one solid, lower face of its rim at z = 0.
 
     ``section(offset)`` and ``body(offset)`` (a Body; a BarrelBody of a cylindrical cam) give the exact geometry with
-    every boundary moved ``offset`` mm out of the material; both are computed when an export asks. ``face_width``: height of the toothed rim, mm.
+    every boundary moved ``offset`` mm out of the material; both are computed when an export asks.
+    ``face_width``: height of the toothed rim, mm.
     ``circles`` are named diameters in mm for drawings and
     reports, ``quantities`` all other named results. ``density`` in g/cm^3, None where the material is not known.
     ``flat_findings``: remarks on each flat outline of the part.

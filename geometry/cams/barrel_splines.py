@@ -37,9 +37,9 @@ _ROUNDING = 3e-15
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """Cam angles ``start`` to ``end`` (rad) of one piece of the motion; ``rests``: the roller stands still at the start.
+    """Cam angles ``start`` to ``end`` (rad) of one piece of the motion.
 
-    ``turns``: how often the cam has gone round before, counted from the first stretch.
+    ``rests``: the roller stands still at the start. ``turns``: how often the cam has gone round since the first one.
     """
 
     piece: LawPiece

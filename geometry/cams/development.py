@@ -27,7 +27,7 @@ from geometry.curve import (
     end_point,
     start_point,
 )
-from geometry.errors import GeometryError, OffsetError
+from geometry.errors import CuspError, GeometryError, OffsetError
 from geometry.gears.offset_tooth import OffsetRegion
 from geometry.intersect import crossing
 from geometry.line_arc import Arc, Line
@@ -39,7 +39,9 @@ from geometry.series import FACTORIALS
 
 _SPLIT_SAMPLES = 129
 _LEAST_SHARE = 1e-4
-_BISECTIONS = 40
+_BISECTIONS = 16
+# rounds in which the place where a parallel curve is nearest to a cusp is looked for
+_REFINEMENTS = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +93,14 @@ class DevelopedEdge:
         """None is proven."""
 
     def offset(self, distance: float) -> Curve:
-        return OffsetCurve(self, distance).checked()
+        t = np.linspace(*self.domain, _SPLIT_SAMPLES)
+        for _ in range(_REFINEMENTS):
+            stretch = 1 - distance * self.curvature(t)
+            least = int(np.argmin(stretch))
+            if stretch[least] <= 0:
+                raise CuspError(float(t[least]), distance)
+            t = np.linspace(t[max(least - 1, 0)], t[min(least + 1, len(t) - 1)], 9)
+        return OffsetCurve(self, distance)
 
     def trimmed(self, a: float, b: float) -> DevelopedEdge:
         check_interval(self.domain, a, b)
