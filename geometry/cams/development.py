@@ -10,6 +10,7 @@ import cmath
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -220,11 +221,12 @@ def _profile(curves: list[Curve]) -> Profile:
     return Profile(tuple(Segment(c, Label.CAM if isinstance(c, DevelopedEdge) else Label.BODY) for c in curves))
 
 
-def _edge_curves(cam: BarrelCam, piece: LawPiece, side: int, middle: float) -> list[Curve]:
+@lru_cache(maxsize=512)
+def _edge_curves(cam: BarrelCam, piece: LawPiece, side: int, middle: float) -> tuple[Curve, ...]:
     """The developed edge over one piece, split where its curvature changes sign or trend; dwells are straight."""
     whole = DevelopedEdge(cam, piece, side, middle, piece.start, piece.end)
     if piece.is_constant:
-        return [Line(start_point(whole), end_point(whole))]
+        return (Line(start_point(whole), end_point(whole)),)
     t = np.linspace(*whole.domain, _SPLIT_SAMPLES)
     places = [sign_changes(whole.vertex_function, t), sign_changes(whole.curvature, t)]
     least = _LEAST_SHARE * (piece.end - piece.start)
@@ -232,4 +234,4 @@ def _edge_curves(cam: BarrelCam, piece: LawPiece, side: int, middle: float) -> l
     for at in np.sort(np.concatenate(places)).tolist():
         if at - edges[-1] > least and piece.end - at > least:
             edges.append(at)
-    return [whole.trimmed(a, b) for a, b in pairwise([*edges, piece.end])]
+    return tuple(whole.trimmed(a, b) for a, b in pairwise([*edges, piece.end]))
