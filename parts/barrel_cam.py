@@ -27,7 +27,8 @@ _USUAL_PRESSURE_ANGLE = {False: 30.0, True: 45.0}
 _USUAL_ROLLER_SHARE = 0.8
 # the roller's axis stays this share of the floor's radius away from its side
 _INSIDE = 0.98
-_BISECTIONS = 30
+# the smallest roller that is looked for, as a part of the largest
+_SMALLEST = 1e-4
 
 
 def checked_barrel_cam(spec: BarrelCamSpec) -> BarrelBody:
@@ -167,27 +168,52 @@ def _raised(spec: BarrelCamSpec, cam: BarrelCam) -> BarrelCam:
 
 def _check_roller(spec: BarrelCamSpec, cam: BarrelCam) -> None:
     """The roller is small enough for every bend of its way."""
+    from geometry.cams.barrel import LEAST_SPEED
+
     speed, at = cam.least_edge_speed()
-    if speed > 0:
+    if speed >= LEAST_SPEED:
         return
-    works = largest_radius(cam)
-    allowed = at_most(2 * works * (1 - 1e-6) - spec.clearance, 4)
     where = f"undercuts the wall at cam angle {math.degrees(at):.4g} degrees"
-    if not float(allowed) > 0:
-        raise UndercutError("roller_diameter", spec.roller_diameter, f"{where}; a larger outer_diameter works")
-    raise UndercutError("roller_diameter", spec.roller_diameter, f"{where}; at most {allowed} mm works")
+    most = 2 * largest_radius(cam) * (1 - 1e-6)
+    if most > 1.01 * spec.clearance and float(_told(most - spec.clearance)) > 0:
+        remedy = f"{where}; at most {_told(most - spec.clearance)} mm works"
+        raise UndercutError("roller_diameter", spec.roller_diameter, remedy)
+    if most > 0 and spec.clearance > 0:
+        raise UndercutError("clearance", spec.clearance, f"{where}; 0 works with a small roller")
+    key = "swing_deg" if spec.swing_deg else "motion_table"
+    share = next((0.9**k for k in range(1, 60) if _slower(cam, 0.9**k).least_edge_speed()[0] >= LEAST_SPEED), 0.0)
+    text = f"at most {at_most(share * spec.swing_deg, 4)} degrees works" if spec.swing_deg else "a smaller swing works"
+    raise UndercutError(key, spec.swing_deg, f"the roller outruns the cam's surface and {where}; {text}")
 
 
+def _slower(cam: BarrelCam, share: float) -> BarrelCam:
+    """The cam whose follower swings by a share of its own."""
+    from geometry.cams.follower_motion import FollowerMotion
+
+    pieces = tuple(p.placed(0.0, 1.0, 0.0, share) for p in cam.motion.pieces)
+    guide = replace(cam.guide, start_angle=share * cam.guide.start_angle)  # type: ignore[call-arg, union-attr]
+    return replace(cam, motion=FollowerMotion(pieces), guide=guide)
+
+
+def _told(value: float) -> str:
+    """An upper limit as printed: small ones with four digits of their own."""
+    return at_most(value, max(4, 3 - math.floor(math.log10(max(value, 1e-12)))))
+
+
+@lru_cache(maxsize=64)
 def largest_radius(cam: BarrelCam) -> float:
-    """Radius of the roller whose walls just begin to be undercut, mm; no more than the floor has room for."""
+    """Radius of the roller whose walls are nearly undercut, mm; 0 if none is small enough, no more than has room."""
+    from geometry.cams.barrel import LEAST_SPEED
+    from geometry.roots import bracketed_root
+
+    def spare(radius: float) -> float:
+        return cam.with_radius(radius).least_edge_speed()[0] - LEAST_SPEED
+
     most = _INSIDE * cam.inner - max(map(abs, cam.side_range()))
-    low, high = 0.0, most
-    if cam.with_radius(high).least_edge_speed()[0] > 0:
-        return high
-    for _ in range(_BISECTIONS):
-        middle = (low + high) / 2
-        low, high = (middle, high) if cam.with_radius(middle).least_edge_speed()[0] > 0 else (low, middle)
-    return low
+    least = _SMALLEST * most
+    if spare(most) >= 0:
+        return most
+    return bracketed_root(spare, least, most).value if spare(least) > 0 else 0.0
 
 
 def _holes_of(spec: BarrelCamSpec) -> HubHoles:

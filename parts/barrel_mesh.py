@@ -66,7 +66,7 @@ def barrel_mesh(body: BarrelBody, tolerance: float) -> BarrelMesh:
     for _ in range(_MOST_ROUNDS):
         grid = _grid(cam, along, across)
         walls = {side: cam_wall(cam, grid, side) for side in cam.sides}
-        error = max(_wall_error(cam, walls[side]) for side in cam.sides)
+        error = max(_wall_error(cam, walls[side], grid.angles) for side in cam.sides)
         error = max(error, _chord_error(cam, walls)) * _MARGIN
         if error <= tolerance:
             break
@@ -140,11 +140,15 @@ def wall_triangles(shape: tuple[int, ...]) -> Triangles:
     return np.concatenate(found)
 
 
-def _wall_error(cam: BarrelCam, points: Real) -> float:
+def _wall_error(cam: BarrelCam, points: Real, angles: Real) -> float:
     """Greatest distance of the triangles' samples from the exact wall, mm."""
-    corners = points.reshape(-1, 3)[wall_triangles(points.shape)]
-    samples = np.einsum("sk,nkc->nsc", SHARES, corners).reshape(-1, 3)
-    return float(np.abs(cam.distance(samples) - cam.radius).max())
+    index = wall_triangles(points.shape)
+    samples = np.einsum("sk,nkc->nsc", SHARES, points.reshape(-1, 3)[index]).reshape(-1, 3)
+    turn = np.exp(1j * np.tile(angles, points.shape[0]))[index]
+    # the angles of a triangle lie close together: their mean direction, across the turn too
+    near = np.angle(np.einsum("sk,nk->ns", SHARES, turn)).ravel()
+    width = float(np.abs(np.angle(np.exp(1j * (np.roll(angles, -1) - angles)))).max())
+    return float(np.abs(cam.distance(samples, near, width) - cam.radius).max())
 
 
 def _chord_error(cam: BarrelCam, walls: dict[int, Real]) -> float:

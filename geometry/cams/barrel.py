@@ -29,6 +29,10 @@ _REFINEMENTS = 5
 _STEPS = 60
 # Newton's steps square what is left: below this share the next one is rounding
 _SETTLED = 1e-10
+# samples of a roller's way past a point, per unit of its slope; sines of angles beside it; points at once
+_PER_SLOPE, _SIDE, _CHUNK = 12, 0.999, 4096
+# an edge that is slower than this share of the cam is as good as a cusp: a ridge that nothing can run on
+LEAST_SPEED = 0.05
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,8 +194,10 @@ class BarrelCam:
     def least_edge_speed(self) -> tuple[float, float]:
         """The least speed of any edge between both cylinders, and the cam angle (rad) where it stands."""
         radii = np.linspace(self.inner, self.outer, _RADII)
-        best, where = math.inf, 0.0
-        for piece in self.motion.pieces:
+        where = 0.0
+        # where the roller rests the edges go round as fast as the cam
+        best = 1.0
+        for piece in self.motion.moving_pieces():
             for side in self.sides:
 
                 def speed(t: Real, side: int = side, piece: LawPiece = piece) -> Real:
@@ -228,18 +234,38 @@ class BarrelCam:
         """The same motion with another roller."""
         return replace(self, radius=radius)
 
-    def distance(self, points: Real) -> Real:
+    def distance(self, points: Real, near: Real | None = None, width: float = 0.0) -> Real:
         """Distance of points (n, 3) of the cam's frame from the nearest place of the roller's axis, mm.
 
         Those of a wall have the roller's radius; as parallel surfaces are envelopes too, what others differ from it
-        is their distance from the wall. One root of the derivative over the cam angle, bracketed.
+        is their distance from the wall. The least of samples over the cam angle, and Newton's steps in a bracket;
+        ``near`` (n,): cam angles that are known to stand close by, within ``width`` rad, take the place of the samples.
         """
+        if near is not None:
+            width += 0.1 * self.radius / (self.outer + self._fastest())
+            return self._refined(points, near, near - width, near + width)
+        found = [self._distance(points[i : i + _CHUNK]) for i in range(0, len(points), _CHUNK)]
+        return np.concatenate(found) if found else np.zeros(0)
+
+    def _fastest(self) -> float:
+        """About the greatest speed of the roller, mm/rad."""
+        return max(float(np.abs(self.place(np.linspace(*p.domain, 9), 1, p)[1]).max()) for p in self.motion.pieces)
+
+    def _distance(self, points: Real) -> Real:
         plane, z = points[:, 0] + 1j * points[:, 1], points[:, 2]
         polar, size = np.angle(plane), np.abs(plane)
-        aside = max(abs(y) for y in self.side_range())
-        window = np.arcsin(np.minimum(0.999, (1.5 * self.radius + aside) / size))
-        low, high = -polar - window, -polar + window
-        at = -polar
+        ends = [y + sense * 1.2 * self.radius for y, sense in zip(self.side_range(), (-1, 1), strict=True)]
+        first, last = (np.arcsin(np.clip(y / size, -_SIDE, _SIDE)) for y in ends)
+        share = np.linspace(0, 1, math.ceil(np.clip(_PER_SLOPE * (1 + self._fastest() / self.inner), 12, 400)))
+        samples = -polar + first + share[:, None] * (last - first)
+        turned = plane * np.exp(1j * samples)
+        best = np.argmin(np.abs(turned.imag + 1j * z - self.place(samples, 0)[0]), axis=0)
+        column = np.arange(len(points))
+        low, high = (samples[np.clip(best + k, 0, len(share) - 1), column] for k in (-1, 1))
+        return self._refined(points, samples[best, column], low, high)
+
+    def _refined(self, points: Real, at: Real, low: Real, high: Real) -> Real:
+        plane, z = points[:, 0] + 1j * points[:, 1], points[:, 2]
         for step in range(_STEPS):
             place = self.place(at, 2)
             fixed = plane * np.exp(1j * at)
@@ -252,7 +278,7 @@ class BarrelCam:
                 after = at - slope / bend
             inside = (after >= low) & (after <= high) & (bend > 0)
             after = np.where(inside, after, (low + high) / 2)
-            if step > 3 and np.all(np.abs(after - at) <= 1e-14):
+            if step > 1 and np.all(np.abs(after - at) <= 1e-12):
                 break
             at = after
         return np.abs(gap)

@@ -23,8 +23,8 @@ _DEGREE = 7
 # the kernel joins curves and surfaces within 1e-7 mm: edges are kept well below that, mm
 _TARGET = 2e-8
 _MARGIN = 1.5
-_SPANS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256)
-_ACROSS = (1, 2, 4, 8)
+_ACROSS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32)
+_ROUNDS, _MOST_SPANS = 24, 1000
 # samples a span, none at the places of interpolation
 _SAMPLES = 13
 # the roller rests where S' is below this part of its peak; no stretch is shorter than this part of its piece
@@ -85,7 +85,7 @@ def barrel_splines(cam: BarrelCam, tolerance: float) -> BarrelSplines:
     Raises
     ------
     ConvergenceError
-        256 spans are not enough.
+        1000 spans are not enough.
     """
     target = max(min(tolerance, _TARGET) / _MARGIN, 4 * _ROUNDING * cam.outer)
     found = stretches(cam)
@@ -115,23 +115,37 @@ def stretches(cam: BarrelCam) -> list[Stretch]:
 
 
 def _fitted(cam: BarrelCam, side: int, stretch: Stretch, target: float) -> WallSpline:
-    best = None
-    for across in _ACROSS:
-        previous = np.inf
-        for spans in _SPANS:
-            best = _interpolated(cam, side, stretch, spans, across)
-            if best.max_error <= target:
-                return best
-            # where more spans along the wall do not help, those across it have to
-            if best.max_error > 0.5 * previous and spans > 8:
-                break
-            previous = best.max_error
-    assert best is not None
-    raise ConvergenceError("spline surfaces of the walls", best.max_error, _SPANS[-1])
+    """The spline on knots that are halved where its error is above the target."""
+    across = _across(cam, side, stretch, target)
+    breaks = np.array([stretch.start, stretch.end])
+    for _ in range(_ROUNDS):
+        made, errors = _interpolated(cam, side, stretch, breaks, across)
+        wide = np.flatnonzero(errors > target)
+        if not len(wide) or len(breaks) + len(wide) > _MOST_SPANS:
+            break
+        breaks = np.sort(np.concatenate([breaks, (breaks[wide] + breaks[wide + 1]) / 2]))
+    if made.max_error > target:
+        raise ConvergenceError("spline surfaces of the walls", made.max_error, len(breaks))
+    return made
 
 
-def _interpolated(cam: BarrelCam, side: int, stretch: Stretch, spans: int, across: int) -> WallSpline:
-    u_knots, v_knots = _knots(stretch.start, stretch.end, spans), _knots(0.0, 1.0, across)
+def _across(cam: BarrelCam, side: int, stretch: Stretch, target: float) -> Real:
+    """Knots across the wall, evenly spread: as many as lines across it need."""
+    angles = np.linspace(stretch.start, stretch.end, 2 * _REST_SAMPLES)[1:-1:4]
+    for spans in _ACROSS:
+        knots = _knots(np.linspace(0.0, 1.0, spans + 1))
+        places, between = _greville(knots), np.linspace(0, 1, 11 * spans + 3)
+        exact = [cam.wall(angles[:, None], side, cam.inner + v * (cam.outer - cam.inner), stretch.piece)
+                 for v in (places, between)]  # fmt: skip
+        weights = _matrix(knots, between) @ np.linalg.inv(_matrix(knots, places))
+        if np.abs(np.einsum("ij,ajc->aic", weights, exact[0]) - exact[1]).max() <= target / 3:
+            break
+    return knots
+
+
+def _interpolated(cam: BarrelCam, side: int, stretch: Stretch, breaks: Real, v_knots: Real) -> tuple[WallSpline, Real]:
+    """The spline on given knots, and the errors of its spans along the wall."""
+    u_knots = _knots(breaks)
     u, v = _greville(u_knots), _greville(v_knots)
     radii = cam.inner + v * (cam.outer - cam.inner)
     points = cam.wall(u[:, None], side, radii, stretch.piece)
@@ -141,7 +155,8 @@ def _interpolated(cam: BarrelCam, side: int, stretch: Stretch, spans: int, acros
     poles = poles.transpose(1, 0, 2)
     edges = np.array([np.linalg.solve(along, _polar(cam, side, stretch, r, u)) for r in (cam.inner, cam.outer)])
     made = WallSpline(side, stretch, u_knots, v_knots, poles, edges, 0.0)
-    return replace(made, max_error=_error(cam, made))
+    errors = _errors(cam, made, breaks)
+    return replace(made, max_error=float(errors.max())), errors
 
 
 def _polar(cam: BarrelCam, side: int, stretch: Stretch, radius: float, angle: Real) -> Real:
@@ -150,9 +165,8 @@ def _polar(cam: BarrelCam, side: int, stretch: Stretch, radius: float, angle: Re
     return np.stack([polar[0] - TURN * stretch.turns, height[0]], axis=1)
 
 
-def _knots(low: float, high: float, spans: int) -> Real:
-    inner = np.linspace(low, high, spans + 1)[1:-1]
-    return np.concatenate([np.full(_DEGREE + 1, low), inner, np.full(_DEGREE + 1, high)])
+def _knots(breaks: Real) -> Real:
+    return np.concatenate([np.full(_DEGREE + 1, breaks[0]), breaks[1:-1], np.full(_DEGREE + 1, breaks[-1])])
 
 
 def _greville(knots: Real) -> Real:
@@ -170,16 +184,17 @@ def _matrix(knots: Real, t: Real) -> Real:
     return matrix
 
 
-def _error(cam: BarrelCam, spline: WallSpline) -> float:
-    """Greatest distance of samples from the wall, of its ends from the cylinders, and of these from their paths."""
-    spans = len(spline.along) - 2 * _DEGREE - 1
-    u = np.linspace(spline.along[0], spline.along[-1], _SAMPLES * spans + 4)
+def _errors(cam: BarrelCam, spline: WallSpline, breaks: Real) -> Real:
+    """Greatest errors of each span: of samples from the wall, of its ends from their paths on the cylinders."""
+    share = np.linspace(0, 1, _SAMPLES)
+    u = (breaks[:-1, None] + np.diff(breaks)[:, None] * share).ravel()
     v = np.linspace(0, 1, 4 * (len(spline.across) - 2 * _DEGREE - 1) + 5)
     along = _matrix(spline.along, u)
     points = np.einsum("ui,vj,ijc->uvc", along, _matrix(spline.across, v), spline.poles)
-    worst = float(np.abs(cam.distance(points.reshape(-1, 3)) - cam.radius).max())
+    away = cam.distance(points.reshape(-1, 3), np.repeat(u, len(v))) - cam.radius
+    worst = np.abs(away).reshape(len(u), len(v)).max(axis=1)
     for row, radius, poles in ((0, cam.inner, spline.edges[0]), (-1, cam.outer, spline.edges[1])):
         polar, height = (along @ poles).T
         path = np.stack([radius * np.cos(polar), radius * np.sin(polar), height], axis=1)
-        worst = max(worst, float(np.linalg.norm(points[:, row] - path, axis=1).max()))
-    return worst
+        worst = np.maximum(worst, np.linalg.norm(points[:, row] - path, axis=1))
+    return np.asarray(worst.reshape(-1, _SAMPLES).max(axis=1))

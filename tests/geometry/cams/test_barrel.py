@@ -201,7 +201,10 @@ def test_developed_edges_and_their_derivatives(cam: BarrelCam) -> None:
         edge = DevelopedEdge(cam, cam.motion.pieces[0], side, 10.0, 0.0, RISE)
         t, step = np.linspace(0.2, RISE - 0.2, 9), 1e-3
         wall = cam.wall(t, side, OUTER)
-        assert np.abs(OUTER * np.exp(1j * (edge.point(t).real / OUTER - math.pi)) - wall[:, 0] - 1j * wall[:, 1]).max() < 1e-11
+        assert (
+            np.abs(OUTER * np.exp(1j * (edge.point(t).real / OUTER - math.pi)) - wall[:, 0] - 1j * wall[:, 1]).max()
+            < 1e-11
+        )
         assert np.abs(edge.point(t).imag + 10.0 - wall[:, 2]).max() < 1e-12
         before: Callable[[np.ndarray], np.ndarray] = edge.point
         for order in (1, 2, 3, 4):
@@ -230,7 +233,9 @@ def test_jackets_have_the_area_that_is_left() -> None:
 
 def test_spline_walls_keep_their_word() -> None:
     """Held against the roller's way at places that the fit has not seen."""
-    table = motion_of_table([k * math.pi / 6 for k in range(12)], [5 + 4 * math.sin(k * math.pi / 6 + 0.4) for k in range(12)])
+    table = motion_of_table(
+        [k * math.pi / 6 for k in range(12)], [5 + 4 * math.sin(k * math.pi / 6 + 0.4) for k in range(12)]
+    )
     for cam in (SWINGING, BarrelCam(table, AxialGuide(20.0), RADIUS, OUTER, INNER, is_groove=False),
                 BarrelCam(motion_soft(), AxialGuide(10.0), RADIUS, OUTER, INNER)):  # fmt: skip
         made = barrel_splines(cam, 1e-6)
