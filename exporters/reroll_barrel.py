@@ -69,8 +69,8 @@ def _allowed(cam: BarrelCam, declared: float) -> float:
     return _BEND * declared / math.cos(steepest)
 
 
-def rolled_places(mesh: ReadMesh, cam: BarrelCam, radii: Sequence[float]) -> list[dict[int, Real]]:
-    """For each radius of a roller, the heights (3600,) of its axis where it touches the wall below, and the one above.
+def rolled_places(mesh: ReadMesh, cam: BarrelCam, radii: Sequence[float], count: int = ANGLES) -> list[dict[int, Real]]:
+    """For each radius of a roller, the heights (count,) of its axis where it touches the wall below, and the one above.
 
     In planes across its axis, against every edge of the mesh's section: exact for triangles. inf where there is none.
     """
@@ -83,9 +83,9 @@ def rolled_places(mesh: ReadMesh, cam: BarrelCam, radii: Sequence[float]) -> lis
     aside = max(map(abs, cam.side_range()))
     window = math.asin(min(1.0, (max(radii) + aside) / cam.inner)) + spread
     planes = cam.inner + (cam.outer - cam.inner) * np.array(_PLANES)
-    angles = np.arange(ANGLES) * (TURN / ANGLES)
+    angles = np.arange(count) * (TURN / count)
     place = cam.place(angles, 0)[0]
-    found = [{side: np.zeros(ANGLES) for side in cam.sides} for _ in radii]
+    found = [{side: np.zeros(count) for side in cam.sides} for _ in radii]
     doubled = np.concatenate([middle - TURN, middle, middle + TURN])
     for k, angle in enumerate(angles.tolist()):
         polar = math.remainder(-angle, TURN)

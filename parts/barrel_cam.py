@@ -86,11 +86,6 @@ def _check_keys(spec: BarrelCamSpec) -> None:
         raise ParameterError("web_thickness", spec.web_thickness, 'is for form = "end" only; 0 works')
     if spec.form == "end" and spec.clearance > 0:
         raise ParameterError("clearance", spec.clearance, "a roller on an end has no play; 0 works")
-    if spec.form == "end" and spec.web_thickness == 0:
-        for key in ("bore_diameter", "bore", "hub"):
-            if getattr(spec, key):
-                remedy = "an open tube has only its inner cylinder; web_thickness = 5.0 works"
-                raise ParameterError("web_thickness", 0.0, f"{key} needs a bottom: {remedy}")
 
 
 def _motion(spec: BarrelCamSpec) -> FollowerMotion:
@@ -116,9 +111,6 @@ def _placed(spec: BarrelCamSpec, motion: FollowerMotion, radius: float, inner: f
     from geometry.cams.barrel import AxialGuide, BarrelCam, SwingGuide
 
     outer = spec.outer_diameter / 2
-    if not inner > 0:
-        remedy = f"is deeper than the barrel's radius; at most {at_most(outer - 1.05 * radius, 4)} mm works"
-        raise ParameterError("groove_depth", spec.groove_depth, remedy)
     table = spec.oscillating
     guide: Guide
     if table is None:
@@ -146,9 +138,8 @@ def _placed(spec: BarrelCamSpec, motion: FollowerMotion, radius: float, inner: f
             raise ParameterError(
                 "outer_diameter", spec.outer_diameter, f"the roller is too big for it; {least_diameter} mm works"
             )
-        raise ParameterError(
-            "groove_depth", spec.groove_depth, f"the roller needs a wider floor; at most {at_most(room, 4)} mm works"
-        )
+        remedy = f"the roller needs a wider floor; at most {_told(room * (1 - 1e-9))} mm works"
+        raise ParameterError("groove_depth", spec.groove_depth, remedy)
     return _raised(spec, cam)
 
 
@@ -188,10 +179,12 @@ def _check_roller(spec: BarrelCamSpec, cam: BarrelCam) -> None:
 
 def _slower(cam: BarrelCam, share: float) -> BarrelCam:
     """The cam whose follower swings by a share of its own."""
+    from geometry.cams.barrel import SwingGuide
     from geometry.cams.follower_motion import FollowerMotion
 
-    pieces = tuple(p.placed(0.0, 1.0, 0.0, share) for p in cam.motion.pieces)
-    guide = replace(cam.guide, start_angle=share * cam.guide.start_angle)  # type: ignore[call-arg, union-attr]
+    pieces, guide = tuple(p.placed(0.0, 1.0, 0.0, share) for p in cam.motion.pieces), cam.guide
+    if isinstance(guide, SwingGuide):
+        guide = replace(guide, start_angle=share * guide.start_angle)
     return replace(cam, motion=FollowerMotion(pieces), guide=guide)
 
 
@@ -239,6 +232,10 @@ def _check_hub(spec: BarrelCamSpec, body: BarrelBody) -> None:
         remedy = f"leaves no wall to the floor; at most {at_most(2 * (cam.inner - wall), 4)} mm works"
         raise ParameterError(key, 2 * reach, remedy)
     low = cam.height_range()[0] - cam.radius
+    needy = next((name for name in ("bore_diameter", "bore", "hub") if getattr(spec, name)), None)
+    if not cam.is_groove and body.web == 0 and needy:
+        remedy = f"an open tube has only its inner cylinder, {needy} needs a bottom; {_told(low / 2)} mm works"
+        raise ParameterError("web_thickness", body.web, remedy)
     if body.web > 0 and not body.web + wall <= low:
         remedy = f"reaches the track; at most {at_most(low - wall, 4)} mm works"
         raise ParameterError("web_thickness", body.web, remedy)

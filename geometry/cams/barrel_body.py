@@ -14,10 +14,12 @@ from geometry.cams.barrel import LOWER, UPPER, BarrelCam
 from geometry.curve import Complex, Real
 from geometry.mass import Moments, section_moments
 from geometry.measure import gauss_rule
+from geometry.motion_laws.piece import LawPiece
 from geometry.profile import Label, Profile, circle
 
-# Gauss's rule over the cam angle (panels a piece) and across the walls; tests compare finer ones
-_POINTS, _PANELS, _ACROSS = 20, 6, 16
+# Gauss's rule over the cam angle (panels a piece) and across the walls, at first and at most; what is no change
+_POINTS, _PANELS, _ACROSS = 20, 3, 12
+_MOST_PANELS, _MOST_ACROSS, _SETTLED = 96, 48, 1e-12
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,12 +165,29 @@ class BarrelBody:
         return found
 
 
-def barrel_moments(body: BarrelBody, panels: int = _PANELS, across: int = _ACROSS) -> Moments:
-    """Volume, centre and inertia: exact columns and Gauss's rule over what the walls bound.
+def barrel_moments(body: BarrelBody) -> Moments:
+    """Volume, centre and inertia: exact columns and Gauss's rule over what the walls bound, to 1e-12 of themselves.
 
     Under a wall, the integral over the polar angle becomes one over the cam angle with the speed of the wall's edge.
-    The integrands are analytic on each piece of the motion.
+    The integrands are analytic on each piece of the motion: the number of panels is doubled until nothing changes.
     """
+    panels, across = _PANELS, _ACROSS
+    total = _integrals(body, panels, across)
+    while panels < _MOST_PANELS:
+        panels, across = 2 * panels, min(2 * across, _MOST_ACROSS)
+        finer = _integrals(body, panels, across)
+        done = np.abs(finer - total).max(initial=0.0) <= _SETTLED * np.abs(finer).max()
+        alike = abs(finer[0] - total[0]) <= _SETTLED * abs(finer[0])
+        total = finer
+        if done and alike:
+            break
+    v, x, y, z, xx, yy, xy, zz, xz, yz = total.tolist()
+    inertia = np.array([[yy + zz, -xy, -xz], [-xy, xx + zz, -yz], [-xz, -yz, xx + yy]])
+    return Moments(v, np.array([x, y, z]) / v, inertia)
+
+
+def _integrals(body: BarrelBody, panels: int, across: int) -> Real:
+    """Integrals of 1, x, y, z, xx, yy, xy, zz, xz, yz with so many panels a piece and nodes across the walls."""
     total = np.zeros(10)
     for profile, low, high in body.columns():
         total += _column(section_moments(profile), low, high)
@@ -184,15 +203,13 @@ def barrel_moments(body: BarrelBody, panels: int = _PANELS, across: int = _ACROS
             polar, height, speed = _edges(cam, side, radii, angles, piece)
             measure = half * weights * radii * speed * share[:, None]
             total += sign * _under(radii * np.exp(1j * polar), base, height, measure)
-    v, x, y, z, xx, yy, xy, zz, xz, yz = total.tolist()
-    inertia = np.array([[yy + zz, -xy, -xz], [-xy, xx + zz, -yz], [-xz, -yz, xx + yy]])
-    return Moments(v, np.array([x, y, z]) / v, inertia)
+    return total
 
 
-def _panels(cam: BarrelCam, panels: int) -> list[tuple[Real, Real, object]]:
+def _panels(cam: BarrelCam, panels: int) -> list[tuple[Real, Real, LawPiece]]:
     """Nodes and weights over every piece of the motion."""
     nodes, weights = gauss_rule(_POINTS)
-    found: list[tuple[Real, Real, object]] = []
+    found: list[tuple[Real, Real, LawPiece]] = []
     for piece in cam.motion.pieces:
         edges = np.linspace(piece.start, piece.end, panels + 1)
         half = np.diff(edges)[:, None] / 2
@@ -201,10 +218,10 @@ def _panels(cam: BarrelCam, panels: int) -> list[tuple[Real, Real, object]]:
     return found
 
 
-def _edges(cam: BarrelCam, side: int, radii: Real, angles: Real, piece: object) -> tuple[Real, Real, Real]:
+def _edges(cam: BarrelCam, side: int, radii: Real, angles: Real, piece: LawPiece) -> tuple[Real, Real, Real]:
     """Polar angle, height and speed of a wall's edges, (angles, radii)."""
-    points = cam.wall(angles[:, None], side, radii, piece)  # type: ignore[arg-type]
-    speed = cam.edge_speed(angles[:, None], side, radii, piece)  # type: ignore[arg-type]
+    points = cam.wall(angles[:, None], side, radii, piece)
+    speed = cam.edge_speed(angles[:, None], side, radii, piece)
     return np.angle(points[..., 0] + 1j * points[..., 1]), points[..., 2], speed
 
 

@@ -4,28 +4,31 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
 from exporters.readers import ReadMesh, read_stl
 from exporters.recheck import recheck
-from exporters.reroll_barrel import ANGLES, rolled_places
+from exporters.reroll_barrel import rolled_places
+from exporters.stl import write_stl
 from exporters.verify import Verdict
 from exporters.verify_barrel import face_distance, verify_barrel_mesh
 from geometry.cams.barrel import LOWER, UPPER
-from geometry.cams.barrel_body import BarrelBody, Plane, Track
+from geometry.cams.barrel_body import BarrelBody, Track
 from geometry.cams.follower_motion import TURN
-from parts.solids import body_mesh, mesh_outlines
+from parts.solids import Mesh, body_mesh, mesh_outlines
 from tests.parts.test_barrel_cam import END, GROOVE, SWING, body_of
+from tests.parts.test_cam import scene_text
 
-from .making import read_report, run, write_scene
+from .making import read_report, run
 
 FORMS = {"groove": GROOVE | {"clearance": 0.2, "bore": {"shape": "keyway", "diameter": 12.0},
                              "hub": {"diameter": 24.0, "above": 4.0, "below": 2.0}},
          "end": END | {"bore_diameter": 10.0}, "tube": END | {"web_thickness": 0.0}, "swing": SWING}  # fmt: skip
 TOLERANCE = 0.05
+# angles at which the roller is put in
+COUNT = 240
 
 
 def mesh_of(body: BarrelBody) -> tuple[ReadMesh, float]:
@@ -38,6 +41,24 @@ def verdict(mesh: ReadMesh, body: BarrelBody, error: float) -> Verdict:
     return verify_barrel_mesh(mesh, body, error, TOLERANCE)
 
 
+def away_from_triangles(points: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """Distance of each point from the nearest triangle: to its plane inside, to its edges outside."""
+    found = []
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    for point in points:
+        rest = point - corners
+        height = (rest[:, 0] * normal).sum(axis=1)
+        inside, best = np.ones(len(corners), dtype=bool), np.full(len(corners), np.inf)
+        for k in range(3):
+            edge = corners[:, (k + 1) % 3] - corners[:, k]
+            inside &= (np.cross(edge, rest[:, k]) * normal).sum(axis=1) >= 0
+            share = np.clip((edge * rest[:, k]).sum(axis=1) / (edge**2).sum(axis=1), 0, 1)
+            best = np.minimum(best, np.linalg.norm(rest[:, k] - share[:, None] * edge, axis=1))
+        found.append(np.where(inside, np.abs(height), best).min())
+    return np.array(found)
+
+
 @pytest.mark.parametrize("name", FORMS)
 def test_meshes_are_closed_and_near_by_an_outside_measure(name: str) -> None:
     import trimesh
@@ -45,14 +66,15 @@ def test_meshes_are_closed_and_near_by_an_outside_measure(name: str) -> None:
     body = body_of(FORMS[name])
     mesh, error = mesh_of(body)
     solid = trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False)
-    assert solid.is_watertight and solid.is_winding_consistent
+    assert solid.is_watertight
+    assert solid.is_winding_consistent
     assert not verdict(mesh, body, error).failures
     # points of the walls by brute force stand on the mesh
-    angles = np.linspace(0, TURN, 37)
+    angles = np.linspace(0, TURN, 19)
     for side in body.cam.sides:
         for radius in (body.cam.inner, (body.cam.inner + body.cam.outer) / 2, body.cam.outer):
             points = body.cam.wall(angles, side, radius)
-            assert np.abs(trimesh.proximity.closest_point(solid, points)[1]).max() <= error
+            assert away_from_triangles(points, mesh.vertices[mesh.triangles]).max() <= error
 
 
 def test_spoiled_walls_are_seen_at_the_start_the_middle_and_the_end() -> None:
@@ -87,42 +109,46 @@ def test_the_roller_in_the_groove_feels_the_walls() -> None:
     body = body_of(FORMS["groove"])
     mesh, error = mesh_of(body)
     cam = body.cam
-    axis = cam.place(np.arange(ANGLES) * TURN / ANGLES, 0)[0].imag
-    found, smaller = rolled_places(mesh, cam, (cam.radius, cam.radius - 0.5))
+    axis = cam.place(np.arange(COUNT) * TURN / COUNT, 0)[0].imag
+    found, smaller = rolled_places(mesh, cam, (cam.radius, cam.radius - 0.5), COUNT)
     for side in (UPPER, LOWER):
         assert np.abs(found[side] - axis).max() < 1.5 * error
     # half a mm of play on each side in a dwell, more on slopes
     play = smaller[UPPER] - smaller[LOWER]
     assert play.min() > 1.0 - 2 * error
-    assert play[ANGLES * 150 // 360] == pytest.approx(1.0, abs=2 * error)
+    assert play[COUNT * 150 // 360] == pytest.approx(1.0, abs=2 * error)
     assert play.max() > 1.05
     away = face_distance(body, next(f for f in body.faces() if isinstance(f, Track) and f.side == LOWER), mesh.vertices)
     vertices = mesh.vertices.copy()
     vertices[away < 1e-6, 2] += 0.3
-    lifted = rolled_places(ReadMesh(vertices, mesh.triangles), cam, (cam.radius,))[0]
+    lifted = rolled_places(ReadMesh(vertices, mesh.triangles), cam, (cam.radius,), COUNT)[0]
     assert np.abs(lifted[LOWER] - found[LOWER] - 0.3).max() < 1e-9
     assert np.array_equal(lifted[UPPER], found[UPPER])
 
 
-def built(folder: Path, keys: dict[str, Any], exports: list[dict[str, Any]]) -> tuple[Path, dict[str, Any]]:
-    scene = write_scene(folder / "s.toml", {"cam": keys}, exports)
-    assert run("build", scene, "--out", folder / "o") == 0
-    return folder / "o" / "s", read_report(folder / "o" / "s")
-
-
 def test_files_of_a_swinging_follower(tmp_path: Path) -> None:
-    exports = [{"format": "stl", "tolerance": TOLERANCE}, {"format": "dxf", "tolerance": 0.01},
-               {"format": "dxf", "purpose": "drawing", "tolerance": 1e-4, "name": "d"}]  # fmt: skip
-    folder, report = built(tmp_path, SWING | {"clearance": 0.1}, exports)
-    by_path = {f["path"]: f for f in report["files"]}
+    scene = tmp_path / "s.toml"
+    tail = ('tolerance = 0.01\n[[exports]]\nformat = "stl"\ntolerance = 0.05\n'
+            '[[exports]]\nformat = "dxf"\npurpose = "drawing"\ntolerance = 1e-4\n')  # fmt: skip
+    scene.write_text(scene_text(SWING | {"clearance": 0.1}, tail), encoding="utf-8")
+    assert run("build", scene, "--out", tmp_path / "o") == 0
+    folder = tmp_path / "o" / "s"
+    by_path = {f["path"]: f for f in read_report(folder)["files"]}
     measured = by_path["cam.stl"]["measured"]
     assert measured["lift_error"] < 1.3 * TOLERANCE
     assert measured["least_play"] > 0.1 - 2 * TOLERANCE
     assert by_path["cam.laser.dxf"]["entities"]["LWPOLYLINE"] == 2
+    assert "SPLINE" in by_path["cam.drawing.dxf"]["entities"]
     assert recheck(folder / "cam.stl").verdict.failures == ()
-    # a wall shifted as a whole by more than the tolerance
-    mesh = read_stl(folder / "cam.stl")
-    assert mesh.vertices[:, 2].min() == 0.0
+    # the file of another cam in its place
+    body = body_of(SWING | {"clearance": 0.1, "swing_deg": 23.5, "length": measured_length(folder)})
+    mesh, _ = mesh_of(body)
+    write_stl(folder / "cam.stl", Mesh(mesh.vertices, mesh.triangles))
+    assert recheck(folder / "cam.stl").verdict.failures
+
+
+def measured_length(folder: Path) -> float:
+    return float(read_stl(folder / "cam.stl").vertices[:, 2].max())
 
 
 def test_a_step_file_holds_the_exact_cam(tmp_path: Path) -> None:
@@ -131,7 +157,7 @@ def test_a_step_file_holds_the_exact_cam(tmp_path: Path) -> None:
     from exporters.verify_barrel_step import verify_barrel_step
     from parts.brep import body_outlines, body_solid
 
-    for name in ("groove", "end", "swing"):
+    for name in ("end", "swing"):
         body = body_of(FORMS[name])
         splines = body_outlines(body, 1e-6)
         file = tmp_path / f"{name}.step"
@@ -147,8 +173,5 @@ def test_a_step_file_holds_the_exact_cam(tmp_path: Path) -> None:
         assert any("deviates" in f for f in verify_barrel_step(file, low, error, 1e-6, "cam").failures)
         deep = replace(body, cam=replace(cam, inner=cam.inner - 1e-4))
         assert verify_barrel_step(file, deep, error, 1e-6, "cam").failures
-        wide = replace(body, cam=cam.with_radius(cam.radius + 1e-5))
-        assert verify_barrel_step(file, wide, error, 1e-6, "cam").failures
         longer = replace(body, length=body.length + 1e-3)
         assert bool(verify_barrel_step(file, longer, error, 1e-6, "cam").failures) == cam.is_groove
-        assert any(isinstance(face, Plane) for face in body.faces())
