@@ -111,11 +111,9 @@ def _track_distance(body: BarrelBody, face: Track, points: Real) -> Real:
     beyond = np.maximum(0.0, np.maximum(cam.inner - size, size - cam.outer))
     found = np.full(len(points), np.inf)
     near = beyond <= 0.05 * cam.inner
-    polar = np.angle(points[near, 0] + 1j * points[near, 1])
+    away, above = cam.nearest(points[near])
     # points on the other side of the roller belong to the other wall
-    above = points[near, 2] - cam.place(-polar, 0)[0].imag
-    away = np.abs(cam.distance(points[near]) - cam.radius)
-    found[near] = np.where(above * face.side > 0, np.hypot(away, beyond[near]), np.inf)
+    found[near] = np.where(above * face.side > 0, np.hypot(away - cam.radius, beyond[near]), np.inf)
     return found
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from geometry.errors import OffsetError, ParameterError, UndercutError, at_least, at_most
 from geometry.findings import Finding
 from geometry.hub_holes import HubHoles, least_wall
-from parts.barrel_keys import BarrelCamSpec
+from parts.barrel_keys import BarrelCamSpec, SwingingTable
 from parts.cam_keys import motion_of
 from parts.hole_keys import RoundBoreTable, hub_holes
 from parts.materials import density_of
@@ -130,9 +130,8 @@ def _placed(spec: BarrelCamSpec, motion: FollowerMotion, radius: float, inner: f
     stray = max(map(abs, cam.side_range()))
     if not stray + radius < _INSIDE * inner:
         room = outer - (stray + radius) / _INSIDE
-        if stray > 0 and room <= 0:
-            remedy = f"the roller strays {stray:.6g} mm from the cam's axis, past its side; a smaller swing works"
-            raise ParameterError("oscillating.arm_length", table.arm_length if table else 0.0, remedy)
+        if table is not None and room <= 0 and stray > radius:
+            raise _straying(spec, table, stray)
         if room <= 0:
             least_diameter = at_least(2 * (stray + radius) / _INSIDE + 2 * spec.groove_depth, 3)
             raise ParameterError(
@@ -141,6 +140,17 @@ def _placed(spec: BarrelCamSpec, motion: FollowerMotion, radius: float, inner: f
         remedy = f"the roller needs a wider floor; at most {_told(room * (1 - 1e-9))} mm works"
         raise ParameterError("groove_depth", spec.groove_depth, remedy)
     return _raised(spec, cam)
+
+
+def _straying(spec: BarrelCamSpec, table: SwingingTable, stray: float) -> ParameterError:
+    """The refusal of a roller that its arm carries past the side of the barrel."""
+    reason = f"the roller strays {stray:.6g} mm from the cam's axis, past its side"
+    if table.pivot_offset is not None:
+        middle = table.arm_length * (1 + math.cos(math.radians(spec.swing_deg / 2))) / 2
+        return ParameterError("oscillating.pivot_offset", table.pivot_offset, f"{reason}; {middle:.4f} mm works")
+    # of a swing to both sides the stray goes with its square
+    works = table.arm_length * (spec.outer_diameter / 2 - spec.groove_depth) / stray * _INSIDE / 2
+    return ParameterError("oscillating.arm_length", table.arm_length, f"{reason}; at most {_told(works)} mm works")
 
 
 def _raised(spec: BarrelCamSpec, cam: BarrelCam) -> BarrelCam:
@@ -171,21 +181,24 @@ def _check_roller(spec: BarrelCamSpec, cam: BarrelCam) -> None:
         raise UndercutError("roller_diameter", spec.roller_diameter, remedy)
     if most > 0 and spec.clearance > 0:
         raise UndercutError("clearance", spec.clearance, f"{where}; 0 works with a small roller")
-    key = "swing_deg" if spec.swing_deg else "motion_table"
-    share = next((0.9**k for k in range(1, 60) if _slower(cam, 0.9**k).least_edge_speed()[0] >= LEAST_SPEED), 0.0)
-    text = f"at most {at_most(share * spec.swing_deg, 4)} degrees works" if spec.swing_deg else "a smaller swing works"
-    raise UndercutError(key, spec.swing_deg, f"the roller outruns the cam's surface and {where}; {text}")
+    outruns = f"the roller outruns the cam's surface and {where}"
+    if not spec.swing_deg:
+        raise UndercutError("motion_table", None, f"{outruns}; a smaller swing works")
+    works = next((v for v in (spec.swing_deg * 0.9**k for k in range(1, 60)) if _swings(spec, cam, v)), 0.0)
+    raise UndercutError("swing_deg", spec.swing_deg, f"{outruns}; at most {_told(works)} degrees works")
 
 
-def _slower(cam: BarrelCam, share: float) -> BarrelCam:
-    """The cam whose follower swings by a share of its own."""
-    from geometry.cams.barrel import SwingGuide
-    from geometry.cams.follower_motion import FollowerMotion
+def _swings(spec: BarrelCamSpec, cam: BarrelCam, swing_deg: float) -> bool:
+    """Whether the roller goes its way with another swing."""
+    from msgspec.structs import replace as changed
 
-    pieces, guide = tuple(p.placed(0.0, 1.0, 0.0, share) for p in cam.motion.pieces), cam.guide
-    if isinstance(guide, SwingGuide):
-        guide = replace(guide, start_angle=share * guide.start_angle)
-    return replace(cam, motion=FollowerMotion(pieces), guide=guide)
+    from geometry.cams.barrel import LEAST_SPEED
+
+    other = changed(spec, swing_deg=float(_told(swing_deg)))
+    try:
+        return _placed(other, _motion(other), cam.radius, cam.inner).least_edge_speed()[0] >= LEAST_SPEED
+    except ParameterError:
+        return False
 
 
 def _told(value: float) -> str:

@@ -102,7 +102,7 @@ class BarrelCam:
         """Series of the roller's place p over the cam angle; from the formula of one piece where it is given."""
         at = np.asarray(angle, dtype=float)
         source = self.motion if piece is None else piece
-        return self.guide.place([source.value(at, k) / FACTORIALS[k] for k in range(order + 1)])
+        return self.guide.place([x / FACTORIALS[k] for k, x in enumerate(source.values(at, order))])
 
     def distance_along(self, place: Series, side: int, radius: ArrayLike) -> Real:
         """rho at which a wall passes through the cylinder of ``radius`` mm; ``place``: p and p'.
@@ -149,8 +149,11 @@ class BarrelCam:
     def edge_series(self, piece: LawPiece, side: int, radius: float, angle: Real, order: int) -> tuple[Series, Series]:
         """Series of the polar angle (rad) and the height (mm) of a wall on a cylinder, over the cam angle."""
         place = self.place(angle, order + 1, piece)
-        rate = derived(place)
         first = self.distance_along(place, side, radius)
+        if order == 0:
+            q0 = self.contact(place, side, first)
+            return [np.angle(first + 1j * q0.real) - angle], [q0.imag]
+        rate = derived(place)
         rho: Series = [first, *(0.0 * first for _ in range(order))]
         slope = None
         for _ in range(order + 1):
@@ -167,8 +170,7 @@ class BarrelCam:
         plane = [a + 1j * b.real for a, b in zip(rho, q, strict=True)]
         turning = [x.imag for x in quotient(derived(plane), plane)]
         polar = [np.angle(plane[0]) - angle, *(t / (k + 1) for k, t in enumerate(turning))]
-        if order > 0:
-            polar[1] = polar[1] - 1.0
+        polar[1] = polar[1] - 1.0
         return polar, [x.imag for x in q]
 
     def edge_speed(self, angle: Real, side: int, radius: ArrayLike, piece: LawPiece) -> Real:
@@ -243,15 +245,19 @@ class BarrelCam:
         """
         if near is not None:
             width += 0.1 * self.radius / (self.outer + self._fastest())
-            return self._refined(points, near, near - width, near + width)
-        found = [self._distance(points[i : i + _CHUNK]) for i in range(0, len(points), _CHUNK)]
-        return np.concatenate(found) if found else np.zeros(0)
+            return self._refined(points, near, near - width, near + width)[0]
+        return self.nearest(points)[0]
+
+    def nearest(self, points: Real) -> tuple[Real, Real]:
+        """Distances of points (n, 3), mm, and on which side of the roller each stands: above 0 at the upper wall."""
+        found = [self._nearest(points[i : i + _CHUNK]) for i in range(0, len(points), _CHUNK)] or [(np.zeros(0),) * 2]
+        return np.concatenate([d for d, _ in found]), np.concatenate([s for _, s in found])
 
     def _fastest(self) -> float:
         """About the greatest speed of the roller, mm/rad."""
         return max(float(np.abs(self.place(np.linspace(*p.domain, 9), 1, p)[1]).max()) for p in self.motion.pieces)
 
-    def _distance(self, points: Real) -> Real:
+    def _nearest(self, points: Real) -> tuple[Real, Real]:
         plane, z = points[:, 0] + 1j * points[:, 1], points[:, 2]
         polar, size = np.angle(plane), np.abs(plane)
         ends = [y + sense * 1.2 * self.radius for y, sense in zip(self.side_range(), (-1, 1), strict=True)]
@@ -264,7 +270,7 @@ class BarrelCam:
         low, high = (samples[np.clip(best + k, 0, len(share) - 1), column] for k in (-1, 1))
         return self._refined(points, samples[best, column], low, high)
 
-    def _refined(self, points: Real, at: Real, low: Real, high: Real) -> Real:
+    def _refined(self, points: Real, at: Real, low: Real, high: Real) -> tuple[Real, Real]:
         plane, z = points[:, 0] + 1j * points[:, 1], points[:, 2]
         for step in range(_STEPS):
             place = self.place(at, 2)
@@ -281,7 +287,7 @@ class BarrelCam:
             if step > 1 and np.all(np.abs(after - at) <= 1e-12):
                 break
             at = after
-        return np.abs(gap)
+        return np.abs(gap), (gap * np.conj(1j * (fixed.real - place[1]))).real
 
     def side_range(self) -> tuple[float, float]:
         """Least and greatest y of the roller's axis, mm: 0 for a follower that moves along the cam's axis."""
