@@ -112,24 +112,20 @@ def _wall_corners(mesh: ReadMesh, cam: BarrelCam) -> Real:
 
 def _sections(turned: Complex, heights: Real, planes: Real) -> tuple[Complex, Complex]:
     """Ends y + iz of the segments in which triangles are cut by planes x = const."""
-    starts, ends = [], []
-    for x in planes.tolist():
-        side = turned.real > x
-        cut = side.any(axis=1) & ~side.all(axis=1)
-        at, z, above = turned[cut], heights[cut], side[cut]
-        # the corner that stands alone on its side
-        alone = np.where(above.sum(axis=1) == 1, above.argmax(axis=1), (~above).argmax(axis=1))
-        row = np.arange(len(at))
-        points = []
-        for step in (1, 2):
-            other = (alone + step) % 3
-            a, b = at[row, alone], at[row, other]
-            share = (x - a.real) / (b.real - a.real)
-            y = a.imag + share * (b.imag - a.imag)
-            points.append(y + 1j * (z[row, alone] + share * (z[row, other] - z[row, alone])))
-        starts.append(points[0])
-        ends.append(points[1])
-    return np.concatenate(starts), np.concatenate(ends)
+    above = turned.real > planes[:, None, None]
+    number = above.sum(axis=2)
+    plane, row = np.nonzero((number == 1) | (number == 2))
+    # the corner that stands alone on its side
+    alone = (above[plane, row] == (number[plane, row] == 1)[:, None]).argmax(axis=1)
+    x, a, low = planes[plane], turned[row, alone], heights[row, alone]
+    points = []
+    for step in (1, 2):
+        other = (alone + step) % 3
+        b = turned[row, other]
+        share = (x - a.real) / (b.real - a.real)
+        y = a.imag + share * (b.imag - a.imag)
+        points.append(y + 1j * (low + share * (heights[row, other] - low)))
+    return points[0], points[1]
 
 
 def _touched(starts: Complex, ends: Complex, side: int, radii: Sequence[float]) -> list[float]:

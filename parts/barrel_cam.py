@@ -185,7 +185,8 @@ def _check_roller(spec: BarrelCamSpec, cam: BarrelCam) -> None:
     if not spec.swing_deg:
         raise UndercutError("motion_table", None, f"{outruns}; a smaller swing works")
     works = next((v for v in (spec.swing_deg * 0.9**k for k in range(1, 60)) if _swings(spec, cam, v)), 0.0)
-    raise UndercutError("swing_deg", spec.swing_deg, f"{outruns}; at most {_told(works)} degrees works")
+    text = f"at most {_told(works)} degrees works" if works else "a shorter arm_length or longer phases work"
+    raise UndercutError("swing_deg", spec.swing_deg, f"{outruns}; {text}")
 
 
 def _swings(spec: BarrelCamSpec, cam: BarrelCam, swing_deg: float) -> bool:
