@@ -65,6 +65,8 @@ class _Maker:
     def __init__(self, body: BarrelBody, splines: BarrelSplines, tolerance: float) -> None:
         self.body, self.cam, self.tolerance = body, body.cam, tolerance
         self.splines = splines.walls
+        # edges of coarse splines leave their surfaces by more than what the kernel takes for one point
+        self.confusion = max(_CONFUSION, 2 * splines.max_error)
         self.count = len(next(iter(self.splines.values())))
         self.cuts = _cuts(next(iter(self.splines.values())))
         self.vertices: dict[object, Any] = {}
@@ -85,11 +87,13 @@ class _Maker:
         return found
 
     def _vertex(self, key: object, point: Real) -> Any:
+        from OCP.BRep import BRep_Builder
         from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeVertex
         from OCP.gp import gp_Pnt
 
         if key not in self.vertices:
             self.vertices[key] = BRepBuilderAPI_MakeVertex(gp_Pnt(*(float(x) for x in point))).Vertex()
+            BRep_Builder().UpdateVertex(self.vertices[key], self.confusion)
         return self.vertices[key]
 
     def _edge(self, key: object, curve: Any, start: Any, end: Any, domain: tuple[float, float]) -> Any:
@@ -128,7 +132,7 @@ class _Maker:
         paths = [((a, 0.0), (b, 0.0), (a, b)), ((b, 0.0), (b, 1.0), (0.0, 1.0)),
                  ((a, 1.0), (b, 1.0), (a, b)), ((a, 0.0), (a, 1.0), (0.0, 1.0))]  # fmt: skip
         loop = [(e, _straight(*p), i < 2) for i, (e, p) in enumerate(zip(around, paths, strict=True))]
-        return _face(_kernel_surface(spline), loop)
+        return _face(_kernel_surface(spline), loop, self.confusion)
 
     def _cylinder(self, face: Cylinder) -> list[Any]:
         """The faces of a cylinder: whole between two circles, else one between each two cuts."""
@@ -162,7 +166,7 @@ class _Maker:
             loop += [(edge, path, ahead) for edge, path in (reversed(parts) if is_lower else parts)]
             at, k = (right, first) if is_lower else (left, following)
             loop.append((*self._seam(face, row, k, at, base), is_lower))
-        return _face(Geom_CylindricalSurface(frame, radius), loop)
+        return _face(Geom_CylindricalSurface(frame, radius), loop, self.confusion)
 
     def _ring(
         self, ring: Ring, row: int, first: int, last: int, base: float, turn: tuple[float, float]
@@ -300,7 +304,7 @@ def _kernel_surface(spline: WallSpline) -> Any:
     return Geom_BSplineSurface(poles, u, v, u_counts, v_counts, _DEGREE, _DEGREE)
 
 
-def _face(surface: Any, loop: list[tuple[Any, Any, bool]]) -> Any:
+def _face(surface: Any, loop: list[tuple[Any, Any, bool]], confusion: float) -> Any:
     """A face within a loop of edges, each with its path in the parameters and whether it is run forwards."""
     from OCP.BRep import BRep_Builder
     from OCP.TopoDS import TopoDS_Face, TopoDS_Wire
@@ -309,7 +313,7 @@ def _face(surface: Any, loop: list[tuple[Any, Any, bool]]) -> Any:
     builder.MakeFace(face, surface, _CONFUSION)
     builder.MakeWire(wire)
     for edge, path, forwards in loop:
-        builder.UpdateEdge(edge, path, face, _CONFUSION)
+        builder.UpdateEdge(edge, path, face, confusion)
         builder.Add(wire, edge if forwards else edge.Reversed())
     wire.Closed(True)
     builder.Add(face, wire)

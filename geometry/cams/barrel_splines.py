@@ -20,8 +20,8 @@ from geometry.errors import ConvergenceError
 from geometry.motion_laws.piece import LawPiece, sign_changes
 
 _DEGREE = 7
-# the kernel joins curves and surfaces within 1e-7 mm: edges are kept well below that, mm
-_TARGET = 2e-8
+# the kernel joins curves and surfaces within 1e-7 mm: up to a tolerance of 1e-6 mm edges are kept well below that
+_TARGET, _SHARE = 2e-8, 0.02
 _MARGIN = 1.5
 _ACROSS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32)
 _ROUNDS, _MOST_SPANS = 24, 1000
@@ -87,7 +87,7 @@ def barrel_splines(cam: BarrelCam, tolerance: float) -> BarrelSplines:
     ConvergenceError
         1000 spans are not enough.
     """
-    target = max(min(tolerance, _TARGET) / _MARGIN, 4 * _ROUNDING * cam.outer)
+    target = max(min(tolerance, max(_TARGET, _SHARE * tolerance)) / _MARGIN, 4 * _ROUNDING * cam.outer)
     found = stretches(cam)
     walls = {side: tuple(_fitted(cam, side, stretch, target) for stretch in found) for side in cam.sides}
     return BarrelSplines(walls, _MARGIN * max(w.max_error for found in walls.values() for w in found))
