@@ -257,6 +257,9 @@ def _check_hub(spec: BarrelCamSpec, body: BarrelBody) -> None:
         return
     # inside a tube the hub stands within its inner cylinder
     most = 2 * ((cam.inner if not cam.is_groove and spec.hub.above > 0 else cam.outer) - wall)
+    if not 2 * (reach + wall) <= most:
+        remedy = f"leaves no room for the hub; at most {_told(most - 2 * wall)} mm works"
+        raise ParameterError(key, 2 * reach, remedy)
     if not spec.hub.diameter <= most:
         remedy = f"must stay inside; at most {at_most(most, 4)} mm works"
         raise ParameterError("hub.diameter", spec.hub.diameter, remedy)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import random
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,6 +19,7 @@ from exporters.verify_barrel import face_distance, verify_barrel_mesh
 from geometry.cams.barrel import LOWER, UPPER
 from geometry.cams.barrel_body import BarrelBody, Track
 from geometry.cams.follower_motion import TURN
+from parts.schema import SceneError
 from parts.solids import Mesh, body_mesh, mesh_outlines
 from tests.parts.test_barrel_cam import END, GROOVE, SWING, body_of, part_of
 from tests.parts.test_cam import scene_text
@@ -184,3 +187,45 @@ def test_a_step_file_holds_the_exact_cam(tmp_path: Path) -> None:
         assert verify_barrel_step(file, deep, error, 1e-6, "cam").failures
         longer = replace(body, length=body.length + 1e-3)
         assert bool(verify_barrel_step(file, longer, error, 1e-6, "cam").failures) == cam.is_groove
+
+
+def random_cam(rng: random.Random) -> dict[str, object]:
+    """A cylindrical cam of any size; what cannot be is refused, see the caller."""
+    size = 10 ** rng.uniform(0.5, 3)
+    shares = [rng.uniform(0.1, 1) for _ in range(4)]
+    rise, high, fall = (x / sum(shares) * 360 for x in shares[:3])
+    names = ("constant_acceleration", "sine", "modified_trapezoid", "gutman_13", "polynomial_4567")
+    phases = [{"move": "rise", "angle_deg": rise, "law": rng.choice(names)}, {"move": "dwell", "angle_deg": high},
+              {"move": "return_", "angle_deg": fall, "law": rng.choice(names)},
+              {"move": "dwell", "angle_deg": 360 - (rise + high + fall)}]  # fmt: skip
+    keys: dict[str, object] = {"kind": "barrel_cam", "form": rng.choice(["groove", "end"]), "phases": phases,
+                               "outer_diameter": size, "groove_depth": size * rng.uniform(0.02, 0.4),
+                               "roller_diameter": size * rng.uniform(0.01, 0.4)}  # fmt: skip
+    if rng.random() < 0.4:
+        return keys | {"swing_deg": rng.uniform(2, 50), "oscillating": {"arm_length": size * rng.uniform(0.3, 1.5)}}
+    return keys | {"lift": size * 10 ** rng.uniform(-2, 0)}
+
+
+def possible_cam(rng: random.Random) -> BarrelBody:
+    """The first of random cams that is not refused."""
+    while True:
+        with contextlib.suppress(SceneError):
+            return body_of(random_cam(rng))
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("seed", range(30))
+def test_random_cams_become_good_files(seed: int) -> None:
+    pytest.importorskip("OCP")
+    from exporters.verify_barrel_step import verify_barrel_solid
+    from parts.brep import body_outlines, body_solid
+
+    body = possible_cam(random.Random(seed))
+    tolerance = 1e-3 * body.cam.outer
+    outlines = mesh_outlines(body, tolerance, 0.0)
+    made = body_mesh(body, outlines)
+    mesh = ReadMesh(made.vertices, made.triangles)
+    assert verify_barrel_mesh(mesh, body, outlines[0].max_error, tolerance).failures == ()
+    splines = body_outlines(body, 1e-6)
+    error = max(1e-6, splines[0].max_error)
+    assert verify_barrel_solid(body_solid(body, splines), body, error, 1e-6).failures == ()

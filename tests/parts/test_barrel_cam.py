@@ -86,6 +86,7 @@ def test_the_clearance_widens_the_groove() -> None:
     (GROOVE | {"bore_diameter": 44.5}, "bore_diameter"),
     (GROOVE | {"hub": {"diameter": 70.0, "above": 3.0}}, "hub.diameter"),
     (GROOVE | {"bore_diameter": 20.0, "hub": {"diameter": 15.0, "above": 3.0}}, "hub.diameter"),
+    (END | {"bore_diameter": 43.9, "hub": {"diameter": 43.95, "above": 3.0}}, "bore_diameter"),
     (END | {"web_thickness": 9.0}, "web_thickness"),
     (END | {"web_thickness": 0.0, "bore_diameter": 8.0}, "web_thickness"),
     (END | {"clearance": 0.1}, "clearance"),
