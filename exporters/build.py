@@ -139,6 +139,10 @@ def _write(job: Job, shape: tuple[Shape, float], file: Path, source: str, *, ver
 
         verdict, found = reroll(file, job.kind, job.part, job.section.offset, max_error, verdict)
         findings = (*findings, *found)
+    if job.part.barrel is not None:
+        from exporters.reroll_barrel import reroll_barrel
+
+        verdict = reroll_barrel(file, job.kind, job.part, job.section.offset, max_error, verdict)
     seconds["verify"] = time.perf_counter() - start
     return Written(job, file, max_error, bound, entities, verdict.measured, findings, verdict.failures, seconds)
 

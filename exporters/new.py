@@ -51,6 +51,13 @@ _EXAMPLES = {
     "base_circle_radius": "30.0",
     "least_transmission_angle_deg": "60.0",
     "centre_distance": "90.0",
+    "form": '"groove"',
+    "roller_diameter": "10.0",
+    "groove_depth": "8.0",
+    "length": "60.0",
+    "end_margin": "8.0",
+    "pivot_offset": "40.0",
+    "start_angle_deg": "-10.0",
 }
 _PHASES = (
     '{ move = "rise", angle_deg = 120.0, law = "sine" }',
@@ -70,6 +77,7 @@ _SET = {
         "base_circle_radius": "30.0",
     },
     **new_examples.SET,
+    "BarrelCamSpec": {"lift": "20.0", "phases": f"[{', '.join(_PHASES)}]"},
 }
 # where the same key means another size
 _TABLE_EXAMPLES = {
@@ -78,6 +86,8 @@ _TABLE_EXAMPLES = {
     ("RingGearSpec", "number_of_teeth"): "60",
     ("RingGearSpec", "tip_diameter"): "117.0",
     ("RingGearSpec", "outer_diameter"): "140.0",
+    ("BarrelCamSpec", "outer_diameter"): "60.0",
+    ("SwingingTable", "arm_length"): "40.0",
     ("RimHolesTable", "diameter"): "6.0",
     ("RimHolesTable", "pitch_circle_diameter"): "140.0",
     ("RackHolesTable", "diameter"): "2.5",

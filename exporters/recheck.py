@@ -87,6 +87,10 @@ def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, A
         from exporters.reroll import reroll
 
         verdict, _ = reroll(file, kind, part, offset, declared, verdict)
+    if part.barrel is not None:
+        from exporters.reroll_barrel import reroll_barrel
+
+        verdict = reroll_barrel(file, kind, part, offset, declared, verdict)
     return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
 
 

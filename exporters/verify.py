@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,6 +18,9 @@ from geometry.contour import edge_points, signed_area
 from geometry.curve import Complex
 from geometry.measure import distance_to_profile, profile_area
 from geometry.profile import Profile, Region
+
+if TYPE_CHECKING:
+    from geometry.cams.barrel_body import BarrelBody
 
 # how many points of a file are measured: all edges get at least 3 between their ends
 _POINTS = 10_000
@@ -33,7 +37,7 @@ class Verdict:
 
 
 def verify_file(
-    file: Path, kind: str, exact: Region | Body, declared: float, tolerance: float, name: str | None = None
+    file: Path, kind: str, exact: Region | Body | BarrelBody, declared: float, tolerance: float, name: str | None = None
 ) -> Verdict:
     """Read a file back and hold it against its exact section or, for STL, 3MF and STEP, its exact solid.
 
@@ -41,6 +45,10 @@ def verify_file(
     ``name``: what the part must be called where the format has names.
     """
     try:
+        if not isinstance(exact, Body | Region):
+            from exporters.verify_barrel import verify_barrel
+
+            return verify_barrel(file, kind, exact, declared, tolerance, name)
         if isinstance(exact, Body):
             if kind == "step":
                 from exporters.verify_step import verify_step

@@ -38,6 +38,14 @@ WORDS: dict[str, tuple[str, str]] = {
     "face_from": ("face contact from, mm", "контакт на тарілці від, мм"),
     "least_plate_diameter": ("least plate diameter, mm", "найменший діаметр тарілки, мм"),
     "face_to": ("face contact to, mm", "контакт на тарілці до, мм"),
+    "floor_diameter": ("diameter of the groove's floor, mm", "діаметр дна паза, мм"),
+    "length": ("length, mm", "довжина, мм"),
+    "roller_diameter": ("roller diameter, mm", "діаметр ролика, мм"),
+    "arm_length": ("arm length, mm", "довжина коромисла, мм"),
+    "pivot_offset": ("pivot beside the cam's axis, mm", "зсув осі коромисла від осі кулачка, мм"),
+    "pivot_height": ("height of the pivot, mm", "висота осі коромисла, мм"),
+    "start_height": ("height of the roller at 0 deg, mm", "висота осі ролика при 0 град, мм"),
+    "largest_roller_diameter": ("largest roller (no undercut), mm", "найбільший ролик без підрізу, мм"),
     "normal_pitch": ("normal pitch p_n, mm", "нормальний крок p_n, мм"),
     "lead": ("lead of the helix p_z, mm", "хід гвинтової лінії p_z, мм"),
     "cutter_number_of_teeth": ("teeth of the cutter z_0", "кількість зубів довбача z_0"),
@@ -65,7 +73,6 @@ WORDS: dict[str, tuple[str, str]] = {
         "pair {first} - {second}: a_w = {a_w:.5f} mm, alpha_w = {alpha_w:.4f} deg, contact ratio {ratio:.4f}",
         "пара {first} - {second}: a_w = {a_w:.5f} мм, alpha_w = {alpha_w:.4f} град, коефіцієнт перекриття {ratio:.4f}",
     ),
-    "roller_diameter": ("roller diameter", "діаметр ролика"),
     "mate_cam_follower": (
         "{first} moves {second} by {travel:.6g} {unit}",
         "{first} рухає {second} на {travel:.6g} {unit}",
@@ -309,6 +316,18 @@ FINDINGS: dict[str, tuple[str, str]] = {
     "large_roller": (
         "roller radius {value:.4g} mm is above 0.8 of the least radius of the pitch curve ({limit:.4g} mm)",
         "радіус ролика {value:.4g} мм більший за 0,8 найменшого радіуса теоретичного профілю ({limit:.4g} мм)",
+    ),
+    "steep_groove": (
+        "pressure angle {value:.2f} deg at the groove's floor, usual is at most {limit:.0f} deg",
+        "кут тиску {value:.2f} град біля дна паза, допустимо {limit:.0f} град",
+    ),
+    "large_groove_roller": (
+        "half the groove's width {value:.4g} mm is above 0.8 of the one that undercuts ({limit:.4g} mm)",
+        "половина ширини паза {value:.4g} мм більша за 0,8 межі підрізу ({limit:.4g} мм)",
+    ),
+    "development": (
+        "flat outline: the outer cylinder of {limit:.9g} mm unrolled, seen from outside, {value:.9g} mm around",
+        "плоский контур: розгортка зовнішнього циліндра {limit:.9g} мм, вид ззовні, довжина кола {value:.9g} мм",
     ),
     "outline_trimmed": (
         "the outline moved by {limit:.4g} mm crosses itself in {value:.0f} places: it is trimmed there",

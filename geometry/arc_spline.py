@@ -23,6 +23,8 @@ _LEAST_SAMPLES, _MOST_SAMPLES = 33, 4097
 # how much of the tolerance, or of the error found, the bound of what lies between samples may use
 _MARGIN_SHARE = 0.03
 _REFINEMENTS = 3
+# samples of each arc's interval where a curve has no proven bounds, and what is added to their greatest
+_BOUND_SAMPLES, _SAMPLED_MARGIN = 9, 1.1
 # an end arc starts tangent to the curve and needs 1/sqrt(2) of the inner arcs' length
 _END_SHARE = math.sqrt(0.5)
 _FIRST_SHARES = (0.4, 0.5, 0.6, 0.45, 0.55, 0.36)
@@ -206,8 +208,12 @@ def _sampled_distance(curve: Curve, t: Real, points: Complex, bulges: Real, samp
 def _second_derivative_bounds(curve: Curve, t: Real, k: Real, distance: float) -> tuple[Real, bool]:
     """Bound of |delta''| on each arc's interval, and whether the curve has proven derivative bounds."""
     bounds = [[curve.derivative_bound(order, a, b) for order in (1, 2)] for a, b in pairwise(t.tolist())]
-    if any(m is None for pair in bounds for m in pair):
-        return np.zeros(len(k)), False
-    m1, m2 = np.array(bounds, dtype=float).T
+    certified = not any(m is None for pair in bounds for m in pair)
+    if certified:
+        m1, m2 = np.array(bounds, dtype=float).T
+    else:
+        # samples with a margin: what is not proven shall at least not be too small
+        at = t[:-1, None] + np.diff(t)[:, None] * np.linspace(0, 1, _BOUND_SAMPLES)
+        m1, m2 = (_SAMPLED_MARGIN * np.abs(curve.derivative(at, order)).max(axis=1) for order in (1, 2))
     reach = np.minimum(k * distance, 0.5)
-    return (m1**2 * k + m2 * (1 + reach)) / (1 - reach), True
+    return (m1**2 * k + m2 * (1 + reach)) / (1 - reach), certified

@@ -101,19 +101,22 @@ class Region:
     """Material of a plane section: outer boundary counter-clockwise, holes clockwise (material on the left).
 
     ``marks``: boundaries that do not go through, like the walls of a groove with a floor; engraved, not cut.
+    ``apart``: outer boundaries of further pieces that lie beside the first, without holes.
     """
 
     outer: Profile
     holes: tuple[Profile, ...] = ()
     marks: tuple[Profile, ...] = ()
+    apart: tuple[Profile, ...] = ()
 
     def profiles(self) -> tuple[Profile, ...]:
-        """Marks, then holes, then the outer boundary: the order in which they are cut."""
-        return (*self.marks, *self.holes, self.outer)
+        """Marks, then holes, then the outer boundaries: the order in which they are cut."""
+        return (*self.marks, *self.holes, *self.apart, self.outer)
 
     def layers(self) -> tuple[str, ...]:
         """The layer of each of these in a cutting file."""
-        return (*("ENGRAVE" for _ in self.marks), *("CUT_INNER" for _ in self.holes), "CUT_OUTER")
+        inner = (*("ENGRAVE" for _ in self.marks), *("CUT_INNER" for _ in self.holes))
+        return (*inner, *("CUT_OUTER" for _ in (*self.apart, self.outer)))
 
 
 def circle(radius: float, label: Label, *, hole: bool = False, centre: complex = 0j) -> Profile:

@@ -26,6 +26,10 @@ def body_outlines(body: Body, tolerance: float) -> tuple[Outline, ...]:
 
     Degree 7: the kernel's files pay by the pole.
     """
+    if not isinstance(body, Body):
+        from geometry.cams.barrel_splines import barrel_splines
+
+        return (barrel_splines(body.cam, tolerance),)
     twisted = body.twisted_profiles()
     made = []
     for index, profile in enumerate(body.profiles):
@@ -52,6 +56,10 @@ def body_solid(body: Body, outlines: Sequence[Outline]) -> Any:
     from OCP.ShapeFix import ShapeFix_Shell
     from OCP.TopoDS import TopoDS_Shell
 
+    if not isinstance(body, Body):
+        from parts.barrel_brep import barrel_solid
+
+        return barrel_solid(body, outlines[0])
     body = cut_twists(body)
     wires: dict[int, Any] = {}
     screws = ScrewFaces(body, outlines, wires)

@@ -15,6 +15,7 @@ KINDS = LazyTable(
         "conjugate_cam": ("parts.conjugate_cam", "ConjugateCamSpec", "checked_conjugate", "conjugate_part"),
         "yoke_frame": ("parts.yoke_frame", "YokeFrameSpec", "checked_yoke", "yoke_part"),
         "wedge_cam": ("parts.wedge_cam", "WedgeCamSpec", "checked_wedge", "wedge_part"),
+        "barrel_cam": ("parts.barrel_cam", "BarrelCamSpec", "checked_barrel_cam", "barrel_cam_part"),
         "follower": ("parts.follower", "FollowerSpec", "checked_follower", "follower_part"),
         "follower_arm": ("parts.follower", "FollowerArmSpec", "checked_arm", "follower_part"),
         "roller": ("parts.follower", "RollerSpec", "checked_roller", "roller_part"),

@@ -73,9 +73,14 @@ def mass_properties(part: Part) -> dict[str, Any]:
     """
     import numpy as np
 
-    from geometry.mass import body_moments
+    if part.barrel is not None:
+        from geometry.cams.barrel_body import barrel_moments
 
-    moments = body_moments(part.body(0.0))
+        moments = barrel_moments(part.barrel)
+    else:
+        from geometry.mass import body_moments
+
+        moments = body_moments(part.body(0.0))
     found: dict[str, Any] = {"volume": moments.volume, "centre_of_mass": moments.centre.tolist()}
     if part.density is not None:
         # g/mm^3

@@ -6,11 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from geometry.body import Body
 from geometry.findings import Finding
 from geometry.gears.offset_tooth import OffsetRegion
 
 if TYPE_CHECKING:
+    from geometry.cams.barrel_body import BarrelBody
     from geometry.cams.disk import DiskCam
     from geometry.cams.walls import CamWall
     from geometry.cams.wedge import WedgeCam
@@ -20,19 +20,20 @@ if TYPE_CHECKING:
 class Part:
     """A part with one flat section for plane formats and one solid, lower face of its rim at z = 0.
 
-    ``section(offset)`` and ``body(offset)`` give the exact geometry with every boundary moved ``offset`` mm out of
-    the material; both are computed when an export asks. ``face_width``: height of the toothed rim, mm.
+    ``section(offset)`` and ``body(offset)`` (a Body; a BarrelBody of a cylindrical cam) give the exact geometry with
+    every boundary moved ``offset`` mm out of the material; both are computed when an export asks.
+    ``face_width``: height of the toothed rim, mm.
     ``circles`` are named diameters in mm for drawings and
     reports, ``quantities`` all other named results. ``density`` in g/cm^3, None where the material is not known.
     ``flat_findings``: remarks on each flat outline of the part.
     ``cam``: of a disk cam, whose follower is rolled over every file; over the ``walls`` where there are some.
-    ``wedge``: of a sliding cam, likewise.
+    ``wedge``: of a sliding cam, and ``barrel``: of a cylindrical one, likewise.
     """
 
     id: str
     kind: str
     section: Callable[[float], OffsetRegion]
-    body: Callable[[float], Body]
+    body: Callable[[float], Any]
     face_width: float
     is_plate: bool = True
     findings: tuple[Finding, ...] = ()
@@ -45,6 +46,7 @@ class Part:
     cam: DiskCam | None = None
     walls: tuple[CamWall, ...] = ()
     wedge: WedgeCam | None = None
+    barrel: BarrelBody | None = None
 
     def to_trimesh(self, tolerance: float = 0.01, offset: float = 0.0) -> Any:
         """A ``trimesh.Trimesh`` within ``tolerance`` mm of the exact solid."""

@@ -31,8 +31,12 @@ class Mesh:
 def mesh_outlines(body: Body, tolerance: float, least_edge: float) -> tuple[Approximation, ...]:
     """Chords of every profile of a body within ``tolerance`` mm; edges below ``least_edge`` mm are merged.
 
-    Profiles that a chamfer joins get matching vertices.
+    Profiles that a chamfer joins get matching vertices. A cylindrical cam's mesh is made whole.
     """
+    if not isinstance(body, Body):
+        from parts.barrel_mesh import barrel_mesh
+
+        return (barrel_mesh(body, tolerance),)
     made: dict[int, Approximation] = {}
     twisted = body.twisted_profiles()
     for group in body.groups():
@@ -63,6 +67,8 @@ def body_mesh(body: Body, outlines: tuple[Approximation, ...]) -> Mesh:
     ThinWallError
         The chords touch or cross at this tolerance.
     """
+    if not isinstance(body, Body):
+        return Mesh(outlines[0].vertices, outlines[0].geometry)
     contours = _begun_in_spaces(body, [a.geometry for a in outlines])
     try:
         caps = _cap_triangles(body, contours)

@@ -1,0 +1,151 @@
+"""Cylindrical cams: the roller is put into the groove of a mesh read back, and its way held against the exact law."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from exporters.readers import ReadError, ReadMesh, read_3mf, read_stl
+from exporters.verify import Verdict
+from geometry.cams.barrel import LOWER, UPPER, BarrelCam
+from geometry.cams.barrel_body import BarrelBody
+from geometry.cams.follower_motion import TURN, PhaseKind
+from geometry.curve import Complex, Real
+from parts.part import Part
+
+ANGLES = 3600
+# planes across the roller's axis in which it is put into the groove, as shares of the walls' width
+_PLANES = (0.02, 0.5, 0.98)
+# triangles of one radius or one height are no walls: this part of the size is rounding
+_FLAT = 1e-5
+# what bends of the way add to the shift of a wall along the axis, and the rounding of it all
+_BEND, _ROUNDING = 1.1, 1e-9
+
+
+def reroll_barrel(file: Path, kind: str, part: Part, offset: float, declared: float, verdict: Verdict) -> Verdict:
+    """Add to a verdict what the roller does in the groove of a mesh: errors of its place along the axis, and its play.
+
+    ``offset``: how far the file's boundaries are moved out of the material; the roller put in is that much smaller.
+    A place that is further off than ``declared`` mm of wall can make it is a failure.
+    """
+    if part.barrel is None or verdict.failures or kind not in ("stl", "3mf"):
+        return verdict
+    body = part.body(offset)
+    assert isinstance(body, BarrelBody)
+    try:
+        mesh = read_stl(file) if kind == "stl" else read_3mf(file, part.id)
+    except ReadError as refusal:
+        return replace(verdict, failures=(str(refusal),))
+    cam = body.cam
+    roller = part.quantities["roller_diameter"] / 2 - offset
+    found, played = rolled_places(mesh, cam, (cam.radius, roller))
+    axis = cam.place(np.arange(ANGLES) * (TURN / ANGLES), 0)[0].imag
+    error = np.array([found[side] - axis for side in cam.sides])
+    if not np.all(np.isfinite(error)):
+        at = math.degrees(float(np.flatnonzero(~np.isfinite(error).all(axis=0))[0]) * TURN / ANGLES)
+        return replace(verdict, failures=(f"the roller finds no wall at cam angle {at:.6g} degrees",))
+    measured = {"lift_error": float(np.abs(error).max())}
+    if cam.is_groove:
+        play = played[UPPER] - played[LOWER]
+        measured |= {"least_play": float(play.min()), "greatest_play": float(play.max())}
+    failures = verdict.failures
+    allowed = _allowed(cam, declared) + _ROUNDING * body.reach()
+    worst = int(np.argmax(np.abs(error).max(axis=0)))
+    if not measured["lift_error"] <= allowed:
+        place = f"cam angle {360 * worst / ANGLES:.6g} degrees"
+        text = f"the roller's place is wrong by {measured['lift_error']:.6g} mm at {place}, more than the walls allow"
+        failures = (*failures, text)
+    return Verdict(verdict.measured | measured, failures)
+
+
+def _allowed(cam: BarrelCam, declared: float) -> float:
+    """How far a wall that is off by so much may shift the roller along the cam's axis, mm."""
+    kinds = (PhaseKind.RISE, PhaseKind.RETURN)
+    steepest = max(cam.greatest_pressure_angle(kind)[0] for kind in kinds)
+    return _BEND * declared / math.cos(steepest)
+
+
+def rolled_places(mesh: ReadMesh, cam: BarrelCam, radii: Sequence[float], count: int = ANGLES) -> list[dict[int, Real]]:
+    """For each radius of a roller, the heights (count,) of its axis where it touches the wall below, and the one above.
+
+    In planes across its axis, against every edge of the mesh's section: exact for triangles. inf where there is none.
+    """
+    corners = _wall_corners(mesh, cam)
+    plane = corners[:, :, 0] + 1j * corners[:, :, 1]
+    middle = np.angle(plane.sum(axis=1))
+    spread = np.abs(np.angle(plane / np.exp(1j * middle)[:, None])).max() if len(middle) else 0.0
+    order = np.argsort(middle)
+    middle, corners = middle[order], corners[order]
+    aside = max(map(abs, cam.side_range()))
+    window = math.asin(min(1.0, (max(radii) + aside) / cam.inner)) + spread
+    planes = cam.inner + (cam.outer - cam.inner) * np.array(_PLANES)
+    angles = np.arange(count) * (TURN / count)
+    place = cam.place(angles, 0)[0]
+    found = [{side: np.zeros(count) for side in cam.sides} for _ in radii]
+    doubled = np.concatenate([middle - TURN, middle, middle + TURN])
+    for k, angle in enumerate(angles.tolist()):
+        polar = math.remainder(-angle, TURN)
+        first, last = np.searchsorted(doubled, [polar - window, polar + window])
+        near = corners[np.arange(first, last) % len(corners)]
+        turned = (near[:, :, 0] + 1j * near[:, :, 1]) * np.exp(1j * angle)
+        starts, ends = _sections(turned, near[:, :, 2], planes)
+        starts, ends = starts - place[k], ends - place[k]
+        for side in cam.sides:
+            for of_radius, touched in zip(found, _touched(starts, ends, side, radii), strict=True):
+                # below, the highest place counts; above, the lowest
+                of_radius[side][k] = place[k].imag + (-touched if side == UPPER else touched)
+    return found
+
+
+def _wall_corners(mesh: ReadMesh, cam: BarrelCam) -> Real:
+    """Corners (n, 3, 3) of the triangles that go across a wall: those of one radius or one height are none."""
+    corners = mesh.vertices[mesh.triangles]
+    radius = np.hypot(corners[:, :, 0], corners[:, :, 1])
+    across = np.ptp(radius, axis=1) > _FLAT * cam.outer
+    inside = (radius.max(axis=1) <= cam.outer * (1 + _FLAT)) & (radius.min(axis=1) >= cam.inner * (1 - 0.05))
+    return np.asarray(corners[across & inside])
+
+
+def _sections(turned: Complex, heights: Real, planes: Real) -> tuple[Complex, Complex]:
+    """Ends y + iz of the segments in which triangles are cut by planes x = const."""
+    above = turned.real > planes[:, None, None]
+    number = above.sum(axis=2)
+    plane, row = np.nonzero((number == 1) | (number == 2))
+    # the corner that stands alone on its side
+    alone = (above[plane, row] == (number[plane, row] == 1)[:, None]).argmax(axis=1)
+    x, a, low = planes[plane], turned[row, alone], heights[row, alone]
+    points = []
+    for step in (1, 2):
+        other = (alone + step) % 3
+        b = turned[row, other]
+        share = (x - a.real) / (b.real - a.real)
+        y = a.imag + share * (b.imag - a.imag)
+        points.append(y + 1j * (low + share * (heights[row, other] - low)))
+    return points[0], points[1]
+
+
+def _touched(starts: Complex, ends: Complex, side: int, radii: Sequence[float]) -> list[float]:
+    """Heights of circles' centres over the segments below that they rest on; mirrored for those above."""
+    mine = (starts.imag + ends.imag) * side > 0
+    a, b = starts[mine], ends[mine]
+    if side == UPPER:
+        a, b = np.conj(a), np.conj(b)
+    turned = a.real > b.real
+    left, right = np.where(turned, b, a), np.where(turned, a, b)
+    kept = (right.real > -max(radii)) & (left.real < max(radii)) & (right.real > left.real)
+    left, right = left[kept], right[kept]
+    if not len(left):
+        return [-math.inf] * len(radii)
+    slope = (right.imag - left.imag) / (right.real - left.real)
+    lean = slope / np.hypot(1.0, slope)
+    heights = []
+    for radius in radii:
+        # z + sqrt(r^2 - y^2) along a segment is greatest where the circle is as steep
+        y = np.clip(radius * lean, np.maximum(left.real, -radius), np.minimum(right.real, radius))
+        z = left.imag + slope * (y - left.real) + np.sqrt(np.maximum(0.0, radius**2 - y**2))
+        heights.append(float(z.max()))
+    return heights

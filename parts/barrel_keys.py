@@ -1,0 +1,86 @@
+"""Scene keys of the part kind ``barrel_cam``."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from msgspec import Meta, Struct
+
+from parts.cam_keys import PhaseTable
+from parts.hole_keys import BoreTable
+from parts.keys import BoreDiameter, Colour, Density, Material, mm
+from parts.wheel_keys import HubTable
+
+_MOST = 100_000.0
+
+
+class SwingingTable(Struct, forbid_unknown_fields=True):
+    """A follower that swings about a pivot parallel to its roller's axis, beside the cam."""
+
+    arm_length: Annotated[float, mm("from the pivot to the roller's axis", above=0, most=_MOST)]
+    pivot_offset: (
+        Annotated[
+            float,
+            mm(
+                "from the cam's axis to the pivot, square to the roller's axis; above 0 the cam's surface runs "
+                "towards it; default: the roller strays as far to either side",
+                least=-_MOST,
+                most=_MOST,
+            ),
+        ]
+        | None
+    ) = None
+    start_angle_deg: (
+        Annotated[
+            float,
+            Meta(
+                gt=-90,
+                lt=90,
+                description="arm above the plane across the axis where the phases begin; default: half the swing below",
+                extra={"unit": "degrees"},
+            ),
+        ]
+        | None
+    ) = None
+
+
+class BarrelCamSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="barrel_cam"):
+    """Cylindrical cam: a groove around a barrel, or a track on the end of a tube; it turns counter-clockwise."""
+
+    form: Annotated[
+        Literal["groove", "end"], Meta(description="groove: moves the roller both ways; end: a spring holds it")
+    ]
+    outer_diameter: Annotated[float, mm("diameter of the barrel", above=0, most=_MOST)]
+    roller_diameter: Annotated[float, mm("diameter of the roller, its axis across the cam's", above=0, most=_MOST)]
+    groove_depth: Annotated[float, mm("depth of the groove, or width of the track", above=0, most=_MOST)]
+    lift: Annotated[float, mm("lift H along the axis", least=0, most=_MOST)] = 0.0
+    swing_deg: Annotated[
+        float, Meta(ge=0, lt=180, description="swing of an oscillating follower", extra={"unit": "degrees"})
+    ] = 0.0
+    phases: Annotated[list[PhaseTable], Meta(min_length=1, max_length=100)] | None = None
+    motion_table: (
+        Annotated[
+            list[tuple[float, float]],
+            Meta(min_length=3, max_length=2000, description="in place of phases: [cam angle deg, lift mm or deg]"),
+        ]
+        | None
+    ) = None
+    oscillating: SwingingTable | None = None
+    clearance: Annotated[float, mm("groove wider than the roller by this", least=0, most=100)] = 0.0
+    length: (
+        Annotated[float, mm("length of the barrel; default: the groove and end_margin", above=0, most=_MOST)] | None
+    ) = None
+    end_margin: (
+        Annotated[
+            float,
+            mm("material between the groove and each end; default: the roller's radius", above=0, most=_MOST),
+        ]
+        | None
+    ) = None
+    web_thickness: Annotated[float, mm("end: bottom of the tube; 0 leaves it open", least=0, most=_MOST)] = 0.0
+    bore_diameter: BoreDiameter = 0.0
+    bore: BoreTable | None = None
+    hub: HubTable | None = None
+    material: Material | None = None
+    density: Density | None = None
+    colour: Colour | None = None
