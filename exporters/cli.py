@@ -215,27 +215,33 @@ def _converge(options: argparse.Namespace) -> int:
 
 
 def _list(options: argparse.Namespace) -> int:
+    from parts.mates import MATES
     from parts.scene import KINDS, built_in_scenes, load_scene
 
     print("kinds of parts (higherpair new KIND):")
     for kind, (spec, *_) in KINDS.items():
-        print(f"  {kind:<18} {(spec.__doc__ or '').splitlines()[0]}")
+        print(f"  {kind:<22} {(spec.__doc__ or '').splitlines()[0]}")
+    print("kinds of mates between instances (higherpair new KIND):")
+    for kind, spec in MATES.items():
+        print(f"  {kind:<22} {(spec.__doc__ or '').splitlines()[0]}")
     print("built-in scenes (higherpair build NAME):")
     for name in built_in_scenes():
-        print(f"  {name:<18} {load_scene(name).scene.title}")
+        print(f"  {name:<22} {load_scene(name).scene.title}")
     return DONE
 
 
 def _new(options: argparse.Namespace) -> int:
-    from exporters.new import new_scene
+    from exporters.new import new_mate, new_scene
+    from parts.mates import MATES
     from parts.scene import KINDS
     from parts.schema import SceneError, near
 
-    if options.kind not in KINDS:
+    known = [*KINDS, *MATES]
+    if options.kind not in known:
         raise SceneError(
-            "new", "KIND", options.kind, f"unknown kind{near(options.kind, KINDS)}; kinds: {', '.join(KINDS)}"
+            "new", "KIND", options.kind, f"unknown kind{near(options.kind, known)}; kinds: {', '.join(known)}"
         )
-    print(new_scene(options.kind), end="")
+    print(new_mate(options.kind) if options.kind in MATES else new_scene(options.kind), end="")
     return DONE
 
 

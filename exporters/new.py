@@ -7,6 +7,7 @@ from typing import get_args
 import msgspec
 from msgspec import Struct
 
+from parts.mates import JOINS, MATES
 from parts.scene import KINDS, ExportSpec, SceneInfo
 from parts.schema import describe_type
 
@@ -20,6 +21,10 @@ _EXAMPLES = {
     "tip_radius_coefficient": "0.38",
     "material": '"plywood 3 mm"',
     "colour": '"#c08040"',
+    "first": '"gear"',
+    "second": '"wheel"',
+    "working_centre_distance": "60.5",
+    "normal_backlash": "0.1",
     "purpose": '"laser"',
     "tolerance": "0.005",
     "name": '"laser"',
@@ -51,6 +56,9 @@ _PHASES = (
     '{ move = "return_", angle_deg = 120.0, law = "polynomial_345" }',
     '{ move = "dwell", angle_deg = 60.0 }',
 )
+# holes and slots of flat bodies
+_AT_HOLE = "[{ at = [0.0, 20.0], diameter = 3.0 }]"
+_AT_SLOT = "[{ start = [0.0, 28.0], end = [0.0, 36.0], width = 3.0 }]"
 # keys with a default that a scene to start from sets nevertheless
 _SET = {
     "CamSpec": {
@@ -71,6 +79,16 @@ _TABLE_EXAMPLES = {
     ("RimHolesTable", "pitch_circle_diameter"): "140.0",
     ("RackHolesTable", "diameter"): "2.5",
     ("RackHolesTable", "depth"): "2.5",
+    ("FollowerSpec", "end"): '"roller"',
+    ("FollowerArmSpec", "end"): '"roller"',
+    ("FollowerArmSpec", "arm_length"): "60.0",
+    ("RollerSpec", "diameter"): "16.0",
+    ("PlateSpec", "width"): "60.0",
+    ("PlateSpec", "height"): "90.0",
+    **{(owner, "holes"): _AT_HOLE for owner in ("PlateSpec", "FollowerSpec")},
+    **{(owner, "slots"): _AT_SLOT for owner in ("PlateSpec", "FollowerSpec")},
+    ("FollowerArmSpec", "holes"): "[{ at = [20.0, 0.0], diameter = 3.0 }]",
+    ("FollowerArmSpec", "slots"): "[{ start = [28.0, 0.0], end = [36.0, 0.0], width = 3.0 }]",
 }
 
 # what a scene of several parts may add
@@ -135,6 +153,17 @@ def new_scene(kind: str) -> str:
     return "\n".join(lines) + "\n"
 
 
+def new_mate(kind: str) -> str:
+    """The table of a kind of mate, to be put into a scene."""
+    joined = JOINS[kind]
+    who = "any two instances" if joined is None else " or ".join(f"{a} and {b}" for a, b in joined)
+    lines = [
+        f"# {(MATES[kind].__doc__ or '').splitlines()[0]}",
+        f"# Joins {who}; see higherpair new KIND for their keys.",
+    ]
+    return "\n".join([*lines, "[[mates]]", f'kind = "{kind}"', *_keys(MATES[kind])]) + "\n"
+
+
 def _keys(owner: type[Struct], without: tuple[str, ...] = ()) -> list[str]:
     """One line a key; keys with a default stand commented out."""
     lines = []
@@ -161,6 +190,8 @@ def _value(field: msgspec.structs.FieldInfo) -> str:
         return _table_value(tables[0]) if tables else _EXAMPLES[field.encode_name]
     if isinstance(field.default, bool):
         return str(field.default).lower()
+    if isinstance(field.default, tuple):
+        return str(list(field.default))
     return f'"{field.default}"' if isinstance(field.default, str) else str(field.default)
 
 

@@ -6,13 +6,15 @@ from pathlib import Path
 
 import numpy as np
 
-from geometry.contour import Approximation, Contour
+from geometry.contour import Approximation, Contour, edge_points
 from geometry.curve import Complex, Real
 
 STROKES = {"CUT_INNER": "#00ff00", "CUT_OUTER": "#ff0000"}
 # exporters/job.py states what this rounding may do to an outline
 _DIGITS = 9
 _MARGIN = 2.0
+# arcs of more than 100 degrees
+_LONG_BULGE = float(np.tan(np.radians(25)))
 
 
 def write_laser_svg(file: Path, layers: tuple[str, ...], boundaries: tuple[Approximation, ...]) -> dict[str, int]:
@@ -46,7 +48,7 @@ def _shape(contour: Contour, attributes: str, middle: float) -> str:
 
 def path_data(contour: Contour, middle: float) -> str:
     """Absolute M, L and A commands; y runs down in SVG, so a left turn has sweep flag 0."""
-    vertices, bulges = contour.expanded()
+    vertices, bulges = _quartered(*contour.expanded())
     ends = np.roll(vertices, -1)
     xs, ys = (middle + ends.real).tolist(), (middle - ends.imag).tolist()
     radii = _radii(vertices, ends, bulges).tolist()
@@ -58,6 +60,21 @@ def path_data(contour: Contour, middle: float) -> str:
             r = number(radius)
             parts.append(f"A{r},{r} 0 {int(abs(bulge) > 1)} {int(bulge < 0)} {number(x)},{number(y)}")
     return " ".join(parts) + " Z"
+
+
+def _quartered(vertices: Complex, bulges: Real) -> tuple[Complex, Real]:
+    """The same outline with every long arc cut into four: near half a turn, ends and radius hold its centre badly."""
+    long = np.abs(bulges) > _LONG_BULGE
+    if not long.any():
+        return vertices, bulges
+    quarter = np.tan(np.arctan(bulges) / 4)
+    places, heights = [], []
+    for start, end, bulge, part in zip(vertices, np.roll(vertices, -1), bulges, quarter, strict=True):
+        cut = abs(bulge) > _LONG_BULGE
+        shares = np.arange(4) / 4 if cut else np.zeros(1)
+        places.append(edge_points(np.array([start]), np.array([end]), np.array([bulge]), shares).ravel())
+        heights.append(np.full(len(shares), part if cut else bulge))
+    return np.concatenate(places), np.concatenate(heights)
 
 
 def _radii(starts: Complex, ends: Complex, bulges: Real) -> Real:

@@ -51,14 +51,7 @@ def check_lines(checks: dict[str, Any], language: str) -> list[str]:
     """What the checks of a scene found, a line each."""
     lines = []
     for mate in checks.get("mates", []):
-        text = words(language, "pair").format(
-            first=mate["first"],
-            second=mate["second"],
-            a_w=mate["working_centre_distance"],
-            alpha_w=mate["working_pressure_angle_deg"],
-            # what undercut and fillets leave of it
-            ratio=min(mate["contact_ratio"], mate["effective_contact_ratio"]),
-        )
+        text = _mate_head(mate, language)
         if "total_contact_ratio" in mate:
             text += words(language, "total_ratio").format(total=mate["total_contact_ratio"])
         if "verdict" in mate:
@@ -87,6 +80,20 @@ def _transmission(mate: dict[str, Any], language: str) -> list[str]:
         text = words(language, "transmission_error")
         lines.append(text.format(sense=words(language, sense), value=found["line_of_action"], motion=motion))
     return lines
+
+
+def _mate_head(mate: dict[str, Any], language: str) -> str:
+    """Who is joined and how: gear pairs with their numbers, other kinds in the words of their own."""
+    if "contact_ratio" not in mate:
+        return words(language, f"mate_{mate['kind']}").format(**mate)
+    return words(language, "pair").format(
+        first=mate["first"],
+        second=mate["second"],
+        a_w=mate["working_centre_distance"],
+        alpha_w=mate["working_pressure_angle_deg"],
+        # what undercut and fillets leave of it
+        ratio=min(mate["contact_ratio"], mate["effective_contact_ratio"]),
+    )
 
 
 def has_bad_verdict(checks: dict[str, Any]) -> bool:

@@ -59,7 +59,17 @@ WORDS: dict[str, tuple[str, str]] = {
     "second_arcsec": ('{value:.3g}" of {second}', "{value:.3g}″ на {second}"),
     "second_travel": ("{value:.3g} mm of {second}", "{value:.3g} мм на {second}"),
     "total_ratio": (", total {total:.4f}", ", сумарний {total:.4f}"),
+    "roller_diameter": ("roller diameter", "діаметр ролика"),
+    "mate_cam_follower": (
+        "{first} moves {second} by {travel:.6g} {unit}",
+        "{first} рухає {second} на {travel:.6g} {unit}",
+    ),
+    "mate_fixed": ("{first} - {second}: fixed to each other", "{first} - {second}: нерухомо з'єднані"),
     "broken": ("BROKEN", "ПОРУШЕНО"),
+    "height": (
+        "{second} stands {value:.9g} mm above {first}, {required:.9g} mm is asked",
+        "{second} стоїть на {value:.9g} мм вище за {first}, потрібно {required:.9g} мм",
+    ),
     "centre_distance": (
         "the centres of {first} and {second} stand {value:.9g} mm apart, {required:.9g} mm is asked "
         "(within {tolerance:.2g} mm)",
@@ -67,8 +77,8 @@ WORDS: dict[str, tuple[str, str]] = {
         "(з точністю {tolerance:.2g} мм)",
     ),
     "rack_phase": (
-        "{second} stands {value:.10g} mm along its line from where it meshes with {first} (within {tolerance:.2g} mm)",
-        "{second} зсунуто на {value:.10g} мм від положення зачеплення з {first} (з точністю {tolerance:.2g} мм)",
+        "{second} stands {value:.10g} mm along its way from where it meets {first} (within {tolerance:.2g} mm)",
+        "{second} зсунуто на {value:.10g} мм від положення контакту з {first} (з точністю {tolerance:.2g} мм)",
     ),
     "phase": (
         "{second} stands turned by {value:.10g} deg, rotation_deg = {required:.10g} brings it into the spaces of "

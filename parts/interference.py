@@ -36,7 +36,7 @@ def solid_overlaps(placing: Placing, parts: dict[str, Part]) -> tuple[SolidOverl
     contact = {
         frozenset((m.first.id, m.second.id))
         for m in placing.mates
-        if parts[m.first.part].is_plate and parts[m.second.part].is_plate
+        if m.mating.has_contact and parts[m.first.part].is_plate and parts[m.second.part].is_plate
     }
     solids: dict[str, Any] = {}
     boxes = {i.id: _box(i, parts[i.part]) for i in placing.instances}

@@ -14,6 +14,7 @@ from msgspec import Meta, Struct
 
 from parts.common_face import STRAIGHT, CommonFace
 from parts.keys import mm
+from parts.standing import Standing
 
 if TYPE_CHECKING:
     from geometry.findings import Finding
@@ -67,25 +68,6 @@ class RackPairSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="ra
     normal_backlash: _Backlash | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Standing:
-    """How two placed instances stand to each other against what their mate asks for.
-
-    The phase is ``phase_off`` from the middle of the backlash, ``play`` is half of it; both in rad at the arm (mm) of a
-    base radius, or in mm where the second is a rack.
-    """
-
-    direction: float
-    distance: float
-    phase_off: float
-    play: float
-    arm: float = 1.0
-
-    def slack(self, allowed: float) -> float:
-        """What ``allowed`` mm along the flanks is in the unit of the phase."""
-        return allowed / self.arm
-
-
 class Mating(Protocol):
     """Two instances in mesh, with the gears as they are built; ``kind`` is the scene's."""
 
@@ -107,11 +89,7 @@ class Mating(Protocol):
 
     @property
     def pair(self) -> Any:
-        """The calculated pair of its kind."""
-
-    @property
-    def face(self) -> CommonFace:
-        """What helical teeth have in common along their axes."""
+        """The calculated pair of gears, None of other mates."""
 
     @property
     def distance(self) -> float:
@@ -133,14 +111,22 @@ class Mating(Protocol):
     def ratio(self) -> float | None:
         """Turns of the second for one of the first, negative where they turn against each other; None: a rack."""
 
+    @property
+    def height(self) -> float:
+        """How far the second's lower face stands above the first's, mm."""
+
+    @property
+    def has_contact(self) -> bool:
+        """Whether ``contact`` decides how the outlines of two plates stand to each other; else their solids do."""
+
     def second_pose(self, centre: complex, rotation: float, direction: float) -> tuple[complex, float]:
         """Axis (mm) and rotation (rad) of the second where the first stands so."""
 
     def standing(self, first: tuple[complex, float], second: tuple[complex, float]) -> Standing:
         """How two placed instances (axis, rotation) stand to each other."""
 
-    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
-        """Verdict over one pitch, the second that far off its exact place."""
+    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact | None:
+        """Verdict over one pitch, the second that far off its exact place; None where nothing moves."""
 
     def findings(self) -> tuple[Finding, ...]:
         """Conditions of the pair that are not kept."""
@@ -159,6 +145,8 @@ class ExternalMating:
     pair: ExternalPair
     kind: str = "external_gear_pair"
     face: CommonFace = STRAIGHT
+    height: float = 0.0
+    has_contact: bool = True
 
     @property
     def distance(self) -> float:
@@ -237,6 +225,8 @@ class InternalMating:
     ring_first: bool
     kind: str = "internal_gear_pair"
     face: CommonFace = STRAIGHT
+    height: float = 0.0
+    has_contact: bool = True
 
     @property
     def distance(self) -> float:
@@ -321,6 +311,8 @@ class RackMating:
     pair: RackPair
     kind: str = "rack_pair"
     face: CommonFace = STRAIGHT
+    height: float = 0.0
+    has_contact: bool = True
 
     @property
     def distance(self) -> float:

@@ -12,6 +12,7 @@ from typing import Any
 from msgspec import Struct
 
 from geometry.errors import GeometryError, ParameterError, at_least, at_most
+from parts.joints import JOINTS
 from parts.mate_kinds import (
     ExternalGearPairSpec,
     ExternalMating,
@@ -26,13 +27,17 @@ MATES: dict[str, type[Struct]] = {
     "external_gear_pair": ExternalGearPairSpec,
     "internal_gear_pair": InternalGearPairSpec,
     "rack_pair": RackPairSpec,
+    **{kind: joint.spec for kind, joint in JOINTS.items()},
 }
-# what each kind of mate joins, first and second in every order that works
-JOINS = {
+# what each kind of mate joins, first and second in every order that works; None: anything
+JOINS: dict[str, tuple[tuple[str, str], ...] | None] = {
     "external_gear_pair": (("spur_gear", "spur_gear"),),
     "internal_gear_pair": (("ring_gear", "spur_gear"), ("spur_gear", "ring_gear")),
     "rack_pair": (("spur_gear", "rack"),),
+    **{kind: joint.joins for kind, joint in JOINTS.items()},
 }
+# mates that change their gears' tips and thinning
+GEAR_PAIRS = (ExternalGearPairSpec, InternalGearPairSpec, RackPairSpec)
 
 
 def mated(gears: dict[str, Any], mates: list[Any], part_of: dict[str, str]) -> tuple[dict[str, Any], list[Mating]]:
@@ -45,18 +50,22 @@ def mated(gears: dict[str, Any], mates: list[Any], part_of: dict[str, str]) -> t
     ParameterError
         Two gears cannot mesh; names the key of the second gear, or of the mate as ``mate.KEY``, and what would work.
     """
-    if not mates:
-        return gears, []
-    final = _thinned(gears, mates, part_of)
-    pairs = [_pair(m, final[part_of[m.first]], final[part_of[m.second]]) for m in mates]
-    for mate, pair in zip(mates, pairs, strict=True):
+    toothed = [m for m in mates if isinstance(m, GEAR_PAIRS)]
+    final = _thinned(gears, toothed, part_of)
+    pairs = [_pair(m, final[part_of[m.first]], final[part_of[m.second]]) for m in toothed]
+    for mate, pair in zip(toothed, pairs, strict=True):
         if isinstance(mate, ExternalGearPairSpec):
             for name, gear in ((part_of[mate.first], pair.first), (part_of[mate.second], pair.second)):
                 if gear.tip_radius < final[name].tip_radius:
                     final[name] = replace(final[name], given_tip_diameter=2 * gear.tip_radius)
-    return final, [
-        _mating(m, p, final[part_of[m.first]], final[part_of[m.second]]) for m, p in zip(mates, pairs, strict=True)
-    ]
+    matings, left = [], iter(pairs)
+    for mate in mates:
+        first, second = final[part_of[mate.first]], final[part_of[mate.second]]
+        if isinstance(mate, GEAR_PAIRS):
+            matings.append(_mating(mate, next(left), first, second))
+        else:
+            matings.append(JOINTS[mate.__struct_config__.tag].mating(mate, first, second))
+    return final, matings
 
 
 def _pair(mate: Any, first: Any, second: Any) -> Any:

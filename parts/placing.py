@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 from geometry.placement import Placement3, Vector
 from geometry.tolerance import PLACED_MM, TOLERANCES
+from parts.common_face import face_of, with_face
 from parts.instances import DriveSpec, InstanceSpec
 from parts.mate_kinds import Mating
 from parts.part import Part
@@ -157,7 +158,7 @@ class _Placed:
             raise SceneError(self.source, f"instances.{second}.rotation_deg", self.specs[second].rotation_deg, remedy)
         direction = math.radians(mating.direction_deg)
         centre, turned = mating.second_pose(here.centre, here.rotation, direction)
-        at = (centre.real, centre.imag, here.at[2])
+        at = (centre.real, centre.imag, here.at[2] + mating.height)
         self.stand[second] = Instance(second, str(self.specs[second].part), at, turned, "mate")
         for group in self.free:
             if first in group:
@@ -248,7 +249,7 @@ def _closed(mate: PlacedMate) -> PlacedMate:
         return mate
     first, second = mate.first, mate.second
     # helical teeth are compared at one height: that of the second's lower face
-    turned = first.rotation + mate.mating.face.turn(mate.mating.first_teeth, second.at[2] - first.at[2])
+    turned = first.rotation + face_of(mate.mating).turn(mate.mating.first_teeth, second.at[2] - first.at[2])
     found = mate.mating.standing((first.centre, turned), (second.centre, second.rotation))
     required, shift = mate.mating.distance, found.distance - mate.mating.distance
     # numbers that large cannot be known better
@@ -269,13 +270,14 @@ def _with_faces_and_speeds(mates: tuple[PlacedMate, ...], parts: dict[str, Part]
     for index, mate in enumerate(mates):
         more: list[Condition] = []
         if mate.only_checks:
-            width = _common_width(mate.first, mate.second, parts)
-            more.append(Condition("common_face_width", width, 0.0, 0.0, width > 0))
-            face = mate.mating.face
+            more.append(_height(mate, parts))
+            face = face_of(mate.mating)
+            if face.helix.angle:
+                width = max(_common_width(mate.first, mate.second, parts), 0.0)
+                mate = replace(mate, mating=with_face(mate.mating, replace(face, width=width)))
             if face.helix.double:
                 height = mate.second.at[2] - mate.first.at[2]
                 more.append(Condition("herringbone_height", height, 0.0, PLACED_MM, abs(height) <= PLACED_MM))
-            mate = replace(mate, mating=replace(mate.mating, face=replace(face, width=max(width, 0.0))))  # type: ignore[type-var]
             before = _train(mate.mating.first, [m.mating for m in mates[:index]])
             ratio, other = mate.mating.ratio, before.get(mate.mating.second)
             if other is not None and ratio is not None:
@@ -283,6 +285,15 @@ def _with_faces_and_speeds(mates: tuple[PlacedMate, ...], parts: dict[str, Part]
                 more.append(Condition("train", other, ratio, allowed, abs(other - ratio) <= allowed))
         done.append(replace(mate, conditions=(*mate.conditions, *more)))
     return tuple(done)
+
+
+def _height(mate: PlacedMate, parts: dict[str, Part]) -> Condition:
+    """Bodies that touch need a common height; bodies that are fixed stand at a height to each other."""
+    if mate.mating.has_contact:
+        width = _common_width(mate.first, mate.second, parts)
+        return Condition("common_face_width", width, 0.0, 0.0, width > 0)
+    height, required = mate.second.at[2] - mate.first.at[2], mate.mating.height
+    return Condition("height", height, required, PLACED_MM, abs(height - required) <= PLACED_MM)
 
 
 def _common_width(one: Instance, two: Instance, parts: dict[str, Part]) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import re
 import tomllib
 from pathlib import Path
@@ -13,12 +12,24 @@ from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError
 from parts.cam import CamSpec, cam_part, checked_cam
+from parts.common_face import with_face
+from parts.follower import (
+    FollowerArmSpec,
+    FollowerSpec,
+    RollerSpec,
+    checked_arm,
+    checked_follower,
+    checked_roller,
+    follower_part,
+    roller_part,
+)
 from parts.helix_keys import common_face, helix_of
 from parts.instances import DriveSpec, InstanceSpec, check_instance, drive_spec, instance_specs
 from parts.keys import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.mate_kinds import Mating
-from parts.mates import JOINS, MATES, mated
+from parts.mates import GEAR_PAIRS, JOINS, MATES, mated
 from parts.part import Part
+from parts.plate import PlateSpec, checked_plate, plate_part
 from parts.rack import RackSpec, checked_rack_part, rack_part
 from parts.ring_gear import RingGearSpec, checked_ring_gear, ring_gear_part
 from parts.schema import SceneError, converted, near, refuse_infinite
@@ -31,6 +42,10 @@ KINDS: dict[str, tuple[type[Struct], Any, Any]] = {
     "ring_gear": (RingGearSpec, checked_ring_gear, ring_gear_part),
     "rack": (RackSpec, checked_rack_part, rack_part),
     "cam": (CamSpec, checked_cam, cam_part),
+    "follower": (FollowerSpec, checked_follower, follower_part),
+    "follower_arm": (FollowerArmSpec, checked_arm, follower_part),
+    "roller": (RollerSpec, checked_roller, roller_part),
+    "plate": (PlateSpec, checked_plate, plate_part),
 }
 # purposes of each format, the default first, and the tolerance (mm) of an export that names none
 _DEFAULTS: dict[str, dict[str, float]] = {
@@ -315,8 +330,8 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
             place = f".{key}" if owner == "mate" else f": parts.{_blamed(scene, mate, part_of)}.{error.name}"
             raise SceneError(source, f"mates[{index + 1}]{place}", error.value, error.allowed) from error
     gears, matings = mated(gears, scene.mates, part_of)
-    faces = [common_face(*(scene.parts[part_of[i]] for i in (m.first, m.second))) for m in matings]
-    matings = [dataclasses.replace(m, face=face) for m, face in zip(matings, faces, strict=True)]  # type: ignore[type-var]
+    owners = [[scene.parts[part_of[i]] for i in (m.first, m.second)] for m in matings]
+    matings = [with_face(m, common_face(*two)) for m, two in zip(matings, owners, strict=True)]
     parts = {key: KINDS[spec.__struct_config__.tag][2](key, spec, gears[key]) for key, spec in scene.parts.items()}
     return parts, matings
 
@@ -332,12 +347,13 @@ def _check_kinds(scene: SceneFile, mate: Any, part_of: dict[str, str], source: s
     """A mate joins the kinds of parts that it is for."""
     mate_kind = mate.__struct_config__.tag
     found = tuple(scene.parts[part_of[i]].__struct_config__.tag for i in (mate.first, mate.second))
-    if found in JOINS[mate_kind]:
+    joins = JOINS[mate_kind]
+    if joins is None or found in joins:
         return
-    index = 0 if all(first != found[0] for first, _ in JOINS[mate_kind]) else 1
+    index = 0 if all(first != found[0] for first, _ in joins) else 1
     key = ("first", "second")[index]
-    wanted = " or ".join(f"{a} and {b}" for a, b in JOINS[mate_kind])
-    other = next((m for m, joins in JOINS.items() if found in joins), None)
+    wanted = " or ".join(f"{a} and {b}" for a, b in joins)
+    other = next((m for m, others in JOINS.items() if others and found in others), None)
     hint = f'; kind = "{other}" joins these two' if other else ""
     remedy = f"is a {found[index]}; {mate_kind} joins {wanted}{hint}"
     raise SceneError(source, f"{place}.{key}", getattr(mate, key), remedy)
@@ -345,6 +361,8 @@ def _check_kinds(scene: SceneFile, mate: Any, part_of: dict[str, str], source: s
 
 def _check_helices(scene: SceneFile, mate: Any, part_of: dict[str, str], source: str, place: str) -> None:
     """Helices that mesh, and one normal module: told in the keys of the parts, before their transverse sections."""
+    if not isinstance(mate, GEAR_PAIRS):
+        return
     one, two = (scene.parts[part_of[i]] for i in (mate.first, mate.second))
     first, second = helix_of(one), helix_of(two)
     if first.angle == 0 and second.angle == 0:

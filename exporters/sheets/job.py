@@ -70,14 +70,16 @@ def sheet_jobs(scene: SceneFile, matings: list[Mating], export: ExportSpec, wher
         expected = _generating(scene, export, where, source)
         name = f"{scene.name}.{export.name or export.purpose}"
         return [SheetJob(export, expected, f"{name}.{ending}", where) for ending in ENDINGS]
-    if not matings:
+    if all(m.pair is None for m in matings):
         raise SceneError(source, f"{where}.purpose", export.purpose, "shows pairs; add [[mates]] or remove it")
     if export.mate is not None and not 1 <= export.mate <= len(matings):
         raise SceneError(source, f"{where}.mate", export.mate, f"must be from 1 to {len(matings)}, the number of mates")
     jobs = []
     for index, mating in enumerate(matings, 1):
-        if export.mate not in (None, index):
+        if export.mate not in (None, index) or (export.mate is None and mating.pair is None):
             continue
+        if mating.pair is None:
+            raise SceneError(source, f"{where}.mate", index, f"is a {mating.kind} mate; name a pair of gears")
         try:
             expected = _meshing(mating, scene.scene.language, float(export.tolerance or 0.0))
         except ParameterError as error:

@@ -7,12 +7,14 @@ import os
 import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
 
 from exporters import __version__
-from parts.scene import built_in_scenes
+from parts.mates import MATES
+from parts.scene import KINDS, built_in_scenes
 
 from .making import build_gear, part_keys, read_report, run, write_scene
 from .outside import Gear
@@ -199,18 +201,26 @@ def test_list_names_every_built_in_scene_and_kind(capsys: pytest.CaptureFixture[
         assert re.search(rf"^\s*{name}\s+\S", out, re.MULTILINE), name
 
 
-def new_scene(capsys: pytest.CaptureFixture[str]) -> str:
-    """What `new spur_gear` prints."""
+def new_scene(capsys: pytest.CaptureFixture[str], kind: str = "spur_gear") -> str:
+    """What `new KIND` prints."""
     capsys.readouterr()
-    assert run("new", "spur_gear") == 0
+    assert run("new", kind) == 0
     return capsys.readouterr().out
 
 
-def test_the_scene_to_start_from_builds(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_scene_to_start_from_builds(kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "mine.toml"
-    file.write_text(new_scene(capsys), encoding="utf-8")
+    file.write_text(new_scene(capsys, kind), encoding="utf-8")
     assert run("build", file, "--out", tmp_path / "o") == 0
     assert {e["format"] for e in read_report(tmp_path / "o" / "mine")["files"]} >= {"dxf", "svg", "stl"}
+
+
+@pytest.mark.parametrize("kind", MATES)
+def test_new_prints_every_mate_with_its_keys(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+    table = tomllib.loads(new_scene(capsys, kind))["mates"][0]
+    assert table["kind"] == kind
+    assert {"first", "second"} <= set(table)
 
 
 def test_every_commented_key_may_be_set_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,0 +1,212 @@
+"""Outlines of followers: stems with a tip, a roller's pin, a mushroom or a plate, and arms with the same ends.
+
+A stem's reference point (tip, roller's centre, centre of the mushroom's arc, middle of the plate) is the origin, its
+stem runs along +y. An arm's pivot is the origin, the arm runs along +x, and the cam lies to its left (``sense`` 1) or
+right (-1), as in geometry/cams/mounts.py.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+
+from geometry.cams.disk import FollowerKind
+from geometry.curve import end_point, start_point
+from geometry.errors import ParameterError, at_least, at_most
+from geometry.line_arc import Arc, Line, arc_between
+from geometry.plate_outline import Edge, PlateOutline, belt, rounded, tangent_point
+from geometry.tolerance import TOLERANCES
+
+
+@dataclass(frozen=True, slots=True)
+class FollowerEnd:
+    """What of a follower touches the cam; lengths in mm.
+
+    ``radius`` of the roller or mushroom; ``reach``: to both sides of the reference point (a stem's plate), or from the
+    pivot (an arm's face). ``arm_length`` and ``face_offset`` of an arm, None of a stem; ``outline`` None of a roller.
+    """
+
+    kind: FollowerKind
+    radius: float = 0.0
+    reach: tuple[float, float] | None = None
+    arm_length: float | None = None
+    face_offset: float = 0.0
+    sense: int = 1
+    outline: PlateOutline | None = None
+
+
+def pointed_stem(width: float, length: float, tip_angle: float) -> tuple[Edge, ...]:
+    """A wedge of ``tip_angle`` rad at the end of a stem.
+
+    Raises
+    ------
+    ParameterError
+        The wedge is longer than the stem.
+    """
+    height = width / 2 / math.tan(tip_angle / 2)
+    if not height < length:
+        text = f"the tip is {height:.6g} mm long; at least {at_least(height * 1.01, 4)} mm works"
+        raise ParameterError("stem_length", length, text)
+    half = width / 2
+    corners = [0j, complex(half, height), complex(half, length), complex(-half, length), complex(-half, height)]
+    return rounded([(c, 0.0) for c in corners])
+
+
+def roller_stem(width: float, length: float) -> tuple[Edge, ...]:
+    """A stem with a round end about the roller's pin."""
+    half = width / 2
+    return (
+        Arc(0j, half, math.pi, math.pi),
+        Line(half + 0j, complex(half, length)),
+        Line(complex(half, length), complex(-half, length)),
+        Line(complex(-half, length), -half + 0j),
+    )
+
+
+def plate_stem(
+    width: float, length: float, plate: tuple[float, float], radius: float | None, corner: float
+) -> tuple[Edge, ...]:
+    """A stem on a plate (diameter, thickness): flat, or a mushroom whose face has ``radius`` mm about the origin.
+
+    ``corner`` rounds the inner corners between plate and stem.
+
+    Raises
+    ------
+    ParameterError
+        Sizes that do not fit.
+    """
+    diameter, thickness = plate
+    half, stem = diameter / 2, width / 2
+    if radius is not None and not width < 2 * radius:
+        text = f"is narrower than the stem; at least {at_least(width * 0.51, 4)} mm works"
+        raise ParameterError("follower_radius", radius, text)
+    if not diameter >= width:
+        raise ParameterError(
+            "plate_diameter", diameter, f"is below the stem's width; at least {at_least(width)} mm works"
+        )
+    if radius is not None and not diameter < 2 * radius:
+        text = f"the arc ends at its own diameter; below {at_most(2 * radius * (1 - 1e-6))} mm works"
+        raise ParameterError("plate_diameter", diameter, text)
+    edge = 0.0 if radius is None else -math.sqrt((radius - half) * (radius + half))
+    back = edge + thickness
+    if not length > back + corner:
+        text = f"the plate takes all of it; at least {at_least(back + corner + width, 4)} mm works"
+        raise ParameterError("stem_length", length, text)
+    if diameter - width < 2 * corner * (1 + 1e-9) and corner > 0:
+        text = f"the plate has no room for it; at most {at_most((diameter - width) * 0.4999, 4)} mm works"
+        raise ParameterError("corner_radius", corner, text)
+    corners = [(complex(half, edge), 0.0)]
+    if diameter > width:
+        corners += [(complex(half, back), 0.0), (complex(stem, back), corner)]
+    corners += [(complex(stem, length), 0.0), (complex(-stem, length), 0.0)]
+    if diameter > width:
+        corners += [(complex(-stem, back), corner), (complex(-half, back), 0.0)]
+    corners.append((complex(-half, edge), 0.0))
+    edges = rounded(corners)
+    if radius is None:
+        return edges
+    first, last = complex(-half, edge), complex(half, edge)
+    sweep = cmath.phase(last / first)
+    # the chord under the arc is what ``rounded`` closes with
+    return (*(e for e in edges if not _joins(e, first, last)), Arc(0j, radius, cmath.phase(first), sweep))
+
+
+def _joins(edge: Edge, first: complex, last: complex) -> bool:
+    return isinstance(edge, Line) and abs(edge.start - first) + abs(edge.end - last) < 1e-9 * abs(first)
+
+
+def round_arm(length: float, pivot: float, end: float) -> tuple[Edge, ...]:
+    """An arm between a boss of diameter ``pivot`` and a round end of diameter ``end`` about the roller's pin.
+
+    Raises
+    ------
+    ParameterError
+        One lies within the other.
+    """
+    if not length > abs(pivot - end) / 2:
+        least = at_least(abs(pivot - end) / 2 * 1.01, 4)
+        raise ParameterError("arm_length", length, f"one end lies within the other; at least {least} mm works")
+    return belt((0j, pivot / 2), (length + 0j, end / 2))
+
+
+def flat_arm(length: float, width: float, face_offset: float, boss: float, sense: int) -> tuple[Edge, ...]:
+    """A bar whose face is ``face_offset`` mm nearer to the cam than the pivot, rounded behind the pivot.
+
+    Raises
+    ------
+    ParameterError
+        The pivot's hole (``boss``: its diameter and wall) lies outside of the bar.
+    """
+    low, high = boss / 2, width - boss / 2
+    slack = TOLERANCES.relative_join * width
+    if not low - slack <= face_offset <= high + slack:
+        if low > high:
+            raise ParameterError("width", width, f"has no room for the pivot; at least {at_least(boss, 4)} mm works")
+        limit = f"at least {at_least(low, 4)}" if face_offset < low else f"at most {at_most(high, 4)}"
+        raise ParameterError("face_offset", face_offset, f"the pivot lies outside of the bar; {limit} mm works")
+    back = -(boss / 2)
+    near, far = sense * face_offset, sense * (face_offset - width)
+    corners = [complex(back, min(near, far)), complex(length, min(near, far))]
+    corners += [complex(length, max(near, far)), complex(back, max(near, far))]
+    return rounded([(c, 0.0) for c in corners])
+
+
+def pointed_arm(length: float, width: float, boss: float, tip: tuple[float, float], sense: int) -> tuple[Edge, ...]:
+    """An arm with a hook whose tip (opening angle rad, height mm) stands across it, at (``length``, 0).
+
+    Raises
+    ------
+    ParameterError
+        The hook does not fit on the arm.
+    """
+    _reaches(length, boss)
+    angle, height = tip
+    half = height * math.tan(angle / 2)
+    if not length - half > boss / 2:
+        most = (length - boss / 2) * 0.999 / math.tan(angle / 2)
+        raise ParameterError("tip_height", height, f"the hook reaches the pivot; at most {at_most(most, 4)} mm works")
+    shoulder = complex(length - half, -height)
+    front = complex(length + half, -height)
+    hook = (Line(front, length + 0j), Line(length + 0j, shoulder))
+    return _hooked(shoulder, front, width, boss, hook, sense)
+
+
+def mushroom_arm(length: float, width: float, boss: float, cap: tuple[float, float], sense: int) -> tuple[Edge, ...]:
+    """An arm with a cap of a circle (radius, height of its centre over the arm, mm) about (``length``, 0).
+
+    Raises
+    ------
+    ParameterError
+        The cap does not fit on the arm.
+    """
+    _reaches(length, boss)
+    radius, height = cap
+    if not height < radius:
+        raise ParameterError("tip_height", height, f"is no cap; at most {at_most(radius * 0.999, 4)} mm works")
+    half = math.sqrt((radius - height) * (radius + height))
+    if not length - radius > boss / 2:
+        text = f"the cap reaches the pivot; at most {at_most((length - boss / 2) * 0.999, 4)} mm works"
+        raise ParameterError("follower_radius", radius, text)
+    shoulder, front = complex(length - half, -height), complex(length + half, -height)
+    return _hooked(shoulder, front, width, boss, (arc_between(length + 0j, front, shoulder, turns_left=True),), sense)
+
+
+def _reaches(length: float, boss: float) -> None:
+    if not length > boss / 2:
+        text = f"ends within the pivot's boss; at least {at_least(boss, 4)} mm works"
+        raise ParameterError("arm_length", length, text)
+
+
+def _hooked(
+    shoulder: complex, front: complex, width: float, boss: float, hook: tuple[Edge, ...], sense: int
+) -> tuple[Edge, ...]:
+    """An arm from the boss about the pivot to a hook that stands on its upper side, for a cam on the left or right."""
+    heel, toe = shoulder - 1j * width, front - 1j * width
+    upper, lower = tangent_point(shoulder, 0j, boss / 2, -1), tangent_point(heel, 0j, boss / 2, 1)
+    turn = cmath.phase(lower / upper)
+    around = Arc(0j, boss / 2, cmath.phase(upper), turn if turn > 0 else turn + 2 * math.pi)
+    lines = (Line(lower, heel), Line(heel, toe), Line(toe, front))
+    # a tip of no height is no edge
+    edges = tuple(e for e in (*hook, Line(shoulder, upper), around, *lines) if end_point(e) != start_point(e))
+    return edges if sense > 0 else tuple(e.mirrored() for e in reversed(edges))
