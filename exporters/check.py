@@ -120,8 +120,8 @@ def _mate(mate: PlacedMate, language: str, *, contact: bool) -> dict[str, Any]:
 
 
 def _add_transmission(found: dict[str, Any], mate: PlacedMate) -> None:
-    """The transmission error of a mate that meshes: nothing where its conditions are broken."""
-    if not all(c.met for c in mate.conditions):
+    """The transmission error of gears in mesh: nothing where the conditions are broken."""
+    if mate.mating.pair is None or not all(c.met for c in mate.conditions):
         return
     from parts.transmission import transmission_error
 

@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError, at_least
-from parts.common_face import STRAIGHT, CommonFace
 from parts.keys import mm
-from parts.mate_kinds import Standing
+from parts.standing import Standing
 
 if TYPE_CHECKING:
     from geometry.cams.disk import DiskCam
@@ -56,7 +55,6 @@ class CamFollowerMating:
     end: FollowerEnd
     kind: str = "cam_follower"
     pair: Any = None
-    face: CommonFace = STRAIGHT
     first_teeth: int = 1
     normal_backlash: float = 0.0
     ratio: None = None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from geometry.findings import Finding
@@ -65,3 +65,13 @@ class CommonFace:
 
 
 STRAIGHT = CommonFace()
+
+
+def face_of(mating: Any) -> CommonFace:
+    """The face of a mate; that of straight teeth for mates without teeth."""
+    return getattr(mating, "face", STRAIGHT)
+
+
+def with_face(mating: Any, face: CommonFace) -> Any:
+    """A mate with another face; mates without teeth as they are."""
+    return replace(mating, face=face) if hasattr(mating, "face") else mating

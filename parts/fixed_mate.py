@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Meta, Struct
 
-from parts.common_face import STRAIGHT, CommonFace
 from parts.keys import mm
-from parts.mate_kinds import Standing
+from parts.standing import Standing
 
 if TYPE_CHECKING:
     from geometry.findings import Finding
@@ -48,7 +47,6 @@ class FixedMating:
     kind: str = "fixed"
     direction_deg: float = 0.0
     pair: Any = None
-    face: CommonFace = STRAIGHT
     module: float = 1.0
     first_teeth: int = 1
     normal_backlash: float = 0.0

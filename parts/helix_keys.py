@@ -12,7 +12,7 @@ from msgspec import Meta
 from geometry.errors import GeometryError, ParameterError, at_least, at_most
 from geometry.findings import Finding
 from geometry.gears.helix import Hand, Helix
-from parts.common_face import CommonFace
+from parts.common_face import STRAIGHT, CommonFace
 
 HelixAngle = Annotated[
     float,
@@ -51,7 +51,9 @@ def checked_helix(spec: Any) -> Helix:
 
 
 def common_face(first: Any, second: Any) -> CommonFace:
-    """The face that two mates' keys give them, both at one height."""
+    """The face that two mates' keys give them, both at one height; that of straight teeth for other parts."""
+    if helix_of(first).angle == 0:
+        return STRAIGHT
     return CommonFace(helix_of(first), first.module, min(first.face_width, second.face_width))
 
 

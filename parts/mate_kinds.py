@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
 from parts.common_face import STRAIGHT, CommonFace
+from parts.standing import Standing
 
 if TYPE_CHECKING:
     from geometry.findings import Finding
@@ -18,25 +19,6 @@ if TYPE_CHECKING:
     from geometry.gears.mesh_search import PairContact
     from geometry.gears.pair import ExternalPair
     from geometry.gears.rack_pair import RackPair
-
-
-@dataclass(frozen=True, slots=True)
-class Standing:
-    """How two placed instances stand to each other against what their mate asks for.
-
-    The phase is ``phase_off`` from the middle of the backlash, ``play`` is half of it; both in rad at the arm (mm) of a
-    base radius, or in mm where the second is a rack.
-    """
-
-    direction: float
-    distance: float
-    phase_off: float
-    play: float
-    arm: float = 1.0
-
-    def slack(self, allowed: float) -> float:
-        """What ``allowed`` mm along the flanks is in the unit of the phase."""
-        return allowed / self.arm
 
 
 class Mating(Protocol):
@@ -61,10 +43,6 @@ class Mating(Protocol):
     @property
     def pair(self) -> Any:
         """The calculated pair of gears, None of other mates."""
-
-    @property
-    def face(self) -> CommonFace:
-        """What helical teeth have in common along their axes."""
 
     @property
     def distance(self) -> float:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 from geometry.placement import Placement3, Vector
 from geometry.tolerance import PLACED_MM, TOLERANCES
+from parts.common_face import face_of, with_face
 from parts.instances import DriveSpec, InstanceSpec
 from parts.mate_kinds import Mating
 from parts.part import Part
@@ -248,7 +249,7 @@ def _closed(mate: PlacedMate) -> PlacedMate:
         return mate
     first, second = mate.first, mate.second
     # helical teeth are compared at one height: that of the second's lower face
-    turned = first.rotation + mate.mating.face.turn(mate.mating.first_teeth, second.at[2] - first.at[2])
+    turned = first.rotation + face_of(mate.mating).turn(mate.mating.first_teeth, second.at[2] - first.at[2])
     found = mate.mating.standing((first.centre, turned), (second.centre, second.rotation))
     required, shift = mate.mating.distance, found.distance - mate.mating.distance
     # numbers that large cannot be known better
@@ -270,9 +271,13 @@ def _with_faces_and_speeds(mates: tuple[PlacedMate, ...], parts: dict[str, Part]
         more: list[Condition] = []
         if mate.only_checks:
             more.append(_height(mate, parts))
-            if mate.mating.pair is not None:
-                mate, found = _with_common_face(mate, parts)
-                more += found
+            face = face_of(mate.mating)
+            if face.helix.angle:
+                width = max(_common_width(mate.first, mate.second, parts), 0.0)
+                mate = replace(mate, mating=with_face(mate.mating, replace(face, width=width)))
+            if face.helix.double:
+                height = mate.second.at[2] - mate.first.at[2]
+                more.append(Condition("herringbone_height", height, 0.0, PLACED_MM, abs(height) <= PLACED_MM))
             before = _train(mate.mating.first, [m.mating for m in mates[:index]])
             ratio, other = mate.mating.ratio, before.get(mate.mating.second)
             if other is not None and ratio is not None:
@@ -280,17 +285,6 @@ def _with_faces_and_speeds(mates: tuple[PlacedMate, ...], parts: dict[str, Part]
                 more.append(Condition("train", other, ratio, allowed, abs(other - ratio) <= allowed))
         done.append(replace(mate, conditions=(*mate.conditions, *more)))
     return tuple(done)
-
-
-def _with_common_face(mate: PlacedMate, parts: dict[str, Part]) -> tuple[PlacedMate, list[Condition]]:
-    """The mate with the width that its teeth have in common as they stand; herringbones meet at one height only."""
-    face, conditions = mate.mating.face, []
-    if face.helix.double:
-        height = mate.second.at[2] - mate.first.at[2]
-        conditions.append(Condition("herringbone_height", height, 0.0, PLACED_MM, abs(height) <= PLACED_MM))
-    width = max(_common_width(mate.first, mate.second, parts), 0.0)
-    mating = replace(mate.mating, face=replace(face, width=width))  # type: ignore[type-var]
-    return replace(mate, mating=mating), conditions
 
 
 def _height(mate: PlacedMate, parts: dict[str, Part]) -> Condition:

@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError
-from parts.common_face import STRAIGHT, CommonFace
 from parts.keys import mm
-from parts.mate_kinds import Standing
+from parts.standing import Standing
 
 if TYPE_CHECKING:
     from geometry.cams.disk import DiskCam
@@ -64,7 +63,6 @@ class ConjugateMating:
     ratio: float = 1.0
     has_contact: bool = False
     pair: Any = None
-    face: CommonFace = STRAIGHT
 
     @property
     def module(self) -> float:
@@ -117,7 +115,6 @@ class YokeMating:
     first_teeth: int = 1
     ratio: None = None
     pair: Any = None
-    face: CommonFace = STRAIGHT
 
     @property
     def has_contact(self) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 import re
 import tomllib
@@ -303,12 +302,10 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
             place = f".{key}" if owner == "mate" else f": parts.{_blamed(scene, mate, part_of)}.{error.name}"
             raise SceneError(source, f"mates[{index + 1}]{place}", error.value, error.allowed) from error
     gears, matings = mated(gears, scene.mates, part_of, helices)
-    for index, mating in enumerate(matings):
-        if mating.pair is not None:
-            from parts.helix_keys import common_face
-
-            face = common_face(*(scene.parts[part_of[i]] for i in (mating.first, mating.second)))
-            matings[index] = dataclasses.replace(mating, face=face)  # type: ignore[type-var]
+    owners = [[scene.parts[part_of[i]] for i in (m.first, m.second)] for m in matings]
+    matings = [
+        with_face(m, common_face(*two)) if m.pair is not None else m for m, two in zip(matings, owners, strict=True)
+    ]
     parts = {key: KINDS[spec.__struct_config__.tag][2](key, spec, gears[key]) for key, spec in scene.parts.items()}
     return parts, matings
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from parts.common_face import face_of
 from parts.mate_kinds import ExternalMating, InternalMating, Mating, RackMating
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ def transmission_error(mating: Mating, distance_off: float = 0.0) -> dict[str, A
 
 def _errors(mating: Mating, distance_off: float) -> tuple[TransmissionError, TransmissionError, float]:
     """Errors where the first turns counter-clockwise and clockwise, and the second's arm on the line of action, mm."""
-    overlap = mating.face.overlap_ratio
+    overlap = face_of(mating).overlap_ratio
     if isinstance(mating, ExternalMating):
         from geometry.gears.pair_contact import pair_transmission
 

@@ -15,6 +15,7 @@ import cmath
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -214,7 +215,7 @@ class MeshSearch:
         raise NotImplementedError
 
     def drive_angles(self) -> Real:
-        """Even steps through one pitch, the angles at which corners come closest, and those half-way between."""
+        """Even steps through one pitch, the angles at which corners and flank ends come closest, and those between."""
         pitch = self.pitches[0]
         even = np.arange(_DRIVE_ANGLES) * pitch / _DRIVE_ANGLES
         events = np.sort(np.mod(np.concatenate([self._corner_angles(0), self._corner_angles(1)]), pitch))
@@ -226,8 +227,11 @@ class MeshSearch:
         return angles[np.append(True, np.diff(angles) > 1e-9 * pitch)]
 
     def _corner_angles(self, which: int) -> Real:
-        """Drive angles at which a convex corner of a body is closest to the mate's outline, locally."""
+        """Drive angles at which a convex corner or a flank's end at a round tip is closest to the mate, locally."""
         corners = self.outlines[which].convex_corners
+        # with a round tip contact ends without a corner
+        ends = _round_flank_ends(self.segments if which else self.first_segments)
+        corners += tuple(p for p in ends if all(abs(p - c) > _EVENT * self.module for c in corners))
         if not corners:
             return np.zeros(0)
         both = np.array([*corners, *np.conj(corners)])
@@ -262,6 +266,15 @@ class MeshSearch:
         labels = self.first_segments[found.first_index[group]].label, self.segments[found.second_index[group]].label
         angle = float(drive[group // 2])
         return ContactPlace(float(found.gap[group]), angle, complex(found.point[group]) * cmath.exp(1j * angle), labels)
+
+
+def _round_flank_ends(segments: tuple[Segment, ...]) -> tuple[complex, ...]:
+    """Where flank and tip break meet, mm, from whichever side the outline comes."""
+    found = []
+    for one, two in pairwise(segments):
+        if Label.TIP_BREAK in (one.label, two.label) and {one.label, two.label} & {Label.FLANK, Label.RELIEF}:
+            found.append(complex(two.curve.point(two.curve.domain[0])))
+    return tuple(found)
 
 
 def gear_outline(side: ToothSide) -> Boundary:
