@@ -1,0 +1,216 @@
+"""The cycloidal disc of a reducer: the exact parallel of a shortened epitrochoid, its limits and its offsets.
+
+N = z + 1 pins of radius rho stand on a circle of radius R about the fixed axis; the disc of z lobes is moved round it at
+the eccentricity e and turns by -phi / z while the eccentric turns by phi. A pin's centre then draws R e^{is} - e e^{iNs} in
+the disc, s = phi / z, and the disc's outline is its parallel, rho inwards. Sources of the same curve: S. K. Malhotra,
+M. A. Parameswaran, Mechanism and Machine Theory 18 (1983) 491-499; J.-H. Shin, S.-M. Kwon, ibid. 41 (2006) 596-616.
+
+Frame: lobe 1 is centred on +x.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from itertools import pairwise
+
+from geometry.cycloid import ShortTrochoid, greatest_shortening, least_convex_radius
+from geometry.errors import OffsetError, ParameterError, UndercutError, at_least, at_most
+from geometry.findings import Finding
+from geometry.gears.offset_tooth import OffsetRegion
+from geometry.gears.tooth import ToothSide
+from geometry.hub_holes import HubHoles
+from geometry.profile import Label, Profile, Region, Segment
+
+_NO_HOLES = HubHoles()
+# what is kept from every limit, as a part of it: curves that end in a cusp are no outline
+_MARGIN = 1e-6
+# lobes lower than this part of the pin circle are rounding; neighbouring splits are kept this share of a lobe apart
+_LEAST_SHARE, _LEAST_SPLIT = 1e-6, 1e-3
+# a radius of curvature below this part of the pin's is told
+_SHARP = 0.1
+
+
+@dataclass(frozen=True, slots=True)
+class CycloidalDisc:
+    """A disc of ``number_of_lobes`` lobes that rolls inside number_of_lobes + 1 pins; lengths in mm.
+
+    ``pin_clearance`` moves the outline into the disc along its normals; ``pin_circle_shift`` is what the radius of the
+    generating pin circle is less than the true one. ``holes``: bore and all other holes.
+    """
+
+    number_of_lobes: int
+    pin_circle_diameter: float
+    pin_diameter: float
+    eccentricity: float
+    pin_clearance: float = 0.0
+    pin_circle_shift: float = 0.0
+    holes: HubHoles = _NO_HOLES
+
+    @property
+    def number_of_pins(self) -> int:
+        """N = z + 1."""
+        return self.number_of_lobes + 1
+
+    @property
+    def pitch_angle(self) -> float:
+        """Angle from lobe to lobe, rad."""
+        return 2 * math.pi / self.number_of_lobes
+
+    @property
+    def generating_radius(self) -> float:
+        """R: radius of the pin circle that draws the outline, mm."""
+        return self.pin_circle_diameter / 2 - self.pin_circle_shift
+
+    @property
+    def generating_pin_radius(self) -> float:
+        """rho: how far the outline runs inside the path of a pin's centre, mm."""
+        return self.pin_diameter / 2 + self.pin_clearance
+
+    @property
+    def shortening(self) -> float:
+        """lambda = e N / R (K_1 of the Chinese and Japanese texts): below 1 the path has no loops."""
+        return self.eccentricity * self.number_of_pins / self.generating_radius
+
+    @property
+    def root_radius(self) -> float:
+        """Bottom of the valleys, mm: R - e - rho."""
+        return self.generating_radius - self.eccentricity - self.generating_pin_radius
+
+    @property
+    def tip_radius(self) -> float:
+        """Top of the lobes, mm: R + e - rho."""
+        return self.generating_radius + self.eccentricity - self.generating_pin_radius
+
+    @property
+    def least_path_radius(self) -> float:
+        """Least convex radius of curvature of the path of a pin's centre, mm."""
+        return least_convex_radius(self.generating_radius, self.shortening, self.number_of_pins)
+
+    @property
+    def least_curvature_radius(self) -> float:
+        """Least convex radius of curvature of the outline, mm."""
+        return self.least_path_radius - self.generating_pin_radius
+
+    @property
+    def pitch_radius(self) -> float:
+        """Radius of the disc's centrode, mm: e z."""
+        return self.eccentricity * self.number_of_lobes
+
+    def rotation(self, drive: float) -> float:
+        """Rotation of the disc while the eccentric stands at ``drive``, rad: a valley at the pin on +x for drive 0."""
+        return (math.pi - drive) / self.number_of_lobes
+
+    def side(self, offset: float = 0.0) -> ToothSide:
+        """The lower half of lobe 1 from a valley's middle, moved ``offset`` mm out of the material."""
+        half = math.pi / self.number_of_lobes
+        whole = ShortTrochoid(
+            self.generating_radius, self.eccentricity, self.number_of_pins, self.generating_pin_radius - offset,
+            -half, 0.0, half,
+        )  # fmt: skip
+        edges = [0.0]
+        for at in whole.splits():
+            if at - edges[-1] > _LEAST_SPLIT * half and half - at > _LEAST_SPLIT * half:
+                edges.append(at)
+        pieces = [Segment(whole.trimmed(a, b), Label.LOBE) for a, b in pairwise([*edges, half])]
+        return ToothSide(tuple(pieces), self.pitch_angle)
+
+    def profile(self, offset: float = 0.0) -> Profile:
+        """The closed outline, moved ``offset`` mm out of the material; within ``offset_limits``."""
+        return self.side(offset).profile()
+
+    def offset_limits(self) -> tuple[float, float]:
+        """Least and greatest offset whose outline has no cusp, mm; the greatest closes the valleys (inf: never)."""
+        least = -self.least_curvature_radius * (1 - _MARGIN)
+        hollow = self.number_of_pins * self.shortening - 1
+        if hollow <= 0:
+            return least, math.inf
+        valley = self.generating_radius * (1 - self.shortening) ** 2 / hollow
+        return least, (self.generating_pin_radius + valley) * (1 - _MARGIN)
+
+
+def checked_disc(disc: CycloidalDisc) -> CycloidalDisc:
+    """The same disc, if its outline exists: path without loops, parallel without cusps, pins that do not touch.
+
+    Raises
+    ------
+    ParameterError
+        Names the key and the nearest value that works; ``UndercutError`` where pins would cut the lobes away.
+    """
+    _check_pins(disc)
+    big, pins = disc.generating_radius, disc.number_of_pins
+    most = greatest_shortening(big, pins, disc.generating_pin_radius * (1 + _MARGIN)) * (1 - _MARGIN) * big / pins
+    if disc.eccentricity < _LEAST_SHARE * big:
+        raise ParameterError(
+            "eccentricity", disc.eccentricity, f"leaves no lobes; at least {told(_LEAST_SHARE * big, up=True)} mm works"
+        )
+    if disc.eccentricity > most:
+        loops = disc.shortening >= 1 - _MARGIN
+        why = "the pins' paths have loops (e N / R must stay below 1)" if loops else _undercut(disc)
+        raise UndercutError("eccentricity", disc.eccentricity, f"{why}; at most {told(most)} mm works")
+    return disc
+
+
+def _undercut(disc: CycloidalDisc) -> str:
+    radius, pin = disc.least_path_radius, disc.generating_pin_radius
+    return f"the pins undercut the lobes: the path's least radius {radius:.6g} mm is not above the pin's {pin:.6g} mm"
+
+
+def _check_pins(disc: CycloidalDisc) -> None:
+    """Pins beside each other, and a generating pin circle that leaves some eccentricity."""
+    true, pins = disc.pin_circle_diameter / 2, disc.number_of_pins
+    room = true * math.sin(math.pi / pins) * (1 - _MARGIN)
+    if disc.pin_diameter / 2 > room:
+        text = f"{pins} pins touch each other; at most {told(2 * room)} mm works"
+        raise ParameterError("pin_diameter", disc.pin_diameter, text)
+    # at the least eccentricity the path is nearly a circle
+    spare = disc.generating_radius * (1 - 1e-3)
+    if not disc.generating_pin_radius > 0:
+        least = -disc.pin_diameter / 2 * (1 - _MARGIN)
+        text = f"leaves no pin; at least {told(least, up=True)} mm works"
+        raise ParameterError("pin_clearance", disc.pin_clearance, text)
+    if disc.generating_pin_radius > spare:
+        if disc.pin_diameter / 2 + max(disc.pin_clearance, 0.0) < true * (1 - 1e-3):
+            most = true - disc.generating_pin_radius / (1 - 1e-3)
+            text = f"leaves no disc; at most {told(most)} mm works"
+            raise ParameterError("pin_circle_shift", disc.pin_circle_shift, text)
+        most = true * (1 - 1e-3) - disc.pin_diameter / 2
+        text = f"leaves no disc; at most {told(most)} mm works with pin_circle_shift = 0"
+        raise ParameterError("pin_clearance", disc.pin_clearance, text)
+
+
+def told(value: float, *, up: bool = False) -> str:
+    """A limit as printed, six digits after the point and more where it is small; rounded so that it works."""
+    digits = 6 if value == 0 else max(6, 4 - math.floor(math.log10(abs(value))))
+    return at_least(value, digits) if up else at_most(value, digits)
+
+
+def disc_region(disc: CycloidalDisc, offset: float = 0.0) -> OffsetRegion:
+    """The exact section of a disc; ``offset`` > 0 moves every boundary out of the material, mm.
+
+    Raises
+    ------
+    OffsetError
+        The outline would have cusps, or a hole or a wall does not survive; names the nearest offset that works.
+    """
+    if not math.isfinite(offset):
+        raise OffsetError(offset, "is no finite number", 0.0)
+    least, most = disc.offset_limits()
+    if disc.holes.number:
+        least = max(least, (disc.holes.reach - disc.root_radius) / 2 * (1 - _MARGIN))
+    if not least <= offset <= most:
+        reason = "closes the valleys" if offset > 0 else "leaves no lobes or no rim"
+        raise OffsetError(offset, reason, most if offset > 0 else least)
+    return OffsetRegion(Region(disc.profile(offset), disc.holes.profiles(offset)), offset, ())
+
+
+def disc_findings(disc: CycloidalDisc) -> tuple[Finding, ...]:
+    """A lobe that is nearly sharp, and walls between the holes and the valleys that are thin."""
+    found = []
+    limit = _SHARP * disc.pin_diameter / 2
+    if disc.least_curvature_radius < limit:
+        found.append(Finding("cycloidal_near_cusp", disc.least_curvature_radius, limit))
+    wall, least = disc.root_radius - disc.holes.reach, disc.pin_diameter / 4
+    if disc.holes.number and wall < least:
+        found.append(Finding("cycloidal_thin_wall", wall, least))
+    return tuple(found)
