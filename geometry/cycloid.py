@@ -82,8 +82,7 @@ class ShortTrochoid:
         turn, wave = self.radius * np.exp(1j * at), self.arm * np.exp(1j * self.order * at)
         own = np.exp(1j * self.angle)
         return [
-            own
-            * (turn * (1j**k / FACTORIALS[k]) - wave * ((1j * self.order) ** k / FACTORIALS[k]) - self.distance * n)
+            own * (turn * (1j**k / FACTORIALS[k]) - wave * ((1j * self.order) ** k / FACTORIALS[k]) - self.distance * n)
             for k, n in enumerate(normal)
         ]
 

@@ -11,7 +11,10 @@ from typing import Any
 
 from msgspec import Struct
 
+from parts import pin_mates
+from parts.cycloidal_matings import bearing_mating, cycloidal_mating, output_mating
 from parts.fixed_mate import FixedSpec, fixed_mating
+from parts.lantern_mating import coaxial_mating, lantern_mating, pin_seat_mating
 from parts.mate_kinds import Mating
 
 
@@ -31,4 +34,10 @@ class Joint:
 
 JOINTS: dict[str, Joint] = {
     "fixed": Joint(FixedSpec, None, fixed_mating),
+    "coaxial": Joint(pin_mates.CoaxialSpec, None, coaxial_mating),
+    "cycloidal_pair": Joint(pin_mates.CycloidalPairSpec, (("pin_ring", "cycloidal_disc"),), cycloidal_mating),
+    "eccentric_bearing": Joint(pin_mates.EccentricBearingSpec, (("eccentric", "cycloidal_disc"),), bearing_mating),
+    "output_pins": Joint(pin_mates.OutputPinsSpec, (("cycloidal_disc", "output_plate"),), output_mating),
+    "pin_seat": Joint(pin_mates.PinSeatSpec, tuple((p, "pin") for p in pin_mates.PIN_HOLDERS), pin_seat_mating),
+    "lantern_pair": Joint(pin_mates.LanternPairSpec, (("lantern_wheel", "lantern_gear"),), lantern_mating),
 }

@@ -15,12 +15,13 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from geometry.cycloid import ShortTrochoid, greatest_shortening, least_convex_radius
-from geometry.errors import OffsetError, ParameterError, UndercutError, at_least, at_most
+from geometry.errors import OffsetError, ParameterError, UndercutError, told
 from geometry.findings import Finding
 from geometry.gears.offset_tooth import OffsetRegion
 from geometry.gears.tooth import ToothSide
 from geometry.hub_holes import HubHoles
 from geometry.profile import Label, Profile, Region, Segment
+from geometry.windows import RoundHoles
 
 _NO_HOLES = HubHoles()
 # what is kept from every limit, as a part of it: curves that end in a cusp are no outline
@@ -36,7 +37,8 @@ class CycloidalDisc:
     """A disc of ``number_of_lobes`` lobes that rolls inside number_of_lobes + 1 pins; lengths in mm.
 
     ``pin_clearance`` moves the outline into the disc along its normals; ``pin_circle_shift`` is what the radius of the
-    generating pin circle is less than the true one. ``holes``: bore and all other holes.
+    generating pin circle is less than the true one. ``holes``: bore and all other
+    holes, ``output`` those of the output pins among them.
     """
 
     number_of_lobes: int
@@ -46,6 +48,7 @@ class CycloidalDisc:
     pin_clearance: float = 0.0
     pin_circle_shift: float = 0.0
     holes: HubHoles = _NO_HOLES
+    output: RoundHoles | None = None
 
     @property
     def number_of_pins(self) -> int:
@@ -177,12 +180,6 @@ def _check_pins(disc: CycloidalDisc) -> None:
         most = true * (1 - 1e-3) - disc.pin_diameter / 2
         text = f"leaves no disc; at most {told(most)} mm works with pin_circle_shift = 0"
         raise ParameterError("pin_clearance", disc.pin_clearance, text)
-
-
-def told(value: float, *, up: bool = False) -> str:
-    """A limit as printed, six digits after the point and more where it is small; rounded so that it works."""
-    digits = 6 if value == 0 else max(6, 4 - math.floor(math.log10(abs(value))))
-    return at_least(value, digits) if up else at_most(value, digits)
 
 
 def disc_region(disc: CycloidalDisc, offset: float = 0.0) -> OffsetRegion:

@@ -16,14 +16,14 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
 from geometry.curve import Complex, Real, end_point, start_point
 from geometry.cycloid import EpicycloidParallel
-from geometry.errors import CuspError, GeometryError, OffsetError, ParameterError, PointedTipError
+from geometry.errors import CuspError, GeometryError, OffsetError, ParameterError, PointedTipError, told
 from geometry.findings import Finding
-from geometry.gears.cycloidal import told
 from geometry.gears.offset_tooth import OffsetRegion, grown_side
 from geometry.gears.tooth import ToothSide
 from geometry.hub_holes import HubHoles
@@ -55,6 +55,7 @@ class LanternGear:
     root_clearance: float = 0.0
     given_tip_diameter: float | None = None
     holes: HubHoles = _NO_HOLES
+    face_width: float = 0.0
 
     @property
     def pitch_angle(self) -> float:
@@ -221,15 +222,20 @@ def _too_thick(gear: LanternGear) -> ParameterError:
         if value <= least:
             continue
         low, high = least, value
-        if _flank_ends(replace(gear, **{key: low})) is None:
+        if _flank_ends(_with(gear, key, low)) is None:
             continue
         for _ in range(_BISECTIONS):
             middle = (low + high) / 2
-            fits = _flank_ends(replace(gear, **{key: middle})) is not None
+            fits = _flank_ends(_with(gear, key, middle)) is not None
             low, high = (middle, high) if fits else (low, middle)
         limit = low * (1 - _MARGIN)
         return ParameterError(key, value, f"leaves no tooth between two pins; at most {told(limit)} mm works")
     return ParameterError("pin_diameter", gear.pin_diameter, "leaves no tooth; thinner pins and less clearance work")
+
+
+def _with(gear: LanternGear, key: str, value: float) -> LanternGear:
+    changed: dict[str, Any] = {key: value}
+    return replace(gear, **changed)
 
 
 def checked_lantern_gear(gear: LanternGear) -> LanternGear:

@@ -107,7 +107,7 @@ def pin_gaps(side: ToothSide, motion: PinMotion) -> tuple[Real, Real]:
     pins = motion.number_of_pins
     number = min(_DRIVE_ANGLES, max(_LEAST_ANGLES, _MOST_PLACES // pins))
     # no phase is 0: there both sides of a tooth would have the same pin
-    phases = (np.arange(number * pins) + 0.5) * (2 * math.pi / (number * pins)) - math.pi
+    phases: Real = (np.arange(number * pins, dtype=float) + 0.5) * (2 * math.pi / (number * pins)) - math.pi
     return phases, _Gap(side, motion)(phases)[0]
 
 
@@ -162,3 +162,33 @@ def _worst(gap: _Gap, phases: Real, values: Real, others: tuple[ContactPlace, ..
     )
     return min((found, *others), key=lambda place: place.gap)
 
+
+def lost_motion(side: ToothSide, motion: PinMotion) -> float:
+    """How far the body turns from one stop to the other while the drive stands still, rad: the most over its angles.
+
+    To the first order in the gaps: a pin's gap over its lever, which is how fast turning the body closes it.
+    """
+    phases, _ = pin_gaps(side, motion)
+    gaps, _, _, normal = _Gap(side, motion)(phases)
+    centres, _ = motion.centre(phases)
+    lever = (np.conj(normal) * -1j * centres).real
+    with np.errstate(divide="ignore", invalid="ignore"):
+        turns = np.maximum(gaps, 0.0) / np.abs(lever)
+    table = np.stack([np.where(lever < 0, turns, np.inf), np.where(lever > 0, turns, np.inf)])
+    stops = table.reshape(2, motion.number_of_pins, -1).min(axis=1)
+    return float(stops.sum(axis=0).max())
+
+
+def pins_in_contact(side: ToothSide, motion: PinMotion) -> int:
+    """How many pins touch at every drive angle."""
+    _, gaps = pin_gaps(side, motion)
+    touching = np.abs(gaps) <= PIN_CONTACT_TOLERANCE * motion.pin_radius
+    return int(touching.reshape(motion.number_of_pins, -1).sum(axis=0).min())
+
+
+def stated_contact(gap: float, allowed: float, labels: tuple[Label, Label], point: complex) -> PairContact:
+    """The verdict on a gap (mm) that is the same at every drive angle."""
+    verdict = Verdict.CONTACT if gap <= allowed else Verdict.CLEAR
+    verdict = Verdict.OVERLAP if gap < -allowed else verdict
+    place = ContactPlace(gap, 0.0, point, labels)
+    return PairContact(verdict, allowed, (0.0,), (gap,), ((gap,), (gap,)), place, gap)
