@@ -89,8 +89,9 @@ class ShortTrochoid:
     def series_bound(self, order: int, a: Real, b: Real) -> Series:
         """Bounds of the moduli of the Taylor coefficients on each interval: geometry/bounds.py.
 
-        By Cauchy's estimate of sqrt(w / w~), w~ = 1 - lambda e^{-i tau}, tau = (m-1) s: within r = ln(1 + x |w| / lambda)
-        of a real tau both change by x |w| at most, so that its coefficients are below sqrt((1 + x) / (1 - x)) / r^k.
+        By Cauchy's estimate of sqrt(w / w~), w~ = 1 - lambda e^{-i tau}, tau = (m-1) s: within
+        r = ln(1 + x |w| / lambda) of a real tau both change by x |w| at most, so that its coefficients are below
+        sqrt((1 + x) / (1 - x)) / r^k.
         """
         top, rate, short = order + _MORE, self.order - 1, self.shortening
         shares = np.linspace(0, 1, _PARTS + 1)

@@ -1,4 +1,4 @@
-"""Plates with pins as exact bodies: an output plate with pins on one face, a lantern with its pins between two plates."""
+"""Plates with pins as exact bodies: an output plate, a lantern with its pins between two plates; eccentric disks."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from geometry.windows import RoundHoles
 class PinPlate:
     """A round plate with ``pins`` (their circle and size as of holes) and ``holes`` about its axis; mm.
 
-    ``solid``: the pins are of one piece with it; else they are holes for loose pins, ``seat_clearance`` wider on the
-    radius. ``thickness`` of a plate, ``length`` of its pins.
+    ``solid``: the pins are of one piece with it; a flat section shows their holes all the same, ``seat_clearance``
+    wider on the radius, as loose pins want them. ``thickness`` of a plate, ``length`` of its pins.
     """
 
     pins: RoundHoles
@@ -38,18 +38,18 @@ class PinPlate:
         seat = self.pins.diameter + 2 * self.seat_clearance
         return RoundHoles(self.pins.count, seat, self.pins.pitch_circle_diameter, self.pins.start)
 
-    def region(self, offset: float) -> Region:
-        """The plate's own section, moved ``offset`` mm out of the material: with holes for loose pins.
+    def region(self, offset: float, *, seats: bool = True) -> Region:
+        """The plate's own section, moved ``offset`` mm out of the material; ``seats``: with holes for its pins.
 
         Raises
         ------
         OffsetError
             A hole or a wall does not survive.
         """
-        wall = self.outer_radius - max(self.seats.reach if not self.solid else self.pins.reach, self.holes.reach)
+        wall = self.outer_radius - max(self.seats.reach if seats else self.pins.reach, self.holes.reach)
         if -2 * offset >= wall:
             raise OffsetError(offset, "leaves no rim", 0.0)
-        own = () if self.solid else (self.seats,)
+        own = (self.seats,) if seats else ()
         every = HubHoles(self.holes.bore, (*own, *self.holes.round_holes), self.holes.spokes)
         return Region(circle(self.outer_radius + offset, Label.BODY), every.profiles(offset))
 
@@ -69,7 +69,7 @@ class PinPlate:
     def body(self, offset: float) -> Body:
         """One plate with its pins standing on the upper face."""
         thickness, length = self.thickness, self.length
-        region = self.region(offset)
+        region = self.region(offset, seats=not self.solid)
         if not self.solid:
             return plate(region, 0.0, thickness)
         made = BodyBuilder()
@@ -84,7 +84,7 @@ class PinPlate:
     def lantern(self, offset: float) -> Body:
         """Two plates with the pins between them."""
         thickness, length = self.thickness, self.length
-        region = self.region(offset)
+        region = self.region(offset, seats=not self.solid)
         if not self.solid:
             return plate(region, 0.0, thickness)
         made = BodyBuilder()
@@ -107,7 +107,7 @@ def _upright(low: float, high: float) -> tuple[tuple[float, float, complex], ...
 def pin_reach(plate_: PinPlate) -> tuple[float, float]:
     """Least and greatest distance from the axis of what holds the pins, mm."""
     half = plate_.pins.pitch_circle_diameter / 2
-    size = plate_.pin_radius if plate_.solid else plate_.seats.diameter / 2
+    size = max(plate_.pin_radius, plate_.seats.diameter / 2)
     return half - size, half + size
 
 

@@ -17,7 +17,7 @@ from geometry.windows import RoundHoles
 
 @dataclass(frozen=True, slots=True)
 class SeatCircle:
-    """A round hole of ``inner_radius`` mm with ``count`` round pins or seats of ``seat_radius`` about ``circle_radius``.
+    """A round hole of ``inner_radius`` mm with ``count`` round pins or seats of ``seat_radius``, mm, on a circle.
 
     ``fixed``: the pins belong to the material and stand into the hole; else they are seats cut into it. The first
     is centred on +x.

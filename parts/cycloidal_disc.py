@@ -1,4 +1,4 @@
-"""The part kind ``cycloidal_disc``: the disc of a cycloidal reducer, its bearing bore and the holes of the output pins."""
+"""The part kind ``cycloidal_disc``: the disc of a cycloidal reducer with bearing bore and output holes."""
 
 from __future__ import annotations
 
@@ -91,14 +91,10 @@ def checked_cycloidal_disc(spec: CycloidalDiscSpec) -> CycloidalDisc:
     if not disc.root_radius > 0:
         raise ParameterError("pin_diameter", spec.pin_diameter, "leaves nothing in the valleys; thinner pins work")
     table = spec.output_holes
-    own = () if table is None else (output_group(table, spec.eccentricity),)
+    own: tuple[RoundHoles, ...] = () if table is None else (output_group(table, spec.eccentricity),)
     holes = holes_of(spec, *own)
-    check_holes(
-        msgspec.structs.replace(spec, output_holes=None, holes=None),
-        HubHoles(holes.bore),
-        disc.root_radius,
-        checked_cycloidal_disc,
-    )
+    bare = msgspec.structs.replace(spec, output_holes=None, holes=None)
+    check_holes(bare, HubHoles(holes.bore), disc.root_radius, checked_cycloidal_disc)
     if table is not None:
         _check_output(table, own[0], disc, holes)
     check_holes(spec, holes, disc.root_radius, checked_cycloidal_disc, own=len(own))

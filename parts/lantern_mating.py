@@ -66,18 +66,20 @@ def pin_seat_mating(mate: PinSeatSpec, holder: PinRing | PinPlate, pin: RoundDis
     ParameterError
         There is no such seat, the holder has no loose pins, or the pin has another diameter.
     """
-    ring = hasattr(holder, "number_of_pins")
-    count = holder.number_of_pins if ring else holder.pins.count  # type: ignore[union-attr]
-    loose = holder.pins != "fixed" if ring else not holder.solid  # type: ignore[union-attr]
+    from geometry.pin_ring import PinRing
+    from geometry.windows import RoundHoles
+
+    if isinstance(holder, PinRing):
+        loose, count = holder.pins != "fixed", holder.number_of_pins
+        centres = RoundHoles(count, 2 * holder.seat_radius, 2 * holder.pin_circle_radius).centres()
+    else:
+        loose, centres = not holder.solid, holder.pins.centres()
     if not loose:
         raise ParameterError("mate.first", mate.first, "has its pins already; give it seats or holes")
-    if mate.number > count:
-        raise ParameterError("mate.number", mate.number, f"there are {count} seats; {count} works")
+    if mate.number > len(centres):
+        raise ParameterError("mate.number", mate.number, f"there are {len(centres)} seats; {len(centres)} works")
     same_size("diameter", 2 * pin.radius, 2 * holder.pin_radius, "the seats")
-    if ring:
-        centre = cmath.rect(holder.pin_circle_radius, 2 * math.pi * (mate.number - 1) / count)  # type: ignore[union-attr]
-    else:
-        centre = holder.pins.centres()[mate.number - 1]  # type: ignore[union-attr]
+    centre = centres[mate.number - 1]
     return FixedMating(mate.first, mate.second, centre, mate.height, 0.0, kind="pin_seat")
 
 
@@ -168,7 +170,7 @@ def lantern_mating(mate: LanternPairSpec, lantern: PinPlate, gear: LanternGear) 
     """
     if gear.number_of_pins != lantern.pins.count:
         raise ParameterError(
-            "number_of_pins", gear.number_of_pins, f"the lantern has {lantern.pins.count}, which works"
+            "number_of_pins", gear.number_of_pins, f"the lantern has others; {lantern.pins.count} works"
         )
     same_size("pin_circle_diameter", gear.pin_circle_diameter, lantern.pins.pitch_circle_diameter, "the lantern")
     same_size("pin_diameter", gear.pin_diameter, lantern.pins.diameter, "the lantern")

@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 
 _MARGIN = 1e-6
 _Form = Annotated[
-    Literal["solid", "holes"], Meta(description="pins of one piece with the plate, or holes for loose pins")
+    Literal["solid", "holes"],
+    Meta(description="pins of one piece with the plate, or holes for loose pins (flat files: holes)"),
 ]
 
 
@@ -35,7 +36,7 @@ class OutputPlateSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag=
     pin_diameter: PinDiameter
     pins: _Form = "solid"
     pin_length: Annotated[float, mm("how far solid pins stand out", least=0.01, most=10_000)] = 10.0
-    seat_clearance: Annotated[float, mm("radius of a hole beyond the pin's", least=-10, most=100)] = 0.0
+    seat_clearance: Annotated[float, mm("radius of a hole for a pin beyond the pin's", least=-10, most=100)] = 0.0
     start_deg: Direction = 0.0
     outer_diameter: Annotated[float, mm("outside; default: pin circle + 2 pins", above=0, most=2 * MOST)] | None = None
     face_width: FaceWidth = 10.0
@@ -56,7 +57,7 @@ class LanternWheelSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag
     pins: _Form = "solid"
     face_width: Annotated[float, mm("free length of the pins between the plates", least=0.01, most=10_000)] = 10.0
     plate_thickness: Annotated[float, mm("thickness of each plate", least=0.01, most=10_000)] = 3.0
-    seat_clearance: Annotated[float, mm("radius of a hole beyond the pin's", least=-10, most=100)] = 0.0
+    seat_clearance: Annotated[float, mm("radius of a hole for a pin beyond the pin's", least=-10, most=100)] = 0.0
     outer_diameter: (
         Annotated[float, mm("outside of the plates; default: pin circle + 2 pins", above=0, most=2 * MOST)] | None
     ) = None
@@ -90,16 +91,14 @@ def checked_pin_plate(spec: PlateSpec) -> PinPlate:
         thickness, length = spec.face_width, spec.pin_length
     else:
         thickness, length = spec.plate_thickness, spec.face_width
-    made = PinPlate(pins, outer, holes, solid, 0.0 if solid else spec.seat_clearance, thickness, length)
+    made = PinPlate(pins, outer, holes, solid, spec.seat_clearance, thickness, length)
     least = least_wall(pins.pitch_circle_diameter / 2) * (1 + _MARGIN)
     _check_pins(spec, made, least)
     low, high = pin_reach(made)
     if outer < high + least:
         text = f"the pins reach the edge; at least {told(2 * (high + least) * (1 + _MARGIN), up=True)} mm works"
         raise ParameterError("outer_diameter", spec.outer_diameter, text)
-    own = RoundHoles(
-        pins.count, made.pins.diameter if solid else made.seats.diameter, pins.pitch_circle_diameter, start
-    )
+    own = RoundHoles(pins.count, 2 * (high - pins.pitch_circle_diameter / 2), pins.pitch_circle_diameter, start)
     if holes.bore is not None and spec.bore_diameter > 0 and holes.bore_reach > low - least:
         most = 2 * (low - least) * (1 - _MARGIN)
         text = f"reaches the pins; at most {told(most)} mm works" if most > 0 else "reaches the pins; 0 works"
@@ -110,8 +109,6 @@ def checked_pin_plate(spec: PlateSpec) -> PinPlate:
 
 
 def _check_pins(spec: PlateSpec, made: PinPlate, least: float) -> None:
-    if made.solid and spec.seat_clearance != 0:
-        raise ParameterError("seat_clearance", spec.seat_clearance, "pins of one piece have no seats; 0 works")
     seat = made.pin_radius + made.seat_clearance
     if seat < made.pin_radius / 2:
         text = f"leaves no hole; at least {told(-made.pin_radius / 2, up=True)} mm works"

@@ -1,9 +1,9 @@
 """The cycloidal disc of a reducer: the exact parallel of a shortened epitrochoid, its limits and its offsets.
 
-N = z + 1 pins of radius rho stand on a circle of radius R about the fixed axis; the disc of z lobes is moved round it at
-the eccentricity e and turns by -phi / z while the eccentric turns by phi. A pin's centre then draws R e^{is} - e e^{iNs} in
-the disc, s = phi / z, and the disc's outline is its parallel, rho inwards. Sources of the same curve: S. K. Malhotra,
-M. A. Parameswaran, Mechanism and Machine Theory 18 (1983) 491-499; J.-H. Shin, S.-M. Kwon, ibid. 41 (2006) 596-616.
+N = z + 1 pins of radius rho stand on a circle of radius R about the fixed axis; the disc of z lobes is moved round it
+at the eccentricity e and turns by -phi / z while the eccentric turns by phi. A pin's centre then draws
+R e^{is} - e e^{iNs} in the disc, s = phi / z, and the disc's outline is its parallel, rho inwards. The same curve in
+coordinates: J.-H. Shin, S.-M. Kwon, Mechanism and Machine Theory 41 (2006) 596-616.
 
 Frame: lobe 1 is centred on +x.
 """

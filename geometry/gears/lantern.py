@@ -2,9 +2,9 @@
 
 N pins of radius rho stand on a circle of radius R, the lantern's pitch circle; the gear of z teeth has the pitch radius
 r = R z / N. Rolling on it, a pin's centre draws the ordinary epicycloid a e^{iu} - R e^{imu}, a = r + R, m = 1 + z / N,
-with a cusp in the middle of each space; u is the gear's rotation from the pin's stand on the line of centres. The flank is
-its parallel, rho towards the tooth (Litvin, Fuentes, Gear Geometry and Applied Theory, chapter 13). Below the pitch circle
-nothing touches: there the root is an arc about the cusp.
+with a cusp in the middle of each space; u is the gear's rotation from the pin's stand on the line of centres. The
+flank is its parallel, rho towards the tooth (Litvin, Fuentes, Gear Geometry and Applied Theory, chapter 13). Below the
+pitch circle nothing touches: there the root is an arc about the cusp.
 
 Frame: tooth 1 is centred on +x.
 """
@@ -16,6 +16,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -206,7 +207,7 @@ def _first_root(function: Callable[[float], float], low: float, high: float) -> 
     """First change of sign, seen on even samples."""
     places = np.linspace(low, high, _SAMPLES).tolist()
     before = function(places[0])
-    for a, b in zip(places[:-1], places[1:], strict=True):
+    for a, b in pairwise(places):
         after = function(b)
         if before * after <= 0 and before != 0:
             return bracketed_root(function, a, b).value
