@@ -16,10 +16,10 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from geometry.curve import Complex, Real, end_point, start_point
 from geometry.cycloid import EpicycloidParallel
@@ -38,6 +38,8 @@ _MARGIN = 1e-6
 # width of the tip land by default, in pitches, and of what is left of the tooth where it is thin already
 _TIP_LAND, _TIP_SHARE = 0.1, 0.5
 _SAMPLES, _BISECTIONS = 129, 40
+# of the pitch: thinner necks and bottoms are none
+_LEAST_NECK = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,11 +157,11 @@ def limits_of(gear: LanternGear) -> FlankLimits:
     (begin, pointed), flank = ends, gear.flank()
     low, high = (abs(complex(flank.point(u))) for u in (begin, pointed))
     if gear.given_tip_diameter is None:
-        whole = 2 * low * _half_width(flank, begin)
+        whole = 2 * low * float(_half_width(flank, begin))
         land = min(_TIP_LAND * gear.pitch, _TIP_SHARE * whole)
 
         def wider(u: float) -> float:
-            return 2 * abs(complex(flank.point(u))) * _half_width(flank, u) - land
+            return 2 * abs(complex(flank.point(u))) * float(_half_width(flank, u)) - land
 
         tip = bracketed_root(wider, begin, pointed).value
         return FlankLimits(begin, tip, pointed, low, abs(complex(flank.point(tip))), high)
@@ -175,15 +177,19 @@ def limits_of(gear: LanternGear) -> FlankLimits:
     return FlankLimits(begin, tip, pointed, low, radius, high)
 
 
-def _half_width(flank: EpicycloidParallel, u: float) -> float:
+def _half_width(flank: EpicycloidParallel, u: ArrayLike) -> Real:
     """Angle from the flank to the middle of the tooth, rad."""
-    return -cmath.phase(complex(flank.point(u)))
+    return -np.angle(flank.point(u))
 
 
 def _flank_ends(gear: LanternGear) -> tuple[float, float] | None:
     """u at which the flank leaves the root arc, and at which it meets the opposite one; None: there is no tooth."""
+    # the root arcs on both sides of a tooth leave a neck, the bottom something about the axis
+    neck = gear.pitch_radius * math.sin(gear.pitch_angle / 2) - gear.root_arc_radius
+    if not neck > _LEAST_NECK * gear.pitch or not gear.root_radius > _LEAST_NECK * gear.pitch:
+        return None
     begin, flank = _flank_start(gear), gear.flank()
-    if begin is None or not gear.root_radius > 0 or _half_width(flank, begin) <= 0:
+    if begin is None or float(_half_width(flank, begin)) * gear.pitch_radius <= _LEAST_NECK * gear.pitch:
         return None
     pointed = _first_root(lambda u: _half_width(flank, u), begin, flank.end)
     return None if pointed is None else (begin, pointed)
@@ -196,23 +202,18 @@ def _flank_start(gear: LanternGear) -> float | None:
         begin = flank.cusp()
     except CuspError:
         return None
-
-    def outside(u: float) -> float:
-        return abs(complex(flank.point(u)) - gear.cusp) - gear.root_arc_radius
-
-    return _first_root(outside, begin, flank.end)
+    return _first_root(lambda u: np.abs(flank.point(u) - gear.cusp) - gear.root_arc_radius, begin, flank.end)
 
 
-def _first_root(function: Callable[[float], float], low: float, high: float) -> float | None:
+def _first_root(function: Callable[[ArrayLike], Real], low: float, high: float) -> float | None:
     """First change of sign, seen on even samples."""
-    places = np.linspace(low, high, _SAMPLES).tolist()
-    before = function(places[0])
-    for a, b in pairwise(places):
-        after = function(b)
-        if before * after <= 0 and before != 0:
-            return bracketed_root(function, a, b).value
-        before = after
-    return None
+    places = np.linspace(low, high, _SAMPLES)
+    signs = np.sign(function(places))
+    changes = np.flatnonzero((signs[1:] != signs[:-1]) & (signs[:-1] != 0))
+    if not changes.size:
+        return None
+    k = int(changes[0])
+    return bracketed_root(lambda u: float(function(u)), float(places[k]), float(places[k + 1])).value
 
 
 def _too_thick(gear: LanternGear) -> ParameterError:
@@ -231,7 +232,14 @@ def _too_thick(gear: LanternGear) -> ParameterError:
             low, high = (middle, high) if fits else (low, middle)
         limit = low * (1 - _MARGIN)
         return ParameterError(key, value, f"leaves no tooth between two pins; at most {told(limit)} mm works")
-    return ParameterError("pin_diameter", gear.pin_diameter, "leaves no tooth; thinner pins and less clearance work")
+    bare, low, high = replace(gear, pin_clearance=0.0, root_clearance=0.0), 0.0, gear.pin_diameter
+    for _ in range(_BISECTIONS):
+        middle = (low + high) / 2
+        low, high = (middle, high) if _flank_ends(_with(bare, "pin_diameter", middle)) is not None else (low, middle)
+    text = (
+        f"leaves no tooth; at most {told(low * (1 - _MARGIN))} mm works with pin_clearance = 0 and root_clearance = 0"
+    )
+    return ParameterError("pin_diameter", gear.pin_diameter, text)
 
 
 def _with(gear: LanternGear, key: str, value: float) -> LanternGear:
@@ -251,8 +259,6 @@ def checked_lantern_gear(gear: LanternGear) -> LanternGear:
     if gear.pin_diameter > room:
         text = f"{gear.number_of_pins} pins touch each other; at most {told(room)} mm works"
         raise ParameterError("pin_diameter", gear.pin_diameter, text)
-    if not gear.root_radius > 0:
-        raise _too_thick(gear)
     limits_of(gear)
     return gear
 

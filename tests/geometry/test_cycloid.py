@@ -97,9 +97,7 @@ def test_laws_of_curves(curve: Curve, placement: Any, a: float, b: float) -> Non
 
 @settings(max_examples=150, deadline=None)
 @given(numbers(0.02, 0.98), st.integers(2, 40), numbers(-1.2, 1.2), angles, numbers(-1.0, 0.3), numbers(0.05, 1.0))
-def test_cusps_are_seen(
-    short: float, order: int, share: float, angle: float, start: float, length: float
-) -> None:
+def test_cusps_are_seen(short: float, order: int, share: float, angle: float, start: float, length: float) -> None:
     """Offsets of parallels: an error exactly where the samples of 1 - kappa d turn negative."""
     rate = order - 1
     curve = ShortTrochoid(40.0, 40 * short / order, float(order), 0.0, angle, start / rate, (start + length) / rate)
