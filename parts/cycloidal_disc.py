@@ -93,17 +93,29 @@ def checked_cycloidal_disc(spec: CycloidalDiscSpec) -> CycloidalDisc:
     table = spec.output_holes
     own: tuple[RoundHoles, ...] = () if table is None else (output_group(table, spec.eccentricity),)
     holes = holes_of(spec, *own)
+    if table is not None and spec.bore_diameter > 0:
+        _check_bore(spec.bore_diameter, own[0], disc)
     bare = msgspec.structs.replace(spec, output_holes=None, holes=None)
-    check_holes(bare, HubHoles(holes.bore), disc.root_radius, checked_cycloidal_disc)
+    check_holes(bare, HubHoles(holes.bore), disc.root_radius)
     if table is not None:
         _check_output(table, own[0], disc, holes)
-    check_holes(spec, holes, disc.root_radius, checked_cycloidal_disc, own=len(own))
+    check_holes(spec, holes, disc.root_radius, own=len(own))
     shape = wheel_shape(spec.face_width, None, spec.hub, spec.face_chamfer)
     try:
         check_wheel(shape, 2 * disc.root_radius, holes)
     except ParameterError as refusal:
         raise as_typed(spec, refusal) from refusal
     return replace(disc, holes=holes, output=own[0] if own else None)
+
+
+def _check_bore(bore: float, group: RoundHoles, disc: CycloidalDisc) -> None:
+    """A bore that leaves no room for output holes that would fit without it, on no circle."""
+    least = least_wall(disc.root_radius) * (1 + _MARGIN)
+    size, circle = group.diameter, group.pitch_circle_diameter
+    inside = group.wall_between() > least and circle + size < 2 * (disc.root_radius - least)
+    room = (circle - size - 2 * least) * (1 - _MARGIN)
+    if inside and room > 0 and bore > room and bore + 2 * size + 4 * least > 2 * disc.root_radius:
+        raise ParameterError("bore_diameter", bore, f"reaches the output holes; at most {told(room)} mm works")
 
 
 def _check_output(table: OutputHolesTable, group: RoundHoles, disc: CycloidalDisc, holes: HubHoles) -> None:

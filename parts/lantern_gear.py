@@ -68,7 +68,7 @@ def checked_lantern_gear_part(spec: LanternGearSpec) -> LanternGear:
         )
     )
     holes = holes_of(spec)
-    check_holes(spec, holes, gear.root_radius, checked_lantern_gear_part)
+    check_holes(spec, holes, gear.root_radius)
     shape = wheel_shape(spec.face_width, spec.web, spec.hub, spec.face_chamfer)
     try:
         check_wheel(shape, 2 * gear.root_radius, holes)

@@ -77,7 +77,7 @@ def checked_eccentric(spec: EccentricSpec) -> RoundDisc:
         if spec.eccentricity >= most:
             text = f"the bore's axis leaves the disc; at most {told(most * (1 - 1e-6))} mm works with a smaller bore"
             raise ParameterError("eccentricity", spec.eccentricity, text)
-        check_holes(spec, holes, radius, checked_eccentric, centre=spec.eccentricity)
+        check_holes(spec, holes, radius, centre=spec.eccentricity)
     return RoundDisc(radius, spec.eccentricity, holes)
 
 

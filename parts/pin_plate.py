@@ -104,7 +104,7 @@ def checked_pin_plate(spec: PlateSpec) -> PinPlate:
         text = f"reaches the pins; at most {told(most)} mm works" if most > 0 else "reaches the pins; 0 works"
         raise ParameterError("bore_diameter", spec.bore_diameter, text)
     every = HubHoles(holes.bore, (own, *holes.round_holes), holes.spokes)
-    check_holes(spec, every, outer, checked_pin_plate, own=1)
+    check_holes(spec, every, outer, own=1)
     return made
 
 

@@ -43,13 +43,10 @@ def holes_of(spec: Any, *own: RoundHoles) -> HubHoles:
     return HubHoles(found.bore, (*own, *found.round_holes), found.spokes)
 
 
-def check_holes(
-    spec: Any, holes: HubHoles, radius: float, builds: Callable[[Any], object], own: int = 0, centre: float = 0.0
-) -> None:
+def check_holes(spec: Any, holes: HubHoles, radius: float, own: int = 0, centre: float = 0.0) -> None:
     """Refuse holes that meet one another or reach ``radius`` mm; the first ``own`` groups are no table of the scene's.
 
-    ``centre``: how far the bore stands off the middle of that radius, mm. ``builds`` raises where a changed spec does
-    not work.
+    ``centre``: how far the bore stands off the middle of that radius, mm.
 
     Raises
     ------
@@ -58,17 +55,14 @@ def check_holes(
     """
     inside = radius - centre - least_wall(radius)
     if holes.bore is not None and holes.bore_reach > inside and spec.bore_diameter > 0:
-        text = f"leaves no wall about the bore; at most {told(2 * inside * (1 - _MARGIN))} mm works"
-        if inside <= 0:
-            text = "leaves no wall about the bore; 0 works"
-        raise ParameterError("bore_diameter", spec.bore_diameter, text)
+        limit = f"at most {told(2 * inside * (1 - _MARGIN))} mm" if inside > 0 else "0"
+        raise ParameterError("bore_diameter", spec.bore_diameter, f"leaves no wall about the bore; {limit} works")
 
     def works(changed: Any) -> bool:
         try:
-            builds(changed)
+            return holes_of(changed, *holes.round_holes[:own]).fits(radius - centre)
         except GeometryError:
             return False
-        return True
 
     try:
         holes.check(radius - centre)

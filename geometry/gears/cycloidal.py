@@ -11,8 +11,9 @@ Frame: lobe 1 is centred on +x.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import Any
 
 from geometry.cycloid import ShortTrochoid, greatest_shortening, least_convex_radius
 from geometry.errors import OffsetError, ParameterError, UndercutError, told
@@ -28,6 +29,9 @@ _NO_HOLES = HubHoles()
 _MARGIN = 1e-6
 # lobes lower than this part of the pin circle are rounding; neighbouring splits are kept this share of a lobe apart
 _LEAST_SHARE, _LEAST_SPLIT = 1e-6, 1e-3
+# a pin is smaller than its circle by this part of it at least
+_LEAST_RING = 1e-3
+_BISECTIONS = 60
 # a radius of curvature below this part of the pin's is told
 _SHARP = 0.1
 
@@ -141,12 +145,10 @@ def checked_disc(disc: CycloidalDisc) -> CycloidalDisc:
         Names the key and the nearest value that works; ``UndercutError`` where pins would cut the lobes away.
     """
     _check_pins(disc)
-    big, pins = disc.generating_radius, disc.number_of_pins
-    most = greatest_shortening(big, pins, disc.generating_pin_radius * (1 + _MARGIN)) * (1 - _MARGIN) * big / pins
-    if disc.eccentricity < _LEAST_SHARE * big:
-        raise ParameterError(
-            "eccentricity", disc.eccentricity, f"leaves no lobes; at least {told(_LEAST_SHARE * big, up=True)} mm works"
-        )
+    least, most = _eccentricities(disc)
+    if disc.eccentricity < least:
+        text = f"leaves no lobes; at least {told(least, up=True)} mm works"
+        raise ParameterError("eccentricity", disc.eccentricity, text)
     if disc.eccentricity > most:
         loops = disc.shortening >= 1 - _MARGIN
         why = "the pins' paths have loops (e N / R must stay below 1)" if loops else _undercut(disc)
@@ -154,32 +156,72 @@ def checked_disc(disc: CycloidalDisc) -> CycloidalDisc:
     return disc
 
 
+def _eccentricities(disc: CycloidalDisc) -> tuple[float, float]:
+    """Least and greatest eccentricity for these pins, mm; the circle of pins must be larger than a pin."""
+    big, pins = disc.generating_radius, disc.number_of_pins
+    most = greatest_shortening(big, pins, disc.generating_pin_radius * (1 + _MARGIN)) * (1 - _MARGIN)
+    return _LEAST_SHARE * big, most * big / pins
+
+
 def _undercut(disc: CycloidalDisc) -> str:
     radius, pin = disc.least_path_radius, disc.generating_pin_radius
     return f"the pins undercut the lobes: the path's least radius {radius:.6g} mm is not above the pin's {pin:.6g} mm"
 
 
+def _is_whole(disc: CycloidalDisc) -> bool:
+    """Whether an outline exists, whatever the pins do to each other."""
+    if not 0 < disc.generating_pin_radius <= disc.generating_radius * (1 - _LEAST_RING):
+        return False
+    least, most = _eccentricities(disc)
+    return least <= disc.eccentricity <= most
+
+
 def _check_pins(disc: CycloidalDisc) -> None:
     """Pins beside each other, and a generating pin circle that leaves some eccentricity."""
     true, pins = disc.pin_circle_diameter / 2, disc.number_of_pins
-    room = true * math.sin(math.pi / pins) * (1 - _MARGIN)
-    if disc.pin_diameter / 2 > room:
-        text = f"{pins} pins touch each other; at most {told(2 * room)} mm works"
+    touching = 2 * true * math.sin(math.pi / pins) * (1 - _MARGIN)
+    if disc.pin_diameter > touching:
+        limit = _nearest(disc, "pin_diameter", touching * 1e-3, touching)
+        text = f"{pins} pins touch each other; at most {told(limit)} mm works"
         raise ParameterError("pin_diameter", disc.pin_diameter, text)
-    # at the least eccentricity the path is nearly a circle
-    spare = disc.generating_radius * (1 - 1e-3)
     if not disc.generating_pin_radius > 0:
         least = -disc.pin_diameter / 2 * (1 - _MARGIN)
         text = f"leaves no pin; at least {told(least, up=True)} mm works"
         raise ParameterError("pin_clearance", disc.pin_clearance, text)
-    if disc.generating_pin_radius > spare:
-        if disc.pin_diameter / 2 + max(disc.pin_clearance, 0.0) < true * (1 - 1e-3):
-            most = true - disc.generating_pin_radius / (1 - 1e-3)
-            text = f"leaves no disc; at most {told(most)} mm works"
-            raise ParameterError("pin_circle_shift", disc.pin_circle_shift, text)
-        most = true * (1 - 1e-3) - disc.pin_diameter / 2
-        text = f"leaves no disc; at most {told(most)} mm works with pin_circle_shift = 0"
-        raise ParameterError("pin_clearance", disc.pin_clearance, text)
+    if disc.generating_pin_radius <= disc.generating_radius * (1 - _LEAST_RING):
+        return
+    # the pins themselves leave a disc: what takes more than they do is to blame
+    for key in ("pin_circle_shift", "pin_clearance"):
+        if getattr(disc, key) > 0 and (key == "pin_clearance" or _leaves_disc(replace(disc, pin_circle_shift=0.0))):
+            room = true * (1 - _LEAST_RING)
+            if key == "pin_circle_shift":
+                room = true - disc.generating_pin_radius / (1 - _LEAST_RING)
+            else:
+                room -= disc.pin_diameter / 2 + max(disc.pin_circle_shift, 0.0)
+            limit = _nearest(disc, key, 0.0, room)
+            text = f"leaves no disc; at most {told(limit)} mm works"
+            raise ParameterError(key, getattr(disc, key), text)
+    raise ParameterError("pin_circle_shift", disc.pin_circle_shift, "leaves no disc; 0 works")
+
+
+def _leaves_disc(disc: CycloidalDisc) -> bool:
+    return disc.generating_pin_radius <= disc.generating_radius * (1 - _LEAST_RING)
+
+
+def _nearest(disc: CycloidalDisc, key: str, good: float, limit: float) -> float:
+    """The value up to ``limit`` with which the disc is whole, where ``good`` gives one; else ``limit`` itself."""
+
+    def whole(value: float) -> bool:
+        changed: dict[str, Any] = {key: value}
+        return _is_whole(replace(disc, **changed))
+
+    if whole(limit) or not whole(good):
+        return limit
+    low, high = good, limit
+    for _ in range(_BISECTIONS):
+        middle = (low + high) / 2
+        low, high = (middle, high) if whole(middle) else (low, middle)
+    return low
 
 
 def disc_region(disc: CycloidalDisc, offset: float = 0.0) -> OffsetRegion:

@@ -153,14 +153,9 @@ def test_limits_name_what_works(change: dict[str, float], key: str, kind: type[P
     assert isinstance(error, kind)
     named = float(error.allowed.split("at least ")[-1].split("at most ")[-1].split()[0])
     changed = replace(DISC, **{**change, key: named})
-    try:
-        made = checked_disc(changed)
-    except ParameterError as other:
-        # the next key on the way: it names its own
-        assert other.name != key
-        return
+    made = checked_disc(changed)
+    assert made.profile()
     if key == "eccentricity":
-        assert made.profile()
         beyond = replace(changed, eccentricity=named * (1.0001 if change["eccentricity"] > 1 else 0.99))
         assert refused(beyond).name == key
 
@@ -194,7 +189,8 @@ def test_any_disc_is_built_or_refused_with_what_works(disc: CycloidalDisc) -> No
             break
         except ParameterError as error:
             words = error.allowed.split("at most ")[-1].split("at least ")[-1].split()
-            assert "works" in words, error
+            if "works" not in words:
+                pytest.fail(f"no remedy: {error}")
             disc = replace(disc, **{error.name: float(words[0])})
             if "pin_circle_shift = 0" in error.allowed:
                 disc = replace(disc, pin_circle_shift=0.0)
