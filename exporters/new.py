@@ -44,6 +44,12 @@ _EXAMPLES = {
     "base_circle_radius": "30.0",
     "least_transmission_angle_deg": "60.0",
     "centre_distance": "90.0",
+    "number_of_lobes": "11",
+    "number_of_pins": "12",
+    "pin_circle_diameter": "80.0",
+    "pin_diameter": "8.0",
+    "eccentricity": "2.5",
+    "length": "12.0",
 }
 _PHASES = (
     '{ move = "rise", angle_deg = 120.0, law = "sine" }',
@@ -71,6 +77,20 @@ _TABLE_EXAMPLES = {
     ("RimHolesTable", "pitch_circle_diameter"): "140.0",
     ("RackHolesTable", "diameter"): "2.5",
     ("RackHolesTable", "depth"): "2.5",
+    ("OutputHolesTable", "count"): "6",
+    ("OutputHolesTable", "pitch_circle_diameter"): "44.0",
+    ("OutputHolesTable", "pin_diameter"): "6.0",
+    ("OutputPlateSpec", "number_of_pins"): "6",
+    ("OutputPlateSpec", "pin_circle_diameter"): "44.0",
+    ("OutputPlateSpec", "pin_diameter"): "6.0",
+    ("OutputPlateSpec", "outer_diameter"): "60.0",
+    ("EccentricSpec", "diameter"): "22.0",
+    ("PinSpec", "diameter"): "8.0",
+    ("PinRingSpec", "inner_diameter"): "83.0",
+    ("PinRingSpec", "outer_diameter"): "110.0",
+    ("LanternWheelSpec", "outer_diameter"): "100.0",
+    ("LanternGearSpec", "number_of_teeth"): "30",
+    ("LanternGearSpec", "tip_diameter"): "220.0",
 }
 
 # what a scene of several parts may add

@@ -341,10 +341,12 @@ class LanternMotion:
 
     @property
     def number_of_pins(self) -> int:
+        """N."""
         return self.gear.number_of_pins
 
     @property
     def pin_radius(self) -> float:
+        """rho, mm."""
         return self.gear.pin_diameter / 2
 
     def _rotation(self, phase: Real | float) -> Real | float:
@@ -353,6 +355,7 @@ class LanternMotion:
         return math.pi - self.gear.pitch_angle / 2 - phase * ratio + self.turn
 
     def centre(self, phase: Real) -> tuple[Complex, Complex]:
+        """The pin in the gear's frame, mm, and its rate."""
         ratio = self.gear.number_of_pins / self.gear.number_of_teeth
         pin = self.gear.lantern_radius * np.exp(1j * phase)
         spoke = pin - (self.gear.centre_distance + self.shift)
@@ -360,4 +363,5 @@ class LanternMotion:
         return spoke * turned, (1j * pin + 1j * ratio * spoke) * turned
 
     def placement(self, phase: float) -> Placement2:
+        """Frame of the line of centres from the gear's."""
         return Placement2(float(self._rotation(phase)), complex(self.gear.centre_distance + self.shift))

@@ -60,19 +60,23 @@ class DiscMotion:
 
     @property
     def number_of_pins(self) -> int:
+        """N."""
         return self.disc.number_of_pins
 
     @property
     def pin_radius(self) -> float:
+        """rho, mm."""
         return self.disc.pin_diameter / 2
 
     def centre(self, phase: Real) -> tuple[Complex, Complex]:
+        """The pin in the disc's frame, mm, and its rate."""
         z, big = self.disc.number_of_lobes, self.disc.pin_circle_diameter / 2
         arm = (self.disc.eccentricity + self.shift) * np.exp(1j * phase)
         turned = np.exp(1j * (phase / z - math.pi / z - self.turn))
         return (big - arm) * turned, (1j / z * (big - arm) - 1j * arm) * turned
 
     def placement(self, phase: float) -> Placement2:
+        """Frame of the line of centres from the disc's."""
         turned = self.disc.rotation(phase) + self.turn - phase
         return Placement2(turned, complex(self.disc.eccentricity + self.shift))
 
