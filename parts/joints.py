@@ -7,14 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from importlib import import_module
 from typing import Any
 
 from msgspec import Struct
 
 from parts import pin_mates
-from parts.cycloidal_matings import bearing_mating, cycloidal_mating, output_mating
 from parts.fixed_mate import FixedSpec, fixed_mating
-from parts.lantern_mating import coaxial_mating, lantern_mating, pin_seat_mating
 from parts.mate_kinds import Mating
 
 
@@ -32,12 +31,33 @@ class Joint:
     mating: Callable[[Any, Any, Any], Mating]
 
 
+def _later(module: str, name: str) -> Callable[[Any, Any, Any], Mating]:
+    """What makes a mating, loaded when a scene has one."""
+
+    def mating(mate: Any, first: Any, second: Any) -> Mating:
+        made: Mating = getattr(import_module(module), name)(mate, first, second)
+        return made
+
+    return mating
+
+
+_CYCLOIDAL, _LANTERN = "parts.cycloidal_matings", "parts.lantern_mating"
 JOINTS: dict[str, Joint] = {
     "fixed": Joint(FixedSpec, None, fixed_mating),
-    "coaxial": Joint(pin_mates.CoaxialSpec, None, coaxial_mating),
-    "cycloidal_pair": Joint(pin_mates.CycloidalPairSpec, (("pin_ring", "cycloidal_disc"),), cycloidal_mating),
-    "eccentric_bearing": Joint(pin_mates.EccentricBearingSpec, (("eccentric", "cycloidal_disc"),), bearing_mating),
-    "output_pins": Joint(pin_mates.OutputPinsSpec, (("cycloidal_disc", "output_plate"),), output_mating),
-    "pin_seat": Joint(pin_mates.PinSeatSpec, tuple((p, "pin") for p in pin_mates.PIN_HOLDERS), pin_seat_mating),
-    "lantern_pair": Joint(pin_mates.LanternPairSpec, (("lantern_wheel", "lantern_gear"),), lantern_mating),
+    "coaxial": Joint(pin_mates.CoaxialSpec, None, _later(_LANTERN, "coaxial_mating")),
+    "cycloidal_pair": Joint(
+        pin_mates.CycloidalPairSpec, (("pin_ring", "cycloidal_disc"),), _later(_CYCLOIDAL, "cycloidal_mating")
+    ),
+    "eccentric_bearing": Joint(
+        pin_mates.EccentricBearingSpec, (("eccentric", "cycloidal_disc"),), _later(_CYCLOIDAL, "bearing_mating")
+    ),
+    "output_pins": Joint(
+        pin_mates.OutputPinsSpec, (("cycloidal_disc", "output_plate"),), _later(_CYCLOIDAL, "output_mating")
+    ),
+    "pin_seat": Joint(
+        pin_mates.PinSeatSpec, tuple((p, "pin") for p in pin_mates.PIN_HOLDERS), _later(_LANTERN, "pin_seat_mating")
+    ),
+    "lantern_pair": Joint(
+        pin_mates.LanternPairSpec, (("lantern_wheel", "lantern_gear"),), _later(_LANTERN, "lantern_mating")
+    ),
 }
