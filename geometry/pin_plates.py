@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from geometry.body import Body, BodyBuilder, plate
@@ -127,7 +128,9 @@ class RoundDisc:
         OffsetError
             The hole or the disc does not survive.
         """
-        wall = self.radius - self.eccentricity - self.holes.bore_reach
+        wall = math.inf
+        if self.holes.bore is not None:
+            wall = self.radius - self.eccentricity - self.holes.bore_reach
         if self.radius + offset <= 0 or -2 * offset >= wall:
             raise OffsetError(offset, "leaves no wall", 0.0)
         outer = circle(self.radius + offset, Label.BODY, centre=complex(self.eccentricity))

@@ -92,7 +92,7 @@ def checked_pin_plate(spec: PlateSpec) -> PinPlate:
     else:
         thickness, length = spec.plate_thickness, spec.face_width
     made = PinPlate(pins, outer, holes, solid, spec.seat_clearance, thickness, length)
-    least = least_wall(pins.pitch_circle_diameter / 2) * (1 + _MARGIN)
+    least = least_wall(outer) * (1 + _MARGIN)
     _check_pins(spec, made, least)
     low, high = pin_reach(made)
     if outer < high + least:
