@@ -30,11 +30,21 @@ class SeatCircle:
     fixed: bool
 
     @property
+    def _crossing(self) -> complex:
+        """Where the first seat crosses the hole, seen from the seat's centre, mm; NaN where it does not.
+
+        Heron's product has no cancellation where the seat is small.
+        """
+        r, s, i = self.circle_radius, self.seat_radius, self.inner_radius
+        square = (s + i - r) * (s + r - i) * (i + r - s) * (i + r + s)
+        if not square > 0:
+            return complex(math.nan, math.nan)
+        return complex((i - r) * (i + r) - s * s, math.sqrt(square)) / (2 * r)
+
+    @property
     def half_angle(self) -> float:
         """Half of the angle that a seat takes of the hole, rad; NaN where the two circles do not cross."""
-        r, s, i = self.circle_radius, self.seat_radius, self.inner_radius
-        cosine = (i * i + (r - s) * (r + s)) / (2 * i * r)
-        return math.acos(cosine) if -1 < cosine < 1 else math.nan
+        return cmath.phase(self.circle_radius + self._crossing)
 
     @property
     def is_whole(self) -> bool:
@@ -57,7 +67,7 @@ class SeatCircle:
     def _arcs(self) -> tuple[Arc, Arc]:
         """The first seat, and the hole from it to the next one, clockwise."""
         angle = self.half_angle
-        spoke = cmath.phase(cmath.rect(self.inner_radius, angle) - self.circle_radius)
+        spoke = cmath.phase(self._crossing)
         sweep = 2 * math.pi - 2 * spoke if self.fixed else -2 * spoke
         seat = Arc(complex(self.circle_radius), self.seat_radius, spoke, sweep)
         return seat, Arc(0j, self.inner_radius, -angle, 2 * angle - 2 * math.pi / self.count)

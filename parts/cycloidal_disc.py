@@ -134,7 +134,7 @@ def _check_output(table: OutputHolesTable, group: RoundHoles, disc: CycloidalDis
     if size <= widest(circle, table.count):
         return
     why = f"holes of {size:.6g} mm (pin + 2 e + clearance) do not fit"
-    best = _best_circle(outer, inner if holes.bore is not None else -outer, least, table.count)
+    best = _best_circle(outer, inner if holes.bore is not None else -0.98 * outer, least, table.count)
     if size <= widest(best, table.count):
         low, high = circle, best
         for _ in range(60):

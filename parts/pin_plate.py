@@ -92,12 +92,13 @@ def checked_pin_plate(spec: PlateSpec) -> PinPlate:
     else:
         thickness, length = spec.plate_thickness, spec.face_width
     made = PinPlate(pins, outer, holes, solid, spec.seat_clearance, thickness, length)
+    low, high = pin_reach(made)
+    edge = high + least_wall(1.01 * high) * (1 + _MARGIN)
+    if outer < edge:
+        text = f"the pins reach the edge; at least {told(2 * edge * (1 + _MARGIN), up=True)} mm works"
+        raise ParameterError("outer_diameter", spec.outer_diameter, text)
     least = least_wall(outer) * (1 + _MARGIN)
     _check_pins(spec, made, least)
-    low, high = pin_reach(made)
-    if outer < high + least:
-        text = f"the pins reach the edge; at least {told(2 * (high + least) * (1 + _MARGIN), up=True)} mm works"
-        raise ParameterError("outer_diameter", spec.outer_diameter, text)
     own = RoundHoles(pins.count, 2 * (high - pins.pitch_circle_diameter / 2), pins.pitch_circle_diameter, start)
     if holes.bore is not None and spec.bore_diameter > 0 and holes.bore_reach > low - least:
         most = 2 * (low - least) * (1 - _MARGIN)
