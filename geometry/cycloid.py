@@ -9,6 +9,7 @@ Geometry and Applied Theory, 2nd ed., chapter 13 (cycloidal gearing), written wi
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -26,6 +27,8 @@ from geometry.series import FACTORIALS, Series, conjugate, power, product, sharp
 _MORE, _PARTS = 4, 8
 # radii of Cauchy's circles that are tried, as shares of the way to where the bound fails
 _SHARES = (0.3, 0.5, 0.7, 0.85)
+# the speed of the path grows by this factor at most from split to split in a valley
+_GRADE = 4.0
 _TURN = 2 * math.pi
 
 
@@ -134,8 +137,23 @@ class ShortTrochoid:
 
     def splits(self) -> tuple[float, ...]:
         """Inflections and vertices inside the domain, ascending: between them the curvature keeps sign and trend."""
+        return self._where_squares_are(
+            (inflection_square(self.shortening, self.order), vertex_square(self.shortening, self.order))
+        )
+
+    def graded_splits(self) -> tuple[float, ...]:
+        """``splits``, and near the limit of shortening more in the valleys, where the speed grows by powers of ten."""
+        turn = inflection_square(self.shortening, self.order)
+        found, square = [turn, vertex_square(self.shortening, self.order)], (_GRADE * (1 - self.shortening)) ** 2
+        while square < turn / _GRADE:
+            found.append(square)
+            square *= _GRADE**2
+        return self._where_squares_are(found)
+
+    def _where_squares_are(self, squares: Sequence[float]) -> tuple[float, ...]:
+        """Where q takes these values, and the middles of valleys and lobes, inside the domain."""
         rate, found = self.order - 1, []
-        for square in (inflection_square(self.shortening, self.order), vertex_square(self.shortening, self.order)):
+        for square in squares:
             cosine = (1 + self.shortening**2 - square) / (2 * self.shortening)
             if abs(cosine) < 1:
                 phase = math.acos(cosine) / rate

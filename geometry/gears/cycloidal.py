@@ -15,6 +15,8 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
+import numpy as np
+
 from geometry.cycloid import ShortTrochoid, greatest_shortening, least_convex_radius
 from geometry.errors import OffsetError, ParameterError, UndercutError, told
 from geometry.findings import Finding
@@ -27,8 +29,8 @@ from geometry.windows import RoundHoles
 _NO_HOLES = HubHoles()
 # what is kept from every limit, as a part of it: curves that end in a cusp are no outline
 _MARGIN = 1e-6
-# lobes lower than this part of the pin circle are rounding; neighbouring splits are kept this share of a lobe apart
-_LEAST_SHARE, _LEAST_SPLIT = 1e-6, 1e-3
+# lobes lower than this part of the pin circle are rounding; pieces shorter than this share of a lobe are not split off
+_LEAST_SHARE, _LEAST_SPLIT = 1e-6, 1e-5
 # a pin is smaller than its circle by this part of it at least
 _LEAST_RING = 1e-3
 _BISECTIONS = 60
@@ -115,9 +117,11 @@ class CycloidalDisc:
             self.generating_radius, self.eccentricity, self.number_of_pins, self.generating_pin_radius - offset,
             -half, 0.0, half,
         )  # fmt: skip
-        edges = [0.0]
-        for at in whole.splits():
-            if at - edges[-1] > _LEAST_SPLIT * half and half - at > _LEAST_SPLIT * half:
+        edges, least = [0.0], _LEAST_SPLIT * half * self.generating_radius
+        for at in whole.graded_splits():
+            # near the limit of shortening a valley takes little of the parameter, but some of the length
+            before, here, end = np.asarray(whole.point(np.array([edges[-1], at, half])))
+            if min(abs(here - before), abs(end - here)) > least:
                 edges.append(at)
         pieces = [Segment(whole.trimmed(a, b), Label.LOBE) for a, b in pairwise([*edges, half])]
         return ToothSide(tuple(pieces), self.pitch_angle)

@@ -156,6 +156,24 @@ def test_second_disc_lines_up_only_where_its_holes_do() -> None:
         assert all(c["met"] for c in checks["mates"][3]["conditions"]) is met, lobes
 
 
+def test_a_second_disc_of_an_even_number_of_lobes_has_holes_of_its_own() -> None:
+    """Ten lobes: the other disc stands half a lobe on, and so do its holes against its lobes."""
+    ring = RING | {"number_of_pins": 11}
+    disc = DISC | {"number_of_lobes": 10}
+    for start, met in ((18.0, True), (0.0, False)):
+        other = disc | {"output_holes": DISC["output_holes"] | {"start_deg": start}}
+        parts = {"ring": ring, "disc": disc, "other": other, "plate": PLATE | {"pin_length": 20.0}}
+        mates = [
+            REDUCER[0] | {"direction_deg": 0.0},
+            {"kind": "cycloidal_pair", "first": "ring", "second": "other", "direction_deg": 180.0, "height": 10.0},
+            {"kind": "output_pins", "first": "disc", "second": "plate"},
+            {"kind": "output_pins", "first": "other", "second": "plate", "direction_deg": 180.0},
+        ]
+        _, checks = checked(parts, mates)
+        assert all(c["met"] for c in checks["mates"][3]["conditions"]) is met, start
+        assert checks["mates"][1]["verdict"] == "contact"
+
+
 def test_loose_pins_stand_in_their_seats() -> None:
     for holder in (RING | {"pins": "half_round"}, LANTERN | {"pins": "holes"}, PLATE | {"pins": "holes"}):
         size = {"pin": PIN | {"diameter": holder["pin_diameter"]}}

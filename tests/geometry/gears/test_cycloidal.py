@@ -13,11 +13,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from geometry.approximate import approximate_profile
 from geometry.contact import Boundary, Verdict, folded
 from geometry.errors import GeometryError, OffsetError, ParameterError, UndercutError
 from geometry.gears.cycloidal import CycloidalDisc, checked_disc, disc_findings, disc_region
 from geometry.gears.pin_contact import DiscMotion, half_outline, lost_motion, pin_contact, pin_gaps, pins_in_contact
 from geometry.measure import profile_area
+from geometry.outline import spline_outline
 from tests.oracles.pin_sweep import disc_pins, least_distance
 from tests.strategies import numbers
 
@@ -221,6 +223,21 @@ def test_offsets_are_parallel_and_end_where_they_are_told(disc: CycloidalDisc) -
     if math.isfinite(most):
         with pytest.raises(OffsetError, match="valleys"):
             disc_region(disc, 1.01 * most)
+
+
+@pytest.mark.parametrize("args", [(11, 80.0, 0.02, 3.3333), (2, 80.0, 0.5, 13.3), (40, 80.0, 1.0, 0.001)])
+def test_extreme_discs_are_drawn_within_their_bounds(args: tuple[int, float, float, float]) -> None:
+    """Shortening coefficients of 0.99999 and 0.001: arcs and splines that a file can carry, near the exact outline."""
+    profile = checked_disc(CycloidalDisc(*args)).profile()
+    outline = Boundary(tuple(s.curve for s in profile.period), closed=False)
+    arcs = approximate_profile(profile, 0.005, arcs=True)
+    assert arcs.max_error <= 0.005
+    assert len(arcs.geometry) <= 40 * args[0]
+    spline = spline_outline(profile, 1e-6, degree=7, continuity=6)
+    assert spline.max_error <= 1e-6
+    for curve in list(spline.curves())[: len(profile.period)]:
+        points = curve.point(np.linspace(*curve.domain, 41))
+        assert np.abs(outline.feet(points).distance).max() <= 1.01e-6
 
 
 def test_findings() -> None:
