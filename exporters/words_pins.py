@@ -49,6 +49,14 @@ PIN_FINDINGS: dict[str, tuple[str, str]] = {
         "зуби майже загострені: найменший радіус {value:.4f} мм менший за десяту частину радіуса цівки, "
         "{limit:.4f} мм; менший ексцентриситет або тонші цівки їх заокруглять",
     ),
+    "lobes_reach_ring": (
+        "the lobes reach the inside of the ring: inner_diameter is {value:.6g} mm, at least {limit:.6g} mm clears them",
+        "зуби зачіпають вінець зсередини: inner_diameter {value:.6g} мм, потрібно щонайменше {limit:.6g} мм",
+    ),
+    "output_holes_small": (
+        "the output pins jam in holes of {value:.6g} mm: pin + 2 e is {limit:.6g} mm; set the table's pin_diameter",
+        "пальці заклинюють в отворах {value:.6g} мм: палець + 2 e = {limit:.6g} мм; задайте pin_diameter таблиці",
+    ),
     "cycloidal_thin_wall": (
         "thin wall: {value:.3f} mm between holes and valleys, less than half of a pin's radius ({limit:.3f} mm)",
         "тонка стінка: {value:.3f} мм між отворами і западинами, менше за половину радіуса цівки ({limit:.3f} мм)",

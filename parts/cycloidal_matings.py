@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from geometry.errors import ParameterError
+from geometry.findings import Finding
 from parts.joined import Joined, same_size, turn_off
 from parts.mate_kinds import Standing
 from parts.pin_mates import CycloidalPairSpec, EccentricBearingSpec, OutputPinsSpec
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
     from geometry.pin_plates import PinPlate, RoundDisc
     from geometry.pin_ring import PinRing
     from geometry.windows import RoundHoles
+
+# sums of typed sizes
+_ROUNDING = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +83,13 @@ class CycloidalMating(Joined):
         reach = self.disc.tip_radius + self.distance + distance_off
         labels = (Label.RIM, Label.LOBE)
         return (ContactPlace(self.ring.inner_radius - reach, math.pi, complex(reach), labels),)
+
+    def findings(self) -> tuple[Finding, ...]:
+        """Lobes that reach the inside of the ring."""
+        needed = 2 * (self.disc.tip_radius + self.distance)
+        if not self.has_contact or 2 * self.ring.inner_radius >= needed * (1 - _ROUNDING):
+            return ()
+        return (Finding("lobes_reach_ring", 2 * self.ring.inner_radius, needed),)
 
     def quantities(self) -> dict[str, Any]:
         """Reduction with the ring held: turns of the eccentric for one of the disc, against each other."""
@@ -231,6 +242,13 @@ class OutputMating(Joined):
         gap = self.gap - distance_off - 2 * arm * abs(math.sin(phase_off / 2))
         allowed = PIN_CONTACT_TOLERANCE * self.module if tolerance is None else tolerance
         return stated_contact(gap, allowed, (Label.HOLE, Label.PIN), complex(arm + self.module))
+
+    def findings(self) -> tuple[Finding, ...]:
+        """Holes that are too small for their pins to go round by the eccentricity."""
+        needed = 2 * (self.plate.pin_radius + self.distance)
+        if self.output.diameter >= needed * (1 - _ROUNDING):
+            return ()
+        return (Finding("output_holes_small", self.output.diameter, needed),)
 
     def quantities(self) -> dict[str, Any]:
         """Sizes of pins and holes, mm."""

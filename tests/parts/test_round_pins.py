@@ -118,6 +118,12 @@ def test_a_spoiled_reducer_is_told(name: str) -> None:
     found = checks["mates"][0]
     broken = [c["code"] for c in found.get("conditions", []) if not c["met"]]
     assert broken == [what] or found.get("verdict") == what
+    if what == "overlap":
+        # the finding names the diameter that clears the lobes
+        (finding,) = found["findings"]
+        assert finding["code"] == "lobes_reach_ring"
+        parts = {"ring": RING | {"inner_diameter": finding["limit"]}, "disc": DISC}
+        assert checked(parts, [mate], stand)[1]["mates"][0]["verdict"] == "contact"
 
 
 def test_output_pins_are_held_against_their_holes() -> None:
@@ -131,6 +137,7 @@ def test_output_pins_are_held_against_their_holes() -> None:
         _, checks = checked(two | {"plate": PLATE | change}, mates)
         assert checks["mates"][1]["verdict"] == verdict
         assert checks["mates"][1]["gap"] == pytest.approx(gap, abs=1e-12)
+        assert [f["code"] for f in checks["mates"][1]["findings"]] == ["output_holes_small"] * (gap < 0)
     # brute force: the placed pins in the placed holes over a turn of the eccentric, plate turned off
     at = {"disc": {"at": [2.5, 0.0, 0.0], "rotation_deg": 180 / 11}, "ring": {"at": [0.0, 0.0, 0.0]}}
     for turn in (0.0, 0.01):
