@@ -5,6 +5,9 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
 
 from geometry.curve import Curve, end_point
 from geometry.errors import CuspError, OffsetError
@@ -92,12 +95,12 @@ class SeatCircle:
             if not here.is_whole:
                 raise OffsetError(offset, "closes the ring between its pins", 0.0)
             seat, land = here._arcs()
-            return Profile((Segment(seat, label), Segment(land, Label.RIM)), self.count, clockwise=True)
+            return Profile((*_quarters(seat, label), Segment(land, Label.RIM)), self.count, clockwise=True)
         seat, land = self._arcs()
         following = seat.placed(Placement2(-2 * math.pi / self.count))
         try:
             chain = [
-                Segment(seat.offset(-offset), label),
+                *_quarters(seat.offset(-offset), label),
                 Segment(_corner(seat, land, offset), Label.CORNER),
                 Segment(land.offset(-offset), Label.RIM),
                 Segment(_corner(land, following, offset), Label.CORNER),
@@ -105,6 +108,13 @@ class SeatCircle:
         except CuspError:
             raise OffsetError(offset, "closes the seats of the pins", 0.0) from None
         return Profile(tuple(chain), self.count, clockwise=True)
+
+
+def _quarters(arc: Arc, label: Label) -> list[Segment]:
+    """An arc in pieces of a quarter turn at most: the ends of a half turn do not tell a file where its middle is."""
+    parts = math.ceil(abs(arc.sweep) / (math.pi / 2) - 1e-9)
+    places = np.linspace(0.0, abs(arc.sweep), parts + 1).tolist()
+    return [Segment(arc.trimmed(a, b), label) for a, b in pairwise(places)]
 
 
 def _corner(before: Curve, after: Curve, offset: float) -> Arc:
