@@ -120,7 +120,7 @@ def _check_pins(spec: PinRingSpec, ring: PinRing, least: float) -> None:
         raise ParameterError("seat_clearance", spec.seat_clearance, "pins of one piece have no seats; 0 works")
     chord = ring.pin_circle_radius * math.sin(math.pi / ring.number_of_pins)
     seat = max(ring.seat_radius, ring.pin_radius)
-    room = chord - (least / 2 if spec.pins == "holes" else _MARGIN * chord)
+    room = chord - least / 2
     if ring.pin_radius > room:
         text = f"{ring.number_of_pins} pins touch each other; at most {told(2 * room * (1 - _MARGIN))} mm works"
         raise ParameterError("pin_diameter", spec.pin_diameter, text)

@@ -34,6 +34,8 @@ _LEAST_SHARE, _LEAST_SPLIT = 1e-6, 1e-5
 # a pin is smaller than its circle by this part of it at least
 _LEAST_RING = 1e-3
 _BISECTIONS = 60
+# lobes are rounded by this part of the generating pin's radius at least: sharper ones are cusps in every file
+_SHARPEST = 0.01
 # a radius of curvature below this part of the pin's is told
 _SHARP = 0.1
 
@@ -163,7 +165,7 @@ def checked_disc(disc: CycloidalDisc) -> CycloidalDisc:
 def _eccentricities(disc: CycloidalDisc) -> tuple[float, float]:
     """Least and greatest eccentricity for these pins, mm; the circle of pins must be larger than a pin."""
     big, pins = disc.generating_radius, disc.number_of_pins
-    most = greatest_shortening(big, pins, disc.generating_pin_radius * (1 + _MARGIN)) * (1 - _MARGIN)
+    most = greatest_shortening(big, pins, disc.generating_pin_radius * (1 + _SHARPEST)) * (1 - _MARGIN)
     return _LEAST_SHARE * big, most * big / pins
 
 

@@ -38,8 +38,10 @@ _MARGIN = 1e-6
 # width of the tip land by default, in pitches, and of what is left of the tooth where it is thin already
 _TIP_LAND, _TIP_SHARE = 0.1, 0.5
 _SAMPLES, _BISECTIONS = 129, 40
+# of the height from root arc to pointed tip: shorter flanks, and lands nearer to the point, are none
+_LEAST_FLANK = 0.01
 # of the pitch: thinner necks and bottoms are none
-_LEAST_NECK = 1e-3
+_LEAST_NECK = 0.005
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,7 +168,7 @@ def limits_of(gear: LanternGear) -> FlankLimits:
         tip = bracketed_root(wider, begin, pointed).value
         return FlankLimits(begin, tip, pointed, low, abs(complex(flank.point(tip))), high)
     radius = gear.given_tip_diameter / 2
-    room = _MARGIN * (high - low)
+    room = _LEAST_FLANK * (high - low)
     if radius > high - room:
         text = f"the tooth is pointed at {2 * high:.6g} mm; at most {told(2 * (high - room))} mm works"
         raise PointedTipError("tip_diameter", gear.given_tip_diameter, text)
