@@ -32,7 +32,7 @@ _MARGIN = 1e-6
 # lobes lower than this part of the pin circle are rounding; pieces shorter than this share of a lobe are not split off
 _LEAST_SHARE, _LEAST_SPLIT = 1e-6, 1e-5
 # a pin is smaller than its circle by this part of it at least
-_LEAST_RING = 1e-3
+_LEAST_RING = 0.02
 _BISECTIONS = 60
 # lobes are rounded by this part of the generating pin's radius at least: sharper ones are cusps in every file
 _SHARPEST = 0.01
