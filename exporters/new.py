@@ -58,6 +58,11 @@ _EXAMPLES = {
     "end_margin": "8.0",
     "pivot_offset": "40.0",
     "start_angle_deg": "-10.0",
+    "number_of_lobes": "11",
+    "number_of_pins": "12",
+    "pin_circle_diameter": "80.0",
+    "pin_diameter": "8.0",
+    "eccentricity": "2.5",
 }
 _PHASES = (
     '{ move = "rise", angle_deg = 120.0, law = "sine" }',
@@ -103,6 +108,20 @@ _TABLE_EXAMPLES = {
     ("FollowerArmSpec", "holes"): "[{ at = [20.0, 0.0], diameter = 3.0 }]",
     ("FollowerArmSpec", "slots"): "[{ start = [28.0, 0.0], end = [36.0, 0.0], width = 3.0 }]",
     **new_examples.EXAMPLES,
+    ("OutputHolesTable", "count"): "6",
+    ("OutputHolesTable", "pitch_circle_diameter"): "44.0",
+    ("OutputHolesTable", "pin_diameter"): "6.0",
+    ("OutputPlateSpec", "number_of_pins"): "6",
+    ("OutputPlateSpec", "pin_circle_diameter"): "44.0",
+    ("OutputPlateSpec", "pin_diameter"): "6.0",
+    ("OutputPlateSpec", "outer_diameter"): "60.0",
+    ("EccentricSpec", "diameter"): "22.0",
+    ("PinSpec", "diameter"): "8.0",
+    ("PinRingSpec", "inner_diameter"): "83.0",
+    ("PinRingSpec", "outer_diameter"): "110.0",
+    ("LanternWheelSpec", "outer_diameter"): "100.0",
+    ("LanternGearSpec", "number_of_teeth"): "30",
+    ("LanternGearSpec", "tip_diameter"): "220.0",
 }
 
 # what a scene of several parts may add

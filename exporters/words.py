@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from exporters.words_pins import PIN_FINDINGS, PIN_WORDS
 from geometry.findings import Finding
 
 WORDS: dict[str, tuple[str, str]] = {
@@ -144,6 +145,7 @@ WORDS: dict[str, tuple[str, str]] = {
     "drive": ("drive {instance}: {train} turns", "привід {instance}: {train} обертів"),
     "gap": ("least gap {gap:.2g} mm", "найменший зазор {gap:.2g} мм"),
     "left_out": ("left out", "не зроблено"),
+    **PIN_WORDS,
 }
 
 FINDINGS: dict[str, tuple[str, str]] = {
@@ -352,6 +354,7 @@ FINDINGS: dict[str, tuple[str, str]] = {
         "{value:.0f} edges are shorter than {limit:.3g} mm; merging them would break the tolerance",
         "{value:.0f} відрізків коротші за {limit:.3g} мм; їх з'єднання порушило б допуск",
     ),
+    **PIN_FINDINGS,
 }
 
 

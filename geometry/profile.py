@@ -37,6 +37,8 @@ class Label(StrEnum):
     BODY = "body"
     CAM = "cam"
     DWELL = "dwell"
+    LOBE = "lobe"
+    PIN = "pin"
 
 
 @dataclass(frozen=True, slots=True)

@@ -96,10 +96,10 @@ class CamFollowerMating:
         off = (second[0] - place) * cmath.rect(1.0, math.pi / 2 - direction)
         lean = math.remainder(second[1] - turned, 2 * math.pi)
         if self._swings and self.end.arm_length is not None:
-            return Standing(direction, self.distance + abs(off), lean * self.end.arm_length, 0.0)
+            return Standing(direction, self.distance + abs(off), lean * self.end.arm_length, 0.0, slides=True)
         # a round roller may stand turned
         lean = 0.0 if self.end.outline is None else lean * self.module
-        return Standing(direction, self.distance + math.hypot(off.real, lean), off.imag, 0.0)
+        return Standing(direction, self.distance + math.hypot(off.real, lean), off.imag, 0.0, slides=True)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact | None:
         """Verdict over one turn of the cam; ``phase_off``: mm by which the follower stands too far out."""

@@ -52,6 +52,8 @@ def _joint(module: str, spec: str, mating: str, joins: tuple[tuple[str, str], ..
 
 
 _FOLLOWERS = ("follower", "follower_arm", "roller")
+_PIN_HOLDERS = ("pin_ring", "output_plate", "lantern_wheel")
+_CYCLOIDAL, _LANTERN = "parts.cycloidal_matings", "parts.lantern_mating"
 JOINTS: dict[str, Joint] = {
     "cam_follower": _joint(
         "parts.cam_mate",
@@ -64,4 +66,26 @@ JOINTS: dict[str, Joint] = {
     ),
     "cam_yoke": _joint("parts.positive_mates", "CamYokeSpec", "yoke_mating", (("cam", "yoke_frame"),)),
     "fixed": _joint("parts.fixed_mate", "FixedSpec", "fixed_mating", None),
+    "coaxial": Joint(None, ("parts.pin_mates", "CoaxialSpec"), (_LANTERN, "coaxial_mating")),
+    "cycloidal_pair": Joint(
+        (("pin_ring", "cycloidal_disc"),),
+        ("parts.pin_mates", "CycloidalPairSpec"),
+        (_CYCLOIDAL, "cycloidal_mating"),
+    ),
+    "eccentric_bearing": Joint(
+        (("eccentric", "cycloidal_disc"),),
+        ("parts.pin_mates", "EccentricBearingSpec"),
+        (_CYCLOIDAL, "bearing_mating"),
+    ),
+    "output_pins": Joint(
+        (("cycloidal_disc", "output_plate"),), ("parts.pin_mates", "OutputPinsSpec"), (_CYCLOIDAL, "output_mating")
+    ),
+    "pin_seat": Joint(
+        tuple((holder, "pin") for holder in _PIN_HOLDERS),
+        ("parts.pin_mates", "PinSeatSpec"),
+        (_LANTERN, "pin_seat_mating"),
+    ),
+    "lantern_pair": Joint(
+        (("lantern_wheel", "lantern_gear"),), ("parts.pin_mates", "LanternPairSpec"), (_LANTERN, "lantern_mating")
+    ),
 }

@@ -319,7 +319,7 @@ class RackMating:
         middle, _ = self.second_pose(0j, first[1], direction)
         off = place.imag - (middle * cmath.rect(1.0, -direction)).imag
         play = max(self.pair.normal_backlash, 0.0) / (2 * math.cos(self.pair.rack.rack.pressure_angle))
-        return Standing(direction, place.real, math.remainder(off, self.pair.rack.pitch), play)
+        return Standing(direction, place.real, math.remainder(off, self.pair.rack.pitch), play, slides=True)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict over one pitch of the gear."""

@@ -256,7 +256,7 @@ def _closed(mate: PlacedMate) -> PlacedMate:
     allowed = PLACED_MM + TOLERANCES.relative_join * (abs(mate.first.centre) + abs(mate.second.centre))
     conditions = [Condition("centre_distance", found.distance, required, allowed, abs(shift) <= allowed)]
     off, met = found.phase_off, abs(found.phase_off) <= found.play + found.slack(allowed)
-    if mate.mating.ratio is None:
+    if found.slides:
         conditions.append(Condition("rack_phase", off, 0.0, found.play + allowed, met))
     else:
         turned, right = math.degrees(second.rotation), math.degrees(second.rotation - off)

@@ -143,7 +143,7 @@ class YokeMating:
         place, turned = self.second_pose(*first, direction)
         off = (second[0] - place) * cmath.exp(1j * (math.pi / 2 - direction))
         lean = math.remainder(second[1] - turned, 2 * math.pi) * self.module
-        return Standing(direction, math.hypot(off.real, lean), off.imag, self.frame.play / 2)
+        return Standing(direction, math.hypot(off.real, lean), off.imag, self.frame.play / 2, slides=True)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict over one turn of the cam; ``phase_off``: mm by which the frame stands too far out."""

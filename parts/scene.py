@@ -302,10 +302,13 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
             place = f".{key}" if owner == "mate" else f": parts.{_blamed(scene, mate, part_of)}.{error.name}"
             raise SceneError(source, f"mates[{index + 1}]{place}", error.value, error.allowed) from error
     gears, matings = mated(gears, scene.mates, part_of, helices)
-    owners = [[scene.parts[part_of[i]] for i in (m.first, m.second)] for m in matings]
-    matings = [
-        with_face(m, common_face(*two)) if m.pair is not None else m for m, two in zip(matings, owners, strict=True)
-    ]
+    for index, mating in enumerate(matings):
+        if mating.pair is not None:
+            from parts.common_face import with_face
+            from parts.helix_keys import common_face
+
+            owners = (scene.parts[part_of[i]] for i in (mating.first, mating.second))
+            matings[index] = with_face(mating, common_face(*owners))
     parts = {key: KINDS[spec.__struct_config__.tag][2](key, spec, gears[key]) for key, spec in scene.parts.items()}
     return parts, matings
 
