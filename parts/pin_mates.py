@@ -9,7 +9,6 @@ from msgspec import Meta, Struct
 from parts.keys import mm
 
 _MOST = 1e6
-# kinds of parts that loose pins stand in
 First = Annotated[str, Meta(description="instance that is already placed")]
 Second = Annotated[str, Meta(description="instance that is placed by this mate")]
 _Angle = Meta(ge=-36_000, le=36_000, description="turn about z", extra={"unit": "degrees"})
