@@ -26,6 +26,17 @@ WORDS: dict[str, tuple[str, str]] = {
     "face_from": ("face contact from, mm", "контакт на тарілці від, мм"),
     "least_plate_diameter": ("least plate diameter, mm", "найменший діаметр тарілки, мм"),
     "face_to": ("face contact to, mm", "контакт на тарілці до, мм"),
+    "inner_root_diameter": ("least root diameter, mm", "найменший діаметр западин, мм"),
+    "outer_tip_diameter": ("greatest tip diameter, mm", "найбільший діаметр вершин, мм"),
+    "module": ("module m, mm", "модуль m, мм"),
+    "centre_distance_of_pair": ("centre distance a, mm", "міжосьова відстань a, мм"),
+    "centrode_perimeter": ("perimeter of the centrode, mm", "довжина центроїди, мм"),
+    "least_centrode_radius": ("least radius of the centrode, mm", "найменший радіус центроїди, мм"),
+    "greatest_centrode_radius": ("greatest radius of the centrode, mm", "найбільший радіус центроїди, мм"),
+    "least_curvature_radius_of_centrode": (
+        "its least radius of curvature, mm",
+        "її найменший радіус кривини, мм",
+    ),
     "normal_pitch": ("normal pitch p_n, mm", "нормальний крок p_n, мм"),
     "lead": ("lead of the helix p_z, mm", "хід гвинтової лінії p_z, мм"),
     "file": ("file", "файл"),
@@ -49,6 +60,12 @@ WORDS: dict[str, tuple[str, str]] = {
     "pair": (
         "pair {first} - {second}: a_w = {a_w:.5f} mm, alpha_w = {alpha_w:.4f} deg, contact ratio {ratio:.4f}",
         "пара {first} - {second}: a_w = {a_w:.5f} мм, alpha_w = {alpha_w:.4f} град, коефіцієнт перекриття {ratio:.4f}",
+    ),
+    "mate_noncircular_gear_pair": (
+        "pair {first} - {second}: a = {centre_distance:.5f} mm, ratio {least_ratio:.4f} to {greatest_ratio:.4f}, "
+        "least contact ratio {least_contact_ratio:.4f}",
+        "пара {first} - {second}: a = {centre_distance:.5f} мм, передаточне відношення від {least_ratio:.4f} до "
+        "{greatest_ratio:.4f}, найменший коефіцієнт перекриття {least_contact_ratio:.4f}",
     ),
     "mate_fixed": ("{first} - {second}: fixed to each other", "{first} - {second}: нерухомо з'єднані"),
     "broken": ("BROKEN", "ПОРУШЕНО"),
@@ -101,6 +118,10 @@ FINDINGS: dict[str, tuple[str, str]] = {
     "undercut": (
         "the tooth is undercut: profile shift {value:.4f} is below x_min = {limit:.4f}",
         "зуб підрізаний: зміщення {value:.4f} менше за x_min = {limit:.4f}",
+    ),
+    "undercut_on_centrode": (
+        "teeth are undercut where the centrode's radius of curvature, {value:.4f} mm at least, is below {limit:.4f} mm",
+        "зуби підрізані там, де радіус кривини центроїди (найменший {value:.4f} мм) менший за {limit:.4f} мм",
     ),
     "thin_tip": (
         "thin tip: s_a = {value:.3f} mm is below 0.3 m = {limit:.3f} mm",

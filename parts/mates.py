@@ -51,7 +51,7 @@ def mated(gears: dict[str, Any], mates: list[Any], part_of: dict[str, str]) -> t
         Two gears cannot mesh; names the key of the second gear, or of the mate as ``mate.KEY``, and what would work.
     """
     toothed = [m for m in mates if isinstance(m, GEAR_PAIRS)]
-    final = _thinned(gears, toothed, part_of)
+    final = _thinned(gears, [m for m in mates if m in toothed or JOINTS[m.__struct_config__.tag].thins], part_of)
     pairs = [_pair(m, final[part_of[m.first]], final[part_of[m.second]]) for m in toothed]
     for mate, pair in zip(toothed, pairs, strict=True):
         if isinstance(mate, ExternalGearPairSpec):
@@ -186,6 +186,8 @@ def _build(gear: Any) -> None:
         from geometry.gears.rack import checked_part_rack
 
         checked_part_rack(gear)
+    elif hasattr(gear, "outline"):
+        gear.outline  # noqa: B018
     else:
         from geometry.gears.ring_limits import checked_ring
 
@@ -194,7 +196,8 @@ def _build(gear: Any) -> None:
 
 def _backlash_at(mate: Any, first: Any, second: Any) -> float:
     """Backlash of two gears without thinning at the mate's centre distance, mm; negative distances are refused."""
-    return _pair(mate, first, second).normal_backlash if mate.working_centre_distance is not None else 0.0
+    asked = getattr(mate, "working_centre_distance", None)
+    return _pair(mate, first, second).normal_backlash if asked is not None else 0.0
 
 
 def _pressure_angle(gear: Any) -> float:

@@ -17,6 +17,7 @@ from parts.instances import DriveSpec, InstanceSpec, check_instance, drive_spec,
 from parts.keys import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.mate_kinds import Mating
 from parts.mates import GEAR_PAIRS, JOINS, MATES, mated
+from parts.noncircular_gear import NoncircularGearSpec, checked_noncircular_gear, noncircular_gear_part
 from parts.part import Part
 from parts.rack import RackSpec, checked_rack_part, rack_part
 from parts.ring_gear import RingGearSpec, checked_ring_gear, ring_gear_part
@@ -30,6 +31,7 @@ KINDS: dict[str, tuple[type[Struct], Any, Any]] = {
     "ring_gear": (RingGearSpec, checked_ring_gear, ring_gear_part),
     "rack": (RackSpec, checked_rack_part, rack_part),
     "cam": (CamSpec, checked_cam, cam_part),
+    "noncircular_gear": (NoncircularGearSpec, checked_noncircular_gear, noncircular_gear_part),
 }
 # purposes of each format, the default first, and the tolerance (mm) of an export that names none
 _DEFAULTS: dict[str, dict[str, float]] = {
