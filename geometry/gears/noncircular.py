@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geometry.bores import RoundBore
-from geometry.curve import Complex, Real
+from geometry.curve import Complex, Curve, Real
 from geometry.errors import ParameterError, PointedTipError, UndercutError
 from geometry.gears.basic_rack import BasicRack
 from geometry.gears.noncircular_curves import RolledFillet, RolledFlank, RolledLand
@@ -104,21 +104,46 @@ class NoncircularGear:
         return cut_outline(self)
 
 
+class Sides(NamedTuple):
+    """Tooth sides of one period, (2, teeth), lower ones first; arc lengths in mm, angles in rad.
+
+    ``crossing`` of the rack's flanks with the pitch line, ``centre`` of its roundings; ``start`` and ``at_tip``: at
+    which the rack touches a flank's ends; ``contact``: where the fillets end; ``land``: of the tip land's ends.
+    """
+
+    crossing: Real
+    centre: Real
+    start: Real
+    at_tip: Real
+    contact: Real
+    land: Real
+
+
+class Cut(NamedTuple):
+    """A rack's cut: pressure angle (rad), depth and radius of its rounding, height of the tips over the centrode, mm;
+    half of its flat tip."""
+
+    alpha: float
+    depth: float
+    radius: float
+    tip: float
+    flat: float
+
+
 class Outline(NamedTuple):
     """One period: segments of tooth after tooth, six of each (fewer without root lands); what was found on the way.
 
-    ``owners``: number of the tooth of each segment, and its side, 0 the lower one with the tip, 1 the upper one with the
-    root land after it; ``undercut`` sides of all teeth in the period, ``tip_thickness`` the least along the tip curve, mm; ``starts`` and
-    ``ends`` (2, teeth): the centrode's arc lengths at which the rack touches each flank at its root and tip, lower
-    sides first.
+    ``first``: number of its first tooth; ``owners``: index of the tooth of each segment and its side, 0 the lower one
+    with the tip, 1 the upper one with the root land after it. ``undercut`` sides; ``tip_thickness``: the least, mm.
     """
 
     segments: tuple[Segment, ...]
     owners: tuple[tuple[int, int], ...]
+    first: int
     undercut: int
     tip_thickness: float
-    starts: Real
-    ends: Real
+    sides: Sides
+    cut: Cut
 
     def profile(self, count: int) -> Profile:
         """Closed and checked."""
@@ -155,45 +180,84 @@ def cut_outline(gear: NoncircularGear, inset: float = 0.0) -> Outline:
     _check_rolling(gear, inset)
     widening = gear.circumferential_thinning / 2
     half = m * (math.pi / 4 - gear.profile_shift_coefficient * math.tan(alpha)) + widening + inset / math.cos(alpha)
-    corner = rack.rounding_half_distance * m + widening
-    depth = (rack.rounding_depth - gear.profile_shift_coefficient) * m
-    radius = rack.tip_radius * m + inset
-    middle = (np.arange(teeth) + gear.first_tooth) * p
+    cut = Cut(
+        alpha,
+        (rack.rounding_depth - gear.profile_shift_coefficient) * m,
+        rack.tip_radius * m + inset,
+        gear.tip_height - inset,
+        rack.rounding_half_distance * m + widening,
+    )
+    first = _first_number(teeth, gear.first_tooth)
+    middle = (np.arange(first, first + teeth) + gear.first_tooth) * p
     sign = np.repeat([1.0, -1.0], teeth)
     space = np.concatenate([middle - p / 2, middle + p / 2])
-    crossing, centre = space + sign * half, space + sign * corner
-    tip = gear.tip_height - inset
-    at_tip, land = tip_places(gear.line, crossing, sign * alpha, tip)
+    crossing, centre = space + sign * half, space + sign * cut.flat
+    at_tip, land = tip_places(gear.line, crossing, sign * alpha, cut.tip)
     thickness = land[teeth:] - land[:teeth]
     if not float(thickness.min()) > TOLERANCES.relative_length * m:
-        raise PointedTipError(
-            "number_of_teeth", gear.number_of_teeth, f"{int(np.sum(thickness <= 0))} teeth of a lobe are pointed"
-        )
-    flanks = Flanks(gear.line, crossing, sign, alpha, centre, depth, radius, at_tip)
+        text = f"{int(np.sum(thickness <= 0))} teeth of a lobe are pointed"
+        raise PointedTipError("number_of_teeth", gear.number_of_teeth, text)
+    flanks = Flanks(gear.line, crossing, sign, alpha, centre, cut.depth, cut.radius, at_tip)
     start, contact, undercut = flank_starts(flanks)
+    both = (2, teeth)
+    sides = Sides(*(x.reshape(both) for x in (crossing, centre, start, at_tip, contact, land)))
+    segments, owners = _segments(gear, sides, cut, first)
+    thinnest = _least_thickness(gear.line, land, cut.tip)
+    return Outline(tuple(segments), tuple(owners), first, undercut, thinnest, sides, cut)
+
+
+def _first_number(teeth: int, first_tooth: float) -> int:
+    """The first tooth of a period that lies evenly about the angle 0, so that mirror images fall into it."""
+    return -((teeth - 1) // 2) if first_tooth == 0 else -(teeth // 2)
+
+
+def _segments(gear: NoncircularGear, sides: Sides, cut: Cut, first: int) -> tuple[list[Segment], list[tuple[int, int]]]:
+    """The curves of a period, tooth by tooth. What is a mirror image in the x axis is made as one."""
+    line, teeth = gear.line, sides.crossing.shape[1]
+    crossing, centre, start, at_tip, contact, land = sides
+    turned = round(2 * gear.first_tooth)
+
+    def image(k: int) -> int:
+        """Index of the tooth's mirror image."""
+        return -(k + first) - turned - first
+
+    lower: list[list[Curve]] = []
+    upper: list[list[Curve]] = []
     segments: list[Segment] = []
     owners: list[tuple[int, int]] = []
     for k in range(teeth):
-        low, up = k, k + teeth
-        segments += [
-            Segment(RolledFillet(gear.line, centre[low], depth, radius, 0.0, contact[low]), Label.ROOT_FILLET),
-            Segment(RolledFlank(gear.line, crossing[low], alpha, start[low], at_tip[low]), Label.FLANK),
-            Segment(RolledLand(gear.line, tip, land[low], land[up]), Label.TIP_LAND),
-            Segment(RolledFlank(gear.line, crossing[up], -alpha, at_tip[up], start[up]), Label.FLANK),
-            Segment(RolledFillet(gear.line, centre[up], depth, radius, contact[up], 0.0), Label.ROOT_FILLET),
+        j = image(k) if line.mirrored else -1
+        if 0 <= j < k:
+            lower.append([c.mirrored() for c in reversed(upper[j])])
+        else:
+            lower.append([
+                RolledFillet(line, centre[0, k], cut.depth, cut.radius, 0.0, contact[0, k]),
+                RolledFlank(line, crossing[0, k], cut.alpha, start[0, k], at_tip[0, k]),
+            ])  # fmt: skip
+        if 0 <= j <= k:
+            upper.append([c.mirrored() for c in reversed(lower[j])])
+        else:
+            upper.append([
+                RolledFlank(line, crossing[1, k], -cut.alpha, at_tip[1, k], start[1, k]),
+                RolledFillet(line, centre[1, k], cut.depth, cut.radius, contact[1, k], 0.0),
+            ])  # fmt: skip
+        tip = RolledLand(line, cut.tip, land[0, k], land[1, k])
+        made = [
+            Segment(lower[k][0], Label.ROOT_FILLET),
+            Segment(lower[k][1], Label.FLANK),
+            Segment(tip, Label.TIP_LAND),
+            Segment(upper[k][0], Label.FLANK),
+            Segment(upper[k][1], Label.ROOT_FILLET),
         ]
-        if corner > TOLERANCES.relative_length * m:
-            end = space[up] + corner
-            segments.append(Segment(RolledLand(gear.line, -depth - radius, centre[up], end), Label.ROOT_LAND))
-        owners += [(k, 0)] * 3 + [(k, 1)] * (len(segments) - len(owners) - 3)
-    if not radius > 0:
+        if cut.flat > TOLERANCES.relative_length * gear.module:
+            land_curve = RolledLand(line, -cut.depth - cut.radius, centre[1, k], centre[1, k] + 2 * cut.flat)
+            made.append(Segment(land_curve, Label.ROOT_LAND))
         # a sharp rack tip on a straight place of the centrode leaves a point
-        kept = [i for i, s in enumerate(segments) if abs(_chord(s)) > TOLERANCES.relative_length * m]
-        segments, owners = [segments[i] for i in kept], [owners[i] for i in kept]
-    thinnest = _least_thickness(gear.line, land, tip)
-    return Outline(
-        tuple(segments), tuple(owners), undercut, thinnest, start.reshape(2, teeth), at_tip.reshape(2, teeth)
-    )
+        least = TOLERANCES.relative_length * gear.module
+        kept = [i for i, s in enumerate(made) if cut.radius > 0 or abs(_chord(s)) > least]
+        segments += [made[i] for i in kept]
+        owners += [(k, 0 if i < 3 else 1) for i in kept]
+    return segments, owners
 
 
 def _chord(segment: Segment) -> complex:

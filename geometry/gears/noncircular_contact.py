@@ -1,28 +1,26 @@
 """Contact of two noncircular gears through everything that differs: the least gap of their exact outlines.
 
 Teeth are all different, so the search runs over as many pitches as both outlines take to come again. At each position
-every piece of the second outline that samples leave near enough is held against the first outline, and minima between
-samples are bracketed as for circular gears (geometry/contact.py).
+every piece of the second outline that samples leave near enough is held against the pieces of the first one near it;
+minima between samples are bracketed as for circular gears (geometry/contact.py), all of them at once.
 """
 
 from __future__ import annotations
 
-import cmath
 import math
 from dataclasses import dataclass
 
 import numpy as np
 
-from geometry.contact import Boundary, Indices, Verdict, least_in_brackets, promising, sampled
-from geometry.curve import Complex, Curve, Real
+from geometry.contact import Flags, Indices, Verdict, least_in_brackets, promising
+from geometry.curve import Complex, Real
 from geometry.gears.mesh_search import CONTACT_TOLERANCE, ContactPlace, PairContact
-from geometry.gears.noncircular import NoncircularGear
 from geometry.gears.noncircular_pair import NoncircularPair
-from geometry.placement import Placement2
+from geometry.gears.noncircular_table import CurveTable
 from geometry.profile import Label
 
-# positions in a pitch, rounds of more positions beside the least gap, samples along curves in modules
-_POSITIONS, _ROUNDS, _SAMPLE_STEP = 12, 4, 0.2
+# positions in a pitch, and rounds of more positions beside the least gap
+_POSITIONS, _ROUNDS = 12, 4
 _ACCURACY = 1e-12
 # heights of tips that are looked at beyond those that meet, in modules
 _ROOM = 0.3
@@ -39,20 +37,33 @@ def noncircular_contact(
     """
     allowed = CONTACT_TOLERANCE * pair.first.module if tolerance is None else tolerance
     mesh = _Mesh(pair, second_turn, centre_shift)
-    arcs = -np.arange(mesh.pitches * _POSITIONS) * (pair.first.pitch / _POSITIONS)
-    found = mesh.gaps(arcs)
     step = pair.first.pitch / _POSITIONS
+    arcs = np.asarray(-step * np.arange(mesh.pitches * _POSITIONS), dtype=np.float64)
+    found = mesh.gaps(arcs)
     for _ in range(_ROUNDS):
-        least = found.gap.min(axis=1)
-        if np.all(np.abs(found.gap) <= allowed) or not np.isfinite(least).all():
+        if np.all(np.abs(found.gap) <= allowed) or not np.isfinite(found.gap).all():
             break
-        # the least, the most, and where the verdict could turn: between their neighbours
-        places = {int(np.argmin(least)), int(np.argmax(found.gap.min(axis=1)))}
-        near = [arcs[i] + step * x for i in places for x in (-0.5, -0.25, 0.25, 0.5)]
+        # the least gap, and the greatest of each side's: between their neighbours
+        places = {int(np.argmin(found.gap.min(axis=1))), *np.argmax(found.gap, axis=0).tolist()}
+        more = np.array([arcs[i] + step * x for i in sorted(places) for x in (-0.5, -0.25, 0.25, 0.5)])
         step /= 4
-        more = np.array(near)
         arcs, found = np.concatenate([arcs, more]), found.joined(mesh.gaps(more))
     return _concluded(pair, arcs, found, allowed)
+
+
+@dataclass(frozen=True)
+class _Gaps:
+    """Least gap at each position and tooth side (n, 2), where, in the fixed frame, and on which curves."""
+
+    gap: Real
+    point: Complex
+    first: Indices
+    second: Indices
+
+    def joined(self, other: _Gaps) -> _Gaps:
+        """Both, one after the other."""
+        names = ("gap", "point", "first", "second")
+        return _Gaps(*(np.concatenate([getattr(self, n), getattr(other, n)]) for n in names))
 
 
 def _concluded(pair: NoncircularPair, arcs: Real, found: _Gaps, allowed: float) -> PairContact:
@@ -61,14 +72,13 @@ def _concluded(pair: NoncircularPair, arcs: Real, found: _Gaps, allowed: float) 
     gap, drive = found.gap[order], drive[order]
     gaps = gap.min(axis=1)
     worst, side = divmod(int(np.argmin(gap)), 2)
-    place = ContactPlace(
-        float(gap[worst, side]),
-        float(drive[worst]),
-        complex(found.point[order][worst, side]),
-        found.labels[int(order[worst])][side],
+    row = int(order[worst])
+    labels: tuple[Label, Label] = (
+        pair.first.outline.segments[found.first[row, side]].label,
+        pair.second.outline.segments[found.second[row, side]].label,
     )
-    finite = bool(np.isfinite(gap).all())
-    if not finite:
+    place = ContactPlace(float(gap[worst, side]), float(drive[worst]), complex(found.point[row, side]), labels)
+    if not np.isfinite(gap).all():
         verdict = Verdict.UNDECIDED
     elif gap.min() < -allowed:
         verdict = Verdict.OVERLAP
@@ -78,43 +88,23 @@ def _concluded(pair: NoncircularPair, arcs: Real, found: _Gaps, allowed: float) 
     return PairContact(verdict, allowed, tuple(drive.tolist()), tuple(gaps.tolist()), sides, place, float(gaps.max()))
 
 
-@dataclass
-class _Gaps:
-    """Least gap at each position and tooth side (n, 2), where, in the fixed frame, and on what."""
+@dataclass(frozen=True)
+class _Lanes:
+    """Pieces of the second outline at positions: position, side, curve, turn and shift into the first body's frame;
+    candidates (n, k) of the first outline's curves with the turns that bring them there, -1 where there is none."""
 
-    gap: Real
-    point: Complex
-    labels: list[list[tuple[Label, Label]]]
+    position: Indices
+    side: Indices
+    curve: Indices
+    turn: Complex
+    shift: Complex
+    facing: Indices
+    facing_turn: Complex
 
-    def joined(self, other: _Gaps) -> _Gaps:
-        """Both, one after the other."""
-        return _Gaps(
-            np.concatenate([self.gap, other.gap]),
-            np.concatenate([self.point, other.point]),
-            [*self.labels, *other.labels],
-        )
-
-
-class _Teeth:
-    """The outline of a gear: curves of one period with their samples, tooth and side."""
-
-    def __init__(self, gear: NoncircularGear) -> None:
-        outline = gear.outline
-        self.gear, self.segments = gear, outline.segments
-        self.samples = [sampled(s.curve, _SAMPLE_STEP * gear.module) for s in outline.segments]
-        self.steps = [float(s.lengths.max()) for s in self.samples]
-        self.tooth, self.side = np.array(outline.owners).T
-        self.teeth = gear.number_of_teeth // gear.count
-
-    def facing(self, arc: float, reach: int) -> list[tuple[int, complex]]:
-        """Segments of the teeth on either side of an arc length, and the turns that bring them there, in order."""
-        middle = round(arc / self.gear.pitch - self.gear.first_tooth)
-        found = []
-        for tooth in range(middle - reach, middle + reach + 1):
-            turns, number = divmod(tooth, self.teeth)
-            turn = cmath.exp(2j * math.pi * turns / self.gear.count)
-            found += [(int(i), turn) for i in np.flatnonzero(self.tooth == number)]
-        return found
+    def chosen(self, rows: Indices) -> _Lanes:
+        """Some of them."""
+        names = ("position", "side", "curve", "turn", "shift", "facing", "facing_turn")
+        return _Lanes(*(getattr(self, n)[rows] for n in names))
 
 
 class _Mesh:
@@ -123,16 +113,14 @@ class _Mesh:
     def __init__(self, pair: NoncircularPair, second_turn: float, centre_shift: float) -> None:
         self.pair, self.turn = pair, second_turn
         self.distance = pair.centre_distance + centre_shift
-        self.one = _Teeth(pair.first)
-        self.two = self.one if pair.second is pair.first else _Teeth(pair.second)
+        self.one, self.two = CurveTable(pair.first), CurveTable(pair.second)
         self.pitches = math.lcm(self.one.teeth, self.two.teeth)
         self.reach = self._teeth_in_reach()
-        self.boundaries: dict[int, tuple[Boundary, list[int], Complex]] = {}
 
     def _teeth_in_reach(self) -> int:
         """Teeth on either side of the pitch point whose tips can meet: those curve away from the tangent."""
         one, two = self.pair.first, self.pair.second
-        arcs = np.linspace(0, one.line.length * self.pitches / one.number_of_teeth, _CURVATURE_SAMPLES)
+        arcs = np.linspace(0, one.pitch * self.pitches, _CURVATURE_SAMPLES)
         bend = one.line.curvature(arcs) + two.line.curvature(self.pair.shift - arcs)
         height = one.tip_height + two.tip_height + _ROOM * one.module
         away = math.sqrt(2 * height / max(float(bend.min()), 1e-9))
@@ -140,69 +128,88 @@ class _Mesh:
 
     def gaps(self, arcs: Real) -> _Gaps:
         """Least gap at each contact s_1 and side."""
-        found = _Gaps(np.full((len(arcs), 2), np.inf), np.zeros((len(arcs), 2), complex), [])
-        turns = self.pair.rotations(arcs)
+        first, second = self.pair.rotations(arcs)
+        lanes = self._lanes(arcs, np.exp(1j * (second + self.turn - first)), self.distance * np.exp(-1j * first))
+        values, where, index = self._least(lanes)
+        shape = len(arcs), 2
+        gap, point = np.full(shape, np.inf), np.zeros(shape, complex)
+        one, two = np.zeros(shape, dtype=int), np.zeros(shape, dtype=int)
+        # the least of each position and side is assigned last
+        order = np.argsort(-values, kind="stable")
+        at = lanes.position[order], lanes.side[order]
+        gap[at], one[at], two[at] = values[order], index[order], lanes.curve[order]
+        point[at] = (where * np.exp(1j * first)[lanes.position])[order]
+        return _Gaps(gap, point, one, two)
+
+    def _lanes(self, arcs: Real, turns: Complex, shifts: Complex) -> _Lanes:
+        """Pieces that may hold the least gap of their position and side, by the distances of samples."""
+        found = []
         for i, arc in enumerate(arcs.tolist()):
-            one, two = cmath.exp(1j * float(turns[0][i])), cmath.exp(1j * (float(turns[1][i]) + self.turn))
-            found.labels.append(self._at(arc, one, two, found.gap[i], found.point[i]))
-        return found
+            mine, my_turn = self.two.about(self.pair.shift - arc, self.reach)
+            facing, facing_turn = self.one.about(arc, self.reach)
+            clouds = self.two.samples[mine] * (my_turn * turns[i])[:, None] + shifts[i]
+            near = self.one.samples[facing] * facing_turn[:, None]
+            away = np.abs(clouds.ravel()[:, None] - near.ravel()[None, :])
+            away = away.reshape(*clouds.shape, *near.shape).min(axis=(1, 3))
+            slack = self.two.steps[mine][:, None] + self.one.steps[facing][None, :]
+            for side in (0, 1):
+                rows = np.flatnonzero(self.two.side[mine] == side)
+                close = away[rows] - slack[rows]
+                best = away[rows].min()
+                for row in rows[close.min(axis=1) <= best].tolist():
+                    # what may be nearest to some point of the piece
+                    k = np.flatnonzero(away[row] - slack[row] <= away[row].min() + 2 * self.two.steps[mine[row]])
+                    found.append((i, side, mine[row], my_turn[row] * turns[i], shifts[i], facing[k], facing_turn[k]))
+        most = max(len(f[5]) for f in found)
+        facing = np.array([np.append(f[5], np.full(most - len(f[5]), -1)) for f in found]).astype(int)
+        turned = np.array([np.append(f[6], np.ones(most - len(f[6]))) for f in found])
+        position, side, curve, turn, shift = (np.array([f[k] for f in found]) for k in range(5))
+        return _Lanes(position, side, curve, turn, shift, facing, turned)
 
-    def _boundary(self, arc: float) -> tuple[Boundary, list[int], Complex]:
-        """The first outline about an arc length, and its samples; alike for all positions of one pitch."""
-        number = round(arc / self.pair.first.pitch)
-        if number not in self.boundaries:
-            pieces = self.one.facing(number * self.pair.first.pitch, self.reach + 1)
-            curves = [self._placed(self.one.segments[i].curve, turn) for i, turn in pieces]
-            points = np.concatenate([self.one.samples[i].points * turn for i, turn in pieces])
-            self.boundaries[number] = Boundary(tuple(curves)), [i for i, _ in pieces], points
-        return self.boundaries[number]
+    def _least(self, lanes: _Lanes) -> tuple[Real, Complex, Indices]:
+        """The least signed distance of each piece, where, and of which curve of the first outline."""
+        shares = self.two.shares
+        rows = np.arange(len(lanes.curve))
+        low, high = self.two.low[lanes.curve], self.two.high[lanes.curve]
+        t = low[:, None] + (high - low)[:, None] * shares
+        many = np.repeat(rows, len(shares))
+        value, slope, _, index = (x.reshape(t.shape) for x in self._measured(lanes.chosen(many), t.ravel()))
+        lengths = np.broadcast_to(self.two.lengths[lanes.curve], (len(rows), len(shares) - 1))
+        best = value.min(axis=1)
+        # no more than the least of the position and side
+        least = np.full((int(lanes.position.max()) + 1, 2), np.inf)
+        np.minimum.at(least, (lanes.position, lanes.side), best)
+        limit = least[lanes.position, lanes.side][:, None]
+        chosen: Flags = promising(value[:, :-1], value[:, 1:], slope[:, :-1], slope[:, 1:], lengths, limit)
+        row, k = np.nonzero(chosen)
+        part = lanes.chosen(row)
 
-    @staticmethod
-    def _placed(curve: Curve, turn: complex) -> Curve:
-        return curve.placed(Placement2(cmath.phase(turn))) if turn != 1 else curve
+        def evaluate(at: Real, some: Indices) -> tuple[Real, Real]:
+            found = self._measured(part.chosen(some), at)
+            return found[0], found[1]
 
-    def _at(self, arc: float, one: complex, two: complex, gap: Real, point: Complex) -> list[tuple[Label, Label]]:
-        """Fill in the least gaps of one position, the gears turned by ``one`` and ``two``; the labels of both sides."""
-        boundary, numbers, near = self._boundary(arc)
-        back = one.conjugate()
-        pieces = self.two.facing(self.pair.shift - arc, self.reach)
-        turns = np.array([turn * two * back for _, turn in pieces])
-        clouds = [
-            self.two.samples[i].points * t + self.distance * back for (i, _), t in zip(pieces, turns, strict=True)
-        ]
-        away = np.array([np.abs(c[:, None] - near[None, :]).min() for c in clouds])
-        side = np.array([self.two.side[i] for i, _ in pieces])
-        steps = np.array([self.two.steps[i] for i, _ in pieces]) + max(self.one.steps)
-        labels = [(Label.FLANK, Label.FLANK)] * 2
-        for which in (0, 1):
-            mine = np.flatnonzero(side == which)
-            chosen = mine[away[mine] - steps[mine] <= away[mine].min()]
-            for k in chosen.tolist():
-                number = pieces[k][0]
-                value, place, index = self._least(number, turns[k], self.distance * back, clouds[k], boundary)
-                if value < gap[which]:
-                    gap[which], point[which] = value, place * one
-                    labels[which] = self.one.segments[numbers[index]].label, self.two.segments[number].label
-        return labels
-
-    def _least(
-        self, number: int, turn: complex, shift: complex, points: Complex, boundary: Boundary
-    ) -> tuple[float, complex, int]:
-        """The least distance of one placed curve of the second outline from the first: mm, where, on which curve."""
-        curve, sample = self.two.segments[number].curve, self.two.samples[number]
-        t = sample.parameters
-
-        def evaluate(at: Real, _rows: Indices) -> tuple[Real, Real]:
-            feet = boundary.feet(turn * curve.point(at) + shift)
-            return feet.distance, (np.conj(feet.normal) * turn * curve.derivative(at)).real
-
-        feet = boundary.feet(points)
-        value, slope = feet.distance, (np.conj(feet.normal) * turn * curve.derivative(t)).real
-        k = np.flatnonzero(promising(value[:-1], value[1:], slope[:-1], slope[1:], sample.lengths, value.min()))
         accuracy = _ACCURACY * self.pair.first.module
-        where, _ = least_in_brackets(evaluate, t[k], t[k + 1], (slope[k], slope[k + 1]), accuracy)
-        at = np.append(where, t[int(np.argmin(value))])
-        places = turn * curve.point(at) + shift
-        feet = boundary.feet(places)
-        best = int(np.argmin(feet.distance))
-        return float(feet.distance[best]), complex(places[best]), int(feet.curve_index[best])
+        where, _ = least_in_brackets(evaluate, t[row, k], t[row, k + 1], (slope[row, k], slope[row, k + 1]), accuracy)
+        every = np.concatenate([row, rows])
+        at = np.concatenate([where, t[rows, np.argmin(value, axis=1)]])
+        value, _, points, index = self._measured(lanes.chosen(every), at)
+        order = np.argsort(-value, kind="stable")
+        result, place, which = np.zeros(len(rows)), np.zeros(len(rows), complex), np.zeros(len(rows), dtype=int)
+        result[every[order]], place[every[order]], which[every[order]] = value[order], points[order], index[order]
+        return result, place, which
+
+    def _measured(self, lanes: _Lanes, t: Real) -> tuple[Real, Real, Complex, Indices]:
+        """Signed distances of points of pieces from the first outline, their rates over t, points, and curves."""
+        point, direction, speed, _ = self.two.at(lanes.curve, t)
+        point, rate = lanes.turn * point + lanes.shift, lanes.turn * direction * speed
+        size, distance, slope = (np.full(len(t), np.inf) for _ in range(3))
+        index = np.zeros(len(t), dtype=int)
+        for k in range(lanes.facing.shape[1]):
+            rows = np.flatnonzero(lanes.facing[:, k] >= 0)
+            curve, turn = lanes.facing[rows, k], lanes.facing_turn[rows, k]
+            gap, normal = self.one.distance(curve, point[rows] * np.conj(turn))
+            nearer = np.abs(gap) < size[rows]
+            rows, gap, normal = rows[nearer], gap[nearer], (normal * turn)[nearer]
+            size[rows], distance[rows], index[rows] = np.abs(gap), gap, curve[nearer]
+            slope[rows] = (np.conj(normal) * rate[rows]).real
+        return distance, slope, point, index

@@ -42,17 +42,30 @@ class _RolledCurve:
 
     def stretch(self, t: ArrayLike) -> Real:
         """Speed along the tangent: negative where the curve runs back."""
-        raise NotImplementedError
+        return self.heading(np.asarray(t, dtype=float))[1]
 
     @property
     def domain(self) -> tuple[float, float]:
         return self.start, self.end
 
-    def point(self, t: ArrayLike) -> Complex:
-        return self.series(t, 0)[0]
+    def heading(self, t: Real) -> tuple[Complex, Real, Real, Real]:
+        """Tangent direction, speed along it, its slope, and how fast the direction turns."""
+        raise NotImplementedError
 
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
-        return FACTORIALS[order] * self.series(t, order)[order]
+        if order > 2:
+            return FACTORIALS[order] * self.series(t, order)[order]
+        direction, speed, slope, turning = self.heading(np.asarray(t, dtype=float))
+        return direction * speed if order == 1 else direction * (slope + 1j * turning * speed)
+
+    def slopes(self, points: Complex, t: Real) -> tuple[Real, Real]:
+        """Re(conj(tangent) (p - c)) and its derivative: what a search for feet needs."""
+        direction, speed, _, turning = self.heading(t)
+        gap = np.conj(direction) * (points - self.point(t))
+        return gap.real, turning * gap.imag - speed
+
+    def point(self, t: ArrayLike) -> Complex:
+        raise NotImplementedError
 
     def derivative_bound(self, order: int, a: float, b: float) -> float | None:
         return derivative_bound(self, order, a, b)
@@ -112,10 +125,16 @@ class RolledFlank(_RolledCurve):
         arm = [self._lean * (self.crossing - s), -self._lean + 0j * s, *([0j * s] * (order - 1))][: order + 1]
         return [a + b for a, b in zip(base, product(arm, derived(base)), strict=False)]
 
-    def stretch(self, t: ArrayLike) -> Real:
-        s = np.asarray(t, dtype=float)
-        rate = (self.crossing - s) * self.line.curvature(s) * math.cos(self.angle) - math.sin(self.angle)
-        return self._sense * rate
+    def point(self, t: ArrayLike) -> Complex:
+        base, tangent, _ = self.line.frame(t)
+        return base + (self.crossing - np.asarray(t, dtype=float)) * self._lean * tangent
+
+    def heading(self, t: Real) -> tuple[Complex, Real, Real, Real]:
+        _, tangent, kappa, slope = self.line.frame_and_slope(t)
+        sense, cosine, arm = self._sense, math.cos(self.angle), self.crossing - t
+        direction = sense * 1j * cmath.exp(1j * self.angle) * tangent
+        speed = sense * (arm * kappa * cosine - math.sin(self.angle))
+        return direction, speed, sense * cosine * (arm * slope - kappa), kappa
 
     def tangent(self, t: ArrayLike) -> Complex:
         return self._sense * 1j * cmath.exp(1j * self.angle) * self.line.frame(t)[1]
@@ -165,27 +184,30 @@ class RolledFillet(_RolledCurve):
         place = composed(base[: order + 1], step)
         return [a + b for a, b in zip(place, product(arm, composed(derived(base), step)), strict=False)]
 
-    def _bend(self, u: Real) -> tuple[Complex, Real, Real]:
-        """T, kappa and sec u."""
-        _, tangent, curvature = self.line.frame(self._arc(u))
-        return tangent, curvature, 1 / np.cos(u)
+    def point(self, t: ArrayLike) -> Complex:
+        u = np.asarray(t, dtype=float)
+        tan = np.tan(u)
+        base, tangent, _ = self.line.frame(self.centre - self.depth * tan)
+        return base + (self.depth * (1j + tan) + 1j * self.tip_radius * np.exp(-1j * u)) * tangent
 
-    def stretch(self, t: ArrayLike) -> Real:
-        _, kappa, secant = self._bend(np.asarray(t, dtype=float))
-        return self.tip_radius * (1 + kappa * self.depth * secant**2) + kappa * self.depth**2 * secant**3
-
-    def turning(self, t: ArrayLike) -> Real:
-        """How fast the tangent turns right, 1 + kappa D sec^2 u."""
-        _, kappa, secant = self._bend(np.asarray(t, dtype=float))
-        return 1 + kappa * self.depth * secant**2
+    def heading(self, t: Real) -> tuple[Complex, Real, Real, Real]:
+        tan, secant = np.tan(t), 1 / np.cos(t)
+        _, tangent, kappa, slope = self.line.frame_and_slope(self._arc(t))
+        rate = -self.depth * secant**2
+        speed = self.tip_radius * (1 - kappa * rate) + kappa * self.depth**2 * secant**3
+        # d kappa / du = slope rate, d rate / du = 2 tan rate
+        change = -self.tip_radius * rate * (slope * rate + 2 * kappa * tan)
+        change = change + self.depth**2 * secant**3 * (slope * rate + 3 * kappa * tan)
+        return tangent * np.exp(-1j * t), speed, change, kappa * rate - 1
 
     def tangent(self, t: ArrayLike) -> Complex:
-        u = np.asarray(t, dtype=float)
-        return np.where(self.stretch(u) < 0, -1.0, 1.0) * self._bend(u)[0] * np.exp(-1j * u)
+        direction, speed, _, _ = self.heading(np.asarray(t, dtype=float))
+        return np.where(speed < 0, -1.0, 1.0) * direction
 
     def curvature(self, t: ArrayLike) -> Real:
+        _, speed, _, turning = self.heading(np.asarray(t, dtype=float))
         with np.errstate(divide="ignore"):
-            return -self.turning(t) / np.abs(self.stretch(t))
+            return turning / np.abs(speed)
 
     def series_bound(self, order: int, a: Real, b: Real) -> Series:
         places = self._arc(a), self._arc(b)
@@ -215,8 +237,13 @@ class RolledLand(_RolledCurve):
         base = self.line.series(t, order + 1)
         return [a - 1j * self.height * b for a, b in zip(base, derived(base), strict=False)]
 
-    def stretch(self, t: ArrayLike) -> Real:
-        return 1 + self.height * self.line.curvature(t)
+    def point(self, t: ArrayLike) -> Complex:
+        base, tangent, _ = self.line.frame(t)
+        return base - 1j * self.height * tangent
+
+    def heading(self, t: Real) -> tuple[Complex, Real, Real, Real]:
+        _, tangent, kappa, slope = self.line.frame_and_slope(t)
+        return tangent, 1 + self.height * kappa, self.height * slope, kappa
 
     def tangent(self, t: ArrayLike) -> Complex:
         _, tangent, _ = self.line.frame(t)

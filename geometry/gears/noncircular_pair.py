@@ -76,14 +76,15 @@ class NoncircularPair:
         teeth = [g.number_of_teeth // g.count for g in gears]
         for side in (0, 1):
             # flank k of the first gear meets flank j of the second: crossings are opposite, up to the shift
-            number = np.arange(teeth[0])
+            number = np.arange(teeth[0]) + outlines[0].first
             sign = 1.0 if side == 0 else -1.0
-            low = [sign * o.starts[side] for o in outlines]
-            high = [sign * o.ends[side] for o in outlines]
+            low = [sign * o.sides.start[side] for o in outlines]
+            high = [sign * o.sides.at_tip[side] for o in outlines]
             # the flank of the second that crosses the pitch line where the first one's does
             half = sign * pitch / 4
             crossing = (number + gears[0].first_tooth) * pitch - half
             index = np.round((self.shift - crossing + half) / pitch - gears[1].first_tooth).astype(int)
+            index -= outlines[1].first
             turns, which = np.divmod(index, teeth[1])
             moved = sign * turns * teeth[1] * pitch
             from_mate = sign * self.shift - (high[1][which] + moved), sign * self.shift - (low[1][which] + moved)

@@ -37,7 +37,8 @@ class Pairing:
         """Both centrodes by arc length, each in its own frame; contacts have opposite arc lengths."""
         period = 2 * math.pi * self.teeth[1] / self.teeth[0]
         mate = MateShape(self.centrode, self.centre_distance, period)
-        return PitchLine(DriverShape(self.centrode), self.lobes[0]), PitchLine(mate, self.lobes[1])
+        even = isinstance(self.centrode, LobedEllipse) or not any(getattr(self.centrode.ratio, "sines", (1.0,)))
+        return PitchLine(DriverShape(self.centrode), self.lobes[0], even), PitchLine(mate, self.lobes[1], even)
 
     @property
     def pitch(self) -> float:

@@ -61,8 +61,7 @@ class Flanks(NamedTuple):
     def fillet(self, u: Real) -> tuple[Complex, Complex]:
         """Points and derivatives over u."""
         curve = RolledFillet(self.line, self.centre, self.depth, self.radius, 0.0, 1.0)  # type: ignore[arg-type]
-        found = curve.series(u, 1)
-        return found[0], found[1]
+        return curve.point(u), curve.derivative(u)
 
 
 def flank_starts(flanks: Flanks) -> tuple[Real, Real, int]:

@@ -1,8 +1,8 @@
 """A closed centrode by its arc length: points, directions and curvature in which a rack's pitch line rolls on it.
 
 With c(s) by arc length, T = c' and T' = i kappa T, everything that a rack cuts is a short formula of s
-(noncircular_curves.py). The angle at an arc length comes from a table of Chebyshev polynomials, good to rounding;
-derivatives are exact Taylor arithmetic at that angle.
+(noncircular_curves.py). Angle, point, direction and curvature at an arc length come from a table of Chebyshev
+polynomials, good to rounding; higher derivatives are exact Taylor arithmetic at that angle.
 """
 
 from __future__ import annotations
@@ -21,9 +21,13 @@ from geometry.errors import ConvergenceError
 from geometry.series import Series, composed, derived, exponential, majorant_power, power, product, quotient, sharpened
 
 _NODES = 16
-_FIRST_PANELS, _MOST_PANELS = 32, 8192
-# the last coefficients of a panel's polynomials are below this part of the panel's turn
-_TAIL = 4e-15
+_FIRST_PANELS, _MOST_PANELS = 64, 8192
+# the last coefficients of the polynomials are below this part of the largest value; of the curvature and its slope
+_TAIL, _CURVATURE_TAIL, _SLOPE_TAIL = 4e-15, 1e-13, 1e-11
+# where more panels no longer help, rounding is left: up to this
+_ROUNDING_TAIL = 1e-11
+# columns of the table
+_PARAMETER, _ANGLE, _X, _Y, _DIRECTION, _CURVATURE, _SLOPE = range(7)
 _NEWTON_STEPS = 6
 
 
@@ -97,22 +101,22 @@ class MateShape:
 
 @dataclass(frozen=True, slots=True)
 class _Table:
-    """Panels in arc length with Chebyshev coefficients (16, panels) of the parameter t and the angle Theta."""
+    """Panels in arc length with Chebyshev coefficients (panels, 7, 16) of the columns named above."""
 
     edges: Real
-    parameter: Real
-    angle: Real
+    values: Real
 
 
 @dataclass(frozen=True, eq=False)
 class PitchLine:
     """A closed centrode over its arc length s, mm, counter-clockwise from its angle 0; periodic in s.
 
-    ``lobes``: it is the same after each 1/lobes of a turn.
+    ``lobes``: it is the same after each 1/lobes of a turn. ``mirrored``: it is its own mirror image in the x axis.
     """
 
     shape: PolarShape
     lobes: int = 1
+    mirrored: bool = False
 
     @property
     def length(self) -> float:
@@ -121,34 +125,33 @@ class PitchLine:
 
     @cached_property
     def _table(self) -> _Table:
-        panels = _FIRST_PANELS
+        panels, before = _FIRST_PANELS, math.inf
         while panels <= _MOST_PANELS:
             table, tail = _tabulated(self.shape, panels)
-            if tail <= _TAIL:
+            if tail <= _TAIL or (tail < _ROUNDING_TAIL and tail > before / 4):
                 return table
-            panels *= 2
+            panels, before = 2 * panels, tail
         raise ConvergenceError("arc length of the centrode", tail, panels // 2)
 
-    def _looked_up(self, s: Real) -> tuple[Real, Real]:
-        """Parameter t and angle Theta at arc lengths."""
+    def _looked_up(self, s: Real, first: int, last: int) -> tuple[Real, Real]:
+        """Columns ``first`` up to ``last`` (the last axis) at arc lengths, and the whole turns before them."""
         table = self._table
         turns = np.floor(s / table.edges[-1])
         rest = s - turns * table.edges[-1]
-        panel = np.clip(np.searchsorted(table.edges, rest, side="right") - 1, 0, len(table.edges) - 2)
+        panel = np.minimum(np.searchsorted(table.edges, rest, side="right") - 1, len(table.edges) - 2)
         low, high = table.edges[panel], table.edges[panel + 1]
-        x = 2 * (rest - low) / (high - low) - 1
-        found = []
-        for coefficients, period in ((table.parameter, self.shape.period), (table.angle, 2 * math.pi)):
-            # Clenshaw's recursion
-            one, two = np.zeros(np.shape(x)), np.zeros(np.shape(x))
-            for row in coefficients[:0:-1]:
-                one, two = row[panel] + 2 * x * one - two, one
-            found.append(coefficients[0][panel] + x * one - two + turns * period)
-        return found[0], found[1]
+        x = np.clip(2 * (rest - low) / (high - low) - 1, -1.0, 1.0)
+        polynomials = np.cos(np.arccos(x)[..., None] * np.arange(_NODES))
+        return np.matmul(table.values[panel, first:last], polynomials[..., None])[..., 0], turns
+
+    def _parameters(self, s: Real) -> tuple[Real, Real]:
+        """Parameter t and angle Theta at arc lengths."""
+        found, turns = self._looked_up(s, _PARAMETER, _ANGLE + 1)
+        return found[..., 0] + turns * self.shape.period, found[..., 1] + turns * (2 * math.pi)
 
     def angle(self, s: ArrayLike) -> Real:
         """Polar angle at arc lengths, rad, continuous."""
-        return self._looked_up(np.asarray(s, dtype=float))[1]
+        return self._parameters(np.asarray(s, dtype=float))[1]
 
     def arc_at_angle(self, angle: float) -> float:
         """Arc length at a polar angle, rad."""
@@ -160,7 +163,7 @@ class PitchLine:
             off = float(self.angle(s)) - rest
             low, high = (low, s) if off > 0 else (s, high)
             at = np.asarray(s)
-            radius, rate = self.shape.polar(self._looked_up(at)[0], 1)
+            radius, rate = self.shape.polar(self._parameters(at)[0], 1)
             step = off * math.hypot(float(radius[1]), float(radius[0] * rate[0])) / float(rate[0])
             following = s - step if low <= s - step <= high else (low + high) / 2
             if abs(following - s) <= 1e-15 * self.length:
@@ -170,28 +173,27 @@ class PitchLine:
 
     def series(self, s: ArrayLike, order: int) -> Series:
         """Taylor coefficients of c over the arc length."""
-        t, angle = self._looked_up(np.asarray(s, dtype=float))
+        t, angle = self._parameters(np.asarray(s, dtype=float))
         radius, rate = self.shape.polar(t, max(order, 1))
         return _by_arc_length(radius, rate, np.exp(1j * angle), order)
 
     def frame(self, s: ArrayLike) -> tuple[Complex, Complex, Real]:
         """c, T and the curvature kappa."""
-        found = self.series(s, 2)
-        return found[0], found[1], 2 * (np.conj(found[1]) * found[2]).imag
+        return self.frame_and_slope(s)[:3]
+
+    def frame_and_slope(self, s: ArrayLike) -> tuple[Complex, Complex, Real, Real]:
+        """c, T, the curvature kappa and d kappa / d s."""
+        found, _ = self._looked_up(np.asarray(s, dtype=float), _X, _SLOPE + 1)
+        point = found[..., 0] + 1j * found[..., 1]
+        return point, np.exp(1j * found[..., 2]), found[..., 3], found[..., 4]
 
     def curvature(self, s: ArrayLike) -> Real:
         """Curvature, 1/mm: positive where convex."""
-        return self.frame(s)[2]
-
-    def curvature_slope(self, s: ArrayLike) -> Real:
-        """d kappa / d s, 1/mm^2."""
-        found = self.series(s, 3)
-        bend = product([np.conj(x) for x in derived(found)], derived(derived(found)))
-        return bend[1].imag
+        return self._looked_up(np.asarray(s, dtype=float), _CURVATURE, _CURVATURE + 1)[0][..., 0]
 
     def series_bound(self, order: int, a: Real, b: Real) -> Series:
         """Bounds of the moduli of the Taylor coefficients of c on each interval [a, b] of arc length."""
-        low, high = self._looked_up(np.asarray(a, dtype=float))[0], self._looked_up(np.asarray(b, dtype=float))[0]
+        low, high = self._parameters(np.asarray(a, dtype=float))[0], self._parameters(np.asarray(b, dtype=float))[0]
         # the table's rounding
         slack = 1e-13 * self.shape.period
         low, high = low - slack, high + slack
@@ -218,7 +220,7 @@ def _speed_square(radius: Series, rate: Series) -> Series:
     return [x + y for x, y in zip(product(slope, slope), product(turned, turned), strict=False)]
 
 
-def _by_arc_length(radius: Series, rate: Series, turn: Complex, order: int) -> Series:
+def _by_arc_length(radius: Series, rate: Series, turn: Complex | Real, order: int) -> Series:
     """Taylor coefficients over the arc length of R exp(i Theta) from those of R and Theta' over t."""
     slow = power(_speed_square(radius, rate), -0.5)
     return _along(radius, rate, slow, turn, order, 1j)
@@ -262,13 +264,27 @@ def _tabulated(shape: PolarShape, panels: int) -> tuple[_Table, float]:
         length, _, speed = integrals(low, width)
         width = np.clip(width - (length - wanted) / speed, 0.0, 2 * half[:, None])
     turned = integrals(low, width)[1]
+    angle = np.broadcast_to(start[:-1, None], turned.shape) * (2 * math.pi / start[-1]) + turned
+    columns = np.stack([low + width, angle, *_columns(shape, low + width, angle)], axis=1)
     cosines = np.cos(np.outer(np.arange(_NODES), math.pi * (np.arange(_NODES) + 0.5) / _NODES)) * 2 / _NODES
     cosines[0] /= 2
-    parameter, angle = cosines @ width.T, cosines @ turned.T
-    tail = max(
-        float(np.max(np.abs(parameter[-2:]) / (2 * half))), float(np.max(np.abs(angle[-2:]).max(axis=0) / angles))
-    )
-    parameter[0] += edges[:-1]
-    # the whole turn is exact
-    angle[0] += start[:-1] * (2 * math.pi / start[-1])
-    return _Table(arc, parameter, angle), tail
+    values = columns @ cosines.T
+    size = np.abs(columns).max(axis=(0, 2))
+    tails = np.abs(values[:, :, -2:]).max(axis=(0, 2)) / np.where(size > 0, size, 1.0)
+    tails[_CURVATURE] *= _TAIL / _CURVATURE_TAIL
+    tails[_SLOPE] *= _TAIL / _SLOPE_TAIL
+    # a straight or a round centrode has no slope but for rounding
+    if size[_SLOPE] <= 1e-11 * size[_CURVATURE] / arc[-1]:
+        tails[_SLOPE] = 0.0
+    return _Table(arc, values), float(tails.max())
+
+
+def _columns(shape: PolarShape, t: Real, angle: Real) -> tuple[Real, ...]:
+    """x, y, the direction of T, kappa and its slope at parameters."""
+    radius, rate = shape.polar(t, 3)
+    # about the angle, where T is near i
+    found = _by_arc_length(radius, rate, np.ones(np.shape(t)), 3)
+    first, second = derived(found), derived(derived(found))
+    bend = product([np.conj(x) for x in first], second)
+    point = found[0] * np.exp(1j * angle)
+    return point.real, point.imag, angle + np.angle(first[0]), bend[0].imag, bend[1].imag
