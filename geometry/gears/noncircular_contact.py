@@ -163,8 +163,8 @@ class _Mesh:
         most = max(len(f[5]) for f in found)
         facing = np.array([np.append(f[5], np.full(most - len(f[5]), -1)) for f in found]).astype(int)
         turned = np.array([np.append(f[6], np.ones(most - len(f[6]))) for f in found])
-        position, side, curve, turn, shift = (np.array([f[k] for f in found]) for k in range(5))
-        return _Lanes(position, side, curve, turn, shift, facing, turned)
+        places, which, curves, turn, shift = (np.array(column) for column in list(zip(*found, strict=True))[:5])
+        return _Lanes(places, which, curves, turn, shift, facing, turned)
 
     def _least(self, lanes: _Lanes) -> tuple[Real, Complex, Indices]:
         """The least signed distance of each piece, where, and of which curve of the first outline."""
