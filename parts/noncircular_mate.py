@@ -80,7 +80,8 @@ class NoncircularMating:
         direction = cmath.phase(second[0] - first[0])
         turn = math.remainder(second[1] - self.gears.second_rotation(first[1], direction), 2 * math.pi)
         symmetry = 2 * math.pi / self.gears.second.count
-        arm = self.gears.second.radii[0] * math.cos(self.gears.second.rack.pressure_angle)
+        # no line of action is farther from the axis
+        arm = self.gears.second.radii[1]
         return Standing(
             direction,
             abs(second[0] - first[0]),

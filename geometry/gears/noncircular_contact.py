@@ -147,8 +147,8 @@ class _Mesh:
         for i, arc in enumerate(arcs.tolist()):
             mine, my_turn = self.two.about(self.pair.shift - arc, self.reach)
             facing, facing_turn = self.one.about(arc, self.reach)
-            clouds = self.two.samples[mine] * (my_turn * turns[i])[:, None] + shifts[i]
-            near = self.one.samples[facing] * facing_turn[:, None]
+            clouds = self.two.few[mine] * (my_turn * turns[i])[:, None] + shifts[i]
+            near = self.one.few[facing] * facing_turn[:, None]
             away = np.abs(clouds.ravel()[:, None] - near.ravel()[None, :])
             away = away.reshape(*clouds.shape, *near.shape).min(axis=(1, 3))
             slack = self.two.steps[mine][:, None] + self.one.steps[facing][None, :]

@@ -12,14 +12,15 @@ from geometry.curve import Complex, Real
 from geometry.gears.noncircular import NoncircularGear
 from geometry.gears.noncircular_curves import RolledFillet, RolledFlank, RolledLand
 
-_SAMPLES = 13
+_SAMPLES, _EVERY = 13, 3
 _NEWTON_STEPS = 25
 
 
 class CurveTable:
     """Curves of one period: flanks, fillets and lands by their parameters; each has a tooth and a side.
 
-    ``samples`` (curves, 13) points, ``steps`` and ``lengths``: how far they are from each other, with room for bulges.
+    ``samples`` (curves, 13) points, ``lengths``: how far they are from each other, with room for bulges; ``few`` of them,
+    (curves, 5), are no farther than ``steps`` from each other.
     """
 
     def __init__(self, gear: NoncircularGear) -> None:
@@ -43,7 +44,8 @@ class CurveTable:
         index = np.repeat(np.arange(len(curves)), _SAMPLES)
         self.samples = self.at(index, t.ravel())[0].reshape(t.shape)
         self.lengths = 1.2 * np.abs(np.diff(self.samples))
-        self.steps = self.lengths.max(axis=1)
+        self.few = self.samples[:, ::_EVERY]
+        self.steps = self.lengths.reshape(len(curves), -1, _EVERY).sum(axis=2).max(axis=1)
 
     def about(self, arc: float, reach: int) -> tuple[Indices, Complex]:
         """Curves of the teeth on either side of an arc length, and the turns that bring them there."""
