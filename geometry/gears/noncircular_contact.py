@@ -150,21 +150,40 @@ class _Mesh:
             clouds = self.two.few[mine] * (my_turn * turns[i])[:, None] + shifts[i]
             near = self.one.few[facing] * facing_turn[:, None]
             away = np.abs(clouds.ravel()[:, None] - near.ravel()[None, :])
-            away = away.reshape(*clouds.shape, *near.shape).min(axis=(1, 3))
-            slack = self.two.steps[mine][:, None] + self.one.steps[facing][None, :]
+            away = away.reshape(*clouds.shape, *near.shape).min(axis=3)
+            stride = self.two.strides[mine]
+            bound = away - (stride[:, None] + self.one.strides[facing][None, :])[:, None, :]
             for side in (0, 1):
                 rows = np.flatnonzero(self.two.side[mine] == side)
-                close = away[rows] - slack[rows]
-                best = away[rows].min()
-                for row in rows[close.min(axis=1) <= best].tolist():
-                    # what may be nearest to some point of the piece
-                    k = np.flatnonzero(away[row] - slack[row] <= away[row].min() + 2 * self.two.steps[mine[row]])
-                    found.append((i, side, mine[row], my_turn[row] * turns[i], shifts[i], facing[k], facing_turn[k]))
+                rows = rows[bound[rows].min(axis=(1, 2)) <= away[rows].min()]
+                finer = []
+                for k in rows.tolist():
+                    # curves that may be nearest to some point of the piece
+                    some = np.flatnonzero((bound[k] <= away[k].min(axis=1)[:, None] + stride[k]).any(axis=0))
+                    finer.append(
+                        self._nearer(mine[k], my_turn[k] * turns[i], shifts[i], facing[some], facing_turn[some])
+                    )
+                best = min(one[0] for one in finer)
+                for k, (_, least, curves, turn) in zip(rows.tolist(), finer, strict=True):
+                    if least <= best:
+                        found.append((i, side, mine[k], my_turn[k] * turns[i], shifts[i], curves, turn))
         most = max(len(f[5]) for f in found)
         facing = np.array([np.append(f[5], np.full(most - len(f[5]), -1)) for f in found]).astype(int)
         turned = np.array([np.append(f[6], np.ones(most - len(f[6]))) for f in found])
         places, which, curves, turn, shift = (np.array(column) for column in list(zip(*found, strict=True))[:5])
         return _Lanes(places, which, curves, turn, shift, facing, turned)
+
+    def _nearer(
+        self, curve: int, turn: complex, shift: complex, facing: Indices, facing_turn: Complex
+    ) -> tuple[float, float, Indices, Complex]:
+        """Distance of all samples of a piece from those of curves, what it can be at least, and the curves, with their
+        turns, that may be nearest to some point of the piece."""
+        points = self.two.samples[curve] * turn + shift
+        near = self.one.samples[facing] * facing_turn[:, None]
+        away = np.abs(points[None, :, None] - near[:, None, :]).min(axis=2)
+        bound = away - self.one.steps[facing][:, None] - self.two.steps[curve]
+        kept = (bound <= away.min(axis=0)[None, :] + self.two.steps[curve]).any(axis=1)
+        return float(away.min()), float(bound.min()), facing[kept], facing_turn[kept]
 
     def _least(self, lanes: _Lanes) -> tuple[Real, Complex, Indices]:
         """The least signed distance of each piece, where, and of which curve of the first outline."""

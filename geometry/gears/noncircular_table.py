@@ -19,8 +19,8 @@ _NEWTON_STEPS = 25
 class CurveTable:
     """Curves of one period: flanks, fillets and lands by their parameters; each has a tooth and a side.
 
-    ``samples`` (curves, 13) points, ``lengths``: how far they are from each other, with room for bulges; ``few`` of them,
-    (curves, 5), are no farther than ``steps`` from each other.
+    ``samples`` (curves, 13) points, ``lengths``: how far they are from each other, with room for bulges, at most
+    ``steps``; ``few`` of them, (curves, 5), are at most ``strides`` apart.
     """
 
     def __init__(self, gear: NoncircularGear) -> None:
@@ -45,7 +45,8 @@ class CurveTable:
         self.samples = self.at(index, t.ravel())[0].reshape(t.shape)
         self.lengths = 1.2 * np.abs(np.diff(self.samples))
         self.few = self.samples[:, ::_EVERY]
-        self.steps = self.lengths.reshape(len(curves), -1, _EVERY).sum(axis=2).max(axis=1)
+        self.steps = self.lengths.max(axis=1)
+        self.strides = self.lengths.reshape(len(curves), -1, _EVERY).sum(axis=2).max(axis=1)
 
     def about(self, arc: float, reach: int) -> tuple[Indices, Complex]:
         """Curves of the teeth on either side of an arc length, and the turns that bring them there."""
@@ -85,15 +86,18 @@ class CurveTable:
         nearest = np.argmin(np.abs(points[:, None] - self.samples[index]), axis=1)
         t = low + (high - low) * self.shares[nearest]
         reach = (high - low) / (_SAMPLES - 1)
+        rows = np.arange(len(t))
         for _ in range(_NEWTON_STEPS):
-            place, direction, speed, turning = self.at(index, t)
-            gap = np.conj(direction) * (points - place)
+            place, direction, speed, turning = self.at(index[rows], t[rows])
+            gap = np.conj(direction) * (points[rows] - place)
             slope = speed - turning * gap.imag
-            step = np.clip(gap.real / np.where(slope > 0, slope, np.maximum(speed, 1e-12)), -reach, reach)
-            following = np.clip(t + step, low, high)
-            moved = float(np.max(np.abs(following - t) / reach, initial=0.0))
-            t = following
-            if moved <= 1e-11:
+            step = gap.real / np.where(slope > 0, slope, np.maximum(speed, 1e-12))
+            following = np.clip(t[rows] + np.clip(step, -reach[rows], reach[rows]), low[rows], high[rows])
+            moving = np.abs(following - t[rows]) > 1e-9 * reach[rows]
+            t[rows] = following
+            # Newton's last step squares what is left
+            rows = rows[moving]
+            if not rows.size:
                 break
         place, direction, _, _ = self.at(index, t)
         spoke = points - place
