@@ -125,6 +125,7 @@ class RolledFlank(_RolledCurve):
         return -math.copysign(1.0, self.angle)
 
     def series(self, t: ArrayLike, order: int) -> Series:
+        """Taylor coefficients at ``t``."""
         s = np.asarray(t, dtype=float)
         base = self.line.series(s, order + 1)
         arm = [self._lean * (self.crossing - s), -self._lean + 0j * s, *([0j * s] * (order - 1))][: order + 1]
@@ -135,6 +136,7 @@ class RolledFlank(_RolledCurve):
         return base + (self.crossing - np.asarray(t, dtype=float)) * self._lean * tangent
 
     def heading(self, t: Real) -> tuple[Complex, Real, Real, Real]:
+        """Tangent direction, speed along it, its slope, and how fast the direction turns."""
         _, tangent, kappa, slope = self.line.frame_and_slope(t)
         sense, cosine, arm = self._sense, math.cos(self.angle), self.crossing - t
         direction = sense * 1j * cmath.exp(1j * self.angle) * tangent
@@ -149,6 +151,7 @@ class RolledFlank(_RolledCurve):
             return self.line.curvature(t) / np.abs(self.stretch(t))
 
     def series_bound(self, order: int, a: Real, b: Real) -> Series:
+        """Bounds of their moduli on each interval."""
         base = self.line.series_bound(order + 1, a, b)
         lean = abs(self._lean)
         reach = lean * np.maximum(np.abs(self.crossing - a), np.abs(self.crossing - b))
@@ -156,6 +159,7 @@ class RolledFlank(_RolledCurve):
         return [x + y for x, y in zip(base, product(arm, derived(base)), strict=False)]
 
     def moved(self, distance: float) -> RolledFlank:
+        """The parallel curve to the left."""
         return replace(self, crossing=self.crossing - self._sense * distance / math.cos(self.angle))
 
 
@@ -179,6 +183,7 @@ class RolledFillet(_RolledCurve):
         return self.centre - self.depth * np.tan(u)
 
     def series(self, t: ArrayLike, order: int) -> Series:
+        """Taylor coefficients at ``t``."""
         u = np.asarray(t, dtype=float)
         base = self.line.series(self._arc(u), order + 1)
         tan = _tangent_series(np.tan(u), order)
@@ -196,6 +201,7 @@ class RolledFillet(_RolledCurve):
         return base + (self.depth * (1j + tan) + 1j * self.tip_radius * np.exp(-1j * u)) * tangent
 
     def heading(self, t: Real) -> tuple[Complex, Real, Real, Real]:
+        """Tangent direction, speed along it, its slope, and how fast the direction turns."""
         tan, secant = np.tan(t), 1 / np.cos(t)
         _, tangent, kappa, slope = self.line.frame_and_slope(self._arc(t))
         rate = -self.depth * secant**2
@@ -215,6 +221,7 @@ class RolledFillet(_RolledCurve):
             return turning / np.abs(speed)
 
     def series_bound(self, order: int, a: Real, b: Real) -> Series:
+        """Bounds of their moduli on each interval."""
         places = self._arc(a), self._arc(b)
         base = self.line.series_bound(order + 1, np.minimum(*places), np.maximum(*places))
         tan = _tangent_series(np.tan(np.maximum(np.abs(a), np.abs(b))), order)
@@ -226,6 +233,7 @@ class RolledFillet(_RolledCurve):
         return [x + y for x, y in zip(place, product(arm, composed(derived(base), step)), strict=False)]
 
     def moved(self, distance: float) -> RolledFillet:
+        """The parallel curve to the left."""
         return replace(self, tip_radius=self.tip_radius + distance)
 
 
@@ -239,6 +247,7 @@ class RolledLand(_RolledCurve):
     end: float
 
     def series(self, t: ArrayLike, order: int) -> Series:
+        """Taylor coefficients at ``t``."""
         base = self.line.series(t, order + 1)
         return [a - 1j * self.height * b for a, b in zip(base, derived(base), strict=False)]
 
@@ -247,6 +256,7 @@ class RolledLand(_RolledCurve):
         return base - 1j * self.height * tangent
 
     def heading(self, t: Real) -> tuple[Complex, Real, Real, Real]:
+        """Tangent direction, speed along it, its slope, and how fast the direction turns."""
         _, tangent, kappa, slope = self.line.frame_and_slope(t)
         return tangent, 1 + self.height * kappa, self.height * slope, kappa
 
@@ -259,10 +269,12 @@ class RolledLand(_RolledCurve):
             return self.line.curvature(t) / np.abs(self.stretch(t))
 
     def series_bound(self, order: int, a: Real, b: Real) -> Series:
+        """Bounds of their moduli on each interval."""
         base = self.line.series_bound(order + 1, np.asarray(a), np.asarray(b))
         return [x + abs(self.height) * y for x, y in zip(base, derived(base), strict=False)]
 
     def moved(self, distance: float) -> RolledLand:
+        """The parallel curve to the left."""
         return replace(self, height=self.height - distance)
 
 

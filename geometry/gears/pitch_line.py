@@ -29,6 +29,8 @@ _ROUNDING_TAIL = 1e-11
 # columns of the table
 _PARAMETER, _ANGLE, _X, _Y, _DIRECTION, _CURVATURE, _SLOPE = range(7)
 _NEWTON_STEPS = 6
+# pieces of a panel on which derivatives are bounded, and up to which order
+_PIECES, _MOST_ORDER = 4, 6
 
 
 class PolarShape(Protocol):
@@ -192,8 +194,32 @@ class PitchLine:
         return self._looked_up(np.asarray(s, dtype=float), _CURVATURE, _CURVATURE + 1)[0][..., 0]
 
     def series_bound(self, order: int, a: Real, b: Real) -> Series:
-        """Bounds of the moduli of the Taylor coefficients of c on each interval [a, b] of arc length."""
-        low, high = self._parameters(np.asarray(a, dtype=float))[0], self._parameters(np.asarray(b, dtype=float))[0]
+        """Bounds of the moduli of the Taylor coefficients of c on each interval [a, b] of arc length, up to order 6.
+
+        They are those of the pieces of the centrode that the interval touches.
+        """
+        edges, bounds = self._piece_bounds
+        pieces = len(edges) - 1
+        # the rounding of an arc length does not hide a piece
+        slack = 1e-12 * edges[-1]
+        first = np.floor((np.atleast_1d(a) - slack) / edges[1]).astype(int)
+        last = np.floor((np.atleast_1d(b) + slack) / edges[1]).astype(int)
+        found = [
+            bounds[: order + 1, np.arange(i, j + 1) % pieces].max(axis=1) for i, j in zip(first, last, strict=True)
+        ]
+        return [x.reshape(np.shape(a)) for x in np.array(found).T]
+
+    @cached_property
+    def _piece_bounds(self) -> tuple[Real, Real]:
+        """Edges of even pieces of the arc length, and the bounds of coefficients 0 to 6 on each, (7, pieces)."""
+        edges = np.linspace(0.0, self.length, _PIECES * (len(self._table.edges) - 1) + 1)
+        return edges, np.array(self._bounds_on(_MOST_ORDER, edges[:-1], edges[1:]))
+
+    def _bounds_on(self, order: int, a: Real, b: Real) -> Series:
+        """Bounds on each interval within one turn, by Taylor arithmetic on bounds."""
+        low, high = self._parameters(a)[0], self._parameters(b)[0]
+        # a whole turn is the start again
+        high = np.where(high <= low, high + self.shape.period, high)
         # the table's rounding
         slack = 1e-13 * self.shape.period
         low, high = low - slack, high + slack

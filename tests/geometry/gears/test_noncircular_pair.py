@@ -90,7 +90,8 @@ def test_the_ratio_of_the_outlines_is_that_of_the_centrodes() -> None:
 
 @pytest.mark.parametrize(("turn", "shift", "verdict"), [
     (1e-7, 0.0, Verdict.OVERLAP),
-    pytest.param(0.0, -1e-4, Verdict.OVERLAP, marks=pytest.mark.heavy), pytest.param(0.0, 0.01, Verdict.OVERLAP, marks=pytest.mark.heavy),
+    pytest.param(0.0, -1e-4, Verdict.OVERLAP, marks=pytest.mark.heavy),
+    pytest.param(0.0, 0.01, Verdict.OVERLAP, marks=pytest.mark.heavy),
 ])  # fmt: skip
 def test_a_pair_that_stands_wrong_is_told(turn: float, shift: float, verdict: Verdict) -> None:
     """Even farther apart teeth of changing ratio run into each other somewhere."""
