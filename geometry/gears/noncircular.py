@@ -300,8 +300,8 @@ def tip_places(line: PitchLine, crossing: Real, angle: Real, height: float) -> t
     reach = height / (np.sin(angle) * np.cos(angle))
     # below the centrode the tangent's height is a bound on the other side only
     near, far = (crossing + 0.0, crossing + reach) if height >= 0 else (crossing + 2 * reach, crossing + 0.0)
-    s = far.copy()
-    foot = crossing.copy()
+    # from the crossing, which is its own foot
+    s, foot = crossing.copy(), crossing.copy()
     for _ in range(_STEPS):
         base, tangent, _ = line.frame(s)
         points = base + (crossing - s) * lean * tangent
@@ -331,7 +331,8 @@ def _feet(line: PitchLine, points: Complex, guess: Real) -> Real:
         gap = np.conj(tangent) * (points - base)
         # outside, 1 + kappa height > 0
         step = gap.real / np.maximum(1 - kappa * gap.imag, 0.1)
-        s = s + step
+        # not round the centrode
+        s = s + np.clip(step, -line.length / 16, line.length / 16)
         if float(np.max(np.abs(step))) <= 1e-15 * line.length:
             break
     return s

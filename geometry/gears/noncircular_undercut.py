@@ -16,6 +16,7 @@ from geometry.curve import Complex, Real
 from geometry.errors import UndercutError
 from geometry.gears.noncircular_curves import RolledFillet
 from geometry.gears.pitch_line import PitchLine
+from geometry.tolerance import TOLERANCES
 
 _SAMPLES = 33
 _BISECTIONS, _NEWTON_STEPS = 60, 12
@@ -90,6 +91,10 @@ def flank_starts(flanks: Flanks) -> tuple[Real, Real, int]:
         start[rows], contact[rows] = _crossings(part, turning, limit[rows])
         if np.any(flanks.sign * (flanks.at_tip - start) <= 0):
             raise UndercutError("undercut", float(rows.size), "undercut leaves no flank below the tip")
+        size = float(np.max(np.abs(part.flank(start[rows])[0])))
+        apart = np.abs(part.fillet(contact[rows])[0] - part.flank(start[rows])[0])
+        if np.any(apart > TOLERANCES.relative_join * size):
+            raise UndercutError("undercut", float(rows.size), "undercut leaves no flank that its fillet reaches")
         _check_waist(flanks, contact)
     return start, contact, int(rows.size)
 

@@ -11,7 +11,7 @@ import pytest
 
 from geometry.centrodes import FourierRatio, LobedEllipse, RatioCentrode
 from geometry.curve import Curve
-from geometry.errors import CuspError, OffsetError, ParameterError
+from geometry.errors import CuspError, OffsetError, ParameterError, PointedTipError
 from geometry.gears.basic_rack import iso_53
 from geometry.gears.noncircular import NoncircularGear, cut_outline
 from geometry.gears.noncircular_offset import moved_outline, noncircular_region
@@ -123,6 +123,22 @@ def test_a_circle_gives_the_spur_gear(teeth: int, x: float) -> None:
         points = samples(made, {*CUT, Label.TIP_LAND}) / turn
         assert distance_to_profile(points, profile).max() < 1e-11
         assert bool(made.outline.undercut) == (teeth == 12)
+
+
+@pytest.mark.parametrize("x", [0.2, 0.43, 0.45, 0.88])
+def test_pointed_teeth_of_a_tiny_circle_are_refused_as_those_of_the_spur_gear(x: float) -> None:
+    """Flanks that reach far round a small centrode: their tips are not taken for those of the next turn."""
+    spur = SpurGear(module=2.0, number_of_teeth=3, rack=iso_53("A"), profile_shift_coefficient=x)
+    with pytest.raises(PointedTipError):
+        tooth_side(spur)
+    with pytest.raises(PointedTipError):
+        _ = gear(LobedEllipse(1.0, 0.0), 3, x=x).outline
+
+
+def test_undercut_that_leaves_nothing_is_refused() -> None:
+    pairing = paired(RatioCentrode(FourierRatio(1.0, (0.295,), (0.091, 0.018), 3), 1.0), (17, 17), 10.0, None)
+    with pytest.raises(ParameterError):
+        _ = NoncircularGear(pairing.lines[1], 17, iso_53("A"), 0.5, -0.686, pairing=pairing).outline
 
 
 def test_tips_lie_on_the_parallel_curve() -> None:
