@@ -44,6 +44,13 @@ _EXAMPLES = {
     "base_circle_radius": "30.0",
     "least_transmission_angle_deg": "60.0",
     "centre_distance": "90.0",
+    "centrode": '"oval"',
+    "mate_number_of_teeth": "30",
+    "axis_ratio": "1.5",
+    "eccentricity": "0.2",
+    "lobes": "2",
+    "ratio_cosines": "[0.3]",
+    "ratio_sines": "[0.1]",
 }
 _PHASES = (
     '{ move = "rise", angle_deg = 120.0, law = "sine" }',
@@ -58,12 +65,14 @@ _SET = {
         "phases": f"[{', '.join(_PHASES)}]",
         "follower_radius": "8.0",
         "base_circle_radius": "30.0",
-    }
+    },
+    "NoncircularGearSpec": {"module": "2.0", "axis_ratio": "1.5"},
 }
 # where the same key means another size
 _TABLE_EXAMPLES = {
     ("HolesTable", "diameter"): "6.0",
     ("HubTable", "diameter"): "17.0",
+    ("NoncircularGearSpec", "number_of_teeth"): "30",
     ("RingGearSpec", "number_of_teeth"): "60",
     ("RingGearSpec", "tip_diameter"): "117.0",
     ("RingGearSpec", "outer_diameter"): "140.0",

@@ -56,10 +56,13 @@ class NoncircularGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", 
     lobes: (
         Annotated[int, Meta(ge=1, le=20, description="lobes n; default: oval 2, else 1; for oval and ratio")] | None
     ) = None
-    ratio_cosines: Annotated[
-        list[_Amplitude], Meta(max_length=20, description="ratio: a_k of 1 + sum a_k cos k n phi + b_k sin k n phi")
-    ] = []
-    ratio_sines: Annotated[list[_Amplitude], Meta(max_length=20, description="ratio: b_k")] = []
+    ratio_cosines: (
+        Annotated[
+            list[_Amplitude], Meta(max_length=20, description="ratio: a_k of 1 + sum a_k cos k n phi + b_k sin k n phi")
+        ]
+        | None
+    ) = None
+    ratio_sines: Annotated[list[_Amplitude], Meta(max_length=20, description="ratio: b_k")] | None = None
     profile_shift_coefficient: Annotated[
         float, in_modules("shift x of the rack's datum line; its mate has -x", least=-1, most=1)
     ] = 0.0
@@ -180,7 +183,7 @@ def centrode_of(spec: NoncircularGearSpec, teeth: tuple[int, int]) -> Centrode:
 
     if spec.centrode == "ratio":
         lobes = spec.lobes or 1
-        ratio = FourierRatio(teeth[0] / teeth[1], tuple(spec.ratio_cosines), tuple(spec.ratio_sines), lobes)
+        ratio = FourierRatio(teeth[0] / teeth[1], tuple(spec.ratio_cosines or ()), tuple(spec.ratio_sines or ()), lobes)
         if not float(ratio(np.linspace(0, 2 * math.pi, _SAMPLES), 0)[0].min()) > 0:
             raise ParameterError("centrode", spec.centrode, "the ratio is not positive all round")
         return RatioCentrode(ratio, 1.0)
@@ -249,8 +252,8 @@ def _teeth(spec: NoncircularGearSpec, teeth: int, ratio: float) -> NoncircularGe
 def _with_amplitudes(spec: NoncircularGearSpec, share: float) -> NoncircularGearSpec:
     return msgspec.structs.replace(
         spec,
-        ratio_cosines=[share * x for x in spec.ratio_cosines],
-        ratio_sines=[share * x for x in spec.ratio_sines],
+        ratio_cosines=[share * x for x in spec.ratio_cosines or ()],
+        ratio_sines=[share * x for x in spec.ratio_sines or ()],
     )
 
 

@@ -138,7 +138,8 @@ def noncircular_mating(mate: NoncircularGearPairSpec, first: NoncircularGear, se
         raise ParameterError("role", here, f'{reason}; role = "{role}" works{more}')
     for key, wanted in (
         ("pressure_angle_deg", math.degrees(first.rack.pressure_angle)),
-        ("profile_shift_coefficient", -first.profile_shift_coefficient + 0.0),
+        # a part that meshes with itself has none
+        ("profile_shift_coefficient", 0.0 if first is second else -first.profile_shift_coefficient + 0.0),
     ):
         found = math.degrees(second.rack.pressure_angle) if key.startswith("pressure") else getattr(second, key)
         if not math.isclose(found, wanted, abs_tol=1e-12):

@@ -105,6 +105,18 @@ def test_a_bore_that_reaches_the_roots_is_told() -> None:
     make_parts(scene_from_toml(text.encode(), "t", "t"), "t")
 
 
+def test_the_scene_to_start_from_builds(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["new", "noncircular_gear"]) == 0
+    text = capsys.readouterr().out
+    scene = scene_from_toml(text.encode(), "t", "t")
+    parts, _ = make_parts(scene, "t")
+    assert parts["gear"].quantities["module"] == pytest.approx(2.0)
+    # every key is told
+    assert all(
+        f"{key} = " in text for key in ("ratio_cosines", "mate_number_of_teeth", "role", "lobes", "centre_distance")
+    )
+
+
 def test_size_by_centre_distance() -> None:
     parts, _ = made(OVAL.replace("module = 2.0", "centre_distance = 50.0"))
     quantities = parts["one"].quantities
@@ -135,6 +147,15 @@ def test_equal_ovals_with_teeth_that_do_not_fit_are_told_the_role() -> None:
 def test_gears_that_are_no_pair_are_told(other: str, key: str) -> None:
     with pytest.raises(SceneError, match=rf"parts\.two\.{key}"):
         placed(two(OVAL, other))
+
+
+def test_one_shifted_part_does_not_mesh_with_itself() -> None:
+    text = (
+        PART.format(one=OVAL + "\nprofile_shift_coefficient = 0.2")
+        + '\n[instances.one]\n[instances.again]\npart = "one"\n'
+    )
+    with pytest.raises(SceneError, match=r"profile_shift_coefficient = 0\.2.*; 0\.0 works"):
+        placed(text + mate("one", "again"))
 
 
 def test_one_oval_twice_meshes_and_carries_the_drive() -> None:
