@@ -63,6 +63,12 @@ _EXAMPLES = {
     "pin_circle_diameter": "80.0",
     "pin_diameter": "8.0",
     "eccentricity": "2.5",
+    "centrode": '"oval"',
+    "mate_number_of_teeth": "30",
+    "axis_ratio": "1.5",
+    "lobes": "2",
+    "ratio_cosines": "[0.3]",
+    "ratio_sines": "[0.1]",
 }
 _PHASES = (
     '{ move = "rise", angle_deg = 120.0, law = "sine" }',
@@ -83,11 +89,13 @@ _SET = {
     },
     **new_examples.SET,
     "BarrelCamSpec": {"lift": "20.0", "phases": f"[{', '.join(_PHASES)}]"},
+    "NoncircularGearSpec": {"module": "2.0", "axis_ratio": "1.5"},
 }
 # where the same key means another size
 _TABLE_EXAMPLES = {
     ("HolesTable", "diameter"): "6.0",
     ("HubTable", "diameter"): "17.0",
+    ("NoncircularGearSpec", "number_of_teeth"): "30",
     ("RingGearSpec", "number_of_teeth"): "60",
     ("RingGearSpec", "tip_diameter"): "117.0",
     ("RingGearSpec", "outer_diameter"): "140.0",
@@ -108,6 +116,7 @@ _TABLE_EXAMPLES = {
     ("FollowerArmSpec", "holes"): "[{ at = [20.0, 0.0], diameter = 3.0 }]",
     ("FollowerArmSpec", "slots"): "[{ start = [28.0, 0.0], end = [36.0, 0.0], width = 3.0 }]",
     **new_examples.EXAMPLES,
+    ("NoncircularGearSpec", "eccentricity"): "0.2",
     ("OutputHolesTable", "count"): "6",
     ("OutputHolesTable", "pitch_circle_diameter"): "44.0",
     ("OutputHolesTable", "pin_diameter"): "6.0",

@@ -61,7 +61,7 @@ def part_preview(part: Part, folder: Path, language: str) -> Path:
 def scene_preview(plan: Plan, checks: dict[str, Any], folder: Path) -> Path:
     """All instances in their places, the upper ones last, and what the checks found."""
     language = plan.scene.scene.language
-    outlines = {i.part: _outlines(plan.parts[i.part]) for i in plan.placing.instances}
+    outlines = {part: _outlines(plan.parts[part]) for part in dict.fromkeys(i.part for i in plan.placing.instances)}
     stand = sorted(plan.placing.instances, key=lambda i: i.at[2])
     outers = [_samples(outlines[i.part][-1].geometry) * cmath.exp(1j * i.rotation) + i.centre for i in stand]
     points = np.concatenate(outers)

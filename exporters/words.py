@@ -47,6 +47,17 @@ WORDS: dict[str, tuple[str, str]] = {
     "pivot_height": ("height of the pivot, mm", "висота осі коромисла, мм"),
     "start_height": ("height of the roller at 0 deg, mm", "висота осі ролика при 0 град, мм"),
     "largest_roller_diameter": ("largest roller (no undercut), mm", "найбільший ролик без підрізу, мм"),
+    "inner_root_diameter": ("least root diameter, mm", "найменший діаметр западин, мм"),
+    "outer_tip_diameter": ("greatest tip diameter, mm", "найбільший діаметр вершин, мм"),
+    "module": ("module m, mm", "модуль m, мм"),
+    "centre_distance_of_pair": ("centre distance a, mm", "міжосьова відстань a, мм"),
+    "centrode_perimeter": ("perimeter of the centrode, mm", "довжина центроїди, мм"),
+    "least_centrode_radius": ("least radius of the centrode, mm", "найменший радіус центроїди, мм"),
+    "greatest_centrode_radius": ("greatest radius of the centrode, mm", "найбільший радіус центроїди, мм"),
+    "least_curvature_radius_of_centrode": (
+        "its least radius of curvature, mm",
+        "її найменший радіус кривини, мм",
+    ),
     "normal_pitch": ("normal pitch p_n, mm", "нормальний крок p_n, мм"),
     "lead": ("lead of the helix p_z, mm", "хід гвинтової лінії p_z, мм"),
     "cutter_number_of_teeth": ("teeth of the cutter z_0", "кількість зубів довбача z_0"),
@@ -85,6 +96,12 @@ WORDS: dict[str, tuple[str, str]] = {
     "mate_cam_yoke": (
         "{first} moves the yoke {second} by {lift:.6g} mm, breadth {yoke_breadth:.9g} mm",
         "{first} рухає рамку {second} на {lift:.6g} мм, відстань між гранями {yoke_breadth:.9g} мм",
+    ),
+    "mate_noncircular_gear_pair": (
+        "pair {first} - {second}: a = {centre_distance:.5f} mm, ratio {least_ratio:.4f} to {greatest_ratio:.4f}, "
+        "least contact ratio {least_contact_ratio:.4f}",
+        "пара {first} - {second}: a = {centre_distance:.5f} мм, передаточне відношення від {least_ratio:.4f} до "
+        "{greatest_ratio:.4f}, найменший коефіцієнт перекриття {least_contact_ratio:.4f}",
     ),
     "mate_fixed": ("{first} - {second}: fixed to each other", "{first} - {second}: нерухомо з'єднані"),
     "transmission_error": (
@@ -152,6 +169,10 @@ FINDINGS: dict[str, tuple[str, str]] = {
     "undercut": (
         "the tooth is undercut: profile shift {value:.4f} is below x_min = {limit:.4f}",
         "зуб підрізаний: зміщення {value:.4f} менше за x_min = {limit:.4f}",
+    ),
+    "undercut_on_centrode": (
+        "teeth are undercut where the centrode's radius of curvature, {value:.4f} mm at least, is below {limit:.4f} mm",
+        "зуби підрізані там, де радіус кривини центроїди (найменший {value:.4f} мм) менший за {limit:.4f} мм",
     ),
     "thin_tip": (
         "thin tip: s_a = {value:.3f} mm is below 0.3 m = {limit:.3f} mm",

@@ -18,7 +18,7 @@ from geometry.curve import Complex, Real
 from geometry.errors import ParameterError
 from geometry.motion import Pose
 from geometry.roots import bracketed_root
-from geometry.series import Series, power, quotient
+from geometry.series import FACTORIALS, Series, majorant_power, power, quotient, sharpened
 
 _PANELS, _NODES = 64, 16
 _SAMPLES = 1025
@@ -29,6 +29,13 @@ class PolarCentrode(Protocol):
 
     def series(self, angle: Real, order: int) -> Series:
         """Taylor coefficients 0 to ``order`` of the radius, mm."""
+
+
+class BoundedCentrode(PolarCentrode, Protocol):
+    """A centrode whose derivatives are bounded over whole intervals, as curves on it need."""
+
+    def series_bound(self, order: int, a: Real, b: Real) -> Series:
+        """Bounds of the moduli of the Taylor coefficients on each interval [a, b]."""
 
 
 def _cosine(angle: Real, order: int, times: int) -> Series:
@@ -83,6 +90,69 @@ def _stretched(angle: Real, ratio: float) -> Real:
 
 
 @dataclass(frozen=True, slots=True)
+class LobedEllipse:
+    """r = p/(1 - e cos n phi), n lobes: the focal ellipse (n = 1) and the oval (n = 2) in one; rolls on its equal.
+
+    The centre distance of two equal ones is 2 p/(1 - e^2). Convex where e (n^2 - 1) <= 1.
+    """
+
+    parameter: float
+    eccentricity: float
+    lobes: int = 1
+
+    def series(self, angle: Real, order: int) -> Series:
+        """Taylor coefficients of the radius."""
+        return [self.parameter * x for x in power(self._under(np.asarray(angle, dtype=float), order), -1.0)]
+
+    def _under(self, angle: Real, order: int) -> Series:
+        under = [-self.eccentricity * x for x in _cosine(angle, order, self.lobes)]
+        under[0] = under[0] + 1.0
+        return under
+
+    def series_bound(self, order: int, a: Real, b: Real) -> Series:
+        """Bounds of the moduli of the Taylor coefficients on each interval."""
+        e, n, half = self.eccentricity, self.lobes, (b - a) / 2
+        middle = self._under((a + b) / 2, order + 1)
+        crude = [e * n**k / FACTORIALS[k] + 0.0 * half for k in range(order + 2)]
+        rest = sharpened(crude, middle, half)[1 : order + 1]
+        least = np.maximum(1 - e, middle[0] - half * sharpened(crude, middle, half)[1])
+        return [self.parameter * x for x in majorant_power(least, rest, -1.0)]
+
+
+@dataclass(frozen=True, slots=True)
+class FourierRatio:
+    """Ratio d phi_2 / d phi_1 = mean (1 + sum a_k cos k n phi + b_k sin k n phi), k from 1, n ``lobes``."""
+
+    mean: float
+    cosines: tuple[float, ...] = ()
+    sines: tuple[float, ...] = ()
+    lobes: int = 1
+
+    def __call__(self, angle: Real, order: int) -> Series:
+        """Taylor coefficients of the ratio."""
+        angle = np.asarray(angle, dtype=float)
+        found: Series = [self.mean + 0.0 * angle, *([0.0 * angle] * order)]
+        for shift, values in ((0.0, self.cosines), (math.pi / 2, self.sines)):
+            for k, value in enumerate(values, 1):
+                n = k * self.lobes
+                turn = n * angle - shift
+                for j in range(order + 1):
+                    wave = n**j / FACTORIALS[j] * np.cos(turn + j * math.pi / 2)
+                    found[j] = found[j] + self.mean * value * wave
+        return found
+
+    def bound(self, order: int, a: Real, b: Real) -> Series:
+        """Bounds of the moduli of the Taylor coefficients on each interval."""
+        zero = 0.0 * np.asarray(a, dtype=float)
+        found: Series = [self.mean + zero, *([zero] * order)]
+        for values in (self.cosines, self.sines):
+            for k, value in enumerate(values, 1):
+                for j in range(order + 1):
+                    found[j] = found[j] + self.mean * abs(value) * (k * self.lobes) ** j / FACTORIALS[j]
+        return found
+
+
+@dataclass(frozen=True, slots=True)
 class RatioCentrode:
     """The centrode of a ratio function d phi_2 / d phi_1 > 0, given as a Taylor series: r = A i/(1 + i)."""
 
@@ -94,6 +164,18 @@ class RatioCentrode:
         ratio = self.ratio(angle, order)
         over = [self.centre_distance * x for x in ratio]
         return quotient(over, [ratio[0] + 1.0, *ratio[1:]])
+
+    def series_bound(self, order: int, a: Real, b: Real) -> Series:
+        """Bounds of the moduli of the Taylor coefficients on each interval, by r = A - A/(1 + i); of a FourierRatio."""
+        if not isinstance(self.ratio, FourierRatio):
+            return [np.full(np.shape(a), math.inf)] * (order + 1)
+        half = (b - a) / 2
+        middle = self.ratio((a + b) / 2, order + 1)
+        rest = sharpened(self.ratio.bound(order + 1, a, b), middle, half)
+        least = np.maximum(1.0, 1 + middle[0] - half * rest[1])
+        found = [self.centre_distance * x for x in majorant_power(least, rest[1 : order + 1], -1.0)]
+        found[0] = np.full(np.shape(a), self.centre_distance)
+        return found
 
 
 @dataclass(frozen=True, slots=True)

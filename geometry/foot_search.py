@@ -60,7 +60,11 @@ class FootSearch:
 def _slopes_of(curve: Curve) -> Slopes:
     if isinstance(curve, TrochoidFillet):
         return _fillet_slopes(curve)
-    return _cutter_slopes(curve) if isinstance(curve, CutterFillet) else _general_slopes(curve)
+    if isinstance(curve, CutterFillet):
+        return _cutter_slopes(curve)
+    # a curve may know a shorter way
+    known: Slopes | None = getattr(curve, "slopes", None)
+    return known or _general_slopes(curve)
 
 
 def _cutter_slopes(fillet: CutterFillet) -> Slopes:

@@ -1,6 +1,7 @@
 """Mates that are no pair of involute gears: what each joins, and where its keys and what makes a mating of it live.
 
-A mate of this registry places its second instance and may check its own contact; it changes no part.
+A mate of this registry places its second instance and may check its own contact; it changes no part but in
+its thinning for backlash.
 """
 
 from __future__ import annotations
@@ -20,11 +21,13 @@ class Joint:
     """A kind of mate: the kinds of parts it joins (first and second; ``None``: any), its keys, its mating.
 
     ``spec_at`` and ``mating_at``: module and name; loaded when a scene has such a mate.
+    ``thins``: its ``normal_backlash`` thins both parts by half, as that of gear pairs does.
     """
 
     joins: tuple[tuple[str, str], ...] | None
     spec_at: tuple[str, str]
     mating_at: tuple[str, str]
+    thins: bool = False
 
     @property
     def spec(self) -> type[Struct]:
@@ -87,5 +90,11 @@ JOINTS: dict[str, Joint] = {
     ),
     "lantern_pair": Joint(
         (("lantern_wheel", "lantern_gear"),), ("parts.pin_mates", "LanternPairSpec"), (_LANTERN, "lantern_mating")
+    ),
+    "noncircular_gear_pair": Joint(
+        (("noncircular_gear", "noncircular_gear"),),
+        ("parts.noncircular_mate", "NoncircularGearPairSpec"),
+        ("parts.noncircular_mate", "noncircular_mating"),
+        thins=True,
     ),
 }

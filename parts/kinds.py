@@ -9,6 +9,12 @@ KINDS = LazyTable(
         "spur_gear": ("parts.spur_gear", "SpurGearSpec", "checked_spur_gear", "spur_gear_part"),
         "ring_gear": ("parts.ring_gear", "RingGearSpec", "checked_ring_gear", "ring_gear_part"),
         "rack": ("parts.rack", "RackSpec", "checked_rack_part", "rack_part"),
+        "noncircular_gear": (
+            "parts.noncircular_gear",
+            "NoncircularGearSpec",
+            "checked_noncircular_gear",
+            "noncircular_gear_part",
+        ),
         "cam": ("parts.cam", "CamSpec", "checked_cam", "cam_part"),
         "groove_cam": ("parts.groove_cam", "GrooveCamSpec", "checked_groove", "groove_part"),
         "groove_piece": ("parts.groove_piece", "GroovePieceSpec", "checked_piece", "piece_part"),

@@ -51,7 +51,9 @@ def mated(
     """
     toothed = [m for m in mates if isinstance(m, GEAR_PAIRS)]
     shares = [_normal_share(gears[part_of[m.first]], (helices or {}).get(part_of[m.first], 0.0)) for m in toothed]
-    final = _thinned(gears, toothed, part_of, shares)
+    thinning = [m for m in mates if m in toothed or JOINTS[m.__struct_config__.tag].thins]
+    share_of = {id(m): share for m, share in zip(toothed, shares, strict=True)}
+    final = _thinned(gears, thinning, part_of, [share_of.get(id(m), 1.0) for m in thinning])
     pairs = [_pair(m, final[part_of[m.first]], final[part_of[m.second]]) for m in toothed]
     for mate, pair in zip(toothed, pairs, strict=True):
         if isinstance(mate, ExternalGearPairSpec):
@@ -196,6 +198,8 @@ def _build(gear: Any) -> None:
         from geometry.gears.rack import checked_part_rack
 
         checked_part_rack(gear)
+    elif hasattr(gear, "outline"):
+        gear.outline  # noqa: B018
     else:
         from geometry.gears.ring_limits import checked_ring
 
@@ -204,7 +208,8 @@ def _build(gear: Any) -> None:
 
 def _backlash_at(mate: Any, first: Any, second: Any) -> float:
     """Backlash of two gears without thinning at the mate's centre distance, mm; negative distances are refused."""
-    return _pair(mate, first, second).normal_backlash if mate.working_centre_distance is not None else 0.0
+    asked = getattr(mate, "working_centre_distance", None)
+    return _pair(mate, first, second).normal_backlash if asked is not None else 0.0
 
 
 def _pressure_angle(gear: Any) -> float:
