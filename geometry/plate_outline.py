@@ -132,6 +132,28 @@ class PlateOutline:
         return Region(outer, holes)
 
 
+def moved_profile(edges: Sequence[Edge], offset: float) -> Profile:
+    """A closed chain, material on its left, moved ``offset`` mm out of the material.
+
+    Raises
+    ------
+    OffsetError
+        An edge vanishes; names the offset nearest to it that works.
+    """
+    try:
+        return Profile(tuple(Segment(e, Label.BODY) for e in moved_edges(edges, offset)))
+    except GeometryError as refusal:
+        works, fails = 0.0, offset
+        for _ in range(_BISECTIONS):
+            middle = (works + fails) / 2
+            try:
+                moved_edges(edges, middle)
+                works = middle
+            except GeometryError:
+                fails = middle
+        raise OffsetError(offset, str(refusal), works * (1 - 1e-6)) from refusal
+
+
 def moved_edges(edges: Sequence[Edge], offset: float) -> tuple[Edge, ...]:
     """A closed counter-clockwise chain moved ``offset`` mm to its right, corners rounded or cut.
 

@@ -11,7 +11,7 @@ from msgspec import Meta, Struct
 from geometry.body import plate
 from geometry.errors import OffsetError, ParameterError, at_most
 from geometry.gears.offset_tooth import OffsetRegion
-from geometry.polygon import rectangle, rounded_polygon, stadium
+from geometry.plate_outline import PlateSlot, moved_profile, rounded
 from geometry.profile import Label, Profile, Region, circle
 from parts.cam import CamSpec, checked_cam
 from parts.keys import Colour, Density, Material, mm
@@ -176,8 +176,9 @@ def _region(spec: YokeFrameSpec, frame: YokeFrame, offset: float) -> Region:
         raise OffsetError(offset, "leaves no bar", -spec.wall / 2 * (1 - 1e-6))
     if frame.cam.is_flat:
         half, height = frame.half_width, frame.breadth / 2
-        window = [z.conjugate() + 2 * middle for z in rectangle(2 * half, 2 * height, middle)]
-        holes: tuple[Profile, ...] = (rounded_polygon(window, [0.0] * 4, Label.BODY, offset),)
+        # clockwise: the material is on the left
+        window = [middle + complex(x * half, y * height) for x, y in ((1, 1), (1, -1), (-1, -1), (-1, 1))]
+        holes: tuple[Profile, ...] = (moved_profile(rounded([(corner, 0.0) for corner in window]), offset),)
         stem = frame.cam.mount.offset  # type: ignore[union-attr]
         outer = _outline(spec, half + spec.wall, height + spec.wall, middle, offset, stem)
         return Region(outer, holes)
@@ -185,7 +186,8 @@ def _region(spec: YokeFrameSpec, frame: YokeFrame, offset: float) -> Region:
     if not pin > 0:
         raise OffsetError(offset, "closes the pin holes", spec.pin_diameter / 2 * (1 - 1e-6))
     pins = [middle + side * 0.5j * frame.breadth for side in (1, -1)]
-    slot = stadium(spec.shaft_diameter, lift, _slot_middle(frame), offset)
+    ends = [_slot_middle(frame) + side * 0.5j * lift for side in (-1, 1)]
+    slot = PlateSlot(ends[0], ends[1], spec.shaft_diameter).profile(offset)
     round_holes = tuple(circle(pin, Label.HOLE, hole=True, centre=at) for at in pins)
     half = _plate_width(spec) / 2
     outer = _outline(spec, half, frame.breadth / 2 + spec.pin_diameter / 2 + spec.wall, middle, offset, 0.0)
@@ -211,4 +213,4 @@ def _outline(
         if length > 0:
             tip = edge + 1j * side * length
             corners += [(at + stem, 0.0) for at in (edge + side * s, tip + side * s, tip - side * s, edge - side * s)]
-    return rounded_polygon([c for c, _ in corners], [radius for _, radius in corners], Label.BODY, offset)
+    return moved_profile(rounded(corners), offset)
