@@ -74,6 +74,8 @@ def check_lines(checks: dict[str, Any], language: str) -> list[str]:
 def _transmission(mate: dict[str, Any], language: str) -> list[str]:
     """The transmission error of a mate, a line for each sense."""
     lines = []
+    if mate.get("transmission_error") == {}:
+        lines.append(words(language, "no_transmission"))
     for sense, found in mate.get("transmission_error", {}).items():
         unit = "second_arcsec" if "second_arcsec" in found else "second_travel"
         motion = words(language, unit).format(value=found[unit], second=mate["second"])
