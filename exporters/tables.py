@@ -71,6 +71,19 @@ def check_lines(checks: dict[str, Any], language: str) -> list[str]:
     return lines
 
 
+def _transmission(mate: dict[str, Any], language: str) -> list[str]:
+    """The transmission error of a mate, a line for each sense."""
+    lines = []
+    if mate.get("transmission_error") == {}:
+        lines.append(words(language, "no_transmission"))
+    for sense, found in mate.get("transmission_error", {}).items():
+        unit = "second_arcsec" if "second_arcsec" in found else "second_travel"
+        motion = words(language, unit).format(value=found[unit], second=mate["second"])
+        text = words(language, "transmission_error")
+        lines.append(text.format(sense=words(language, sense), value=found["line_of_action"], motion=motion))
+    return lines
+
+
 def _mate_head(mate: dict[str, Any], language: str) -> str:
     """Who is joined and how: gear pairs with their numbers, other kinds in the words of their own."""
     if "contact_ratio" not in mate:
@@ -83,17 +96,6 @@ def _mate_head(mate: dict[str, Any], language: str) -> str:
         # what undercut and fillets leave of it
         ratio=min(mate["contact_ratio"], mate["effective_contact_ratio"]),
     )
-
-
-def _transmission(mate: dict[str, Any], language: str) -> list[str]:
-    """The transmission error of a mate, a line for each sense."""
-    lines = []
-    for sense, found in mate.get("transmission_error", {}).items():
-        unit = "second_arcsec" if "second_arcsec" in found else "second_travel"
-        motion = words(language, unit).format(value=found[unit], second=mate["second"])
-        text = words(language, "transmission_error")
-        lines.append(text.format(sense=words(language, sense), value=found["line_of_action"], motion=motion))
-    return lines
 
 
 def has_bad_verdict(checks: dict[str, Any]) -> bool:

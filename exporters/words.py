@@ -108,6 +108,10 @@ WORDS: dict[str, tuple[str, str]] = {
         "transmission error (peak to peak, first turns {sense}): {value:.3g} mm on the line of action, {motion}",
         "кінематична похибка (розмах, перше колесо обертається {sense}): {value:.3g} мм на лінії зачеплення, {motion}",
     ),
+    "no_transmission": (
+        "no transmission error: the teeth slip past each other",
+        "кінематичної похибки немає: зуби прослизають повз одні одних",
+    ),
     "counter_clockwise": ("counter-clockwise", "проти годинникової стрілки"),
     "clockwise": ("clockwise", "за годинниковою стрілкою"),
     "second_arcsec": ('{value:.3g}" of {second}', "{value:.3g}″ на {second}"),

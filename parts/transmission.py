@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from geometry.errors import ConvergenceError
 from parts.common_face import face_of
 from parts.mate_kinds import ExternalMating, InternalMating, Mating, RackMating
 
@@ -15,14 +16,13 @@ if TYPE_CHECKING:
 def transmission_error(mating: Mating, distance_off: float = 0.0) -> dict[str, Any]:
     """Peak to peak over a pitch, for each sense of the first's rotation; ``distance_off``: mm beyond the distance.
 
-    ``line_of_action`` mm; and of the second: ``second_arcsec``, or ``second_travel`` mm where it is a rack.
-
-    Raises
-    ------
-    ConvergenceError
-        The teeth do not reach each other.
+    ``line_of_action`` mm; and of the second: ``second_arcsec``, or ``second_travel`` mm where it is a rack. Empty where
+    teeth slip past each other at some drive angle.
     """
-    forward, backward, arm = _errors(mating, distance_off)
+    try:
+        forward, backward, arm = _errors(mating, distance_off)
+    except ConvergenceError:
+        return {}
     return {"counter_clockwise": _numbers(forward, arm, mating), "clockwise": _numbers(backward, arm, mating)}
 
 

@@ -22,7 +22,9 @@ from geometry.gears.mesh_gaps import least_gaps
 if TYPE_CHECKING:
     from geometry.gears.mesh_search import MeshSearch
 
-_STEPS = 60
+_STEPS = 80
+# so many times a gap is closed by one step at most, or an overlap opened
+_FARTHEST, _BACK = 1.5, 4.0
 # extremes are looked for between the drive angles: so many times closer each round, until nothing gains this part of
 # the error, or of the module
 _CLOSER, _ROUNDS, _GAINED, _NOTHING = 16, 5, 2e-4, 1e-9
@@ -152,13 +154,17 @@ def _errors(mesh: MeshSearch, drive: Real, side: int, ideal: float, near: Real) 
         if not rows.size:
             return (ideal - x) * mesh.arm
         here, a, b = x[rows], low[rows], high[rows]
-        # flanks that touch move with the arm
-        following = here + gap / mesh.arm
+        # flanks that touch move with the arm; longer steps could carry a tooth past its mate
+        following, farthest = here + gap / mesh.arm, here + np.where(gap > 0, _FARTHEST, _BACK) * gap / mesh.arm
         if step:
             with np.errstate(invalid="ignore", divide="ignore"):
                 secant = here - gap * (here - last[rows]) / (gap - last_gap[rows])
             following = np.where(np.isfinite(secant) & (step % 4 != 3), secant, following)
-        middle = np.where(np.isfinite(a) & np.isfinite(b), (a + b) / 2, here + 2 * gap / mesh.arm)
+        both = np.isfinite(a) & np.isfinite(b)
+        following = np.where(
+            both, following, np.clip(following, np.minimum(here, farthest), np.maximum(here, farthest))
+        )
+        middle = np.where(both, (a + b) / 2, farthest)
         inside = (following > a) & (following < b)
         last[rows], last_gap[rows] = here, gap
         x[rows] = np.where(inside, following, middle)
