@@ -50,7 +50,7 @@ def _remarks(written: list[Written], language: str) -> list[str]:
 def check_lines(checks: dict[str, Any], language: str) -> list[str]:
     """What the checks of a scene found, a line each."""
     lines = []
-    for mate in checks.get("mates", []):
+    for mate in _without_repeats(checks.get("mates", [])):
         text = _mate_head(mate, language)
         if "total_contact_ratio" in mate:
             text += words(language, "total_ratio").format(total=mate["total_contact_ratio"])
@@ -69,6 +69,19 @@ def check_lines(checks: dict[str, Any], language: str) -> list[str]:
         train = ", ".join(f"{name} {turns:.6g}" for name, turns in drive["train"].items())
         lines.append(words(language, "drive").format(instance=drive["instance"], train=train))
     return lines
+
+
+def _without_repeats(mates: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Mates of one kind and first one behind the other, of which there is no more to tell, as one with all seconds."""
+    shown: list[dict[str, Any]] = []
+    for mate in mates:
+        last = shown[-1] if shown else {}
+        told = "verdict" in mate or mate.get("findings") or not all(c["met"] for c in mate.get("conditions", []))
+        if not told and mate["kind"] == "pin_seat" and all(last.get(k) == mate[k] for k in ("kind", "first")):
+            shown[-1] = {**last, "second": f"{last['second']}, {mate['second']}"}
+        else:
+            shown.append(mate)
+    return shown
 
 
 def _transmission(mate: dict[str, Any], language: str) -> list[str]:

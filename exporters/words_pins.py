@@ -33,7 +33,7 @@ PIN_WORDS: dict[str, tuple[str, str]] = {
         "{second} в отворах {first}: пальців {output_pins}, діаметри {pin_diameter:.6g} мм і {hole_diameter:.6g} мм",
     ),
     "mate_coaxial": ("{first} - {second}: on one axis", "{first} - {second}: на одній осі"),
-    "mate_pin_seat": ("{second} in its seat in {first}", "{second} у гнізді {first}"),
+    "mate_pin_seat": ("seated in {first}: {second}", "у гніздах {first}: {second}"),
     "mate_lantern_pair": (
         "lantern pair {first} - {second}: a_w = {working_centre_distance:.5f} mm, ratio {gear_ratio:.6g}, "
         "contact ratio {lantern_contact_ratio:.4f}",

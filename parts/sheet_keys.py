@@ -29,8 +29,8 @@ def check_sheet_keys(spec: Any, source: str, place: str) -> None:
         value = getattr(spec, key)
         if value is not None and spec.purpose != purpose:
             raise SceneError(source, f"{place}.{key}", value, f'only for purpose = "{purpose}"; remove it')
-    if spec.title_block and spec.purpose not in ("meshing", "generating"):
-        known = 'only for purpose = "meshing" or "generating"; remove it'
+    if spec.title_block and spec.format != "sheet":
+        known = 'only for format = "sheet"; remove it'
         raise SceneError(source, f"{place}.title_block", spec.title_block is not False, known)
     if spec.format == "sheet" and spec.offset:
         raise SceneError(source, f"{place}.offset", spec.offset, "a sheet shows the exact profile; remove it")

@@ -79,6 +79,8 @@ def sheet_jobs(scene: SceneFile, matings: list[Mating], export: ExportSpec, wher
 
         name = f"{scene.name}.{export.name or export.purpose}"
         made = cam_sheets(scene, export, where, source)
+        for number, (_, drawn) in enumerate(made, 1):
+            _add_title_block(drawn, scene, export, number, len(made))
         return [SheetJob(export, x, f"{name}.{part}.{ending}", where) for part, x in made for ending in ENDINGS]
     if all(m.pair is None for m in matings):
         has_cam = any(isinstance(spec, CamSpec) for spec in scene.parts.values())

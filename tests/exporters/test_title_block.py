@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ import pytest
 from exporters.plan import plan_build
 from exporters.sheets.canvas import Canvas
 from exporters.sheets.title_block import TITLE_BLOCK, TitleBlock, draw_title_block
-from parts.scene import scene_from_dict
+from parts.scene import built_in_scenes, scene_from_dict
 from parts.schema import SceneError
 
 # widths of the eleven columns and the right-hand ones, as the form has them
@@ -91,6 +92,20 @@ def test_long_words_stay_in_their_cells() -> None:
         assert text.box.right <= canvas.frame.right
     names = [t for t in canvas.texts if t.box.left > canvas.frame.right - 121 and t.box.right < canvas.frame.right - 49]
     assert all(canvas.frame.low <= t.runs[0].at.imag <= canvas.frame.low + 55 for t in names)
+
+
+def test_cam_sheets_leave_room_for_it() -> None:
+    """The lower right corner of a cam sheet is free: nothing else is written where the title block stands."""
+    raw = tomllib.loads(built_in_scenes()["practicum_roller_cam"].read_text())
+    plain, titled = [
+        plan_build(
+            scene_from_dict({**raw, "exports": [{"format": "sheet", "purpose": "cam", **more}]}, "t", "t"), "t", [], []
+        ).sheets[0].expected.canvas
+        for more in ({}, {"title_block": True})
+    ]  # fmt: skip
+    left, top = titled.frame.right - TITLE_BLOCK[0], titled.frame.low + TITLE_BLOCK[1]
+    assert len(titled.texts) > len(plain.texts)
+    assert not [t for t in plain.texts if t.box.right > left and t.box.low < top]
 
 
 @pytest.mark.parametrize(
