@@ -134,15 +134,11 @@ def _write(job: Job, shape: tuple[Shape, float], file: Path, source: str, *, ver
     start = time.perf_counter()
     tolerance = float(job.export.tolerance or 0.0)
     verdict = verify_file(file, job.kind, job.exact, max_error, tolerance, job.part.id)
-    if job.part.cam is not None or job.part.wedge is not None:
+    if job.part.is_cam:
         from exporters.reroll import reroll
 
         verdict, found = reroll(file, job.kind, job.part, job.section.offset, max_error, verdict)
         findings = (*findings, *found)
-    if job.part.barrel is not None:
-        from exporters.reroll_barrel import reroll_barrel
-
-        verdict = reroll_barrel(file, job.kind, job.part, job.section.offset, max_error, verdict)
     seconds["verify"] = time.perf_counter() - start
     return Written(job, file, max_error, bound, entities, verdict.measured, findings, verdict.failures, seconds)
 
@@ -163,8 +159,8 @@ def _write_assembly(job: AssemblyJob, members: dict[str, Shape], file: Path, sou
     from exporters.verify_assembly import expected_of, verify_assembly
 
     start = time.perf_counter()
-    bodies = {m.part.id: m.body for m in job.members}
-    expected = expected_of(job.name, {m.part.id: m.part for m in job.members}, bodies, job.instances)
+    offset = job.members[0].section.offset
+    expected = expected_of(job.name, {m.part.id: m.part for m in job.members}, offset, job.instances)
     tolerance = float(job.export.tolerance or 0.0)
     verdict = verify_assembly(file, job.export.format, expected, max_error, tolerance)
     seconds["verify"] = time.perf_counter() - start

@@ -83,14 +83,10 @@ def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, A
     exact = part.body(offset) if kind in SOLID_FORMATS else part.section(offset).region
     kind = "drawing" if entry["purpose"] == "drawing" else kind
     verdict = verify_file(file, kind, exact, declared, tolerance, part.id)
-    if part.cam is not None or part.wedge is not None:
+    if part.is_cam:
         from exporters.reroll import reroll
 
         verdict, _ = reroll(file, kind, part, offset, declared, verdict)
-    if part.barrel is not None:
-        from exporters.reroll_barrel import reroll_barrel
-
-        verdict = reroll_barrel(file, kind, part, offset, declared, verdict)
     return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
 
 
@@ -116,8 +112,7 @@ def _against_assembly(file: Path, source: str, scene: SceneFile, entry: dict[str
         raise KeyError(f"an assembly of {len(instances)} instances, format {kind}")
     _needs_kernel(file, kind)
     used = {i.part: made[i.part] for i in instances}
-    bodies = {name: part.body(float(entry["offset"])) for name, part in used.items()}
-    expected = expected_of(assembly_name(scene.name), used, bodies, instances)
+    expected = expected_of(assembly_name(scene.name), used, float(entry["offset"]), instances)
     verdict = verify_assembly(file, kind, expected, declared, tolerance)
     return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
 

@@ -22,6 +22,8 @@ from geometry.curve import Complex, Real
 from geometry.findings import Finding
 from parts.part import Part
 
+# a file, or a ReadMesh or kernel's shape that was read from an assembly
+Source = Path | Any
 ANGLES = 3600
 # jumps of S'' above this share of its peak are told
 _JUMP_SHARE = 0.1
@@ -36,15 +38,20 @@ _ROUNDING = 1e-12
 
 
 def reroll(
-    file: Path, kind: str, part: Part, offset: float, declared: float, verdict: Verdict
+    file: Source, kind: str, part: Part, offset: float, declared: float, verdict: Verdict
 ) -> tuple[Verdict, tuple[Finding, ...]]:
     """Add to a verdict what the follower does on the file: errors of lift, S' and S'' in mm (or degrees), per rad.
 
+    ``file``: a path, or the mesh or shape that was read from an assembly.
     ``offset``: how far the file's outlines are moved out of the material; the follower rolled is that much smaller.
     A lift that is further off than ``declared`` mm of outline can make it is a failure. Files that are broken
     already are not rolled, nor are outlines trimmed by their offset, whose part of the lift is gone.
     """
     cam = part.cam
+    if part.barrel is not None:
+        from exporters.reroll_barrel import reroll_barrel
+
+        return reroll_barrel(file, kind, part, offset, declared, verdict), ()
     if part.wedge is not None and not verdict.failures:
         from exporters.reroll_wedge import reroll_wedge
 
@@ -108,7 +115,7 @@ def _differences(values: Real) -> tuple[Real, Real]:
     return (after - before) / (2 * step), (after - 2 * values + before) / step**2
 
 
-def outline_of_file(file: Path, kind: str, part: Part) -> Outline:
+def outline_of_file(file: Source, kind: str, part: Part) -> Outline:
     """The outline that the follower touches, from a file of any format.
 
     Raises
@@ -120,7 +127,7 @@ def outline_of_file(file: Path, kind: str, part: Part) -> Outline:
     if kind in ("dxf", "svg"):
         return _largest(read_dxf(file) if kind == "dxf" else read_svg(file))
     if kind in ("stl", "3mf"):
-        mesh = read_stl(file) if kind == "stl" else read_3mf(file, part.id)
+        mesh = mesh_of(file, kind, part)
         return _largest([Loop(loop, np.zeros(len(loop)), "") for loop in mesh_slices(mesh, middle)])
     loops = smooth_loops(file, kind, middle)
     if not loops:
@@ -128,7 +135,15 @@ def outline_of_file(file: Path, kind: str, part: Part) -> Outline:
     return outline_of_polynomials(max(loops, key=lambda c: float(np.ptp(c[:, 0].real))))
 
 
-def smooth_loops(file: Path, kind: str, z: float) -> list[Complex]:
+def mesh_of(file: Source, kind: str, part: Part) -> ReadMesh:
+    """The mesh of a part, from its file or as it was read from an assembly."""
+    if not isinstance(file, Path):
+        mesh: ReadMesh = file
+        return mesh
+    return read_stl(file) if kind == "stl" else read_3mf(file, part.id)
+
+
+def smooth_loops(file: Source, kind: str, z: float) -> list[Complex]:
     """The closed loops of a drawing, or of a STEP solid at a height, as polynomials (n, 8) of rising powers."""
     pieces = _drawing_pieces(file) if kind == "drawing" else _step_pieces(file, z)
     return [_coefficients(loop) for loop in _chained(pieces)]
@@ -206,7 +221,7 @@ def _drawing_pieces(file: Path) -> list[Complex]:
     return pieces
 
 
-def _step_pieces(file: Path, z: float) -> list[Complex]:
+def _step_pieces(file: Source, z: float) -> list[Complex]:
     """Samples of every smooth span of the upright walls at a height, (8,) each, evaluated by the kernel."""
     from OCP.BRepAdaptor import BRepAdaptor_Surface
     from OCP.TopAbs import TopAbs_ShapeEnum
@@ -216,7 +231,8 @@ def _step_pieces(file: Path, z: float) -> list[Complex]:
     from exporters.verify_step import _read_step
 
     share, pieces = _nodes(), []
-    faces = TopExp_Explorer(_read_step(file), TopAbs_ShapeEnum.TopAbs_FACE)
+    shape = _read_step(file) if isinstance(file, Path) else file
+    faces = TopExp_Explorer(shape, TopAbs_ShapeEnum.TopAbs_FACE)
     while faces.More():
         surface: Any = BRepAdaptor_Surface(TopoDS.Face_s(faces.Current()))
         faces.Next()

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
-from exporters.readers import ReadError, ReadMesh, read_3mf, read_stl
+from exporters.readers import ReadError, ReadMesh
+from exporters.reroll import Source, mesh_of
 from exporters.verify import Verdict
 from geometry.cams.barrel import LOWER, UPPER, BarrelCam
 from geometry.cams.barrel_body import BarrelBody
@@ -26,7 +26,7 @@ _FLAT = 1e-5
 _BEND, _ROUNDING = 1.1, 1e-9
 
 
-def reroll_barrel(file: Path, kind: str, part: Part, offset: float, declared: float, verdict: Verdict) -> Verdict:
+def reroll_barrel(file: Source, kind: str, part: Part, offset: float, declared: float, verdict: Verdict) -> Verdict:
     """Add to a verdict what the roller does in the groove of a mesh: errors of its place along the axis, and its play.
 
     ``offset``: how far the file's boundaries are moved out of the material; the roller put in is that much smaller.
@@ -37,7 +37,7 @@ def reroll_barrel(file: Path, kind: str, part: Part, offset: float, declared: fl
     body = part.body(offset)
     assert isinstance(body, BarrelBody)
     try:
-        mesh = read_stl(file) if kind == "stl" else read_3mf(file, part.id)
+        mesh = mesh_of(file, kind, part)
     except ReadError as refusal:
         return replace(verdict, failures=(str(refusal),))
     cam = body.cam

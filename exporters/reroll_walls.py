@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
-from exporters.readers import Loop, ReadError, read_3mf, read_dxf, read_stl, read_svg
-from exporters.reroll import ANGLES, mesh_slices, rolled_differences, rolled_failure, smooth_loops
+from exporters.readers import Loop, ReadError, read_dxf, read_svg
+from exporters.reroll import ANGLES, Source, mesh_of, mesh_slices, rolled_differences, rolled_failure, smooth_loops
 from exporters.verify import Verdict
 from geometry.cams.follower_motion import TURN
 from geometry.cams.rolled import Outline, lift_bound, outline_of_loop, outline_of_polynomials, rolled_lift
@@ -27,7 +26,7 @@ _ROUGH = 16
 
 
 def reroll_walls(
-    file: Path, kind: str, part: Part, offset: float, declared: float, verdict: Verdict
+    file: Source, kind: str, part: Part, offset: float, declared: float, verdict: Verdict
 ) -> tuple[Verdict, tuple[Finding, ...]]:
     """Add to a verdict what the roller does on each wall of the file; see ``exporters.reroll.reroll``.
 
@@ -72,7 +71,7 @@ def _rounding(points: Complex) -> float:
     return 1e-12 * float(np.abs(points).max())
 
 
-def _wall_outline(file: Path, kind: str, part: Part, wall: CamWall, exact: Profile) -> Outline:
+def _wall_outline(file: Source, kind: str, part: Part, wall: CamWall, exact: Profile) -> Outline:
     """The loop of a file that lies nearest to a wall, in the cam's frame.
 
     Raises
@@ -84,7 +83,7 @@ def _wall_outline(file: Path, kind: str, part: Part, wall: CamWall, exact: Profi
     if kind in ("dxf", "svg", "stl", "3mf"):
         loops = read_dxf(file) if kind == "dxf" else read_svg(file) if kind == "svg" else []
         if kind in ("stl", "3mf"):
-            mesh = read_stl(file) if kind == "stl" else read_3mf(file, part.id)
+            mesh = mesh_of(file, kind, part)
             loops = [Loop(x, np.zeros(len(x)), "") for x in mesh_slices(mesh, wall.height)]
         loop = loops[_nearest([x.vertices for x in loops], exact)]
         return outline_of_loop(loop.vertices * back, loop.bulges, clockwise=not wall.below)

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
 from exporters.readers import ReadError
-from exporters.reroll import outline_of_file
+from exporters.reroll import Source, outline_of_file
 from exporters.verify import Verdict
 from geometry.cams.rolled import rolled_lift
 from geometry.cams.wedge import Swinging, WedgeCam
@@ -25,7 +24,7 @@ _ROUNDING = 1e-12
 
 
 def reroll_wedge(
-    file: Path, kind: str, part: Part, offset: float, declared: float, verdict: Verdict
+    file: Source, kind: str, part: Part, offset: float, declared: float, verdict: Verdict
 ) -> tuple[Verdict, tuple[Finding, ...]]:
     """Add to a verdict what the follower does on the file: errors of lift, S' and S'' in mm (or degrees), per mm.
 

@@ -26,10 +26,20 @@ _SHADE = 1
 
 @dataclass(frozen=True, slots=True)
 class ExpectedPart:
-    """What a prototype must be."""
+    """What a prototype must be: its part, whose boundaries are moved ``offset`` mm out of the material."""
 
-    body: Body
-    colour: str | None
+    part: Part
+    offset: float = 0.0
+
+    @property
+    def body(self) -> Any:
+        """The exact solid."""
+        return self.part.body(self.offset)
+
+    @property
+    def colour(self) -> str | None:
+        """Its colour, #rrggbb."""
+        return self.part.colour
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,13 +51,11 @@ class ExpectedAssembly:
     occurrences: dict[str, tuple[str, NDArray[np.float64]]]
 
 
-def expected_of(
-    title: str, parts: dict[str, Part], bodies: dict[str, Body], instances: Iterable[Instance]
-) -> ExpectedAssembly:
-    """What a file of some parts, with these solids, and of these instances must hold."""
+def expected_of(title: str, parts: dict[str, Part], offset: float, instances: Iterable[Instance]) -> ExpectedAssembly:
+    """What a file of some parts, moved ``offset`` mm out of the material, and of these instances must hold."""
     return ExpectedAssembly(
         title,
-        {name: ExpectedPart(bodies[name], part.colour) for name, part in parts.items()},
+        {name: ExpectedPart(part, offset) for name, part in parts.items()},
         {i.id: (i.part, i.scene_from_part.matrix()) for i in instances},
     )
 
@@ -56,6 +64,16 @@ def verify_assembly(file: Path, kind: str, expected: ExpectedAssembly, declared:
     """Read an assembly file ("step" or "3mf") back and hold it against what it must be; see ``verify_file``."""
 
     def check(shape: Any, part: ExpectedPart) -> Verdict:
+        verdict = measured(shape, part)
+        if part.part.is_cam:
+            from exporters.reroll import reroll
+
+            rolled, _ = reroll(shape, kind, part.part, part.offset, declared, verdict)
+            more = {f"{part.part.id}.{k}": v for k, v in rolled.measured.items() if k not in verdict.measured}
+            return Verdict(verdict.measured | more, rolled.failures)
+        return verdict
+
+    def measured(shape: Any, part: ExpectedPart) -> Verdict:
         if not isinstance(part.body, Body):
             from exporters.verify_barrel import verify_barrel_shape
 
@@ -100,6 +118,8 @@ def _verdict(found: ReadAssembly, expected: ExpectedAssembly, check: Callable[[A
             failures.append(f"{name} is coloured {colour} instead of {expected.parts[name].colour}")
         deviation = verdict.measured.get("max_deviation", float("inf"))
         measured["max_deviation"] = max(measured.get("max_deviation", 0.0), deviation)
+        # what the follower of a cam says, under the cam's name
+        measured |= {key: value for key, value in verdict.measured.items() if key.startswith(f"{name}.")}
     return Verdict(measured, tuple(failures))
 
 

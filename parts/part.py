@@ -48,6 +48,11 @@ class Part:
     wedge: WedgeCam | None = None
     barrel: BarrelBody | None = None
 
+    @property
+    def is_cam(self) -> bool:
+        """Whether a follower is rolled over every file of the part."""
+        return self.cam is not None or self.wedge is not None or self.barrel is not None
+
     def to_trimesh(self, tolerance: float = 0.01, offset: float = 0.0) -> Any:
         """A ``trimesh.Trimesh`` within ``tolerance`` mm of the exact solid."""
         import trimesh

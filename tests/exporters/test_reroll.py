@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,12 +12,17 @@ import ezdxf
 import numpy as np
 import pytest
 
+from exporters.build import build
+from exporters.plan import plan_build
 from exporters.recheck import recheck
 from exporters.reroll import ANGLES, outline_of_file, reroll
 from exporters.verify import Verdict
+from exporters.verify_assembly import expected_of, verify_assembly
 from geometry.cams.disk import FollowerKind, oscillating_cam, translating_cam
 from geometry.cams.mounts import Oscillating, Translating
 from geometry.cams.rolled import lift_bound, outline_of_loop, rolled_lift
+from parts.placing import place
+from parts.scene import built_in_scenes, load_scene, make_parts
 from tests.geometry.cams.oracle import MP, Eccentric, followed
 from tests.parts.test_cam import CAMS, part_of, scene_text
 
@@ -143,3 +149,24 @@ def test_step_files_are_rolled_too(tmp_path: Path) -> None:
     assert 1e-9 < step["measured"]["lift_error"] < 2e-6
     assert step["measured"]["acceleration_jump"] < 1e-3 * step["measured"]["acceleration_peak"]
     assert json.dumps(report)
+
+
+def test_the_cams_of_an_assembly_are_rolled(tmp_path: Path) -> None:
+    scene = load_scene(str(built_in_scenes()["laser_cam_model"]))
+    parts, matings = make_parts(scene, "t")
+    plan = plan_build(scene, "t", [], ["3mf"])
+    written, _, _ = build(plan, tmp_path / "o")
+    (made,) = [w for w in written if w.job.path == "laser_cam_model.3mf"]
+    assert not made.failures
+    assert 0 < made.measured["cam.lift_error"] <= made.max_error * (1 + 1e-6)
+    assert made.measured["cam.acceleration_peak"] > 0
+    # the same file held against a cam of another law is refused
+    other = load_scene(str(built_in_scenes()["laser_cam_model"]))
+    other.parts["cam"].phases[0].law = "sine"
+    wrong, _ = make_parts(other, "t")
+    instances = place(scene.instances, scene.drives, parts, matings, "t").instances
+    expected = expected_of(
+        "laser_cam_model", {**parts, "cam": replace(parts["cam"], cam=wrong["cam"].cam)}, 0.0, instances
+    )
+    verdict = verify_assembly(tmp_path / "o" / "laser_cam_model.3mf", "3mf", expected, made.max_error, 0.01)
+    assert any("lift is wrong" in failure for failure in verdict.failures)
