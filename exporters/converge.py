@@ -24,6 +24,8 @@ from geometry.errors import ConvergenceError, ParameterError
 from geometry.line_arc import Arc, Line
 from geometry.spline_fit import spline_of_spans
 
+# making and measuring a rung may take this long, s; the next one would take longer
+_MOST_SECONDS = 15.0
 CAD_LADDER = (0.01, 0.001, 1e-4, 1e-5, 1e-6, 1e-7)
 LADDER = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005, 0.0002, 0.0001)
 _REPEATS = 3
@@ -76,16 +78,21 @@ METHODS: dict[str, tuple[float, Callable[[Curve, int], float]]] = {
 
 
 def ladder(plan: Plan, folder: Path, progress: Callable[[str], None] = lambda path: None) -> list[Rung]:
-    """Every job of a plan over the ladder of tolerances; files are made in ``folder`` and removed again."""
+    """Every job of a plan over the ladder of tolerances; files are made in ``folder`` and removed again.
+
+    The ladder of a file ends where the format cannot carry a finer tolerance, or where a rung takes too long.
+    """
     rungs = []
     for job in plan.jobs:
         progress(job.path)
         for tolerance in CAD_LADDER if job.is_cad else LADDER:
-            export = replace_export(job, tolerance)
+            export, start = replace_export(job, tolerance), time.perf_counter()
             try:
                 rungs.append(_rung(export, folder / job.path))
             except (ParameterError, ConvergenceError):
                 # this format cannot carry so fine a tolerance: the ladder ends here
+                break
+            if time.perf_counter() - start > _MOST_SECONDS:
                 break
     return rungs
 

@@ -58,6 +58,7 @@ _EXAMPLES = {
     "end_margin": "8.0",
     "pivot_offset": "40.0",
     "start_angle_deg": "-10.0",
+    "height": "0.0",
     "number_of_lobes": "11",
     "number_of_pins": "12",
     "pin_circle_diameter": "80.0",
