@@ -147,5 +147,6 @@ def _neighbours(close: Closeness, language: str) -> dict[str, Any]:
 
 
 def _overlap(found: SolidOverlap, language: str) -> dict[str, Any]:
-    text = words(language, "solids_overlap").format(first=found.first, second=found.second, value=found.volume)
-    return {"first": found.first, "second": found.second, "volume": found.volume, "verdict": "overlap", "text": text}
+    key, verdict = ("solids_overlap", "overlap") if found.volume is not None else ("solids_undecided", "undecided")
+    text = words(language, key).format(first=found.first, second=found.second, value=found.volume)
+    return {"first": found.first, "second": found.second, "volume": found.volume, "verdict": verdict, "text": text}

@@ -153,6 +153,10 @@ WORDS: dict[str, tuple[str, str]] = {
         "інші пари повертають {second} {value:.9g} разів за один оберт {first}, ця {required:.9g} разів: "
         "різні числа заклинюють передачу",
     ),
+    "solids_undecided": (
+        "{first} and {second}: a wall is too thin to tell whether the solids run into each other; thicken it",
+        "{first} і {second}: стінка надто тонка, щоб визначити, чи перетинаються тіла; потовщіть її",
+    ),
     "solids_overlap": (
         "{first} and {second} run into each other: {value:.4g} mm^3 in common as they stand",
         "{first} і {second} перетинаються: {value:.4g} мм^3 спільного об'єму",

@@ -24,11 +24,11 @@ _SHARE = 0.5
 
 @dataclass(frozen=True, slots=True)
 class SolidOverlap:
-    """Two instances whose solids have this volume (mm^3) in common, as they stand."""
+    """Two instances whose solids have this volume (mm^3) in common, as they stand; None: a wall too thin to tell."""
 
     first: str
     second: str
-    volume: float
+    volume: float | None
 
 
 def solid_overlaps(placing: Placing, parts: dict[str, Part]) -> tuple[SolidOverlap, ...]:
@@ -45,7 +45,11 @@ def solid_overlaps(placing: Placing, parts: dict[str, Part]) -> tuple[SolidOverl
         for two in placing.instances[index + 1 :]:
             if frozenset((one.id, two.id)) in contact or not _meet(boxes[one.id], boxes[two.id]):
                 continue
-            volume = _common_volume([_placed(i, parts, solids) for i in (one, two)])
+            try:
+                volume = _common_volume([_placed(i, parts, solids) for i in (one, two)])
+            except GeometryError:
+                found.append(SolidOverlap(one.id, two.id, None))
+                continue
             if volume > 0:
                 found.append(SolidOverlap(one.id, two.id, volume))
     return tuple(found)

@@ -82,19 +82,30 @@ def _normal_share(gear: Any, helix: float) -> float:
 
 def _pair(mate: Any, first: Any, second: Any) -> Any:
     """The pair of a mate, the mathematics loaded only for the kinds that a scene has."""
-    distance = mate.working_centre_distance
-    pair = _pair_at(mate, first, second, distance)
-    if distance is not None and pair.contact_ratio <= 0:
-        nominal = _pair_at(mate, first, second, None)
-        low, high = nominal.distance if hasattr(nominal, "distance") else nominal.working_centre_distance, distance
-        for _ in range(40):
-            middle = (low + high) / 2
-            reaches = _pair_at(mate, first, second, middle).contact_ratio >= min(1.0, nominal.contact_ratio)
-            low, high = (middle, high) if reaches else (low, middle)
-        limit = f"at most {at_most(low, 4)}" if distance > low else f"at least {at_least(low, 4)}"
-        text = f"the teeth do not reach each other; {limit} mm works"
-        raise ParameterError("mate.working_centre_distance", distance, text)
-    return pair
+    distance, reason = mate.working_centre_distance, "the teeth do not reach each other"
+    try:
+        pair = _pair_at(mate, first, second, distance)
+        if distance is None or pair.contact_ratio > 0:
+            return pair
+    except ParameterError as refusal:
+        if distance is None or refusal.name != "mate.working_centre_distance":
+            raise
+        reason = refusal.allowed.partition(";")[0]
+    nominal = _pair_at(mate, first, second, None)
+    wanted = min(1.0, nominal.contact_ratio)
+
+    def reaches(at: float) -> bool:
+        try:
+            return bool(_pair_at(mate, first, second, at).contact_ratio >= wanted)
+        except ParameterError:
+            return False
+
+    low, high = nominal.distance if hasattr(nominal, "distance") else nominal.working_centre_distance, distance
+    for _ in range(40):
+        middle = (low + high) / 2
+        low, high = (middle, high) if reaches(middle) else (low, middle)
+    limit = f"at most {at_most(low, 4)}" if distance > low else f"at least {at_least(low, 4)}"
+    raise ParameterError("mate.working_centre_distance", distance, f"{reason}; {limit} mm works")
 
 
 def _pair_at(mate: Any, first: Any, second: Any, distance: float | None) -> Any:

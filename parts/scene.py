@@ -15,8 +15,9 @@ from geometry.errors import ParameterError
 from parts.instances import DriveSpec, InstanceSpec, check_instance, drive_spec, instance_specs
 from parts.keys import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.kinds import KINDS
+from parts.mate_checks import check_helices, check_kinds
 from parts.mate_kinds import Mating
-from parts.mates import GEAR_PAIRS, JOINS, MATES, mated
+from parts.mates import MATES, mated
 from parts.part import Part
 from parts.schema import SceneError, converted, near, refuse_infinite
 from parts.sheet_keys import CamSpeed, Intervals, MateNumber, RackStep, check_sheet_keys
@@ -293,14 +294,12 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
     part_of = {key: str(spec.part) for key, spec in scene.instances.items()}
     helices = {key: math.radians(abs(getattr(spec, "helix_angle_deg", 0.0))) for key, spec in scene.parts.items()}
     for index, mate in enumerate(scene.mates):
-        _check_kinds(scene, mate, part_of, source, f"mates[{index + 1}]")
-        _check_helices(scene, mate, part_of, source, f"mates[{index + 1}]")
+        check_kinds(scene, mate, part_of, source, f"mates[{index + 1}]")
+        check_helices(scene, mate, part_of, source, f"mates[{index + 1}]")
         try:
             mated(gears, [mate], part_of, helices)
-        except ParameterError as error:
-            owner, _, key = error.name.rpartition(".")
-            place = f".{key}" if owner == "mate" else f": parts.{_blamed(scene, mate, part_of)}.{error.name}"
-            raise SceneError(source, f"mates[{index + 1}]{place}", error.value, error.allowed) from error
+        except ParameterError as refusal:
+            raise pair_refused(scene, refusal, (gears, mate, part_of), source, f"mates[{index + 1}]") from refusal
     gears, matings = mated(gears, scene.mates, part_of, helices)
     for index, mating in enumerate(matings):
         if mating.pair is not None:
@@ -311,52 +310,6 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
             matings[index] = with_face(mating, common_face(*owners))
     parts = {key: KINDS[spec.__struct_config__.tag][2](key, spec, gears[key]) for key, spec in scene.parts.items()}
     return parts, matings
-
-
-def _blamed(scene: SceneFile, mate: Any, part_of: dict[str, str]) -> str:
-    """The part in whose keys a pair's refusals speak: the ring of an internal pair, else the second."""
-    names = [part_of[mate.first], part_of[mate.second]]
-    rings = [name for name in names if scene.parts[name].__struct_config__.tag == "ring_gear"]
-    return rings[0] if rings else names[1]
-
-
-def _check_kinds(scene: SceneFile, mate: Any, part_of: dict[str, str], source: str, place: str) -> None:
-    """A mate joins the kinds of parts that it is for."""
-    mate_kind = mate.__struct_config__.tag
-    found = tuple(scene.parts[part_of[i]].__struct_config__.tag for i in (mate.first, mate.second))
-    joins = JOINS[mate_kind]
-    if joins is None or found in joins:
-        return
-    index = 0 if all(first != found[0] for first, _ in joins) else 1
-    key = ("first", "second")[index]
-    wanted = " or ".join(f"{a} and {b}" for a, b in joins)
-    other = next((m for m, others in JOINS.items() if others and found in others), None)
-    hint = f'; kind = "{other}" joins these two' if other else ""
-    remedy = f"is a {found[index]}; {mate_kind} joins {wanted}{hint}"
-    raise SceneError(source, f"{place}.{key}", getattr(mate, key), remedy)
-
-
-def _check_helices(scene: SceneFile, mate: Any, part_of: dict[str, str], source: str, place: str) -> None:
-    """Helices that mesh, and one normal module: told in the keys of the parts, before their transverse sections."""
-    if not isinstance(mate, GEAR_PAIRS):
-        return
-    from parts.helix_keys import helix_of
-
-    one, two = (scene.parts[part_of[i]] for i in (mate.first, mate.second))
-    first, second = helix_of(one), helix_of(two)
-    if first.angle == 0 and second.angle == 0:
-        return
-    from geometry.gears.helix import mesh_fault
-
-    fault = mesh_fault(first, second, internal=mate.__struct_config__.tag == "internal_gear_pair")
-    if fault is None and one.module != two.module:
-        fault = "module", two.module, f"must be that of its mate; {one.module:.12g} works"
-    if fault is None and first.double and one.face_width != two.face_width:
-        # the points of both herringbones stand half way up
-        fault = "face_width", two.face_width, f"must be that of its mate; {one.face_width:.12g} works"
-    if fault is not None:
-        key, value, remedy = fault
-        raise SceneError(source, f"{place}: parts.{part_of[mate.second]}.{key}", value, remedy)
 
 
 def resolved(scene: SceneFile) -> dict[str, Any]:

@@ -92,8 +92,9 @@ class InternalPair:
         """r_Fa, mm: where each flank ends at the tip."""
         return self._pinion_flank()[1], flank_ends(self.sides[1])[0]
 
-    def _pinion_flank(self) -> tuple[float, float]:
-        ends = [s.curve for s in self.sides[0].segments if s.label in (Label.FLANK, Label.RELIEF)]
+    def _pinion_flank(self, *, relief: bool = True) -> tuple[float, float]:
+        labels = (Label.FLANK, Label.RELIEF) if relief else (Label.FLANK,)
+        ends = [s.curve for s in self.sides[0].segments if s.label in labels]
         return abs(complex(ends[0].point(ends[0].domain[0]))), abs(complex(ends[-1].point(ends[-1].domain[1])))
 
     @property
@@ -279,7 +280,7 @@ def internal_flank_gaps(pair: InternalPair, pinion_turn: Real, ring_turn: Real, 
         return result
     angle = math.acos((two - one) / distance)
     length, base_pitch = distance * math.sin(angle), pair.base_pitch
-    low, high = (_tangent(r, one) for r in pair._pinion_flank())
+    low, high = (_tangent(r, one) for r in pair._pinion_flank(relief=False))
     least, most = (_tangent(r, two) for r in flank_ends(pair.sides[1]))
     # lower flanks face with normals that touch both base circles at the polar angle -psi of the other branch
     for column, sense in enumerate((1.0, -1.0)):

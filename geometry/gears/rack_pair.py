@@ -56,9 +56,10 @@ class RackPair:
         """r sin(alpha): from the base circle to the pitch point along the line of action, mm."""
         return self.gear.reference_radius * math.sin(self.rack.rack.pressure_angle)
 
-    def _gear_tangents(self) -> tuple[float, float]:
-        """Length from the base circle to the gear's first and last flank point, mm."""
-        curves = [s.curve for s in self.sides[0].segments if s.label in (Label.FLANK, Label.RELIEF)]
+    def _gear_tangents(self, *, relief: bool = True) -> tuple[float, float]:
+        """Length from the base circle to the gear's first and last flank point, mm; ``relief``: that part too."""
+        labels = (Label.FLANK, Label.RELIEF) if relief else (Label.FLANK,)
+        curves = [s.curve for s in self.sides[0].segments if s.label in labels]
         ends = abs(start_point(curves[0])), abs(end_point(curves[-1]))
         low, high = (math.sqrt(max(r * r - self.gear.base_radius**2, 0.0)) for r in ends)
         return low, high
@@ -169,7 +170,7 @@ def rack_flank_gaps(pair: RackPair, rotation: Real, position: Real, distance: fl
     angle: gap = distance sin(alpha) - (y + s/2) cos(alpha) - r_b f. inf where it misses one flank.
     """
     alpha, base, base_pitch = pair.rack.rack.pressure_angle, pair.gear.base_radius, pair.base_pitch
-    low, high = pair._gear_tangents()
+    low, high = pair._gear_tangents(relief=False)
     least, most = (x + distance - pair.distance for x in pair._rack_depths())
     result = np.full((len(rotation), 2), np.inf)
     half = pair.rack.tooth_thickness / 2
