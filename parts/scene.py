@@ -15,7 +15,7 @@ from geometry.errors import ParameterError
 from parts.instances import DriveSpec, InstanceSpec, check_instance, drive_spec, instance_specs
 from parts.keys import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.kinds import KINDS
-from parts.mate_checks import check_helices, check_kinds
+from parts.mate_checks import check_helices, check_kinds, pair_refused
 from parts.mate_kinds import Mating
 from parts.mates import MATES, mated
 from parts.part import Part
