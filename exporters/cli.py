@@ -170,6 +170,7 @@ def _build(options: argparse.Namespace) -> int:
 def _check(options: argparse.Namespace) -> int:
     from exporters.check import scene_checks
     from exporters.tables import check_lines, has_bad_verdict
+    from exporters.words import words
     from parts.placing import place
     from parts.scene import load_scene, make_parts
     from parts.schema import SceneError
@@ -181,7 +182,8 @@ def _check(options: argparse.Namespace) -> int:
         raise SceneError(options.scene, "mates", None, 'nothing to check; add [[mates]] kind = "external_gear_pair"')
     asked = scene.checks.transmission_error
     checks = scene_checks(placing, parts, scene.drives, scene.scene.language, contact=True, transmission=asked)
-    print("\n".join(check_lines(checks, scene.scene.language)))
+    found = check_lines(checks, scene.scene.language)
+    print("\n".join(found or [words(scene.scene.language, "nothing_overlaps")]))
     return FAILED if has_bad_verdict(checks) else DONE
 
 

@@ -108,6 +108,7 @@ WORDS: dict[str, tuple[str, str]] = {
         "transmission error (peak to peak, first turns {sense}): {value:.3g} mm on the line of action, {motion}",
         "кінематична похибка (розмах, перше колесо обертається {sense}): {value:.3g} мм на лінії зачеплення, {motion}",
     ),
+    "nothing_overlaps": ("no mates; no solids run into each other", "з'єднань немає; тіла не перетинаються"),
     "no_transmission": (
         "no transmission error: the teeth slip past each other",
         "кінематичної похибки немає: зуби прослизають повз одні одних",

@@ -156,5 +156,5 @@ class _InternalMesh(MeshSearch):
         drive = (-np.angle(corners) - float(self.second_position(np.zeros(1))[0])) / self.rate
         return drive, lens / self.rate
 
-    def closed_form(self, drive: Real) -> Real:
-        return internal_flank_gaps(self.pair, drive, self.second_position(drive), self.distance)
+    def closed_form(self, drive: Real, shift: float = 0.0) -> Real:
+        return internal_flank_gaps(self.pair, drive, self.second_position(drive) + shift, self.distance)

@@ -210,7 +210,7 @@ class MeshSearch:
         """Drive angles that bring corners of a body onto the line of centres, and how far around to look, rad."""
         raise NotImplementedError
 
-    def closed_form(self, drive: Real) -> Real:
+    def closed_form(self, drive: Real, shift: float = 0.0) -> Real:
         """(n, 2) gaps of the main flanks by closed form, mm; inf where none applies."""
         raise NotImplementedError
 

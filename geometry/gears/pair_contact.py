@@ -133,5 +133,5 @@ class _ExternalMesh(MeshSearch):
         drive = (math.pi - np.angle(corners) - float(self.second_position(np.zeros(1))[0])) / self.rate
         return drive, lens / abs(self.rate)
 
-    def closed_form(self, drive: Real) -> Real:
-        return flank_gaps(self.pair, drive, self.second_position(drive), self.distance)
+    def closed_form(self, drive: Real, shift: float = 0.0) -> Real:
+        return flank_gaps(self.pair, drive, self.second_position(drive) + shift, self.distance)

@@ -145,5 +145,5 @@ class _RackMesh(MeshSearch):
             return -np.angle(corners), reach / self.pair.gear.reference_radius
         return (corners.imag - float(self.second_position(np.zeros(1))[0])) / self.rate, reach / self.rate
 
-    def closed_form(self, drive: Real) -> Real:
-        return rack_flank_gaps(self.pair, drive, self.second_position(drive), self.distance)
+    def closed_form(self, drive: Real, shift: float = 0.0) -> Real:
+        return rack_flank_gaps(self.pair, drive, self.second_position(drive) + shift, self.distance)

@@ -28,6 +28,8 @@ _FARTHEST, _BACK = 1.5, 4.0
 # extremes are looked for between the drive angles: so many times closer each round, until nothing gains this part of
 # the error, or of the module
 _CLOSER, _ROUNDS, _GAINED, _NOTHING = 16, 5, 2e-4, 1e-9
+# angles of a pitch at which the closed form is asked whether main flanks could meet
+_FINE = 4096
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,6 +109,7 @@ def _curve(mesh: MeshSearch, side: int) -> tuple[Real, Real]:
     # the main flanks' gap is the same at all drive angles
     ideal = float(closed[np.argmin(np.abs(closed))]) / mesh.arm
     ideal = ideal if np.isfinite(ideal) else 0.0
+    angles = np.unique(np.concatenate([angles, _without_flanks(mesh, side, ideal)]))
     errors = _errors(mesh, angles, side, ideal, np.zeros(angles.shape))
     pitch, gaining = mesh.pitches[0], [1.0, -1.0]
     for _ in range(_ROUNDS):
@@ -122,6 +125,19 @@ def _curve(mesh: MeshSearch, side: int) -> tuple[Real, Real]:
         angles, errors = angles[order], errors[order]
         gaining = [k for k, was in zip(gaining, before, strict=True) if (k * errors).max() - was > least]
     return angles, errors
+
+
+def _without_flanks(mesh: MeshSearch, side: int, ideal: float) -> Real:
+    """Drive angles at the ends and in the middle of every stretch, however short, in which no main flanks meet."""
+    step = mesh.pitches[0] / _FINE
+    shift = ideal * (mesh.closing if side else -mesh.closing)
+    lost = ~np.isfinite(mesh.closed_form(np.arange(_FINE) * step, shift)[:, side])
+    if not lost.any() or lost.all():
+        return np.zeros(0)
+    starts = np.flatnonzero(lost & ~np.roll(lost, 1))
+    ends = np.flatnonzero(lost & ~np.roll(lost, -1))
+    ends = np.where(ends[0] < starts[0], np.append(ends[1:], ends[0] + _FINE), ends)
+    return np.mod(np.concatenate([starts - 1, (starts + ends) / 2, ends + 1]) * step, mesh.pitches[0])
 
 
 def _between(angles: Real, index: int, pitch: float) -> Real:

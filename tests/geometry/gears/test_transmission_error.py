@@ -225,3 +225,13 @@ def test_the_larger_obstacle_rules() -> None:
     wide = error.over_face(0.25)
     assert max(wide.errors) == 0.0
     assert min(wide.errors) == pytest.approx(-2.0)
+
+
+@pytest.mark.parametrize(
+    ("distance", "expected"), [(49.2, 0.0), (49.31, 1.45e-5), (49.33, 7.8e-5), (49.36, 2.67e-4), (49.5, 2.55e-3)]
+)
+def test_short_interruptions_are_found(distance: float, expected: float) -> None:
+    """z 17 / 31, m 2: contact ratios from just above 1 down to 0.915; a user's own solution for corner contact."""
+    pair = external_pair(SpurGear(2.0, 17, iso_53("A")), SpurGear(2.0, 31, iso_53("A")), distance)
+    for found in pair_transmission(pair):
+        assert found.peak_to_peak == pytest.approx(expected, rel=0.08, abs=1e-9)
