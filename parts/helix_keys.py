@@ -89,15 +89,15 @@ def in_normal_terms(spec: Any, refusal: ParameterError, builds: Callable[[Any], 
         return builds(msgspec.structs.replace(spec, **{owner: changed}) if owner else changed)
 
     reason = refusal.allowed.partition(";")[0]
-    found = _nearest_working(works, given, step)
+    found = nearest_working(works, given, step)
     text = "" if found is None else f"; at least {at_least(found, 4)} works"
     if found is not None and found < given:
         text = f"; at most {at_most(found, 4)} works"
     return type(refusal)(refusal.name, given, f"{reason}{text}")
 
 
-def _nearest_working(works: Callable[[float], bool], given: float, step: float) -> float | None:
-    """The value nearest to a refused one that works, found by steps and bisection."""
+def nearest_working(works: Callable[[float], bool], given: float, step: float) -> float | None:
+    """The value nearest to a refused one that works, found by steps and bisection; None where none is found."""
 
     def safe(value: float) -> bool:
         try:

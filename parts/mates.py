@@ -60,6 +60,7 @@ def mated(
             for name, gear in ((part_of[mate.first], pair.first), (part_of[mate.second], pair.second)):
                 if gear.tip_radius < final[name].tip_radius:
                     final[name] = replace(final[name], given_tip_diameter=2 * gear.tip_radius)
+                    _check_shortened(final[name], (pair.first, pair.second), mate.working_centre_distance)
     matings, left = [], iter(zip(pairs, shares, strict=True))
     for mate in mates:
         first, second = final[part_of[mate.first]], final[part_of[mate.second]]
@@ -69,6 +70,30 @@ def mated(
         else:
             matings.append(JOINTS[mate.__struct_config__.tag].mating(mate, first, second))
     return final, matings
+
+
+def _check_shortened(gear: Any, pair: tuple[Any, Any], distance: float | None) -> None:
+    """Refuse a pair whose tip shortening leaves nothing of the involute, with the second's shift that would do."""
+    from geometry.gears.pair import external_pair
+    from parts.helix_keys import nearest_working
+
+    def works(shift: float) -> bool:
+        tried = external_pair(pair[0], replace(pair[1], profile_shift_coefficient=shift), distance)
+        for one in (tried.first, tried.second):
+            _build(one)
+        return tried.contact_ratio > 0
+
+    try:
+        _build(gear)
+    except GeometryError as fault:
+        given = pair[1].profile_shift_coefficient
+        found, text = nearest_working(works, given, 0.05), "other shifts of both gears work"
+        if found is not None:
+            text = (
+                f"at {'most' if found < given else 'least'} {(at_most if found < given else at_least)(found, 4)} works"
+            )
+        reason = "the tips that the pair shortens keep no involute"
+        raise ParameterError("profile_shift_coefficient", given, f"{reason}; {text}") from fault
 
 
 def _normal_share(gear: Any, helix: float) -> float:

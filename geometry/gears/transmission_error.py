@@ -131,7 +131,8 @@ def _without_flanks(mesh: MeshSearch, side: int, ideal: float) -> Real:
     """Drive angles at the ends and in the middle of every stretch, however short, in which no main flanks meet."""
     step = mesh.pitches[0] / _FINE
     shift = ideal * (mesh.closing if side else -mesh.closing)
-    lost = ~np.isfinite(mesh.closed_form(np.arange(_FINE) * step, shift)[:, side])
+    angles = np.arange(_FINE, dtype=np.float64) * step
+    lost = ~np.isfinite(mesh.closed_form(angles, shift)[:, side])
     if not lost.any() or lost.all():
         return np.zeros(0)
     starts = np.flatnonzero(lost & ~np.roll(lost, 1))
