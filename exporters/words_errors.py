@@ -136,6 +136,7 @@ a scene needs at least one part, like {}|сцені потрібна хоча б
 the scene asks for no file|сцена не просить жодного файла
 nothing to check|нема що перевіряти
 add {}|додайте {}
+add [[exports]] with format = {} (or {}), or use --format|додайте [[exports]] з format = {} (або {}) чи задайте --format
 the file's name names the folder of the results|ім'я файла дає ім'я теці результатів
 a part's name is made of letters, digits, _ and - (A to Z, at most 64)|\
 ім'я деталі: латинські літери, цифри, _ і - (до 64)
@@ -224,14 +225,13 @@ def piece_in_ukrainian(piece: str) -> str | None:
 
 
 def _range_in_ukrainian(piece: str) -> str | None:
-    """The range of a key behind its meaning, which stays as it is."""
+    """The range of a key; what the key means is left out: the key itself says it."""
     found = _RANGE.fullmatch(piece)
     if found is None or not (found[2] or found[4]):
         return None
-    meaning, low, least, most, unit = found.groups()
+    _, low, least, most, unit = found.groups()
     words = [f"{_WAY[low]} {least}" if low else "", f"щонайбільше {most}" if most else ""]
-    text = ", ".join(filter(None, words)) + (f" {_UNITS.get(unit, unit)}" if unit else "")
-    return f"{meaning}: {text}" if meaning else text
+    return ", ".join(filter(None, words)) + (f" {_UNITS.get(unit, unit)}" if unit else "")
 
 
 def in_ukrainian(remedy: str) -> str:
