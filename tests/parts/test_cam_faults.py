@@ -1,0 +1,111 @@
+"""Cams that a stranger typed: a rest for a whole turn, rounding taken for impacts, unknown words, what cannot swing."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from pathlib import Path
+
+import pytest
+
+from exporters.cli import main
+from geometry.cams.follower_motion import follower_motion, return_, rise
+from geometry.cams.graphical import graphical_fault
+from geometry.motion_laws.named import NAMED_LAWS
+from parts.scene import make_parts, scene_from_toml
+from parts.schema import SceneError
+
+_CAM = """
+[parts.gear]
+kind = "cam"
+follower = "roller"
+lift = 20.0
+follower_radius = 8.0
+base_circle_radius = 30.0
+"""
+
+
+def _built(tmp_path: Path, text: str, capsys: pytest.CaptureFixture[str]) -> tuple[int, str]:
+    """The command's answer to a scene, and all that it prints."""
+    scene = tmp_path / "scene.toml"
+    scene.write_text(text)
+    code = main(["build", str(scene), "--out", str(tmp_path)])
+    told = capsys.readouterr()
+    return code, told.out + told.err
+
+
+def test_all_dwell_has_a_sheet(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    phases = 'phases = [{ move = "dwell", angle_deg = 360.0 }]\n'
+    exports = '[[exports]]\nformat = "sheet"\npurpose = "cam"\n[[exports]]\nformat = "svg"\n'
+    code, told = _built(tmp_path, _CAM + phases + exports, capsys)
+    assert code == 0, told
+    # nothing accelerates: no jump of S'' is told
+    assert "jumps" not in told
+
+
+def test_rounding_is_no_impact() -> None:
+    sine = NAMED_LAWS["sine"]()
+    assert not follower_motion([rise(math.pi, 20.0, sine), return_(math.pi, 20.0, sine)]).impacts()
+    cosine = NAMED_LAWS["cosine"]()
+    unequal = follower_motion([rise(2.0, 20.0, cosine), return_(2 * math.pi - 2.0, 20.0, cosine)])
+    assert {j.impact for j in unequal.impacts()} == {"soft"}
+    assert graphical_fault(unequal) is None
+
+
+def _swept(law: str = '"sine"', move: str = "return_", more: str = "") -> str:
+    first = f'{{ move = "rise", angle_deg = 180.0, law = {law} }}'
+    return _CAM + f'phases = [{first}, {{ move = "{move}", angle_deg = 180.0, law = "sine"{more} }}]\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (_swept('"sinus"'), ("item 1.law", '"cosine"', "did you mean sine?")),
+        (_swept(move="return"), ("item 2.move", '"dwell"', "did you mean return_?")),
+        (_swept(more=", lawn = 1"), ("item 2.lawn", "move, angle_deg, law, share")),
+        (_swept("{ diagramm = [] }"), ("law.diagramm", "did you mean diagram?", "conditions, poles")),
+        (_swept('{ diagram = [{ shape = "sine", width = 1.0 }] }'), ("item 1.shape", "did you mean half_sine?")),
+        (_swept('{ diagram = [{ shape = "linear", peak = 1.0 }] }'), ("item 1.peak", "shape, width, first, last")),
+        (_swept("3"), ("item 1.law = 3", "must be text or a table")),
+        (_swept(f"{{ poles = {[float(x) for x in range(61)]} }}"), ("law.poles", "at most 60")),
+        (_CAM + "least_transmission_angle_deg = 95.0\n", ("= 95.0", "above 0, below 90 degrees")),
+    ],
+)
+def test_unknown_words_are_answered_with_the_known_ones(text: str, words: tuple[str, ...]) -> None:
+    with pytest.raises(SceneError) as refusal:
+        scene_from_toml(text.encode(), "scene", "scene")
+    for word in words:
+        assert word in str(refusal.value)
+    assert "null" not in str(refusal.value)
+
+
+def test_calc_names_the_kind_that_works(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["calc", "gear-pair", "number_of_teeth=20", "module=2.0", "second.kind=ring_gear"]) != 0
+    assert '"spur_gear"' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("rows", "words"),
+    [
+        ([(1.0, 0.0), (2.0, 1.0), (3.0, 2.0)], ("motion_table = 1.0", "0 works")),
+        ([(0.0, 0.0), (20.0, 1.0), (10.0, 2.0)], ("motion_table.item 3 = 10.0", "above 20 degrees")),
+        ([(0.0, 0.0), (20.0, 1.0), (400.0, 2.0)], ("motion_table.item 3 = 400.0", "below 360 degrees")),
+        ([(0.0, 0.0), (20.0, 1.0), (360.0, 0.0)], ("motion_table = 2", "at least 3 rows")),
+    ],
+)
+def test_tables_are_refused_in_degrees(rows: list[tuple[float, float]], words: tuple[str, ...]) -> None:
+    text = _CAM.replace("lift = 20.0\n", "") + f"motion_table = {[list(row) for row in rows]}\n"
+    with pytest.raises(SceneError) as refusal:
+        make_parts(scene_from_toml(text.encode(), "scene", "scene"), "scene")
+    for word in words:
+        assert word in str(refusal.value)
+
+
+def test_holes_at_one_place_are_refused_without_warnings(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    hole = "{ at = [0.0, 20.0], diameter = 3.0 }"
+    plate = f'[parts.a]\nkind = "plate"\nwidth = 60.0\nheight = 90.0\nholes = [{hole}, {hole}]\n'
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        code, told = _built(tmp_path, plate, capsys)
+    assert code != 0
+    assert "another hole" in told
