@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+import re
 import warnings
 from pathlib import Path
 
 import pytest
 
 from exporters.cli import main
+from exporters.new import new_scene
+from exporters.words import finding_text
 from geometry.cams.follower_motion import follower_motion, return_, rise
 from geometry.cams.graphical import graphical_fault
 from geometry.motion_laws.named import NAMED_LAWS
@@ -109,3 +112,71 @@ def test_holes_at_one_place_are_refused_without_warnings(tmp_path: Path, capsys:
         code, told = _built(tmp_path, plate, capsys)
     assert code != 0
     assert "another hole" in told
+
+
+@pytest.mark.parametrize("kind", ["cam", "groove_cam", "barrel_cam", "wedge_cam"])
+def test_every_law_that_new_shows_makes_a_cam(kind: str) -> None:
+    text = new_scene(kind)
+    shown = re.findall(r"^# (phases = .*?)  # \.\.\. or this", text, re.MULTILINE)
+    assert len({re.search(r"law = \{ (\w+)", line).group(1) for line in shown}) == 5  # type: ignore[union-attr]
+    for line in shown:
+        used = re.sub(r"^phases = .*$", line.replace("\\", r"\\"), text, flags=re.MULTILINE)
+        parts, _ = make_parts(scene_from_toml(used.encode(), "scene", "scene"), "scene")
+        assert line in used
+        assert parts["gear"].quantities
+
+
+def test_every_bore_that_new_shows_fits_a_roller() -> None:
+    text = new_scene("roller").split("[[exports]]")[0]
+    shown = re.findall(r"^# ((?:bore|hub) = .*?\})  ?#", text.replace("} #", "}  #"), re.MULTILINE)
+    assert len(shown) == 7
+    for line in shown:
+        used = text + line + '\n[[exports]]\nformat = "svg"\n'
+        make_parts(scene_from_toml(used.encode(), "scene", "scene"), "scene")
+    assert "diameter = 16.0" in text
+
+
+_FLAT = """
+[parts.gear]
+kind = "cam"
+follower = "flat"
+swing_deg = 30.0
+base_circle_radius = 80.0
+oscillating = { centre_distance = 90.0 }
+phases = [{ move = "rise", angle_deg = 180.0, law = "sine" }, { move = "return_", angle_deg = 180.0, law = "sine" }]
+[[exports]]
+format = "svg"
+"""
+
+
+def test_a_flat_face_beyond_the_square_is_refused_and_both_offers_work() -> None:
+    with pytest.raises(SceneError) as refusal:
+        make_parts(scene_from_toml(_FLAT.encode(), "scene", "scene"), "scene")
+    degrees, base = re.findall(r"at most ([\d.]+)", str(refusal.value))
+    for old, new in (("30.0", degrees), ("radius = 80.0", f"radius = {base}")):
+        parts, _ = make_parts(scene_from_toml(_FLAT.replace(old, new).encode(), "scene", "scene"), "scene")
+        # the push of a flat face runs along its normal while its arm keeps its sign
+        assert parts["gear"].quantities["pressure_angle_rise_deg"] < 90
+
+
+def test_a_radius_of_curvature_that_is_not_kept_is_told() -> None:
+    text = _swept() + 'least_curvature_radius = 35.0\n[[exports]]\nformat = "svg"\n'
+    for base, told in (("30.0", True), ("90.0", False)):
+        scene = scene_from_toml(text.replace("radius = 30.0", f"radius = {base}").encode(), "scene", "scene")
+        parts, _ = make_parts(scene, "scene")
+        found = [f for f in parts["gear"].findings if f.code == "curvature_radius_not_kept"]
+        assert bool(found) == told
+        assert (parts["gear"].quantities["least_curvature_radius"] < 35) == told
+        for language in ("uk", "en"):
+            assert all("35" in finding_text(language, f) for f in found)
+
+
+def test_an_undercut_by_impacts_is_offered_what_works() -> None:
+    text = _swept('"constant_velocity"') + '[[exports]]\nformat = "svg"\n'
+    with pytest.raises(SceneError) as refusal:
+        make_parts(scene_from_toml(text.encode(), "scene", "scene"), "scene")
+    assert 'law = "sine"' in str(refusal.value)
+    assert 'follower = "pointed"' in str(refusal.value)
+    pointed = text.replace('"roller"', '"pointed"').replace("follower_radius = 8.0\n", "")
+    for offered in (text.replace("constant_velocity", "sine"), pointed):
+        make_parts(scene_from_toml(offered.encode(), "scene", "scene"), "scene")
