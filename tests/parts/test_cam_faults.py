@@ -180,3 +180,33 @@ def test_an_undercut_by_impacts_is_offered_what_works() -> None:
     pointed = text.replace('"roller"', '"pointed"').replace("follower_radius = 8.0\n", "")
     for offered in (text.replace("constant_velocity", "sine"), pointed):
         make_parts(scene_from_toml(offered.encode(), "scene", "scene"), "scene")
+
+
+@pytest.mark.parametrize("arm", ["73.0", "75.0"])
+def test_a_wedges_arm_near_the_upright_is_refused_at_once(arm: str) -> None:
+    text = (
+        '[parts.g]\nkind = "wedge_cam"\nfollower = "roller"\nbase_height = 15.0\nswing_deg = 30.0\n'
+        f"follower_radius = 6.0\noscillating = {{ arm_length = {arm}, pivot_height = -50.0 }}\n"
+        'phases = [{ move = "rise", travel = 60.0, law = "sine" }, { move = "dwell", travel = 20.0 }]\n'
+        '[[exports]]\nformat = "svg"\n'
+    )
+    with pytest.raises(SceneError, match="beyond the upright") as refusal:
+        make_parts(scene_from_toml(text.encode(), "scene", "scene"), "scene")
+    degrees = re.findall(r"at most ([\d.]+) degrees", str(refusal.value))[0]
+    scene = scene_from_toml(text.replace("swing_deg = 30.0", f"swing_deg = {degrees}").encode(), "scene", "scene")
+    parts, _ = make_parts(scene, "scene")
+    assert parts["g"].wedge is not None
+
+
+def test_a_flat_arm_says_in_one_step_what_fits_its_cam() -> None:
+    arm = '[parts.arm]\nkind = "follower_arm"\nend = "flat"\narm_length = 120.0\n'
+    with pytest.raises(SceneError) as refusal:
+        make_parts(scene_from_toml(arm.encode(), "scene", "scene"), "scene")
+    width, offset = re.findall(r"(?:at least|face_offset =) ([\d.]+)", str(refusal.value))
+    assert "oscillating" in str(refusal.value)
+    fixed = arm + f"width = {float(width)}\nface_offset = {float(offset)}\n"
+    cam = _FLAT.replace("swing_deg = 30.0", "swing_deg = 10.0").replace("radius = 80.0", "radius = 40.0")
+    cam = cam.replace("centre_distance = 90.0", f"centre_distance = 90.0, face_offset = {float(offset)}")
+    mate = '[[mates]]\nkind = "cam_follower"\nfirst = "gear"\nsecond = "arm"\n'
+    _, matings = make_parts(scene_from_toml((fixed + cam + mate).encode(), "scene", "scene"), "scene")
+    assert len(matings) == 1
