@@ -35,8 +35,8 @@ _EXAMPLES = {
     "rim_diameter": "36.0",
     "density": "0.65",
     "diameter": "12.0",
-    "flat": "10.5",
-    "across_flats": "10.0",
+    "flat": "7.0",
+    "across_flats": "7.0",
     "width": "4.0",
     "depth": "1.8",
     "corner_radius": "0.16",
@@ -95,7 +95,7 @@ _SET = {
 # where the same key means another size
 _TABLE_EXAMPLES = {
     ("HolesTable", "diameter"): "6.0",
-    ("HubTable", "diameter"): "17.0",
+    ("HubTable", "diameter"): "14.0",
     ("NoncircularGearSpec", "number_of_teeth"): "30",
     ("RingGearSpec", "number_of_teeth"): "60",
     ("RingGearSpec", "tip_diameter"): "117.0",
@@ -217,6 +217,9 @@ def _keys(owner: type[Struct], without: tuple[str, ...] = ()) -> list[str]:
         shown = value or _TABLE_EXAMPLES.get((owner.__name__, field.encode_name)) or _value(field)
         code = f"{field.encode_name} = {shown}"
         lines.append(_line(code if field.required or value else f"# {code}", describe_type(field.type)))
+        if field.encode_name == "phases" and value:
+            for law, meant in new_examples.LAWS:
+                lines.append("# " + code.replace('"sine"', law, 1) + f"  # ... or this: {meant}")
         tables = _tables_of(field)
         for table in tables if field.default is not None else tables[1:]:
             meant = describe_type(table).removeprefix("table: ")

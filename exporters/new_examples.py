@@ -14,6 +14,13 @@ SET = {
 }
 # where a key has no default, or one of its own in a kind of part
 EXAMPLES = {
+    # bores that a roller of 16 mm has walls for
+    **{
+        (table, "diameter"): "8.0"
+        for table in ("RoundBoreTable", "KeywayTable", "FlatBoreTable", "DoubleFlatBoreTable")
+    },
+    ("KeywayTable", "width"): "2.0",
+    ("KeywayTable", "depth"): "1.0",
     ("GrooveCamSpec", "follower_radius"): "8.0",
     ("GrooveCamSpec", "groove_depth"): "5.0",
     ("GrooveCamSpec", "outer_diameter"): "160.0",
@@ -36,6 +43,31 @@ EXAMPLES = {
     ("TimingMarkTable", "diameter"): "3.0",
     ("TimingMarkTable", "distance"): "22.0",
 }
+# laws of one's own in place of a name, each with what it is
+LAWS = (
+    (
+        '{ diagram = [{ shape = "half_sine", width = 1.0, peak = 1.0 }, '
+        '{ shape = "half_sine", width = 1.0, peak = -1.0 }] }',
+        "law by its acceleration diagram; shapes: constant, linear, half_sine, quarter_sine, quarter_cosine, "
+        "half_cosine, trapezoid, points",
+    ),
+    (
+        '{ diagram = [{ shape = "linear", width = 3.0, first = 0.0, last = 2.0 }, '
+        '{ shape = "linear", width = 5.0, first = -2.0, last = 0.0 }], balance = true }',
+        "balance scales what lies below the axis so that the diagram closes",
+    ),
+    (
+        '{ first_half = [{ shape = "trapezoid", width = 1.0, ordinate = 1.0, up = 0.25 }], '
+        'second_half = [{ shape = "half_sine", width = 1.0, peak = 1.0 }], first_share = 0.5 }',
+        "acceleration and deceleration as two halves, both above the axis",
+    ),
+    (
+        "{ conditions = [[0.0, 0, 0.0], [0.0, 1, 0.0], [0.0, 2, 0.0], [1.0, 0, 1.0], [1.0, 1, 0.0], [1.0, 2, 0.0]] }",
+        "polynomial by conditions [u, order, value of that derivative]",
+    ),
+    ("{ poles = [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0], degree = 5 }", "B-spline by its poles"),
+    ('{ name = "modified_trapezoid", ramp = 0.125, reverse = false }', "named law with ramps of one's own"),
+)
 _CAM = (
     "# the cam that the part below belongs to",
     "[parts.source]",

@@ -75,7 +75,7 @@ def reroll(
     size = _ROUNDING * float(np.abs(cam.contact(angle)).max())
     failure = rolled_failure(cam, error, lift_bound(cam, ANGLES, declared + size))
     failures = verdict.failures if failure is None else (*verdict.failures, failure)
-    told = kind in ("dxf", "svg") and jump > _JUMP_SHARE * peak
+    told = kind in ("dxf", "svg") and jump > _JUMP_SHARE * peak > 0
     return Verdict(verdict.measured | measured, failures), ((Finding("rolled_jumps", jump, peak),) if told else ())
 
 

@@ -63,7 +63,7 @@ def _rolled(
     measured, jump, peak = rolled_differences(cam, error)
     failure = rolled_failure(cam, error, lift_bound(cam, ANGLES, declared + _rounding(cam.contact(angle))))
     failures = verdict.failures if failure is None else (*verdict.failures, who + failure)
-    found = Finding("rolled_jumps", jump, peak) if jump > _JUMP_SHARE * peak else None
+    found = Finding("rolled_jumps", jump, peak) if jump > _JUMP_SHARE * peak > 0 else None
     return Verdict(verdict.measured | {head + k: v for k, v in measured.items()}, failures), found
 
 

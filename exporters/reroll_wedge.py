@@ -60,7 +60,7 @@ def reroll_wedge(
     if not excess[worst] <= 0:
         found = f"{abs(error[worst]) * unit:.6g} {'degrees' if swings else 'mm'} at {travel[worst]:.6g} mm of travel"
         failures = (*failures, f"the follower's lift is wrong by {found}, more than the outline's error allows")
-    told = kind in ("dxf", "svg") and jump > _JUMP_SHARE * peak
+    told = kind in ("dxf", "svg") and jump > _JUMP_SHARE * peak > 0
     return Verdict(measured, failures), ((Finding("rolled_jumps", jump, peak),) if told else ())
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from exporters.words_cams import CAM_FINDINGS
 from exporters.words_pins import PIN_FINDINGS, PIN_WORDS
 from geometry.findings import Finding
 
@@ -385,6 +386,7 @@ FINDINGS: dict[str, tuple[str, str]] = {
         "{value:.0f} відрізків коротші за {limit:.3g} мм; їх з'єднання порушило б допуск",
     ),
     **PIN_FINDINGS,
+    **CAM_FINDINGS,
 }
 
 

@@ -226,4 +226,18 @@ leaves no wall to the base circle|не лишає стінки до основн
 is for translating flat and mushroom followers only|лише для поступальних плоских і грибкових штовхачів
 has no area: it changes no velocity|не має площі: швидкість не міняється
 must be above 0 and below 1|має бути більше за 0 і менше за 1
+the flat face swings past the square to the line of centres|плоска грань переходить перпендикуляр до лінії центрів
+at most {} degrees, or a base circle of at most {} mm, works|підходить не більше {} град або основне коло до {} мм
+a law without rigid impacts, as law = "sine", or follower = "pointed" works|\
+підходить закон без жорстких ударів, як law = "sine", або follower = "pointed"
+a smaller lift or longer phases work|підходить менший хід або довші фази
+a smaller lift, longer phases or a smaller follower_radius work|\
+підходить менший хід, довші фази або менший follower_radius
+angles must rise|кути мають зростати
+row {} must stand above {} degrees|рядок {} має стояти вище {} град
+angles must stay below one turn|кути мають бути меншими за один оберт
+leaving it out works|без нього працює
+the last row, at 360 degrees, must repeat the first row's lift|\
+останній рядок, при 360 град, має повторювати хід першого
+at least {} mm works, the same in the cam's oscillating|підходить щонайменше {} мм, так само в oscillating кулачка
 """

@@ -280,6 +280,9 @@ def _samples(curve: object) -> Complex:
 def _winding(point: complex, polygon: Complex) -> int:
     """How often a polygon runs round a point."""
     spokes = polygon - point
+    if not spokes.all():
+        # on its corner: neither inside (1) nor outside (0)
+        return 2
     return round(float(np.angle(np.roll(spokes, -1) / spokes).sum()) / (2 * math.pi))
 
 

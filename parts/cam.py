@@ -14,7 +14,7 @@ from geometry.gears.offset_tooth import OffsetRegion
 from geometry.hub_holes import HubHoles
 from geometry.profile import Profile, Region
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
-from parts.cam_keys import PhaseTable, motion_of
+from parts.cam_keys import PhaseTable, motion_of, without_base
 from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, mm
 from parts.materials import density_of
@@ -253,7 +253,10 @@ def _whole(spec: CamSpec, cam: DiskCam) -> str:
             break
         high *= 1.5
     else:
-        return "a smaller lift, longer phases or a smaller follower_radius work"
+        # a flat face that swings has a greatest base circle too
+        high = next((h for h in (low * (1 + k / 16) for k in range(1, 16)) if works(h)), 0.0)
+    if high == 0:
+        return without_base(cam)
     for _ in range(_BISECTIONS):
         middle = (low + high) / 2
         low, high = (low, middle) if works(middle) else (middle, high)
@@ -389,4 +392,6 @@ def cam_findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
     pitch = least_convex_radius(cam).value + cam.radius
     if cam.kind == "roller" and cam.radius > _USUAL_ROLLER_SHARE * pitch:
         found.append(Finding("large_roller", cam.radius, _USUAL_ROLLER_SHARE * pitch))
+    if pitch - cam.radius < (asked := spec.least_curvature_radius) * (1 - 1e-6):
+        found.append(Finding("curvature_radius_not_kept", pitch - cam.radius, asked))
     return tuple(found)

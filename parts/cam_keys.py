@@ -11,9 +11,10 @@ from geometry.errors import ParameterError
 from parts.law_keys import LawName, LawTable, law_of
 
 if TYPE_CHECKING:
+    from geometry.cams.disk import DiskCam
     from geometry.cams.follower_motion import FollowerMotion
 
-__all__ = ["LawName", "PhaseTable", "motion_of"]
+__all__ = ["LawName", "PhaseTable", "motion_of", "without_base"]
 
 
 class PhaseTable(Struct, forbid_unknown_fields=True):
@@ -56,3 +57,12 @@ def motion_of(
         law = law_of(phase.law, f"phases.item {index + 1}.law")
         made.append((rise if phase.move == "rise" else return_)(angle, phase.share * lift, law))
     return follower_motion(made)
+
+
+def without_base(cam: DiskCam) -> str:
+    """What helps an undercut cam that no base circle does, in words."""
+    if any(joint.impact == "rigid" for joint in cam.motion.impacts()):
+        return 'a law without rigid impacts, as law = "sine", or follower = "pointed" works'
+    if cam.radius == 0:
+        return "a smaller lift or longer phases work"
+    return "a smaller lift, longer phases or a smaller follower_radius work"

@@ -134,12 +134,12 @@ class LawTable(Struct, forbid_unknown_fields=True):
         | None
     ) = None
     poles: (
-        Annotated[list[float], Meta(min_length=4, max_length=500, description="of a B-spline, from 0 to the lift")]
+        Annotated[list[float], Meta(min_length=4, max_length=60, description="of a B-spline, from 0 to the lift")]
         | None
     ) = None
     degree: Annotated[int, Meta(ge=3, le=9, description="of the B-spline")] = 5
     knots: (
-        Annotated[list[float], Meta(max_length=500, description="inner knots, 0 to 1; default: equal spans")] | None
+        Annotated[list[float], Meta(max_length=56, description="inner knots, 0 to 1; default: equal spans")] | None
     ) = None
     name: LawName | None = None
     ramp: (

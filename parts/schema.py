@@ -65,9 +65,12 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
     if not hint and (named := [i for i, k in enumerate(keys) if not k.isdigit()]):
         hint = describe_key(_owner(kind, keys[: named[-1]], table), keys[named[-1]])
     wrong_type = re.match(r"Expected `(.*?)`, got `(.*?)`", message)
-    kinds = f"must be {_TYPE_WORDS.get(wrong_type.group(1), wrong_type.group(1))}" if wrong_type else ""
+    kinds = f"must be {_type_words(wrong_type.group(1))}" if wrong_type else ""
+    value = _lookup(table, keys)
+    if isinstance(value, str) and message.startswith("Invalid") and "one of " in hint:
+        hint += near(value, re.findall(r'"(.*?)"', hint))
     remedy = "; ".join(filter(None, (kinds, hint)))
-    return SceneError(source, where, _lookup(table, keys), remedy or message)
+    return SceneError(source, where, value, remedy or message)
 
 
 _TYPE_WORDS = {
@@ -83,40 +86,57 @@ _TYPE_WORDS = {
     "object": "a table",
     "str | object": "text or a table",
     "bool | object": "true, false or a table",
+    "str | object | null": "text or a table",
     "array | object | null": "a table or a list of tables",
     "object | array | null": "a table or a list of tables",
 }
+_PLAIN_WORDS = {"str": "text in quotes", "object": "a table", "array": "a list in brackets", "float": "a number",
+                "int": "a whole number", "bool": "true or false"}  # fmt: skip
+
+
+def _type_words(types: str) -> str:
+    """msgspec's union of types in words."""
+    plain = (_PLAIN_WORDS.get(name, name) for name in types.split(" | ") if name != "null")
+    return _TYPE_WORDS.get(types) or " or ".join(dict.fromkeys(plain))
 
 
 def _owner(kind: type[Struct], keys: list[str], table: Any) -> type[Struct]:
     """The struct that holds the last key of a path; of several, the one whose tag stands in the table."""
+    structs = [kind]
     for key in keys:
         table = _lookup(table, [key])
         field = next((f for f in msgspec.structs.fields(kind) if f.encode_name == key), None)
-        if field is not None and (structs := _structs_of(field.type)):
-            tag = table.get(structs[0].__struct_config__.tag_field) if isinstance(table, dict) else None
-            kind = next((s for s in structs if s.__struct_config__.tag == tag), structs[0])
+        if field is not None:
+            structs = _structs_of(field.type) or structs
+        # items of a list are told apart by their own tags
+        tag = table.get(structs[0].__struct_config__.tag_field) if isinstance(table, dict) else None
+        kind = next((s for s in structs if s.__struct_config__.tag == tag), structs[0])
     return kind
 
 
 def _structs_of(kind: Any) -> list[type[Struct]]:
     """The structs that a type allows, those in a list too."""
-    found = [a for a in (*get_args(kind), kind) if isinstance(a, type) and issubclass(a, Struct)]
-    return found or [a for k in get_args(kind) for a in get_args(k) if isinstance(a, type) and issubclass(a, Struct)]
+    if isinstance(kind, type) and issubclass(kind, Struct):
+        return [kind]
+    return list(dict.fromkeys(s for a in get_args(kind) for s in _structs_of(a)))
 
 
 def _describe_tags(kind: type[Struct], keys: list[str], table: Any) -> str:
     """The words that the last key of a path may hold, where it tells several tables apart; else nothing."""
-    if len(keys) < 2:
+    above = len(keys) - 2
+    while above >= 0 and keys[above].isdigit():
+        above -= 1
+    if above < 0:
         return ""
-    owner = _owner(kind, keys[:-2], table)
-    field = next((f for f in msgspec.structs.fields(owner) if f.encode_name == keys[-2]), None)
+    owner = _owner(kind, keys[:above], table)
+    field = next((f for f in msgspec.structs.fields(owner) if f.encode_name == keys[above]), None)
     structs = _structs_of(field.type) if field is not None else []
-    return _tag_words(structs) if len(structs) > 1 and structs[0].__struct_config__.tag_field == keys[-1] else ""
+    return _tag_words(structs) if structs and structs[0].__struct_config__.tag_field == keys[-1] else ""
 
 
 def _tag_words(structs: list[type[Struct]]) -> str:
-    return "one of " + ", ".join(f'"{s.__struct_config__.tag}"' for s in structs)
+    words = ", ".join(f'"{s.__struct_config__.tag}"' for s in structs)
+    return f"one of {words}" if len(structs) > 1 else f"only {words} works"
 
 
 def _lookup(table: Any, keys: list[str]) -> Any:
@@ -147,9 +167,10 @@ def describe_type(kind: Any) -> str:
             return f"table with {tagged[0].__struct_config__.tag_field} = {_tag_words(tagged)}"
         return " or ".join(dict.fromkeys(filter(None, (describe_type(a) for a in get_args(kind)))))
     low = f"above {meta.gt:g}" if meta.gt is not None else f"at least {meta.ge:g}" if meta.ge is not None else ""
-    high = f"at most {meta.le:g}" if meta.le is not None else ""
+    high = f"below {meta.lt:g}" if meta.lt is not None else f"at most {meta.le:g}" if meta.le is not None else ""
     if meta.min_length is not None and get_origin(get_args(kind)[0]) is list:
         low = f"{meta.min_length} values" if meta.max_length == meta.min_length else f"at least {meta.min_length}"
+        high = f"at most {meta.max_length}" if meta.max_length not in (None, meta.min_length) else ""
     unit = meta.extra["unit"] if meta.extra else ""
     span = " ".join(filter(None, (", ".join(filter(None, (low, high))), unit)))
     return ": ".join(filter(None, (meta.description, span, describe_type(get_args(kind)[0]))))

@@ -127,7 +127,7 @@ def _high_enough(spec: WedgeCamSpec, cam: WedgeCam) -> float | None:
     for _ in range(_RAISES):
         height += 1e-4 - _spare(spec, cam)
         try:
-            cam = _wedge_of(replace(spec, base_height=height))
+            cam = _wedge_of(replace(spec, base_height=height), told=False)
         except GeometryError:
             return None
         if _spare(spec, cam) > 0:
@@ -153,7 +153,8 @@ def wedge_part(part_id: str, spec: WedgeCamSpec, cam: WedgeCam) -> Part:
     )
 
 
-def _wedge_of(spec: WedgeCamSpec) -> WedgeCam:
+def _wedge_of(spec: WedgeCamSpec, *, told: bool = True) -> WedgeCam:
+    """The wedge cam of the keys; not ``told``: a refusal seeks no swing that works, as a search's trial."""
     from geometry.cams.wedge import WedgeCam
 
     swing = spec.oscillating
@@ -171,7 +172,7 @@ def _wedge_of(spec: WedgeCamSpec) -> WedgeCam:
     if spec.follower != "pointed" and not spec.follower_radius > 0:
         raise ParameterError("follower_radius", spec.follower_radius, f"a {spec.follower} has a radius above 0")
     motion = _motion(spec, math.radians(lift) if swing else lift)
-    return WedgeCam(motion, _mount(spec, motion), spec.follower_radius)
+    return WedgeCam(motion, _mount(spec, motion, told), spec.follower_radius)
 
 
 def _motion(spec: WedgeCamSpec, lift: float) -> WedgeMotion:
@@ -191,7 +192,7 @@ def _motion(spec: WedgeCamSpec, lift: float) -> WedgeMotion:
     return wedge_motion(made)
 
 
-def _mount(spec: WedgeCamSpec, motion: WedgeMotion) -> Upright | Swinging:
+def _mount(spec: WedgeCamSpec, motion: WedgeMotion, told: bool) -> Upright | Swinging:
     from geometry.cams.wedge import Swinging, Upright
 
     height = spec.base_height + spec.follower_radius
@@ -205,7 +206,9 @@ def _mount(spec: WedgeCamSpec, motion: WedgeMotion) -> Upright | Swinging:
     side, start = 1 if arm.side == "trailing" else -1, math.asin(drop / arm.arm_length)
     low, high = motion.extremes()
     if not (start + high < math.pi / 2 and start + low > -math.pi / 2):
-        text = f"the arm swings beyond the upright; at most {at_most(_most(spec, 'swing_deg'), 4)} degrees works"
+        most = _most(spec, "swing_deg") if told else 0.0
+        works = f"at most {at_most(most, 4)} degrees" if most >= _LEAST_MOTION else "another pivot_height or arm_length"
+        text = f"the arm swings beyond the upright; {works} works"
         raise ParameterError("swing_deg", spec.swing_deg, text)
     pivot = complex(side * arm.arm_length * math.cos(start), arm.pivot_height)
     return Swinging(pivot, arm.arm_length, start, side)
@@ -242,7 +245,7 @@ def _most(spec: WedgeCamSpec, key: str) -> float:
 
     def works(value: float) -> bool:
         try:
-            return wedge_fault(_wedge_of(replace(spec, **{key: value}))) is None
+            return wedge_fault(_wedge_of(replace(spec, **{key: value}), told=False)) is None
         except GeometryError:
             return False
 

@@ -185,7 +185,7 @@ transmission_angle_reached_deg|gamma_r|γ|deg|transmission angle reached, rise|�
 pressure_angle_rise_deg|nu_r|ν_від|deg|greatest pressure angle, rise|найбільший кут тиску при віддаленні
 pressure_angle_return_deg|nu_b|ν_наб|deg|greatest pressure angle, return|найбільший кут тиску при наближенні
 least_base_radius|r_0|r_0|mm|least radius by the condition|найменший радіус за умовою
-curvature_reserve|rho|ρ|mm|least convex radius of curvature kept|запас на радіус кривини профілю
+curvature_reserve|rho|ρ|mm|least convex radius of curvature asked|заданий запас на радіус кривини профілю
 least_cam_radius|R_min|R_min|mm|least radius of the cam|найменший радіус кулачка
 follower_radius|r|r|mm|radius of the roller or mushroom|радіус ролика або грибка
 initial_height|s_0|s_0|mm|initial height of the follower|початкова відстань штовхача від осі

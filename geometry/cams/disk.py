@@ -228,6 +228,17 @@ def oscillating_cam(
     if not (start + low > 0 and start + high < math.pi):
         remedy = "the follower swings beyond the line of centres: less lift or another base circle works"
         raise ParameterError("lift", motion.lift, remedy)
+    if kind is FollowerKind.FLAT and not start + high < math.pi / 2:
+        # the push's arm about the pivot, d cos psi / (1 + psi'), changes its sign there
+        most = (math.pi / 2 - start) * (1 - 1e-6)
+        remedy = "the flat face swings past the square to the line of centres"
+        if most > 0 and math.isclose(high, motion.lift):
+            remedy += f"; at most {at_most(math.degrees(most), 4)} degrees"
+        else:
+            remedy += "; a smaller swing"
+        base = centre_distance * math.cos(high) - face_offset
+        remedy += f", or a base circle of at most {at_most(base * (1 - 1e-6), 6)} mm, works" if base > 0 else " works"
+        raise ParameterError("lift", motion.lift, remedy)
     return DiskCam(motion, Oscillating(centre_distance, arm_length, start, sense, face_offset), kind, radius)
 
 

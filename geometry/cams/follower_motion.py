@@ -146,7 +146,8 @@ class FollowerMotion:
         return found
 
     def _scale(self, order: int) -> float:
-        return max(float(np.abs(p.value(np.array(p.domain), order)).max()) for p in self.pieces)
+        # the peaks inside too: laws whose ends are 0 but for rounding have no scale there
+        return max(float(np.abs(p.value(p.extremes(order), order)).max()) for p in self.pieces)
 
     def impacts(self) -> list[Joint]:
         """Joints with a rigid or soft impact."""
@@ -206,15 +207,24 @@ def motion_of_table(angles: Sequence[float], lifts: Sequence[float]) -> Follower
         the first.
     """
     at, values = np.asarray(angles, dtype=float), np.asarray(lifts, dtype=float)
+    key = "motion_table"
     if len(at) < 3 or len(at) != len(values):
-        raise ParameterError("table", len(at), "at least 3 rows of angle and lift are needed")
+        raise ParameterError(key, len(at), "at least 3 rows of angle and lift are needed")
     if at[0] != 0:
-        raise ParameterError("table", float(at[0]), "the first row must stand at cam angle 0")
+        raise ParameterError(key, math.degrees(at[0]), "the first row must stand at cam angle 0; 0 works")
+    if (steps := np.diff(at)).min() <= 0:
+        row = int(np.argmin(steps)) + 2
+        text = f"angles must rise; row {row} must stand above {math.degrees(at[row - 2]):.9g} degrees"
+        raise ParameterError(f"{key}.item {row}", math.degrees(at[row - 1]), text)
     if abs(at[-1] - TURN) <= _CLOSING:
         if abs(values[-1] - values[0]) > 1e-9 * np.ptp(values):
-            raise ParameterError("table", float(values[-1]), f"at 360 degrees the lift of 0, {values[0]:g}, must stand")
+            text = "the last row, at 360 degrees, must repeat the first row's lift; leaving it out works"
+            raise ParameterError(f"{key}.item {len(at)}", None, text)
         at, values = at[:-1], values[:-1]
+        if len(at) < 3:
+            raise ParameterError(key, len(at), "at least 3 rows below 360 degrees are needed")
     if not at[-1] < TURN:
-        raise ParameterError("table", float(at[-1]), "angles must stay below one turn")
+        text = "angles must stay below one turn; below 360 degrees works"
+        raise ParameterError(f"{key}.item {len(at)}", math.degrees(at[-1]), text)
     closed = cubic_pieces(np.append(at, TURN), np.append(values, values[0]), periodic=True)
     return FollowerMotion(tuple(LawPiece(a, b, c) for a, b, c in closed))

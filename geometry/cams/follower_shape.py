@@ -142,9 +142,11 @@ def flat_arm(length: float, width: float, face_offset: float, boss: float, sense
     slack = TOLERANCES.relative_join * width
     if not low - slack <= face_offset <= high + slack:
         if low > high:
-            raise ParameterError("width", width, f"has no room for the pivot; at least {at_least(boss, 4)} mm works")
+            text = f"has no room for the pivot; at least {at_least(boss, 4)} mm works, with face_offset = {low:.6g}"
+            raise ParameterError("width", width, f"{text} here and in the cam's oscillating")
         limit = f"at least {at_least(low, 4)}" if face_offset < low else f"at most {at_most(high, 4)}"
-        raise ParameterError("face_offset", face_offset, f"the pivot lies outside of the bar; {limit} mm works")
+        text = f"the pivot lies outside of the bar; {limit} mm works, the same in the cam's oscillating"
+        raise ParameterError("face_offset", face_offset, text)
     back = -(boss / 2)
     near, far = sense * face_offset, sense * (face_offset - width)
     corners = [complex(back, min(near, far)), complex(length, min(near, far))]

@@ -93,6 +93,8 @@ def graphical_fault(motion: FollowerMotion) -> str | None:
     """Why a motion cannot be integrated on paper from its acceleration diagram; None where it can."""
     if not motion.phases:
         return "a motion table has no acceleration diagram of phases"
+    if all(phase.law is None for phase in motion.phases):
+        return "the follower rests all the turn"
     for phase in motion.phases:
         law = phase.law
         if law is None:
