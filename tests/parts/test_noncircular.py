@@ -217,3 +217,11 @@ def test_cad_files_read_back(tmp_path: Path) -> None:
     exports = '\n[[exports]]\nformat = "dxf"\npurpose = "drawing"\n\n[[exports]]\nformat = "step"\n'
     scene.write_text(PART.format(one=OVAL) + exports, encoding="utf-8")
     assert main(["build", str(scene), "--out", str(tmp_path)]) == 0
+
+
+@pytest.mark.parametrize(("key", "value"), [("axis_ratio", 20.0), ("axis_ratio", 7.0), ("eccentricity", 0.99999)])
+def test_slender_ellipses_are_refused_with_one_that_works(key: str, value: float) -> None:
+    text = f'centrode = "focal_ellipse"\nmodule = 2.0\nnumber_of_teeth = 30\n{key} = '
+    with pytest.raises(SceneError, match=f"{key} = .*at most ([\\d.]+) works") as refused:
+        made(text + str(value))
+    made(text + re.search(r"at most ([\d.]+)", str(refused.value)).group(1))
