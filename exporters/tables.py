@@ -87,6 +87,8 @@ def _without_repeats(mates: list[dict[str, Any]]) -> list[dict[str, Any]]:
 def _transmission(mate: dict[str, Any], language: str) -> list[str]:
     """The transmission error of a mate, a line for each sense."""
     lines = []
+    if mate.get("transmission_error", {}) is None:
+        return [words(language, "transmission_of_involutes")]
     if mate.get("transmission_error") == {}:
         lines.append(words(language, "no_transmission"))
     for sense, found in mate.get("transmission_error", {}).items():

@@ -153,7 +153,7 @@ offset = {} moves every outline by as much|offset = {} зсуває контур
 a sheet shows the exact profile|аркуш показує точний профіль
 a picture of meshing shows a pair|картина зачеплення показує пару
 use mate = {}|задайте mate = {}
-shows pairs|показує пари
+shows pairs of involute gears only|показує лише пари евольвентних коліс
 shows external gears|показує зовнішні колеса
 is itself a part|сама є деталлю
 name that one, or give the instance another id|назвіть її або дайте екземпляру інше ім'я

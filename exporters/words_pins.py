@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 PIN_WORDS: dict[str, tuple[str, str]] = {
+    "transmission_of_involutes": (
+        "no transmission error: it is computed for pairs of involute gears only",
+        "кінематичної похибки немає: її обчислюють лише для пар евольвентних коліс",
+    ),
     "pin_circle_diameter": ("pin circle diameter, mm", "діаметр кола цівок, мм"),
     "pitch_diameter": ("pitch diameter d_w, mm", "початковий діаметр d_w, мм"),
     "inner_diameter": ("inner diameter, mm", "внутрішній діаметр, мм"),

@@ -147,7 +147,7 @@ def describe_type(kind: Any) -> str:
             return f"table with {tagged[0].__struct_config__.tag_field} = {_tag_words(tagged)}"
         return " or ".join(dict.fromkeys(filter(None, (describe_type(a) for a in get_args(kind)))))
     low = f"above {meta.gt:g}" if meta.gt is not None else f"at least {meta.ge:g}" if meta.ge is not None else ""
-    high = f"at most {meta.le:g}" if meta.le is not None else ""
+    high = f"at most {meta.le:g}" if meta.le is not None else f"below {meta.lt:g}" if meta.lt is not None else ""
     if meta.min_length is not None and get_origin(get_args(kind)[0]) is list:
         low = f"{meta.min_length} values" if meta.max_length == meta.min_length else f"at least {meta.min_length}"
     unit = meta.extra["unit"] if meta.extra else ""

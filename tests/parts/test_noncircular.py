@@ -225,3 +225,8 @@ def test_slender_ellipses_are_refused_with_one_that_works(key: str, value: float
     with pytest.raises(SceneError, match=f"{key} = .*at most ([\\d.]+) works") as refused:
         made(text + str(value))
     made(text + re.search(r"at most ([\d.]+)", str(refused.value)).group(1))
+
+
+def test_an_eccentricity_of_one_is_told_its_limit() -> None:
+    with pytest.raises(SceneError, match=r"eccentricity = .*below 1"):
+        made('centrode = "oval"\nmodule = 2.0\nnumber_of_teeth = 30\neccentricity = 1.0')

@@ -150,7 +150,7 @@ def test_output_pins_are_held_against_their_holes() -> None:
 def test_second_disc_lines_up_only_where_its_holes_do() -> None:
     again = {"kind": "cycloidal_pair", "first": "ring", "second": "upper", "direction_deg": 180.0, "height": 10.0}
     out = {"kind": "output_pins", "second": "plate"}
-    parts = {"ring": RING, "disc": DISC, "plate": PLATE | {"pin_length": 20.0}}
+    parts = {"ring": RING | {"face_width": 20.0}, "disc": DISC, "plate": PLATE | {"pin_length": 20.0}}
     stand = {"ring": {}, "disc": {}, "upper": {"part": "disc"}, "plate": {}}
     for lobes, met in ((6, True), (-5, True), (5, False), (0, False)):
         mates = [
@@ -165,7 +165,7 @@ def test_second_disc_lines_up_only_where_its_holes_do() -> None:
 
 def test_a_second_disc_of_an_even_number_of_lobes_has_holes_of_its_own() -> None:
     """Ten lobes: the other disc stands half a lobe on, and so do its holes against its lobes."""
-    ring = RING | {"number_of_pins": 11}
+    ring = RING | {"number_of_pins": 11, "face_width": 20.0}
     disc = DISC | {"number_of_lobes": 10}
     for start, met in ((18.0, True), (0.0, False)):
         other = disc | {"output_holes": DISC["output_holes"] | {"start_deg": start}}
@@ -350,3 +350,48 @@ def test_scenes_survive_their_own_report() -> None:
 def test_kinds_are_registered() -> None:
     kinds = {"cycloidal_disc", "pin_ring", "output_plate", "eccentric", "pin", "lantern_wheel", "lantern_gear"}
     assert kinds <= set(KINDS)
+
+
+@pytest.mark.parametrize(("parts", "mate", "height"), [
+    ({"ring": RING, "disc": DISC}, "cycloidal_pair", 50.0), ({"lantern": LANTERN, "gear": GEAR}, "lantern_pair", 40.0),
+])  # fmt: skip
+def test_a_height_without_a_common_face_is_told(parts: dict[str, Keys], mate: str, height: float) -> None:
+    first, second = parts
+    for z, met in ((height, False), (1.0, True)):
+        found = checked(parts, [{"kind": mate, "first": first, "second": second, "height": z}])[1]
+        assert all(c["met"] for c in found["mates"][0]["conditions"]) is met
+        assert has_bad_verdict(found) or met
+        assert ("BROKEN" in "\n".join(check_lines(found, "en"))) is not met
+
+
+def test_transmission_error_of_others_than_involutes_is_told() -> None:
+    made = scene({"lantern": LANTERN, "gear": GEAR}, [{"kind": "lantern_pair", "first": "lantern", "second": "gear"}])
+    parts, matings = make_parts(made, "t")
+    placing = place(made.instances, made.drives, parts, matings, "t")
+    for language, told in (("en", "involute gears only"), ("uk", "евольвентних")):
+        found = scene_checks(placing, parts, made.drives, language, contact=False, transmission=True)
+        assert told in "\n".join(check_lines(found, language))
+
+
+@pytest.mark.parametrize(("keys", "key"), [
+    ({"pins": "solid", "seat_clearance": 0.1}, "seat_clearance"), ({"pins": "holes", "pin_length": 5.0}, "pin_length"),
+])  # fmt: skip
+def test_keys_of_the_other_form_of_pins_are_refused(keys: Keys, key: str) -> None:
+    with pytest.raises(SceneError, match=rf"plate\.{key} = "):
+        make_parts(scene({"plate": PLATE | keys}), "t")
+
+
+@pytest.mark.parametrize(("drive", "joined", "told"), [
+    ("ring", [], r"drives\[1\].instance = .*turns the ring ring, which is held"),
+    ("eccentric", [{"kind": "fixed", "first": "ring", "second": "eccentric"}], r"mates\[1\].first = .*is held"),
+    ("eccentric", [], None),
+])  # fmt: skip
+def test_a_held_ring_is_not_turned(drive: str, joined: list[Keys], told: str | None) -> None:
+    parts = {k: PARTS[k] for k in ("ring", "disc", "eccentric", "plate")}
+    drives = [{"instance": drive, "turns": 1.0}]
+    if told is None:
+        train = checked(parts, REDUCER, drives=drives)[1]["drives"][0]["train"]
+        assert train["disc"] == pytest.approx(-1 / 11)
+    else:
+        with pytest.raises(SceneError, match=told):
+            checked(parts, [*REDUCER, *joined], drives=drives)
