@@ -47,6 +47,10 @@ PIN_WORDS: dict[str, tuple[str, str]] = {
 }
 
 PIN_FINDINGS: dict[str, tuple[str, str]] = {
+    "flat_pins": (
+        "the pins of one piece are not in a flat outline, which has holes in their place; STL, 3MF and STEP have them",
+        "суцільні пальці (цівки) не входять у плоский контур: на їхньому місці отвори; вони є в STL, 3MF і STEP",
+    ),
     "cycloidal_near_cusp": (
         "the lobes are nearly sharp: least radius {value:.4f} mm is below a tenth of the pin's, {limit:.4f} mm; "
         "a smaller eccentricity or thinner pins round them",

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError, told
+from geometry.findings import Finding
 from geometry.hub_holes import HubHoles, least_wall
 from geometry.windows import RoundHoles
 from parts.hole_keys import BoreTable, Direction, HolesTable
@@ -38,7 +39,9 @@ class OutputPlateSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag=
     pin_diameter: PinDiameter
     pins: _Form = "solid"
     pin_length: Annotated[float, mm("how far solid pins stand out; default: 10", least=0.01, most=10_000)] | None = None
-    seat_clearance: Annotated[float, mm("radius of a hole for a pin beyond the pin's", least=-10, most=100)] = 0.0
+    seat_clearance: Annotated[
+        float, mm("radius of a hole for a pin beyond the pin's (solid pins: of flat files)", least=-10, most=100)
+    ] = 0.0
     start_deg: Direction = 0.0
     outer_diameter: Annotated[float, mm("outside; default: pin circle + 2 pins", above=0, most=2 * MOST)] | None = None
     face_width: FaceWidth = 10.0
@@ -59,7 +62,9 @@ class LanternWheelSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag
     pins: _Form = "solid"
     face_width: Annotated[float, mm("free length of the pins between the plates", least=0.01, most=10_000)] = 10.0
     plate_thickness: Annotated[float, mm("thickness of each plate", least=0.01, most=10_000)] = 3.0
-    seat_clearance: Annotated[float, mm("radius of a hole for a pin beyond the pin's", least=-10, most=100)] = 0.0
+    seat_clearance: Annotated[
+        float, mm("radius of a hole for a pin beyond the pin's (solid pins: of flat files)", least=-10, most=100)
+    ] = 0.0
     outer_diameter: (
         Annotated[float, mm("outside of the plates; default: pin circle + 2 pins", above=0, most=2 * MOST)] | None
     ) = None
@@ -89,8 +94,6 @@ def checked_pin_plate(spec: PlateSpec) -> PinPlate:
     holes, solid = holes_of(spec), spec.pins == "solid"
     outer = pins.pitch_circle_diameter / 2 + spec.pin_diameter + max(spec.seat_clearance, 0.0)
     outer = outer if spec.outer_diameter is None else spec.outer_diameter / 2
-    if solid and spec.seat_clearance != 0:
-        raise ParameterError("seat_clearance", spec.seat_clearance, "pins of one piece have no holes; 0 works")
     if isinstance(spec, OutputPlateSpec):
         if not solid and spec.pin_length is not None:
             raise ParameterError("pin_length", spec.pin_length, 'is for pins = "solid"; remove it')
@@ -173,6 +176,7 @@ def _part(
         body,
         face_width=height,
         is_plate=not made.solid,
+        flat_findings=(Finding("flat_pins", 0.0, 0.0),) if made.solid else (),
         circles={"pin_circle_diameter": spec.pin_circle_diameter},
         quantities={"number_of_pins": float(spec.number_of_pins), "pin_diameter": spec.pin_diameter},
     )

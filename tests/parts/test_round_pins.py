@@ -373,12 +373,9 @@ def test_transmission_error_of_others_than_involutes_is_told() -> None:
         assert told in "\n".join(check_lines(found, language))
 
 
-@pytest.mark.parametrize(("keys", "key"), [
-    ({"pins": "solid", "seat_clearance": 0.1}, "seat_clearance"), ({"pins": "holes", "pin_length": 5.0}, "pin_length"),
-])  # fmt: skip
-def test_keys_of_the_other_form_of_pins_are_refused(keys: Keys, key: str) -> None:
-    with pytest.raises(SceneError, match=rf"plate\.{key} = "):
-        make_parts(scene({"plate": PLATE | keys}), "t")
+def test_a_length_of_loose_pins_is_refused() -> None:
+    with pytest.raises(SceneError, match=r"plate\.pin_length = 5.*remove it"):
+        make_parts(scene({"plate": PLATE | {"pins": "holes", "pin_length": 5.0}}), "t")
 
 
 @pytest.mark.parametrize(("drive", "joined", "told"), [
@@ -395,3 +392,14 @@ def test_a_held_ring_is_not_turned(drive: str, joined: list[Keys], told: str | N
     else:
         with pytest.raises(SceneError, match=told):
             checked(parts, [*REDUCER, *joined], drives=drives)
+
+
+def test_the_flat_file_of_solid_pins_says_so() -> None:
+    from exporters.words import finding_text
+
+    made = scene({"plate": PLATE, "gear": GEAR})
+    plate = make_parts(made, "t")[0]["plate"]
+    (found,) = plate.flat_findings
+    assert "pins" in finding_text("en", found)
+    assert "пальц" in finding_text("uk", found)
+    assert plate.is_plate is False
