@@ -29,6 +29,9 @@ _Amplitude = Annotated[float, Meta(ge=-10, le=10)]
 _MOST_TEETH = 2000
 _SAMPLES = 1025
 _BISECTIONS = 24
+_NOT_CLOSED = "the mate closes where it has a whole number of lobes"
+# numbers of teeth that are tried for a mate
+_OFFERS = 6
 # of ellipses that the table of the pitch line still holds (the ratio of axes 20 is at 0.99875)
 _MOST_ECCENTRICITY = 0.999
 
@@ -105,6 +108,8 @@ def checked_noncircular_gear(spec: NoncircularGearSpec) -> NoncircularGear:
         text = f"too slender to compute; at most {20 if key == 'axis_ratio' else _MOST_ECCENTRICITY} works"
         raise ParameterError(key, getattr(spec, key), text) from refusal
     except ParameterError as refusal:
+        if refusal.allowed.startswith(_NOT_CLOSED):
+            raise _with_closing_mate(spec, refusal) from refusal
         if refusal.name not in ("centrode", "undercut", "number_of_teeth", "profile_shift_coefficient"):
             raise
         raise _with_remedy(spec, refusal) from refusal
@@ -270,6 +275,28 @@ def _with_remedy(spec: NoncircularGearSpec, refusal: ParameterError) -> Paramete
                 text += f" with mate_number_of_teeth = {more.mate_number_of_teeth}"
             return ParameterError("number_of_teeth", z, text)
     return ParameterError("number_of_teeth", z, f"{reason}; a rounder centrode works")
+
+
+def _with_closing_mate(spec: NoncircularGearSpec, refusal: ParameterError) -> ParameterError:
+    """A mate that does not close: the nearest number of teeth with which it does, and both gears can be cut."""
+    mate = spec.role == "mate"
+    other = spec.mate_number_of_teeth or spec.number_of_teeth
+    asked, driver = (spec.number_of_teeth, other) if mate else (other, spec.number_of_teeth)
+    lobes = spec.lobes or (2 if spec.centrode == "oval" else 1)
+    step = driver // math.gcd(driver, lobes)
+    offers = sorted((k * step for k in range(1, _MOST_TEETH // step + 1)), key=lambda z: abs(z - asked))
+    for teeth in (z for z in offers[:_OFFERS] if z >= 3):
+        pair = (("driver", driver, teeth), ("mate", teeth, driver))
+        keys = ({"role": r, "number_of_teeth": a, "mate_number_of_teeth": b} for r, a, b in pair)
+        # a shift of one gear is the other's with its sign turned
+        signs = (-1 if mate else 1, 1 if mate else -1)
+        shifts = (sign * spec.profile_shift_coefficient for sign in signs)
+        if all(
+            _builds(msgspec.structs.replace(spec, **k, profile_shift_coefficient=x))
+            for k, x in zip(keys, shifts, strict=True)
+        ):
+            return ParameterError(refusal.name, refusal.value, f"{_NOT_CLOSED}; {teeth} works")
+    return ParameterError(refusal.name, refusal.value, f"{_NOT_CLOSED}; a rounder centrode has one")
 
 
 def _teeth(spec: NoncircularGearSpec, teeth: int, ratio: float) -> NoncircularGearSpec | None:

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 import ezdxf
-import msgspec
 import pytest
 
 from exporters.build import build
@@ -394,9 +393,3 @@ def test_a_helical_pair_shows_its_transverse_section_and_tells_normal_data(
         assert {"mn", "mt", "β", "xn1", "20.0000°", "0.2"} <= set(words)
         assert f"{2 / math.cos(math.radians(20)):.6g}" in words
         assert f"{30 * math.sin(math.radians(20)) / (2 * math.pi):.4f}" in words
-
-
-def test_a_scene_of_other_mates_is_told_that_the_sheet_shows_involute_gears() -> None:
-    scene = msgspec.structs.replace(load_scene("lantern_pair"), exports=scene_with({}).exports)
-    with pytest.raises(SceneError, match="involute gears only; remove it"):
-        plan_build(scene, "t", [], [])
