@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 import pytest
 
 from exporters.check import scene_checks
+from exporters.preview import part_preview
 from exporters.tables import check_lines, has_bad_verdict
 from parts.placing import place
 from parts.scene import make_parts
@@ -64,3 +68,12 @@ def test_the_flat_file_of_solid_pins_says_so() -> None:
     assert "pins" in finding_text("en", found)
     assert "пальц" in finding_text("uk", found)
     assert plate.is_plate is False
+
+
+def test_pictures_show_solid_pins_filled(tmp_path: Path) -> None:
+    for pins, filled in (("solid", True), ("holes", False)):
+        part = make_parts(scene({"plate": PLATE | {"pins": pins, "bore_diameter": 8.0}}), "t")[0]["plate"]
+        text = part_preview(part, tmp_path, "en").read_text(encoding="utf-8")
+        found = re.findall(r'<path d="([^"]*)" style="fill:#7f8c99', text)
+        assert bool(found) is filled
+        assert not filled or found[0].count("M") == PLATE["number_of_pins"]
