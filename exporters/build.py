@@ -256,7 +256,9 @@ WRITERS: dict[str, Callable[[Job, Any, Path], dict[str, int]]] = {
 
 def _job_findings(job: Job, made: Shape) -> list[Finding]:
     """Remarks on one file: a tolerance too coarse for the teeth, edges too short for a laser."""
-    found = [] if job.is_solid or job.part.is_plate else [Finding("flat_outline", 0.0, 0.0)]
+    # a part that says itself what its flat outline lacks needs no more
+    says = job.is_solid or job.part.is_plate or any(f.code == "flat_pins" for f in job.part.flat_findings)
+    found = [] if says else [Finding("flat_outline", 0.0, 0.0)]
     found += [] if job.is_solid else job.part.flat_findings
     # a part without teeth has none to lose
     limit = _COARSE_SHARE * job.part.quantities.get("pitch", math.inf) / math.pi

@@ -16,6 +16,9 @@ from parts.placing import Closeness, Condition, PlacedMate, Placing
 if TYPE_CHECKING:
     from parts.interference import SolidOverlap
 
+# mates that run no gears in each other: of these transmission error is not asked
+_WITHOUT_TEETH = ("fixed", "coaxial", "pin_seat", "eccentric_bearing")
+
 
 def scene_checks(
     placing: Placing,
@@ -114,14 +117,18 @@ def _mate(mate: PlacedMate, language: str, *, contact: bool) -> dict[str, Any]:
         found = check_pair(mate.mating, language)
     found["direction_deg"] = math.degrees(mate.direction)
     found["second_rotation_deg"] = math.degrees(mate.second.rotation)
-    if mate.only_checks:
+    if mate.conditions:
         found["conditions"] = [_condition(c, mate, language) for c in mate.conditions]
     return found
 
 
 def _add_transmission(found: dict[str, Any], mate: PlacedMate) -> None:
     """The transmission error of gears in mesh: nothing where the conditions are broken."""
-    if mate.mating.pair is None or not all(c.met for c in mate.conditions):
+    if mate.mating.pair is None:
+        if mate.mating.kind not in _WITHOUT_TEETH:
+            found["transmission_error"] = None
+        return
+    if not all(c.met for c in mate.conditions):
         return
     from parts.transmission import transmission_error
 

@@ -8,6 +8,7 @@ import msgspec
 from msgspec import Struct
 
 from exporters import new_examples
+from exporters.new_several import several
 from parts.kinds import KINDS
 from parts.mates import JOINS, MATES
 from parts.scene import ExportSpec, SceneInfo
@@ -68,6 +69,7 @@ _EXAMPLES = {
     "mate_number_of_teeth": "30",
     "axis_ratio": "1.5",
     "lobes": "2",
+    "pin_length": "10.0",
     "ratio_cosines": "[0.3]",
     "ratio_sines": "[0.1]",
 }
@@ -134,37 +136,6 @@ _TABLE_EXAMPLES = {
     ("LanternGearSpec", "tip_diameter"): "220.0",
 }
 
-# what a scene of several parts may add
-_ASSEMBLY = """
-# With a second part, [parts.wheel], the two can be put in mesh and written as one assembly; remove both #:
-## [[mates]]
-## kind = "external_gear_pair"                # centre distance, tip shortening, phase
-## first = "gear"
-## second = "wheel"
-## direction_deg = 0.0                        # direction of the line of centres
-##
-## [instances.second_wheel]                   # a part may stand more than once
-## part = "wheel"
-## at = [100.0, 0.0, 0.0]                     # mm; or let a mate place it
-## rotation_deg = 0.0
-##
-## [[drives]]
-## instance = "gear"
-## turns = 1.0
-##
-## [checks]
-## interference = true                        # contact and overlap through a whole pitch
-## transmission_error = true                  # how unevenly each mate runs, without load
-##
-## [[exports]]
-## format = "step"
-## assembly = true                            # one file, named parts, true instances
-##
-## [[exports]]
-## format = "sheet"                           # picture of meshing of every pair, DXF and SVG
-## mate = 1                                   # only of this one; purpose = "generating": device TMM-42
-## title_block = true                         # GOST 2.104, form 1; or { designation = "...", … }""".splitlines()
-
 # keys that only sheets have: they stand in the part for several parts
 _SHEET_KEYS = ("mate", "rack_step", "intervals", "speed_rpm", "title_block")
 
@@ -193,7 +164,7 @@ def new_scene(kind: str) -> str:
         "",
         "[[exports]]",
         'format = "stl"',
-        *_ASSEMBLY,
+        *several(kind),
     ]
     return "\n".join(lines) + "\n"
 

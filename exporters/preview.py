@@ -20,6 +20,8 @@ from parts.part import Part
 
 # letters of the caption that fit beside a part, and above a scene
 _CAPTION_LETTERS, _WIDE_LETTERS = 42, 100
+# of pins of one piece, which stand out of their plate
+_PIN_STYLE = "fill:#7f8c99;stroke:#202830"
 _FILLS = ("#b8c4d0", "#d9c39a", "#b5cfae", "#d3b3b3", "#bdb6d6")
 
 
@@ -46,6 +48,9 @@ def part_preview(part: Part, folder: Path, language: str) -> Path:
     lines.append(
         f'<path d="{data}" style="fill:{fill};fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 400:.4g}"/>'
     )
+    pins = " ".join(path_data(c, middle) for c in _solid_pins(part, boundaries))
+    if pins:
+        lines.append(f'<path d="{pins}" style="{_PIN_STYLE};stroke-width:{reach / 400:.4g}"/>')
     dash = f"{reach / 30:.4g} {reach / 120:.4g} {reach / 200:.4g} {reach / 120:.4g}"
     for name, diameter in part.circles.items():
         colour = _CIRCLE_COLOURS.get(name, "#808080")
@@ -85,6 +90,10 @@ def scene_preview(plan: Plan, checks: dict[str, Any], folder: Path) -> Path:
         fill = plan.parts[instance.part].colour or _FILLS[index % len(_FILLS)]
         style = f"fill:{fill};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 600:.4g}"
         lines.append(f'<path d="{data}" style="{style}"/>')
+        solid = _solid_pins(plan.parts[instance.part], outlines[instance.part])
+        pins = " ".join(path_data(_placed(c, turn, instance.centre + shift), middle) for c in solid)
+        if pins:
+            lines.append(f'<path d="{pins}" style="{_PIN_STYLE};stroke-width:{reach / 600:.4g}"/>')
         place = instance.centre + shift
         x, y = (
             middle + place.real,
@@ -109,6 +118,16 @@ def _outlines(part: Part) -> tuple[Approximation, ...]:
     region = part.section(0.0).region
     tolerance = max(2e-4 * region.outer.reach(), 1e-6)
     return tuple(approximate_profile(p, tolerance, arcs=True) for p in region.profiles())
+
+
+def _solid_pins(part: Part, outlines: tuple[Approximation, ...]) -> list[Contour]:
+    """Where a flat outline has holes in place of pins of one piece: the holes on the pin circle."""
+    if not any(f.code == "flat_pins" for f in part.flat_findings):
+        return []
+    radius = part.circles["pin_circle_diameter"] / 2
+    contours = [a.geometry for a in outlines[:-1]]
+    centres = [complex(np.mean(c.expanded()[0])) for c in contours]
+    return [c for c, at in zip(contours, centres, strict=True) if abs(abs(at) - radius) < 1e-6 * radius]
 
 
 def _samples(contour: Contour) -> Complex:

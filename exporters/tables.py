@@ -87,6 +87,8 @@ def _without_repeats(mates: list[dict[str, Any]]) -> list[dict[str, Any]]:
 def _transmission(mate: dict[str, Any], language: str) -> list[str]:
     """The transmission error of a mate, a line for each sense."""
     lines = []
+    if mate.get("transmission_error", {}) is None:
+        return [words(language, "transmission_of_involutes")]
     # helical teeth that bridge the gap along their face run on: only their section has no error of its own
     if mate.get("transmission_error") == {} and mate.get("total_contact_ratio", 0.0) < 1:
         lines.append(words(language, "no_transmission"))

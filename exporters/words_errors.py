@@ -154,7 +154,19 @@ offset = {} moves every outline by as much|offset = {} зсуває контур
 a sheet shows the exact profile|аркуш показує точний профіль
 a picture of meshing shows a pair|картина зачеплення показує пару
 use mate = {}|задайте mate = {}
-shows pairs|показує пари
+shows pairs of involute gears only|показує лише пари евольвентних коліс
+the roots reach the axis|западини сягають осі
+too slender to compute|надто видовжений, щоб обчислити
+is held, but other mates join it to {}, which turns in it|\
+нерухомий, але інші пари з'єднують його з {}, що обертається в ньому
+remove the one that does|приберіть ту, що з'єднує
+turns the ring {}, which is held|обертає нерухомий вінець {}
+drive {} or its eccentric, or remove this drive|приводьте {} або його ексцентрик, або приберіть цей привід
+the mate closes where it has a whole number of lobes|друге колесо замикається, коли має ціле число виступів
+a rounder centrode has one|округліша центроїда має таке
+is not of the first gear's pair|не належить до пари першого колеса
+the centrodes differ in shape (axis_ratio or eccentricity)|центроїди різної форми (axis_ratio або eccentricity)
+is for pins = "solid"|лише для pins = "solid"
 shows external gears|показує зовнішні колеса
 is itself a part|сама є деталлю
 name that one, or give the instance another id|назвіть її або дайте екземпляру інше ім'я

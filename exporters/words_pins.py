@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 PIN_WORDS: dict[str, tuple[str, str]] = {
+    "transmission_of_involutes": (
+        "no transmission error: it is computed for pairs of involute gears only",
+        "кінематичної похибки немає: її обчислюють лише для пар евольвентних коліс",
+    ),
     "pin_circle_diameter": ("pin circle diameter, mm", "діаметр кола цівок, мм"),
     "pitch_diameter": ("pitch diameter d_w, mm", "початковий діаметр d_w, мм"),
     "inner_diameter": ("inner diameter, mm", "внутрішній діаметр, мм"),
@@ -43,6 +47,10 @@ PIN_WORDS: dict[str, tuple[str, str]] = {
 }
 
 PIN_FINDINGS: dict[str, tuple[str, str]] = {
+    "flat_pins": (
+        "the pins of one piece are not in a flat outline, which has holes in their place; STL, 3MF and STEP have them",
+        "суцільні пальці (цівки) не входять у плоский контур: на їхньому місці отвори; вони є в STL, 3MF і STEP",
+    ),
     "cycloidal_near_cusp": (
         "the lobes are nearly sharp: least radius {value:.4f} mm is below a tenth of the pin's, {limit:.4f} mm; "
         "a smaller eccentricity or thinner pins round them",

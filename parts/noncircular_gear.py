@@ -10,7 +10,7 @@ import msgspec
 import numpy as np
 from msgspec import Meta, Struct
 
-from geometry.errors import GeometryError, ParameterError, at_least, at_most
+from geometry.errors import ConvergenceError, GeometryError, ParameterError, at_least, at_most, format_value
 from geometry.profile import Profile
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.cutter_keys import RackName
@@ -29,6 +29,11 @@ _Amplitude = Annotated[float, Meta(ge=-10, le=10)]
 _MOST_TEETH = 2000
 _SAMPLES = 1025
 _BISECTIONS = 24
+_NOT_CLOSED = "the mate closes where it has a whole number of lobes"
+# numbers of teeth that are tried for a mate
+_OFFERS = 6
+# of ellipses that the table of the pitch line still holds (the ratio of axes 20 is at 0.99875)
+_MOST_ECCENTRICITY = 0.999
 
 
 class NoncircularGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="noncircular_gear"):
@@ -94,10 +99,17 @@ def checked_noncircular_gear(spec: NoncircularGearSpec) -> NoncircularGear:
     ParameterError
         The gear cannot exist; names the key and the nearest value that works.
     """
+    _check_slender(spec)
     try:
         gear = gear_of(spec)
         gear.outline  # noqa: B018
+    except ConvergenceError as refusal:
+        key = "axis_ratio" if spec.eccentricity is None else "eccentricity"
+        text = f"too slender to compute; at most {20 if key == 'axis_ratio' else _MOST_ECCENTRICITY} works"
+        raise ParameterError(key, getattr(spec, key), text) from refusal
     except ParameterError as refusal:
+        if refusal.allowed.startswith(_NOT_CLOSED):
+            raise _with_closing_mate(spec, refusal) from refusal
         if refusal.name not in ("centrode", "undercut", "number_of_teeth", "profile_shift_coefficient"):
             raise
         raise _with_remedy(spec, refusal) from refusal
@@ -113,6 +125,36 @@ def checked_noncircular_gear(spec: NoncircularGearSpec) -> NoncircularGear:
     except ParameterError as refusal:
         raise as_typed(spec, refusal) from refusal
     return gear
+
+
+def _check_slender(spec: NoncircularGearSpec) -> None:
+    """An ellipse about its focus whose roots reach the axis by far, told before its long table is made.
+
+    Only where twice the teeth would not help: nearer ones are offered more teeth.
+    """
+    if spec.centrode == "ratio" or (spec.axis_ratio is None) == (spec.eccentricity is None):
+        return
+    key = "axis_ratio" if spec.eccentricity is None else "eccentricity"
+    rack = basic_rack_of(spec.basic_rack, math.radians(spec.pressure_angle_deg))
+    depth = rack.dedendum - spec.profile_shift_coefficient
+    other = spec.mate_number_of_teeth or spec.number_of_teeth
+    teeth = other if spec.role == "mate" else spec.number_of_teeth
+
+    def stands(value: float, number: int) -> bool:
+        """Whether the least radius, a (1 - e) of an ellipse of perimeter 4 a E(e), exceeds the dedendum."""
+        e = centrode_of(msgspec.structs.replace(spec, **{key: value}), (teeth, other)).eccentricity  # type: ignore[union-attr]
+        quarter = np.sqrt(1 - (e * np.sin((np.arange(_SAMPLES) + 0.5) * math.pi / _SAMPLES)) ** 2).mean() * math.pi / 2
+        return bool(number * math.pi / (4 * quarter) * (1 - e) > depth)
+
+    asked = getattr(spec, key)
+    if (spec.lobes or (2 if spec.centrode == "oval" else 1)) > 1 or stands(asked, 2 * teeth):
+        return
+    round_one = 1.0 if key == "axis_ratio" else 0.0
+    high = round_one + _largest(lambda v: stands(round_one + v, teeth), asked - round_one)
+    for step in range(16):
+        value = float(at_most(round_one + (high - round_one) * (1 - step / 16), 4))
+        if _builds(msgspec.structs.replace(spec, **{key: value})):
+            raise ParameterError(key, asked, f"the roots reach the axis; at most {format_value(value)} works")
 
 
 def gear_of(spec: NoncircularGearSpec) -> NoncircularGear:
@@ -233,6 +275,28 @@ def _with_remedy(spec: NoncircularGearSpec, refusal: ParameterError) -> Paramete
                 text += f" with mate_number_of_teeth = {more.mate_number_of_teeth}"
             return ParameterError("number_of_teeth", z, text)
     return ParameterError("number_of_teeth", z, f"{reason}; a rounder centrode works")
+
+
+def _with_closing_mate(spec: NoncircularGearSpec, refusal: ParameterError) -> ParameterError:
+    """A mate that does not close: the nearest number of teeth with which it does, and both gears can be cut."""
+    mate = spec.role == "mate"
+    other = spec.mate_number_of_teeth or spec.number_of_teeth
+    asked, driver = (spec.number_of_teeth, other) if mate else (other, spec.number_of_teeth)
+    lobes = spec.lobes or (2 if spec.centrode == "oval" else 1)
+    step = driver // math.gcd(driver, lobes)
+    offers = sorted((k * step for k in range(1, _MOST_TEETH // step + 1)), key=lambda z: abs(z - asked))
+    for teeth in (z for z in offers[:_OFFERS] if z >= 3):
+        pair = (("driver", driver, teeth), ("mate", teeth, driver))
+        keys = ({"role": r, "number_of_teeth": a, "mate_number_of_teeth": b} for r, a, b in pair)
+        # a shift of one gear is the other's with its sign turned
+        signs = (-1 if mate else 1, 1 if mate else -1)
+        shifts = (sign * spec.profile_shift_coefficient for sign in signs)
+        if all(
+            _builds(msgspec.structs.replace(spec, **k, profile_shift_coefficient=x))
+            for k, x in zip(keys, shifts, strict=True)
+        ):
+            return ParameterError(refusal.name, refusal.value, f"{_NOT_CLOSED}; {teeth} works")
+    return ParameterError(refusal.name, refusal.value, f"{_NOT_CLOSED}; a rounder centrode has one")
 
 
 def _teeth(spec: NoncircularGearSpec, teeth: int, ratio: float) -> NoncircularGearSpec | None:

@@ -126,8 +126,7 @@ def noncircular_mating(mate: NoncircularGearPairSpec, first: NoncircularGear, se
     assert one is not None
     assert two is not None
     if not one.is_like(two):
-        text = "is not of the same pair: centrode, its shape, module and numbers of teeth must be the first one's"
-        raise ParameterError("centrode", _described(two), f"{text}, {_described(one)}")
+        raise _unlike(first, second)
     if (first.first_tooth == second.first_tooth) and not one.twins_mesh:
         role = "mate" if first.first_tooth == 0 else "driver"
         lobes = one.lobes[0]
@@ -145,6 +144,28 @@ def noncircular_mating(mate: NoncircularGearPairSpec, first: NoncircularGear, se
         if not math.isclose(found, wanted, abs_tol=1e-12):
             raise ParameterError(key, found, f"must fit its mate; {format_value(wanted)} works")
     return NoncircularMating(mate.first, mate.second, mate.direction_deg, NoncircularPair(first, second))
+
+
+def _unlike(first: NoncircularGear, second: NoncircularGear) -> ParameterError:
+    """The first key in which the second gear is not of the first one's pair."""
+    one: Any = first.pairing
+    two: Any = second.pairing
+    # the second tells the pair as its own role sees it
+    own = 1 if second.first_tooth else 0
+    for key, place in (("number_of_teeth", own), ("mate_number_of_teeth", 1 - own)):
+        if one.teeth[place] != two.teeth[place]:
+            text = f"is not of the first gear's pair; {one.teeth[place]} works"
+            return ParameterError(key, two.teeth[place], text)
+    mine, theirs = getattr(one.centrode, "eccentricity", None), getattr(two.centrode, "eccentricity", None)
+    if mine is not None and theirs is not None and one.lobes == two.lobes:
+        if not math.isclose(mine, theirs, rel_tol=1e-9, abs_tol=1e-9):
+            text = f"the centrodes differ in shape (axis_ratio or eccentricity); {format_value(mine)} works"
+            return ParameterError("eccentricity", theirs, text)
+        if not math.isclose(first.module, second.module, rel_tol=1e-9):
+            text = f"is not of the first gear's pair; {format_value(first.module)} works"
+            return ParameterError("module", second.module, text)
+    text = "is not of the same pair: centrode, its shape, module and numbers of teeth must be the first one's"
+    return ParameterError("centrode", _described(two), f"{text}, {_described(one)}")
 
 
 def _described(pairing: Any) -> str:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError, told
+from geometry.findings import Finding
 from geometry.hub_holes import HubHoles, least_wall
 from geometry.windows import RoundHoles
 from parts.hole_keys import BoreTable, Direction, HolesTable
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
     from geometry.pin_plates import PinPlate
 
 _MARGIN = 1e-6
+# of solid pins beyond the plate where no key says it, mm
+_PIN_LENGTH = 10.0
 _Form = Annotated[
     Literal["solid", "holes"],
     Meta(description="pins of one piece with the plate, or holes for loose pins (flat files: holes)"),
@@ -35,8 +38,10 @@ class OutputPlateSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag=
     pin_circle_diameter: PinCircle
     pin_diameter: PinDiameter
     pins: _Form = "solid"
-    pin_length: Annotated[float, mm("how far solid pins stand out", least=0.01, most=10_000)] = 10.0
-    seat_clearance: Annotated[float, mm("radius of a hole for a pin beyond the pin's", least=-10, most=100)] = 0.0
+    pin_length: Annotated[float, mm("how far solid pins stand out; default: 10", least=0.01, most=10_000)] | None = None
+    seat_clearance: Annotated[
+        float, mm("radius of a hole for a pin beyond the pin's (solid pins: of flat files)", least=-10, most=100)
+    ] = 0.0
     start_deg: Direction = 0.0
     outer_diameter: Annotated[float, mm("outside; default: pin circle + 2 pins", above=0, most=2 * MOST)] | None = None
     face_width: FaceWidth = 10.0
@@ -57,7 +62,9 @@ class LanternWheelSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag
     pins: _Form = "solid"
     face_width: Annotated[float, mm("free length of the pins between the plates", least=0.01, most=10_000)] = 10.0
     plate_thickness: Annotated[float, mm("thickness of each plate", least=0.01, most=10_000)] = 3.0
-    seat_clearance: Annotated[float, mm("radius of a hole for a pin beyond the pin's", least=-10, most=100)] = 0.0
+    seat_clearance: Annotated[
+        float, mm("radius of a hole for a pin beyond the pin's (solid pins: of flat files)", least=-10, most=100)
+    ] = 0.0
     outer_diameter: (
         Annotated[float, mm("outside of the plates; default: pin circle + 2 pins", above=0, most=2 * MOST)] | None
     ) = None
@@ -88,7 +95,9 @@ def checked_pin_plate(spec: PlateSpec) -> PinPlate:
     outer = pins.pitch_circle_diameter / 2 + spec.pin_diameter + max(spec.seat_clearance, 0.0)
     outer = outer if spec.outer_diameter is None else spec.outer_diameter / 2
     if isinstance(spec, OutputPlateSpec):
-        thickness, length = spec.face_width, spec.pin_length
+        if not solid and spec.pin_length is not None:
+            raise ParameterError("pin_length", spec.pin_length, 'is for pins = "solid"; remove it')
+        thickness, length = spec.face_width, _pin_length(spec)
     else:
         thickness, length = spec.plate_thickness, spec.face_width
     made = PinPlate(pins, outer, holes, solid, spec.seat_clearance, thickness, length)
@@ -107,6 +116,10 @@ def checked_pin_plate(spec: PlateSpec) -> PinPlate:
     every = HubHoles(holes.bore, (own, *holes.round_holes), holes.spokes)
     check_holes(spec, every, outer, own=1)
     return made
+
+
+def _pin_length(spec: OutputPlateSpec) -> float:
+    return _PIN_LENGTH if spec.pin_length is None else spec.pin_length
 
 
 def _check_pins(spec: PlateSpec, made: PinPlate, least: float) -> None:
@@ -133,7 +146,7 @@ def output_plate_part(part_id: str, spec: OutputPlateSpec, made: PinPlate) -> Pa
     def body(offset: float) -> Body:
         return made.body(offset)
 
-    height = spec.face_width + (spec.pin_length if made.solid else 0.0)
+    height = spec.face_width + (_pin_length(spec) if made.solid else 0.0)
     return _part(part_id, spec, made, section, body, height)
 
 
@@ -163,6 +176,7 @@ def _part(
         body,
         face_width=height,
         is_plate=not made.solid,
+        flat_findings=(Finding("flat_pins", 0.0, 0.0),) if made.solid else (),
         circles={"pin_circle_diameter": spec.pin_circle_diameter},
         quantities={"number_of_pins": float(spec.number_of_pins), "pin_diameter": spec.pin_diameter},
     )

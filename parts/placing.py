@@ -269,8 +269,9 @@ def _with_faces_and_speeds(mates: tuple[PlacedMate, ...], parts: dict[str, Part]
     done = []
     for index, mate in enumerate(mates):
         more: list[Condition] = []
-        if mate.only_checks:
+        if mate.only_checks or (mate.mating.has_contact and mate.mating.height):
             more.append(_height(mate, parts))
+        if mate.only_checks:
             face = face_of(mate.mating)
             if face.helix.angle:
                 width = max(_common_width(mate.first, mate.second, parts), 0.0)
@@ -322,8 +323,26 @@ def _close_ones(
     return tuple(found)
 
 
+def _check_held(
+    drives: Sequence[DriveSpec], trains: list[dict[str, float]], matings: list[Mating], source: str
+) -> None:
+    """The ring of a cycloidal pair is held: neither its disc nor a drive may carry it along."""
+    for index, mating in enumerate(matings, 1):
+        if mating.kind != "cycloidal_pair":
+            continue
+        ring, disc = mating.first, mating.second
+        if disc in _train(ring, matings):
+            remedy = f"is held, but other mates join it to {disc}, which turns in it; remove the one that does"
+            raise SceneError(source, f"mates[{index}].first", ring, remedy)
+        for number, (drive, train) in enumerate(zip(drives, trains, strict=True), 1):
+            if ring in train:
+                remedy = f"turns the ring {ring}, which is held; drive {disc} or its eccentric, or remove this drive"
+                raise SceneError(source, f"drives[{number}].instance", drive.instance, remedy)
+
+
 def _turns(drives: Sequence[DriveSpec], matings: list[Mating], source: str) -> tuple[dict[str, float], ...]:
     trains = [_train(d.instance, matings) for d in drives]
+    _check_held(drives, trains, matings, source)
     for index, drive in enumerate(drives):
         for earlier, train in zip(drives[:index], trains, strict=False):
             if drive.instance in train:

@@ -84,8 +84,9 @@ def sheet_jobs(scene: SceneFile, matings: list[Mating], export: ExportSpec, wher
         return [SheetJob(export, x, f"{name}.{part}.{ending}", where) for part, x in made for ending in ENDINGS]
     if all(m.pair is None for m in matings):
         has_cam = any(isinstance(spec, CamSpec) for spec in scene.parts.values())
-        remedy = 'purpose = "cam" draws the cams that are here' if has_cam else "add [[mates]] or remove it"
-        raise SceneError(source, f"{where}.purpose", export.purpose, f"shows pairs; {remedy}")
+        remedy = "remove it" if matings else "add [[mates]] or remove it"
+        remedy = 'purpose = "cam" draws the cams that are here' if has_cam else remedy
+        raise SceneError(source, f"{where}.purpose", export.purpose, f"shows pairs of involute gears only; {remedy}")
     if export.mate is not None and not 1 <= export.mate <= len(matings):
         raise SceneError(source, f"{where}.mate", export.mate, f"must be from 1 to {len(matings)}, the number of mates")
     jobs = []

@@ -21,7 +21,7 @@ from geometry.errors import ConvergenceError
 from geometry.series import Series, composed, derived, exponential, majorant_power, power, product, quotient, sharpened
 
 _NODES = 16
-_FIRST_PANELS, _MOST_PANELS = 64, 8192
+_FIRST_PANELS, _MOST_PANELS = 64, 32768
 # the last coefficients of the polynomials are below this part of the largest value; of the curvature and its slope
 _TAIL, _CURVATURE_TAIL, _SLOPE_TAIL = 4e-15, 1e-13, 1e-11
 # where more panels no longer help, rounding is left: up to this

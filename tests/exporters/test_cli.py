@@ -14,7 +14,7 @@ import pytest
 
 from exporters import __version__
 from parts.kinds import KINDS
-from parts.mates import MATES
+from parts.mates import JOINS, MATES
 from parts.scene import built_in_scenes
 
 from .making import build_gear, part_keys, read_report, run, write_scene
@@ -222,6 +222,19 @@ def test_new_prints_every_mate_with_its_keys(kind: str, capsys: pytest.CaptureFi
     table = tomllib.loads(new_scene(capsys, kind))["mates"][0]
     assert table["kind"] == kind
     assert {"first", "second"} <= set(table)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_mate_at_the_end_of_a_new_scene_joins_its_kind(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+    text = new_scene(capsys, kind)
+    told = tomllib.loads("\n".join(line[3:] for line in text.splitlines() if line.startswith("## ")))
+    mate, partner = told["mates"][0], re.search(r'second part, \[parts\.(\w+)\](?: of kind "(\w+)")?', text)
+    joined = JOINS[mate["kind"]]
+    kinds = {"gear": kind, partner[1]: partner[2]}
+    assert joined is None or (kinds[mate["first"]], kinds[mate["second"]]) in joined
+    assert ("transmission_error" in text) is mate["kind"].endswith(
+        ("external_gear_pair", "internal_gear_pair", "rack_pair")
+    )
 
 
 def test_every_commented_key_may_be_set_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -139,8 +139,8 @@ def test_equal_ovals_with_teeth_that_do_not_fit_are_told_the_role() -> None:
 
 
 @pytest.mark.parametrize(("other", "key"), [
-    (OVAL.replace("1.4", "1.3"), "centrode"),
-    (OVAL.replace("module = 2.0", "module = 2.5"), "centrode"),
+    (OVAL.replace("1.4", "1.3"), "eccentricity"),
+    (OVAL.replace("module = 2.0", "module = 2.5"), "module"),
     (OVAL + "\npressure_angle_deg = 25.0", "pressure_angle_deg"),
     (OVAL + "\nprofile_shift_coefficient = 0.1", "profile_shift_coefficient"),
 ])  # fmt: skip
@@ -217,3 +217,41 @@ def test_cad_files_read_back(tmp_path: Path) -> None:
     exports = '\n[[exports]]\nformat = "dxf"\npurpose = "drawing"\n\n[[exports]]\nformat = "step"\n'
     scene.write_text(PART.format(one=OVAL) + exports, encoding="utf-8")
     assert main(["build", str(scene), "--out", str(tmp_path)]) == 0
+
+
+@pytest.mark.parametrize(("key", "value"), [("axis_ratio", 20.0), ("axis_ratio", 7.0), ("eccentricity", 0.99999)])
+def test_slender_ellipses_are_refused_with_one_that_works(key: str, value: float) -> None:
+    text = f'centrode = "focal_ellipse"\nmodule = 2.0\nnumber_of_teeth = 30\n{key} = '
+    with pytest.raises(SceneError, match=f"{key} = .*at most ([\\d.]+) works") as refused:
+        made(text + str(value))
+    made(text + re.search(r"at most ([\d.]+)", str(refused.value)).group(1))
+
+
+def test_an_eccentricity_of_one_is_told_its_limit() -> None:
+    with pytest.raises(SceneError, match=r"eccentricity = .*below 1"):
+        made('centrode = "oval"\nmodule = 2.0\nnumber_of_teeth = 30\neccentricity = 1.0')
+
+
+@pytest.mark.parametrize(("change", "key"), [
+    (("axis_ratio = 1.4", "axis_ratio = 1.5"), "eccentricity"), (("module = 2.0", "module = 2.5"), "module"),
+    (("teeth = 18", "teeth = 22"), "number_of_teeth"),
+])  # fmt: skip
+def test_two_gears_of_unlike_pairs_are_told_the_key_and_its_value(change: tuple[str, str], key: str) -> None:
+    other = OVAL.replace(*change) + '\nrole = "mate"'
+    with pytest.raises(SceneError, match=rf"two\.{key} = ") as refused:
+        placed(two(OVAL, other))
+    works = re.search(r"; ([\d.]+) works", str(refused.value)).group(1)
+    if key == "eccentricity":
+        other = other.replace("axis_ratio = 1.5", "eccentricity = 0")
+    placed(two(OVAL, re.sub(rf"\b{key} = \S+", f"{key} = {works}", other)))
+
+
+def test_a_mate_that_is_offered_can_be_cut() -> None:
+    keys = 'centrode = "{}"\n{}\nmodule = 2.0\nnumber_of_teeth = {}\nmate_number_of_teeth = {}'
+    for shape, value, teeth, mate_teeth in (("oval", "axis_ratio = 1.9", 30, 20), ("oval", "axis_ratio = 1.8", 42, 26)):
+        text = keys.format(shape, value, teeth, mate_teeth)
+        with pytest.raises(SceneError, match=r"mate_number_of_teeth = .*lobes; (\d+) works") as refused:
+            made(text)
+        works = int(re.search(r"; (\d+) works", str(refused.value)).group(1))
+        made(keys.format(shape, value, teeth, works))
+        made(keys.format(shape, value, works, teeth) + '\nrole = "mate"')

@@ -150,7 +150,7 @@ def test_output_pins_are_held_against_their_holes() -> None:
 def test_second_disc_lines_up_only_where_its_holes_do() -> None:
     again = {"kind": "cycloidal_pair", "first": "ring", "second": "upper", "direction_deg": 180.0, "height": 10.0}
     out = {"kind": "output_pins", "second": "plate"}
-    parts = {"ring": RING, "disc": DISC, "plate": PLATE | {"pin_length": 20.0}}
+    parts = {"ring": RING | {"face_width": 20.0}, "disc": DISC, "plate": PLATE | {"pin_length": 20.0}}
     stand = {"ring": {}, "disc": {}, "upper": {"part": "disc"}, "plate": {}}
     for lobes, met in ((6, True), (-5, True), (5, False), (0, False)):
         mates = [
@@ -165,7 +165,7 @@ def test_second_disc_lines_up_only_where_its_holes_do() -> None:
 
 def test_a_second_disc_of_an_even_number_of_lobes_has_holes_of_its_own() -> None:
     """Ten lobes: the other disc stands half a lobe on, and so do its holes against its lobes."""
-    ring = RING | {"number_of_pins": 11}
+    ring = RING | {"number_of_pins": 11, "face_width": 20.0}
     disc = DISC | {"number_of_lobes": 10}
     for start, met in ((18.0, True), (0.0, False)):
         other = disc | {"output_holes": DISC["output_holes"] | {"start_deg": start}}
