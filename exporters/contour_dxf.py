@@ -23,7 +23,7 @@ def write_contour_dxf(
     """Write the lines, the region, axes, ``marks`` (words: x1, x2) and a key; returns the entities of each kind."""
     import ezdxf
 
-    from exporters.dxf import fixed_metadata, save
+    from exporters.dxf_file import fixed_metadata, save
 
     with fixed_metadata():
         drawing = ezdxf.new("R2010", setup=False, units=_MILLIMETRES)

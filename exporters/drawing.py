@@ -7,7 +7,7 @@ from pathlib import Path
 
 import ezdxf
 
-from exporters.dxf import fixed_metadata, save
+from exporters.dxf_file import fixed_metadata, save
 from geometry.line_arc import Arc, Line
 from geometry.outline import CadCurve, Outline
 

@@ -1,102 +1,91 @@
-"""Laser DXF: one closed polyline a boundary, arcs as bulges, inner contours first. No kernel, no spline."""
+"""Laser DXF: one closed polyline a boundary, arcs as bulges, inner contours first. No kernel, no spline.
+
+Header, tables and objects are those that ezdxf writes for an empty drawing; they lie in ``frames`` as ezdxf wrote
+them, since importing ezdxf takes longer than all else a laser file needs. Layers and polylines are put in here.
+"""
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
-import ezdxf
 import numpy as np
-from ezdxf.document import Drawing
 
 from geometry.contour import Approximation, Contour
 
 # ACI colours: engraving blue, first of all; inner contours green, cut before the outer ones, red
 LAYER_COLOURS = {"ENGRAVE": 5, "CUT_INNER": 3, "CUT_OUTER": 1}
-_MILLIMETRES = 4
+_FRAMES = Path(__file__).parent / "frames"
+VERSIONS = ("R2000", "R12")
+# handles of the frames: their model space, table of layers and plot style
+_MODEL_SPACE, _LAYERS, _PLOT_STYLE = "17", "1", "13"
+# layers that every drawing has: 0 and Defpoints
+_OWN_LAYERS = 2
+SLOTS = ("<<low>>", "<<high>>", "<<seed>>", "<<layer count>>", "<<layers>>", "<<entities>>")
 
 
 def write_laser_dxf(
     file: Path, layers: tuple[str, ...], boundaries: tuple[Approximation, ...], *, version: str
 ) -> dict[str, int]:
     """Write closed polylines in mm; returns the number of entities of each kind."""
-    with fixed_metadata():
-        drawing = _new_drawing(version)
-    drawing.header["$LUNITS"] = 2
-    if version != "R12":
-        drawing.header["$MEASUREMENT"] = 1
-    for name in dict.fromkeys(layers):
-        drawing.layers.add(name, color=LAYER_COLOURS[name])
-    space = drawing.modelspace()
-    corners = []
-    for layer, boundary in zip(layers, boundaries, strict=True):
-        contour = boundary.geometry
-        corners.append(_extent(contour))
-        _add_polyline(space, layer, contour, version)
-    low, high = np.min([c[0] for c in corners], axis=0), np.max([c[1] for c in corners], axis=0)
-    # ezdxf writes the header's extents from those of the layout
-    space.reset_extents((*low, 0.0), (*high, 0.0))
-    with fixed_metadata():
-        save(drawing, file)
-    kind = "POLYLINE" if version == "R12" else "LWPOLYLINE"
-    vertices = sum(len(b.geometry) for b in boundaries)
-    return {kind: len(boundaries), "vertices": vertices, "arcs": _arc_count(boundaries)}
-
-
-def _new_drawing(version: str) -> Drawing:
-    """An empty drawing in mm. R12 has no unit in its header, which ezdxf would complain about at every call."""
-    logger = logging.getLogger("ezdxf")
-    before = logger.level
-    logger.setLevel(logging.ERROR)
-    try:
-        return ezdxf.new(version, setup=False, units=_MILLIMETRES)
-    finally:
-        logger.setLevel(before)
-
-
-def _add_polyline(space, layer: str, contour: Contour, version: str) -> None:
-    vertices, bulges = contour.expanded()
-    attributes = {"layer": layer}
-    if version == "R12":
-        rows = np.stack([vertices.real, vertices.imag, bulges], axis=1)
-        space.add_polyline2d(rows.tolist(), format="xyb", close=True, dxfattribs=attributes)
-        return
-    polyline = space.add_lwpolyline([], dxfattribs=attributes)
-    rows = np.zeros((len(vertices), 5))
-    rows[:, 0], rows[:, 1], rows[:, 4] = vertices.real, vertices.imag, bulges
-    # appending point by point is quadratic; the vertices' own array is not
-    polyline.lwpoints.values = rows
-    polyline.closed = True
-
-
-def _extent(contour: Contour) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Corners of a box around a contour about the origin: its greatest radius each way."""
-    reach = float(np.abs(contour.vertices).max())
-    return (-reach, -reach), (reach, reach)
-
-
-def _arc_count(boundaries: tuple[Approximation, ...]) -> int:
-    return sum(int(np.count_nonzero(b.geometry.bulges)) * b.geometry.count for b in boundaries)
-
-
-@contextmanager
-def fixed_metadata() -> Iterator[None]:
-    """The same bytes at every run: ezdxf's dates and ids fixed while a file is written."""
-    before = ezdxf.options.write_fixed_meta_data_for_testing
-    ezdxf.options.write_fixed_meta_data_for_testing = True
-    try:
-        yield
-    finally:
-        ezdxf.options.write_fixed_meta_data_for_testing = before
-
-
-def save(drawing: Drawing, file: Path) -> None:
-    """Write a drawing with its own encoding."""
-    # ezdxf takes the classes that a version needs out of a set, whose order differs from process to process
-    drawing.classes.add_required_classes(drawing.dxfversion)
-    drawing.classes.classes = dict(sorted(drawing.classes.classes.items()))
     # "\n" on every system, so that the bytes are the same there too
-    with file.open("w", encoding=drawing.output_encoding, errors="dxfreplace", newline="\n") as stream:
-        drawing.write(stream)
+    file.write_text(laser_dxf(layers, boundaries, version=version), encoding="ascii", newline="\n")
+    kind = "POLYLINE" if version == "R12" else "LWPOLYLINE"
+    arcs = sum(int(np.count_nonzero(b.geometry.bulges)) * b.geometry.count for b in boundaries)
+    return {kind: len(boundaries), "vertices": sum(len(b.geometry) for b in boundaries), "arcs": arcs}
+
+
+def laser_dxf(layers: tuple[str, ...], boundaries: tuple[Approximation, ...], *, version: str) -> str:
+    """The text of a DXF of closed polylines in mm; ``layers``: where each boundary stands; version R2000 or R12."""
+    seed, frame = (_FRAMES / f"{version}.dxf").read_text("ascii").split("\n", 1)
+    handles = _handles(int(seed, 16))
+    names = tuple(dict.fromkeys(layers))
+    rows = [_layer(name, next(handles), version) for name in names]
+    drawn = [_polyline(a.geometry, y, handles, version) for y, a in zip(layers, boundaries, strict=True)]
+    # a box around the origin that holds all: the greatest radius each way
+    reach = float(max(np.abs(a.geometry.vertices).max() for a in boundaries))
+    texts = (repr(-reach), repr(reach), next(handles), str(_OWN_LAYERS + len(names)), "".join(rows), "".join(drawn))
+    for slot, text in zip(SLOTS, texts, strict=True):
+        frame = frame.replace(slot, text)
+    return frame
+
+
+def _handles(first: int) -> Iterator[str]:
+    """Fresh handles, in capital hexadecimal digits."""
+    while True:
+        yield f"{first:X}"
+        first += 1
+
+
+def _rows(*pairs: tuple[int, object]) -> str:
+    """Group codes and values, a line each."""
+    return "".join(f"{code:>3}\n{value}\n" for code, value in pairs)
+
+
+def _layer(name: str, handle: str, version: str) -> str:
+    looks = ((2, name), (70, 0), (62, LAYER_COLOURS[name]), (6, "Continuous"))
+    if version == "R12":
+        return _rows((0, "LAYER"), (5, handle), *looks)
+    record = ((330, _LAYERS), (100, "AcDbSymbolTableRecord"), (100, "AcDbLayerTableRecord"))
+    # line weight by default
+    return _rows((0, "LAYER"), (5, handle), *record, *looks, (370, -3), (390, _PLOT_STYLE))
+
+
+def _polyline(contour: Contour, layer: str, handles: Iterator[str], version: str) -> str:
+    """One closed polyline; flag 1 closes it, a bulge of 0 is left out."""
+    vertices, bulges = contour.expanded()
+    corners = zip(vertices.real.tolist(), vertices.imag.tolist(), bulges.tolist(), strict=True)
+    if version != "R12":
+        owner = ((330, _MODEL_SPACE), (100, "AcDbEntity"), (8, layer), (100, "AcDbPolyline"))
+        head = _rows((0, "LWPOLYLINE"), (5, next(handles)), *owner, (90, len(vertices)), (70, 1))
+        return head + "".join(f" 10\n{x!r}\n 20\n{y!r}\n{_bulge(b)}" for x, y, b in corners)
+    head = _rows((0, "POLYLINE"), (5, next(handles)), (8, layer), (66, 1), (10, 0.0), (20, 0.0), (30, 0.0), (70, 1))
+    points = (
+        f"  0\nVERTEX\n  5\n{next(handles)}\n  8\n{layer}\n 10\n{x!r}\n 20\n{y!r}\n 30\n0.0\n{_bulge(b)} 70\n0\n"
+        for x, y, b in corners
+    )
+    return head + "".join(points) + _rows((0, "SEQEND"), (5, next(handles)), (8, layer))
+
+
+def _bulge(value: float) -> str:
+    return f" 42\n{value!r}\n" if value else ""

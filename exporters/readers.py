@@ -6,7 +6,7 @@ import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,39 +28,6 @@ class Loop:
     vertices: Complex
     bulges: Real
     layer: str
-
-
-def read_dxf(file: Path) -> list[Loop]:
-    """The closed polylines of a laser DXF; everything else on it is an error."""
-    import ezdxf
-
-    try:
-        drawing = ezdxf.readfile(str(file))
-    except (ezdxf.DXFError, OSError, ValueError, LookupError, StopIteration, TypeError, AttributeError) as error:
-        raise ReadError(f"not a readable DXF: {error or 'it ends too early'}") from error
-    auditor = drawing.audit()
-    if auditor.errors or auditor.fixes:
-        first = (auditor.errors + auditor.fixes)[0]
-        raise ReadError(f"the DXF audit finds fault: {first.message}")
-    if drawing.dxfversion > "AC1009" and drawing.header.get("$INSUNITS") != 4:
-        raise ReadError("the DXF is not in mm ($INSUNITS is not 4)")
-    return [_polyline(entity) for entity in drawing.modelspace()]
-
-
-def _polyline(entity: Any) -> Loop:
-    """One closed polyline, old style or new."""
-    kind, layer = entity.dxftype(), entity.dxf.layer
-    if kind == "LWPOLYLINE":
-        places, closed = entity.get_points("xyb"), entity.closed
-    elif kind == "POLYLINE":
-        places = [(v.dxf.location.x, v.dxf.location.y, v.dxf.bulge) for v in entity.vertices]
-        closed = entity.is_closed
-    else:
-        raise ReadError(f"a {kind} stands on layer {layer}; only closed polylines belong there")
-    if not closed:
-        raise ReadError(f"an open polyline on layer {layer}")
-    rows = np.array(places, dtype=np.float64).reshape(-1, 3)
-    return Loop(rows[:, 0] + 1j * rows[:, 1], rows[:, 2], layer)
 
 
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"

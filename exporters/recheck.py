@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 from exporters.assembly import assembly_name
 from exporters.job import SOLID_FORMATS
+from exporters.read_dxf import audited
+from exporters.readers import ReadError
 from exporters.report import NAME, read_report
 from exporters.verify import Verdict, verify_file
 from geometry.errors import GeometryError
@@ -83,11 +85,22 @@ def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, A
     exact = part.body(offset) if kind in SOLID_FORMATS else part.section(offset).region
     kind = "drawing" if entry["purpose"] == "drawing" else kind
     verdict = verify_file(file, kind, exact, declared, tolerance, part.id)
+    if kind == "dxf" and not verdict.failures:
+        verdict = _audited(file, verdict)
     if part.is_cam:
         from exporters.reroll import reroll
 
         verdict, _ = reroll(file, kind, part, offset, declared, verdict)
     return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
+
+
+def _audited(file: Path, verdict: Verdict) -> Verdict:
+    """A laser DXF that our own reader found good, as ezdxf finds it."""
+    try:
+        audited(file)
+    except ReadError as refusal:
+        return replace(verdict, failures=(*verdict.failures, str(refusal)))
+    return verdict
 
 
 def _against_sheet(file: Path, source: str, scene: SceneFile, entry: dict[str, Any], digest: str) -> Recheck:

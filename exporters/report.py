@@ -141,8 +141,9 @@ def _versions(written: list[Written]) -> dict[str, str]:
     """Versions of what this build used; asking for more would load it."""
     python = ".".join(map(str, sys.version_info[:3]))
     versions = {"higherpair": __version__, "python": python, "numpy": np.__version__}
-    formats = {item.job.export.format for item in written}
-    for name, users in (("ezdxf", {"dxf", "sheet"}), ("lib3mf", {"3mf"})):
+    exports = [item.job.export for item in written]
+    formats = {"drawing" if e.purpose == "drawing" and e.format == "dxf" else e.format for e in exports}
+    for name, users in (("ezdxf", {"drawing", "sheet"}), ("lib3mf", {"3mf"})):
         if formats & users and name in sys.modules:
             versions[name] = str(getattr(sys.modules[name], "__version__", "installed"))
     return versions

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from exporters.readers import Loop, ReadError, ReadMesh, read_3mf, read_dxf, read_stl, read_svg
+from exporters.read_dxf import read_dxf
+from exporters.readers import Loop, ReadError, ReadMesh, read_3mf, read_stl, read_svg
 from exporters.verify import Verdict
 from geometry.cams.disk import DiskCam
 from geometry.cams.follower_motion import TURN

@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from exporters.readers import Loop, ReadError, read_dxf, read_svg
+from exporters.read_dxf import read_dxf
+from exporters.readers import Loop, ReadError, read_svg
 from exporters.reroll import ANGLES, Source, mesh_of, mesh_slices, rolled_differences, rolled_failure, smooth_loops
 from exporters.verify import Verdict
 from geometry.cams.follower_motion import TURN

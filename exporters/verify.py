@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from exporters.readers import Loop, ReadError, read_3mf, read_dxf, read_stl, read_svg, step_names
+from exporters.read_dxf import read_dxf
+from exporters.readers import Loop, ReadError, read_3mf, read_stl, read_svg, step_names
 from geometry.body import Body
 from geometry.contour import edge_points, signed_area
 from geometry.curve import Complex

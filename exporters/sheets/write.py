@@ -31,8 +31,8 @@ def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
     from ezdxf.enums import TextEntityAlignment
 
     from exporters.drawing import add_curve
-    from exporters.dxf import fixed_metadata
-    from exporters.dxf import save as save_dxf
+    from exporters.dxf_file import fixed_metadata
+    from exporters.dxf_file import save as save_dxf
 
     with fixed_metadata():
         drawing = ezdxf.new("R2010", setup=False, units=_MILLIMETRES)
