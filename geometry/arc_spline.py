@@ -131,7 +131,7 @@ def _with_first_share(
         low, high = np.abs(curve.curvature(np.array(curve.domain)))
         shares[0], shares[-1] = (first, _END_SHARE) if low >= high else (_END_SHARE, first)
     pattern = np.where(np.arange(count) % 2 == 0, 1.0, -1.0)
-    end_tangent = complex(curve.tangent(curve.domain[1]))
+    headings = tuple(float(np.angle(curve.tangent(end))) for end in curve.domain)
 
     def joints(stretch: float) -> Real:
         steps = np.concatenate([[0.0], np.cumsum(shares * (1 + stretch * pattern))])
@@ -140,7 +140,7 @@ def _with_first_share(
         return t
 
     def mismatch(stretch: float) -> float:
-        return _arcs_through(curve, joints(stretch), end_tangent)[2]
+        return _arcs_through(curve, joints(stretch), headings)[2]
 
     stretch = 0.0
     if abs(mismatch(0.0)) > TOLERANCES.smooth_angle * 1e-3:
@@ -149,22 +149,20 @@ def _with_first_share(
             return None
         stretch = bracketed_root(mismatch, low_end, high_end).value
     t = joints(stretch)
-    points, bulges, _ = _arcs_through(curve, t, end_tangent)
+    points, bulges, _ = _arcs_through(curve, t, headings)
     error, certified = arc_error(curve, t, points, bulges, tolerance)
     return ArcSpline(t, points, bulges, error, certified)
 
 
-def _arcs_through(curve: Curve, t: Real, end_tangent: complex) -> tuple[Complex, Real, float]:
-    """Points, bulges of tangent arcs through them from the curve's first tangent, and the last angle's error."""
+def _arcs_through(curve: Curve, t: Real, headings: tuple[float, ...]) -> tuple[Complex, Real, float]:
+    """Points, bulges of tangent arcs through them from the curve's first heading, and the last one's error."""
     points = curve.point(t)
-    angles = np.angle(points[1:] - points[:-1])
-    heading = float(np.angle(curve.tangent(t[0])))
-    bulges = np.zeros(len(angles))
-    for i, chord in enumerate(angles):
+    heading, leans = headings[0], []
+    for chord in np.angle(points[1:] - points[:-1]).tolist():
         lean = math.remainder(chord - heading, 2 * math.pi)
-        bulges[i] = math.tan(lean / 2)
+        leans.append(lean)
         heading += 2 * lean
-    return points, bulges, math.remainder(heading - float(np.angle(end_tangent)), 2 * math.pi)
+    return points, np.tan(np.array(leans) / 2), math.remainder(heading - headings[1], 2 * math.pi)
 
 
 def arc_error(curve: Curve, t: Real, points: Complex, bulges: Real, tolerance: float) -> tuple[float, bool]:

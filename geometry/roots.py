@@ -5,8 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from geometry.errors import ConvergenceError
 from geometry.tolerance import TOLERANCES
+
+Real = NDArray[np.float64]
+
+
+# bisection alone takes some 60
+_MOST_STEPS = 120
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,3 +75,34 @@ def _next_fraction(a: float, b: float, c: float, fa: float, fb: float, fc: float
     else:
         fraction = 0.5
     return min(1 - margin, max(margin, fraction))
+
+
+def bracketed_roots(function: Callable[[Real], Real], low: Real, high: Real, at_low: Real, at_high: Real) -> Real:
+    """Roots (n,) of a vectorised function that has the values of opposite sign ``at_low`` and ``at_high``.
+
+    The method of ``bracketed_root`` on all brackets together, to the last digit; brackets whose function jumps end
+    at the jump.
+    """
+    b, a, fb, fa = low, high, at_low, at_high
+    fraction, best = np.full(len(low), 0.5), low
+    with np.errstate(all="ignore"):
+        for _ in range(_MOST_STEPS):
+            x = a + fraction * (b - a)
+            fx = function(x)
+            same = (fx > 0) == (fa > 0)
+            c, fc = np.where(same, a, b), np.where(same, fa, fb)
+            b, fb = np.where(same, b, a), np.where(same, fb, fa)
+            a, fa = x, fx
+            best = np.where(np.abs(fa) < np.abs(fb), a, b)
+            reach, least = np.abs(b - a), 2 * TOLERANCES.relative_root * np.abs(best) + 1e-300
+            done = (fa == 0) | (fb == 0) | (reach <= least)
+            if done.all():
+                break
+            xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
+            guess = (fa / (fb - fa)) * (fc / (fb - fc)) + ((c - a) / (b - a)) * (fa / (fc - fa)) * (fb / (fc - fb))
+            safe = (phi**2 < xi) & ((1 - phi) ** 2 < 1 - xi) & np.isfinite(guess)
+            margin = 0.5 * least / reach
+            fraction = np.where(safe, np.clip(guess, margin, 1 - margin), 0.5)
+            # what is found stays where it is
+            fraction = np.where(done, np.where(best == a, 0.0, 1.0), fraction)
+    return best

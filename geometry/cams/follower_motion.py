@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -126,32 +127,35 @@ class FollowerMotion:
         phases = tuple(Phase(p.angle, -p.lift, p.law) for p in self.phases)
         return FollowerMotion(tuple(p.placed(0.0, 1.0, 0.0, -1.0) for p in self.pieces), phases)
 
-    def joints(self) -> list[Joint]:
+    def joints(self) -> tuple[Joint, ...]:
         """Every joint between pieces, the one at cam angle 0 first."""
-        found = []
-        scales = [self._scale(order) for order in range(4)]
-        for index, after in enumerate(self.pieces):
-            before = self.pieces[index - 1]
-            length = min(before.end - before.start, after.end - after.start)
-            jumps, continuity, whole = [], -1, True
-            for order in range(4):
-                left, right = float(before.value(before.end, order)), float(after.value(after.start, order))
-                # a rounding of S is one of S^(order) over so short a piece
-                rounding = 1e-15 * scales[0] / length**order
-                jump = right - left if abs(right - left) > _JUMP * scales[order] + rounding else 0.0
-                whole = whole and jump == 0
-                continuity = order if whole else continuity
-                jumps.append(jump)
-            found.append(Joint(after.start, (jumps[0], jumps[1], jumps[2], jumps[3]), continuity))
-        return found
-
-    def _scale(self, order: int) -> float:
-        # the peaks inside too: laws whose ends are 0 but for rounding have no scale there
-        return max(float(np.abs(p.value(p.extremes(order), order)).max()) for p in self.pieces)
+        return _joints(self.pieces)
 
     def impacts(self) -> list[Joint]:
         """Joints with a rigid or soft impact."""
         return [j for j in self.joints() if j.impact]
+
+
+@lru_cache(maxsize=16)
+def _joints(pieces: tuple[LawPiece, ...]) -> tuple[Joint, ...]:
+    # the peaks inside too: laws whose ends are 0 but for rounding have no scale there
+    scales = [max(float(np.abs(p.value(p.extremes(order), order)).max()) for p in pieces) for order in range(4)]
+    found = []
+    for index, after in enumerate(pieces):
+        before = pieces[index - 1]
+        length = min(before.end - before.start, after.end - after.start)
+        lefts, rights = (p.values(np.array([at]), 3) for p, at in ((before, before.end), (after, after.start)))
+        jumps, continuity, whole = [], -1, True
+        for order in range(4):
+            left, right = float(lefts[order][0]), float(rights[order][0])
+            # a rounding of S is one of S^(order) over so short a piece
+            rounding = 1e-15 * scales[0] / length**order
+            jump = right - left if abs(right - left) > _JUMP * scales[order] + rounding else 0.0
+            whole = whole and jump == 0
+            continuity = order if whole else continuity
+            jumps.append(jump)
+        found.append(Joint(after.start, (jumps[0], jumps[1], jumps[2], jumps[3]), continuity))
+    return tuple(found)
 
 
 def follower_motion(phases: Sequence[Phase]) -> FollowerMotion:

@@ -15,10 +15,11 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from geometry.roots import bracketed_roots
+
 Real = NDArray[np.float64]
 
 _EXTREME_SAMPLES = 65
-_BISECTIONS = 60
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,21 +64,18 @@ class LawPiece:
 
     def _values(self, t: Real, orders: Iterable[int]) -> list[Real]:
         """Derivatives of several orders, which share their powers."""
-        width = self.end - self.start
-        n = len(self.coefficients) - 1
+        width, n, flat = self.end - self.start, len(self.coefficients) - 1, np.ravel(t)
         # where t stands from the start and from the end, each to full digits
-        local, rest = _powers((t - self.start) / width, n), _powers((self.end - t) / width, n)
+        local, rest = _powers((flat - self.start) / width, n), _powers((self.end - flat) / width, n)
         result = []
         for order in orders:
             weights = _weights(self.coefficients, width, order)
-            total = np.zeros(np.shape(t))
-            for i, weight in enumerate(weights):
-                if weight:
-                    total = total + weight * local[i] * rest[len(weights) - 1 - i]
+            m = len(weights) - 1
+            total = np.add.reduce(weights * local[: m + 1] * rest[m::-1], axis=0)
             for wave in self.waves:
-                angle = wave.frequency * (t - self.start) + wave.phase
+                angle = wave.frequency * (flat - self.start) + wave.phase
                 total = total + wave.amplitude * wave.frequency**order * _sine_derivative(angle, order)
-            result.append(total)
+            result.append(total.reshape(np.shape(t)))
         return result
 
     def bounds(self, order: int, a: Real, b: Real) -> list[Real]:
@@ -119,9 +117,20 @@ class LawPiece:
 
     def extremes(self, order: int) -> Real:
         """Arguments, ends included, at which |s^(order)| may be greatest: sign changes of the next derivative."""
-        t = np.linspace(self.start, self.end, _EXTREME_SAMPLES)
-        inner = sign_changes(lambda x: self.value(x, order + 1), t)
-        return np.concatenate([[self.start], inner, [self.end]])
+        return _extremes(self, order)
+
+
+@lru_cache(maxsize=512)
+def _extremes(piece: LawPiece, order: int) -> Real:
+    if piece.is_constant:
+        inner = np.zeros(0)
+    else:
+        t = np.linspace(piece.start, piece.end, _EXTREME_SAMPLES)
+        inner = sign_changes(lambda x: piece.value(x, order + 1), t)
+    found = np.concatenate([[piece.start], inner, [piece.end]])
+    # shared by all who ask
+    found.flags.writeable = False
+    return found
 
 
 def _sine_derivative(angle: Real, order: int) -> Real:
@@ -130,36 +139,33 @@ def _sine_derivative(angle: Real, order: int) -> Real:
     return (np.sin, np.cos, lambda x: -np.sin(x), lambda x: -np.cos(x))[kind](angle)
 
 
-def _powers(x: Real, most: int) -> list[Real]:
-    """x^0 to x^most."""
-    result = [np.ones(np.shape(x))]
-    for _ in range(most):
-        result.append(result[-1] * x)
-    return result
+def _powers(x: Real, most: int) -> Real:
+    """x^0 to x^most, (most + 1, n)."""
+    result = np.empty((most + 1, len(x)))
+    result[0], result[1:] = 1.0, x
+    return np.multiply.accumulate(result, axis=0, out=result)
 
 
 @lru_cache(maxsize=512)
-def _weights(coefficients: tuple[float, ...], width: float, order: int) -> tuple[float, ...]:
+def _weights(coefficients: tuple[float, ...], width: float, order: int) -> Real:
     """Bernstein coefficients of a derivative times the binomials of its degree: factors of local^i rest^(m - i)."""
     values = np.array(coefficients, dtype=float)
     for _ in range(order):
         if len(values) == 1:
-            return (0.0,)
+            return np.zeros((1, 1))
         values = np.diff(values) * ((len(values) - 1) / width)
-    return tuple(math.comb(len(values) - 1, i) * v for i, v in enumerate(values.tolist()))
+    return np.array([[math.comb(len(values) - 1, i) * v] for i, v in enumerate(values.tolist())])
 
 
 def sign_changes(function: Callable[[Real], Real], t: Real) -> Real:
-    """Rising roots of a vectorised function between samples of opposite sign, all bisected together.
+    """Rising roots of a vectorised function between samples of opposite sign, all bracketed together.
 
     A root that falls on a sample counts where the samples beside it have opposite signs.
     """
     values = function(t)
-    exact = t[1:-1][(values[1:-1] == 0) & (values[:-2] * values[2:] < 0)]
-    at = np.flatnonzero(values[:-1] * values[1:] < 0)
-    low, high, sign = t[at], t[at + 1], np.sign(values[at])
-    for _ in range(_BISECTIONS):
-        middle = (low + high) / 2
-        same = np.sign(function(middle)) == sign
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
-    return np.sort(np.concatenate([(low + high) / 2, exact]))
+    sign = np.sign(values)
+    exact = t[1:-1][(sign[1:-1] == 0) & (sign[:-2] * sign[2:] < 0)]
+    at = np.flatnonzero(sign[:-1] * sign[1:] < 0)
+    if not len(at):
+        return exact
+    return np.sort(np.concatenate([bracketed_roots(function, t[at], t[at + 1], values[at], values[at + 1]), exact]))
