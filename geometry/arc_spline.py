@@ -27,6 +27,9 @@ _REFINEMENTS = 3
 _BOUND_SAMPLES, _SAMPLED_MARGIN = 9, 1.1
 # an end arc starts tangent to the curve and needs 1/sqrt(2) of the inner arcs' length
 _END_SHARE = math.sqrt(0.5)
+# the inner arcs are stretched and shrunk in turn by up to this part until the last tangent is met, this well
+_STRETCHES = (0.8, -0.8)
+_ENOUGH = 1e-3 * TOLERANCES.smooth_angle
 _FIRST_SHARES = (0.4, 0.5, 0.6, 0.45, 0.55, 0.36)
 
 
@@ -41,6 +44,20 @@ class ArcSpline:
     certified: bool
 
 
+@dataclass(frozen=True, slots=True)
+class _Candidate:
+    """A spline whose error is only sampled, mm: what is not within a tolerance needs no proof."""
+
+    parameters: Real
+    points: Complex
+    bulges: Real
+    error: float
+
+    def proven(self, curve: Curve, tolerance: float) -> ArcSpline:
+        error, certified = arc_error(curve, self.parameters, self.points, self.bulges, tolerance)
+        return ArcSpline(self.parameters, self.points, self.bulges, error, certified)
+
+
 def arc_spline(curve: Curve, tolerance: float, *, limit: int = 4096) -> ArcSpline:
     """G1 arcs within ``tolerance`` mm of a curve of one-signed curvature, near the least number.
 
@@ -52,11 +69,14 @@ def arc_spline(curve: Curve, tolerance: float, *, limit: int = 4096) -> ArcSplin
     nodes, coordinate, total = _density(curve)
     count = max(1, math.ceil(total / tolerance ** (1 / 3) * 0.9 + 0.4))
     while count <= limit:
-        spline = _spline_of(curve, count, nodes, coordinate, tolerance)
-        if spline is not None and spline.max_error <= tolerance:
-            return spline
-        excess = 1.0 if spline is None else (spline.max_error / tolerance) ** (1 / 3)
-        count = max(count + 1, min(2 * count, math.floor(count * excess * 0.97)))
+        found = _candidate(curve, count, nodes, coordinate, tolerance)
+        error = tolerance if found is None else found.error
+        if found is not None and error <= tolerance:
+            spline = found.proven(curve, tolerance)
+            if spline.max_error <= tolerance:
+                return spline
+            error = spline.max_error
+        count = max(count + 1, min(2 * count, math.floor(count * (error / tolerance) ** (1 / 3) * 0.97)))
     raise ConvergenceError("arcs for the tolerance", tolerance, limit)
 
 
@@ -69,10 +89,11 @@ def arc_spline_of(curve: Curve, count: int) -> ArcSpline:
         So few arcs cannot meet both end tangents.
     """
     nodes, coordinate, total = _density(curve)
-    spline = _spline_of(curve, count, nodes, coordinate, (total / count) ** 3)
-    if spline is None:
+    expected = (total / count) ** 3
+    found = _candidate(curve, count, nodes, coordinate, expected)
+    if found is None:
         raise ConvergenceError(f"{count} arcs between the end tangents", math.nan, 0)
-    return spline
+    return found.proven(curve, expected)
 
 
 def _density(curve: Curve) -> tuple[Real, Real, float]:
@@ -96,21 +117,21 @@ def _density(curve: Curve) -> tuple[Real, Real, float]:
     return t, coordinate / coordinate[-1], float(coordinate[-1])
 
 
-def _spline_of(curve: Curve, count: int, nodes: Real, coordinate: Real, tolerance: float) -> ArcSpline | None:
+def _candidate(curve: Curve, count: int, nodes: Real, coordinate: Real, tolerance: float) -> _Candidate | None:
     """The spline of a given number of arcs; None where the end tangent cannot be met.
 
     Where the curvature grows without bound towards the start (a flank near its base circle) the first lean
     is not the steady one and would swing on through all arcs: other first lengths are tried.
     """
-    best = _with_first_share(curve, count, nodes, coordinate, tolerance, _END_SHARE)
-    expected = tolerance if best is None else 0.6 * best.max_error
-    if best is not None and (best.max_error <= tolerance or not _steepens(curve)):
+    best = _with_first_share(curve, count, nodes, coordinate, _END_SHARE)
+    expected = tolerance if best is None else 0.6 * best.error
+    if best is not None and (best.error <= tolerance or not _steepens(curve)):
         return best
     for share in _FIRST_SHARES:
-        other = _with_first_share(curve, count, nodes, coordinate, tolerance, share)
-        if other is not None and (best is None or other.max_error < best.max_error):
+        other = _with_first_share(curve, count, nodes, coordinate, share)
+        if other is not None and (best is None or other.error < best.error):
             best = other
-            if best.max_error <= min(tolerance, expected):
+            if best.error <= min(tolerance, expected):
                 break
     return best
 
@@ -122,9 +143,7 @@ def _steepens(curve: Curve) -> bool:
     return bool(max(ends[0], ends[2]) > 4 * ends[1])
 
 
-def _with_first_share(
-    curve: Curve, count: int, nodes: Real, coordinate: Real, tolerance: float, first: float
-) -> ArcSpline | None:
+def _with_first_share(curve: Curve, count: int, nodes: Real, coordinate: Real, first: float) -> _Candidate | None:
     """The spline whose arc at the steeper end has ``first`` of the inner arcs' length."""
     shares = np.ones(count)
     if count > 1:
@@ -142,16 +161,16 @@ def _with_first_share(
     def mismatch(stretch: float) -> float:
         return _arcs_through(curve, joints(stretch), headings)[2]
 
-    stretch = 0.0
-    if abs(mismatch(0.0)) > TOLERANCES.smooth_angle * 1e-3:
-        low_end, high_end = -0.8, 0.8
-        if count == 1 or mismatch(low_end) * mismatch(high_end) > 0:
+    stretch, middle = 0.0, mismatch(0.0)
+    if abs(middle) > _ENOUGH:
+        far = next((end for end in _STRETCHES if count > 1 and mismatch(end) * middle < 0), None)
+        if far is None:
             return None
-        stretch = bracketed_root(mismatch, low_end, high_end).value
+        stretch = bracketed_root(mismatch, min(far, 0.0), max(far, 0.0), enough=_ENOUGH).value
     t = joints(stretch)
     points, bulges, _ = _arcs_through(curve, t, headings)
-    error, certified = arc_error(curve, t, points, bulges, tolerance)
-    return ArcSpline(t, points, bulges, error, certified)
+    error = float(np.max(_sampled_distance(curve, t, points, bulges, _LEAST_SAMPLES)))
+    return _Candidate(t, points, bulges, error)
 
 
 def _arcs_through(curve: Curve, t: Real, headings: tuple[float, ...]) -> tuple[Complex, Real, float]:

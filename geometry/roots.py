@@ -28,8 +28,12 @@ class Root:
     bracket: tuple[float, float]
 
 
-def bracketed_root(function: Callable[[float], float], low: float, high: float, *, limit: int = 120) -> Root:
-    """Root of a continuous function with opposite signs at ``low`` and ``high``.
+def bracketed_root(
+    function: Callable[[float], float], low: float, high: float, *, limit: int = 120, enough: float = 0.0
+) -> Root:
+    """Root of a continuous function with opposite signs at ``low`` and ``high``; to the last digit.
+
+    ``enough``: a residual of this size ends the search before.
 
     Chandrupatla's method (Advances in Engineering Software 28, 1997): inverse quadratic interpolation
     where it is safe, bisection otherwise.
@@ -59,7 +63,7 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float, 
         best, residual = (a, fa) if abs(fa) < abs(fb) else (b, fb)
         reach = abs(b - a)
         least = 2 * TOLERANCES.relative_root * abs(best) + 1e-300
-        if residual == 0 or reach <= least:
+        if abs(residual) <= enough or reach <= least:
             return Root(best, residual, iteration, (min(a, b), max(a, b)))
         fraction = _next_fraction(a, b, c, fa, fb, fc, 0.5 * least / reach)
     raise ConvergenceError("root", residual, limit)
