@@ -11,7 +11,7 @@ from geometry.body import Body
 from geometry.contour import Approximation
 from geometry.errors import ParameterError, at_least
 from geometry.findings import Finding
-from geometry.gears.offset_tooth import OffsetRegion
+from geometry.offset_region import OffsetRegion
 from geometry.profile import Region
 from geometry.tolerance import LEAST_SEGMENT_MM
 from parts.part import Part

@@ -10,9 +10,8 @@ from msgspec.structs import replace
 
 from exporters.assembly import AssemblyJob, assembly_name
 from exporters.job import Job
-from geometry.errors import GeometryError, ParameterError, at_least, at_most
-from geometry.gears.offset_tooth import OffsetError, OffsetRegion
-from parts.mate_kinds import Mating
+from geometry.errors import GeometryError, OffsetError, ParameterError, at_least, at_most
+from geometry.offset_region import OffsetRegion
 from parts.part import Part
 from parts.placing import Placing, place
 from parts.scene import FORMATS, ExportSpec, SceneFile, default_export, make_parts
@@ -21,6 +20,7 @@ from parts.wheel_keys import as_typed
 
 if TYPE_CHECKING:
     from exporters.sheets.job import SheetJob
+    from parts.mate_kinds import Mating
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,8 +15,8 @@ import numpy as np
 
 from geometry.curve import Complex, end_point, start_point
 from geometry.errors import GeometryError, OffsetError, ParameterError, at_most
-from geometry.gears.offset_tooth import OffsetRegion
 from geometry.line_arc import Arc, Line, arc_between
+from geometry.offset_region import OffsetRegion
 from geometry.profile import Label, Profile, Region, Segment, circle, joint_turn
 from geometry.tolerance import TOLERANCES
 

@@ -10,8 +10,8 @@ from msgspec import Meta, Struct
 
 from geometry.errors import GeometryError, OffsetError, ParameterError, UndercutError, at_least
 from geometry.findings import Finding
-from geometry.gears.offset_tooth import OffsetRegion
 from geometry.hub_holes import HubHoles
+from geometry.offset_region import OffsetRegion
 from geometry.profile import Profile, Region
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.cam_keys import PhaseTable, motion_of, without_base

@@ -12,8 +12,8 @@ from msgspec.structs import replace
 
 from geometry.errors import GeometryError, OffsetError, ParameterError, UndercutError, at_least
 from geometry.findings import Finding
-from geometry.gears.offset_tooth import OffsetRegion
 from geometry.hub_holes import HubHoles
+from geometry.offset_region import OffsetRegion
 from geometry.placement import Placement2
 from geometry.profile import Profile, Region
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections

@@ -242,7 +242,7 @@ def follower_part(part_id: str, spec: FollowerSpec | FollowerArmSpec, end: Follo
 def roller_part(part_id: str, spec: RollerSpec, end: FollowerEnd) -> Part:
     """The part of a roller."""
     from geometry.errors import OffsetError
-    from geometry.gears.offset_tooth import OffsetRegion
+    from geometry.offset_region import OffsetRegion
     from geometry.profile import Label, Region, circle
     from geometry.wheel import wheel_body, wheel_sections
 

@@ -12,8 +12,8 @@ from msgspec.structs import fields, replace
 
 from geometry.errors import GeometryError, OffsetError, ParameterError, UndercutError, at_least, at_most
 from geometry.findings import Finding
-from geometry.gears.offset_tooth import OffsetRegion
 from geometry.hub_holes import HubHoles
+from geometry.offset_region import OffsetRegion
 from geometry.profile import Label, Profile, Region, circle
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.cam import CamSpec, OscillatingTable, base_radius, cam_circles, cam_of, cam_quantities, inner_radius

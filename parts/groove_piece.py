@@ -10,7 +10,7 @@ from msgspec import Meta, Struct
 
 from geometry.body import plate
 from geometry.errors import OffsetError
-from geometry.gears.offset_tooth import OffsetRegion
+from geometry.offset_region import OffsetRegion
 from geometry.profile import Label, Region, circle
 from parts.groove_cam import GrooveCamSpec, GrooveDisk, checked_groove, groove_section
 from parts.keys import Colour, Density, Material, mm

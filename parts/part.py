@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from geometry.findings import Finding
-from geometry.gears.offset_tooth import OffsetRegion
+from geometry.offset_region import OffsetRegion
 
 if TYPE_CHECKING:
     from geometry.cams.barrel_body import BarrelBody

@@ -19,7 +19,7 @@ from parts.round_keys import MOST, PinCircle, PinDiameter, check_holes, holes_of
 
 if TYPE_CHECKING:
     from geometry.body import Body
-    from geometry.gears.offset_tooth import OffsetRegion
+    from geometry.offset_region import OffsetRegion
     from geometry.pin_plates import PinPlate
 
 _MARGIN = 1e-6

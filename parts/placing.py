@@ -9,14 +9,17 @@ import cmath
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from geometry.placement import Placement3, Vector
 from geometry.tolerance import PLACED_MM, TOLERANCES
 from parts.common_face import face_of, with_face
 from parts.instances import DriveSpec, InstanceSpec
-from parts.mate_kinds import Mating
 from parts.part import Part
 from parts.schema import SceneError
+
+if TYPE_CHECKING:
+    from parts.mate_kinds import Mating
 
 # between things that no mate and no ``at`` places, mm
 _GAP = 5.0

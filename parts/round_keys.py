@@ -11,8 +11,8 @@ from msgspec import Meta
 
 from geometry.body import Body
 from geometry.errors import GeometryError, OffsetError, ParameterError, told
-from geometry.gears.offset_tooth import OffsetRegion
 from geometry.hub_holes import HubHoles, least_wall
+from geometry.offset_region import OffsetRegion
 from geometry.profile import Region
 from geometry.windows import RoundHoles
 from parts.hole_keys import RoundBoreTable, hub_holes, with_remedy

@@ -6,7 +6,7 @@ import math
 import re
 import tomllib
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import msgspec
 from msgspec import Meta, Struct
@@ -15,13 +15,13 @@ from geometry.errors import ParameterError
 from parts.instances import DriveSpec, InstanceSpec, check_instance, drive_spec, instance_specs
 from parts.keys import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.kinds import KINDS
-from parts.mate_checks import check_helices, check_kinds, pair_refused
-from parts.mate_kinds import Mating
-from parts.mates import MATES, mated
 from parts.part import Part
 from parts.schema import SceneError, converted, near, refuse_infinite
 from parts.sheet_keys import CamSpeed, Intervals, MateNumber, RackStep, check_sheet_keys
 from parts.title_keys import TitleBlockKey
+
+if TYPE_CHECKING:
+    from parts.mate_kinds import Mating
 
 SCENE_FOLDER = Path(__file__).parent / "scenes"
 # purposes of each format, the default first, and the tolerance (mm) of an export that names none
@@ -197,6 +197,8 @@ def scene_from_dict(raw: dict[str, Any], source: str, name: str) -> SceneFile:
 def _mate_spec(
     table: Any, instances: dict[str, InstanceSpec], parts: dict[str, Struct], source: str, place: str
 ) -> Struct:
+    from parts.mates import MATES
+
     if not isinstance(table, dict):
         raise SceneError(source, place, table, "write it as a table, [[mates]]")
     kind = table.get("kind")
@@ -291,6 +293,17 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
         except ParameterError as error:
             raise SceneError(source, f"parts.{key}.{error.name}", error.value, error.allowed) from error
     matings: list[Mating] = []
+    if scene.mates:
+        gears, matings = _mated(scene, gears, source)
+    parts = {key: KINDS[spec.__struct_config__.tag][2](key, spec, gears[key]) for key, spec in scene.parts.items()}
+    return parts, matings
+
+
+def _mated(scene: SceneFile, gears: dict[str, Any], source: str) -> tuple[dict[str, Any], list[Mating]]:
+    """What the parts are made from, as the scene's mates want it, and the mates."""
+    from parts.mate_checks import check_helices, check_kinds, pair_refused
+    from parts.mates import mated
+
     part_of = {key: str(spec.part) for key, spec in scene.instances.items()}
     helices = {key: math.radians(abs(getattr(spec, "helix_angle_deg", 0.0))) for key, spec in scene.parts.items()}
     for index, mate in enumerate(scene.mates):
@@ -308,8 +321,7 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
 
             owners = (scene.parts[part_of[i]] for i in (mating.first, mating.second))
             matings[index] = with_face(mating, common_face(*owners))
-    parts = {key: KINDS[spec.__struct_config__.tag][2](key, spec, gears[key]) for key, spec in scene.parts.items()}
-    return parts, matings
+    return gears, matings
 
 
 def resolved(scene: SceneFile) -> dict[str, Any]:

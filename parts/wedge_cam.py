@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from geometry.body import plate
 from geometry.errors import GeometryError, OffsetError, ParameterError, UndercutError, at_least, at_most
 from geometry.findings import Finding
-from geometry.gears.offset_tooth import OffsetRegion
+from geometry.offset_region import OffsetRegion
 from geometry.profile import Label, Profile, Region, circle
 from parts.keys import Colour, Density, FaceWidth, Material, mm
 from parts.law_keys import LawName, LawTable, law_of

@@ -10,7 +10,7 @@ from msgspec import Meta, Struct
 
 from geometry.body import plate
 from geometry.errors import OffsetError, ParameterError, at_most
-from geometry.gears.offset_tooth import OffsetRegion
+from geometry.offset_region import OffsetRegion
 from geometry.plate_outline import PlateSlot, moved_profile, rounded
 from geometry.profile import Label, Profile, Region, circle
 from parts.cam import CamSpec, checked_cam

@@ -29,11 +29,11 @@ from geometry.curve import (
     start_point,
 )
 from geometry.errors import CuspError, GeometryError, OffsetError
-from geometry.gears.offset_tooth import OffsetRegion
 from geometry.intersect import crossing
 from geometry.line_arc import Arc, Line
 from geometry.motion_laws.piece import LawPiece, sign_changes
 from geometry.offset import OffsetCurve
+from geometry.offset_region import OffsetRegion
 from geometry.placement import Placement2
 from geometry.profile import Label, Profile, Region, Segment
 from geometry.series import FACTORIALS

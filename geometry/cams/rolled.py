@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +17,11 @@ from numpy.typing import NDArray
 from geometry.cams.disk import DiskCam
 from geometry.cams.follower_motion import TURN
 from geometry.cams.mounts import Translating
-from geometry.cams.wedge import WedgeCam
 from geometry.contour import signed_area
 from geometry.curve import Complex, Real
+
+if TYPE_CHECKING:
+    from geometry.cams.wedge import WedgeCam
 
 Index = NDArray[np.int64]
 # parts that every edge is cut into: within one the cam angle grows or falls steadily
@@ -165,7 +168,7 @@ def rolled_lift(
 
 def _stop(cam: DiskCam | WedgeCam, point: Complex, normal: Complex, offset: float) -> tuple[Real, Real]:
     """Cam angle at which (p, n) touches the follower, and its S there."""
-    if isinstance(cam, WedgeCam):
+    if not isinstance(cam, DiskCam):
         return cam.stop(point, normal, offset)
     mount = cam.mount
     with np.errstate(invalid="ignore"):

@@ -20,9 +20,9 @@ import numpy as np
 from geometry.cycloid import ShortTrochoid, greatest_shortening, least_convex_radius
 from geometry.errors import OffsetError, ParameterError, UndercutError, told
 from geometry.findings import Finding
-from geometry.gears.offset_tooth import OffsetRegion
 from geometry.gears.tooth import ToothSide
 from geometry.hub_holes import HubHoles
+from geometry.offset_region import OffsetRegion
 from geometry.profile import Label, Profile, Region, Segment
 from geometry.windows import RoundHoles
 

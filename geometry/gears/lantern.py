@@ -25,10 +25,11 @@ from geometry.curve import Complex, Real, end_point, start_point
 from geometry.cycloid import EpicycloidParallel
 from geometry.errors import CuspError, GeometryError, OffsetError, ParameterError, PointedTipError, told
 from geometry.findings import Finding
-from geometry.gears.offset_tooth import OffsetRegion, grown_side
+from geometry.gears.offset_tooth import grown_side
 from geometry.gears.tooth import ToothSide
 from geometry.hub_holes import HubHoles
 from geometry.line_arc import Arc
+from geometry.offset_region import OffsetRegion
 from geometry.placement import Placement2
 from geometry.profile import Label, Region, Segment
 from geometry.roots import bracketed_root

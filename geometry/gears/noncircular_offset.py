@@ -10,8 +10,8 @@ from geometry.curve import start_point
 from geometry.errors import GeometryError, OffsetError
 from geometry.findings import Finding
 from geometry.gears.noncircular import NoncircularGear, cut_outline
-from geometry.gears.offset_tooth import OffsetRegion
 from geometry.line_arc import Arc
+from geometry.offset_region import OffsetRegion
 from geometry.profile import Label, Profile, Region, Segment
 from geometry.tolerance import TOLERANCES
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from geometry.gears.spur import SpurGear
 from geometry.gears.tooth import SideCurves, ToothSide, assemble_side, tooth_side
 from geometry.intersect import first_above
 from geometry.line_arc import Arc
+from geometry.offset_region import OffsetRegion
 from geometry.profile import Label, Profile, Region, Segment, joint_turn
 from geometry.roots import bracketed_root
 from geometry.tolerance import TOLERANCES
@@ -29,15 +30,6 @@ from geometry.tolerance import TOLERANCES
 _SAMPLES = 65
 # share of a tip rounding's radius that is left at the edge of a deep face chamfer
 _KEPT_ROUNDING = 0.25
-
-
-@dataclass(frozen=True, slots=True)
-class OffsetRegion:
-    """The section of a gear, every boundary moved outwards by ``offset`` mm, and what was noticed."""
-
-    region: Region
-    offset: float
-    findings: tuple[Finding, ...]
 
 
 def gear_region(gear: SpurGear, offset: float = 0.0) -> OffsetRegion:

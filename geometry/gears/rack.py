@@ -13,14 +13,14 @@ from functools import cached_property
 from itertools import pairwise
 
 from geometry.curve import end_point, start_point
-from geometry.errors import GeometryError, ParameterError, PointedTipError, at_least, at_most
+from geometry.errors import GeometryError, OffsetError, ParameterError, PointedTipError, at_least, at_most
 from geometry.findings import Finding
 from geometry.gears.basic_rack import BasicRack, checked_rack
-from geometry.gears.offset_tooth import OffsetError, OffsetRegion
 from geometry.gears.rack_fillet import root_fillet
 from geometry.gears.rack_holes import RackHoles
 from geometry.intersect import first_above
 from geometry.line_arc import Arc, Line, arc_between
+from geometry.offset_region import OffsetRegion
 from geometry.placement import Placement2
 from geometry.profile import Label, Profile, Region, Segment
 from geometry.tolerance import TOLERANCES

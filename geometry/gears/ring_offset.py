@@ -14,14 +14,14 @@ import numpy as np
 
 from geometry.curve import Curve, Reversed, end_point, start_point
 from geometry.cutter_fillet import CutterFillet
-from geometry.errors import CuspError, GeometryError
+from geometry.errors import CuspError, GeometryError, OffsetError
 from geometry.findings import Finding
-from geometry.gears.offset_tooth import OffsetError, OffsetRegion
 from geometry.gears.ring import RingGear
 from geometry.gears.ring_limits import rim_walls
 from geometry.gears.ring_tooth import RingCurves, RingSide, assemble_ring_side, ring_side
 from geometry.intersect import first_above
 from geometry.line_arc import Arc
+from geometry.offset_region import OffsetRegion
 from geometry.profile import Label, Region, Segment, circle, joint_turn
 from geometry.roots import bracketed_root
 from geometry.tolerance import TOLERANCES

@@ -11,9 +11,9 @@ import pytest
 import shapely
 from hypothesis import given, settings
 
-from geometry.errors import GeometryError, ParameterError
+from geometry.errors import GeometryError, OffsetError, ParameterError
 from geometry.gears.basic_rack import BasicRack, TipRelief, full_round_radius, iso_53
-from geometry.gears.offset_tooth import OffsetError, gear_region
+from geometry.gears.offset_tooth import gear_region
 from geometry.gears.spur import SpurGear
 from geometry.gears.tooth import tooth_side
 from geometry.involute import Involute
