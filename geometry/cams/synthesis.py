@@ -11,7 +11,7 @@ import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -148,6 +148,7 @@ def roller_prime_radius(
     return axis_region(motion, rise_limit, return_limit).least_prime_radius(offset)
 
 
+@lru_cache(maxsize=16)
 def greatest_pressure_angle(cam: DiskCam, kind: PhaseKind | None = None) -> Extreme:
     """The greatest |nu| (rad) on rises, on returns or anywhere, and its cam angle."""
     pieces = cam.motion.moving_pieces(kind)
@@ -159,6 +160,7 @@ def greatest_pressure_angle(cam: DiskCam, kind: PhaseKind | None = None) -> Extr
     return _greatest(pieces, size)
 
 
+@lru_cache(maxsize=16)
 def least_convex_radius(cam: DiskCam) -> Extreme:
     """Least radius of curvature of the cam where it is convex (of a flat follower: anywhere), mm.
 
