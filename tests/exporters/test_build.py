@@ -268,7 +268,7 @@ def test_an_interrupted_build_leaves_the_files_of_the_last_one(tmp_path: Path) -
     scene = pair(tmp_path)
     run("build", scene, "--out", tmp_path / "out")
     before = contents(tmp_path / "out")
-    text = scene.read_text(encoding="utf-8").replace("= 23", "= 2000")
+    text = scene.read_text(encoding="utf-8").replace("= 23", "= 9000")
     scene.write_text(text, encoding="utf-8")
     with started("build", scene, "--out", "out", cwd=tmp_path) as process:
         wait_for(tmp_path / "out" / "s", ".building-*/a.svg", process)
@@ -285,6 +285,7 @@ HEAVY = ("cadquery", "OCP", "trimesh", "manifold3d", "scipy", "matplotlib")
     ("formats", "never"),
     [
         (["dxf", "svg", "stl"], HEAVY),
+        (["dxf"], (*HEAVY, "ezdxf", "rich")),
         (["stl"], (*HEAVY, "ezdxf", "rich")),
         (["svg"], (*HEAVY, "ezdxf", "rich")),
     ],
