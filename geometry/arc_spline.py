@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
+from geometry.bounds import bounds_between
 from geometry.curve import Complex, Curve, Real
 from geometry.errors import ConvergenceError
 from geometry.roots import bracketed_root
@@ -224,11 +224,9 @@ def _sampled_distance(curve: Curve, t: Real, points: Complex, bulges: Real, samp
 
 def _second_derivative_bounds(curve: Curve, t: Real, k: Real, distance: float) -> tuple[Real, bool]:
     """Bound of |delta''| on each arc's interval, and whether the curve has proven derivative bounds."""
-    bounds = [[curve.derivative_bound(order, a, b) for order in (1, 2)] for a, b in pairwise(t.tolist())]
-    certified = not any(m is None for pair in bounds for m in pair)
-    if certified:
-        m1, m2 = np.array(bounds, dtype=float).T
-    else:
+    m1, m2 = bounds_between(curve, t, (1, 2))
+    certified = bool(np.all(np.isfinite(m1) & np.isfinite(m2)))
+    if not certified:
         # samples with a margin: what is not proven shall at least not be too small
         at = t[:-1, None] + np.diff(t)[:, None] * np.linspace(0, 1, _BOUND_SAMPLES)
         m1, m2 = (_SAMPLED_MARGIN * np.abs(curve.derivative(at, order)).max(axis=1) for order in (1, 2))

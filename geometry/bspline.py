@@ -13,11 +13,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from geometry.bounds import bounds_between
 from geometry.contour import Bound
 from geometry.curve import Complex, Curve, Real
 from geometry.errors import ParameterError
@@ -180,7 +180,7 @@ def distance_bound(curve: Curve, spline: BSpline, x: Real, t: Real) -> tuple[flo
     start = feet(curve, spline.point(grid), np.interp(grid, x, t))
     start[0], start[-1] = curve.domain
     start = np.maximum.accumulate(start)
-    bounds = _curve_bounds(curve, start[edges])
+    bounds = bounds_between(curve, start[edges], (2, 3, 4))
     fourth = spline.derivative_bound(4, span_index(spline.degree, spline.knots, (grid[:-1] + grid[1:]) / 2))
     cells = _cell_ends(curve, spline, np.stack([grid[:-1], grid[1:]]), np.stack([start[:-1], start[1:]]))
     moduli, count, certified = bounds[:, part], len(part), bool(np.all(np.isfinite(bounds)))
@@ -213,12 +213,6 @@ def _grid(spline: BSpline) -> tuple[Real, Index, Index]:
     parts = min(spans * per_span, max(spans, _LEAST_PARTS))
     edges = np.arange(parts + 1) * (spans * per_span) // parts
     return grid, np.repeat(np.arange(parts), np.diff(edges)), edges
-
-
-def _curve_bounds(curve: Curve, t: Real) -> Real:
-    """Bounds of |c''|, |c'''|, |c''''| on each part, (3, parts); nan where the curve knows none."""
-    bounds = [[curve.derivative_bound(k, a, b) for a, b in pairwise(t.tolist())] for k in (2, 3, 4)]
-    return np.array(bounds, dtype=float)
 
 
 def _cell_ends(curve: Curve, spline: BSpline, x: Real, foot: Real) -> _Ends:
