@@ -47,6 +47,8 @@ _MOST_TRIES = 24
 _LEAST_END_LEG = 2.5e-7
 
 ParameterMap = Callable[[Real], Real]
+# first and last point, first and last tangent
+Ends = tuple[complex, complex, complex, complex]
 
 
 @dataclass(frozen=True, slots=True)
@@ -266,10 +268,11 @@ def _is_near(error: float, tolerance: float, factor: float) -> bool:
 
 def _relaxed(curve: Curve, layout: _Layout, poles: Complex, t: Real, tolerance: float) -> _Draft:
     """Rounds of least squares and new feet from poles near the curve; the best round, or the first that is enough."""
-    poles = _with_ends(curve, poles)
+    ends = _ends(curve)
+    poles = _with_ends(ends, poles)
     best: _Draft | None = None
     for index, weight in enumerate(_FIRST_WEIGHTS + _LATER_WEIGHTS):
-        poles = _with_ends(curve, poles + _correction(curve, layout, poles, t, weight))
+        poles = _with_ends(ends, poles + _correction(curve, ends, layout, poles, t, weight))
         points = layout.points(poles)
         t = feet(curve, points, t, steps=2)
         errors = np.abs(points - curve.point(t)).max(axis=1)
@@ -283,11 +286,9 @@ def _relaxed(curve: Curve, layout: _Layout, poles: Complex, t: Real, tolerance: 
     return best
 
 
-def _with_ends(curve: Curve, poles: Complex) -> Complex:
+def _with_ends(ends: Ends, poles: Complex) -> Complex:
     """Poles whose ends are the curve's to the bit, and whose end legs lie along its tangents."""
-    low, high = curve.domain
-    start, end = start_point(curve), end_point(curve)
-    leave, arrive = complex(curve.tangent(low)), complex(curve.tangent(high))
+    start, end, leave, arrive = ends
     least = _LEAST_END_LEG * max(abs(start), abs(end))
     poles = poles.copy()
     poles[1] = start + leave * max(least, ((poles[1] - start) * leave.conjugate()).real)
@@ -296,7 +297,13 @@ def _with_ends(curve: Curve, poles: Complex) -> Complex:
     return poles
 
 
-def _correction(curve: Curve, layout: _Layout, poles: Complex, t: Real, weight: float) -> Complex:
+def _ends(curve: Curve) -> Ends:
+    """First and last point, first and last tangent."""
+    leave, arrive = (complex(curve.tangent(at)) for at in curve.domain)
+    return start_point(curve), end_point(curve), leave, arrive
+
+
+def _correction(curve: Curve, ends: Ends, layout: _Layout, poles: Complex, t: Real, weight: float) -> Complex:
     """Change of the poles by least squares: normal residuals count 1, tangential ones ``weight``.
 
     Normal equations, assembled span by span. Being those of a correction, their rounding is corrected by the next
@@ -315,7 +322,7 @@ def _correction(curve: Curve, layout: _Layout, poles: Complex, t: Real, weight: 
     np.add.at(matrix, (columns[:, :, None], columns[:, None, :]), rows.transpose(0, 2, 1) @ rows)
     np.add.at(right, columns, np.einsum("jqk,jq->jk", rows, known))
     # the end legs' directions become unknowns in place of the real parts of their poles
-    leave, arrive = (complex(curve.tangent(at)) for at in curve.domain)
+    _, _, leave, arrive = ends
     for pole, way in ((1, leave), (n - 2, arrive)):
         for line in (matrix, matrix.T, right):
             line[pole] = way.real * line[pole] + way.imag * line[n + pole]
