@@ -20,6 +20,7 @@ from parts.materials import density_of
 from parts.part import Part
 
 if TYPE_CHECKING:
+    from geometry.cams.follower_motion import Phase
     from geometry.cams.wedge import Swinging, Upright, WedgeCam, WedgeMotion
 
 _MOST = 100_000.0
@@ -144,7 +145,7 @@ def wedge_part(part_id: str, spec: WedgeCamSpec, cam: WedgeCam) -> Part:
         section,
         lru_cache(maxsize=2)(lambda offset: plate(section(offset).region, 0.0, spec.face_width)),
         spec.face_width,
-        findings=_findings(spec, cam),
+        findings=wedge_findings(spec, cam),
         quantities=_quantities(spec, cam),
         material=spec.material,
         colour=spec.colour,
@@ -176,8 +177,20 @@ def _wedge_of(spec: WedgeCamSpec, *, told: bool = True) -> WedgeCam:
 
 
 def _motion(spec: WedgeCamSpec, lift: float) -> WedgeMotion:
-    from geometry.cams.follower_motion import Phase
     from geometry.cams.wedge import wedge_motion
+
+    return wedge_motion(wedge_phases(spec, lift))
+
+
+def wedge_phases(spec: WedgeCamSpec, lift: float) -> list[Phase]:
+    """The phases of the keys over the travel, mm; ``lift`` in mm, or rad of an arm.
+
+    Raises
+    ------
+    ParameterError
+        A dwell with a law or a share.
+    """
+    from geometry.cams.follower_motion import Phase
 
     made = []
     for index, phase in enumerate(spec.phases):
@@ -189,7 +202,7 @@ def _motion(spec: WedgeCamSpec, lift: float) -> WedgeMotion:
             continue
         change = phase.share * lift if phase.move == "rise" else -phase.share * lift
         made.append(Phase(phase.travel, change, law_of(phase.law, f"{place}.law")))
-    return wedge_motion(made)
+    return made
 
 
 def _mount(spec: WedgeCamSpec, motion: WedgeMotion, told: bool) -> Upright | Swinging:
@@ -346,7 +359,8 @@ def _steepest(cam: WedgeCam) -> float:
     return max(found)
 
 
-def _findings(spec: WedgeCamSpec, cam: WedgeCam) -> tuple[Finding, ...]:
+def wedge_findings(spec: WedgeCamSpec, cam: WedgeCam) -> tuple[Finding, ...]:
+    """Impacts where the velocity or the acceleration jumps, and a steep pressure angle."""
     found, pieces = [], cam.motion.pieces
     low, high = cam.motion.extremes()
     for order, name in ((1, "rigid"), (2, "soft")):

@@ -175,6 +175,19 @@ def least_convex_radius(cam: DiskCam) -> Extreme:
     return Extreme(value, found.angle)
 
 
+def least_hollow_radius(cam: DiskCam) -> Extreme:
+    """Least radius of curvature of the roller centre's path where it is hollow, mm: inf where it is nowhere.
+
+    The outer wall of a groove is whole where the roller, with its play, is smaller.
+    """
+
+    def hollow(piece: LawPiece, t: Real) -> Real:
+        return -1 / cam.pitch_curvature_radius(np.minimum(t, np.nextafter(piece.end, 0)))
+
+    found = _greatest(list(cam.motion.pieces), hollow)
+    return Extreme(1 / found.value if found.value > 0 else math.inf, found.angle)
+
+
 def convex_roller_base_radius(
     motion: FollowerMotion, radius: float, least_curvature_radius: float, *, follower_offset: float = 0.0
 ) -> float:
