@@ -111,10 +111,10 @@ closure_error_deg|dPhi|ΔΦ|deg|departure from the whole number of lobes|від�
 least_centrode_bend|rho_c|ρ_min|mm|least radius of curvature of this centrode|найменший радіус кривини центроїди
 greatest_centrode_bend|rho_g|ρ_max|mm|greatest radius of curvature of it|найбільший радіус кривини центроїди
 equivalent_teeth|z_e|z_екв||teeth of a round gear as much curved|число зубців еквівалентного колеса
-least_equivalent_teeth|z_min|z_min||least teeth of it without undercut at this shift|найменше z без підрізу за цього зміщення
+least_equivalent_teeth|z_min|z_min||least teeth of it without undercut|найменше z без підрізу за цього x
 undercut_sides|n_u|n_підр||undercut tooth sides of a lobe|підрізаних сторін зубців на хвилю
 least_tip_land|S_a|S_a|mm|least tip land|найменша товщина зуба на вершині
-tip_height|h_a|h_a|mm|height of the tips over the centrode|висота головки зуба над центроїдою
-root_depth|h_f|h_f|mm|depth of the roots below the centrode|висота ніжки зуба під центроїдою
+tip_height|h_tip|h_a|mm|height of the tips over the centrode|висота головки зуба над центроїдою
+root_depth|h_root|h_f|mm|depth of the roots below the centrode|висота ніжки зуба під центроїдою
 noncircular_contact_ratio|eps|ε||least contact ratio of the pair|найменший коефіцієнт перекриття пари
 """
