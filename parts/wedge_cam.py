@@ -156,6 +156,7 @@ def wedge_part(part_id: str, spec: WedgeCamSpec, cam: WedgeCam) -> Part:
 
 def _wedge_of(spec: WedgeCamSpec, *, told: bool = True) -> WedgeCam:
     """The wedge cam of the keys; not ``told``: a refusal seeks no swing that works, as a search's trial."""
+    from geometry.cams.disk import FollowerKind
     from geometry.cams.wedge import WedgeCam
 
     swing = spec.oscillating
@@ -173,7 +174,8 @@ def _wedge_of(spec: WedgeCamSpec, *, told: bool = True) -> WedgeCam:
     if spec.follower != "pointed" and not spec.follower_radius > 0:
         raise ParameterError("follower_radius", spec.follower_radius, f"a {spec.follower} has a radius above 0")
     motion = _motion(spec, math.radians(lift) if swing else lift)
-    return WedgeCam(motion, _mount(spec, motion, told), spec.follower_radius)
+    mount, runs = _mount(spec, motion, told), (spec.run_in, spec.run_out)
+    return WedgeCam(motion, mount, spec.follower_radius, FollowerKind(spec.follower), runs, spec.corner_radius)
 
 
 def _motion(spec: WedgeCamSpec, lift: float) -> WedgeMotion:
