@@ -31,14 +31,15 @@ from exporters.calculations.inputs import PLACE, checked, given, keys_of, refusa
 from exporters.calculations.sheet import Sheet
 from geometry.cams.disk import DiskCam
 from geometry.cams.follower_motion import PhaseKind
-from geometry.cams.mounts import Translating
+from geometry.cams.mounts import Oscillating, Translating
+from geometry.cams.rocker import rocker_axis, rocker_base
 from geometry.cams.synthesis import (
     flat_base_radius,
     greatest_pressure_angle,
     least_convex_radius,
     roller_prime_radius,
 )
-from geometry.errors import ParameterError
+from geometry.errors import GeometryError, ParameterError
 from parts.cam import CamSpec, base_radius, checked_cam
 from parts.schema import SceneError, near
 
@@ -154,6 +155,8 @@ def sizes(page: Sheet, keys: CamKeys, cam: DiskCam) -> None:
         elif asked is not None:
             least = roller_prime_radius(cam.motion, keys.follower_offset, math.radians(90 - asked))
             page.add("least_base_radius", least, "", LESSON_5)
+    if isinstance(cam.mount, Oscillating) and cam.is_flat:
+        _rocker(page, keys, cam, cam.mount)
     if keys.least_curvature_radius:
         page.add("curvature_reserve", keys.least_curvature_radius)
     base = base_radius(cam)
@@ -176,3 +179,16 @@ def reached(page: Sheet, cam: DiskCam) -> None:
     if not cam.is_flat and cam.motion.moving_pieces(PhaseKind.RISE):
         steep = math.degrees(greatest_pressure_angle(cam, PhaseKind.RISE).value)
         page.add("transmission_angle_reached_deg", 90 - steep, "", LESSON_5)
+
+
+def _rocker(page: Sheet, keys: CamKeys, cam: DiskCam, mount: Oscillating) -> None:
+    """The least base circle of a flat rocker's convex cam, at its pivot's distance and at the best one."""
+    sizes = mount.sense, mount.face_offset, keys.least_curvature_radius
+    try:
+        page.add("least_base_radius", rocker_base(cam.motion, mount.centre_distance, *sizes).prime_radius)
+        best = rocker_axis(cam.motion, *sizes)
+    except GeometryError:
+        # of a face through its pivot, and no radius asked for, every size is like another
+        return
+    page.add("best_rocker_distance", best.centre_distance)
+    page.add("best_rocker_radius", best.prime_radius)

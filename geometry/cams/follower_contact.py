@@ -71,9 +71,7 @@ def body_points(end: FollowerEnd) -> Complex:
     return np.asarray(points[np.abs(points - (end.arm_length or 0.0)) > end.radius * (1 + 1e-9)])
 
 
-def press_in(
-    gaps: Real, points: Complex, fence: Fence, body_at: Callable[[int], Complex], tolerance: float
-) -> None:
+def press_in(gaps: Real, points: Complex, fence: Fence, body_at: Callable[[int], Complex], tolerance: float) -> None:
     """Gaps and their points where the rest of a follower runs deeper into a cam than its end: minus the depth.
 
     ``body_at`` gives the follower's outline in the frame of the profile at a place; every fifth one is looked at.
