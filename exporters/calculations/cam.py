@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import importlib
 import math
+from contextlib import suppress
 from typing import Any
 
 from exporters.calculations.cam_graphical import graphical_section
@@ -32,7 +33,7 @@ from exporters.calculations.sheet import Sheet
 from geometry.cams.disk import DiskCam
 from geometry.cams.follower_motion import PhaseKind
 from geometry.cams.mounts import Oscillating, Translating
-from geometry.cams.rocker import rocker_axis, rocker_base
+from geometry.cams.rocker import rocker_base
 from geometry.cams.synthesis import (
     flat_base_radius,
     greatest_pressure_angle,
@@ -182,13 +183,9 @@ def reached(page: Sheet, cam: DiskCam) -> None:
 
 
 def _rocker(page: Sheet, keys: CamKeys, cam: DiskCam, mount: Oscillating) -> None:
-    """The least base circle of a flat rocker's convex cam, at its pivot's distance and at the best one."""
-    sizes = mount.sense, mount.face_offset, keys.least_curvature_radius
-    try:
-        page.add("least_base_radius", rocker_base(cam.motion, mount.centre_distance, *sizes).prime_radius)
-        best = rocker_axis(cam.motion, *sizes)
-    except GeometryError:
-        # of a face through its pivot, and no radius asked for, every size is like another
-        return
-    page.add("best_rocker_distance", best.centre_distance)
-    page.add("best_rocker_radius", best.prime_radius)
+    """The least base circle of a flat rocker's convex cam at its pivot's distance, where there is one."""
+    with suppress(GeometryError):
+        least = rocker_base(
+            cam.motion, mount.centre_distance, mount.sense, mount.face_offset, keys.least_curvature_radius
+        )
+        page.add("least_base_radius", least.prime_radius)

@@ -34,8 +34,6 @@ pivot_height|z_p|z_п|mm|height of the arm's pivot|висота осі коро�
 pivot_offset|y_p|y_п|mm|from the cam's axis to the pivot|відстань від осі кулачка до осі коромисла
 outer_pressure_angle_rise_deg|nu_m|ν_від|deg|greatest angle at the outside, rise|кут тиску зовні, віддалення
 outer_pressure_angle_return_deg|nu_n|ν_наб|deg|greatest angle at the outside, return|кут тиску зовні, наближення
-best_rocker_distance|d_best|d_0|mm|distance of the pivot for the smallest cam|найкраща відстань осі коромисла
-best_rocker_radius|r_best|r_00|mm|least radius of the cam there|найменший радіус кулачка за цієї відстані
 roller_distance|a_r|a|mm|distance of both rollers' centres|відстань між центрами роликів
 roller_angle_deg|a_r|θ|deg|angle between both arms|кут між плечима коромисла
 second_follower_radius|r_2|r_2|mm|radius of the second roller|радіус другого ролика

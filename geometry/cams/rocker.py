@@ -18,11 +18,9 @@ import numpy as np
 from geometry.cams.follower_motion import FollowerMotion
 from geometry.cams.synthesis import OscillatingAxis, greatest_of
 from geometry.curve import Complex, Real
-from geometry.errors import ConvergenceError, ParameterError, at_least
+from geometry.errors import ConvergenceError, ParameterError
 from geometry.motion_laws.piece import LawPiece
 
-_MOST_CUTS = 80
-_ROUNDING = 1e-12
 # the line of centres stays this much (rad) less than square to the face: beyond, the push's arm changes its sign
 _SQUARE = 1e-6
 
@@ -51,9 +49,9 @@ def rocker_base(
     Raises
     ------
     ParameterError
-        The rocker turns with the cam somewhere, or the pivot stands too near.
+        The rocker turns with the cam somewhere.
     ConvergenceError
-        What one cam angle asks for another one forbids.
+        The pivot stands too near, or what one cam angle asks for another one forbids.
     """
     _check_turning(motion, sense)
     level, pieces = least_radius + face_offset, list(motion.pieces)
@@ -63,8 +61,7 @@ def rocker_base(
 
     needed = greatest_of(pieces, short).value
     if not needed <= centre_distance:
-        text = f"is too near for a convex cam; at least {at_least(needed, 4)} mm works"
-        raise ParameterError("centre_distance", centre_distance, text)
+        raise ConvergenceError("axis of the flat rocker: its pivot stands too near for a convex cam", needed, 1)
 
     def end(piece: LawPiece, t: Real, side: int) -> Real:
         a, b = curvature_terms(piece, t, sense)
@@ -82,64 +79,7 @@ def rocker_base(
     return OscillatingAxis(centre_distance, least, centre_distance * math.sin(least) - face_offset)
 
 
-def rocker_axis(
-    motion: FollowerMotion, sense: int, face_offset: float = 0.0, least_radius: float = 0.0
-) -> OscillatingAxis:
-    """The smallest convex cam of all distances: the lowest corner of the region, found by cutting planes.
-
-    Raises
-    ------
-    ParameterError
-        The rocker turns with the cam somewhere, or rho_min + f is not above 0: then every size is like another.
-    ConvergenceError
-        No axis keeps the condition.
-    """
-    _check_turning(motion, sense)
-    level = least_radius + face_offset
-    if not level > 0:
-        raise ParameterError("least_curvature_radius", least_radius, f"above {max(0.0, -face_offset):.6g} mm works")
-    highest = motion.extremes()[1] + _SQUARE
-    # over the face, and the line of centres less than square to it
-    planes = [(1j, max(face_offset, 0.0)), (complex(np.exp(-1j * highest)), 0.0)]
-    axis = complex(max(face_offset, 0.0) * math.tan(highest), max(face_offset, 0.0))
-    for _ in range(_MOST_CUTS):
-        cuts = [_cut(p, sense, level, axis) for p in motion.pieces]
-        worst = max(cut[2] for cut in cuts)
-        if worst <= _ROUNDING * (level + abs(axis)):
-            return OscillatingAxis(abs(axis), float(np.angle(axis)), axis.imag - face_offset)
-        planes += [(n, b) for n, b, depth in cuts if depth > 0]
-        axis = _lowest(planes)
-    raise ConvergenceError("axis of the flat rocker", worst, _MOST_CUTS)
-
-
 def _check_turning(motion: FollowerMotion, sense: int) -> None:
     low, high = motion.extremes(1)
     if not 1 + min(sense * low, sense * high) > 0:
         raise ParameterError("sense", sense, "the rocker turns as fast as the cam; longer phases work")
-
-
-def _cut(piece: LawPiece, sense: int, level: float, axis: complex) -> tuple[complex, float, float]:
-    """The half-plane of a piece that the axis breaks most, and by how much, mm."""
-
-    def depth(own: LawPiece, t: Real) -> Real:
-        normal, b = rocker_planes(own, t, sense, level)
-        return b - (np.conj(normal) * axis).real
-
-    found = greatest_of([piece], depth)
-    normal, b = rocker_planes(piece, np.asarray(found.angle), sense, level)
-    return complex(normal), float(b), found.value
-
-
-def _lowest(planes: list[tuple[complex, float]]) -> complex:
-    """The corner of an intersection of half-planes that has the least y."""
-    normals, levels = np.array([n for n, _ in planes]), np.array([b for _, b in planes])
-    i, j = np.triu_indices(len(planes), 1)
-    whole = (np.conj(normals[i]) * normals[j]).imag
-    with np.errstate(divide="ignore", invalid="ignore"):
-        corners = 1j * (levels[j] * normals[i] - levels[i] * normals[j]) / whole
-    corners = corners[np.isfinite(corners)]
-    slack = (np.conj(normals)[:, None] * corners).real - levels[:, None]
-    good = corners[np.all(slack >= -_ROUNDING * (np.abs(corners) + np.abs(levels[:, None])), axis=0)]
-    if not good.size:
-        raise ConvergenceError("axis of the flat rocker: no axis makes a convex cam", 0.0, len(planes))
-    return complex(good[np.argmin(good.imag)])

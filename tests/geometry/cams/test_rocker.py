@@ -9,7 +9,7 @@ import pytest
 
 from geometry.cams.disk import FollowerKind, oscillating_cam
 from geometry.cams.follower_motion import FollowerMotion, dwell, follower_motion, return_, rise
-from geometry.cams.rocker import rocker_axis, rocker_base, rocker_planes
+from geometry.cams.rocker import rocker_base, rocker_planes
 from geometry.errors import ConvergenceError, ParameterError
 from geometry.motion_laws import named
 
@@ -52,22 +52,6 @@ def test_the_least_base_at_a_distance_is_that_of_bisection(
 
 
 @pytest.mark.parametrize("sense", [1, -1])
-def test_no_distance_has_a_smaller_cam_than_the_corner(sense: int) -> None:
-    given = motion(10.0)
-    best = rocker_axis(given, sense, 5.0, 3.0)
-    least = math.inf
-    for distance in np.geomspace(best.centre_distance * 0.95, best.centre_distance * 1.05, 161):
-        try:
-            least = min(least, rocker_base(given, float(distance), sense, 5.0, 3.0).prime_radius)
-        except (ParameterError, ConvergenceError):
-            continue
-    assert best.prime_radius <= least + 1e-9
-    assert least == pytest.approx(best.prime_radius, rel=2e-3)
-    radius = least_radius(given, best.prime_radius, best.centre_distance, sense, 5.0)
-    assert radius == pytest.approx(3.0, abs=1e-4)
-
-
-@pytest.mark.parametrize("sense", [1, -1])
 def test_half_planes_tell_the_radius_itself(sense: int) -> None:
     """The slack of each half-plane is rho over the length of its normal: for cams that are convex and that are not."""
     given = motion(12.0)
@@ -82,13 +66,11 @@ def test_half_planes_tell_the_radius_itself(sense: int) -> None:
             assert slack == pytest.approx(cam.curvature_radius(t), rel=1e-9, abs=1e-9)
 
 
-def test_what_cannot_be_is_refused_with_what_works() -> None:
+def test_what_cannot_be_is_refused() -> None:
     given = motion(10.0)
-    with pytest.raises(ParameterError) as caught:
+    with pytest.raises(ConvergenceError, match="too near"):
         rocker_base(given, 5.0, 1, 5.0, 3.0)
-    told = float(caught.value.allowed.split("at least ")[1].split(" mm")[0])
-    assert 5 < told < 20
-    with pytest.raises(ParameterError, match="above 0"):
-        rocker_axis(given, 1)
+    with pytest.raises(ConvergenceError):
+        rocker_base(motion(60.0, 100.0), 90.0, -1, 0.0, 20.0)
     with pytest.raises(ParameterError, match="turns as fast"):
         rocker_base(motion(80.0, 60.0), 90.0, -1)
