@@ -71,6 +71,6 @@ def test_what_cannot_be_is_refused() -> None:
     with pytest.raises(ConvergenceError, match="too near"):
         rocker_base(given, 5.0, 1, 5.0, 3.0)
     with pytest.raises(ConvergenceError):
-        rocker_base(motion(60.0, 100.0), 90.0, -1, 0.0, 20.0)
+        rocker_base(motion(50.0, 100.0), 90.0, -1, 0.0, 20.0)
     with pytest.raises(ParameterError, match="turns as fast"):
         rocker_base(motion(80.0, 60.0), 90.0, -1)
