@@ -14,7 +14,7 @@ from geometry.gears.offset_tooth import OffsetRegion
 from geometry.hub_holes import HubHoles
 from geometry.profile import Profile, Region
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
-from parts.cam_keys import PhaseTable, motion_of, without_base
+from parts.cam_keys import FollowerOffset, Lift, MotionTable, Phases, Swing, motion_of, without_base
 from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, mm
 from parts.materials import density_of
@@ -51,22 +51,12 @@ class CamSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="cam"):
     follower: Annotated[
         Literal["pointed", "roller", "mushroom", "flat"], Meta(description="shape of the follower's end")
     ]
-    lift: Annotated[float, mm("lift H of a translating follower", least=0, most=_MOST)] = 0.0
-    swing_deg: Annotated[
-        float, Meta(ge=0, lt=180, description="swing of an oscillating follower", extra={"unit": "degrees"})
-    ] = 0.0
-    phases: Annotated[list[PhaseTable], Meta(min_length=1, max_length=100)] | None = None
-    motion_table: (
-        Annotated[
-            list[tuple[float, float]],
-            Meta(min_length=3, max_length=2000, description="in place of phases: [cam angle deg, lift mm or deg]"),
-        ]
-        | None
-    ) = None
+    lift: Lift = 0.0
+    swing_deg: Swing = 0.0
+    phases: Phases | None = None
+    motion_table: MotionTable | None = None
     follower_radius: Annotated[float, mm("radius of the roller or mushroom", least=0, most=_MOST)] = 0.0
-    follower_offset: Annotated[float, mm("line of motion at x = e; e > 0 eases the rise", least=-_MOST, most=_MOST)] = (
-        0.0
-    )
+    follower_offset: FollowerOffset = 0.0
     plate_diameter: (
         Annotated[float, mm("round plate of a translating flat or mushroom follower", above=0, most=_MOST)] | None
     ) = None

@@ -13,7 +13,7 @@ from msgspec import Meta, Struct
 from geometry.errors import ConvergenceError, GeometryError, ParameterError, at_least, at_most, format_value
 from geometry.profile import Profile
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
-from parts.cutter_keys import RackName
+from parts.cutter_keys import PressureAngle, RackName
 from parts.hole_keys import BoreTable, HolesTable, SpokesTable, hub_holes, with_remedy
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, in_modules, mm
 from parts.materials import density_of
@@ -71,9 +71,7 @@ class NoncircularGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", 
     profile_shift_coefficient: Annotated[
         float, in_modules("shift x of the rack's datum line; its mate has -x", least=-1, most=1)
     ] = 0.0
-    pressure_angle_deg: Annotated[
-        float, Meta(ge=5, le=45, description="pressure angle of the rack", extra={"unit": "degrees"})
-    ] = 20.0
+    pressure_angle_deg: PressureAngle = 20.0
     basic_rack: RackName | RackTable = "ISO 53 A"
     circumferential_thinning: Annotated[
         float, mm("thinning of each tooth for backlash, arc of the centrode", least=0, most=1000)

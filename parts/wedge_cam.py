@@ -14,6 +14,7 @@ from geometry.errors import GeometryError, OffsetError, ParameterError, Undercut
 from geometry.findings import Finding
 from geometry.gears.offset_tooth import OffsetRegion
 from geometry.profile import Label, Profile, Region, circle
+from parts.cam_keys import Swing
 from parts.keys import Colour, Density, FaceWidth, Material, mm
 from parts.law_keys import LawName, LawTable, law_of
 from parts.materials import density_of
@@ -72,9 +73,7 @@ class WedgeCamSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="we
     phases: Annotated[list[WedgePhaseTable], Meta(min_length=1, max_length=100)]
     base_height: Annotated[float, mm("of the plate under the follower at S = 0", above=0, most=_MOST)]
     lift: Annotated[float, mm("lift H of a sliding follower", least=0, most=_MOST)] = 0.0
-    swing_deg: Annotated[
-        float, Meta(ge=0, lt=180, description="swing of an oscillating follower", extra={"unit": "degrees"})
-    ] = 0.0
+    swing_deg: Swing = 0.0
     follower_radius: Annotated[float, mm("radius of the roller or mushroom", least=0, most=_MOST)] = 0.0
     oscillating: WedgeArmTable | None = None
     run_in: Annotated[float, mm("straight edge before the travel", above=0, most=_MOST)] = 10.0
