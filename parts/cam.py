@@ -14,7 +14,7 @@ from geometry.gears.offset_tooth import OffsetRegion
 from geometry.hub_holes import HubHoles
 from geometry.profile import Profile, Region
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
-from parts.cam_keys import FollowerOffset, Lift, MotionTable, Phases, Swing, motion_of, without_base
+from parts.cam_keys import FollowerOffset, Lift, MotionTable, Phases, Swing, in_degrees, motion_of, without_base
 from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, mm
 from parts.materials import density_of
@@ -196,7 +196,7 @@ def _in_keys(spec: CamSpec, refusal: ParameterError) -> ParameterError:
     names = {"radius": "follower_radius"} | ({"lift": "swing_deg"} if swing else {})
     if swing:
         names |= {key: f"oscillating.{key}" for key in ("centre_distance", "arm_length", "face_offset", "sense")}
-    value = math.degrees(refusal.value) if refusal.name == "lift" and swing else refusal.value  # type: ignore[arg-type]
+    value = in_degrees(refusal.value) if refusal.name == "lift" and swing else refusal.value
     return ParameterError(names.get(refusal.name, refusal.name), value, refusal.allowed)
 
 
@@ -347,7 +347,7 @@ def cam_quantities(spec: CamSpec, cam: DiskCam) -> dict[str, float]:
         found["lift"] = cam.motion.lift
     else:
         found["swing_deg"] = math.degrees(cam.motion.lift)
-        found["start_angle_deg"] = math.degrees(cam.mount.start_angle)  # type: ignore[union-attr]
+        found["start_angle_deg"] = math.degrees(cam.swing.start_angle)
     if cam.radius > 0:
         found["follower_radius"] = cam.radius
     if spec.oscillating is None and not cam.is_flat:

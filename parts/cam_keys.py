@@ -23,6 +23,7 @@ __all__ = [
     "PhaseTable",
     "Phases",
     "Swing",
+    "in_degrees",
     "motion_of",
     "without_base",
 ]
@@ -80,6 +81,11 @@ def motion_of(
         law = law_of(phase.law, f"phases.item {index + 1}.law")
         made.append((rise if phase.move == "rise" else return_)(angle, phase.share * lift, law))
     return follower_motion(made)
+
+
+def in_degrees(value: object) -> object:
+    """A refused angle of the mathematics as it was typed; what is no number stays."""
+    return math.degrees(value) if isinstance(value, float) else value
 
 
 def without_base(cam: DiskCam) -> str:

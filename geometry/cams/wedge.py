@@ -214,7 +214,7 @@ class WedgeCam:
 
     def curve(self, piece: Lift, start: float, end: float, grow: float = 0.0) -> SlideEnvelope:
         """The exact profile over one piece of the motion, ``grow`` mm out of the material."""
-        return SlideEnvelope(piece, self.mount, start, end, grow - self.radius)  # type: ignore[arg-type]
+        return SlideEnvelope(piece, self.mount, start, end, grow - self.radius)
 
     def centre(self, travel: ArrayLike) -> Complex:
         """The follower's centre in the plate's frame, mm."""
