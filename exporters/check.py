@@ -86,14 +86,17 @@ def check_pair(
     found = mating.contact(second_turn, centre_shift, tolerance)
     if found is None:
         return pair_quantities(mating)
-    worst = found.worst
+    worst, told = found.worst, pair_quantities(mating)
+    if "roller_clearance" in told:
+        # a groove holds its roller from both sides
+        told["walls"] = {k: [min(g), max(g)] for k, g in zip(("inner", "outer"), found.side_gaps, strict=True)}
     return {
-        **pair_quantities(mating),
+        **told,
         "verdict": found.verdict.value,
         "tolerance": found.tolerance,
         "gap": worst.gap,
         "greatest_gap": found.greatest_gap,
-        "drive_angle_deg": math.degrees(worst.drive_angle),
+        **_where(mating, worst.drive_angle),
         "point": [worst.point.real, worst.point.imag],
         "labels": [label.value for label in worst.labels],
         "findings": [
@@ -101,6 +104,11 @@ def check_pair(
             for f in mating.findings()
         ],
     }
+
+
+def _where(mating: Mating, drive: float) -> dict[str, float]:
+    """Where the first one stands: its turn, or the travel of a plate that slides."""
+    return {"drive_travel": drive} if mating.kind == "wedge_follower" else {"drive_angle_deg": math.degrees(drive)}
 
 
 def _mate(mate: PlacedMate, language: str, *, contact: bool) -> dict[str, Any]:

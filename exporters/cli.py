@@ -130,7 +130,9 @@ def _parser() -> argparse.ArgumentParser:
     listing = commands.add_parser("list", help="kinds of parts and built-in scenes")
     listing.set_defaults(run=_list)
     calc = commands.add_parser("calc", help="a textbook calculation, step by step")
-    calc.add_argument("topic", metavar="TOPIC", help="spur, tmm42, gear-pair, shift-choice or cam")
+    calc.add_argument(
+        "topic", metavar="TOPIC", help="spur, tmm42, gear-pair, shift-choice, cam, cycloidal, lantern or noncircular"
+    )
     calc.add_argument("words", nargs="*", metavar="SCENE | KEY=VALUE", help="a scene, or keys as in scenes")
     calc.add_argument("--format", default="text", metavar="F", help="text, md, html or json (default: text)")
     calc.add_argument("--language", metavar="L", help="en or uk (default: that of the scene, or en)")

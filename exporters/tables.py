@@ -58,6 +58,9 @@ def check_lines(checks: dict[str, Any], language: str) -> list[str]:
             text += f": {words(language, mate['verdict'])}, {words(language, 'gap').format(gap=mate['gap'])}"
             if mate["verdict"] == "clear" and mate["gap"] <= mate["tolerance"]:
                 text += f"; {words(language, 'interrupted')}"
+        if "walls" in mate:
+            told = words(language, "groove_walls").format(**mate["walls"], clearance=mate["roller_clearance"])
+            text += f"; {told}"
         lines.append(text)
         lines += _transmission(mate, language)
         lines += [f"{words(language, 'finding')}: {f['text']}" for f in mate.get("findings", [])]

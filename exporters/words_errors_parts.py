@@ -240,4 +240,26 @@ leaving it out works|без нього працює
 the last row, at 360 degrees, must repeat the first row's lift|\
 останній рядок, при 360 град, має повторювати хід першого
 at least {} mm works, the same in the cam's oscillating|підходить щонайменше {} мм, так само в oscillating кулачка
+the cam is made for another follower|кулачок розраховано на інший штовхач
+the plate is made for another follower|плиту розраховано на інший штовхач
+the cam is made for another|кулачок розраховано на інший
+the cam is made for {}, which works|кулачок розраховано на {}, що й підходить
+the plate slides less|хід плити менший
+the plate lies on the other side|плита лежить з іншого боку
+{} works with this cam|з цим кулачком підходить {}
+{} works with this plate|з цією плитою підходить {}
+the contact runs over the plate's edge|точка дотику виходить за край тарілки
+the contact runs over the bar's end|точка дотику виходить за кінець коромисла
+is made from another cam than the mate's first|виготовлено для іншого кулачка, ніж first
+name that one|назвіть той
+makes too many rows|дає забагато рядків
+is no kind of cam|це не вид кулачка
+one of {}|один із {}
+give the first cam's keys under it, as of.follower=roller of.lift=20, or name a scene with the part|\
+дайте під ним ключі першого кулачка, як of.follower=roller of.lift=20, або назвіть сцену
+has {} of {}: {}|має {} деталей {}: {}
+add part=ID|додайте part=ID
+is no {}|це не {}
+there are {}|є {}
+the scene has none|у сцені таких немає
 """

@@ -229,17 +229,25 @@ class CentrodePair:
         radius = self.centre_distance - self.first.series(at, 0)[0]
         return -radius * np.exp(1j * self.mate_angle(at))
 
-    def is_convex(self) -> tuple[bool, bool]:
-        """Whether each centrode is convex: r^2 + 2 r'^2 - r r'' > 0 at 1025 angles, for the second one over phi_2."""
-        t = np.linspace(0, 2 * math.pi, _SAMPLES)
-        r = self.first.series(t, 2)
-        first = r[0] ** 2 + 2 * r[1] ** 2 - 2 * r[0] * r[2]
-        # of the second: derivatives over phi_2 by the chain rule, d phi_1 = d phi_2 (A - r)/r
+    def curvatures(self, angle: ArrayLike) -> tuple[Real, Real]:
+        """Curvatures of both centrodes where they touch at phi_1, 1/mm, positive where convex.
+
+        (r^2 + 2 r'^2 - r r'') / (r^2 + r'^2)^(3/2); of the second one over phi_2, d phi_1 = d phi_2 (A - r)/r.
+        """
+        r = self.first.series(np.asarray(angle, dtype=float), 2)
         q = self.centre_distance - r[0]
         slow = q / r[0]
-        rate = -r[1] * slow
         second = slow * (-2 * r[2] * slow + r[1] ** 2 * self.centre_distance / r[0] ** 2)
-        return bool(np.all(first > 0)), bool(np.all(q**2 + 2 * rate**2 - q * second > 0))
+        return _polar_curvature(r[0], r[1], 2 * r[2]), _polar_curvature(q, -r[1] * slow, second)
+
+    def is_convex(self) -> tuple[bool, bool]:
+        """Whether each centrode is convex, at 1025 angles."""
+        first, second = self.curvatures(np.linspace(0, 2 * math.pi, _SAMPLES))
+        return bool(np.all(first > 0)), bool(np.all(second > 0))
+
+
+def _polar_curvature(r: Real, rate: Real, bend: Real) -> Real:
+    return (r**2 + 2 * rate**2 - r * bend) / (r**2 + rate**2) ** 1.5
 
 
 def closing_distance(first: PolarCentrode, mate_turns: float) -> float:

@@ -11,7 +11,7 @@ from geometry.errors import OffsetError, ParameterError, UndercutError, at_least
 from geometry.findings import Finding
 from geometry.hub_holes import HubHoles, least_wall
 from parts.barrel_keys import BarrelCamSpec, SwingingTable
-from parts.cam_keys import motion_of
+from parts.cam_keys import in_degrees, motion_of
 from parts.hole_keys import RoundBoreTable, hub_holes
 from parts.materials import density_of
 from parts.part import Part
@@ -96,7 +96,7 @@ def _motion(spec: BarrelCamSpec) -> FollowerMotion:
     try:
         motion = motion_of(spec.phases, table, lift, key)
     except ParameterError as refusal:
-        value = math.degrees(refusal.value) if refusal.name == key and spec.oscillating else refusal.value  # type: ignore[arg-type]
+        value = in_degrees(refusal.value) if refusal.name == key and spec.oscillating else refusal.value
         raise ParameterError(refusal.name, value, refusal.allowed) from refusal
     rigid = [j for j in motion.impacts() if j.impact == "rigid"]
     if rigid:
@@ -298,6 +298,7 @@ def _side(cam: BarrelCam) -> int:
 
 
 def _quantities(spec: BarrelCamSpec, body: BarrelBody) -> dict[str, float]:
+    from geometry.cams.barrel import SwingGuide
     from geometry.cams.follower_motion import PhaseKind
 
     cam = body.cam
@@ -309,14 +310,14 @@ def _quantities(spec: BarrelCamSpec, body: BarrelBody) -> dict[str, float]:
     }
     if cam.is_groove:
         found["groove_width"] = 2 * cam.radius
-    if spec.oscillating is None:
-        found["lift"] = cam.motion.lift
-    else:
+    if isinstance(cam.guide, SwingGuide):
         found["swing_deg"] = math.degrees(cam.motion.lift)
-        found["arm_length"] = spec.oscillating.arm_length
-        found["pivot_offset"] = cam.guide.pivot_offset  # type: ignore[union-attr]
-        found["pivot_height"] = cam.guide.pivot_height  # type: ignore[union-attr]
-        found["start_angle_deg"] = math.degrees(cam.guide.start_angle)  # type: ignore[union-attr]
+        found["arm_length"] = cam.guide.arm_length
+        found["pivot_offset"] = cam.guide.pivot_offset
+        found["pivot_height"] = cam.guide.pivot_height
+        found["start_angle_deg"] = math.degrees(cam.guide.start_angle)
+    else:
+        found["lift"] = cam.motion.lift
     found["start_height"] = float(cam.place(0.0, 0)[0].imag)
     for kind in (PhaseKind.RISE, PhaseKind.RETURN):
         if cam.motion.moving_pieces(kind):

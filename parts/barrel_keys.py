@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from msgspec import Meta, Struct
 
-from parts.cam_keys import PhaseTable
+from parts.cam_keys import MotionTable, Phases, Swing
 from parts.hole_keys import BoreTable
 from parts.keys import BoreDiameter, Colour, Density, Material, mm
 from parts.wheel_keys import HubTable
@@ -54,17 +54,9 @@ class BarrelCamSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="b
     roller_diameter: Annotated[float, mm("diameter of the roller, its axis across the cam's", above=0, most=_MOST)]
     groove_depth: Annotated[float, mm("depth of the groove, or width of the track", above=0, most=_MOST)]
     lift: Annotated[float, mm("lift H along the axis", least=0, most=_MOST)] = 0.0
-    swing_deg: Annotated[
-        float, Meta(ge=0, lt=180, description="swing of an oscillating follower", extra={"unit": "degrees"})
-    ] = 0.0
-    phases: Annotated[list[PhaseTable], Meta(min_length=1, max_length=100)] | None = None
-    motion_table: (
-        Annotated[
-            list[tuple[float, float]],
-            Meta(min_length=3, max_length=2000, description="in place of phases: [cam angle deg, lift mm or deg]"),
-        ]
-        | None
-    ) = None
+    swing_deg: Swing = 0.0
+    phases: Phases | None = None
+    motion_table: MotionTable | None = None
     oscillating: SwingingTable | None = None
     clearance: Annotated[float, mm("groove wider than the roller by this", least=0, most=100)] = 0.0
     length: (

@@ -14,7 +14,7 @@ from geometry.hub_holes import HubHoles
 from geometry.offset_region import OffsetRegion
 from geometry.profile import Profile, Region
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
-from parts.cam_keys import PhaseTable, motion_of, without_base
+from parts.cam_keys import FollowerOffset, Lift, MotionTable, Phases, Swing, in_degrees, motion_of, without_base
 from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, mm
 from parts.materials import density_of
@@ -51,22 +51,12 @@ class CamSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="cam"):
     follower: Annotated[
         Literal["pointed", "roller", "mushroom", "flat"], Meta(description="shape of the follower's end")
     ]
-    lift: Annotated[float, mm("lift H of a translating follower", least=0, most=_MOST)] = 0.0
-    swing_deg: Annotated[
-        float, Meta(ge=0, lt=180, description="swing of an oscillating follower", extra={"unit": "degrees"})
-    ] = 0.0
-    phases: Annotated[list[PhaseTable], Meta(min_length=1, max_length=100)] | None = None
-    motion_table: (
-        Annotated[
-            list[tuple[float, float]],
-            Meta(min_length=3, max_length=2000, description="in place of phases: [cam angle deg, lift mm or deg]"),
-        ]
-        | None
-    ) = None
+    lift: Lift = 0.0
+    swing_deg: Swing = 0.0
+    phases: Phases | None = None
+    motion_table: MotionTable | None = None
     follower_radius: Annotated[float, mm("radius of the roller or mushroom", least=0, most=_MOST)] = 0.0
-    follower_offset: Annotated[float, mm("line of motion at x = e; e > 0 eases the rise", least=-_MOST, most=_MOST)] = (
-        0.0
-    )
+    follower_offset: FollowerOffset = 0.0
     plate_diameter: (
         Annotated[float, mm("round plate of a translating flat or mushroom follower", above=0, most=_MOST)] | None
     ) = None
@@ -206,7 +196,7 @@ def _in_keys(spec: CamSpec, refusal: ParameterError) -> ParameterError:
     names = {"radius": "follower_radius"} | ({"lift": "swing_deg"} if swing else {})
     if swing:
         names |= {key: f"oscillating.{key}" for key in ("centre_distance", "arm_length", "face_offset", "sense")}
-    value = math.degrees(refusal.value) if refusal.name == "lift" and swing else refusal.value  # type: ignore[arg-type]
+    value = in_degrees(refusal.value) if refusal.name == "lift" and swing else refusal.value
     return ParameterError(names.get(refusal.name, refusal.name), value, refusal.allowed)
 
 
@@ -357,7 +347,7 @@ def cam_quantities(spec: CamSpec, cam: DiskCam) -> dict[str, float]:
         found["lift"] = cam.motion.lift
     else:
         found["swing_deg"] = math.degrees(cam.motion.lift)
-        found["start_angle_deg"] = math.degrees(cam.mount.start_angle)  # type: ignore[union-attr]
+        found["start_angle_deg"] = math.degrees(cam.swing.start_angle)
     if cam.radius > 0:
         found["follower_radius"] = cam.radius
     if spec.oscillating is None and not cam.is_flat:

@@ -8,13 +8,26 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError
+from parts.keys import mm
 from parts.law_keys import LawName, LawTable, law_of
 
 if TYPE_CHECKING:
     from geometry.cams.disk import DiskCam
     from geometry.cams.follower_motion import FollowerMotion
 
-__all__ = ["LawName", "PhaseTable", "motion_of", "without_base"]
+__all__ = [
+    "FollowerOffset",
+    "LawName",
+    "Lift",
+    "MotionTable",
+    "PhaseTable",
+    "Phases",
+    "Swing",
+    "in_degrees",
+    "motion_of",
+    "without_base",
+]
+_MOST = 100_000.0
 
 
 class PhaseTable(Struct, forbid_unknown_fields=True):
@@ -24,6 +37,17 @@ class PhaseTable(Struct, forbid_unknown_fields=True):
     angle_deg: Annotated[float, Meta(gt=0, le=360, description="cam angle of the phase", extra={"unit": "degrees"})]
     law: LawName | LawTable | None = None
     share: Annotated[float, Meta(gt=0, le=1, description="of the lift, in this phase")] = 1.0
+
+
+# keys that several kinds of cams have
+Lift = Annotated[float, mm("lift H of a translating follower", least=0, most=_MOST)]
+Swing = Annotated[float, Meta(ge=0, lt=180, description="swing of an oscillating follower", extra={"unit": "degrees"})]
+Phases = Annotated[list[PhaseTable], Meta(min_length=1, max_length=100)]
+MotionTable = Annotated[
+    list[tuple[float, float]],
+    Meta(min_length=3, max_length=2000, description="in place of phases: [cam angle deg, lift mm or deg]"),
+]
+FollowerOffset = Annotated[float, mm("line of motion at x = e; e > 0 eases the rise", least=-_MOST, most=_MOST)]
 
 
 def motion_of(
@@ -57,6 +81,11 @@ def motion_of(
         law = law_of(phase.law, f"phases.item {index + 1}.law")
         made.append((rise if phase.move == "rise" else return_)(angle, phase.share * lift, law))
     return follower_motion(made)
+
+
+def in_degrees(value: object) -> object:
+    """A refused angle of the mathematics as it was typed; what is no number stays."""
+    return math.degrees(value) if isinstance(value, float) else value
 
 
 def without_base(cam: DiskCam) -> str:

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError, at_least
+from parts.joined import Joined
 from parts.keys import mm
 from parts.standing import Standing
 
 if TYPE_CHECKING:
     from geometry.cams.disk import DiskCam
     from geometry.cams.follower_shape import FollowerEnd
-    from geometry.findings import Finding
     from geometry.gears.mesh_search import PairContact
     from parts.groove_cam import GrooveDisk
 
@@ -44,20 +44,19 @@ class CamFollowerSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag=
 
 
 @dataclass(frozen=True, slots=True)
-class CamFollowerMating:
-    """A disk cam and its follower, or the roller of it."""
+class CamFollowerMating(Joined):
+    """A disk cam and its follower, or the roller of it; in a groove it stands at the inner wall."""
 
-    first: str
-    second: str
-    direction_deg: float
-    height: float
     cam: DiskCam
     end: FollowerEnd
+    groove: GrooveDisk | None = None
     kind: str = "cam_follower"
-    pair: Any = None
-    first_teeth: int = 1
-    normal_backlash: float = 0.0
     ratio: None = None
+
+    @property
+    def normal_backlash(self) -> float:
+        """Play of a roller between the walls of its groove, mm."""
+        return 0.0 if self.groove is None else self.groove.clearance
 
     @property
     def has_contact(self) -> bool:
@@ -99,7 +98,9 @@ class CamFollowerMating:
             return Standing(direction, self.distance + abs(off), lean * self.end.arm_length, 0.0, slides=True)
         # a round roller may stand turned
         lean = 0.0 if self.end.outline is None else lean * self.module
-        return Standing(direction, self.distance + math.hypot(off.real, lean), off.imag, 0.0, slides=True)
+        # outwards a roller has the play of its groove
+        play = self.normal_backlash if off.imag > 0 else 0.0
+        return Standing(direction, self.distance + math.hypot(off.real, lean), off.imag, play, slides=True)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact | None:
         """Verdict over one turn of the cam; ``phase_off``: mm by which the follower stands too far out."""
@@ -108,17 +109,15 @@ class CamFollowerMating:
         from geometry.cams.follower_contact import CONTACT_TOLERANCE, follower_contact
 
         allowed = CONTACT_TOLERANCE * self.module if tolerance is None else tolerance
-        return follower_contact(self.cam, self.end, allowed, out=phase_off)
-
-    def findings(self) -> tuple[Finding, ...]:
-        """None: what a cam is warned of stands at its part."""
-        return ()
+        beyond = None if self.groove is None else self.groove.outer()
+        return follower_contact(self.cam, self.end, allowed, out=phase_off, beyond=beyond)
 
     def quantities(self) -> dict[str, Any]:
-        """How far the follower moves."""
+        """How far the follower moves, and its play in a groove, mm."""
         low, high = self.cam.motion.extremes()
         travel = math.degrees(high - low) if self._swings else high - low
-        return {"travel": travel, "unit": "deg" if self._swings else "mm"}
+        play = {} if self.groove is None else {"roller_clearance": self.groove.clearance}
+        return {"travel": travel, "unit": "deg" if self._swings else "mm", **play}
 
 
 def cam_follower_mating(mate: CamFollowerSpec, first: DiskCam | GrooveDisk, end: FollowerEnd) -> CamFollowerMating:
@@ -129,14 +128,16 @@ def cam_follower_mating(mate: CamFollowerSpec, first: DiskCam | GrooveDisk, end:
     ParameterError
         Another kind or size of follower; names its key and what the cam needs.
     """
-    cam: DiskCam = first if hasattr(first, "mount") else first.cam  # type: ignore[assignment]
-    made = CamFollowerMating(mate.first, mate.second, mate.direction_deg, mate.height, cam, end)
+    from geometry.cams.disk import DiskCam
+
+    cam, groove = (first, None) if isinstance(first, DiskCam) else (first.cam, first)
+    made = CamFollowerMating(mate.first, mate.second, mate.direction_deg, mate.height, cam, end, groove)
     if end.kind != cam.kind:
         raise ParameterError("end", str(end.kind), f'the cam is made for another follower; "{cam.kind}" works')
     stands_alone = end.outline is None
     if stands_alone or end.kind == "mushroom":
         key, factor = ("diameter", 2) if stands_alone else ("follower_radius", 1)
-        _same(key, factor * end.radius, factor * cam.radius)
+        same_as_cam(key, factor * end.radius, factor * cam.radius)
     mount: Any = cam.mount
     if not stands_alone and made._swings != (end.arm_length is not None):
         wanted = "follower_arm" if made._swings else "follower"
@@ -144,21 +145,23 @@ def cam_follower_mating(mate: CamFollowerSpec, first: DiskCam | GrooveDisk, end:
     if end.arm_length is not None:
         if end.sense != mount.sense:
             raise ParameterError(
-                "sense", _sense(end.sense), f'the cam is made for "{_sense(mount.sense)}", which works'
+                "sense", sense_name(end.sense), f'the cam is made for "{sense_name(mount.sense)}", which works'
             )
         if cam.is_flat:
-            _same("face_offset", end.face_offset, mount.face_offset)
+            same_as_cam("face_offset", end.face_offset, mount.face_offset)
         else:
-            _same("arm_length", end.arm_length, mount.arm_length)
+            same_as_cam("arm_length", end.arm_length, mount.arm_length)
     _check_reach(cam, end)
     return made
 
 
-def _sense(sense: int) -> str:
+def sense_name(sense: int) -> str:
+    """The sense of an arm as scenes have it."""
     return "against" if sense > 0 else "with"
 
 
-def _same(key: str, value: float, wanted: float) -> None:
+def same_as_cam(key: str, value: float, wanted: float) -> None:
+    """Refuse a size of the follower that is not the one its cam is made for."""
     if abs(value - wanted) > _SAME:
         raise ParameterError(key, value, f"the cam is made for another; {wanted:.9g} mm works")
 

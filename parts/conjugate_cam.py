@@ -162,11 +162,11 @@ def _circles(second: SecondCam) -> dict[str, float]:
 
 def _between_rollers(second: SecondCam) -> dict[str, float]:
     """How both rollers stand on their follower."""
-    one, two = second.first.mount, second.cam.mount
     if second.keys.oscillating is None:
-        return {"roller_distance": one.start_height + two.start_height}  # type: ignore[union-attr]
-    between = 2 * math.pi - one.start_angle - two.start_angle  # type: ignore[union-attr]
-    lowest = two.start_angle + second.cam.motion.extremes()[0]  # type: ignore[union-attr]
+        return {"roller_distance": second.first.slide.start_height + second.cam.slide.start_height}
+    two = second.cam.swing.start_angle
+    between = 2 * math.pi - second.first.swing.start_angle - two
+    lowest = two + second.cam.motion.extremes()[0]
     return {"roller_angle_deg": math.degrees(between), "start_angle_deg": math.degrees(lowest)}
 
 

@@ -1,4 +1,4 @@
-"""Scene keys of a pinion cutter, for rings and for external gears that are shaped, and of the basic rack's name."""
+"""Scene keys of a pinion cutter, for rings and for external gears that are shaped, and of the basic rack."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from geometry.gears.cutter import PinionCutter
 
 RackName = Literal["ISO 53 A", "ISO 53 B", "ISO 53 C", "ISO 53 D", "GOST 13755"]
+PressureAngle = Annotated[float, Meta(ge=5, le=45, description="pressure angle of the rack", extra={"unit": "degrees"})]
 
 
 class CutterTable(Struct, forbid_unknown_fields=True):

@@ -5,16 +5,13 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from msgspec import Meta, Struct
 
+from parts.joined import Joined
 from parts.keys import mm
 from parts.standing import Standing
-
-if TYPE_CHECKING:
-    from geometry.findings import Finding
-    from geometry.gears.mesh_search import PairContact
 
 _MOST = 1e6
 _Shift = Annotated[float, mm("a coordinate of the second in the first one's frame", least=-_MOST, most=_MOST)]
@@ -36,20 +33,13 @@ class FixedSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="fixed
 
 
 @dataclass(frozen=True, slots=True)
-class FixedMating:
+class FixedMating(Joined):
     """One instance fixed to another; whether their solids run into each other is for the solids to tell."""
 
-    first: str
-    second: str
     offset: complex
-    height: float
     rotation: float
     kind: str = "fixed"
-    direction_deg: float = 0.0
-    pair: Any = None
     module: float = 1.0
-    first_teeth: int = 1
-    normal_backlash: float = 0.0
     ratio: float = 1.0
     has_contact: bool = False
 
@@ -68,14 +58,6 @@ class FixedMating:
         off = math.remainder(second[1] - rotation, 2 * math.pi)
         return Standing(cmath.phase(self.offset), self.distance + abs(second[0] - centre), off, 0.0)
 
-    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact | None:
-        """None: nothing moves here."""
-        return None
-
-    def findings(self) -> tuple[Finding, ...]:
-        """None."""
-        return ()
-
     def quantities(self) -> dict[str, Any]:
         """Where the second stands in the first one's frame."""
         return {
@@ -87,4 +69,4 @@ class FixedMating:
 def fixed_mating(mate: FixedSpec, first: Any, second: Any) -> FixedMating:
     """The mating of a fixed mate, whatever its parts are."""
     x, y, z = mate.offset
-    return FixedMating(mate.first, mate.second, complex(x, y), z, math.radians(mate.rotation_deg))
+    return FixedMating(mate.first, mate.second, 0.0, z, complex(x, y), math.radians(mate.rotation_deg))

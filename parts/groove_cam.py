@@ -17,7 +17,7 @@ from geometry.offset_region import OffsetRegion
 from geometry.profile import Label, Profile, Region, circle
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.cam import CamSpec, OscillatingTable, base_radius, cam_circles, cam_of, cam_quantities, inner_radius
-from parts.cam_keys import PhaseTable
+from parts.cam_keys import FollowerOffset, Lift, MotionTable, Phases, Swing
 from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, mm
 from parts.materials import density_of
@@ -48,21 +48,11 @@ class GrooveCamSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="g
     groove_depth: Annotated[
         float, mm("from the upper face to the groove's floor, below face_width", above=0, most=10_000)
     ]
-    lift: Annotated[float, mm("lift H of a translating follower", least=0, most=_MOST)] = 0.0
-    swing_deg: Annotated[
-        float, Meta(ge=0, lt=180, description="swing of an oscillating follower", extra={"unit": "degrees"})
-    ] = 0.0
-    phases: Annotated[list[PhaseTable], Meta(min_length=1, max_length=100)] | None = None
-    motion_table: (
-        Annotated[
-            list[tuple[float, float]],
-            Meta(min_length=3, max_length=2000, description="in place of phases: [cam angle deg, lift mm or deg]"),
-        ]
-        | None
-    ) = None
-    follower_offset: Annotated[float, mm("line of motion at x = e; e > 0 eases the rise", least=-_MOST, most=_MOST)] = (
-        0.0
-    )
+    lift: Lift = 0.0
+    swing_deg: Swing = 0.0
+    phases: Phases | None = None
+    motion_table: MotionTable | None = None
+    follower_offset: FollowerOffset = 0.0
     oscillating: OscillatingTable | None = None
     base_circle_radius: (
         Annotated[float, mm("circle inside the groove; default: by least_transmission_angle_deg", above=0, most=_MOST)]

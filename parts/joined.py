@@ -10,6 +10,7 @@ from geometry.errors import ParameterError
 
 if TYPE_CHECKING:
     from geometry.findings import Finding
+    from geometry.gears.mesh_search import PairContact
 
 # sizes that must be equal in two parts: they are typed, not calculated
 _SAME = 1e-9
@@ -28,7 +29,7 @@ def turn_off(found: float, right: float, pitch: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Joined:
-    """What the mates here have in common: they change no part."""
+    """What mates other than pairs of involute gears have in common; each overrides what it has of its own."""
 
     first: str
     second: str
@@ -55,6 +56,14 @@ class Joined:
         """Whether ``contact`` decides."""
         return True
 
+    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact | None:
+        """None: nothing moves here."""
+        return None
+
     def findings(self) -> tuple[Finding, ...]:
-        """None."""
+        """None: what a part is warned of stands there."""
         return ()
+
+    def quantities(self) -> dict[str, Any]:
+        """None."""
+        return {}

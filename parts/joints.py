@@ -64,6 +64,12 @@ JOINTS: dict[str, Joint] = {
         "cam_follower_mating",
         tuple((cam, follower) for cam in ("cam", "groove_cam") for follower in _FOLLOWERS),
     ),
+    "wedge_follower": _joint(
+        "parts.wedge_mate",
+        "WedgeFollowerSpec",
+        "wedge_mating",
+        tuple(("wedge_cam", follower) for follower in _FOLLOWERS),
+    ),
     "conjugate_cams": _joint(
         "parts.positive_mates", "ConjugateCamsSpec", "conjugate_mating", (("cam", "conjugate_cam"),)
     ),

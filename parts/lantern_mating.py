@@ -30,11 +30,8 @@ class CoaxialMating(Joined):
     ratio: None = None
     distance: float = 0.0
     module: float = 1.0
-
-    @property
-    def has_contact(self) -> bool:
-        """The solids tell."""
-        return False
+    # the solids tell
+    has_contact: bool = False
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> tuple[complex, float]:
         """On the axis of the first."""
@@ -43,14 +40,6 @@ class CoaxialMating(Joined):
     def standing(self, first: tuple[complex, float], second: tuple[complex, float]) -> Standing:
         """How far the axes are apart; the second is free to turn."""
         return Standing(0.0, abs(second[0] - first[0]), 0.0, 0.0)
-
-    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact | None:
-        """None."""
-        return None
-
-    def quantities(self) -> dict[str, Any]:
-        """None."""
-        return {}
 
 
 def coaxial_mating(mate: CoaxialSpec, first: Any, second: Any) -> CoaxialMating:
@@ -80,7 +69,7 @@ def pin_seat_mating(mate: PinSeatSpec, holder: PinRing | PinPlate, pin: RoundDis
         raise ParameterError("mate.number", mate.number, f"there are {len(centres)} seats; {len(centres)} works")
     same_size("diameter", 2 * pin.radius, 2 * holder.pin_radius, "the seats")
     centre = centres[mate.number - 1]
-    return FixedMating(mate.first, mate.second, centre, mate.height, 0.0, kind="pin_seat")
+    return FixedMating(mate.first, mate.second, 0.0, mate.height, centre, 0.0, kind="pin_seat")
 
 
 @dataclass(frozen=True, slots=True)

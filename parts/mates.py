@@ -61,12 +61,13 @@ def mated(
                 if gear.tip_radius < final[name].tip_radius:
                     final[name] = replace(final[name], given_tip_diameter=2 * gear.tip_radius)
                     _check_shortened(final[name], (pair.first, pair.second), mate.working_centre_distance)
-    matings, left = [], iter(zip(pairs, shares, strict=True))
+    left = iter(zip(pairs, shares, strict=True))
+    matings: list[Mating] = []
     for mate in mates:
         first, second = final[part_of[mate.first]], final[part_of[mate.second]]
         if isinstance(mate, GEAR_PAIRS):
             pair, share = next(left)
-            matings.append(replace(_mating(mate, pair, first, second), normal_share=share))  # type: ignore[type-var]
+            matings.append(replace(_mating(mate, pair, first, second), normal_share=share))
         else:
             matings.append(JOINTS[mate.__struct_config__.tag].mating(mate, first, second))
     return final, matings
@@ -153,7 +154,7 @@ def _pair_at(mate: Any, first: Any, second: Any, distance: float | None) -> Any:
         raise
 
 
-def _mating(mate: Any, pair: Any, first: Any, second: Any) -> Mating:
+def _mating(mate: Any, pair: Any, first: Any, second: Any) -> ExternalMating | InternalMating | RackMating:
     """The mate with its gears as they are built at last."""
     if isinstance(mate, ExternalGearPairSpec):
         return ExternalMating(mate.first, mate.second, mate.direction_deg, replace(pair, first=first, second=second))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -13,7 +14,7 @@ from msgspec import Meta, Struct
 from geometry.errors import ConvergenceError, GeometryError, ParameterError, at_least, at_most, format_value
 from geometry.profile import Profile
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
-from parts.cutter_keys import RackName
+from parts.cutter_keys import PressureAngle, RackName
 from parts.hole_keys import BoreTable, HolesTable, SpokesTable, hub_holes, with_remedy
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, in_modules, mm
 from parts.materials import density_of
@@ -71,9 +72,7 @@ class NoncircularGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", 
     profile_shift_coefficient: Annotated[
         float, in_modules("shift x of the rack's datum line; its mate has -x", least=-1, most=1)
     ] = 0.0
-    pressure_angle_deg: Annotated[
-        float, Meta(ge=5, le=45, description="pressure angle of the rack", extra={"unit": "degrees"})
-    ] = 20.0
+    pressure_angle_deg: PressureAngle = 20.0
     basic_rack: RackName | RackTable = "ISO 53 A"
     circumferential_thinning: Annotated[
         float, mm("thinning of each tooth for backlash, arc of the centrode", least=0, most=1000)
@@ -134,6 +133,8 @@ def _check_slender(spec: NoncircularGearSpec) -> None:
     """
     if spec.centrode == "ratio" or (spec.axis_ratio is None) == (spec.eccentricity is None):
         return
+    from geometry.centrodes import LobedEllipse
+
     key = "axis_ratio" if spec.eccentricity is None else "eccentricity"
     rack = basic_rack_of(spec.basic_rack, math.radians(spec.pressure_angle_deg))
     depth = rack.dedendum - spec.profile_shift_coefficient
@@ -142,7 +143,9 @@ def _check_slender(spec: NoncircularGearSpec) -> None:
 
     def stands(value: float, number: int) -> bool:
         """Whether the least radius, a (1 - e) of an ellipse of perimeter 4 a E(e), exceeds the dedendum."""
-        e = centrode_of(msgspec.structs.replace(spec, **{key: value}), (teeth, other)).eccentricity  # type: ignore[union-attr]
+        centrode = centrode_of(msgspec.structs.replace(spec, **{key: value}), (teeth, other))
+        assert isinstance(centrode, LobedEllipse)
+        e = centrode.eccentricity
         quarter = np.sqrt(1 - (e * np.sin((np.arange(_SAMPLES) + 0.5) * math.pi / _SAMPLES)) ** 2).mean() * math.pi / 2
         return bool(number * math.pi / (4 * quarter) * (1 - e) > depth)
 
@@ -321,12 +324,12 @@ def _with_amplitudes(spec: NoncircularGearSpec, share: float) -> NoncircularGear
     )
 
 
-def _largest(works: object, refused: float) -> float:
+def _largest(works: Callable[[float], bool], refused: float) -> float:
     """The value between 0, which is hoped to work, and a refused one that still works."""
     low, high = 0.0, refused
     for _ in range(_BISECTIONS):
         middle = (low + high) / 2
-        low, high = (middle, high) if works(middle) else (low, middle)  # type: ignore[operator]
+        low, high = (middle, high) if works(middle) else (low, middle)
     return low
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError, format_value
+from parts.joined import Joined
 from parts.keys import mm
 from parts.standing import Standing
 
@@ -34,17 +35,11 @@ class NoncircularGearPairSpec(Struct, forbid_unknown_fields=True, tag_field="kin
 
 
 @dataclass(frozen=True, slots=True)
-class NoncircularMating:
+class NoncircularMating(Joined):
     """A driver and its mate in either order, or two equal drivers."""
 
-    first: str
-    second: str
-    direction_deg: float
     gears: NoncircularPair
     kind: str = "noncircular_gear_pair"
-    height: float = 0.0
-    has_contact: bool = True
-    pair: Any = None
 
     @property
     def distance(self) -> float:
@@ -143,7 +138,7 @@ def noncircular_mating(mate: NoncircularGearPairSpec, first: NoncircularGear, se
         found = math.degrees(second.rack.pressure_angle) if key.startswith("pressure") else getattr(second, key)
         if not math.isclose(found, wanted, abs_tol=1e-12):
             raise ParameterError(key, found, f"must fit its mate; {format_value(wanted)} works")
-    return NoncircularMating(mate.first, mate.second, mate.direction_deg, NoncircularPair(first, second))
+    return NoncircularMating(mate.first, mate.second, mate.direction_deg, 0.0, NoncircularPair(first, second))
 
 
 def _unlike(first: NoncircularGear, second: NoncircularGear) -> ParameterError:

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 from msgspec import Meta, Struct
 
 from geometry.errors import ParameterError
+from parts.joined import Joined
 from parts.keys import mm
 from parts.standing import Standing
 
 if TYPE_CHECKING:
     from geometry.cams.disk import DiskCam
-    from geometry.findings import Finding
     from geometry.gears.mesh_search import PairContact
     from parts.conjugate_cam import SecondCam
     from parts.yoke_frame import YokeFrame
@@ -47,22 +47,15 @@ class CamYokeSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="cam
 
 
 @dataclass(frozen=True, slots=True)
-class ConjugateMating:
+class ConjugateMating(Joined):
     """Both disks turn together; the contact is that of both rollers of their follower."""
 
-    first: str
-    second: str
-    height: float
     cam: DiskCam
     other: SecondCam
     kind: str = "conjugate_cams"
-    direction_deg: float = 0.0
     distance: float = 0.0
-    first_teeth: int = 1
-    normal_backlash: float = 0.0
     ratio: float = 1.0
     has_contact: bool = False
-    pair: Any = None
 
     @property
     def module(self) -> float:
@@ -86,10 +79,6 @@ class ConjugateMating:
         pair = self.other.pair
         return conjugate_contact(self.cam, pair, between_rollers(self.cam, pair), allowed, second_turn=phase_off)
 
-    def findings(self) -> tuple[Finding, ...]:
-        """None: what a cam is warned of stands at its part."""
-        return ()
-
     def quantities(self) -> dict[str, Any]:
         """How both rollers stand on their follower."""
         from geometry.cams.mounts import Translating
@@ -101,20 +90,14 @@ class ConjugateMating:
 
 
 @dataclass(frozen=True, slots=True)
-class YokeMating:
+class YokeMating(Joined):
     """A cam and the yoke that touches it from both sides."""
 
-    first: str
-    second: str
-    direction_deg: float
-    height: float
     cam: DiskCam
     frame: YokeFrame
     kind: str = "cam_yoke"
     distance: float = 0.0
-    first_teeth: int = 1
     ratio: None = None
-    pair: Any = None
 
     @property
     def has_contact(self) -> bool:
@@ -153,10 +136,6 @@ class YokeMating:
         breadth = self.frame.breadth - self.frame.play
         return yoke_contact(self.cam, breadth, self.frame.play, allowed, out=phase_off)
 
-    def findings(self) -> tuple[Finding, ...]:
-        """None: what a cam is warned of stands at its part."""
-        return ()
-
     def quantities(self) -> dict[str, Any]:
         """Breadth between faces or roller centres with the play in it, and the lift, mm."""
         return {"yoke_breadth": self.frame.breadth, "lift": self.cam.motion.lift, "normal_backlash": self.frame.play}
@@ -172,7 +151,7 @@ def conjugate_mating(mate: ConjugateCamsSpec, cam: DiskCam, second: SecondCam) -
     """
     if second.first != cam:
         raise ParameterError("of", None, "is made from another cam than the mate's first; name that one")
-    return ConjugateMating(mate.first, mate.second, mate.height, cam, second)
+    return ConjugateMating(mate.first, mate.second, 0.0, mate.height, cam, second)
 
 
 def yoke_mating(mate: CamYokeSpec, cam: DiskCam, frame: YokeFrame) -> YokeMating:

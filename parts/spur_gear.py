@@ -19,7 +19,7 @@ from geometry.gears.spur import SpurGear
 from geometry.gears.transverse import transverse_gear
 from geometry.profile import Profile
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
-from parts.cutter_keys import CutterTable, RackName, cutter_of
+from parts.cutter_keys import CutterTable, PressureAngle, RackName, cutter_of
 from parts.helix_keys import (
     Double,
     HandName,
@@ -69,9 +69,7 @@ class SpurGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="sp
     module: Annotated[float, mm("module m; the normal module where helix_angle_deg is not 0", least=0.01, most=1000)]
     number_of_teeth: Annotated[int, Meta(ge=3, le=10_000, description="number of teeth z")]
     profile_shift_coefficient: Annotated[float, in_modules("profile shift x (the seeds' xi)", least=-10, most=10)] = 0.0
-    pressure_angle_deg: Annotated[
-        float, Meta(ge=5, le=45, description="pressure angle of the rack", extra={"unit": "degrees"})
-    ] = 20.0
+    pressure_angle_deg: PressureAngle = 20.0
     basic_rack: RackName | RackTable = "ISO 53 A"
     cutter: CutterTable | None = None
     tip_diameter: Annotated[float, mm("tip diameter; default: d + 2 (h_a + x) m", above=0, most=100_000)] | None = None

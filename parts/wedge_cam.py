@@ -14,12 +14,14 @@ from geometry.errors import GeometryError, OffsetError, ParameterError, Undercut
 from geometry.findings import Finding
 from geometry.offset_region import OffsetRegion
 from geometry.profile import Label, Profile, Region, circle
+from parts.cam_keys import Swing
 from parts.keys import Colour, Density, FaceWidth, Material, mm
 from parts.law_keys import LawName, LawTable, law_of
 from parts.materials import density_of
 from parts.part import Part
 
 if TYPE_CHECKING:
+    from geometry.cams.follower_motion import Phase
     from geometry.cams.wedge import Swinging, Upright, WedgeCam, WedgeMotion
 
 _MOST = 100_000.0
@@ -71,9 +73,7 @@ class WedgeCamSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="we
     phases: Annotated[list[WedgePhaseTable], Meta(min_length=1, max_length=100)]
     base_height: Annotated[float, mm("of the plate under the follower at S = 0", above=0, most=_MOST)]
     lift: Annotated[float, mm("lift H of a sliding follower", least=0, most=_MOST)] = 0.0
-    swing_deg: Annotated[
-        float, Meta(ge=0, lt=180, description="swing of an oscillating follower", extra={"unit": "degrees"})
-    ] = 0.0
+    swing_deg: Swing = 0.0
     follower_radius: Annotated[float, mm("radius of the roller or mushroom", least=0, most=_MOST)] = 0.0
     oscillating: WedgeArmTable | None = None
     run_in: Annotated[float, mm("straight edge before the travel", above=0, most=_MOST)] = 10.0
@@ -144,7 +144,7 @@ def wedge_part(part_id: str, spec: WedgeCamSpec, cam: WedgeCam) -> Part:
         section,
         lru_cache(maxsize=2)(lambda offset: plate(section(offset).region, 0.0, spec.face_width)),
         spec.face_width,
-        findings=_findings(spec, cam),
+        findings=wedge_findings(spec, cam),
         quantities=_quantities(spec, cam),
         material=spec.material,
         colour=spec.colour,
@@ -155,6 +155,7 @@ def wedge_part(part_id: str, spec: WedgeCamSpec, cam: WedgeCam) -> Part:
 
 def _wedge_of(spec: WedgeCamSpec, *, told: bool = True) -> WedgeCam:
     """The wedge cam of the keys; not ``told``: a refusal seeks no swing that works, as a search's trial."""
+    from geometry.cams.disk import FollowerKind
     from geometry.cams.wedge import WedgeCam
 
     swing = spec.oscillating
@@ -172,12 +173,25 @@ def _wedge_of(spec: WedgeCamSpec, *, told: bool = True) -> WedgeCam:
     if spec.follower != "pointed" and not spec.follower_radius > 0:
         raise ParameterError("follower_radius", spec.follower_radius, f"a {spec.follower} has a radius above 0")
     motion = _motion(spec, math.radians(lift) if swing else lift)
-    return WedgeCam(motion, _mount(spec, motion, told), spec.follower_radius)
+    mount, runs = _mount(spec, motion, told), (spec.run_in, spec.run_out)
+    return WedgeCam(motion, mount, spec.follower_radius, FollowerKind(spec.follower), runs, spec.corner_radius)
 
 
 def _motion(spec: WedgeCamSpec, lift: float) -> WedgeMotion:
-    from geometry.cams.follower_motion import Phase
     from geometry.cams.wedge import wedge_motion
+
+    return wedge_motion(wedge_phases(spec, lift))
+
+
+def wedge_phases(spec: WedgeCamSpec, lift: float) -> list[Phase]:
+    """The phases of the keys over the travel, mm; ``lift`` in mm, or rad of an arm.
+
+    Raises
+    ------
+    ParameterError
+        A dwell with a law or a share.
+    """
+    from geometry.cams.follower_motion import Phase
 
     made = []
     for index, phase in enumerate(spec.phases):
@@ -189,7 +203,7 @@ def _motion(spec: WedgeCamSpec, lift: float) -> WedgeMotion:
             continue
         change = phase.share * lift if phase.move == "rise" else -phase.share * lift
         made.append(Phase(phase.travel, change, law_of(phase.law, f"{place}.law")))
-    return wedge_motion(made)
+    return made
 
 
 def _mount(spec: WedgeCamSpec, motion: WedgeMotion, told: bool) -> Upright | Swinging:
@@ -346,7 +360,8 @@ def _steepest(cam: WedgeCam) -> float:
     return max(found)
 
 
-def _findings(spec: WedgeCamSpec, cam: WedgeCam) -> tuple[Finding, ...]:
+def wedge_findings(spec: WedgeCamSpec, cam: WedgeCam) -> tuple[Finding, ...]:
+    """Impacts where the velocity or the acceleration jumps, and a steep pressure angle."""
     found, pieces = [], cam.motion.pieces
     low, high = cam.motion.extremes()
     for order, name in ((1, "rigid"), (2, "soft")):

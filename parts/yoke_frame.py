@@ -90,7 +90,7 @@ def checked_yoke(spec: YokeFrameSpec, parts: dict[str, Struct]) -> YokeFrame:
         raise ParameterError("of", spec.of, f"is no cam of constant breadth: {told}; {remedy}") from refusal
     low, high = cam.motion.extremes()
     # the upper face or roller follows S, the lower one stands a breadth below it
-    middle = cam.mount.start_height - (breadth / 2)  # type: ignore[union-attr]
+    middle = cam.slide.start_height - (breadth / 2)
     # the cam turns through every direction: all of it must pass beside
     reach = path_reach(cam) - cam.radius if not cam.is_flat else _flat_reach(cam)
     thickness = spec.thickness or owner.face_width
@@ -131,14 +131,14 @@ def _flat_reach(cam: DiskCam) -> float:
     found = []
     for piece in cam.motion.pieces:
         places = piece.extremes(0)
-        found.append(np.hypot(cam.mount.start_height + piece.value(places, 0), piece.value(places, 1)).max())  # type: ignore[union-attr]
+        found.append(np.hypot(cam.slide.start_height + piece.value(places, 0), piece.value(places, 1)).max())
     return float(max(found))
 
 
 def _check_sizes(spec: YokeFrameSpec, frame: YokeFrame, lift: float) -> None:
     width = 2 * (frame.half_width + spec.wall) if frame.cam.is_flat else _plate_width(spec)
     # the stem stands at x = e of a flat follower
-    width -= 2 * _LEDGE + 2 * abs(frame.cam.mount.offset)  # type: ignore[union-attr]
+    width -= 2 * _LEDGE + 2 * abs(frame.cam.slide.offset)
     most = width - 2 * spec.corner_radius
     if spec.stem_width > most:
         if spec.corner_radius > 0 and spec.stem_width <= width:
@@ -179,7 +179,7 @@ def _region(spec: YokeFrameSpec, frame: YokeFrame, offset: float) -> Region:
         # clockwise: the material is on the left
         window = [middle + complex(x * half, y * height) for x, y in ((1, 1), (1, -1), (-1, -1), (-1, 1))]
         holes: tuple[Profile, ...] = (moved_profile(rounded([(corner, 0.0) for corner in window]), offset),)
-        stem = frame.cam.mount.offset  # type: ignore[union-attr]
+        stem = frame.cam.slide.offset
         outer = _outline(spec, half + spec.wall, height + spec.wall, middle, offset, stem)
         return Region(outer, holes)
     lift, pin = frame.cam.motion.lift, spec.pin_diameter / 2 - offset

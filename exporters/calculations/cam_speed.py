@@ -7,18 +7,16 @@ import math
 import numpy as np
 
 from exporters.calculations.sheet import Sheet
-from geometry.cams.disk import DiskCam
-from geometry.cams.mounts import Translating
+from geometry.cams.follower_motion import FollowerMotion
 
 
-def speed_section(page: Sheet, cam: DiskCam, speed_rpm: float) -> None:
+def speed_section(page: Sheet, motion: FollowerMotion, speed_rpm: float, *, slides: bool) -> None:
     """omega = pi n / 30, and of each moving phase t = phi / omega and the peaks of v = S' omega, a = S'' omega^2."""
     omega = math.pi * speed_rpm / 30
     page.section("At this speed of the cam", "За цієї частоти обертання кулачка")
     page.add("speed_rpm", speed_rpm)
     page.add("angular_speed", omega, "pi * {n_rpm} / 30")
-    moving = [p for p in cam.motion.phases if p.law is not None]
-    slides = isinstance(cam.mount, Translating)
+    moving = [p for p in motion.phases if p.law is not None]
     for index, phase in enumerate(moving, 1):
         assert phase.law is not None
         many = str(index) if len(moving) > 1 else ""
@@ -32,7 +30,7 @@ def speed_section(page: Sheet, cam: DiskCam, speed_rpm: float) -> None:
             page.add("greatest_angular_velocity", rate * omega, symbol=f"ω_max{many}")
             page.add("greatest_angular_acceleration", bend * omega**2, symbol=f"ε_max{many}")
     if not moving:
-        low_high = [np.abs(cam.motion.extremes(k)).max() for k in (1, 2)]
+        low_high = [np.abs(motion.extremes(k)).max() for k in (1, 2)]
         names = ("velocity", "acceleration") if slides else ("angular_velocity", "angular_acceleration")
         for name, value, power in zip(names, low_high, (1, 2), strict=True):
             metres = 1000.0 if name == "acceleration" else 1.0

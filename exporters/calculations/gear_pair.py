@@ -165,12 +165,14 @@ def asked_pair(keys: PairKeys, shifts_given: tuple[bool, ...]) -> Asked:
             for g, is_given in zip((one, two), shifts_given, strict=True)
         ]
         x1, x2 = shifts_for_distance(one, two, keys.working_centre_distance, fixed[0], fixed[1])
-        normal = tuple(  # type: ignore[assignment]
+        first, second = (
             replace(g, profile_shift_coefficient=x / math.cos(helix)) for g, x in zip(normal, (x1, x2), strict=True)
         )
+        normal = first, second
     normal = _thinned(keys, normal, helix)
     if keys.tip_shortening_coefficient is not None:
-        normal = tuple(_shortened(g, keys.tip_shortening_coefficient) for g in normal)  # type: ignore[assignment]
+        first, second = (_shortened(g, keys.tip_shortening_coefficient) for g in normal)
+        normal = first, second
     gears = [checked_of(name, g, helix) for name, g in zip(GEARS, normal, strict=True)]
     # shifts that were found for a distance give it back but for rounding
     distance = None if follow else keys.working_centre_distance

@@ -97,3 +97,15 @@ def only_part(scene: Any, source: str, part: str | None) -> str:
     if len(gears) != 1:
         raise SceneError(source, "parts", None, f"has {len(gears)} gears: {', '.join(gears)}; add part=ID")
     return gears[0]
+
+
+def part_of_kind(scene: Any, source: str, table: dict[str, Any], kind: str) -> dict[str, Any]:
+    """The keys of the scene's one part of a kind, or of the one that ``part`` names, changed by those of ``table``."""
+    fitting = [key for key, spec in scene.parts.items() if spec.__struct_config__.tag == kind]
+    part = table.pop("part", None)
+    if part is None and len(fitting) != 1:
+        raise SceneError(source, "parts", None, f"has {len(fitting)} of {kind}: {', '.join(fitting)}; add part=ID")
+    if part is not None and part not in fitting:
+        known = f"{near(part, fitting)}; there are {', '.join(fitting)}" if fitting else "; the scene has none"
+        raise SceneError(source, "part", part, f"is no {kind}{known}")
+    return given(scene.parts[part or fitting[0]]) | table

@@ -32,6 +32,7 @@ _DECIMALS = {
     "mm/s": 3,
     "m/s2": 4,
     "rad/s2": 3,
+    "1/mm": 6,
 }
 
 
@@ -215,6 +216,8 @@ _UNITS = {
     "mm/rad2": "mm/rad²",
     "deg/rad2": "°/rad²",
     "deg/rad": "°/rad",
+    "deg/mm": "°/mm",
+    "deg/mm2": "°/mm²",
 }
 
 _UKRAINIAN_UNITS = {"s": "с", "s/mm": "с/мм", "rpm": "об/хв", "rad/s": "рад/с", "rad/s²": "рад/с²", "mm/s": "мм/с",

@@ -27,6 +27,7 @@ from geometry.gears.blocking_contour import (
 from geometry.gears.shift_choice import shift_sum_for_distance
 from geometry.gears.shift_finder import Proposal, for_sum, greatest_contact_ratio, least_wear, proposal
 from geometry.gears.spur import SpurGear
+from parts.cutter_keys import PressureAngle
 from parts.keys import in_modules, mm
 from parts.schema import SceneError, near
 from parts.spur_gear import RackTable, SpurGearSpec, gear_of
@@ -47,9 +48,7 @@ class ShiftChoiceKeys(Struct, forbid_unknown_fields=True):
     first: Teeth
     second: Teeth
     module: Annotated[float, mm("module, for a centre distance", least=0.01, most=1000)] = 1.0
-    pressure_angle_deg: Annotated[
-        float, Meta(ge=5, le=45, description="pressure angle of the rack", extra={"unit": "degrees"})
-    ] = 20.0
+    pressure_angle_deg: PressureAngle = 20.0
     basic_rack: str | RackTable = "ISO 53 A"
     working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
     least_contact_ratio: Annotated[float, Meta(ge=0.5, le=3, description="contact ratio to keep")] = 1.1

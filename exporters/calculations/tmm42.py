@@ -20,6 +20,7 @@ from geometry.gears import limits, measurement
 from geometry.gears.limits import LEAST_TIP_THICKNESS, checked_gear, practicum_undercut
 from geometry.gears.profile_readings import ProfileReadings, profile_readings
 from geometry.gears.spur import SpurGear
+from parts.cutter_keys import PressureAngle
 from parts.keys import in_modules, mm
 from parts.schema import SceneError
 from parts.spur_gear import SpurGearSpec, checked_spur_gear
@@ -34,9 +35,7 @@ class Tmm42Keys(Struct, forbid_unknown_fields=True):
     module: Annotated[float, mm("module of the device's rack", least=0.01, most=1000)]
     reference_diameter: Annotated[float, mm("reference diameter of the disk", above=0, most=100_000)] | None = None
     number_of_teeth: Annotated[int, Meta(ge=3, le=10_000, description="number of teeth, d / m")] | None = None
-    pressure_angle_deg: Annotated[
-        float, Meta(ge=5, le=45, description="pressure angle of the rack", extra={"unit": "degrees"})
-    ] = 20.0
+    pressure_angle_deg: PressureAngle = 20.0
     profile_shift_coefficient: (
         Annotated[float, in_modules("shift of the second wheel; default (17 - z) / 17", least=-3, most=3)] | None
     ) = None

@@ -18,6 +18,9 @@ TOPICS = {
     "gear-pair": "gear_pair",
     "shift-choice": "shift_choice",
     "cam": "cam",
+    "cycloidal": "cycloidal",
+    "lantern": "lantern",
+    "noncircular": "noncircular",
 }
 LANGUAGES = ("en", "uk")
 

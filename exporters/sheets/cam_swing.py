@@ -1,4 +1,5 @@
-"""The joint diagram of an oscillating roller: L (1 +- psi') along the arm, and where the cam's axis may stand."""
+"""The joint diagram of an oscillating follower: L (1 +- psi') along a roller's arm, the faces of a flat one; and where
+the cam's axis may stand."""
 
 from __future__ import annotations
 
@@ -11,6 +12,7 @@ import numpy as np
 
 from exporters.sheets.cam_diagrams import Drawn
 from exporters.sheets.cam_picture import CamPicture
+from exporters.sheets.cam_rocker import draw_faces, faces_box, name_rocker, rocker_region
 from exporters.sheets.canvas import SMALL_TEXT, Box, Canvas, Paper
 from exporters.sheets.labels import Labeller
 from geometry.cams.diagrams import ArmCurve
@@ -29,7 +31,8 @@ _HATCH, _HATCH_STEP = 4.0, 2.5
 class Swing:
     """Model mm, the cam's axis at 0 and the pivot on +x; ``least``: the axis of the smallest cam, with its r_0.
 
-    ``planes``: (point, normal) of half-planes in which the axis may stand, all of the rises; ``lowest`` roller centre.
+    ``planes``: (point, normal) of half-planes in which the axis may stand, all of the rises (of a flat follower, whose
+    cam must be convex, all of the turn); ``lowest`` roller centre, or foot of ``least`` on the lowest face.
     """
 
     pivot: complex
@@ -40,9 +43,17 @@ class Swing:
 
 
 def swing_of(picture: CamPicture) -> Swing | None:
-    """The diagram of an oscillating roller, point or mushroom; None of a flat one, or where no axis keeps gamma."""
+    """The diagram of an oscillating follower; None where no axis keeps gamma, or makes a flat one's cam convex."""
     cam, mount = picture.cam, picture.cam.mount
-    if not isinstance(mount, Oscillating) or cam.is_flat or picture.gamma is None:
+    if not isinstance(mount, Oscillating):
+        return None
+    if cam.is_flat:
+        found = rocker_region(picture)
+        if found is None:
+            return None
+        least, foot, base, region = found
+        return Swing(complex(mount.centre_distance), foot, least, base, region)
+    if picture.gamma is None:
         return None
     limit = math.pi / 2 - picture.gamma
     try:
@@ -71,7 +82,12 @@ def swing_of(picture: CamPicture) -> Swing | None:
 
 def swing_window(picture: CamPicture, swing: Swing) -> Box:
     """What must be seen, model mm."""
-    points = [0j, swing.pivot, swing.lowest, swing.least, *(foot for foot, _ in swing.planes)]
+    points = [0j, swing.pivot, swing.lowest, swing.least]
+    if picture.cam.is_flat:
+        box = faces_box(picture)
+        points += [complex(box.left, box.low), complex(box.right, box.high)]
+    else:
+        points += [foot for foot, _ in swing.planes]
     for curve in _curves(picture, Paper(1.0, 0j)):
         points += curve.point(np.linspace(*curve.domain, 33)).tolist()
     xs, ys = [p.real for p in points], [p.imag for p in points]
@@ -83,6 +99,8 @@ def _curves(picture: CamPicture, paper: Paper) -> list[ArmCurve]:
     """The exact diagram of every moving piece, on paper."""
     mount = picture.cam.mount
     assert isinstance(mount, Oscillating)
+    if picture.cam.is_flat:
+        return []
     direction = math.pi - mount.sense * mount.start_angle
     origin = paper.point(complex(mount.centre_distance, 0.0))
     return [
@@ -97,17 +115,17 @@ def draw_swing(canvas: Canvas, picture: CamPicture, swing: Swing, paper: Paper, 
     assert isinstance(mount, Oscillating)
     for curve in _curves(picture, paper):
         drawn.add(canvas, "JOINT_DIAGRAM", curve, tolerance)
-    angles = np.array([p.angle for p in picture.positions])
-    arms = _arms(picture)
     drawn.line(canvas, "AXIS", to(0j), to(swing.pivot))
-    start, sweep = cmath.phase(swing.lowest - swing.pivot), -mount.sense * picture.cam.motion.extremes()[1]
-    if sweep:
-        canvas.arc("CENTRE", Arc(to(swing.pivot), paper.scale * mount.arm_length, start, sweep))
-    for at, (foot, end) in zip(angles.tolist(), arms, strict=True):
-        del at
-        drawn.line(canvas, "CONSTRUCTION", to(swing.pivot), to(end))
-        drawn.line(canvas, "ORDINATE", to(end), to(foot))
-        canvas.arc("JOINT_DIAGRAM", Arc(to(foot), 0.7, 0.0, 2 * math.pi))
+    if picture.cam.is_flat:
+        draw_faces(canvas, drawn, picture, paper)
+    else:
+        start, sweep = cmath.phase(swing.lowest - swing.pivot), -mount.sense * picture.cam.motion.extremes()[1]
+        if sweep:
+            canvas.arc("CENTRE", Arc(to(swing.pivot), paper.scale * mount.arm_length, start, sweep))
+        for foot, end in _arms(picture):
+            drawn.line(canvas, "CONSTRUCTION", to(swing.pivot), to(end))
+            drawn.line(canvas, "ORDINATE", to(end), to(foot))
+            canvas.arc("JOINT_DIAGRAM", Arc(to(foot), 0.7, 0.0, 2 * math.pi))
     border = _border(swing, window)
     for a, b in border:
         drawn.line(canvas, "GAMMA_TANGENT", to(a), to(b))
@@ -176,11 +194,15 @@ def name_swing(labels: Labeller, picture: CamPicture, swing: Swing, paper: Paper
     to, say = paper.point, picture.say
     labels.name("O", to(0j), prefer=-1 - 1j)
     labels.name("C", to(swing.pivot), prefer=1 - 1j)
-    labels.name("B_{0}", to(swing.lowest), SMALL_TEXT, prefer=1 - 1j)
+    if not picture.cam.is_flat:
+        labels.name("B_{0}", to(swing.lowest), SMALL_TEXT, prefer=1 - 1j)
     labels.name("O_{1}", to(swing.least), prefer=-1 - 1j)
     labels.name(
         f"r_{{0}} = {say(swing.least_radius)}", to((swing.lowest + swing.least) / 2), SMALL_TEXT, prefer=-1 + 0j
     )
+    if picture.cam.is_flat:
+        name_rocker(labels, picture, paper, swing.least)
+        return
     if picture.gamma is not None:
         symbol = "γ_{min}" if picture.asked else "γ"
         text = f"{symbol} = {say(math.degrees(picture.gamma)).rstrip('0').rstrip(',.')}°"

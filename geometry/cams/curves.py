@@ -56,6 +56,16 @@ def _bound_series(lift: Lift, order: int, a: Real, b: Real) -> Series:
     return [x / FACTORIALS[k] for k, x in enumerate(lift.bounds(order, a, b))]
 
 
+class Guided(Protocol):
+    """How a follower's centre moves in the fixed frame: what its path needs of a guide."""
+
+    def centre(self, s: Series) -> Series:
+        """Series of the centre from that of S."""
+
+    def centre_bound(self, s: Series) -> Series:
+        """Bounds of the moduli of that series from those of S."""
+
+
 @dataclass(frozen=True, slots=True)
 class CentreEnvelope:
     """Path of a follower's centre or point in the cam's frame over the cam angle t, or a parallel of it.
@@ -66,7 +76,7 @@ class CentreEnvelope:
     """
 
     lift: Lift
-    mount: Mount
+    mount: Guided
     start: float
     end: float
     distance: float = 0.0

@@ -48,6 +48,20 @@ class DiskCam:
         """Whether the follower is a plane."""
         return self.kind is FollowerKind.FLAT
 
+    @property
+    def slide(self) -> Translating:
+        """The guide of a translating follower; a TypeError of a rocker."""
+        if not isinstance(self.mount, Translating):
+            raise TypeError("the follower swings")
+        return self.mount
+
+    @property
+    def swing(self) -> Oscillating:
+        """The guide of an oscillating follower; a TypeError of one that translates."""
+        if not isinstance(self.mount, Oscillating):
+            raise TypeError("the follower translates")
+        return self.mount
+
     def curve(self, piece: LawPiece, grow: float = 0.0) -> CentreEnvelope | FaceEnvelope:
         """The exact cam over one piece of the motion, over growing cam angle; ``grow`` mm out of the material."""
         if self.is_flat:
@@ -145,7 +159,7 @@ class DiskCam:
             return piece.value(piece.extremes(1), 1)
         t = np.linspace(*piece.domain, 257)
         if self.is_flat:
-            return -self.mount.sense * FaceEnvelope(piece, self.mount, *piece.domain).reach(t)  # type: ignore[union-attr]
+            return -self.swing.sense * FaceEnvelope(piece, self.mount, *piece.domain).reach(t)
         return self.radius * np.sin(self.pressure_angle(np.clip(t, piece.start, np.nextafter(piece.end, 0))))
 
 

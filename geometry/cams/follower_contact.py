@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from geometry.cams.disk import DiskCam
+from geometry.cams.fence import Fence
 from geometry.cams.follower_motion import TURN
 from geometry.cams.follower_shape import FollowerEnd
 from geometry.cams.shape import cam_shape
@@ -30,31 +32,81 @@ _ANGLES, _SAMPLES, _STEPS, _REACH_SAMPLES = 360, 65, 30, 4097
 _BODY_SAMPLES, _BODY_STEP = 33, 5
 
 
-def follower_contact(cam: DiskCam, end: FollowerEnd, tolerance: float, *, out: float = 0.0) -> PairContact:
+def follower_contact(
+    cam: DiskCam, end: FollowerEnd, tolerance: float, *, out: float = 0.0, beyond: Profile | None = None
+) -> PairContact:
     """The gap between cam and follower at 360 angles and at every joint of the motion, mm.
 
-    ``out``: mm by which the follower stands farther out than its motion asks. OVERLAP: a gap below -tolerance
-    somewhere; CONTACT: within +-tolerance everywhere; else CLEAR. The rest of the follower's body is held against
-    the cam every 5 degrees: where it runs into it, the gap is minus the depth.
+    ``out``: mm by which the follower stands farther out than its motion asks; ``beyond``: the outer wall of a groove,
+    whose gaps are the second curve of ``side_gaps``. OVERLAP: a gap below -tolerance somewhere; CONTACT: within
+    +-tolerance everywhere, of a groove at one of its walls; else CLEAR. The rest of the follower's body is held
+    against the cam every 5 degrees: where it runs into it, the gap is minus the depth.
     """
     joints = [p.start for p in cam.motion.pieces]
     angles = np.unique(np.concatenate([np.arange(_ANGLES) * TURN / _ANGLES, np.mod(joints, TURN)]))
-    profile = cam_shape(cam).profile
-    gaps, points = (_face_gaps if cam.is_flat else _round_gaps)(cam, profile, angles, out)
+    fence = Fence(cam_shape(cam).profile)
+    gaps, points = (_face_gaps if cam.is_flat else _round_gaps)(cam, fence, angles, out)
     if end.outline is not None:
-        for index, depth, point in _body_overlaps(cam, end, profile, angles, tolerance, out):
-            if -depth < gaps[index]:
-                gaps[index], points[index] = -depth, point
-    worst = int(np.argmin(gaps))
-    if not np.all(np.isfinite(gaps)):
+
+        def body_at(index: int) -> Complex:
+            origin, turn = follower_pose(cam, end, float(angles[index]))
+            lifted = origin + out * _outwards(cam, angles[index : index + 1])
+            return (lifted + body * cmath.exp(1j * turn)) * cmath.exp(-1j * angles[index])
+
+        body, points = body_points(end), points * np.exp(-1j * angles)
+        press_in(gaps, points, fence, body_at, tolerance)
+        points = points * np.exp(1j * angles)
+    outer = gaps
+    if beyond is not None:
+        centre = cam.reference_point(angles) + out * _outwards(cam, angles)
+        outer = -Fence(beyond).signed_distance(centre * np.exp(-1j * angles)) - cam.radius
+        points = np.where(outer < gaps, centre + cam.radius * cam.normal(angles), points)
+    return judged(angles, (gaps, outer), points, tolerance)
+
+
+def body_points(end: FollowerEnd) -> Complex:
+    """Points of a follower's outline in its own frame, mm, without its round end: its centre's gap tells of that."""
+    assert end.outline is not None
+    points = np.concatenate([e.point(np.linspace(*e.domain, _BODY_SAMPLES)) for e in end.outline.edges])
+    return np.asarray(points[np.abs(points - (end.arm_length or 0.0)) > end.radius * (1 + 1e-9)])
+
+
+def press_in(gaps: Real, points: Complex, fence: Fence, body_at: Callable[[int], Complex], tolerance: float) -> None:
+    """Gaps and their points where the rest of a follower runs deeper into a cam than its end: minus the depth.
+
+    ``body_at`` gives the follower's outline in the frame of the profile at a place; every fifth one is looked at.
+    """
+    places = range(0, len(gaps), _BODY_STEP)
+    bodies = [body_at(index) for index in places]
+    owners = np.repeat(np.array(places), [len(body) for body in bodies])
+    here = np.concatenate(bodies)
+    held = fence.holds(here)
+    here, owners = here[held], owners[held]
+    if not here.size:
+        return
+    depth = distance_to_profile(here, fence.profile)
+    for row in np.argsort(depth):
+        # the deepest of each place comes last
+        if depth[row] > max(tolerance, -gaps[owners[row]]):
+            gaps[owners[row]], points[owners[row]] = -depth[row], here[row]
+
+
+def judged(places: Real, walls: tuple[Real, Real], points: Complex, tolerance: float) -> PairContact:
+    """The verdict on the gaps at one wall or two: CONTACT where one of them touches at every place.
+
+    ``greatest_gap`` is that of both walls.
+    """
+    nearer = np.minimum(*walls)
+    worst, greatest = int(np.argmin(nearer)), float(max(w.max() for w in walls))
+    if not all(np.all(np.isfinite(w)) for w in walls):
         verdict = Verdict.UNDECIDED
-    elif gaps[worst] < -tolerance:
+    elif nearer[worst] < -tolerance:
         verdict = Verdict.OVERLAP
     else:
-        verdict = Verdict.CONTACT if gaps.max() <= tolerance else Verdict.CLEAR
-    place = ContactPlace(float(gaps[worst]), float(angles[worst]), complex(points[worst]), (Label.CAM, Label.BODY))
-    curve = tuple(gaps.tolist())
-    return PairContact(verdict, tolerance, tuple(angles.tolist()), curve, (curve, curve), place, float(gaps.max()))
+        verdict = Verdict.CONTACT if nearer.max() <= tolerance else Verdict.CLEAR
+    place = ContactPlace(float(nearer[worst]), float(places[worst]), complex(points[worst]), (Label.CAM, Label.BODY))
+    curves = tuple(walls[0].tolist()), tuple(walls[1].tolist())
+    return PairContact(verdict, tolerance, tuple(places.tolist()), tuple(nearer.tolist()), curves, place, greatest)
 
 
 def follower_pose(cam: DiskCam, end: FollowerEnd, angle: float) -> tuple[complex, float]:
@@ -69,27 +121,6 @@ def follower_pose(cam: DiskCam, end: FollowerEnd, angle: float) -> tuple[complex
     return (complex(mount.offset, point.imag) if cam.is_flat else point), 0.0
 
 
-def _body_overlaps(
-    cam: DiskCam, end: FollowerEnd, profile: Profile, angles: Real, tolerance: float, out: float
-) -> list[tuple[int, float, complex]]:
-    """Angles (index) at which a point of the follower's outline lies in the cam: the depth there, mm, and the point."""
-    assert end.outline is not None
-    body = np.concatenate([e.point(np.linspace(*e.domain, _BODY_SAMPLES)) for e in end.outline.edges])
-    found = []
-    for index in range(0, len(angles), _BODY_STEP):
-        origin, turn = follower_pose(cam, end, float(angles[index]))
-        fixed = origin + body * cmath.exp(1j * turn) + out * _outwards(cam, angles[index : index + 1])
-        here = fixed * cmath.exp(-1j * angles[index])
-        near = np.flatnonzero(np.abs(here) < profile.reach())
-        near = near[_inside(here[near], profile)]
-        if near.size:
-            depth = distance_to_profile(here[near], profile)
-            deepest = int(np.argmax(depth))
-            if depth[deepest] > tolerance:
-                found.append((index, float(depth[deepest]), complex(fixed[near[deepest]])))
-    return found
-
-
 def reach_from_pivot(cam: DiskCam) -> float:
     """Greatest distance along a flat arm at which the cam touches it, from the pivot, mm (4 097 angles)."""
     mount: Any = cam.mount
@@ -99,12 +130,11 @@ def reach_from_pivot(cam: DiskCam) -> float:
     return float(local.real.max())
 
 
-def _round_gaps(cam: DiskCam, profile: Profile, angles: Real, out: float) -> tuple[Real, Complex]:
+def _round_gaps(cam: DiskCam, fence: Fence, angles: Real, out: float) -> tuple[Real, Complex]:
     """Gaps of a point or an arc about the reference point: its distance from the outline less its radius."""
     centre = cam.reference_point(angles) + out * _outwards(cam, angles)
     here = centre * np.exp(-1j * angles)
-    signed = distance_to_profile(here, profile) * np.where(_inside(here, profile), -1.0, 1.0)
-    return signed - cam.radius, centre - cam.radius * cam.normal(angles)
+    return fence.signed_distance(here) - cam.radius, centre - cam.radius * cam.normal(angles)
 
 
 def _outwards(cam: DiskCam, angles: Real) -> Complex:
@@ -113,13 +143,13 @@ def _outwards(cam: DiskCam, angles: Real) -> Complex:
     return np.asarray(way / np.abs(way))
 
 
-def _face_gaps(cam: DiskCam, profile: Profile, angles: Real, out: float) -> tuple[Real, Complex]:
+def _face_gaps(cam: DiskCam, fence: Fence, angles: Real, out: float) -> tuple[Real, Complex]:
     """Gaps of a straight face: its distance from the axis less the outline's support in its direction."""
     normal = cam.normal(angles)
     height = (cam.reference_point(angles) * np.conj(normal)).real + out
     local = normal * np.exp(-1j * angles)
     best, where = np.full(angles.shape, -np.inf), np.zeros(angles.shape, dtype=complex)
-    for segment in profile.period:
+    for segment in fence.profile.period:
         support, point = _support(segment.curve, local)
         better = support > best
         best, where = np.where(better, support, best), np.where(better, point, where)
@@ -158,12 +188,3 @@ def _climbed(curve: Curve, direction: Complex, t: Real, at: Any) -> Real:
         rising = (np.conj(direction) * curve.derivative(middle)).real > 0
         low, high = np.where(rising, middle, low), np.where(rising, high, middle)
     return np.asarray((low + high) / 2)
-
-
-def _inside(points: Complex, profile: Profile) -> Any:
-    """Whether points lie within an outline, by the winding of a fine polygon."""
-    polygon = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, _SAMPLES)[:-1]) for s in profile.period])
-    spokes = polygon - points[:, None]
-    # a point on a corner of the outline is not inside
-    spokes[spokes == 0] = 1.0
-    return np.abs(np.angle(np.roll(spokes, -1, axis=1) / spokes).sum(axis=1)) > math.pi

@@ -83,7 +83,7 @@ def _base_radius(cam: DiskCam) -> float:
     return float(abs(cam.reference_point(0.0))) - cam.radius
 
 
-def _pieces_between(cam: DiskCam, start: float, end: float) -> list[LawPiece]:
+def _pieces_between(cam: DiskCam, start: float, end: float) -> list[LawPiece | _Cut]:
     """The pieces of the motion between two cam angles (the second may lie beyond one turn), cut at both."""
     turn = 2 * np.pi
     found = []
@@ -93,7 +93,7 @@ def _pieces_between(cam: DiskCam, start: float, end: float) -> list[LawPiece]:
             # a sliver of rounding is no piece
             if high - low > 1e-12:
                 found.append((piece, low - shift, high - shift))
-    return [_Cut(piece, low, high) if (low, high) != piece.domain else piece for piece, low, high in found]  # type: ignore[misc]
+    return [_Cut(piece, low, high) if (low, high) != piece.domain else piece for piece, low, high in found]
 
 
 @dataclass(frozen=True, slots=True)

@@ -38,7 +38,7 @@ class Extreme:
 PieceFunction = Callable[[LawPiece, Real], Real]
 
 
-def _greatest(pieces: list[LawPiece], function: PieceFunction, slope: PieceFunction | None = None) -> Extreme:
+def greatest_of(pieces: list[LawPiece], function: PieceFunction, slope: PieceFunction | None = None) -> Extreme:
     """Greatest value of a function of each piece: at its ends, where its slope changes sign, or by zooming in."""
     best = Extreme(-math.inf, 0.0)
     for piece in pieces:
@@ -63,7 +63,7 @@ def flat_base_radius(motion: FollowerMotion, least_curvature_radius: float = 0.0
 
     With rho_min = 0 it is the practicum's r_0 by the tangent at 45 degrees; never below 0.
     """
-    found = _greatest(
+    found = greatest_of(
         list(motion.pieces),
         lambda p, t: -(p.value(t) + p.value(t, 2)),
         lambda p, t: p.value(t, 1) + p.value(t, 3),
@@ -131,7 +131,7 @@ def axis_region(motion: FollowerMotion, rise_limit: float, return_limit: float |
             def slope(piece: LawPiece, t: Real, steepness: float = steepness) -> Real:
                 return steepness * piece.value(t, 2) - piece.value(t, 1)
 
-            lines.append((_greatest(pieces, height, slope).value, steepness))
+            lines.append((greatest_of(pieces, height, slope).value, steepness))
     return AxisRegion(tuple(lines))
 
 
@@ -157,7 +157,7 @@ def greatest_pressure_angle(cam: DiskCam, kind: PhaseKind | None = None) -> Extr
         # angles at the piece's end belong to the next one
         return np.abs(cam.pressure_angle(np.minimum(t, np.nextafter(piece.end, 0))))
 
-    return _greatest(pieces, size)
+    return greatest_of(pieces, size)
 
 
 @lru_cache(maxsize=16)
@@ -172,9 +172,22 @@ def least_convex_radius(cam: DiskCam) -> Extreme:
         # the curvature is smooth where the radius jumps through infinity; a flat's radius is smooth itself
         return -radius if cam.is_flat else 1 / radius
 
-    found = _greatest(list(cam.motion.pieces), bending)
+    found = greatest_of(list(cam.motion.pieces), bending)
     value = -found.value if cam.is_flat else (1 / found.value - cam.radius if found.value > 0 else math.inf)
     return Extreme(value, found.angle)
+
+
+def least_hollow_radius(cam: DiskCam) -> Extreme:
+    """Least radius of curvature of the roller centre's path where it is hollow, mm: inf where it is nowhere.
+
+    The outer wall of a groove is whole where the roller, with its play, is smaller.
+    """
+
+    def hollow(piece: LawPiece, t: Real) -> Real:
+        return -1 / cam.pitch_curvature_radius(np.minimum(t, np.nextafter(piece.end, 0)))
+
+    found = greatest_of(list(cam.motion.pieces), hollow)
+    return Extreme(1 / found.value if found.value > 0 else math.inf, found.angle)
 
 
 def convex_roller_base_radius(
@@ -278,7 +291,7 @@ def _deepest(
         normal, level = plane(piece.value(t), piece.value(t, 1))
         return level - (np.conj(normal) * axis).real
 
-    found = _greatest(pieces, depth)
+    found = greatest_of(pieces, depth)
     at = np.asarray(found.angle)
     piece = next(p for p in pieces if p.start <= found.angle <= p.end)
     normal, level = plane(piece.value(at), piece.value(at, 1))

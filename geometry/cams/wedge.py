@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.cams.curves import CentreEnvelope, Lift, lift_series
+from geometry.cams.disk import FollowerKind
 from geometry.cams.follower_motion import Phase
 from geometry.cams.shape import quiet_edges
 from geometry.curve import Complex, Curve, Real, Reversed, end_point, start_point
@@ -199,15 +200,21 @@ def wedge_motion(phases: Sequence[Phase]) -> WedgeMotion:
 
 @dataclass(frozen=True, slots=True)
 class WedgeCam:
-    """The motion, how the follower is guided, and its radius, mm; 0 of a point."""
+    """The motion, how the follower is guided, its radius, mm (0 of a point), and its shape.
+
+    ``runs``: straight ends of the plate before and after the profile, ``corner``: rounding of its corners, mm.
+    """
 
     motion: WedgeMotion
     mount: Upright | Swinging
     radius: float = 0.0
+    kind: FollowerKind = FollowerKind.ROLLER
+    runs: tuple[float, float] = (10.0, 10.0)
+    corner: float = 0.0
 
     def curve(self, piece: Lift, start: float, end: float, grow: float = 0.0) -> SlideEnvelope:
         """The exact profile over one piece of the motion, ``grow`` mm out of the material."""
-        return SlideEnvelope(piece, self.mount, start, end, grow - self.radius)  # type: ignore[arg-type]
+        return SlideEnvelope(piece, self.mount, start, end, grow - self.radius)
 
     def centre(self, travel: ArrayLike) -> Complex:
         """The follower's centre in the plate's frame, mm."""

@@ -112,13 +112,17 @@ class CycloidalDisc:
         """Rotation of the disc while the eccentric stands at ``drive``, rad: a valley at the pin on +x for drive 0."""
         return (math.pi - drive) / self.number_of_lobes
 
-    def side(self, offset: float = 0.0) -> ToothSide:
-        """The lower half of lobe 1 from a valley's middle, moved ``offset`` mm out of the material."""
+    def half_lobe(self, offset: float = 0.0) -> ShortTrochoid:
+        """The curve of the lower half of lobe 1 over s = phi / z, from a valley's middle, moved ``offset`` mm out."""
         half = math.pi / self.number_of_lobes
-        whole = ShortTrochoid(
+        return ShortTrochoid(
             self.generating_radius, self.eccentricity, self.number_of_pins, self.generating_pin_radius - offset,
             -half, 0.0, half,
         )  # fmt: skip
+
+    def side(self, offset: float = 0.0) -> ToothSide:
+        """The lower half of lobe 1 from a valley's middle, moved ``offset`` mm out of the material."""
+        half, whole = math.pi / self.number_of_lobes, self.half_lobe(offset)
         edges, least = [0.0], _LEAST_SPLIT * half * self.generating_radius
         for at in whole.graded_splits():
             # near the limit of shortening a valley takes little of the parameter, but some of the length

@@ -1,0 +1,230 @@
+"""Steps that the calculations of all kinds of cams have in common: phases, coefficients, positions, impacts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+import numpy as np
+from msgspec import Meta
+
+from exporters.calculations.sheet import Sheet, Table
+from exporters.calculations.words import TERMS
+from geometry.cams.disk import DiskCam
+from geometry.cams.follower_motion import FollowerMotion, Phase, PhaseKind
+from geometry.cams.graphical import INTERVALS, LEAST_INTERVALS, MOST_INTERVALS
+from geometry.curve import Complex, Real
+from geometry.motion_laws.piece import LawPiece
+
+TOPIC = "cam"
+LESSON_4, LESSON_5 = "practicum, lesson 4", "practicum, lesson 5"
+_LAWS = {
+    "constant velocity": "стала швидкість",
+    "constant acceleration": "стале прискорення",
+    "linearly decreasing acceleration": "лінійно спадне прискорення",
+    "cosine acceleration": "косинусоїдальне прискорення",
+    "sine acceleration": "синусоїдальне прискорення",
+    "trapezoidal acceleration": "трапецеїдальне прискорення",
+    "triangular acceleration": "трикутне прискорення",
+    "modified trapezoid": "модифікована трапеція",
+    "modified sine": "модифікована синусоїда",
+    "3-4-5 polynomial": "поліном 3-4-5",
+    "4-5-6-7 polynomial": "поліном 4-5-6-7",
+    "Gutman 1-3": "закон Гутмана 1-3",
+}
+_PHASES = {"rise": "rise", "far": "far_dwell", "return": "return", "near": "near_dwell"}
+
+# radii of curvature beyond this many sizes of a cam are those of straight lines
+_STRAIGHT = 1e9
+
+# keys that several of the calculations take
+Step = Annotated[
+    float, Meta(ge=0.1, le=90, description="step of the table over the cam angle", extra={"unit": "degrees"})
+]
+Intervals = Annotated[
+    int, Meta(ge=LEAST_INTERVALS, le=MOST_INTERVALS, description="of each phase in the graphical method")
+]
+DEFAULT_INTERVALS = INTERVALS
+Drawing = Annotated[
+    Literal["smooth", "chords"], Meta(description="S' of the graphical method: a smooth curve or a broken line")
+]
+Speed = Annotated[float, Meta(gt=0, le=1e6, description="of the cam: adds velocities", extra={"unit": "rpm"})]
+
+
+@dataclass(frozen=True, slots=True)
+class Phases:
+    """The phases of a motion with its lift, mm (rad where it ``swings``), over the cam's angle or a plate's travel."""
+
+    phases: tuple[Phase, ...]
+    lift: float
+    swings: bool = False
+    slides: bool = False
+
+    def named(self) -> list[tuple[str, Phase]]:
+        """Every phase as rise, far, return or near; a dwell is far above half of the lift."""
+        found, height = [], 0.0
+        for phase in self.phases:
+            if phase.kind is PhaseKind.DWELL:
+                found.append(("far" if height > self.lift / 2 else "near", phase))
+            else:
+                found.append(("rise" if phase.kind is PhaseKind.RISE else "return", phase))
+            height += phase.lift
+        return found
+
+    def term(self, name: str) -> str:
+        """The term of a phase's angle or travel."""
+        return f"{_PHASES[name]}_{'travel' if self.slides else 'angle_deg'}"
+
+    def size(self, phase: Phase) -> float:
+        """The phase's angle in degrees, or its travel in mm."""
+        return phase.angle if self.slides else math.degrees(phase.angle)
+
+    def data(self) -> list[dict[str, object]]:
+        """For json."""
+        key = "travel" if self.slides else "angle_deg"
+        return [
+            {"move": name, key: self.size(phase), "law": phase.law.name if phase.law else None}
+            for name, phase in self.named()
+        ]
+
+
+def phase_steps(page: Sheet, phases: Phases) -> None:
+    """Lift or swing, and the angle or travel of every phase."""
+    if phases.swings:
+        page.add("swing_deg", math.degrees(phases.lift))
+    else:
+        page.add("lift", phases.lift)
+    named = phases.named()
+    index = dict.fromkeys(_PHASES, 0)
+    for name, phase in named:
+        index[name] += 1
+        many = sum(other == name for other, _ in named) > 1
+        term = phases.term(name)
+        page.add(term, phases.size(phase), symbol=f"{TERMS[term].symbol}{index[name]}" if many else "")
+
+
+def coefficient_steps(page: Sheet, phases: Phases) -> None:
+    """Law, h and the peaks of each moving phase: S'_max = C_v h / phi, S''_max = C_a h / phi^2."""
+    titles = {"rise": ("Rise", "Віддалення"), "return": ("Return", "Наближення")}
+    for name, phase in phases.named():
+        if phase.law is None:
+            continue
+        en, uk = titles[name]
+        law, h = phase.law.name, abs(phase.lift)
+        page.section(f"{en}: {law}", f"{uk}: {_LAWS.get(law, 'власна діаграма прискорення')}")
+        page.add(phases.term(name), phases.size(phase), key="phi")
+        if phases.swings:
+            page.add("swing_of_phase_deg", math.degrees(h))
+        else:
+            page.add("lift_of_phase", h)
+        speed, bend = (max(map(abs, phase.law.peak(order))) for order in (1, 2))
+        page.add("velocity_coefficient", speed)
+        page.add("acceleration_coefficient", bend)
+        if phases.swings:
+            continue
+        terms = ("peak_slope", "peak_bend") if phases.slides else ("peak_velocity", "peak_acceleration")
+        source = "" if phases.slides else LESSON_4
+        page.add(terms[0], speed * h / phase.angle, "{c_v} * {h} / {phi}", source)
+        page.add(terms[1], bend * h / phase.angle**2, "{c_a} * {h} / {phi}**2", source)
+
+
+def grid(pieces: Sequence[LawPiece], step: float, end: float) -> Real:
+    """Every ``step`` from 0 up to ``end``, and where a piece of the motion begins.
+
+    A step that meets a joint but for rounding stands on it, and reads what follows.
+    """
+    starts = np.array([piece.start for piece in pieces])
+    even = np.arange(math.ceil(end / step - 1e-9)) * step
+    own = [a for a in starts if np.abs(even - a).min() > 1e-9 * max(end, 1.0)]
+    found = np.sort(np.concatenate([even, own]))
+    close = np.abs(found[:, None] - starts).argmin(axis=1)
+    return np.where(np.abs(found - starts[close]) < 1e-9 * max(end, 1.0), starts[close], found)
+
+
+def cam_angles(motion: FollowerMotion, step: float) -> tuple[Real, Real]:
+    """The cam angles of a table in degrees and rad: every ``step`` degrees and where a phase begins."""
+    angle = grid(motion.pieces, math.radians(step), 2 * math.pi)
+    # the steps as typed
+    degrees = np.degrees(angle)
+    even = np.round(degrees / step) * step
+    return np.where(np.abs(degrees - even) < 1e-9, even, degrees), angle
+
+
+def motion_columns(
+    values: Sequence[Real], argument: Real, *, swings: bool, slides: bool = False
+) -> tuple[list[Real], list[tuple[str, str]]]:
+    """The columns phi, S, S', S'' and their heads; ``argument`` in degrees, or mm of a plate that ``slides``."""
+    scale, u = (180 / math.pi, "deg") if swings else (1.0, "mm")
+    units = (f"{u}/rad", f"{u}/rad2")
+    if slides:
+        units = ("deg/mm", "deg/mm2") if swings else ("", "1/mm")
+    heads = [("s", "mm") if slides else ("phi", "deg"), ("S", u), ("S'", units[0]), ("S''", units[1])]
+    return [argument, *(v * scale for v in values)], heads
+
+
+def table_of(name: str, title: tuple[str, str], columns: Sequence[Real], heads: Sequence[tuple[str, str]]) -> Table:
+    """Columns as the rows of a table."""
+    rows = tuple(tuple(float(x) for x in row) for row in zip(*columns, strict=True))
+    return Table(name, title, tuple(heads), rows)
+
+
+def positions(
+    cam: DiskCam,
+    step: float,
+    name: str = "positions",
+    whose: tuple[str, str] = ("", ""),
+    *,
+    beyond: float | None = None,
+    turn: float = 0.0,
+) -> Table:
+    """phi, S, S', S'', pressure angle, radius of curvature, profile: at every step and where a phase begins.
+
+    ``beyond``: mm from the roller's centre to the wall beyond it, whose table is then made; ``turn``: rad by which a
+    disk is turned on its shaft; ``whose``: wall or disk in both languages.
+    """
+    degrees, angle = cam_angles(cam.motion, step)
+    columns, heads = motion_columns([cam.motion.value(angle, k) for k in range(3)], degrees, swings=cam_swings(cam))
+    slope = np.degrees(cam.pressure_angle(angle))
+    if beyond is None:
+        profile, bend = cam.profile_point(angle), cam.curvature_radius(angle)
+    else:
+        profile, bend = outer_points(cam, angle, beyond), -(cam.pitch_curvature_radius(angle) + beyond)
+    profile = profile * np.exp(1j * turn)
+    heads += [("nu", "deg"), ("rho", "mm"), ("x", "mm"), ("y", "mm")]
+    en, uk = "Positions: cam angle, motion, pressure angle, radius of curvature, profile", \
+        "Положення: кут повороту, рух штовхача, кут тиску, радіус кривини, координати профілю"  # fmt: skip
+    title = (f"{en} ({whose[0]})", f"{uk} ({whose[1]})") if whose[0] else (en, uk)
+    return table_of(name, title, [*columns, slope, bend, profile.real, profile.imag], heads)
+
+
+def outer_points(cam: DiskCam, angle: Real, beyond: float) -> Complex:
+    """Points of the wall ``beyond`` mm past the roller's centre, in the cam's frame, mm."""
+    return np.asarray((cam.reference_point(angle) + beyond * cam.normal(angle)) * np.exp(-1j * angle))
+
+
+def straightened(radius: Real, size: float) -> Real:
+    """Radii of curvature, those of what is straight but for rounding as infinity; ``size`` of the cam, mm."""
+    return np.where(np.abs(radius) < _STRAIGHT * size, radius, np.inf)
+
+
+def cam_swings(cam: DiskCam) -> bool:
+    """Whether the follower of a disk cam is a rocker."""
+    from geometry.cams.mounts import Oscillating
+
+    return isinstance(cam.mount, Oscillating)
+
+
+def impact_notes(page: Sheet, motion: FollowerMotion) -> None:
+    """What the table holds at joints, and where they are felt."""
+    page.notes.append(
+        ("at the joint of two phases the table holds the values of the one that begins",
+         "на межі двох фаз у таблиці подано значення тієї, що починається")
+    )  # fmt: skip
+    names = {"rigid": ("rigid", "жорсткий"), "soft": ("soft", "м'який")}
+    for joint in motion.impacts():
+        if joint.impact is not None:
+            en, uk = names[joint.impact]
+            angle = f"{math.degrees(joint.angle):.6g}"
+            page.notes.append((f"{en} impact at cam angle {angle} degrees", f"{uk} удар при куті повороту {angle}°"))
