@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.bounds import derivative_bound
-from geometry.cams.mounts import Mount
 from geometry.carried import Carried, Mirrored
 from geometry.curve import Complex, Curve, Real, Reversed, check_interval
 from geometry.errors import CuspError
@@ -35,6 +34,22 @@ from geometry.series import (
 )
 
 _CUSP_SAMPLES = 257
+
+
+class Guided(Protocol):
+    """What carries a follower: geometry/cams/mounts.py, or a linkage (geometry/cams/linkage_cam.py)."""
+
+    def centre(self, s: Series) -> Series:
+        """Path of the reference point in the fixed frame."""
+
+    def centre_bound(self, s: Series) -> Series:
+        """Bounds of the moduli of that series from those of S."""
+
+    def face(self, s: Series) -> tuple[Series, Series]:
+        """Distance of a flat face from the axis, and the angle of its normal, rad."""
+
+    def face_bound(self, s: Series) -> tuple[Series, Series]:
+        """Bounds of the series of that distance and of the normal's rate of turning."""
 
 
 class Lift(Protocol):
@@ -66,7 +81,7 @@ class CentreEnvelope:
     """
 
     lift: Lift
-    mount: Mount
+    mount: Guided
     start: float
     end: float
     distance: float = 0.0
@@ -204,7 +219,7 @@ class FaceEnvelope:
     """
 
     lift: Lift
-    mount: Mount
+    mount: Guided
     start: float
     end: float
     distance: float = 0.0

@@ -109,7 +109,7 @@ def _round_gaps(cam: DiskCam, profile: Profile, angles: Real, out: float) -> tup
 
 def _outwards(cam: DiskCam, angles: Real) -> Complex:
     """Unit vectors of the follower's way out."""
-    way = cam.mount.velocity(np.ones(angles.shape), cam.reference_point(angles))
+    way = cam.way(angles, cam.reference_point(angles))
     return np.asarray(way / np.abs(way))
 
 
