@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from exporters.words_cams import CAM_FINDINGS
+from exporters.words_cams import CAM_FINDINGS, CAM_WORDS
 from exporters.words_pins import PIN_FINDINGS, PIN_WORDS
 from geometry.findings import Finding
 
@@ -172,7 +172,7 @@ WORDS: dict[str, tuple[str, str]] = {
     "drive": ("drive {instance}: {train} turns", "привід {instance}: {train} обертів"),
     "gap": ("least gap {gap:.2g} mm", "найменший зазор {gap:.2g} мм"),
     "left_out": ("left out", "не зроблено"),
-    **PIN_WORDS,
+    **(PIN_WORDS | CAM_WORDS),
 }
 
 FINDINGS: dict[str, tuple[str, str]] = {

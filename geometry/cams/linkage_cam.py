@@ -117,6 +117,21 @@ class LinkageCam(DiskCam):
         between = self.motion.value(at, 1) * self.way(at, point) - 1j * point
         return (between * np.conj(-1j * self.normal(at))).real
 
+    def greatest(self, function: Callable[[Real], Real]) -> float:
+        """Greatest modulus over the turn of a function of the cam angle that is smooth between joints."""
+        ends = [(p.start, np.nextafter(p.end, p.start)) for p in self.motion.pieces]
+        return -min(least_value(lambda t: -np.abs(function(t)), a, b) for a, b in ends)
+
+    def coupler_swing(self) -> float:
+        """By how much the coupler turns between its extreme positions, rad."""
+        low, high = self.motion.extremes()
+        first = self.mount.linkage.pose([np.float64(low)])[1][0]
+
+        def turned(lift: Real) -> Real:
+            return np.angle(self.mount.linkage.pose([lift])[1][0] / first)
+
+        return -least_value(lambda x: -turned(x), low, high) - least_value(turned, low, high)
+
     def _reach_of(self, piece: LawPiece) -> Real:
         """Places of the contact on the follower, to the right of its direction from the reference point, mm."""
         t = np.linspace(piece.start, np.nextafter(piece.end, piece.start), _REACH_SAMPLES)
