@@ -4,8 +4,8 @@ from __future__ import annotations
 
 CAM_WORDS: dict[str, tuple[str, str]] = {
     "contact_pressure_angle_deg": (
-        "greatest pressure angle at the contact point, deg",
-        "найбільший кут тиску в точці дотику, град",
+        "pressure angle at the contact, deg",
+        "кут тиску в точці дотику, град",
     ),
     "coupler_swing_deg": ("the connecting rod turns by, deg", "розмах кутів шатуна, град"),
     "least_transmission_angle_deg": (

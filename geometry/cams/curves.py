@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.bounds import derivative_bound
+from geometry.cams.mounts import About
 from geometry.carried import Carried, Mirrored
 from geometry.curve import Complex, Curve, Real, Reversed, check_interval
 from geometry.errors import CuspError
@@ -42,13 +43,13 @@ class Guided(Protocol):
     def centre(self, s: Series) -> Series:
         """Path of the reference point in the fixed frame."""
 
-    def centre_bound(self, s: Series) -> Series:
-        """Bounds of the moduli of that series from those of S."""
+    def centre_bound(self, s: Series, about: About | None = None) -> Series:
+        """Bounds of the moduli of that series from those of S; ``about`` may make them closer."""
 
     def face(self, s: Series) -> tuple[Series, Series]:
         """Distance of a flat face from the axis, and the angle of its normal, rad."""
 
-    def face_bound(self, s: Series) -> tuple[Series, Series]:
+    def face_bound(self, s: Series, about: About | None = None) -> tuple[Series, Series]:
         """Bounds of the series of that distance and of the normal's rate of turning."""
 
 
@@ -144,7 +145,8 @@ class CentreEnvelope:
         """Bounds of the moduli of the Taylor coefficients on each interval: geometry/bounds.py."""
         half = (b - a) / 2
         at_middle = self._fixed((a + b) / 2, order + 1)
-        whole = self.mount.centre_bound(_bound_series(self.lift, order + 2, a, b))
+        about = (lift_series(self.lift, (a + b) / 2, order + 2), half)
+        whole = self.mount.centre_bound(_bound_series(self.lift, order + 2, a, b), about)
         centre = sharpened(whole, at_middle[0], half)
         if self.distance:
             rate = [x + y for x, y in zip(derived(whole), whole, strict=False)]
@@ -285,7 +287,7 @@ class FaceEnvelope:
     def series_bound(self, order: int, a: Real, b: Real) -> Series:
         """Bounds of the moduli of the Taylor coefficients (the first one left out: 0) on each interval."""
         s = _bound_series(self.lift, order + 1, a, b)
-        height, rate = self.mount.face_bound(s)
+        height, rate = self.mount.face_bound(s, (lift_series(self.lift, (a + b) / 2, order + 1), (b - a) / 2))
         height[0] = height[0] + abs(self.distance)
         rate[0] = rate[0] + 1.0
         # phi' is farther from 0 than this: its value at the middle less half the interval times |phi''|

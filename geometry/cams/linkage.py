@@ -15,10 +15,25 @@ from typing import Protocol
 
 import numpy as np
 
-from geometry.series import Series, conjugate, exponential, majorant_power, power, product, quotient
+from geometry.cams.mounts import About
+from geometry.motion_laws.piece import Real
+from geometry.series import Series, conjugate, exponential, majorant_power, power, product, quotient, sharpened
 
 # nearer to a dead point than this, rad, a linkage stands in line: the root loses half of its digits there
 _IN_LINE = 1e-4
+
+
+# joint A at the middles of intervals, and half their widths
+Middle = tuple[Series, Real]
+
+
+def _root_bound(radicand: Series, least: Real) -> Series:
+    """Bounds of the coefficients of a root where the radicand is at least ``least`` > 0; ``radicand``: their bounds.
+
+    All binomials of (least - P)^(1/2) but the first are negative.
+    """
+    root = power([least, *(-x for x in radicand[1:])], 0.5)
+    return [np.sqrt(radicand[0]), *(-x for x in root[1:])]
 
 
 def cosine_range(first: float, last: float) -> tuple[float, float]:
@@ -53,8 +68,8 @@ class Guide(Protocol):
     def turn(self, joint: Series, length: float) -> Series:
         """exp(i theta) of the coupler of ``length`` mm, theta its angle from A to B; NaN where it does not close."""
 
-    def turn_bound(self, joint: Series, length: float, room: tuple[float, float]) -> Series:
-        """Bounds of the moduli of that series from those of A and from ``room``."""
+    def turn_bound(self, joint: Series, length: float, room: tuple[float, float], at: Middle) -> Series:
+        """Bounds of the moduli of that series from those of A, from ``room`` and from A at the middles."""
 
     def room(self, drive: Drive, length: float, low: float, high: float) -> tuple[float, float]:
         """Least value under the root, mm^4 (slider: mm^2), above 0 where the linkage closes all the way; least |q|^2.
@@ -166,18 +181,25 @@ class RockerGuide:
         outer[0] = np.where((outer[0] > 0) & (inner[0] > 0), outer[0], np.nan)
         return product(outer, inner)
 
-    def turn_bound(self, joint: Series, length: float, room: tuple[float, float]) -> Series:
+    def turn_bound(self, joint: Series, length: float, room: tuple[float, float], at: Middle) -> Series:
         """Bounds of the moduli of that series; the root's binomials alternate but for its first term."""
-        way: Series = [abs(self.pivot) + joint[0], *joint[1:]]
-        square = product(way, way)
+        middle, half = at
+        here: Series = [self.pivot - middle[0], *(-x for x in middle[1:])]
+        way = sharpened([abs(self.pivot) + joint[0], *joint[1:]], here, half)
+        square_here: Series = [x.real for x in product(here, conjugate(here))]
+        square = sharpened(product(way, way), square_here, half)
         outer: Series = [(length + self.length) ** 2 + square[0], *square[1:]]
         inner: Series = [(length - self.length) ** 2 + square[0], *square[1:]]
-        radicand = product(outer, inner)
-        root = [-x for x in power([room[0] + 0.0 * square[0], *(-x for x in radicand[1:])], 0.5)]
-        beside = [square[0] + abs(length**2 - self.length**2) + np.sqrt(radicand[0])]
-        beside += [x + y for x, y in zip(square[1:], root[1:], strict=True)]
-        whole = product(product(way, beside), majorant_power(room[1] + 0.0 * square[0], square[1:], -1.0))
-        return [np.ones(np.shape(square[0])), *(x / (2 * length) for x in whole[1:])]
+        radicand_here = self._radicand(square_here, length)
+        radicand = sharpened(product(outer, inner), radicand_here, half)
+        root = _root_bound(radicand, np.maximum(room[0], radicand_here[0] - half * radicand[1]))
+        far = abs(length - self.length) * (length + self.length)
+        beside = [square[0] + far + root[0], *(x + y for x, y in zip(square[1:], root[1:], strict=True))]
+        least = np.maximum(room[1], square_here[0] - half * square[1])
+        whole = product(product(way, beside), majorant_power(least, square[1:], -1.0))
+        return sharpened(
+            [np.ones(np.shape(half)), *(x / (2 * length) for x in whole[1:])], self.turn(middle, length), half
+        )
 
     def room(self, drive: Drive, length: float, low: float, high: float) -> tuple[float, float]:
         """The square under the root is concave in |q|^2: least at an end of its range."""
@@ -208,8 +230,7 @@ class SliderGuide:
 
     def turn(self, joint: Series, length: float) -> Series:
         """exp(i theta) of the coupler; NaN where it does not close."""
-        back = cmath.exp(-1j * self.direction)
-        height: Series = [((joint[0] - self.point) * back).imag, *((x * back).imag for x in joint[1:])]
+        height = self._height(joint)
         outer: Series = [length - height[0], *(-x for x in height[1:])]
         inner: Series = [length + height[0], *height[1:]]
         outer[0] = np.where((outer[0] > 0) & (inner[0] > 0), outer[0], np.nan)
@@ -217,13 +238,21 @@ class SliderGuide:
         way = cmath.exp(1j * self.direction) / length
         return [way * (self.side * x - 1j * y) for x, y in zip(root, height, strict=True)]
 
-    def turn_bound(self, joint: Series, length: float, room: tuple[float, float]) -> Series:
+    def turn_bound(self, joint: Series, length: float, room: tuple[float, float], at: Middle) -> Series:
         """Bounds of the moduli of that series."""
-        height: Series = [abs(self.point) + joint[0], *joint[1:]]
-        square = product(height, height)
-        root = power([room[0] + 0.0 * square[0], *(-x for x in square[1:])], 0.5)
-        rest = [(y - x) / length for x, y in zip(root[1:], height[1:], strict=True)]
-        return [np.ones(np.shape(square[0])), *rest]
+        middle, half = at
+        here = self._height(middle)
+        height = sharpened([abs(self.point) + joint[0], *joint[1:]], here, half)
+        square_here = product(here, here)
+        square = sharpened(product(height, height), square_here, half)
+        root = _root_bound(square, np.maximum(room[0], length**2 - square_here[0] - half * square[1]))
+        rest = [(y + x) / length for x, y in zip(root[1:], height[1:], strict=True)]
+        return sharpened([np.ones(np.shape(half)), *rest], self.turn(middle, length), half)
+
+    def _height(self, joint: Series) -> Series:
+        """Distance of A to the left of the line."""
+        back = cmath.exp(-1j * self.direction)
+        return [((joint[0] - self.point) * back).imag, *((x * back).imag for x in joint[1:])]
 
     def room(self, drive: Drive, length: float, low: float, high: float) -> tuple[float, float]:
         """b^2 - h^2 at the greatest |h|."""
@@ -256,10 +285,12 @@ class Linkage:
         joint = self.drive.joint(s)
         return joint, self.guide.turn(joint, self.coupler_length)
 
-    def pose_bound(self, s: Series) -> tuple[Series, Series]:
-        """Bounds of the moduli of both series from those of S."""
-        joint = self.drive.joint_bound(s)
-        return joint, self.guide.turn_bound(joint, self.coupler_length, self.room)
+    def pose_bound(self, s: Series, about: About) -> tuple[Series, Series]:
+        """Bounds of the moduli of both series from those of S and from its series at the middles."""
+        middle, half = about
+        here = self.drive.joint(middle)
+        joint = sharpened(self.drive.joint_bound(s), here, half)
+        return joint, self.guide.turn_bound(joint, self.coupler_length, self.room, (here, half))
 
     def closed(self, low: float, high: float) -> Linkage | None:
         """The linkage with its room for S from ``low`` to ``high``; None where it comes apart or stands in line."""

@@ -18,10 +18,11 @@ from numpy.typing import ArrayLike
 from geometry.cams.disk import DiskCam, FollowerKind
 from geometry.cams.follower_motion import FollowerMotion
 from geometry.cams.linkage import Linkage, RockerDrive
+from geometry.cams.mounts import About
 from geometry.curve import Complex, Real
 from geometry.errors import ParameterError
 from geometry.motion_laws.piece import LawPiece
-from geometry.series import Series, conjugate, derived, product, quotient
+from geometry.series import Series, conjugate, derived, product, quotient, sharpened
 
 _TABLE, _NEWTON_STEPS, _ZOOMS = 513, 4, 6
 _DROP_SAMPLES, _BISECTIONS = 129, 50
@@ -46,9 +47,11 @@ class CouplerMount:
         joint, turn = self.linkage.pose(s)
         return [a + self.point * e for a, e in zip(joint, turn, strict=True)]
 
-    def centre_bound(self, s: Series) -> Series:
-        """Bounds of the moduli of that series from those of S."""
-        joint, turn = self.linkage.pose_bound(s)
+    def centre_bound(self, s: Series, about: About | None = None) -> Series:
+        """Bounds of the moduli of that series from those of S; inf where nothing is known of the middles."""
+        if about is None:
+            return [np.full(np.shape(x), np.inf) for x in s]
+        joint, turn = self.linkage.pose_bound(s, about)
         return [a + abs(self.point) * e for a, e in zip(joint, turn, strict=True)]
 
     def angle(self, s: Series) -> Series:
@@ -66,11 +69,16 @@ class CouplerMount:
         angle = [np.angle(normal[0]), *(x.imag / (k + 1) for k, x in enumerate(rate))]
         return [x.real for x in product(centre, conjugate(normal))], angle
 
-    def face_bound(self, s: Series) -> tuple[Series, Series]:
+    def face_bound(self, s: Series, about: About | None = None) -> tuple[Series, Series]:
         """Bounds of the series of the face's distance and of its normal's rate of turning (one shorter)."""
-        joint, turn = self.linkage.pose_bound(s)
+        if about is None:
+            return [np.full(np.shape(x), np.inf) for x in s], [np.full(np.shape(x), np.inf) for x in s[1:]]
+        joint, turn = self.linkage.pose_bound(s, about)
         centre = [a + abs(self.point) * e for a, e in zip(joint, turn, strict=True)]
-        return product(centre, turn), product(derived(turn), turn)
+        height, angle = self.face(about[0])
+        return sharpened(product(centre, turn), height, about[1]), sharpened(
+            product(derived(turn), turn), derived(angle), about[1]
+        )
 
     def velocity(self, rate: Real, point: Complex, s: Series) -> Complex:
         """Velocity per rad of cam angle of the follower's material at ``point``, where S' is ``rate``."""
