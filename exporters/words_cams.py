@@ -12,6 +12,10 @@ CAM_WORDS: dict[str, tuple[str, str]] = {
         "least transmission angle at joint B, deg",
         "найменший кут передачі в шарнірі B, град",
     ),
+    "mate_linkage_member": (
+        "{second}: {member} of the linkage of {first}, turns by {swing_deg:.6g} deg",
+        "{second}: ланка ({member}) механізму {first}, розмах {swing_deg:.6g} град",
+    ),
     "greatest_sliding_velocity": ("greatest sliding velocity, mm per rad", "найбільша швидкість ковзання, мм/рад"),
 }
 CAM_FINDINGS: dict[str, tuple[str, str]] = {

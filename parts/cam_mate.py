@@ -130,6 +130,10 @@ def cam_follower_mating(mate: CamFollowerSpec, first: DiskCam | GrooveDisk, end:
         Another kind or size of follower; names its key and what the cam needs.
     """
     cam: DiskCam = first if hasattr(first, "mount") else first.cam  # type: ignore[assignment]
+    if hasattr(cam, "follower_pose"):
+        from parts.linkage_mate import linkage_follower_mating
+
+        return linkage_follower_mating(mate, cam, end)
     made = CamFollowerMating(mate.first, mate.second, mate.direction_deg, mate.height, cam, end)
     if end.kind != cam.kind:
         raise ParameterError("end", str(end.kind), f'the cam is made for another follower; "{cam.kind}" works')

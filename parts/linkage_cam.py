@@ -204,7 +204,7 @@ def _quantities(cam: LinkageCam) -> dict[str, float]:
     if cam.radius > 0:
         found["contact_pressure_angle_deg"] = math.degrees(cam.greatest(cam.contact_pressure_angle))
     found["least_curvature_radius"] = least_convex_radius(cam).value
-    found["coupler_swing_deg"] = math.degrees(cam.coupler_swing())
+    found["coupler_swing_deg"] = math.degrees(cam.member_swing("coupler"))
     found["least_transmission_angle_deg"] = math.degrees(cam.mount.linkage.transmission_angle())
     if cam.kind != "roller":
         found["greatest_sliding_velocity"] = cam.greatest(cam.sliding_velocity)

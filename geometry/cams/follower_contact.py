@@ -61,6 +61,9 @@ def follower_pose(cam: DiskCam, end: FollowerEnd, angle: float) -> tuple[complex
     """Where a follower's frame stands at a cam angle, in the cam's fixed frame: its origin, mm, and its turn, rad."""
     mount: Any = cam.mount
     angle = angle % TURN
+    if hasattr(cam, "follower_pose"):
+        pose: tuple[complex, float] = cam.follower_pose(angle, turns=end.outline is not None)
+        return pose
     if end.arm_length is not None:
         swung = mount.start_angle + float(cam.motion.value(angle))
         return complex(mount.centre_distance), math.pi - mount.sense * swung

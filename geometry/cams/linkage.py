@@ -11,7 +11,7 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -305,3 +305,25 @@ class Linkage:
     def transmission_angle(self) -> float:
         """Least acute angle at joint B over the motion, rad."""
         return self.guide.transmission_angle(self.room[0], self.coupler_length)
+
+    def member(self, name: str, lift: float) -> tuple[complex, float]:
+        """Frame of the driven member, the coupler or the guiding one at S: origin, mm, and angle of its x axis, rad.
+
+        A rocker's origin is its pivot, its x axis runs to its joint; a slider's is its joint.
+        """
+        joint, turn = (complex(x[0]) for x in self.pose([np.float64(lift)]))
+        far = joint + self.coupler_length * turn
+        if name == "coupler":
+            return joint, cmath.phase(turn)
+        of: Any = self.drive if name == "driven" else self.guide
+        at = joint if name == "driven" else far
+        if isinstance(of, RockerDrive | RockerGuide):
+            return of.pivot, cmath.phase(at - of.pivot)
+        return at, of.direction
+
+    def length(self, name: str) -> float | None:
+        """Length of a member between its joints, mm; None of a slider."""
+        if name == "coupler":
+            return self.coupler_length
+        length: float | None = getattr(self.drive if name == "driven" else self.guide, "length", None)
+        return length

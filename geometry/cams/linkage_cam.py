@@ -110,6 +110,11 @@ class LinkageCam(DiskCam):
         """Roller's centre, tip, arc's centre or the face's given point, fixed frame, mm."""
         return self.mount.centre([self.motion.value(np.asarray(angle, dtype=float))])[0]
 
+    def follower_pose(self, angle: float, *, turns: bool = True) -> tuple[complex, float]:
+        """Where a stem's frame stands: origin in the reference point, +y along ``direction``; rollers need not turn."""
+        turned = float(self.coupler_angle(angle)) + self.mount.direction - math.pi / 2 if turns else 0.0
+        return complex(self.place(angle)), turned
+
     def contact_pressure_angle(self, angle: ArrayLike) -> Real:
         """Savvin's (28), signed, rad: between the normal and the velocity of the follower's material at the contact.
 
@@ -130,13 +135,23 @@ class LinkageCam(DiskCam):
         ends = [(p.start, np.nextafter(p.end, p.start)) for p in self.motion.pieces]
         return -min(least_value(lambda t: -np.abs(function(t)), a, b) for a, b in ends)
 
-    def coupler_swing(self) -> float:
-        """By how much the coupler turns between its extreme positions, rad."""
+    def member_swing(self, name: str) -> float:
+        """By how much the driven member, the coupler or the guiding one turns between its extreme positions, rad."""
         low, high = self.motion.extremes()
-        first = self.mount.linkage.pose([np.float64(low)])[1][0]
+        linkage = self.mount.linkage
+        if linkage.length(name) is None:
+            return 0.0
+
+        def way(lift: Real) -> Complex:
+            """Along the member."""
+            joint, turn = (x[0] for x in linkage.pose([np.asarray(lift, dtype=float)]))
+            if name == "coupler":
+                return turn
+            ends = joint if name == "driven" else joint + linkage.coupler_length * turn
+            return ends - linkage.member(name, low)[0]
 
         def turned(lift: Real) -> Real:
-            return np.angle(self.mount.linkage.pose([lift])[1][0] / first)
+            return np.angle(way(lift) / way(np.asarray(low)))
 
         return -least_value(lambda x: -turned(x), low, high) - least_value(turned, low, high)
 
