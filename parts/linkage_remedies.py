@@ -61,7 +61,7 @@ def _knobs(spec: LinkageCamSpec) -> dict[str, list[Knob]]:
         "coupler_length": [_length(spec), *travel, point],
         "direction": [_direction(spec)],
         "sense": [_sense(spec)],
-        "point": [*start, point],
+        "point": [*radius, *start, point],
         "lift": [*travel, *start, point],
         "undercut": [*radius, *travel, *start, point],
     }
