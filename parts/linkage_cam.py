@@ -98,30 +98,40 @@ def checked_linkage_cam(spec: LinkageCamSpec) -> LinkageCam:
     ParameterError
         Names the key and the nearest value that was tried and works.
     """
-    try:
-        return built(spec)
-    except ParameterError as refusal:
-        raise refusal_of(spec, refusal, built, linkage_cam_of) from refusal
-
-
-def built(spec: LinkageCamSpec) -> LinkageCam:
-    """The same, refused without a remedy where the linkage itself is to blame."""
     from geometry.cams.undercut import kept_arcs
 
-    cam = linkage_cam_of(spec)
     try:
-        gaps = kept_arcs(cam).gaps
-    except UndercutError:
-        gaps, told = None, "all of the profile"
-    if gaps is None or gaps:
-        if gaps:
-            told = f"{max(g.lost_lift for g in gaps):.4g} {'rad' if cam.swings else 'mm'} of lift"
-        raise UndercutError("undercut", spec.follower_radius, f"the cam is undercut and loses {told}")
+        cam = linkage_cam_of(spec)
+        try:
+            gaps = kept_arcs(cam).gaps
+        except UndercutError:
+            gaps, told = None, "all of the profile"
+        if gaps is None or gaps:
+            if gaps:
+                told = f"{max(g.lost_lift for g in gaps):.4g} {'rad' if cam.swings else 'mm'} of lift"
+            raise UndercutError("follower_radius", spec.follower_radius, f"the cam is undercut and loses {told}")
+    except ParameterError as refusal:
+        raise refusal_of(spec, refusal, whole_cam_of, _check_part) from refusal
+    _check_part(spec, cam)
+    return cam
+
+
+def whole_cam_of(spec: LinkageCamSpec) -> LinkageCam:
+    """The cam of the keys where the quick test proves that nothing is undercut, for trials."""
+    from geometry.cams.undercut import is_whole
+
+    cam = linkage_cam_of(spec)
+    if not is_whole(cam):
+        raise UndercutError("follower_radius", spec.follower_radius, "the cam is undercut")
+    return cam
+
+
+def _check_part(spec: LinkageCamSpec, cam: LinkageCam) -> None:
+    """Plate, bore, holes and body fit the cam."""
     _check_plate(spec, cam)
     check_cam_bore(spec, cam)
     shape = wheel_shape(spec.face_width, None, spec.hub, spec.face_chamfer)
     check_wheel(shape, 2 * inner_radius(cam), cam_holes(spec, cam))
-    return cam
 
 
 def linkage_cam_of(spec: LinkageCamSpec) -> LinkageCam:

@@ -19,8 +19,9 @@ if TYPE_CHECKING:
 # steps away from a value that are tried, part of a length or of 180 degrees
 _STEPS = (0.005, 0.01, 0.02, 0.03, 0.05, 0.08, 0.12, 0.18, 0.25, 0.35, 0.5, 0.7, 0.9, 0.98)
 _LONGER = (1.5, 2.5, 4.0)
-_DIRECTIONS, _BISECTIONS = 12, 14
+_DIRECTIONS, _BISECTIONS = 8, 14
 Build = Callable[["LinkageCamSpec"], Any]
+Check = Callable[["LinkageCamSpec", Any], None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,23 +33,27 @@ class Knob:
     turned: Callable[[Any], LinkageCamSpec]
     trials: Callable[[], Iterator[Any]]
     unit: str = ""
+    # whether what lies between may be nearer
+    halved: bool = True
 
 
-def refusal_of(spec: LinkageCamSpec, refusal: ParameterError, whole: Build, cam_only: Build) -> ParameterError:
+def refusal_of(spec: LinkageCamSpec, refusal: ParameterError, build: Build, check: Check) -> ParameterError:
     """A refusal under the key that cures it, with the nearest value found; others are as they are.
 
-    ``whole`` makes every check of the part, ``cam_only`` those of the cam, where no value helps against all.
+    ``build`` makes the cam, ``check`` holds the rest of the part against it.
     """
-    knobs = _knobs(spec).get(refusal.name)
-    if knobs is None:
+    from geometry.cams.linkage_cam import LinkageError
+
+    if not isinstance(refusal, LinkageError | UndercutError):
         name = {"radius": "follower_radius"}.get(refusal.name, refusal.name)
         return ParameterError(name, refusal.value, refusal.allowed)
-    kind = UndercutError if isinstance(refusal, UndercutError) else ParameterError
+    undercut = isinstance(refusal, UndercutError)
+    knobs = _knobs(spec)["undercut" if undercut else refusal.name]
     reason = refusal.allowed.split(";")[0]
-    for build in (whole, cam_only):
-        for knob in knobs:
-            if (found := _nearest(knob, build)) is not None:
-                return kind(knob.name, knob.value, f"{reason}; {found} works")
+    kind = UndercutError if undercut else ParameterError
+    for knob in knobs:
+        if (found := _nearest(knob, build, check)) is not None:
+            return kind(knob.name, knob.value, f"{reason}; {found} works")
     return kind(knobs[0].name, knobs[0].value, f"{reason}; no other value near it helps")
 
 
@@ -58,7 +63,7 @@ def _knobs(spec: LinkageCamSpec) -> dict[str, list[Knob]]:
     start = [_start_angle(spec)] if isinstance(spec.driven, DrivenRocker) else []
     radius = [_radius(spec)] if spec.follower_radius else []
     return {
-        "coupler_length": [_length(spec), *travel, point],
+        "coupler_length": [_length(spec), *travel, _sense(spec), *start, point],
         "direction": [_direction(spec)],
         "sense": [_sense(spec)],
         "point": [*radius, *start, point],
@@ -67,29 +72,39 @@ def _knobs(spec: LinkageCamSpec) -> dict[str, list[Knob]]:
     }
 
 
-def _nearest(knob: Knob, build: Build) -> str | None:
+def _nearest(knob: Knob, build: Build, check: Check) -> str | None:
     """The first trial that works, numbers brought nearer by halving; as it is printed."""
 
-    def works(value: Any) -> bool:
+    def works(value: Any, *, all_of_it: bool) -> bool:
         try:
-            build(knob.turned(value))
+            spec = knob.turned(value)
+            cam = build(spec)
+            if all_of_it:
+                check(spec, cam)
         except (GeometryError, ArithmeticError):
             return False
         return True
 
-    good = next((v for v in knob.trials() if works(v)), None)
+    good, whole = None, False
+    for trial in knob.trials():
+        if works(trial, all_of_it=False):
+            # a cam that its bore or its plate does not fit still is one
+            whole = works(trial, all_of_it=True)
+            good = trial if whole or good is None else good
+            if whole:
+                break
     if good is None or isinstance(good, str):
         return None if good is None else f'"{good}"'
     if not isinstance(good, float):
         return str([round(x, 6) for x in good])
     bad = knob.value
-    for _ in range(_BISECTIONS):
+    for _ in range(_BISECTIONS if knob.halved else 0):
         middle = (bad + good) / 2
-        bad, good = (bad, middle) if works(middle) else (middle, good)
+        bad, good = (bad, middle) if works(middle, all_of_it=whole) else (middle, good)
     # rounded away from what fails
     digits = 4
     shown = (math.floor if good < knob.value else math.ceil)(good * 10**digits) / 10**digits
-    return f"{shown if works(shown) else good:.12g}{knob.unit}"
+    return f"{shown if works(shown, all_of_it=whole) else good:.12g}{knob.unit}"
 
 
 def _around(value: float, scale: float) -> Iterator[float]:
@@ -144,7 +159,7 @@ def _point(spec: LinkageCamSpec) -> Knob:
     size = max(spec.coupler_length, abs(at))
 
     def trials() -> Iterator[tuple[float, float]]:
-        for step in (*_STEPS, *_LONGER):
+        for step in (*_STEPS[1::2], *_LONGER):
             for k in range(_DIRECTIONS):
                 moved = at + cmath.rect(step * size, 2 * math.pi * k / _DIRECTIONS)
                 yield round(moved.real, 4), round(moved.imag, 4)
@@ -178,4 +193,5 @@ def _sense(spec: LinkageCamSpec) -> Knob:
         lambda v: replace(spec, driven=replace(driven, direction_deg=v)),
         lambda: (v for k in (0.0, *_STEPS[:8]) for v in (opposite - 180 * k, opposite + 180 * k) if abs(v) <= 360),
         " degrees",
+        halved=False,
     )

@@ -31,6 +31,10 @@ _BEYOND = 0.02
 _REACH_SAMPLES = 257
 
 
+class LinkageError(ParameterError):
+    """A linkage that cannot carry its follower all the way; another member may be to blame than the one named."""
+
+
 @dataclass(frozen=True, slots=True)
 class CouplerMount:
     """A follower on a coupler: ``point`` of its centre, tip or face in the coupler's frame, mm.
@@ -249,20 +253,25 @@ def linkage_cam(
 
     Raises
     ------
-    ParameterError
+    LinkageError
         ``coupler_length``: the linkage does not close all the way; ``lift``: the follower does not move away from the
-        axis while S grows (a pressure angle of 90 degrees), or a flat face turns as fast as the cam; ``radius``;
-        ``direction``: a face that looks away from the axis.
+        axis while S grows (a pressure angle of 90 degrees), or a flat face turns as fast as the cam; ``sense``: it
+        comes nearer; ``point``: it reaches the axis; ``direction``: a face that looks away from the axis.
+    ParameterError
+        ``radius``: none where one is needed, or the other way round.
     """
     low, high = motion.extremes()
     closed = linkage.closed(low, high)
     if closed is None:
         least, most = linkage.coupler_lengths(low, high)
-        text = "the linkage comes apart or stands in line within the motion: it closes with"
-        text += f" more than {least:.6g}" + (f" and less than {most:.6g} mm" if most < math.inf else " mm")
-        raise ParameterError(
-            "coupler_length", linkage.coupler_length, text if least < most else text[: text.index(":")]
-        )
+        text = "the linkage comes apart or stands in line within the motion"
+        if least < most:
+            text += (
+                f"; more than {least:.6g}"
+                + ("" if math.isinf(most) else f" and less than {most:.6g}")
+                + " mm closes it"
+            )
+        raise LinkageError("coupler_length", linkage.coupler_length, text)
     if kind in (FollowerKind.ROLLER, FollowerKind.MUSHROOM):
         if not radius > 0:
             raise ParameterError("radius", radius, f"a {kind} has a radius above 0")
@@ -285,13 +294,13 @@ def _check_way(cam: LinkageCam, low: float, high: float) -> None:
 
     if not least_value(away, low, high) > cam.radius:
         if flat and least_value(lambda x: -away(x), low, high) > 0:
-            raise ParameterError("direction", cam.mount.direction, "the face looks away from the axis")
+            raise LinkageError("direction", cam.mount.direction, "the face looks away from the axis")
         text = "the face passes the axis" if flat else "the follower reaches the axis"
-        raise ParameterError("point", abs(cam.mount.point), text)
+        raise LinkageError("point", abs(cam.mount.point), text)
     if not least_value(rate, low, high) > 0:
         if least_value(lambda x: -rate(x), low, high) > 0:
-            raise ParameterError("sense", cam.motion.lift, "the follower comes nearer to the axis while it should rise")
-        raise ParameterError("lift", cam.motion.lift, "the pressure angle reaches 90 degrees within the motion")
+            raise LinkageError("sense", cam.motion.lift, "the follower comes nearer to the axis while it should rise")
+        raise LinkageError("lift", cam.motion.lift, "the pressure angle reaches 90 degrees within the motion")
     if not flat:
         return
     for piece in cam.motion.pieces:
@@ -301,7 +310,7 @@ def _check_way(cam: LinkageCam, low: float, high: float) -> None:
             return 1 - cam.mount.face(s)[1][1]
 
         if not piece.is_constant and not least_value(slower, piece.start, piece.end) > 0:
-            raise ParameterError("lift", cam.motion.lift, "the flat face turns as fast as the cam somewhere")
+            raise LinkageError("lift", cam.motion.lift, "the flat face turns as fast as the cam somewhere")
 
 
 def least_value(function: Callable[[Real], Real], low: float, high: float) -> float:
