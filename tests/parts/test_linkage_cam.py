@@ -194,6 +194,18 @@ def test_a_refusal_names_the_key_and_a_value_that_works_when_it_is_fed_back(name
     assert parts_of({"cam": better})["cam"].cam is not None
 
 
+@pytest.mark.parametrize("name", ["too short", "other way", "slides in", "big roller", "face away", "bent face"])
+def test_a_refusal_speaks_ukrainian(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "s.toml"
+    file.write_text('[scene]\nlanguage = "uk"\n' + scene({"cam": WRONG[name][0]}), encoding="utf-8")
+    assert run("check", file) == 2
+    told = capsys.readouterr().err
+    assert f"cam.{WRONG[name][1]} = " in told
+    assert re.search("підходить", told)
+    reason = told.split(" = ", 1)[1].split(":", 1)[1]
+    assert not re.search(r"(?<![\w\"])(the|works|axis|mm)\b", reason), told
+
+
 def test_what_nothing_near_cures_is_refused_too() -> None:
     message = refused(FOUR | {"driven": ROCKER | {"pivot": [9100.0, 26.0]}})
     assert "coupler_length = 43" in message
