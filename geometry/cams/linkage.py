@@ -3,7 +3,7 @@
 Joint A is driven: on a rocker whose angle, or on a slider whose way, is the prescribed motion S. Joint B of the
 coupler AB moves on a second rocker or slider: the second dyad of an assembly of class II, its position the
 intersection of two circles, or of a circle and a line. One of both is the assembly. Series of S hold S^(k)/k!, as
-in geometry/cams/mounts.py, so that every derivative is exact. Derivation: DERIVATIONS.md.
+in geometry/cams/mounts.py, so that every derivative is exact.
 """
 
 from __future__ import annotations

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import cmath
+import json
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -350,3 +352,26 @@ def test_what_cannot_be_is_refused(name: str) -> None:
     with pytest.raises(ParameterError, match=words) as caught:
         build()
     assert caught.value.name == key
+
+
+@pytest.mark.parametrize("kind", ["translating", "rocker"])
+@pytest.mark.parametrize("degrees", [30, 60, 100])
+def test_savvins_rollers_by_his_corrected_formulas(kind: str, degrees: int) -> None:
+    """(21), (22) recomputed at 40 digits: the roller on the driven member, whatever else hangs on it."""
+    file = Path(__file__).parents[2] / "published" / "cams.json"
+    cases = {c["id"]: c for c in json.loads(file.read_text(encoding="utf-8"))["cases"]}
+    known = cases[f"002.roller.{kind}.{degrees}"]
+    lift, drive, radius = 20.0, SliderDrive(10 + 40j, D(90)), 8.0
+    linkage = Linkage(drive, 70.0, SliderGuide(0 + 50j, 0.0))
+    if kind == "rocker":
+        lift, radius = D(20), 10.0
+        linkage = Linkage(RockerDrive(80 + 0j, 60.0, D(145), -1), 70.0, RockerGuide(100 + 90j, 80.0))
+    law = NAMED_LAWS["sine"]()
+    steps = follower_motion([rise(D(120), lift, law), return_(D(120), lift, law), dwell(D(120))])
+    cam = linkage_cam(steps, ROLLER, linkage, 0j, radius=radius)
+    point = complex(cam.profile_point(D(degrees)))
+    assert abs(point - complex(known["recomputed"]["xi1"], known["recomputed"]["eta1"])) < 1e-10
+    if (kind, degrees) == ("translating", 60):
+        # his follower does not turn: all of it moves as the roller's centre does here
+        angle = math.degrees(float(cam.pressure_angle(D(60))))
+        assert angle == pytest.approx(cases["002.pressure_angle"]["recomputed"]["nu_deg_savvin"], abs=1e-9)
