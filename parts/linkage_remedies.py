@@ -62,13 +62,14 @@ def _knobs(spec: LinkageCamSpec) -> dict[str, list[Knob]]:
     travel, point = _travel(spec), _point(spec)
     start = [_start_angle(spec)] if isinstance(spec.driven, DrivenRocker) else []
     radius = [_radius(spec)] if spec.follower_radius else []
+    turn = [_direction(spec)] if spec.follower == "flat" else []
     return {
         "coupler_length": [_length(spec), *travel, _sense(spec), *start, point],
         "direction": [_direction(spec)],
-        "sense": [_sense(spec)],
-        "point": [*radius, *start, point],
-        "lift": [*travel, *start, point],
-        "undercut": [*radius, *travel, *start, point],
+        "sense": [*turn, _sense(spec)],
+        "point": [*radius, *turn, *start, point],
+        "lift": [*travel, *turn, *start, point],
+        "undercut": [*radius, *travel, *turn, *start, point],
     }
 
 

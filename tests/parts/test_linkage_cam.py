@@ -162,6 +162,9 @@ WRONG: dict[str, tuple[Keys, str]] = {
         {"move": "return_", "angle_deg": 60.0, "law": "sine"}, {"move": "dwell", "angle_deg": 220.0}]},
         "follower_radius"),
     "face away": (FLAT | {"follower_direction_deg": 120.0}, "follower_direction_deg"),
+    "no direction": (without(FLAT, "follower_direction_deg"), "follower_direction_deg"),
+    "table": (without(FOUR, "swing_deg", "phases") | {"coupler_length": 20.0, "motion_table": [
+        [0.0, 0.0], [120.0, 24.0], [240.0, 6.0]]}, "coupler_length"),
     "bent face": (FLAT | {"swing_deg": 30.0}, "swing_deg"),
     "narrow plate": (FLAT | {"plate_diameter": 5.0}, "plate_diameter"),
     "wide bore": (without(FOUR, "timing_mark") | {"bore_diameter": 90.0}, "bore_diameter"),
@@ -221,9 +224,15 @@ def test_remarks_speak_both_languages() -> None:
     steepest = parts_of({"cam": poor})["cam"].quantities["pressure_angle_rise_deg"]
     assert found["steep_pressure_angle"].value == pytest.approx(steepest)
     told = parts_of({"cam": FOUR | {"coupler_length": 60.0, "guide": GUIDE | {"length": 115.0}}})["cam"]
-    if told.quantities["least_transmission_angle_deg"] < 40:
-        found |= {f.code: f for f in told.findings}
-        assert "small_transmission_angle" in found
+    found |= {f.code: f for f in told.findings}
+    cam = told.cam
+    assert isinstance(cam, LinkageCam)
+    lifts = np.linspace(0, math.radians(24), 2001)
+    joint, turn = (x[0] for x in cam.mount.linkage.pose([lifts]))
+    way = 62 + 124j - joint - 60 * turn
+    least = np.degrees(np.arcsin(np.abs((np.conj(turn) * way).imag) / 115).min())
+    assert found["small_transmission_angle"].value == pytest.approx(least, abs=1e-6)
+    assert not {f.code for f in parts_of({"cam": FOUR})["cam"].findings}
     for finding in found.values():
         assert finding_text("uk", finding) != finding_text("en", finding)
 
