@@ -17,6 +17,9 @@ this member is a slider|ця ланка є повзуном
 the linkage has another|у механізмі інша довжина
 the cam is made for another follower|кулачок зроблено для іншого штовхача
 the cam is made for another|кулачок зроблено для іншого
+{} works with another {}|підходить {}, якщо змінити {}
+{} mm works with another {}|підходить {} мм, якщо змінити {}
+{} degrees works with another {}|підходить {} град, якщо змінити {}
 {} works with this cam|з цим кулачком підходить {}
 "{}" works|підходить "{}"
 [{}] works|підходить [{}]

@@ -51,9 +51,16 @@ def refusal_of(spec: LinkageCamSpec, refusal: ParameterError, build: Build, chec
     knobs = _knobs(spec)["undercut" if undercut else refusal.name]
     reason = refusal.allowed.split(";")[0]
     kind = UndercutError if undercut else ParameterError
+    partly: ParameterError | None = None
     for knob in knobs:
-        if (found := _nearest(knob, build, check)) is not None:
-            return kind(knob.name, knob.value, f"{reason}; {found} works")
+        if (found := _nearest(knob, build, check)) is None:
+            continue
+        text, other = found
+        if other is None:
+            return kind(knob.name, knob.value, f"{reason}; {text} works")
+        partly = partly or kind(knob.name, knob.value, f"{reason}; {text} works with another {other}")
+    if partly is not None:
+        return partly
     return kind(knobs[0].name, knobs[0].value, f"{reason}; no other value near it helps")
 
 
@@ -73,8 +80,11 @@ def _knobs(spec: LinkageCamSpec) -> dict[str, list[Knob]]:
     }
 
 
-def _nearest(knob: Knob, build: Build, check: Check) -> str | None:
-    """The first trial that works, numbers brought nearer by halving; as it is printed."""
+def _nearest(knob: Knob, build: Build, check: Check) -> tuple[str, str | None] | None:
+    """The first trial that works, numbers brought nearer by halving; as it is printed, and the key that it breaks.
+
+    A cam that its bore or its plate does not fit still is one, where no trial gives a whole part.
+    """
 
     def works(value: Any, *, all_of_it: bool) -> bool:
         try:
@@ -89,15 +99,17 @@ def _nearest(knob: Knob, build: Build, check: Check) -> str | None:
     good, whole = None, False
     for trial in knob.trials():
         if works(trial, all_of_it=False):
-            # a cam that its bore or its plate does not fit still is one
             whole = works(trial, all_of_it=True)
             good = trial if whole or good is None else good
             if whole:
                 break
-    if good is None or isinstance(good, str):
-        return None if good is None else f'"{good}"'
+    if good is None:
+        return None
+    other = None if whole else _broken(knob.turned(good), build, check)
+    if isinstance(good, str):
+        return f'"{good}"', other
     if not isinstance(good, float):
-        return str([round(x, 6) for x in good])
+        return str([round(x, 6) for x in good]), other
     bad = knob.value
     for _ in range(_BISECTIONS if knob.halved else 0):
         middle = (bad + good) / 2
@@ -105,7 +117,16 @@ def _nearest(knob: Knob, build: Build, check: Check) -> str | None:
     # rounded away from what fails
     digits = 4
     shown = (math.floor if good < knob.value else math.ceil)(good * 10**digits) / 10**digits
-    return f"{shown if works(shown, all_of_it=whole) else good:.12g}{knob.unit}"
+    return f"{shown if works(shown, all_of_it=whole) else good:.12g}{knob.unit}", other
+
+
+def _broken(spec: LinkageCamSpec, build: Build, check: Check) -> str:
+    """The key of the part that a cam has no room for."""
+    try:
+        check(spec, build(spec))
+    except ParameterError as refusal:
+        return refusal.name
+    return "bore_diameter"
 
 
 def _around(value: float, scale: float) -> Iterator[float]:

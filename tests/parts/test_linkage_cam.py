@@ -172,7 +172,7 @@ WRONG: dict[str, tuple[Keys, str]] = {
     "swing of a slider": (SLID | {"swing_deg": 3.0}, "swing_deg"),
     "radius of a face": (FLAT | {"follower_radius": 3.0}, "follower_radius"),
 }  # fmt: skip
-OFFER = re.compile(r"(?:at least |at most |below )?(\"\w+\"|\[.*?\]|-?[\d.]+)(?: mm| degrees)? works")
+OFFER = re.compile(r"(?:at least |at most |below )?(\"\w+\"|\[[^\]]*\]|-?[\d.]+)(?: mm| degrees)? works")
 
 
 def refused(keys: Keys) -> str:
@@ -207,6 +207,15 @@ def test_a_refusal_speaks_ukrainian(name: str, tmp_path: Path, capsys: pytest.Ca
     assert re.search("підходить", told)
     reason = told.split(" = ", 1)[1].split(":", 1)[1]
     assert not re.search(r"(?<![\w\"])(the|works|axis|mm)\b", reason), told
+
+
+def test_a_value_that_another_key_has_to_follow_says_so() -> None:
+    """The roller of 60 mm reaches the axis; no smaller one, no other place leaves room for a bore of 300 mm."""
+    message = refused(FOUR | {"follower_radius": 60.0, "bore_diameter": 300.0, "timing_mark": {"diameter": 2.5}})
+    offer = re.search(r"; ([\d.]+) mm works with another bore_diameter", message)
+    assert offer is not None, message
+    small = {"bore_diameter": 2.0}
+    assert parts_of({"cam": without(FOUR, "timing_mark") | small | {"follower_radius": float(offer[1])}})["cam"].cam
 
 
 def test_what_nothing_near_cures_is_refused_too() -> None:
