@@ -192,7 +192,7 @@ def _keys(owner: type[Struct], without: tuple[str, ...] = ()) -> list[str]:
             for law, meant in new_examples.LAWS:
                 lines.append("# " + code.replace('"sine"', law, 1) + f"  # ... or this: {meant}")
         tables = _tables_of(field)
-        for table in tables if field.default is not None else tables[1:]:
+        for table in tables[1:] if field.required or field.default is None else tables:
             meant = describe_type(table).removeprefix("table: ")
             lines.append(f"# {field.encode_name} = {_table_value(table)}  # ... or this: {meant}")
     return lines

@@ -10,6 +10,7 @@ _TRAVEL = '{ move = "rise", travel = 60.0, law = "sine" }, { move = "dwell", tra
 # keys with a default that a scene to start from sets nevertheless
 SET = {
     "GrooveCamSpec": {"lift": "20.0", "phases": f"[{_PHASES}]", "base_circle_radius": "30.0"},
+    "LinkageCamSpec": {"swing_deg": "24.0", "phases": f"[{_PHASES}]", "follower_radius": "6.0"},
     "WedgeCamSpec": {"lift": "20.0", "phases": f"[{_TRAVEL}]", "follower_radius": "6.0"},
 }
 # where a key has no default, or one of its own in a kind of part
@@ -21,6 +22,17 @@ EXAMPLES = {
     },
     ("KeywayTable", "width"): "2.0",
     ("KeywayTable", "depth"): "1.0",
+    # a four-bar linkage; the other tables fit in its place, a slider with lift
+    ("LinkageCamSpec", "coupler_length"): "43.0",
+    ("LinkageCamSpec", "coupler_point"): "[6.0, 16.0]",
+    ("DrivenRocker", "pivot"): "[91.0, 26.0]",
+    ("DrivenRocker", "length"): "58.0",
+    ("DrivenRocker", "start_angle_deg"): "167.0",
+    ("DrivenSlider", "start"): "[25.0, 30.0]",
+    ("GuidingRocker", "pivot"): "[62.0, 124.0]",
+    ("GuidingRocker", "length"): "68.0",
+    ("GuidingSlider", "through"): "[0.0, 60.0]",
+    ("LinkageMemberSpec", "member"): '"coupler"',
     ("GrooveCamSpec", "follower_radius"): "8.0",
     ("GrooveCamSpec", "groove_depth"): "5.0",
     ("GrooveCamSpec", "outer_diameter"): "160.0",

@@ -16,7 +16,6 @@ from exporters.readers import Loop, ReadError, ReadMesh, read_3mf, read_stl, rea
 from exporters.verify import Verdict
 from geometry.cams.disk import DiskCam
 from geometry.cams.follower_motion import TURN
-from geometry.cams.mounts import Translating
 from geometry.cams.rolled import Outline, lift_bound, outline_of_loop, outline_of_polynomials, rolled_lift
 from geometry.contour import signed_area
 from geometry.curve import Complex, Real
@@ -82,7 +81,7 @@ def reroll(
 
 def rolled_differences(cam: DiskCam, error: Real) -> tuple[dict[str, float], float, float]:
     """What is measured of a lift's errors over the turn (mm or rad), and the jump and the peak of S'' among it."""
-    unit = 1.0 if isinstance(cam.mount, Translating) else math.degrees(1.0)
+    unit = math.degrees(1.0) if cam.swings else 1.0
     names = ("lift_error", "") if unit == 1.0 else ("swing_error_deg", "_deg")
     first, second = _differences(error * unit)
     angle = np.arange(ANGLES) * (TURN / ANGLES)
@@ -104,9 +103,8 @@ def rolled_failure(cam: DiskCam, error: Real, bound: Real) -> str | None:
     worst = int(np.argmax(excess))
     if excess[worst] <= 0:
         return None
-    slides = isinstance(cam.mount, Translating)
-    size = abs(error[worst]) if slides else math.degrees(abs(error[worst]))
-    found, place = f"{size:.6g} {'mm' if slides else 'degrees'}", f"{worst * 360 / ANGLES:.6g} degrees"
+    size = math.degrees(abs(error[worst])) if cam.swings else abs(error[worst])
+    found, place = f"{size:.6g} {'degrees' if cam.swings else 'mm'}", f"{worst * 360 / ANGLES:.6g} degrees"
     return f"the follower's lift is wrong by {found} at cam angle {place}, more than the outline's error allows"
 
 

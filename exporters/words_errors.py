@@ -209,9 +209,10 @@ a mesh file stores 7 digits, at this size at least {} mm works|файл сітк
 @cache
 def _patterns() -> list[tuple[re.Pattern[str], str]]:
     """Every English pattern with its Ukrainian text, those with the most words of their own first."""
+    from exporters.words_errors_linkage import LINKAGES
     from exporters.words_errors_parts import CAMS, GEARS
 
-    lines = [line for text in (_GENERAL, GEARS, CAMS) for line in text.strip().splitlines()]
+    lines = [line for text in (_GENERAL, GEARS, CAMS, LINKAGES) for line in text.strip().splitlines()]
     pairs = [line.split("|", 1) for line in lines]
     pairs.sort(key=lambda pair: -len(pair[0].replace("{}", "")))
     return [(re.compile(re.escape(en).replace(r"\{\}", "(.*?)"), re.DOTALL), uk) for en, uk in pairs]

@@ -25,6 +25,7 @@ from parts.wheel_keys import FaceChamfer, FaceChamferTable, HubTable, wheel_shap
 if TYPE_CHECKING:
     from geometry.cams.disk import DiskCam
     from geometry.cams.follower_motion import FollowerMotion
+    from parts.linkage_cam import LinkageCamSpec
 
 _MOST = 100_000.0
 _BISECTIONS = 40
@@ -107,18 +108,18 @@ def checked_cam(spec: CamSpec) -> DiskCam:
             "base_circle_radius", base_radius(cam), f"the cam is undercut and loses {lost}; {_whole(spec, cam)}"
         )
     _check_plate(spec, cam)
-    _check_bore(spec, cam)
-    check_wheel(_shape_of(spec), 2 * inner_radius(cam), _holes_of(spec, cam))
+    check_cam_bore(spec, cam)
+    check_wheel(_shape_of(spec), 2 * inner_radius(cam), cam_holes(spec, cam))
     return cam
 
 
 def cam_part(part_id: str, spec: CamSpec, cam: DiskCam) -> Part:
     """The part of a cam; sections are computed when an export asks."""
-    holes, shape = _holes_of(spec, cam), _shape_of(spec)
-    section = lru_cache(maxsize=8)(lambda offset: _section(cam, holes, offset))
+    holes, shape = cam_holes(spec, cam), _shape_of(spec)
+    section = lru_cache(maxsize=8)(lambda offset: cam_section(cam, holes, offset))
 
     def outline(offset: float, depth: float) -> Profile:
-        return section(offset).region.outer if depth == 0 else _outline(cam, offset - depth)
+        return section(offset).region.outer if depth == 0 else cam_outline(cam, offset - depth)
 
     sections = wheel_sections(outline, inner_radius(cam), holes)
     return Part(
@@ -253,11 +254,12 @@ def _whole(spec: CamSpec, cam: DiskCam) -> str:
     return f"at least {at_least(high, 4)} mm works"
 
 
-def _holes_of(spec: CamSpec, cam: DiskCam) -> HubHoles:
+def cam_holes(spec: CamSpec | LinkageCamSpec, cam: DiskCam) -> HubHoles:
+    """Bore, holes and timing mark of a cam."""
     return with_timing_mark(_core_of(spec), spec.timing_mark, cam, inner_radius(cam))
 
 
-def _core_of(spec: CamSpec) -> HubHoles:
+def _core_of(spec: CamSpec | LinkageCamSpec) -> HubHoles:
     if spec.bore is not None and spec.bore_diameter > 0:
         raise ParameterError("bore_diameter", spec.bore_diameter, "give either bore_diameter or bore; 0 works")
     bore = RoundBoreTable(spec.bore_diameter) if spec.bore_diameter > 0 else spec.bore
@@ -282,7 +284,7 @@ def _check_plate(spec: CamSpec, cam: DiskCam) -> None:
         raise ParameterError("plate_diameter", spec.plate_diameter, remedy)
 
 
-def _check_bore(spec: CamSpec, cam: DiskCam) -> None:
+def check_cam_bore(spec: CamSpec | LinkageCamSpec, cam: DiskCam) -> None:
     """The holes stay inside the circle that is surely material."""
     holes, inside = _core_of(spec), inner_radius(cam)
     if not holes.bore_reach < inside:
@@ -294,13 +296,14 @@ def _check_bore(spec: CamSpec, cam: DiskCam) -> None:
         raise ParameterError("holes", 2 * holes.reach, remedy)
 
 
-def _outline(cam: DiskCam, offset: float) -> Profile:
+def cam_outline(cam: DiskCam, offset: float) -> Profile:
+    """The profile moved ``offset`` mm out of the material."""
     from geometry.cams.shape import cam_shape
 
     return cam_shape(cam, offset).profile
 
 
-def _section(cam: DiskCam, holes: HubHoles, offset: float) -> OffsetRegion:
+def cam_section(cam: DiskCam, holes: HubHoles, offset: float) -> OffsetRegion:
     """The exact section with every boundary moved out of the material."""
     from geometry.cams.shape import cam_shape
 
@@ -322,7 +325,7 @@ def nearest_offset(cam: DiskCam, refused: float) -> float:
     for _ in range(24):
         middle = (works + fails) / 2
         try:
-            _outline(cam, middle)
+            cam_outline(cam, middle)
             works = middle
         except GeometryError:
             fails = middle

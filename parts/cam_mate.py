@@ -131,6 +131,10 @@ def cam_follower_mating(mate: CamFollowerSpec, first: DiskCam | GrooveDisk, end:
     from geometry.cams.disk import DiskCam
 
     cam, groove = (first, None) if isinstance(first, DiskCam) else (first.cam, first)
+    if hasattr(cam, "follower_pose"):
+        from parts.linkage_mate import linkage_follower_mating
+
+        return linkage_follower_mating(mate, cam, end)
     made = CamFollowerMating(mate.first, mate.second, mate.direction_deg, mate.height, cam, end, groove)
     if end.kind != cam.kind:
         raise ParameterError("end", str(end.kind), f'the cam is made for another follower; "{cam.kind}" works')

@@ -62,7 +62,13 @@ JOINTS: dict[str, Joint] = {
         "parts.cam_mate",
         "CamFollowerSpec",
         "cam_follower_mating",
-        tuple((cam, follower) for cam in ("cam", "groove_cam") for follower in _FOLLOWERS),
+        tuple((cam, follower) for cam in ("cam", "groove_cam", "linkage_cam") for follower in _FOLLOWERS),
+    ),
+    "linkage_member": _joint(
+        "parts.linkage_member",
+        "LinkageMemberSpec",
+        "linkage_member_mating",
+        tuple(("linkage_cam", member) for member in ("plate", "follower_arm")),
     ),
     "wedge_follower": _joint(
         "parts.wedge_mate",

@@ -16,6 +16,7 @@ KINDS = LazyTable(
             "noncircular_gear_part",
         ),
         "cam": ("parts.cam", "CamSpec", "checked_cam", "cam_part"),
+        "linkage_cam": ("parts.linkage_cam", "LinkageCamSpec", "checked_linkage_cam", "linkage_cam_part"),
         "groove_cam": ("parts.groove_cam", "GrooveCamSpec", "checked_groove", "groove_part"),
         "groove_piece": ("parts.groove_piece", "GroovePieceSpec", "checked_piece", "piece_part"),
         "conjugate_cam": ("parts.conjugate_cam", "ConjugateCamSpec", "checked_conjugate", "conjugate_part"),

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.bounds import derivative_bound
-from geometry.cams.mounts import Mount
+from geometry.cams.mounts import About
 from geometry.carried import Carried, Mirrored
 from geometry.curve import Complex, Curve, Real, Reversed, check_interval
 from geometry.errors import CuspError
@@ -37,6 +37,26 @@ from geometry.series import (
 _CUSP_SAMPLES = 257
 
 
+class Guided(Protocol):
+    """How a follower's centre moves in the fixed frame: geometry/cams/mounts.py, or a linkage (linkage_cam.py)."""
+
+    def centre(self, s: Series) -> Series:
+        """Path of the reference point, from the series of S."""
+
+    def centre_bound(self, s: Series, about: About | None = None) -> Series:
+        """Bounds of the moduli of that series from those of S; ``about`` may make them closer."""
+
+
+class Faced(Guided, Protocol):
+    """A guide that can carry a flat face as well."""
+
+    def face(self, s: Series) -> tuple[Series, Series]:
+        """Distance of a flat face from the axis, and the angle of its normal, rad."""
+
+    def face_bound(self, s: Series, about: About | None = None) -> tuple[Series, Series]:
+        """Bounds of the series of that distance and of the normal's rate of turning."""
+
+
 class Lift(Protocol):
     """A piece of a follower's motion: S over the cam angle with derivatives of every order."""
 
@@ -54,16 +74,6 @@ def lift_series(lift: Lift, t: Real, order: int) -> Series:
 
 def _bound_series(lift: Lift, order: int, a: Real, b: Real) -> Series:
     return [x / FACTORIALS[k] for k, x in enumerate(lift.bounds(order, a, b))]
-
-
-class Guided(Protocol):
-    """How a follower's centre moves in the fixed frame: what its path needs of a guide."""
-
-    def centre(self, s: Series) -> Series:
-        """Series of the centre from that of S."""
-
-    def centre_bound(self, s: Series) -> Series:
-        """Bounds of the moduli of that series from those of S."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,7 +149,8 @@ class CentreEnvelope:
         """Bounds of the moduli of the Taylor coefficients on each interval: geometry/bounds.py."""
         half = (b - a) / 2
         at_middle = self._fixed((a + b) / 2, order + 1)
-        whole = self.mount.centre_bound(_bound_series(self.lift, order + 2, a, b))
+        about = (lift_series(self.lift, (a + b) / 2, order + 2), half)
+        whole = self.mount.centre_bound(_bound_series(self.lift, order + 2, a, b), about)
         centre = sharpened(whole, at_middle[0], half)
         if self.distance:
             rate = [x + y for x, y in zip(derived(whole), whole, strict=False)]
@@ -214,7 +225,7 @@ class FaceEnvelope:
     """
 
     lift: Lift
-    mount: Mount
+    mount: Faced
     start: float
     end: float
     distance: float = 0.0
@@ -280,7 +291,7 @@ class FaceEnvelope:
     def series_bound(self, order: int, a: Real, b: Real) -> Series:
         """Bounds of the moduli of the Taylor coefficients (the first one left out: 0) on each interval."""
         s = _bound_series(self.lift, order + 1, a, b)
-        height, rate = self.mount.face_bound(s)
+        height, rate = self.mount.face_bound(s, (lift_series(self.lift, (a + b) / 2, order + 1), (b - a) / 2))
         height[0] = height[0] + abs(self.distance)
         rate[0] = rate[0] + 1.0
         # phi' is farther from 0 than this: its value at the middle less half the interval times |phi''|

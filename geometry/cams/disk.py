@@ -62,6 +62,15 @@ class DiskCam:
             raise TypeError("the follower translates")
         return self.mount
 
+    @property
+    def swings(self) -> bool:
+        """Whether S is an angle."""
+        return not isinstance(self.mount, Translating)
+
+    def way(self, angle: Real, point: Complex) -> Complex:
+        """Velocity of the follower's material at ``point`` (fixed frame) per unit of S, at cam angles."""
+        return self.mount.velocity(np.ones(np.shape(angle)), point)
+
     def curve(self, piece: LawPiece, grow: float = 0.0) -> CentreEnvelope | FaceEnvelope:
         """The exact cam over one piece of the motion, over growing cam angle; ``grow`` mm out of the material."""
         if self.is_flat:
@@ -110,7 +119,7 @@ class DiskCam:
         """
         at = np.asarray(angle, dtype=float)
         point = self.contact(at) if self.is_flat else self.reference_point(at)
-        way = self.mount.velocity(np.ones(np.shape(at)), point)
+        way = self.way(at, point)
         sense = getattr(self.mount, "sense", 1)
         return sense * np.angle(self.normal(at) / way)
 

@@ -113,6 +113,9 @@ def follower_pose(cam: DiskCam, end: FollowerEnd, angle: float) -> tuple[complex
     """Where a follower's frame stands at a cam angle, in the cam's fixed frame: its origin, mm, and its turn, rad."""
     mount: Any = cam.mount
     angle = angle % TURN
+    if hasattr(cam, "follower_pose"):
+        pose: tuple[complex, float] = cam.follower_pose(angle, turns=end.outline is not None)
+        return pose
     if end.arm_length is not None:
         swung = mount.start_angle + float(cam.motion.value(angle))
         return complex(mount.centre_distance), math.pi - mount.sense * swung
@@ -139,7 +142,7 @@ def _round_gaps(cam: DiskCam, fence: Fence, angles: Real, out: float) -> tuple[R
 
 def _outwards(cam: DiskCam, angles: Real) -> Complex:
     """Unit vectors of the follower's way out."""
-    way = cam.mount.velocity(np.ones(angles.shape), cam.reference_point(angles))
+    way = cam.way(angles, cam.reference_point(angles))
     return np.asarray(way / np.abs(way))
 
 

@@ -20,6 +20,9 @@ def lost_lift(cam: DiskCam, angle: Real, corner: complex, distance: float) -> Re
     ``distance`` of the outline from the centre's path, to the outside: negative for a cam or an inner wall, where the
     follower drops; positive for the outer wall of a groove, where it rises. For a flat face, of the outline from it.
     """
+    own = getattr(cam, "lost_lift", None)
+    if own is not None:
+        return np.asarray(own(angle, corner, distance))
     fixed = corner * np.exp(1j * angle)
     if isinstance(cam.mount, Translating):
         return _translating(cam, cam.mount, angle, fixed, distance)

@@ -14,6 +14,9 @@ from geometry.errors import ParameterError
 from geometry.motion_laws.piece import Real
 from geometry.series import Series, derived, exponential
 
+# middles of the intervals that bounds are asked for: the series of S there, and half their widths
+About = tuple[Series, Real]
+
 
 @dataclass(frozen=True, slots=True)
 class Translating:
@@ -30,7 +33,7 @@ class Translating:
         """Path of the reference point: e + i (s_0 + S)."""
         return [self.offset + 1j * (self.start_height + s[0]), *(1j * x for x in s[1:])]
 
-    def centre_bound(self, s: Series) -> Series:
+    def centre_bound(self, s: Series, about: About | None = None) -> Series:
         """Bounds of the moduli of that series from those of S."""
         return [abs(self.offset) + abs(self.start_height) + s[0], *s[1:]]
 
@@ -39,7 +42,7 @@ class Translating:
         zero = 0.0 * s[0]
         return [self.start_height + s[0], *s[1:]], [math.pi / 2 + zero, *(zero for _ in s[1:])]
 
-    def face_bound(self, s: Series) -> tuple[Series, Series]:
+    def face_bound(self, s: Series, about: About | None = None) -> tuple[Series, Series]:
         """Bounds of the series of the face's height and of its normal's rate of turning (one shorter)."""
         return [abs(self.start_height) + s[0], *s[1:]], [0.0 * x for x in s[1:]]
 
@@ -68,7 +71,7 @@ class Oscillating:
         turn = exponential([-1j * self.sense * x for x in (self.start_angle + s[0], *s[1:])])
         return [self.centre_distance - self.arm_length * turn[0], *(-self.arm_length * x for x in turn[1:])]
 
-    def centre_bound(self, s: Series) -> Series:
+    def centre_bound(self, s: Series, about: About | None = None) -> Series:
         """Bounds of the moduli of that series from those of S."""
         turn = exponential([0.0 * s[0], *s[1:]])
         return [self.centre_distance + self.arm_length * turn[0], *(self.arm_length * x for x in turn[1:])]
@@ -83,7 +86,7 @@ class Oscillating:
         angle[0] = angle[0] + self.sense * math.pi / 2
         return support, angle
 
-    def face_bound(self, s: Series) -> tuple[Series, Series]:
+    def face_bound(self, s: Series, about: About | None = None) -> tuple[Series, Series]:
         """Bounds of the series of the face's distance and of its normal's rate of turning (one shorter)."""
         turn = exponential([0.0 * s[0], *s[1:]])
         height = [self.centre_distance * x for x in turn]

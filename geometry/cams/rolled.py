@@ -168,8 +168,9 @@ def rolled_lift(
 
 def _stop(cam: DiskCam | WedgeCam, point: Complex, normal: Complex, offset: float) -> tuple[Real, Real]:
     """Cam angle at which (p, n) touches the follower, and its S there."""
-    if not isinstance(cam, DiskCam):
-        return cam.stop(point, normal, offset)
+    if not isinstance(cam, DiskCam) or hasattr(cam, "stop"):
+        found: tuple[Real, Real] = cam.stop(point, normal, offset)
+        return found
     mount = cam.mount
     with np.errstate(invalid="ignore"):
         if cam.is_flat:
@@ -238,14 +239,13 @@ def lift_bound(cam: DiskCam, count: int, error: float) -> Real:
     dS cos nu = error + kappa (dS sin nu)^2 / 2 on a pitch curve of curvature kappa; of a swinging follower over the
     arm of the contact. The worst of three neighbouring angles counts.
     """
-    angle = np.arange(count) * (TURN / count)
+    angle = np.arange(count, dtype=np.float64) * (TURN / count)
     slope = np.abs(cam.pressure_angle(angle))
     with np.errstate(divide="ignore", invalid="ignore"):
         bend = np.abs(1 / cam.pitch_curvature_radius(angle))
     cosine = np.maximum(np.cos(slope), 1e-9)
     first = error / cosine
     bound = first + (0.0 if cam.is_flat else 1.0) * bend * (first * np.sin(slope)) ** 2 / cosine
-    if not isinstance(cam.mount, Translating):
-        point = cam.contact(angle) if cam.is_flat else cam.reference_point(angle)
-        bound = bound / np.abs(point - cam.mount.centre_distance)
+    point = cam.contact(angle) if cam.is_flat else cam.reference_point(angle)
+    bound = bound / np.abs(cam.way(angle, point))
     return np.maximum(np.maximum(np.roll(bound, 1), np.roll(bound, -1)), bound)

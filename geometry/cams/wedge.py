@@ -46,7 +46,7 @@ class Upright:
         """Path of its centre in the fixed frame."""
         return [1j * (self.start_height + s[0]), *(1j * x for x in s[1:])]
 
-    def centre_bound(self, s: Series) -> Series:
+    def centre_bound(self, s: Series, about: object = None) -> Series:
         """Bounds of the moduli of that series from those of S."""
         return [abs(self.start_height) + s[0], *s[1:]]
 
@@ -73,7 +73,7 @@ class Swinging:
         arm = -self.side * self.arm_length
         return [self.pivot + arm * turn[0], *(arm * x for x in turn[1:])]
 
-    def centre_bound(self, s: Series) -> Series:
+    def centre_bound(self, s: Series, about: object = None) -> Series:
         """Bounds of the moduli of that series from those of S."""
         turn = exponential([0.0 * s[0], *s[1:]])
         return [abs(self.pivot) + self.arm_length * turn[0], *(self.arm_length * x for x in turn[1:])]
