@@ -69,6 +69,12 @@ class _RolledCurve:
     def point(self, t: ArrayLike) -> Complex:
         raise NotImplementedError
 
+    def tangent(self, t: ArrayLike) -> Complex:
+        raise NotImplementedError
+
+    def curvature(self, t: ArrayLike) -> Real:
+        raise NotImplementedError
+
     def derivative_bound(self, order: int, a: float, b: float) -> float | None:
         return derivative_bound(self, order, a, b)
 
@@ -91,13 +97,13 @@ class _RolledCurve:
         return replace(self, start=a, end=b)  # type: ignore[type-var]
 
     def reversed(self) -> Curve:
-        return Reversed(self)  # type: ignore[arg-type]
+        return Reversed(self)
 
     def placed(self, placement: Placement2) -> Curve:
-        return Carried(self, placement)  # type: ignore[arg-type]
+        return Carried(self, placement)
 
     def mirrored(self) -> Curve:
-        return Mirrored(self)  # type: ignore[arg-type]
+        return Mirrored(self)
 
 
 @dataclass(frozen=True, slots=True)
