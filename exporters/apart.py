@@ -55,9 +55,10 @@ def work_apart(stops: list[signal.Signals], folder: Path | None, failed: int) ->
     code = os.waitstatus_to_exitcode(status)
     if code < 0:
         _clean_up(folder, missing)
-        print(f"higherpair: the CAD kernel has crashed (signal {-code}); nothing half-written is left", file=sys.stderr)
+        crash = f"the CAD kernel has crashed (signal {-code})"
+        sys.stderr.write(f"higherpair: {crash}; nothing half-written is left\n")
+        sys.stderr.flush()
         code = failed
-    sys.stderr.flush()
     os._exit(code)
 
 

@@ -166,7 +166,7 @@ def _build(options: argparse.Namespace) -> int:
     scene = load_scene(options.scene)
     plan = plan_build(scene, options.scene, options.part, options.format)
     folder, verify = options.out / scene.name, not options.no_verify
-    if any(job.export.format == "step" for job in (*plan.jobs, *plan.assemblies)):
+    if "step" in {j.export.format for j in plan.jobs} | {a.export.format for a in plan.assemblies}:
         _split(options, folder)
     partial = bool(options.part or options.format)
     if sys.stdout.isatty():
