@@ -70,8 +70,9 @@ def build(
         previews = [part_preview(plan.parts[p], staging, plan.scene.scene.language) for p in wanted]
         if len(plan.placing.instances) > 1 and len(wanted) == len(plan.parts):
             previews.append(scene_preview(plan, checks, staging))
-        before = read_report(folder) if partial else None
-        write_report(staging / NAME, plan, written, previews, checks, time.perf_counter() - start, before)
+        before = read_report(folder) if partial or any(item.failures for item in written) else None
+        spent = time.perf_counter() - start
+        write_report(staging / NAME, plan, written, previews, checks, spent, folder, before, partial=partial)
         names = [item.job.path for item in written if not item.failures]
         move_into(folder, staging, [*names, *(p.name for p in previews), NAME])
     return written, [folder / p.name for p in previews], checks
