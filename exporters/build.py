@@ -70,8 +70,9 @@ def build(
         previews = [part_preview(plan.parts[p], staging, plan.scene.scene.language) for p in wanted]
         if len(plan.placing.instances) > 1 and len(wanted) == len(plan.parts):
             previews.append(scene_preview(plan, checks, staging))
-        before = read_report(folder) if partial else None
-        write_report(staging / NAME, plan, written, previews, checks, time.perf_counter() - start, before)
+        before = read_report(folder) if partial or any(item.failures for item in written) else None
+        spent = time.perf_counter() - start
+        write_report(staging / NAME, plan, written, previews, checks, spent, folder, before, partial=partial)
         names = [item.job.path for item in written if not item.failures]
         move_into(folder, staging, [*names, *(p.name for p in previews), NAME])
     return written, [folder / p.name for p in previews], checks
@@ -279,20 +280,35 @@ def _job_findings(job: Job, made: Shape) -> list[Finding]:
 @contextmanager
 def staging_folder(folder: Path) -> Iterator[Path]:
     """A folder beside ``folder`` that is gone afterwards; ``folder`` itself goes too if nothing came into it."""
-    created = [p for p in (folder, *folder.parents) if not p.exists()]
+    created = missing_folders(folder)
     staging = folder / f"{_STAGING}{os.getpid()}"
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        for stale in folder.glob(f"{_STAGING}*"):
-            if not _is_running(stale.name.removeprefix(_STAGING)):
-                _remove(stale)
+        remove_stale(folder)
         staging.mkdir()
         yield staging
     finally:
         _remove(staging)
-        for place in created:
-            if place.is_dir() and not any(place.iterdir()):
-                place.rmdir()
+        remove_empty(created)
+
+
+def missing_folders(folder: Path) -> list[Path]:
+    """A folder and those above it that do not exist yet, the innermost first."""
+    return [p for p in (folder, *folder.parents) if not p.exists()]
+
+
+def remove_stale(folder: Path) -> None:
+    """Remove what builds that were killed have left half-written in a folder."""
+    for stale in folder.glob(f"{_STAGING}*"):
+        if not _is_running(stale.name.removeprefix(_STAGING)):
+            _remove(stale)
+
+
+def remove_empty(created: list[Path]) -> None:
+    """Remove those folders, the innermost first, that nothing came into."""
+    for place in created:
+        if place.is_dir() and not any(place.iterdir()):
+            place.rmdir()
 
 
 def _remove(staging: Path) -> None:

@@ -26,9 +26,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     # numpy is not loaded yet: its threads would take longer to start than all that we compute
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     options = _parser().parse_args(arguments)
-    stops = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    # only a command of its own may split: whoever calls this function keeps the process
+    options.splits = arguments is None
     interrupt = _Interrupt()
-    previous = {stop: signal.signal(stop, interrupt) for stop in stops}
+    previous = {stop: signal.signal(stop, interrupt) for stop in _stops()}
     try:
         code = options.run(options)
         sys.stdout.flush()
@@ -85,6 +86,21 @@ def _prepare_streams() -> None:
 
 def _nowhere() -> TextIO:
     return open(os.devnull, "w", encoding="utf-8")
+
+
+def _stops() -> list[signal.Signals]:
+    """The signals that stop a command; a hang-up that somebody has turned off (nohup) stays off."""
+    names = ("SIGINT", "SIGTERM", "SIGHUP")
+    found = [getattr(signal, name) for name in names if hasattr(signal, name)]
+    return [s for s in found if s.name != "SIGHUP" or signal.getsignal(s) != signal.SIG_IGN]
+
+
+def _split(options: argparse.Namespace, folder: Path | None) -> None:
+    """Before the CAD kernel is used: go on in a process apart, so that a signal need not wait for the kernel."""
+    if options.splits:
+        from exporters.apart import work_apart
+
+        work_apart(_stops(), folder, FAILED)
 
 
 class _Interrupt:
@@ -152,6 +168,8 @@ def _build(options: argparse.Namespace) -> int:
     scene = load_scene(options.scene)
     plan = plan_build(scene, options.scene, options.part, options.format)
     folder, verify = options.out / scene.name, not options.no_verify
+    if "step" in {j.export.format for j in plan.jobs} | {a.export.format for a in plan.assemblies}:
+        _split(options, folder)
     partial = bool(options.part or options.format)
     if sys.stdout.isatty():
         from rich.progress import Progress
@@ -194,6 +212,8 @@ def _verify(options: argparse.Namespace) -> int:
     from exporters.tables import verify_table
     from parts.schema import SceneError
 
+    if any(file.suffix.lower() == ".step" for file in options.files):
+        _split(options, None)
     results, refused = [], False
     for file in options.files:
         try:
@@ -221,6 +241,8 @@ def _converge(options: argparse.Namespace) -> int:
     if not plan.jobs:
         raise SceneError(options.scene, "exports", None, "hold no file of a single part to measure; add one")
     folder = options.out / scene.name
+    if any(job.export.format == "step" for job in plan.jobs):
+        _split(options, folder)
     with staging_folder(folder) as staging:
         rungs, found = ladder(plan, staging), orders(plan)
         write_csv(staging / "converge.csv", rungs, found)

@@ -94,13 +94,17 @@ def read_step_assembly(file: Path) -> ReadAssembly:
     from OCP.XCAFDoc import XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 
     from exporters.step import silent_kernel
+    from exporters.step_reading import leave_crossings
 
     with silent_kernel():
         reader = STEPCAFControl_Reader()
         reader.SetNameMode(True)
         reader.SetColorMode(True)
         document = TDocStd_Document(TCollection_ExtendedString("XmlOcaf"))
-        if reader.ReadFile(str(file)) != IFSelect_RetDone or not reader.Transfer(document):
+        if reader.ReadFile(str(file)) != IFSelect_RetDone:
+            raise ReadError("not a readable STEP file")
+        leave_crossings(reader)
+        if not reader.Transfer(document):
             raise ReadError("not a readable STEP file")
         roots = TDF_LabelSequence()
         XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).GetFreeShapes(roots)

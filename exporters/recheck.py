@@ -10,6 +10,7 @@ from typing import Any
 
 from exporters.assembly import assembly_name
 from exporters.job import SOLID_FORMATS
+from exporters.kept import refusal_of
 from exporters.read_dxf import audited
 from exporters.readers import ReadError
 from exporters.report import NAME, read_report
@@ -61,12 +62,15 @@ def recheck(file: Path) -> Recheck:
         entries = {entry["path"]: entry for entry in report["files"]}
         if file.name in entries:
             return _against(file, source, report, entries[file.name], digest)
+        refusal = refusal_of(report, file.name)
     except (KeyError, TypeError, AttributeError, ArithmeticError, RecursionError, GeometryError) as error:
         raise SceneError(source, "", None, f"is damaged ({error}); build the scene again") from error
     except ValueError as error:
         if isinstance(error, SceneError):
             raise
         raise SceneError(source, "", None, f"is damaged ({error}); build the scene again") from error
+    if refusal is not None:
+        raise SceneError(str(file), "", None, refusal)
     raise SceneError(str(file), "", None, f"not named in {NAME}; it knows: {', '.join(map(str, entries)) or 'no file'}")
 
 

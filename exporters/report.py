@@ -14,6 +14,7 @@ import numpy as np
 from exporters import __version__
 from exporters.assembly import AssemblyJob
 from exporters.job import Job, Written
+from exporters.kept import kept_file
 from exporters.plan import Plan
 from exporters.words import finding_text
 from geometry.findings import Finding
@@ -31,9 +32,15 @@ def write_report(
     previews: list[Path],
     checks: dict[str, Any],
     seconds: float,
+    folder: Path,
     before: dict[str, Any] | None,
+    *,
+    partial: bool,
 ) -> None:
-    """Write the report of a build; a partial build is merged by path into the report ``before`` it, if any."""
+    """Write the report of a build in ``folder``.
+
+    ``before``: the report that lies there; ``partial``: this one is merged into it by path.
+    """
     language = plan.scene.scene.language
     report: dict[str, Any] = {
         "scene": resolved(plan.scene),
@@ -49,7 +56,7 @@ def write_report(
         },
         "instances": {instance.id: _placement(instance) for instance in plan.placing.instances},
         "files": [_entry(item, language) for item in written if not item.failures],
-        "failed": [{"path": item.job.path, "failures": list(item.failures)} for item in written if item.failures],
+        "failed": [_failed(item, folder, resolved(plan.scene), before) for item in written if item.failures],
         "previews": [{"path": p.name, "bytes": p.stat().st_size, "sha256": _sha256(p)} for p in previews],
         "checks": checks,
         "left_out": [{"what": what, "why": why} for what, why in plan.left_out],
@@ -61,7 +68,8 @@ def write_report(
             "system": sys.platform,
         },
     }
-    _merge(report, before)
+    if partial:
+        _merge(report, before)
     file.write_text(json.dumps(report, indent=1, ensure_ascii=False) + "\n", encoding="utf-8", newline="\n")
 
 
@@ -78,8 +86,9 @@ def _merge(report: dict[str, Any], before: dict[str, Any] | None) -> None:
     """Keep what an earlier build of the same scene made and this one did not touch."""
     if before is None or before.get("scene") != report["scene"]:
         return
-    for key in ("files", "previews"):
-        fresh = {entry["path"] for entry in (*report[key], *report["failed"])}
+    touched = {entry["path"] for entry in (*report["files"], *report["failed"])}
+    for key in ("files", "previews", "failed"):
+        fresh = touched if key != "previews" else {entry["path"] for entry in report[key]}
         kept = [entry for entry in before.get(key, []) if entry.get("path") not in fresh]
         report[key] = sorted([*kept, *report[key]], key=lambda entry: entry["path"])
 
@@ -122,6 +131,12 @@ def _entry(item: Written, language: str) -> dict[str, Any]:
         "sha256": _sha256(item.file),
         "findings": _findings(item.findings, language),
     }
+
+
+def _failed(item: Written, folder: Path, scene: dict[str, Any], before: dict[str, Any] | None) -> dict[str, Any]:
+    """A file that failed its read-back, and the one of an earlier build that keeps its place."""
+    kept = kept_file(folder / item.job.path, scene, before)
+    return {"path": item.job.path, "failures": list(item.failures), "kept": kept}
 
 
 def _placement(instance: Instance) -> dict[str, Any]:

@@ -19,6 +19,7 @@ from geometry.cams.follower_motion import TURN
 from geometry.cams.rolled import Outline, lift_bound, outline_of_loop, outline_of_polynomials, rolled_lift
 from geometry.contour import signed_area
 from geometry.curve import Complex, Real
+from geometry.distinct import distinct
 from geometry.findings import Finding
 from parts.part import Part
 
@@ -214,7 +215,7 @@ def _drawing_pieces(file: Path) -> list[Complex]:
             pieces += list(complex(*entity.dxf.center.vec2) + entity.dxf.radius * np.exp(1j * turned))
         elif kind == "SPLINE":
             tool = entity.construction_tool()
-            knots = np.unique(np.asarray(tool.knots()))
+            knots = distinct(np.asarray(tool.knots()))
             places = (knots[:-1, None] + share * np.diff(knots)[:, None]).ravel()
             pieces += list(np.array([complex(p.x, p.y) for p in tool.points(places)]).reshape(-1, _SAMPLES))
     return pieces

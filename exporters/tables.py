@@ -22,6 +22,12 @@ def build_table(plan: Plan, folder: Path, written: list[Written], previews: list
     header = [words(language, key) for key in ("file", "error", "tolerance", "entities", "size", "check")]
     rows = [_row(item, folder, language) for item in written]
     remarks = [f"{words(language, 'preview')}: {preview}" for preview in previews]
+    if any(item.failures for item in written):
+        from exporters.kept import kept_lines
+        from exporters.report import read_report
+
+        kept = kept_lines(read_report(folder), language)
+        remarks += [f"{words(language, 'bad')}: {line}" for line in kept]
     remarks += dict.fromkeys(_remarks(written, language))
     remarks += check_lines(checks, language)
     remarks += [f"{words(language, 'left_out')}: {what}: {why}" for what, why in plan.left_out]

@@ -50,20 +50,27 @@ def _loop_failures(loop: Complex, profile: Profile) -> list[str]:
 
 def chained(pieces: list[Complex]) -> list[Complex]:
     """Sampled curves (each from its first to its last point) chained by their ends into closed loops."""
-    left = list(pieces)
-    loops = []
+    if not pieces:
+        return []
     # files carry 15 digits: the joints of large parts are that much wider
-    joint = _JOINT + 1e-11 * max(float(np.abs(piece).max()) for piece in pieces) if pieces else _JOINT
+    joint = _JOINT + 1e-11 * max(float(np.abs(piece).max()) for piece in pieces)
+    ends = np.array([[piece[0], piece[-1]] for piece in pieces]).ravel()
+    order = np.argsort(ends.real)
+    places = ends.real[order]
+    left = dict.fromkeys(range(len(pieces)))
+    loops = []
     while left:
-        chain = [left.pop()]
+        index, _ = left.popitem()
+        chain = [pieces[index]]
         while abs(chain[-1][-1] - chain[0][0]) > joint:
-            ends = np.array([[piece[0], piece[-1]] for piece in left]).reshape(-1, 2)
-            gaps = np.abs(ends - chain[-1][-1])
-            if not gaps.size or gaps.min() > joint:
-                raise ReadError(f"a contour is open at ({chain[-1][-1].real:.6g}, {chain[-1][-1].imag:.6g})")
-            index, side = divmod(int(np.argmin(gaps)), 2)
-            piece = left.pop(index)
-            chain.append(piece if side == 0 else piece[::-1])
+            last = chain[-1][-1]
+            low, high = np.searchsorted(places, (last.real - joint, last.real + joint))
+            near = [int(i) for i in order[low:high] if int(i) // 2 in left and abs(ends[i] - last) <= joint]
+            if not near:
+                raise ReadError(f"a contour is open at ({last.real:.6g}, {last.imag:.6g})")
+            index, side = divmod(min(near, key=lambda i: abs(ends[i] - last)), 2)
+            del left[index]
+            chain.append(pieces[index] if side == 0 else pieces[index][::-1])
         loops.append(np.concatenate([piece[:-1] for piece in chain]))
     return loops
 

@@ -7,6 +7,7 @@ kernel's own quadrature is good to 1e-6 only.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -118,11 +119,13 @@ def _read_step(file: Path) -> Any:
     from OCP.STEPControl import STEPControl_Reader
 
     from exporters.step import silent_kernel
+    from exporters.step_reading import leave_crossings
 
     with silent_kernel():
         reader = STEPControl_Reader()
         if reader.ReadFile(str(file)) != IFSelect_RetDone:
             raise ReadError("not a readable STEP file")
+        leave_crossings(reader)
         reader.TransferRoots()
         return reader.OneShape()
 
@@ -244,12 +247,12 @@ def _slanted_share(face: Any, surface: Any, *, flat: bool) -> float:
     if flat:
         return _plane_share(face)
     place, along, across = gp_Pnt(), gp_Vec(), gp_Vec()
-    nodes, weights = np.polynomial.legendre.leggauss(8)
+    nodes, weights = _gauss(8)
     total = 0.0
     rows = np.linspace(surface.FirstVParameter(), surface.LastVParameter(), 2)
     for a, b in pairwise(np.linspace(surface.FirstUParameter(), surface.LastUParameter(), 9).tolist()):
-        for node, weight in zip(nodes.tolist(), weights.tolist(), strict=True):
-            for other, other_weight in zip(nodes.tolist(), weights.tolist(), strict=True):
+        for node, weight in zip(nodes, weights, strict=True):
+            for other, other_weight in zip(nodes, weights, strict=True):
                 v = float(rows.mean() + np.ptp(rows) / 2 * other)
                 surface.D1((a + b) / 2 + (b - a) / 2 * node, v, place, along, across)
                 lift = along.X() * across.Y() - along.Y() * across.X()
@@ -300,12 +303,33 @@ def _edge_samples(curve: Any) -> tuple[Complex, float]:
     low, high = curve.FirstParameter(), curve.LastParameter()
     count = 10 * _PER_CURVE if curve.GetType() == GeomAbs_CurveType.GeomAbs_Circle and high - low > 1.5 else _PER_CURVE
     points = [curve.Value(t) for t in np.linspace(low, high, count).tolist()]
-    nodes, weights = np.polynomial.legendre.leggauss(16)
-    breaks = np.linspace(low, high, 9)
+    breaks, order = _quadrature(curve, low, high)
+    nodes, weights = _gauss(order)
     total = 0.0
     place, slope = gp_Pnt(), gp_Vec()
-    for a, b in pairwise(breaks.tolist()):
-        for node, weight in zip(nodes.tolist(), weights.tolist(), strict=True):
+    for a, b in pairwise(breaks):
+        for node, weight in zip(nodes, weights, strict=True):
             curve.D1((a + b) / 2 + (b - a) / 2 * node, place, slope)
             total += weight * (b - a) / 4 * (place.X() * slope.Y() - place.Y() * slope.X())
     return np.array([complex(p.X(), p.Y()) for p in points]), total
+
+
+def _quadrature(curve: Any, low: float, high: float) -> tuple[list[float], int]:
+    """Where to break an edge and how many nodes each piece takes, so that Gauss's rule is exact or as good."""
+    from OCP.GeomAbs import GeomAbs_CurveType
+
+    kind = curve.GetType()
+    if kind == GeomAbs_CurveType.GeomAbs_Line:
+        return [low, high], 1
+    if kind == GeomAbs_CurveType.GeomAbs_BSplineCurve and not curve.IsRational():
+        spline = curve.BSpline()
+        inner = [k for k in (spline.Knot(i) for i in range(1, spline.NbKnots() + 1)) if low < k < high]
+        # x y' - y x' has degree 2 p - 1 between knots
+        return [low, *inner, high], max(1, curve.Degree())
+    return np.linspace(low, high, 9).tolist(), 16
+
+
+@cache
+def _gauss(order: int) -> tuple[list[float], list[float]]:
+    nodes, weights = np.polynomial.legendre.leggauss(order)
+    return nodes.tolist(), weights.tolist()

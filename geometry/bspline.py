@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from geometry.bounds import bounds_between
 from geometry.contour import Bound
 from geometry.curve import Complex, Curve, Real
+from geometry.distinct import distinct
 from geometry.errors import ParameterError
 from geometry.placement import Placement2
 from geometry.tolerance import TOLERANCES
@@ -70,7 +71,7 @@ class BSpline:
     @property
     def breaks(self) -> Real:
         """The different knots, (spans + 1,)."""
-        return np.unique(self.knots)
+        return distinct(self.knots)
 
     def point(self, t: ArrayLike) -> Complex:
         """Points, mm, of the shape of ``t``; the first and the last pole exactly at the ends of the domain."""

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from geometry.contour import Contour
 from geometry.curve import Complex
+from geometry.distinct import distinct
 from geometry.errors import ThinWallError
 
 Triangles = NDArray[np.int64]
@@ -109,7 +110,7 @@ def _teeth(outline: Contour) -> tuple[list[Triangles], Triangles]:
     # the period begins with the tooth and ends with the root land, whose corners all stand on the ring
     tooth_end = _last_of_tooth(outline)
     land = np.append(np.arange(tooth_end, size), 0) if tooth_end < size else np.array([0])
-    ring = np.unique((land + (np.arange(count) * size)[:, None]) % (size * count))
+    ring = distinct((land + (np.arange(count) * size)[:, None]) % (size * count))
     polygon = np.append(outline.vertices, outline.period_ends()[-1])[: tooth_end + 1]
     return [_placed(_polygon_triangles(polygon), size, count)], ring
 

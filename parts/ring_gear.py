@@ -128,20 +128,31 @@ def _builds(spec: RingGearSpec) -> bool:
 def _makes(spec: RingGearSpec) -> bool:
     """Whether the keys give a ring, without a search for what would."""
     from geometry.gears.ring_limits import check_rim
-    from geometry.gears.ring_made import makes, settled_ring
+    from geometry.gears.ring_made import makes
 
-    gear = _section_of(spec)
-    if not makes(gear):
+    if not makes(_section_of(spec)):
         return False
-    check_rim(_with_rim(spec, settled_ring(gear)))
+    check_rim(_with_rim(spec, settled_section(spec)))
     return True
 
 
 def _ring_of(spec: RingGearSpec) -> RingGear:
     from geometry.gears.ring_limits import checked_ring
+
+    return _with_rim(spec, checked_ring(settled_section(spec)))
+
+
+def settled_section(spec: RingGearSpec) -> RingGear:
+    """The transverse section with the cutter and the default tip that a build takes, not checked to exist.
+
+    Raises
+    ------
+    ParameterError
+        Keys that exclude each other; names one of them.
+    """
     from geometry.gears.ring_made import settled_ring
 
-    return _with_rim(spec, checked_ring(settled_ring(_section_of(spec))))
+    return settled_ring(_section_of(spec))
 
 
 def _with_rim(spec: RingGearSpec, gear: RingGear) -> RingGear:
@@ -228,7 +239,7 @@ def ring_gear_part(part_id: str, spec: RingGearSpec, gear: RingGear) -> Part:
         section=section,
         body=lru_cache(maxsize=2)(body),
         face_width=spec.face_width,
-        findings=(*_tip_finding(spec, gear), *findings(gear)),
+        findings=(*((tip,) if (tip := tip_finding(gear, spec.module)) is not None else ()), *findings(gear)),
         flat_findings=section_finding(spec),
         circles=circles,
         quantities=quantities,
@@ -250,12 +261,15 @@ def _cutter_quantities(spec: RingGearSpec, gear: RingGear) -> dict[str, float]:
     }
 
 
-def _tip_finding(spec: RingGearSpec, gear: RingGear) -> tuple[Finding, ...]:
-    """The remark that a default tip was made shallower: addendum taken and asked, from the shifted reference circle."""
+def tip_finding(gear: RingGear, normal_module: float | None = None) -> Finding | None:
+    """The remark that a default tip was made shallower: addendum taken and asked, from the shifted reference circle.
+
+    ``normal_module``: that of the keys, mm, where ``gear`` is the transverse section of a helical ring.
+    """
     from geometry.findings import Finding
 
     if gear.given_tip_diameter is not None or gear.tip_radius <= gear.default_tip_radius:
-        return ()
-    shifted = gear.reference_radius + spec.profile_shift_coefficient * spec.module
-    taken, asked = ((shifted - r) / spec.module for r in (gear.tip_radius, gear.default_tip_radius))
-    return (Finding("ring_tip_limited", taken, asked),)
+        return None
+    shifted = gear.reference_radius + gear.profile_shift_coefficient * gear.module
+    taken, asked = ((shifted - r) / (normal_module or gear.module) for r in (gear.tip_radius, gear.default_tip_radius))
+    return Finding("ring_tip_limited", taken, asked)

@@ -17,7 +17,6 @@ from geometry.gears.internal_contour import InternalRequirements, internal_conto
 from geometry.gears.internal_pair import shift_difference
 from geometry.gears.internal_shifts import InternalShiftPair, internal_state, least_pinion_shift
 from geometry.gears.ring import RingGear, RoundedRoot
-from geometry.gears.ring_made import with_default_cutter
 from geometry.gears.shift_finder import (
     Proposal,
     for_sum,
@@ -30,7 +29,7 @@ from geometry.gears.shift_finder import (
 from geometry.gears.spur import SpurGear
 from parts.cutter_keys import CutterTable, cutter_of
 from parts.keys import in_modules, mm
-from parts.ring_gear import RoundedRootTable
+from parts.ring_gear import RingGearSpec, RoundedRootTable, settled_section, tip_finding
 from parts.schema import SceneError
 from parts.spur_gear import RackTable, basic_rack_of
 
@@ -82,11 +81,12 @@ class InternalShiftKeys(Struct, forbid_unknown_fields=True):
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """Shifts with the rule that gave them, in both languages."""
+    """Shifts with the rule that gave them, in both languages; ``pair``: whose numbers are told."""
 
     en: str
     uk: str
     found: Proposal
+    pair: InternalShiftPair
 
 
 def table_from(pair: dict[str, Any], table: dict[str, Any], source: str) -> dict[str, Any]:
@@ -165,21 +165,35 @@ def shift_pair(keys: InternalShiftKeys) -> InternalShiftPair:
 def _root_of(keys: InternalShiftKeys, angle: float) -> PinionCutter | RoundedRoot:
     """The ring's cutter or rounded root; where none is named, the cutter that a ring without shift gets."""
     ring = keys.second
-    if (table := ring.rounded_root) is not None:
-        if ring.cutter is not None:
-            text = "give either cutter or rounded_root; remove one of them"
-            raise ParameterError("rounded_root.dedendum_coefficient", table.dedendum_coefficient, text)
-        return RoundedRoot(table.dedendum_coefficient, None if table.full_round else table.radius_coefficient)
-    if ring.cutter is not None:
+    if ring.cutter is not None and ring.rounded_root is None:
         cutter = checked_cutter(cutter_of(ring.cutter, 1.0, angle))
         if cutter.number_of_teeth >= ring.number_of_teeth:
             text = f"must be less than the ring's; at most {ring.number_of_teeth - 1}"
             raise ParameterError("cutter.number_of_teeth", cutter.number_of_teeth, text)
-        return cutter
-    bare = RingGear(1.0, ring.number_of_teeth, angle, 1e9, PinionCutter(1.0, 25, angle), any_cutter=True)
-    made = with_default_cutter(bare).root
-    assert isinstance(made, PinionCutter)
-    return made
+    return _ring_of(keys, 0.0).root
+
+
+def _ring_of(keys: InternalShiftKeys, shift: float) -> RingGear:
+    """The ring at a shift with the cutter and the tip of a build, module 1."""
+    ring = keys.second
+    return settled_section(
+        RingGearSpec(
+            1.0,
+            ring.number_of_teeth,
+            shift,
+            keys.pressure_angle_deg,
+            ring.addendum_coefficient,
+            ring.cutter,
+            ring.rounded_root,
+            ring.tip_rule,
+        )
+    )
+
+
+def _as_built(keys: InternalShiftKeys, pair: InternalShiftPair, shift: float) -> InternalShiftPair:
+    """The pair with the cutter and the tip that a build gives the ring at a shift."""
+    ring = _ring_of(keys, shift)
+    return replace(pair, root=ring.root, least_tip_diameter=ring.least_tip_diameter)
 
 
 def _page(keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequirements) -> Sheet:
@@ -188,7 +202,7 @@ def _page(keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequir
     _given(page, keys, pair, wish)
     choices = [*_own_choices(keys, pair, wish), *_found_choices(page, keys, pair, wish, wanted)]
     for number, choice in enumerate(choices, 1):
-        _choice(page, pair, wish, choice, number)
+        _choice(page, wish, choice, number)
     found = window(pair)
     if found is None:
         page.notes.append(("no shifts give a pair that turns", "жодні зміщення не дають працездатної пари"))
@@ -229,7 +243,8 @@ def _own_choices(keys: InternalShiftKeys, pair: InternalShiftPair, wish: Interna
     """The shifts that were typed, or none at all."""
     shifts = keys.first.profile_shift_coefficient, keys.second.profile_shift_coefficient
     en, uk = ("as given", "задані зміщення") if any(x is not None for x in shifts) else ("no shift", "без зміщення")
-    return [Choice(en, uk, proposal(pair, wish, shifts[0] or 0.0, shifts[1] or 0.0))]
+    built = _as_built(keys, pair, shifts[1] or 0.0)
+    return [Choice(en, uk, proposal(built, wish, shifts[0] or 0.0, shifts[1] or 0.0), built)]
 
 
 def _wanted_difference(keys: InternalShiftKeys, pair: InternalShiftPair) -> float | None:
@@ -262,7 +277,8 @@ def _found_choices(
     result = []
     for en, uk, found in proposals:
         if found is not None:
-            result.append(Choice(en, uk, found))
+            result.append(Choice(en, uk, found, pair))
+            _tell_other_cutter(page, keys, pair, found.second, en, uk)
             continue
         page.notes.append(
             (
@@ -273,6 +289,17 @@ def _found_choices(
             )
         )
     return result
+
+
+def _tell_other_cutter(
+    page: Sheet, keys: InternalShiftKeys, pair: InternalShiftPair, shift: float, en: str, uk: str
+) -> None:
+    """That a build gives the ring of a proposal another cutter than the contour has, where nobody names one."""
+    root = _as_built(keys, pair, shift).root
+    if isinstance(root, PinionCutter) and root != pair.root:
+        z_0 = root.number_of_teeth
+        page.notes.append((f"{en}: a build with this x2 and no cutter named takes one of {z_0} teeth",
+                           f"{uk}: побудова з цим x2 без заданого довбача бере довбач на {z_0} зубців"))  # fmt: skip
 
 
 def _nearest_distance(
@@ -289,9 +316,9 @@ def _nearest_distance(
                        f"a_w: підходить {'не більше' if less else 'не менше'} {text} мм"))  # fmt: skip
 
 
-def _choice(page: Sheet, pair: InternalShiftPair, wish: InternalRequirements, choice: Choice, number: int) -> None:
+def _choice(page: Sheet, wish: InternalRequirements, choice: Choice, number: int) -> None:
     """One proposal and what it gives."""
-    found, module = choice.found, float(page.known["m"].value)
+    found, pair, module = choice.found, choice.pair, float(page.known["m"].value)
     page.section(f"{number}. {choice.en}", f"{number}. {choice.uk}")
     page.both("profile_shift_coefficient", (found.first, found.second))
     state = internal_state(pair, found.first, found.second)
@@ -311,7 +338,17 @@ def _choice(page: Sheet, pair: InternalShiftPair, wish: InternalRequirements, ch
     for name, pairs in (("tip_thickness", state.tip_thicknesses), ("tip_clearance", state.tip_clearances)):
         if all(math.isfinite(v) for v in pairs):
             page.both(name, (pairs[0] * module, pairs[1] * module), "", iso)
+    _limited_tip(page, pair, found.second, number)
     _broken(page, pair, wish, choice, number)
+
+
+def _limited_tip(page: Sheet, pair: InternalShiftPair, shift: float, number: int) -> None:
+    """That the default tip was made shallower, in the words of a build."""
+    from exporters.words import finding_text
+
+    ring = pair.ring(shift)
+    if (found := tip_finding(ring)) is not None:
+        page.notes.append((f"{number}: {finding_text('en', found)}", f"{number}: {finding_text('uk', found)}"))
 
 
 def _broken(page: Sheet, pair: InternalShiftPair, wish: InternalRequirements, choice: Choice, number: int) -> None:

@@ -14,6 +14,7 @@ import numpy as np
 
 from exporters.readers import ReadError
 from geometry.curve import Complex
+from geometry.distinct import distinct
 
 _PER_CURVE = 13
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
@@ -104,7 +105,7 @@ def _read_dxf(file: Path) -> ReadSheet:
             sheet.add_arc(layer, _plane(entity.dxf.center), entity.dxf.radius, first, sweep)
         elif kind == "SPLINE":
             tool = entity.construction_tool()
-            spans = np.unique(np.array(tool.knots()))
+            spans = distinct(np.array(tool.knots()))
             inner = (spans[:-1, None] + np.diff(spans)[:, None] * np.linspace(0, 1, _PER_CURVE)).ravel()
             sheet.samples.append((layer, np.array([complex(p.x, p.y) for p in tool.points(inner)])))
         elif kind == "TEXT":

@@ -20,6 +20,7 @@ from geometry.cams.follower_shape import FollowerEnd
 from geometry.cams.shape import cam_shape
 from geometry.contact import Verdict
 from geometry.curve import Complex, Curve, Real
+from geometry.distinct import distinct
 from geometry.gears.mesh_search import ContactPlace, PairContact
 from geometry.line_arc import Arc, Line
 from geometry.measure import distance_to_profile
@@ -43,7 +44,7 @@ def follower_contact(
     against the cam every 5 degrees: where it runs into it, the gap is minus the depth.
     """
     joints = [p.start for p in cam.motion.pieces]
-    angles = np.unique(np.concatenate([np.arange(_ANGLES) * TURN / _ANGLES, np.mod(joints, TURN)]))
+    angles = distinct(np.concatenate([np.arange(_ANGLES) * TURN / _ANGLES, np.mod(joints, TURN)]))
     fence = Fence(cam_shape(cam).profile)
     gaps, points = (_face_gaps if cam.is_flat else _round_gaps)(cam, fence, angles, out)
     if end.outline is not None:

@@ -14,6 +14,7 @@ from geometry.cams.positive import Conjugate
 from geometry.cams.shape import cam_shape
 from geometry.contact import Verdict
 from geometry.curve import Complex, Real
+from geometry.distinct import distinct
 from geometry.gears.mesh_search import ContactPlace, PairContact
 from geometry.measure import distance_to_profile
 from geometry.profile import Label, Profile
@@ -81,7 +82,7 @@ def yoke_contact(cam: DiskCam, breadth: float, play: float, tolerance: float, *,
 
 def _angles(cam: DiskCam) -> Real:
     joints = [p.start for p in cam.motion.pieces]
-    return np.unique(np.concatenate([np.arange(_ANGLES) * TURN / _ANGLES, np.mod(joints, TURN)]))
+    return distinct(np.concatenate([np.arange(_ANGLES) * TURN / _ANGLES, np.mod(joints, TURN)]))
 
 
 def _support(profile: Profile, direction: Complex) -> Real:

@@ -22,6 +22,7 @@ from geometry.cams.disk import DiskCam
 from geometry.cams.follower_motion import TURN
 from geometry.cams.lost_lift import greatest_loss
 from geometry.curve import Complex, Real
+from geometry.distinct import distinct
 from geometry.errors import UndercutError
 from geometry.motion_laws.piece import sign_changes
 
@@ -152,7 +153,7 @@ def _samples(cam: DiskCam, grow: float) -> tuple[Real, np.ndarray, Complex]:
         near = length * _CROWD
         even = np.linspace(*piece.domain, 9 if piece.is_constant else _SWEEP_SAMPLES)
         cusps = [] if piece.is_constant else _about_cusps(curve)
-        t = np.unique(np.clip(np.concatenate([even, piece.start + near, piece.end - near, *cusps]), *piece.domain))
+        t = distinct(np.clip(np.concatenate([even, piece.start + near, piece.end - near, *cusps]), *piece.domain))
         angles.append(t)
         index.append(np.full(len(t), k))
         points.append(curve.point(t))
@@ -166,7 +167,7 @@ def _about_cusps(curve: CentreEnvelope | FaceEnvelope) -> list[Real]:
     values = forward(t)
     lowest = int(np.argmin(values))
     near = np.linspace(t[max(lowest - 1, 0)], t[min(lowest + 1, len(t) - 1)], _QUICK_SAMPLES)
-    cusps = sign_changes(forward, np.unique(np.concatenate([t, near])))
+    cusps = sign_changes(forward, distinct(np.concatenate([t, near])))
     found = []
     for a, b in pairwise(cusps.tolist()):
         found.append(np.linspace(a - 3 * (b - a), b + 3 * (b - a), _QUICK_SAMPLES))

@@ -16,11 +16,11 @@ from geometry.contact import Indices
 from geometry.curve import Real
 
 # steps along the way, in modules: the first, and how much finer each next one is; so many of them
-_FIRST_STEP, _FINER, _ROUNDS = 0.2, 4.0, 5
+_FIRST_STEP, _FINER, _ROUNDS = 0.2, 8.0, 4
 # room for what the speed does between two places
 _ROOM = 1.05
 # so few places are not worth another step
-_FEW = 64
+_FEW = 256
 
 Measure = Callable[[Indices, Indices], Real]
 

@@ -29,7 +29,10 @@ CUTTING = ("involute_interference", "trochoid_interference", "radial_assembly")
 
 @dataclass(frozen=True, slots=True)
 class InternalShiftPair:
-    """Numbers of teeth, the pinion's rack or cutter, the ring's cutter or rounded root (module 1), for any shifts."""
+    """Numbers of teeth, the pinion's rack or cutter, the ring's cutter or rounded root (module 1), for any shifts.
+
+    ``least_tip_diameter``: the ring's tip is no deeper than that, modules, as ``RingGear`` has it.
+    """
 
     first_teeth: int
     second_teeth: int
@@ -38,6 +41,7 @@ class InternalShiftPair:
     ring_addendum: float = 1.0
     plain_tip: bool = False
     pinion_cutter: PinionCutter | None = None
+    least_tip_diameter: float = 0.0
 
     def __hash__(self) -> int:
         # what all caches are asked by: cheap rather than fine
@@ -60,7 +64,8 @@ class InternalShiftPair:
     def ring(self, shift: float) -> RingGear:
         """The ring at a shift, module 1, its rim beyond any root."""
         angle, rim = self.rack.pressure_angle, 4.0 * self.second_teeth + 100
-        return RingGear(1.0, self.second_teeth, angle, rim, self.root, shift, self.ring_addendum, self.plain_tip)
+        gear = RingGear(1.0, self.second_teeth, angle, rim, self.root, shift, self.ring_addendum, self.plain_tip)
+        return replace(gear, least_tip_diameter=self.least_tip_diameter) if self.least_tip_diameter else gear
 
 
 @dataclass(frozen=True, slots=True)

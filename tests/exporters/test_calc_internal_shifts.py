@@ -30,8 +30,10 @@ from geometry.gears.internal_shifts import InternalShiftPair
 from geometry.gears.ring import RoundedRoot
 from geometry.gears.shift_finder import for_sum
 from geometry.implicit import Box
-from parts.scene import load_scene
+from parts.ring_gear import checked_ring_gear
+from parts.scene import load_scene, make_parts
 from parts.schema import SceneError
+from parts.spur_gear import gear_of
 
 from .making import run
 from .test_calc import evaluated, sheet_for, values_of
@@ -284,3 +286,30 @@ def test_a_helical_pair_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture
     file = tmp_path / "pair.toml"
     file.write_text(SCENE.replace("module = 2.0\n", "module = 2.0\nhelix_angle_deg = 10.0\n"), encoding="utf-8")
     assert "spur gears only" in complaint(capsys, "calc", "shift-choice", file)
+
+
+@pytest.mark.parametrize(
+    ("pinion", "ring", "more", "limited"),
+    [(20, 28, {}, True), (13, 24, {"h": 0.8}, True), (20, 60, {}, False), (40, 80, {"x2": 0.5}, False)],
+)
+def test_the_given_shifts_have_the_numbers_of_a_check(
+    tmp_path: Path, pinion: int, ring: int, more: dict[str, float], limited: bool
+) -> None:
+    """The ring's tip is the one of a build, by whatever cutter; without that 20/28 would say 1.866."""
+    file = tmp_path / "pair.toml"
+    keys = f"profile_shift_coefficient = {more.get('x2', 0.0)}\naddendum_coefficient = {more.get('h', 1.0)}"
+    file.write_text(
+        f'[parts.p]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = {pinion}\n'
+        f'[parts.r]\nkind = "ring_gear"\nmodule = 2.0\nnumber_of_teeth = {ring}\n{keys}\n'
+        '[[mates]]\nkind = "internal_gear_pair"\nfirst = "p"\nsecond = "r"\n',
+        encoding="utf-8",
+    )
+    scene = load_scene(str(file))
+    made, _ = make_parts(scene, str(file))
+    given = values_of(f"shift-choice {file}")
+    (choice,) = [c for c in given["choices"] if c["name"] in ("as given", "no shift")]
+    gears = [scene.parts[name] for name in "pr"]
+    built = internal_pair(gear_of(gears[0]), checked_ring_gear(gears[1]))  # type: ignore[arg-type]
+    assert choice["contact_ratio"] == pytest.approx(built.contact_ratio, rel=1e-12)
+    assert any(f.code == "ring_tip_limited" for f in made["r"].findings) is limited
+    assert ("made shallower" in calculate("shift-choice", [str(file)], "text", "en")) is limited
