@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 
 from geometry.roots import bracketed_root
@@ -38,6 +39,10 @@ def level_lines(field: Field, box: Box, tolerance: float) -> list[list[complex]]
     Every point is a bracketed root; points are added until the middle of each chord is within ``tolerance`` of the
     line. Lines smaller than a grid cell may be missed; where the field is nan there is none.
     """
+
+    def on_row(y: float, x: float) -> float:
+        return field(x, y)
+
     n = box.cells
     values = [[field(box.x(i), box.y(j)) for j in range(n + 1)] for i in range(n + 1)]
     points: dict[Edge, complex] = {}
@@ -45,10 +50,10 @@ def level_lines(field: Field, box: Box, tolerance: float) -> list[list[complex]]
         for j in range(n + 1):
             if i < n and _crosses(values[i][j], values[i + 1][j]):
                 y = box.y(j)
-                points[i, j, 0] = complex(_root(lambda t, y=y: field(t, y), box.x(i), box.x(i + 1)), y)  # type: ignore[misc]
+                points[i, j, 0] = complex(_root(partial(on_row, y), box.x(i), box.x(i + 1)), y)
             if j < n and _crosses(values[i][j], values[i][j + 1]):
                 x = box.x(i)
-                points[i, j, 1] = complex(x, _root(lambda t, x=x: field(x, t), box.y(j), box.y(j + 1)))  # type: ignore[misc]
+                points[i, j, 1] = complex(x, _root(partial(field, x), box.y(j), box.y(j + 1)))
     links: dict[Edge, list[Edge]] = {edge: [] for edge in points}
     for i in range(n):
         for j in range(n):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from typing import Annotated, Any, Literal
 
 import msgspec
@@ -164,11 +165,15 @@ def with_remedy(refusal: ParameterError, spec: Any, builds: Callable[[Any], bool
     if isinstance(table, list):
         table = table[0]
     names = [f.name for f in msgspec.structs.fields(table) if not f.name.endswith("_deg")]
+
+    def works_as(name: str, value: Any) -> bool:
+        return builds(_changed(spec, owner, index, name, value))
+
     for name in [blamed, *(n for n in names if n != blamed)]:
         value = getattr(table, name)
         if value is None or isinstance(value, str):
             continue
-        found = _nearest(value, lambda v, n=name: builds(_changed(spec, owner, index, n, v)))  # type: ignore[misc]
+        found = _nearest(value, partial(works_as, name))
         if found is not None:
             key = ".".join(filter(None, (owner, place, name)))
             unit = "" if isinstance(value, int) else " mm"

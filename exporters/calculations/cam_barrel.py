@@ -24,10 +24,11 @@ from exporters.calculations.cam_steps import (
 from exporters.calculations.inputs import checked, refusal
 from exporters.calculations.sheet import Sheet, Table
 from geometry.cams.barrel import LOWER, UPPER, AxialGuide, BarrelCam, SwingGuide
+from geometry.cams.barrel_body import BarrelBody
 from geometry.cams.follower_motion import PhaseKind
 from geometry.curve import Real
 from geometry.errors import ParameterError
-from parts.barrel_cam import checked_barrel_cam, largest_radius
+from parts.barrel_cam import barrel_cam_part, checked_barrel_cam
 from parts.barrel_keys import BarrelCamSpec
 
 
@@ -57,7 +58,7 @@ def sheet(kind: str, table: dict[str, Any]) -> Sheet:
         page.add("pivot_height", cam.guide.pivot_height)
         page.add("start_angle_deg", math.degrees(cam.guide.start_angle))
     coefficient_steps(page, phases)
-    _sizes(page, keys, cam, body.length)
+    _sizes(page, keys, body)
     page.data["phases"] = phases.data()
     page.tables += [_positions(cam, keys.step, swings=swings), *_walls(cam, keys.step)]
     if keys.speed_rpm is not None:
@@ -70,7 +71,8 @@ def sheet(kind: str, table: dict[str, Any]) -> Sheet:
     return page
 
 
-def _sizes(page: Sheet, keys: BarrelKeys, cam: BarrelCam, length: float) -> None:
+def _sizes(page: Sheet, keys: BarrelKeys, body: BarrelBody) -> None:
+    cam = body.cam
     page.section("Sizes", "Розміри")
     page.add("outer_diameter", 2 * cam.outer)
     page.add("groove_depth", keys.groove_depth)
@@ -78,7 +80,7 @@ def _sizes(page: Sheet, keys: BarrelKeys, cam: BarrelCam, length: float) -> None
     if cam.is_groove:
         page.add("clearance", keys.clearance)
         page.add("groove_width", 2 * cam.radius, "{d} + {c_r}")
-    page.add("barrel_length", length)
+    page.add("barrel_length", body.length)
     page.add("roller_height", float(cam.place(0.0, 0)[0].imag))
     for kind, name in ((PhaseKind.RISE, "rise"), (PhaseKind.RETURN, "return")):
         pieces = cam.motion.moving_pieces(kind)
@@ -91,7 +93,7 @@ def _sizes(page: Sheet, keys: BarrelKeys, cam: BarrelCam, length: float) -> None
             page.add("peak_velocity", steep, symbol="|S'|_max", key="S1m")
             angle = math.degrees(math.atan(steep / cam.outer))
             page.add(f"outer_pressure_angle_{name}_deg", angle, "arctan({S1m} / ({D} / 2))")
-    page.add("largest_roller_diameter", 2 * largest_radius(cam) - keys.clearance)
+    page.add("largest_roller_diameter", barrel_cam_part("cam", keys, body).quantities["largest_roller_diameter"])
 
 
 def _positions(cam: BarrelCam, step: float, *, swings: bool) -> Table:

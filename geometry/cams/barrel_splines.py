@@ -7,6 +7,7 @@ the inner to the outer cylinder: the walls are analytic there. Poles interpolate
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -103,7 +104,7 @@ def stretches(cam: BarrelCam) -> list[Stretch]:
             parts = int(np.ceil((piece.end - piece.start) / _MOST_DWELL))
             places = np.linspace(piece.start, piece.end, parts + 1).tolist()
         else:
-            inner = sign_changes(lambda t, p=piece: p.value(t, 1), np.linspace(*piece.domain, _REST_SAMPLES))  # type: ignore[misc]
+            inner = sign_changes(partial(piece.value, order=1), np.linspace(*piece.domain, _REST_SAMPLES))
             least = _LEAST_STRETCH * (piece.end - piece.start)
             kept = inner[(inner > piece.start + least) & (inner < piece.end - least)]
             places = [piece.start, *kept.tolist(), piece.end]

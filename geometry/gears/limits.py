@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 from geometry.curve import start_point
 from geometry.errors import GeometryError, ParameterError, UndercutError, at_least, at_most
@@ -213,9 +214,13 @@ def _suspects(gear: SpurGear) -> list[_Key]:
 def _with_remedy(gear: SpurGear, refusal: ParameterError) -> ParameterError:
     """The refusal told in the user's keys, with the nearest value that works."""
     kind = type(refusal)
+
+    def builds_with(key: _Key, value: float) -> bool:
+        return _builds(key.gear_with(value))
+
     for key in sorted(_suspects(gear), key=lambda k: k.name != refusal.name):
         if _builds(key.gear_with(key.harmless)):
-            works = _boundary(lambda v, k=key: _builds(k.gear_with(v)), key.harmless, key.value)  # type: ignore[misc]
+            works = _boundary(partial(builds_with, key), key.harmless, key.value)
             text = f"at most {at_most(works, 4)}" if works < key.value else f"at least {at_least(works, 4)}"
             return kind(key.name, key.value, f"{refusal.allowed}; {text}{key.unit} works")
     x = gear.profile_shift_coefficient

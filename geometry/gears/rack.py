@@ -9,7 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise
 
 from geometry.curve import end_point, start_point
@@ -334,9 +334,13 @@ def _closed(rack: Rack, chain: list[Segment], offset: float) -> list[Segment]:
 
 def _cut_at(chain: list[Segment], limit: float) -> list[Segment]:
     """The chain between y = limit and y = -limit: the ends move into what was a space's middle."""
+
+    def below(sign: float, point: complex) -> float:
+        return limit - sign * point.imag
+
     for sign in (1.0, -1.0):
         pieces = chain if sign > 0 else [Segment(s.curve.reversed(), s.label) for s in reversed(chain)]
-        found = first_above([s.curve for s in pieces], lambda p, s=sign: limit - s * p.imag)  # type: ignore[misc]
+        found = first_above([s.curve for s in pieces], partial(below, sign))
         if found is None:
             raise OffsetError(-limit, "leaves no tooth", 0.0)
         index, at = found

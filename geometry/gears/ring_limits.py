@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 from geometry.errors import ParameterError, at_least, at_most
 from geometry.findings import Finding
@@ -149,9 +150,13 @@ def _with_remedy(gear: RingGear, refusal: ParameterError) -> ParameterError:
     teeth = _cutter_teeth(gear) if refusal.name == "cutter.number_of_teeth" else None
     if teeth is not None:
         return kind(refusal.name, refusal.value, f"{reason}; {teeth} works")
+
+    def builds_with(key: _Key, value: float) -> bool:
+        return makes(key.gear_with(value))
+
     for key in sorted(_suspects(gear), key=lambda k: k.name != refusal.name):
         if makes(key.gear_with(key.harmless)):
-            works = _boundary(lambda v, k=key: makes(k.gear_with(v)), key.harmless, key.value)  # type: ignore[misc]
+            works = _boundary(partial(builds_with, key), key.harmless, key.value)
             text = f"at most {at_most(works, 4)}" if works < key.value else f"at least {at_least(works, 4)}"
             return kind(key.name, key.value, f"{reason}; {text}{key.unit} works")
     x = gear.profile_shift_coefficient
