@@ -122,8 +122,8 @@ def _normals(cam: BarrelCam, angles: Real, side: int, radii: Real, piece: LawPie
     """Unit normals (radii, angles, 3) of a wall, towards the roller's axis."""
     place = cam.place(angles[None, :], 1, piece)
     rho = cam.distance_along(place, side, radii[:, None])
-    n = (cam.contact(place, side, rho) - place[0]) / -cam.radius
-    turned = 1j * n.real * np.exp(-1j * angles)
+    n = cam.upright * (place[0] - cam.contact(place, side, rho)) / cam.radius_at(rho)
+    turned = (cam.upright * cam.taper + 1j * n.real) * np.exp(-1j * angles)
     return np.stack([turned.real, turned.imag, n.imag], axis=-1)
 
 
@@ -148,7 +148,7 @@ def _wall_error(cam: BarrelCam, points: Real, angles: Real) -> float:
     # the angles of a triangle lie close together: their mean direction, across the turn too
     near = np.angle(np.einsum("sk,nk->ns", SHARES, turn)).ravel()
     width = float(np.abs(np.angle(np.exp(1j * (np.roll(angles, -1) - angles)))).max())
-    return float(np.abs(cam.distance(samples, near, width) - cam.radius).max())
+    return float(np.abs(cam.distance(samples, near, width)).max())
 
 
 def _chord_error(cam: BarrelCam, walls: dict[int, Real]) -> float:

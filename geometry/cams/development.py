@@ -144,8 +144,9 @@ def development(cam: BarrelCam, length: float, offset: float = 0.0) -> OffsetReg
 
 
 def _region(cam: BarrelCam, length: float, offset: float) -> Region:
-    if cam.is_groove and 2 * offset >= 2 * cam.radius:
-        raise OffsetError(offset, "closes the groove", cam.radius)
+    half = float(cam.radius_at(cam.outer))
+    if cam.is_groove and offset >= half:
+        raise OffsetError(offset, "closes the groove", half)
     lower = _jacket(cam, LOWER, -length / 2, length / 2, offset)
     apart = (_jacket(cam, UPPER, length / 2, length / 2, offset),) if cam.is_groove else ()
     return Region(lower, apart=apart)
