@@ -14,6 +14,8 @@ Real = NDArray[np.float64]
 
 # an interval is cut in so many parts
 _PARTS = 8
+# each of many parts of a curve again
+_PART_PIECES = 2
 # orders are bounded together: arcs ask for 1 and 2, splines for 2 to 4
 _LOW, _HIGH = 2, 4
 
@@ -34,6 +36,24 @@ def derivative_bound(curve: Bounded, order: int, a: float, b: float) -> float | 
     """Proven bound of |c^(order)| on [a, b], order 1 to 4; None where the curve knows none."""
     top = _LOW if order <= _LOW else _HIGH
     return _bounds(curve, top, a, b)[order]
+
+
+def part_bounds(curve: Bounded, edges: Real) -> Real:
+    """Proven bounds of the second to the fourth derivative between each two of the rising ``edges``, (3, parts).
+
+    inf where none is known. As derivative_bound, of all parts at once.
+    """
+    share = np.linspace(0.0, 1.0, _PART_PIECES + 1)
+    cuts = edges[:-1, None] + np.diff(edges)[:, None] * share
+    low, high = cuts[:, :-1], cuts[:, 1:]
+    middle = curve.series((low + high) / 2, _HIGH)
+    rest = curve.series_bound(_HIGH + 1, low.ravel(), high.ravel())
+    half = np.diff(edges)[:, None] / (2 * _PART_PIECES)
+    found = [
+        np.max(np.abs(middle[k]) + half * (k + 1) * np.reshape(rest[k + 1], low.shape), axis=1) * FACTORIALS[k]
+        for k in range(_LOW, _HIGH + 1)
+    ]
+    return np.array(found) * (1 + 1e-12)
 
 
 @lru_cache(maxsize=64)

@@ -217,6 +217,10 @@ def _grid(spline: BSpline) -> tuple[Real, Index, Index]:
 
 def _curve_bounds(curve: Curve, t: Real) -> Real:
     """Bounds of |c''|, |c'''|, |c''''| on each part, (3, parts); nan where the curve knows none."""
+    if hasattr(curve, "series_bound"):
+        from geometry.bounds import part_bounds
+
+        return part_bounds(curve, t)
     bounds = [[curve.derivative_bound(k, a, b) for a, b in pairwise(t.tolist())] for k in (2, 3, 4)]
     return np.array(bounds, dtype=float)
 

@@ -223,6 +223,8 @@ def _segments(gear: NoncircularGear, sides: Sides, cut: Cut, first: int) -> tupl
 
     lower: list[list[Curve]] = []
     upper: list[list[Curve]] = []
+    tips: list[Curve] = []
+    roots: list[Curve] = []
     segments: list[Segment] = []
     owners: list[tuple[int, int]] = []
     for k in range(teeth):
@@ -241,17 +243,20 @@ def _segments(gear: NoncircularGear, sides: Sides, cut: Cut, first: int) -> tupl
                 RolledFlank(line, crossing[1, k], -cut.alpha, at_tip[1, k], start[1, k]),
                 RolledFillet(line, centre[1, k], cut.depth, cut.radius, contact[1, k], 0.0),
             ])  # fmt: skip
-        tip = RolledLand(line, cut.tip, land[0, k], land[1, k])
+        tips.append(tips[j].mirrored() if 0 <= j < k else RolledLand(line, cut.tip, land[0, k], land[1, k]))
         made = [
             Segment(lower[k][0], Label.ROOT_FILLET),
             Segment(lower[k][1], Label.FLANK),
-            Segment(tip, Label.TIP_LAND),
+            Segment(tips[k], Label.TIP_LAND),
             Segment(upper[k][0], Label.FLANK),
             Segment(upper[k][1], Label.ROOT_FILLET),
         ]
         if cut.flat > TOLERANCES.relative_length * gear.module:
-            land_curve = RolledLand(line, -cut.depth - cut.radius, centre[1, k], centre[1, k] + 2 * cut.flat)
-            made.append(Segment(land_curve, Label.ROOT_LAND))
+            # the space after a tooth is the image of that before its image
+            j = image(k) - 1 if line.mirrored else -1
+            root = RolledLand(line, -cut.depth - cut.radius, centre[1, k], centre[1, k] + 2 * cut.flat)
+            roots.append(roots[j].mirrored() if 0 <= j < k else root)
+            made.append(Segment(roots[k], Label.ROOT_LAND))
         # a sharp rack tip on a straight place of the centrode leaves a point
         least = TOLERANCES.relative_length * gear.module
         kept = [i for i, s in enumerate(made) if cut.radius > 0 or abs(_chord(s)) > least]

@@ -29,6 +29,7 @@ _ROUNDING_TAIL = 1e-11
 # columns of the table
 _PARAMETER, _ANGLE, _X, _Y, _DIRECTION, _CURVATURE, _SLOPE = range(7)
 _NEWTON_STEPS = 6
+_ORDERS = np.arange(float(_NODES))
 # pieces of a panel on which derivatives are bounded, and up to which order
 _PIECES, _MOST_ORDER = 4, 6
 
@@ -140,10 +141,10 @@ class PitchLine:
         table = self._table
         turns = np.floor(s / table.edges[-1])
         rest = s - turns * table.edges[-1]
-        panel = np.minimum(np.searchsorted(table.edges, rest, side="right") - 1, len(table.edges) - 2)
+        panel = np.minimum(table.edges.searchsorted(rest, side="right") - 1, len(table.edges) - 2)
         low, high = table.edges[panel], table.edges[panel + 1]
-        x = np.clip(2 * (rest - low) / (high - low) - 1, -1.0, 1.0)
-        polynomials = np.cos(np.arccos(x)[..., None] * np.arange(_NODES))
+        x = np.maximum(np.minimum(2 * (rest - low) / (high - low) - 1, 1.0), -1.0)
+        polynomials = np.cos(np.arccos(x)[..., None] * _ORDERS)
         return np.matmul(table.values[panel, first:last], polynomials[..., None])[..., 0], turns
 
     def _parameters(self, s: Real) -> tuple[Real, Real]:
