@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -218,9 +219,9 @@ def _grid(spline: BSpline) -> tuple[Real, Index, Index]:
 def _curve_bounds(curve: Curve, t: Real) -> Real:
     """Bounds of |c''|, |c'''|, |c''''| on each part, (3, parts); nan where the curve knows none."""
     if hasattr(curve, "series_bound"):
-        from geometry.bounds import part_bounds
+        from geometry.bounds import Bounded, part_bounds
 
-        return part_bounds(curve, t)
+        return part_bounds(cast("Bounded", curve), t)
     bounds = [[curve.derivative_bound(k, a, b) for a, b in pairwise(t.tolist())] for k in (2, 3, 4)]
     return np.array(bounds, dtype=float)
 

@@ -329,15 +329,23 @@ def tip_places(line: PitchLine, crossing: Real, angle: Real, height: float) -> t
 
 
 def _feet(line: PitchLine, points: Complex, guess: Real) -> Real:
-    """Arc lengths of the feet of perpendiculars from points outside or near a convex centrode, by Newton's method."""
+    """Arc lengths of the feet of perpendiculars from points outside or near a convex centrode, by Newton's method.
+
+    Before its foot a point lies ahead of the tangent's point, after it behind: a bracket, bisected where Newton's steps
+    leave it, as they do at the sharp ends of a slender ellipse.
+    """
     s = guess
+    # an eighth of the centrode on either side has no other foot
+    low, high = guess - line.length / 8, guess + line.length / 8
     for _ in range(_STEPS):
         base, tangent, kappa = line.frame(s)
         gap = np.conj(tangent) * (points - base)
+        low, high = np.where(gap.real > 0, s, low), np.where(gap.real < 0, s, high)
         # outside, 1 + kappa height > 0
-        step = gap.real / np.maximum(1 - kappa * gap.imag, 0.1)
-        # not round the centrode
-        s = s + np.clip(step, -line.length / 16, line.length / 16)
-        if float(np.max(np.abs(step))) <= 1e-15 * line.length:
+        following = s + gap.real / np.maximum(1 - kappa * gap.imag, 0.1)
+        following = np.where((following >= low) & (following <= high), following, (low + high) / 2)
+        moved = float(np.max(np.abs(following - s)))
+        s = following
+        if moved <= 1e-15 * line.length:
             break
     return s
