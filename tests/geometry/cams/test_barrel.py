@@ -6,11 +6,13 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import pytest
 
+from geometry.approximate import approximate_profile
 from geometry.cams.barrel import LOWER, UPPER, AxialGuide, BarrelCam, Guide, SwingGuide
 from geometry.cams.barrel_body import BarrelBody, barrel_moments
 from geometry.cams.barrel_sliding import cam_sliding
@@ -21,6 +23,7 @@ from geometry.cams.follower_motion import rise as rising
 from geometry.errors import OffsetError
 from geometry.measure import profile_area
 from geometry.motion_laws.named import constant_velocity, modified_sine, polynomial_345
+from geometry.outline import spline_outline
 from geometry.profile import Label, circle
 from tests.oracles.exact_gear import MP
 
@@ -253,6 +256,37 @@ def test_developed_edges_and_their_derivatives(cam: BarrelCam) -> None:
             exact = edge.derivative(t, order)
             assert np.abs((4 * slope[1] - slope[0]) / 3 - exact).max() < 1e-6 * np.abs(exact).max()
             before = partial(edge.derivative, order=order)
+
+
+@CAMS
+def test_bounds_of_developed_edges_hold(cam: BarrelCam) -> None:
+    """Against derivatives at many places of each interval; short ones are near the truth."""
+    for piece in cam.motion.pieces:
+        for side, distance in ((UPPER, 0.0), (LOWER, 0.3)):
+            edge = DevelopedEdge(cam, piece, side, 0.0, piece.start, piece.end, distance)
+            for parts, sharp in ((3, 1e9), (20, 2.0)):
+                cuts = np.linspace(*piece.domain, parts + 1)
+                for low, high in pairwise(cuts.tolist()):
+                    inside = np.linspace(low, high, 25)
+                    for order in (1, 2, 3, 4):
+                        found = edge.derivative_bound(order, low, high)
+                        most = float(np.abs(edge.derivative(inside, order)).max())
+                        assert found is not None
+                        assert most <= found * (1 + 1e-12)
+                        assert order > 1 or found <= sharp * most
+
+
+def test_flat_outlines_are_proven() -> None:
+    """Chords, arcs and splines, moved or not."""
+    for cam in (AXIAL, CONES[1]):
+        for offset in (0.0, 0.2):
+            for profile in development(cam, 50.0, offset).region.profiles():
+                for arcs in (True, False):
+                    made = approximate_profile(profile, 0.01, arcs=arcs)
+                    assert made.bound == "certified"
+                    assert made.max_error <= 0.01
+    lower = development(AXIAL, 50.0, 0.2).region.outer
+    assert spline_outline(lower, 1e-3, degree=3, continuity=2).bound == "certified"
 
 
 def test_jackets_have_the_area_that_is_left() -> None:
