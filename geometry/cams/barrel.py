@@ -283,10 +283,13 @@ class BarrelCam:
         in the material. The least of samples over the cam angle, and Newton's steps in a bracket; ``near`` (n,): cam
         angles that are known to stand close by, within ``width`` rad, take the place of the samples.
         """
-        if near is not None:
-            width += 0.1 * self.radius / (self.outer + self._fastest())
-            return self._refined(points, near, near - width, near + width)[0]
-        return self.nearest(points)[0]
+        return self.nearest(points)[0] if near is None else self.foot(points, near, width)[0]
+
+    def foot(self, points: Real, near: Real, width: float) -> tuple[Real, Real]:
+        """Distances of points (n, 3) as above, mm, and the cam angles of those places, by ones close by, rad."""
+        width += 0.1 * self.radius / (self.outer + self._fastest())
+        away, _, at = self._refined(points, near, near - width, near + width)
+        return away, at
 
     def nearest(self, points: Real) -> tuple[Real, Real]:
         """Distances of points (n, 3), mm, and on which side of the roller each stands: above 0 at the upper wall."""
@@ -309,9 +312,9 @@ class BarrelCam:
         best = np.argmin(away, axis=0)
         column = np.arange(len(points))
         low, high = (samples[np.clip(best + k, 0, len(share) - 1), column] for k in (-1, 1))
-        return self._refined(points, samples[best, column], low, high)
+        return self._refined(points, samples[best, column], low, high)[:2]
 
-    def _refined(self, points: Real, at: Real, low: Real, high: Real) -> tuple[Real, Real]:
+    def _refined(self, points: Real, at: Real, low: Real, high: Real) -> tuple[Real, Real, Real]:
         plane, z = points[:, 0] + 1j * points[:, 1], points[:, 2]
         for step in range(_STEPS):
             place = self.place(at, 2)
@@ -332,7 +335,7 @@ class BarrelCam:
                 break
             at = after
         away = self.upright * (np.abs(gap) - self.radius_at(fixed.real))
-        return away, (gap * np.conj(1j * (fixed.real - place[1]))).real
+        return away, (gap * np.conj(1j * (fixed.real - place[1]))).real, at
 
     def side_range(self) -> tuple[float, float]:
         """Least and greatest y of the roller's axis, mm: 0 for a follower that moves along the cam's axis."""

@@ -91,7 +91,7 @@ def _place_bounds(cam: BarrelCam, piece: LawPiece, order: int, a: Real, b: Real)
     # of exp(i psi): psi itself counts for nothing
     turn = exponential([0.0 * s[0], *s[1:]])
     place = [
-        abs(guide.pivot_offset) + abs(guide.pivot_height) + guide.arm_length,
+        0.0 * s[0] + abs(guide.pivot_offset) + abs(guide.pivot_height) + guide.arm_length,
         *(guide.arm_length * x for x in turn[1:]),
     ]
     return sharpened(place, at, half), sharpened(place, [x.real for x in at], half)
