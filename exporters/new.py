@@ -103,6 +103,7 @@ _TABLE_EXAMPLES = {
     ("RingGearSpec", "tip_diameter"): "117.0",
     ("RingGearSpec", "outer_diameter"): "140.0",
     ("BarrelCamSpec", "outer_diameter"): "60.0",
+    ("BarrelCamSpec", "cone_angle_deg"): "20.0",
     ("SwingingTable", "arm_length"): "40.0",
     ("RimHolesTable", "diameter"): "6.0",
     ("RimHolesTable", "pitch_circle_diameter"): "140.0",

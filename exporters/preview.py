@@ -16,12 +16,15 @@ from exporters.words import finding_text, words
 from geometry.approximate import approximate_profile
 from geometry.contour import Approximation, Contour, edge_points
 from geometry.curve import Complex
+from geometry.profile import Profile
 from parts.part import Part
 
 # letters of the caption that fit beside a part, and above a scene
 _CAPTION_LETTERS, _WIDE_LETTERS = 42, 100
 # of pins of one piece, which stand out of their plate
 _PIN_STYLE = "fill:#7f8c99;stroke:#202830"
+# outlines of more curves than this are drawn by so many points of each: arcs take seconds to fit
+_MOST_ARCS, _POINTS = 300, 8
 _FILLS = ("#b8c4d0", "#d9c39a", "#b5cfae", "#d3b3b3", "#bdb6d6")
 
 
@@ -117,7 +120,18 @@ def scene_preview_name(plan: Plan) -> str:
 def _outlines(part: Part) -> tuple[Approximation, ...]:
     region = part.section(0.0).region
     tolerance = max(2e-4 * region.outer.reach(), 1e-6)
-    return tuple(approximate_profile(p, tolerance, arcs=True) for p in region.profiles())
+    return tuple(
+        approximate_profile(p, tolerance, arcs=True) if len(p.period) <= _MOST_ARCS else _sampled(p, tolerance)
+        for p in region.profiles()
+    )
+
+
+def _sampled(profile: Profile, tolerance: float) -> Approximation:
+    """An outline of very many curves by points of theirs, for the eye."""
+    points = [s.curve.point(np.linspace(*s.curve.domain, _POINTS + 1)[:-1]) for s in profile.period]
+    plane = np.concatenate(points)
+    contour = Contour(plane, np.zeros(len(plane)), profile.count, profile.clockwise)
+    return Approximation(contour, tolerance, "sampled", tolerance)
 
 
 def _solid_pins(part: Part, outlines: tuple[Approximation, ...]) -> list[Contour]:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from exporters.readers import ReadError, ReadMesh
 from exporters.reroll import Source, mesh_of
@@ -41,7 +42,7 @@ def reroll_barrel(file: Source, kind: str, part: Part, offset: float, declared: 
     except ReadError as refusal:
         return replace(verdict, failures=(str(refusal),))
     cam = body.cam
-    roller = part.quantities["roller_diameter"] / 2 - offset
+    roller = part.quantities["roller_diameter"] / 2 - offset / cam.upright
     found, played = rolled_places(mesh, cam, (cam.radius, roller))
     axis = cam.place(np.arange(ANGLES) * (TURN / ANGLES), 0)[0].imag
     error = np.array([found[side] - axis for side in cam.sides])
@@ -86,16 +87,19 @@ def rolled_places(mesh: ReadMesh, cam: BarrelCam, radii: Sequence[float], count:
     angles = np.arange(count) * (TURN / count)
     place = cam.place(angles, 0)[0]
     found = [{side: np.zeros(count) for side in cam.sides} for _ in radii]
+    # what a cone's radius is off at each plane
+    thinner = cam.taper * (planes - cam.reference)
     doubled = np.concatenate([middle - TURN, middle, middle + TURN])
     for k, angle in enumerate(angles.tolist()):
         polar = math.remainder(-angle, TURN)
         first, last = np.searchsorted(doubled, [polar - window, polar + window])
         near = corners[np.arange(first, last) % len(corners)]
         turned = (near[:, :, 0] + 1j * near[:, :, 1]) * np.exp(1j * angle)
-        starts, ends = _sections(turned, near[:, :, 2], planes)
+        starts, ends, at = _sections(turned, near[:, :, 2], planes)
         starts, ends = starts - place[k], ends - place[k]
+        thin = thinner[at]
         for side in cam.sides:
-            for of_radius, touched in zip(found, _touched(starts, ends, side, radii), strict=True):
+            for of_radius, touched in zip(found, _touched(starts, ends, side, radii, thin), strict=True):
                 # below, the highest place counts; above, the lowest
                 of_radius[side][k] = place[k].imag + (-touched if side == UPPER else touched)
     return found
@@ -110,8 +114,8 @@ def _wall_corners(mesh: ReadMesh, cam: BarrelCam) -> Real:
     return np.asarray(corners[across & inside])
 
 
-def _sections(turned: Complex, heights: Real, planes: Real) -> tuple[Complex, Complex]:
-    """Ends y + iz of the segments in which triangles are cut by planes x = const."""
+def _sections(turned: Complex, heights: Real, planes: Real) -> tuple[Complex, Complex, NDArray[np.int64]]:
+    """Ends y + iz of the segments in which triangles are cut by planes x = const, and the number of its plane."""
     above = turned.real > planes[:, None, None]
     number = above.sum(axis=2)
     plane, row = np.nonzero((number == 1) | (number == 2))
@@ -125,11 +129,14 @@ def _sections(turned: Complex, heights: Real, planes: Real) -> tuple[Complex, Co
         share = (x - a.real) / (b.real - a.real)
         y = a.imag + share * (b.imag - a.imag)
         points.append(y + 1j * (low + share * (heights[row, other] - low)))
-    return points[0], points[1]
+    return points[0], points[1], plane
 
 
-def _touched(starts: Complex, ends: Complex, side: int, radii: Sequence[float]) -> list[float]:
-    """Heights of circles' centres over the segments below that they rest on; mirrored for those above."""
+def _touched(starts: Complex, ends: Complex, side: int, radii: Sequence[float], thin: Real) -> list[float]:
+    """Heights of circles' centres over the segments below that they rest on; mirrored for those above.
+
+    ``thin``: what is added to the radii over each segment.
+    """
     mine = (starts.imag + ends.imag) * side > 0
     a, b = starts[mine], ends[mine]
     if side == UPPER:
@@ -137,15 +144,15 @@ def _touched(starts: Complex, ends: Complex, side: int, radii: Sequence[float]) 
     turned = a.real > b.real
     left, right = np.where(turned, b, a), np.where(turned, a, b)
     kept = (right.real > -max(radii)) & (left.real < max(radii)) & (right.real > left.real)
-    left, right = left[kept], right[kept]
+    left, right, thin = left[kept], right[kept], thin[mine][kept]
     if not len(left):
         return [-math.inf] * len(radii)
     slope = (right.imag - left.imag) / (right.real - left.real)
     lean = slope / np.hypot(1.0, slope)
     heights = []
-    for radius in radii:
+    for radius in (r + thin for r in radii):
         # z + sqrt(r^2 - y^2) along a segment is greatest where the circle is as steep
         y = np.clip(radius * lean, np.maximum(left.real, -radius), np.minimum(right.real, radius))
         z = left.imag + slope * (y - left.real) + np.sqrt(np.maximum(0.0, radius**2 - y**2))
-        heights.append(float(z.max()))
+        heights.append(float(z[(right.real > -radius) & (left.real < radius)].max(initial=-math.inf)))
     return heights

@@ -113,7 +113,7 @@ def _track_distance(body: BarrelBody, face: Track, points: Real) -> Real:
     near = beyond <= 0.05 * cam.inner
     away, above = cam.nearest(points[near])
     # points on the other side of the roller belong to the other wall
-    found[near] = np.where(above * face.side > 0, np.hypot(away - cam.radius, beyond[near]), np.inf)
+    found[near] = np.where(above * face.side > 0, np.hypot(away, beyond[near]), np.inf)
     return found
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from exporters.words_cams import CAM_FINDINGS, CAM_WORDS
+from exporters.words_cams import BARREL_WORDS, CAM_FINDINGS, CAM_WORDS
 from exporters.words_pins import PIN_FINDINGS, PIN_WORDS
 from geometry.findings import Finding
 
@@ -31,6 +31,7 @@ WORDS: dict[str, tuple[str, str]] = {
     "roller_distance": ("distance of both rollers, mm", "відстань між роликами, мм"),
     "roller_angle_deg": ("angle between both arms, deg", "кут між плечима коромисла, град"),
     "outer_diameter": ("outer diameter, mm", "зовнішній діаметр, мм"),
+    **BARREL_WORDS,
     "groove_width": ("groove width, mm", "ширина паза, мм"),
     "groove_depth": ("groove depth, mm", "глибина паза, мм"),
     "follower_offset": ("follower offset E, mm", "зміщення штовхача E, мм"),
@@ -40,12 +41,10 @@ WORDS: dict[str, tuple[str, str]] = {
     "face_from": ("face contact from, mm", "контакт на тарілці від, мм"),
     "least_plate_diameter": ("least plate diameter, mm", "найменший діаметр тарілки, мм"),
     "face_to": ("face contact to, mm", "контакт на тарілці до, мм"),
-    "floor_diameter": ("diameter of the groove's floor, mm", "діаметр дна паза, мм"),
     "length": ("length, mm", "довжина, мм"),
     "roller_diameter": ("roller diameter, mm", "діаметр ролика, мм"),
     "arm_length": ("arm length, mm", "довжина коромисла, мм"),
     "pivot_offset": ("pivot beside the cam's axis, mm", "зсув осі коромисла від осі кулачка, мм"),
-    "pivot_height": ("height of the pivot, mm", "висота осі коромисла, мм"),
     "start_height": ("height of the roller at 0 deg, mm", "висота осі ролика при 0 град, мм"),
     "largest_roller_diameter": ("largest roller (no undercut), mm", "найбільший ролик без підрізу, мм"),
     "inner_root_diameter": ("least root diameter, mm", "найменший діаметр западин, мм"),

@@ -1,4 +1,4 @@
-"""Names and findings of cams in English and Ukrainian, beside those of exporters/words.py."""
+"""Names, findings and quantities of cams in English and Ukrainian, beside those of exporters/words.py."""
 
 from __future__ import annotations
 
@@ -41,4 +41,12 @@ CAM_FINDINGS: dict[str, tuple[str, str]] = {
         "transmission angle {value:.2f} deg between connecting rod and guide, usual is at least {limit:.0f} deg",
         "кут передачі {value:.2f} град між шатуном і напрямною ланкою, допустимо від {limit:.0f} град",
     ),
+}
+
+BARREL_WORDS: dict[str, tuple[str, str]] = {
+    "floor_diameter": ("diameter of the groove's floor, mm", "діаметр дна паза, мм"),
+    "pivot_height": ("height of the pivot, mm", "висота осі коромисла, мм"),
+    "cone_angle_deg": ("cone angle of the roller, deg", "кут конуса ролика, град"),
+    "roller_floor_diameter": ("roller diameter at the floor, mm", "діаметр ролика біля дна паза, мм"),
+    "roller_sliding": ("roller's sliding, share of its rolling", "ковзання ролика, частка кочення"),
 }

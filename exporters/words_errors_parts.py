@@ -182,6 +182,9 @@ below {} mm works|підходить менше за {} мм
 both arms must embrace the axis: from {} to {} rad works|обидва плеча мають обіймати вісь: від {} до {} рад
 S(phi) + S(phi + 180) departs from H by {}|S(φ) + S(φ + 180) відходить від H на {}
 180 degrees of the motion follow from the others|180 град руху випливають з інших
+the cone's apex stands above the floor; at most {} degrees works|вершина конуса вища за дно паза; підходить \
+щонайбільше {} градусів
+is for roller_form = "conical" only|лише для roller_form = "conical"
 a groove needs a roller|пазу потрібен ролик
 a conjugate cam needs rollers|спареному кулачку потрібні ролики
 the second roller runs over the axis|другий ролик проходить через вісь

@@ -17,6 +17,7 @@ Real = NDArray[np.float64]
 
 # an interval is cut in so many parts
 _PARTS = 8
+# each of many parts of a curve again
 # orders are bounded together: arcs ask for 1 and 2, splines for 2 to 4
 _LOW, _HIGH = 2, 4
 

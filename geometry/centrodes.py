@@ -106,7 +106,8 @@ class LobedEllipse:
 
     def _under(self, angle: Real, order: int) -> Series:
         under = [-self.eccentricity * x for x in _cosine(angle, order, self.lobes)]
-        under[0] = under[0] + 1.0
+        # 1 - e cos n phi without a difference of near numbers: slender ellipses have e near 1
+        under[0] = (1 - self.eccentricity) + 2 * self.eccentricity * np.sin(self.lobes * angle / 2) ** 2
         return under
 
     def series_bound(self, order: int, a: Real, b: Real) -> Series:

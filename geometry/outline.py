@@ -14,7 +14,7 @@ from geometry.curve import Curve
 from geometry.line_arc import Arc, Line
 from geometry.placement import Placement2
 from geometry.profile import Profile
-from geometry.spline_fit import fit_spline
+from geometry.spline_fit import SplineFit, fit_spline
 
 CadCurve = Arc | Line | BSpline
 
@@ -51,6 +51,8 @@ def spline_outline(
     ``turned``: for screw surfaces; only arcs about the axis stay arcs, all else becomes a B-spline.
     """
     done: dict[Curve, BSpline] = {}
+    # the latest of each kind of curves that differ little from one to the next
+    alike: dict[object, SplineFit] = {}
     period: list[CadCurve] = []
     worst, certified = 0.0, True
     for curve in (s.curve for s in profile.period):
@@ -65,7 +67,10 @@ def spline_outline(
             # both sides of a tooth are mirror images: one is fitted
             spline = twin.mirrored()
         else:
-            fit = fit_spline(curve, tolerance, degree=degree, continuity=continuity)
+            family = getattr(curve, "family", None)
+            fit = fit_spline(curve, tolerance, degree=degree, continuity=continuity, like=alike.get(family))
+            if family is not None:
+                alike[family] = fit
             spline, worst = fit.spline, max(worst, fit.max_error)
             certified = certified and fit.bound == "certified"
         done[curve] = spline

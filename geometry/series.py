@@ -67,16 +67,21 @@ def composed(outer: Sequence[Any], inner: Sequence[Any]) -> Series:
 
 
 def unit_majorant(first: Sequence[Any], least: Any) -> Series:
-    """Bounds of the coefficients of w / |w| where those of w are bounded by ``first`` and |w| >= ``least`` > 0.
+    """Bounds of the coefficients of w / |w| where those of w are bounded by ``first`` and |w| >= ``least`` > 0."""
+    return product(first, inverse_modulus_majorant(first, least))
 
-    w / |w| = w (w conj(w))^(-1/2); in the recursion of ``power`` every term is taken by its modulus.
+
+def inverse_modulus_majorant(first: Sequence[Any], least: Any) -> Series:
+    """Bounds of the coefficients of 1 / |w| where those of w are bounded by ``first`` and |w| >= ``least`` > 0.
+
+    1 / |w| = (w conj(w))^(-1/2); in the recursion of ``power`` every term is taken by its modulus.
     """
     square = product(first, first)
     y: Series = [1 / least]
     for k in range(1, len(square)):
         total = sum((0.5 * j + (k - j)) * square[j] * y[k - j] for j in range(1, k + 1))
         y.append(total / (k * least**2))
-    return product(first, y)
+    return y
 
 
 def sharpened(bounds: Sequence[Any], middle: Sequence[Any], half: Any) -> Series:

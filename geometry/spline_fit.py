@@ -29,6 +29,8 @@ _EXTRA_SAMPLES = 3
 # weight of the tangential residual, round after round: at first the parameter is held, then it slides
 _FIRST_WEIGHTS = (1.0, 0.1, 0.01)
 _LATER_WEIGHTS = (0.001,) * 8
+# of a curve that is like the one before: its feet are nearly right
+_ALIKE_WEIGHTS = (0.01, *(0.001,) * 4)
 # later rounds are taken where the error is this near the tolerance
 _WORTH_SLIDING = 30.0
 _KNOT_ROUNDS = 2
@@ -59,6 +61,7 @@ class SplineFit:
     max_error: float
     bound: Bound
     pieces: int
+    draft: _Draft | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,13 +90,17 @@ class _Layout:
 
 @dataclass(frozen=True, slots=True)
 class _Draft:
-    """Poles, the samples' feet, the greatest sampled error of each span and of all; inf where it runs backwards."""
+    """Poles, the samples' feet, the greatest sampled error of each span and of all; inf where it runs backwards.
+
+    ``span``: the curve's domain.
+    """
 
     layout: _Layout
     poles: Complex
     feet: Real
     errors: Real
     error: float
+    span: tuple[float, float]
 
     @property
     def spans(self) -> int:
@@ -104,12 +111,15 @@ class _Draft:
         return BSpline(self.layout.degree, self.layout.knots, self.poles)
 
 
-def fit_spline(curve: Curve, tolerance: float, *, degree: int, continuity: int) -> SplineFit:
+def fit_spline(
+    curve: Curve, tolerance: float, *, degree: int, continuity: int, like: SplineFit | None = None
+) -> SplineFit:
     """B-spline within ``tolerance`` mm of a curve, near the least number of poles.
 
     ``continuity`` is that of the spline's derivatives at interior knots, of multiplicity degree - continuity:
     degree - 1 gives simple knots (cubic C2 for drawings), and fewer poles than anything less. First and last pole
     are the curve's end points to the bit, the end tangents are the curve's. Method: module docstring.
+    ``like``: the fit of a curve that is nearly alike, whose knots and feet are tried first.
 
     Raises
     ------
@@ -122,6 +132,8 @@ def fit_spline(curve: Curve, tolerance: float, *, degree: int, continuity: int) 
     """
     if not tolerance > 0:
         raise ParameterError("tolerance", tolerance, "must be above 0")
+    if like is not None and (found := _alike(curve, like, tolerance)) is not None:
+        return found
     parameter, draft = _first_parameter(curve, degree, continuity, _AIM * tolerance)
     spans = max(1, math.floor(_PILOT_SPANS * _CAUTION * _excess(draft, tolerance)))
     spans = spans if spans > _FEW_SPANS else 1
@@ -134,7 +146,7 @@ def fit_spline(curve: Curve, tolerance: float, *, degree: int, continuity: int) 
         if draft.error <= goal:
             error, bound = _bound(curve, draft)
             if error <= tolerance:
-                return SplineFit(draft.spline, error, bound, spans)
+                return SplineFit(draft.spline, error, bound, spans, draft)
             # the samples have missed a peak by so much: more rounds once, then more spans
             goal = tolerance * max(draft.error / error, _LEAST_GOAL)
             if refitted < spans:
@@ -160,6 +172,23 @@ def spline_of_spans(curve: Curve, spans: int, *, degree: int, continuity: int, r
         raise ConvergenceError(f"spline of {spans} spans", draft.error, len(_FIRST_WEIGHTS))
     error, bound = _bound(curve, draft)
     return SplineFit(draft.spline, error, bound, spans)
+
+
+def _alike(curve: Curve, like: SplineFit, tolerance: float) -> SplineFit | None:
+    """The spline on the knots of another one, from its feet; None where it is not good enough at once."""
+    if like.draft is None or like.spline.degree != like.draft.layout.degree:
+        return None
+    model, (low, high) = like.draft, curve.domain
+    start, end = like.draft.span
+    shares = (model.feet - start) / (end - start)
+    t = low + (high - low) * shares
+    layout = model.layout
+    poles = curve.point(low + (high - low) * np.interp(layout.greville(), layout.x.ravel(), shares.ravel()))
+    draft = _relaxed(curve, layout, poles, t, _AIM * tolerance, _ALIKE_WEIGHTS)
+    if draft.error > tolerance:
+        return None
+    error, bound = _bound(curve, draft)
+    return SplineFit(draft.spline, error, bound, model.spans, draft) if error <= tolerance else None
 
 
 def _excess(draft: _Draft, tolerance: float) -> float:
@@ -266,19 +295,26 @@ def _is_near(error: float, tolerance: float, factor: float) -> bool:
     return error <= factor * tolerance if tolerance > 0 else math.isfinite(error)
 
 
-def _relaxed(curve: Curve, layout: _Layout, poles: Complex, t: Real, tolerance: float) -> _Draft:
+def _relaxed(
+    curve: Curve,
+    layout: _Layout,
+    poles: Complex,
+    t: Real,
+    tolerance: float,
+    weights: tuple[float, ...] = _FIRST_WEIGHTS + _LATER_WEIGHTS,
+) -> _Draft:
     """Rounds of least squares and new feet from poles near the curve; the best round, or the first that is enough."""
     ends = _ends(curve)
     poles = _with_ends(ends, poles)
     best: _Draft | None = None
-    for index, weight in enumerate(_FIRST_WEIGHTS + _LATER_WEIGHTS):
+    for index, weight in enumerate(weights):
         poles = _with_ends(ends, poles + _correction(curve, ends, layout, poles, t, weight))
         points = layout.points(poles)
         t = feet(curve, points, t, steps=2)
         errors = np.abs(points - curve.point(t)).max(axis=1)
         error = float(errors.max()) if np.all(np.diff(t.ravel()) > 0) else math.inf
         if best is None or error < best.error:
-            best = _Draft(layout, poles, t, errors, error)
+            best = _Draft(layout, poles, t, errors, error, curve.domain)
         far = index + 1 >= len(_FIRST_WEIGHTS) and not _is_near(best.error, tolerance, _WORTH_SLIDING)
         if best.error <= tolerance or far:
             break

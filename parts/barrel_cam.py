@@ -11,6 +11,19 @@ from geometry.errors import OffsetError, ParameterError, UndercutError, at_least
 from geometry.findings import Finding
 from geometry.hub_holes import HubHoles, least_wall
 from parts.barrel_keys import BarrelCamSpec, SwingingTable
+from parts.barrel_roller import (
+    INSIDE,
+    check_cone,
+    end_height,
+    guides,
+    kept_apex,
+    largest_radius,
+    least_offset,
+    moved_cam,
+    taper,
+    thinnest,
+    told,
+)
 from parts.cam_keys import in_degrees, motion_of
 from parts.hole_keys import RoundBoreTable, hub_holes
 from parts.materials import density_of
@@ -25,10 +38,6 @@ if TYPE_CHECKING:
 _USUAL_PRESSURE_ANGLE = {False: 30.0, True: 45.0}
 # rollers are kept below this share of the one that undercuts
 _USUAL_ROLLER_SHARE = 0.8
-# the roller's axis stays this share of the floor's radius away from its side
-_INSIDE = 0.98
-# the smallest roller that is looked for, as a part of the largest
-_SMALLEST = 1e-4
 
 
 def checked_barrel_cam(spec: BarrelCamSpec) -> BarrelBody:
@@ -84,6 +93,8 @@ def _check_keys(spec: BarrelCamSpec) -> None:
         raise ParameterError("end_margin", spec.end_margin, "follows from length; give only one of them")
     if spec.form == "groove" and spec.web_thickness > 0:
         raise ParameterError("web_thickness", spec.web_thickness, 'is for form = "end" only; 0 works')
+    if spec.roller_form == "cylindrical" and spec.cone_angle_deg is not None:
+        raise ParameterError("cone_angle_deg", spec.cone_angle_deg, 'is for roller_form = "conical" only')
     if spec.form == "end" and spec.clearance > 0:
         raise ParameterError("clearance", spec.clearance, "a roller on an end has no play; 0 works")
 
@@ -126,19 +137,20 @@ def _placed(spec: BarrelCamSpec, motion: FollowerMotion, radius: float, inner: f
         least = min(math.cos(start + low), math.cos(start + high))
         offset = table.arm_length * (flat + least) / 2 if table.pivot_offset is None else table.pivot_offset
         guide = SwingGuide(offset, 0.0, table.arm_length, start)
-    cam = BarrelCam(motion, guide, radius, outer, inner, spec.form == "groove")
+    cam = BarrelCam(motion, guide, radius, outer, inner, spec.form == "groove", taper(spec, radius), outer)
     stray = max(map(abs, cam.side_range()))
-    if not stray + radius < _INSIDE * inner:
-        room = outer - (stray + radius) / _INSIDE
+    if not stray + radius < INSIDE * inner:
+        room = outer - (stray + radius) / INSIDE
         if table is not None and room <= 0 and stray > radius:
             raise _straying(spec, table, stray)
         if room <= 0:
-            least_diameter = at_least(2 * (stray + radius) / _INSIDE + 2 * spec.groove_depth, 3)
+            least_diameter = at_least(2 * (stray + radius) / INSIDE + 2 * spec.groove_depth, 3)
             raise ParameterError(
                 "outer_diameter", spec.outer_diameter, f"the roller is too big for it; {least_diameter} mm works"
             )
-        remedy = f"the roller needs a wider floor; at most {_told(room * (1 - 1e-9))} mm works"
+        remedy = f"the roller needs a wider floor; at most {told(room * (1 - 1e-9))} mm works"
         raise ParameterError("groove_depth", spec.groove_depth, remedy)
+    check_cone(spec, cam, stray)
     return _raised(spec, cam)
 
 
@@ -149,8 +161,8 @@ def _straying(spec: BarrelCamSpec, table: SwingingTable, stray: float) -> Parame
         middle = table.arm_length * (1 + math.cos(math.radians(spec.swing_deg / 2))) / 2
         return ParameterError("oscillating.pivot_offset", table.pivot_offset, f"{reason}; {middle:.4f} mm works")
     # of a swing to both sides the stray goes with its square
-    works = table.arm_length * (spec.outer_diameter / 2 - spec.groove_depth) / stray * _INSIDE / 2
-    return ParameterError("oscillating.arm_length", table.arm_length, f"{reason}; at most {_told(works)} mm works")
+    works = table.arm_length * (spec.outer_diameter / 2 - spec.groove_depth) / stray * INSIDE / 2
+    return ParameterError("oscillating.arm_length", table.arm_length, f"{reason}; at most {told(works)} mm works")
 
 
 def _raised(spec: BarrelCamSpec, cam: BarrelCam) -> BarrelCam:
@@ -175,9 +187,9 @@ def _check_roller(spec: BarrelCamSpec, cam: BarrelCam) -> None:
     if speed >= LEAST_SPEED:
         return
     where = f"undercuts the wall at cam angle {math.degrees(at):.4g} degrees"
-    most = 2 * largest_radius(cam) * (1 - 1e-6)
-    if most > 1.01 * spec.clearance and float(_told(most - spec.clearance)) > 0:
-        remedy = f"{where}; at most {_told(most - spec.clearance)} mm works"
+    most = 2 * largest_radius(cam, kept_apex(spec)) * (1 - 1e-6)
+    if most > 1.01 * spec.clearance and float(told(most - spec.clearance)) > 0:
+        remedy = f"{where}; at most {told(most - spec.clearance)} mm works"
         raise UndercutError("roller_diameter", spec.roller_diameter, remedy)
     if most > 0 and spec.clearance > 0:
         raise UndercutError("clearance", spec.clearance, f"{where}; 0 works with a small roller")
@@ -185,7 +197,7 @@ def _check_roller(spec: BarrelCamSpec, cam: BarrelCam) -> None:
     if not spec.swing_deg:
         raise UndercutError("motion_table", None, f"{outruns}; a smaller swing works")
     works = next((v for v in (spec.swing_deg * 0.9**k for k in range(1, 60)) if _swings(spec, cam, v)), 0.0)
-    text = f"at most {_told(works)} degrees works" if works else "a shorter arm_length or longer phases work"
+    text = f"at most {told(works)} degrees works" if works else "a shorter arm_length or longer phases work"
     raise UndercutError("swing_deg", spec.swing_deg, f"{outruns}; {text}")
 
 
@@ -195,32 +207,11 @@ def _swings(spec: BarrelCamSpec, cam: BarrelCam, swing_deg: float) -> bool:
 
     from geometry.cams.barrel import LEAST_SPEED
 
-    other = changed(spec, swing_deg=float(_told(swing_deg)))
+    other = changed(spec, swing_deg=float(told(swing_deg)))
     try:
         return _placed(other, _motion(other), cam.radius, cam.inner).least_edge_speed()[0] >= LEAST_SPEED
     except ParameterError:
         return False
-
-
-def _told(value: float) -> str:
-    """An upper limit as printed: small ones with four digits of their own."""
-    return at_most(value, max(4, 3 - math.floor(math.log10(max(value, 1e-12)))))
-
-
-@lru_cache(maxsize=64)
-def largest_radius(cam: BarrelCam) -> float:
-    """Radius of the roller whose walls are nearly undercut, mm; 0 if none is small enough, no more than has room."""
-    from geometry.cams.barrel import LEAST_SPEED
-    from geometry.roots import bracketed_root
-
-    def spare(radius: float) -> float:
-        return cam.with_radius(radius).least_edge_speed()[0] - LEAST_SPEED
-
-    most = _INSIDE * cam.inner - max(map(abs, cam.side_range()))
-    least = _SMALLEST * most
-    if spare(most) >= 0:
-        return most
-    return bracketed_root(spare, least, most).value if spare(least) > 0 else 0.0
 
 
 def _holes_of(spec: BarrelCamSpec) -> HubHoles:
@@ -232,7 +223,7 @@ def _body_of(spec: BarrelCamSpec, cam: BarrelCam) -> BarrelBody:
 
     low, high = cam.height_range()
     margin = low - cam.radius
-    length = high + cam.radius + margin if cam.is_groove else high - cam.radius
+    length = high + cam.radius + margin if cam.is_groove else end_height(cam)
     bores = _holes_of(spec).profiles(0.0)
     hub = None if spec.hub is None else (spec.hub.diameter / 2, spec.hub.below, spec.hub.above)
     return BarrelBody(cam, length, bores[0] if bores else None, hub, spec.web_thickness)
@@ -248,7 +239,7 @@ def _check_hub(spec: BarrelCamSpec, body: BarrelBody) -> None:
     low = cam.height_range()[0] - cam.radius
     needy = next((name for name in ("bore_diameter", "bore", "hub") if getattr(spec, name)), None)
     if not cam.is_groove and body.web == 0 and needy:
-        remedy = f"an open tube has only its inner cylinder, {needy} needs a bottom; {_told(low / 2)} mm works"
+        remedy = f"an open tube has only its inner cylinder, {needy} needs a bottom; {told(low / 2)} mm works"
         raise ParameterError("web_thickness", body.web, remedy)
     if body.web > 0 and not body.web + wall <= low:
         remedy = f"reaches the track; at most {at_most(low - wall, 4)} mm works"
@@ -258,7 +249,7 @@ def _check_hub(spec: BarrelCamSpec, body: BarrelBody) -> None:
     # inside a tube the hub stands within its inner cylinder
     most = 2 * ((cam.inner if not cam.is_groove and spec.hub.above > 0 else cam.outer) - wall)
     if not 2 * (reach + wall) <= most:
-        remedy = f"leaves no room for the hub; at most {_told(most - 2 * wall)} mm works"
+        remedy = f"leaves no room for the hub; at most {told(most - 2 * wall)} mm works"
         raise ParameterError(key, 2 * reach, remedy)
     if not spec.hub.diameter <= most:
         remedy = f"must stay inside; at most {at_most(most, 4)} mm works"
@@ -273,17 +264,16 @@ def _moved(spec: BarrelCamSpec, body: BarrelBody, offset: float) -> BarrelBody:
     if offset == 0:
         return body
     cam = body.cam
-    moved = replace(cam, radius=cam.radius - offset, outer=cam.outer + offset, inner=cam.inner + _side(cam) * offset)
-    if not offset < cam.radius:
-        raise OffsetError(offset, "closes the groove", cam.radius * (1 - 1e-9))
+    moved = moved_cam(cam, offset)
+    most = thinnest(cam) * cam.upright
+    if not offset < most:
+        raise OffsetError(offset, "closes the groove", most * (1 - 1e-9))
     wall = least_wall(cam.outer)
     thin = (cam.outer - cam.inner - wall) / 2
     if not cam.is_groove and not offset > -thin:
-        raise OffsetError(offset, "leaves no wall", -thin)
-    if offset < 0:
-        least = max(offset, -largest_radius(cam) + cam.radius)
-        if least > offset or moved.least_edge_speed()[0] <= 0:
-            raise OffsetError(offset, "undercuts the walls", least)
+        raise OffsetError(offset, "leaves no wall", -thin * (1 - 1e-9))
+    if offset < 0 and not guides(moved):
+        raise OffsetError(offset, "undercuts the walls", least_offset(cam, offset))
     bores = _holes_of(spec).profiles(offset)
     bore_reach = _holes_of(spec).bore_reach
     if bores and not bore_reach - offset + wall <= moved.inner:
@@ -292,13 +282,9 @@ def _moved(spec: BarrelCamSpec, body: BarrelBody, offset: float) -> BarrelBody:
     return replace(body, cam=moved, bore=bores[0] if bores else None, hub=hub)
 
 
-def _side(cam: BarrelCam) -> int:
-    """Which way the inner cylinder moves when material grows: a groove's floor outwards, a tube's inside inwards."""
-    return 1 if cam.is_groove else -1
-
-
 def _quantities(spec: BarrelCamSpec, body: BarrelBody) -> dict[str, float]:
     from geometry.cams.barrel import SwingGuide
+    from geometry.cams.barrel_sliding import cam_sliding
     from geometry.cams.follower_motion import PhaseKind
 
     cam = body.cam
@@ -310,6 +296,10 @@ def _quantities(spec: BarrelCamSpec, body: BarrelBody) -> dict[str, float]:
     }
     if cam.is_groove:
         found["groove_width"] = 2 * cam.radius
+    if cam.taper:
+        found["cone_angle_deg"] = math.degrees(2 * math.atan(cam.taper))
+        found["roller_floor_diameter"] = spec.roller_diameter - 2 * cam.taper * (cam.outer - cam.inner)
+    found["roller_sliding"] = cam_sliding(cam)
     if isinstance(cam.guide, SwingGuide):
         found["swing_deg"] = math.degrees(cam.motion.lift)
         found["arm_length"] = cam.guide.arm_length
@@ -323,7 +313,7 @@ def _quantities(spec: BarrelCamSpec, body: BarrelBody) -> dict[str, float]:
         if cam.motion.moving_pieces(kind):
             name = f"pressure_angle_{'rise' if kind is PhaseKind.RISE else 'return'}_deg"
             found[name] = math.degrees(cam.greatest_pressure_angle(kind)[0])
-    found["largest_roller_diameter"] = 2 * largest_radius(cam) - spec.clearance
+    found["largest_roller_diameter"] = 2 * largest_radius(cam, kept_apex(spec)) - spec.clearance
     return found
 
 
@@ -340,7 +330,7 @@ def _findings(spec: BarrelCamSpec, cam: BarrelCam) -> tuple[Finding, ...]:
     steepest = math.degrees(max(cam.greatest_pressure_angle(kind)[0] for kind in kinds))
     if steepest > usual + 1e-9:
         found.append(Finding("steep_groove", steepest, usual))
-    limit = _USUAL_ROLLER_SHARE * largest_radius(cam)
+    limit = _USUAL_ROLLER_SHARE * largest_radius(cam, kept_apex(spec))
     if cam.radius > limit:
         found.append(Finding("large_groove_roller", cam.radius, limit))
     return tuple(found)

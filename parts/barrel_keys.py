@@ -51,8 +51,31 @@ class BarrelCamSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="b
         Literal["groove", "end"], Meta(description="groove: moves the roller both ways; end: a spring holds it")
     ]
     outer_diameter: Annotated[float, mm("diameter of the barrel", above=0, most=_MOST)]
-    roller_diameter: Annotated[float, mm("diameter of the roller, its axis across the cam's", above=0, most=_MOST)]
+    roller_diameter: Annotated[
+        float,
+        mm(
+            "diameter of the roller, its axis across the cam's; of a cone at the barrel's outer radius",
+            above=0,
+            most=_MOST,
+        ),
+    ]
     groove_depth: Annotated[float, mm("depth of the groove, or width of the track", above=0, most=_MOST)]
+    roller_form: Annotated[
+        Literal["cylindrical", "conical"],
+        Meta(description="conical: thinner towards the cam's axis, so that it rolls and hardly slides"),
+    ] = "cylindrical"
+    cone_angle_deg: (
+        Annotated[
+            float,
+            Meta(
+                gt=0,
+                lt=120,
+                description="between opposite sides of a conical roller; default: its apex lies on the cam's axis",
+                extra={"unit": "degrees"},
+            ),
+        ]
+        | None
+    ) = None
     lift: Annotated[float, mm("lift H along the axis", least=0, most=_MOST)] = 0.0
     swing_deg: Swing = 0.0
     phases: Phases | None = None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -11,13 +10,14 @@ import msgspec
 import numpy as np
 from msgspec import Meta, Struct
 
-from geometry.errors import ConvergenceError, GeometryError, ParameterError, at_least, at_most, format_value
+from geometry.errors import ConvergenceError, GeometryError, ParameterError, at_most, format_value
 from geometry.profile import Profile
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.cutter_keys import PressureAngle, RackName
 from parts.hole_keys import BoreTable, HolesTable, SpokesTable, hub_holes, with_remedy
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, in_modules, mm
 from parts.materials import density_of
+from parts.noncircular_remedy import MOST_TEETH, NOT_CLOSED, builds, largest, with_closing_mate, with_gear_remedy
 from parts.part import Part
 from parts.spur_gear import RackTable, basic_rack_of
 from parts.wheel_keys import FaceChamfer, FaceChamferTable, HubTable, WebTable, as_typed, wheel_shape
@@ -27,14 +27,9 @@ if TYPE_CHECKING:
     from geometry.gears.noncircular_pairing import Centrode
 
 _Amplitude = Annotated[float, Meta(ge=-10, le=10)]
-_MOST_TEETH = 2000
 _SAMPLES = 1025
-_BISECTIONS = 24
-_NOT_CLOSED = "the mate closes where it has a whole number of lobes"
-# numbers of teeth that are tried for a mate
-_OFFERS = 6
-# of ellipses that the table of the pitch line still holds (the ratio of axes 20 is at 0.99875)
-_MOST_ECCENTRICITY = 0.999
+# of ellipses that the table of the pitch line still holds (the ratio of axes 20 is at 0.99875, 200 at 0.9999875)
+_MOST_ECCENTRICITY = 0.9999
 
 
 class NoncircularGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", tag="noncircular_gear"):
@@ -44,14 +39,14 @@ class NoncircularGearSpec(Struct, forbid_unknown_fields=True, tag_field="kind", 
         Literal["oval", "focal_ellipse", "ratio"],
         Meta(description="driver's centrode: oval about its middle, ellipse about a focus, or by its ratio"),
     ]
-    number_of_teeth: Annotated[int, Meta(ge=3, le=_MOST_TEETH, description="number of teeth of this gear")]
+    number_of_teeth: Annotated[int, Meta(ge=3, le=MOST_TEETH, description="number of teeth of this gear")]
     module: Annotated[float, mm("module m; or give centre_distance", least=0.01, most=1000)] | None = None
     centre_distance: Annotated[float, mm("of the pair, in place of the module", above=0, most=100_000)] | None = None
     role: Annotated[
         Literal["driver", "mate"], Meta(description="driver: tooth 1 on +x; mate: the gear that rolls on the driver")
     ] = "driver"
     mate_number_of_teeth: (
-        Annotated[int, Meta(ge=3, le=_MOST_TEETH, description="of the other gear; default: as many")] | None
+        Annotated[int, Meta(ge=3, le=MOST_TEETH, description="of the other gear; default: as many")] | None
     ) = None
     axis_ratio: (
         Annotated[float, Meta(ge=1, le=20, description="oval: long over short radius; ellipse: of its axes")] | None
@@ -107,11 +102,11 @@ def checked_noncircular_gear(spec: NoncircularGearSpec) -> NoncircularGear:
         text = f"too slender to compute; at most {20 if key == 'axis_ratio' else _MOST_ECCENTRICITY} works"
         raise ParameterError(key, getattr(spec, key), text) from refusal
     except ParameterError as refusal:
-        if refusal.allowed.startswith(_NOT_CLOSED):
-            raise _with_closing_mate(spec, refusal) from refusal
+        if refusal.allowed.startswith(NOT_CLOSED):
+            raise with_closing_mate(spec, refusal) from refusal
         if refusal.name not in ("centrode", "undercut", "number_of_teeth", "profile_shift_coefficient"):
             raise
-        raise _with_remedy(spec, refusal) from refusal
+        raise with_gear_remedy(spec, refusal) from refusal
     try:
         gear.holes.check(gear.root_radius)
     except ParameterError as refusal:
@@ -150,13 +145,13 @@ def _check_slender(spec: NoncircularGearSpec) -> None:
         return bool(number * math.pi / (4 * quarter) * (1 - e) > depth)
 
     asked = getattr(spec, key)
-    if (spec.lobes or (2 if spec.centrode == "oval" else 1)) > 1 or stands(asked, 2 * teeth):
+    if (spec.lobes or (2 if spec.centrode == "oval" else 1)) > 1 or stands(asked, min(2 * teeth, MOST_TEETH)):
         return
     round_one = 1.0 if key == "axis_ratio" else 0.0
-    high = round_one + _largest(lambda v: stands(round_one + v, teeth), asked - round_one)
+    high = round_one + largest(lambda v: stands(round_one + v, teeth), asked - round_one)
     for step in range(16):
         value = float(at_most(round_one + (high - round_one) * (1 - step / 16), 4))
-        if _builds(msgspec.structs.replace(spec, **{key: value})):
+        if builds(msgspec.structs.replace(spec, **{key: value})):
             raise ParameterError(key, asked, f"the roots reach the axis; at most {format_value(value)} works")
 
 
@@ -245,100 +240,6 @@ def centrode_of(spec: NoncircularGearSpec, teeth: tuple[int, int]) -> Centrode:
             raise ParameterError("axis_ratio", spec.axis_ratio, f"{text}; at most {limit} works")
         raise ParameterError("eccentricity", e, f"{text}; at most {at_most(most)} works")
     return LobedEllipse(1.0, min(e, most), lobes)
-
-
-def _with_remedy(spec: NoncircularGearSpec, refusal: ParameterError) -> ParameterError:
-    """A refused gear in the key to change: amplitudes of a concave ratio, thinning, or the number of teeth."""
-    if "works" in refusal.allowed:
-        return refusal
-    reason = refusal.allowed
-    if spec.centrode == "ratio" and refusal.name == "centrode":
-        share = _largest(lambda v: _builds(_with_amplitudes(spec, v)), 1.0)
-        key = "ratio_cosines" if spec.ratio_cosines else "ratio_sines"
-        text = f"{reason}; all amplitudes times {at_most(share, 4)} work"
-        return ParameterError(key, getattr(spec, key), text)
-    if spec.circumferential_thinning > 0 and _builds(msgspec.structs.replace(spec, circumferential_thinning=0.0)):
-        most = _largest(
-            lambda v: _builds(msgspec.structs.replace(spec, circumferential_thinning=v)), spec.circumferential_thinning
-        )
-        text = f"{reason}; at most {at_most(most, 4)} mm works"
-        return ParameterError("circumferential_thinning", spec.circumferential_thinning, text)
-    if spec.profile_shift_coefficient and _builds(msgspec.structs.replace(spec, profile_shift_coefficient=0.0)):
-        x = spec.profile_shift_coefficient
-        most = _largest(lambda v: _builds(msgspec.structs.replace(spec, profile_shift_coefficient=v)), x)
-        told = f"at most {at_most(most, 4)}" if x > 0 else f"at least {at_least(most, 4)}"
-        return ParameterError("profile_shift_coefficient", x, f"{reason}; {told} works")
-    z = spec.number_of_teeth
-    other = spec.mate_number_of_teeth or z
-    for times in range(2, 40):
-        more = _teeth(spec, math.ceil(z * (1 + times / 8)), other / z)
-        if more is not None and _builds(more):
-            text = f"{reason}; {more.number_of_teeth} teeth of the same centrode work"
-            if spec.mate_number_of_teeth is not None:
-                text += f" with mate_number_of_teeth = {more.mate_number_of_teeth}"
-            return ParameterError("number_of_teeth", z, text)
-    return ParameterError("number_of_teeth", z, f"{reason}; a rounder centrode works")
-
-
-def _with_closing_mate(spec: NoncircularGearSpec, refusal: ParameterError) -> ParameterError:
-    """A mate that does not close: the nearest number of teeth with which it does, and both gears can be cut."""
-    mate = spec.role == "mate"
-    other = spec.mate_number_of_teeth or spec.number_of_teeth
-    asked, driver = (spec.number_of_teeth, other) if mate else (other, spec.number_of_teeth)
-    lobes = spec.lobes or (2 if spec.centrode == "oval" else 1)
-    step = driver // math.gcd(driver, lobes)
-    offers = sorted((k * step for k in range(1, _MOST_TEETH // step + 1)), key=lambda z: abs(z - asked))
-    for teeth in (z for z in offers[:_OFFERS] if z >= 3):
-        pair = (("driver", driver, teeth), ("mate", teeth, driver))
-        keys = ({"role": r, "number_of_teeth": a, "mate_number_of_teeth": b} for r, a, b in pair)
-        # a shift of one gear is the other's with its sign turned
-        signs = (-1 if mate else 1, 1 if mate else -1)
-        shifts = (sign * spec.profile_shift_coefficient for sign in signs)
-        if all(
-            _builds(msgspec.structs.replace(spec, **k, profile_shift_coefficient=x))
-            for k, x in zip(keys, shifts, strict=True)
-        ):
-            return ParameterError(refusal.name, refusal.value, f"{_NOT_CLOSED}; {teeth} works")
-    return ParameterError(refusal.name, refusal.value, f"{_NOT_CLOSED}; a rounder centrode has one")
-
-
-def _teeth(spec: NoncircularGearSpec, teeth: int, ratio: float) -> NoncircularGearSpec | None:
-    """The same gear with more teeth, its mate's in proportion, and of the same kind for two equal ones."""
-    if spec.mate_number_of_teeth is None:
-        lobes = spec.lobes or (2 if spec.centrode == "oval" else 1)
-        fitting = lobes * (2 * math.ceil((teeth / lobes - 1) / 2) + 1)
-        return msgspec.structs.replace(spec, number_of_teeth=min(fitting, _MOST_TEETH))
-    step = spec.number_of_teeth // math.gcd(spec.number_of_teeth, spec.mate_number_of_teeth)
-    teeth = math.ceil(teeth / step) * step
-    mate = round(teeth * ratio)
-    if max(teeth, mate) > _MOST_TEETH:
-        return None
-    return msgspec.structs.replace(spec, number_of_teeth=teeth, mate_number_of_teeth=mate)
-
-
-def _with_amplitudes(spec: NoncircularGearSpec, share: float) -> NoncircularGearSpec:
-    return msgspec.structs.replace(
-        spec,
-        ratio_cosines=[share * x for x in spec.ratio_cosines or ()],
-        ratio_sines=[share * x for x in spec.ratio_sines or ()],
-    )
-
-
-def _largest(works: Callable[[float], bool], refused: float) -> float:
-    """The value between 0, which is hoped to work, and a refused one that still works."""
-    low, high = 0.0, refused
-    for _ in range(_BISECTIONS):
-        middle = (low + high) / 2
-        low, high = (middle, high) if works(middle) else (low, middle)
-    return low
-
-
-def _builds(spec: NoncircularGearSpec) -> bool:
-    try:
-        gear_of(spec).outline  # noqa: B018
-    except GeometryError:
-        return False
-    return True
 
 
 def _holes_fit(spec: NoncircularGearSpec) -> bool:

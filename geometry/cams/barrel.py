@@ -4,7 +4,9 @@ Fixed frame: cam axis z, the cam turns counter-clockwise, the roller's axis is p
 place p = y + iz of the yz-plane. It moves along the axis (p = i (z_0 + S)) or about a pivot that is parallel to it.
 A wall is the envelope of the moving cylinder: at the distance rho along the roller's axis it touches where its normal
 n = i w / |w|, w = rho - p', is across the relative velocity, at p + r n above and p - r n below. So the contact line
-turns with rho, and an unrolled parallel curve at one radius is not the wall. Derivation: DERIVATIONS.md.
+turns with rho, and an unrolled parallel curve at one radius is not the wall. A conical roller's radius grows with rho,
+r' = k; its wall's normal (-k, n) is across that velocity where n w = -k Re p with w = rho + k r - p'. Derivation:
+DERIVATIONS.md.
 """
 
 from __future__ import annotations
@@ -83,7 +85,9 @@ class BarrelCam:
     """A follower's motion, its guide, and the cylinder that makes the walls; lengths in mm.
 
     ``radius``: of the roller with half of its clearance; ``outer`` and ``inner``: the cylinders between which the
-    walls stand. ``is_groove``: both walls; else the lower one alone, on the end of a tube.
+    walls stand. ``is_groove``: both walls; else the lower one alone, on the end of a tube. A conical roller has its
+    ``radius`` at the distance ``reference`` along its axis, and ``taper`` more for each mm outwards: the tangent of
+    half of the cone's angle. taper = radius / reference: its apex lies where its axis meets the cam's middle plane.
     """
 
     motion: FollowerMotion
@@ -92,6 +96,17 @@ class BarrelCam:
     outer: float
     inner: float
     is_groove: bool = True
+    taper: float = 0.0
+    reference: float = 0.0
+
+    @property
+    def upright(self) -> float:
+        """Cosine of half of the roller's cone angle: 1 of a cylinder."""
+        return 1 / math.hypot(1.0, self.taper)
+
+    def radius_at(self, rho: ArrayLike) -> Real:
+        """The roller's radius at the distance rho along its axis, mm."""
+        return np.asarray(self.radius + self.taper * (np.asarray(rho, dtype=float) - self.reference))
 
     @property
     def sides(self) -> tuple[int, ...]:
@@ -112,17 +127,16 @@ class BarrelCam:
         p, rate, radius = place[0], place[1], np.asarray(radius, dtype=float)
         shape = np.broadcast_shapes(np.shape(p), radius.shape)
         low, high = np.zeros(shape), np.broadcast_to(radius, shape).copy()
-        # the root itself where the roller stays over the cam's axis: rho^2 from a quadratic equation
+        # the root itself where a cylinder stays over the cam's axis: rho^2 from a quadratic equation
         square, slant = radius**2, rate.imag**2
-        root = np.sqrt((square + slant) ** 2 - 4 * slant * self.radius**2)
-        rho = np.broadcast_to(np.sqrt((square - slant + root) / 2), shape).copy()
+        root = np.sqrt(np.maximum(0.0, (square + slant) ** 2 - 4 * slant * self.radius**2))
+        rho = np.broadcast_to(np.sqrt(np.maximum(0.0, square - slant + root) / 2), shape).copy()
         for _ in range(_STEPS):
-            w = rho - rate
-            normal = 1j * w / np.abs(w)
-            y = p.real + side * self.radius * normal.real
+            w, normal, lean = self._normal(place, side, rho)
+            size = self.radius_at(rho)
+            y = p.real + size * normal.real
             excess = rho**2 + y**2 - radius**2
-            # d n / d rho = i n Im(p') / |w|^2
-            slope = 2 * rho + 2 * y * side * self.radius * (1j * normal).real * rate.imag / np.abs(w) ** 2
+            slope = 2 * rho + 2 * y * self._slope(w, normal, lean, side, size)
             low, high = np.where(excess < 0, rho, low), np.where(excess > 0, rho, high)
             with np.errstate(divide="ignore", invalid="ignore"):
                 after = rho - excess / slope
@@ -132,10 +146,27 @@ class BarrelCam:
             rho = after
         return rho
 
+    def _normal(self, place: Series, side: int, rho: Real) -> tuple[Complex, Complex, Real]:
+        """w, the direction n from the roller's axis to the contact, and the sine by which a cone turns it."""
+        w = rho + self.taper * self.radius_at(rho) - place[1]
+        lean = self.taper * place[0].real / np.abs(w)
+        return w, w / np.abs(w) * (1j * side * np.sqrt(1 - lean**2) - lean), lean
+
+    def _turn(self, w: Complex, lean: Real, side: int, rate: ArrayLike, aside: ArrayLike) -> Real:
+        """How fast n turns while w has the ``rate`` and the roller's axis goes ``aside``."""
+        square = np.abs(w) ** 2
+        leaning = self.taper * np.asarray(aside) / np.sqrt(square) - lean * (np.conj(w) * rate).real / square
+        return np.asarray((np.conj(w) * rate).imag / square + side * leaning / np.sqrt(1 - lean**2))
+
+    def _slope(self, w: Complex, normal: Complex, lean: Real, side: int, size: Real) -> Real:
+        """How fast the contact goes aside along the roller's axis, dy / d rho."""
+        turn = self._turn(w, lean, side, 1 + self.taper**2, 0.0)
+        return np.asarray(self.taper * normal.real - size * normal.imag * turn)
+
     def contact(self, place: Series, side: int, rho: ArrayLike) -> Complex:
         """Where the roller touches a wall at the distance rho along its axis, y + iz, mm."""
-        w = rho - place[1]
-        return np.asarray(place[0] + side * self.radius * 1j * w / np.abs(w))
+        at = np.asarray(rho, dtype=float)
+        return np.asarray(place[0] + self.radius_at(at) * self._normal(place, side, at)[1])
 
     def wall(self, angle: ArrayLike, side: int, radius: ArrayLike, piece: LawPiece | None = None) -> Real:
         """Points (..., 3) of a wall in the cam's frame at cam angles (rad) on cylinders of ``radius`` mm."""
@@ -157,21 +188,33 @@ class BarrelCam:
         rho: Series = [first, *(0.0 * first for _ in range(order))]
         slope = None
         for _ in range(order + 1):
-            q = _touched(place, rate, rho, side * self.radius)
+            q = self._touched(place, rate, rho, side)
             y = [x.real for x in q]
             if slope is None:
                 # of the equation in rho, as in distance_along; each round makes one more coefficient right
-                w = first - rate[0]
-                turn = -side * self.radius * w.real * rate[0].imag / np.abs(w) ** 3
-                slope = 2 * first + 2 * y[0] * turn
+                w, normal, lean = self._normal(place, side, first)
+                slope = 2 * first + 2 * y[0] * self._slope(w, normal, lean, side, self.radius_at(first))
             rest = [a + b for a, b in zip(product(rho, rho), product(y, y), strict=True)]
             rho = [first, *(a - b / slope for a, b in zip(rho[1:], rest[1:], strict=True))]
-        q = _touched(place, rate, rho, side * self.radius)
+        q = self._touched(place, rate, rho, side)
         plane = [a + 1j * b.real for a, b in zip(rho, q, strict=True)]
         turning = [x.imag for x in quotient(derived(plane), plane)]
         polar = [np.angle(plane[0]) - angle, *(t / (k + 1) for k, t in enumerate(turning))]
         polar[1] = polar[1] - 1.0
         return polar, [x.imag for x in q]
+
+    def _touched(self, place: Series, rate: Series, rho: Series, side: int) -> Series:
+        """Series of the contact p + r n."""
+        size: Series = [self.radius_at(rho[0]), *(self.taper * x for x in rho[1:])]
+        w = [a + self.taper * s - b for a, s, b in zip(rho, size, rate, strict=True)]
+        least = power([x.real for x in product(w, conjugate(w))], -0.5)
+        normal: Series = [1j * side * x for x in product(w, least)]
+        if self.taper:
+            lean = [self.taper * x for x in product([x.real for x in place], least)]
+            square = product(lean, lean)
+            level = power([1 - square[0], *(-x for x in square[1:])], 0.5)
+            normal = product(product(w, least), [1j * side * a - b for a, b in zip(level, lean, strict=True)])
+        return [a + b for a, b in zip(place, product(size, normal), strict=False)]
 
     def edge_speed(self, angle: Real, side: int, radius: ArrayLike, piece: LawPiece) -> Real:
         """How far a wall's edge on a cylinder goes round for a step of the cam angle: 1 in a dwell, 0 at a cusp.
@@ -182,13 +225,11 @@ class BarrelCam:
         place = self.place(angle, 2, piece)
         p, rate, second = place[0], place[1], 2 * place[2]
         rho = self.distance_along(place, side, radius)
-        w = rho - rate
-        normal, size = 1j * w / np.abs(w), np.abs(w)
-        y = p.real + side * self.radius * normal.real
-        reach = side * self.radius * (1j * normal).real
-        # turn of the normal: by the angle, and by rho
-        by_angle, by_rho = (np.conj(w) * -second).imag / size**2, rate.imag / size**2
-        y_angle, y_rho = rate.real + reach * by_angle, reach * by_rho
+        w, normal, lean = self._normal(place, side, rho)
+        size = self.radius_at(rho)
+        y = p.real + size * normal.real
+        y_angle = rate.real - size * normal.imag * self._turn(w, lean, side, -second, rate.real)
+        y_rho = self._slope(w, normal, lean, side, size)
         rho_angle = -y * y_angle / (rho + y * y_rho)
         total = y_angle + y_rho * rho_angle
         return np.asarray(1 - (rho * total - y * rho_angle) / (rho**2 + y**2))
@@ -213,8 +254,7 @@ class BarrelCam:
     def pressure_angle(self, angle: Real, radius: ArrayLike, piece: LawPiece, side: int = LOWER) -> Real:
         """Angle between the normal of the contact on a cylinder and the roller's way, rad."""
         place = self.place(angle, 1, piece)
-        w = self.distance_along(place, side, radius) - place[1]
-        normal = 1j * w / np.abs(w)
+        normal = self.upright * self._normal(place, side, self.distance_along(place, side, radius))[1]
         way = _way(self.guide, place[0])
         return np.asarray(np.arccos(np.clip(np.abs((normal * np.conj(way)).real), 0.0, 1.0)))
 
@@ -232,21 +272,24 @@ class BarrelCam:
                     best, where = -value, at
         return best, where
 
-    def with_radius(self, radius: float) -> BarrelCam:
-        """The same motion with another roller."""
-        return replace(self, radius=radius)
+    def with_radius(self, radius: float, taper: float | None = None) -> BarrelCam:
+        """The same motion with another roller, of the same cone angle or of another."""
+        return replace(self, radius=radius, taper=self.taper if taper is None else taper)
 
     def distance(self, points: Real, near: Real | None = None, width: float = 0.0) -> Real:
-        """Distance of points (n, 3) of the cam's frame from the nearest place of the roller's axis, mm.
+        """Distance of points (n, 3) of the cam's frame from the nearest place of the roller, mm: below 0 inside it.
 
-        Those of a wall have the roller's radius; as parallel surfaces are envelopes too, what others differ from it
-        is their distance from the wall. The least of samples over the cam angle, and Newton's steps in a bracket;
-        ``near`` (n,): cam angles that are known to stand close by, within ``width`` rad, take the place of the samples.
+        It is 0 on a wall; as parallel surfaces are envelopes too, of others it is the distance from the wall, above 0
+        in the material. The least of samples over the cam angle, and Newton's steps in a bracket; ``near`` (n,): cam
+        angles that are known to stand close by, within ``width`` rad, take the place of the samples.
         """
-        if near is not None:
-            width += 0.1 * self.radius / (self.outer + self._fastest())
-            return self._refined(points, near, near - width, near + width)[0]
-        return self.nearest(points)[0]
+        return self.nearest(points)[0] if near is None else self.foot(points, near, width)[0]
+
+    def foot(self, points: Real, near: Real, width: float) -> tuple[Real, Real]:
+        """Distances of points (n, 3) as above, mm, and the cam angles of those places, by ones close by, rad."""
+        width += 0.1 * self.radius / (self.outer + self._fastest())
+        away, _, at = self._refined(points, near, near - width, near + width)
+        return away, at
 
     def nearest(self, points: Real) -> tuple[Real, Real]:
         """Distances of points (n, 3), mm, and on which side of the roller each stands: above 0 at the upper wall."""
@@ -265,20 +308,24 @@ class BarrelCam:
         share = np.linspace(0, 1, math.ceil(np.clip(_PER_SLOPE * (1 + self._fastest() / self.inner), 12, 400)))
         samples = -polar + first + share[:, None] * (last - first)
         turned = plane * np.exp(1j * samples)
-        best = np.argmin(np.abs(turned.imag + 1j * z - self.place(samples, 0)[0]), axis=0)
+        away = np.abs(turned.imag + 1j * z - self.place(samples, 0)[0]) - self.radius_at(turned.real)
+        best = np.argmin(away, axis=0)
         column = np.arange(len(points))
         low, high = (samples[np.clip(best + k, 0, len(share) - 1), column] for k in (-1, 1))
-        return self._refined(points, samples[best, column], low, high)
+        return self._refined(points, samples[best, column], low, high)[:2]
 
-    def _refined(self, points: Real, at: Real, low: Real, high: Real) -> tuple[Real, Real]:
+    def _refined(self, points: Real, at: Real, low: Real, high: Real) -> tuple[Real, Real, Real]:
         plane, z = points[:, 0] + 1j * points[:, 1], points[:, 2]
         for step in range(_STEPS):
             place = self.place(at, 2)
             fixed = plane * np.exp(1j * at)
             gap = fixed.imag + 1j * z - place[0]
             rate = fixed.real - place[1]
-            slope = (np.conj(gap) * rate).real
+            # of |gap| - r: times |gap|, for the roller's axis may be met
+            size, swing = np.abs(gap), (np.conj(gap) * rate).real
+            slope = swing + self.taper * fixed.imag * size
             bend = np.abs(rate) ** 2 + (np.conj(gap) * (-fixed.imag - 2 * place[2])).real
+            bend = bend + self.taper * (fixed.real * size + fixed.imag * swing / np.maximum(size, 1e-300))
             low, high = np.where(slope < 0, at, low), np.where(slope > 0, at, high)
             with np.errstate(divide="ignore", invalid="ignore"):
                 after = at - slope / bend
@@ -287,7 +334,8 @@ class BarrelCam:
             if step > 1 and np.all(np.abs(after - at) <= 1e-12):
                 break
             at = after
-        return np.abs(gap), (gap * np.conj(1j * (fixed.real - place[1]))).real
+        away = self.upright * (np.abs(gap) - self.radius_at(fixed.real))
+        return away, (gap * np.conj(1j * (fixed.real - place[1]))).real, at
 
     def side_range(self) -> tuple[float, float]:
         """Least and greatest y of the roller's axis, mm: 0 for a follower that moves along the cam's axis."""
@@ -301,14 +349,6 @@ class BarrelCam:
         angles = np.concatenate([p.extremes(0) for p in self.motion.pieces])
         heights = self.place(angles, 0)[0].imag
         return float(heights.min()), float(heights.max())
-
-
-def _touched(place: Series, rate: Series, rho: Series, radius: float) -> Series:
-    """Series of the contact p + r i w / |w|."""
-    w = [a - b for a, b in zip(rho, rate, strict=True)]
-    square = [x.real for x in product(w, conjugate(w))]
-    unit = product(w, power(square, -0.5))
-    return [a + 1j * radius * b for a, b in zip(place, unit, strict=False)]
 
 
 def _way(guide: Guide, place: Complex) -> Complex:

@@ -192,7 +192,7 @@ def _errors(cam: BarrelCam, spline: WallSpline, breaks: Real) -> Real:
     v = np.linspace(0, 1, 4 * (len(spline.across) - 2 * _DEGREE - 1) + 5)
     along = _matrix(spline.along, u)
     points = np.einsum("ui,vj,ijc->uvc", along, _matrix(spline.across, v), spline.poles)
-    away = cam.distance(points.reshape(-1, 3), np.repeat(u, len(v))) - cam.radius
+    away = cam.distance(points.reshape(-1, 3), np.repeat(u, len(v)))
     worst = np.abs(away).reshape(len(u), len(v)).max(axis=1)
     for row, radius, poles in ((0, cam.inner, spline.edges[0]), (-1, cam.outer, spline.edges[1])):
         polar, height = (along @ poles).T

@@ -16,7 +16,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
+from geometry.bounds import derivative_bound
 from geometry.cams.barrel import LOWER, UPPER, BarrelCam
+from geometry.cams.barrel_bounds import edge_bounds
 from geometry.carried import Carried, Mirrored
 from geometry.curve import (
     Complex,
@@ -32,11 +34,10 @@ from geometry.errors import CuspError, GeometryError, OffsetError
 from geometry.intersect import crossing
 from geometry.line_arc import Arc, Line
 from geometry.motion_laws.piece import LawPiece, sign_changes
-from geometry.offset import OffsetCurve
 from geometry.offset_region import OffsetRegion
 from geometry.placement import Placement2
 from geometry.profile import Label, Profile, Region, Segment
-from geometry.series import FACTORIALS
+from geometry.series import FACTORIALS, Series, conjugate, derived, power, product, unit_majorant
 
 _SPLIT_SAMPLES = 129
 _LEAST_SHARE = 1e-4
@@ -49,7 +50,7 @@ _REFINEMENTS = 4
 class DevelopedEdge:
     """A wall's edge on the outer cylinder, unrolled, over the cam angle t: R (polar angle + pi) + i (z - middle).
 
-    With growing cam angle it runs to the left.
+    With growing cam angle it runs to the left. ``distance``: of a parallel of it, mm to its left.
     """
 
     cam: BarrelCam
@@ -58,12 +59,21 @@ class DevelopedEdge:
     middle: float
     start: float
     end: float
+    distance: float = 0.0
 
     @property
     def domain(self) -> tuple[float, float]:
         return self.start, self.end
 
     def _series(self, t: ArrayLike, order: int) -> list[Complex]:
+        if not self.distance:
+            return self._edge(t, order)
+        edge = self._edge(t, order + 1)
+        first = derived(edge)
+        unit = product(first, power([x.real for x in product(first, conjugate(first))], -0.5))
+        return [x + 1j * self.distance * u for x, u in zip(edge, unit, strict=False)]
+
+    def _edge(self, t: ArrayLike, order: int) -> list[Complex]:
         at = np.asarray(t, dtype=float)
         polar, height = self.cam.edge_series(self.piece, self.side, self.cam.outer, at, order)
         found = [self.cam.outer * a + 1j * z for a, z in zip(polar, height, strict=True)]
@@ -77,7 +87,7 @@ class DevelopedEdge:
         return FACTORIALS[order] * self._series(t, order)[order]
 
     def tangent(self, t: ArrayLike) -> Complex:
-        first = self._series(t, 1)[1]
+        first = self._edge(t, 1)[1]
         return np.asarray(first / np.abs(first))
 
     def curvature(self, t: ArrayLike) -> Real:
@@ -90,18 +100,38 @@ class DevelopedEdge:
         cross = (np.conj(first) * second).imag
         return (np.conj(first) * third).imag * np.abs(first) ** 2 - 3 * cross * (np.conj(first) * second).real
 
-    def derivative_bound(self, order: int, a: float, b: float) -> None:
-        """None is proven."""
+    def series(self, t: ArrayLike, order: int) -> Series:
+        """Taylor coefficients at ``t``."""
+        return [*self._series(t, order)]
 
-    def offset(self, distance: float) -> Curve:
+    def series_bound(self, order: int, a: Real, b: Real) -> Series:
+        """Bounds of their moduli on each interval."""
+        low, high = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
+        top = order + 1 if self.distance else order
+        polar, height = edge_bounds(self.cam, self.piece, self.cam.outer, top, low, high)
+        edge = [np.hypot(self.cam.outer * x, z) for x, z in zip(polar, height, strict=True)]
+        if not self.distance:
+            return edge
+        half = (high - low) / 2
+        with np.errstate(all="ignore"):
+            least = np.abs(self._edge((low + high) / 2, 1)[1]) - half * 2 * edge[2]
+            unit = unit_majorant(derived(edge), least)
+            moved = [x + abs(self.distance) * u for x, u in zip(edge, unit, strict=False)]
+        return [np.where((least > 0) & np.isfinite(x), x, math.inf) for x in moved]
+
+    def derivative_bound(self, order: int, a: float, b: float) -> float | None:
+        return derivative_bound(self, order, a, b)
+
+    def offset(self, distance: float) -> DevelopedEdge:
+        edge, whole = replace(self, distance=0.0), self.distance + distance
         t = np.linspace(*self.domain, _SPLIT_SAMPLES)
         for _ in range(_REFINEMENTS):
-            stretch = 1 - distance * self.curvature(t)
+            stretch = 1 - whole * edge.curvature(t)
             least = int(np.argmin(stretch))
             if stretch[least] <= 0:
                 raise CuspError(float(t[least]), distance)
             t = np.linspace(t[max(least - 1, 0)], t[min(least + 1, len(t) - 1)], 9)
-        return OffsetCurve(self, distance)
+        return replace(self, distance=whole)
 
     def trimmed(self, a: float, b: float) -> DevelopedEdge:
         check_interval(self.domain, a, b)
@@ -144,8 +174,9 @@ def development(cam: BarrelCam, length: float, offset: float = 0.0) -> OffsetReg
 
 
 def _region(cam: BarrelCam, length: float, offset: float) -> Region:
-    if cam.is_groove and 2 * offset >= 2 * cam.radius:
-        raise OffsetError(offset, "closes the groove", cam.radius)
+    half = float(cam.radius_at(cam.outer))
+    if cam.is_groove and offset >= half:
+        raise OffsetError(offset, "closes the groove", half)
     lower = _jacket(cam, LOWER, -length / 2, length / 2, offset)
     apart = (_jacket(cam, UPPER, length / 2, length / 2, offset),) if cam.is_groove else ()
     return Region(lower, apart=apart)

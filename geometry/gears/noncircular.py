@@ -223,6 +223,8 @@ def _segments(gear: NoncircularGear, sides: Sides, cut: Cut, first: int) -> tupl
 
     lower: list[list[Curve]] = []
     upper: list[list[Curve]] = []
+    tips: list[Curve] = []
+    roots: list[Curve] = []
     segments: list[Segment] = []
     owners: list[tuple[int, int]] = []
     for k in range(teeth):
@@ -241,17 +243,20 @@ def _segments(gear: NoncircularGear, sides: Sides, cut: Cut, first: int) -> tupl
                 RolledFlank(line, crossing[1, k], -cut.alpha, at_tip[1, k], start[1, k]),
                 RolledFillet(line, centre[1, k], cut.depth, cut.radius, contact[1, k], 0.0),
             ])  # fmt: skip
-        tip = RolledLand(line, cut.tip, land[0, k], land[1, k])
+        tips.append(tips[j].mirrored() if 0 <= j < k else RolledLand(line, cut.tip, land[0, k], land[1, k]))
         made = [
             Segment(lower[k][0], Label.ROOT_FILLET),
             Segment(lower[k][1], Label.FLANK),
-            Segment(tip, Label.TIP_LAND),
+            Segment(tips[k], Label.TIP_LAND),
             Segment(upper[k][0], Label.FLANK),
             Segment(upper[k][1], Label.ROOT_FILLET),
         ]
         if cut.flat > TOLERANCES.relative_length * gear.module:
-            land_curve = RolledLand(line, -cut.depth - cut.radius, centre[1, k], centre[1, k] + 2 * cut.flat)
-            made.append(Segment(land_curve, Label.ROOT_LAND))
+            # the space after a tooth is the image of that before its image
+            j = image(k) - 1 if line.mirrored else -1
+            root = RolledLand(line, -cut.depth - cut.radius, centre[1, k], centre[1, k] + 2 * cut.flat)
+            roots.append(roots[j].mirrored() if 0 <= j < k else root)
+            made.append(Segment(roots[k], Label.ROOT_LAND))
         # a sharp rack tip on a straight place of the centrode leaves a point
         least = TOLERANCES.relative_length * gear.module
         kept = [i for i, s in enumerate(made) if cut.radius > 0 or abs(_chord(s)) > least]
@@ -324,15 +329,23 @@ def tip_places(line: PitchLine, crossing: Real, angle: Real, height: float) -> t
 
 
 def _feet(line: PitchLine, points: Complex, guess: Real) -> Real:
-    """Arc lengths of the feet of perpendiculars from points outside or near a convex centrode, by Newton's method."""
+    """Arc lengths of the feet of perpendiculars from points outside or near a convex centrode, by Newton's method.
+
+    Before its foot a point lies ahead of the tangent's point, after it behind: a bracket, bisected where Newton's steps
+    leave it, as they do at the sharp ends of a slender ellipse.
+    """
     s = guess
+    # an eighth of the centrode on either side has no other foot
+    low, high = guess - line.length / 8, guess + line.length / 8
     for _ in range(_STEPS):
         base, tangent, kappa = line.frame(s)
         gap = np.conj(tangent) * (points - base)
+        low, high = np.where(gap.real > 0, s, low), np.where(gap.real < 0, s, high)
         # outside, 1 + kappa height > 0
-        step = gap.real / np.maximum(1 - kappa * gap.imag, 0.1)
-        # not round the centrode
-        s = s + np.clip(step, -line.length / 16, line.length / 16)
-        if float(np.max(np.abs(step))) <= 1e-15 * line.length:
+        following = s + gap.real / np.maximum(1 - kappa * gap.imag, 0.1)
+        following = np.where((following >= low) & (following <= high), following, (low + high) / 2)
+        moved = float(np.max(np.abs(following - s)))
+        s = following
+        if moved <= 1e-15 * line.length:
             break
     return s

@@ -34,6 +34,15 @@ class _RolledCurve:
     start: float
     end: float
 
+    @property
+    def family(self) -> tuple[object, ...]:
+        """What curves of neighbouring teeth that are nearly alike have in common."""
+        return (type(self), *(math.copysign(1.0, x) for x in self._senses()))
+
+    def _senses(self) -> tuple[float, ...]:
+        """Numbers whose signs tell them apart."""
+        return (self.end - self.start,)
+
     def series(self, t: ArrayLike, order: int) -> Series:
         """Taylor coefficients at ``t``."""
         raise NotImplementedError
@@ -121,6 +130,9 @@ class RolledFlank(_RolledCurve):
     start: float
     end: float
 
+    def _senses(self) -> tuple[float, ...]:
+        return (self.angle,)
+
     @property
     def _lean(self) -> complex:
         return math.cos(self.angle) * cmath.exp(1j * self.angle)
@@ -184,6 +196,9 @@ class RolledFillet(_RolledCurve):
     tip_radius: float
     start: float
     end: float
+
+    def _senses(self) -> tuple[float, ...]:
+        return self.end - self.start, self.end + self.start
 
     def _arc(self, u: Real) -> Real:
         return self.centre - self.depth * np.tan(u)
@@ -251,6 +266,9 @@ class RolledLand(_RolledCurve):
     height: float
     start: float
     end: float
+
+    def _senses(self) -> tuple[float, ...]:
+        return (self.height,)
 
     def series(self, t: ArrayLike, order: int) -> Series:
         """Taylor coefficients at ``t``."""

@@ -13,7 +13,7 @@ from functools import cached_property
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from geometry.centrodes import BoundedCentrode
 from geometry.curve import Complex, Real
@@ -21,7 +21,7 @@ from geometry.errors import ConvergenceError
 from geometry.series import Series, composed, derived, exponential, majorant_power, power, product, quotient, sharpened
 
 _NODES = 16
-_FIRST_PANELS, _MOST_PANELS = 64, 32768
+_FIRST_PANELS, _MOST_PANELS = 64, 8192
 # the last coefficients of the polynomials are below this part of the largest value; of the curvature and its slope
 _TAIL, _CURVATURE_TAIL, _SLOPE_TAIL = 4e-15, 1e-13, 1e-11
 # where more panels no longer help, rounding is left: up to this
@@ -29,6 +29,7 @@ _ROUNDING_TAIL = 1e-11
 # columns of the table
 _PARAMETER, _ANGLE, _X, _Y, _DIRECTION, _CURVATURE, _SLOPE = range(7)
 _NEWTON_STEPS = 6
+_ORDERS = np.arange(float(_NODES))
 # pieces of a panel on which derivatives are bounded, and up to which order
 _PIECES, _MOST_ORDER = 4, 6
 
@@ -127,23 +128,28 @@ class PitchLine:
 
     @cached_property
     def _table(self) -> _Table:
-        panels, before = _FIRST_PANELS, math.inf
-        while panels <= _MOST_PANELS:
-            table, tail = _tabulated(self.shape, panels)
-            if tail <= _TAIL or (tail < _ROUNDING_TAIL and tail > before / 4):
+        edges = np.linspace(0, self.shape.period, _FIRST_PANELS + 1)
+        # what the last coefficients were before a panel was halved
+        before = np.full(_FIRST_PANELS, math.inf)
+        while len(edges) <= _MOST_PANELS + 1:
+            table, tails = _tabulated(self.shape, edges)
+            wide = (tails > _TAIL) & ((tails >= _ROUNDING_TAIL) | (tails <= before / 4))
+            if not wide.any():
                 return table
-            panels, before = 2 * panels, tail
-        raise ConvergenceError("arc length of the centrode", tail, panels // 2)
+            halves = np.where(wide, 2, 1)
+            before = np.repeat(np.where(wide, tails, before), halves)
+            edges = np.sort(np.concatenate([edges, (edges[:-1] + edges[1:])[wide] / 2]))
+        raise ConvergenceError("arc length of the centrode", float(tails.max()), len(edges) - 1)
 
     def _looked_up(self, s: Real, first: int, last: int) -> tuple[Real, Real]:
         """Columns ``first`` up to ``last`` (the last axis) at arc lengths, and the whole turns before them."""
         table = self._table
         turns = np.floor(s / table.edges[-1])
         rest = s - turns * table.edges[-1]
-        panel = np.minimum(np.searchsorted(table.edges, rest, side="right") - 1, len(table.edges) - 2)
+        panel = np.minimum(table.edges.searchsorted(rest, side="right") - 1, len(table.edges) - 2)
         low, high = table.edges[panel], table.edges[panel + 1]
-        x = np.clip(2 * (rest - low) / (high - low) - 1, -1.0, 1.0)
-        polynomials = np.cos(np.arccos(x)[..., None] * np.arange(_NODES))
+        x = np.maximum(np.minimum(2 * (rest - low) / (high - low) - 1, 1.0), -1.0)
+        polynomials = np.cos(np.arccos(x)[..., None] * _ORDERS)
         return np.matmul(table.values[panel, first:last], polynomials[..., None])[..., 0], turns
 
     def _parameters(self, s: Real) -> tuple[Real, Real]:
@@ -202,17 +208,20 @@ class PitchLine:
         pieces = len(edges) - 1
         # the rounding of an arc length does not hide a piece
         slack = 1e-12 * edges[-1]
-        first = np.floor((np.atleast_1d(a) - slack) / edges[1]).astype(int)
-        last = np.floor((np.atleast_1d(b) + slack) / edges[1]).astype(int)
-        found = [
-            bounds[: order + 1, np.arange(i, j + 1) % pieces].max(axis=1) for i, j in zip(first, last, strict=True)
-        ]
-        return [x.reshape(np.shape(a)) for x in np.array(found).T]
+        first, last = (_piece_at(edges, np.ravel(s) + k * slack) for s, k in ((a, -1), (b, 1)))
+        # neighbours of the first piece, all intervals at once; longer ones see the whole centrode
+        last = np.minimum(last, first + pieces - 1)
+        found = bounds[: order + 1, first % pieces]
+        for step in range(1, int((last - first).max(initial=0)) + 1):
+            found = np.maximum(found, bounds[: order + 1, np.minimum(first + step, last) % pieces])
+        return [x.reshape(np.shape(a)) for x in found]
 
     @cached_property
     def _piece_bounds(self) -> tuple[Real, Real]:
-        """Edges of even pieces of the arc length, and the bounds of coefficients 0 to 6 on each, (7, pieces)."""
-        edges = np.linspace(0.0, self.length, _PIECES * (len(self._table.edges) - 1) + 1)
+        """Edges of even pieces of the table's panels, and the bounds of coefficients 0 to 6 on each, (7, pieces)."""
+        panels = self._table.edges
+        inner = panels[:-1, None] + np.diff(panels)[:, None] * (np.arange(_PIECES) / _PIECES)
+        edges = np.append(inner.ravel(), panels[-1])
         return edges, np.array(self._bounds_on(_MOST_ORDER, edges[:-1], edges[1:]))
 
     def _bounds_on(self, order: int, a: Real, b: Real) -> Series:
@@ -240,6 +249,13 @@ class PitchLine:
         return [np.where((least > 0) & np.isfinite(x), x, math.inf) for x in found]
 
 
+def _piece_at(edges: Real, s: Real) -> NDArray[np.int64]:
+    """Number of the piece at arc lengths; it goes on counting from turn to turn."""
+    turns = np.floor(s / edges[-1])
+    inside = np.clip(edges.searchsorted(s - turns * edges[-1], side="right") - 1, 0, len(edges) - 2)
+    return np.asarray(inside + (turns * (len(edges) - 1)).astype(np.int64))
+
+
 def _speed_square(radius: Series, rate: Series) -> Series:
     """R'^2 + (R Theta')^2, one order less than R has."""
     slope, turned = derived(radius), product(radius, rate)
@@ -263,11 +279,10 @@ def _along(radius: Series, rate: Series, slow: Series, turn: Complex | Real, ord
     return product([turn * x for x in spread], composed(radius[: order + 1], step))
 
 
-def _tabulated(shape: PolarShape, panels: int) -> tuple[_Table, float]:
-    """The table of so many panels, and how large the last coefficients are left."""
+def _tabulated(shape: PolarShape, edges: Real) -> tuple[_Table, Real]:
+    """The table of panels of the parameter, and how large the last coefficients of each are left."""
     x = np.cos(math.pi * (np.arange(_NODES) + 0.5) / _NODES)
     nodes, weights = np.polynomial.legendre.leggauss(_NODES)
-    edges = np.linspace(0, shape.period, panels + 1)
     half = np.diff(edges) / 2
 
     def integrals(start: Real, width: Real) -> tuple[Real, Real, Real]:
@@ -296,13 +311,13 @@ def _tabulated(shape: PolarShape, panels: int) -> tuple[_Table, float]:
     cosines[0] /= 2
     values = columns @ cosines.T
     size = np.abs(columns).max(axis=(0, 2))
-    tails = np.abs(values[:, :, -2:]).max(axis=(0, 2)) / np.where(size > 0, size, 1.0)
-    tails[_CURVATURE] *= _TAIL / _CURVATURE_TAIL
-    tails[_SLOPE] *= _TAIL / _SLOPE_TAIL
+    tails = np.abs(values[:, :, -2:]).max(axis=2) / np.where(size > 0, size, 1.0)
+    tails[:, _CURVATURE] *= _TAIL / _CURVATURE_TAIL
+    tails[:, _SLOPE] *= _TAIL / _SLOPE_TAIL
     # a straight or a round centrode has no slope but for rounding
     if size[_SLOPE] <= 1e-11 * size[_CURVATURE] / arc[-1]:
-        tails[_SLOPE] = 0.0
-    return _Table(arc, values), float(tails.max())
+        tails[:, _SLOPE] = 0.0
+    return _Table(arc, values), tails.max(axis=1)
 
 
 def _columns(shape: PolarShape, t: Real, angle: Real) -> tuple[Real, ...]:

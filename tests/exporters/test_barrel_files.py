@@ -21,14 +21,15 @@ from geometry.cams.barrel_body import BarrelBody, Track
 from geometry.cams.follower_motion import TURN
 from parts.schema import SceneError
 from parts.solids import Mesh, body_mesh, mesh_outlines
-from tests.parts.test_barrel_cam import END, GROOVE, SWING, body_of, part_of
+from tests.parts.test_barrel_cam import CONE, END, GROOVE, SWING, body_of, part_of
 from tests.parts.test_cam import scene_text
 
 from .making import read_report, run
 
 FORMS = {"groove": GROOVE | {"clearance": 0.2, "bore": {"shape": "keyway", "diameter": 12.0},
                              "hub": {"diameter": 24.0, "above": 4.0, "below": 2.0}},
-         "end": END | {"bore_diameter": 10.0}, "tube": END | {"web_thickness": 0.0}, "swing": SWING}  # fmt: skip
+         "end": END | {"bore_diameter": 10.0}, "tube": END | {"web_thickness": 0.0}, "swing": SWING,
+         "cone": CONE, "cone end": END | {"roller_form": "conical"}}  # fmt: skip
 TOLERANCE = 0.05
 # angles at which the roller is put in
 COUNT = 240
@@ -129,11 +130,14 @@ def test_the_roller_in_the_groove_feels_the_walls() -> None:
     assert np.array_equal(lifted[UPPER], found[UPPER])
 
 
-def test_files_of_a_swinging_follower(tmp_path: Path) -> None:
+CONICAL = {"clearance": 0.1, "roller_form": "conical"}
+
+
+def test_files_of_a_swinging_follower_with_a_conical_roller(tmp_path: Path) -> None:
     scene = tmp_path / "s.toml"
     tail = ('tolerance = 0.01\n[[exports]]\nformat = "stl"\ntolerance = 0.05\n'
             '[[exports]]\nformat = "dxf"\npurpose = "drawing"\ntolerance = 1e-2\n')  # fmt: skip
-    scene.write_text(scene_text(SWING | {"clearance": 0.1}, tail), encoding="utf-8")
+    scene.write_text(scene_text(SWING | CONICAL, tail), encoding="utf-8")
     assert run("build", scene, "--out", tmp_path / "o") == 0
     folder = tmp_path / "o" / "s"
     by_path = {f["path"]: f for f in read_report(folder)["files"]}
@@ -145,7 +149,7 @@ def test_files_of_a_swinging_follower(tmp_path: Path) -> None:
     assert recheck(folder / "cam.stl").verdict.failures == ()
     # walls that the mesh's own check would have let through
     lifted = read_stl(folder / "cam.stl")
-    part = part_of(SWING | {"clearance": 0.1})
+    part = part_of(SWING | CONICAL)
     wall = next(f for f in part.body(0.0).faces() if isinstance(f, Track) and f.side == LOWER)
     vertices = lifted.vertices.copy()
     vertices[face_distance(part.body(0.0), wall, vertices) < 1e-4, 2] += 0.1
@@ -153,7 +157,7 @@ def test_files_of_a_swinging_follower(tmp_path: Path) -> None:
     found = reroll_barrel(folder / "bad.stl", "stl", part, 0.0, TOLERANCE, Verdict({}, ()))
     assert "the roller's place is wrong by 0.1" in found.failures[0]
     # the file of another cam in its place
-    body = body_of(SWING | {"clearance": 0.1, "swing_deg": 23.5, "length": measured_length(folder)})
+    body = body_of(SWING | CONICAL | {"swing_deg": 23.5, "length": measured_length(folder)})
     mesh, _ = mesh_of(body)
     write_stl(folder / "cam.stl", Mesh(mesh.vertices, mesh.triangles))
     assert recheck(folder / "cam.stl").verdict.failures
@@ -169,7 +173,7 @@ def test_a_step_file_holds_the_exact_cam(tmp_path: Path) -> None:
     from exporters.verify_barrel_step import verify_barrel_step
     from parts.brep import body_outlines, body_solid
 
-    for name in ("end",):
+    for name in ("end", "cone"):
         body = body_of(FORMS[name])
         splines = body_outlines(body, 1e-6)
         file = tmp_path / f"{name}.step"
@@ -190,7 +194,7 @@ def test_a_step_file_holds_the_exact_cam(tmp_path: Path) -> None:
 
 
 def random_cam(rng: random.Random) -> dict[str, object]:
-    """A cylindrical cam of any size; what cannot be is refused, see the caller."""
+    """A cylindrical cam of any size, with a cone or a cylinder; what cannot be is refused, see the caller."""
     size = 10 ** rng.uniform(0.5, 3)
     shares = [rng.uniform(0.1, 1) for _ in range(4)]
     rise, high, fall = (x / sum(shares) * 360 for x in shares[:3])
@@ -201,6 +205,8 @@ def random_cam(rng: random.Random) -> dict[str, object]:
     keys: dict[str, object] = {"kind": "barrel_cam", "form": rng.choice(["groove", "end"]), "phases": phases,
                                "outer_diameter": size, "groove_depth": size * rng.uniform(0.02, 0.4),
                                "roller_diameter": size * rng.uniform(0.01, 0.4)}  # fmt: skip
+    if rng.random() < 0.5:
+        keys |= {"roller_form": "conical"} | ({"cone_angle_deg": rng.uniform(5, 60)} if rng.random() < 0.5 else {})
     if rng.random() < 0.4:
         return keys | {"swing_deg": rng.uniform(2, 50), "oscillating": {"arm_length": size * rng.uniform(0.3, 1.5)}}
     return keys | {"lift": size * 10 ** rng.uniform(-2, 0)}

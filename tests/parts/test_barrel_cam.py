@@ -25,6 +25,7 @@ GROOVE: dict[str, Any] = {"kind": "barrel_cam", "form": "groove", "outer_diamete
                           "roller_diameter": 10.0, "lift": 20.0, "phases": PHASES}  # fmt: skip
 END = GROOVE | {"form": "end", "lift": 12.0, "web_thickness": 3.0}
 SWING = {k: v for k, v in GROOVE.items() if k != "lift"} | {"swing_deg": 24.0, "oscillating": {"arm_length": 50.0}}
+CONE = SWING | {"roller_form": "conical", "cone_angle_deg": 40.0}
 
 
 def part_of(keys: dict[str, Any]) -> Part:
@@ -92,6 +93,11 @@ def test_the_clearance_widens_the_groove() -> None:
     (END | {"clearance": 0.1}, "clearance"),
     (GROOVE | {"web_thickness": 2.0}, "web_thickness"),
     (GROOVE | {"swing_deg": 2.0}, "swing_deg"),
+    (CONE | {"cone_angle_deg": 90.0}, "cone_angle_deg"),
+    (CONE | {"cone_angle_deg": 60.0, "roller_diameter": 3.0, "groove_depth": 20.0}, "cone_angle_deg"),
+    (GROOVE | {"lift": 60.0, "roller_diameter": 20.0, "roller_form": "conical", "clearance": 0.1,
+               "phases": [PHASES[0] | {"angle_deg": 40.0}, PHASES[1] | {"angle_deg": 10.0},
+                          PHASES[2] | {"angle_deg": 40.0}, PHASES[3] | {"angle_deg": 270.0}]}, "roller_diameter"),
     (SWING | {"swing_deg": 100.0, "oscillating": {"arm_length": 20.0}}, "swing_deg|roller_diameter"),
 ])  # fmt: skip
 def test_every_refusal_names_a_value_that_works(keys: dict[str, Any], key: str) -> None:
@@ -111,6 +117,31 @@ def test_every_refusal_names_a_value_that_works(keys: dict[str, Any], key: str) 
             return
         except SceneError:
             blamed, remedy = refusal(keys)
+
+
+def test_a_cone_has_its_apex_on_the_cams_axis_or_an_angle_of_its_own() -> None:
+    own = part_of(GROOVE | {"roller_form": "conical", "clearance": 0.2}).quantities
+    assert math.tan(math.radians(own["cone_angle_deg"]) / 2) == pytest.approx(10 / 60)
+    assert own["roller_floor_diameter"] == pytest.approx(10 * 22 / 30)
+    assert own["groove_width"] == pytest.approx(10.2)
+    assert part_of(CONE).quantities["cone_angle_deg"] == pytest.approx(40.0)
+    # the track of an end is highest at its inner edge
+    end = body_of(END | {"roller_form": "conical"})
+    assert end.length == pytest.approx(end.cam.height_range()[1] - 5 * 22 / 30)
+    assert refusal(GROOVE | {"cone_angle_deg": 20.0})[0] == "cone_angle_deg"
+
+
+def test_a_cone_moved_by_an_offset_stays_parallel() -> None:
+    part = part_of(CONE)
+    body = part.body(0.3)
+    assert isinstance(body, BarrelBody)
+    points = body.cam.wall(np.linspace(0, 6, 40), 1, 26.0)
+    assert np.abs(body_of(CONE).cam.distance(points) + 0.3).max() < 1e-12
+    for keys in (CONE, GROOVE, END):
+        for offset in (6.0, -30.0):
+            with pytest.raises(OffsetError) as caught:
+                part_of(keys).body(offset)
+            part_of(keys).body(caught.value.nearest)
 
 
 def test_keys_that_exclude_each_other_are_refused() -> None:
