@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from msgspec import Meta, Struct
 
-from geometry.errors import GeometryError, OffsetError, ParameterError, UndercutError, at_least
+from geometry.errors import GeometryError, OffsetError, ParameterError, UndercutError, at_least, at_most
 from geometry.findings import Finding
 from geometry.gears.offset_tooth import OffsetRegion
 from geometry.hub_holes import HubHoles
 from geometry.profile import Profile, Region
+from geometry.trial import is_trial
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.cam_keys import PhaseTable, motion_of, without_base
 from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes
@@ -206,8 +207,23 @@ def _in_keys(spec: CamSpec, refusal: ParameterError) -> ParameterError:
     names = {"radius": "follower_radius"} | ({"lift": "swing_deg"} if swing else {})
     if swing:
         names |= {key: f"oscillating.{key}" for key in ("centre_distance", "arm_length", "face_offset", "sense")}
+    if refusal.name == "base_circle_radius" and spec.base_circle_radius is not None:
+        # the mathematics speaks of the prime circle
+        return _reachable(spec, spec.base_circle_radius, refusal)
     value = math.degrees(refusal.value) if refusal.name == "lift" and swing else refusal.value  # type: ignore[arg-type]
     return ParameterError(names.get(refusal.name, refusal.name), value, refusal.allowed)
+
+
+def _reachable(spec: CamSpec, base: float, refusal: ParameterError) -> ParameterError:
+    """A base circle that the arm does not reach, with the nearest one that it does."""
+    swing = spec.oscillating
+    if swing is None or spec.follower == "flat":
+        return refusal
+    low = abs(swing.centre_distance - swing.arm_length) - spec.follower_radius
+    high = swing.centre_distance + swing.arm_length - spec.follower_radius
+    margin = 1e-3 * (high - low)
+    limit = f"at least {at_least(low + margin, 4)}" if base < high else f"at most {at_most(high - margin, 4)}"
+    return ParameterError("base_circle_radius", base, f"the arm does not reach this circle; {limit} mm works")
 
 
 def _least_base(spec: CamSpec, motion: FollowerMotion) -> float:
@@ -237,6 +253,9 @@ def _least_base(spec: CamSpec, motion: FollowerMotion) -> float:
 def _whole(spec: CamSpec, cam: DiskCam) -> str:
     """What base circle leaves the cam whole, in words."""
     from geometry.cams.undercut import is_whole
+
+    if is_trial():
+        return "a larger one works"
 
     def works(base: float) -> bool:
         try:

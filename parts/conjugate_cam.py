@@ -16,6 +16,7 @@ from geometry.gears.offset_tooth import OffsetRegion
 from geometry.hub_holes import HubHoles
 from geometry.placement import Placement2
 from geometry.profile import Profile, Region
+from geometry.trial import is_trial
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.cam import CamSpec, base_radius, cam_findings, cam_of, cam_quantities, inner_radius, nearest_offset
 from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes
@@ -255,7 +256,7 @@ def _check_whole(spec: ConjugateCamSpec, owner: CamSpec, first: DiskCam, pair: C
         except GeometryError:
             return False
 
-    high = next((found * 1.5**k for k in range(1, 13) if works(found * 1.5**k)), None)
+    high = None if is_trial() else next((found * 1.5**k for k in range(1, 13) if works(found * 1.5**k)), None)
     remedy = "a smaller follower_radius or longer phases work"
     if high is not None:
         low = found
