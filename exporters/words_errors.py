@@ -207,21 +207,42 @@ a mesh file stores 7 digits, at this size at least {} mm works|файл сітк
 
 
 @cache
-def _patterns() -> list[tuple[re.Pattern[str], str]]:
-    """Every English pattern with its Ukrainian text, those with the most words of their own first."""
+def _patterns() -> list[tuple[list[str], str]]:
+    """The words between the values of every English pattern, with its Ukrainian text; those with most words first."""
     from exporters.words_errors_parts import CAMS, GEARS
 
     lines = [line for text in (_GENERAL, GEARS, CAMS) for line in text.strip().splitlines()]
     pairs = [line.split("|", 1) for line in lines]
     pairs.sort(key=lambda pair: -len(pair[0].replace("{}", "")))
-    return [(re.compile(re.escape(en).replace(r"\{\}", "(.*?)"), re.DOTALL), uk) for en, uk in pairs]
+    return [(en.split("{}"), uk) for en, uk in pairs]
+
+
+def _values(words: list[str], text: str) -> list[str] | None:
+    """What stands between words of a text that begins with the first and ends with the last of them.
+
+    In one pass, each at its first place: a regular expression of as many gaps takes for ever on a long list of names.
+    """
+    first, *inner = words
+    if not inner:
+        return [] if text == first else None
+    *inner, last = inner
+    if not text.startswith(first) or not text.endswith(last) or len(text) < len(first) + len(last):
+        return None
+    found, at, end = [], len(first), len(text) - len(last)
+    for word in inner:
+        place = text.find(word, at, end)
+        if place < 0:
+            return None
+        found.append(text[at:place])
+        at = place + len(word)
+    return [*found, text[at:end]]
 
 
 def piece_in_ukrainian(piece: str) -> str | None:
     """One piece of a refusal; None where the table lacks it."""
-    for pattern, text in _patterns():
-        if found := pattern.fullmatch(piece):
-            return text.format(*found.groups())
+    for words, text in _patterns():
+        if (values := _values(words, piece)) is not None:
+            return text.format(*values)
     if offer := _OFFER.fullmatch(piece):
         way, value, unit, _ = offer.groups()
         words = ["підходить", _WAY[way] if way else "", value, _UNITS[unit] if unit else ""]

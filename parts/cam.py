@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
 _MOST = 100_000.0
 _BISECTIONS = 40
+# part of the base circle that a bore leaves at least free
+_WALL = 0.9999
 # usual limits of the pressure angle: translating 30, swinging 45 degrees (practicum: 30 to 35, 40 to 50)
 _USUAL_PRESSURE_ANGLE = {False: 30.0, True: 45.0}
 # rollers are kept below this share of the least convex radius of the pitch curve
@@ -236,18 +238,22 @@ def _least_base(spec: CamSpec, motion: FollowerMotion) -> float:
         raise ParameterError("base_circle_radius", None, remedy)
     if spec.follower == "flat":
         if angle != 45:
-            remedy = "a flat face always pushes along its normal; 45 stands for the tangent's slope in S(S'') and works"
+            remedy = "a flat face always pushes along its normal: 45 stands for the tangent's slope in S(S''); 45 works"
             raise ParameterError("least_transmission_angle_deg", angle, remedy)
         return max(flat_base_radius(motion, spec.least_curvature_radius).value, 1e-3 * motion.lift)
     prime = roller_prime_radius(motion, spec.follower_offset, math.radians(90 - angle))
     base = prime - spec.follower_radius
     if not base > 0:
-        remedy = f"the prime circle is {prime:.6g} mm only; a smaller roller or a base_circle_radius works"
+        remedy = f"the prime circle is {prime:.6g} mm only; {_smaller(prime)}"
         raise ParameterError("follower_radius", spec.follower_radius, remedy)
     if spec.follower == "pointed":
         return base
     rho = spec.least_curvature_radius
     return max(base, convex_roller_base_radius(motion, spec.follower_radius, rho, follower_offset=spec.follower_offset))
+
+
+def _smaller(prime: float) -> str:
+    return f"at most {at_most(prime * 0.999, 4)} mm works" if prime > 0 else "a base_circle_radius works"
 
 
 def _whole(spec: CamSpec, cam: DiskCam) -> str:
@@ -317,9 +323,11 @@ def _check_bore(spec: CamSpec, cam: DiskCam) -> None:
     if not holes.bore_reach < inside:
         key = "bore_diameter" if spec.bore_diameter > 0 else "bore.diameter"
         value = spec.bore_diameter or 2 * holes.bore_reach
-        raise ParameterError(key, value, f"leaves no wall to the base circle; below {2 * inside:.6g} mm works")
+        raise ParameterError(
+            key, value, f"leaves no wall to the base circle; at most {at_most(_WALL * 2 * inside, 4)} mm works"
+        )
     if holes.reach > inside:
-        remedy = f"the holes must stay inside the base circle: within {inside:.6g} mm of the axis works"
+        remedy = f"the holes must stay inside the base circle, within {inside:.6g} mm of the axis"
         raise ParameterError("holes", 2 * holes.reach, remedy)
 
 

@@ -49,8 +49,6 @@ def motion_of(
         return motion_of_table([math.radians(a) for a, _ in table], [s for _, s in table])
     if not lift > 0:
         raise ParameterError(lift_key, lift, "phases need a lift above 0")
-    _check_whole_turn(phases or [])
-    _check_return(phases or [])
     made = []
     for index, phase in enumerate(phases or ()):
         angle = math.radians(phase.angle_deg)
@@ -60,6 +58,8 @@ def motion_of(
             continue
         law = law_of(phase.law, f"phases.item {index + 1}.law")
         made.append((rise if phase.move == "rise" else return_)(angle, phase.share * lift, law))
+    _check_whole_turn(phases or [])
+    _check_return(phases or [])
     return follower_motion(made)
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 from msgspec import Meta, Struct
 from msgspec.structs import replace
 
-from geometry.errors import GeometryError, OffsetError, ParameterError, UndercutError, at_least
+from geometry.errors import GeometryError, OffsetError, ParameterError, UndercutError, at_least, at_most
 from geometry.findings import Finding
 from geometry.gears.offset_tooth import OffsetRegion
 from geometry.hub_holes import HubHoles
@@ -116,7 +116,9 @@ def checked_conjugate(spec: ConjugateCamSpec, parts: dict[str, Struct]) -> Secon
     if not holes.reach < inside:
         key = "holes" if holes.bore_reach < inside else "bore" if spec.bore else "bore_diameter"
         raise ParameterError(
-            key, 2 * holes.reach, f"leaves no wall to the base circle; below {2 * inside:.6g} mm works"
+            key,
+            2 * holes.reach,
+            f"leaves no wall to the base circle; at most {at_most(2 * inside * 0.9999, 4)} mm works",
         )
     # where the first cam has its mark
     holes = with_timing_mark(holes, spec.timing_mark, first, inside)

@@ -152,9 +152,11 @@ def checked_groove(spec: GrooveCamSpec) -> GrooveDisk:
     if not disk.holes.bore_reach < inside:
         key = "bore_diameter" if spec.bore_diameter > 0 else "bore.diameter"
         value = spec.bore_diameter or 2 * disk.holes.bore_reach
-        raise ParameterError(key, value, f"leaves no wall to the groove; below {2 * inside:.6g} mm works")
+        raise ParameterError(
+            key, value, f"leaves no wall to the groove; at most {at_most(2 * inside * 0.9999, 4)} mm works"
+        )
     if disk.holes.reach > inside:
-        remedy = f"the holes must stay inside the groove: within {inside:.6g} mm of the axis works"
+        remedy = f"the holes must stay inside the groove, within {inside:.6g} mm of the axis"
         raise ParameterError("holes", 2 * disk.holes.reach, remedy)
     holes = with_timing_mark(disk.holes, spec.timing_mark, cam, inside)
     check_wheel(shape, 2 * inside, holes)

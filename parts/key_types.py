@@ -107,7 +107,7 @@ def trials(value: Any, key: KeyType) -> Iterator[Any]:
     """Values of a key worth a trial, from near to far."""
     if key.words:
         words = [w for w in key.words if w != value]
-        near = difflib.get_close_matches(str(value), words, 3, 0.5)
+        near = difflib.get_close_matches(str(value), words, 3, 0.5) if value not in key.words else []
         yield from [*near, *(w for w in words if w not in near)]
     if key.truth and not key.number:
         yield from (v for v in (False, True) if v is not value)
@@ -120,6 +120,12 @@ def trials(value: Any, key: KeyType) -> Iterator[Any]:
                 yield one
             if len(seen) >= _MOST_TRIALS:
                 return
+
+
+def coarse(value: Any, key: KeyType) -> list[Any]:
+    """A few of them far from each other, to see whether the key matters at all."""
+    found = list(trials(value, key))
+    return found if key.words or key.truth else found[1:12:2] + found[14:15]
 
 
 def _is_number(value: Any) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from itertools import chain
 from typing import Any
 
@@ -12,7 +12,7 @@ import msgspec
 
 from geometry.errors import GeometryError, at_least, at_most
 from geometry.trial import trial
-from parts.key_types import KeyType, key_type, trials
+from parts.key_types import KeyType, coarse, key_type, trials
 from parts.kinds import KINDS
 from parts.mates import MATES, mated
 from parts.offers import (
@@ -38,7 +38,7 @@ _BISECTIONS = 14
 # keys that hold the names of others
 _NAMES = ("first", "second", "instance", "part", "of")
 # what changes nothing that a refusal could be about
-_IDLE = ("kind", "material", "density", "colour", "title", "language", *_NAMES)
+_IDLE = ("kind", "move", "material", "density", "colour", "title", "language", *_NAMES)
 # changed only where nothing else helps
 _LAST = ("module", "number_of_teeth", "pressure_angle_deg", "face_width")
 _FAULTS = (GeometryError, ArithmeticError, ValueError)
@@ -58,10 +58,10 @@ def sure_refusal(scene: Any, refusal: SceneError) -> SceneError:
     if told and all(tried.whole(offer) for offer in told):
         return _noted(refusal, raw, place)
     found = _found(raw, place, tried.whole)
+    tried.more()
     if found is None and told and all(tried.here(offer) for offer in told):
         return _noted(refusal, raw, place)
     if found is None and tried.nearly is not None:
-        tried.more()
         (change,) = tried.nearly
         found = _refined(raw, change, tried.here)
     return _noted(refusal if found is None else _offered(refusal, raw, place, *found), raw, place)
@@ -96,8 +96,12 @@ class _Tried:
 
     def _is_other(self, changes: list[Change], refused: Place) -> bool:
         """Whether another fault is left: elsewhere, or of another key than the one that was blamed and changed."""
-        own = changes[0].place == self.place and refused != self.place[: len(refused)]
-        return refused[:2] != self.place[:2] or own
+        own = (
+            bool(changes)
+            and changes[0].place[: len(self.place)] == self.place
+            and refused != self.place[: len(refused)]
+        )
+        return own or refused[:2] not in (self.place[:2], *(c.place[:2] for c in changes))
 
     def _refused(self, changes: list[Change]) -> Place | None:
         if self.left <= 0 or time.process_time() > self.until:
@@ -153,25 +157,32 @@ def _helix(spec: Any) -> float:
 
 
 Builds = Callable[[list[Change]], bool]
+Values = Callable[[Any, KeyType], Iterable[Any]]
 
 
 def _found(raw: dict[str, Any], place: Place, builds: Builds) -> tuple[list[Change], str] | None:
     """Changes that work, and the words for their number."""
-    for one in _keys(raw, place):
-        found = _one(raw, one, builds)
+    own, *others = _keys(raw, place)
+    held = [k for k in others if k[: len(own)] == own]
+    # whether another key matters at all shows soon; what does not is tried at length last
+    ways: list[tuple[Values, Place]] = [(trials, k) for k in (own, *held)]
+    ways += [(values, k) for values in (coarse, trials) for k in others if k not in held]
+    for values, one in ways:
+        found = _one(raw, one, values, builds)
         if found is not None:
             return found
     return _same_words(raw, place, builds) or _resets(raw, place, builds)
 
 
-def _one(raw: dict[str, Any], place: Place, builds: Builds) -> tuple[list[Change], str] | None:
+def _one(raw: dict[str, Any], place: Place, values: Values, builds: Builds) -> tuple[list[Change], str] | None:
     """Another value of one key, or none; the nearest number that works."""
     key, value = _type_of(raw, place), value_at(raw, place)
     if key is None:
         return None
+    key.words = tuple(sorted(key.words, key=lambda w: w not in _USUAL_WORDS)) if place[-1] == "law" else key.words
     if place[-1] in _NAMES:
         key.words = tuple(raw["parts"]) + tuple(k for k in raw.get("instances", {}) if place[0] != "parts")
-    tried = chain(_closing(raw, place), trials(value, key))
+    tried = chain(_closing(raw, place), _namesakes(raw, place, key), values(value, key))
     good = next((v for v in tried if builds([Change(place, v)])), None)
     if good is None:
         loose = key.optional or isinstance(place[-1], int)
@@ -195,6 +206,15 @@ def _refined(raw: dict[str, Any], change: Change, builds: Builds) -> tuple[list[
     return _nearest(place, float(value), float(good), key, builds)
 
 
+def _namesakes(raw: dict[str, Any], place: Place, key: KeyType) -> list[Any]:
+    """What keys of the same name hold elsewhere in the scene: parts that belong together share their sizes."""
+    if not isinstance(place[-1], str) or len(place) != 3 or not key.number:
+        return []
+    found = [t.get(place[-1]) for name, t in raw["parts"].items() if name != place[1] and isinstance(t, dict)]
+    value = value_at(raw, place)
+    return [v for v in dict.fromkeys(v for v in found if isinstance(v, int | float)) if v != value and key.allows(v)]
+
+
 def _closing(raw: dict[str, Any], place: Place) -> Iterator[float]:
     """The angle of a phase that fills the turn."""
     phases = value_at(raw, place[:-2])
@@ -215,11 +235,18 @@ def _nearest(place: Place, value: float, good: float, key: KeyType, builds: Buil
                 break
             middle = (near + far) / 2
             near, far = (middle, far) if builds([Change(place, middle)]) else (near, middle)
+    if near == good and key.allows(value):
+        # no other one comes nearer: it has to be this
+        way = ""
     for digits in (1, 2, 4, 6, 9):
         told = float(rounded(near, digits))
         if abs(told - near) <= 2e-3 * abs(near) and key.allows(told) and builds([Change(place, told)]):
             return [Change(place, told)], way
     return [Change(place, near)], way
+
+
+# words that come first in their turn
+_USUAL_WORDS = ("sine", "polynomial_345", "polynomial_4567", "modified_sine")
 
 
 def _type_of(raw: dict[str, Any], place: Place) -> KeyType | None:
@@ -246,6 +273,7 @@ def _keys(raw: dict[str, Any], place: Place) -> list[Place]:
         return (
             leaf[:2] != place[:2],
             leaf[: len(place)] != place,
+            not isinstance(value_at(raw, leaf), int | float),
             len(leaf) == 3 and leaf[-1] in _LAST,
             leaf[: len(place) - 1] != place[:-1],
             leaf[:3] != place[:3],
@@ -319,7 +347,9 @@ def _resets(raw: dict[str, Any], place: Place, builds: Builds) -> tuple[list[Cha
 def _offered(refusal: SceneError, raw: dict[str, Any], place: Place, changes: list[Change], way: str) -> SceneError:
     """The refusal with changes that work in place of what it said."""
     reason = reason_of(refusal.remedy) or "does not fit the other keys"
-    if len(changes) > 1:
+    # a key that does not exist stays the one to blame
+    foreign = refusal.remedy.startswith("unknown key") and changes[0].place != place
+    if len(changes) > 1 or foreign:
         return SceneError(
             refusal.source, refusal.key, refusal.value, f"{reason}; with {', '.join(c.label for c in changes)} it works"
         )

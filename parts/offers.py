@@ -25,7 +25,7 @@ REMOVED: Any = object()
 _NUMBER = r"-?\d[\d.]*(?:e[+-]?\d+)?"
 _UNIT = r"(?: (?:mm|degrees|modules))?"
 _VALUE = rf'(?:"[^"]*"|\[[^\]]*\]|true|false|{_NUMBER})'
-_OWN = re.compile(rf"(?:at most |at least )?({_VALUE}){_UNIT},? (?:teeth work|works|work|fits|does|leaves)\b.*")
+_OWN = re.compile(rf"(?:at most |at least )?({_VALUE}){_UNIT},? (?:teeth work|works|work)\b.*")
 _OTHER = re.compile(rf"(\w[\w.]*) = ({_VALUE}){_UNIT} (?:works|joins these two)")
 _TOGETHER = re.compile(r"with (.*) it works")
 _MEANT = re.compile(r"\(did you mean (.*?)\?\)")
@@ -119,7 +119,9 @@ def offers_in(refusal: SceneError, raw: Any) -> Iterator[list[Change]]:
     place = place_of(refusal.key)
     for piece in refusal.remedy.split("; "):
         if meant := _MEANT.search(piece):
-            yield _renamed(raw, place, meant[1]) if piece.startswith("unknown key") else [Change(place, meant[1])]
+            held = value_at(raw, place)
+            listed = [meant[1] if v == refusal.value else v for v in held] if isinstance(held, list) else meant[1]
+            yield _renamed(raw, place, meant[1]) if piece.startswith("unknown key") else [Change(place, listed)]
         if own := _OWN.fullmatch(piece):
             yield [Change(place, _like(own[1], value_at(raw, place)))]
         elif other := _OTHER.fullmatch(piece):
@@ -158,7 +160,14 @@ def _like(text: str, old: Any) -> Any:
 
 def reason_of(remedy: str) -> str:
     """A refusal without what it offers."""
-    kept = [piece for piece in remedy.split("; ") if not _REMEDY.search(piece)]
+    kept = []
+    for piece in remedy.split("; "):
+        why, colon, what = piece.rpartition(": ")
+        if not _REMEDY.search(piece):
+            kept.append(piece)
+        elif colon and _REMEDY.search(what):
+            # the reason and what to do in one piece
+            kept.append(why)
     return "; ".join(kept)
 
 

@@ -24,6 +24,9 @@ def offers_tried(read: Read) -> Read:
                 raise
             from parts.offer_search import sure_refusal
 
-            raise sure_refusal(scene, refusal) from refusal
+            sure = sure_refusal(scene, refusal)
+            if sure is refusal:
+                raise
+            raise sure from refusal
 
     return wrapped  # type: ignore[return-value]

@@ -277,9 +277,10 @@ def _check_holes(spec: WedgeCamSpec, cam: WedgeCam) -> None:
         room = float(distance_to_profile(np.array([at]), outline)[0])
         key = "holes" if lone else f"holes.item {index + 1}"
         if not _inside(cam, spec, at):
-            raise ParameterError(
-                f"{key}.x", hole.x, f"the hole's centre at y = {hole.y:g} lies outside the plate; 0 works"
-            )
+            place = _nearest_place(cam, spec, hole, holes[:index], outline)
+            works = "another y works" if place is None else f"{place:.4f} works"
+            text = f"the hole's centre at y = {hole.y:g} lies outside the plate; {works}"
+            raise ParameterError(f"{key}.x", hole.x, text)
         others = [abs(at - complex(h.x, h.y)) - h.diameter / 2 for k, h in enumerate(holes) if k < index]
         most = 2 * (min([room, *others]) - _LEAST_WALL)
         if hole.diameter > most:

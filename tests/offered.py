@@ -84,12 +84,14 @@ def offered(raw: Raw, line: str) -> list[Raw]:
     place = place_named(line)
     old, found = at(raw, place), []
     remedy = line[len("s: ") :]
-    remedy = remedy.partition(": ")[2] if not remedy.startswith("mates") or ": parts." not in remedy else (
-        remedy.partition(": ")[2].partition(": ")[2])
-    if meant := re.search(r"unknown key \(did you mean (\w+)\?\)", line):
+    remedy = (
+        remedy.partition(": ")[2]
+        if not remedy.startswith("mates") or ": parts." not in remedy
+        else (remedy.partition(": ")[2].partition(": ")[2])
+    )
+    meant = re.search(r"unknown key \(did you mean (\w+)\?\)", line)
+    if meant and " works" not in line:
         return [put(put(raw, place, GONE), (*place[:-1], meant[1]), old)]
-    if meant := re.search(r"\(did you mean (\w+)\?\)", line):
-        found.append(put(raw, place, meant[1]))
     if together := TOGETHER.search(line):
         made = raw
         for item in re.split(r", (?=no |[a-z_][\w. ]* = )", together[1]):
@@ -98,11 +100,14 @@ def offered(raw: Raw, line: str) -> list[Raw]:
             made = put(made, inner, value_of(value, at(raw, inner)) if sign else GONE)
         return [made]
     for other in KEY_OFFER.finditer(remedy):
-        found.append(put(raw, (*place[:-1], *other[1].split(".")), value_of(other[2], at(raw, (*place[:-1], other[1])))))
+        found.append(
+            put(raw, (*place[:-1], *other[1].split(".")), value_of(other[2], at(raw, (*place[:-1], other[1]))))
+        )
     found += [put(raw, place, value_of(own[1], old)) for own in OFFER.finditer(remedy)]
     if re.search(r"(?:^|; )remove it$", remedy):
         found.append(put(raw, place, GONE))
-    return found
+    meant = re.search(r"\(did you mean (\w+)\?\)", line)
+    return found or ([put(raw, place, meant[1])] if meant else [])
 
 
 def fault_of(raw: Raw, *, several: bool = False) -> str:
@@ -221,11 +226,13 @@ def scenes() -> dict[str, Raw]:
         "cam and arm": _pair("cam_follower", cam(**swing), arm),
         "external": _pair("external_gear_pair", _spur(), _spur(number_of_teeth=31), working_centre_distance=51.2,
                           normal_backlash=0.5),
-        "helical pair": _pair("external_gear_pair", _spur(**helical), _spur(number_of_teeth=31, hand="left", **helical)),
+        "helical pair": _pair("external_gear_pair", _spur(**helical),
+                              _spur(number_of_teeth=31, hand="left", **helical)),
         "internal": _pair("internal_gear_pair", _spur(), {"kind": "ring_gear", "module": 2.0, "number_of_teeth": 60}),
         "rack": _pair("rack_pair", _spur(), {"kind": "rack", "module": 2.0, "number_of_teeth": 20}),
         "cut gear": _one(_spur(cutter={"number_of_teeth": 25}, helix_angle_deg=15.0)),
-        "cut ring": _one({"kind": "ring_gear", "module": 2.0, "number_of_teeth": 60, "cutter": {"number_of_teeth": 20}}),
+        "cut ring": _one({"kind": "ring_gear", "module": 2.0, "number_of_teeth": 60,
+                          "cutter": {"number_of_teeth": 20}}),
     }  # fmt: skip
     return found
 
