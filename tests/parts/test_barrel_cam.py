@@ -86,7 +86,6 @@ def test_the_clearance_widens_the_groove() -> None:
     (GROOVE | {"bore_diameter": 44.5}, "bore_diameter"),
     (GROOVE | {"hub": {"diameter": 70.0, "above": 3.0}}, "hub.diameter"),
     (GROOVE | {"bore_diameter": 20.0, "hub": {"diameter": 15.0, "above": 3.0}}, "hub.diameter"),
-    (END | {"bore_diameter": 43.9, "hub": {"diameter": 43.95, "above": 3.0}}, "bore_diameter"),
     (END | {"web_thickness": 9.0}, "web_thickness"),
     (END | {"web_thickness": 0.0, "bore_diameter": 8.0}, "web_thickness"),
     (END | {"clearance": 0.1}, "clearance"),
@@ -161,3 +160,11 @@ def test_the_built_in_scene_has_both_forms() -> None:
     parts, _ = make_parts(load_scene("barrel_cam"), "barrel_cam")
     assert {p.barrel.cam.is_groove for p in parts.values() if p.barrel} == {True, False}
     assert parts["barrel"].density == 1.24
+
+
+def test_a_bore_and_a_hub_that_no_number_fits_are_cured_in_one_step() -> None:
+    keys = END | {"bore_diameter": 43.9, "hub": {"diameter": 43.95, "above": 3.0}}
+    blamed, remedy = refusal(keys)
+    assert blamed == "hub"
+    assert remedy.endswith("; remove it")
+    part_of({k: v for k, v in keys.items() if k != "hub"})
