@@ -12,6 +12,7 @@ give only one of them|задайте лише одне з них
 follows from {}|випливає з {}
 move it inside|пересуньте всередину
 outside|зовні
+roller, mushroom or pointed works|підходить roller, mushroom або pointed
 a smaller one works|підходить менше
 a larger one works|підходить більше
 a smaller one elsewhere works|підходить менший в іншому місці
@@ -116,6 +117,8 @@ a flat face always pushes along its normal: 45 stands for the tangent's slope in
 lies outside of the part or in another hole|лежить поза деталлю або в іншому отворі
 there are {} seats|гнізд є {}
 {} pins touch each other|{} цівок торкаються одна одної
+leaves no seat|не лишає гнізда
+buries the pins|ховає цівки
 reaches the pins|сягає цівок
 lies beyond the pins|лежить за цівками
 of the other gear|іншого колеса

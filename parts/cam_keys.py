@@ -109,6 +109,11 @@ def _check_return(phases: list[PhaseTable]) -> None:
             raise ParameterError(f"phases.item {index + 1}.share", own, f"{reason}; {fitting:.12g} works")
     one_way = next(k for k, p in reversed(list(enumerate(phases))) if signs[p.move] * total > 0)
     other = "return_" if total > 0 else "rise"
+    rest = next((k for k, p in reversed(list(enumerate(phases))) if p.move == "dwell"), None)
+    if rest is not None:
+        place = f"phases.item {rest + 1}"
+        text = f'{reason}; with {place}.move = "{other}", {place}.law = "sine" it works'
+        raise ParameterError(f"{place}.move", "dwell", text)
     raise ParameterError(f"phases.item {one_way + 1}.move", phases[one_way].move, f'{reason}; "{other}" works')
 
 
