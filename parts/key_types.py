@@ -128,8 +128,9 @@ def coarse(value: Any, key: KeyType) -> list[Any]:
     return found if key.words or key.truth else found[1:12:2] + found[14:15]
 
 
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+def is_number(value: Any) -> bool:
+    """Whether a value is a number that may be computed with: whole ones may be too large for that."""
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= 1e300
 
 
 def _number_of(value: Any) -> float | None:
@@ -142,8 +143,8 @@ def _number_of(value: Any) -> float | None:
 
 def _whole(value: Any, key: KeyType) -> Iterator[int]:
     meant = _number_of(value)
-    start = value if _is_number(value) else meant if meant is not None else key.default
-    if not _is_number(start) or abs(start) > 1e12:
+    start = value if is_number(value) else meant if meant is not None else key.default
+    if not is_number(start) or abs(start) > 1e12:
         yield from (round(v) for v in (20.0, 30.0, *_LADDER, 1000.0) if v >= 1)
         return
     inside = round(min(max(start, key.low), key.high))
@@ -156,10 +157,10 @@ def _whole(value: Any, key: KeyType) -> Iterator[int]:
 
 
 def _real(value: Any, key: KeyType) -> Iterator[float]:
-    meant, usual = _number_of(value), float(key.default) if _is_number(key.default) else None
+    meant, usual = _number_of(value), float(key.default) if is_number(key.default) else None
     if meant is not None:
         yield meant
-    if not _is_number(value):
+    if not is_number(value):
         yield from (v for v in (usual, *_LADDER) if v is not None)
         return
     inside = float(min(max(value, key.low), key.high))

@@ -12,7 +12,7 @@ import msgspec
 
 from geometry.errors import GeometryError, at_least, at_most
 from geometry.trial import trial
-from parts.key_types import KeyType, coarse, key_type, trials
+from parts.key_types import KeyType, coarse, is_number, key_type, trials
 from parts.kinds import KINDS
 from parts.mates import MATES, mated
 from parts.offers import (
@@ -196,7 +196,7 @@ def _refined(raw: dict[str, Any], change: Change, builds: Builds) -> tuple[list[
     """A change that works with its number as near to the refused one as works too, and the words for it."""
     place, good = change.place, change.value
     key, value = _type_of(raw, place), value_at(raw, place)
-    plain = isinstance(value, int | float) and not isinstance(value, bool)
+    plain = is_number(value)
     if key is None or not key.number or not plain or isinstance(good, str | bool) or not isinstance(good, int | float):
         return [change], ""
     if place[-1] == "angle_deg":
@@ -212,15 +212,16 @@ def _namesakes(raw: dict[str, Any], place: Place, key: KeyType) -> list[Any]:
         return []
     found = [t.get(place[-1]) for name, t in raw["parts"].items() if name != place[1] and isinstance(t, dict)]
     value = value_at(raw, place)
-    return [v for v in dict.fromkeys(v for v in found if isinstance(v, int | float)) if v != value and key.allows(v)]
+    return [v for v in dict.fromkeys(v for v in found if is_number(v)) if v != value and key.allows(v)]
 
 
 def _closing(raw: dict[str, Any], place: Place) -> Iterator[float]:
     """The angle of a phase that fills the turn."""
     phases = value_at(raw, place[:-2])
     if place[-1] == "angle_deg" and isinstance(phases, list) and isinstance(place[-2], int):
-        angles = [p.get("angle_deg") for k, p in enumerate(phases) if k != place[-2] and isinstance(p, dict)]
-        if all(isinstance(a, int | float) for a in angles):
+        held = [p.get("angle_deg") for k, p in enumerate(phases) if k != place[-2] and isinstance(p, dict)]
+        angles = [float(a) for a in held if isinstance(a, int | float) and is_number(a)]
+        if len(angles) == len(held):
             yield round(360.0 - math.fsum(angles), 9)
 
 
@@ -253,6 +254,8 @@ def _type_of(raw: dict[str, Any], place: Place) -> KeyType | None:
     """The type of a key of a part, a mate, an export."""
     table = value_at(raw, place[:2])
     kind = table.get("kind") if isinstance(table, dict) else None
+    if not isinstance(kind, str):
+        kind = ""
     if place[0] == "parts" and kind in KINDS:
         return key_type(KINDS[kind][0], place[2:], table)
     if place[0] == "mates" and kind in MATES:

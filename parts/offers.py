@@ -96,7 +96,8 @@ def changed(raw: Any, changes: Sequence[Change]) -> Any:
     """The tables with changes; the last ones of a list first, so that places stay."""
     made = copy.deepcopy(raw)
     for change in sorted(changes, key=lambda c: tuple(map(str, c.place)), reverse=True):
-        owner, last = made, change.place[-1]
+        owner: Any = made
+        last: Any = change.place[-1]
         for word in change.place[:-1]:
             if isinstance(owner, dict):
                 owner = owner.setdefault(word, {})

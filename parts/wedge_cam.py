@@ -301,8 +301,10 @@ def _nearest_place(
 
     from geometry.measure import distance_to_profile
 
+    if is_trial():
+        return None
     ends = float(cam.centre(0.0).real) - spec.run_in, float(cam.centre(cam.motion.travel).real) + spec.run_out
-    places = np.round(np.linspace(*ends, _PLACES), 4) + 1j * hole.y
+    places = (np.round(np.linspace(*ends, _PLACES), 4) + 1j * hole.y).astype(np.complex128)
     room = distance_to_profile(places, outline)
     for other in others:
         room = np.minimum(room, np.abs(places - complex(other.x, other.y)) - other.diameter / 2)

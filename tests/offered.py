@@ -217,6 +217,13 @@ def scenes() -> dict[str, Raw]:
                           "pivot_diameter": 4.0}),
         "plate follower": _one({"kind": "follower", "end": "flat", "plate_diameter": 60.0}),
         "mushroom stem": _one({"kind": "follower", "end": "mushroom", "plate_diameter": 40.0, "follower_radius": 60.0}),
+    }  # fmt: skip
+    return found | _mated(swing, arm, helical)
+
+
+def _mated(swing: Raw, arm: Raw, helical: Raw) -> dict[str, Raw]:
+    """Scenes of two parts that belong together."""
+    return {
         "conjugate": {"parts": {"a": cam(), "b": {"kind": "conjugate_cam", "of": "a", "roller_distance": 130.0}},
                       "mates": [{"kind": "conjugate_cams", "first": "a", "second": "b", "height": 12.0}],
                       "exports": [{"format": "svg"}]},
@@ -234,7 +241,6 @@ def scenes() -> dict[str, Raw]:
         "cut ring": _one({"kind": "ring_gear", "module": 2.0, "number_of_teeth": 60,
                           "cutter": {"number_of_teeth": 20}}),
     }  # fmt: skip
-    return found
 
 
 # --- what may be wrong

@@ -225,4 +225,3 @@ def test_a_flat_arms_outline_is_its_bar_and_its_boss(face: float, sense: str) ->
     # where the boss does not stand out, the bar ends square behind it
     square = box(-8.0, min(near, far, 0.0), 0.0, max(near, far, 0.0))
     assert made.difference(boss.union(bar).union(square)).area < 2e-3
-
