@@ -212,7 +212,9 @@ def _namesakes(raw: dict[str, Any], place: Place, key: KeyType) -> list[Any]:
         return []
     found = [t.get(place[-1]) for name, t in raw["parts"].items() if name != place[1] and isinstance(t, dict)]
     value = value_at(raw, place)
-    return [v for v in dict.fromkeys(v for v in found if is_number(v)) if v != value and key.allows(v)]
+    return [
+        v for v in dict.fromkeys(v for v in found if v is not None and is_number(v)) if v != value and key.allows(v)
+    ]
 
 
 def _closing(raw: dict[str, Any], place: Place) -> Iterator[float]:
