@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from exporters.plan import Plan
+from exporters.preview_labels import Label, spread_labels
 from exporters.svg import head, number, path_data, save
 from exporters.tables import check_lines
 from exporters.words import finding_text, words
@@ -86,6 +87,7 @@ def scene_preview(plan: Plan, checks: dict[str, Any], folder: Path) -> Path:
     lines = [head(middle, extra_height=caption - spare)]
     lines.append('<rect width="100%" height="100%" style="fill:#ffffff"/>')
     lines.append(f'<g transform="translate(0 {number(caption - spare / 2)})">')
+    labels: list[Label] = []
     for index, instance in enumerate(stand):
         turn = cmath.exp(1j * instance.rotation)
         placed = [_placed(b.geometry, turn, instance.centre + shift) for b in reversed(outlines[instance.part])]
@@ -102,8 +104,10 @@ def scene_preview(plan: Plan, checks: dict[str, Any], folder: Path) -> Path:
             middle + place.real,
             middle - place.imag - _label_height(outlines[instance.part], outers[index] - instance.centre),
         )
-        text = f"font-family:sans-serif;font-size:{size:.4g}px;text-anchor:middle;fill:#202830"
-        lines.append(f'<text x="{x:.4g}" y="{y:.4g}" style="{text}">{_escaped(instance.id)}</text>')
+        labels.append(Label(instance.id, x, y, size))
+    style = f"font-family:sans-serif;font-size:{size:.4g}px;text-anchor:middle;fill:#202830"
+    for label in spread_labels(labels):
+        lines.append(f'<text x="{label.x:.4g}" y="{label.y:.4g}" style="{style}">{_escaped(label.text)}</text>')
     lines.append("</g>")
     lines += _caption(rows, size, size)
     file = folder / f"{scene_preview_name(plan)}"

@@ -21,10 +21,13 @@ _WAY = {
 }  # fmt: skip
 _UNITS = {"mm": "мм", "degrees": "град", "modules": "модулів"}
 _OFFER = re.compile(
-    r"(?:(at most|at least|above|below|less than|more than) )?([-\w.+]+)(?: (mm|degrees|modules))?,? "
+    r"(?:(at most|at least|above|below|less than|more than) )?([-\w.+]+|\"[^\"]*\"|\[.*\])(?: (mm|degrees|modules))?,? "
     r"(works|work|fits|does|do)"
 )
-_RANGE = re.compile(r"(?:(.*?): )?(?:(at least|above) (\S+?))?(?:, )?(?:at most (\S+?))?(?: (mm|degrees|modules))?")
+_RANGE = re.compile(
+    r"(?:(.*?): )?(?:(at least|above) (\S+?))?(?:, )?(?:(at most|below) (\S+?))?"
+    r"(?: (mm|degrees|modules|g/cm\^3|rpm|turns))?"
+)
 _TYPES = {
     "a number": "числом", "a whole number": "цілим числом", "true or false": "true або false",
     "true, false or a table": "true, false або таблицею", "text in quotes": "текстом у лапках",
@@ -207,22 +210,44 @@ a mesh file stores 7 digits, at this size at least {} mm works|файл сітк
 
 
 @cache
-def _patterns() -> list[tuple[re.Pattern[str], str]]:
-    """Every English pattern with its Ukrainian text, those with the most words of their own first."""
+def _patterns() -> list[tuple[list[str], str]]:
+    """The words between the values of every English pattern, with its Ukrainian text; those with most words first."""
+    from exporters.words_errors_cams import OFFERS, PARTS
     from exporters.words_errors_linkage import LINKAGES
     from exporters.words_errors_parts import CAMS, GEARS
 
-    lines = [line for text in (_GENERAL, GEARS, CAMS, LINKAGES) for line in text.strip().splitlines()]
+    lines = [line for text in (_GENERAL, GEARS, CAMS, LINKAGES, OFFERS, PARTS) for line in text.strip().splitlines()]
     pairs = [line.split("|", 1) for line in lines]
     pairs.sort(key=lambda pair: -len(pair[0].replace("{}", "")))
-    return [(re.compile(re.escape(en).replace(r"\{\}", "(.*?)"), re.DOTALL), uk) for en, uk in pairs]
+    return [(en.split("{}"), uk) for en, uk in pairs]
+
+
+def _values(words: list[str], text: str) -> list[str] | None:
+    """What stands between words of a text that begins with the first and ends with the last of them.
+
+    In one pass, each at its first place: a regular expression of as many gaps takes for ever on a long list of names.
+    """
+    first, *inner = words
+    if not inner:
+        return [] if text == first else None
+    *inner, last = inner
+    if not text.startswith(first) or not text.endswith(last) or len(text) < len(first) + len(last):
+        return None
+    found, at, end = [], len(first), len(text) - len(last)
+    for word in inner:
+        place = text.find(word, at, end)
+        if place < 0:
+            return None
+        found.append(text[at:place])
+        at = place + len(word)
+    return [*found, text[at:end]]
 
 
 def piece_in_ukrainian(piece: str) -> str | None:
     """One piece of a refusal; None where the table lacks it."""
-    for pattern, text in _patterns():
-        if found := pattern.fullmatch(piece):
-            return text.format(*found.groups())
+    for words, text in _patterns():
+        if (values := _values(words, piece)) is not None:
+            return text.format(*values)
     if offer := _OFFER.fullmatch(piece):
         way, value, unit, _ = offer.groups()
         words = ["підходить", _WAY[way] if way else "", value, _UNITS[unit] if unit else ""]
@@ -242,15 +267,21 @@ def _range_in_ukrainian(piece: str) -> str | None:
     found = _RANGE.fullmatch(piece)
     if found is None or not (found[2] or found[4]):
         return None
-    _, low, least, most, unit = found.groups()
-    words = [f"{_WAY[low]} {least}" if low else "", f"щонайбільше {most}" if most else ""]
+    _, low, least, high, most, unit = found.groups()
+    words = [f"{_WAY[low]} {least}" if low else "", f"{_WAY[high]} {most}" if high else ""]
     return ", ".join(filter(None, words)) + (f" {_UNITS.get(unit, unit)}" if unit else "")
 
 
 def in_ukrainian(remedy: str) -> str:
     """The reason and remedy of a refusal, each piece that the table knows in Ukrainian."""
     pieces = _DID_YOU_MEAN.sub(r" (можливо, \1?)", remedy).split("; ")
-    return "; ".join(piece if (made := piece_in_ukrainian(piece)) is None else made for piece in pieces)
+    made = [piece_in_ukrainian(piece) for piece in pieces]
+    if None in made:
+        from exporters.words_keys import without_meaning
+
+        told = [without_meaning(p) if m is None else m for p, m in zip(pieces, made, strict=True)]
+        made = [p if t is None else t for p, t in zip(pieces, told, strict=True)]
+    return "; ".join(filter(None, made))
 
 
 def refusal_line(error: SceneError, language: str) -> str:

@@ -286,6 +286,10 @@ def check_wheel(shape: WheelShape, root_diameter: float, holes: HubHoles) -> Non
         _between("web.rim_diameter", web.rim_diameter, core, (root_diameter, "the root"))
         _between("web.rim_diameter", web.rim_diameter, (outer, "the holes"), (math.inf, ""))
     _check_heights(shape)
+    if not _leaves_faces(shape, root_diameter / 2, holes, 0.0, 0.0):
+        key = "holes" if holes.round_holes else "spokes" if holes.spokes else "hub.diameter" if hub else "bore_diameter"
+        given = hub.diameter if key == "hub.diameter" and hub is not None else None
+        raise ParameterError(key, given, "leaves no face between two edges")
     _check_faces(shape, root_diameter / 2, holes, 0.0)
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from geometry.errors import OffsetError, ParameterError, UndercutError, at_least, at_most
 from geometry.findings import Finding
 from geometry.hub_holes import HubHoles, least_wall
+from geometry.trial import is_trial
 from parts.barrel_keys import BarrelCamSpec, SwingingTable
 from parts.barrel_roller import (
     INSIDE,
@@ -187,6 +188,8 @@ def _check_roller(spec: BarrelCamSpec, cam: BarrelCam) -> None:
     if speed >= LEAST_SPEED:
         return
     where = f"undercuts the wall at cam angle {math.degrees(at):.4g} degrees"
+    if is_trial():
+        raise UndercutError("roller_diameter", spec.roller_diameter, where)
     most = 2 * largest_radius(cam, kept_apex(spec)) * (1 - 1e-6)
     if most > 1.01 * spec.clearance and float(told(most - spec.clearance)) > 0:
         remedy = f"{where}; at most {told(most - spec.clearance)} mm works"

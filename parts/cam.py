@@ -8,19 +8,23 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from msgspec import Meta, Struct
 
-from geometry.errors import GeometryError, OffsetError, ParameterError, UndercutError, at_least
+from geometry.errors import GeometryError, OffsetError, ParameterError, UndercutError, at_least, at_most
 from geometry.findings import Finding
 from geometry.hub_holes import HubHoles
 from geometry.offset_region import OffsetRegion
 from geometry.profile import Profile, Region
+from geometry.trial import is_trial
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.cam_keys import FollowerOffset, Lift, MotionTable, Phases, Swing, in_degrees, motion_of, without_base
+from parts.cam_report import cam_findings, cam_quantities
 from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, mm
 from parts.materials import density_of
 from parts.part import Part
 from parts.timing_mark import TimingMarkTable, with_timing_mark
 from parts.wheel_keys import FaceChamfer, FaceChamferTable, HubTable, wheel_shape
+
+__all__ = ["CamSpec", "cam_findings", "cam_of", "cam_part", "cam_quantities", "checked_cam"]
 
 if TYPE_CHECKING:
     from geometry.cams.disk import DiskCam
@@ -29,10 +33,8 @@ if TYPE_CHECKING:
 
 _MOST = 100_000.0
 _BISECTIONS = 40
-# usual limits of the pressure angle: translating 30, swinging 45 degrees (practicum: 30 to 35, 40 to 50)
-_USUAL_PRESSURE_ANGLE = {False: 30.0, True: 45.0}
-# rollers are kept below this share of the least convex radius of the pitch curve
-_USUAL_ROLLER_SHARE = 0.8
+# part of the base circle that a bore leaves at least free
+_WALL = 0.9999
 
 
 class OscillatingTable(Struct, forbid_unknown_fields=True):
@@ -197,8 +199,23 @@ def _in_keys(spec: CamSpec, refusal: ParameterError) -> ParameterError:
     names = {"radius": "follower_radius"} | ({"lift": "swing_deg"} if swing else {})
     if swing:
         names |= {key: f"oscillating.{key}" for key in ("centre_distance", "arm_length", "face_offset", "sense")}
+    if refusal.name == "base_circle_radius" and spec.base_circle_radius is not None:
+        # the mathematics speaks of the prime circle
+        return _reachable(spec, spec.base_circle_radius, refusal)
     value = in_degrees(refusal.value) if refusal.name == "lift" and swing else refusal.value
     return ParameterError(names.get(refusal.name, refusal.name), value, refusal.allowed)
+
+
+def _reachable(spec: CamSpec, base: float, refusal: ParameterError) -> ParameterError:
+    """A base circle that the arm does not reach, with the nearest one that it does."""
+    swing = spec.oscillating
+    if swing is None or spec.follower == "flat":
+        return refusal
+    low = abs(swing.centre_distance - swing.arm_length) - spec.follower_radius
+    high = swing.centre_distance + swing.arm_length - spec.follower_radius
+    margin = 1e-3 * (high - low)
+    limit = f"at least {at_least(low + margin, 4)}" if base < high else f"at most {at_most(high - margin, 4)}"
+    return ParameterError("base_circle_radius", base, f"the arm does not reach this circle; {limit} mm works")
 
 
 def _least_base(spec: CamSpec, motion: FollowerMotion) -> float:
@@ -211,13 +228,13 @@ def _least_base(spec: CamSpec, motion: FollowerMotion) -> float:
         raise ParameterError("base_circle_radius", None, remedy)
     if spec.follower == "flat":
         if angle != 45:
-            remedy = "a flat face always pushes along its normal; 45 stands for the tangent's slope in S(S'') and works"
+            remedy = "a flat face always pushes along its normal: 45 stands for the tangent's slope in S(S''); 45 works"
             raise ParameterError("least_transmission_angle_deg", angle, remedy)
         return max(flat_base_radius(motion, spec.least_curvature_radius).value, 1e-3 * motion.lift)
     prime = roller_prime_radius(motion, spec.follower_offset, math.radians(90 - angle))
     base = prime - spec.follower_radius
     if not base > 0:
-        remedy = f"the prime circle is {prime:.6g} mm only; a smaller roller or a base_circle_radius works"
+        remedy = f"the prime circle is {prime:.6g} mm only; {_smaller(prime)}"
         raise ParameterError("follower_radius", spec.follower_radius, remedy)
     if spec.follower == "pointed":
         return base
@@ -225,9 +242,16 @@ def _least_base(spec: CamSpec, motion: FollowerMotion) -> float:
     return max(base, convex_roller_base_radius(motion, spec.follower_radius, rho, follower_offset=spec.follower_offset))
 
 
+def _smaller(prime: float) -> str:
+    return f"at most {at_most(prime * 0.999, 4)} mm works" if prime > 0 else "a base_circle_radius works"
+
+
 def _whole(spec: CamSpec, cam: DiskCam) -> str:
     """What base circle leaves the cam whole, in words."""
     from geometry.cams.undercut import is_whole
+
+    if is_trial():
+        return "a larger one works"
 
     def works(base: float) -> bool:
         try:
@@ -290,9 +314,11 @@ def check_cam_bore(spec: CamSpec | LinkageCamSpec, cam: DiskCam) -> None:
     if not holes.bore_reach < inside:
         key = "bore_diameter" if spec.bore_diameter > 0 else "bore.diameter"
         value = spec.bore_diameter or 2 * holes.bore_reach
-        raise ParameterError(key, value, f"leaves no wall to the base circle; below {2 * inside:.6g} mm works")
+        raise ParameterError(
+            key, value, f"leaves no wall to the base circle; at most {at_most(_WALL * 2 * inside, 4)} mm works"
+        )
     if holes.reach > inside:
-        remedy = f"the holes must stay inside the base circle: within {inside:.6g} mm of the axis works"
+        remedy = f"the holes must stay inside the base circle, within {inside:.6g} mm of the axis"
         raise ParameterError("holes", 2 * holes.reach, remedy)
 
 
@@ -338,53 +364,3 @@ def cam_circles(cam: DiskCam) -> dict[str, float]:
     if cam.radius > 0:
         circles["prime_circle_diameter"] = 2 * (base_radius(cam) + cam.radius)
     return circles
-
-
-def cam_quantities(spec: CamSpec, cam: DiskCam) -> dict[str, float]:
-    """Named results of a cam: sizes in mm, angles in degrees."""
-    from geometry.cams.follower_motion import PhaseKind
-    from geometry.cams.synthesis import greatest_pressure_angle, least_convex_radius
-
-    found: dict[str, float] = {}
-    if spec.oscillating is None:
-        found["lift"] = cam.motion.lift
-    else:
-        found["swing_deg"] = math.degrees(cam.motion.lift)
-        found["start_angle_deg"] = math.degrees(cam.swing.start_angle)
-    if cam.radius > 0:
-        found["follower_radius"] = cam.radius
-    if spec.oscillating is None and not cam.is_flat:
-        found["follower_offset"] = spec.follower_offset
-    for kind in (PhaseKind.RISE, PhaseKind.RETURN):
-        if cam.motion.moving_pieces(kind):
-            name = f"pressure_angle_{'rise' if kind is PhaseKind.RISE else 'return'}_deg"
-            found[name] = math.degrees(greatest_pressure_angle(cam, kind).value)
-    found["least_curvature_radius"] = least_convex_radius(cam).value
-    if cam.kind in ("flat", "mushroom"):
-        found["face_from"], found["face_to"] = cam.face_reach()
-        if spec.oscillating is None:
-            found["least_plate_diameter"] = cam.least_plate_diameter()
-    return found
-
-
-def cam_findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
-    """Impacts, steep pressure angles and large rollers of a cam."""
-    from geometry.cams.follower_motion import PhaseKind
-    from geometry.cams.synthesis import greatest_pressure_angle, least_convex_radius
-
-    found = []
-    for impact, order in (("rigid", 1), ("soft", 2)):
-        jumps = [(abs(j.jumps[order]), math.degrees(j.angle)) for j in cam.motion.impacts() if j.impact == impact]
-        if jumps:
-            size, angle = max(jumps)
-            found.append(Finding(f"{impact}_impact", size, angle))
-    swings = spec.oscillating is not None
-    steepest = math.degrees(greatest_pressure_angle(cam, PhaseKind.RISE).value)
-    if steepest > _USUAL_PRESSURE_ANGLE[swings] + 1e-9:
-        found.append(Finding("steep_pressure_angle", steepest, _USUAL_PRESSURE_ANGLE[swings]))
-    pitch = least_convex_radius(cam).value + cam.radius
-    if cam.kind == "roller" and cam.radius > _USUAL_ROLLER_SHARE * pitch:
-        found.append(Finding("large_roller", cam.radius, _USUAL_ROLLER_SHARE * pitch))
-    if pitch - cam.radius < (asked := spec.least_curvature_radius) * (1 - 1e-6):
-        found.append(Finding("curvature_radius_not_kept", pitch - cam.radius, asked))
-    return tuple(found)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from msgspec import Meta, Struct
 
@@ -28,6 +28,8 @@ __all__ = [
     "without_base",
 ]
 _MOST = 100_000.0
+# angles that miss a turn by less are closed by the last phase, degrees
+_CLOSING_DEG = 5e-8
 
 
 class PhaseTable(Struct, forbid_unknown_fields=True):
@@ -74,18 +76,73 @@ def motion_of(
     for index, phase in enumerate(phases or ()):
         angle = math.radians(phase.angle_deg)
         if phase.move == "dwell":
-            if phase.law is not None or phase.share != 1:
-                raise ParameterError(f"phases.item {index + 1}.move", "dwell", "a dwell has neither law nor share")
+            check_dwell(phase, index)
             made.append(dwell(angle))
             continue
         law = law_of(phase.law, f"phases.item {index + 1}.law")
         made.append((rise if phase.move == "rise" else return_)(angle, phase.share * lift, law))
+    _check_whole_turn(phases or [])
+    _check_return(phases or [])
     return follower_motion(made)
 
 
 def in_degrees(value: object) -> object:
     """A refused angle of the mathematics as it was typed; what is no number stays."""
     return math.degrees(value) if isinstance(value, float) else value
+
+
+def check_dwell(phase: Any, index: int) -> None:
+    """A dwell has neither law nor share; refused by the one that it has."""
+    has_law, has_share = phase.law is not None, phase.share != 1
+    place = f"phases.item {index + 1}"
+    if has_law and has_share:
+        text = f"a dwell has neither law nor share; with no {place}.law, no {place}.share it works"
+        raise ParameterError(f"{place}.move", "dwell", text)
+    if has_law:
+        law = phase.law if isinstance(phase.law, str) else None
+        raise ParameterError(f"{place}.law", law, "a dwell has neither law nor share; remove it")
+    if has_share:
+        raise ParameterError(f"{place}.share", phase.share, "a dwell has neither law nor share; remove it")
+
+
+def _check_whole_turn(phases: list[PhaseTable]) -> None:
+    """The phases fill one turn; else refused with the angle of one of them, the last that can, that makes them do."""
+    whole = math.fsum(p.angle_deg for p in phases)
+    if abs(whole - 360) <= _CLOSING_DEG:
+        return
+    reason = f"the phases make {whole:.9g} degrees together, not 360"
+    for index in reversed(range(len(phases))):
+        own = phases[index].angle_deg
+        fitting = round(own + 360 - whole, 9)
+        if fitting > 0:
+            raise ParameterError(f"phases.item {index + 1}.angle_deg", own, f"{reason}; {fitting:.12g} degrees works")
+    # no single one does: all in proportion
+    shares = [float(f"{p.angle_deg * 360 / whole:.4g}") for p in phases[:-1]]
+    told = [*shares, round(360 - math.fsum(shares), 9)]
+    text = ", ".join(f"phases.item {k + 1}.angle_deg = {value:.12g}" for k, value in enumerate(told))
+    raise ParameterError("phases.item 1.angle_deg", phases[0].angle_deg, f"{reason}; with {text} it works")
+
+
+def _check_return(phases: list[PhaseTable]) -> None:
+    """Rises and returns cancel; else refused with the share of one of them that makes them do."""
+    signs = {"rise": 1, "dwell": 0, "return_": -1}
+    total = math.fsum(signs[p.move] * p.share for p in phases)
+    if abs(total) <= 1e-12:
+        return
+    reason = "rises and returns must cancel: the follower has to come back"
+    for index in reversed(range(len(phases))):
+        sign, own = signs[phases[index].move], phases[index].share
+        fitting = round(own - sign * total, 12)
+        if sign and 0 < fitting <= 1:
+            raise ParameterError(f"phases.item {index + 1}.share", own, f"{reason}; {fitting:.12g} works")
+    one_way = next(k for k, p in reversed(list(enumerate(phases))) if signs[p.move] * total > 0)
+    other = "return_" if total > 0 else "rise"
+    rest = next((k for k, p in reversed(list(enumerate(phases))) if p.move == "dwell"), None)
+    if rest is not None:
+        place = f"phases.item {rest + 1}"
+        text = f'{reason}; with {place}.move = "{other}", {place}.law = "sine" it works'
+        raise ParameterError(f"{place}.move", "dwell", text)
+    raise ParameterError(f"phases.item {one_way + 1}.move", phases[one_way].move, f'{reason}; "{other}" works')
 
 
 def without_base(cam: DiskCam) -> str:

@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Annotated
 from msgspec import Meta, Struct
 from msgspec.structs import replace
 
-from geometry.errors import GeometryError, OffsetError, ParameterError, UndercutError, at_least
+from geometry.errors import GeometryError, OffsetError, ParameterError, UndercutError, at_least, at_most
 from geometry.findings import Finding
 from geometry.hub_holes import HubHoles
 from geometry.offset_region import OffsetRegion
 from geometry.placement import Placement2
 from geometry.profile import Profile, Region
+from geometry.trial import is_trial
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.cam import CamSpec, base_radius, cam_findings, cam_of, cam_quantities, inner_radius, nearest_offset
 from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes
@@ -115,7 +116,9 @@ def checked_conjugate(spec: ConjugateCamSpec, parts: dict[str, Struct]) -> Secon
     if not holes.reach < inside:
         key = "holes" if holes.bore_reach < inside else "bore" if spec.bore else "bore_diameter"
         raise ParameterError(
-            key, 2 * holes.reach, f"leaves no wall to the base circle; below {2 * inside:.6g} mm works"
+            key,
+            2 * holes.reach,
+            f"leaves no wall to the base circle; at most {at_most(2 * inside * 0.9999, 4)} mm works",
         )
     # where the first cam has its mark
     holes = with_timing_mark(holes, spec.timing_mark, first, inside)
@@ -255,7 +258,7 @@ def _check_whole(spec: ConjugateCamSpec, owner: CamSpec, first: DiskCam, pair: C
         except GeometryError:
             return False
 
-    high = next((found * 1.5**k for k in range(1, 13) if works(found * 1.5**k)), None)
+    high = None if is_trial() else next((found * 1.5**k for k in range(1, 13) if works(found * 1.5**k)), None)
     remedy = "a smaller follower_radius or longer phases work"
     if high is not None:
         low = found

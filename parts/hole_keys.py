@@ -14,6 +14,7 @@ from geometry.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
 from geometry.errors import ParameterError, at_least, at_most
 from geometry.hub_holes import HubHoles
 from geometry.keyway_tables import keyway_row
+from geometry.trial import is_trial, trial
 from geometry.windows import RoundHoles, Spokes
 from parts.keys import mm
 
@@ -157,8 +158,16 @@ def with_remedy(refusal: ParameterError, spec: Any, builds: Callable[[Any], bool
     ``builds``: whether a changed spec gives a gear.
     """
     owner, _, rest = refusal.name.partition(".")
-    if owner not in ("bore", "holes", "spokes") or "works" in refusal.allowed:
+    if owner not in ("bore", "holes", "spokes") or "works" in refusal.allowed or is_trial():
         return refusal
+    with trial():
+        return _with_value(refusal, spec, builds, owner, rest)
+
+
+def _with_value(
+    refusal: ParameterError, spec: Any, builds: Callable[[Any], bool], owner: str, rest: str
+) -> ParameterError:
+    """The search for that value."""
     place, _, blamed = rest.rpartition(".")
     index = int(place.removeprefix("item ")) - 1 if place else None
     table = getattr(spec, owner) if index is None else getattr(spec, owner)[index]

@@ -22,7 +22,7 @@ def owner_of(name: str, parts: dict[str, Struct], kind: type[Owner]) -> Owner:
     """
     fitting = [key for key, spec in parts.items() if isinstance(spec, kind)]
     tag = kind.__struct_config__.tag
-    works = f"{' or '.join(fitting)} works" if fitting else f'the scene has no part of kind = "{tag}"; add one'
+    works = f'"{fitting[0]}" works' if fitting else f'the scene has no part of kind = "{tag}"; add one'
     if name not in parts:
         raise ParameterError("of", name, f"no such part{near(name, parts)}; {works}")
     found = parts[name]

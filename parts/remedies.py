@@ -12,6 +12,7 @@ import msgspec
 from msgspec import Meta, Struct
 
 from geometry.errors import GeometryError, ParameterError, at_least, at_most
+from geometry.trial import is_trial, trial
 
 # how refusals tell the value that works, and what of their text is to be taken off before another one is told
 _OFFER = re.compile(
@@ -50,9 +51,13 @@ def sure_remedy(spec: Any, refusal: ParameterError, builds: Callable[[Any], bool
     ``builds``: whether a changed spec gives a part; it may raise geometry's errors.
     """
 
+    if is_trial():
+        return refusal
+
     def works(changed: Any) -> bool:
         try:
-            return builds(changed)
+            with trial():
+                return builds(changed)
         except (GeometryError, ArithmeticError):
             return False
 

@@ -18,6 +18,7 @@ from parts.kinds import KINDS
 from parts.part import Part
 from parts.schema import SceneError, converted, near, refuse_infinite
 from parts.sheet_keys import CamSpeed, Intervals, MateNumber, RackStep, check_sheet_keys
+from parts.surely import offers_tried
 from parts.title_keys import TitleBlockKey
 
 if TYPE_CHECKING:
@@ -163,6 +164,7 @@ def scene_from_toml(raw_bytes: bytes, source: str, name: str) -> SceneFile:
         raise SceneError(source, "", None, "tables are nested too deeply; a scene needs three levels") from None
 
 
+@offers_tried
 def scene_from_dict(raw: dict[str, Any], source: str, name: str) -> SceneFile:
     """Validate the tables of a scene."""
     refuse_infinite(raw, source, "")
@@ -282,6 +284,7 @@ def default_export(name: str) -> ExportSpec:
     return msgspec.convert({"format": name, "purpose": purpose, "tolerance": tolerance}, ExportSpec)
 
 
+@offers_tried
 def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mating]]:
     """The parts of a scene, each checked to exist, as its mates want them; and the mates."""
     gears = {}

@@ -14,7 +14,8 @@ from geometry.errors import GeometryError, OffsetError, ParameterError, Undercut
 from geometry.findings import Finding
 from geometry.offset_region import OffsetRegion
 from geometry.profile import Label, Profile, Region, circle
-from parts.cam_keys import Swing
+from geometry.trial import is_trial
+from parts.cam_keys import Swing, check_dwell
 from parts.keys import Colour, Density, FaceWidth, Material, mm
 from parts.law_keys import LawName, LawTable, law_of
 from parts.materials import density_of
@@ -31,6 +32,8 @@ _RAISES = 12
 _LEAST_MOTION = 1e-3
 # usual limits of the pressure angle, degrees: sliding and swinging followers
 _USUAL_PRESSURE_ANGLE = {False: 30.0, True: 45.0}
+# places along the plate that are tried for a hole
+_PLACES = 400
 # least wall below the profile and about holes, mm
 _LEAST_WALL = 0.05
 # jumps below this part of lift / travel^k are rounding
@@ -124,7 +127,7 @@ def _high_enough(spec: WedgeCamSpec, cam: WedgeCam) -> float | None:
     from geometry.cams.wedge import wedge_fault
 
     height = spec.base_height
-    for _ in range(_RAISES):
+    for _ in range(0 if is_trial() else _RAISES):
         height += 1e-4 - _spare(spec, cam)
         try:
             cam = _wedge_of(replace(spec, base_height=height), told=False)
@@ -197,8 +200,7 @@ def wedge_phases(spec: WedgeCamSpec, lift: float) -> list[Phase]:
     for index, phase in enumerate(spec.phases):
         place = f"phases.item {index + 1}"
         if phase.move == "dwell":
-            if phase.law is not None or phase.share != 1:
-                raise ParameterError(f"{place}.move", "dwell", "a dwell has neither law nor share")
+            check_dwell(phase, index)
             made.append(Phase(phase.travel))
             continue
         change = phase.share * lift if phase.move == "rise" else -phase.share * lift
@@ -264,7 +266,7 @@ def _most(spec: WedgeCamSpec, key: str) -> float:
             return False
 
     low, high = 0.0, float(getattr(spec, key))
-    for _ in range(_BISECTIONS):
+    for _ in range(0 if is_trial() else _BISECTIONS):
         middle = (low + high) / 2
         low, high = (middle, high) if works(middle) else (low, middle)
     return low
@@ -288,16 +290,40 @@ def _check_holes(spec: WedgeCamSpec, cam: WedgeCam) -> None:
         room = float(distance_to_profile(np.array([at]), outline)[0])
         key = "holes" if lone else f"holes.item {index + 1}"
         if not _inside(cam, spec, at):
-            raise ParameterError(
-                f"{key}.x", hole.x, f"the hole's centre at y = {hole.y:g} lies outside the plate; 0 works"
-            )
+            place = _nearest_place(cam, spec, hole, holes[:index], outline)
+            works = "another y works" if place is None else f"{place:.4f} works"
+            text = f"the hole's centre at y = {hole.y:g} lies outside the plate; {works}"
+            raise ParameterError(f"{key}.x", hole.x, text)
         others = [abs(at - complex(h.x, h.y)) - h.diameter / 2 for k, h in enumerate(holes) if k < index]
         most = 2 * (min([room, *others]) - _LEAST_WALL)
         if hole.diameter > most:
             text = f"meets the edge or another hole; at most {at_most(most, 4)} mm works"
             if most <= 0:
-                text = "has no room there; another x or y works"
+                place = _nearest_place(cam, spec, hole, holes[:index], outline)
+                text = "has no room there; a smaller one elsewhere works"
+                if place is not None:
+                    raise ParameterError(f"{key}.x", hole.x, f"the hole has no room there; {place:.4f} works")
             raise ParameterError(f"{key}.diameter", hole.diameter, text)
+
+
+def _nearest_place(
+    cam: WedgeCam, spec: WedgeCamSpec, hole: WedgeHoleTable, others: list[WedgeHoleTable], outline: Profile
+) -> float | None:
+    """The x nearest to a hole's at which it has room at its height, mm; None where there is none."""
+    import numpy as np
+
+    from geometry.measure import distance_to_profile
+
+    if is_trial():
+        return None
+    ends = float(cam.centre(0.0).real) - spec.run_in, float(cam.centre(cam.motion.travel).real) + spec.run_out
+    places = (np.round(np.linspace(*ends, _PLACES), 4) + 1j * hole.y).astype(np.complex128)
+    room = distance_to_profile(places, outline)
+    for other in others:
+        room = np.minimum(room, np.abs(places - complex(other.x, other.y)) - other.diameter / 2)
+    fitting = places[room > hole.diameter / 2 + 1.01 * _LEAST_WALL]
+    near = sorted(fitting.real, key=lambda x: abs(float(x) - hole.x))
+    return next((float(x) for x in near if _inside(cam, spec, complex(float(x), hole.y))), None)
 
 
 def _inside(cam: WedgeCam, spec: WedgeCamSpec, at: complex) -> bool:

@@ -8,6 +8,7 @@ import re
 from typing import Any
 
 from exporters.calculations.sheet import Section, Sheet, Step, formula_text, number, numbers_text, unit_text
+from exporters.calculations.symbols import symbol_text
 from exporters.calculations.tables import html_table, markdown_table, plain_table, table_data
 from exporters.calculations.words import TERMS
 
@@ -65,7 +66,7 @@ def result_text(step: Step, language: str) -> str:
 
 def equation(step: Step, language: str) -> str:
     """Symbol = formula = numbers = result, as far as the step has them."""
-    parts = [step.symbol]
+    parts = [symbol_text(step.symbol, language)]
     if step.formula:
         parts += [formula_text(step, language), numbers_text(step, language)]
     if len(parts) > 1 and parts[-1] == number(step.value, step.unit, enclosed=True):
@@ -117,7 +118,7 @@ def _markdown(sheet: Sheet, language: str) -> str:
 
 def _cells(step: Step, language: str) -> list[str]:
     """Name, formula with numbers, result, source with what is misprinted there."""
-    parts = [step.symbol, formula_text(step, language), numbers_text(step, language)]
+    parts = [symbol_text(step.symbol, language), formula_text(step, language), numbers_text(step, language)]
     if parts[-1] == number(step.value, step.unit, enclosed=True):
         parts.pop()
     working = " = ".join(dict.fromkeys(filter(None, parts)))
@@ -209,7 +210,7 @@ def _json_step(step: Step, language: str) -> dict[str, Any]:
         "name": step.name,
         **({"gear": _GEARS[step.gear]} if step.gear else {}),
         "text": step_name(step, language),
-        "symbol": step.symbol,
+        "symbol": symbol_text(step.symbol, language),
         "formula": formula_text(step, language),
         "numbers": numbers_text(step, language),
         "value": _finite(step.value),

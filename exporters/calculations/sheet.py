@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from exporters.calculations.symbols import symbol_text
 from exporters.calculations.words import TERMS
 
 Value = float | int | str
@@ -181,7 +182,7 @@ def number(value: Value, unit: str, *, enclosed: bool = False) -> str:
 
 def formula_text(step: Step, language: str) -> str:
     """The right side of a step's formula with symbols."""
-    return pretty(KEYS.sub(lambda m: step.inputs[m[1]].symbol, step.formula), language)
+    return symbol_text(pretty(KEYS.sub(lambda m: step.inputs[m[1]].symbol, step.formula), language), language)
 
 
 def numbers_text(step: Step, language: str) -> str:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from exporters.calculations.render import result_text, step_name
 from exporters.calculations.sheet import Section, Sheet, unit_text
+from exporters.calculations.symbols import symbol_text
 from exporters.sheets.cam_picture import CamPicture, Scales
 from exporters.sheets.canvas import SMALL_TEXT, Box, Canvas, decimal, scale_text, text_width
 from exporters.sheets.words import sheet_words
@@ -49,7 +50,7 @@ def characteristics(calculation: Sheet, picture: CamPicture) -> Grid:
             # an angle of a phase stands among the characteristics
             if step.name in _LEFT_OUT or (step.name in _PHASES and _is_law(section)):
                 continue
-            cells = step_name(step, language), _lowered(step.symbol), result_text(step, language)
+            cells = step_name(step, language), _lowered(symbol_text(step.symbol, language)), result_text(step, language)
             rows.append((cells[0], *(decimal(cell, language) for cell in cells[1:])))
     return Grid(_COLUMNS, tuple(rows))
 

@@ -19,7 +19,7 @@ from geometry.outline import CadCurve
 from geometry.spline_fit import fit_spline
 
 # heights of capitals, mm; GOST 2.304
-TEXT_HEIGHT, SMALL_TEXT = 3.5, 2.5
+TEXT_HEIGHT, SMALL_TEXT, LEAST_TEXT = 3.5, 2.5, 1.8
 # paper sizes (width, height of the upright sheet) and frame, mm; GOST 2.301, 2.104
 PAPERS = {"A3": (297.0, 420.0), "A2": (420.0, 594.0), "A1": (594.0, 841.0), "A0": (841.0, 1189.0)}
 FRAME_LEFT, FRAME = 20.0, 5.0
@@ -148,7 +148,8 @@ class Text:
 def text_of(text: str, at: complex, height: float = TEXT_HEIGHT, most: float | None = None) -> Text:
     """A line of text from the left end of its base line; one longer than ``most`` mm is made smaller, then narrower."""
     if most is not None and text_width(text, height) > most:
-        height *= max(SMALL_TEXT / height, most / text_width(text, height)) if height > SMALL_TEXT else 1.0
+        # many viewers do not narrow letters: what fits by its size fits everywhere
+        height *= max(min(1.0, LEAST_TEXT / height), most / text_width(text, height))
     pieces = [(p, False) if i % 2 == 0 else (p, True) for i, p in enumerate(re.split(r"_\{([^}]*)\}", text)) if p]
     natural = text_width(text, height)
     squeeze = min(1.0, (most or natural) / natural) if natural else 1.0

@@ -8,6 +8,7 @@ import re
 
 from exporters.calculations.render import numbers_text, result_text, step_name
 from exporters.calculations.sheet import Sheet, formula_text
+from exporters.calculations.symbols import symbol_text
 from exporters.sheets.canvas import (
     FRAME,
     FRAME_LEFT,
@@ -121,7 +122,8 @@ def _rows(tables: Sheet, language: str) -> list[Row]:
         rows.append(Row(section.title[index]))
         for step in section.steps:
             formula = f"{formula_text(step, language)} = {numbers_text(step, language)}" if step.formula else ""
-            cells = f"{step_name(step, language)}, {step.symbol}", formula, result_text(step, language)
+            symbol = symbol_text(step.symbol, language)
+            cells = f"{step_name(step, language)}, {symbol}", formula, result_text(step, language)
             rows.append(Row(*(decimal(_lowered(cell), language) for cell in cells)))
     return rows
 

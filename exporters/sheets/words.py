@@ -64,7 +64,7 @@ SHEET_WORDS |= {
     "cam": ("actual profile", "практичний профіль кулачка"),
     "pitch_curve": ("path of the follower's centre", "теоретичний профіль кулачка"),
     "graphical": ("graphical method", "графічний метод"),
-    "return_tangent": ("tangent of the return, for form closure", "дотична фази наближення (геометричне замикання)"),
+    "return_tangent": ("tangent of the return, for form closure", "дотична наближення (геом. замикання)"),
     "phase_rise": ("rise", "від"),
     "phase_return_": ("ret", "наб"),
     "phase_far": ("far", "д.в."),

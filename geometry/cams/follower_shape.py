@@ -8,6 +8,7 @@ right (-1), as in geometry/cams/mounts.py.
 from __future__ import annotations
 
 import cmath
+import itertools
 import math
 from dataclasses import dataclass
 
@@ -17,6 +18,9 @@ from geometry.errors import ParameterError, at_least, at_most
 from geometry.line_arc import Arc, Line, arc_between
 from geometry.plate_outline import Edge, PlateOutline, belt, rounded, tangent_point
 from geometry.tolerance import TOLERANCES
+
+# the middle of a flat arm's boss stands at most this part of its radius outside of the bar
+_BOSS_IN_BAR = 0.9
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,27 +135,43 @@ def round_arm(length: float, pivot: float, end: float) -> tuple[Edge, ...]:
 
 
 def flat_arm(length: float, width: float, face_offset: float, boss: float, sense: int) -> tuple[Edge, ...]:
-    """A bar whose face is ``face_offset`` mm nearer to the cam than the pivot, rounded behind the pivot.
+    """A bar whose face is ``face_offset`` mm nearer to the cam than the pivot, and a round boss where it is too narrow.
 
     Raises
     ------
     ParameterError
-        The pivot's hole (``boss``: its diameter and wall) lies outside of the bar.
+        The boss about the pivot (``boss``: its diameter) does not stand in the bar.
     """
-    low, high = boss / 2, width - boss / 2
-    slack = TOLERANCES.relative_join * width
-    if not low - slack <= face_offset <= high + slack:
-        if low > high:
-            text = f"has no room for the pivot; at least {at_least(boss, 4)} mm works, with face_offset = {low:.6g}"
-            raise ParameterError("width", width, f"{text} here and in the cam's oscillating")
+    radius, far = boss / 2, face_offset - width
+    _reaches(length, boss)
+    low, high = -_BOSS_IN_BAR * radius, width + _BOSS_IN_BAR * radius
+    if not low <= face_offset <= high:
         limit = f"at least {at_least(low, 4)}" if face_offset < low else f"at most {at_most(high, 4)}"
         text = f"the pivot lies outside of the bar; {limit} mm works, the same in the cam's oscillating"
         raise ParameterError("face_offset", face_offset, text)
-    back = -(boss / 2)
-    near, far = sense * face_offset, sense * (face_offset - width)
-    corners = [complex(back, min(near, far)), complex(length, min(near, far))]
-    corners += [complex(length, max(near, far)), complex(back, max(near, far))]
-    return rounded([(c, 0.0) for c in corners])
+    slack = TOLERANCES.relative_join * (width + boss)
+    heel, toe = complex(length, far), complex(length, face_offset)
+    above, below = face_offset < radius - slack, far > slack - radius
+    # where the boss leaves the bar, towards the cam and away from it; its edge runs from the one to the other
+    leaves = complex(math.sqrt((radius - face_offset) * (radius + face_offset)), face_offset) if above else None
+    returns = complex(math.sqrt((radius - far) * (radius + far)), far) if below else None
+    start = -radius + 0j if leaves is None else leaves
+    around: tuple[Edge, ...] = ()
+    if leaves is not None or returns is not None:
+        begin = math.pi if leaves is None else cmath.phase(leaves)
+        end = math.pi if returns is None else cmath.phase(returns) + 2 * math.pi
+        around = (Arc(0j, radius, begin, end - begin),)
+    top = (toe, complex(-radius, face_offset), start) if leaves is None else (toe, start)
+    stop = -radius + 0j if returns is None else returns
+    bottom = (stop, complex(-radius, far), heel) if returns is None else (stop, heel)
+    if not around:
+        top, bottom = (toe, top[1]), (top[1], *bottom[1:])
+    edges = (*_lines(top), *around, *_lines((*bottom, toe)))
+    return edges if sense > 0 else tuple(e.mirrored() for e in reversed(edges))
+
+
+def _lines(points: tuple[complex, ...]) -> tuple[Edge, ...]:
+    return tuple(Line(a, b) for a, b in itertools.pairwise(points) if a != b)
 
 
 def pointed_arm(length: float, width: float, boss: float, tip: tuple[float, float], sense: int) -> tuple[Edge, ...]:

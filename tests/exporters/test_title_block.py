@@ -130,3 +130,21 @@ def test_without_the_key_a_sheet_has_none() -> None:
     for job in sheets(False):
         assert "Scale" not in [t.text for t in job.canvas.texts]
         assert job.canvas.band == 0
+
+
+@pytest.mark.parametrize("language", ["en", "uk"])
+def test_words_of_blocks_and_legends_fit_their_cells_unsqueezed(language: str) -> None:
+    """Viewers that do not narrow letters show what overruns its cell."""
+    from exporters.sheets.canvas import plain_width, text_of
+    from exporters.sheets.title_block import _LABELS
+    from exporters.sheets.words import sheet_words
+
+    cells = [(words[1 if language == "uk" else 0], 15.4) for key, words in _LABELS.items() if key != "document"]
+    legends = ("cam", "pitch_curve", "graphical", "return_tangent", "scale_velocity", "scale_1", "scale_2", "pole_2")
+    cells += [(sheet_words(language, key), 59.0) for key in legends]
+    for text, room in cells:
+        made = text_of(text, 0j, 2.5, room)
+        assert made.box.right <= room + 1e-9
+        for run in made.runs:
+            assert run.height >= 1.8 - 1e-9
+            assert run.width == pytest.approx(plain_width(run.text, run.height)), text

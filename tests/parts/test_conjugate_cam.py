@@ -112,9 +112,9 @@ WRONG: dict[str, tuple[str, Keys, str, str]] = {
     "arm of a stem": ("translating", {"arm_length": 20.0}, "arm_length", "remove"),
     "both": ("translating", {"roller_distance": 150.0, "base_circle_radius": 30.0}, "base_circle_radius", "remove"),
     "short arm": ("against", {"arm_length": 20.0}, "arm_length", "must be"),
-    "unknown": ("against", {"of": "cma"}, "of", "cam works"),
-    "itself": ("against", {"of": "two"}, "of", "cam works"),
-    "wide bore": ("against", {"bore_diameter": 90.0}, "bore_diameter", "below 70"),
+    "unknown": ("against", {"of": "cma"}, "of", '"cam" works'),
+    "itself": ("against", {"of": "two"}, "of", '"cam" works'),
+    "wide bore": ("against", {"bore_diameter": 90.0}, "bore_diameter", "at most 69.99"),
 }
 
 

@@ -150,7 +150,7 @@ def test_a_guide_in_the_way_is_found() -> None:
         ("pointed", "with", ('arm_length = 70.0\ntip', 'arm_length = 71.0\ntip'), "arm_length", 70.0),
         ("roller", None, ('kind = "roller"', 'kind = "follower"\nend = "flat"\nplate_diameter = 40.0 #'), "end", None),
         ("flat", None, ('end = "flat"', 'end = "flat"\nfollower_radius = 3.0'), "follower_radius", 0.0),
-        ("flat", None, ("plate_diameter = 60.0", ""), "plate_diameter", 20.0),
+        ("flat", None, ("plate_diameter = 60.0", ""), "plate_diameter", 50.0),
         ("pointed", None, ("tip_angle_deg = 20.0", "tip_angle_deg = 5.0"), "stem_length", None),
         ("mushroom", None, ("plate_diameter = 48.0", "plate_diameter = 70.0"), "plate_diameter", None),
         ("pointed", "with", ("tip_height = 25.0", "tip_height = 500.0"), "tip_height", None),

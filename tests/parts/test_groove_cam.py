@@ -200,7 +200,7 @@ WRONG: dict[str, tuple[Keys, str, str]] = {
     "no rim": (GROOVE | {"outer_diameter": 140.0}, "outer_diameter", "at least"),
     "no roller": (GROOVE | {"follower_radius": 0.0}, "follower_radius", ""),
     "play below 0": (GROOVE | {"roller_clearance": -0.1}, "roller_clearance", ""),
-    "wide bore": (GROOVE | {"bore_diameter": 71.0}, "bore_diameter", "below 70"),
+    "wide bore": (GROOVE | {"bore_diameter": 71.0}, "bore_diameter", "at most 69.99"),
     "far holes": (GROOVE | {"holes": {"count": 3, "diameter": 8.0, "pitch_circle_diameter": 70.0}}, "holes", "within"),
     "wide hub": (GROOVE | {"hub": {"diameter": 80.0, "above": 3.0}}, "hub.diameter", "works"),
     "no base": (without(GROOVE, "base_circle_radius"), "base_circle_radius", "least_transmission"),

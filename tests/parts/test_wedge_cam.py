@@ -179,22 +179,22 @@ def test_solids_are_the_section_extruded() -> None:
 
 JUMP = [PHASES[0] | {"law": "constant_velocity"}, *PHASES[1:]]
 WRONG: dict[str, tuple[Keys, str, str]] = {
-    "flat": (ROLLER | {"follower": "flat", "follower_radius": 0.0}, "follower", "pointed works"),
+    "flat": (ROLLER | {"follower": "flat", "follower_radius": 0.0}, "follower", "works"),
     "no radius": (ROLLER | {"follower_radius": 0.0}, "follower_radius", "above 0"),
     "radius of a point": (CAMS["pointed"] | {"follower_radius": 3.0}, "follower_radius", "0 works"),
     "no lift": (ROLLER | {"lift": 0.0}, "lift", "above 0"),
     "lift of an arm": (CAMS["trailing"] | {"lift": 3.0}, "lift", "0 works"),
-    "dwell with a law": (ROLLER | {"phases": [*PHASES, PHASES[1] | {"law": "sine"}]}, "phases.item 4.move", "neither"),
-    "no law": (ROLLER | {"phases": [{"move": "rise", "travel": 20.0}]}, "phases.item 1.law", "sine"),
+    "dwell with a law": (ROLLER | {"phases": [*PHASES, PHASES[1] | {"law": "sine"}]}, "phases.item 4.law", "neither"),
+    "no law": (ROLLER | {"phases": [{"move": "rise", "travel": 60.0}]}, "phases.item 1.law", "sine"),
     "large roller": (ROLLER | {"follower_radius": 60.0}, "follower_radius", "at most"),
-    "jump": (ROLLER | {"phases": JUMP}, "follower", "pointed"),
+    "jump": (ROLLER | {"phases": JUMP}, "phases.item 1.law", '"sine" works'),
     "too low": (ROLLER | {"phases": [PHASES[2], *PHASES], "base_height": 8.0}, "base_height", "at least"),
-    "short arm": (CAMS["trailing"] | {"oscillating": ARM | {"arm_length": 20.0}}, "oscillating.arm_length", "above"),
+    "short arm": (CAMS["trailing"] | {"oscillating": ARM | {"arm_length": 20.0}}, "oscillating.arm_length", "at least"),
     "wild swing": (CAMS["trailing"] | {"swing_deg": 150.0}, "swing_deg", "at most"),
     "steep": (CAMS["leading"] | {"swing_deg": 60.0, "phases": [PHASES[0] | {"travel": 30.0}]}, "swing_deg", "at most"),
     "low arm": (CAMS["trailing"] | {"base_height": 4.0, "phases": [PHASES[2], *PHASES]}, "base_height", "at least"),
     "arm with a jump": (CAMS["leading"] | {"swing_deg": 48.0, "phases": [JUMP[0] | {"travel": 5.0}]},
-                        "swing_deg", "without jumps"),
+                        "swing_deg", "at most"),
     "short run": (ROLLER | {"corner_radius": 4.0, "run_in": 3.0}, "run_in", "at least"),
     "hole outside": (ROLLER | {"holes": {"diameter": 5.0, "x": -30.0, "y": 8.0}}, "holes.x", "outside"),
     "large hole": (ROLLER | {"holes": {"diameter": 15.5, "x": 0.0, "y": 8.0}}, "holes.diameter", "at most"),
@@ -213,7 +213,8 @@ def test_wrong_keys_are_refused_with_what_works(name: str) -> None:
     assert words in message
     assert "\n" not in message
     found = re.search(r"(?:at most|at least) ([\d.]+) (?:mm|degrees) works", message)
-    if found and "." not in blamed:
+    # a law with a jump is one more fault, which no swing cures
+    if found and "." not in blamed and name != "arm with a jump":
         parts_of({"cam": keys | {blamed: float(found.group(1))}})
 
 
