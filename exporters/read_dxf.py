@@ -30,6 +30,7 @@ class Pairs:
     values: list[str]
 
     def part(self, start: int, end: int) -> Pairs:
+        """The pairs from one place to another."""
         return Pairs(self.codes[start:end], self.values[start:end])
 
     def starts(self) -> NDArray[np.int64]:
@@ -37,14 +38,17 @@ class Pairs:
         return np.flatnonzero(self.codes == 0)
 
     def records(self) -> Iterator[Pairs]:
+        """What stands from each group 0 to the next."""
         edges = [*self.starts().tolist(), len(self.values)]
         return (self.part(a, b) for a, b in pairwise(edges))
 
     def first(self, code: int, default: str = "") -> str:
+        """The first value with a group code."""
         found = np.flatnonzero(self.codes == code)
         return self.values[found[0]] if len(found) else default
 
     def numbers(self, code: int) -> NDArray[np.float64]:
+        """All values with a group code, as numbers."""
         return np.array([self.values[i] for i in np.flatnonzero(self.codes == code)], dtype=np.float64)
 
 

@@ -11,7 +11,6 @@ from msgspec.structs import replace
 
 from geometry.body import plate
 from geometry.errors import GeometryError, OffsetError, ParameterError, UndercutError, at_least, at_most
-from geometry.findings import Finding
 from geometry.offset_region import OffsetRegion
 from geometry.profile import Label, Profile, Region, circle
 from geometry.trial import is_trial
@@ -20,6 +19,7 @@ from parts.keys import Colour, Density, FaceWidth, Material, mm
 from parts.law_keys import LawName, LawTable, law_of
 from parts.materials import density_of
 from parts.part import Part
+from parts.wedge_report import wedge_findings, wedge_quantities
 
 if TYPE_CHECKING:
     from geometry.cams.follower_motion import Phase
@@ -30,14 +30,10 @@ _BISECTIONS = 40
 _RAISES = 12
 # a lift or swing below this, mm or degrees, is none
 _LEAST_MOTION = 1e-3
-# usual limits of the pressure angle, degrees: sliding and swinging followers
-_USUAL_PRESSURE_ANGLE = {False: 30.0, True: 45.0}
 # places along the plate that are tried for a hole
 _PLACES = 400
 # least wall below the profile and about holes, mm
 _LEAST_WALL = 0.05
-# jumps below this part of lift / travel^k are rounding
-_JUMP = 1e-9
 
 
 class WedgePhaseTable(Struct, forbid_unknown_fields=True):
@@ -148,7 +144,7 @@ def wedge_part(part_id: str, spec: WedgeCamSpec, cam: WedgeCam) -> Part:
         lru_cache(maxsize=2)(lambda offset: plate(section(offset).region, 0.0, spec.face_width)),
         spec.face_width,
         findings=wedge_findings(spec, cam),
-        quantities=_quantities(spec, cam),
+        quantities=wedge_quantities(spec, cam),
         material=spec.material,
         colour=spec.colour,
         density=spec.density or density_of(spec.material),
@@ -354,54 +350,3 @@ def _region(spec: WedgeCamSpec, cam: WedgeCam, offset: float) -> Region:
             raise OffsetError(offset, "closes a hole", hole.diameter / 2 * (1 - 1e-6))
         holes.append(circle(hole.diameter / 2 - offset, Label.HOLE, hole=True, centre=complex(hole.x, hole.y)))
     return Region(_outline(spec, cam, offset), tuple(holes))
-
-
-def _quantities(spec: WedgeCamSpec, cam: WedgeCam) -> dict[str, float]:
-    import numpy as np
-
-    from geometry.cams.wedge import sharpest_crest
-
-    low, high = cam.motion.extremes()
-    found = {"swing_deg": math.degrees(high - low)} if spec.oscillating else {"lift": high - low}
-    found["travel"] = cam.motion.travel
-    if cam.radius > 0:
-        found["follower_radius"] = cam.radius
-    found["pressure_angle_deg"] = math.degrees(_steepest(cam))
-    crest = sharpest_crest(cam)
-    if np.isfinite(crest):
-        found["least_curvature_radius"] = crest - cam.radius
-    return found
-
-
-def _steepest(cam: WedgeCam) -> float:
-    """Greatest pressure angle, rad; upright at the greatest |S'|."""
-    import numpy as np
-
-    found = [0.0]
-    for piece in cam.motion.pieces:
-        if piece.is_constant:
-            continue
-        travel = np.union1d(np.linspace(*piece.domain, 257), piece.extremes(1))
-        found.append(float(np.abs(cam.pressure_angle(np.minimum(travel, np.nextafter(piece.end, 0)))).max()))
-    return max(found)
-
-
-def wedge_findings(spec: WedgeCamSpec, cam: WedgeCam) -> tuple[Finding, ...]:
-    """Impacts where the velocity or the acceleration jumps, and a steep pressure angle."""
-    found, pieces = [], cam.motion.pieces
-    low, high = cam.motion.extremes()
-    for order, name in ((1, "rigid"), (2, "soft")):
-        # the follower rests before and after the travel
-        sides = [(float(p.value(p.start, order)), float(p.value(p.end, order))) for p in pieces]
-        ends = [0.0, *(end for _, end in sides)]
-        starts = [*(start for start, _ in sides), 0.0]
-        places = [*(p.start for p in pieces), cam.motion.travel]
-        jumps = [(abs(b - a), at) for a, b, at in zip(ends, starts, places, strict=True)]
-        size, at = max(jumps)
-        if size > _JUMP * (high - low) / cam.motion.travel**order:
-            found.append(Finding(f"wedge_{name}_impact", size, at))
-            break
-    usual, steepest = _USUAL_PRESSURE_ANGLE[spec.oscillating is not None], math.degrees(_steepest(cam))
-    if steepest > usual + 1e-9:
-        found.append(Finding("steep_pressure_angle", steepest, usual))
-    return tuple(found)

@@ -26,7 +26,8 @@ from geometry.curve import Real
 from geometry.errors import ParameterError, at_least
 from geometry.motion_laws.piece import LawPiece
 from parts.keys import mm
-from parts.wedge_cam import WedgeCamSpec, checked_wedge, wedge_findings, wedge_phases
+from parts.wedge_cam import WedgeCamSpec, checked_wedge, wedge_phases
+from parts.wedge_report import wedge_findings
 
 # rows of a table by default, about, and at most
 _ROWS, _MOST_ROWS = 36, 3600
