@@ -252,8 +252,12 @@ def _with_remedy(spec: NoncircularGearSpec, refusal: ParameterError) -> Paramete
     if spec.centrode == "ratio" and refusal.name == "centrode":
         share = _largest(lambda v: _builds(_with_amplitudes(spec, v)), 1.0)
         key = "ratio_cosines" if spec.ratio_cosines else "ratio_sines"
-        text = f"{reason}; all amplitudes times {at_most(share, 4)} work"
-        return ParameterError(key, getattr(spec, key), text)
+        told = _with_amplitudes(spec, math.floor(share * 1e4) / 1e4)
+        if spec.ratio_cosines and spec.ratio_sines:
+            # both lists shrink together
+            lists = ", ".join(f"{k} = {_listed(getattr(told, k))}" for k in ("ratio_cosines", "ratio_sines"))
+            return ParameterError(key, getattr(spec, key), f"{reason}; with {lists} it works")
+        return ParameterError(key, getattr(spec, key), f"{reason}; {_listed(getattr(told, key))} works")
     if spec.circumferential_thinning > 0 and _builds(msgspec.structs.replace(spec, circumferential_thinning=0.0)):
         most = _largest(
             lambda v: _builds(msgspec.structs.replace(spec, circumferential_thinning=v)), spec.circumferential_thinning
@@ -275,6 +279,10 @@ def _with_remedy(spec: NoncircularGearSpec, refusal: ParameterError) -> Paramete
                 text += f" with mate_number_of_teeth = {more.mate_number_of_teeth}"
             return ParameterError("number_of_teeth", z, text)
     return ParameterError("number_of_teeth", z, f"{reason}; a rounder centrode works")
+
+
+def _listed(values: list[float]) -> str:
+    return f"[{', '.join(f'{v:.9g}' for v in values)}]"
 
 
 def _with_closing_mate(spec: NoncircularGearSpec, refusal: ParameterError) -> ParameterError:

@@ -74,9 +74,10 @@ def test_a_concave_ratio_names_a_share_that_works() -> None:
     for amplitude in (1.5,):
         with pytest.raises(SceneError, match="ratio_cosines") as refusal:
             made(keys.format(amplitude))
-        share = re.search(r"times ([\d.]+) work", str(refusal.value))
-        assert share, str(refusal.value)
-        made(keys.format(amplitude * float(share[1])))
+        told = re.search(r"; \[([\d.]+)\] works", str(refusal.value))
+        assert told, str(refusal.value)
+        assert 0.5 < float(told[1]) < amplitude
+        made(keys.format(told[1]))
 
 
 @pytest.mark.parametrize(("keys", "key"), [
