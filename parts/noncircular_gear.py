@@ -252,12 +252,12 @@ def _with_remedy(spec: NoncircularGearSpec, refusal: ParameterError) -> Paramete
     if spec.centrode == "ratio" and refusal.name == "centrode":
         share = _largest(lambda v: _builds(_with_amplitudes(spec, v)), 1.0)
         key = "ratio_cosines" if spec.ratio_cosines else "ratio_sines"
-        told = _with_amplitudes(spec, math.floor(share * 1e4) / 1e4)
+        smaller = _with_amplitudes(spec, math.floor(share * 1e4) / 1e4)
         if spec.ratio_cosines and spec.ratio_sines:
             # both lists shrink together
-            lists = ", ".join(f"{k} = {_listed(getattr(told, k))}" for k in ("ratio_cosines", "ratio_sines"))
+            lists = ", ".join(f"{k} = {_listed(getattr(smaller, k))}" for k in ("ratio_cosines", "ratio_sines"))
             return ParameterError(key, getattr(spec, key), f"{reason}; with {lists} it works")
-        return ParameterError(key, getattr(spec, key), f"{reason}; {_listed(getattr(told, key))} works")
+        return ParameterError(key, getattr(spec, key), f"{reason}; {_listed(getattr(smaller, key))} works")
     if spec.circumferential_thinning > 0 and _builds(msgspec.structs.replace(spec, circumferential_thinning=0.0)):
         most = _largest(
             lambda v: _builds(msgspec.structs.replace(spec, circumferential_thinning=v)), spec.circumferential_thinning
