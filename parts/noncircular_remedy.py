@@ -30,8 +30,12 @@ def with_gear_remedy(spec: NoncircularGearSpec, refusal: ParameterError) -> Para
     if spec.centrode == "ratio" and refusal.name == "centrode":
         share = largest(lambda v: builds(_with_amplitudes(spec, v)), 1.0)
         key = "ratio_cosines" if spec.ratio_cosines else "ratio_sines"
-        text = f"{reason}; all amplitudes times {at_most(share, 4)} work"
-        return ParameterError(key, getattr(spec, key), text)
+        smaller = _with_amplitudes(spec, math.floor(share * 1e4) / 1e4)
+        if spec.ratio_cosines and spec.ratio_sines:
+            # both lists shrink together
+            lists = ", ".join(f"{k} = {_listed(getattr(smaller, k))}" for k in ("ratio_cosines", "ratio_sines"))
+            return ParameterError(key, getattr(spec, key), f"{reason}; with {lists} it works")
+        return ParameterError(key, getattr(spec, key), f"{reason}; {_listed(getattr(smaller, key))} works")
     if spec.circumferential_thinning > 0 and builds(msgspec.structs.replace(spec, circumferential_thinning=0.0)):
         most = largest(
             lambda v: builds(msgspec.structs.replace(spec, circumferential_thinning=v)), spec.circumferential_thinning
@@ -72,6 +76,10 @@ def _rounder(spec: NoncircularGearSpec, reason: str) -> ParameterError | None:
         if round_one < float(told) < asked and builds(msgspec.structs.replace(spec, **{key: float(told)})):
             return ParameterError(key, asked, f"{reason}; at most {told} works")
     return None
+
+
+def _listed(values: list[float]) -> str:
+    return f"[{', '.join(f'{v:.9g}' for v in values)}]"
 
 
 def with_closing_mate(spec: NoncircularGearSpec, refusal: ParameterError) -> ParameterError:

@@ -351,9 +351,10 @@ def _resets(raw: dict[str, Any], place: Place, builds: Builds) -> tuple[list[Cha
 
 def _offered(refusal: SceneError, raw: dict[str, Any], place: Place, changes: list[Change], way: str) -> SceneError:
     """The refusal with changes that work in place of what it said."""
-    reason = reason_of(refusal.remedy) or "does not fit the other keys"
-    # a key that does not exist stays the one to blame
-    foreign = refusal.remedy.startswith("unknown key") and changes[0].place != place
+    reason = reason_of(refusal.remedy) or _first_words(refusal.remedy)
+    # a key that does not exist, or stands in a table that works as a whole only, stays the one to blame
+    above = changes[0].place == place[: len(changes[0].place)]
+    foreign = (refusal.remedy.startswith("unknown key") or above) and changes[0].place != place
     if len(changes) > 1 or foreign:
         return SceneError(
             refusal.source, refusal.key, refusal.value, f"{reason}; with {', '.join(c.label for c in changes)} it works"
@@ -369,6 +370,14 @@ def _offered(refusal: SceneError, raw: dict[str, Any], place: Place, changes: li
     value = value_at(raw, change.place)
     value = None if isinstance(value, dict | list) else value
     return SceneError(refusal.source, told_place(change.place), value, f"{own}: {reason}; {told}")
+
+
+def _first_words(remedy: str) -> str:
+    """The reason of a refusal that says no more than what should stand there."""
+    first = remedy.partition("; ")[0]
+    if first.startswith(("at most", "at least", "remove", "with", "a ", "another")):
+        return "does not fit the other keys"
+    return first.removesuffix(" works").removesuffix(" work")
 
 
 def _noted(refusal: SceneError, raw: dict[str, Any], place: Place) -> SceneError:

@@ -169,7 +169,9 @@ def reason_of(remedy: str) -> str:
         elif colon and _REMEDY.search(what):
             # the reason and what to do in one piece
             kept.append(why)
-    return "; ".join(kept)
+    # what a list of choices says is a reason too
+    choices = [piece for piece in remedy.split("; ") if piece.startswith(("one of ", "between ", "each "))]
+    return "; ".join([*kept, *(c.removesuffix(" works").removesuffix(" work") for c in choices if c not in kept)])
 
 
 def typed(value: Any) -> Any:

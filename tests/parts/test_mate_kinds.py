@@ -155,7 +155,6 @@ HELICAL = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 19, "helix_ang
         ({"helix_angle_deg": 20.0, "hand": "left"}, "helix_angle_deg", "25 works"),
         ({"double_helical": True, "hand": "left"}, "double_helical", "false works"),
         ({"module": 2.5, "hand": "left"}, "module", "2 works"),
-        ({"helix_angle_deg": 0.0}, "helix_angle_deg", "25 works"),
     ],
 )
 def test_helices_that_do_not_mesh_are_refused_in_the_parts_own_keys(
@@ -166,6 +165,16 @@ def test_helices_that_do_not_mesh_are_refused_in_the_parts_own_keys(
         scene({"a": HELICAL, "b": {**HELICAL, **other}}, mate)
     assert caught.value.key == f"mates[1]: parts.b.{key}"
     assert remedy in caught.value.remedy
+
+
+def test_a_straight_gear_beside_a_helical_one_is_cured_in_one_step() -> None:
+    """The same angle would need the other hand too: straight teeth mesh with straight ones."""
+    mate = {"kind": "external_gear_pair", "first": "a", "second": "b"}
+    with pytest.raises(SceneError) as caught:
+        scene({"a": HELICAL, "b": {**HELICAL, "helix_angle_deg": 0.0}}, mate)
+    assert caught.value.key == "parts.a.helix_angle_deg"
+    assert caught.value.remedy.endswith("; 0.0 degrees works")
+    scene({"a": {**HELICAL, "helix_angle_deg": 0.0}, "b": {**HELICAL, "helix_angle_deg": 0.0}}, mate)
 
 
 def test_helical_gears_mesh_at_every_height() -> None:

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from parts.scene import make_parts, scene_from_dict
 from parts.schema import SceneError
+from tests.offered import offered
 from tests.strategies import numbers
 
 Keys = dict[str, Any]
@@ -94,6 +95,8 @@ ANY = st.one_of(
 
 def remedied(keys: Keys, message: str) -> Keys:
     """The keys as a refusal wants them."""
+    if made := offered({"parts": {"part": keys}}, "s: " + message.removeprefix("t: ")):
+        return made[0]["parts"]["part"]
     blamed = re.search(r"parts\.part\.([a-z_]+)(?:\.([a-z_]+))? = ", message)
     assert blamed, message
     owner, inner = blamed.groups()
