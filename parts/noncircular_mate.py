@@ -127,9 +127,9 @@ def noncircular_mating(mate: NoncircularGearPairSpec, first: NoncircularGear, se
         lobes = one.lobes[0]
         odd = max(1, (one.teeth[0] // lobes) | 1)
         reason = "two gears of one role mesh only where a tooth on the long radius meets a space on the short one"
-        more = f" (or {odd * lobes} teeth)" if one.is_self_mating else ""
+        more = f" (as of {odd * lobes} teeth)" if one.is_self_mating else ""
         here = "driver" if role == "mate" else "mate"
-        raise ParameterError("role", here, f'{reason}; role = "{role}" works{more}')
+        raise ParameterError("role", here, f'{reason}{more}; "{role}" works')
     for key, wanted in (
         ("pressure_angle_deg", math.degrees(first.rack.pressure_angle)),
         # a part that meshes with itself has none

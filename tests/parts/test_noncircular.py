@@ -132,7 +132,7 @@ def test_equal_ovals_with_teeth_that_do_not_fit_are_told_the_role() -> None:
     with pytest.raises(SceneError, match='role = "driver".*"mate" works') as refusal:
         placed(two(wrong, wrong))
     # both remedies work
-    number = re.search(r"or (\d+) teeth", str(refusal.value))
+    number = re.search(r"of (\d+) teeth", str(refusal.value))
     assert number
     placed(two(wrong, wrong + '\nrole = "mate"'))
     right = OVAL.replace("18", number[1])
