@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import ezdxf
+import numpy as np
 import pytest
 
 from exporters.calculations.topics import calculate
@@ -51,7 +52,7 @@ def jobs(keys: dict[str, Any], language: str = "en", **export: Any) -> tuple[She
 
 @cache
 def roller_job(language: str = "en") -> SheetJob:
-    return jobs(CASES["rocker"], language)[0]
+    return jobs(CASES["rocker"], language, **({} if language == "en" else {"tolerance": 1e-4}))[0]
 
 
 @pytest.fixture(scope="module")
@@ -80,7 +81,7 @@ def test_both_languages_write_the_same_sheet_and_it_is_good(roller_file: Path, t
 
 @pytest.mark.parametrize("name", ["flat", *(pytest.param(n, marks=pytest.mark.heavy) for n in CASES if n != "flat")])
 def test_every_follower_and_linkage_has_its_sheet(name: str, tmp_path: Path) -> None:
-    for job in jobs(CASES[name], intervals=2):
+    for job in jobs(CASES[name], intervals=2, tolerance=1e-4):
         job.write(tmp_path / job.path)
         assert job.verify(tmp_path / job.path).failures == ()
 
@@ -181,7 +182,7 @@ def test_damage_is_noticed(roller_file: Path, tmp_path: Path, damage: str) -> No
 
 def test_a_slider_is_drawn_on_its_line(tmp_path: Path) -> None:
     """Four linkages with two sliders: a line and a rectangle each, the lines in their directions turned back."""
-    job = jobs(CASES["slider"])[0]
+    job = jobs(CASES["slider"], tolerance=1e-4)[0]
     file = tmp_path / job.path
     job.write(file)
     lines = [(complex(*e.dxf.start.vec2), complex(*e.dxf.end.vec2))
@@ -208,6 +209,15 @@ def test_the_number_of_intervals_that_works_works() -> None:
 
 
 def test_the_title_block_and_a_speed_stand_on_the_sheet() -> None:
-    texts = [t.text for t in jobs(CASES["rocker"], intervals=2, speed_rpm=60.0)[0].canvas.texts]
+    """Nothing of the picture lies under the title block, whose numbers are those of the page."""
+    job = jobs(CASES["rocker"], intervals=2, speed_rpm=60.0, title_block={"designation": "TMM.05"}, tolerance=1e-4)[0]
+    texts = [t.text for t in job.canvas.texts]
     at = texts.index("μt")
     assert float(texts[at + 1].split()[0]) == pytest.approx(math.radians(2) / (2 * math.pi), rel=1e-4)
+    assert texts.count("TMM.05") >= 1
+    right, low = job.canvas.frame.right, job.canvas.frame.low
+    for stroke in job.canvas.strokes:
+        if stroke.layer not in ("FRAME", "TABLE"):
+            points = stroke.curve.point(np.linspace(*stroke.curve.domain, 65))
+            under = (points.real > right - 185) & (points.imag < low + 55)
+            assert not under.any(), stroke.layer
