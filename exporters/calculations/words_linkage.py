@@ -6,7 +6,7 @@ from __future__ import annotations
 TERMS_OF_LINKAGES = """
 driven_pivot_x|x_O|x_O1|mm|pivot of the driven rocker, x|вісь ведучого коромисла, x
 driven_pivot_y|y_O|y_O1|mm|pivot of the driven rocker, y|вісь ведучого коромисла, y
-driven_length|l_1|l_1|mm|length of the driven rocker O_1A|довжина ведучого коромисла O_1A
+driven_length|l_1|l_1|mm|length of the driven rocker|довжина ведучого коромисла
 driven_start_angle_deg|psi_0|ψ_0|deg|angle of the driven rocker at S = 0|кут ведучого коромисла при S = 0
 driven_start_x|x_O|x_A0|mm|joint A at S = 0, x|шарнір A при S = 0, x
 driven_start_y|y_O|y_A0|mm|joint A at S = 0, y|шарнір A при S = 0, y
