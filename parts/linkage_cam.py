@@ -188,7 +188,7 @@ def linkage_cam_part(part_id: str, spec: LinkageCamSpec, cam: LinkageCam) -> Par
         lru_cache(maxsize=2)(lambda offset: wheel_body(shape, sections, offset)),
         spec.face_width,
         shape.is_plate,
-        _findings(spec, cam),
+        linkage_findings(spec, cam),
         cam_circles(cam),
         _quantities(cam),
         spec.material,
@@ -224,7 +224,7 @@ def _quantities(cam: LinkageCam) -> dict[str, float]:
     return found
 
 
-def _findings(spec: LinkageCamSpec, cam: LinkageCam) -> tuple[Finding, ...]:
+def linkage_findings(spec: LinkageCamSpec, cam: LinkageCam) -> tuple[Finding, ...]:
     """Impacts, steep pressure angles, large rollers, poor transmission angles."""
     from geometry.cams.follower_motion import PhaseKind
     from geometry.cams.synthesis import greatest_pressure_angle, least_convex_radius

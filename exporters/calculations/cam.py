@@ -52,6 +52,7 @@ PAGES = {
     "yoke_frame": "cam_pairs",
     "wedge_cam": "cam_wedge",
     "barrel_cam": "cam_barrel",
+    "linkage_cam": "cam_linkage",
 }
 
 
@@ -82,6 +83,10 @@ def table_from(scene: Any, source: str, table: dict[str, Any]) -> dict[str, Any]
     found, kind = given(scene.parts[chosen]), kinds[chosen]
     if kind == "cam":
         return found | table
+    # a linkage's member is changed key by key, or given anew with its name
+    for key in ("driven", "guide"):
+        if isinstance(table.get(key), dict) and "member" not in table[key] and key in found:
+            table[key] = found[key] | table[key]
     owner = scene.parts.get(getattr(scene.parts[chosen], "of", ""))
     if owner is not None:
         found["of"] = given(owner) | (table.pop("of") if isinstance(table.get("of"), dict) else {})

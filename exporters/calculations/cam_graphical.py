@@ -16,7 +16,6 @@ from geometry.cams.graphical import (
     graphical_profile_error,
     graphical_radius,
 )
-from geometry.cams.mounts import Translating
 
 _SOURCES = {
     False: ("practicum, lesson 5, 3.1, fig. 5.1 - 5.4", "practicum, lesson 5, section 3.2, fig. 5.6",
@@ -37,7 +36,7 @@ def graphical_section(
         )
         return
     drawn = graphical_motion(cam.motion, intervals, Drawing(drawing))
-    swings = not isinstance(cam.mount, Translating)
+    swings = cam.swings
     integration, radius, profile = _SOURCES[cam.is_flat]
     page.section("Graphical method", "Графічний метод")
     page.add("graphical_intervals", intervals, "", integration)

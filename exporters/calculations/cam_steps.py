@@ -210,10 +210,8 @@ def straightened(radius: Real, size: float) -> Real:
 
 
 def cam_swings(cam: DiskCam) -> bool:
-    """Whether the follower of a disk cam is a rocker."""
-    from geometry.cams.mounts import Oscillating
-
-    return isinstance(cam.mount, Oscillating)
+    """Whether S of a disk cam is an angle."""
+    return cam.swings
 
 
 def impact_notes(page: Sheet, motion: FollowerMotion) -> None:

@@ -80,3 +80,30 @@ _THESIS: dict[tuple[str, int], Printed] = {
 def printed_for_internal(teeth: tuple[int, int], module: float) -> Mapping[tuple[str, int], Printed]:
     """What the thesis prints wrongly for its internal pair; empty for any other."""
     return _THESIS if (teeth, module) == ((96, 144), 3.0) else {}
+
+
+_INFINITE = (
+    "multiplied by the relative turning: divided by it F and R are infinite where both links turn alike",
+    "помножено на відносну кутову швидкість: поділені на неї F і R нескінченні, де обидві ланки обертаються однаково",
+)
+# Savvin's synthesis of plane cams: misprints by the number of the equation, each follows from the others
+SAVVIN: dict[str, Printed] = {
+    "12": Printed("1/(ω_2-ω_1)·[A'·sin(α_2-α_1) - B'·cos(α_2-α_1)]", *_INFINITE),
+    "13": Printed("1/(ω_2-ω_1)·[A'·cos(α_2-α_1) + B'·sin(α_2-α_1)]", *_INFINITE),
+    "19": Printed(
+        "one sign of the root",
+        "both sides of the circle satisfy (11); with F, R times the relative turning the minus is the cam's",
+        "(11) справджують обидва боки кола; мінус перед F, R, помноженими на відносну швидкість, дає бік кулачка",
+    ),
+    "21": Printed(
+        "F·cos(α_2-α_1) + R·sin(α_2-α_1)",
+        "(4) gives the minus; the printed point leaves the circle of the roller",
+        "(4) дає мінус; надрукована точка не лежить на колі ролика",
+    ),
+    "27": Printed("γ_2 = γ_11 + α_1", "this is gamma_1, as (28) has it", "це γ_1, як у формулі (28)"),
+    "28": Printed(
+        "arctg(-ξ_21'/r_21) + α_1 - arctg(y_A2'/x_A2)",
+        "eta_21' and x_A2' by (25), (26); two arctangents lose quadrants, so the acute angle is taken",
+        "за (25), (26) має бути η_21' і x_A2'; два арктангенси гублять чверті, тому взято гострий кут",
+    ),
+}

@@ -17,6 +17,7 @@ FORMATS = ("text", "md", "html", "json")
 _WORDS = {
     "practicum": ("practicum", "практикум"),
     "guidelines": ("guidelines", "методичні вказівки"),
+    "Savvin": ("Savvin", "Саввін"),
     "thesis": ("thesis", "дипломна робота"),
     "GOST": ("GOST", "ГОСТ"),
     "table": ("table", "табл."),

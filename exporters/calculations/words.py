@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from exporters.calculations.words_kinds import TERMS_OF_KINDS
+from exporters.calculations.words_linkage import TERMS_OF_LINKAGES
 
 
 @dataclass(frozen=True, slots=True)
@@ -209,4 +210,4 @@ graphical_base_radius|r_0g|r_0g|mm|least radius by the drawing|найменши�
 graphical_radius_error|dr_0|Δr_0|mm|its error|похибка радіуса за побудовою
 graphical_profile_error|dn|Δn|mm|greatest error of the drawn profile|найбільша похибка профілю за побудовою
 """)
-TERMS |= _terms(TERMS_OF_KINDS)
+TERMS |= _terms(TERMS_OF_KINDS) | _terms(TERMS_OF_LINKAGES)

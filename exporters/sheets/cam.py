@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from exporters.calculations.sheet import Sheet
 from exporters.sheets.cam_diagrams import LEFT, RIGHT, Drawn, draw_diagrams, heights_of
 from exporters.sheets.cam_joint import Joint, draw_joint, joint_of, joint_paper, joint_window, name_joint
+from exporters.sheets.cam_links import intervals_beside, linkage_cam_of, position_grid
 from exporters.sheets.cam_picture import CamPicture, Scales, scales_of
 from exporters.sheets.cam_profile import draw_profile, name_profile, number_positions, profile_paper, profile_side
 from exporters.sheets.cam_swing import draw_swing, name_swing, swing_of, swing_window
 from exporters.sheets.cam_tables import ROW, WIDTH, Grid, characteristics, draw_grid, graphical_grid, legend, scale_rows
-from exporters.sheets.canvas import FRAME, FRAME_LEFT, PAPERS, TEXT_HEIGHT, Box, Canvas, Paper, scale_text
+from exporters.sheets.canvas import FRAME, FRAME_LEFT, PAPERS, SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Paper, scale_text
 from exporters.sheets.labels import Labeller
 from exporters.sheets.verify import Expected
 from exporters.sheets.verify_cam import CamMeasures
@@ -55,7 +56,9 @@ def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, tolerance: flo
     joint, swing = joint_of(picture), swing_of(picture)
     first = characteristics(calculation, picture)
     graphical = graphical_grid(calculation, picture)
-    layout = _layout(picture, first, graphical, has_joint=joint is not None or swing is not None)
+    linked = linkage_cam_of(picture)
+    places = None if linked is None else position_grid(picture, linked)
+    layout = _layout(picture, (first, graphical, places), has_joint=joint is not None or swing is not None)
     canvas = layout.canvas
     canvas.box("FRAME", canvas.frame)
     left = canvas.frame.left + 6.0
@@ -80,7 +83,7 @@ def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, tolerance: flo
     corner = layout.tables
     scale = None if joint_place is None else joint_place.scale
     lines = legend(picture, has_return=joint is not None and joint.return_line is not None)
-    for grid in (first, scale_rows(picture, scales, scale, paper.scale), lines, graphical):
+    for grid in (first, scale_rows(picture, scales, scale, paper.scale), lines, graphical, places):
         if grid is not None:
             draw_grid(canvas, corner, grid)
             corner -= 1j * (grid.height + _GRID_GAP)
@@ -110,17 +113,22 @@ def _measures(
 
 def _title(picture: CamPicture) -> str:
     how = "swing" if picture.swings else "slide"
+    if linkage_cam_of(picture) is not None:
+        how = "linkage"
     return sheet_words(picture.language, f"cam_{picture.cam.kind.value}_{how}")
 
 
-def _layout(picture: CamPicture, first: Grid, graphical: Grid | None, *, has_joint: bool) -> _Layout:
+def _layout(picture: CamPicture, grids: tuple[Grid | None, ...], *, has_joint: bool) -> _Layout:
     """The smallest paper that holds the tables and the profile in full size; A1 for a larger cam."""
-    tables = first.height + _SMALL_GRIDS + (graphical.height if graphical else 0.0)
+    first, _, places = grids
+    tables = sum(grid.height for grid in grids if grid) + _SMALL_GRIDS + (_GRID_GAP if places else 0.0)
     fitting = [name for name in _TURNS if tables <= PAPERS[name][0] - _AROUND]
     if not fitting:
-        rows = int((PAPERS["A0"][0] - _AROUND - _SMALL_GRIDS - first.height) / ROW)
+        room = PAPERS["A0"][0] - _AROUND - _SMALL_GRIDS - (first.height if first else 0.0)
         phases = max(len(picture.drawn.phases) if picture.drawn else 1, 1)
-        most = (rows - 2) // phases - 1
+        most = (int(room / ROW) - 2) // phases - 1
+        if places:
+            most = intervals_beside(picture, int((room - _GRID_GAP) / ROW))
         if most < LEAST_INTERVALS:
             text = "has more phases than the tables of one paper hold; leave it out of parts"
             raise ParameterError("parts", len(picture.cam.motion.phases), text)
@@ -137,11 +145,15 @@ def _areas(name: str, picture: CamPicture, *, has_joint: bool) -> _Layout:
     height, width = PAPERS[name]
     canvas = Canvas(width, height, name)
     low, high = FRAME + _MARGIN, height - FRAME - _TITLE
-    split = FRAME_LEFT + _MARGIN + LEFT + _TURNS[name] + RIGHT
+    # a linkage needs the room
+    linked = linkage_cam_of(picture) is not None
+    split = FRAME_LEFT + _MARGIN + LEFT + (_TURNS["A2"] if linked else _TURNS[name]) + RIGHT
     right = width - FRAME - WIDTH
     diagrams = Box(FRAME_LEFT + _MARGIN, low, split, high)
     foot, near, far = low + INSCRIPTION[1], split + _MARGIN, right - _MARGIN
     top = high - _CAPTION
+    if linked:
+        top -= _CAPTION
     if has_joint:
         room = top - _LEAST_JOINT - _MARGIN - _CAPTION - foot
         top = foot + profile_side(picture, min(room, far - near))
@@ -152,6 +164,11 @@ def _areas(name: str, picture: CamPicture, *, has_joint: bool) -> _Layout:
 
 def _captions(canvas: Canvas, picture: CamPicture, layout: _Layout, joint: Paper | None, profile: Paper) -> None:
     language = picture.language
+    if linkage_cam_of(picture) is not None:
+        area, text = layout.profile, sheet_words(language, "no_joint")
+        canvas.write(
+            text, complex(area.left + 2.0, area.high + _CAPTION + 3.0), SMALL_TEXT, area.right - area.left - 4.0
+        )
     for key, area, place in (("cam_profile", layout.profile, profile), ("cam_joint", layout.joint, joint)):
         if place is None:
             continue

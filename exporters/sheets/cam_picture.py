@@ -16,7 +16,7 @@ from geometry.cams.synthesis import greatest_pressure_angle
 from geometry.errors import ParameterError
 
 # parts of a turn, in intervals of a phase, where a table of points gives no phases
-_TURN_SHARE = 3
+TURN_SHARE = 3
 # steps of the scales of diagrams; GOST 2.319 leaves them to the drawer, who takes round ones
 _STEPS = (1.0, 2.0, 2.5, 4.0, 5.0)
 _ROUNDING = 1e-9
@@ -51,7 +51,7 @@ class CamPicture:
     @property
     def swings(self) -> bool:
         """Whether the follower oscillates: its motion is shown in degrees."""
-        return not isinstance(self.cam.mount, Translating)
+        return self.cam.swings
 
     @property
     def unit(self) -> float:
@@ -99,7 +99,7 @@ def _positions(cam: DiskCam, intervals: int) -> tuple[Position, ...]:
     """0 to n: ends of the parts of each moving phase, and of each dwell."""
     phases = cam.motion.phases
     if not phases:
-        count = _TURN_SHARE * intervals
+        count = TURN_SHARE * intervals
         return tuple(Position(k, 2 * math.pi * k / count, k == 0) for k in range(count))
     found: list[Position] = []
     at = 0.0

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from exporters.sheets.cam_diagrams import Drawn
+from exporters.sheets.cam_links import draw_links, frame_ray, linkage_cam_of, links_reach, name_links, pivots
 from exporters.sheets.cam_picture import CamPicture, thinned
 from exporters.sheets.canvas import SCALES, SMALL_TEXT, Box, Canvas, Paper, Stroke, draw, fitted, text_width
 from exporters.sheets.labels import Labeller
@@ -56,6 +57,8 @@ def reach_of(picture: CamPicture, scale: float) -> Reach:
         for position in picture.positions:
             height = abs(complex(cam.reference_point(position.angle)))
             whole = max(whole, *(math.hypot(height, end) for end in _face_ends(picture, position.angle, scale)))
+    if (linked := linkage_cam_of(picture)) is not None:
+        whole = max(whole, links_reach(picture, linked, scale))
     return Reach(base, base + cam.radius, far, rays, whole)
 
 
@@ -64,9 +67,13 @@ def _face_ends(picture: CamPicture, angle: float, scale: float) -> tuple[float, 
     cam = picture.cam
     contact = complex(cam.contact(angle))
     normal = complex(cam.normal(angle))
-    along = (contact * (1j * normal).conjugate()).real
+    places = [contact]
+    if (linked := linkage_cam_of(picture)) is not None:
+        # the point of the face that the rod carries
+        places.append(complex(linked.place(angle)))
+    along = [(place * (1j * normal).conjugate()).real for place in places]
     beyond, least = _FACE_BEYOND / scale, _FACE_LEAST / scale
-    return min(along - beyond, -least), max(along + beyond, least)
+    return min(min(along) - beyond, -least), max(max(along) + beyond, least)
 
 
 def profile_paper(picture: CamPicture, area: Box) -> Paper:
@@ -111,6 +118,11 @@ def draw_profile(
         circle("CIRCLE_OFFSET", 0j, abs(mount.offset))
     if isinstance(mount, Oscillating):
         circle("CIRCLE_PIVOT", 0j, mount.centre_distance)
+    if (linked := linkage_cam_of(picture)) is not None:
+        # none about a pivot that stands on the axis
+        for pivot in filter(None, pivots(linked)):
+            circle("CIRCLE_PIVOT", 0j, abs(pivot))
+        draw_links(canvas, drawn, picture, linked, paper, reach.rays)
     _marks(canvas, picture, paper)
     for position in picture.positions:
         _follower(canvas, drawn, picture, paper, reach, position.angle)
@@ -154,7 +166,7 @@ def _follower(canvas: Canvas, drawn: Drawn, picture: CamPicture, paper: Paper, r
         beside = 0.0 if cam.is_flat else mount.offset
         top = math.sqrt(reach.rays**2 - beside**2)
         line("CONSTRUCTION", complex(beside, 0.0), complex(beside, top))
-    else:
+    elif isinstance(mount, Oscillating):
         line("CONSTRUCTION", 0j, complex(mount.centre_distance, 0.0))
         if not cam.is_flat:
             line("FOLLOWER", complex(mount.centre_distance, 0.0), here)
@@ -200,6 +212,10 @@ def number_positions(canvas: Canvas, picture: CamPicture, paper: Paper) -> None:
         beside = 0.0 if cam.is_flat else mount.offset
         radius = reach.rays + _NUMBER / paper.scale
         start = complex(beside, math.sqrt(radius**2 - beside**2))
+    elif (linked := linkage_cam_of(picture)) is not None:
+        ray = frame_ray(linked, reach.rays)
+        radius = abs(ray) + _NUMBER / paper.scale
+        start = radius * ray / abs(ray)
     else:
         radius = mount.centre_distance + _NUMBER / paper.scale
         start = complex(radius, 0.0)
@@ -233,6 +249,8 @@ def name_profile(labels: Labeller, picture: CamPicture, paper: Paper) -> None:
             spoke = cmath.exp(1j * math.radians(330))
             text = f"E = {say(abs(mount.offset))}"
             labels.name(text, paper.point(abs(mount.offset) * spoke), SMALL_TEXT, prefer=spoke)
+    elif (linked := linkage_cam_of(picture)) is not None:
+        name_links(labels, picture, linked, paper)
     else:
         spoke = cmath.exp(1j * math.radians(20))
         point = paper.point(mount.centre_distance * spoke)

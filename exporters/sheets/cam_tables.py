@@ -12,6 +12,7 @@ from exporters.calculations.symbols import symbol_text
 from exporters.sheets.cam_picture import CamPicture, Scales
 from exporters.sheets.canvas import SMALL_TEXT, Box, Canvas, decimal, scale_text, text_width
 from exporters.sheets.words import sheet_words
+from geometry.cams.linkage_cam import LinkageCam
 
 ROW = 4.5
 WIDTH = 126.0
@@ -109,7 +110,7 @@ def _time_rows(picture: CamPicture, scales: Scales) -> list[tuple[str, ...]]:
 def legend(picture: CamPicture, *, has_return: bool) -> Grid:
     """What the lines mean that have no name of their own."""
     layers = ["CAM"] + ["PITCH_CURVE"] * bool(picture.cam.radius) + ["GRAPHICAL"] * (picture.drawn is not None)
-    layers += ["RETURN_TANGENT"] * has_return
+    layers += ["RETURN_TANGENT"] * has_return + ["FOLLOWER"] * isinstance(picture.cam, LinkageCam)
     rows = tuple((sheet_words(picture.language, layer.lower()), "") for layer in layers)
     return Grid((_COLUMNS[0], sum(_COLUMNS[1:])), rows, tuple(enumerate(layers)))
 

@@ -21,6 +21,7 @@ from geometry.gears.limits import practicum_undercut
 from geometry.gears.meshing_picture import MeshingPicture, meshing_picture
 from geometry.gears.transverse import overlap_ratio
 from parts.cam import CamSpec
+from parts.linkage_cam import LinkageCamSpec
 from parts.mate_kinds import Mating
 from parts.scene import ExportSpec, SceneFile
 from parts.schema import SceneError
@@ -83,7 +84,7 @@ def sheet_jobs(scene: SceneFile, matings: list[Mating], export: ExportSpec, wher
             _add_title_block(drawn, scene, export, number, len(made))
         return [SheetJob(export, x, f"{name}.{part}.{ending}", where) for part, x in made for ending in ENDINGS]
     if all(m.pair is None for m in matings):
-        has_cam = any(isinstance(spec, CamSpec) for spec in scene.parts.values())
+        has_cam = any(isinstance(spec, CamSpec | LinkageCamSpec) for spec in scene.parts.values())
         remedy = "remove it" if matings else "add [[mates]] or remove it"
         remedy = 'purpose = "cam" draws the cams that are here' if has_cam else remedy
         raise SceneError(source, f"{where}.purpose", export.purpose, f"shows pairs of involute gears only; {remedy}")

@@ -59,6 +59,27 @@ SHEET_WORDS |= {
         )
         for how, en_how, uk_how in (("slide", "a", ""), ("swing", "an oscillating", "коромисловим "))
     },
+    **{
+        f"cam_{kind}_linkage": (
+            f"Synthesis of a cam mechanism with a {en} follower on a connecting rod",
+            f"Синтез кулачкового механізму з {uk} штовхачем на шатуні",
+        )
+        for kind, en, uk in (
+            ("pointed", "pointed", "загостреним"),
+            ("roller", "roller", "роликовим"),
+            ("mushroom", "mushroom", "грибковим"),
+            ("flat", "flat", "плоским"),
+        )
+    },
+    "cam_positions": (
+        "Positions: connecting rod, O_{2}, pressure angles, profile, mm",
+        "Положення: шатун, точка O_{2}, кути тиску, профіль, мм",
+    ),
+    "no_joint": (
+        "No joint diagram: with the follower in general plane motion the cam's centre is part of the linkage.",
+        "Сумісної діаграми немає: за плоскопаралельного руху штовхача центр кулачка заданий разом з механізмом.",
+    ),
+    "follower": ("linkage and follower", "ланки механізму і штовхач"),
     "cam_profile": ("Profile of the cam by inversion", "Побудова профілю кулачка"),
     "cam_joint": ("Least radius by the joint diagram", "Визначення мінімального радіуса кулачка"),
     "cam": ("actual profile", "практичний профіль кулачка"),

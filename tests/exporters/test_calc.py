@@ -55,6 +55,7 @@ SHEETS = [
     ("cam", "practicum_flat_cam"),
     ("cam", "guidelines_cam", "step=2.5"),
     ("cam", "practicum_roller_cam"),
+    ("cam", "linkage_cam"),
     ("cycloidal", "cycloidal_reducer"),
     ("lantern", "lantern_pair"),
     ("noncircular", "oval_gears", "part=oval"),
