@@ -129,7 +129,7 @@ def test_size_by_centre_distance() -> None:
 
 def test_equal_ovals_with_teeth_that_do_not_fit_are_told_the_role() -> None:
     wrong = OVAL.replace("18", "20")
-    with pytest.raises(SceneError, match='role = "driver".*"mate" works') as refusal:
+    with pytest.raises(SceneError, match=r'role = "driver".*"mate" works') as refusal:
         placed(two(wrong, wrong))
     # both remedies work
     number = re.search(r"of (\d+) teeth", str(refusal.value))
