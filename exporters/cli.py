@@ -153,8 +153,8 @@ def _parser() -> argparse.ArgumentParser:
     calc.add_argument("--format", default="text", metavar="F", help="text, md, html or json (default: text)")
     calc.add_argument("--language", metavar="L", help="en or uk (default: that of the scene, or en)")
     calc.set_defaults(run=_calc)
-    new = commands.add_parser("new", help="print a commented scene to start from")
-    new.add_argument("kind", metavar="KIND", help="a kind of part, see `higherpair list`")
+    new = commands.add_parser("new", help="print a commented scene to start from; of a mate its table, to add to one")
+    new.add_argument("kind", metavar="KIND", help="a kind of part or mate, see `higherpair list`")
     new.set_defaults(run=_new)
     return parser
 
@@ -260,7 +260,7 @@ def _list(options: argparse.Namespace) -> int:
     print("kinds of parts (higherpair new KIND):")
     for kind, (spec, *_) in KINDS.items():
         print(f"  {kind:<22} {(spec.__doc__ or '').splitlines()[0]}")
-    print("kinds of mates between instances (higherpair new KIND):")
+    print("kinds of mates between instances (higherpair new KIND prints a table to add to a scene):")
     for kind, spec in MATES.items():
         print(f"  {kind:<22} {(spec.__doc__ or '').splitlines()[0]}")
     print("built-in scenes (higherpair build NAME):")

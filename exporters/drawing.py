@@ -6,8 +6,10 @@ import math
 from pathlib import Path
 
 import ezdxf
+import numpy as np
 
 from exporters.dxf_file import fixed_metadata, save
+from geometry.contour import edge_box
 from geometry.line_arc import Arc, Line
 from geometry.outline import CadCurve, Outline
 
@@ -24,16 +26,29 @@ def write_drawing_dxf(file: Path, boundaries: tuple[Outline, ...]) -> dict[str, 
     drawing.layers.add(_LAYER, color=7, lineweight=50)
     space = drawing.modelspace()
     counts: dict[str, int] = {}
-    reach = 0.0
+    corners: list[complex] = []
     for boundary in boundaries:
         for curve in boundary.curves():
             kind = add_curve(space, curve, _LAYER)
             counts[kind] = counts.get(kind, 0) + 1
-        reach = max(reach, *(abs(complex(c.point(c.domain[0]))) for c in boundary.period))
-    space.reset_extents((-reach, -reach, 0.0), (reach, reach, 0.0))
+            corners += _box(curve)
+    x, y = [c.real for c in corners], [c.imag for c in corners]
+    space.reset_extents((min(x), min(y), 0.0), (max(x), max(y), 0.0))
     with fixed_metadata():
         save(drawing, file)
     return counts
+
+
+def _box(curve: CadCurve) -> list[complex]:
+    """Corners of a box that holds a curve: of a spline that of its poles."""
+    if isinstance(curve, Line):
+        return [curve.start, curve.end]
+    if isinstance(curve, Arc):
+        parts = max(2, math.ceil(abs(curve.sweep)))
+        points = curve.point(np.linspace(*curve.domain, parts + 1))
+        bulges = np.full(parts, math.tan(curve.sweep / parts / 4))
+        return list(edge_box(points[:-1], points[1:], bulges))
+    return [complex(p) for p in curve.poles]
 
 
 def add_curve(space, curve: CadCurve, layer: str) -> str:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from geometry.contour import Approximation, Contour
+from geometry.contour import Approximation, Contour, edge_box
 
 # ACI colours: engraving blue, first of all; inner contours green, cut before the outer ones, red
 LAYER_COLOURS = {"ENGRAVE": 5, "CUT_INNER": 3, "CUT_OUTER": 1}
@@ -21,7 +21,7 @@ VERSIONS = ("R2000", "R12")
 _MODEL_SPACE, _LAYERS, _PLOT_STYLE = "17", "1", "13"
 # layers that every drawing has: 0 and Defpoints
 _OWN_LAYERS = 2
-SLOTS = ("<<low>>", "<<high>>", "<<seed>>", "<<layer count>>", "<<layers>>", "<<entities>>")
+SLOTS = ("<<left>>", "<<low>>", "<<right>>", "<<high>>", "<<seed>>", "<<layer count>>", "<<layers>>", "<<entities>>")
 
 
 def write_laser_dxf(
@@ -42,9 +42,11 @@ def laser_dxf(layers: tuple[str, ...], boundaries: tuple[Approximation, ...], *,
     names = tuple(dict.fromkeys(layers))
     rows = [_layer(name, next(handles), version) for name in names]
     drawn = [_polyline(a.geometry, y, handles, version) for y, a in zip(layers, boundaries, strict=True)]
-    # a box around the origin that holds all: the greatest radius each way
-    reach = float(max(np.abs(a.geometry.vertices).max() for a in boundaries))
-    texts = (repr(-reach), repr(reach), next(handles), str(_OWN_LAYERS + len(names)), "".join(rows), "".join(drawn))
+    boxes = [edge_box(v, np.roll(v, -1), b) for v, b in (a.geometry.expanded() for a in boundaries)]
+    left, low = min(a.real for a, _ in boxes), min(a.imag for a, _ in boxes)
+    right, high = max(b.real for _, b in boxes), max(b.imag for _, b in boxes)
+    extents = (repr(left), repr(low), repr(right), repr(high))
+    texts = (*extents, next(handles), str(_OWN_LAYERS + len(names)), "".join(rows), "".join(drawn))
     for slot, text in zip(SLOTS, texts, strict=True):
         frame = frame.replace(slot, text)
     return frame

@@ -176,6 +176,7 @@ def new_mate(kind: str) -> str:
     who = "any two instances" if joined is None else " or ".join(f"{a} and {b}" for a, b in joined)
     lines = [
         f"# {(MATES[kind].__doc__ or '').splitlines()[0]}",
+        "# A table to be added to a scene that has both parts; it is no scene by itself.",
         f"# Joins {who}; see higherpair new KIND for their keys.",
     ]
     return "\n".join([*lines, "[[mates]]", f'kind = "{kind}"', *_keys(MATES[kind])]) + "\n"

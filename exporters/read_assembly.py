@@ -94,8 +94,9 @@ def read_step_assembly(file: Path) -> ReadAssembly:
     from OCP.XCAFDoc import XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 
     from exporters.step import silent_kernel
-    from exporters.step_reading import leave_crossings
+    from exporters.step_reading import check_numbers, leave_crossings
 
+    check_numbers(file)
     with silent_kernel():
         reader = STEPCAFControl_Reader()
         reader.SetNameMode(True)

@@ -146,18 +146,58 @@ def _fix_header(writer: Any, name: str) -> None:
     header.SetAuthorisation(text(""))
 
 
+_STYLES = re.compile(rb"#\d+ ?= ?MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION\(")
+_STATEMENT = re.compile(rb"#(\d+) ?= ?([^;]*;)\s*")
+_REFERENCE = re.compile(rb"#(\d+)")
 _OCCURRENCE = re.compile(rb"(NEXT_ASSEMBLY_USAGE_OCCURRENCE\(')\d+('[^;]*;)")
 
 
 def _tidied(file: Path) -> dict[str, int]:
-    """Renumber the occurrence ids, which count on through the process and shift line ends, and count entities."""
+    """Renumber the occurrence ids, which count on through the process and shift line ends, and count entities.
+
+    The colours at the end come in the order of the kernel's addresses, and are put in that of what they colour.
+    """
     data = file.read_bytes()
     numbers = iter(range(1, data.count(b"NEXT_ASSEMBLY_USAGE_OCCURRENCE(") + 1))
     fixed = _OCCURRENCE.sub(lambda m: m[1] + str(next(numbers)).encode() + re.sub(rb"\s*\n\s*", b"", m[2]), data)
+    fixed = _styles_in_order(fixed)
     if fixed != data:
         file.write_bytes(fixed)
     kinds = ("CYLINDRICAL_SURFACE", "SURFACE_OF_LINEAR_EXTRUSION", "PLANE", "MANIFOLD_SOLID_BREP")
     return {kind: fixed.count(f"={kind}(".encode()) + fixed.count(f"= {kind}(".encode()) for kind in kinds}
+
+
+def _styles_in_order(data: bytes) -> bytes:
+    """A file whose last statements, the colours, stand and are numbered in the order of the solids they belong to."""
+    first = _STYLES.search(data)
+    if first is None:
+        return data
+    end = data.index(b"ENDSEC;", first.start())
+    texts = {int(m[1]): re.sub(rb"\s*\n\s*", b"", m[2]) for m in _STATEMENT.finditer(data, first.start(), end)}
+
+    def references(number: int) -> list[int]:
+        return [int(m[1]) for m in _REFERENCE.finditer(texts[number])]
+
+    def coloured(root: int) -> list[int]:
+        """What a root's styled items belong to: references that lead out of the colours."""
+        items = [item for item in references(root) if item in texts]
+        return [r for item in items for r in references(item) if r not in texts]
+
+    order: dict[int, int] = {}
+    start = min(texts)
+    waiting = sorted((n for n, text in texts.items() if _STYLES.match(b"#1=" + text)), key=coloured, reverse=True)
+    while waiting:
+        number = waiting.pop()
+        if number in texts and number not in order:
+            order[number] = start + len(order)
+            waiting += reversed(references(number))
+    if len(order) != len(texts):
+        return data
+    lines = []
+    for number, fresh in order.items():
+        text = _REFERENCE.sub(lambda m: b"#%d" % order.get(int(m[1]), int(m[1])), texts[number])
+        lines.append(b"#%d = %s\n" % (fresh, text))
+    return data[: first.start()] + b"".join(lines) + data[end:]
 
 
 @contextmanager

@@ -7,9 +7,24 @@ found by ``BRepCheck_Analyzer`` and by our own test of the measured loops.
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
 from typing import Any
 
+from exporters.readers import ReadError
+
 _UNMENDED = ("FixShape.FixSelfIntersectionMode", "FixShape.FixIntersectingWiresMode")
+
+
+_STRINGS = re.compile(rb"'[^']*'")
+# what C's reader of numbers takes for one, and exponents beyond any length
+_STRANGE = re.compile(rb"[(,]\s*([-+]?(?:nan|inf)[a-z]*|[-+]?[\d.]+e\+?0*[1-9]\d\d+)", re.IGNORECASE)
+
+
+def check_numbers(file: Path) -> None:
+    """Refuse a STEP file with a coordinate that is not a number, over which the kernel would not come to an end."""
+    if found := _STRANGE.search(_STRINGS.sub(b"''", file.read_bytes())):
+        raise ReadError(f"a number in the STEP file is {found[1].decode()}")
 
 
 def leave_crossings(reader: Any) -> None:

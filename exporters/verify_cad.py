@@ -14,6 +14,7 @@ from geometry.curve import Complex
 from geometry.measure import distance_to_profile, profile_area
 from geometry.profile import Profile, Region
 
+_LAYER = "OUTLINE"
 _PER_CURVE = 25
 # ends of neighbouring curves in one file meet this well, mm
 _JOINT = 1e-9
@@ -88,6 +89,9 @@ def _read_drawing(file: Path) -> list[Complex]:
         raise ReadError(f"the DXF audit finds fault: {(auditor.errors + auditor.fixes)[0].message}")
     if drawing.header.get("$INSUNITS") != 4:
         raise ReadError("the DXF is not in mm ($INSUNITS is not 4)")
+    for entity in drawing.modelspace():
+        if entity.dxf.layer.upper() != _LAYER:
+            raise ReadError(f"a {entity.dxftype()} stands on layer {entity.dxf.layer} instead of {_LAYER}")
     return [_drawn(entity) for entity in drawing.modelspace()]
 
 

@@ -119,8 +119,9 @@ def _read_step(file: Path) -> Any:
     from OCP.STEPControl import STEPControl_Reader
 
     from exporters.step import silent_kernel
-    from exporters.step_reading import leave_crossings
+    from exporters.step_reading import check_numbers, leave_crossings
 
+    check_numbers(file)
     with silent_kernel():
         reader = STEPControl_Reader()
         if reader.ReadFile(str(file)) != IFSelect_RetDone:

@@ -67,6 +67,21 @@ def edge_points(starts: Complex, ends: Complex, bulges: Real, fractions: Real) -
     return starts + (ends - starts) * share * np.exp(-2j * quarter * (1 - fractions))
 
 
+def edge_box(starts: Complex, ends: Complex, bulges: Real) -> tuple[complex, complex]:
+    """Lower left and upper right corner of the box about edges (n,), the crowns of arcs included."""
+    chord, bent = ends - starts, bulges != 0
+    b, c = bulges[bent], chord[bent]
+    centre = (starts + ends)[bent] / 2 + 1j * c * (1 - b**2) / (4 * b)
+    radius, first = np.abs(c) * (1 + b**2) / (4 * np.abs(b)), np.angle(starts[bent] - centre)
+    points = [starts, ends]
+    for direction in range(4):
+        way = 0.5 * np.pi * direction
+        inside = np.mod(np.sign(b) * (way - first), 2 * np.pi) <= 4 * np.arctan(np.abs(b))
+        points.append((centre + radius * 1j**direction)[inside])
+    whole = np.concatenate(points)
+    return complex(whole.real.min(), whole.imag.min()), complex(whole.real.max(), whole.imag.max())
+
+
 def signed_area(vertices: Complex, bulges: Real) -> float:
     """Area of a closed contour of lines and arcs, mm^2; positive where counter-clockwise."""
     # about its own first vertex: a small hole far from the axis loses no digits

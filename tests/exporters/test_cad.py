@@ -89,7 +89,11 @@ def spoil_by_loss(entities: list[Any]) -> None:
     entities[-1].destroy()
 
 
-@pytest.mark.parametrize("spoil", [spoil_spline, spoil_end, spoil_by_loss])
+def spoil_layer(entities: list[Any]) -> None:
+    entities[-1].dxf.layer = "0"
+
+
+@pytest.mark.parametrize("spoil", [spoil_spline, spoil_end, spoil_by_loss, spoil_layer])
 def test_a_spoiled_drawing_is_caught(tmp_path: Path, spoil: Any) -> None:
     build_gear(tmp_path, GEARS["plain"], DRAWING)
     file = tmp_path / "out" / "s" / "g.dxf"
@@ -155,6 +159,18 @@ def test_a_step_has_the_exact_volume_and_verifies(step_build: Path) -> None:
     report = read_report(step_build.parent)
     assert report is not None
     assert abs(report["files"][0]["measured"]["volume_error"]) < 1e-7
+
+
+@pytest.mark.parametrize("number", ["NAN", "-inf", "nan(0x1)", "1.E+400"])
+def test_a_step_with_what_is_no_number_is_refused_at_once(step_build: Path, tmp_path: Path, number: str) -> None:
+    text = step_build.read_text()
+    lines = list(re.finditer(r"CARTESIAN_POINT\('',\(([-+.E\d]+),", text))
+    middle = lines[len(lines) // 2]
+    file = tmp_path / "g.step"
+    file.write_text(text[: middle.start(1)] + number + text[middle.end(1) :])
+    parts = make_parts(load_scene(str(step_build.parents[2] / "s.toml")), "s")[0]
+    (failure,) = verify_file(file, "step", parts["g"].body(0.0), 1e-6, 1e-6, "g").failures
+    assert "a number in the STEP file is" in failure
 
 
 @pytest.mark.parametrize("spoil", ["pole 0", "pole 1", "pole 2", "truncate", "other"])

@@ -188,3 +188,26 @@ def test_a_laser_build_imports_no_ezdxf(tmp_path: Path) -> None:
     told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
     assert told.splitlines()[-1] == "False False"
     assert "ezdxf" not in json.loads((tmp_path / "s" / "report.json").read_text("utf-8"))["versions"]
+
+
+def test_the_extents_are_those_of_the_drawing(file: Path) -> None:
+    header = ezdxf.readfile(file).header
+    low, high = complex(*header["$EXTMIN"][:2]), complex(*header["$EXTMAX"][:2])
+    dense = []
+    for loop in read_dxf(file):
+        for a, b, bulge in zip(loop.vertices, np.roll(loop.vertices, -1), loop.bulges, strict=True):
+            # points of an arc by its own sweep, turned about its centre
+            sweep = 4 * np.arctan(bulge)
+            share = np.linspace(0, 1, 4001)
+            if bulge == 0:
+                dense.append(a + (b - a) * share)
+                continue
+            centre = (a - b * np.exp(-1j * sweep)) / (1 - np.exp(-1j * sweep))
+            dense.append(centre + (a - centre) * np.exp(1j * sweep * share))
+    points = np.concatenate(dense)
+    size = abs(high - low)
+    for found, sampled in (
+        (low.real, points.real.min()), (low.imag, points.imag.min()),
+        (-high.real, -points.real.max()), (-high.imag, -points.imag.max()),
+    ):  # fmt: skip
+        assert sampled - 1e-6 * size < found <= sampled + 1e-14 * size

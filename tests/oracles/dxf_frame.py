@@ -14,7 +14,7 @@ import ezdxf
 
 # what ezdxf 1.4.5 writes; another release may set its header differently
 MADE_BY = "1.4.5"
-_LOW, _HIGH = -987654.25, 987654.25
+_BOX = (-987654.25, -876543.25, 987654.25, 876543.25)
 
 
 def frame(version: str) -> str:
@@ -26,14 +26,16 @@ def frame(version: str) -> str:
         drawing.header["$LUNITS"] = 2
         if version != "R12":
             drawing.header["$MEASUREMENT"] = 1
-        drawing.modelspace().reset_extents((_LOW, _LOW, 0.0), (_HIGH, _HIGH, 0.0))
+        drawing.modelspace().reset_extents((*_BOX[:2], 0.0), (*_BOX[2:], 0.0))
         drawing.classes.add_required_classes(drawing.dxfversion)
         drawing.classes.classes = dict(sorted(drawing.classes.classes.items()))
         stream = io.StringIO()
         drawing.write(stream)
     finally:
         ezdxf.options.write_fixed_meta_data_for_testing = before
-    text = stream.getvalue().replace(str(_LOW), "<<low>>").replace(str(_HIGH), "<<high>>")
+    text = stream.getvalue()
+    for number, slot in zip(_BOX, ("left", "low", "right", "high"), strict=True):
+        text = text.replace(f"\n{number}\n", f"\n<<{slot}>>\n")
     seed = re.search(r"\$HANDSEED\n  5\n([0-9A-F]+)\n", text)
     assert seed is not None
     text = text[: seed.start(1)] + "<<seed>>" + text[seed.end(1) :]
