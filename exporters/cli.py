@@ -8,7 +8,7 @@ import signal
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NoReturn, TextIO
+from typing import Any, NoReturn, TextIO
 
 from exporters import __version__
 
@@ -29,8 +29,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     # only a command of its own may split: whoever calls this function keeps the process
     options.splits = arguments is None
     interrupt = _Interrupt()
-    previous = {stop: signal.signal(stop, interrupt) for stop in _stops()}
+    previous: dict[signal.Signals, Any] = {}
     try:
+        for stop in _stops():
+            previous[stop] = signal.signal(stop, interrupt)
         code = options.run(options)
         sys.stdout.flush()
         return code
