@@ -33,6 +33,18 @@ CAM_FINDINGS: dict[str, tuple[str, str]] = {
         "least convex radius {value:.4g} mm, asked {limit:.4g} mm: base_circle_radius is given and too small for it",
         "найменший радіус опуклого профілю {value:.4g} мм замість заданих {limit:.4g} мм: замале base_circle_radius",
     ),
+    "flat_offset": (
+        "follower_offset = {value:.6g} mm changes nothing of a flat follower's cam: only the stem stands beside the "
+        "axis, so the plate has to be {limit:.6g} mm wide",
+        "follower_offset = {value:.6g} мм не змінює кулачка з плоским штовхачем: лише стержень стоїть збоку від осі, "
+        "тож тарілка має бути завширшки {limit:.6g} мм",
+    ),
+    "pivot_within_cam": (
+        "the follower's pivot, {limit:.6g} mm from the axis, stands within the cam's outline: the cam reaches "
+        "{value:.4g} mm over it, so arm and pivot need a place above or below the cam",
+        "опора коромисла за {limit:.6g} мм від осі стоїть у межах контуру кулачка: кулачок заходить за неї на "
+        "{value:.4g} мм, тож коромисло й опора мають стояти над кулачком або під ним",
+    ),
     "linkage_curvature_radius": (
         "least convex radius {value:.4g} mm, asked {limit:.4g} mm",
         "найменший радіус опуклого профілю {value:.4g} мм замість заданих {limit:.4g} мм",

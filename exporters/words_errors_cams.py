@@ -118,6 +118,8 @@ lies outside of the part or in another hole|лежить поза деталлю
 there are {} seats|гнізд є {}
 {} pins touch each other|{} цівок торкаються одна одної
 leaves no seat|не лишає гнізда
+leaves nothing of the roller|нічого не лишає від ролика
+is for flat followers only|лише для плоских штовхачів
 buries the pins|ховає цівки
 reaches the pins|сягає цівок
 lies beyond the pins|лежить за цівками

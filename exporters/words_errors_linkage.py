@@ -9,6 +9,7 @@ the face passes the axis|площина тарілки проходить чер
 the follower reaches the axis|штовхач сягає осі кулачка
 the follower comes nearer to the axis while it should rise|штовхач наближається до осі, коли має віддалятися
 the pressure angle reaches 90 degrees within the motion|кут тиску під час руху сягає 90 град
+a dead point or a pressure angle of 90 degrees is too near|надто близько мертве положення або кут тиску 90°
 the flat face turns as fast as the cam somewhere|тарілка десь обертається так швидко, як кулачок
 no other value near it helps|інше значення поблизу не допомагає
 is for flat and mushroom followers only|лише для плоских і грибкових штовхачів

@@ -179,6 +179,8 @@ def cam_of(spec: CamSpec) -> DiskCam:
             raise ParameterError("base_circle_radius", None, "is missing: an oscillating follower needs it")
         if spec.follower_offset:
             raise ParameterError("follower_offset", spec.follower_offset, "an oscillating follower has none; 0 works")
+        if swing.face_offset and spec.follower != "flat":
+            raise ParameterError("face_offset", swing.face_offset, "is for flat followers only; remove it")
         return oscillating_cam(
             motion,
             kind,

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 _USUAL_PRESSURE_ANGLE = {False: 30.0, True: 45.0}
 # rollers are kept below this share of the least convex radius of the pitch curve
 _USUAL_ROLLER_SHARE = 0.8
+# cam angles at which the greatest radius is looked for: off by a part in a million
+_SAMPLES = 3601
 
 
 def cam_quantities(spec: CamSpec, cam: DiskCam) -> dict[str, float]:
@@ -62,6 +64,17 @@ def cam_findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
     pitch = least_convex_radius(cam).value + cam.radius
     if cam.kind == "roller" and cam.radius > _USUAL_ROLLER_SHARE * pitch:
         found.append(Finding("large_roller", cam.radius, _USUAL_ROLLER_SHARE * pitch))
+    if spec.oscillating is None and cam.is_flat and spec.follower_offset != 0:
+        found.append(Finding("flat_offset", spec.follower_offset, cam.least_plate_diameter()))
+    if swings and (within := _greatest_radius(cam) - cam.swing.centre_distance) > 0:
+        found.append(Finding("pivot_within_cam", within, cam.swing.centre_distance))
     if pitch - cam.radius < (asked := spec.least_curvature_radius) * (1 - 1e-6):
         found.append(Finding("curvature_radius_not_kept", pitch - cam.radius, asked))
     return tuple(found)
+
+
+def _greatest_radius(cam: DiskCam) -> float:
+    """Greatest distance of the profile from the axis, mm."""
+    import numpy as np
+
+    return float(np.abs(cam.profile_point(np.linspace(0, 2 * math.pi, _SAMPLES))).max())

@@ -138,7 +138,7 @@ def linkage_cam_of(spec: LinkageCamSpec) -> LinkageCam:
     """The cam of the keys, not yet checked for undercut."""
     from geometry.cams.disk import FollowerKind
     from geometry.cams.linkage import Linkage
-    from geometry.cams.linkage_cam import linkage_cam
+    from geometry.cams.linkage_cam import check_holds, linkage_cam
 
     swings = isinstance(spec.driven, DrivenRocker)
     key, other = ("swing_deg", "lift") if swings else ("lift", "swing_deg")
@@ -148,7 +148,7 @@ def linkage_cam_of(spec: LinkageCamSpec) -> LinkageCam:
     table = None if spec.motion_table is None else [(a, s * unit) for a, s in spec.motion_table]
     motion = motion_of(spec.phases, table, getattr(spec, key) * unit, key)
     linkage = Linkage(drive_of(spec.driven), spec.coupler_length, guide_of(spec.guide))
-    return linkage_cam(
+    cam = linkage_cam(
         motion,
         FollowerKind(spec.follower),
         linkage,
@@ -156,6 +156,8 @@ def linkage_cam_of(spec: LinkageCamSpec) -> LinkageCam:
         direction=math.radians(spec.follower_direction_deg),
         radius=spec.follower_radius,
     )
+    check_holds(cam)
+    return cam
 
 
 def _check_plate(spec: LinkageCamSpec, cam: LinkageCam) -> None:

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
 
-from geometry.errors import GeometryError, ParameterError, UndercutError
+from geometry.errors import GeometryError, ParameterError, UndercutError, format_value
+from geometry.trial import is_trial
 from parts.linkage_keys import DrivenRocker
 
 if TYPE_CHECKING:
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 # steps away from a value that are tried, part of a length or of 180 degrees
 _STEPS = (0.005, 0.01, 0.02, 0.03, 0.05, 0.08, 0.12, 0.18, 0.25, 0.35, 0.5, 0.7, 0.9, 0.98)
 _LONGER = (1.5, 2.5, 4.0)
+_MUCH_LONGER = (7.0, 12.0, 20.0, 35.0, 60.0, 100.0)
 _DIRECTIONS, _BISECTIONS = 8, 14
 Build = Callable[["LinkageCamSpec"], Any]
 Check = Callable[["LinkageCamSpec", Any], None]
@@ -52,6 +54,8 @@ def refusal_of(spec: LinkageCamSpec, refusal: ParameterError, build: Build, chec
     reason = refusal.allowed.split(";")[0]
     kind = UndercutError if undercut else ParameterError
     partly: ParameterError | None = None
+    if is_trial():
+        return kind(knobs[0].name, knobs[0].value, reason)
     for knob in knobs:
         if (found := _nearest(knob, build, check)) is None:
             continue
@@ -61,7 +65,30 @@ def refusal_of(spec: LinkageCamSpec, refusal: ParameterError, build: Build, chec
         partly = partly or kind(knob.name, knob.value, f"{reason}; {text} works with another {other}")
     if partly is not None:
         return partly
-    return kind(knobs[0].name, knobs[0].value, f"{reason}; no other value near it helps")
+    both = _together(spec, knobs, build, check)
+    return kind(knobs[0].name, knobs[0].value, f"{reason}; {both or 'no other value near it helps'}")
+
+
+def _together(spec: LinkageCamSpec, knobs: list[Knob], build: Build, check: Check) -> str | None:
+    """The direction or the first key that may be turned, along with a smaller travel, where neither helps alone."""
+    first = next((k for k in knobs if k.name == "follower_direction_deg"), knobs[0])
+    for second in _travel(spec):
+        for travel in [*second.trials()][3::3]:
+            less = second.turned(travel)
+            turned = {k.name: k for found in _knobs(less).values() for k in found}[first.name]
+            for value in turned.trials():
+                try:
+                    changed = turned.turned(value)
+                    check(changed, build(changed))
+                except (GeometryError, ArithmeticError):
+                    continue
+                told = f"{first.name} = {_shown(value)}, {second.name} = {_shown(travel)}"
+                return f"with {told} it works"
+    return None
+
+
+def _shown(value: Any) -> str:
+    return format_value(list(value) if isinstance(value, tuple) else value)
 
 
 def _knobs(spec: LinkageCamSpec) -> dict[str, list[Knob]]:
@@ -76,6 +103,7 @@ def _knobs(spec: LinkageCamSpec) -> dict[str, list[Knob]]:
         "sense": [*turn, _sense(spec)],
         "point": [*radius, *turn, *start, point],
         "lift": [*travel, *turn, *start, point],
+        "near": [_length(spec), *travel, *turn, *start, point],
         "undercut": [*radius, *travel, *turn, *start, point],
     }
 
@@ -138,7 +166,7 @@ def _around(value: float, scale: float) -> Iterator[float]:
 def _length(spec: LinkageCamSpec) -> Knob:
     def trials() -> Iterator[float]:
         yield from _around(spec.coupler_length, spec.coupler_length)
-        yield from (spec.coupler_length * k for k in _LONGER)
+        yield from (spec.coupler_length * k for k in (*_LONGER, *_MUCH_LONGER))
 
     return Knob("coupler_length", spec.coupler_length, lambda v: replace(spec, coupler_length=v), trials, " mm")
 

@@ -33,7 +33,8 @@ _NAME = re.compile(r"([A-Za-z][\w-]*) works")
 # pieces of a refusal that say what to do
 _REMEDY = re.compile(
     r"^(?:at most|at least|above|below|less than|more than|with |another |other |a (?:smaller|larger|longer|law)|less |"
-    r"longer |remove |make it |change |give only )|\b(?:works?|work with \w+|works either way|joins these two)\b|^name "
+    r"longer |remove |make it |change |give only |"
+    r"no other value near it )|\b(?:works?|work with \w+|works either way|joins these two)\b|^name "
 )
 
 

@@ -153,6 +153,10 @@ def _check_sizes(spec: YokeFrameSpec, frame: YokeFrame, lift: float) -> None:
             text = f"leaves no bar at the window's corner; at most {at_most(spec.wall)} mm works"
             raise ParameterError("corner_radius", spec.corner_radius, text)
         return
+    # the pin goes through the roller
+    if spec.pin_diameter > (most := 2 * max(frame.cam.radius - _LEAST_WALL, frame.cam.radius / 2)):
+        text = f"leaves nothing of the roller; at most {at_most(most, 4)} mm works"
+        raise ParameterError("pin_diameter", spec.pin_diameter, text)
     # the slot's end and a pin's hole, one above the other
     room = frame.breadth / 2 - (lift + spec.shaft_diameter + spec.pin_diameter) / 2 - _LEAST_WALL
     if room < -1e-9:

@@ -172,7 +172,8 @@ class RockerGuide:
         beside = [far + 1j * self.side * root[0]]
         beside += [x + 1j * self.side * y for x, y in zip(square[1:], root[1:], strict=True)]
         whole = product(way, beside)
-        return quotient(whole, [2 * length * x for x in square])
+        with np.errstate(invalid="ignore"):
+            return quotient(whole, [2 * length * x for x in square])
 
     def _radicand(self, square: Series, length: float) -> Series:
         outer: Series = [(length + self.length) ** 2 - square[0], *(-x for x in square[1:])]

@@ -26,8 +26,14 @@ from geometry.series import Series, conjugate, derived, product, quotient, sharp
 
 _TABLE, _NEWTON_STEPS, _ZOOMS = 513, 4, 6
 _DROP_SAMPLES, _BISECTIONS = 129, 50
-# outlines that are off ask for an S this far beyond the motion, part of the lift
-_BEYOND = 0.02
+# outlines that are off ask for an S this far beyond the motion: part of the lift, and at least this many mm
+_BEYOND, _BEYOND_LENGTH = 0.02, 2.0
+# an outline that is this far off, mm, may change the follower's rate by at most this share of it
+_OFF, _BENT = 0.05, 0.5
+# least transmission angle, rad: nearer to its dead point an assembly is held by the play of its joints
+_LEAST_TRANSMISSION = math.radians(2)
+# steps of the bound's search, and how far a lift may exceed its linear bound
+_SLACK_STEPS, _MOST_SLACK = 6, 4.0
 _REACH_SAMPLES = 257
 
 
@@ -61,7 +67,8 @@ class CouplerMount:
     def angle(self, s: Series) -> Series:
         """theta, the coupler's angle, rad."""
         turn = self.linkage.pose(s)[1]
-        rate = quotient(derived(turn), turn)
+        with np.errstate(invalid="ignore"):
+            rate = quotient(derived(turn), turn)
         return [np.angle(turn[0]), *(x.imag / (k + 1) for k, x in enumerate(rate))]
 
     def face(self, s: Series) -> tuple[Series, Series]:
@@ -69,7 +76,8 @@ class CouplerMount:
         joint, turn = self.linkage.pose(s)
         normal = [cmath.exp(1j * self.direction) * e for e in turn]
         centre = [a + self.point * e for a, e in zip(joint, turn, strict=True)]
-        rate = quotient(derived(turn), turn)
+        with np.errstate(invalid="ignore"):
+            rate = quotient(derived(turn), turn)
         angle = [np.angle(normal[0]), *(x.imag / (k + 1) for k, x in enumerate(rate))]
         return [x.real for x in product(centre, conjugate(normal))], angle
 
@@ -134,6 +142,22 @@ class LinkageCam(DiskCam):
         between = self.motion.value(at, 1) * self.way(at, point) - 1j * point
         return (between * np.conj(-1j * self.normal(at))).real
 
+    def slackened(self, angle: Real, bound: Real) -> Real:
+        """A linear bound of the lift's error, made greater where the follower's rate falls within it."""
+        normal, at = self.normal(angle), self.motion.value(angle)
+        point = self.contact(angle) if self.is_flat else None
+
+        def rate(lift: Real) -> Real:
+            one = np.ones(np.shape(lift))
+            way = self.mount.centre([lift, one])[1] if point is None else self.mount.velocity(one, point, [lift])
+            return (way * np.conj(normal)).real
+
+        here, wide = rate(at), bound
+        for _ in range(_SLACK_STEPS):
+            least = np.fmin(np.fmin(rate(at - wide), rate(at + wide)), here)
+            wide = bound * np.where(_MOST_SLACK * least > here, here / least, _MOST_SLACK)
+        return wide
+
     def greatest(self, function: Callable[[Real], Real]) -> float:
         """Greatest modulus over the turn of a function of the cam angle that is smooth between joints."""
         ends = [(p.start, np.nextafter(p.end, p.start)) for p in self.motion.pieces]
@@ -188,12 +212,13 @@ class LinkageCam(DiskCam):
     def _table(self) -> tuple[Real, Real]:
         """S over and a little beyond the motion, as far as the follower moves away, and its distance from the axis."""
         low, high = self.motion.extremes()
-        beyond = _BEYOND * (high - low)
-        lift = np.linspace(low - beyond, high + beyond, _TABLE)
+        ends = departure(self.mount, self.is_flat, np.array([low, high]))[1]
+        under, over = np.maximum(_BEYOND * (high - low), _BEYOND_LENGTH / ends)
+        lift = np.linspace(low - under, high + over, _TABLE)
         away, rate = departure(self.mount, self.is_flat, lift)
         with np.errstate(invalid="ignore"):
             good = rate > 0
-        middle = _TABLE // 2
+        middle = int(np.searchsorted(lift, (low + high) / 2))
         stops = np.flatnonzero(~good)
         first = int(stops[stops < middle].max(initial=-1)) + 1
         last = int(stops[stops > middle].min(initial=_TABLE))
@@ -311,6 +336,37 @@ def _check_way(cam: LinkageCam, low: float, high: float) -> None:
 
         if not piece.is_constant and not least_value(slower, piece.start, piece.end) > 0:
             raise LinkageError("lift", cam.motion.lift, "the flat face turns as fast as the cam somewhere")
+
+
+def check_holds(cam: LinkageCam) -> None:
+    """A follower on an outline that is a little off still stands near where it should.
+
+    The rate D' of its distance over S changes by |D''| _OFF / D' where the outline is _OFF mm off.
+
+    Raises
+    ------
+    LinkageError
+        ``near``: the linkage nearly stands in line, or the follower nearly stands still while S grows.
+    """
+    low, high = cam.motion.extremes()
+    ends = departure(cam.mount, cam.is_flat, np.array([low, high]))[1]
+
+    def spare(lift: Real) -> Real:
+        s = [lift, np.ones(np.shape(lift)), np.zeros(np.shape(lift))]
+        if cam.is_flat:
+            height = cam.mount.face(s)[0]
+            rate, bend = height[1], 2 * height[2]
+        else:
+            centre = cam.mount.centre(s)
+            size = np.abs(centre[0])
+            rate = (np.conj(centre[0]) * centre[1]).real / size
+            bend = (np.abs(centre[1]) ** 2 + 2 * (np.conj(centre[0]) * centre[2]).real - rate**2) / size
+        return np.where(rate > 0, rate, np.nan) ** 2 * _BENT - np.abs(bend) * _OFF
+
+    in_line = cam.mount.linkage.transmission_angle() < _LEAST_TRANSMISSION
+    if in_line or not least_value(spare, low - _OFF / ends[0], high + _OFF / ends[1]) > 0:
+        text = "a dead point or a pressure angle of 90 degrees is too near"
+        raise LinkageError("near", cam.motion.lift, text)
 
 
 def least_value(function: Callable[[Real], Real], low: float, high: float) -> float:

@@ -248,4 +248,6 @@ def lift_bound(cam: DiskCam, count: int, error: float) -> Real:
     bound = first + (0.0 if cam.is_flat else 1.0) * bend * (first * np.sin(slope)) ** 2 / cosine
     point = cam.contact(angle) if cam.is_flat else cam.reference_point(angle)
     bound = bound / np.abs(cam.way(angle, point))
+    if hasattr(cam, "slackened"):
+        bound = cam.slackened(angle, bound)
     return np.maximum(np.maximum(np.roll(bound, 1), np.roll(bound, -1)), bound)

@@ -77,7 +77,7 @@ def test_solids_and_offsets() -> None:
 WRONG: dict[str, tuple[Keys, Keys, str, str]] = {
     "uneven": (FLAT | {"phases": [EVEN[0] | {"angle_deg": 110.0}, *EVEN[1:3], EVEN[3] | {"angle_deg": 70.0}]}, {},
                "of", "departs from H by"),
-    "offset rollers": (ROLLERS | {"follower_offset": 3.0}, {}, "of", "0.0 mm works"),
+    "offset rollers": (ROLLERS | {"follower_offset": 3.0}, {}, "of", "its follower_offset is 3.0; 0.0 mm works"),
     "pointed": (ROLLERS | {"follower": "pointed", "follower_radius": 0.0}, {}, "of", "works"),
     "swinging": (ROLLERS | {"lift": 0.0, "swing_deg": 18.0, "oscillating": SWING}, {}, "of", "translating"),
     "wide stem": (ROLLERS, {"stem_width": 40.0}, "stem_width", "at most"),

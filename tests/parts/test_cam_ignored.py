@@ -1,0 +1,73 @@
+"""Keys of cams and yokes that would change nothing, or what nobody meant: refused with what works, or told."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+
+from exporters.words import finding_text
+from parts.schema import SceneError
+
+from .positive_scenes import ROLLER, Keys, parts_of, without
+from .test_yoke_frame import ROLLERS, YOKE
+
+SWINGING: Keys = without(ROLLER, "lift") | {"swing_deg": 15.0, "base_circle_radius": 40.0}
+
+
+def refused(parts: dict[str, Keys]) -> str:
+    with pytest.raises(SceneError) as caught:
+        parts_of(parts)
+    return str(caught.value)
+
+
+def test_a_face_offset_is_for_flat_followers() -> None:
+    swing: dict[str, Any] = {"centre_distance": 90.0, "arm_length": 80.0}
+    message = refused({"cam": SWINGING | {"oscillating": swing | {"face_offset": 4.0}}})
+    assert message.endswith("cam.oscillating.face_offset = 4.0: is for flat followers only; remove it")
+    assert parts_of({"cam": SWINGING | {"oscillating": swing}})["cam"].cam
+    flat = SWINGING | {"follower": "flat", "follower_radius": 0.0, "base_circle_radius": 30.0, "swing_deg": 10.0}
+    assert parts_of({"cam": flat | {"oscillating": {"centre_distance": 90.0, "face_offset": 4.0}}})["cam"].cam
+
+
+@pytest.mark.parametrize("offset", [4.0, -4.0, 0.0])
+def test_an_offset_under_a_flat_follower_is_told_to_change_nothing(offset: float) -> None:
+    keys = ROLLER | {"follower": "flat", "follower_radius": 0.0, "follower_offset": offset}
+    part = parts_of({"cam": keys})["cam"]
+    found = {f.code: f for f in part.findings}
+    assert ("flat_offset" in found) == (offset != 0)
+    assert part.cam is not None
+    if offset:
+        angles = np.linspace(0, 2 * math.pi, 3601)
+        reach = part.cam.motion.value(angles, 1) - offset
+        assert found["flat_offset"].value == offset
+        assert found["flat_offset"].limit == pytest.approx(2 * np.abs(reach).max(), rel=1e-5)
+        plain = parts_of({"cam": keys | {"follower_offset": 0.0}})["cam"].cam
+        assert plain is not None
+        assert np.abs(part.cam.profile_point(angles) - plain.profile_point(angles)).max() < 1e-9
+        assert finding_text("uk", found["flat_offset"]) != finding_text("en", found["flat_offset"])
+
+
+@pytest.mark.parametrize("pin", [16.0, 40.0])
+def test_a_yokes_pin_goes_through_its_roller(pin: float) -> None:
+    message = refused({"cam": ROLLERS, "yoke": YOKE | {"pin_diameter": pin}})
+    assert f"yoke.pin_diameter = {pin}: leaves nothing of the roller; " in message
+    offer = re.search(r"at most ([\d.]+) mm works", message)
+    assert offer is not None
+    assert 15.0 < float(offer[1]) < 16.0
+    assert parts_of({"cam": ROLLERS, "yoke": YOKE | {"pin_diameter": float(offer[1])}})["yoke"]
+
+
+def test_a_pivot_within_the_cam_is_told() -> None:
+    near = SWINGING | {"base_circle_radius": 30.0, "oscillating": {"centre_distance": 25.0, "arm_length": 20.0}}
+    part = parts_of({"cam": near})["cam"]
+    found = next(f for f in part.findings if f.code == "pivot_within_cam")
+    outline = part.section(0.0).region.outer
+    points = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 2000)) for s in outline.segments()])
+    assert found.value == pytest.approx(np.abs(points).max() - 25.0, abs=1e-4)
+    assert finding_text("uk", found) != finding_text("en", found)
+    far = SWINGING | {"oscillating": {"centre_distance": 90.0, "arm_length": 80.0}}
+    assert not any(f.code == "pivot_within_cam" for f in parts_of({"cam": far})["cam"].findings)
