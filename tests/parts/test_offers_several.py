@@ -110,3 +110,11 @@ def test_refusals_are_followed_to_the_end_and_no_further() -> None:
     # two that blame each other for ever lead nowhere
     endless = SceneError("s", "parts.p.length", 1.0, "no; 2 mm works")
     assert followed(raw, ("parts", "p", "lift"), [[Change(("parts", "p", "lift"), REMOVED)]], lambda _: endless) is None
+
+
+@pytest.mark.parametrize("knots", [[0.7, 0.3], [0.5], [0.3, 0.3], [0.3, 1.2]])
+def test_refused_knots_stand_as_they_were_typed(knots: list[float]) -> None:
+    law = {"poles": [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0], "degree": 5, "knots": knots}
+    raw = one(cam(phases=[PHASES[0] | {"law": law}, *PHASES[1:]]))
+    assert f"law.knots = {knots}: " in builds(raw)
+    assert fault_of(raw) == ""
