@@ -243,6 +243,9 @@ Values = Callable[[Any, KeyType], Iterable[Any]]
 def _found(raw: dict[str, Any], place: Place, builds: Builds) -> tuple[list[Change], str] | None:
     """Changes that work, and the words for their number."""
     own, *others = _keys(raw, place)
+    if type_of(raw, own) is None and value_at(raw, own) is not None and builds([Change(own, REMOVED)]):
+        # no key at all
+        return [Change(own, REMOVED)], ""
     held = [k for k in others if k[: len(own)] == own]
     # whether another key matters at all shows soon; what does not is tried at length last
     ways: list[tuple[Values, Place]] = [(trials, k) for k in (own, *held)]

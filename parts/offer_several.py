@@ -14,6 +14,8 @@ from parts.offers import REMOVED, Change, Place, changed, offers_in, place_of, v
 from parts.schema import SceneError
 
 _BISECTIONS = 14
+# of a number that works: below this share of it only 0 itself fails
+_TINY = 1e-3
 # refusals that are followed one after another, and beginnings of such ways that are tried
 _STEPS, _STARTS = 4, 6
 # keys that hold the names of others
@@ -27,7 +29,7 @@ Builds = Callable[[list[Change]], bool]
 
 
 def type_of(raw: dict[str, Any], place: Place) -> KeyType | None:
-    """The type of a key of a part, a mate, an export."""
+    """The type of a key of a part, a mate, an export, an instance, a drive."""
     table = value_at(raw, place[:2])
     kind = table.get("kind") if isinstance(table, dict) else None
     if not isinstance(kind, str):
@@ -36,10 +38,11 @@ def type_of(raw: dict[str, Any], place: Place) -> KeyType | None:
         return key_type(KINDS[kind][0], place[2:], table)
     if place[0] == "mates" and kind in MATES:
         return key_type(MATES[kind], place[2:], table)
-    if place[0] == "exports":
-        from parts.scene import ExportSpec
+    if place[0] in ("exports", "instances", "drives"):
+        from parts import scene
 
-        return key_type(ExportSpec, place[2:], table)
+        owner: Any = {"exports": scene.ExportSpec, "instances": scene.InstanceSpec, "drives": scene.DriveSpec}[place[0]]
+        return key_type(owner, place[2:], table)
     return None
 
 
@@ -67,6 +70,10 @@ def nearest(place: Place, value: float, good: float, key: KeyType, builds: Build
                 break
             middle = (near + far) / 2
             near, far = (middle, far) if builds([Change(place, middle)]) else (near, middle)
+    if value == 0 and abs(near) <= _TINY * abs(good):
+        # as near to nothing as one likes: no limit worth telling
+        usual = float(key.default) if is_number(key.default) else 0.0
+        good = near = usual if usual and builds([Change(place, usual)]) else good
     if near == good and key.allows(value):
         # no other one comes nearer: it has to be this
         way = ""

@@ -118,3 +118,24 @@ def test_refused_knots_stand_as_they_were_typed(knots: list[float]) -> None:
     raw = one(cam(phases=[PHASES[0] | {"law": law}, *PHASES[1:]]))
     assert f"law.knots = {knots}: " in builds(raw)
     assert fault_of(raw) == ""
+
+
+GEAR = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20}
+PAIR = one(GEAR) | {"mates": [{"kind": "external_gear_pair", "first": "p", "second": "q"}]}
+PAIR["parts"]["q"] = GEAR | {"number_of_teeth": 31}
+PLACED = [
+    ({"instances": {"x": {"part": "zz"}}, "mates": []}, 'x.part = "zz": no such part; parts: p, q; "p" works'),
+    ({"instances": {"x": {"part": "p", "rotation_deg": 1e6}}, "mates": []}, "36000.0 degrees works"),
+    ({"instances": {"x": {"part": "p", "at": [1.0]}}, "mates": []}, "remove it"),
+    ({"drives": [{"instance": "zz"}]}, 'no such instance; instances: p, q; "p" works'),
+    ({"drives": [{"instance": "p", "turns": 0.0}]}, "turns nothing; 1.0 is one turn; 1.0 works"),
+    ({"drives": [{"instance": "p", "speed": 5.0}]}, "remove it"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("tables", "told"), PLACED)
+def test_instances_and_drives_offer_what_works(tables: Raw, told: str) -> None:
+    line = builds(PAIR | tables)
+    assert told in line
+    assert offered(PAIR | tables, line)
+    assert all(builds(made) == "" for made in offered(PAIR | tables, line))
