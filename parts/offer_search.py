@@ -69,7 +69,9 @@ def sure_refusal(scene: Any, refusal: SceneError) -> SceneError:
     told = list(offers_in(refusal, raw))
     if told and all(tried.whole(offer) for offer in told):
         return _noted(_bettered(refusal, raw, place, told, tried), raw, place)
-    found = _found(raw, place, tried.whole) or _several(raw, place, told, tried)
+    found = _found(raw, place, tried.whole)
+    if found is None and "works with another" not in refusal.remedy:
+        found = _several(raw, place, told, tried)
     tried.more()
     if found is None and told and all(tried.here(offer) for offer in told):
         return _noted(refusal, raw, place)
