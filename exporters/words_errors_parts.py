@@ -218,6 +218,7 @@ phases need a lift above 0|фазам потрібен хід більший з�
 the table holds the lift|хід стоїть у таблиці
 a dwell has neither law nor share|відстій не має ні закону, ні частки
 this follower has {} instead|цей штовхач має натомість {}
+swing_deg belongs to the table {}|swing_deg належить до таблиці {}
 give it, or least_transmission_angle_deg, from which the least one follows|\
 задайте його або least_transmission_angle_deg, з якого він випливає
 the prime circle is {} mm only|коло теоретичного профілю лише {} мм

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 
 _TRYING: ContextVar[bool] = ContextVar("_TRYING", default=False)
+_FOLLOWING: ContextVar[bool] = ContextVar("_FOLLOWING", default=False)
 
 
 @contextmanager
@@ -22,3 +23,18 @@ def trial() -> Iterator[None]:
 def is_trial() -> bool:
     """Whether nobody will read the remedy of a refusal."""
     return _TRYING.get()
+
+
+@contextmanager
+def following() -> Iterator[None]:
+    """Within it refusals say what would work by themselves; nobody searches for more."""
+    token = _FOLLOWING.set(True)
+    try:
+        yield
+    finally:
+        _FOLLOWING.reset(token)
+
+
+def is_followed() -> bool:
+    """Whether somebody reads the remedy of a refusal to search on."""
+    return _FOLLOWING.get()

@@ -25,7 +25,7 @@ from parts.barrel_roller import (
     thinnest,
     told,
 )
-from parts.cam_keys import in_degrees, motion_of
+from parts.cam_keys import check_stroke, in_degrees, motion_of
 from parts.hole_keys import RoundBoreTable, hub_holes
 from parts.materials import density_of
 from parts.part import Part
@@ -84,10 +84,7 @@ def barrel_cam_part(part_id: str, spec: BarrelCamSpec, body: BarrelBody) -> Part
 
 def _check_keys(spec: BarrelCamSpec) -> None:
     """Keys that exclude each other."""
-    swing = spec.oscillating is not None
-    if (spec.lift if swing else spec.swing_deg) != 0:
-        key, other = ("lift", "swing_deg") if swing else ("swing_deg", "lift")
-        raise ParameterError(key, getattr(spec, key), f"this follower has {other} instead; 0 works")
+    check_stroke(spec, spec.oscillating is not None)
     if spec.bore is not None and spec.bore_diameter > 0:
         raise ParameterError("bore_diameter", spec.bore_diameter, "give either bore_diameter or bore; 0 works")
     if spec.length is not None and spec.end_margin is not None:

@@ -15,7 +15,17 @@ from geometry.offset_region import OffsetRegion
 from geometry.profile import Profile, Region
 from geometry.trial import is_trial
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
-from parts.cam_keys import FollowerOffset, Lift, MotionTable, Phases, Swing, in_degrees, motion_of, without_base
+from parts.cam_keys import (
+    FollowerOffset,
+    Lift,
+    MotionTable,
+    Phases,
+    Swing,
+    check_stroke,
+    in_degrees,
+    motion_of,
+    without_base,
+)
 from parts.cam_report import cam_findings, cam_quantities
 from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, mm
@@ -160,9 +170,7 @@ def cam_of(spec: CamSpec) -> DiskCam:
     from geometry.cams.disk import FollowerKind, oscillating_cam, translating_cam
 
     swing = spec.oscillating
-    if (spec.lift if swing else spec.swing_deg) != 0:
-        key, other = ("lift", "swing_deg") if swing else ("swing_deg", "lift")
-        raise ParameterError(key, getattr(spec, key), f"this follower has {other} instead; 0 works")
+    check_stroke(spec, swing is not None)
     scale = math.radians(1.0) if swing else 1.0
     table = None if spec.motion_table is None else [(a, s * scale) for a, s in spec.motion_table]
     lift = math.radians(spec.swing_deg) if swing else spec.lift

@@ -23,6 +23,7 @@ __all__ = [
     "PhaseTable",
     "Phases",
     "Swing",
+    "check_stroke",
     "in_degrees",
     "motion_of",
     "without_base",
@@ -84,6 +85,26 @@ def motion_of(
     _check_whole_turn(phases or [])
     _check_return(phases or [])
     return follower_motion(made)
+
+
+def check_stroke(spec: Any, swings: bool, table: str = "oscillating") -> None:
+    """A follower has a lift or a swing; ``table``: the key of its arm, "" where it is none of its own.
+
+    Raises
+    ------
+    ParameterError
+        Offers the other one in its place, unless that is given too.
+    """
+    key, other = ("lift", "swing_deg") if swings else ("swing_deg", "lift")
+    value = getattr(spec, key)
+    if value == 0:
+        return
+    reason = f"this follower has {other} instead"
+    if table and not swings:
+        reason += f"; swing_deg belongs to the table {table}"
+    given = getattr(spec, other) != 0 or getattr(spec, "motion_table", None) is not None
+    works = "0 works" if given else f"with {key} = 0, {other} = {value:.12g} it works"
+    raise ParameterError(key, value, f"{reason}; {works}")
 
 
 def in_degrees(value: object) -> object:

@@ -16,7 +16,7 @@ from geometry.findings import Finding
 from geometry.profile import Profile
 from geometry.wheel import check_wheel, wheel_body, wheel_sections
 from parts.cam import cam_circles, cam_holes, cam_outline, cam_section, check_cam_bore, inner_radius
-from parts.cam_keys import PhaseTable, motion_of
+from parts.cam_keys import PhaseTable, check_stroke, motion_of
 from parts.hole_keys import BoreTable, HolesTable
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, mm
 from parts.linkage_keys import Coordinate, DrivenRocker, DrivenSlider, GuidingRocker, GuidingSlider, drive_of, guide_of
@@ -141,9 +141,8 @@ def linkage_cam_of(spec: LinkageCamSpec) -> LinkageCam:
     from geometry.cams.linkage_cam import check_holds, linkage_cam
 
     swings = isinstance(spec.driven, DrivenRocker)
-    key, other = ("swing_deg", "lift") if swings else ("lift", "swing_deg")
-    if getattr(spec, other) != 0:
-        raise ParameterError(other, getattr(spec, other), f"this follower has {key} instead; 0 works")
+    check_stroke(spec, swings, "")
+    key = "swing_deg" if swings else "lift"
     unit = math.radians(1.0) if swings else 1.0
     table = None if spec.motion_table is None else [(a, s * unit) for a, s in spec.motion_table]
     motion = motion_of(spec.phases, table, getattr(spec, key) * unit, key)

@@ -4,17 +4,32 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from itertools import chain
 from typing import Any
 
 import msgspec
 
-from geometry.errors import GeometryError, at_least, at_most
-from geometry.trial import trial
-from parts.key_types import KeyType, coarse, is_number, key_type, trials
+from geometry.errors import GeometryError
+from geometry.trial import following, is_followed, trial
+from parts.key_types import KeyType, coarse, is_number, trials
 from parts.kinds import KINDS
-from parts.mates import MATES, mated
+from parts.mates import mated
+from parts.offer_several import (
+    NAMES,
+    USUAL_WORDS,
+    Builds,
+    closing,
+    followed,
+    leaves,
+    nearest,
+    resets,
+    rows_added,
+    same_words,
+    shared_turn,
+    together,
+    type_of,
+)  # fmt: skip
 from parts.offers import (
     REMOVED,
     Change,
@@ -34,11 +49,8 @@ from parts.schema import SceneError
 _BUDGET = 500
 # of the processor; nobody waits longer for a refusal
 _SECONDS = 3.0
-_BISECTIONS = 14
-# keys that hold the names of others
-_NAMES = ("first", "second", "instance", "part", "of")
-# what changes nothing that a refusal could be about
-_IDLE = ("kind", "move", "material", "density", "colour", "title", "language", *_NAMES)
+# a base circle so many times as large as the typed one makes a cam that nobody wants
+_FAR = 10.0
 # changed only where nothing else helps
 _LAST = ("module", "number_of_teeth", "pressure_angle_deg", "face_width")
 _FAULTS = (GeometryError, ArithmeticError, ValueError)
@@ -56,15 +68,61 @@ def sure_refusal(scene: Any, refusal: SceneError) -> SceneError:
     tried = _Tried(raw, place)
     told = list(offers_in(refusal, raw))
     if told and all(tried.whole(offer) for offer in told):
-        return _noted(refusal, raw, place)
+        return _noted(_bettered(refusal, raw, place, told, tried), raw, place)
     found = _found(raw, place, tried.whole)
+    if found is None and "works with another" not in refusal.remedy:
+        found = _several(raw, place, told, tried)
     tried.more()
     if found is None and told and all(tried.here(offer) for offer in told):
         return _noted(refusal, raw, place)
-    if found is None and tried.nearly is not None:
-        (change,) = tried.nearly
+    if found is not None and (smaller := _smaller(refusal, raw, place, found[0], tried)):
+        return _noted(smaller, raw, place)
+    if found is None and (nearly := tried.nearly()):
+        (change,) = nearly[0]
         found = _refined(raw, change, tried.here)
-    return _noted(refusal if found is None else _offered(refusal, raw, place, *found), raw, place)
+    same = found is None or found[0] in told
+    return _noted(refusal if found is None or same else _offered(refusal, raw, place, *found), raw, place)
+
+
+def _bettered(
+    refusal: SceneError, raw: dict[str, Any], place: Place, told: list[list[Change]], tried: _Tried
+) -> SceneError:
+    """A refusal whose offers work, with nearer numbers of several keys, or another law in place of a giant cam."""
+    if len(told) > 1:
+        return refusal
+    if len(told[0]) > 1:
+        near = together(raw, told[0], tried.whole)
+        return refusal if near == told[0] else _offered(refusal, raw, place, near, "")
+    return _smaller(refusal, raw, place, told[0], tried) or refusal
+
+
+def _smaller(
+    refusal: SceneError, raw: dict[str, Any], place: Place, found: list[Change], tried: _Tried
+) -> SceneError | None:
+    """In place of a base circle many times as large as the typed one another law, if that works."""
+    last, value = found[0], refusal.value
+    giant = last.place[-1] == "base_circle_radius" and is_number(last.value) and is_number(value)
+    if not giant or len(found) > 1 or last.place != place or not last.value > _FAR * value:  # type: ignore[operator]
+        return None
+    laws = same_words(raw, place, tried.whole, ("law",))
+    return None if laws is None else _offered(refusal, raw, place, *laws)
+
+
+def _several(
+    raw: dict[str, Any], place: Place, told: list[list[Change]], tried: _Tried
+) -> tuple[list[Change], str] | None:
+    """Changes of several keys that work together."""
+    tried.more(80, 1.5)
+    found = shared_turn(raw, place, tried.whole)
+    if found is None:
+        starts = [offer for offer in [*told, *tried.nearly()] if tried.here(offer)]
+        made = followed(raw, place, starts, tried.left)
+        tried.more(80, 1.5)
+        found = (made, "") if made is not None and tried.part_right(made) else resets(raw, place, tried.whole)
+    if found is not None and len(found[0]) > 1:
+        tried.more(80, 1.5)
+        found = together(raw, found[0], tried.part_right), ""
+    return found
 
 
 class _Tried:
@@ -72,27 +130,36 @@ class _Tried:
 
     def __init__(self, raw: dict[str, Any], place: Place) -> None:
         self.raw, self.place = raw, place
-        self.known: dict[bytes, Any] = {}
-        # the first single change that at least cures the refused part
-        self.nearly: list[Change] | None = None
+        self.known: dict[tuple[bool, bytes], Any] = {}
+        # single changes that at least cure what was blamed, the first for each key that is blamed then
+        self.cured: dict[Place, list[Change]] = {}
         self.more(_BUDGET, _SECONDS)
 
     def more(self, trials: int = 60, seconds: float = 1.0) -> None:
         """Room for more trials."""
-        self.left, self.until = trials, time.process_time() + seconds
+        self.count, self.until = trials, time.process_time() + seconds
 
     def whole(self, changes: list[Change]) -> bool:
         """Whether the whole scene builds."""
         refused = self._refused(changes)
         cured = refused is not None and self._is_other(changes, refused)
-        if cured and self.nearly is None and len(changes) == 1:
-            self.nearly = changes
+        if cured and refused is not None and len(changes) == 1:
+            self.cured.setdefault(refused, changes)
         return refused is None
+
+    def nearly(self) -> list[list[Change]]:
+        """Single changes that at least cure what was blamed."""
+        return list(self.cured.values())
 
     def here(self, changes: list[Change]) -> bool:
         """Whether at least the refused part, mate or table is all right: others have faults of their own."""
         refused = self._refused(changes)
         return refused is None or self._is_other(changes, refused)
+
+    def part_right(self, changes: list[Change]) -> bool:
+        """Whether nothing of the refused part or mate is wrong any more."""
+        refused = self._refused(changes)
+        return refused is None or refused[:2] not in (self.place[:2], *(c.place[:2] for c in changes))
 
     def _is_other(self, changes: list[Change], refused: Place) -> bool:
         """Whether another fault is left: elsewhere, or of another key than the one that was blamed and changed."""
@@ -104,9 +171,9 @@ class _Tried:
         return own or refused[:2] not in (self.place[:2], *(c.place[:2] for c in changes))
 
     def _refused(self, changes: list[Change]) -> Place | None:
-        if self.left <= 0 or time.process_time() > self.until:
+        if self.count <= 0 or time.process_time() > self.until:
             return self.place
-        self.left -= 1
+        self.count -= 1
         with trial():
             try:
                 self._make(changed(self.raw, changes))
@@ -114,6 +181,20 @@ class _Tried:
                 return place_of(refusal.key)
             except _FAULTS:
                 return self.place
+        return None
+
+    def left(self, changes: list[Change]) -> SceneError | None:
+        """What is refused after changes, with what it offers by itself; None where nothing is."""
+        if self.count <= 0 or time.process_time() > self.until:
+            return SceneError("", told_place(self.place), None, "")
+        self.count -= 1
+        with following():
+            try:
+                self._make(changed(self.raw, changes))
+            except SceneError as refusal:
+                return refusal
+            except _FAULTS:
+                return SceneError("", told_place(self.place), None, "")
         return None
 
     def _make(self, raw: dict[str, Any]) -> None:
@@ -139,7 +220,8 @@ class _Tried:
     def _checked(self, key: str, spec: Any, parts: dict[str, Any]) -> Any:
         """A part's check, or its refusal, as the first time."""
         owner = parts.get(getattr(spec, "of", ""))
-        known = msgspec.json.encode((spec, owner))
+        # followed refusals say more
+        known = is_followed(), msgspec.json.encode((spec, owner))
         if known not in self.known:
             check = KINDS[spec.__struct_config__.tag][1]
             try:
@@ -148,7 +230,8 @@ class _Tried:
                 self.known[known] = fault
         made = self.known[known]
         if isinstance(made, Exception):
-            raise SceneError("", f"parts.{key}.{getattr(made, 'name', '')}", None, "") from made
+            name, value, allowed = (getattr(made, word, "") for word in ("name", "value", "allowed"))
+            raise SceneError("", f"parts.{key}.{name}", value, allowed) from made
         return made
 
 
@@ -156,13 +239,15 @@ def _helix(spec: Any) -> float:
     return math.radians(abs(getattr(spec, "helix_angle_deg", 0.0)))
 
 
-Builds = Callable[[list[Change]], bool]
 Values = Callable[[Any, KeyType], Iterable[Any]]
 
 
 def _found(raw: dict[str, Any], place: Place, builds: Builds) -> tuple[list[Change], str] | None:
     """Changes that work, and the words for their number."""
     own, *others = _keys(raw, place)
+    if type_of(raw, own) is None and value_at(raw, own) is not None and builds([Change(own, REMOVED)]):
+        # no key at all
+        return [Change(own, REMOVED)], ""
     held = [k for k in others if k[: len(own)] == own]
     # whether another key matters at all shows soon; what does not is tried at length last
     ways: list[tuple[Values, Place]] = [(trials, k) for k in (own, *held)]
@@ -171,18 +256,18 @@ def _found(raw: dict[str, Any], place: Place, builds: Builds) -> tuple[list[Chan
         found = _one(raw, one, values, builds)
         if found is not None:
             return found
-    return _same_words(raw, place, builds) or _resets(raw, place, builds)
+    return same_words(raw, place, builds)
 
 
 def _one(raw: dict[str, Any], place: Place, values: Values, builds: Builds) -> tuple[list[Change], str] | None:
     """Another value of one key, or none; the nearest number that works."""
-    key, value = _type_of(raw, place), value_at(raw, place)
+    key, value = type_of(raw, place), value_at(raw, place)
     if key is None:
         return None
-    key.words = tuple(sorted(key.words, key=lambda w: w not in _USUAL_WORDS)) if place[-1] == "law" else key.words
-    if place[-1] in _NAMES:
+    key.words = tuple(sorted(key.words, key=lambda w: w not in USUAL_WORDS)) if place[-1] == "law" else key.words
+    if place[-1] in NAMES:
         key.words = tuple(raw["parts"]) + tuple(k for k in raw.get("instances", {}) if place[0] != "parts")
-    tried = chain(_closing(raw, place), _namesakes(raw, place, key), values(value, key))
+    tried = chain(closing(raw, place), rows_added(raw, place), _namesakes(raw, place, key), values(value, key))
     good = next((v for v in tried if builds([Change(place, v)])), None)
     if good is None:
         loose = key.optional or isinstance(place[-1], int)
@@ -195,7 +280,7 @@ def _one(raw: dict[str, Any], place: Place, values: Values, builds: Builds) -> t
 def _refined(raw: dict[str, Any], change: Change, builds: Builds) -> tuple[list[Change], str]:
     """A change that works with its number as near to the refused one as works too, and the words for it."""
     place, good = change.place, change.value
-    key, value = _type_of(raw, place), value_at(raw, place)
+    key, value = type_of(raw, place), value_at(raw, place)
     plain = is_number(value)
     if key is None or not key.number or not plain or isinstance(good, str | bool) or not isinstance(good, int | float):
         return [change], ""
@@ -203,7 +288,7 @@ def _refined(raw: dict[str, Any], change: Change, builds: Builds) -> tuple[list[
         return [change], ""
     if key.whole:
         return [change], "at most " if good < value else "at least "
-    return _nearest(place, float(value), float(good), key, builds)
+    return nearest(place, float(value), float(good), key, builds)
 
 
 def _namesakes(raw: dict[str, Any], place: Place, key: KeyType) -> list[Any]:
@@ -217,62 +302,10 @@ def _namesakes(raw: dict[str, Any], place: Place, key: KeyType) -> list[Any]:
     ]
 
 
-def _closing(raw: dict[str, Any], place: Place) -> Iterator[float]:
-    """The angle of a phase that fills the turn."""
-    phases = value_at(raw, place[:-2])
-    if place[-1] == "angle_deg" and isinstance(phases, list) and isinstance(place[-2], int):
-        held = [p.get("angle_deg") for k, p in enumerate(phases) if k != place[-2] and isinstance(p, dict)]
-        angles = [float(a) for a in held if isinstance(a, int | float) and is_number(a)]
-        if len(angles) == len(held):
-            yield round(360.0 - math.fsum(angles), 9)
-
-
-def _nearest(place: Place, value: float, good: float, key: KeyType, builds: Builds) -> tuple[list[Change], str]:
-    """The number nearest to a refused one, in as few digits as work."""
-    way = "at most " if good < value else "at least "
-    rounded = at_most if good < value else at_least
-    near, far = good, value
-    if key.allows(value):
-        for _ in range(_BISECTIONS):
-            if abs(far - near) <= 2e-4 * abs(near):
-                break
-            middle = (near + far) / 2
-            near, far = (middle, far) if builds([Change(place, middle)]) else (near, middle)
-    if near == good and key.allows(value):
-        # no other one comes nearer: it has to be this
-        way = ""
-    for digits in (1, 2, 4, 6, 9):
-        told = float(rounded(near, digits))
-        if abs(told - near) <= 2e-3 * abs(near) and key.allows(told) and builds([Change(place, told)]):
-            return [Change(place, told)], way
-    return [Change(place, near)], way
-
-
-# words that come first in their turn
-_USUAL_WORDS = ("sine", "polynomial_345", "polynomial_4567", "modified_sine")
-
-
-def _type_of(raw: dict[str, Any], place: Place) -> KeyType | None:
-    """The type of a key of a part, a mate, an export."""
-    table = value_at(raw, place[:2])
-    kind = table.get("kind") if isinstance(table, dict) else None
-    if not isinstance(kind, str):
-        kind = ""
-    if place[0] == "parts" and kind in KINDS:
-        return key_type(KINDS[kind][0], place[2:], table)
-    if place[0] == "mates" and kind in MATES:
-        return key_type(MATES[kind], place[2:], table)
-    if place[0] == "exports":
-        from parts.scene import ExportSpec
-
-        return key_type(ExportSpec, place[2:], table)
-    return None
-
-
 def _keys(raw: dict[str, Any], place: Place) -> list[Place]:
     """Keys in the order in which a change is offered: the blamed one, what it holds, its table, what else was said."""
     owners = [place[:2], *_mated_with(raw, place[:2])]
-    leaves = [leaf for owner in owners for leaf in _leaves(value_at(raw, owner), owner)]
+    held = [leaf for owner in owners for leaf in leaves(value_at(raw, owner), owner)]
 
     def rank(leaf: Place) -> tuple[Any, ...]:
         return (
@@ -284,21 +317,8 @@ def _keys(raw: dict[str, Any], place: Place) -> list[Place]:
             leaf[:3] != place[:3],
         )
 
-    found = [leaf for leaf in sorted(leaves, key=rank) if leaf != place]
+    found = [leaf for leaf in sorted(held, key=rank) if leaf != place]
     return [place, *found]
-
-
-def _leaves(table: Any, place: Place) -> Iterator[Place]:
-    """Every key of a table that holds a value, then those that hold tables."""
-    if isinstance(table, dict):
-        for name, value in table.items():
-            if name not in _IDLE:
-                yield from _leaves(value, (*place, name))
-    elif isinstance(table, list) and len(table) <= 12:
-        for index, value in enumerate(table):
-            yield from _leaves(value, (*place, index))
-    if len(place) > 2:
-        yield place
 
 
 def _mated_with(raw: dict[str, Any], owner: Place) -> list[Place]:
@@ -323,32 +343,6 @@ def _part_of(raw: dict[str, Any], instance: Any) -> Place:
     return ("parts", own if isinstance(own, str) else str(instance))
 
 
-def _same_words(raw: dict[str, Any], place: Place, builds: Builds) -> tuple[list[Change], str] | None:
-    """One word for all keys of a name, as the law of every phase."""
-    leaves = list(_leaves(value_at(raw, place[:2]), place[:2]))
-    for name in dict.fromkeys(leaf[-1] for leaf in leaves):
-        same = [leaf for leaf in leaves if leaf[-1] == name and isinstance(name, str)]
-        key = _type_of(raw, same[0]) if len(same) > 1 else None
-        for word in key.words if key is not None else ():
-            changes = [Change(leaf, word) for leaf in same if value_at(raw, leaf) != word]
-            if builds(changes):
-                return changes, ""
-    return None
-
-
-def _resets(raw: dict[str, Any], place: Place, builds: Builds) -> tuple[list[Change], str] | None:
-    """The fewest keys that work when they are left out together."""
-    table = value_at(raw, place[:2])
-    tops = [(*place[:2], name) for name in table if name not in _IDLE]
-    free = [Change(p, REMOVED) for p in tops if (key := _type_of(raw, p)) is not None and key.optional]
-    if not free or not builds(free):
-        return None
-    for change in tuple(free):
-        fewer = [c for c in free if c is not change]
-        free = fewer if builds(fewer) else free
-    return free, ""
-
-
 def _offered(refusal: SceneError, raw: dict[str, Any], place: Place, changes: list[Change], way: str) -> SceneError:
     """The refusal with changes that work in place of what it said."""
     reason = reason_of(refusal.remedy) or _first_words(refusal.remedy)
@@ -360,7 +354,7 @@ def _offered(refusal: SceneError, raw: dict[str, Any], place: Place, changes: li
             refusal.source, refusal.key, refusal.value, f"{reason}; with {', '.join(c.label for c in changes)} it works"
         )
     (change,) = changes
-    key = _type_of(raw, change.place)
+    key = type_of(raw, change.place)
     unit = f" {key.unit}" if key is not None and key.number and key.unit in ("mm", "degrees") else ""
     told = "remove it" if change.value is REMOVED else f"{way}{shown(change.value)}{unit} works"
     if change.place == place:
@@ -386,7 +380,7 @@ def _noted(refusal: SceneError, raw: dict[str, Any], place: Place) -> SceneError
     silent = refusal.value is None or value_at(raw, now) is not None
     if silent or refusal.remedy.startswith(("not given", "is missing")):
         return refusal
-    key = _type_of(raw, now)
+    key = type_of(raw, now)
     is_default = key is not None and key.default is not None and key.default == refusal.value
     note = "is the default, not given" if is_default else "not given, it follows from the other keys"
     return SceneError(refusal.source, refusal.key, refusal.value, f"{note}; {refusal.remedy}")

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import wraps
 from typing import Any, TypeVar
 
-from geometry.trial import is_trial
+from geometry.trial import is_followed, is_trial
 from parts.schema import SceneError
 
 Read = TypeVar("Read", bound=Callable[..., Any])
@@ -20,7 +20,7 @@ def offers_tried(read: Read) -> Read:
         try:
             return read(scene, source, *rest)
         except SceneError as refusal:
-            if is_trial():
+            if is_trial() or is_followed():
                 raise
             from parts.offer_search import sure_refusal
 

@@ -14,7 +14,7 @@ from geometry.errors import GeometryError, OffsetError, ParameterError, Undercut
 from geometry.offset_region import OffsetRegion
 from geometry.profile import Label, Profile, Region, circle
 from geometry.trial import is_trial
-from parts.cam_keys import Swing, check_dwell
+from parts.cam_keys import Swing, check_dwell, check_stroke
 from parts.keys import Colour, Density, FaceWidth, Material, mm
 from parts.law_keys import LawName, LawTable, law_of
 from parts.materials import density_of
@@ -161,9 +161,7 @@ def _wedge_of(spec: WedgeCamSpec, *, told: bool = True) -> WedgeCam:
     if spec.follower == "flat":
         text = "rests on a sliding plate by its edge only; roller, mushroom or pointed works"
         raise ParameterError("follower", spec.follower, text)
-    if (spec.lift if swing else spec.swing_deg) != 0:
-        key, other = ("lift", "swing_deg") if swing else ("swing_deg", "lift")
-        raise ParameterError(key, getattr(spec, key), f"this follower has {other} instead; 0 works")
+    check_stroke(spec, swing is not None)
     key, lift = ("swing_deg", spec.swing_deg) if swing else ("lift", spec.lift)
     if not lift > 0:
         raise ParameterError(key, lift, "phases need one above 0")

@@ -32,14 +32,16 @@ def edge_bounds(cam: BarrelCam, piece: LawPiece, radius: float, order: int, a: R
 
     As BarrelCam.edge_series, of either side; inf where none is proven.
     """
-    place, aside = _place_bounds(cam, piece, order + 1, a, b)
+    place, aside, steady = _place_bounds(cam, piece, max(order + 1, 2), a, b)
     rate = derived(place)
     rise, taper = 1 + cam.taper**2, cam.taper
     most = float(np.max(np.abs(cam.radius_at([0.0, radius]))))
     reach = aside[0] + most
     with np.errstate(all="ignore"):
         shortest = np.sqrt(radius**2 - reach**2)
-        least = rise * shortest + taper * (cam.radius - taper * cam.reference) - aside[1]
+        level = rise * shortest + taper * (cam.radius - taper * cam.reference) - aside[1]
+        # w is as high as p' is steep: without it steep grooves have bounds of no use
+        least = np.where(level > 0, np.hypot(level, steady), level)
         lean = taper * aside[0] / least
         # of the equation in rho: 2 rho + 2 y dy/d rho
         turn = rise * rate[0] / least**2 + lean * rise / least / np.sqrt(1 - lean**2)
@@ -80,18 +82,26 @@ def _arm_bounds(cam: BarrelCam, rho: Series, rate: Series, aside: Series, least:
     return product(size, normal)
 
 
-def _place_bounds(cam: BarrelCam, piece: LawPiece, order: int, a: Real, b: Real) -> tuple[Series, Series]:
-    """Bounds of the coefficients of the roller's place p and of its part across the cam's axis."""
+def _place_bounds(cam: BarrelCam, piece: LawPiece, order: int, a: Real, b: Real) -> tuple[Series, Series, Real]:
+    """Bounds of the coefficients of the roller's place p, of its part across the cam's axis, and the least |Im p'|."""
     s = [x / FACTORIALS[k] for k, x in enumerate(piece.bounds(order, a, b))]
     at, half = cam.place((a + b) / 2, order, piece), (b - a) / 2
     guide = cam.guide
     if isinstance(guide, AxialGuide):
         place = [s[0] + abs(guide.start_height), *s[1:]]
-        return sharpened(place, at, half), [0.0 * x for x in place]
+        place = sharpened(place, at, half)
+        return place, [0.0 * x for x in place], _least_rise(at, place, half)
     # of exp(i psi): psi itself counts for nothing
     turn = exponential([0.0 * s[0], *s[1:]])
     place = [
         0.0 * s[0] + abs(guide.pivot_offset) + abs(guide.pivot_height) + guide.arm_length,
         *(guide.arm_length * x for x in turn[1:]),
     ]
-    return sharpened(place, at, half), sharpened(place, [x.real for x in at], half)
+    aside = sharpened(place, [x.real for x in at], half)
+    place = sharpened(place, at, half)
+    return place, aside, _least_rise(at, place, half)
+
+
+def _least_rise(middle: Series, place: Series, half: Real) -> Real:
+    """Bound from below of the speed along the cam's axis: its middle value, and how far it may change from there."""
+    return np.asarray(np.maximum(0.0, np.abs(middle[1].imag) * (1 - 1e-12) - half * 2 * place[2]))

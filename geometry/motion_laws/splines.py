@@ -118,7 +118,7 @@ def bspline_law(poles: Sequence[float], *, degree: int = 5, knots: Sequence[floa
         raise ParameterError("poles", list(poles), "the last pole must lie above the first")
     inner = np.arange(1, count + 1) / (count + 1) if knots is None else np.asarray(knots, dtype=float)
     if len(inner) != count or not np.all(np.diff(np.concatenate([[0.0], inner, [1.0]])) > 0):
-        raise ParameterError("knots", list(inner), f"{count} rising numbers between 0 and 1 work")
+        raise ParameterError("knots", inner.tolist(), f"{count} rising numbers between 0 and 1 work")
     vector = np.concatenate([np.zeros(degree + 1), inner, np.ones(degree + 1)])
     spline = BSpline(degree, vector, np.array([(p - poles[0]) / lift for p in poles], dtype=np.complex128))
     breaks = spline.breaks
