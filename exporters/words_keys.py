@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from functools import cache
 from typing import Any, get_args
 
 import msgspec
 from msgspec import Meta, Struct
+
+from exporters.words_errors_more import MEANINGS
 
 
 def without_meaning(piece: str) -> str | None:
@@ -25,6 +28,25 @@ def without_meaning(piece: str) -> str | None:
         made = [piece_in_ukrainian(one) for one in choices]
         if made and None not in made:
             return " або ".join(filter(None, made))
+
+
+def without_meanings(remedy: str) -> str:
+    """A refusal without the descriptions of keys that stand in it whole; the few that say all are put in Ukrainian."""
+    for text in sorted((m for m in _meanings() if m in remedy), key=len, reverse=True):
+        place = rf"(^|; |: | or )(table: )?{re.escape(text)}(: |; | or |$)"
+        for found in reversed(list(re.finditer(place, remedy))):
+            told = MEANINGS.get(text) or ("table" if found[2] else "")
+            remedy = remedy[: found.start()] + _closed(found[1], told, found[3]) + remedy[found.end() :]
+    return remedy
+
+
+def _closed(before: str, told: str, after: str) -> str:
+    """What is left where a description stood, or where ``told`` takes its place."""
+    if told:
+        return f"{before}{told}{'; ' if after == ': ' else after}"
+    if after == "; ":
+        return before if before in ("", "; ") else after
+    return before if after else ""
 
 
 @cache
