@@ -126,7 +126,6 @@ leave it out of parts|не називайте його в parts
 its table fits no paper|його таблиця не вміщується на жодному аркуші
 a positive number works|підходить додатне число
 draws {} only|креслить лише {}
-is no cam: only a cam has this sheet|не є кулачком: цей аркуш є лише для кулачка
 name a pair of gears|назвіть пару коліс
 is a {} mate|це пара {}
 purpose = "cam" draws the cams that are here|наявні кулачки креслить purpose = "cam"
