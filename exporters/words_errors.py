@@ -250,14 +250,8 @@ def piece_in_ukrainian(piece: str) -> str | None:
     """One piece of a refusal; None where the table lacks it."""
     if piece in MEANINGS.values():
         return piece
-    if missing := re.fullmatch(r"is missing: (.*)", piece):
-        rest = piece_in_ukrainian(missing[1])
-        return f"відсутнє: {rest}" if rest is not None else "відсутнє" if not missing[1] else f"відсутнє: {missing[1]}"
-    if (
-        (keyed := _KEYED.fullmatch(piece))
-        and keyed[1] not in _UNITS
-        and (rest := piece_in_ukrainian(keyed[2])) is not None
-    ):
+    keyed = _KEYED.fullmatch(piece)
+    if keyed and keyed[1] not in _UNITS and (rest := piece_in_ukrainian(keyed[2])) is not None:
         return f"{keyed[1]}: {rest}"
     for words, text in _patterns():
         if (values := _values(words, piece)) is not None:
@@ -275,6 +269,9 @@ def piece_in_ukrainian(piece: str) -> str | None:
         return found
     if works := re.fullmatch(r"(.*) works?", piece):
         return f"підходить {value_in_ukrainian(works[1])}"
+    # a closed hole or a lost wall, and the part it belongs to
+    if (whose := re.fullmatch(r"(.*) of ([\w-]+)", piece)) and (rest := piece_in_ukrainian(whose[1])) is not None:
+        return f"{rest} ({whose[2]})"
     return _choices_in_ukrainian(piece.split(" or "))
 
 
@@ -289,7 +286,7 @@ def _choices_in_ukrainian(choices: list[str]) -> str | None:
 
 def _inner(value: str) -> str:
     """What stands in the place of a value: a sentence of its own, or names and words."""
-    sentence = piece_in_ukrainian(value) if re.search("[a-z]{2} [a-z]{2}", value) else None
+    sentence = piece_in_ukrainian(value) if re.search("[a-z]{2} [a-z0-9]", value) else None
     return value_in_ukrainian(value) if sentence is None else sentence
 
 

@@ -10,6 +10,7 @@ _NOUNS = {
     "the rim": "обода", "the tooth outline": "контуру зубців", "the ring": "кільця цівок",
     "the eccentric": "ексцентрика", "the lantern": "цівкового колеса", "the seats": "гнізд", "table": "таблиця",
     "the pins": "цівок", "the bottom": "дна", "the floor": "дна", "all of its lift": "весь хід",
+    "a STEP file": "файл STEP", "a sheet": "аркуш", "a drawing": "креслення",
     "outer": "зовнішня", "inner": "внутрішня",
     "and need not fit the scene": "і може не відповідати сцені", "of the same scene": "тієї самої сцени",
     "swinging": "коромисловий", "translating": "поступальний", "nested too deeply": "вкладено надто глибоко",
@@ -247,6 +248,11 @@ the windows touch the bore|вікна торкаються отвору вала
 the bore reaches {}|отвір сягає {}
 the windows reach {}|вікна сягають {}
 the outlines touch or cross at this tolerance|контури при цьому допуску торкаються або перетинаються
+its chords cross a thin wall of {}|його хорди перетинають тонку стінку {}
+choose another place|оберіть інше місце
+add {} or remove it|додайте {} або приберіть його
+closes the tooth spaces or is larger than the fillets|закриває западини або більше за перехідні криві
+closes the keyway|закриває шпонковий паз
 at least {} values|щонайменше {} значень
 {} values|{} значень
 """

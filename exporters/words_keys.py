@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterator
 from functools import cache
 from typing import Any, get_args
@@ -49,9 +50,16 @@ def _closed(before: str, told: str, after: str) -> str:
     return before if after else ""
 
 
-@cache
 def _meanings() -> frozenset[str]:
-    """All descriptions of keys and tables."""
+    """All descriptions of keys and tables, those of the calculations that are at work too."""
+    asked = [m for name, m in list(sys.modules.items()) if name.startswith("exporters.calculations.")]
+    tables = [v for m in asked for v in vars(m).values() if isinstance(v, type) and issubclass(v, Struct)]
+    return _of_scenes() | {text for owner in dict.fromkeys(tables) for text in _described(owner, set())}
+
+
+@cache
+def _of_scenes() -> frozenset[str]:
+    """Those of parts, mates and exports."""
     from parts.kinds import KINDS
     from parts.mates import MATES
     from parts.scene import ChecksSpec, ExportSpec, SceneInfo

@@ -16,7 +16,7 @@ from parts.schema import SceneError
 # by these steps sections of the calculation are known that no sheet shows
 _PAGE_ALONE = {"position_deg", "savvin_a"}
 # the kinds of parts that the sheet draws
-_DRAWN = " and ".join(kind.__struct_config__.tag for kind in (CamSpec, LinkageCamSpec))
+_DRAWN = " and ".join(str(kind.__struct_config__.tag) for kind in (CamSpec, LinkageCamSpec))
 
 
 def cam_sheets(scene: SceneFile, export: ExportSpec, where: str, source: str) -> list[tuple[str, Expected]]:
