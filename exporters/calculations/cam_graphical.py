@@ -44,10 +44,10 @@ def graphical_section(
     page.add("graphical_intervals", intervals, "", integration)
     for index, phase in enumerate(drawn.phases, 1):
         symbol = f"k_{index}" if len(drawn.phases) > 1 else ""
-        en, uk = _PHASES[phase.kind]
-        first, last = phase.first, phase.first + intervals
-        of = (f"{en}, positions {first} to {last}", f"{uk}, положення {first} - {last}")
-        page.add("graphical_factor", phase.factor, "", integration, symbol=symbol, of=of)
+        alike = [other.first for other in drawn.phases if other.kind is phase.kind]
+        which = f" {alike.index(phase.first) + 1}" if len(alike) > 1 else ""
+        en, uk = (word + which for word in _PHASES[phase.kind])
+        page.add("graphical_factor", phase.factor, "", integration, symbol=symbol, of=(en, uk))
     worst = float(np.abs(drawn.errors(0)).max())
     if swings:
         page.add("graphical_swing_error_deg", math.degrees(worst), "", integration)
