@@ -10,6 +10,7 @@ import tomllib
 from functools import cache
 from pathlib import Path
 
+from exporters.words_errors_more import MEANINGS, MORE, value_in_ukrainian
 from parts.schema import SceneError
 
 _DID_YOU_MEAN = re.compile(r" \(did you mean (.*?)\?\)")
@@ -19,7 +20,7 @@ _WAY = {
     "at most": "щонайбільше", "at least": "щонайменше", "above": "більше за", "less than": "менше за",
     "more than": "більше за", "below": "менше за",
 }  # fmt: skip
-_UNITS = {"mm": "мм", "degrees": "град", "modules": "модулів"}
+_UNITS = {"mm": "мм", "degrees": "град", "modules": "модулів", "g/cm^3": "г/см³", "rpm": "об/хв", "turns": "обертів"}
 _OFFER = re.compile(
     r"(?:(at most|at least|above|below|less than|more than) )?([-\w.+]+|\"[^\"]*\"|\[.*\])(?: (mm|degrees|modules))?,? "
     r"(works|work|fits|does|do)"
@@ -216,7 +217,9 @@ def _patterns() -> list[tuple[list[str], str]]:
     from exporters.words_errors_linkage import LINKAGES
     from exporters.words_errors_parts import CAMS, GEARS
 
-    lines = [line for text in (_GENERAL, GEARS, CAMS, LINKAGES, OFFERS, PARTS) for line in text.strip().splitlines()]
+    lines = [
+        line for text in (_GENERAL, GEARS, CAMS, LINKAGES, OFFERS, PARTS, MORE) for line in text.strip().splitlines()
+    ]
     pairs = [line.split("|", 1) for line in lines]
     pairs.sort(key=lambda pair: -len(pair[0].replace("{}", "")))
     return [(en.split("{}"), uk) for en, uk in pairs]
@@ -245,9 +248,14 @@ def _values(words: list[str], text: str) -> list[str] | None:
 
 def piece_in_ukrainian(piece: str) -> str | None:
     """One piece of a refusal; None where the table lacks it."""
+    if piece in MEANINGS.values():
+        return piece
+    keyed = _KEYED.fullmatch(piece)
+    if keyed and keyed[1] not in _UNITS and (rest := piece_in_ukrainian(keyed[2])) is not None:
+        return f"{keyed[1]}: {rest}"
     for words, text in _patterns():
         if (values := _values(words, piece)) is not None:
-            return text.format(*values)
+            return text.format(*map(_inner, values))
     if offer := _OFFER.fullmatch(piece):
         way, value, unit, _ = offer.groups()
         words = ["підходить", _WAY[way] if way else "", value, _UNITS[unit] if unit else ""]
@@ -257,9 +265,29 @@ def piece_in_ukrainian(piece: str) -> str | None:
         return f"підходить так: {told}"
     if kind := re.fullmatch(r"must be (.*)", piece):
         return f"має бути {_TYPES[kind[1]]}" if kind[1] in _TYPES else None
-    if (keyed := _KEYED.fullmatch(piece)) and (rest := piece_in_ukrainian(keyed[2])) is not None:
-        return f"{keyed[1]}: {rest}"
-    return _range_in_ukrainian(piece)
+    if (found := _range_in_ukrainian(piece)) is not None:
+        return found
+    if works := re.fullmatch(r"(.*) works?", piece):
+        return f"підходить {value_in_ukrainian(works[1])}"
+    # a closed hole or a lost wall, and the part it belongs to
+    if (whose := re.fullmatch(r"(.*) of ([\w-]+)", piece)) and (rest := piece_in_ukrainian(whose[1])) is not None:
+        return f"{rest} ({whose[2]})"
+    return _choices_in_ukrainian(piece.split(" or "))
+
+
+def _choices_in_ukrainian(choices: list[str]) -> str | None:
+    """Several kinds of value that a key takes; None where one of them is not known."""
+    if len(choices) < 2:
+        return None
+    made = ["таблиця" if one == "table" else piece_in_ukrainian(one) for one in choices]
+    known = [one for one in made if one is not None]
+    return " або ".join(known) if len(known) == len(made) else None
+
+
+def _inner(value: str) -> str:
+    """What stands in the place of a value: a sentence of its own, or names and words."""
+    sentence = piece_in_ukrainian(value) if re.search("[a-z]{2} [a-z0-9]", value) else None
+    return value_in_ukrainian(value) if sentence is None else sentence
 
 
 def _range_in_ukrainian(piece: str) -> str | None:
@@ -274,6 +302,10 @@ def _range_in_ukrainian(piece: str) -> str | None:
 
 def in_ukrainian(remedy: str) -> str:
     """The reason and remedy of a refusal, each piece that the table knows in Ukrainian."""
+    if ": " in remedy or any(text in remedy for text in MEANINGS):
+        from exporters.words_keys import without_meanings
+
+        remedy = without_meanings(remedy)
     pieces = _DID_YOU_MEAN.sub(r" (можливо, \1?)", remedy).split("; ")
     made = [piece_in_ukrainian(piece) for piece in pieces]
     if None in made:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import re
+import sys
 from collections.abc import Iterator
 from functools import cache
 from typing import Any, get_args
 
 import msgspec
 from msgspec import Meta, Struct
+
+from exporters.words_errors_more import MEANINGS
 
 
 def without_meaning(piece: str) -> str | None:
@@ -27,9 +31,35 @@ def without_meaning(piece: str) -> str | None:
             return " або ".join(filter(None, made))
 
 
-@cache
+def without_meanings(remedy: str) -> str:
+    """A refusal without the descriptions of keys that stand in it whole; the few that say all are put in Ukrainian."""
+    for text in sorted((m for m in _meanings() if m in remedy), key=len, reverse=True):
+        place = rf"(^|; |: | or )(table: )?{re.escape(text)}(: |; | or |$)"
+        for found in reversed(list(re.finditer(place, remedy))):
+            told = MEANINGS.get(text) or ("table" if found[2] else "")
+            remedy = remedy[: found.start()] + _closed(found[1], told, found[3]) + remedy[found.end() :]
+    return remedy
+
+
+def _closed(before: str, told: str, after: str) -> str:
+    """What is left where a description stood, or where ``told`` takes its place."""
+    if told:
+        return f"{before}{told}{'; ' if after == ': ' else after}"
+    if after == "; ":
+        return before if before in ("", "; ") else after
+    return before if after else ""
+
+
 def _meanings() -> frozenset[str]:
-    """All descriptions of keys and tables."""
+    """All descriptions of keys and tables, those of the calculations that are at work too."""
+    asked = [m for name, m in list(sys.modules.items()) if name.startswith("exporters.calculations.")]
+    tables = [v for m in asked for v in vars(m).values() if isinstance(v, type) and issubclass(v, Struct)]
+    return _of_scenes() | {text for owner in dict.fromkeys(tables) for text in _described(owner, set())}
+
+
+@cache
+def _of_scenes() -> frozenset[str]:
+    """Those of parts, mates and exports."""
     from parts.kinds import KINDS
     from parts.mates import MATES
     from parts.scene import ChecksSpec, ExportSpec, SceneInfo

@@ -157,10 +157,10 @@ def sizes(page: Sheet, keys: CamKeys, cam: DiskCam) -> None:
     asked = keys.least_transmission_angle_deg
     if isinstance(cam.mount, Translating):
         if cam.is_flat:
-            page.add("least_base_radius", flat_base_radius(cam.motion).value, "", LESSON_4)
+            page.add("least_prime_circle_radius", flat_base_radius(cam.motion).value, "", LESSON_4)
         elif asked is not None:
             least = roller_prime_radius(cam.motion, keys.follower_offset, math.radians(90 - asked))
-            page.add("least_base_radius", least, "", LESSON_5)
+            page.add("least_prime_circle_radius", least, "", LESSON_5)
     if isinstance(cam.mount, Oscillating) and cam.is_flat:
         _rocker(page, keys, cam, cam.mount)
     if keys.least_curvature_radius:
@@ -168,7 +168,7 @@ def sizes(page: Sheet, keys: CamKeys, cam: DiskCam) -> None:
     base = base_radius(cam)
     derived = cam.is_flat and keys.base_circle_radius is None and keys.least_curvature_radius > 0
     exact = derived and abs(base - flat_base_radius(cam.motion).value - keys.least_curvature_radius) < 1e-12 * base
-    page.add("least_cam_radius", base, "{r_0} + {rho}" if exact else "", LESSON_4 if exact else "")
+    page.add("least_base_circle_radius", base, "{r_0} + {rho}" if exact else "", LESSON_4 if exact else "")
     reached(page, cam)
     page.add("least_curvature_radius", least_convex_radius(cam).value)
     if isinstance(cam.mount, Translating) and cam.kind in ("flat", "mushroom"):
@@ -193,4 +193,4 @@ def _rocker(page: Sheet, keys: CamKeys, cam: DiskCam, mount: Oscillating) -> Non
         least = rocker_base(
             cam.motion, mount.centre_distance, mount.sense, mount.face_offset, keys.least_curvature_radius
         )
-        page.add("least_base_radius", least.prime_radius)
+        page.add("least_prime_circle_radius", least.prime_radius)

@@ -8,6 +8,7 @@ import numpy as np
 
 from exporters.calculations.sheet import Sheet, Table
 from geometry.cams.disk import DiskCam
+from geometry.cams.follower_motion import PhaseKind
 from geometry.cams.graphical import (
     Drawing,
     GraphicalMotion,
@@ -23,6 +24,7 @@ _SOURCES = {
     True: ("practicum, lesson 4, 3.1, fig. 4.5 - 4.8", "practicum, lesson 4, section 3.2, fig. 4.9",
            "practicum, lesson 4, 3.3, fig. 4.11"),
 }  # fmt: skip
+_PHASES = {PhaseKind.RISE: ("rise", "віддалення"), PhaseKind.RETURN: ("return", "наближення")}
 
 
 def graphical_section(
@@ -42,7 +44,10 @@ def graphical_section(
     page.add("graphical_intervals", intervals, "", integration)
     for index, phase in enumerate(drawn.phases, 1):
         symbol = f"k_{index}" if len(drawn.phases) > 1 else ""
-        page.add("graphical_factor", phase.factor, "", integration, symbol=symbol)
+        alike = [other.first for other in drawn.phases if other.kind is phase.kind]
+        which = f" {alike.index(phase.first) + 1}" if len(alike) > 1 else ""
+        en, uk = (word + which for word in _PHASES[phase.kind])
+        page.add("graphical_factor", phase.factor, "", integration, symbol=symbol, of=(en, uk))
     worst = float(np.abs(drawn.errors(0)).max())
     if swings:
         page.add("graphical_swing_error_deg", math.degrees(worst), "", integration)
@@ -52,7 +57,7 @@ def graphical_section(
     limit = None if transmission_angle_deg is None else math.radians(90 - transmission_angle_deg)
     found = graphical_radius(cam, drawn, limit)
     if found is not None:
-        page.add("graphical_base_radius", found[0], "", radius)
+        page.add("graphical_prime_circle_radius", found[0], "", radius)
         page.add("graphical_radius_error", found[0] - found[1], "{r_0g} - {r_0}", radius)
     page.add("graphical_profile_error", graphical_profile_error(cam, drawn), "", profile)
     page.tables.append(graphical_table(drawn, swings=swings))

@@ -71,7 +71,7 @@ def _sizes(page: Sheet, keys: GrooveKeys, disk: GrooveDisk) -> None:
         limit = math.radians(90 - asked)
         least = roller_prime_radius(cam.motion, keys.follower_offset, limit, limit)
         page.add("least_radius_both_ways", least, "", LESSON_5)
-    page.add("least_cam_radius", base_radius(cam))
+    page.add("least_base_circle_radius", base_radius(cam))
     reached(page, cam)
     page.add("least_curvature_radius", least_convex_radius(cam).value)
     page.add("least_hollow_radius", least_hollow_radius(cam).value)

@@ -38,6 +38,8 @@ _PHASES = {"rise": "rise", "far": "far_dwell", "return": "return", "near": "near
 
 # radii of curvature beyond this many sizes of a cam are those of straight lines
 _STRAIGHT = 1e9
+# units of the last place that a sum of phases or a turn into radians and back may cost
+_ROUNDING = 8
 
 # keys that several of the calculations take
 Step = Annotated[
@@ -79,7 +81,7 @@ class Phases:
 
     def size(self, phase: Phase) -> float:
         """The phase's angle in degrees, or its travel in mm."""
-        return phase.angle if self.slides else math.degrees(phase.angle)
+        return phase.angle if self.slides else as_typed(math.degrees(phase.angle))
 
     def data(self) -> list[dict[str, object]]:
         """For json."""
@@ -90,12 +92,18 @@ class Phases:
         ]
 
 
+def as_typed(value: float) -> float:
+    """The number of few digits that rounding in sums and in radians has left by a few units of the last place."""
+    short = float(f"{value:.14g}")
+    return short if abs(short - value) <= _ROUNDING * math.ulp(value) else value
+
+
 def phase_steps(page: Sheet, phases: Phases) -> None:
     """Lift or swing, and the angle or travel of every phase."""
     if phases.swings:
-        page.add("swing_deg", math.degrees(phases.lift))
+        page.add("swing_deg", as_typed(math.degrees(phases.lift)))
     else:
-        page.add("lift", phases.lift)
+        page.add("lift", as_typed(phases.lift))
     named = phases.named()
     index = dict.fromkeys(_PHASES, 0)
     for name, phase in named:
@@ -116,9 +124,9 @@ def coefficient_steps(page: Sheet, phases: Phases) -> None:
         page.section(f"{en}: {law}", f"{uk}: {_LAWS.get(law, 'власна діаграма прискорення')}")
         page.add(phases.term(name), phases.size(phase), key="phi")
         if phases.swings:
-            page.add("swing_of_phase_deg", math.degrees(h))
+            page.add("swing_of_phase_deg", as_typed(math.degrees(h)))
         else:
-            page.add("lift_of_phase", h)
+            page.add("lift_of_phase", as_typed(h))
         speed, bend = (max(map(abs, phase.law.peak(order))) for order in (1, 2))
         page.add("velocity_coefficient", speed)
         page.add("acceleration_coefficient", bend)

@@ -55,7 +55,8 @@ def step_name(step: Step, language: str) -> str:
     """The quantity in words, with the gear it belongs to."""
     term = TERMS[step.name]
     name = term.uk if language == "uk" else term.en
-    return f"{name}, {_pick(_LABELS['gear'], language)} {step.gear}" if step.gear else name
+    more = f"{_pick(_LABELS['gear'], language)} {step.gear}" if step.gear else _pick(step.of, language)
+    return f"{name}, {more}" if more else name
 
 
 def result_text(step: Step, language: str) -> str:

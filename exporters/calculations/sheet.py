@@ -57,7 +57,10 @@ class Known:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One line of a calculation; ``gear`` is 0 (neither), 1 or 2; ``inputs`` is what its formula's keys stood for."""
+    """One line of a calculation; ``gear`` is 0 (neither), 1 or 2; ``inputs`` is what its formula's keys stood for.
+
+    ``of``: which of several steps of the same name it is, in both languages.
+    """
 
     name: str
     gear: int
@@ -68,6 +71,7 @@ class Step:
     source: str = ""
     printed: Printed | None = None
     inputs: Mapping[str, Known] = field(default_factory=dict)
+    of: tuple[str, str] = ("", "")
 
 
 @dataclass(slots=True)
@@ -121,6 +125,7 @@ class Sheet:
         *,
         symbol: str = "",
         key: str = "",
+        of: tuple[str, str] = ("", ""),
     ) -> None:
         """A step; later formulas know its value by the term's key; ``symbol`` and ``key`` stand in for the term's."""
         term = TERMS[name]
@@ -131,7 +136,7 @@ class Sheet:
         if unknown := [placeholder for placeholder in needed if placeholder not in self.known]:
             raise KeyError(f"{name}: {', '.join(unknown)} not known yet")
         inputs = {placeholder: self.known[placeholder] for placeholder in needed}
-        step = Step(name, gear, shown, value, term.unit, formula, source, self.printed.get((name, gear)), inputs)
+        step = Step(name, gear, shown, value, term.unit, formula, source, self.printed.get((name, gear)), inputs, of)
         self.sections[-1].steps.append(step)
         self.known[(key or term.key) + index] = Known(shown, value, term.unit)
 

@@ -187,8 +187,9 @@ least_transmission_angle_deg|gamma|γ_min|deg|least transmission angle|найм�
 transmission_angle_reached_deg|gamma_r|γ|deg|transmission angle reached, rise|досягнутий кут передачі при віддаленні
 pressure_angle_rise_deg|nu_r|ν_від|deg|greatest pressure angle, rise|найбільший кут тиску при віддаленні
 pressure_angle_return_deg|nu_b|ν_наб|deg|greatest pressure angle, return|найбільший кут тиску при наближенні
-least_base_radius|r_0|r_0|mm|least radius by the condition|найменший радіус за умовою
+least_prime_circle_radius|r_0|r_0|mm|least prime circle radius by the condition|найменший радіус за умовою
 curvature_reserve|rho|ρ|mm|least convex radius of curvature asked|заданий запас на радіус кривини профілю
+least_base_circle_radius|R_min|R_min|mm|least radius of the cam (base circle)|найменший радіус кулачка
 least_cam_radius|R_min|R_min|mm|least radius of the cam|найменший радіус кулачка
 follower_radius|r|r|mm|radius of the roller or mushroom|радіус ролика або грибка
 initial_height|s_0|s_0|mm|initial height of the follower|початкова відстань штовхача від осі
@@ -202,11 +203,11 @@ greatest_acceleration|a_max|a_max|m/s2|greatest acceleration of the follower|н�
 greatest_angular_velocity|v_max|ω_max|rad/s|greatest angular velocity|найбільша кутова швидкість коромисла
 greatest_angular_acceleration|a_max|ε_max|rad/s2|greatest angular acceleration|найбільше кутове прискорення коромисла
 graphical_intervals|n|n||intervals of each phase|кількість інтервалів фази
-graphical_factor|k|k||stretch of the scales by y_max, (4.2)|поправка масштабів за y_max, (4.2)
+graphical_factor|k|k||stretch of scales by y_max, (4.2)|поправка масштабів за y_max, (4.2)
 graphical_lift_error|dS|ΔS|mm|greatest error of S by the drawing|найбільша похибка побудови S
 graphical_swing_error_deg|dS|Δψ|deg|greatest error of the swing by the drawing|найбільша похибка побудови кута коромисла
 graphical_velocity_error|dS1|ΔS'|mm/rad|greatest error of S' by the drawing|найбільша похибка побудови S'
-graphical_base_radius|r_0g|r_0g|mm|least radius by the drawing|найменший радіус за побудовою
+graphical_prime_circle_radius|r_0g|r_0g|mm|least prime circle radius by the drawing|найменший радіус за побудовою
 graphical_radius_error|dr_0|Δr_0|mm|its error|похибка радіуса за побудовою
 graphical_profile_error|dn|Δn|mm|greatest error of the drawn profile|найбільша похибка профілю за побудовою
 """)

@@ -15,6 +15,8 @@ from parts.schema import SceneError
 
 # by these steps sections of the calculation are known that no sheet shows
 _PAGE_ALONE = {"position_deg", "savvin_a"}
+# the kinds of parts that the sheet draws
+_DRAWN = " and ".join(str(kind.__struct_config__.tag) for kind in (CamSpec, LinkageCamSpec))
 
 
 def cam_sheets(scene: SceneFile, export: ExportSpec, where: str, source: str) -> list[tuple[str, Expected]]:
@@ -29,9 +31,9 @@ def cam_sheets(scene: SceneFile, export: ExportSpec, where: str, source: str) ->
     for part in export.parts or []:
         if part not in cams:
             known = f"; cams: {', '.join(cams)}" if cams else ""
-            raise SceneError(source, f"{where}.parts", part, f"is no cam: only a cam has this sheet{known}")
+            raise SceneError(source, f"{where}.parts", part, f"draws {_DRAWN} only{known}")
     if not cams:
-        raise SceneError(source, f"{where}.purpose", export.purpose, "shows cams; add one or remove it")
+        raise SceneError(source, f"{where}.purpose", export.purpose, f"draws {_DRAWN} only; add one or remove it")
     intervals, found = export.intervals or INTERVALS, []
     for part in export.parts or cams:
         spec = scene.parts[part]

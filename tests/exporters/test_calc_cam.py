@@ -40,8 +40,8 @@ def test_lesson_4(case: dict[str, Any]) -> None:
     data = calculated("follower=flat", "lift=38", "follower_offset=2", phases(120, 30, 120, law),
                       "least_transmission_angle_deg=45", "least_curvature_radius=10")  # fmt: skip
     expected, values = case["recomputed"], data["values"]
-    assert values["least_base_radius"] == pytest.approx(expected["r0_mm"], rel=1e-12)
-    assert values["least_cam_radius"] == pytest.approx(expected["R_min_with_rho_10_mm"], rel=1e-12)
+    assert values["least_prime_circle_radius"] == pytest.approx(expected["r0_mm"], rel=1e-12)
+    assert values["least_base_circle_radius"] == pytest.approx(expected["R_min_with_rho_10_mm"], rel=1e-12)
     assert values["peak_acceleration"] == pytest.approx(expected["S2_max_mm"], rel=1e-12)
     assert [values[k] for k in ("rise_angle_deg", "far_dwell_angle_deg", "return_angle_deg", "near_dwell_angle_deg")] \
         == pytest.approx([120, 30, 120, 90])  # fmt: skip
@@ -54,7 +54,7 @@ def test_lesson_5(case: dict[str, Any], offset: float, side: str) -> None:
     data = calculated("follower=pointed", "lift=30", f"follower_offset={offset}", phases(130, 50, 130, law),
                       "least_transmission_angle_deg=60")  # fmt: skip
     expected, values = case["recomputed"], data["values"]
-    assert values["least_base_radius"] == pytest.approx(expected[f"r0_offset_{side}_mm"], rel=1e-12)
+    assert values["least_prime_circle_radius"] == pytest.approx(expected[f"r0_offset_{side}_mm"], rel=1e-12)
     assert values["initial_height"] == pytest.approx(expected[f"s0_offset_{side}_mm"], rel=1e-12)
     assert values["transmission_angle_reached_deg"] == pytest.approx(60, abs=1e-9)
 
@@ -68,7 +68,7 @@ def test_table_2_2(case: dict[str, Any]) -> None:
     expected, end = case["recomputed"], at == 90
     found = [row["S"] + 32 * end, row["S'"], row["S''"] * (-1 if end else 1)]
     assert found == pytest.approx([expected[k] for k in ("S_mm", "S1_mm", "S2_mm")], rel=1e-12, abs=1e-12)
-    assert data["values"]["least_base_radius"] == pytest.approx(45.81466903731541, rel=1e-12)
+    assert data["values"]["least_prime_circle_radius"] == pytest.approx(45.81466903731541, rel=1e-12)
 
 
 def test_positions_hold_the_textbooks_contact_point() -> None:
@@ -77,7 +77,7 @@ def test_positions_hold_the_textbooks_contact_point() -> None:
     import math
 
     data = calculated("practicum_flat_cam", "step=7")
-    base = data["values"]["least_cam_radius"]
+    base = data["values"]["least_base_circle_radius"]
     assert len(data["positions"]) == 52 + 3
     for row in data["positions"]:
         point = complex(row["S'"], base + row["S"]) * cmath.exp(-1j * math.radians(row["phi"]))
@@ -116,8 +116,10 @@ def test_the_graphical_method_stands_beside_the_exact_motion() -> None:
     data = calculated("guidelines_cam")
     values, rows = data["values"], data["graphical"]
     assert values["graphical_factor"] == pytest.approx(128 / 129, rel=1e-13)
-    assert values["graphical_base_radius"] == pytest.approx((45.81466903731541 + 32) * 128 / 129 - 32, rel=1e-12)
-    error = values["graphical_base_radius"] - values["least_base_radius"]
+    assert values["graphical_prime_circle_radius"] == pytest.approx(
+        (45.81466903731541 + 32) * 128 / 129 - 32, rel=1e-12
+    )
+    error = values["graphical_prime_circle_radius"] - values["least_prime_circle_radius"]
     assert values["graphical_radius_error"] == pytest.approx(error, rel=1e-12)
     for case in (c for c in CASES if "table2_2.k" in c["id"]):
         row = rows[round(8 * case["inputs"]["k"])]

@@ -108,7 +108,7 @@ def test_the_least_radius_of_a_groove_serves_both_ways() -> None:
     assert steepest == pytest.approx(30, abs=1e-4)
     steep_return = GROOVE[-1].replace("angle_deg=140", "angle_deg=60").replace("angle_deg=100", "angle_deg=180")
     keys = (*GROOVE[1:3], steep_return, "least_transmission_angle_deg=60")
-    one_way = calculated("follower=roller", *keys)["values"]["least_base_radius"]
+    one_way = calculated("follower=roller", *keys)["values"]["least_prime_circle_radius"]
     both = calculated("kind=groove_cam", "groove_depth=5", *keys)["values"]["least_radius_both_ways"]
     assert both > 1.2 * one_way
 

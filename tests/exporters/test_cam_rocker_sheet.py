@@ -61,7 +61,7 @@ def test_the_diagram_tells_the_least_base_circle(sense: str) -> None:
     layers = {s.layer for s in canvas.strokes}
     assert {"GAMMA_TANGENT", "HATCH", "CONSTRUCTION"} <= layers
     values = {s.name: s.value for s in sheet_of("cam", ("kind=cam", *keys(sense)))[0].steps()}
-    assert values["least_base_radius"] == pytest.approx(least, abs=1e-4)
+    assert values["least_prime_circle_radius"] == pytest.approx(least, abs=1e-4)
 
 
 def keys(sense: str) -> list[str]:

@@ -104,7 +104,12 @@ def test_numbers_on_the_sheet_are_those_of_the_calculation(name: str) -> None:
         return text.replace(".", ",") if language == "uk" else text
 
     values = data["values"]
-    for key in ("least_base_radius", "least_cam_radius", "graphical_base_radius", "graphical_radius_error"):
+    for key in (
+        "least_prime_circle_radius",
+        "least_base_circle_radius",
+        "graphical_prime_circle_radius",
+        "graphical_radius_error",
+    ):
         number = said(values[key], 5).rstrip("0").rstrip(".,")
         assert any(t.startswith(number) for t in texts), key
     assert len(data["graphical"]) == 18
@@ -314,9 +319,9 @@ def test_refusals_name_the_key_and_what_works() -> None:
     with pytest.raises(SceneError, match='purpose = "cam" draws the cams'):
         plan_build(scene, "t", [], [])
     gear = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20}
-    with pytest.raises(SceneError, match="shows cams"):
+    with pytest.raises(SceneError, match="draws cam and linkage_cam only; add one"):
         plan_build(cam_scene(gear), "t", [], [])
-    with pytest.raises(SceneError, match="is no cam"):
+    with pytest.raises(SceneError, match="draws cam and linkage_cam only"):
         plan_build(cam_scene(gear, parts=["rocker"]), "t", [], [])
     with pytest.raises(SceneError, match="intervals"):
         cam_scene(ROCKER, intervals=1)
