@@ -108,6 +108,7 @@ the contact runs over the plate's edge|контакт виходить за кр
 the rollers must stand on both sides of the axis|ролики мають стояти з обох боків осі
 the second cam is undercut|другий кулачок підрізаний
 lies within the follower's offset|лежить у межах зміщення штовхача
+is no cam of constant breadth: its follower oscillates|не є кулачком сталої ширини: його штовхач коромисловий
 is no cam of constant breadth: its {} is {}|не є кулачком сталої ширини: його {} дорівнює {}
 the mark meets the edge or another hole|мітка зачіпає край або інший отвір
 finds no room inside the base circle|не має місця в основному колі

@@ -104,7 +104,7 @@ the teeth do not reach each other|зубці не дістають один до
 the gears' own thinning and distance give more|власне стоншення коліс і відстань дають більше
 leaves no whole teeth|не лишає цілих зубців
 the pair has {} mm of normal backlash already|пара вже має {} мм нормального зазору
-a gear does not mesh with itself|колесо не зчіплюється саме з собою
+a part has no mate in itself|деталь не буває парою сама собі
 is a {}|це {}
 {} joins {}|{} з'єднує {}
 kind = {} joins these two|ці дві з'єднує kind = {}

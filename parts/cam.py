@@ -27,7 +27,7 @@ from parts.cam_keys import (
     without_base,
 )
 from parts.cam_report import cam_findings, cam_quantities
-from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes
+from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes, wide_bore
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, mm
 from parts.materials import density_of
 from parts.part import Part
@@ -43,8 +43,6 @@ if TYPE_CHECKING:
 
 _MOST = 100_000.0
 _BISECTIONS = 40
-# part of the base circle that a bore leaves at least free
-_WALL = 0.9999
 
 
 class OscillatingTable(Struct, forbid_unknown_fields=True):
@@ -322,11 +320,7 @@ def check_cam_bore(spec: CamSpec | LinkageCamSpec, cam: DiskCam) -> None:
     """The holes stay inside the circle that is surely material."""
     holes, inside = _core_of(spec), inner_radius(cam)
     if not holes.bore_reach < inside:
-        key = "bore_diameter" if spec.bore_diameter > 0 else "bore.diameter"
-        value = spec.bore_diameter or 2 * holes.bore_reach
-        raise ParameterError(
-            key, value, f"leaves no wall to the base circle; at most {at_most(_WALL * 2 * inside, 4)} mm works"
-        )
+        raise wide_bore(spec, inside, "leaves no wall to the base circle")
     if holes.reach > inside:
         remedy = f"the holes must stay inside the base circle, within {inside:.6g} mm of the axis"
         raise ParameterError("holes", 2 * holes.reach, remedy)

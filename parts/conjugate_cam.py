@@ -19,7 +19,7 @@ from geometry.profile import Profile, Region
 from geometry.trial import is_trial
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.cam import CamSpec, base_radius, cam_findings, cam_of, cam_quantities, inner_radius, nearest_offset
-from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes
+from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes, wide_bore
 from parts.keys import Colour, Density, Material, mm
 from parts.links import owner_of
 from parts.materials import density_of
@@ -114,9 +114,10 @@ def checked_conjugate(spec: ConjugateCamSpec, parts: dict[str, Struct]) -> Secon
     shape = wheel_shape(width, None, spec.hub, spec.face_chamfer)
     holes, inside = _holes_of(spec, owner), inner_radius(pair.cam)
     if not holes.reach < inside:
-        key = "holes" if holes.bore_reach < inside else "bore" if spec.bore else "bore_diameter"
+        if not holes.bore_reach < inside:
+            raise wide_bore(spec, inside, "leaves no wall to the base circle")
         raise ParameterError(
-            key,
+            "holes",
             2 * holes.reach,
             f"leaves no wall to the base circle; at most {at_most(2 * inside * 0.9999, 4)} mm works",
         )

@@ -11,7 +11,7 @@ from msgspec import Meta, Struct
 
 from geometry.errors import GeometryError, ParameterError, at_least, at_most
 from geometry.trial import is_trial
-from parts.hole_keys import BoreTable, RoundBoreTable, hub_holes
+from parts.hole_keys import BoreTable, RoundBoreTable, hub_holes, wide_bore
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, mm
 from parts.materials import density_of
 from parts.part import Part
@@ -221,9 +221,7 @@ def checked_roller(spec: RollerSpec) -> FollowerEnd:
 
     holes = hub_holes(_bore_of(spec), None, None)
     if not holes.bore_reach < spec.diameter / 2:
-        key = "bore_diameter" if spec.bore_diameter > 0 else "bore.diameter"
-        text = f"leaves no wall in the roller; below {at_most(spec.diameter * 0.999, 4)} mm works"
-        raise ParameterError(key, 2 * holes.bore_reach, text)
+        raise wide_bore(spec, spec.diameter / 2, "leaves no wall in the roller")
     check_wheel(wheel_shape(spec.face_width, None, spec.hub, spec.face_chamfer), spec.diameter, holes)
     return FollowerEnd(FollowerKind.ROLLER, spec.diameter / 2)
 

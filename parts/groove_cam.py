@@ -19,7 +19,7 @@ from geometry.trial import is_trial
 from geometry.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.cam import CamSpec, OscillatingTable, base_radius, cam_circles, cam_of, cam_quantities, inner_radius
 from parts.cam_keys import FollowerOffset, Lift, MotionTable, Phases, Swing
-from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes
+from parts.hole_keys import BoreTable, HolesTable, RoundBoreTable, hub_holes, wide_bore
 from parts.keys import BoreDiameter, Colour, Density, FaceWidth, Material, mm
 from parts.materials import density_of
 from parts.part import Part
@@ -140,11 +140,7 @@ def checked_groove(spec: GrooveCamSpec) -> GrooveDisk:
     radius = _outer_radius(spec, reach, chamfer)
     inside = inner_radius(cam)
     if not disk.holes.bore_reach < inside:
-        key = "bore_diameter" if spec.bore_diameter > 0 else "bore.diameter"
-        value = spec.bore_diameter or 2 * disk.holes.bore_reach
-        raise ParameterError(
-            key, value, f"leaves no wall to the groove; at most {at_most(2 * inside * 0.9999, 4)} mm works"
-        )
+        raise wide_bore(spec, inside, "leaves no wall to the groove")
     if disk.holes.reach > inside:
         remedy = f"the holes must stay inside the groove, within {inside:.6g} mm of the axis"
         raise ParameterError("holes", 2 * disk.holes.reach, remedy)

@@ -11,7 +11,7 @@ import msgspec
 from msgspec import Meta, Struct
 
 from geometry.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
-from geometry.errors import ParameterError, at_least, at_most
+from geometry.errors import GeometryError, ParameterError, at_least, at_most
 from geometry.hub_holes import HubHoles
 from geometry.keyway_tables import keyway_row
 from geometry.trial import is_trial, trial
@@ -19,6 +19,8 @@ from geometry.windows import RoundHoles, Spokes
 from parts.keys import mm
 
 _MOST = 100_000.0
+# part of the room for a bore that it takes at most
+_WITHIN = 0.9999
 Direction = Annotated[float, Meta(ge=-360, le=360, description="direction of the first one", extra={"unit": "degrees"})]
 Diameter = Annotated[float, mm("diameter of the bore", above=0, most=_MOST)]
 AcrossFlats = Annotated[float, mm("from a flat to the opposite one", above=0, most=_MOST)]
@@ -150,6 +152,33 @@ def _keyway_of(table: KeywayTable, angle: float) -> KeywayBore:
             # a keyway of other sizes may have less room for it
             radius = min(row.most_radius, width / 4, depth / 4)
     return KeywayBore(table.diameter, width, depth, radius or 0.0, table.keys, angle)
+
+
+def wide_bore(spec: Any, inside: float, reason: str) -> ParameterError:
+    """A refusal of a bore that reaches ``inside`` mm from the axis: its size as typed, and one that stays within.
+
+    ``spec``: with the keys ``bore_diameter`` and ``bore``.
+    """
+    if spec.bore is None or spec.bore_diameter:
+        text = f"{reason}; at most {at_most(2 * inside * _WITHIN, 4)} mm works"
+        return ParameterError("bore_diameter", spec.bore_diameter, text)
+    name = "diameter" if hasattr(spec.bore, "diameter") else "across_flats"
+    typed: float = getattr(spec.bore, name)
+
+    def fits(size: float) -> bool:
+        try:
+            return hub_holes(msgspec.structs.replace(spec.bore, **{name: size}), None, None).bore_reach < inside
+        except GeometryError:
+            return False
+
+    good = next((typed * k / 64 for k in range(63, 0, -1) if fits(typed * k / 64)), None)
+    if good is None:
+        return ParameterError(f"bore.{name}", typed, reason)
+    high = typed
+    for _ in range(30):
+        middle = (good + high) / 2
+        good, high = (middle, high) if fits(middle) else (good, middle)
+    return ParameterError(f"bore.{name}", typed, f"{reason}; at most {at_most(good * _WITHIN, 4)} mm works")
 
 
 def with_remedy(refusal: ParameterError, spec: Any, builds: Callable[[Any], bool]) -> ParameterError:

@@ -211,7 +211,7 @@ def _mate_spec(
     for key in ("first", "second"):
         check_instance(getattr(mate, key), instances, source, f"{place}.{key}")
     if mate.first == mate.second:
-        raise SceneError(source, f"{place}.second", mate.second, "a gear does not mesh with itself; name another one")
+        raise SceneError(source, f"{place}.second", mate.second, "a part has no mate in itself; name another one")
     return mate
 
 

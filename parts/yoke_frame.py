@@ -85,7 +85,8 @@ def checked_yoke(spec: YokeFrameSpec, parts: dict[str, Struct]) -> YokeFrame:
             told = f"S(phi) + S(phi + 180) departs from H by {breadth_error(cam.motion):.6g} mm"
             remedy = "phases rise a, dwell 180 - a, return_ a, dwell 180 - a degrees with one law for both works"
         else:
-            told = f"its {refusal.name} is {refusal.value}"
+            swings = refusal.name == "mount"
+            told = "its follower oscillates" if swings else f"its {refusal.name} is {refusal.value}"
             remedy = "a translating cam, flat, or roller with follower_offset = 0, works"
         raise ParameterError("of", spec.of, f"is no cam of constant breadth: {told}; {remedy}") from refusal
     low, high = cam.motion.extremes()

@@ -117,7 +117,9 @@ def yoke_breadth(cam: DiskCam) -> float:
     ParameterError
         The motion is not of constant breadth, the follower swings, or a roller is offset.
     """
-    if not isinstance(cam.mount, Translating) or cam.kind in (FollowerKind.POINTED, FollowerKind.MUSHROOM):
+    if not isinstance(cam.mount, Translating):
+        raise ParameterError("mount", "oscillating", "a yoke slides")
+    if cam.kind in (FollowerKind.POINTED, FollowerKind.MUSHROOM):
         raise ParameterError("follower", str(cam.kind), "a yoke has two flat faces or two rollers and slides")
     if not cam.is_flat and cam.mount.offset != 0:
         raise ParameterError("follower_offset", cam.mount.offset, "a yoke with rollers works at 0 only")

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from exporters.words import finding_text
+from exporters.words_errors import piece_in_ukrainian
 from parts.schema import SceneError
 
 from .positive_scenes import ROLLER, Keys, parts_of, without
@@ -71,3 +72,35 @@ def test_a_pivot_within_the_cam_is_told() -> None:
     assert finding_text("uk", found) != finding_text("en", found)
     far = SWINGING | {"oscillating": {"centre_distance": 90.0, "arm_length": 80.0}}
     assert not any(f.code == "pivot_within_cam" for f in parts_of({"cam": far})["cam"].findings)
+
+
+KEYWAY: Keys = {"shape": "keyway", "diameter": 58.0}
+HEXAGON: Keys = {"shape": "hexagon", "across_flats": 58.0}
+PLAIN: Keys = without(ROLLER, "bore_diameter")
+GROOVE: Keys = without(PLAIN, "follower") | {"kind": "groove_cam", "groove_depth": 5.0}
+ROUND: Keys = {"kind": "roller", "diameter": 60.0}
+SECOND: Keys = {"kind": "conjugate_cam", "of": "first", "roller_distance": 130.0}
+
+
+@pytest.mark.parametrize("bore", [KEYWAY, HEXAGON])
+@pytest.mark.parametrize("name", ["cam", "groove", "roller", "second"])
+def test_a_bore_that_is_too_large_is_named_as_it_was_typed(name: str, bore: Keys) -> None:
+    """Its keyway or its corners reach farther than its size: the size that works does so when it is fed back."""
+    key = "diameter" if "diameter" in bore else "across_flats"
+    keys = {"cam": PLAIN | {"base_circle_radius": 30.0}, "groove": GROOVE, "roller": ROUND, "second": SECOND}[name]
+    typed = {"groove": 99.0, "second": 117.0}.get(name, 58.0)
+    parts = {"p": keys} | ({"first": PLAIN} if name == "second" else {})
+    message = refused(parts | {"p": keys | {"bore": bore | {key: typed}}})
+    assert re.search(rf"p\.bore\.{key} = (58|99|117)\.0: ", message), message
+    offer = re.search(r"at most ([\d.]+) mm works", message)
+    assert offer is not None, message
+    assert parts_of(parts | {"p": keys | {"bore": bore | {key: float(offer[1])}}})["p"]
+    for part in message.split(": ", 2)[2].split("; "):
+        assert piece_in_ukrainian(part) not in (None, part)
+
+
+def test_an_oscillating_cam_has_no_yoke_and_is_told_why() -> None:
+    swinging = SWINGING | {"oscillating": {"centre_distance": 90.0, "arm_length": 80.0}}
+    message = refused({"cam": swinging, "yoke": YOKE})
+    assert "is no cam of constant breadth: its follower oscillates" in message
+    assert piece_in_ukrainian("is no cam of constant breadth: its follower oscillates")

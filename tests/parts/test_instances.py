@@ -250,7 +250,7 @@ WRONG = [
     (AB + INB.format("rotation = 3"), "instances.x.rotation", "did you mean rotation_deg"),
     (AB + INB.format("") + MATE.format("a", "b"), "mates[1].second", "stands as x"),
     (AB + INB.format("") + MATE.format("y", "a"), "mates[1].first", "instances: a, x"),
-    (AB + MATE.format("a", "a"), "mates[1].second", "does not mesh with itself"),
+    (AB + MATE.format("a", "a"), "mates[1].second", "no mate in itself"),
     (AB + INB.format("rotation_deg = 3") + MATE.format("a", "x"), "instances.x.rotation_deg", "mates[1]"),
     (ABC + MATE.format("b", "c") + MATE.format("a", "b"), "mates[2].first", "direction_deg = 180"),
     (ABC + MATE.format("a", "b") + MATE.format("c", "b"), "mates[2].first", "swap"),
