@@ -10,6 +10,7 @@ _NOUNS = {
     "the rim": "обода", "the tooth outline": "контуру зубців", "the ring": "кільця цівок",
     "the eccentric": "ексцентрика", "the lantern": "цівкового колеса", "the seats": "гнізд", "table": "таблиця",
     "the pins": "цівок", "the bottom": "дна", "the floor": "дна", "all of its lift": "весь хід",
+    "all of the profile": "весь профіль",
     "a STEP file": "файл STEP", "a sheet": "аркуш", "a drawing": "креслення",
     "outer": "зовнішня", "inner": "внутрішня",
     "and need not fit the scene": "і може не відповідати сцені", "of the same scene": "тієї самої сцени",

@@ -135,6 +135,15 @@ def fault_of(raw: Raw, *, several: bool = False) -> str:
     return ""
 
 
+def english_in(told: str) -> str:
+    """Words that no key, value or kind is: two lower-case ones in a row, or a unit."""
+    bare = re.sub(r'"[^"]*"|відомі(?: ключі)?: .*|одне з:? .*|\bitem \d+', "", told)
+    found = re.search(
+        r"\b(?:default|above|below|and|or|not a|of lift|at (?:most|least)|\d mm)\b|\b[a-z]{2,} [a-z]{2,}\b", bare
+    )
+    return "" if found is None else f"{found[0]}: {told}"
+
+
 # --- scenes to start from
 
 

@@ -12,7 +12,7 @@ from exporters.words_errors import in_ukrainian, piece_in_ukrainian
 from exporters.words_errors_more import MEANINGS, MORE
 from parts.scene import scene_from_dict
 from parts.schema import SceneError
-from tests.offered import PHASES, SWING, Raw, cam, put, scenes
+from tests.offered import PHASES, SWING, Raw, cam, english_in, put, scenes
 
 SCENES = scenes()
 YOKE, CONJUGATE = SCENES["new yoke_frame"], SCENES["new conjugate_cam"]
@@ -73,15 +73,6 @@ def test_what_strangers_met_is_ukrainian_throughout(raw: Raw, words: str) -> Non
     told = in_ukrainian(refusal(raw).remedy)
     assert words in told
     assert english_in(told) == ""
-
-
-def english_in(told: str) -> str:
-    """Words that no key, value or kind is: two lower-case ones in a row, or a unit."""
-    bare = re.sub(r'"[^"]*"|відомі(?: ключі)?: .*|одне з:? .*|\bitem \d+', "", told)
-    found = re.search(
-        r"\b(?:default|above|below|and|or|not a|of lift|at (?:most|least)|\d mm)\b|\b[a-z]{2,} [a-z]{2,}\b", bare
-    )
-    return "" if found is None else f"{found[0]}: {told}"
 
 
 def test_english_that_is_left_is_seen() -> None:
