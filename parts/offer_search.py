@@ -113,13 +113,14 @@ def _several(
 ) -> tuple[list[Change], str] | None:
     """Changes of several keys that work together."""
     tried.more(80, 1.5)
-    found = shared_turn(raw, place, tried.whole)
+    # laws once more: of slow kinds the time was up before them
+    found = same_words(raw, place, tried.whole, ("law",)) or shared_turn(raw, place, tried.whole)
     if found is None:
         starts = [offer for offer in [*told, *tried.nearly()] if tried.here(offer)]
         made = followed(raw, place, starts, tried.left)
         tried.more(80, 1.5)
         found = (made, "") if made is not None and tried.part_right(made) else resets(raw, place, tried.whole)
-    if found is not None and len(found[0]) > 1:
+    if found is not None and len(found[0]) > 1 and not isinstance(found[0][0].value, str):
         tried.more(80, 1.5)
         found = together(raw, found[0], tried.part_right), ""
     return found
