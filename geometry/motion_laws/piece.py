@@ -8,7 +8,7 @@ to such pieces in closed form. Bernstein's basis keeps high degrees exact to rou
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -20,6 +20,8 @@ from geometry.roots import bracketed_roots
 Real = NDArray[np.float64]
 
 _EXTREME_SAMPLES = 65
+# so many arguments at once: their powers stay in the cache
+_BLOCK = 2048
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,9 +64,12 @@ class LawPiece:
         """s, s' ... s^(order)."""
         return self._values(t, range(order + 1))
 
-    def _values(self, t: Real, orders: Iterable[int]) -> list[Real]:
+    def _values(self, t: Real, orders: Sequence[int]) -> list[Real]:
         """Derivatives of several orders, which share their powers."""
         width, n, flat = self.end - self.start, len(self.coefficients) - 1, np.ravel(t)
+        if flat.size > _BLOCK:
+            blocks = [self._values(part, orders) for part in np.array_split(flat, -(-flat.size // _BLOCK))]
+            return [np.concatenate(parts).reshape(np.shape(t)) for parts in zip(*blocks, strict=True)]
         # where t stands from the start and from the end, each to full digits
         local, rest = _powers((flat - self.start) / width, n), _powers((self.end - flat) / width, n)
         result = []
@@ -142,8 +147,11 @@ def _sine_derivative(angle: Real, order: int) -> Real:
 def _powers(x: Real, most: int) -> Real:
     """x^0 to x^most, (most + 1, n)."""
     result = np.empty((most + 1, len(x)))
-    result[0], result[1:] = 1.0, x
-    return np.multiply.accumulate(result, axis=0, out=result)
+    result[0] = 1.0
+    # row by row: accumulate goes through long arrays against their order
+    for k in range(most):
+        np.multiply(result[k], x, out=result[k + 1])
+    return result
 
 
 @lru_cache(maxsize=512)
