@@ -116,6 +116,9 @@ class _Interrupt:
 
 
 def _interrupted() -> int:
+    # Python remembers a stop that came within exec(), which dataclasses use, and would end itself by SIGINT in place of
+    # with our code; the next exec makes it forget
+    exec("")
     print("higherpair: interrupted; nothing half-written is left", file=sys.stderr)
     return INTERRUPTED
 
