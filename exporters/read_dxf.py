@@ -170,7 +170,6 @@ def _loop(entity: Pairs, kind: str, layer: str) -> Loop:
         raise ReadError(f"an open or bent polyline on layer {layer}")
     if any(np.any(entity.numbers(code) != (code == _EXTRUSION[-1])) for code in _EXTRUSION):
         raise ReadError(f"a polyline on layer {layer} lies in a plane of its own")
-    told = len(entity.values)
     if kind == "POLYLINE":
         begins = entity.starts()
         if entity.values[begins[-1]] != "SEQEND":

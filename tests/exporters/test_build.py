@@ -278,6 +278,15 @@ def test_an_interrupted_build_leaves_the_files_of_the_last_one(tmp_path: Path) -
     assert contents(tmp_path / "out") == before
 
 
+def test_a_stop_within_an_exec_ends_with_the_code_of_an_interrupt(tmp_path: Path) -> None:
+    """Dataclasses use exec(), and Python remembers an interrupt in it till its own end, which would be by SIGINT."""
+    lines = ["import sys", "from exporters.cli import _interrupted", "try:", "    exec('raise KeyboardInterrupt')"]
+    lines += ["except KeyboardInterrupt:", "    sys.exit(_interrupted())"]
+    (tmp_path / "stopped.py").write_text("\n".join(lines), encoding="utf-8")
+    done = subprocess.run([sys.executable, "-m", "stopped"], cwd=tmp_path, capture_output=True, timeout=60, check=False)
+    assert done.returncode == 130
+
+
 HEAVY = ("cadquery", "OCP", "trimesh", "manifold3d", "scipy", "matplotlib")
 
 
