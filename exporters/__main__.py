@@ -2,6 +2,6 @@
 
 import sys
 
-from exporters.cli import main
+from exporters.command.cli import main
 
 sys.exit(main())

@@ -1,23 +1,31 @@
-"""Slow and simple measuring, written apart from the product: dense points, ternary search, elementary arcs."""
+"""Slow and simple measuring, written apart from the product: dense points, golden section, elementary arcs."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.curve import Curve
-from geometry.errors import GeometryError
-from geometry.gears.spur import SpurGear
-from geometry.profile import Profile
+from geometry.base.errors import GeometryError, ParameterError
+from geometry.curves.curve import Curve
+from geometry.gears.teeth.spur import SpurGear
+from geometry.plane.profile import Profile
 from tests.oracles.exact_gear import GearParameters
 from tests.oracles.rack_sweep import RackTool
 
 Complex = NDArray[np.complex128]
 Real = NDArray[np.float64]
-_TERNARY_STEPS = 70
+_GOLDEN, _GOLDEN_STEPS = (math.sqrt(5) - 1) / 2, 58
+
+
+def works(refused: object) -> Any:
+    """The value that a refusal says works."""
+    assert isinstance(refused, ParameterError)
+    assert refused.nearest is not None, refused
+    return refused.nearest.value
 
 
 def refusal(build: Callable[[], object]) -> GeometryError | None:
@@ -47,7 +55,7 @@ def polygon(profile: Profile, count: int, periods: int | None = None) -> Complex
 
 
 def distance_to_curve(points: Complex, curve: Curve, samples: int = 400) -> Real:
-    """Least distance by nearest sample and ternary search beside it."""
+    """Least distance by nearest sample and golden section beside it."""
     coarse, nearest = _nearest(points, dense(curve, samples))
     return _refined(points, curve, samples, coarse, nearest)
 
@@ -60,13 +68,20 @@ def _nearest(points: Complex, samples: Complex) -> tuple[Real, NDArray[np.intp]]
 
 
 def _refined(points: Complex, curve: Curve, samples: int, best: Real, nearest: NDArray[np.intp]) -> Real:
+    """The golden section between the neighbours of the nearest sample: one new place a step."""
     t = np.linspace(*curve.domain, samples)
     low, high = t[np.maximum(nearest - 1, 0)], t[np.minimum(nearest + 1, samples - 1)]
-    for _ in range(_TERNARY_STEPS):
-        a, b = low + (high - low) / 3, high - (high - low) / 3
-        da, db = np.abs(curve.point(a) - points), np.abs(curve.point(b) - points)
-        low, high = np.where(da > db, a, low), np.where(da > db, high, b)
-        best = np.minimum(best, np.minimum(da, db))
+    a, b = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+    da, db = np.abs(curve.point(a) - points), np.abs(curve.point(b) - points)
+    best = np.minimum(best, np.minimum(da, db))
+    for _ in range(_GOLDEN_STEPS):
+        left = da <= db
+        low, high = np.where(left, low, a), np.where(left, b, high)
+        new = np.where(left, high - _GOLDEN * (high - low), low + _GOLDEN * (high - low))
+        there = np.abs(curve.point(new) - points)
+        a, b = np.where(left, new, b), np.where(left, a, new)
+        da, db = np.where(left, there, db), np.where(left, da, there)
+        best = np.minimum(best, there)
     return best
 
 

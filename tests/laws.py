@@ -14,16 +14,15 @@ from typing import Any
 import mpmath
 import numpy as np
 
-from geometry.curve import Curve, Reversed
-from geometry.cutter_fillet import CutterFillet
-from geometry.ellipse import EllipticArc
-from geometry.elliptic_fillet import EllipticFillet
-from geometry.errors import CuspError
-from geometry.involute import Involute
-from geometry.line_arc import Arc, Line
-from geometry.offset import OffsetCurve
-from geometry.placement import Placement2
-from geometry.trochoid import Trochoid, TrochoidFillet
+from geometry.base.errors import CuspError
+from geometry.base.placement import Placement2
+from geometry.curves.curve import Curve, OffsetCurve, Reversed
+from geometry.curves.cutter_fillet import CutterFillet
+from geometry.curves.ellipse import EllipticArc
+from geometry.curves.elliptic_fillet import EllipticFillet
+from geometry.curves.involute import Involute
+from geometry.curves.line_arc import Arc, Line
+from geometry.curves.trochoid import Trochoid, TrochoidFillet
 from tests.brute import refusal
 
 MP: Any = mpmath.mp.clone()

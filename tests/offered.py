@@ -1,55 +1,24 @@
-"""Scenes with something wrong in them, and an own reader of what their refusals offer; shares no code with parts."""
+"""Scenes with something wrong in them, of every kind of part and of mate."""
 
 from __future__ import annotations
 
 import copy
 import random
-import re
-import time
 import tomllib
 from collections.abc import Iterator
+from functools import cache
 from typing import Any, get_args
 
 import msgspec
 
-from exporters.new import new_scene
-from exporters.plan import plan_build
-from parts.kinds import KINDS
-from parts.mates import MATES
-from parts.scene import built_in_scenes, scene_from_dict
-from parts.schema import SceneError
+from exporters.command.new import new_scene
+from parts.base.registry import KINDS
+from parts.mates.registry import MATES
+from parts.scene.load import built_in_scenes
 
 Raw = dict[str, Any]
 Place = tuple[Any, ...]
 GONE = object()
-NUMBER = r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?"
-VALUE = rf'"[^"]*"|\[.*?\]|true|false|{NUMBER}'
-OFFER = re.compile(rf"(?:^|; )(?:at most |at least )?({VALUE})(?: mm| degrees| modules)?,?(?: teeth)? works?\b")
-KEY_OFFER = re.compile(rf"(?:^|; )([a-z_][\w.]*) = ({VALUE})(?: mm| degrees)? (?:works|joins)")
-TOGETHER = re.compile(r"; with (.*) it works$")
-
-
-def builds(raw: Raw) -> str:
-    """Nothing if a scene builds, else its refusal."""
-    try:
-        plan_build(scene_from_dict(copy.deepcopy(raw), "s", "s"), "s", [], [])
-    except SceneError as refused:
-        return str(refused).replace("\n", " NEW LINE ")
-    return ""
-
-
-def place_named(line: str) -> Place:
-    """Where the line ``s: KEY = VALUE: why`` points."""
-    text = line.removeprefix("s: ")
-    text = re.sub(r"^mates\[\d+\]: (?=parts\.)", "", text)
-    key = re.match(r"(?:\w+\[\d+\]|[\w-]+)(?:\.item \d+|\.[\w-]+|\[\d+\])*", text)
-    if key is None:
-        return ()
-    found: list[Any] = []
-    for word in re.findall(r"item \d+|\[\d+\]|[\w-]+", key[0]):
-        number = re.fullmatch(r"(?:item |\[)(\d+)\]?", word)
-        found.append(int(number[1]) - 1 if number else word)
-    return tuple(found)
 
 
 def at(raw: Any, place: Place) -> Any:
@@ -72,79 +41,6 @@ def put(raw: Raw, place: Place, value: Any) -> Raw:
     else:
         owner[place[-1]] = value
     return made
-
-
-def value_of(text: str, old: Any) -> Any:
-    value = tomllib.loads(f"v = {text}")["v"]
-    return float(value) if isinstance(old, int) and not isinstance(old, bool) and "." in text else value
-
-
-def offered(raw: Raw, line: str) -> list[Raw]:
-    """The scenes that a refusal's offers make."""
-    place = place_named(line)
-    old, found = at(raw, place), []
-    remedy = line[len("s: ") :]
-    remedy = (
-        remedy.partition(": ")[2]
-        if not remedy.startswith("mates") or ": parts." not in remedy
-        else (remedy.partition(": ")[2].partition(": ")[2])
-    )
-    meant = re.search(r"unknown key \(did you mean (\w+)\?\)", line)
-    if meant and " works" not in line:
-        return [put(put(raw, place, GONE), (*place[:-1], meant[1]), old)]
-    if together := TOGETHER.search(line):
-        made = raw
-        for item in re.split(r", (?=no |[a-z_][\w. ]* = )", together[1]):
-            name, sign, value = item.removeprefix("no ").partition(" = ")
-            inner = (*place[:2], *place_named(f"s: {name}"))
-            made = put(made, inner, value_of(value, at(raw, inner)) if sign else GONE)
-        return [made]
-    for other in KEY_OFFER.finditer(remedy):
-        found.append(
-            put(raw, (*place[:-1], *other[1].split(".")), value_of(other[2], at(raw, (*place[:-1], other[1]))))
-        )
-    found += [put(raw, place, value_of(own[1], old)) for own in OFFER.finditer(remedy)]
-    if re.search(r"(?:^|; )remove it$", remedy):
-        found.append(put(raw, place, GONE))
-    meant = re.search(r"\(did you mean (\w+)\?\)", line)
-    return found or ([put(raw, place, meant[1])] if meant else [])
-
-
-def fault_of(raw: Raw, *, several: bool = False) -> str:
-    """What is wrong with how a scene is refused; nothing if it builds or is refused well.
-
-    ``several``: it has two faults, so that a cure of one leaves the other, with another key to blame.
-    """
-    start = time.process_time()
-    line = builds(raw)
-    if not line:
-        return ""
-    took = time.process_time() - start
-    if took > 5:
-        return f"took {took:.1f} s: {line}"
-    place = place_named(line)
-    told = "default" in line or "not given" in line or "missing" in line
-    if at(raw, place) is GONE and not told:
-        return f"names what nobody typed: {line}"
-    trials = offered(raw, line)
-    if not trials:
-        return f"offers nothing: {line}"
-    for trial in trials:
-        if (again := builds(trial)) and not (several and place_named(again) != place):
-            return f"{line}\n      -> {again}"
-    return ""
-
-
-def english_in(told: str) -> str:
-    """Words that no key, value or kind is: two lower-case ones in a row, or a unit."""
-    bare = re.sub(r'"[^"]*"|відомі(?: ключі)?: .*|одне з:? .*|\bitem \d+', "", told)
-    found = re.search(
-        r"\b(?:default|above|below|and|or|not a|of lift|at (?:most|least)|\d mm)\b|\b[a-z]{2,} [a-z]{2,}\b", bare
-    )
-    return "" if found is None else f"{found[0]}: {told}"
-
-
-# --- scenes to start from
 
 
 def _plain(raw: Raw) -> Raw:
@@ -183,6 +79,7 @@ def _spur(**keys: Any) -> Raw:
     return {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20} | keys
 
 
+@cache
 def scenes() -> dict[str, Raw]:
     """Scenes that build, of every kind of part and of mate."""
     found = {f"new {kind}": _plain(tomllib.loads(new_scene(kind))) for kind in KINDS}
@@ -272,7 +169,7 @@ def _keys(raw: Raw) -> list[Place]:
     for owner in [("parts", p) for p in raw["parts"]] + [("mates", i) for i in range(len(raw.get("mates", [])))]:
         table = at(raw, owner)
         found += list(_leaves(table, owner))
-        spec = KINDS[table["kind"]][0] if owner[0] == "parts" else MATES[table["kind"]]
+        spec = KINDS[table["kind"]].keys if owner[0] == "parts" else MATES[table["kind"]].keys
         found += [(*owner, f.encode_name) for f in msgspec.structs.fields(spec) if f.encode_name not in table]
     return [p for p in found if p[-1] not in ("material", "colour", "title", "kind")]
 
@@ -280,7 +177,7 @@ def _keys(raw: Raw) -> list[Place]:
 def _limits(raw: Raw, place: Place) -> list[float]:
     """The ends of a key's range, and beyond them."""
     owner = at(raw, place[:2])
-    spec = KINDS[owner["kind"]][0] if place[0] == "parts" else MATES[owner["kind"]]
+    spec = KINDS[owner["kind"]].keys if place[0] == "parts" else MATES[owner["kind"]].keys
     field = next((f for f in msgspec.structs.fields(spec) if f.encode_name == place[2]), None)
     ends: list[float] = []
     stack = [field.type] if field is not None and len(place) == 3 else []
@@ -294,28 +191,17 @@ def _limits(raw: Raw, place: Place) -> list[float]:
     return ends
 
 
-def spoiled(raw: Raw, choice: random.Random) -> tuple[str, Raw, bool]:
-    """A scene with one wrong value, or with two that are changed; and whether each of these alone is wrong too."""
+def spoiled(raw: Raw, choice: random.Random) -> tuple[str, Raw]:
+    """A scene with one wrong value, and what was done to it."""
     places = _keys(raw)
-    numbers = [p for p in places if isinstance(at(raw, p), int | float) and not isinstance(at(raw, p), bool)]
-    if choice.random() < 0.25 and len(numbers) > 1:
-        made, names, alone = raw, [], []
-        for place in choice.sample(numbers, 2):
-            old = at(raw, place)
-            new = old * choice.choice([0.1, 0.3, 0.5, 2.0, 3.0, 10.0])
-            new = round(new) if isinstance(old, int) else new
-            made = put(made, place, new)
-            alone.append(bool(builds(put(raw, place, new))))
-            names.append(f"{place[-1]} = {new:g}")
-        return " and ".join(names), made, all(alone)
     place = choice.choice(places)
     old = at(raw, place)
     values: list[Any] = [0.0, -1.0, 1e9, 1e-6, "abc", True, [1.0], *_limits(raw, place) * 2]
     if isinstance(old, int | float):
-        values += [old * f for f in (0.1, 0.5, 1.5, 3.0, 10.0, 30.0, -1.0)]
+        values += [old * f for f in (0.1, 0.5, 1.5, 3.0, 10.0, 30.0, -1.0)] * 2
     if isinstance(old, str):
         values = ["nonsense", old[:-1], 5.0, *[w for w in ("flat", "pointed", "mushroom", "constant_velocity", "end")]]
     value = choice.choice(values)
     if isinstance(old, int) and isinstance(value, float) and choice.random() < 0.8:
         value = round(value)
-    return f"{'.'.join(map(str, place))} = {value!r}", put(raw, place, value), False
+    return f"{'.'.join(map(str, place))} = {value!r}", put(raw, place, value)

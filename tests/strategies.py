@@ -6,17 +6,16 @@ import math
 
 from hypothesis import strategies as st
 
-from geometry.curve import Curve, Reversed
-from geometry.cutter_fillet import CutterFillet
-from geometry.errors import GeometryError
-from geometry.gears.basic_rack import ISO_53, BasicRack, TipRelief, full_round_radius, iso_53
-from geometry.gears.spur import SpurGear
-from geometry.gears.tooth import tooth_side
-from geometry.involute import Involute
-from geometry.line_arc import Arc, Line
-from geometry.offset import OffsetCurve
-from geometry.placement import Placement2
-from geometry.trochoid import Trochoid, TrochoidFillet
+from geometry.base.errors import GeometryError
+from geometry.base.placement import Placement2
+from geometry.curves.curve import Curve, OffsetCurve, Reversed
+from geometry.curves.cutter_fillet import CutterFillet
+from geometry.curves.involute import Involute
+from geometry.curves.line_arc import Arc, Line
+from geometry.curves.trochoid import Trochoid, TrochoidFillet
+from geometry.gears.teeth.basic_rack import ISO_53, BasicRack, TipRelief, full_round_radius, iso_53
+from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.tooth import tooth_side
 
 
 def numbers(low: float, high: float) -> st.SearchStrategy[float]:

@@ -83,7 +83,9 @@ def openscad(folder: Path) -> list[str] | None:
 def kernel_imports() -> str:
     """The import of every module of the CAD kernel that a STEP file needs, as the two files that write it have it."""
     root = Path(__file__).parents[2]
-    sources = "".join((root / name).read_text(encoding="utf-8") for name in ("parts/brep.py", "exporters/step.py"))
+    sources = "".join(
+        (root / name).read_text(encoding="utf-8") for name in ("parts/solids/brep.py", "exporters/formats/step.py")
+    )
     return "import " + ", ".join(sorted(set(re.findall(r"from (OCP\.\w+) import", sources))))
 
 

@@ -55,7 +55,7 @@ def surfaces(file: Path) -> list[Any]:
     from OCP.TopExp import TopExp_Explorer
     from OCP.TopoDS import TopoDS
 
-    from exporters.step import silent_kernel
+    from parts.solids.kernel import silent_kernel
 
     with silent_kernel():
         reader = STEPControl_Reader()

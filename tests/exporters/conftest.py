@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from .train import STEP, THREEMF, made
+from tests.exporters.train import STEP, THREEMF, made
 
 
 @pytest.fixture(scope="session")

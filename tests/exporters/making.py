@@ -16,9 +16,8 @@ import ezdxf
 import numpy as np
 from numpy.typing import NDArray
 
-from exporters.cli import main
-
-from .outside import Chain, Gear, deviations
+from exporters.command.cli import main
+from tests.exporters.outside import Chain, Gear, deviations
 
 NUMBER = r"[-+]?[0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?"
 

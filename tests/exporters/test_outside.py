@@ -10,10 +10,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.exporters.making import build_gear, check_deviation
+from tests.exporters.outside import Gear, distances, half_tooth, points_at
 from tests.oracles.rack_sweep import RackTool, outline_error
-
-from .making import build_gear, check_deviation
-from .outside import Gear, distances, half_tooth, points_at
 
 GEARS = [
     Gear(2, 23),

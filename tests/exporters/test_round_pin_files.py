@@ -10,10 +10,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.exporters import spoil
+from tests.exporters.making import chains_of, read_report, run, table, write_scene
 from tests.oracles.pin_sweep import disc_pins, lantern_pins, least_distance
-
-from . import spoil
-from .making import chains_of, read_report, run, table, write_scene
 
 DISC: dict[str, Any] = {
     "kind": "cycloidal_disc", "number_of_lobes": 11, "pin_circle_diameter": 80.0, "pin_diameter": 8.0,

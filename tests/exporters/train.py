@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from .making import Keys, run, table
+from tests.exporters.making import Keys, run, table
 
 GEARS = "".join(
     table(f"[parts.{key}]", {"kind": "spur_gear", "module": 2.0, "number_of_teeth": z, "bore_diameter": 6.0, **more})

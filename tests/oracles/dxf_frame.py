@@ -53,8 +53,8 @@ def _filled(text: str, pattern: str, slot: str) -> str:
 
 
 if __name__ == "__main__":
-    import exporters.dxf
+    import exporters.formats.laser_dxf
 
-    folder = Path(exporters.dxf.__file__).parent / "frames"
-    for name in exporters.dxf.VERSIONS:
+    folder = Path(exporters.formats.laser_dxf.__file__).parent / "frames"
+    for name in exporters.formats.laser_dxf.VERSIONS:
         (folder / f"{name}.dxf").write_text(frame(name), encoding="ascii", newline="\n")

@@ -1,6 +1,6 @@
 """What round pins leave of a body that they sweep past: distances from dense pin positions, by rigid motions alone.
 
-Shares no formula with geometry/cycloid.py: bodies are turned and moved, nothing else.
+Shares no formula with geometry/curves/cycloid.py: bodies are turned and moved, nothing else.
 """
 
 from __future__ import annotations

@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from parts.part import Part
-from parts.scene import make_parts, scene_from_toml
+from parts.base.part import Part
+from parts.scene.load import make_parts, scene_from_toml
 
 Keys = dict[str, Any]
 PHASES = [

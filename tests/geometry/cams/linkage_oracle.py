@@ -9,12 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from geometry.cams.disk import FollowerKind
-from geometry.cams.follower_motion import FollowerMotion
-from geometry.cams.linkage import Linkage, RockerDrive, RockerGuide, SliderDrive, SliderGuide
-from geometry.cams.linkage_cam import CouplerMount, LinkageCam
-
-from .oracle import MP
+from geometry.cams.motion.follower_motion import FollowerMotion
+from geometry.cams.plane.coupler import CouplerMount, LinkageCam
+from geometry.cams.plane.disk import FollowerKind
+from geometry.kinematics.linkage import Linkage, RockerDrive, RockerGuide, SliderDrive, SliderGuide
+from tests.geometry.cams.oracle import MP
 
 D = math.radians
 

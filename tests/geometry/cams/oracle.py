@@ -14,9 +14,9 @@ from functools import cached_property
 import mpmath
 import numpy as np
 
-from geometry.cams.disk import DiskCam, FollowerKind
-from geometry.cams.follower_motion import FollowerMotion
-from geometry.cams.mounts import Mount, Oscillating, Translating
+from geometry.cams.motion.follower_motion import FollowerMotion
+from geometry.cams.motion.guides import Mount, Oscillating, Translating
+from geometry.cams.plane.disk import DiskCam, FollowerKind
 
 MP = mpmath.mp.clone()
 MP.dps = 40

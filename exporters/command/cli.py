@@ -1,0 +1,387 @@
+"""The command ``higherpair``. Exit codes: 0 done, 1 a check failed, 2 wrong input (one clear line)."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import sys
+from collections.abc import Sequence
+from itertools import pairwise
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn, TextIO
+
+from exporters import __version__
+from exporters.command.parser import WRONG_INPUT, Misused, Parser, speaking
+from parts.base.texts import ENGLISH, Words, languages, words
+
+if TYPE_CHECKING:
+    from parts.scene.load import SceneFile
+
+DONE, FAILED, INTERRUPTED = 0, 1, 130
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; returns its exit code."""
+    _prepare_streams()
+    # numpy is not loaded yet: its threads would take longer to start than all that we compute
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    options = _parsed(list(sys.argv[1:] if arguments is None else arguments))
+    # only a command of its own may split: whoever calls this function keeps the process
+    options.splits = arguments is None
+    interrupt = _Interrupt()
+    previous: dict[signal.Signals, Any] = {}
+    try:
+        for stop in _stops():
+            previous[stop] = signal.signal(stop, interrupt)
+        code = options.run(options)
+        sys.stdout.flush()
+        return code
+    except KeyboardInterrupt:
+        return _interrupted()
+    except ImportError:
+        # a library that is stopped while it loads says only that it could not be loaded
+        if not interrupt.came:
+            raise
+        return _interrupted()
+    except BrokenPipeError:
+        # whoever read the output has left: nothing more can be said to it
+        sys.stdout = _nowhere()
+        return DONE
+    except OSError as error:
+        told, why = words(_language(options)), error.strerror or str(error)
+        why = f"{error.filename}: {why}" if error.filename else why
+        text = told.text("{why}; choose another place", why=why)
+        if "out" in options:
+            text = told.text("{why}; choose another place with --out", why=why)
+        print(f"higherpair: {text}", file=sys.stderr)
+        return WRONG_INPUT
+    except ValueError as error:
+        from parts.base.refusal import SceneError, sentence
+
+        if not isinstance(error, SceneError):
+            raise
+        print(f"higherpair: {sentence(error, _language(options))}", file=sys.stderr)
+        return WRONG_INPUT
+    finally:
+        for stop, handler in previous.items():
+            signal.signal(stop, handler)
+
+
+def _parsed(arguments: list[str]) -> argparse.Namespace:
+    """The command line; what argparse says is told in ``--language``, else in the scene's, never the terminal's."""
+    given = [one for flag, one in pairwise(arguments) if flag == "--language"]
+    given += [one.partition("=")[2] for one in arguments if one.startswith("--language=")]
+    if not given and not {"-h", "--help"} & {*arguments}:
+        try:
+            with speaking(words(ENGLISH)):
+                return _parser(words(ENGLISH)).parse_args(arguments)
+        except Misused:
+            # to be told again, in the language of the scene
+            pass
+    asked = given[-1] if given else _language_among(arguments)
+    told = words(asked if asked in languages() else ENGLISH)
+    with speaking(told):
+        try:
+            return _parser(told).parse_args(arguments)
+        except Misused as misused:
+            print(misused, file=sys.stderr)
+            sys.exit(WRONG_INPUT)
+
+
+def _language_among(addresses: Sequence[str]) -> str:
+    """The language of the first of some words that names a scene."""
+    from parts.scene.language import language_of
+
+    asked = (language_of(one) for one in addresses if one and "=" not in one and not one.startswith("-"))
+    return next((one for one in asked if one != ENGLISH), ENGLISH)
+
+
+def _language(options: argparse.Namespace) -> str:
+    """The language of a command: that of --language, of the scene, or of a scene among the words of calc."""
+    if options.language in languages():
+        return str(options.language)
+    return _language_among([options.scene] if hasattr(options, "scene") else getattr(options, "words", []))
+
+
+def _check_language(options: argparse.Namespace) -> None:
+    """Refuse a language without a catalogue."""
+    if options.language not in (None, *languages()):
+        from parts.base.refusal import SceneError, meant
+
+        known = languages()
+        given = options.language
+        raise SceneError(options.command, "--language", given, "not_one_of", meant(given, known), known=known)
+
+
+def _scene(options: argparse.Namespace) -> SceneFile:
+    """The scene of a command, in its language."""
+    from parts.scene.load import load_scene
+
+    _check_language(options)
+    scene = load_scene(options.scene)
+    if options.language is not None:
+        scene.scene.language = options.language
+    return scene
+
+
+def _prepare_streams() -> None:
+    """Output that cannot fail: a character that the terminal lacks becomes ?, and a closed stream becomes none."""
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:
+            setattr(sys, name, _nowhere())
+        elif hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="replace")
+
+
+def _nowhere() -> TextIO:
+    return open(os.devnull, "w", encoding="utf-8")
+
+
+def _stops() -> list[signal.Signals]:
+    """The signals that stop a command; a hang-up that somebody has turned off (nohup) stays off."""
+    names = ("SIGINT", "SIGTERM", "SIGHUP")
+    found = [getattr(signal, name) for name in names if hasattr(signal, name)]
+    return [s for s in found if s.name != "SIGHUP" or signal.getsignal(s) != signal.SIG_IGN]
+
+
+def _split(options: argparse.Namespace, folder: Path | None) -> None:
+    """Before the CAD kernel is used: go on in a process apart, so that a signal need not wait for the kernel."""
+    if options.splits:
+        from exporters.production.apart import work_apart
+
+        work_apart(_stops(), folder, FAILED)
+
+
+class _Interrupt:
+    """A signal handler that stops the command, and remembers that it did."""
+
+    came = False
+
+    def __call__(self, number: int, frame: object) -> NoReturn:
+        self.came = True
+        raise KeyboardInterrupt
+
+
+def _interrupted() -> int:
+    # Python remembers a stop that came within exec(), which dataclasses use, and would end itself by SIGINT in place of
+    # with our code; the next exec makes it forget
+    exec("")
+    print("higherpair: interrupted; nothing half-written is left", file=sys.stderr)
+    return INTERRUPTED
+
+
+def _parser(told: Words) -> argparse.ArgumentParser:
+    Parser.words = told
+    parser = Parser(
+        prog="higherpair",
+        description=told.text("Exact gears as DXF, SVG, STL, 3MF and STEP, each file read back and measured."),
+    )
+    parser.add_argument("--version", action="version", version=f"higherpair {__version__}")
+    commands = parser.add_subparsers(
+        prog="higherpair", required=True, metavar=told.term("command line", "COMMAND"), parser_class=Parser
+    )
+    spoken = Parser(add_help=False)
+    spoken.add_argument(
+        "--language",
+        metavar=told.term("command line", "L"),
+        help=told.text("{languages} (default: that of the scene, or en)", languages=", ".join(languages())),
+    )
+
+    def command(name: str, meaning: str) -> argparse.ArgumentParser:
+        made = commands.add_parser(name, help=meaning, parents=[spoken])
+        made.set_defaults(command=name)
+        return made
+
+    scene = told.text("a built-in scene or a scene file (.toml)")
+    one = told.term("command line", "ID")
+    out = told.text("results go to OUT/<scene name> (default: out)")
+    build = command("build", told.text("make the files of a scene"))
+    build.add_argument("scene", help=scene)
+    build.add_argument("--out", default="out", type=Path, help=out)
+    build.add_argument(
+        "--part", action="append", default=[], metavar=one, help=told.text("only this part (may be repeated)")
+    )
+    build.add_argument(
+        "--format", action="append", default=[], metavar="F", help=told.text("only this format (may be repeated)")
+    )
+    build.add_argument("--no-verify", action="store_true", help=told.text("do not read the files back"))
+    build.set_defaults(run=_build)
+    check = command("check", told.text("contact and interference of the pairs of a scene"))
+    check.add_argument("scene", help=scene)
+    check.set_defaults(run=_check)
+    verify = command("verify", told.text("read files back and hold them against the part in their report"))
+    verify.add_argument("files", nargs="+", type=Path, metavar=told.term("command line", "FILE"))
+    verify.set_defaults(run=_verify)
+    converge = command("converge", told.text("error against run time, over a ladder of tolerances"))
+    converge.add_argument("scene", help=scene)
+    converge.add_argument("--out", default="out", type=Path, help=out)
+    converge.add_argument("--part", action="append", default=[], metavar=one, help=told.text("only this part"))
+    converge.add_argument("--format", action="append", default=[], metavar="F", help=told.text("only this format"))
+    converge.set_defaults(run=_converge)
+    listing = command("list", told.text("kinds of parts and built-in scenes"))
+    listing.set_defaults(run=_list)
+    calc = command("calc", told.text("a textbook calculation, step by step"))
+    calc.add_argument(
+        "topic",
+        metavar=told.term("command line", "TOPIC"),
+        help=told.text(
+            "{topics} or {last}",
+            topics="spur, tmm42, gear-pair, shift-choice, cam, cycloidal, lantern",
+            last="noncircular",
+        ),
+    )
+    calc.add_argument(
+        "words",
+        nargs="*",
+        metavar=told.term("command line", "SCENE | KEY=VALUE"),
+        help=told.text("a scene, or keys as in scenes"),
+    )
+    calc.add_argument("--format", default="text", metavar="F", help=told.text("text, md, html or json (default: text)"))
+    calc.set_defaults(run=_calc)
+    new = command("new", told.text("print a commented scene to start from; of a mate its table, to add to one"))
+    new.add_argument(
+        "kind",
+        metavar=told.term("command line", "KIND"),
+        help=told.text("a kind of part or mate, see `{command}`", command="higherpair list"),
+    )
+    new.set_defaults(run=_new)
+    return parser
+
+
+def _build(options: argparse.Namespace) -> int:
+    from exporters.command.tables import build_table
+    from exporters.production.build import build
+    from exporters.production.check_lines import has_bad_verdict
+    from exporters.production.plan import plan_build
+
+    scene = _scene(options)
+    plan = plan_build(scene, options.scene, options.part, options.format)
+    folder, verify = options.out / scene.name, not options.no_verify
+    if "step" in {j.export.format for j in plan.jobs} | {a.export.format for a in plan.assemblies}:
+        _split(options, folder)
+    partial = bool(options.part or options.format)
+    if sys.stdout.isatty():
+        from rich.progress import Progress
+
+        with Progress(transient=True) as bar:
+            task = bar.add_task(scene.name, total=len(plan.jobs) + len(plan.assemblies) + len(plan.sheets))
+
+            def advance(path: str) -> None:
+                bar.update(task, advance=1, description=path)
+
+            written, previews, checks = build(plan, folder, verify=verify, partial=partial, progress=advance)
+    else:
+        written, previews, checks = build(plan, folder, verify=verify, partial=partial)
+    build_table(plan, folder, written, previews, checks)
+    return FAILED if any(item.failures for item in written) or has_bad_verdict(checks) else DONE
+
+
+def _check(options: argparse.Namespace) -> int:
+    from exporters.production.check import scene_checks
+    from exporters.production.check_lines import check_lines, has_bad_verdict
+    from parts.base.refusal import SceneError
+    from parts.base.texts import words
+    from parts.scene.load import make_parts
+    from parts.scene.placing import place
+
+    scene = _scene(options)
+    parts, matings = make_parts(scene, options.scene)
+    placing = place(scene.instances, scene.drives, parts, matings, options.scene)
+    if len(placing.instances) < 2:
+        raise SceneError(options.scene, "mates", None, "nothing_to_check")
+    asked = scene.checks.transmission_error
+    checks = scene_checks(placing, parts, scene.drives, scene.scene.language, contact=True, transmission=asked)
+    found = check_lines(checks, scene.scene.language)
+    print("\n".join(found or [words(scene.scene.language).text("no mates; no solids run into each other")]))
+    return FAILED if has_bad_verdict(checks) else DONE
+
+
+def _verify(options: argparse.Namespace) -> int:
+    from exporters.command.tables import verify_table
+    from exporters.production.recheck import recheck
+    from exporters.production.report import report_language
+    from parts.base.refusal import SceneError, sentence
+
+    _check_language(options)
+    language = options.language or report_language(options.files[0])
+    if any(file.suffix.lower() == ".step" for file in options.files):
+        _split(options, None)
+    results, refused = [], False
+    for file in options.files:
+        try:
+            results.append(recheck(file))
+        except SceneError as error:
+            print(f"higherpair: {sentence(error, language)}", file=sys.stderr)
+            refused = True
+    if results:
+        verify_table(results, words(language))
+    if any(r.verdict.failures for r in results):
+        return FAILED
+    return WRONG_INPUT if refused else DONE
+
+
+def _converge(options: argparse.Namespace) -> int:
+    from exporters.command.tables import converge_tables
+    from exporters.production.build import move_into, staging_folder
+    from exporters.production.converge import ladder, orders, write_csv, write_pictures
+    from exporters.production.plan import plan_build
+    from parts.base.refusal import SceneError
+
+    scene = _scene(options)
+    plan = plan_build(scene, options.scene, options.part, options.format)
+    if not plan.jobs:
+        raise SceneError(options.scene, "exports", None, "nothing_to_measure")
+    folder = options.out / scene.name
+    if any(job.export.format == "step" for job in plan.jobs):
+        _split(options, folder)
+    with staging_folder(folder) as staging:
+        rungs, found = ladder(plan, staging), orders(plan)
+        write_csv(staging / "converge.csv", rungs, found)
+        names = ["converge.csv", *write_pictures(staging, rungs, found)]
+        move_into(folder, staging, names)
+    converge_tables(rungs, found, [folder / name for name in names], words(scene.scene.language))
+    return FAILED if any(r.measured > r.max_error for r in rungs) else DONE
+
+
+def _list(options: argparse.Namespace) -> int:
+    from parts.base.registry import KINDS
+    from parts.base.schema import first_line
+    from parts.mates.registry import MATES
+    from parts.scene.load import built_in_scenes, load_scene
+
+    _check_language(options)
+    told = words(_language(options))
+    print(told.text("kinds of parts (higherpair new KIND):"))
+    for kind, made in KINDS.items():
+        print(f"  {kind:<22} {first_line(made.keys, told)}.")
+    print(told.text("kinds of mates between instances (higherpair new KIND prints a table to add to a scene):"))
+    for kind, mate in MATES.items():
+        print(f"  {kind:<22} {first_line(mate.keys, told)}.")
+    print(told.text("built-in scenes (higherpair build NAME):"))
+    for name in built_in_scenes():
+        print(f"  {name:<22} {load_scene(name).scene.title}")
+    return DONE
+
+
+def _new(options: argparse.Namespace) -> int:
+    from exporters.command.new import new_mate, new_scene
+    from parts.base.refusal import SceneError, meant
+    from parts.base.registry import KINDS
+    from parts.mates.registry import MATES
+
+    _check_language(options)
+    known = [*KINDS, *MATES]
+    if options.kind not in known:
+        raise SceneError("new", "KIND", options.kind, "unknown_kind", meant(options.kind, known), known=known)
+    make = new_mate if options.kind in MATES else new_scene
+    print(make(options.kind, _language(options)), end="")
+    return DONE
+
+
+def _calc(options: argparse.Namespace) -> int:
+    from exporters.documents.topics import calculate
+
+    print(calculate(options.topic, options.words, options.format, options.language), end="")
+    return DONE

@@ -1,0 +1,223 @@
+"""``higherpair new KIND``: a commented scene to start from, every key with unit, range and default.
+
+All that it shows of a kind stands in the kind's keys: what they mean, their defaults, examples of what has none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from types import UnionType
+from typing import Annotated, Any, Union, get_args, get_origin
+
+from msgspec import NODEFAULT, Meta, Struct
+from msgspec.structs import FieldInfo, fields
+
+from parts.base.registry import KINDS
+from parts.base.schema import described, first_line, own_first
+from parts.base.texts import ENGLISH, N_, Words, words
+from parts.keys.sheet import SHEET_KEYS
+from parts.mates.registry import MATES
+from parts.scene.load import ExportSpec, SceneInfo
+
+# parts of the scene: of the kind that is shown, the one that it is made from, any other one
+_OWN, _SOURCE, _OTHER = "gear", "source", "wheel"
+_COMMENTS = {
+    "sheet": N_("picture of meshing of every pair, DXF and SVG"),
+    "one_pair": N_("only of this one"),
+    "block": N_('GOST 2.104, form 1; or { designation = "...", … }'),
+    "more": N_("a part may stand more than once"),
+    "place": N_("mm; or let a mate place it"),
+    "contact": N_("contact and overlap through a whole pitch"),
+    "names": N_("one file, named parts, true instances"),
+}
+_SHEET = """
+##
+## [[exports]]
+## format = "sheet"                           # {sheet}
+## mate = 1                                   # {one_pair}{device}
+## title_block = true                         # {block}"""
+_OWN_SHEET = """
+##
+## [[exports]]
+## format = "sheet"                           # {sheet}
+## purpose = "{purpose}"
+## title_block = true                         # {block}"""
+_TAIL = """
+# {may}
+## [[mates]]
+## kind = "{mate}"{summary}
+## first = "{first}"
+## second = "{second}"{direction}
+##
+## [instances.second_{other}]{pad}# {more}
+## part = "{other}"
+## at = [100.0, 0.0, 0.0]                     # {place}
+## rotation_deg = 0.0
+##
+## [[drives]]
+## instance = "gear"
+## turns = 1.0
+##
+## [checks]
+## interference = true                        # {contact}{transmission}
+##
+## [[exports]]
+## format = "step"
+## assembly = true                            # {names}"""
+
+
+def new_scene(kind: str, language: str = ENGLISH) -> str:
+    """The text of a scene with one part of a kind."""
+    told, made_from = words(language), KINDS[kind].made_from
+    owner: list[str] = []
+    if made_from is not None:
+        note = told.text("the cam that the part below belongs to")
+        owner = [f"# {note}", f"[parts.{_SOURCE}]", *(f"{key} = {_toml(v)}" for key, v in made_from.items()), ""]
+    lines = [
+        f"# {told.text('A scene of higherpair: build it with  higherpair build THIS_FILE.toml')}",
+        f"# {told.text('Lines that begin with # show defaults or examples; remove the # to set them.')}",
+        f"# {told.text('Lengths in mm, angles in degrees.')}",
+        "",
+        "[scene]",
+        *_keys(fields(SceneInfo), told),
+        "",
+        *owner,
+        f"[parts.{_OWN}]",
+        f'kind = "{kind}"',
+        *_keys(own_first(KINDS[kind].keys), told, {"of": _SOURCE}),
+        "",
+        "[[exports]]",
+        *_keys([f for f in fields(ExportSpec) if f.encode_name not in SHEET_KEYS], told),
+        "",
+        "[[exports]]",
+        'format = "svg"',
+        "",
+        "[[exports]]",
+        'format = "stl"',
+        *_several(kind, told),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def new_mate(kind: str, language: str = ENGLISH) -> str:
+    """The table of a kind of mate, to be put into a scene."""
+    told, mate = words(language), MATES[kind]
+    who = told.text("any two instances")
+    if mate.joins is not None:
+        pairs = (told.text("{first} and {second}", first=a, second=b) for a, b in mate.joins)
+        who = told.text(" or ").join(pairs)
+    lines = [
+        f"# {first_line(mate.keys, told)}.",
+        f"# {told.text('A table to be added to a scene that has both parts; it is no scene by itself.')}",
+        f"# {told.text('Joins {who}; see higherpair new KIND for their keys.', who=who)}",
+        "[[mates]]",
+        f'kind = "{kind}"',
+        *_keys(fields(mate.keys), told, {"first": _OWN, "second": _OTHER}),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _keys(keys: Iterable[FieldInfo], told: Words, names: Mapping[str, str] | None = None) -> Iterator[str]:
+    """One line a key; keys with a default stand commented out. ``names``: keys that hold a name of the scene's."""
+    for field in keys:
+        name, meta = field.encode_name, _shown(field.type)
+        marks: Mapping[str, Any] = (meta.extra if meta is not None else None) or {}
+        set_here = field.required or "start" in marks
+        value = _toml(names[name]) if names and name in names else _value(field, meta)
+        code, text = f"{'' if set_here else '# '}{name} = {value}", told.say(described(field.type) or "")
+        yield f"{code:<44} # {text}" if text else code
+        others = [(_toml(other), told.text(meant)) for other, meant in marks.get("others", ())]
+        tables = _tables_of(field)
+        others += [(_table(t), first_line(t, told)) for t in (tables[1:] if _is_open(field) else tables)]
+        yield from (f"# {name} = {v}  # {told.text('... or this: {what}', what=meant)}" for v, meant in others)
+
+
+def _is_open(field: FieldInfo) -> bool:
+    """Whether a key has no default to show."""
+    return field.default is NODEFAULT or field.default is None
+
+
+def _value(field: FieldInfo, meta: Meta | None) -> str:
+    """What stands at a key as TOML: what a scene starts from, its default, an example, or the first of its tables."""
+    if meta is not None and meta.examples and (_is_open(field) or "start" in (meta.extra or {})):
+        return _toml(meta.examples[-1])
+    return _table(_tables_of(field)[0]) if _is_open(field) else _toml(field.default)
+
+
+def _shown(kind: Any) -> Meta | None:
+    """The last annotation with examples, of the outermost that have any: a key may have another one than its type."""
+    if get_origin(kind) not in (Annotated, Union, UnionType):
+        return None
+    own = [m for m in getattr(kind, "__metadata__", ()) if isinstance(m, Meta) and m.examples]
+    return own[-1] if own else next(filter(None, map(_shown, get_args(kind))), None)
+
+
+def _toml(value: Any) -> str:
+    """A value as it stands in a scene."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {_toml(item)}" for key, item in value.items()) + " }"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(_toml, value)) + "]"
+    return f'"{value}"' if isinstance(value, str) else str(value)
+
+
+def _tables_of(field: FieldInfo) -> list[type[Struct]]:
+    """The kinds of table that a key takes."""
+    return [a for a in get_args(field.type) if isinstance(a, type) and issubclass(a, Struct)]
+
+
+def _table(table: type[Struct]) -> str:
+    """A table of a kind, in one line."""
+    config = table.__struct_config__
+    tag = [f'{config.tag_field} = "{config.tag}"'] if config.tag_field else []
+    inner = (f"{f.encode_name} = {_value(f, _shown(f.type))}" for f in fields(table))
+    return "{ " + ", ".join([*tag, *inner]) + " }"
+
+
+def _several(kind: str, told: Words) -> list[str]:
+    """Commented lines for more parts: the first kind of mate that joins this one, a sheet where one applies."""
+    mate, places = _mate_of(kind)
+    other = _OTHER if KINDS[kind].made_from is None else _SOURCE
+    # of two equal kinds the part above is the first
+    own = 0 if places is None else places.index(kind)
+    part = f"[parts.{other}]"
+    if places is not None:
+        part = told.text('{part} of kind "{kind}"', part=part, kind=places[1 - own])
+    toothed = MATES[mate].meshes
+    turned = next((f.default for f in fields(MATES[mate].keys) if f.encode_name == "direction_deg"), None)
+    comments = {name: told.text(text) for name, text in _COMMENTS.items()}
+    may = N_("With a second part, {part}, the two can be joined and written as one assembly; remove both #:")
+    if toothed:
+        may = N_("With a second part, {part}, the two can be put in mesh and written as one assembly; remove both #:")
+    uneven = told.text("how unevenly each mate runs, without load")
+    purpose, shown = KINDS[kind].sheet_shown or ("", "")
+    text = _TAIL
+    if toothed:
+        text += _SHEET
+    elif purpose:
+        text, comments["sheet"] = text + _OWN_SHEET, told.text(shown)
+    return text.format(
+        **comments,
+        may=told.text(may, part=part),
+        other=other,
+        mate=mate,
+        summary=f"{' ' * max(1, 34 - len(mate))}# {told.text('see {command}', command=f'higherpair new {mate}')}",
+        first=(_OWN, other)[own],
+        second=(other, _OWN)[own],
+        direction="" if turned is None else f"\n## direction_deg = {turned}",
+        pad=" " * max(1, 24 - len(other)),
+        transmission=f"\n## transmission_error = true                  # {uneven}" if toothed else "",
+        purpose=purpose,
+        device=shown and told.text(shown),
+    ).splitlines()
+
+
+def _mate_of(kind: str) -> tuple[str, tuple[str, str] | None]:
+    """The first kind of mate that joins a kind of part, and both its kinds; else the one that joins anything."""
+    for mate in MATES.values():
+        for places in mate.joins or ():
+            if kind in places:
+                return mate.name, places
+    return "fixed", None

@@ -1,0 +1,59 @@
+"""The parser of the command, and what argparse says of itself, in the language of the command."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import NoReturn
+
+from parts.base.texts import N_, Words, counted
+
+WRONG_INPUT = 2
+# argparse asks gettext for these, which would look for the terminal's language in the system's catalogues
+_SAID = (
+    N_("usage: "),
+    N_("positional arguments"),
+    N_("options"),
+    N_("show this help message and exit"),
+    N_("show program's version number and exit"),
+    N_("unrecognized arguments: %s"),
+    N_("ambiguous option: %(option)s could match %(matches)s"),
+    N_("argument %(argument_name)s: %(message)s"),
+    N_("invalid choice: %(value)r (choose from %(choices)s)"),
+    N_("expected one argument"),
+    N_("expected at most one argument"),
+    N_("expected at least one argument"),
+    N_("invalid %(type)s value: %(value)r"),
+    N_("the following arguments are required: %s"),
+    N_("one of the arguments %s is required"),
+    N_("not allowed with argument %s"),
+    N_("ignored explicit argument %r"),
+    counted("expected %s argument", "expected %s arguments", by="n"),
+)
+
+
+class Misused(Exception):
+    """A command line that means nothing: one line for its user."""
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser that raises ``Misused``."""
+
+    words: Words
+
+    def error(self, message: str) -> NoReturn:
+        """One line, and where there is more."""
+        text = self.words.text("{message}; see `{command} --help`", message=message, command=self.prog)
+        raise Misused(f"higherpair: {text}")
+
+
+@contextmanager
+def speaking(words: Words) -> Iterator[None]:
+    """Let argparse speak a language while parsers are made and used."""
+    before = argparse._, argparse.ngettext  # type: ignore[attr-defined]
+    argparse._, argparse.ngettext = words.text, words.plural  # type: ignore[attr-defined]
+    try:
+        yield
+    finally:
+        argparse._, argparse.ngettext = before  # type: ignore[attr-defined]

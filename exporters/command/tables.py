@@ -1,0 +1,175 @@
+"""The closing tables of the command: drawn by rich on a terminal, plain columns anywhere else."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from exporters.production.check_lines import check_lines
+from exporters.production.jobs import Written
+from exporters.production.plan import Plan
+from parts.base.texts import N_, Words, words
+from parts.texts.findings import finding_message
+
+if TYPE_CHECKING:
+    from exporters.production.converge import Order, Rung
+    from exporters.production.recheck import Recheck
+
+
+def build_table(plan: Plan, folder: Path, written: list[Written], previews: list[Path], checks: dict[str, Any]) -> None:
+    """What a build has made, how far each file is from the exact curve, and what was noticed."""
+    language = plan.scene.scene.language
+    told = words(language)
+    header = [
+        told.text("file"),
+        told.text("max error, mm"),
+        told.text("tolerance, mm"),
+        told.text("entities"),
+        told.text("kB"),
+        told.text("read back"),
+    ]
+    rows = [_row(item, folder, told) for item in written]
+    remarks = [told.text("preview: {path}", path=preview) for preview in previews]
+    if any(item.failures for item in written):
+        from exporters.production.kept import kept_lines
+        from exporters.production.report import read_report
+
+        kept = kept_lines(read_report(folder), language)
+        remarks += [told.text("FAILED: {why}", why=line) for line in kept]
+    remarks += dict.fromkeys(_remarks(written, told))
+    remarks += check_lines(checks, language)
+    remarks += [told.text("left out: {what}: {why}", what=what, why=told.say(why)) for what, why in plan.left_out]
+    _show(plan.scene.scene.title or plan.scene.name, header, rows, remarks)
+
+
+# how far the error of a file is known
+_BOUNDS = {"exact": N_("exact"), "certified": N_("certified"), "sampled": N_("sampled")}
+_STATES = {"good": N_("ok"), "bad": N_("FAILED"), "skipped": N_("not verified")}
+
+
+def _row(item: Written, folder: Path, told: Words) -> list[str]:
+    path = folder / item.job.path
+    size = f"{path.stat().st_size / 1000:.1f}" if not item.failures else "-"
+    count = ", ".join(f"{value} {name}" for name, value in item.entities.items())
+    state = "bad" if item.failures else "good" if item.measured else "skipped"
+    error = f"{item.max_error:.3g} ({told.text(_BOUNDS[item.bound])})"
+    return [str(path), error, f"{item.job.export.tolerance:g}", count, size, told.text(_STATES[state])]
+
+
+def _remarks(written: list[Written], told: Words) -> list[str]:
+    lines = []
+    for item in written:
+        lines += [told.text("FAILED: {why}", why=f"{item.job.path}: {failure}") for failure in item.failures]
+    for item in written:
+        said = (told.say(finding_message(f)) for f in item.findings)
+        lines += [told.text("note: {text}", text=f"{item.job.label}: {text}") for text in said]
+    return lines
+
+
+def verify_table(results: list[Recheck], told: Words) -> None:
+    """What was measured on files that lay on disk."""
+    header = [
+        told.text("file"),
+        told.text("measured error, mm"),
+        told.text("declared, mm"),
+        told.text("tolerance, mm"),
+        told.text("bytes"),
+        told.text("read back"),
+    ]
+    rows, remarks = [], []
+    for r in results:
+        deviation = r.verdict.measured.get("max_deviation")
+        measured = "-" if deviation is None else f"{deviation:.3g}"
+        state = told.text(_STATES["bad" if r.verdict.failures else "good"])
+        same = told.text("as reported") if r.same_bytes else told.text("changed")
+        rows.append([str(r.file), measured, f"{r.declared:.3g}", f"{r.tolerance:g}", same, state])
+        remarks += [told.text("FAILED: {why}", why=f"{r.file}: {failure}") for failure in r.verdict.failures]
+    _show("", header, rows, remarks)
+
+
+def converge_tables(rungs: list[Rung], found: list[Order], files: list[Path], told: Words) -> None:
+    """Error against run time of every file, and the order of every method on every curve."""
+    header = [
+        told.text("file"),
+        told.text("tolerance, mm"),
+        told.text("declared, mm"),
+        told.text("measured, mm"),
+        told.text("edges"),
+        told.text("kB"),
+        told.text("ms (median)"),
+        told.text("spread, ms"),
+    ]
+    rows = [
+        [
+            r.file,
+            f"{r.tolerance:g}",
+            f"{r.max_error:.3g}",
+            f"{r.measured:.3g}",
+            str(r.entities),
+            f"{r.bytes / 1000:.1f}",
+            f"{1000 * r.seconds:.2f}",
+            f"{1000 * r.spread:.2f}",
+        ]
+        for r in rungs
+    ]
+    _show(told.text("error against run time"), header, rows, [])
+    from exporters.production.converge import LEAST_PIECES
+
+    header = [
+        told.text("curve"),
+        told.text("method"),
+        told.text("order of the method"),
+        told.text("observed order"),
+        told.text("pieces"),
+        told.text("error there, mm"),
+    ]
+    rows = [
+        [
+            f"{o.part} {o.curve}",
+            o.method,
+            f"{o.theory:g}",
+            "-" if o.observed is None else f"{o.observed:.3f}",
+            told.text("{first} to {last}", first=o.counts[0], last=o.counts[-1])
+            if o.counts
+            else told.text("below rounding at {pieces}", pieces=LEAST_PIECES),
+            f"{o.errors[-1]:.3g}" if o.errors else "-",
+        ]
+        for o in found
+    ]
+    _show(told.text("orders of convergence"), header, rows, [str(file) for file in files])
+
+
+def _show(title: str, header: Sequence[str], rows: list[list[str]], remarks: list[str]) -> None:
+    """One table and the lines below it. rich is loaded for a terminal only: it costs as much as a build."""
+    if sys.stdout.isatty():
+        _show_rich(title, header, rows)
+    else:
+        columns = list(zip(header, *rows, strict=True))
+        widths = [max(map(len, column)) for column in columns]
+        lines = [_printable(title)] if title else []
+        for row in (header, *rows):
+            cells = [row[0].ljust(widths[0]), *(c.rjust(w) for c, w in zip(row[1:], widths[1:], strict=True))]
+            lines.append("  ".join(cells))
+        sys.stdout.write("\n".join(lines) + "\n")
+    sys.stdout.write("".join(line + "\n" for line in remarks))
+
+
+def _show_rich(title: str, header: Sequence[str], rows: list[list[str]]) -> None:
+    from rich.console import Console
+    from rich.markup import escape
+    from rich.table import Table
+
+    table = Table(title=escape(_printable(title)), title_justify="left")
+    table.add_column(header[0], overflow="fold")
+    for name in header[1:]:
+        table.add_column(name, justify="right")
+    for row in rows:
+        table.add_row(*map(escape, row))
+    Console(highlight=False, emoji=False).print(table)
+
+
+def _printable(text: str) -> str:
+    """A text without the characters that steer a terminal."""
+    return "".join(c if c.isprintable() else " " for c in text)

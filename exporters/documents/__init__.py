@@ -1,0 +1,1 @@
+"""Calculations and checks as text, pictures and drawings of contours."""

@@ -1,0 +1,133 @@
+"""The blocking contour as a drawing: R2010, one layer for each line, x1 and x2 at 100 mm a module."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from geometry.gears.shifts.external import BlockingContour
+from parts.base.texts import Words
+from parts.pages.contour_picture import clipped, grid_step, kinds_shown, line_title, region_text, tool_texts
+
+# mm of the drawing for one module of shift
+SCALE = 100.0
+_TEXT, _ROW, _MILLIMETRES = 5.0, 9.0, 4
+# ACI colours, in turn
+_COLOURS = (1, 5, 30, 6, 4, 94, 170, 200, 34, 8)
+
+
+def write_contour_dxf(
+    file: Path, contour: BlockingContour, marks: dict[str, tuple[float, float]], words: Words
+) -> dict[str, int]:
+    """Write the lines, the region, axes, ``marks`` (words: x1, x2) and a key; returns the entities of each kind."""
+    import ezdxf
+
+    from exporters.formats.dxf_file import fixed_metadata, save
+
+    with fixed_metadata():
+        drawing = ezdxf.new("R2010", setup=False, units=_MILLIMETRES)
+    drawing.header["$LUNITS"] = 2
+    drawing.header["$MEASUREMENT"] = 1
+    page = _Page(drawing)
+    for ring in contour.region:
+        page.polyline(ring, "REGION", 3)
+    colours = {name: _COLOURS[k % len(_COLOURS)] for k, name in enumerate(dict.fromkeys(i.name for i in contour.lines))}
+    for line in contour.lines:
+        for piece in clipped(line.points, contour.box):
+            page.polyline(piece, _layer(line.name, line.level), colours[line.name])
+    _axes(page, contour)
+    bottom = _key(page, contour, marks, colours, words)
+    box = contour.box
+    low = min(bottom, box.bottom * SCALE - 20)
+    page.space.reset_extents((box.left * SCALE - 20, low, 0.0), (box.right * SCALE + 250, box.top * SCALE + 20, 0.0))
+    with fixed_metadata():
+        save(drawing, file)
+    return page.counts
+
+
+class _Page:
+    """A drawing that counts what is put on it; points in modules, texts in mm."""
+
+    def __init__(self, drawing: Any) -> None:
+        self.drawing, self.space = drawing, drawing.modelspace()
+        self.counts: dict[str, int] = {}
+
+    def _on(self, kind: str, layer: str, colour: int) -> dict[str, Any]:
+        if layer not in self.drawing.layers:
+            self.drawing.layers.add(layer, color=colour)
+        self.counts[kind] = self.counts.get(kind, 0) + 1
+        return {"layer": layer}
+
+    def polyline(self, points: Iterable[complex], layer: str, colour: int) -> None:
+        attributes = self._on("LWPOLYLINE", layer, colour)
+        self.space.add_lwpolyline([(p.real * SCALE, p.imag * SCALE) for p in points], dxfattribs=attributes)
+
+    def line(self, start: complex, end: complex, layer: str, colour: int) -> None:
+        """mm."""
+        attributes = self._on("LINE", layer, colour)
+        self.space.add_line((start.real, start.imag), (end.real, end.imag), dxfattribs=attributes)
+
+    def circle(self, centre: complex, layer: str, colour: int) -> None:
+        """mm."""
+        attributes = self._on("CIRCLE", layer, colour)
+        self.space.add_circle((centre.real, centre.imag), 2.0, dxfattribs=attributes)
+
+    def text(self, at: complex, text: str, layer: str, colour: int) -> None:
+        """mm."""
+        attributes = {**self._on("TEXT", layer, colour), "insert": (at.real, at.imag)}
+        self.space.add_text(text, height=_TEXT, dxfattribs=attributes)
+
+
+def _layer(name: str, level: float | None) -> str:
+    return name.upper() if level is None else f"{name.upper()}_{level:g}"
+
+
+def _axes(page: _Page, contour: BlockingContour) -> None:
+    """The box, the axes x1 = 0 and x2 = 0 where they lie in it, and numbers along two of its sides."""
+    box, step = contour.box, grid_step(contour.box)
+    corners = complex(box.left, box.bottom), complex(box.right, box.bottom), complex(box.right, box.top)
+    page.polyline((*corners, complex(box.left, box.top), corners[0]), "AXES", 8)
+    low, high = corners[0] * SCALE, corners[2] * SCALE
+    if box.left < 0 < box.right:
+        page.line(complex(0, low.imag), complex(0, high.imag), "AXES", 8)
+    if box.bottom < 0 < box.top:
+        page.line(complex(low.real, 0), complex(high.real, 0), "AXES", 8)
+    for k in range(math.ceil(box.left / step), math.floor(box.right / step) + 1):
+        page.text(complex(k * step * SCALE - 4, low.imag - 8), f"{k * step:.3g}", "AXES", 8)
+    for k in range(math.ceil(box.bottom / step), math.floor(box.top / step) + 1):
+        page.text(complex(low.real - 17, k * step * SCALE - 2), f"{k * step:.3g}", "AXES", 8)
+    page.text(complex(high.real - 8, low.imag - 16), "x1", "AXES", 8)
+    page.text(complex(low.real - 17, high.imag + 4), "x2", "AXES", 8)
+
+
+def _key(
+    page: _Page,
+    contour: BlockingContour,
+    marks: dict[str, tuple[float, float]],
+    colours: dict[str, int],
+    words: Words,
+) -> float:
+    """What the lines and points mean; returns the height at which it ends, mm."""
+    left, row = contour.box.right * SCALE + 15, contour.box.top * SCALE - _TEXT
+    teeth = contour.pair.teeth
+    for text in (
+        f"z1 = {teeth[0]}, z2 = {teeth[1]}",
+        region_text(contour, words),
+        *tool_texts(contour.pair, words),
+    ):
+        page.text(complex(left, row), text, "KEY", 7)
+        row -= _ROW
+    for name, level in ((i.name, i.level) for i in kinds_shown(contour)):
+        layer, middle = _layer(name, level), row + _TEXT / 2
+        page.line(complex(left, middle), complex(left + 20, middle), layer, colours[name])
+        page.text(complex(left + 25, row), line_title(name, level, words), layer, colours[name])
+        row -= _ROW
+    for told, (x1, x2) in marks.items():
+        point = complex(x1, x2) * SCALE
+        page.circle(point, "CHOICES", 6)
+        page.text(point + (3 + 3j), told.split(":")[0], "CHOICES", 6)
+        page.text(complex(left, row), f"{told}: {x1:.4f} / {x2:.4f}", "CHOICES", 6)
+        row -= _ROW
+    return row

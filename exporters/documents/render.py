@@ -1,0 +1,167 @@
+"""A calculation as text for a terminal, Markdown, a page of HTML, or JSON with all digits."""
+
+from __future__ import annotations
+
+import html
+import json
+import re
+from typing import Any
+
+from parts.base.texts import N_, Words, words
+from parts.pages.page import Section, Sheet, Step, formula_text, number, numbers_text
+from parts.pages.symbols import symbol_text
+from parts.pages.tables import html_table, markdown_table, plain_table, table_data
+from parts.pages.text import equation, printed_text, result_text, source_text, step_name
+
+_GEARS = {1: "first", 2: "second"}
+FORMATS = ("text", "md", "html", "json")
+# the heads of a page's columns
+_HEADS = (N_("quantity"), N_("formula and numbers"), N_("result"), N_("source"))
+
+
+def render(sheet: Sheet, form: str, language: str) -> str:
+    """The calculation in one of ``FORMATS`` and a language, ending in a line feed."""
+    return {"text": _text, "md": _markdown, "html": _html, "json": _json}[form](sheet, words(language))
+
+
+def _text(sheet: Sheet, told: Words) -> str:
+    lines = [told.say(sheet.title), ""]
+    for section in sheet.sections:
+        lines += [told.say(section.title), "-" * len(told.say(section.title))]
+        for step in section.steps:
+            source = f"  [{source_text(step.source, told)}]" if step.source else ""
+            lines.append(f"{step_name(step, told)}{source}")
+            lines.append(f"    {equation(step, told)}")
+            if step.printed is not None:
+                lines.append(f"    ! {printed_text(step, told)}")
+        lines.append("")
+    for table in sheet.tables:
+        lines += [*plain_table(table, told), ""]
+    if sheet.plain_picture:
+        lines += [sheet.plain_picture, ""]
+    lines += [told.text("note: {text}", text=told.say(note)) for note in sheet.notes]
+    return "\n".join(lines).rstrip("\n") + "\n"
+
+
+def _markdown(sheet: Sheet, told: Words) -> str:
+    lines = [f"# {told.say(sheet.title)}", ""]
+    head = [told.text(head) for head in _HEADS]
+    for section in sheet.sections:
+        lines += [f"## {told.say(section.title)}", "", _row(head), _row(["---"] * 4)]
+        lines += [_row([_escaped_md(cell) for cell in _cells(step, told)]) for step in section.steps]
+        lines.append("")
+    for table in sheet.tables:
+        lines += [*markdown_table(table, told), ""]
+    if sheet.plain_picture:
+        lines += ["```", sheet.plain_picture, "```", ""]
+    lines += [f"- {_escaped_md(told.say(note))}" for note in sheet.notes]
+    return "\n".join(lines).rstrip("\n") + "\n"
+
+
+def _cells(step: Step, told: Words) -> list[str]:
+    """Name, formula with numbers, result, source with what is misprinted there."""
+    parts = [symbol_text(step.symbol, told), formula_text(step, told), numbers_text(step, told)]
+    if parts[-1] == number(step.value, step.unit, enclosed=True):
+        parts.pop()
+    working = " = ".join(dict.fromkeys(filter(None, parts)))
+    source = source_text(step.source, told)
+    remark = "; ".join(filter(None, (source, printed_text(step, told))))
+    return [step_name(step, told), working, result_text(step, told), remark]
+
+
+def _row(cells: list[str]) -> str:
+    return f"| {' | '.join(cells)} |"
+
+
+def _escaped_md(text: str) -> str:
+    return re.sub(r"([\\|*_<>`\[\]])", r"\\\1", text)
+
+
+_STYLE = """body{font:16px/1.5 Georgia,serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222;background:#fff}
+table{border-collapse:collapse;width:100%;margin-bottom:1.5rem}td,th{border-bottom:1px solid #ddd;padding:.3rem .6rem;
+text-align:left;vertical-align:top}td.r{white-space:nowrap;font-weight:bold}td.f{font-style:italic}
+td.f{width:46%}sub{line-height:0;font-size:.7em}tr{page-break-inside:avoid}
+span.w{color:#a00}h2{font-size:1.15rem;margin:1.5rem 0 .4rem}svg{max-width:100%;height:auto}
+@page{margin:12mm}@media print{body{margin:0;max-width:none;font-size:11px}}"""
+
+
+def _html(sheet: Sheet, told: Words) -> str:
+    title = html.escape(told.say(sheet.title))
+    lines = [
+        f'<!DOCTYPE html>\n<html lang="{told.language}">\n<head>\n<meta charset="utf-8">',
+        f"<title>{title}</title>\n<style>{_STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>",
+    ]
+    for section in sheet.sections:
+        lines.append(_html_section(section, told))
+    lines += [html_table(table, told) for table in sheet.tables]
+    if sheet.picture is not None:
+        lines.append(f"<figure>{sheet.picture.svg(told)}</figure>")
+    if sheet.notes:
+        items = "".join(f"<li>{html.escape(told.say(note))}</li>" for note in sheet.notes)
+        lines.append(f"<ul>{items}</ul>")
+    return "\n".join([*lines, "</body>\n</html>"]) + "\n"
+
+
+def _html_section(section: Section, told: Words) -> str:
+    head = "".join(f"<th>{told.text(head)}</th>" for head in _HEADS)
+    rows = [f"<tr>{head}</tr>"]
+    for step in section.steps:
+        name, working, result, _ = _cells(step, told)
+        source = html.escape(source_text(step.source, told))
+        if step.printed is not None:
+            source += f' <span class="w">{html.escape(printed_text(step, told))}</span>'
+        cells = [
+            f"<td>{html.escape(name)}</td>",
+            f'<td class="f">{_subscripts(working)}</td>',
+            f'<td class="r">{html.escape(result)}</td>',
+            f"<td>{source}</td>",
+        ]
+        rows.append(f"<tr>{''.join(cells)}</tr>")
+    return f"<h2>{html.escape(told.say(section.title))}</h2>\n<table>\n" + "\n".join(rows) + "\n</table>"
+
+
+def _subscripts(text: str) -> str:
+    """r_b1 as r with a lowered b1, z1 as z with a lowered 1."""
+    text = re.sub(r"_((?:[^\W_²³]|\.)+)", r"<sub>\1</sub>", html.escape(text))
+    return re.sub(r"(?<![\w&;#>])([A-Za-zα-ω])([12])(?![\w.])", r"\1<sub>\2</sub>", text)
+
+
+def _json(sheet: Sheet, told: Words) -> str:
+    values: dict[str, Any] = {}
+    steps = []
+    for section in sheet.sections:
+        for step in section.steps:
+            _keep(values, step)
+            steps.append({"section": told.say(section.title), **_json_step(step, told)})
+    notes = [told.say(note) for note in sheet.notes]
+    data = {"topic": sheet.topic, "values": values, "steps": steps, "notes": notes, **sheet.data}
+    data |= {table.name: table_data(table) for table in sheet.tables}
+    return json.dumps(data, ensure_ascii=False, indent=1, allow_nan=False) + "\n"
+
+
+def _keep(values: dict[str, Any], step: Step) -> None:
+    """The value under its name, and under first or second where it belongs to a gear; the first one stays."""
+    if step.gear:
+        values.setdefault(step.name, {}).setdefault(_GEARS[step.gear], _finite(step.value))
+    else:
+        values.setdefault(step.name, _finite(step.value))
+
+
+def _json_step(step: Step, told: Words) -> dict[str, Any]:
+    return {
+        "name": step.name,
+        **({"gear": _GEARS[step.gear]} if step.gear else {}),
+        "text": step_name(step, told),
+        "symbol": symbol_text(step.symbol, told),
+        "formula": formula_text(step, told),
+        "numbers": numbers_text(step, told),
+        "value": _finite(step.value),
+        "unit": step.unit,
+        "source": source_text(step.source, told),
+        **({"misprint": printed_text(step, told)} if step.printed else {}),
+    }
+
+
+def _finite(value: Any) -> Any:
+    """JSON has no infinity."""
+    return None if isinstance(value, float) and value in (float("inf"), float("-inf")) else value

@@ -1,0 +1,81 @@
+"""The topics of ``higherpair calc``: which file makes the sheet of each, and how it is asked for."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from exporters.documents.render import FORMATS, render
+from parts.base.refusal import SceneError, meant
+from parts.base.registry import KINDS
+from parts.base.texts import Words, languages
+from parts.base.texts import words as told
+from parts.pages.inputs import PLACE, table_of
+from parts.pages.page import Sheet
+
+if TYPE_CHECKING:
+    from parts.pages.contour_picture import ContourPicture
+
+# each module has sheet_of(table, scene, source, language)
+TOPICS = {
+    "spur": "parts.gears.spur_gear.page",
+    "tmm42": "parts.gears.spur_gear.device_page",
+    "gear-pair": "parts.mates.pages.external",
+    "shift-choice": "parts.mates.pages.shift_choice",
+    "cam": "parts.cams.disk_cam.page",
+    "cycloidal": "parts.pins.cycloidal_page",
+    "lantern": "parts.pins.lantern_page",
+    "noncircular": "parts.gears.noncircular_gear.page",
+}
+
+
+def calculate(topic: str, words: Sequence[str], form: str, language: str | None) -> str:
+    """The rendered calculation of a topic; ``words`` are at most one scene and any number of key=value.
+
+    Raises
+    ------
+    SceneError
+        A wrong topic, key or value, with the nearest that works.
+    """
+    if _home(topic) is None:
+        raise SceneError(PLACE, "TOPIC", topic, "unknown_topic", meant(topic, TOPICS), known=list(TOPICS))
+    for name, value, known in (("--format", form, FORMATS), ("--language", language, languages())):
+        if value is not None and value not in known:
+            raise SceneError(PLACE, name, value, "not_one_of", meant(value, known), known=known)
+    sheet, spoken = sheet_of(topic, words)
+    language = language or spoken
+    if sheet.picture_file is not None and sheet.picture is not None:
+        _write_picture(sheet.picture, Path(sheet.picture_file), told(language))
+    return render(sheet, form, language)
+
+
+def _home(topic: str) -> str | None:
+    """The module of a topic: one of ours, or the page of a kind of part that goes by its own name."""
+    return TOPICS[topic] if topic in TOPICS else KINDS[topic].page if topic in KINDS else None
+
+
+def _write_picture(picture: ContourPicture, file: Path, words: Words) -> None:
+    """Write a picture as the ending of its file says."""
+    if file.suffix.lower() == ".dxf":
+        from exporters.documents.contour_dxf import write_contour_dxf
+
+        write_contour_dxf(file, picture.contour, picture.shown(words), words)
+    else:
+        file.write_text(picture.svg(words), encoding="utf-8", newline="\n")
+
+
+def sheet_of(topic: str, words: Sequence[str]) -> tuple[Sheet, str]:
+    """The sheet of a topic and the language of its scene."""
+    addresses = [word for word in words if "=" not in word or Path(word).is_file()]
+    if len(addresses) > 1:
+        raise SceneError(PLACE, addresses[1], None, "one_scene_only", None, other=addresses[0])
+    table = table_of([word for word in words if word not in addresses])
+    module = importlib.import_module(str(_home(topic)))
+    if not addresses:
+        return module.sheet(table), "en"
+    from parts.scene.load import load_scene
+
+    scene = load_scene(addresses[0])
+    return module.sheet(module.table_from(scene, addresses[0], table)), scene.scene.language

@@ -1,0 +1,1 @@
+"""Sheets as files: written, read, held against what they should show."""

@@ -1,0 +1,120 @@
+"""Sheets read back: lines, arcs, points of splines and words, from DXF by ezdxf and from SVG by its own grammar."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+
+from parts.base.readback import ReadError
+from parts.drawing.readback import PER_CURVE, ReadSheet, ReadText
+
+_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+_SVG = "{http://www.w3.org/2000/svg}"
+
+
+def read_sheet(file: Path) -> ReadSheet:
+    """Read a sheet by the ending of its name.
+
+    Raises
+    ------
+    ReadError
+        The file is damaged or holds what a sheet does not.
+    """
+    return _read_dxf(file) if file.suffix == ".dxf" else _read_svg(file)
+
+
+def _read_dxf(file: Path) -> ReadSheet:
+    from exporters.formats.read_drawing import DrawnArc, DrawnLine, drawn, opened
+
+    document = opened(file, audit=False)
+    for entity in document.modelspace():
+        if entity.dxf.layer not in document.layers:
+            raise ReadError(f"layer {entity.dxf.layer} is not in the layer table")
+    curves, words = drawn(document, "sheet")
+    sheet, share = ReadSheet(), np.linspace(0, 1, PER_CURVE)
+    for curve in curves:
+        match curve:
+            case DrawnLine():
+                sheet.add_line(curve.layer, curve.start, curve.end)
+            case DrawnArc():
+                first = math.radians(curve.first)
+                sweep = math.radians(curve.last) - first
+                sweep += 2 * math.pi if sweep <= 0 else 0.0
+                sheet.add_arc(curve.layer, curve.centre, curve.radius, first, sweep)
+            case _:
+                sheet.samples.append((curve.layer, curve.spans(share).ravel()))
+    sheet.texts += [ReadText(w.text, w.left, w.right.real - w.left.real, w.height) for w in words]
+    return sheet
+
+
+def _read_svg(file: Path) -> ReadSheet:
+    try:
+        root = ElementTree.parse(file).getroot()
+    except (ElementTree.ParseError, OSError) as error:
+        raise ReadError(f"is not an SVG file: {error}") from error
+    sizes = root.get("viewBox", "").split()
+    if len(sizes) != 4 or root.get("width") != f"{sizes[2]}mm" or root.get("height") != f"{sizes[3]}mm":
+        raise ReadError("has no size in mm that its view box agrees with")
+    height, sheet = float(sizes[3]), ReadSheet()
+    for group in root.findall(f"{_SVG}g"):
+        layer = group.get("id", "")
+        for path in group.findall(f"{_SVG}path"):
+            _read_path(sheet, layer, path.get("d", ""), height)
+        for text in group.findall(f"{_SVG}text"):
+            at = complex(float(text.get("x", "nan")), height - float(text.get("y", "nan")))
+            size = re.search(r"font-size:([\d.]+)px", text.get("style", ""))
+            if size is None:
+                raise ReadError("has words without a size")
+            capital = float(size[1]) * 0.72
+            sheet.texts.append(ReadText(text.text or "", at, float(text.get("textLength", "nan")), capital))
+    return sheet
+
+
+def _read_path(sheet: ReadSheet, layer: str, data: str, height: float) -> None:
+    at, pieces = 0j, 0
+    for command, text in re.findall(r"([A-Za-z])([^A-Za-z]*)", data):
+        values = [float(v) for v in _NUMBER.findall(text)]
+        places = values[-2:] if command == "A" else values
+        if len(places) % 2 or not places:
+            raise ReadError(f"the path command {command} lacks a coordinate")
+        ends = [complex(x, height - y) for x, y in zip(places[::2], places[1::2], strict=True)]
+        if command == "L":
+            sheet.add_line(layer, at, ends[-1])
+        elif command == "A":
+            _read_arc(sheet, layer, at, ends[-1], values[0], bool(values[3]), bool(values[4]), merge=pieces > 0)
+        elif command == "C":
+            t = np.linspace(0, 1, PER_CURVE)
+            a, b, c = ends
+            points = (1 - t) ** 3 * at + 3 * t * (1 - t) ** 2 * a + 3 * t**2 * (1 - t) * b + t**3 * c
+            if pieces:
+                points = np.concatenate([sheet.samples.pop()[1], points])
+            sheet.samples.append((layer, points))
+        elif command != "M":
+            raise ReadError(f"holds the path command {command}, which a sheet does not")
+        pieces += command != "M"
+        at = ends[-1]
+
+
+def _read_arc(
+    sheet: ReadSheet, layer: str, start: complex, end: complex, radius: float, large: bool, right: bool, *, merge: bool
+) -> None:
+    """An SVG arc by its ends, whose y runs down: the flag that turns right there turns left here."""
+    chord = end - start
+    lift = math.sqrt(max(radius**2 - abs(chord) ** 2 / 4, 0.0))
+    sense = -1.0 if right else 1.0
+    centre = (start + end) / 2 + sense * (-1 if large else 1) * 1j * chord / abs(chord) * lift
+    sweep = cmath.phase((end - centre) / (start - centre))
+    if sweep * sense < 0:
+        sweep += sense * 2 * math.pi
+    if merge:
+        before = sheet.arcs.pop()
+        sheet.samples.pop()
+        first = cmath.phase(start - centre) - sense * before.sweep
+        sheet.add_arc(layer, centre, radius, first, sense * (before.sweep + abs(sweep)))
+        return
+    sheet.add_arc(layer, centre, radius, cmath.phase(start - centre), sweep)

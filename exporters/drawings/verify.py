@@ -1,0 +1,154 @@
+"""A sheet that was written, measured as one would with dividers: circles, tangents, arcs, words, outlines."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+
+from exporters.drawings.read import read_sheet
+from exporters.verification.verdict import Verdict
+from geometry.plane.measure import distance_to_curves
+from parts.base.readback import ReadError
+from parts.drawing.canvas import Box, Canvas
+from parts.drawing.expected import Expected, Meshing
+from parts.drawing.readback import ReadSheet, ReadText
+
+# share of the paper's size that numbers of a file may be off
+_ROUNDING = 1e-11
+# SVG coordinates have 9 digits, mm
+_SVG_ROUNDING = 5e-9
+
+
+def verify_sheet(file: Path, expected: Expected, tolerance: float) -> Verdict:
+    """Measure a file; ``tolerance`` in mm on paper bounds every deviation beside the rounding of the file's numbers."""
+    try:
+        sheet = read_sheet(file)
+    except ReadError as error:
+        return Verdict({}, (str(error),))
+    size = max(expected.canvas.width, expected.canvas.height)
+    rounding = _SVG_ROUNDING if file.suffix == ".svg" else 0.0
+    reach = max([size, *(c.radius for c in expected.circles)])
+    allowed = tolerance + rounding + _ROUNDING * reach
+    measured: dict[str, float] = {}
+    failures: list[str] = []
+    _check_circles(sheet, expected, allowed, measured, failures)
+    _check_curves(sheet, expected, allowed, measured, failures)
+    if expected.meshing is not None:
+        _check_meshing(sheet, expected.meshing, allowed, measured, failures)
+    if expected.cam is not None:
+        expected.cam.check(sheet, allowed, measured, failures)
+    _check_words(sheet, expected.canvas, measured, failures)
+    _check_frame(sheet, expected.canvas.frame.grown(allowed), failures)
+    return Verdict(measured, tuple(failures))
+
+
+def _check_circles(
+    sheet: ReadSheet, expected: Expected, allowed: float, measured: dict[str, float], failures: list[str]
+) -> None:
+    worst = 0.0
+    for circle in expected.circles:
+        if circle.centre is None:
+            rows = [line for line in sheet.lines if line.layer == circle.layer]
+            off = min(
+                (max(abs(x.start.imag - circle.radius), abs(x.end.imag - circle.radius)) for x in rows),
+                default=math.inf,
+            )
+        else:
+            arcs = [arc for arc in sheet.arcs if arc.layer == circle.layer]
+            off = min(
+                (max(abs(a.centre - circle.centre), abs(a.radius - circle.radius)) for a in arcs), default=math.inf
+            )
+        worst = max(worst, off)
+        if not off <= allowed:
+            failures.append(f"{circle.layer}: no circle of {circle.radius:.6f} mm within {off:.3g} mm")
+    measured["circles"] = float(len(expected.circles))
+    measured["circle_deviation"] = worst
+
+
+def _check_curves(
+    sheet: ReadSheet, expected: Expected, allowed: float, measured: dict[str, float], failures: list[str]
+) -> None:
+    """Every curve of an outline lies on its exact one, reaches both of its ends, and none is missing."""
+    worst, paper = 0.0, expected.paper
+    for layer, curves in expected.curves.items():
+        found = [points for name, points in sheet.samples if name == layer]
+        legend = sum(s.layer == layer for s in expected.canvas.strokes) - len(curves)
+        if len(found) != len(curves) + legend:
+            failures.append(f"{layer}: {len(found)} curves instead of {len(curves) + legend}")
+            continue
+        # files keep the order of drawing within a layer
+        for points, curve in zip(found, curves, strict=False):
+            model = (points - paper.origin) / paper.scale
+            off = float(distance_to_curves(model, [curve]).max())
+            ends = np.abs(curve.point(np.array(curve.domain))[:, None] - model).min(1).max()
+            worst = max(worst, off * paper.scale, float(ends) * paper.scale)
+    measured["max_deviation"] = worst
+    if not worst <= allowed:
+        failures.append(f"outlines deviate by {worst:.3g} mm from the exact ones")
+
+
+def _check_meshing(
+    sheet: ReadSheet, wanted: Meshing, allowed: float, measured: dict[str, float], failures: list[str]
+) -> None:
+    """The line of action touches the base circles; the contact ratio by both ways of measuring."""
+    lines = {name: [x for x in sheet.lines if x.layer == name] for name in ("LINE_OF_ACTION", "ACTIVE_LINE")}
+    arcs = [a for a in sheet.arcs if a.layer == "ARC_OF_ACTION"]
+    pitches = [a.radius * a.sweep for a in sheet.arcs if a.layer == "WORKING_PITCH"]
+    pitches += [abs(x.end - x.start) for x in sheet.lines if x.layer == "WORKING_PITCH"]
+    if not (lines["LINE_OF_ACTION"] and lines["ACTIVE_LINE"] and arcs and pitches):
+        failures.append("the line of action, its active part, the arc of action or the pitch is missing")
+        return
+    action, active = lines["LINE_OF_ACTION"][0], lines["ACTIVE_LINE"][0]
+    way = (action.end - action.start) / abs(action.end - action.start)
+    for centre, radius in wanted.tangents:
+        off = abs(abs(((centre - action.start) / way).imag) - radius)
+        if not off <= 2 * allowed + 1e-9 * radius:
+            failures.append(f"the line of action misses the base circle of {radius:.6f} mm by {off:.3g} mm")
+    for point in (active.start, active.end):
+        off = abs(((point - action.start) / way).imag)
+        if not off <= 2 * allowed:
+            failures.append(f"the active line leaves the line of action by {off:.3g} mm")
+    base_pitch = 2 * math.pi * wanted.tangents[0][1] / wanted.teeth
+    length, arc = abs(active.end - active.start), arcs[0].radius * arcs[0].sweep
+    measured["contact_ratio_by_line"] = length / base_pitch
+    measured["contact_ratio_by_arc"] = arc / pitches[0]
+    for name, value, right in (
+        ("active line of action", length, wanted.active_length),
+        ("arc of action", arc, wanted.arc_length),
+        ("working pitch", pitches[0], wanted.pitch_length),
+    ):
+        if not abs(value - right) <= 2 * allowed:
+            failures.append(f"the {name} measures {value:.6f} mm instead of {right:.6f} mm")
+    for name in ("contact_ratio_by_line", "contact_ratio_by_arc"):
+        if not abs(measured[name] - wanted.contact_ratio) <= 1e-6:
+            failures.append(f"{name} measures {measured[name]:.7f} instead of {wanted.contact_ratio:.7f}")
+
+
+def _check_words(sheet: ReadSheet, canvas: Canvas, measured: dict[str, float], failures: list[str]) -> None:
+    """All words are there, none over another, all in the frame."""
+    wanted = Counter(run.text for text in canvas.texts for run in text.runs)
+    missing = wanted - Counter(t.text for t in sheet.texts)
+    if missing:
+        failures.append(f"words are missing: {', '.join(sorted(missing))}")
+    boxes = [_box(t) for t in sheet.texts]
+    for index, box in enumerate(boxes):
+        if not box.within(canvas.frame.grown(1e-6)):
+            failures.append(f"{sheet.texts[index].text} leaves the frame")
+        for other in range(index):
+            if box.grown(-1e-6).overlaps(boxes[other].grown(-1e-6)):
+                failures.append(f"{sheet.texts[index].text} stands over {sheet.texts[other].text}")
+    measured["words"] = float(len(boxes))
+
+
+def _box(text: ReadText) -> Box:
+    return Box(text.at.real, text.at.imag, text.at.real + text.width, text.at.imag + text.height)
+
+
+def _check_frame(sheet: ReadSheet, frame: Box, failures: list[str]) -> None:
+    """Nothing is drawn beyond the frame."""
+    for layer, points in sheet.samples:
+        if len(points) != frame.grown(1e-9).holds(points):
+            failures.append(f"{layer}: a curve leaves the frame")

@@ -1,0 +1,130 @@
+"""Sheets as files: DXF R2010 with true splines and line types, and SVG with exact Bezier curves."""
+
+from __future__ import annotations
+
+import math
+from html import escape
+from pathlib import Path
+
+import numpy as np
+
+from exporters.formats.svg import number, save
+from geometry.approximation.outline import CadCurve
+from geometry.curves.bspline import BSpline
+from geometry.curves.line_arc import Arc, Line
+from parts.drawing.canvas import STYLES, Canvas, Run
+
+_MILLIMETRES = 4
+_FONT = "arial.ttf"
+# height of a capital as a part of an SVG font's size
+_CAPITAL = 0.72
+
+
+def write_sheet(file: Path, canvas: Canvas) -> dict[str, int]:
+    """Write a sheet in the format of the file's ending; counts of what is in it."""
+    return write_sheet_dxf(file, canvas) if file.suffix == ".dxf" else write_sheet_svg(file, canvas)
+
+
+def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
+    """DXF R2010 in mm on paper: lines, arcs, circles and cubic splines on their layers, text fitted to its length."""
+    import ezdxf
+    from ezdxf.enums import TextEntityAlignment
+
+    from exporters.formats.drawing_dxf import add_curve
+    from exporters.formats.dxf_file import fixed_metadata
+    from exporters.formats.dxf_file import save as save_dxf
+
+    with fixed_metadata():
+        drawing = ezdxf.new("R2010", setup=False, units=_MILLIMETRES)
+    drawing.header["$LUNITS"] = 2
+    drawing.header["$MEASUREMENT"] = 1
+    drawing.header["$LTSCALE"] = 1.0
+    drawing.styles.add("SHEET", font=_FONT)
+    used = {"TEXT", *(s.layer for s in canvas.strokes)}
+    for name, style in STYLES.items():
+        if name not in used:
+            continue
+        kind = "CONTINUOUS"
+        if style.dashes:
+            kind = f"HP_{len(style.dashes)}"
+            if kind not in drawing.linetypes:
+                signed = [d if i % 2 == 0 else -d for i, d in enumerate(style.dashes)]
+                drawing.linetypes.add(kind, [sum(style.dashes), *signed])
+        drawing.layers.add(name, color=style.aci, linetype=kind, lineweight=round(style.width * 100))
+    space = drawing.modelspace()
+    counts: dict[str, int] = {}
+    for stroke in canvas.strokes:
+        kind = add_curve(space, stroke.curve, stroke.layer)
+        counts[kind] = counts.get(kind, 0) + 1
+    for run in (r for t in canvas.texts for r in t.runs):
+        entity = space.add_text(run.text, height=run.height, dxfattribs={"layer": "TEXT", "style": "SHEET"})
+        left, right = (run.at.real, run.at.imag), (run.at.real + run.width, run.at.imag)
+        entity.set_placement(left, right, align=TextEntityAlignment.FIT)
+        counts["TEXT"] = counts.get("TEXT", 0) + 1
+    # all stands within the frame; ezdxf takes a corner at 0, 0 for none
+    frame = canvas.frame
+    space.reset_extents((frame.left, frame.low, 0.0), (frame.right, frame.high, 0.0))
+    with fixed_metadata():
+        save_dxf(drawing, file)
+    return counts
+
+
+def write_sheet_svg(file: Path, canvas: Canvas) -> dict[str, int]:
+    """SVG in mm: a group for each layer, its curves as paths; text with its length stated."""
+    width, height = number(canvas.width), number(canvas.height)
+    lines = [
+        '<?xml version="1.0" encoding="UTF-8"?>\n<svg xmlns="http://www.w3.org/2000/svg" version="1.1" '
+        f'width="{width}mm" height="{height}mm" viewBox="0 0 {width} {height}">',
+        '<rect width="100%" height="100%" style="fill:#ffffff"/>',
+    ]
+    for name, style in STYLES.items():
+        curves = [s.curve for s in canvas.strokes if s.layer == name]
+        if not curves:
+            continue
+        dashes = f";stroke-dasharray:{' '.join(map(number, style.dashes))}" if style.dashes else ""
+        look = f"fill:none;stroke:{style.colour};stroke-width:{style.width}{dashes}"
+        lines.append(f'<g id="{name}" style="{look}">')
+        lines += [f'<path d="{_path(c, canvas.height)}"/>' for c in curves]
+        lines.append("</g>")
+    lines.append(f'<g id="TEXT" style="font-family:Arial,Liberation Sans,sans-serif;fill:{STYLES["TEXT"].colour}">')
+    lines += [_text(run, canvas.height) for t in canvas.texts for run in t.runs]
+    lines.append("</g>")
+    save(file, lines)
+    return {"paths": len(canvas.strokes), "texts": sum(len(t.runs) for t in canvas.texts)}
+
+
+def _text(run: Run, height: float) -> str:
+    size, x, y = number(run.height / _CAPITAL), number(run.at.real), number(height - run.at.imag)
+    words = escape(run.text)
+    length = f'textLength="{number(run.width)}" lengthAdjust="spacingAndGlyphs"'
+    return f'<text x="{x}" y="{y}" style="font-size:{size}px" {length}>{words}</text>'
+
+
+def _path(curve: CadCurve, height: float) -> str:
+    """Absolute M, L, A and C commands; y runs down in SVG."""
+
+    def xy(point: complex) -> str:
+        return f"{number(point.real)},{number(height - point.imag)}"
+
+    if isinstance(curve, Line):
+        return f"M{xy(curve.start)} L{xy(curve.end)}"
+    if isinstance(curve, Arc):
+        r, flag = number(curve.radius), int(curve.sweep < 0)
+        # a half circle's ends leave its centre open by the root of their rounding
+        parts = math.ceil(abs(curve.sweep) / (2 * math.pi / 3) - 1e-9)
+        ends = [complex(curve.point(abs(curve.sweep) * k / parts)) for k in range(parts + 1)]
+        return f"M{xy(ends[0])} " + " ".join(f"A{r},{r} 0 0 {flag} {xy(e)}" for e in ends[1:])
+    return " ".join([f"M{xy(complex(curve.poles[0]))}", *(f"C{xy(a)} {xy(b)} {xy(c)}" for a, b, c in _bezier(curve))])
+
+
+def _bezier(spline: BSpline) -> list[tuple[complex, complex, complex]]:
+    """The last three control points of each span of a cubic, exact."""
+    breaks = spline.breaks
+    starts, ends = breaks[:-1], breaks[1:]
+    third = (ends - starts) / 3
+    points = spline.point(breaks)
+    first = points[:-1] + spline.derivative(starts) * third
+    # seen from the span itself: a derivative at a knot is that of the next span
+    middle = spline.point((starts + ends) / 2)
+    second = (8 * middle - points[:-1] - points[1:] - 3 * first) / 3
+    return [(complex(a), complex(b), complex(c)) for a, b, c in np.stack([first, second, points[1:]], axis=1)]

@@ -1,0 +1,1 @@
+"""The kinds of files: a row each, its writer and its reader."""

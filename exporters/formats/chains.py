@@ -1,0 +1,70 @@
+"""Curves of a file that lie in no order, put one behind the other into closed loops."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from exporters.formats.readback import SmoothLoop
+from geometry.curves.curve import Complex, Real
+from parts.base.readback import ReadError
+
+# samples of each span of a spline: polynomials up to this degree less one come back exactly
+_SAMPLES = 8
+# ends of neighbouring curves in one file meet this well: mm, and a part of its size (files carry 15 digits)
+_JOINT, _DIGITS = 1e-9, 1e-11
+# the same of smooth spans, part of the outline's size
+_SMOOTH_JOINT = 1e-9
+
+
+def chained(pieces: list[Complex]) -> list[Complex]:
+    """Sampled curves (each from its first to its last point) chained by their ends into closed loops."""
+    if not pieces:
+        return []
+    joint = _JOINT + _DIGITS * max(float(np.abs(piece).max()) for piece in pieces)
+    return [np.concatenate([piece[:-1] for piece in chain]) for chain in _chains(pieces, joint)]
+
+
+def smooth_loops(spans: list[Complex]) -> tuple[SmoothLoop, ...]:
+    """Smooth spans, sampled at ``nodes()`` each, as closed loops of polynomials."""
+    joint = _SMOOTH_JOINT * max((float(np.abs(span).max()) for span in spans), default=0.0)
+    powers = np.vander(nodes(), increasing=True)
+    return tuple(
+        SmoothLoop(np.asarray(np.linalg.solve(powers, np.array(chain).T).T)) for chain in _chains(spans, joint)
+    )
+
+
+def nodes() -> Real:
+    """Places on 0 .. 1 with both ends, dense there: Chebyshev's."""
+    return np.asarray((1 - np.cos(np.linspace(0, np.pi, _SAMPLES))) / 2)
+
+
+def _chains(pieces: list[Complex], joint: float) -> list[list[Complex]]:
+    """Pieces turned and put one behind the other, in closed chains.
+
+    Raises
+    ------
+    ReadError
+        An end lies within ``joint`` mm of no other.
+    """
+    if not pieces:
+        return []
+    ends = np.array([[piece[0], piece[-1]] for piece in pieces]).ravel()
+    order = np.argsort(ends.real)
+    places = ends.real[order]
+    left = dict.fromkeys(range(len(pieces)))
+    chains = []
+    while left:
+        index = next(iter(left))
+        del left[index]
+        chain = [pieces[index]]
+        while abs(chain[-1][-1] - chain[0][0]) > joint:
+            last = chain[-1][-1]
+            low, high = np.searchsorted(places, (last.real - joint, last.real + joint))
+            near = [int(i) for i in order[low:high] if int(i) // 2 in left and abs(ends[i] - last) <= joint]
+            if not near:
+                raise ReadError(f"a contour is open at ({last.real:.6g}, {last.imag:.6g})")
+            index, side = divmod(min(near, key=lambda i: abs(ends[i] - last)), 2)
+            del left[index]
+            chain.append(pieces[index] if side == 0 else pieces[index][::-1])
+        chains.append(chain)
+    return chains

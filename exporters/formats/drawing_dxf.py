@@ -1,0 +1,75 @@
+"""Drawing DXF: R2010 with true splines (knots and control points), arcs and circles as themselves, mm."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import ezdxf
+import numpy as np
+
+from exporters.formats.dxf_file import fixed_metadata, save
+from geometry.approximation.outline import CadCurve, Outline
+from geometry.curves.line_arc import Arc, Line
+from geometry.plane.contour import edge_box
+
+_LAYER = "OUTLINE"
+_MILLIMETRES = 4
+
+
+def write_drawing_dxf(file: Path, boundaries: tuple[Outline, ...]) -> dict[str, int]:
+    """Write every boundary curve by curve on one layer; returns the number of entities of each kind."""
+    with fixed_metadata():
+        drawing = ezdxf.new("R2010", setup=False, units=_MILLIMETRES)
+    drawing.header["$LUNITS"] = 2
+    drawing.header["$MEASUREMENT"] = 1
+    drawing.layers.add(_LAYER, color=7, lineweight=50)
+    space = drawing.modelspace()
+    counts: dict[str, int] = {}
+    corners: list[complex] = []
+    for boundary in boundaries:
+        for curve in boundary.curves():
+            kind = add_curve(space, curve, _LAYER)
+            counts[kind] = counts.get(kind, 0) + 1
+            corners += _box(curve)
+    x, y = [c.real for c in corners], [c.imag for c in corners]
+    space.reset_extents((min(x), min(y), 0.0), (max(x), max(y), 0.0))
+    with fixed_metadata():
+        save(drawing, file)
+    return counts
+
+
+def _box(curve: CadCurve) -> list[complex]:
+    """Corners of a box that holds a curve: of a spline that of its poles."""
+    if isinstance(curve, Line):
+        return [curve.start, curve.end]
+    if isinstance(curve, Arc):
+        parts = max(2, math.ceil(abs(curve.sweep)))
+        points = curve.point(np.linspace(*curve.domain, parts + 1))
+        bulges = np.full(parts, math.tan(curve.sweep / parts / 4))
+        return list(edge_box(points[:-1], points[1:], bulges))
+    return [complex(p) for p in curve.poles]
+
+
+def add_curve(space, curve: CadCurve, layer: str) -> str:
+    """One curve on a layer as the DXF entity that it is; returns that entity's name."""
+    attributes = {"layer": layer}
+    if isinstance(curve, Line):
+        space.add_line(_xy(curve.start), _xy(curve.end), dxfattribs=attributes)
+        return "LINE"
+    if isinstance(curve, Arc):
+        if abs(curve.sweep) >= 2 * math.pi:
+            space.add_circle(_xy(curve.centre), curve.radius, dxfattribs=attributes)
+            return "CIRCLE"
+        # DXF arcs always turn left
+        low, high = sorted((curve.start_angle, curve.start_angle + curve.sweep))
+        space.add_arc(_xy(curve.centre), curve.radius, math.degrees(low), math.degrees(high), dxfattribs=attributes)
+        return "ARC"
+    spline = space.add_spline(dxfattribs=attributes, degree=curve.degree)
+    spline.control_points = [(*_xy(p), 0.0) for p in curve.poles.tolist()]
+    spline.knots = curve.knots.tolist()
+    return "SPLINE"
+
+
+def _xy(point: complex) -> tuple[float, float]:
+    return point.real, point.imag

@@ -1,0 +1,97 @@
+"""Read-back of 3MF packages in mm: zipped XML, read without lib3mf. Shares no code with the writer."""
+
+from __future__ import annotations
+
+import zipfile
+import zlib
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exporters.formats.readback import Occurrence, Prototype, ReadAssembly, ReadMesh
+from parts.base.readback import ReadError
+
+_CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
+
+
+def read_3mf(file: Path) -> ReadMesh:
+    """The single object of a 3MF package, built once where it stands."""
+    root = _model(file)
+    objects, items = root.findall(f".//{_CORE}object"), root.findall(f".//{_CORE}item")
+    if len(objects) != 1 or len(items) != 1:
+        raise ReadError("the 3MF does not hold one object, built once")
+    if items[0].get("transform") is not None:
+        raise ReadError("the part of the 3MF has been moved out of its frame")
+    return _mesh(objects[0])
+
+
+def read_3mf_assembly(file: Path) -> ReadAssembly:
+    """Every object and build item of a 3MF package; components of components are refused."""
+    root = _model(file)
+    title = next((m.text or "" for m in root.findall(f"{_CORE}metadata") if m.get("name") == "Title"), "")
+    bases = {
+        group.get("id"): [base.get("displaycolor", "")[:7].lower() for base in group.iter(f"{_CORE}base")]
+        for group in root.iter(f"{_CORE}basematerials")
+    }
+    prototypes: list[Prototype] = []
+    index: dict[str | None, int] = {}
+    for item in root.iter(f"{_CORE}object"):
+        if item.find(f"{_CORE}mesh") is None:
+            raise ReadError("an object of the 3MF holds no mesh of its own")
+        index[item.get("id")] = len(prototypes)
+        prototypes.append(Prototype(item.get("name", ""), _mesh(item), _base_colour(item, bases)))
+    occurrences = []
+    for item in root.iter(f"{_CORE}item"):
+        if item.get("objectid") not in index:
+            raise ReadError("a build item names an object that is not there")
+        place = _transform(item)
+        occurrences.append(Occurrence(item.get("partnumber", ""), index[item.get("objectid")], place))
+    return ReadAssembly(title, prototypes, occurrences)
+
+
+def _base_colour(item: ElementTree.Element, bases: dict[str | None, list[str]]) -> str | None:
+    shades, number = bases.get(item.get("pid"), []), item.get("pindex", "")
+    return shades[int(number)] if number.isdigit() and int(number) < len(shades) else None
+
+
+def _transform(item: ElementTree.Element) -> NDArray[np.float64]:
+    """(3, 4) of a build item; 3MF writes four rows of three that multiply row vectors."""
+    text = item.get("transform")
+    if text is None:
+        return np.eye(3, 4)
+    try:
+        numbers = np.array([float(x) for x in text.split()])
+    except ValueError as error:
+        raise ReadError(f"a broken transform in the 3MF: {error}") from error
+    if numbers.size != 12 or not np.all(np.isfinite(numbers)):
+        raise ReadError("a transform of the 3MF has not twelve numbers")
+    return numbers.reshape(4, 3).T
+
+
+def _model(file: Path) -> ElementTree.Element:
+    """The root of the model in a whole package, in mm."""
+    try:
+        with zipfile.ZipFile(file) as package:
+            if package.testzip() is not None:
+                raise ReadError("the 3MF package is damaged")
+            root = ElementTree.fromstring(package.read("3D/3dmodel.model"))
+    except (zipfile.BadZipFile, KeyError, ElementTree.ParseError, OSError, EOFError, zlib.error) as error:
+        raise ReadError(f"not a readable 3MF: {error}") from error
+    if root.get("unit") != "millimeter":
+        raise ReadError("the 3MF is not in mm")
+    return root
+
+
+def _mesh(item: ElementTree.Element) -> ReadMesh:
+    """The mesh of an object."""
+    try:
+        corners = [[float(v.get(k, "")) for k in "xyz"] for v in item.iter(f"{_CORE}vertex")]
+        rows = [[int(t.get(k, "")) for k in ("v1", "v2", "v3")] for t in item.iter(f"{_CORE}triangle")]
+    except ValueError as error:
+        raise ReadError(f"a broken number in the 3MF: {error}") from error
+    vertices, triangles = np.array(corners).reshape(-1, 3), np.array(rows, dtype=np.int64).reshape(-1, 3)
+    if not len(triangles) or triangles.min() < 0 or triangles.max() >= len(vertices):
+        raise ReadError("a 3MF triangle names a vertex that is not there")
+    return ReadMesh(vertices, triangles, item.get("name", ""))

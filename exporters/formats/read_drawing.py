@@ -1,0 +1,219 @@
+"""The one decoder of DXF entities: lines, arcs, circles, splines and words as ezdxf reads them.
+
+Splines are evaluated by the library that reads them, never by ours.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from exporters.formats.chains import chained, nodes, smooth_loops
+from exporters.formats.readback import SmoothLoop
+from geometry.base.distinct import distinct
+from geometry.curves.curve import Complex, Real
+from parts.base.readback import ReadError
+
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing
+    from ezdxf.entities import Arc, Circle, Line, Spline, Text
+    from ezdxf.math import BSpline, Vec3
+
+_LAYER = "OUTLINE"
+_MILLIMETRES = 4
+_PER_CURVE = 25
+# arcs from here on get ten times as many samples, and are smooth for so long, degrees
+_LONG, _SPAN = 90.0, 5.0
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnLine:
+    """A straight line, mm."""
+
+    layer: str
+    start: complex
+    end: complex
+
+    def samples(self) -> Complex:
+        """Points from end to end."""
+        return self.spans(np.linspace(0, 1, _PER_CURVE))[0]
+
+    def spans(self, share: Real) -> Complex:
+        """Points at shares of each smooth span, (spans, n)."""
+        return np.asarray([self.start + share * (self.end - self.start)], dtype=np.complex128)
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnArc:
+    """An arc that turns left from one angle to another, degrees; a circle from 0 to 360."""
+
+    layer: str
+    centre: complex
+    radius: float
+    first: float
+    last: float
+
+    @property
+    def sweep(self) -> float:
+        """Degrees, above 0."""
+        return (self.last - self.first) % 360 or 360.0
+
+    def samples(self) -> Complex:
+        """Points from end to end."""
+        share = np.linspace(0, 1, _PER_CURVE if self.sweep < _LONG else 10 * _PER_CURVE)
+        return self._at(self.first + share * self.sweep)
+
+    def spans(self, share: Real) -> Complex:
+        """Points at shares of each smooth span, (spans, n)."""
+        edges = np.linspace(self.first, self.first + self.sweep, max(2, math.ceil(self.sweep / _SPAN)) + 1)
+        return self._at(edges[:-1, None] + share * np.diff(edges)[:, None])
+
+    def _at(self, angle: Real) -> Complex:
+        return np.asarray(self.centre + self.radius * np.exp(1j * np.radians(angle)), dtype=np.complex128)
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnSpline:
+    """A spline with ezdxf's own evaluation."""
+
+    layer: str
+    tool: BSpline
+
+    def samples(self) -> Complex:
+        """Points from end to end."""
+        knots = np.asarray(self.tool.knots())
+        return self._at(knots[0] + np.linspace(0, 1, _PER_CURVE) * (knots[-1] - knots[0]))
+
+    def spans(self, share: Real) -> Complex:
+        """Points at shares of each smooth span, (spans, n)."""
+        knots = distinct(np.asarray(self.tool.knots()))
+        places = knots[:-1, None] + share * np.diff(knots)[:, None]
+        return self._at(places.ravel()).reshape(places.shape)
+
+    def _at(self, places: Real) -> Complex:
+        return np.array([complex(p.x, p.y) for p in self.tool.points(places)])
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnText:
+    """Words fitted between two points; height of capitals, mm."""
+
+    layer: str
+    text: str
+    left: complex
+    right: complex
+    height: float
+
+
+DrawnCurve = DrawnLine | DrawnArc | DrawnSpline
+
+
+def _plane(point: Vec3) -> complex:
+    return complex(point.x, point.y)
+
+
+def _line(entity: Line) -> DrawnLine:
+    return DrawnLine(entity.dxf.layer, _plane(entity.dxf.start), _plane(entity.dxf.end))
+
+
+def _arc(entity: Arc) -> DrawnArc:
+    dxf = entity.dxf
+    return DrawnArc(dxf.layer, _plane(dxf.center), dxf.radius, dxf.start_angle, dxf.end_angle)
+
+
+def _circle(entity: Circle) -> DrawnArc:
+    return DrawnArc(entity.dxf.layer, _plane(entity.dxf.center), entity.dxf.radius, 0.0, 360.0)
+
+
+def _spline(entity: Spline) -> DrawnSpline:
+    return DrawnSpline(entity.dxf.layer, entity.construction_tool())
+
+
+def _text(entity: Text) -> DrawnText:
+    dxf = entity.dxf
+    return DrawnText(dxf.layer, dxf.text, _plane(dxf.insert), _plane(dxf.align_point), dxf.height)
+
+
+_CURVES: dict[str, Callable[[Any], DrawnCurve]] = {"LINE": _line, "ARC": _arc, "CIRCLE": _circle, "SPLINE": _spline}
+
+
+def drawn(document: Drawing, what: str = "drawing") -> tuple[list[DrawnCurve], list[DrawnText]]:
+    """The curves and, on a sheet (``what``), the words of a drawing, in the order of the file.
+
+    Raises
+    ------
+    ReadError
+        Something else stands in it.
+    """
+    from ezdxf.entities import Text
+
+    curves, words = [], []
+    for entity in document.modelspace():
+        kind = entity.dxftype()
+        if kind in _CURVES:
+            curves.append(_CURVES[kind](entity))
+        elif isinstance(entity, Text) and what == "sheet":
+            words.append(_text(entity))
+        else:
+            raise ReadError(f"a {kind} stands in the {what}; only lines, arcs, circles and splines belong there")
+    return curves, words
+
+
+def opened(file: Path, *, audit: bool = True) -> Drawing:
+    """A DXF as ezdxf reads it; what its ``audit`` finds wrong is an error."""
+    import ezdxf
+
+    try:
+        document = ezdxf.readfile(str(file))
+        auditor = document.audit() if audit else None
+    except (ezdxf.DXFError, OSError, ValueError, LookupError, StopIteration, TypeError, AttributeError) as error:
+        raise ReadError(f"not a readable DXF: {error or 'it ends too early'}") from error
+    if auditor is not None and (auditor.errors or auditor.fixes):
+        raise ReadError(f"the DXF audit finds fault: {(auditor.errors + auditor.fixes)[0].message}")
+    return document
+
+
+@dataclass(frozen=True, slots=True)
+class ReadDrawing:
+    """A drawing of true curves on one layer."""
+
+    curves: tuple[DrawnCurve, ...]
+    has_arcs = False
+
+    def names(self) -> None:
+        """The format has none."""
+
+    def loops(self) -> list[Complex]:
+        """The closed outlines, densely sampled."""
+        return chained([curve.samples() for curve in self.curves])
+
+    def section(self, z: float) -> tuple[SmoothLoop, ...]:
+        """The closed outlines as polynomials."""
+        share = nodes()
+        return smooth_loops([span for curve in self.curves for span in curve.spans(share)])
+
+    def faces(self) -> Real:
+        """None."""
+        return np.zeros((0, 3, 3))
+
+
+def read_drawing(file: Path) -> ReadDrawing:
+    """A drawing DXF in mm.
+
+    Raises
+    ------
+    ReadError
+        The file is no sound DXF, not in mm, or holds something else, or on another layer.
+    """
+    document = opened(file)
+    if document.header.get("$INSUNITS") != _MILLIMETRES:
+        raise ReadError("the DXF is not in mm ($INSUNITS is not 4)")
+    for entity in document.modelspace():
+        if entity.dxf.layer.upper() != _LAYER:
+            raise ReadError(f"a {entity.dxftype()} stands on layer {entity.dxf.layer} instead of {_LAYER}")
+    return ReadDrawing(tuple(drawn(document)[0]))

@@ -1,0 +1,175 @@
+"""Read-back of laser DXF: the pairs of the file, its sections, handles and layers, and its closed polylines.
+
+Shares no code with the writer, nor with ezdxf, whose import takes longer than making the file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exporters.formats.readback import Loop, ReadOutlines
+from parts.base.readback import ReadError
+
+_MILLIMETRES = "4"
+# groups that point at a handle, and those that are one
+_POINTERS = (*range(320, 370), *range(390, 400))
+_HANDLE, _DIMSTYLE_HANDLE = 5, 105
+_EXTRUSION = (210, 220, 230)
+
+
+@dataclass(frozen=True, slots=True)
+class Pairs:
+    """Group codes (n,) and the values that stand with them."""
+
+    codes: NDArray[np.int64]
+    values: list[str]
+
+    def part(self, start: int, end: int) -> Pairs:
+        """The pairs from one place to another."""
+        return Pairs(self.codes[start:end], self.values[start:end])
+
+    def starts(self) -> NDArray[np.int64]:
+        """Where a record begins."""
+        return np.flatnonzero(self.codes == 0)
+
+    def records(self) -> Iterator[Pairs]:
+        """What stands from each group 0 to the next."""
+        edges = [*self.starts().tolist(), len(self.values)]
+        return (self.part(a, b) for a, b in pairwise(edges))
+
+    def first(self, code: int, default: str = "") -> str:
+        """The first value with a group code."""
+        found = np.flatnonzero(self.codes == code)
+        return self.values[found[0]] if len(found) else default
+
+    def numbers(self, code: int) -> NDArray[np.float64]:
+        """All values with a group code, as numbers."""
+        return np.array([self.values[i] for i in np.flatnonzero(self.codes == code)], dtype=np.float64)
+
+
+def read_dxf(file: Path) -> ReadOutlines:
+    """The closed polylines of a laser DXF in mm; everything else on it is an error.
+
+    Raises
+    ------
+    ReadError
+        The file is no whole DXF, not in mm, its handles or layers contradict each other, or it holds something else.
+    """
+    try:
+        sections = _sections(_pairs(file))
+        header = _header(sections)
+        if header.get("$ACADVER", "AC1009") > "AC1009" and header.get("$INSUNITS") != _MILLIMETRES:
+            raise ReadError("the DXF is not in mm ($INSUNITS is not 4)")
+        _check_handles(sections, int(header.get("$HANDSEED", "0"), 16))
+        loops = tuple(_loops(sections["ENTITIES"]))
+        layers = _layers(sections)
+    except (ValueError, LookupError, OSError) as error:
+        if isinstance(error, ReadError):
+            raise
+        raise ReadError(f"not a readable DXF: {error}") from error
+    if strange := {loop.layer for loop in loops} - layers:
+        raise ReadError(f"the DXF has no layer {strange.pop()}, on which a contour stands")
+    return ReadOutlines(loops)
+
+
+def _pairs(file: Path) -> Pairs:
+    lines = file.read_text(encoding="latin-1").splitlines()
+    if len(lines) % 2:
+        raise ReadError("not a readable DXF: it ends within a pair of lines")
+    pairs = Pairs(np.array(list(map(int, lines[::2])), dtype=np.int64), [v.strip() for v in lines[1::2]])
+    if not lines or (pairs.codes[-1], pairs.values[-1]) != (0, "EOF"):
+        raise ReadError("not a readable DXF: it ends too early")
+    return pairs
+
+
+def _sections(pairs: Pairs) -> dict[str, Pairs]:
+    """What stands between each SECTION and its ENDSEC."""
+    sections, name, begin = {}, "", 0
+    for at in pairs.starts().tolist():
+        word = pairs.values[at]
+        if word == "SECTION" and not name and pairs.codes[at + 1] == 2:
+            name, begin = pairs.values[at + 1], at + 2
+        elif word == "ENDSEC" and name:
+            sections[name], name = pairs.part(begin, at), ""
+        elif word in ("SECTION", "ENDSEC", "EOF") and (name or word != "EOF"):
+            raise ReadError(f"not a readable DXF: {word} in the wrong place")
+    if missing := {"HEADER", "TABLES", "ENTITIES"} - sections.keys():
+        raise ReadError(f"not a readable DXF: it has no section {missing.pop()}")
+    return sections
+
+
+def _header(sections: dict[str, Pairs]) -> dict[str, str]:
+    """The first value of every variable."""
+    header = sections["HEADER"]
+    names = np.flatnonzero(header.codes == 9)
+    return {header.values[i]: header.values[i + 1] for i in names.tolist()}
+
+
+def _layers(sections: dict[str, Pairs]) -> set[str]:
+    tables = sections["TABLES"]
+    return {record.first(2) for record in tables.records() if record.values[0] == "LAYER"}
+
+
+def _check_handles(sections: dict[str, Pairs], seed: int) -> None:
+    """Every handle is there once and below the seed, and every pointer finds one."""
+    handles: list[str] = []
+    pointers: set[str] = set()
+    for name, pairs in sections.items():
+        if name not in ("TABLES", "BLOCKS", "ENTITIES", "OBJECTS"):
+            continue
+        marks = np.flatnonzero(np.isin(pairs.codes, (0, _HANDLE, _DIMSTYLE_HANDLE)))
+        kind = ""
+        for at in marks.tolist():
+            if pairs.codes[at] == 0:
+                kind, code = pairs.values[at], _DIMSTYLE_HANDLE if pairs.values[at] == "DIMSTYLE" else _HANDLE
+            elif pairs.codes[at] == code and kind:
+                handles.append(pairs.values[at])
+                kind = ""
+        pointers |= {pairs.values[i] for i in np.flatnonzero(np.isin(pairs.codes, _POINTERS)).tolist()}
+    known = set(handles)
+    if len(known) < len(handles):
+        raise ReadError("the DXF uses a handle twice")
+    if lost := pointers - known - {"0"}:
+        raise ReadError(f"the DXF points at a handle {min(lost)} that is not there")
+    if handles and max(int(h, 16) for h in handles) >= seed:
+        raise ReadError("the DXF has a handle that its header ($HANDSEED) calls free")
+
+
+def _loops(entities: Pairs) -> Iterator[Loop]:
+    """The closed polylines, old style or new."""
+    starts = entities.starts()
+    heads = [i for i in starts.tolist() if entities.values[i] not in ("VERTEX", "SEQEND")]
+    for start, end in zip(heads, [*heads[1:], len(entities.values)], strict=True):
+        entity = entities.part(start, end)
+        kind, layer = entity.values[0], entity.first(8)
+        if kind not in ("LWPOLYLINE", "POLYLINE"):
+            raise ReadError(f"a {kind} stands on layer {layer}; only closed polylines belong there")
+        yield _loop(entity, kind, layer)
+
+
+def _loop(entity: Pairs, kind: str, layer: str) -> Loop:
+    if int(entity.first(70, "0")) & ~0x80 != 1:
+        raise ReadError(f"an open or bent polyline on layer {layer}")
+    if any(np.any(entity.numbers(code) != (code == _EXTRUSION[-1])) for code in _EXTRUSION):
+        raise ReadError(f"a polyline on layer {layer} lies in a plane of its own")
+    if kind == "POLYLINE":
+        begins = entity.starts()
+        if entity.values[begins[-1]] != "SEQEND":
+            raise ReadError(f"a polyline on layer {layer} has no SEQEND")
+        # its own point comes before the vertices
+        entity, told = entity.part(int(begins[1]), int(begins[-1])), len(begins) - 2
+    else:
+        told = int(entity.first(90))
+    places = entity.codes == 10
+    x, y = entity.numbers(10), entity.numbers(20)
+    if not len(x) == len(y) == told:
+        raise ReadError(f"a polyline on layer {layer} has {len(x)} vertices where {told} are told")
+    bulges = np.zeros(told)
+    bulges[(np.cumsum(places) - 1)[entity.codes == 42]] = entity.numbers(42)
+    return Loop(x + 1j * y, bulges, layer)

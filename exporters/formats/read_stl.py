@@ -1,0 +1,43 @@
+"""Read-back of binary STL. Shares no code with the writer."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exporters.formats.readback import ReadMesh
+from parts.base.readback import ReadError
+
+
+def read_stl(file: Path) -> ReadMesh:
+    """A binary STL; equal corners become one vertex."""
+    data = file.read_bytes()
+    if len(data) < 84:
+        raise ReadError("too short for a binary STL")
+    count = int.from_bytes(data[80:84], "little")
+    if len(data) != 84 + 50 * count or count == 0:
+        raise ReadError(f"{len(data)} bytes do not hold the {count} triangles that the STL announces")
+    rows = np.frombuffer(data, dtype=np.uint8, offset=84).reshape(count, 50)
+    corners = rows[:, 12:48].copy().view("<f4").reshape(-1, 3)
+    if not np.all(np.isfinite(corners)):
+        raise ReadError("an STL coordinate is not a number")
+    _check_normals(corners.reshape(-1, 3, 3).astype(float), rows[:, :12].copy().view("<f4").astype(float))
+    # + 0 makes one number of the two zeros
+    keys = (corners + np.float32(0.0)).view("<u4")
+    order = np.lexsort((keys[:, 2], keys[:, 1], keys[:, 0]))
+    fresh = np.any(keys[order[1:]] != keys[order[:-1]], axis=1)
+    group = np.concatenate([[0], np.cumsum(fresh)])
+    vertex = np.zeros(len(order), dtype=np.int64)
+    vertex[order] = group
+    first = order[np.concatenate([[True], fresh])]
+    return ReadMesh(corners[first].astype(float), vertex.reshape(-1, 3))
+
+
+def _check_normals(corners: NDArray[np.float64], normals: NDArray[np.float64]) -> None:
+    """Normals must agree with their corners; STL allows zero for "not given"."""
+    true = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    size = np.linalg.norm(true, axis=1) * np.linalg.norm(normals, axis=1)
+    if np.any(np.einsum("ij,ij->i", true, normals) < 0.99 * size):
+        raise ReadError("an STL normal contradicts its triangle")

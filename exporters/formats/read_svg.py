@@ -1,0 +1,88 @@
+"""Read-back of laser SVG: closed paths and circles in mm. Shares no code with the writer."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+
+from exporters.formats.readback import Loop, ReadOutlines
+from parts.base.readback import ReadError
+
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_COMMAND = rf"([MLAZ])((?:[\s,]*{_NUMBER})*)"
+
+
+def read_svg(file: Path) -> ReadOutlines:
+    """The closed paths and circles of an SVG in mm, y turned up again."""
+    from xml.etree import ElementTree
+
+    try:
+        root = ElementTree.parse(file).getroot()
+        width, height = (_millimetres(root.get(key, "")) for key in ("width", "height"))
+        box = [float(x) for x in root.get("viewBox", "").split()]
+    except (ElementTree.ParseError, ValueError, OSError) as error:
+        raise ReadError(f"not a readable SVG in mm: {error}") from error
+    if len(box) != 4 or max(abs(box[2] - width), abs(box[3] - height), abs(box[0]), abs(box[1])) > 1e-9 * width:
+        raise ReadError("one unit of the SVG's view box is not one mm")
+    loops = []
+    for element in root.iter():
+        tag = element.tag.rsplit("}", 1)[-1]
+        if moved := {"transform", "class"} & set(element.keys()):
+            raise ReadError(f"an SVG {tag} has a {moved.pop()}, which laser programs pass over")
+        try:
+            if tag == "path":
+                loops.append(_svg_path(element.get("d", ""), element.get("id", "")))
+            elif tag == "circle":
+                x, y, r = (float(element.get(k, "nan")) for k in ("cx", "cy", "r"))
+                ends = np.array([complex(x + r, -y), complex(x - r, -y)])
+                loops.append(Loop(ends, np.ones(2), element.get("id", "")))
+            elif tag != "svg":
+                raise ReadError(f"an element <{tag}> stands among the outlines")
+        except ValueError as error:
+            raise ReadError(f"broken {tag}: {error}") from error
+    middle = complex(width / 2, -height / 2)
+    return ReadOutlines(tuple(Loop(loop.vertices - middle, loop.bulges, loop.layer) for loop in loops))
+
+
+def _millimetres(text: str) -> float:
+    if not text.endswith("mm"):
+        raise ValueError(f'a width or height of "{text}" is not in mm')
+    return float(text.removesuffix("mm"))
+
+
+def _svg_path(data: str, layer: str) -> Loop:
+    """One closed subpath of absolute M, L, A and Z."""
+    if re.sub(_COMMAND, "", data).strip():
+        raise ReadError("an SVG path holds more than M, L, A and Z")
+    points: list[complex] = []
+    bulges: list[float] = []
+    closed = False
+    for command, text in re.findall(_COMMAND, data):
+        numbers = [float(x) for x in re.findall(_NUMBER, text)]
+        if command == "Z":
+            closed = True
+        elif command == "A":
+            if len(numbers) != 7 or not points or numbers[0] != numbers[1]:
+                raise ReadError("an SVG arc is not a circular arc of seven numbers")
+            end = complex(numbers[5], -numbers[6])
+            bulges.append(_svg_bulge(end - points[-1], numbers[0], bool(numbers[3]), bool(numbers[4])))
+            points.append(end)
+        else:
+            if len(numbers) != 2 or closed:
+                raise ReadError("an SVG path has more than one part")
+            if points:
+                bulges.append(0.0)
+            points.append(complex(numbers[0], -numbers[1]))
+    if not closed or not points or abs(points[-1] - points[0]) > 1e-9:
+        raise ReadError("an SVG path is not closed on its first point")
+    return Loop(np.array(points[:-1]), np.array(bulges), layer)
+
+
+def _svg_bulge(chord: complex, radius: float, large: bool, sweep: bool) -> float:
+    """Bulge of an SVG arc; sweep flag 1 turns right once y is up."""
+    half = math.asin(min(1.0, abs(chord) / (2 * radius)))
+    quarter = (math.pi - half if large else half) / 2
+    return math.tan(quarter) * (-1 if sweep else 1)

@@ -1,0 +1,165 @@
+"""What the readers of files give: outlines, meshes, and parts in their places; see parts/base/readback.py."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.curves.curve import Complex, Real
+from geometry.plane.contour import signed_area
+from parts.base.readback import ReadBack, ReadError, ReadLoop
+
+if TYPE_CHECKING:
+    from geometry.cams.contact.rolled import Outline
+
+_NO_FACES = np.zeros((0, 3, 3))
+
+
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """A closed chain as found in a file: vertices (n,), bulges (n,), the layer or id it stood on."""
+
+    vertices: Complex
+    bulges: Real
+    layer: str
+
+    @property
+    def points(self) -> Complex:
+        """Its vertices."""
+        return self.vertices
+
+    @property
+    def size(self) -> float:
+        """The area inside, mm^2."""
+        return abs(signed_area(self.vertices, self.bulges))
+
+    def outline(self, turn: complex = 1.0, *, clockwise: bool = False) -> Outline:
+        """Lines and arcs for a follower to touch."""
+        from geometry.cams.contact.rolled import outline_of_loop
+
+        return outline_of_loop(self.vertices * turn, self.bulges, clockwise=clockwise)
+
+
+@dataclass(frozen=True, slots=True)
+class SmoothLoop:
+    """A closed chain of polynomials, ``coefficients`` (n, degree + 1) of rising powers of t from 0 to 1."""
+
+    coefficients: Complex
+
+    @property
+    def points(self) -> Complex:
+        """Where each begins."""
+        return np.asarray(self.coefficients[:, 0])
+
+    @property
+    def size(self) -> float:
+        """Its width, mm."""
+        return float(np.ptp(self.coefficients[:, 0].real))
+
+    def outline(self, turn: complex = 1.0, *, clockwise: bool = False) -> Outline:
+        """Polynomial edges for a follower to touch."""
+        from geometry.cams.contact.rolled import outline_of_polynomials
+
+        return outline_of_polynomials(self.coefficients * turn, clockwise=clockwise)
+
+
+@dataclass(frozen=True, slots=True)
+class ReadOutlines:
+    """A flat file of lines and arcs."""
+
+    loops: tuple[Loop, ...]
+    has_arcs = True
+
+    def names(self) -> None:
+        """The format has none."""
+
+    def section(self, z: float) -> tuple[ReadLoop, ...]:
+        """All outlines."""
+        return self.loops
+
+    def faces(self) -> Real:
+        """None."""
+        return _NO_FACES
+
+
+@dataclass(frozen=True, slots=True)
+class ReadMesh:
+    """Distinct vertices (n, 3) and triangles (k, 3); ``name``: what the part is called, where the format has names."""
+
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.int64]
+    name: str | None = None
+    has_arcs = False
+
+    def names(self) -> tuple[str, ...] | None:
+        """The one name."""
+        return None if self.name is None else (self.name,)
+
+    def faces(self) -> Real:
+        """Corners of the triangles."""
+        return np.asarray(self.vertices[self.triangles])
+
+    def section(self, z: float) -> tuple[ReadLoop, ...]:
+        """Closed polygons in which a plane cuts the mesh; corners that stand on a straight edge are left out."""
+        above = self.vertices[:, 2] > z
+        corners = self.triangles[above[self.triangles].any(axis=1) & ~above[self.triangles].all(axis=1)]
+        ends = np.roll(corners, -1, axis=1)
+        # each cut triangle is left through one edge that goes up and one that goes down
+        up, down = (~above[corners] & above[ends]).argmax(axis=1), (above[corners] & ~above[ends]).argmax(axis=1)
+        row = np.arange(len(corners))
+        following = dict(
+            zip(
+                zip(corners[row, down].tolist(), ends[row, down].tolist(), strict=True),
+                zip(ends[row, up].tolist(), corners[row, up].tolist(), strict=True),
+                strict=True,
+            )
+        )
+        loops = []
+        while following:
+            first, at = following.popitem()
+            keys = [first]
+            while at != first:
+                if at not in following:
+                    raise ReadError("the outline of a wall is not closed")
+                keys.append(at)
+                at = following.pop(at)
+            points = self._cut(np.array(keys), z)
+            loops.append(Loop(points, np.zeros(len(points)), ""))
+        return tuple(loops)
+
+    def _cut(self, keys: NDArray[np.int64], z: float) -> Complex:
+        a, b = self.vertices[keys[:, 0]], self.vertices[keys[:, 1]]
+        share = (z - a[:, 2]) / (b[:, 2] - a[:, 2])
+        points = a[:, :2] + share[:, None] * (b[:, :2] - a[:, :2])
+        places = points[:, 0] + 1j * points[:, 1]
+        # the diagonals of upright walls cut their chords in the middle
+        upright = np.all(a[:, :2] == b[:, :2], axis=1)
+        return np.asarray(places[upright] if upright.sum() >= 3 else places)
+
+
+class Prototype(NamedTuple):
+    """A part of an assembly file, with its colour, #rrggbb."""
+
+    name: str
+    part: ReadBack
+    colour: str | None
+
+
+class Occurrence(NamedTuple):
+    """A part in its place: the index of its prototype, and its placement as (3, 4): rotation and move, mm."""
+
+    name: str
+    prototype: int
+    place: NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class ReadAssembly:
+    """What an assembly file holds."""
+
+    title: str
+    prototypes: list[Prototype]
+    occurrences: list[Occurrence]

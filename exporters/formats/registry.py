@@ -1,0 +1,259 @@
+"""Every kind of file in one row: how far its numbers are rounded, the shape that it holds, how it is written and read.
+
+Purposes, tolerances and what it holds stand in the row of parts/scene/formats.py. Writers are imported when a file of
+their kind is written; readers (exporters/formats/reading.py) when one is read.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
+
+from exporters.formats.reading import ASSEMBLY_READERS, READERS
+from geometry.approximation.chords import approximate_profile
+from geometry.base.errors import Nearest, ParameterError, limit, rounded
+from geometry.base.placement import Placement3
+from geometry.base.tolerance import LEAST_SEGMENT_MM
+from geometry.plane.contour import Approximation
+from geometry.plane.offset_region import OffsetRegion
+from geometry.plane.profile import Region
+from parts.base.part import Part
+from parts.base.readback import ReadBack
+from parts.scene.formats import FileKind, file_kind
+from parts.scene.load import ExportSpec
+
+if TYPE_CHECKING:
+    from exporters.formats.readback import ReadAssembly
+    from geometry.approximation.outline import Outline
+    from geometry.cams.barrel.body import BarrelBody
+    from geometry.solids.body import Body
+
+Chords: TypeAlias = tuple[Approximation, ...]
+Curves: TypeAlias = "tuple[Outline, ...]"
+Shape: TypeAlias = "Chords | Curves"
+# from the strongest to the weakest
+BOUNDS = ("exact", "certified", "sampled")
+# name, name of the part, place of each instance
+Places = Sequence[tuple[str, str, Placement3]]
+# more edges than any receiving program opens; one file of them is some 300 MB
+_MOST_EDGES = 4_000_000
+# a float32 coordinate is good to 2^-24 of its size, both of them together to sqrt(2) of that
+_FLOAT32 = 2.0**-24 * 1.5
+# SVG coordinates are written to 1e-9 mm; radii too, which moves an arc's crown by less
+_SVG_ROUNDING = 2e-9
+# DXF coordinates are written with 16 digits
+_DXF_ROUNDING = 2e-15
+# the kernel writes 15 digits and turns every curve once more when it reads them
+_STEP_ROUNDING = 1e-12
+
+
+@dataclass(frozen=True, slots=True)
+class Content:
+    """What a writer gets: one part as an export wants it, and the exact section that its file must match."""
+
+    part: Part
+    export: ExportSpec
+    section: OffsetRegion
+
+    @property
+    def tolerance(self) -> float:
+        """Largest deviation from the exact curve, mm."""
+        return float(self.export.tolerance or 0.0)
+
+    @property
+    def kind(self) -> FileKind:
+        """The kind of file."""
+        return file_kind(self.export.format, self.export.purpose)
+
+    @property
+    def body(self) -> Body:
+        """The exact solid, moved like the section."""
+        return self.part.body(self.section.offset)
+
+    @property
+    def exact(self) -> Region | Body | BarrelBody:
+        """What the file must agree with."""
+        return self.body if self.kind.is_solid else self.section.region
+
+
+S = TypeVar("S")
+
+
+@dataclass(frozen=True, slots=True)
+class FileFormat(Generic[S]):
+    """A row; ``rounding``: how far the rounding of a file's numbers may move an outline, mm.
+
+    ``shape``: the boundaries, approximated within a tolerance of which the rounding has taken its share already.
+    """
+
+    name: str
+    rounding: Callable[[Content], float]
+    shape: Callable[[Content, float], S]
+    write: Callable[[Content, S, Path], dict[str, int]]
+    write_assembly: Callable[[str, Sequence[Content], dict[str, S], Places, Path], dict[str, int]] | None = None
+
+    def read(self, file: Path) -> ReadBack:
+        """A file of one part."""
+        return READERS[self.name](file)
+
+    def read_assembly(self, file: Path) -> ReadAssembly:
+        """A file of parts in their places."""
+        return ASSEMBLY_READERS[self.name](file)
+
+
+def shape_of(content: Content) -> Shape:
+    """The boundaries of a section, holes first, or of a solid, as format and tolerance want them.
+
+    Raises
+    ------
+    ParameterError, ConvergenceError
+        The tolerance asks for more than the format can carry.
+    """
+    row = REGISTRY[content.kind.name]
+    # the rounding of the file's numbers takes its share of the tolerance first
+    made: Shape = row.shape(content, content.tolerance - row.rounding(content))
+    return made
+
+
+def number_rounding(content: Content) -> float:
+    """How far the rounding of a file's numbers may move an outline, mm."""
+    return REGISTRY[content.kind.name].rounding(content)
+
+
+def declared_error(content: Content, made: Shape) -> tuple[float, str]:
+    """The bound of a whole file, mm: the worst boundary plus the rounding of its numbers."""
+    worst, kinds = max(a.max_error for a in made), {a.bound for a in made}
+    return worst + number_rounding(content), max(kinds, key=BOUNDS.index)
+
+
+def _arcs(content: Content, tolerance: float) -> Chords:
+    """Lines and arcs of the section, or lines alone."""
+    arcs = content.export.curves == "arcs"
+    made = tuple(
+        approximate_profile(p, tolerance, arcs=arcs, least_edge=LEAST_SEGMENT_MM)
+        for p in content.section.region.profiles()
+    )
+    _check_count(content, sum(len(a.geometry) for a in made), 3 if arcs else 2)
+    return made
+
+
+def _splines(content: Content, tolerance: float) -> Curves:
+    """Cubics, which drawings read everywhere."""
+    from geometry.approximation.outline import spline_outline
+
+    return tuple(spline_outline(p, tolerance, degree=3, continuity=2) for p in content.section.region.profiles())
+
+
+def _chords(content: Content, tolerance: float) -> Chords:
+    """Chords of the solid's profiles."""
+    from parts.solids.mesh import count_edges, mesh_outlines
+
+    rounding = number_rounding(content)
+    if content.tolerance < 8 * rounding:
+        least = limit(8 * rounding, content.tolerance, digits=6)
+        raise ParameterError("tolerance", content.tolerance, "finer_than_mesh_digits", least)
+    made = mesh_outlines(content.body, tolerance, 64 * rounding)
+    _check_count(content, count_edges(content.body, made), 2)
+    return made
+
+
+def _check_count(content: Content, edges: int, order: int) -> None:
+    """Refuse more edges than a file can carry, whose number goes by the tolerance's root of an ``order``."""
+    if edges > _MOST_EDGES:
+        works = Nearest(rounded(content.tolerance * (edges / _MOST_EDGES) ** order, up=True, digits=6))
+        raise ParameterError("tolerance", content.tolerance, "too_many_edges", works, edges=edges)
+
+
+def _kernel_curves(content: Content, tolerance: float) -> Curves:
+    """Splines of the solid's profiles."""
+    from parts.solids.brep import body_outlines
+
+    return body_outlines(content.body, tolerance)
+
+
+def _flat_reach(content: Content) -> float:
+    return content.section.region.outer.reach()
+
+
+def _mesh_rounding(content: Content) -> float:
+    body = content.body
+    return _FLOAT32 * (body.section_reach() + body.steepness() * max(map(abs, body.levels())))
+
+
+def _kernel_rounding(content: Content) -> float:
+    return _STEP_ROUNDING * content.body.section_reach()
+
+
+def _write_laser_dxf(content: Content, made: Chords, file: Path) -> dict[str, int]:
+    from exporters.formats.laser_dxf import write_laser_dxf
+
+    return write_laser_dxf(file, content.section.region.layers(), made, version=content.export.dxf_version)
+
+
+def _write_drawing_dxf(content: Content, made: Curves, file: Path) -> dict[str, int]:
+    from exporters.formats.drawing_dxf import write_drawing_dxf
+
+    return write_drawing_dxf(file, made)
+
+
+def _write_svg(content: Content, made: Chords, file: Path) -> dict[str, int]:
+    from exporters.formats.svg import write_laser_svg
+
+    return write_laser_svg(file, content.section.region.layers(), made)
+
+
+def _write_stl(content: Content, made: Chords, file: Path) -> dict[str, int]:
+    from exporters.formats.stl import write_stl
+    from parts.solids.mesh import body_mesh
+
+    return write_stl(file, body_mesh(content.body, made))
+
+
+def _write_3mf(content: Content, made: Chords, file: Path) -> dict[str, int]:
+    from exporters.formats.threemf import write_3mf
+    from parts.solids.mesh import body_mesh
+
+    return write_3mf(file, content.part.id, body_mesh(content.body, made), content.part.colour)
+
+
+def _write_3mf_assembly(
+    title: str, contents: Sequence[Content], made: dict[str, Chords], places: Places, file: Path
+) -> dict[str, int]:
+    from exporters.formats.threemf import MeshPart, write_3mf_assembly
+    from parts.solids.mesh import body_mesh
+
+    meshes = [MeshPart(c.part.id, body_mesh(c.body, made[c.part.id]), c.part.colour) for c in contents]
+    return write_3mf_assembly(file, title, meshes, places)
+
+
+def _write_step(content: Content, made: Curves, file: Path) -> dict[str, int]:
+    from exporters.formats.step import write_step
+    from parts.solids.brep import body_solid
+
+    return write_step(file, content.part.id, body_solid(content.body, made), content.part.colour)
+
+
+def _write_step_assembly(
+    title: str, contents: Sequence[Content], made: dict[str, Curves], places: Places, file: Path
+) -> dict[str, int]:
+    from exporters.formats.step import StepPart, write_step_assembly
+    from parts.solids.brep import body_solid
+
+    solids = [StepPart(c.part.id, body_solid(c.body, made[c.part.id]), c.part.colour) for c in contents]
+    return write_step_assembly(file, title, solids, places)
+
+
+REGISTRY: dict[str, FileFormat[Any]] = {
+    row.name: row
+    for row in (
+        FileFormat("dxf", lambda c: _DXF_ROUNDING * _flat_reach(c), _arcs, _write_laser_dxf),
+        FileFormat("drawing", lambda c: _DXF_ROUNDING * _flat_reach(c), _splines, _write_drawing_dxf),
+        FileFormat("svg", lambda c: _SVG_ROUNDING, _arcs, _write_svg),
+        FileFormat("stl", _mesh_rounding, _chords, _write_stl),
+        # its float32 numbers are written as text, which rounds them once more
+        FileFormat("3mf", lambda c: 2 * _mesh_rounding(c), _chords, _write_3mf, _write_3mf_assembly),
+        FileFormat("step", _kernel_rounding, _kernel_curves, _write_step, _write_step_assembly),
+    )
+}

@@ -1,0 +1,94 @@
+"""SVG in mm: laser outlines as plain paths and circles."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from geometry.curves.curve import Complex, Real
+from geometry.plane.contour import Approximation, Contour, edge_points
+
+STROKES = {"ENGRAVE": "#0000ff", "CUT_INNER": "#00ff00", "CUT_OUTER": "#ff0000"}
+# exporters/formats/job.py states what this rounding may do to an outline
+_DIGITS = 9
+_MARGIN = 2.0
+# arcs of more than 100 degrees
+_LONG_BULGE = float(np.tan(np.radians(25)))
+
+
+def write_laser_svg(file: Path, layers: tuple[str, ...], boundaries: tuple[Approximation, ...]) -> dict[str, int]:
+    """Write outlines at their true size; one user unit is one mm. No transform, no class, no style sheet."""
+    reach = max(float(np.abs(b.geometry.vertices).max()) for b in boundaries)
+    lines = [head(reach + _MARGIN)]
+    for layer, boundary in zip(layers, boundaries, strict=True):
+        style = f"fill:none;stroke:{STROKES[layer]};stroke-width:0.1"
+        lines.append(_shape(boundary.geometry, f'id="{layer.lower()}" style="{style}"', reach + _MARGIN))
+    save(file, lines)
+    return {"shapes": len(boundaries), "vertices": sum(len(b.geometry) for b in boundaries)}
+
+
+def head(middle: float, extra_width: float = 0.0, extra_height: float = 0.0) -> str:
+    """The opening of a picture 2 ``middle`` mm wide and high, the origin in its middle, and what is added."""
+    width, height = number(2 * middle + extra_width), number(2 * middle + extra_height)
+    return (
+        '<?xml version="1.0" encoding="UTF-8"?>\n<svg xmlns="http://www.w3.org/2000/svg" version="1.1" '
+        f'width="{width}mm" height="{height}mm" viewBox="0 0 {width} {height}">'
+    )
+
+
+def _shape(contour: Contour, attributes: str, middle: float) -> str:
+    """A contour as a path, or as a circle where it is one."""
+    if len(contour) == 2 and np.allclose(np.abs(contour.bulges), 1, rtol=1e-12):
+        centre, radius = contour.vertices.mean(), abs(contour.vertices[0] - contour.vertices[1]) / 2
+        x, y = number(middle + centre.real), number(middle - centre.imag)
+        return f'<circle cx="{x}" cy="{y}" r="{number(radius)}" {attributes}/>'
+    return f'<path d="{path_data(contour, middle)}" {attributes}/>'
+
+
+def path_data(contour: Contour, middle: float) -> str:
+    """Absolute M, L and A commands; y runs down in SVG, so a left turn has sweep flag 0."""
+    vertices, bulges = _quartered(*contour.expanded())
+    ends = np.roll(vertices, -1)
+    xs, ys = (middle + ends.real).tolist(), (middle - ends.imag).tolist()
+    radii = _radii(vertices, ends, bulges).tolist()
+    parts = [f"M{number(middle + vertices[0].real)},{number(middle - vertices[0].imag)}"]
+    for x, y, bulge, radius in zip(xs, ys, bulges.tolist(), radii, strict=True):
+        if bulge == 0:
+            parts.append(f"L{number(x)},{number(y)}")
+        else:
+            r = number(radius)
+            parts.append(f"A{r},{r} 0 {int(abs(bulge) > 1)} {int(bulge < 0)} {number(x)},{number(y)}")
+    return " ".join(parts) + " Z"
+
+
+def _quartered(vertices: Complex, bulges: Real) -> tuple[Complex, Real]:
+    """The same outline with every long arc cut into four: near half a turn, ends and radius hold its centre badly."""
+    long = np.abs(bulges) > _LONG_BULGE
+    if not long.any():
+        return vertices, bulges
+    quarter = np.tan(np.arctan(bulges) / 4)
+    places, heights = [], []
+    for start, end, bulge, part in zip(vertices, np.roll(vertices, -1), bulges, quarter, strict=True):
+        cut = abs(bulge) > _LONG_BULGE
+        shares = np.arange(4) / 4 if cut else np.zeros(1)
+        places.append(edge_points(np.array([start]), np.array([end]), np.array([bulge]), shares).ravel())
+        heights.append(np.full(len(shares), part if cut else bulge))
+    return np.concatenate(places), np.concatenate(heights)
+
+
+def _radii(starts: Complex, ends: Complex, bulges: Real) -> Real:
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.abs(ends - starts) * (1 + bulges**2) / (4 * np.abs(bulges))
+
+
+def number(value: float) -> str:
+    """A coordinate as text."""
+    text = f"{value:.{_DIGITS}f}".rstrip("0").rstrip(".")
+    return "0" if text in ("-0", "") else text
+
+
+def save(file: Path, lines: list[str]) -> None:
+    """Write the lines of a picture and close it."""
+    with file.open("w", encoding="utf-8", newline="\n") as stream:
+        stream.write("\n".join([*lines, "</svg>", ""]))

@@ -1,0 +1,1 @@
+"""From a scene to its files: plan, build, report, read-back, convergence."""

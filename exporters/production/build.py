@@ -1,0 +1,198 @@
+"""Making the files of a plan: written beside, read back, measured, then moved into place together."""
+
+from __future__ import annotations
+
+import errno
+import os
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from exporters.formats.registry import Chords, Shape, number_rounding, shape_of
+from exporters.production.jobs import FileJob, Job, Made, ShapeKey, Written
+from exporters.production.plan import Plan
+from exporters.production.preview import part_preview, scene_preview
+from exporters.production.report import NAME, read_report, write_report
+from geometry.base.errors import ConvergenceError, Nearest, ParameterError, ThinWallError, rounded
+from parts.base.refusal import SceneError, placed
+
+_STAGING = ".building-"
+
+
+def build(
+    plan: Plan,
+    folder: Path,
+    *,
+    verify: bool = True,
+    partial: bool = False,
+    progress: Callable[[str], None] = lambda path: None,
+) -> tuple[list[Written], list[Path], dict[str, Any]]:
+    """Write every job, a preview of every part and the report into ``folder``; what fails its read-back stays out.
+
+    ``partial``: keep what the report in ``folder`` says of other files of the same scene. Returns what was
+    written, the previews, and what the checks found. Nothing half-written is left behind: all is made in a
+    folder beside and moved
+    when all is done; on any exception, an interrupt too, that folder goes.
+    """
+    start = time.perf_counter()
+    checks = _checks(plan)
+    made: dict[ShapeKey, Shape] = {}
+    spent: dict[str, float] = {}
+    for job in plan.jobs:
+        made[job.shape_key], spent[job.path] = approximated(job, plan.source)
+    for job in (member for assembly in plan.assemblies for member in assembly.members):
+        if job.shape_key not in made:
+            made[job.shape_key], _ = approximated(job, plan.source)
+    with staging_folder(folder) as staging:
+        written: list[Written] = []
+        files: tuple[FileJob, ...] = (*plan.jobs, *plan.assemblies, *plan.sheets)
+        for file_job in files:
+            progress(file_job.path)
+            written.append(_write(file_job, made, staging / file_job.path, plan.source, verify=verify))
+            if file_job.path in spent:
+                written[-1].seconds["approximate"] = spent[file_job.path]
+        wanted = dict.fromkeys(j.part.id for j in (*plan.jobs, *(m for a in plan.assemblies for m in a.members)))
+        previews = [part_preview(plan.parts[p], staging, plan.scene.scene.language) for p in wanted]
+        if len(plan.placing.instances) > 1 and len(wanted) == len(plan.parts):
+            previews.append(scene_preview(plan, checks, staging))
+        before = read_report(folder) if partial or any(item.failures for item in written) else None
+        seconds = time.perf_counter() - start
+        write_report(staging / NAME, plan, written, previews, checks, seconds, folder, before, partial=partial)
+        names = [item.job.path for item in written if not item.failures]
+        move_into(folder, staging, [*names, *(p.name for p in previews), NAME])
+    return written, [folder / p.name for p in previews], checks
+
+
+def _checks(plan: Plan) -> dict[str, Any]:
+    """The pairs of a scene: calculated always, held against each other where the scene asks for it."""
+    scene = plan.scene
+    if not plan.placing.needs_check and not scene.checks.interference:
+        return {}
+    from exporters.production.check import scene_checks
+
+    asked, language = scene.checks, scene.scene.language
+    contact, transmission = asked.interference, asked.transmission_error
+    return scene_checks(plan.placing, plan.parts, scene.drives, language, contact=contact, transmission=transmission)
+
+
+def move_into(folder: Path, staging: Path, names: list[str]) -> None:
+    """Move finished files into their place; refused before the first move where a folder stands in the way."""
+    for name in names:
+        if (folder / name).is_dir():
+            raise IsADirectoryError(errno.EISDIR, "a folder stands where a file should go", str(folder / name))
+    for name in names:
+        os.replace(staging / name, folder / name)
+
+
+def approximated(job: Job, source: str) -> tuple[Shape, float]:
+    """Approximated boundaries and the seconds they took; refused in the scene's terms."""
+    start = time.perf_counter()
+    try:
+        return shape_of(job), time.perf_counter() - start
+    except ParameterError as error:
+        raise placed(source, job.place, error, "mm") from error
+    except ConvergenceError as error:
+        place, told = f"{job.place}.tolerance", {"residual": error.residual, "steps": error.iterations}
+        raise SceneError(source, place, job.export.tolerance, "tolerance_not_met", None, "", **told) from error
+
+
+def _write(job: FileJob, made: Made, file: Path, source: str, *, verify: bool) -> Written:
+    start = time.perf_counter()
+    try:
+        entities = job.write(made, file)
+    except ThinWallError as error:
+        raise next(_too_coarse(m, source) for m in job.members if _is_thin(m, m.chords(made))) from error
+    seconds = {"write": time.perf_counter() - start}
+    max_error, bound = job.declared(made)
+    findings = job.findings(made)
+    if not verify:
+        return Written(job, file, max_error, bound, entities, {}, findings, (), seconds)
+    start = time.perf_counter()
+    verdict = job.verify(file, max_error)
+    seconds["verify"] = time.perf_counter() - start
+    findings = (*findings, *verdict.findings)
+    return Written(job, file, max_error, bound, entities, verdict.measured, findings, verdict.failures, seconds)
+
+
+def _is_thin(job: Job, made: Chords) -> bool:
+    from parts.solids.mesh import body_mesh
+
+    try:
+        body_mesh(job.body, made)
+    except ThinWallError:
+        return True
+    return False
+
+
+def _too_coarse(job: Job, source: str) -> SceneError:
+    """The refusal of a tolerance whose chords cross a thin wall, with the nearest one that works, if any does."""
+    from parts.solids.mesh import body_mesh, mesh_outlines
+
+    tolerance = job.tolerance
+    place, part = f"{job.place}.tolerance", job.part.id
+    finer = tolerance / 2
+    while finer >= 8 * number_rounding(job):
+        try:
+            body_mesh(job.body, mesh_outlines(job.body, finer - number_rounding(job), 64 * number_rounding(job)))
+        except ThinWallError:
+            finer /= 2
+            continue
+        works = Nearest(rounded(finer, up=False, digits=9), "at_most")
+        return SceneError(source, place, tolerance, "chords_cross_wall", works, "mm", part=part)
+    return SceneError(source, place, tolerance, "wall_too_thin_for_mesh", None, part=part)
+
+
+@contextmanager
+def staging_folder(folder: Path) -> Iterator[Path]:
+    """A folder beside ``folder`` that is gone afterwards; ``folder`` itself goes too if nothing came into it."""
+    created = missing_folders(folder)
+    staging = folder / f"{_STAGING}{os.getpid()}"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        remove_stale(folder)
+        staging.mkdir()
+        yield staging
+    finally:
+        _remove(staging)
+        remove_empty(created)
+
+
+def missing_folders(folder: Path) -> list[Path]:
+    """A folder and those above it that do not exist yet, the innermost first."""
+    return [p for p in (folder, *folder.parents) if not p.exists()]
+
+
+def remove_stale(folder: Path) -> None:
+    """Remove what builds that were killed have left half-written in a folder."""
+    for stale in folder.glob(f"{_STAGING}*"):
+        if not _is_running(stale.name.removeprefix(_STAGING)):
+            _remove(stale)
+
+
+def remove_empty(created: list[Path]) -> None:
+    """Remove those folders, the innermost first, that nothing came into."""
+    for place in created:
+        if place.is_dir() and not any(place.iterdir()):
+            place.rmdir()
+
+
+def _remove(staging: Path) -> None:
+    if staging.is_dir():
+        for file in staging.iterdir():
+            file.unlink()
+        staging.rmdir()
+
+
+def _is_running(process: str) -> bool:
+    """Whether a process may still be at work; only a POSIX system can be asked without harm."""
+    if os.name != "posix" or not process.isdigit():
+        return True
+    try:
+        os.kill(int(process), 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        return True
+    return int(process) != os.getpid()

@@ -1,0 +1,174 @@
+"""Checks of a scene: pairs on exact curves through one whole pitch, and what instances placed by hand must satisfy."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from geometry.base.tolerance import PLACED_MM
+from parts.base.mate import Mating
+from parts.base.part import Part
+from parts.base.texts import N_, words
+from parts.scene.instances import DriveSpec
+from parts.scene.placing import Closeness, Condition, PlacedMate, Placing
+from parts.texts.checks import condition_message
+from parts.texts.findings import finding_text
+
+if TYPE_CHECKING:
+    from parts.scene.interference import SolidOverlap
+
+# mates that run no gears in each other: of these transmission error is not asked
+_WITHOUT_TEETH = ("fixed", "coaxial", "pin_seat", "eccentric_bearing")
+
+
+def scene_checks(
+    placing: Placing,
+    parts: dict[str, Part],
+    drives: Sequence[DriveSpec],
+    language: str,
+    *,
+    contact: bool,
+    transmission: bool = False,
+) -> dict[str, Any]:
+    """All that is known of how a scene's instances stand to each other.
+
+    ``contact``: interference of the pairs too; ``transmission``: and their transmission error.
+    """
+    checks: dict[str, Any] = {}
+    if placing.mates:
+        checks["mates"] = [_mate(m, language, contact=contact) for m in placing.mates]
+        if transmission:
+            for found, mate in zip(checks["mates"], placing.mates, strict=True):
+                _add_transmission(found, mate)
+        for found, mate in zip(checks["mates"], placing.mates, strict=True):
+            turns = [abs(train[mate.first.id]) for train in placing.turns if mate.first.id in train]
+            if turns:
+                # contact is held against a whole pitch, whatever part of it the drive runs through
+                found["driven_pitches"] = turns[0] * mate.mating.first_teeth
+    if placing.close:
+        checks["neighbours"] = [_neighbours(c, language) for c in placing.close]
+    if contact and len(placing.instances) > 1:
+        from parts.scene.interference import solid_overlaps
+
+        overlaps = solid_overlaps(placing, parts)
+        if overlaps:
+            checks["solids"] = [_overlap(o, language) for o in overlaps]
+    if placing.turns:
+        checks["drives"] = [
+            {"instance": d.instance, "turns": d.turns, "train": train}
+            for d, train in zip(drives, placing.turns, strict=True)
+        ]
+    return checks
+
+
+def pair_quantities(mating: Mating) -> dict[str, Any]:
+    """What the calculation of a pair says, lengths in mm."""
+    return {
+        "kind": mating.kind,
+        "first": mating.first,
+        "second": mating.second,
+        "direction_deg": mating.direction_deg,
+        **mating.quantities(),
+    }
+
+
+def check_pair(
+    mating: Mating,
+    language: str,
+    *,
+    second_turn: float = 0.0,
+    centre_shift: float = 0.0,
+    tolerance: float | None = None,
+) -> dict[str, Any]:
+    """The quantities of a pair and its verdict: least gap, where, at which drive angle.
+
+    ``second_turn`` (rad) and ``centre_shift`` (mm): how far the pair stands off the exact one; ``tolerance`` in mm.
+    """
+    found = mating.contact(second_turn, centre_shift, tolerance)
+    if found is None:
+        return pair_quantities(mating)
+    worst, told = found.worst, pair_quantities(mating)
+    if "roller_clearance" in told:
+        # a groove holds its roller from both sides
+        told["walls"] = {k: [min(g), max(g)] for k, g in zip(("inner", "outer"), found.side_gaps, strict=True)}
+    return {
+        **told,
+        "verdict": found.verdict.value,
+        "tolerance": found.tolerance,
+        "gap": worst.gap,
+        "greatest_gap": found.greatest_gap,
+        **_where(mating, worst.drive_angle),
+        "point": [worst.point.real, worst.point.imag],
+        "labels": [label.value for label in worst.labels],
+        "findings": [
+            {"code": f.code, "value": f.value, "limit": f.limit, "text": finding_text(language, f)}
+            for f in mating.findings()
+        ],
+    }
+
+
+def _where(mating: Mating, drive: float) -> dict[str, float]:
+    """Where the first one stands: its turn, or the travel of a plate that slides."""
+    return {"drive_travel": drive} if mating.kind == "wedge_follower" else {"drive_angle_deg": math.degrees(drive)}
+
+
+def _mate(mate: PlacedMate, language: str, *, contact: bool) -> dict[str, Any]:
+    """A mate as its instances stand; contact is sought where its conditions hold."""
+    contact = contact and all(c.met for c in mate.conditions)
+    if not contact:
+        found = pair_quantities(mate.mating)
+    elif mate.only_checks:
+        allowed = max(PLACED_MM, 1e-8 * mate.mating.module)
+        found = check_pair(
+            mate.mating, language, second_turn=mate.second_turn, centre_shift=mate.centre_shift, tolerance=allowed
+        )
+    else:
+        found = check_pair(mate.mating, language)
+    found["direction_deg"] = math.degrees(mate.direction)
+    found["second_rotation_deg"] = math.degrees(mate.second.rotation)
+    if mate.conditions:
+        found["conditions"] = [_condition(c, mate, language) for c in mate.conditions]
+    return found
+
+
+def _add_transmission(found: dict[str, Any], mate: PlacedMate) -> None:
+    """The transmission error of gears in mesh: nothing where the conditions are broken."""
+    if mate.mating.pair is None:
+        if mate.mating.kind not in _WITHOUT_TEETH:
+            found["transmission_error"] = None
+        return
+    if not all(c.met for c in mate.conditions):
+        return
+    found["transmission_error"] = mate.mating.transmission_error(mate.centre_shift)
+
+
+def _condition(condition: Condition, mate: PlacedMate, language: str) -> dict[str, Any]:
+    numbers = {"value": condition.value, "required": condition.required, "tolerance": condition.tolerance}
+    text = words(language).say(condition_message(condition.code, mate.first.id, mate.second.id, **numbers))
+    return {"code": condition.code, "met": condition.met, **numbers, "text": text}
+
+
+def _neighbours(close: Closeness, language: str) -> dict[str, Any]:
+    return {
+        "first": close.first,
+        "second": close.second,
+        "distance": close.distance,
+        "sum_of_tip_radii": close.tip_sum,
+        "text": words(language).text(
+            "{first} and {second} may touch: {value:.6g} mm apart, their tips reach {limit:.6g} mm, no mate joins them",
+            first=close.first,
+            second=close.second,
+            value=close.distance,
+            limit=close.tip_sum,
+        ),
+    }
+
+
+def _overlap(found: SolidOverlap, language: str) -> dict[str, Any]:
+    verdict, told = "overlap", N_("{first} and {second} run into each other: {value:.4g} mm^3 in common as they stand")
+    if found.volume is None:
+        verdict = "undecided"
+        told = N_("{first} and {second}: a wall is too thin to tell whether the solids run into each other; thicken it")
+    text = words(language).text(told, first=found.first, second=found.second, value=found.volume)
+    return {"first": found.first, "second": found.second, "volume": found.volume, "verdict": verdict, "text": text}

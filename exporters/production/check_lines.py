@@ -1,0 +1,102 @@
+"""What the checks of a scene found, in lines for terminals and previews."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from parts.base.texts import N_, Message, Words, filled, words
+from parts.texts.checks import GEAR_PAIR, MATES, VERDICTS
+
+_SENSES = {"clockwise": N_("clockwise"), "counter_clockwise": N_("counter-clockwise")}
+
+
+def check_lines(checks: dict[str, Any], language: str) -> list[str]:
+    """What the checks of a scene found, a line each."""
+    told, lines = words(language), []
+    for mate in _without_repeats(checks.get("mates", [])):
+        text = told.say(_mate_head(mate))
+        if "total_contact_ratio" in mate:
+            text += told.text(", total {total:.4f}", total=mate["total_contact_ratio"])
+        if "verdict" in mate:
+            text += f": {told.text(VERDICTS[mate['verdict']])}, {told.text('least gap {gap:.2g} mm', gap=mate['gap'])}"
+            if mate["verdict"] == "clear" and mate["gap"] <= mate["tolerance"]:
+                text += f"; {told.text('the teeth part on their way')}"
+        if "walls" in mate:
+            walls = told.text(
+                "gaps at the inner wall {inner[0]:.3g} to {inner[1]:.3g} mm, at the outer wall {outer[0]:.3g} to "
+                "{outer[1]:.3g} mm, clearance {clearance:.6g} mm",
+                **mate["walls"],
+                clearance=mate["roller_clearance"],
+            )
+            text += f"; {walls}"
+        lines.append(text)
+        lines += _transmission(mate, told)
+        lines += [told.text("note: {text}", text=f["text"]) for f in mate.get("findings", [])]
+        lines += [told.text("BROKEN: {text}", text=c["text"]) for c in mate.get("conditions", []) if not c["met"]]
+    for close in checks.get("neighbours", []):
+        lines.append(told.text("note: {text}", text=close["text"]))
+    for found in checks.get("solids", []):
+        lines.append(f"{told.text(VERDICTS[found['verdict']])}: {found['text']}")
+    for drive in checks.get("drives", []):
+        train = ", ".join(f"{name} {turns:.6g}" for name, turns in drive["train"].items())
+        lines.append(told.text("drive {instance}: {train} turns", instance=drive["instance"], train=train))
+    return lines
+
+
+def _without_repeats(mates: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Mates of one kind and first one behind the other, of which there is no more to tell, as one with all seconds."""
+    shown: list[dict[str, Any]] = []
+    for mate in mates:
+        last = shown[-1] if shown else {}
+        told = "verdict" in mate or mate.get("findings") or not all(c["met"] for c in mate.get("conditions", []))
+        if not told and mate["kind"] == "pin_seat" and all(last.get(k) == mate[k] for k in ("kind", "first")):
+            shown[-1] = {**last, "second": f"{last['second']}, {mate['second']}"}
+        else:
+            shown.append(mate)
+    return shown
+
+
+def _transmission(mate: dict[str, Any], told: Words) -> list[str]:
+    """The transmission error of a mate, a line for each sense."""
+    if mate.get("transmission_error", {}) is None:
+        return [told.text("no transmission error: it is computed for pairs of involute gears only")]
+    lines = []
+    # helical teeth that bridge the gap along their face run on: only their section has no error of its own
+    if mate.get("transmission_error") == {} and mate.get("total_contact_ratio", 0.0) < 1:
+        lines.append(told.text("no transmission error: the teeth slip past each other"))
+    for sense, found in mate.get("transmission_error", {}).items():
+        turns = "second_arcsec" in found
+        motion = N_('{value:.3g}" of {second}') if turns else N_("{value:.3g} mm of {second}")
+        value = found["second_arcsec" if turns else "second_travel"]
+        lines.append(
+            told.text(
+                "transmission error (peak to peak, first turns {sense}): {value:.3g} mm on the line of action, "
+                "{motion}",
+                sense=told.text(_SENSES[sense]),
+                value=found["line_of_action"],
+                motion=told.text(motion, value=value, second=mate["second"]),
+            )
+        )
+    return lines
+
+
+def _mate_head(mate: dict[str, Any]) -> Message:
+    """Who is joined and how: gear pairs with their numbers, other kinds in the words of their own."""
+    if "contact_ratio" not in mate:
+        return filled(MATES[mate["kind"]], **mate)
+    return filled(
+        GEAR_PAIR,
+        first=mate["first"],
+        second=mate["second"],
+        a_w=mate["working_centre_distance"],
+        alpha_w=mate["working_pressure_angle_deg"],
+        # what undercut and fillets leave of it
+        ratio=min(mate["contact_ratio"], mate["effective_contact_ratio"]),
+    )
+
+
+def has_bad_verdict(checks: dict[str, Any]) -> bool:
+    """Whether something overlaps, could not be decided, or breaks a condition."""
+    mates = checks.get("mates", [])
+    bad = any(found.get("verdict") in ("overlap", "undecided") for found in (*mates, *checks.get("solids", [])))
+    return bad or any(not condition["met"] for mate in mates for condition in mate.get("conditions", []))

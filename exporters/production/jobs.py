@@ -1,0 +1,232 @@
+"""The files of a build, each with all that is done to it: written, held to account, told of in the report."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, cast
+
+import numpy as np
+
+from exporters.formats.registry import BOUNDS, REGISTRY, Chords, Content, Shape, declared_error
+from geometry.base.findings import Finding
+from geometry.base.tolerance import LEAST_SEGMENT_MM
+from parts.scene.formats import Form
+from parts.scene.load import ExportSpec
+from parts.scene.placing import Instance
+
+if TYPE_CHECKING:
+    from exporters.verification.verdict import Verdict
+
+# teeth lose their shape where the tolerance is a larger part of the module
+_COARSE_SHARE = 0.05
+# what boundaries depend on: a part's file and an assembly may share them
+ShapeKey: TypeAlias = tuple[object, ...]
+Made: TypeAlias = Mapping[ShapeKey, Shape]
+
+
+class FileJob(Protocol):
+    """One file of a build; ``made``: the approximated boundaries of its members."""
+
+    @property
+    def export(self) -> ExportSpec:
+        """The table of the scene that asks for it."""
+        ...
+
+    @property
+    def path(self) -> str:
+        """Its name."""
+        ...
+
+    @property
+    def label(self) -> str:
+        """What remarks on it begin with."""
+        ...
+
+    @property
+    def members(self) -> tuple[Job, ...]:
+        """The jobs of the parts in it."""
+        ...
+
+    @property
+    def told(self) -> dict[str, Any]:
+        """What the report says of its content, the part first."""
+        ...
+
+    @property
+    def offset(self) -> float:
+        """How far its boundaries are moved out of the material, mm."""
+        ...
+
+    def write(self, made: Made, file: Path) -> dict[str, int]:
+        """Write it; counts of what is in it."""
+        ...
+
+    def declared(self, made: Made) -> tuple[float, str]:
+        """The bound of all that is in it, mm, and what kind of bound that is."""
+        ...
+
+    def findings(self, made: Made) -> tuple[Finding, ...]:
+        """Remarks on it."""
+        ...
+
+    def verify(self, file: Path, declared: float) -> Verdict:
+        """Read it back and measure; ``declared``: its bound, mm."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Written:
+    """A file that was written and read back, with what was measured on it."""
+
+    job: FileJob
+    file: Path
+    max_error: float
+    bound: str
+    entities: dict[str, int]
+    measured: dict[str, float]
+    findings: tuple[Finding, ...]
+    failures: tuple[str, ...] = ()
+    seconds: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Job(Content):
+    """One part in one file, and where the scene asks for it."""
+
+    path: str
+    place: str
+
+    @property
+    def label(self) -> str:
+        """The part."""
+        return self.part.id
+
+    @property
+    def members(self) -> tuple[Job, ...]:
+        """Itself."""
+        return (self,)
+
+    @property
+    def told(self) -> dict[str, Any]:
+        """The part."""
+        return {"part": self.part.id}
+
+    @property
+    def offset(self) -> float:
+        """Of the section, mm."""
+        return self.section.offset
+
+    @property
+    def shape_key(self) -> ShapeKey:
+        """What its boundaries depend on."""
+        export = self.export
+        return (self.part.id, export.format, export.purpose, export.tolerance, export.curves, self.section.offset)
+
+    def chords(self, made: Made) -> Chords:
+        """Its boundaries, of a laser file or a mesh."""
+        return cast("Chords", made[self.shape_key])
+
+    def write(self, made: Made, file: Path) -> dict[str, int]:
+        """Write the file; counts of what is in it."""
+        return REGISTRY[self.kind.name].write(self, made[self.shape_key], file)
+
+    def declared(self, made: Made) -> tuple[float, str]:
+        """The worst boundary plus the rounding of numbers, mm, and what kind of bound that is."""
+        return declared_error(self, made[self.shape_key])
+
+    def findings(self, made: Made) -> tuple[Finding, ...]:
+        """Remarks on the part, on its section, and on this file of it."""
+        return (*self.part.findings, *self.section.findings, *self.remarks(made))
+
+    def verify(self, file: Path, declared: float) -> Verdict:
+        """Read it back, measure, and put it to the part's probes."""
+        from exporters.verification import judge
+
+        return judge.verify_part(file, self.kind, self.part, self.offset, declared, self.tolerance)
+
+    def remarks(self, made: Made) -> list[Finding]:
+        """Remarks on one file: a tolerance too coarse for the teeth, edges too short for a laser."""
+        part, kind = self.part, self.kind
+        # a part that says itself what its flat outline lacks needs no more
+        says = kind.is_solid or part.is_plate or any(f.code == "flat_pins" for f in part.flat_findings)
+        found = [] if says else [Finding("flat_outline", 0.0, 0.0)]
+        found += [] if kind.is_solid else part.flat_findings
+        # a part without teeth has none to lose
+        limit = _COARSE_SHARE * part.quantities.get("pitch", math.inf) / math.pi
+        if not kind.is_cad and self.tolerance > limit:
+            found.append(Finding("coarse_tolerance", self.tolerance, limit))
+        if kind.form is Form.ARCS and (short := _short_edges(self.chords(made))):
+            found.append(Finding("short_edges", short, LEAST_SEGMENT_MM))
+        return found
+
+
+def _short_edges(chords: Chords) -> int:
+    """How many edges of a laser file are too short for it."""
+    contours = [a.geometry for a in chords]
+    lengths = [np.abs(c.period_ends() - c.vertices) for c in contours]
+    return sum(int(np.count_nonzero(x < LEAST_SEGMENT_MM)) * c.count for x, c in zip(lengths, contours, strict=True))
+
+
+@dataclass(frozen=True, slots=True)
+class AssemblyJob:
+    """All instances of some parts in one file; ``members`` are the jobs of its parts, whose own paths are not used."""
+
+    name: str
+    export: ExportSpec
+    members: tuple[Job, ...]
+    instances: tuple[Instance, ...]
+    path: str
+    place: str
+
+    @property
+    def label(self) -> str:
+        """The file."""
+        return self.path
+
+    @property
+    def told(self) -> dict[str, Any]:
+        """The instances."""
+        return {"part": None, "instances": [instance.id for instance in self.instances]}
+
+    @property
+    def offset(self) -> float:
+        """Of every section, mm."""
+        return self.members[0].section.offset
+
+    def write(self, made: Made, file: Path) -> dict[str, int]:
+        """Write one prototype per part and an occurrence of it for every instance; counts of what is in the file."""
+        write = REGISTRY[self.members[0].kind.name].write_assembly
+        assert write is not None
+        places = [(i.id, i.part, i.scene_from_part) for i in self.instances]
+        shapes = {m.part.id: made[m.shape_key] for m in self.members}
+        counts = write(self.name, self.members, shapes, places, file)
+        return {**counts, "parts": len(self.members), "instances": len(self.instances)}
+
+    def declared(self, made: Made) -> tuple[float, str]:
+        """The worst bound of its parts, mm, and the weakest kind of bound."""
+        found = [m.declared(made) for m in self.members]
+        return max(error for error, _ in found), max((bound for _, bound in found), key=BOUNDS.index)
+
+    def findings(self, made: Made) -> tuple[Finding, ...]:
+        """Remarks on the sections and meshes in it, and on offset parts that stand in mesh."""
+        found = dict.fromkeys(f for m in self.members for f in (*m.section.findings, *m.remarks(made)))
+        if self.export.offset > 0 and len(self.instances) > 1:
+            found[Finding("offset_in_mesh", self.export.offset, 2 * self.export.offset)] = None
+        return tuple(found)
+
+    def verify(self, file: Path, declared: float) -> Verdict:
+        """Read it back and measure every part in its place."""
+        from exporters.verification.assembly import expected_of, verify_assembly
+
+        expected = expected_of(self.name, {m.part.id: m.part for m in self.members}, self.offset, self.instances)
+        return verify_assembly(file, self.members[0].kind, expected, declared, self.members[0].tolerance)
+
+
+def assembly_name(scene: str) -> str:
+    """A scene's name in the letters that every program reads, for the title of its assembly."""
+    text = re.sub(r"[^A-Za-z0-9._-]", "_", scene)
+    return text if re.search("[A-Za-z0-9]", text) else "assembly"

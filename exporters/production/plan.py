@@ -1,0 +1,209 @@
+"""From a validated scene to jobs: which part goes into which file, and every refusal before a byte is written."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib.util import find_spec
+from typing import TYPE_CHECKING
+
+from msgspec.structs import replace
+
+from exporters.production.jobs import AssemblyJob, Job, assembly_name
+from geometry.base.errors import GeometryError, OffsetError, ParameterError
+from geometry.plane.offset_region import OffsetRegion
+from parts.base.part import Part
+from parts.base.reasons import reason
+from parts.base.refusal import SceneError, meant, placed
+from parts.base.schema import unit_of
+from parts.base.texts import N_, Message, Text, filled, message
+from parts.keys.wheel import as_typed
+from parts.scene.formats import FORMATS, Form, file_kind
+from parts.scene.load import ExportSpec, SceneFile, default_export, make_parts
+from parts.scene.placing import Placing, place
+
+if TYPE_CHECKING:
+    from exporters.production.sheets import SheetJob
+    from parts.base.mate import Mating
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """The files of a build, the parts they need, where these stand, and what was left out and why."""
+
+    source: str
+    scene: SceneFile
+    parts: dict[str, Part]
+    placing: Placing
+    jobs: tuple[Job, ...]
+    assemblies: tuple[AssemblyJob, ...]
+    left_out: tuple[tuple[str, Text], ...]
+    sheets: tuple[SheetJob, ...] = ()
+
+
+def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_formats: list[str]) -> Plan:
+    """Jobs in the order of the scene file; ``only_…`` (empty: all) leave the rest out.
+
+    Raises
+    ------
+    SceneError
+        An unknown part or format, two exports into one file, or an outline that does not survive its offset.
+    """
+    for name in only_parts:
+        if name not in scene.parts:
+            known = list(scene.parts)
+            raise SceneError(source, "--part", name, "no_such_part", meant(name, known), known=known)
+    for name in only_formats:
+        if name not in FORMATS:
+            raise SceneError(source, "--format", name, "unknown_format", meant(name, FORMATS), known=list(FORMATS))
+    parts, matings = make_parts(scene, source)
+    placing = place(scene.instances, scene.drives, parts, matings, source)
+    exports = _wanted_exports(scene, source, only_formats)
+    left_out: list[tuple[str, Text]] = [
+        (f"exports[{i + 1}]", message("format {format} was not asked for", format=e.format))
+        for i, e in enumerate(scene.exports)
+        if only_formats and e.format not in only_formats
+    ]
+    left_out += [(f"parts.{p}", N_("was not asked for")) for p in parts if only_parts and p not in only_parts]
+    exports, unmakeable = _without_kernel(exports, source, only_formats)
+    left_out += unmakeable
+    used = {p for _, e in exports for p in e.parts or parts}
+    left_out += [(f"parts.{p}", N_("no export asks for it")) for p in parts if p not in used]
+    jobs: list[Job] = []
+    assemblies: list[AssemblyJob] = []
+    sheets: list[SheetJob] = []
+    taken: dict[str, Text] = {f"{part}.preview.svg".lower(): Message(N_("the preview of the part")) for part in parts}
+    for where, export in exports:
+        if only_parts and (export.assembly or (export.format == "sheet" and export.purpose != "cam")):
+            alone = N_("an assembly of all its parts was not asked for")
+            left_out.append((where, alone if export.assembly else N_("a sheet of several parts was not asked for")))
+            continue
+        if export.format == "sheet":
+            sheets += _sheets(scene, matings, _of_cams(export, parts, only_parts), where, source, taken)
+            continue
+        made = []
+        for part_id in export.parts or list(parts):
+            if only_parts and part_id not in only_parts:
+                continue
+            path = "" if export.assembly else _file_name(part_id, export, [e for _, e in exports])
+            _take(path, where, taken, source)
+            job = Job(parts[part_id], export, _section(parts[part_id], export, source, where), path, where)
+            if job.kind.is_solid:
+                _check_body(job, scene, source)
+            made.append(job)
+        if not export.assembly:
+            jobs += made
+        else:
+            path = _assembly_path(scene, export, [e for _, e in exports])
+            _take(path, where, taken, source)
+            stand = tuple(i for i in placing.instances if i.part in (export.parts or parts))
+            assemblies.append(AssemblyJob(assembly_name(scene.name), export, tuple(made), stand, path, where))
+    return Plan(source, scene, parts, placing, tuple(jobs), tuple(assemblies), tuple(left_out), tuple(sheets))
+
+
+def _of_cams(export: ExportSpec, parts: dict[str, Part], only_parts: list[str]) -> ExportSpec:
+    """The export of the cams that were asked for by name: theirs is the one sheet of a single part."""
+    if not only_parts:
+        return export
+    return replace(export, parts=[p for p in export.parts or parts if p in only_parts and parts[p].kind == "cam"])
+
+
+def _sheets(
+    scene: SceneFile, matings: list[Mating], export: ExportSpec, where: str, source: str, taken: dict[str, Text]
+) -> list[SheetJob]:
+    if export.parts == []:
+        return []
+    from exporters.production.sheets import sheet_jobs
+
+    found = sheet_jobs(scene, matings, export, where, source)
+    for job in found:
+        _take(job.path, where, taken, source)
+    return found
+
+
+def _take(path: str, where: str, taken: dict[str, Text], source: str) -> None:
+    """Note the name of a file; two exports into one file are refused."""
+    if not path:
+        return
+    if path.lower() in taken:
+        raise SceneError(source, f"{where}.name", path, "same_file", None, other=taken[path.lower()])
+    taken[path.lower()] = where
+
+
+def _without_kernel(
+    exports: list[tuple[str, ExportSpec]], source: str, only_formats: list[str]
+) -> tuple[list[tuple[str, ExportSpec]], list[tuple[str, Text]]]:
+    """The exports that can be made, and those left out because the CAD kernel is not installed.
+
+    Raises
+    ------
+    SceneError
+        STEP was asked for by name, or nothing else was.
+    """
+    places = [where for where, e in exports if file_kind(e.format, e.purpose).form is Form.FACES]
+    if not places or find_spec("OCP") is not None:
+        return exports, []
+    if "step" in only_formats or len(places) == len(exports):
+        raise SceneError(source, f"{places[0]}.format", "step", "needs_kernel")
+    why = message("STEP {why}", why=filled(reason("needs_kernel")))
+    return [(w, e) for w, e in exports if w not in places], [(where, why) for where in places]
+
+
+def _check_body(job: Job, scene: SceneFile, source: str) -> None:
+    """Refuse a solid that does not exist, in the key that asks for it."""
+    try:
+        _ = job.body
+    except ParameterError as refusal:
+        keys = scene.parts[job.part.id]
+        error = as_typed(keys, refusal)
+        if error.name == "offset":
+            raise placed(source, job.place, error, "mm") from error
+        raise placed(source, f"parts.{job.part.id}", error, unit_of(type(keys), error.name)) from error
+
+
+def _wanted_exports(scene: SceneFile, source: str, only_formats: list[str]) -> list[tuple[str, ExportSpec]]:
+    """The scene's exports with their places; formats asked for on the command line alone get their defaults."""
+    exports = [(f"exports[{i + 1}]", e) for i, e in enumerate(scene.exports)]
+    for name in only_formats:
+        if not any(e.format == name for _, e in exports):
+            spec = default_export(name)
+            exports.append((f"--format {name}", spec))
+    exports = [(where, e) for where, e in exports if not only_formats or e.format in only_formats]
+    if not exports:
+        raise SceneError(source, "exports", None, "no_exports")
+    return exports
+
+
+def _file_name(part_id: str, export: ExportSpec, exports: list[ExportSpec]) -> str:
+    """``<part>.<ext>``; with the export's name (default: its purpose) in between where two exports share an ending."""
+    sharing = [
+        e for e in exports if e.format == export.format and not e.assembly and (e.parts is None or part_id in e.parts)
+    ]
+    if len(sharing) > 1:
+        return f"{part_id}.{export.name or export.purpose}.{export.format}"
+    return f"{part_id}.{export.format}"
+
+
+def _assembly_path(scene: SceneFile, export: ExportSpec, exports: list[ExportSpec]) -> str:
+    """``<scene>.<ext>``; with a word in between where the export has a name, or another file would be the same."""
+    alike = [e for e in exports if e.format == export.format]
+    if export.name or sum(e.assembly for e in alike) > 1:
+        return f"{scene.name}.{export.name or export.purpose}.{export.format}"
+    parts = {p.lower() for e in alike if not e.assembly for p in e.parts or scene.parts}
+    word = ".assembly" if scene.name.lower() in parts else ""
+    return f"{scene.name}{word}.{export.format}"
+
+
+def _section(part: Part, export: ExportSpec, source: str, place: str) -> OffsetRegion:
+    """The exact section with the export's kerf or offset, refused in the export's own key."""
+    try:
+        return part.section(export.kerf / 2 if export.kerf else export.offset)
+    except OffsetError as error:
+        key, given, cure = "offset", export.offset, error.nearest
+        if export.kerf:
+            key, given, cure = "kerf", export.kerf, cure and cure.scaled(2)
+        why = filled(reason(error.code))
+        raise SceneError(source, f"{place}.{key}", given, "of_part", cure, "mm", part=part.id, why=why) from error
+    except ParameterError as error:
+        raise placed(source, f"parts.{part.id}", error) from error
+    except GeometryError as error:
+        raise SceneError(source, f"parts.{part.id}", None, "no_outline", None, why=str(error)) from error

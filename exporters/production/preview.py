@@ -1,0 +1,198 @@
+"""Pictures for people: every part with its circles, and the scene with all its instances in their places."""
+
+from __future__ import annotations
+
+import cmath
+from pathlib import Path
+from textwrap import wrap
+from typing import Any
+
+import numpy as np
+
+from exporters.formats.svg import head, number, path_data, save
+from exporters.production.check_lines import check_lines
+from exporters.production.plan import Plan
+from exporters.production.preview_labels import Label, spread_labels
+from geometry.approximation.chords import approximate_profile
+from geometry.curves.curve import Complex
+from geometry.plane.contour import Approximation, Contour, edge_points
+from geometry.plane.profile import Profile
+from parts.base.part import Part
+from parts.base.texts import words
+from parts.texts.findings import finding_text
+from parts.texts.quantities import quantity_name
+
+# letters of the caption that fit beside a part, and above a scene
+_CAPTION_LETTERS, _WIDE_LETTERS = 42, 100
+# of pins of one piece, which stand out of their plate
+_PIN_STYLE = "fill:#7f8c99;stroke:#202830"
+# outlines of more curves than this are drawn by so many points of each: arcs take seconds to fit
+_MOST_ARCS, _POINTS = 300, 8
+_FILLS = ("#b8c4d0", "#d9c39a", "#b5cfae", "#d3b3b3", "#bdb6d6")
+
+
+def part_preview(part: Part, folder: Path, language: str) -> Path:
+    """The filled part, its circles with their diameters, and what was noticed."""
+    boundaries = _outlines(part)
+    remarks = [finding_text(language, f) for f in part.findings]
+    reach = max(float(np.abs(b.geometry.vertices).max()) for b in boundaries)
+    middle = reach * 1.08
+    text = reach / 22
+    named = part.circles | part.quantities
+    told = words(language)
+    rows = [f"{quantity_name(told, k)}  {v if isinstance(v, int) else format(v, '.4f')}" for k, v in named.items()]
+    remarks = [line for remark in remarks for line in wrap(remark, _CAPTION_LETTERS)]
+    lines = [
+        head(
+            middle,
+            extra_width=text * 24,
+            extra_height=max(0.0, text * 1.7 * (len(rows) + len(remarks) + 2) - 2 * middle),
+        )
+    ]
+    lines.append('<rect width="100%" height="100%" style="fill:#ffffff"/>')
+    data = " ".join(path_data(b.geometry, middle) for b in reversed(boundaries))
+    fill = part.colour or "#b8c4d0"
+    lines.append(
+        f'<path d="{data}" style="fill:{fill};fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 400:.4g}"/>'
+    )
+    pins = " ".join(path_data(c, middle) for c in _solid_pins(part, boundaries))
+    if pins:
+        lines.append(f'<path d="{pins}" style="{_PIN_STYLE};stroke-width:{reach / 400:.4g}"/>')
+    dash = f"{reach / 30:.4g} {reach / 120:.4g} {reach / 200:.4g} {reach / 120:.4g}"
+    for name, diameter in part.circles.items():
+        colour = _CIRCLE_COLOURS.get(name, "#808080")
+        line = f"fill:none;stroke:{colour};stroke-width:{reach / 600:.4g};stroke-dasharray:{dash}"
+        lines.append(f'<circle cx="{number(middle)}" cy="{number(middle)}" r="{number(diameter / 2)}" style="{line}"/>')
+    lines += _cross(middle, reach)
+    lines += _caption([part.id, *rows, *remarks], 2 * middle + text, text)
+    file = folder / f"{part.id}.preview.svg"
+    save(file, lines)
+    return file
+
+
+def scene_preview(plan: Plan, checks: dict[str, Any], folder: Path) -> Path:
+    """All instances in their places, the upper ones last, and what the checks found."""
+    language = plan.scene.scene.language
+    outlines = {part: _outlines(plan.parts[part]) for part in dict.fromkeys(i.part for i in plan.placing.instances)}
+    stand = sorted(plan.placing.instances, key=lambda i: i.at[2])
+    outers = [_samples(outlines[i.part][-1].geometry) * cmath.exp(1j * i.rotation) + i.centre for i in stand]
+    points = np.concatenate(outers)
+    left, right = float(points.real.min()), float(points.real.max())
+    low, high = float(points.imag.min()), float(points.imag.max())
+    reach = max(right - left, high - low) / 2
+    middle, shift = reach * 1.08, -complex(left + right, low + high) / 2
+    # a wide scene is drawn wide: what is above and below it is cut off
+    spare = max(0.0, 2 * (middle - (high - low) / 2 - 0.08 * reach))
+    rows = [plan.scene.scene.title or plan.scene.name, *check_lines(checks, language)]
+    rows = [line for row in rows for line in wrap(row, _WIDE_LETTERS)]
+    size = reach / 30
+    caption = size * 1.7 * (len(rows) + 1)
+    lines = [head(middle, extra_height=caption - spare)]
+    lines.append('<rect width="100%" height="100%" style="fill:#ffffff"/>')
+    lines.append(f'<g transform="translate(0 {number(caption - spare / 2)})">')
+    labels: list[Label] = []
+    for index, instance in enumerate(stand):
+        turn = cmath.exp(1j * instance.rotation)
+        placed = [_placed(b.geometry, turn, instance.centre + shift) for b in reversed(outlines[instance.part])]
+        data = " ".join(path_data(contour, middle) for contour in placed)
+        fill = plan.parts[instance.part].colour or _FILLS[index % len(_FILLS)]
+        style = f"fill:{fill};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 600:.4g}"
+        lines.append(f'<path d="{data}" style="{style}"/>')
+        solid = _solid_pins(plan.parts[instance.part], outlines[instance.part])
+        pins = " ".join(path_data(_placed(c, turn, instance.centre + shift), middle) for c in solid)
+        if pins:
+            lines.append(f'<path d="{pins}" style="{_PIN_STYLE};stroke-width:{reach / 600:.4g}"/>')
+        place = instance.centre + shift
+        x, y = (
+            middle + place.real,
+            middle - place.imag - _label_height(outlines[instance.part], outers[index] - instance.centre),
+        )
+        labels.append(Label(instance.id, x, y, size))
+    style = f"font-family:sans-serif;font-size:{size:.4g}px;text-anchor:middle;fill:#202830"
+    for label in spread_labels(labels):
+        lines.append(f'<text x="{label.x:.4g}" y="{label.y:.4g}" style="{style}">{_escaped(label.text)}</text>')
+    lines.append("</g>")
+    lines += _caption(rows, size, size)
+    file = folder / f"{scene_preview_name(plan)}"
+    save(file, lines)
+    return file
+
+
+def scene_preview_name(plan: Plan) -> str:
+    """``<scene>.preview.svg``; with a word in between where a part has the scene's name."""
+    alike = plan.scene.name.lower() in {p.lower() for p in plan.parts}
+    return f"{plan.scene.name}{'.assembly' if alike else ''}.preview.svg"
+
+
+def _outlines(part: Part) -> tuple[Approximation, ...]:
+    region = part.section(0.0).region
+    tolerance = max(2e-4 * region.outer.reach(), 1e-6)
+    return tuple(
+        approximate_profile(p, tolerance, arcs=True) if len(p.period) <= _MOST_ARCS else _sampled(p, tolerance)
+        for p in region.profiles()
+    )
+
+
+def _sampled(profile: Profile, tolerance: float) -> Approximation:
+    """An outline of very many curves by points of theirs, for the eye."""
+    points = [s.curve.point(np.linspace(*s.curve.domain, _POINTS + 1)[:-1]) for s in profile.period]
+    plane = np.concatenate(points)
+    contour = Contour(plane, np.zeros(len(plane)), profile.count, profile.clockwise)
+    return Approximation(contour, tolerance, "sampled", tolerance)
+
+
+def _solid_pins(part: Part, outlines: tuple[Approximation, ...]) -> list[Contour]:
+    """Where a flat outline has holes in place of pins of one piece: the holes on the pin circle."""
+    if not any(f.code == "flat_pins" for f in part.flat_findings):
+        return []
+    radius = part.circles["pin_circle_diameter"] / 2
+    contours = [a.geometry for a in outlines[:-1]]
+    centres = [complex(np.mean(c.expanded()[0])) for c in contours]
+    return [c for c, at in zip(contours, centres, strict=True) if abs(abs(at) - radius) < 1e-6 * radius]
+
+
+def _samples(contour: Contour) -> Complex:
+    """Points all along a contour."""
+    vertices, bulges = contour.expanded()
+    return edge_points(vertices, np.roll(vertices, -1), bulges, np.linspace(0, 1, 9)[:-1]).ravel()
+
+
+def _label_height(outlines: tuple[Approximation, ...], outer: Complex) -> float:
+    """Height over the axis at which a name stands on material: half way from the largest hole about it to the teeth."""
+    inner = max((float(np.abs(a.geometry.vertices).max()) for a in outlines[:-1]), default=0.0)
+    if not outlines[:-1] and outlines[-1].geometry.count == 1:
+        # no wheel: just above its lowest edge
+        return float(outer.imag.min()) + 0.03 * float(np.ptp(outer.real))
+    if inner >= float(np.abs(outer).min()):
+        inner = 0.0
+    return -(inner + float(np.abs(outer).min())) / 2
+
+
+def _placed(contour: Contour, turn: complex, shift: complex) -> Contour:
+    vertices, bulges = contour.expanded()
+    return Contour(vertices * turn + shift, bulges)
+
+
+_CIRCLE_COLOURS = {"reference_diameter": "#c03020", "base_diameter": "#2060c0", "root_form_diameter": "#209050"}
+
+
+def _cross(middle: float, reach: float) -> list[str]:
+    """Centre lines."""
+    style = f'style="stroke:#c03020;stroke-width:{reach / 600:.4g}"'
+    ends = number(middle - reach * 1.05), number(middle + reach * 1.05), number(middle)
+    return [
+        f'<line x1="{ends[0]}" y1="{ends[2]}" x2="{ends[1]}" y2="{ends[2]}" {style}/>',
+        f'<line x1="{ends[2]}" y1="{ends[0]}" x2="{ends[2]}" y2="{ends[1]}" {style}/>',
+    ]
+
+
+def _caption(rows: list[str], left: float, size: float) -> list[str]:
+    style = f"font-family:sans-serif;font-size:{size:.4g}px;fill:#202830"
+    return [
+        f'<text x="{left:.4g}" y="{(i + 1.5) * size * 1.7:.4g}" style="{style}">{_escaped(row)}</text>'
+        for i, row in enumerate(rows)
+    ]
+
+
+def _escaped(text: str) -> str:
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")

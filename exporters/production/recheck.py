@@ -1,0 +1,125 @@
+"""``higherpair verify``: files on disk against the part that the report beside them names."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from exporters.production.jobs import assembly_name
+from exporters.production.kept import failure_of
+from exporters.production.report import NAME, read_report
+from exporters.verification.judge import verify_part
+from exporters.verification.verdict import Verdict
+from geometry.base.errors import GeometryError
+from parts.base.refusal import SceneError
+from parts.scene.formats import FileKind, Form, file_kind
+from parts.scene.load import SceneFile, make_parts, scene_from_resolved
+from parts.scene.placing import place
+
+
+@dataclass(frozen=True, slots=True)
+class Recheck:
+    """The verdict on one file; ``same_bytes``: it is the very file that was reported."""
+
+    file: Path
+    verdict: Verdict
+    declared: float
+    tolerance: float
+    same_bytes: bool
+
+
+def recheck(file: Path) -> Recheck:
+    """Hold one file against its report; a preview is only compared byte by byte.
+
+    Raises
+    ------
+    SceneError
+        There is no such file, or no report that knows it.
+    """
+    if not file.is_file():
+        raise SceneError(str(file), "", None, "folder_of_files" if file.is_dir() else "no_such_file")
+    source = str(file.parent / NAME)
+    if not (file.parent / NAME).is_file():
+        raise SceneError(str(file), "", None, "no_report_beside", None, name=NAME)
+    report = read_report(file.parent)
+    try:
+        if report is None:
+            raise SceneError(source, "", None, "no_report")
+        digest = hashlib.sha256(file.read_bytes()).hexdigest()
+        previews = {entry["path"]: entry["sha256"] for entry in report["previews"]}
+        if file.name in previews:
+            same = digest == previews[file.name]
+            return Recheck(file, Verdict({}, () if same else ("the preview has been changed",)), 0.0, 0.0, same)
+        entries = {entry["path"]: entry for entry in report["files"]}
+        if file.name in entries:
+            return _against(file, source, report, entries[file.name], digest)
+        failure = failure_of(report, file.name)
+    except (KeyError, TypeError, AttributeError, ArithmeticError, RecursionError, GeometryError) as error:
+        raise SceneError(source, "", None, "damaged_report", None, why=str(error)) from error
+    except ValueError as error:
+        if isinstance(error, SceneError):
+            raise
+        raise SceneError(source, "", None, "damaged_report", None, why=str(error)) from error
+    if failure is not None:
+        code = "last_build_failed" if failure.fits else "last_build_failed_otherwise"
+        raise SceneError(str(file), "", None, code, None, why=failure.why)
+    code = "not_in_report" if entries else "not_in_empty_report"
+    raise SceneError(str(file), "", None, code, None, name=NAME, known=[str(path) for path in entries])
+
+
+def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, Any], digest: str) -> Recheck:
+    scene = scene_from_resolved(report["scene"], source)
+    if entry["format"] == "sheet":
+        return _against_sheet(file, source, scene, entry, digest)
+    if entry["part"] is None:
+        return _against_assembly(file, source, scene, entry, digest)
+    part = make_parts(scene, source)[0][entry["part"]]
+    declared, tolerance = float(entry["max_error"]), float(entry["tolerance"])
+    kind = file_kind(entry["format"], entry["purpose"])
+    _needs_kernel(file, kind)
+    also = audited if kind.form is Form.ARCS and kind.format == "dxf" else None
+    verdict = verify_part(file, kind, part, float(entry["offset"]), declared, tolerance, also)
+    return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
+
+
+def audited(file: Path) -> None:
+    """What ezdxf finds wrong with a laser DXF that our own reader found good is an error."""
+    from exporters.formats.read_drawing import opened
+
+    opened(file)
+
+
+def _against_sheet(file: Path, source: str, scene: SceneFile, entry: dict[str, Any], digest: str) -> Recheck:
+    """A sheet: drawn again from the scene, and the file measured against that."""
+    from exporters.production.plan import plan_build
+
+    plan = plan_build(scene, source, [], ["sheet"])
+    job = {sheet.path: sheet for sheet in plan.sheets}[entry["path"]]
+    declared, tolerance = float(entry["max_error"]), float(entry["tolerance"])
+    return Recheck(file, job.verify(file, declared), declared, tolerance, digest == entry["sha256"])
+
+
+def _against_assembly(file: Path, source: str, scene: SceneFile, entry: dict[str, Any], digest: str) -> Recheck:
+    """An assembly file: its instances by the report, their places worked out again."""
+    from exporters.verification.assembly import expected_of, verify_assembly
+
+    made, matings = make_parts(scene, source)
+    stand = {i.id: i for i in place(scene.instances, scene.drives, made, matings, source).instances}
+    instances = [stand[name] for name in entry["instances"]]
+    declared, tolerance = float(entry["max_error"]), float(entry["tolerance"])
+    kind = file_kind(entry["format"], entry["purpose"])
+    if not kind.assembly or not instances:
+        raise KeyError(f"an assembly of {len(instances)} instances, format {kind.format}")
+    _needs_kernel(file, kind)
+    used = {i.part: made[i.part] for i in instances}
+    expected = expected_of(assembly_name(scene.name), used, float(entry["offset"]), instances)
+    verdict = verify_assembly(file, kind, expected, declared, tolerance)
+    return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
+
+
+def _needs_kernel(file: Path, kind: FileKind) -> None:
+    if kind.form is Form.FACES and find_spec("OCP") is None:
+        raise SceneError(str(file), "", None, "needs_kernel_to_be_read")

@@ -1,0 +1,176 @@
+"""``report.json``: what was made, what was measured on it, and the scene that made it."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from exporters import __version__
+from exporters.production.jobs import Written
+from exporters.production.kept import kept_file
+from exporters.production.plan import Plan
+from geometry.base.findings import Finding
+from parts.base.part import Part
+from parts.base.texts import ENGLISH, languages, words
+from parts.scene.load import resolved
+from parts.scene.placing import Instance
+from parts.texts.findings import finding_text
+
+NAME = "report.json"
+
+
+def write_report(
+    file: Path,
+    plan: Plan,
+    written: list[Written],
+    previews: list[Path],
+    checks: dict[str, Any],
+    seconds: float,
+    folder: Path,
+    before: dict[str, Any] | None,
+    *,
+    partial: bool,
+) -> None:
+    """Write the report of a build in ``folder``.
+
+    ``before``: the report that lies there; ``partial``: this one is merged into it by path.
+    """
+    language = plan.scene.scene.language
+    report: dict[str, Any] = {
+        "scene": resolved(plan.scene),
+        "parts": {
+            part.id: {
+                "kind": part.kind,
+                **part.circles,
+                **part.quantities,
+                **_mass(part, written),
+                "findings": _findings(part.findings, language),
+            }
+            for part in plan.parts.values()
+        },
+        "instances": {instance.id: _placement(instance) for instance in plan.placing.instances},
+        "files": [_entry(item, language) for item in written if not item.failures],
+        "failed": [_failed(item, folder, resolved(plan.scene), before) for item in written if item.failures],
+        "previews": [{"path": p.name, "bytes": p.stat().st_size, "sha256": _sha256(p)} for p in previews],
+        "checks": checks,
+        "left_out": [{"what": what, "why": words(ENGLISH).say(why)} for what, why in plan.left_out],
+        "versions": _versions(written),
+        "run": {
+            "seconds": round(seconds, 4),
+            "stages": {item.job.path: {k: round(v, 5) for k, v in item.seconds.items()} for item in written},
+            "peak_memory_mb": _peak_memory(),
+            "system": sys.platform,
+        },
+    }
+    if partial:
+        _merge(report, before)
+    file.write_text(json.dumps(report, indent=1, ensure_ascii=False) + "\n", encoding="utf-8", newline="\n")
+
+
+def read_report(folder: Path) -> dict[str, Any] | None:
+    """The report that lies in a folder; None where there is none or it cannot be read."""
+    try:
+        report = json.loads((folder / NAME).read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):
+        return None
+    return report if isinstance(report, dict) else None
+
+
+def report_language(file: Path) -> str:
+    """The language of the scene that made a file, as far as its report can tell; English where it cannot."""
+    scene = (read_report(file.parent) or {}).get("scene", {})
+    language = scene.get("scene", {}).get("language") if isinstance(scene, dict) else None
+    return language if language in languages() else ENGLISH
+
+
+def _merge(report: dict[str, Any], before: dict[str, Any] | None) -> None:
+    """Keep what an earlier build of the same scene made and this one did not touch."""
+    if before is None or before.get("scene") != report["scene"]:
+        return
+    touched = {entry["path"] for entry in (*report["files"], *report["failed"])}
+    for key in ("files", "previews", "failed"):
+        fresh = touched if key != "previews" else {entry["path"] for entry in report[key]}
+        kept = [entry for entry in before.get(key, []) if entry.get("path") not in fresh]
+        report[key] = sorted([*kept, *report[key]], key=lambda entry: entry["path"])
+
+
+def _mass(part: Part, written: list[Written]) -> dict[str, Any]:
+    """Mass properties of a part that is built as a solid or whose density is known."""
+    solid = {m.part.id for item in written for m in item.job.members if m.kind.is_solid}
+    if part.density is None and part.id not in solid:
+        return {}
+    from parts.base.materials import mass_properties
+
+    return mass_properties(part.made_by.moments(part.body(0.0)), part.density)
+
+
+def _entry(item: Written, language: str) -> dict[str, Any]:
+    job, export = item.job, item.job.export
+    return {
+        "path": job.path,
+        "format": export.format,
+        "purpose": export.purpose,
+        **job.told,
+        "unit": "mm",
+        "tolerance": export.tolerance,
+        "offset": job.offset,
+        "max_error": item.max_error,
+        "bound": item.bound,
+        "verified": bool(item.measured),
+        "measured": item.measured,
+        "entities": item.entities,
+        "bytes": item.file.stat().st_size,
+        "sha256": _sha256(item.file),
+        "findings": _findings(item.findings, language),
+    }
+
+
+def _failed(item: Written, folder: Path, scene: dict[str, Any], before: dict[str, Any] | None) -> dict[str, Any]:
+    """A file that failed its read-back, and the one of an earlier build that keeps its place."""
+    kept = kept_file(folder / item.job.path, scene, before)
+    return {"path": item.job.path, "failures": list(item.failures), "kept": kept}
+
+
+def _placement(instance: Instance) -> dict[str, Any]:
+    return {
+        "part": instance.part,
+        "at": list(instance.at),
+        "rotation_deg": math.degrees(instance.rotation),
+        "placed_by": instance.placed_by,
+    }
+
+
+def _findings(found: tuple[Finding, ...], language: str) -> list[dict[str, Any]]:
+    return [{"code": f.code, "value": f.value, "limit": f.limit, "text": finding_text(language, f)} for f in found]
+
+
+def _versions(written: list[Written]) -> dict[str, str]:
+    """Versions of what this build used; asking for more would load it."""
+    python = ".".join(map(str, sys.version_info[:3]))
+    versions = {"higherpair": __version__, "python": python, "numpy": np.__version__}
+    exports = [item.job.export for item in written]
+    formats = {"drawing" if e.purpose == "drawing" and e.format == "dxf" else e.format for e in exports}
+    for name, users in (("ezdxf", {"drawing", "sheet"}), ("lib3mf", {"3mf"})):
+        if formats & users and name in sys.modules:
+            versions[name] = str(getattr(sys.modules[name], "__version__", "installed"))
+    return versions
+
+
+def _sha256(file: Path) -> str:
+    return hashlib.sha256(file.read_bytes()).hexdigest()
+
+
+def _peak_memory() -> float | None:
+    """Peak memory of this process, MB; None where the system does not tell."""
+    try:
+        import resource
+    except ImportError:
+        return None
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return round(peak / (1 << 20 if sys.platform == "darwin" else 1 << 10), 1)

@@ -1,0 +1,287 @@
+"""Sheets among the files of a build: which are asked for, what is on them, how they are written and held to account."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from exporters.drawings.verify import verify_sheet
+from exporters.drawings.write import write_sheet
+from exporters.production.jobs import Made
+from exporters.verification.verdict import Verdict
+from geometry.base.errors import Nearest, ParameterError
+from geometry.base.findings import Finding
+from geometry.gears.pictures.meshing import MeshingPicture, meshing_picture
+from geometry.gears.teeth.limits import practicum_undercut
+from geometry.gears.teeth.transverse import overlap_ratio
+from parts.base.mate import Mating
+from parts.base.refusal import SceneError, placed
+from parts.base.schema import unit_of
+from parts.cams.coupler_cam.part import LinkageCamSpec
+from parts.cams.disk_cam.part import CamSpec
+from parts.drawing.canvas import Canvas, decimal, scale_text
+from parts.drawing.expected import Circle, Expected, Meshing
+from parts.drawing.table import Row
+from parts.drawing.title_block import TITLE_BLOCK, draw_title_block, title_block_of
+from parts.drawing.view import TEETH
+from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear
+from parts.mates.sheets.meshing import Facts, meshing_canvas
+from parts.scene.load import ExportSpec, SceneFile
+from parts.texts.sheets import sheet_words
+
+# by how much the device moves its rack at each press of the key, mm: 4 to 5 in practicum, lesson 1; on wheels that are
+# much smaller or larger than its own no more and no less than these parts of the pitch
+RACK_STEP, _MOST_STEP, _LEAST_STEP = 4.5, 1 / 6, 1 / 60
+ENDINGS = ("dxf", "svg")
+
+
+@dataclass(frozen=True)
+class SheetJob:
+    """One file of a sheet; ``members`` are the jobs of parts in it: none."""
+
+    export: ExportSpec
+    expected: Expected
+    path: str
+    place: str
+    members: tuple[()] = ()
+
+    @property
+    def canvas(self) -> Canvas:
+        """What is drawn."""
+        return self.expected.canvas
+
+    @property
+    def label(self) -> str:
+        """The file."""
+        return self.path
+
+    @property
+    def told(self) -> dict[str, Any]:
+        """The size of its paper."""
+        return {"part": None, "paper": self.canvas.paper}
+
+    @property
+    def offset(self) -> float:
+        """None."""
+        return 0.0
+
+    def write(self, made: Made, file: Path) -> dict[str, int]:
+        """Write the file; counts of what is in it."""
+        return write_sheet(file, self.canvas)
+
+    def verify(self, file: Path, declared: float) -> Verdict:
+        """Read it back and measure."""
+        return verify_sheet(file, self.expected, float(self.export.tolerance or 0.0))
+
+    def findings(self, made: Made) -> tuple[Finding, ...]:
+        """None."""
+        return ()
+
+    def declared(self, made: Made) -> tuple[float, str]:
+        """Bound of its splines, mm on paper, and what kind of bound that is."""
+        rounding = 2e-9 if self.path.endswith(".svg") else 2e-15 * max(self.canvas.width, self.canvas.height)
+        return self.canvas.max_error + rounding, "sampled" if self.canvas.sampled else "certified"
+
+
+def sheet_jobs(scene: SceneFile, matings: list[Mating], export: ExportSpec, where: str, source: str) -> list[SheetJob]:
+    """The files of one export.
+
+    Raises
+    ------
+    SceneError
+        The scene has no such pair, or there is nothing to draw of it.
+    """
+    if export.purpose == "generating":
+        expected = _generating(scene, export, where, source)
+        name = f"{scene.name}.{export.name or export.purpose}"
+        return [SheetJob(export, expected, f"{name}.{ending}", where) for ending in ENDINGS]
+    if export.purpose == "cam":
+        from exporters.production.cam_sheets import cam_sheets
+
+        name = f"{scene.name}.{export.name or export.purpose}"
+        made = cam_sheets(scene, export, where, source)
+        for number, (_, drawn) in enumerate(made, 1):
+            _add_title_block(drawn, scene, export, number, len(made))
+        return [SheetJob(export, x, f"{name}.{part}.{ending}", where) for part, x in made for ending in ENDINGS]
+    if all(m.pair is None for m in matings):
+        has_cam = any(isinstance(spec, CamSpec | LinkageCamSpec) for spec in scene.parts.values())
+        code = "shows_gear_pairs" if matings or has_cam else "shows_gear_pairs_of_mates"
+        raise SceneError(source, f"{where}.purpose", export.purpose, code, Nearest("cam") if has_cam else None)
+    if export.mate is not None and not (1 <= export.mate <= len(matings) and matings[export.mate - 1].pair is not None):
+        given, pairs = export.mate, [number for number, mating in enumerate(matings, 1) if mating.pair is not None]
+        works = Nearest(min(pairs, key=lambda number: abs(number - given)))
+        if 1 <= given <= len(matings):
+            kind = matings[given - 1].kind
+            raise SceneError(source, f"{where}.mate", given, "mate_of_no_gears", works, kind=kind)
+        raise SceneError(source, f"{where}.mate", given, "no_such_mate", works)
+    jobs = []
+    for index, mating in enumerate(matings, 1):
+        if export.mate not in (None, index) or mating.pair is None:
+            continue
+        try:
+            expected = _meshing(mating, scene, float(export.tolerance or 0.0), _band(export))
+        except ParameterError as error:
+            raise SceneError(source, f"mates[{index}]", error.value, error.code, None, "", **error.numbers) from error
+        _add_title_block(expected, scene, export, index, len(matings) if export.mate is None else 1)
+        name = f"{scene.name}.{export.name or export.purpose}.{index}"
+        jobs += [SheetJob(export, expected, f"{name}.{ending}", where) for ending in ENDINGS]
+    return jobs
+
+
+def _generating(scene: SceneFile, export: ExportSpec, where: str, source: str) -> Expected:
+    """The sheet of the device TMM-42 for one or two wheels of a scene."""
+    from parts.gears.spur_gear import device_page as tmm42
+    from parts.gears.spur_gear.device_sheet import generating_sheet
+
+    ids = export.parts or [key for key, spec in scene.parts.items() if isinstance(spec, SpurGearSpec)]
+    for part in ids:
+        if not isinstance(scene.parts[part], SpurGearSpec):
+            raise SceneError(source, f"{where}.parts", part, "device_draws_external_gears")
+        _check_wheel(scene.parts[part], f"parts.{part}", source)
+    if not ids:
+        raise SceneError(source, f"{where}.purpose", export.purpose, "shows_external_gears")
+    gears = [checked_spur_gear(scene.parts[part]) for part in ids]
+    table = tmm42.table_from(scene, source, {"part": _most_shifted(ids, gears)})
+    if abs(table.get("profile_shift_coefficient", math.inf) - practicum_undercut(gears[0]).limit) < 1e-12:
+        # the very shift of (1.2), which the table then derives
+        table.pop("profile_shift_coefficient")
+    tables = tmm42.sheet(table, zero_only=all(g.profile_shift_coefficient == 0 for g in gears))
+    pitch = math.pi * gears[0].module
+    try:
+        step = export.rack_step or min(max(RACK_STEP, _LEAST_STEP * pitch), _MOST_STEP * pitch)
+        language, tolerance = scene.scene.language, float(export.tolerance or 0.0)
+        expected = generating_sheet(gears, step, tables, language, tolerance, _band(export))
+    except ParameterError as error:
+        raise placed(source, where, error, unit_of(ExportSpec, error.name)) from error
+    _add_title_block(expected, scene, export, 1, 1)
+    return expected
+
+
+def _band(export: ExportSpec) -> float:
+    """Height that the title block takes, mm."""
+    return TITLE_BLOCK[1] if export.title_block else 0.0
+
+
+def _add_title_block(expected: Expected, scene: SceneFile, export: ExportSpec, sheet: int, sheets: int) -> None:
+    """The title block on a sheet, where the export asks for one."""
+    if not export.title_block:
+        return
+    language = scene.scene.language
+    scale = scale_text(expected.paper.scale, language)
+    block = title_block_of(export.title_block, scene.scene.title or scene.name, scale, min(sheet, sheets), sheets)
+    draw_title_block(expected.canvas, block, language)
+
+
+def _check_wheel(spec: SpurGearSpec, place: str, source: str) -> None:
+    """The device cuts straight teeth with a rack."""
+    if spec.cutter is not None:
+        teeth = spec.cutter.number_of_teeth
+        raise SceneError(source, f"{place}.cutter.number_of_teeth", teeth, "device_cuts_with_rack")
+    if spec.helix_angle_deg:
+        place, given = f"{place}.helix_angle_deg", spec.helix_angle_deg
+        raise SceneError(source, place, given, "device_cuts_straight_teeth", Nearest(0.0), "degrees")
+
+
+def _most_shifted(ids: list[str], gears: list[Any]) -> str:
+    """The wheel of table 1.2."""
+    return max(zip(ids, gears, strict=True), key=lambda pair: abs(pair[1].profile_shift_coefficient))[0]
+
+
+def _meshing(mating: Mating, scene: SceneFile, tolerance: float, band: float) -> Expected:
+    pair: Any = mating.pair
+    picture, language = meshing_picture(pair), scene.scene.language
+    specs = [scene.parts[str(scene.instances[name].part)] for name in (mating.first, mating.second)]
+    facts = _facts(mating, picture, language, specs)
+    canvas, view = meshing_canvas(picture, mating.module, facts, language, tolerance, band)
+    circles, paper = [], view.paper
+    for body in picture.bodies:
+        for name, radius in body.radii.items():
+            if not view.shows(body, name):
+                continue
+            layer = f"CIRCLE_{name.upper()}"
+            if body.centre is None:
+                circles.append(Circle(layer, None, paper.point(1j * radius).imag))
+            else:
+                circles.append(Circle(layer, paper.point(body.centre), paper.scale * radius))
+    tangents = tuple(
+        (paper.point(b.centre), paper.scale * b.radii["base"]) for b in picture.bodies if b.centre is not None
+    )
+    teeth = {
+        "OUTLINE": [c for b in picture.bodies for c in b.chain(picture.shown, TEETH)],
+        "TOOTH_START": [c for b in picture.bodies for c in b.tooth_at(picture.start)],
+        "TOOTH_END": [c for b in picture.bodies for c in b.tooth_at(picture.end)],
+        "ACTIVE_FLANK": [c for b in picture.bodies for c in b.active_at(picture.shown)],
+    }
+    ratio, gear = pair.effective_contact_ratio, pair.gears[0]
+    pitch = paper.scale * 2 * math.pi * picture.bodies[0].radii["working"] / gear.number_of_teeth
+    length = paper.scale * ratio * 2 * math.pi * gear.base_radius / gear.number_of_teeth
+    meshing = Meshing(tangents, gear.number_of_teeth, length, ratio * pitch, pitch, ratio)
+    return Expected(canvas, paper, tuple(circles), teeth, meshing)
+
+
+def _facts(mating: Mating, picture: MeshingPicture, language: str, specs: list[Any]) -> Facts:
+    """Title and table of the sheet; of helical parts (``specs``) the normal data too."""
+    pair: Any = mating.pair
+
+    def word(key: str) -> str:
+        return sheet_words(language, key)
+
+    def say(value: float, digits: int) -> str:
+        return decimal(f"{value:.{digits}f}", language)
+
+    helix = abs(getattr(specs[0], "helix_angle_deg", 0.0))
+    rows = [Row(word("module"), "m", decimal(f"{mating.module:g}", language))]
+    if helix:
+        rows = [
+            Row(word("normal_module"), "m_{n}", decimal(f"{specs[0].module:g}", language)),
+            Row(word("helix_angle"), "β", f"{say(helix, 4)}°"),
+            Row(word("transverse_module"), "m_{t}", decimal(f"{mating.module:.6g}", language)),
+        ]
+    for index, gear in enumerate(pair.gears, 1):
+        rows.append(Row(word("number_of_teeth"), f"z_{{{index}}}", str(gear.number_of_teeth)))
+    for index, gear in enumerate(pair.gears, 1):
+        shift = gear.profile_shift_coefficient / math.cos(math.radians(helix))
+        name, symbol = ("normal_shift", f"x_{{n{index}}}") if helix else ("shift", f"x_{{{index}}}")
+        rows.append(Row(word(name), symbol, decimal(f"{shift:.6g}", language)))
+    distance = "rack_distance" if picture.kind == "rack" else "centre_distance"
+    arc = picture.arc_of_action
+    rows += [
+        Row(word(distance), "a_{w}", f"{say(mating.distance, 3)}"),
+        Row(word("working_angle"), "α_{w}", f"{say(math.degrees(picture.angle), 4)}°"),
+    ]
+    if picture.tangent_points[1] is not None:
+        length = abs(picture.tangent_points[1] - picture.tangent_points[0])
+        rows.append(Row(word("line"), "N_{1}N_{2}", say(length, 3)))
+    rows += [
+        Row(word("active"), "ab", say(picture.end - picture.start, 3)),
+        Row(word("arc"), "dd'", say(arc.radius * arc.sweep, 3)),
+        Row(word("pitch"), "p_{w}", say(picture.working_pitch, 3)),
+        Row(word("ratio"), "ε_{α}", say(picture.contact_ratio, 4)),
+        *_overlap_rows(specs, helix, language),
+        Row(word("start"), sample="TOOTH_START"),
+        Row(word("end"), sample="TOOTH_END"),
+        Row(word("flank"), sample="ACTIVE_FLANK"),
+        Row(word("active"), sample="ACTIVE_LINE"),
+        Row(word("arc"), sample="ARC_OF_ACTION"),
+        Row(word("pitch"), sample="WORKING_PITCH"),
+    ]
+    first, second = mating.first, mating.second
+    if getattr(mating, "ring_first", False):
+        # the picture counts the pinion first
+        first, second = second, first
+    section = f" ({word('transverse_section')})" if helix else ""
+    return Facts(f"{word(picture.kind)}{section}: {first} (1), {second} (2)", tuple(rows))
+
+
+def _overlap_rows(specs: list[Any], helix: float, language: str) -> list[Row]:
+    """Common face width and axial overlap of helical teeth."""
+    if not helix:
+        return []
+    width = min(s.face_width for s in specs)
+    value = overlap_ratio(width, math.radians(helix), specs[0].module)
+    return [
+        Row(sheet_words(language, "face_width"), "b", decimal(f"{width:g}", language)),
+        Row(sheet_words(language, "overlap"), "ε_{β}", decimal(f"{value:.4f}", language)),
+    ]

@@ -1,1 +1,0 @@
-"""Sheets: drawings that explain, in mm on paper, with words."""

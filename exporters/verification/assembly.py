@@ -1,0 +1,118 @@
+"""Assembly files read back: the names, every prototype as a part file is, every occurrence in its place."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exporters.formats.readback import ReadAssembly
+from exporters.formats.reading import ASSEMBLY_READERS
+from exporters.verification.judge import held, probed
+from exporters.verification.verdict import Verdict
+from parts.base.part import Part
+from parts.base.readback import ReadBack, ReadError
+from parts.scene.formats import FileKind
+from parts.scene.placing import Instance
+
+# a place is kept to this, mm, and to the digits of a file's numbers as a part of its distance
+_PLACE, _DIGITS = 1e-9, 1e-13
+# the kernel keeps a colour as float32
+_SHADE = 1
+
+
+@dataclass(frozen=True, slots=True)
+class ExpectedAssembly:
+    """What an assembly file must hold: its title, parts by name, and for each occurrence its part and (3, 4) place.
+
+    The boundaries of the parts are moved ``offset`` mm out of the material.
+    """
+
+    title: str
+    parts: dict[str, Part]
+    offset: float
+    occurrences: dict[str, tuple[str, NDArray[np.float64]]]
+
+
+def expected_of(title: str, parts: dict[str, Part], offset: float, instances: Iterable[Instance]) -> ExpectedAssembly:
+    """What a file of some parts, moved ``offset`` mm out of the material, and of these instances must hold."""
+    return ExpectedAssembly(title, parts, offset, {i.id: (i.part, i.scene_from_part.matrix()) for i in instances})
+
+
+def verify_assembly(
+    file: Path, kind: FileKind, expected: ExpectedAssembly, declared: float, tolerance: float
+) -> Verdict:
+    """Read an assembly file back and hold it against what it must be; see ``exporters.verification.judge``."""
+
+    def check(found: ReadBack, part: Part) -> Verdict:
+        exact = part.body(expected.offset)
+        verdict = held(found, kind, exact, declared, tolerance)
+        said = probed(found, part, expected.offset, declared, verdict)
+        more = {f"{part.id}.{k}": v for k, v in said.measured.items() if k not in verdict.measured}
+        return Verdict(verdict.measured | more, said.failures)
+
+    try:
+        return _verdict(ASSEMBLY_READERS[kind.name](file), expected, check)
+    except (ReadError, OSError) as error:
+        return Verdict({}, (str(error),))
+
+
+def _verdict(found: ReadAssembly, expected: ExpectedAssembly, check: Callable[[ReadBack, Part], Verdict]) -> Verdict:
+    failures = [] if found.title == expected.title else [f'it is named "{found.title}" instead of "{expected.title}"']
+    failures += _name_failures("part", [p.name for p in found.prototypes], list(expected.parts))
+    failures += _name_failures("instance", [o.name for o in found.occurrences], list(expected.occurrences))
+    measured: dict[str, float] = {"parts": len(found.prototypes), "instances": len(found.occurrences)}
+    reach = {name: part.body(expected.offset).reach() for name, part in expected.parts.items()}
+    worst_place = 0.0
+    for name, index, placed in found.occurrences:
+        if name not in expected.occurrences:
+            continue
+        part, place = expected.occurrences[name]
+        prototype = found.prototypes[index].name
+        if prototype != part:
+            failures.append(f"instance {name} is {prototype} instead of {part}")
+        off = _displacement(placed, place, reach[part])
+        worst_place = max(worst_place, off)
+        if not off <= _PLACE + _DIGITS * (reach[part] + float(np.abs(place[:, 3]).max())):
+            failures.append(f"instance {name} stands {off:.6g} mm off its place")
+    measured["max_displacement"] = worst_place
+    for name, shape, colour in found.prototypes:
+        if name not in expected.parts:
+            continue
+        verdict = check(shape, expected.parts[name])
+        failures += [f"{name}: {failure}" for failure in verdict.failures]
+        if not _same_shade(colour, expected.parts[name].colour):
+            failures.append(f"{name} is coloured {colour} instead of {expected.parts[name].colour}")
+        deviation = verdict.measured.get("max_deviation", float("inf"))
+        measured["max_deviation"] = max(measured.get("max_deviation", 0.0), deviation)
+        # what the probes say, under the part's name
+        measured |= {key: value for key, value in verdict.measured.items() if key.startswith(f"{name}.")}
+    return Verdict(measured, tuple(failures))
+
+
+def _name_failures(what: str, found: list[str], expected: list[str]) -> list[str]:
+    """Names that are missing, strange or there more than once."""
+    failures = [f"{what} {name} is missing" for name in expected if name not in found]
+    failures += [f'{what} "{name}" does not belong there' for name in dict.fromkeys(found) if name not in expected]
+    return failures + [
+        f"{what} {name} is there {found.count(name)} times" for name in expected if found.count(name) > 1
+    ]
+
+
+def _displacement(placed: NDArray[np.float64], place: NDArray[np.float64], reach: float) -> float:
+    """How far a point of the part may be off its place at most, mm."""
+    off = placed - place
+    return float(np.linalg.norm(off[:, 3]) + np.linalg.norm(off[:, :3], 2) * reach)
+
+
+def _same_shade(found: str | None, expected: str | None) -> bool:
+    """Whether a colour is the one asked for; a part that asks for none may have any."""
+    if expected is None:
+        return True
+    if found is None:
+        return False
+    channels = [[int(text[i : i + 2], 16) for i in (1, 3, 5)] for text in (found, expected)]
+    return all(abs(a - b) <= _SHADE for a, b in zip(*channels, strict=True))

@@ -1,0 +1,151 @@
+"""Every file is read back and held against the exact section or solid, and then put to the probes of its part.
+
+A check that fails names what was found.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
+
+from exporters.formats.reading import READERS
+from exporters.verification.verdict import Verdict
+from geometry.base.findings import Finding
+from parts.base.part import Part
+from parts.base.readback import Probe, ReadBack, ReadError
+from parts.scene.formats import FileKind, Form
+
+if TYPE_CHECKING:
+    from exporters.formats.read_drawing import ReadDrawing
+    from exporters.formats.read_step import ReadSolid
+    from exporters.formats.readback import ReadMesh, ReadOutlines
+    from geometry.cams.barrel.body import BarrelBody
+    from geometry.plane.profile import Region
+    from geometry.solids.body import Body
+
+Exact: TypeAlias = "Region | Body | BarrelBody"
+
+
+def verify_part(
+    file: Path,
+    kind: FileKind,
+    part: Part,
+    offset: float,
+    declared: float,
+    tolerance: float,
+    also: Callable[[Path], None] | None = None,
+) -> Verdict:
+    """Read a part's file back, hold it against the part moved ``offset`` mm out of its material, and probe it.
+
+    ``declared``: the error that its report states, mm; the measured one must not exceed it or ``tolerance``.
+    ``also``: what else is asked of a file that is good so far; it raises ``ReadError``.
+    """
+    exact = part.body(offset) if kind.is_solid else part.section(offset).region
+    try:
+        found = READERS[kind.name](file)
+        verdict = held(found, kind, exact, declared, tolerance, part.id)
+    except (ReadError, OSError) as error:
+        return Verdict({}, (str(error),))
+    if also is not None and not verdict.failures:
+        try:
+            also(file)
+        except ReadError as refusal:
+            return replace(verdict, failures=(str(refusal),))
+    return probed(found, part, offset, declared, verdict)
+
+
+def verify_file(
+    file: Path, kind: FileKind, exact: Exact, declared: float, tolerance: float, name: str | None = None
+) -> Verdict:
+    """Read a file back and hold it against an exact section or, for STL, 3MF and STEP, an exact solid; see ``held``."""
+    try:
+        return held(READERS[kind.name](file), kind, exact, declared, tolerance, name)
+    except (ReadError, OSError) as error:
+        return Verdict({}, (str(error),))
+
+
+def held(
+    found: ReadBack, kind: FileKind, exact: Exact, declared: float, tolerance: float, name: str | None = None
+) -> Verdict:
+    """A file that was read against its exact section or solid; ``name``: what the part must be called.
+
+    Raises
+    ------
+    ReadError
+        The file holds no closed outlines, or its part has another name.
+    """
+    if name is not None and (names := found.names()) is not None and names != (name,):
+        raise ReadError(f"the file names its parts {', '.join(names) or 'nothing'} instead of {name}")
+    return _HELD[kind.form](found, exact, declared, tolerance)
+
+
+def _outlines(found: ReadOutlines, region: Region, declared: float, tolerance: float) -> Verdict:
+    from exporters.verification.outlines import verify_loops
+
+    return verify_loops(found.loops, region.profiles(), region.layers(), declared, tolerance)
+
+
+def _drawing(found: ReadDrawing, region: Region, declared: float, tolerance: float) -> Verdict:
+    from exporters.verification.outlines import verify_samples
+
+    return verify_samples(found.loops(), region.profiles(), declared, tolerance)
+
+
+def _mesh(found: ReadMesh, body: Body | BarrelBody, declared: float, tolerance: float) -> Verdict:
+    if body.is_faced:
+        from exporters.verification.faces import verify_faced_mesh
+
+        return verify_faced_mesh(found, body, declared, tolerance)
+    from exporters.verification.mesh import verify_mesh
+
+    return verify_mesh(found, body, declared, tolerance)
+
+
+def _solid(found: ReadSolid, body: Body | BarrelBody, declared: float, tolerance: float) -> Verdict:
+    if body.is_faced:
+        from exporters.verification.faces import verify_faced_solid
+
+        return verify_faced_solid(found, body, declared, tolerance)
+    from exporters.verification.solid import verify_solid
+
+    return verify_solid(found, body, declared, tolerance)
+
+
+_HELD: dict[Form, Callable[..., Verdict]] = {
+    Form.ARCS: _outlines,
+    Form.SPLINES: _drawing,
+    Form.TRIANGLES: _mesh,
+    Form.FACES: _solid,
+}
+
+
+def probed(found: ReadBack, part: Part, offset: float, declared: float, verdict: Verdict) -> Verdict:
+    """Add to a verdict what the probes of a part say. Files that are broken already are not put to them."""
+    if verdict.failures:
+        return verdict
+    probes = part.probes
+    if not probes:
+        return verdict
+    trimmed = bool(part.section(offset).findings)
+    return with_probes(found, (p for p in probes if not (trimmed and p.needs_whole)), offset, declared, verdict)
+
+
+def with_probes(found: ReadBack, probes: Iterable[Probe], offset: float, declared: float, verdict: Verdict) -> Verdict:
+    """What some probes say, measured under their names where they have some; of remarks of a kind the worst one."""
+    worst: dict[str, Finding] = {}
+    for probe in probes:
+        mark, who = (f"{probe.name}_", f"{probe.name}: ") if probe.name else ("", "")
+        try:
+            said = probe.run(found, offset, declared)
+        except ReadError as refusal:
+            verdict = replace(verdict, failures=(*verdict.failures, f"{who}{refusal}"))
+            continue
+        measured = verdict.measured | {f"{mark}{key}": value for key, value in said.measured.items()}
+        verdict = Verdict(measured, (*verdict.failures, *said.failures))
+        for finding in said.findings:
+            known = worst.get(finding.code)
+            if known is None or finding.value / finding.limit > known.value / known.limit:
+                worst[finding.code] = finding
+    return replace(verdict, findings=tuple(worst.values()))

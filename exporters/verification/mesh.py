@@ -1,0 +1,155 @@
+"""Meshes against exact bodies: closed and manifold, every outline, wall and face in its place, the volume right."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exporters.formats.readback import Loop, ReadMesh
+from exporters.verification.outlines import verify_loops
+from exporters.verification.topology import Triangles, chains, doubled_normals, topology_failures
+from exporters.verification.twisted import on_twisted_walls, verify_twisted
+from exporters.verification.verdict import Verdict
+from geometry.plane.measure import profile_area, profile_length
+from geometry.solids.body import Body, Wall
+from geometry.solids.mass import body_moments
+
+# heights are float32 numbers, rounded twice where a file holds them as text
+_LEVEL = 2.0**-23
+
+
+def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -> Verdict:
+    """Hold a mesh against its exact body.
+
+    All triangles lie in the caps or in the walls between two levels; the outlines of the walls are measured where
+    they end, and closedness makes them the outlines of the caps too.
+    """
+    count = {"triangles": float(len(mesh.triangles))}
+    failures = topology_failures(mesh)
+    if failures:
+        return Verdict(count, tuple(failures))
+    corners = mesh.vertices[mesh.triangles]
+    measured = count | {"volume": float(np.einsum("ij,ij->i", corners[:, 0], doubled_normals(corners)).sum() / 6)}
+    levels = np.array(body.levels())
+    index = np.abs(mesh.vertices[:, 2, None] - levels).argmin(axis=1)
+    off = np.abs(mesh.vertices[:, 2] - levels[index]) > _LEVEL * np.abs(levels).max()
+    if np.any(off & ~on_twisted_walls(body, mesh.vertices[:, 2])):
+        return Verdict(measured, ("a vertex stands off every face",))
+    heights = np.where(off, mesh.vertices[:, 2], levels[index])
+    mesh = ReadMesh(np.column_stack([mesh.vertices[:, :2], heights]), mesh.triangles)
+    corners = mesh.vertices[mesh.triangles]
+    heights = corners[:, :, 2]
+    low, high = heights.min(axis=1), heights.max(axis=1)
+    upright = low != high
+    failures += _cap_failures(body, corners[~upright], declared)
+    worst, edges = 0.0, [np.inf]
+    border = 0.0
+    for pair, walls in _walls_by_height(body).items():
+        mine = upright & (low == pair[0]) & (high == pair[1])
+        if body.has_screws() and all(body.is_upright(w) for w in walls):
+            # a slice of a screw surface may stand between the same heights
+            mine &= _stands(mesh, mesh.triangles)
+        upright &= ~mine
+        for verdict, length in _verify_walls(mesh, mesh.triangles[mine], pair, body, walls, declared, tolerance):
+            failures += verdict.failures
+            worst = max(worst, verdict.measured.get("max_deviation", np.inf))
+            edges.append(verdict.measured.get("shortest_edge", np.inf))
+            border = max(border, length)
+    for wall in body.walls:
+        if not body.is_screw(wall):
+            continue
+        mine = upright & (low >= body.height(wall)[0]) & (high <= body.height(wall)[1])
+        upright &= ~mine
+        verdict = verify_twisted(mesh, mesh.triangles[mine], body, wall, declared, tolerance)
+        failures += verdict.failures
+        worst = max(worst, verdict.measured["max_deviation"])
+        edges.append(verdict.measured["shortest_edge"])
+        border += profile_length(body.loop_profile(wall.lower))
+    if np.any(upright):
+        failures.append("a wall does not end at the faces of the part")
+    exact = body_moments(body).volume
+    if abs(measured["volume"] - exact) > border * declared * (levels[-1] - levels[0]):
+        failures.append(f"volume {measured['volume']:.9g} mm^3 instead of {exact:.9g} mm^3")
+    measured |= {
+        "volume_error": measured["volume"] / exact - 1,
+        "max_deviation": worst,
+        "shortest_edge": min(edges),
+        "least_triangle_area": float(np.linalg.norm(doubled_normals(corners), axis=1).min() / 2),
+    }
+    return Verdict(measured, tuple(dict.fromkeys(failures)))
+
+
+def _stands(mesh: ReadMesh, triangles: Triangles) -> NDArray[np.bool_]:
+    """Which triangles have an upright edge."""
+    corners = (mesh.vertices[:, 0] + 1j * mesh.vertices[:, 1])[triangles]
+    return np.asarray(np.any(corners == np.roll(corners, 1, axis=1), axis=1))
+
+
+def _walls_by_height(body: Body) -> dict[tuple[float, float], list[Wall]]:
+    """The walls between each two levels, without screw surfaces."""
+    found: dict[tuple[float, float], list[Wall]] = {}
+    for wall in body.walls:
+        if body.is_screw(wall):
+            continue
+        low, high = body.height(wall)
+        found.setdefault((low, high), []).append(wall)
+    return found
+
+
+def _cap_failures(body: Body, corners: NDArray[np.float64], declared: float) -> list[str]:
+    """Flat triangles against the caps: level by level, looking the right way, of the right area."""
+    doubled, heights = doubled_normals(corners)[:, 2], corners[:, 0, 2]
+    expected: dict[tuple[float, bool], list[float]] = {}
+    for cap in body.caps:
+        profiles = [body.loop_profile(i) for i in (cap.outer, *cap.holes)]
+        outer, *holes = (abs(profile_area(p)) for p in profiles)
+        slack = declared * sum(profile_length(p) for p in profiles)
+        key = (body.loops[cap.outer].z, cap.up)
+        total = expected.setdefault(key, [0.0, 0.0])
+        total[0] += outer - sum(holes)
+        total[1] += slack
+    failures = []
+    for (z, up), (area, slack) in expected.items():
+        mine = (heights == z) & ((doubled > 0) == up)
+        found = float(np.abs(doubled[mine]).sum() / 2)
+        if abs(found - area) > slack + 1e-12 * area:
+            failures.append(f"the face at z = {z:g} has {found:.9g} mm^2 instead of {area:.9g} mm^2")
+    known = np.array([[z, up] for z, up in expected])
+    strange = ~np.any((heights[:, None] == known[:, 0]) & ((doubled > 0)[:, None] == known[:, 1]), axis=1)
+    if np.any(strange):
+        failures.append("triangles of a face overlap")
+    return failures
+
+
+def _verify_walls(
+    mesh: ReadMesh,
+    triangles: Triangles,
+    pair: tuple[float, float],
+    body: Body,
+    walls: list[Wall],
+    declared: float,
+    tolerance: float,
+) -> list[tuple[Verdict, float]]:
+    """The outlines of the walls between two levels, each with its length; both ends of ruled walls are measured."""
+    z, places = mesh.vertices[:, 2], mesh.vertices[:, 0] + 1j * mesh.vertices[:, 1]
+    if all(body.is_upright(w) for w in walls):
+        if not np.all(_stands(mesh, triangles)):
+            return [(Verdict({}, ("the walls do not stand upright between both faces",)), 0.0)]
+        ends = [pair[0]]
+    else:
+        ends = list(pair)
+    found = []
+    for level in ends:
+        loops = [places[chain] for chain in chains(triangles, z == level, len(z))]
+        profiles = [body.loop_profile(w.lower if level == pair[0] else w.upper) for w in walls]
+        verdict = verify_loops(
+            [Loop(v, np.zeros(len(v)), "") for v in loops],
+            profiles,
+            [""] * len(profiles),
+            declared,
+            tolerance,
+            # triangles that all turn one way, with outlines this near to the exact ones, cannot overlap
+            known_simple=True,
+        )
+        found.append((verdict, float(sum(np.abs(np.roll(v, -1) - v).sum() for v in loops))))
+    return found

@@ -1,0 +1,112 @@
+"""Outlines against exact profiles: closed, simple, in their place, on their layer, within the tolerance.
+
+Measured densely and between the writer's own nodes: chains of lines and arcs edge by edge, sampled curves as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from exporters.formats.readback import Loop
+from exporters.verification.verdict import Verdict, deviation_failures
+from geometry.curves.curve import Complex
+from geometry.plane.contour import edge_points, signed_area
+from geometry.plane.measure import distance_to_profile, profile_area
+from geometry.plane.profile import Profile
+
+# how many points of a file are measured: all edges get at least 3 between their ends
+_POINTS = 10_000
+# points of a loop by which it is told from others
+_ROUGH = 16
+
+
+def verify_loops(
+    loops: Sequence[Loop],
+    profiles: Sequence[Profile],
+    layers: Sequence[str],
+    declared: float,
+    tolerance: float,
+    *,
+    known_simple: bool = False,
+) -> Verdict:
+    """Closed loops against exact profiles; ``layers``: where each profile's loop must stand (empty: anywhere)."""
+    if len(loops) != len(profiles):
+        return Verdict({"contours": len(loops)}, (f"{len(loops)} contours instead of {len(profiles)}",))
+    failures: list[str] = []
+    worst, shortest = 0.0, float("inf")
+    unmatched = list(loops)
+    for profile, layer in zip(profiles, layers, strict=True):
+        loop = unmatched.pop(_nearest([x.vertices for x in unmatched], profile))
+        if loop.layer and loop.layer.upper() != layer:
+            failures.append(f"a contour stands on {loop.layer} instead of {layer}")
+        deviation, found = _check_loop(loop, profile, declared, known_simple)
+        worst = max(worst, deviation)
+        shortest = min(shortest, float(np.abs(np.roll(loop.vertices, -1) - loop.vertices).min()))
+        failures += found
+    failures += deviation_failures(worst, declared, tolerance, max(p.reach() for p in profiles))
+    return Verdict({"contours": len(loops), "max_deviation": worst, "shortest_edge": shortest}, tuple(failures))
+
+
+def verify_samples(loops: list[Complex], profiles: Sequence[Profile], declared: float, tolerance: float) -> Verdict:
+    """Densely sampled loops against exact profiles."""
+    if len(loops) != len(profiles):
+        return Verdict({"contours": float(len(loops))}, (f"{len(loops)} contours instead of {len(profiles)}",))
+    failures: list[str] = []
+    worst, left = 0.0, list(loops)
+    for profile in profiles:
+        loop = left.pop(_nearest(left, profile))
+        worst = max(worst, float(distance_to_profile(loop, profile, trusted=declared).max()))
+        failures += _loop_failures(loop, profile)
+    failures += deviation_failures(worst, declared, tolerance, max(p.reach() for p in profiles))
+    return Verdict({"contours": float(len(loops)), "max_deviation": worst}, tuple(failures))
+
+
+def _loop_failures(loop: Complex, profile: Profile) -> list[str]:
+    """Self-crossing, and an area that is not the profile's (the samples' polygon knows it to a part in 500)."""
+    failures = [] if is_simple(loop) else ["a contour crosses itself"]
+    found, exact = 0.5 * abs(np.sum((np.conj(loop) * np.roll(loop, -1)).imag)), abs(profile_area(profile))
+    if abs(found / exact - 1) > 2e-3:
+        failures.append(f"encloses {found:.6g} mm^2 instead of {exact:.6g} mm^2")
+    return failures
+
+
+def _nearest(loops: Sequence[Complex], profile: Profile) -> int:
+    """Which loop stays nearest to a profile at all of its points."""
+    rough = [distance_to_profile(x[:: max(1, len(x) // _ROUGH)], profile, trusted=np.inf).max() for x in loops]
+    return int(np.argmin(rough))
+
+
+def _check_loop(loop: Loop, profile: Profile, declared: float, known_simple: bool) -> tuple[float, list[str]]:
+    """Greatest deviation of a loop, and what is wrong with its shape."""
+    starts, ends = loop.vertices, np.roll(loop.vertices, -1)
+    if len(starts) < 2 or not (np.all(np.isfinite(starts)) and np.all(np.isfinite(loop.bulges))):
+        return float("inf"), ["a contour holds no shape or a coordinate that is not a number"]
+    failures = []
+    if np.any(starts == ends):
+        failures.append("a contour repeats a vertex")
+    inner = int(np.clip(_POINTS // len(starts), 3, 24))
+    points = edge_points(starts, ends, loop.bulges, np.linspace(0, 1, inner + 2)[:-1])
+    deviation = float(distance_to_profile(points.ravel(), profile, trusted=declared).max())
+    length = float(np.abs(np.diff(points, axis=1)).sum())
+    exact, found = profile_area(profile), signed_area(starts, loop.bulges)
+    if abs(abs(found) - abs(exact)) > max(deviation, declared) * length + 1e-12 * abs(exact):
+        failures.append(f"encloses {abs(found):.9g} mm^2 instead of {abs(exact):.9g} mm^2")
+    if not known_simple and not is_simple(points[:, :: max(1, (inner + 1) // 4)].ravel()):
+        failures.append("a contour crosses itself")
+    return deviation, failures
+
+
+def is_simple(points: Complex) -> bool:
+    """Whether a closed polygon does not cross itself: one seen whole from the origin cannot, others by GEOS."""
+    turns = (np.conj(points) * np.roll(points, -1)).imag
+    # all edges turn about the origin alike, by less than half a turn each and by one turn together
+    if np.all(turns > 0) or np.all(turns < 0):
+        whole = np.angle(np.roll(points, -1) * np.conj(points)).sum()
+        if abs(whole) < 3 * np.pi:
+            return True
+    import shapely
+
+    ring = shapely.linearrings(np.stack([points.real, points.imag], axis=1))
+    return bool(shapely.is_simple(ring))

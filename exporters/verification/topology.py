@@ -1,0 +1,57 @@
+"""How the triangles of a mesh hang together: closed and manifold, the borders of some of them, their normals."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exporters.formats.readback import ReadMesh
+from parts.base.readback import ReadError
+
+Triangles = NDArray[np.int64]
+
+
+def doubled_normals(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Twice the area of each triangle along its normal, (n, 3)."""
+    return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+
+
+def topology_failures(mesh: ReadMesh) -> list[str]:
+    """Watertight, manifold, consistently turned, no triangle without area."""
+    t = mesh.triangles
+    if np.any((t[:, 0] == t[:, 1]) | (t[:, 1] == t[:, 2]) | (t[:, 2] == t[:, 0])):
+        return ["a triangle has two equal corners"]
+    corners = mesh.vertices[t]
+    doubled = np.linalg.norm(doubled_normals(corners), axis=1)
+    if not np.all(doubled > 0):
+        return ["a triangle has no area"]
+    n = len(mesh.vertices)
+    edges = np.concatenate([t[:, [0, 1]], t[:, [1, 2]], t[:, [2, 0]]]).astype(np.int64)
+    forward, backward = np.sort(edges[:, 0] * n + edges[:, 1]), np.sort(edges[:, 1] * n + edges[:, 0])
+    if np.any(forward[1:] == forward[:-1]):
+        return ["two triangles run along one edge the same way"]
+    if not np.array_equal(forward, backward):
+        return ["the mesh is not closed: an edge has a triangle on one side only"]
+    return []
+
+
+def chains(triangles: Triangles, on_level: NDArray[np.bool_], count: int) -> list[list[int]]:
+    """Closed chains of the triangles' edges that lie on a level, as vertex numbers."""
+    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    edges = edges[on_level[edges].all(axis=1)]
+    if not len(edges):
+        raise ReadError("a wall has no edge at one of its ends")
+    if np.bincount(edges[:, 0], minlength=count).max() > 1:
+        raise ReadError("an outline touches itself in a point")
+    following = dict(zip(edges[:, 0].tolist(), edges[:, 1].tolist(), strict=True))
+    chains = []
+    while following:
+        start, vertex = following.popitem()
+        chain = [start]
+        while vertex != start:
+            chain.append(vertex)
+            if vertex not in following:
+                raise ReadError("the outline of a wall is not closed")
+            vertex = following.pop(vertex)
+        chains.append(chain)
+    return chains

@@ -1,0 +1,72 @@
+"""Screw surfaces and sheared walls in meshes: every slice and what lies between the slices, held against them.
+
+A point is turned and moved back by what the wall has turned and moved at the point's own height, and measured against
+the exact section: its distance within the plane of its height, which is never less than that from the surface.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exporters.formats.readback import ReadMesh
+from exporters.verification.topology import Triangles, chains
+from exporters.verification.verdict import Verdict, deviation_failures
+from geometry.plane.measure import distance_to_profile, profile_area, profile_length
+from geometry.solids.body import Body, Wall
+
+# places of a triangle that are measured beside its corners: the middles of its edges, its centre, and between them
+_PLACES = np.array([(1, 1, 0), (0, 1, 1), (1, 0, 1), (1, 1, 1), (4, 1, 1), (1, 4, 1), (1, 1, 4)], dtype=float)
+# meshes of more triangles are measured at fewer places of each
+_MANY = 60_000
+
+
+def on_twisted_walls(body: Body, z: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Which heights lie between the ends of a screw surface."""
+    found = np.zeros(len(z), dtype=bool)
+    for wall in body.walls:
+        if body.is_screw(wall):
+            low, high = body.height(wall)
+            found |= (low < z) & (z < high)
+    return found
+
+
+def verify_twisted(
+    mesh: ReadMesh, triangles: Triangles, body: Body, wall: Wall, declared: float, tolerance: float
+) -> Verdict:
+    """Hold the triangles of one screw surface against it.
+
+    Each triangle spans two neighbouring slices, each slice is one closed outline of the right area, and corners,
+    edges and faces lie within the declared error.
+    """
+    if not len(triangles):
+        return Verdict({"max_deviation": np.inf, "shortest_edge": np.inf}, ("a screw surface is missing",))
+    profile, z = body.loop_profile(wall.lower), mesh.vertices[:, 2]
+    levels, index = np.unique(z[triangles], return_inverse=True)
+    index = index.reshape(triangles.shape)
+    failures = []
+    if np.any(np.ptp(index, axis=1) != 1) or (levels[0], levels[-1]) != body.height(wall):
+        failures.append("a screw surface does not run from slice to slice between its ends")
+    area, length = abs(profile_area(profile)), profile_length(profile)
+    order = np.argsort(index.min(axis=1), kind="stable")
+    starts = np.searchsorted(index.min(axis=1)[order], np.arange(len(levels)))
+    for number, level in enumerate(levels.tolist()):
+        # the triangles above a slice, below the last one
+        layer = min(number, len(levels) - 2)
+        mine = triangles[order[starts[layer] : starts[layer + 1]]]
+        loops = chains(mine, z == level, len(z))
+        outline = body.moved_back(wall, mesh.vertices[loops[0]])
+        found = 0.5 * abs(float(np.sum((np.conj(outline) * np.roll(outline, -1)).imag)))
+        if len(loops) > 1:
+            failures.append(f"the slice at z = {level:.6g} mm has {len(loops)} outlines")
+        elif abs(found - area) > declared * length + 1e-12 * area:
+            failures.append(f"the slice at z = {level:.6g} mm encloses {found:.9g} mm^2 instead of {area:.9g} mm^2")
+    corners = mesh.vertices[triangles]
+    places = _PLACES if len(triangles) < _MANY else _PLACES[3:4]
+    shares = places / places.sum(axis=1, keepdims=True)
+    inside = np.einsum("pk,nkc->npc", shares, corners).reshape(-1, 3)
+    points = np.concatenate([mesh.vertices[np.unique(triangles)], inside])
+    deviation = float(distance_to_profile(body.moved_back(wall, points), profile, trusted=declared).max())
+    failures += deviation_failures(deviation, declared, tolerance, profile.reach())
+    edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
+    return Verdict({"max_deviation": deviation, "shortest_edge": float(edges.min())}, tuple(failures))

@@ -1,0 +1,30 @@
+"""What a read-back says of a file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from geometry.base.findings import Finding
+
+# rounding of the measurement itself, as a part of the section's size
+_ROUNDING = 1e-13
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """What was measured on a file, and what is wrong with it (nothing: it is good); ``findings``: worth a remark."""
+
+    measured: dict[str, float]
+    failures: tuple[str, ...]
+    findings: tuple[Finding, ...] = ()
+
+
+def deviation_failures(worst: float, declared: float, tolerance: float, reach: float) -> list[str]:
+    """What is wrong with a deviation, mm: more than the tolerance, or more than was declared."""
+    allowed = _ROUNDING * reach
+    failures = []
+    if not worst <= tolerance + allowed:
+        failures.append(f"deviates by {worst:.6g} mm from the exact outline; the tolerance is {tolerance:g} mm")
+    elif not worst <= declared + allowed:
+        failures.append(f"deviates by {worst:.6g} mm, more than the declared {declared:.6g} mm")
+    return failures

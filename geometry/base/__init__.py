@@ -1,0 +1,1 @@
+"""What everything stands on: errors, tolerances, roots, series, angles and placements."""

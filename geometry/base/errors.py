@@ -1,0 +1,176 @@
+"""Every way in which a geometry can be refused, each with the numbers that explain it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal, Self
+
+
+class GeometryError(Exception):
+    """Root of all errors raised by this project's geometry."""
+
+
+Side = Literal["at_most", "at_least", "exactly", "meant"]
+
+
+@dataclass(frozen=True, slots=True)
+class Nearest:
+    """The value of a refused parameter nearest to the given one that works; None: it works when left out.
+
+    ``side``: an upper limit (``at_most``), a lower one (``at_least``), a value of its own, or the word that was
+    probably ``meant``.
+    """
+
+    value: float | str | bool | list[float] | None
+    side: Side = "exactly"
+
+    def scaled(self, factor: float) -> Nearest:
+        """The same limit in another unit, rounded again to the side that works."""
+        if not isinstance(self.value, float):
+            return self
+        value = self.value * factor
+        return (
+            Nearest(value) if self.side == "exactly" else Nearest(rounded(value, up=self.side == "at_least"), self.side)
+        )
+
+
+def rounded(value: float, *, up: bool, digits: int = 4) -> float:
+    """A limit as it is told: ``digits`` after the point, or four in all where it is small, up or down."""
+    if value != 0:
+        # beyond that a double has no power of ten
+        digits = min(max(digits, 3 - math.floor(math.log10(abs(value)))), 300)
+    shift = 10.0**digits
+    return (math.ceil if up else math.floor)(value * shift) / shift
+
+
+def limit(value: float, given: float, *, digits: int = 4) -> Nearest:
+    """The last value that works on the way to a ``given`` one that does not, as it is told: so that it works too.
+
+    ``digits`` after the point; an angle in rad wants 9, since it is told in degrees.
+    """
+    side: Side = "at_most" if value < given else "at_least"
+    return Nearest(value if isinstance(value, int) else rounded(value, up=side == "at_least", digits=digits), side)
+
+
+# a value that works, or how to find it
+Cure = Nearest | Callable[[], "Nearest | None"] | None
+
+
+class ParameterError(GeometryError, ValueError):
+    """A parameter has a value that cannot be built: data, the words for it stand at the edge.
+
+    ``name``: the parameter as its owner names it (``tip_relief.depth``), ``value``: what was given, ``code``: what is
+    wrong, ``numbers``: what the sentence of that code needs, ``nearest``: the value that works, or how to find it,
+    which is done when somebody asks for it and only then.
+    """
+
+    def __init__(self, name: str, value: object, code: str, nearest: Cure = None, /, **numbers: object) -> None:
+        self.name, self.value, self.code, self.numbers = name, value, code, numbers
+        self._cure = nearest
+        super().__init__(name, value, code)
+
+    @property
+    def nearest(self) -> Nearest | None:
+        """The value nearest to the given one that works; None where this parameter alone cannot cure it."""
+        if callable(self._cure):
+            self._cure = self._cure()
+        return self._cure
+
+    @property
+    def allowed(self) -> str:
+        """The code; until every refusal is data, its sentence."""
+        return self.code
+
+    def __str__(self) -> str:
+        told = "".join(f", {name} {format_value(value)}" for name, value in self.numbers.items())
+        return f"{self.name} = {format_value(self.value)}: {self.code}{told}"
+
+    def renamed(self, name: str, factor: float | None = None) -> Self:
+        """The same refusal under another name, its value and nearest times ``factor`` where one is given."""
+        value = self.value * factor if factor is not None and isinstance(self.value, int | float) else self.value
+
+        def cure() -> Nearest | None:
+            found = self.nearest
+            return found if found is None or factor is None else found.scaled(factor)
+
+        return type(self)(name, value, self.code, cure, **self.numbers)
+
+
+class UndercutError(ParameterError):
+    """The cutter removes so much of the flank that no usable tooth is left."""
+
+
+class PointedTipError(ParameterError):
+    """Both flanks of a tooth meet below its tip circle."""
+
+
+class OffsetError(ParameterError):
+    """An offset that no outline survives, mm, with the one nearest to it that works."""
+
+    def __init__(self, offset: float, reason: str, nearest: float) -> None:
+        self.reason, self.nearest_offset = reason, nearest
+        super().__init__("offset", offset, reason, lambda: limit(nearest, offset, digits=6))
+
+
+class CuspError(GeometryError):
+    """An offset curve turns back on itself where 1 - curvature * distance changes sign."""
+
+    def __init__(self, t: float, distance: float) -> None:
+        self.t = t
+        self.distance = distance
+        super().__init__(f"offset by {distance:g} mm has a cusp at parameter {t:.12g}")
+
+
+class DisconnectedProfileError(GeometryError):
+    """Consecutive segments of a profile do not meet."""
+
+    def __init__(self, index: int, gap: float) -> None:
+        self.index = index
+        self.gap = gap
+        super().__init__(f"segment {index} does not start where its predecessor ends: gap {gap:.3g} mm")
+
+
+class ConvergenceError(GeometryError, ArithmeticError):
+    """An iteration stopped before its residual was small enough."""
+
+    def __init__(self, what: str, residual: float, iterations: int) -> None:
+        self.residual = residual
+        self.iterations = iterations
+        super().__init__(f"{what}: residual {residual:.3g} after {iterations} iterations")
+
+
+class ThinWallError(GeometryError):
+    """Chords of two outlines touch or cross: a wall is thinner than the tolerance."""
+
+
+def at_most(value: float, digits: int = 6) -> str:
+    """An upper limit rounded down, so that the printed number itself still works."""
+    return _rounded(value, digits, math.floor)
+
+
+def at_least(value: float, digits: int = 6) -> str:
+    """A lower limit rounded up, so that the printed number itself still works."""
+    return _rounded(value, digits, math.ceil)
+
+
+def told(value: float, *, up: bool = False) -> str:
+    """A limit as printed, six digits after the point and more where it is small; rounded so that it works."""
+    digits = 6 if value == 0 else max(6, 4 - math.floor(math.log10(abs(value))))
+    return at_least(value, digits) if up else at_most(value, digits)
+
+
+def _rounded(value: float, digits: int, rounding: Callable[[float], int]) -> str:
+    text = f"{rounding(value * 10**digits) / 10**digits:.{digits}f}"
+    return text.rstrip("0").rstrip(".")
+
+
+def format_value(value: object) -> str:
+    """A value as it would stand in a scene file."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, float):
+        text = f"{value:.12g}"
+        return f"{text}.0" if text.lstrip("-").isdigit() else text
+    return f'"{value}"' if isinstance(value, str) else str(value)

@@ -1,0 +1,98 @@
+"""The one search for a value that works: deterministic, on one parameter, a counted number of trials, no clock."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+from geometry.base.errors import GeometryError, Nearest, limit
+
+# trials of one search, those of the ends included: 2^-40 of the way is below what is printed
+MOST_TRIALS = 40
+
+
+def nearest(
+    holds: Callable[[float], bool], given: float, toward: float | Iterable[float], *, digits: int = 4
+) -> Nearest | None:
+    """The value nearest to ``given`` that holds, on the way to ``toward`` (or to the first of several that holds).
+
+    ``holds`` judges one value of one parameter: a margin of what is made, never a scene; a ``GeometryError`` of it is
+    a no. Whole numbers are searched where both ends are whole. At most ``MOST_TRIALS`` trials; ``None`` where none of
+    the ends holds, or where what would be printed does not: then one parameter cannot cure it.
+    """
+    left = MOST_TRIALS - 1
+
+    def tried(value: float) -> bool:
+        nonlocal left
+        left -= 1
+        try:
+            return holds(value)
+        except GeometryError:
+            return False
+
+    ends = [toward] if isinstance(toward, int | float) else toward
+    good: float | None = None
+    for end in ends:
+        if left <= 0:
+            return None
+        if tried(end):
+            good = end
+            break
+    if good is None:
+        return None
+    bad: float = given
+    if isinstance(good, int) and isinstance(bad, int):
+        while abs(good - bad) > 1 and left > 0:
+            between = (good + bad) // 2
+            good, bad = (between, bad) if tried(between) else (good, between)
+        return limit(good, given)
+    while left > 0 and abs(good - bad) > _told_apart(max(abs(good), abs(bad)), digits):
+        middle = (good + bad) / 2
+        good, bad = (middle, bad) if tried(middle) else (good, middle)
+    found = limit(float(good), given, digits=digits)
+    left = 1
+    return found if isinstance(found.value, float) and tried(found.value) else None
+
+
+def _told_apart(size: float, digits: int) -> float:
+    """A tenth of the last digit in which a limit of a size is told."""
+    return 0.1 * 10.0 ** -max(digits, 3 - math.floor(math.log10(size))) if size > 0 else 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Suspect:
+    """A parameter that may be to blame: its value, one that takes it out of play, and whether a value of it works."""
+
+    name: str
+    value: float
+    harmless: float
+    works: Callable[[float], bool]
+    # after the point of what is told; an angle in rad wants 9
+    digits: int = 4
+
+
+def blamed(suspects: Iterable[Suspect], first: str) -> Suspect | None:
+    """The first suspect that alone can cure a refusal, the one named ``first`` before the others; else None."""
+    for suspect in sorted(suspects, key=lambda s: s.name != first):
+        try:
+            if suspect.value != suspect.harmless and suspect.works(suspect.harmless):
+                return suspect
+        except GeometryError:
+            continue
+    return None
+
+
+def last_that_holds(holds: Callable[[float], object], fails: float, works: float = 0.0, steps: int = 24) -> float:
+    """The value nearest to one that ``fails`` at which something can be made, halved from one that ``works``.
+
+    ``holds``: False or a ``GeometryError`` is a no.
+    """
+    for _ in range(steps):
+        middle = (works + fails) / 2
+        try:
+            good = holds(middle) is not False
+        except GeometryError:
+            good = False
+        works, fails = (middle, fails) if good else (works, middle)
+    return works

@@ -1,0 +1,112 @@
+"""Bracketed roots of one real equation: they cannot leave the bracket and say how they ended."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.base.errors import ConvergenceError
+from geometry.base.tolerance import TOLERANCES
+
+Real = NDArray[np.float64]
+
+
+# bisection alone takes some 60
+_MOST_STEPS = 120
+
+
+@dataclass(frozen=True, slots=True)
+class Root:
+    """A root with the evidence for it: the last bracket holds a change of sign."""
+
+    value: float
+    residual: float
+    iterations: int
+    bracket: tuple[float, float]
+
+
+def bracketed_root(
+    function: Callable[[float], float], low: float, high: float, *, limit: int = 120, enough: float = 0.0
+) -> Root:
+    """Root of a continuous function with opposite signs at ``low`` and ``high``; to the last digit.
+
+    ``enough``: a residual of this size ends the search before.
+
+    Chandrupatla's method (Advances in Engineering Software 28, 1997): inverse quadratic interpolation
+    where it is safe, bisection otherwise.
+
+    Raises
+    ------
+    ConvergenceError
+        No change of sign in the bracket, or more than ``limit`` steps.
+    """
+    b, a, c = low, high, high
+    fa, fb = function(a), function(b)
+    fc = fa
+    for end, value in ((low, fb), (high, fa)):
+        if value == 0:
+            return Root(end, 0.0, 0, (end, end))
+    if fa * fb > 0 or fa != fa or fb != fb:
+        raise ConvergenceError(f"no change of sign between {low:.6g} and {high:.6g}", min(abs(fa), abs(fb)), 0)
+    fraction = 0.5
+    for iteration in range(1, limit + 1):
+        x = a + fraction * (b - a)
+        fx = function(x)
+        if (fx > 0) == (fa > 0):
+            c, fc = a, fa
+        else:
+            c, b, fc, fb = b, a, fb, fa
+        a, fa = x, fx
+        best, residual = (a, fa) if abs(fa) < abs(fb) else (b, fb)
+        reach = abs(b - a)
+        least = 2 * TOLERANCES.relative_root * abs(best) + 1e-300
+        if abs(residual) <= enough or reach <= least:
+            return Root(best, residual, iteration, (min(a, b), max(a, b)))
+        fraction = _next_fraction(a, b, c, fa, fb, fc, 0.5 * least / reach)
+    raise ConvergenceError("root", residual, limit)
+
+
+def _next_fraction(a: float, b: float, c: float, fa: float, fb: float, fc: float, margin: float) -> float:
+    """Where in [a, b] to look next, as a fraction; 0.5 where interpolation is not safe."""
+    if len({fa, fb, fc}) < 3 or len({a, b, c}) < 3:
+        return 0.5
+    xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
+    if phi**2 < xi and (1 - phi) ** 2 < 1 - xi:
+        fraction = (fa / (fb - fa)) * (fc / (fb - fc)) + ((c - a) / (b - a)) * (fa / (fc - fa)) * (fb / (fc - fb))
+    else:
+        fraction = 0.5
+    return min(1 - margin, max(margin, fraction))
+
+
+def bracketed_roots(function: Callable[[Real], Real], low: Real, high: Real, at_low: Real, at_high: Real) -> Real:
+    """Roots (n,) of a vectorised function that has the values of opposite sign ``at_low`` and ``at_high``.
+
+    The method of ``bracketed_root`` on all brackets together, to the last digit; brackets whose function jumps end
+    at the jump.
+    """
+    b, a, fb, fa = low, high, at_low, at_high
+    fraction, best = np.full(len(low), 0.5), low
+    with np.errstate(all="ignore"):
+        for _ in range(_MOST_STEPS):
+            x = a + fraction * (b - a)
+            fx = function(x)
+            same = (fx > 0) == (fa > 0)
+            c, fc = np.where(same, a, b), np.where(same, fa, fb)
+            b, fb = np.where(same, b, a), np.where(same, fb, fa)
+            a, fa = x, fx
+            best = np.where(np.abs(fa) < np.abs(fb), a, b)
+            reach, least = np.abs(b - a), 2 * TOLERANCES.relative_root * np.abs(best) + 1e-300
+            done = (fa == 0) | (fb == 0) | (reach <= least)
+            if done.all():
+                break
+            xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
+            guess = (fa / (fb - fa)) * (fc / (fb - fc)) + ((c - a) / (b - a)) * (fa / (fc - fa)) * (fb / (fc - fb))
+            safe = (phi**2 < xi) & ((1 - phi) ** 2 < 1 - xi) & np.isfinite(guess)
+            margin = 0.5 * least / reach
+            fraction = np.where(safe, np.clip(guess, margin, 1 - margin), 0.5)
+            # what is found stays where it is
+            fraction = np.where(done, np.where(best == a, 0.0, 1.0), fraction)
+    return best

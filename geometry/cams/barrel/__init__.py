@@ -1,0 +1,1 @@
+"""Cylindrical cams: their walls, bodies and developments."""

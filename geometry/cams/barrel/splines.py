@@ -1,0 +1,201 @@
+"""The walls of a cylindrical cam as B-spline surfaces with finished poles, and their edges on both cylinders.
+
+One surface for each piece of the motion, cut where the roller rests, over the cam angle and the share of the way from
+the inner to the outer cylinder: the walls are analytic there. Poles interpolate the exact wall at Greville's places.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+
+from geometry.base.errors import ConvergenceError
+from geometry.cams.barrel.cam import BarrelCam
+from geometry.cams.motion.follower_motion import TURN
+from geometry.curves.bounds import Bound
+from geometry.curves.bspline import basis
+from geometry.curves.curve import Real
+from geometry.laws.piece import LawPiece, sign_changes
+
+_DEGREE = 7
+# the kernel joins curves and surfaces within 1e-7 mm: up to a tolerance of 1e-6 mm edges are kept well below that
+_TARGET, _SHARE = 2e-8, 0.02
+_MARGIN = 1.5
+_ACROSS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32)
+_ROUNDS, _MOST_SPANS = 24, 1000
+# samples a span, none at the places of interpolation
+_SAMPLES = 13
+# the roller rests where S' is below this part of its peak; no stretch is shorter than this part of its piece
+_STILL, _LEAST_STRETCH, _REST_SAMPLES = 1e-12, 1e-6, 65
+# dwells are cut into parts of at most this, rad
+_MOST_DWELL = 2.1
+# rounding of fitting and measuring, part of the size
+_ROUNDING = 3e-15
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """Cam angles ``start`` to ``end`` (rad) of one piece of the motion.
+
+    ``rests``: the roller stands still at the start. ``turns``: how often the cam has gone round since the first one.
+    """
+
+    piece: LawPiece
+    start: float
+    end: float
+    rests: bool
+    turns: int = 0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class WallSpline:
+    """A tensor product over cam angle and share: knots both ways, poles (n, m, 3) mm.
+
+    ``edges``: poles (2, n, 2) of the polar angle (rad) and the height (mm) along the inner and the outer cylinder.
+    """
+
+    side: int
+    stretch: Stretch
+    along: Real
+    across: Real
+    poles: Real
+    edges: Real
+    max_error: float
+
+    @property
+    def degree(self) -> int:
+        """Both ways."""
+        return _DEGREE
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BarrelSplines:
+    """All walls as splines, in the order of the motion's stretches, side by side, and the worst error, mm."""
+
+    walls: dict[int, tuple[WallSpline, ...]]
+    max_error: float
+    bound: Bound = "sampled"
+
+
+def barrel_splines(cam: BarrelCam, tolerance: float) -> BarrelSplines:
+    """Splines within ``tolerance`` mm of the walls, and within what the kernel calls one point of the cylinders.
+
+    Raises
+    ------
+    ConvergenceError
+        1000 spans are not enough.
+    """
+    target = max(min(tolerance, max(_TARGET, _SHARE * tolerance)) / _MARGIN, 4 * _ROUNDING * cam.outer)
+    found = stretches(cam)
+    walls = {side: tuple(_fitted(cam, side, stretch, target) for stretch in found) for side in cam.sides}
+    return BarrelSplines(walls, _MARGIN * max(w.max_error for found in walls.values() for w in found))
+
+
+def stretches(cam: BarrelCam) -> list[Stretch]:
+    """The motion from a rest of the roller on, cut at all its rests; long dwells are cut too."""
+    pieces = cam.motion.pieces
+    peak = max(float(np.abs(p.value(np.linspace(*p.domain, _REST_SAMPLES), 1)).max()) for p in pieces)
+    found: list[Stretch] = []
+    for piece in pieces:
+        if piece.is_constant:
+            parts = int(np.ceil((piece.end - piece.start) / _MOST_DWELL))
+            places = np.linspace(piece.start, piece.end, parts + 1).tolist()
+        else:
+            inner = sign_changes(partial(piece.value, order=1), np.linspace(*piece.domain, _REST_SAMPLES))
+            least = _LEAST_STRETCH * (piece.end - piece.start)
+            kept = inner[(inner > piece.start + least) & (inner < piece.end - least)]
+            places = [piece.start, *kept.tolist(), piece.end]
+        for k, (start, end) in enumerate(pairwise(places)):
+            rests = k > 0 or abs(float(piece.value(start, 1))) <= _STILL * peak
+            found.append(Stretch(piece, start, end, rests))
+    first = next(k for k, stretch in enumerate(found) if stretch.rests)
+    return [*found[first:], *(replace(stretch, turns=1) for stretch in found[:first])]
+
+
+def _fitted(cam: BarrelCam, side: int, stretch: Stretch, target: float) -> WallSpline:
+    """The spline on knots that are halved where its error is above the target."""
+    across = _across(cam, side, stretch, target)
+    breaks = np.array([stretch.start, stretch.end])
+    for _ in range(_ROUNDS):
+        made, errors = _interpolated(cam, side, stretch, breaks, across)
+        wide = np.flatnonzero(errors > target)
+        if not len(wide) or len(breaks) + len(wide) > _MOST_SPANS:
+            break
+        breaks = np.sort(np.concatenate([breaks, (breaks[wide] + breaks[wide + 1]) / 2]))
+    if made.max_error > target:
+        raise ConvergenceError("spline surfaces of the walls", made.max_error, len(breaks))
+    return made
+
+
+def _across(cam: BarrelCam, side: int, stretch: Stretch, target: float) -> Real:
+    """Knots across the wall, evenly spread: as many as lines across it need."""
+    angles = np.linspace(stretch.start, stretch.end, 2 * _REST_SAMPLES)[1:-1:4]
+    for spans in _ACROSS:
+        knots = _knots(np.linspace(0.0, 1.0, spans + 1))
+        places, between = _greville(knots), np.linspace(0, 1, 11 * spans + 3)
+        exact = [cam.wall(angles[:, None], side, cam.inner + v * (cam.outer - cam.inner), stretch.piece)
+                 for v in (places, between)]  # fmt: skip
+        weights = _matrix(knots, between) @ np.linalg.inv(_matrix(knots, places))
+        if np.abs(np.einsum("ij,ajc->aic", weights, exact[0]) - exact[1]).max() <= target / 3:
+            break
+    return knots
+
+
+def _interpolated(cam: BarrelCam, side: int, stretch: Stretch, breaks: Real, v_knots: Real) -> tuple[WallSpline, Real]:
+    """The spline on given knots, and the errors of its spans along the wall."""
+    u_knots = _knots(breaks)
+    u, v = _greville(u_knots), _greville(v_knots)
+    radii = cam.inner + v * (cam.outer - cam.inner)
+    points = cam.wall(u[:, None], side, radii, stretch.piece)
+    along, crosswise = _matrix(u_knots, u), _matrix(v_knots, v)
+    half = np.linalg.solve(along, points.reshape(len(u), -1)).reshape(points.shape)
+    poles = np.linalg.solve(crosswise, half.transpose(1, 0, 2).reshape(len(v), -1)).reshape(len(v), len(u), 3)
+    poles = poles.transpose(1, 0, 2)
+    edges = np.array([np.linalg.solve(along, _polar(cam, side, stretch, r, u)) for r in (cam.inner, cam.outer)])
+    made = WallSpline(side, stretch, u_knots, v_knots, poles, edges, 0.0)
+    errors = _errors(cam, made, breaks)
+    return replace(made, max_error=float(errors.max())), errors
+
+
+def _polar(cam: BarrelCam, side: int, stretch: Stretch, radius: float, angle: Real) -> Real:
+    """Polar angle (not folded) and height of an edge, (n, 2)."""
+    polar, height = cam.edge_series(stretch.piece, side, radius, angle, 0)
+    return np.stack([polar[0] - TURN * stretch.turns, height[0]], axis=1)
+
+
+def _knots(breaks: Real) -> Real:
+    return np.concatenate([np.full(_DEGREE + 1, breaks[0]), breaks[1:-1], np.full(_DEGREE + 1, breaks[-1])])
+
+
+def _greville(knots: Real) -> Real:
+    """One place for each pole: the mean of its inner knots."""
+    found = np.array([knots[i + 1 : i + _DEGREE + 1].mean() for i in range(len(knots) - _DEGREE - 1)])
+    found[0], found[-1] = knots[0], knots[-1]
+    return found
+
+
+def _matrix(knots: Real, t: Real) -> Real:
+    """Values of all basis functions, (places, poles)."""
+    first, values = basis(_DEGREE, knots, t)
+    matrix = np.zeros((len(t), len(knots) - _DEGREE - 1))
+    np.put_along_axis(matrix, first[:, None] + np.arange(_DEGREE + 1), values, axis=1)
+    return matrix
+
+
+def _errors(cam: BarrelCam, spline: WallSpline, breaks: Real) -> Real:
+    """Greatest errors of each span: of samples from the wall, of its ends from their paths on the cylinders."""
+    share = np.linspace(0, 1, _SAMPLES)
+    u = (breaks[:-1, None] + np.diff(breaks)[:, None] * share).ravel()
+    v = np.linspace(0, 1, 4 * (len(spline.across) - 2 * _DEGREE - 1) + 5)
+    along = _matrix(spline.along, u)
+    points = np.einsum("ui,vj,ijc->uvc", along, _matrix(spline.across, v), spline.poles)
+    away = cam.distance(points.reshape(-1, 3), np.repeat(u, len(v)))
+    worst = np.abs(away).reshape(len(u), len(v)).max(axis=1)
+    for row, radius, poles in ((0, cam.inner, spline.edges[0]), (-1, cam.outer, spline.edges[1])):
+        polar, height = (along @ poles).T
+        path = np.stack([radius * np.cos(polar), radius * np.sin(polar), height], axis=1)
+        worst = np.maximum(worst, np.linalg.norm(points[:, row] - path, axis=1))
+    return np.asarray(worst.reshape(-1, _SAMPLES).max(axis=1))

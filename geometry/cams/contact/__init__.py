@@ -1,0 +1,1 @@
+"""Where cams and followers touch, and what a follower does that is laid on an outline."""

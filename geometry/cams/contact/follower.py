@@ -1,0 +1,184 @@
+"""Contact of a cam with its follower over one turn, on the exact outlines: the gap at every cam angle.
+
+The cam's outline is its profile as cut, corners and fillings included; the follower is a point, an arc about its
+centre, or a straight face. That the contact stays on a plate is for the mate to tell (``least_plate_diameter``).
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from geometry.base.distinct import distinct
+from geometry.cams.contact.outlines import FollowerEnd
+from geometry.cams.motion.follower_motion import TURN
+from geometry.cams.plane.disk import DiskCam
+from geometry.cams.plane.fence import Fence
+from geometry.cams.plane.shape import cam_shape
+from geometry.curves.curve import Complex, Curve, Real
+from geometry.curves.line_arc import Arc, Line
+from geometry.gears.mesh.search import ContactPlace, PairContact
+from geometry.plane.distance import Verdict
+from geometry.plane.measure import distance_to_profile
+from geometry.plane.profile import Label, Profile
+
+# |gap| up to this part of the follower's distance from the axis is contact
+CONTACT_TOLERANCE = 1e-8
+_ANGLES, _SAMPLES, _STEPS, _REACH_SAMPLES = 360, 65, 30, 4097
+# samples of each edge of a follower's body, and every how many angles it is looked at
+_BODY_SAMPLES, _BODY_STEP = 33, 5
+
+
+def follower_contact(
+    cam: DiskCam, end: FollowerEnd, tolerance: float, *, out: float = 0.0, beyond: Profile | None = None
+) -> PairContact:
+    """The gap between cam and follower at 360 angles and at every joint of the motion, mm.
+
+    ``out``: mm by which the follower stands farther out than its motion asks; ``beyond``: the outer wall of a groove,
+    whose gaps are the second curve of ``side_gaps``. OVERLAP: a gap below -tolerance somewhere; CONTACT: within
+    +-tolerance everywhere, of a groove at one of its walls; else CLEAR. The rest of the follower's body is held
+    against the cam every 5 degrees: where it runs into it, the gap is minus the depth.
+    """
+    joints = [p.start for p in cam.motion.pieces]
+    angles = distinct(np.concatenate([np.arange(_ANGLES) * TURN / _ANGLES, np.mod(joints, TURN)]))
+    fence = Fence(cam_shape(cam).profile)
+    gaps, points = (_face_gaps if cam.is_flat else _round_gaps)(cam, fence, angles, out)
+    if end.outline is not None:
+
+        def body_at(index: int) -> Complex:
+            origin, turn = follower_pose(cam, end, float(angles[index]))
+            lifted = origin + out * _outwards(cam, angles[index : index + 1])
+            return (lifted + body * cmath.exp(1j * turn)) * cmath.exp(-1j * angles[index])
+
+        body, points = body_points(end), points * np.exp(-1j * angles)
+        press_in(gaps, points, fence, body_at, tolerance)
+        points = points * np.exp(1j * angles)
+    outer = gaps
+    if beyond is not None:
+        centre = cam.reference_point(angles) + out * _outwards(cam, angles)
+        outer = -Fence(beyond).signed_distance(centre * np.exp(-1j * angles)) - cam.radius
+        points = np.where(outer < gaps, centre + cam.radius * cam.normal(angles), points)
+    return judged(angles, (gaps, outer), points, tolerance)
+
+
+def body_points(end: FollowerEnd) -> Complex:
+    """Points of a follower's outline in its own frame, mm, without its round end: its centre's gap tells of that."""
+    assert end.outline is not None
+    points = np.concatenate([e.point(np.linspace(*e.domain, _BODY_SAMPLES)) for e in end.outline.edges])
+    return np.asarray(points[np.abs(points - (end.arm_length or 0.0)) > end.radius * (1 + 1e-9)])
+
+
+def press_in(gaps: Real, points: Complex, fence: Fence, body_at: Callable[[int], Complex], tolerance: float) -> None:
+    """Gaps and their points where the rest of a follower runs deeper into a cam than its end: minus the depth.
+
+    ``body_at`` gives the follower's outline in the frame of the profile at a place; every fifth one is looked at.
+    """
+    places = range(0, len(gaps), _BODY_STEP)
+    bodies = [body_at(index) for index in places]
+    owners = np.repeat(np.array(places), [len(body) for body in bodies])
+    here = np.concatenate(bodies)
+    held = fence.holds(here)
+    here, owners = here[held], owners[held]
+    if not here.size:
+        return
+    depth = distance_to_profile(here, fence.profile)
+    for row in np.argsort(depth):
+        # the deepest of each place comes last
+        if depth[row] > max(tolerance, -gaps[owners[row]]):
+            gaps[owners[row]], points[owners[row]] = -depth[row], here[row]
+
+
+def judged(places: Real, walls: tuple[Real, Real], points: Complex, tolerance: float) -> PairContact:
+    """The verdict on the gaps at one wall or two: CONTACT where one of them touches at every place.
+
+    ``greatest_gap`` is that of both walls.
+    """
+    nearer = np.minimum(*walls)
+    worst, greatest = int(np.argmin(nearer)), float(max(w.max() for w in walls))
+    if not all(np.all(np.isfinite(w)) for w in walls):
+        verdict = Verdict.UNDECIDED
+    elif nearer[worst] < -tolerance:
+        verdict = Verdict.OVERLAP
+    else:
+        verdict = Verdict.CONTACT if nearer.max() <= tolerance else Verdict.CLEAR
+    place = ContactPlace(float(nearer[worst]), float(places[worst]), complex(points[worst]), (Label.CAM, Label.BODY))
+    curves = tuple(walls[0].tolist()), tuple(walls[1].tolist())
+    return PairContact(verdict, tolerance, tuple(places.tolist()), tuple(nearer.tolist()), curves, place, greatest)
+
+
+def follower_pose(cam: DiskCam, end: FollowerEnd, angle: float) -> tuple[complex, float]:
+    """Where a follower's frame stands at a cam angle, in the cam's fixed frame: its origin, mm, and its turn, rad."""
+    return cam.follower_pose(angle % TURN, on_arm=end.arm_length is not None, turns=end.outline is not None)
+
+
+def reach_from_pivot(cam: DiskCam) -> float:
+    """Greatest distance along a flat arm at which the cam touches it, from the pivot, mm (4 097 angles)."""
+    mount: Any = cam.mount
+    angles = np.linspace(0, TURN, _REACH_SAMPLES)[:-1]
+    swung = mount.start_angle + cam.motion.value(angles)
+    local = (cam.contact(angles) - mount.centre_distance) * np.exp(-1j * (math.pi - mount.sense * swung))
+    return float(local.real.max())
+
+
+def _round_gaps(cam: DiskCam, fence: Fence, angles: Real, out: float) -> tuple[Real, Complex]:
+    """Gaps of a point or an arc about the reference point: its distance from the outline less its radius."""
+    centre = cam.reference_point(angles) + out * _outwards(cam, angles)
+    here = centre * np.exp(-1j * angles)
+    return fence.signed_distance(here) - cam.radius, centre - cam.radius * cam.normal(angles)
+
+
+def _outwards(cam: DiskCam, angles: Real) -> Complex:
+    """Unit vectors of the follower's way out."""
+    way = cam.way(angles, cam.reference_point(angles))
+    return np.asarray(way / np.abs(way))
+
+
+def _face_gaps(cam: DiskCam, fence: Fence, angles: Real, out: float) -> tuple[Real, Complex]:
+    """Gaps of a straight face: its distance from the axis less the outline's support in its direction."""
+    normal = cam.normal(angles)
+    height = (cam.reference_point(angles) * np.conj(normal)).real + out
+    local = normal * np.exp(-1j * angles)
+    best, where = np.full(angles.shape, -np.inf), np.zeros(angles.shape, dtype=complex)
+    for segment in fence.profile.period:
+        support, point = _support(segment.curve, local)
+        better = support > best
+        best, where = np.where(better, support, best), np.where(better, point, where)
+    return height - best, where * np.exp(1j * angles)
+
+
+def _support(curve: Curve, direction: Complex) -> tuple[Real, Complex]:
+    """The greatest height of a curve in each direction (n,), and the point that has it."""
+    if isinstance(curve, Arc):
+        # the arc's own point in that direction, where it has one
+        spoke = curve.radius * direction * math.copysign(1.0, curve.sweep)
+        swept = np.mod(math.copysign(1.0, curve.sweep) * (np.angle(spoke) - curve.start_angle), 2 * math.pi)
+        inner = np.where(swept <= abs(curve.sweep), swept, 0.0)
+        points = np.stack(
+            [curve.point(inner), *(np.full(direction.shape, p) for p in curve.point(np.array(curve.domain)))]
+        )
+    else:
+        t = np.linspace(*curve.domain, _SAMPLES)
+        heights = (np.conj(direction)[:, None] * curve.point(t)).real
+        at = np.argmax(heights, axis=1)
+        parameter = t[at]
+        if not isinstance(curve, Line):
+            parameter = _climbed(curve, direction, t, at)
+        points = np.stack([curve.point(parameter), curve.point(t[at])])
+    heights = (np.conj(direction) * points).real
+    chosen = np.argmax(heights, axis=0)
+    lanes = np.arange(len(direction))
+    return heights[chosen, lanes], points[chosen, lanes]
+
+
+def _climbed(curve: Curve, direction: Complex, t: Real, at: Any) -> Real:
+    """Parameters of greatest height beside samples: bisection of the slope between the neighbours."""
+    low, high = t[np.maximum(at - 1, 0)], t[np.minimum(at + 1, len(t) - 1)]
+    for _ in range(_STEPS):
+        middle = (low + high) / 2
+        rising = (np.conj(direction) * curve.derivative(middle)).real > 0
+        low, high = np.where(rising, middle, low), np.where(rising, high, middle)
+    return np.asarray((low + high) / 2)

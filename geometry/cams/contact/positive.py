@@ -1,0 +1,117 @@
+"""Contact of positive drives over one turn, on the exact outlines: conjugate rollers, yokes of constant breadth."""
+
+from __future__ import annotations
+
+import cmath
+from typing import Any
+
+import numpy as np
+
+from geometry.base.distinct import distinct
+from geometry.cams.motion.follower_motion import TURN
+from geometry.cams.motion.guides import Translating
+from geometry.cams.plane.disk import DiskCam
+from geometry.cams.plane.positive import Conjugate
+from geometry.cams.plane.shape import cam_shape
+from geometry.curves.curve import Complex, Real
+from geometry.gears.mesh.search import ContactPlace, PairContact
+from geometry.plane.distance import Verdict
+from geometry.plane.measure import distance_to_profile
+from geometry.plane.profile import Label, Profile
+
+_ANGLES = 360
+_SAMPLES = 257
+
+
+def between_rollers(first: DiskCam, pair: Conjugate) -> float:
+    """Distance of both rollers' centres on a translating follower, mm, or angle between its arms, rad."""
+    one: Any = first.mount
+    two: Any = pair.cam.mount
+    if isinstance(one, Translating):
+        return float(one.start_height + two.start_height)
+    return float(TURN - one.start_angle - two.start_angle)
+
+
+def second_centres(first: DiskCam, distance: float, angles: Real) -> Complex:
+    """Centres of the second roller in the fixed frame, mm, on the follower that the first cam moves by its law.
+
+    ``distance`` between the rollers as of ``between_rollers``; the second cam is not asked.
+    """
+    centre = first.reference_point(angles)
+    mount: Any = first.mount
+    if isinstance(mount, Translating):
+        return np.asarray(centre - 1j * distance)
+    pivot = mount.centre_distance
+    return np.asarray(pivot + (centre - pivot) * cmath.exp(-1j * mount.sense * distance))
+
+
+def conjugate_contact(
+    first: DiskCam, pair: Conjugate, distance: float, tolerance: float, *, second_turn: float = 0.0
+) -> PairContact:
+    """The gaps under both rollers at 360 angles and at every joint of the motion, mm.
+
+    ``second_turn``: rad by which the second disk is turned on the shaft from its place. OVERLAP: a gap below -tolerance
+    somewhere; CONTACT: both within +-tolerance everywhere; else CLEAR.
+    """
+    angles = _angles(first)
+    turns = np.exp(-1j * angles)
+    one = distance_to_profile(first.reference_point(angles) * turns, cam_shape(first).profile) - first.radius
+    own = second_centres(first, distance, angles) * turns * cmath.exp(-1j * (pair.turn + second_turn))
+    two = distance_to_profile(own, cam_shape(pair.cam).profile) - pair.cam.radius
+    return _judged(angles, one, two, first.contact(angles), tolerance)
+
+
+def yoke_contact(cam: DiskCam, breadth: float, play: float, tolerance: float, *, out: float = 0.0) -> PairContact:
+    """The gaps at the upper and lower face, or roller, of a yoke at 360 angles and at every joint, mm.
+
+    ``breadth`` between faces or roller centres without the ``play``, half of which stands on either side; ``out``: mm
+    by which the yoke stands farther out than its motion asks.
+    """
+    angles = _angles(cam)
+    profile, mount = cam_shape(cam).profile, cam.mount
+    assert isinstance(mount, Translating)
+    upper = mount.start_height + cam.motion.value(angles) + play / 2 + out
+    lower = upper - breadth - play
+    if cam.is_flat:
+        one = upper - _support(profile, 1j * np.exp(-1j * angles))
+        two = -lower - _support(profile, -1j * np.exp(-1j * angles))
+    else:
+        one, two = (distance_to_profile(1j * y * np.exp(-1j * angles), profile) - cam.radius for y in (upper, lower))
+    return _judged(angles, one, two, cam.contact(angles), tolerance)
+
+
+def _angles(cam: DiskCam) -> Real:
+    joints = [p.start for p in cam.motion.pieces]
+    return distinct(np.concatenate([np.arange(_ANGLES) * TURN / _ANGLES, np.mod(joints, TURN)]))
+
+
+def _support(profile: Profile, direction: Complex) -> Real:
+    """Greatest height of an outline in each direction (n,), mm: samples, and a parabola through the three highest."""
+    best = np.full(direction.shape, -np.inf)
+    for segment in profile.period:
+        t = np.linspace(*segment.curve.domain, _SAMPLES)
+        for _ in range(4):
+            heights = (np.conj(direction)[:, None] * segment.curve.point(t)).real
+            at = np.argmax(heights, axis=1)
+            rows = np.arange(len(direction))
+            best = np.maximum(best, heights[rows, at])
+            # the neighbours of the highest sample, finer; an own grid for each direction
+            grid = np.broadcast_to(t, heights.shape)
+            low, high = grid[rows, np.maximum(at - 1, 0)], grid[rows, np.minimum(at + 1, heights.shape[1] - 1)]
+            t = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, 17)
+    return best
+
+
+def _judged(angles: Real, one: Real, two: Real, points: Complex, tolerance: float) -> PairContact:
+    """The verdict on both gap curves."""
+    gaps = np.minimum(one, two)
+    worst, greatest = int(np.argmin(gaps)), float(max(one.max(), two.max()))
+    if not (np.all(np.isfinite(one)) and np.all(np.isfinite(two))):
+        verdict = Verdict.UNDECIDED
+    elif gaps[worst] < -tolerance:
+        verdict = Verdict.OVERLAP
+    else:
+        verdict = Verdict.CONTACT if greatest <= tolerance else Verdict.CLEAR
+    place = ContactPlace(float(gaps[worst]), float(angles[worst]), complex(points[worst]), (Label.CAM, Label.BODY))
+    curves = tuple(one.tolist()), tuple(two.tolist())
+    return PairContact(verdict, tolerance, tuple(angles.tolist()), tuple(gaps.tolist()), curves, place, greatest)

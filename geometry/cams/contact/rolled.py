@@ -1,0 +1,226 @@
+"""A follower rolled over any closed outline: what a cut or printed cam does, whatever curves it was written with.
+
+A roller of radius r over an outline is a point over its parallel curve p + r n; a face turns with the normal n. Every
+edge is such a motion of (p, n), and so is the turn of n about a convex corner. Each says at which cam angles it is
+touched and how high the follower stands then; the highest stop holds the follower.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.cams.motion.follower_motion import TURN
+from geometry.cams.plane.disk import DiskCam
+from geometry.curves.curve import Complex, Real
+from geometry.plane.contour import signed_area
+
+if TYPE_CHECKING:
+    from geometry.cams.plane.wedge import WedgeCam
+
+Index = NDArray[np.int64]
+# parts that every edge is cut into: within one the cam angle grows or falls steadily
+_CELLS = {"Rounds": 16, "Lines": 6, "Smooth": 8}
+_STEPS = 40
+# flatter bulges are lines: their sagitta is below a part in 2e9 of the chord
+_FLAT_BULGE = 1e-9
+# angles this near to an edge's end, in steps of the grid, are its own
+_END = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Rounds:
+    """Arcs p = centre + radius n, n = exp(i (first + sweep t)); concave: radius < 0; a corner: radius 0."""
+
+    centre: Complex
+    radius: Real
+    first: Real
+    sweep: Real
+
+    def __len__(self) -> int:
+        """How many there are."""
+        return len(self.centre)
+
+    def at(self, edge: Index, t: Real) -> tuple[Complex, Complex]:
+        """Points and outward normals."""
+        normal = np.exp(1j * (self.first[edge] + self.sweep[edge] * t))
+        return self.centre[edge] + self.radius[edge] * normal, normal
+
+
+@dataclass(frozen=True, slots=True)
+class Lines:
+    """Straight edges."""
+
+    start: Complex
+    end: Complex
+
+    def __len__(self) -> int:
+        """How many there are."""
+        return len(self.start)
+
+    def at(self, edge: Index, t: Real) -> tuple[Complex, Complex]:
+        """Points and outward normals."""
+        way = self.end[edge] - self.start[edge]
+        return self.start[edge] + t * way, -1j * way / np.abs(way)
+
+
+@dataclass(frozen=True, slots=True)
+class Smooth:
+    """Polynomial edges, ``coefficients`` (n, degree + 1) of rising powers of t from 0 to 1."""
+
+    coefficients: Complex
+
+    def __len__(self) -> int:
+        """How many there are."""
+        return len(self.coefficients)
+
+    def at(self, edge: Index, t: Real) -> tuple[Complex, Complex]:
+        """Points and outward normals."""
+        point, way = np.zeros(np.shape(t), dtype=complex), np.zeros(np.shape(t), dtype=complex)
+        for column in self.coefficients.T[::-1]:
+            way = way * t + point
+            point = point * t + column[edge]
+        return point, -1j * way / np.abs(way)
+
+
+Edges = Rounds | Lines | Smooth
+
+
+@dataclass(frozen=True, slots=True)
+class Outline:
+    """A closed outline, material on its left: its edges by family, and the place of each of them along it."""
+
+    edges: tuple[Edges, ...]
+    order: Index
+
+    def families(self) -> list[Edges]:
+        """The edges and the turns of the normal about the convex corners between them."""
+        whole = [e for e in self.edges if len(e)]
+        every = [np.arange(len(e)) for e in whole]
+        starts = [e.at(i, np.zeros(len(i))) for e, i in zip(whole, every, strict=True)]
+        ends = [e.at(i, np.ones(len(i))) for e, i in zip(whole, every, strict=True)]
+        along = np.argsort(self.order)
+        outward = np.concatenate([normal for _, normal in starts])[along]
+        corner, before = (np.concatenate([s[k] for s in ends])[along] for k in (0, 1))
+        turn = np.angle(np.roll(outward, -1) / before)
+        convex = turn > 0
+        corners = Rounds(corner[convex], np.zeros(int(convex.sum())), np.angle(before[convex]), turn[convex])
+        return [*whole, corners]
+
+
+def outline_of_loop(vertices: Complex, bulges: Real, *, clockwise: bool = False) -> Outline:
+    """A closed chain of lines and arcs, in either sense; ``clockwise``: made to run so, about a hole."""
+    if (signed_area(vertices, bulges) < 0) is not clockwise:
+        vertices, bulges = vertices[::-1], -np.roll(bulges[::-1], -1)
+    ends = np.roll(vertices, -1)
+    flat = np.abs(bulges) < _FLAT_BULGE
+    start, chord, b = vertices[~flat], (ends - vertices)[~flat], bulges[~flat]
+    centre = start + chord / 2 + 1j * chord * (1 - b * b) / (4 * b)
+    radius = np.abs(chord) * (1 + b * b) / (4 * b)
+    rounds = Rounds(centre, radius, np.angle((start - centre) / radius), 4 * np.arctan(b))
+    order = np.concatenate([np.flatnonzero(~flat), np.flatnonzero(flat)])
+    return Outline((rounds, Lines(vertices[flat], ends[flat])), order)
+
+
+def outline_of_polynomials(coefficients: Complex, *, clockwise: bool = False) -> Outline:
+    """A closed chain of polynomial edges in either sense, rows of rising powers of t from 0 to 1.
+
+    ``clockwise``: made to run so, about a hole.
+    """
+    starts = coefficients[:, 0]
+    middles = coefficients @ 0.5 ** np.arange(coefficients.shape[1])
+    polygon = np.stack([starts, middles], axis=1).ravel()
+    if (signed_area(polygon, np.zeros(len(polygon))) < 0) is not clockwise:
+        # t becomes 1 - t
+        degree = coefficients.shape[1] - 1
+        turn = [[math.comb(k, j) * (-1.0) ** j for j in range(degree + 1)] for k in range(degree + 1)]
+        coefficients = (coefficients @ np.array(turn))[::-1]
+    return Outline((Smooth(coefficients),), np.arange(len(coefficients)))
+
+
+def rolled_lift(
+    cam: DiskCam | WedgeCam, outline: Outline, count: int, offset: float = 0.0, *, below: bool = True
+) -> Real:
+    """S at ``count`` equal cam angles from 0, mm or rad, of the cam's own follower on an outline in the cam's frame.
+
+    ``offset``: the outline is the cam's moved out of the material by this much, mm, for a cutter's width: the follower
+    is that much smaller. ``below``: the outline holds the follower up; else it is the outer wall of a groove, which
+    holds it down, and the lowest stop counts. Not a number where no edge is touched.
+    """
+    sign = 1.0 if below else -1.0
+    lift = np.full(count, -np.inf)
+    step = TURN / count
+    for family in outline.families():
+        # a face that lies on a line touches its ends at the same angle
+        if not len(family) or (cam.is_flat and isinstance(family, Lines)):
+            continue
+        edge, t0, t1, target = _crossings(cam, family, step, offset)
+        t = _solve(cam, family, edge, t0, t1, step * target.astype(np.float64), offset)
+        height = cam.stop(*family.at(edge, t), offset)[1]
+        np.fmax.at(lift, target % count, sign * height)
+    return np.where(np.isfinite(lift), sign * lift, np.nan)
+
+
+def _folded(angle: Real) -> Real:
+    """An angle as one from -pi to pi."""
+    return angle - TURN * np.round(angle / TURN)
+
+
+def _crossings(cam: DiskCam | WedgeCam, family: Edges, step: float, offset: float) -> tuple[Index, Real, Real, Index]:
+    """Which edges are touched at which angles of the grid: edge, its t from and to, number of the angle."""
+    cells = _CELLS[type(family).__name__]
+    t = np.broadcast_to(np.linspace(0, 1, cells + 1), (len(family), cells + 1))
+    edge = np.broadcast_to(np.arange(len(family))[:, None], t.shape)
+    angle = cam.stop(*family.at(edge, t), offset)[0]
+    low, high = angle[:, :-1], angle[:, :-1] + _folded(np.diff(angle, axis=1))
+    with np.errstate(invalid="ignore"):
+        first = np.ceil(np.minimum(low, high) / step - _END)
+        number = np.floor(np.maximum(low, high) / step + _END) - first + 1
+    number = np.where(np.isfinite(number), np.maximum(number, 0), 0).astype(np.int64).ravel()
+    cell = np.repeat(np.arange(number.size), number)
+    inside = np.arange(cell.size) - np.repeat(np.cumsum(number) - number, number)
+    target = first.ravel()[cell].astype(np.int64) + inside
+    return edge[:, :-1].ravel()[cell], t[:, :-1].ravel()[cell], t[:, 1:].ravel()[cell], target
+
+
+def _solve(cam: DiskCam | WedgeCam, family: Edges, edge: Index, a: Real, b: Real, target: Real, offset: float) -> Real:
+    """t at which each edge is touched at its angle, by the Illinois rule within [a, b]."""
+
+    def miss(t: Real) -> Real:
+        return _folded(cam.stop(*family.at(edge, t), offset)[0] - target)
+
+    fa, fb = miss(a), miss(b)
+    t = np.where(np.abs(fa) < np.abs(fb), a, b)
+    for _ in range(_STEPS):
+        with np.errstate(divide="ignore", invalid="ignore"):
+            t = np.where(fa * fb < 0, (a * fb - b * fa) / (fb - fa), t)
+        f = miss(t)
+        if not np.any((np.abs(f) > 1e-14) & (fa * fb < 0)):
+            break
+        swap = f * fb < 0
+        a, fa = np.where(swap, b, a), np.where(swap, fb, fa / 2)
+        b, fb = t, f
+    return t
+
+
+def lift_bound(cam: DiskCam, count: int, error: float) -> Real:
+    """How far S may be wrong where the outline is within ``error`` mm: error / cos nu and the second order.
+
+    dS cos nu = error + kappa (dS sin nu)^2 / 2 on a pitch curve of curvature kappa; of a swinging follower over the
+    arm of the contact. The worst of three neighbouring angles counts.
+    """
+    angle = np.arange(count, dtype=np.float64) * (TURN / count)
+    slope = np.abs(cam.pressure_angle(angle))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        bend = np.abs(1 / cam.pitch_curvature_radius(angle))
+    cosine = np.maximum(np.cos(slope), 1e-9)
+    first = error / cosine
+    bound = first + (0.0 if cam.is_flat else 1.0) * bend * (first * np.sin(slope)) ** 2 / cosine
+    point = cam.contact(angle) if cam.is_flat else cam.reference_point(angle)
+    bound = bound / np.abs(cam.way(angle, point))
+    bound = cam.slackened(angle, bound)
+    return np.maximum(np.maximum(np.roll(bound, 1), np.roll(bound, -1)), bound)

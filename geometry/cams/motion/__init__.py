@@ -1,0 +1,1 @@
+"""How a follower moves and how it is guided."""

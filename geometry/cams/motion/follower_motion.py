@@ -1,0 +1,250 @@
+"""The motion of a follower over a whole turn of the cam: phases, each with its own law, or an imported table."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.laws.law import Law, piecewise_value
+from geometry.laws.piece import LawPiece, Real
+from geometry.laws.splines import cubic_pieces
+
+TURN = 2 * math.pi
+# phases typed in degrees close to this many rad; smaller gaps are spread over the last phase
+_CLOSING = 1e-9
+# jumps below this part of lift / angle^k are rounding
+_JUMP = 1e-9
+
+
+class PhaseKind(StrEnum):
+    """What the follower does in a phase."""
+
+    RISE = "rise"
+    RETURN = "return_"
+    DWELL = "dwell"
+
+
+@dataclass(frozen=True, slots=True)
+class Phase:
+    """Cam angle (rad), change of lift (mm, or rad of an oscillating follower; negative: return), and its law."""
+
+    angle: float
+    lift: float = 0.0
+    law: Law | None = None
+
+    @property
+    def kind(self) -> PhaseKind:
+        """Rise, return or dwell, by the sign of the lift."""
+        if self.lift == 0:
+            return PhaseKind.DWELL
+        return PhaseKind.RISE if self.lift > 0 else PhaseKind.RETURN
+
+
+def rise(angle: float, lift: float, law: Law) -> Phase:
+    """The follower moves away from the axis by ``lift`` while the cam turns by ``angle``, rad."""
+    return Phase(angle, abs(lift), law)
+
+
+def dwell(angle: float) -> Phase:
+    """The follower rests, far or near."""
+    return Phase(angle)
+
+
+def return_(angle: float, lift: float, law: Law) -> Phase:
+    """The follower comes back by ``lift``: S = S_before - lift s(u)."""
+    return Phase(angle, -abs(lift), law)
+
+
+@dataclass(frozen=True, slots=True)
+class Joint:
+    """What happens at one cam angle between two pieces: the jumps of S, S', S'', S''' (right minus left).
+
+    ``continuity`` is the order up to which all derivatives go on (at most 3); 0 is a rigid impact, 1 a soft one.
+    """
+
+    angle: float
+    jumps: tuple[float, float, float, float]
+    continuity: int
+
+    @property
+    def impact(self) -> str | None:
+        """ "rigid": velocity jumps; "soft": acceleration jumps; else None."""
+        return {-1: "rigid", 0: "rigid", 1: "soft"}.get(self.continuity)
+
+
+class PieceMotion:
+    """S over the way of a cam that turns (rad) or slides (mm): analytic pieces one behind the other."""
+
+    __slots__ = ()
+    pieces: tuple[LawPiece, ...]
+
+    def value(self, way: ArrayLike, order: int = 0) -> Real:
+        """S (order 0) or its derivative over the cam's way; at a joint the value from the right."""
+        return piecewise_value(self.pieces, np.asarray(way, dtype=float), order)
+
+    def values(self, t: Real, order: int) -> list[Real]:
+        """S, S' ... S^(order)."""
+        return [self.value(t, k) for k in range(order + 1)]
+
+    def bounds(self, order: int, a: Real, b: Real) -> list[Real]:
+        """None are known for the whole way: ask the pieces."""
+        return [np.full(np.shape(a), np.inf)] * (order + 1)
+
+    def extremes(self, order: int = 0) -> tuple[float, float]:
+        """Least and greatest S^(order) (finite parts)."""
+        found = [p.value(p.extremes(order), order) for p in self.pieces]
+        return float(min(v.min() for v in found)), float(max(v.max() for v in found))
+
+
+@dataclass(frozen=True, slots=True)
+class FollowerMotion(PieceMotion):
+    """S over the cam angle: analytic pieces from 0 to 2 pi, and the phases they came from (none for a table).
+
+    S is counted from the lowest position that the phases begin with; the cam turns counter-clockwise.
+    """
+
+    pieces: tuple[LawPiece, ...]
+    phases: tuple[Phase, ...] = ()
+
+    def value(self, way: ArrayLike, order: int = 0) -> Real:
+        """S (order 0) or its derivative over the cam angle (rad), any angle; at a joint the value from the right."""
+        folded = np.mod(np.asarray(way, dtype=float), TURN)
+        return piecewise_value(self.pieces, folded, order)
+
+    @property
+    def lift(self) -> float:
+        """H: greatest minus least S."""
+        low, high = self.extremes()
+        return high - low
+
+    def moving_pieces(self, kind: PhaseKind | None = None) -> list[LawPiece]:
+        """Pieces that are no dwell; those of rises or returns only where ``kind`` says so (by the sign of S')."""
+        moving = [p for p in self.pieces if not p.is_constant]
+        if kind is None:
+            return moving
+        sign = 1.0 if kind is PhaseKind.RISE else -1.0
+        rates = [sign * p.value(np.linspace(*p.domain, 33), 1) for p in moving]
+        return [p for p, rate in zip(moving, rates, strict=True) if rate.max() > _JUMP * np.abs(rate).max()]
+
+    def negated(self) -> FollowerMotion:
+        """-S: what the counter-follower of a conjugate cam does."""
+        phases = tuple(Phase(p.angle, -p.lift, p.law) for p in self.phases)
+        return FollowerMotion(tuple(p.placed(0.0, 1.0, 0.0, -1.0) for p in self.pieces), phases)
+
+    def joints(self) -> tuple[Joint, ...]:
+        """Every joint between pieces, the one at cam angle 0 first."""
+        return _joints(self.pieces)
+
+    def impacts(self) -> list[Joint]:
+        """Joints with a rigid or soft impact."""
+        return [j for j in self.joints() if j.impact]
+
+
+@lru_cache(maxsize=16)
+def _joints(pieces: tuple[LawPiece, ...]) -> tuple[Joint, ...]:
+    # the peaks inside too: laws whose ends are 0 but for rounding have no scale there
+    scales = [max(float(np.abs(p.value(p.extremes(order), order)).max()) for p in pieces) for order in range(4)]
+    found = []
+    for index, after in enumerate(pieces):
+        before = pieces[index - 1]
+        length = min(before.end - before.start, after.end - after.start)
+        lefts, rights = (p.values(np.array([at]), 3) for p, at in ((before, before.end), (after, after.start)))
+        jumps, continuity, whole = [], -1, True
+        for order in range(4):
+            left, right = float(lefts[order][0]), float(rights[order][0])
+            # a rounding of S is one of S^(order) over so short a piece
+            rounding = 1e-15 * scales[0] / length**order
+            jump = right - left if abs(right - left) > _JUMP * scales[order] + rounding else 0.0
+            whole = whole and jump == 0
+            continuity = order if whole else continuity
+            jumps.append(jump)
+        found.append(Joint(after.start, (jumps[0], jumps[1], jumps[2], jumps[3]), continuity))
+    return tuple(found)
+
+
+def follower_motion(phases: Sequence[Phase]) -> FollowerMotion:
+    """The motion of phases that follow each other from cam angle 0 and fill one turn.
+
+    Raises
+    ------
+    ParameterError
+        An angle that is not positive, a moving phase without a law, angles that do not make 2 pi, or lifts that do
+        not bring the follower back.
+    """
+    if not phases:
+        raise ParameterError("phases", 0, "no_phases")
+    for index, phase in enumerate(phases):
+        if not phase.angle > 0:
+            raise ParameterError(f"phases[{index + 1}].angle", phase.angle, "not_above_zero")
+        if phase.lift != 0 and phase.law is None:
+            raise ParameterError(f"phases[{index + 1}].law", None, "missing")
+    whole = math.fsum(p.angle for p in phases)
+    if not abs(whole - TURN) <= _CLOSING:
+        given = round(math.degrees(whole), 9)
+        raise ParameterError("phases", given, "phases_not_a_turn", whole=given)
+    total = math.fsum(p.lift for p in phases)
+    scale = max((abs(p.lift) for p in phases), default=0.0)
+    if not abs(total) <= 1e-12 * max(scale, 1e-300) and total != 0:
+        raise ParameterError("phases", total, "does_not_come_back")
+    pieces: list[LawPiece] = []
+    at, s = 0.0, 0.0
+    for index, phase in enumerate(phases):
+        last = index == len(phases) - 1
+        end = TURN if last else at + phase.angle
+        after = 0.0 if last else s + phase.lift
+        if phase.law is None:
+            pieces.append(LawPiece(at, end, (s,)))
+        else:
+            placed = [p.placed(at, end - at, s, after - s) for p in phase.law.pieces]
+            edges = [at, *(p.start for p in placed[1:]), end]
+            pieces += [p.spanning(edges[k], edges[k + 1]) for k, p in enumerate(placed)]
+        at, s = end, after
+    return FollowerMotion(tuple(pieces), tuple(phases))
+
+
+def motion_of_table(angles: Sequence[float], lifts: Sequence[float]) -> FollowerMotion:
+    """A measured or foreign motion: a periodic cubic spline (C2) through lifts at rising cam angles, rad.
+
+    The first point is repeated at one turn after it; a last row that already says so may stand there.
+
+    Raises
+    ------
+    ParameterError
+        Fewer than 3 points, angles that do not rise or span more than one turn, or a last row that contradicts
+        the first.
+    """
+    at, values = np.asarray(angles, dtype=float), np.asarray(lifts, dtype=float)
+    key = "motion_table"
+    if len(at) < 3 or len(at) != len(values):
+        raise ParameterError(key, len(at), "table_too_short")
+    if at[0] != 0:
+        raise ParameterError(f"{key}.item 1.item 1", math.degrees(at[0]), "table_not_from_zero", Nearest(0.0))
+    if (steps := np.diff(at)).min() <= 0:
+        row = int(np.argmin(steps)) + 2
+        above, given = math.degrees(at[row - 2]), math.degrees(at[row - 1])
+        least = limit(above + 1e-6, given)
+        raise ParameterError(f"{key}.item {row}.item 1", given, "angles_do_not_rise", least, above=above)
+    if abs(at[-1] - TURN) <= _CLOSING:
+        if abs(values[-1] - values[0]) > 1e-9 * np.ptp(values):
+            first, last = float(values[0]), float(values[-1])
+            raise ParameterError(f"{key}.item {len(at)}.item 2", last, "last_row_not_as_first", Nearest(first))
+        if len(at) < 4:
+            raise _beyond_turn(key, at, "table_too_short")
+        at, values = at[:-1], values[:-1]
+    if not at[-1] < TURN:
+        raise _beyond_turn(key, at, "table_beyond_turn")
+    closed = cubic_pieces(np.append(at, TURN), np.append(values, values[0]), periodic=True)
+    return FollowerMotion(tuple(LawPiece(a, b, c) for a, b, c in closed))
+
+
+def _beyond_turn(key: str, at: Real, code: str) -> ParameterError:
+    """The refusal of a last row that stands at one turn or beyond it."""
+    given = math.degrees(at[-1])
+    return ParameterError(f"{key}.item {len(at)}.item 1", given, code, limit(360 * (1 - 1e-9), given))

@@ -1,0 +1,1 @@
+"""Plane cams: disks, grooves, pairs of cams, couplers and wedges."""

@@ -1,0 +1,316 @@
+"""Dynamic synthesis: the least sizes of a cam from the pressure angle, the transmission angle and the curvature.
+
+Practicum, lessons 4 and 5: gamma_min is 90 degrees less the largest pressure angle; of a flat follower, whose
+pressure angle is 0, the "45 degrees" are the slope of a tangent to the joint diagram S(S''), which says
+rho = r_0 + S + S'' >= 0. Its r_0 of lesson 5 is the prime circle. R_min = r_0 + rho for rho = 10 to 15 mm.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache, partial
+
+import numpy as np
+
+from geometry.base.errors import ConvergenceError, ParameterError
+from geometry.base.roots import bracketed_root
+from geometry.cams.motion.follower_motion import FollowerMotion, PhaseKind
+from geometry.cams.plane.disk import DiskCam, FollowerKind, translating_cam
+from geometry.curves.curve import Real
+from geometry.laws.piece import LawPiece, sign_changes
+
+# of a base circle, before the search gives up
+_DOUBLINGS = 40
+_SAMPLES = 257
+_REFINEMENTS = 8
+_MOST_CUTS = 60
+
+
+@dataclass(frozen=True, slots=True)
+class Extreme:
+    """A greatest or least value and the cam angle (rad) at which it stands."""
+
+    value: float
+    angle: float
+
+
+PieceFunction = Callable[[LawPiece, Real], Real]
+
+
+def greatest_of(pieces: list[LawPiece], function: PieceFunction, slope: PieceFunction | None = None) -> Extreme:
+    """Greatest value of a function of each piece: at its ends, where its slope changes sign, or by zooming in."""
+    best = Extreme(-math.inf, 0.0)
+    for piece in pieces:
+        t = np.linspace(*piece.domain, _SAMPLES)
+        if slope is not None:
+            inner = sign_changes(partial(slope, piece), t)
+            t = np.concatenate([[piece.start], inner, [piece.end]])
+        else:
+            for _ in range(_REFINEMENTS):
+                values = function(piece, t)
+                at = int(np.argmax(values))
+                t = np.linspace(t[max(at - 1, 0)], t[min(at + 1, len(t) - 1)], _SAMPLES)
+        values = function(piece, t)
+        at = int(np.argmax(values))
+        if values[at] > best.value:
+            best = Extreme(float(values[at]), float(t[at]))
+    return best
+
+
+def flat_base_radius(motion: FollowerMotion, least_curvature_radius: float = 0.0) -> Extreme:
+    """Least base circle of a translating flat follower: rho_min - min(S + S''), mm; exact, and at which angle.
+
+    With rho_min = 0 it is the practicum's r_0 by the tangent at 45 degrees; never below 0.
+    """
+    found = greatest_of(
+        list(motion.pieces),
+        lambda p, t: -(p.value(t) + p.value(t, 2)),
+        lambda p, t: p.value(t, 1) + p.value(t, 3),
+    )
+    return Extreme(max(0.0, least_curvature_radius + found.value), found.angle)
+
+
+@dataclass(frozen=True, slots=True)
+class AxisRegion:
+    """Where the cam's axis may stand under a translating roller: s_0 >= a - e c for every (a, c) in ``lines``.
+
+    The half-lines touch the diagram S(S') and are inclined by the pressure angles; (e, s_0) is the axis' place
+    beside and below the roller's lowest centre.
+    """
+
+    lines: tuple[tuple[float, float], ...]
+
+    def least_height(self, offset: float) -> float:
+        """Least s_0 for an offset, mm."""
+        return max(0.0, *(a - offset * c for a, c in self.lines))
+
+    def least_prime_radius(self, offset: float) -> float:
+        """Least R_p for an offset, mm: hypot(e, s_0)."""
+        return math.hypot(offset, self.least_height(offset))
+
+    def best(self) -> tuple[float, float]:
+        """Offset e and height s_0 of the smallest prime circle of all: the point of the region nearest to (0, 0)."""
+        places = [0.0]
+        for a, c in self.lines:
+            # foot of the perpendicular from the origin
+            places.append(a * c / (1 + c * c))
+        for (a, c), (b, d) in itertools.combinations(self.lines, 2):
+            if c != d:
+                places.append((a - b) / (c - d))
+        offset = min(places, key=self.least_prime_radius)
+        return offset, self.least_height(offset)
+
+
+def axis_region(motion: FollowerMotion, rise_limit: float, return_limit: float | None = None) -> AxisRegion:
+    """Axes for which |nu| <= ``rise_limit`` on rises and, where one is given, ``return_limit`` on returns, rad.
+
+    Force closure needs no limit on returns, where the cam does not drive.
+
+    Raises
+    ------
+    ParameterError
+        A limit not above 0 and below 90 degrees, or a motion that never rises.
+    """
+    limits = [("rise_limit", rise_limit, PhaseKind.RISE)]
+    if return_limit is not None:
+        limits.append(("return_limit", return_limit, PhaseKind.RETURN))
+    lines = []
+    for name, limit, kind in limits:
+        if not 0 < limit < math.pi / 2:
+            raise ParameterError(name, limit, "not_within", low=0.0, high=math.pi / 2)
+        cot = 1 / math.tan(limit)
+        pieces = motion.moving_pieces(kind)
+        if not pieces:
+            raise ParameterError("motion", 0, "no_such_phase", move=str(kind.value))
+        for steepness in (cot, -cot):
+
+            def height(piece: LawPiece, t: Real, steepness: float = steepness) -> Real:
+                return steepness * piece.value(t, 1) - piece.value(t)
+
+            def slope(piece: LawPiece, t: Real, steepness: float = steepness) -> Real:
+                return steepness * piece.value(t, 2) - piece.value(t, 1)
+
+            lines.append((greatest_of(pieces, height, slope).value, steepness))
+    return AxisRegion(tuple(lines))
+
+
+def roller_prime_radius(
+    motion: FollowerMotion, offset: float, rise_limit: float, return_limit: float | None = None
+) -> float:
+    """Least prime circle of a translating roller with an offset, mm: practicum, lesson 5.
+
+    Raises
+    ------
+    ParameterError
+        See ``axis_region``.
+    """
+    return axis_region(motion, rise_limit, return_limit).least_prime_radius(offset)
+
+
+@lru_cache(maxsize=16)
+def greatest_pressure_angle(cam: DiskCam, kind: PhaseKind | None = None) -> Extreme:
+    """The greatest |nu| (rad) on rises, on returns or anywhere, and its cam angle."""
+    pieces = cam.motion.moving_pieces(kind)
+
+    def size(piece: LawPiece, t: Real) -> Real:
+        # angles at the piece's end belong to the next one
+        return np.abs(cam.pressure_angle(np.minimum(t, np.nextafter(piece.end, 0))))
+
+    return greatest_of(pieces, size)
+
+
+@lru_cache(maxsize=16)
+def least_convex_radius(cam: DiskCam) -> Extreme:
+    """Least radius of curvature of the cam where it is convex (of a flat follower: anywhere), mm.
+
+    At or below 0 it is undercut; for the path of a roller's centre add the roller's radius.
+    """
+
+    def bending(piece: LawPiece, t: Real) -> Real:
+        radius = cam.curvature_radius(np.minimum(t, np.nextafter(piece.end, 0))) + cam.radius
+        # the curvature is smooth where the radius jumps through infinity; a flat's radius is smooth itself
+        return -radius if cam.is_flat else 1 / radius
+
+    found = greatest_of(list(cam.motion.pieces), bending)
+    value = -found.value if cam.is_flat else (1 / found.value - cam.radius if found.value > 0 else math.inf)
+    return Extreme(value, found.angle)
+
+
+def least_hollow_radius(cam: DiskCam) -> Extreme:
+    """Least radius of curvature of the roller centre's path where it is hollow, mm: inf where it is nowhere.
+
+    The outer wall of a groove is whole where the roller, with its play, is smaller.
+    """
+
+    def hollow(piece: LawPiece, t: Real) -> Real:
+        return -1 / cam.pitch_curvature_radius(np.minimum(t, np.nextafter(piece.end, 0)))
+
+    found = greatest_of(list(cam.motion.pieces), hollow)
+    return Extreme(1 / found.value if found.value > 0 else math.inf, found.angle)
+
+
+def convex_roller_base_radius(
+    motion: FollowerMotion, radius: float, least_curvature_radius: float, *, follower_offset: float = 0.0
+) -> float:
+    """Least base circle on which a roller's cam keeps a least convex radius of curvature, mm.
+
+    Raises
+    ------
+    ConvergenceError
+        None is found up to a million million times the sizes given.
+    """
+
+    def excess(base: float) -> float:
+        cam = translating_cam(motion, FollowerKind.ROLLER, base, radius=radius, follower_offset=follower_offset)
+        return least_convex_radius(cam).value - least_curvature_radius
+
+    low = max(abs(follower_offset) * (1 + 1e-9) - radius, 1e-3 * radius)
+    if excess(low) >= 0:
+        return low
+    high = 2 * (low + radius + motion.lift)
+    for _ in range(_DOUBLINGS):
+        if excess(high) > 0:
+            return bracketed_root(excess, low, high).value
+        low, high = high, 2 * high
+    raise ConvergenceError("base radius for the curvature", excess(high), _DOUBLINGS)
+
+
+def roller_radius_rules(cam: DiskCam) -> dict[str, float]:
+    """What the usual rules allow for a roller, mm: below the least pitch radius, 0.8 (0.7) of it, 0.4 of R_b."""
+    pitch = least_convex_radius(cam).value + cam.radius
+    base = float(abs(cam.reference_point(0.0))) - cam.radius
+    return {
+        "undercut": pitch,
+        "share_0.8_of_curvature": 0.8 * pitch,
+        "share_0.7_of_curvature": 0.7 * pitch,
+        "share_0.4_of_base_circle": 0.4 * base,
+    }
+
+
+@dataclass(frozen=True, slots=True)
+class OscillatingAxis:
+    """Where the smallest cam of an oscillating roller has its axis: from the pivot, and the circle that follows."""
+
+    centre_distance: float
+    start_angle: float
+    prime_radius: float
+
+
+def oscillating_axis(
+    motion: FollowerMotion, arm_length: float, sense: int, rise_limit: float, return_limit: float | None = None
+) -> OscillatingAxis:
+    """The axis with the smallest prime circle for which |nu| stays within the limits, rad.
+
+    tan nu = (L (1 + sense psi') - d cos psi)/(d sin psi) is, for each cam angle, a pair of half-planes for the axis;
+    the region of all of them is convex, and its point nearest to the lowest roller centre is found by cutting planes.
+
+    Raises
+    ------
+    ParameterError
+        A limit not above 0 and below 90 degrees.
+    ConvergenceError
+        The half-planes have no common point.
+    """
+    pieces = [(motion.moving_pieces(PhaseKind.RISE), rise_limit)]
+    if return_limit is not None:
+        pieces.append((motion.moving_pieces(PhaseKind.RETURN), return_limit))
+    for name, (_, limit) in zip(("rise_limit", "return_limit"), pieces, strict=False):
+        if not 0 < limit < math.pi / 2:
+            raise ParameterError(name, limit, "not_within", low=0.0, high=math.pi / 2)
+    home = complex(arm_length, 0.0)
+    planes: list[tuple[complex, float]] = []
+    axis = home
+    for _ in range(_MOST_CUTS):
+        cuts = [
+            _deepest(group, arm_length, sense, limit, side, axis) for group, limit in pieces for side in (1.0, -1.0)
+        ]
+        worst = max(cuts, key=lambda c: c[2])
+        if worst[2] <= 1e-13 * arm_length:
+            distance = abs(axis)
+            return OscillatingAxis(distance, float(np.angle(axis)), abs(axis - home))
+        planes += [(n, b) for n, b, depth in cuts if depth > 0]
+        axis = _nearest(home, planes)
+    raise ConvergenceError("axis of the oscillating follower", worst[2], _MOST_CUTS)
+
+
+def _deepest(
+    pieces: list[LawPiece], arm: float, sense: int, limit: float, side: float, axis: complex
+) -> tuple[complex, float, float]:
+    """The half-plane Re(conj(n) axis) >= b that is broken most, and by how much, mm.
+
+    The axis is seen from the pivot, with the arm's lowest position along +x.
+    """
+
+    def plane(s: Real, rate: Real) -> tuple[Real, Real]:
+        along, across = np.exp(-1j * s), 1j * np.exp(-1j * s)
+        normal = math.tan(limit) * across + side * along
+        return normal * math.cos(limit), side * arm * (1 + sense * rate) * math.cos(limit)
+
+    def depth(piece: LawPiece, t: Real) -> Real:
+        normal, level = plane(piece.value(t), piece.value(t, 1))
+        return level - (np.conj(normal) * axis).real
+
+    found = greatest_of(pieces, depth)
+    at = np.asarray(found.angle)
+    piece = next(p for p in pieces if p.start <= found.angle <= p.end)
+    normal, level = plane(piece.value(at), piece.value(at, 1))
+    return complex(normal), float(level), found.value
+
+
+def _nearest(home: complex, planes: list[tuple[complex, float]]) -> complex:
+    """The point of an intersection of half-planes nearest to ``home``: a foot on one line or a corner of two."""
+    normals, levels = np.array([n for n, _ in planes]), np.array([b for _, b in planes])
+    feet = home + normals * (levels - (np.conj(normals) * home).real)
+    i, j = np.triu_indices(len(planes), 1)
+    whole = (np.conj(normals[i]) * normals[j]).imag
+    with np.errstate(divide="ignore", invalid="ignore"):
+        corners = 1j * (levels[j] * normals[i] - levels[i] * normals[j]) / whole
+    found = np.concatenate([[home], feet, corners[np.isfinite(corners)]])
+    slack = (np.conj(normals)[:, None] * found).real - levels[:, None]
+    good = found[np.all(slack >= -1e-12 * (abs(home) + np.abs(levels[:, None])), axis=0)]
+    if not good.size:
+        raise ConvergenceError("axis of the oscillating follower: no axis keeps the pressure angles", 0.0, len(planes))
+    return complex(good[np.argmin(np.abs(good - home))])

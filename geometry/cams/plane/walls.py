@@ -1,0 +1,121 @@
+"""Walls of cams that hold a roller: which cam each is, how it lies in its part; grooves cut into a solid."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from geometry.base.errors import GeometryError
+from geometry.cams.plane.disk import DiskCam
+from geometry.cams.plane.shape import cam_shape
+from geometry.cams.plane.undercut import lost_to_undercut
+from geometry.curves.curve import Reversed
+from geometry.curves.line_arc import Arc, Line
+from geometry.plane.profile import Profile, Segment
+from geometry.solids.body import Body, BodyBuilder, Cap
+
+
+@dataclass(frozen=True, slots=True)
+class CamWall:
+    """One wall that a roller runs on, of a part with several, or of one that is turned on its shaft.
+
+    ``cam``: the motion with the roller that touches this wall while it follows it. ``below``: the wall holds the
+    roller up; else it stands beyond the roller, as the outer wall of a groove. ``turn`` rad: how the wall is turned
+    about the axis from the cam's frame. ``height`` mm: where a solid is cut. ``profile(offset)``: the exact wall in the
+    part's frame, moved ``offset`` mm out of the material.
+    """
+
+    name: str
+    cam: DiskCam
+    height: float
+    profile: Callable[[float], Profile]
+    below: bool = True
+    turn: float = 0.0
+
+
+def reversed_profile(profile: Profile) -> Profile:
+    """The same closed chain run the other way."""
+    turned = []
+    for segment in reversed(profile.period):
+        curve = segment.curve
+        back = curve.reversed() if isinstance(curve, Arc | Line | Reversed) else Reversed(curve)
+        turned.append(Segment(back, segment.label))
+    return Profile(tuple(turned), profile.count, not profile.clockwise if profile.count > 1 else profile.clockwise)
+
+
+def inner_wall(cam: DiskCam, offset: float = 0.0) -> Profile:
+    """The wall nearer to the axis, counter-clockwise: the disk cam itself, moved ``offset`` mm out of the material.
+
+    Raises
+    ------
+    UndercutError
+        Nothing of it hangs together.
+    """
+    return cam_shape(cam, offset).profile
+
+
+def outer_wall(cam: DiskCam, clearance: float, offset: float = 0.0) -> Profile:
+    """The wall beyond the roller, clockwise, moved ``offset`` mm out of the material, towards the roller.
+
+    It is the parallel of the roller's path at r + ``clearance`` mm away from the axis.
+
+    Raises
+    ------
+    UndercutError
+        Nothing of it hangs together.
+    """
+    return reversed_profile(cam_shape(cam, 2 * cam.radius + clearance - offset).profile)
+
+
+def wide_roller(cam: DiskCam, clearance: float) -> DiskCam:
+    """The cam with the roller that fills its groove: the one that follows the motion on the outer wall."""
+    return replace(cam, radius=cam.radius + clearance)
+
+
+def lost_on(cam: DiskCam, clearance: float) -> dict[str, float]:
+    """Lift that undercut takes on each wall, by its name, mm (rad if oscillating); whole walls are not named."""
+    grown = (("inner", 0.0), ("outer", 2 * cam.radius + clearance))
+    return {name: lost for name, grow in grown if (lost := lost_to_undercut(cam, grow)) is not None}
+
+
+def is_open(cam: DiskCam, clearance: float) -> bool:
+    """Whether a roller passes through its groove everywhere: both walls are whole."""
+    try:
+        return not lost_on(cam, clearance)
+    except GeometryError:
+        return False
+
+
+def path_reach(cam: DiskCam) -> float:
+    """Greatest distance of the roller's centre from the axis, mm; it stands where S is extreme."""
+    import numpy as np
+
+    angles = np.concatenate([p.extremes(0) for p in cam.motion.pieces])
+    return float(np.abs(cam.reference_point(angles)).max())
+
+
+def with_groove(body: Body, inner: Profile, outer: Profile, floor: float, top: float) -> Body:
+    """A body with a groove cut from its face at z = ``top`` mm down to ``floor``, between two closed walls.
+
+    ``inner`` counter-clockwise, ``outer`` clockwise about it. All other edges of that face lie either within ``inner``
+    or beyond ``outer``.
+
+    Raises
+    ------
+    ValueError
+        The body has no face there.
+    """
+    faces = [c for c in body.caps if c.up and body.loops[c.outer].z == top]
+    if not faces:
+        raise ValueError("there is no face for the groove")
+    face = max(faces, key=lambda c: body.loop_profile(c.outer).reach())
+    made = BodyBuilder(list(body.profiles), {loop: i for i, loop in enumerate(body.loops)}, list(body.walls))
+    made.caps += [c for c in body.caps if c is not face]
+    sides = [made.run(wall, ((floor, 0.0, 0j), (top, 0.0, 0j))) for wall in (inner, outer)]
+    (inner_foot, inner_edge), (outer_foot, outer_edge) = sides
+    made.caps += [
+        Cap(face.outer, (outer_edge,), True),
+        Cap(inner_edge, face.holes, True),
+        Cap(outer_foot, (inner_foot,), True),
+    ]
+    return made.body()

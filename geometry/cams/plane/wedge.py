@@ -1,0 +1,355 @@
+"""Wedge cams: a plate that slides along -x moves its follower by the profile of its upper edge.
+
+Frame of the plate: x along the travel, y up, y = 0 the plate's lower edge; at travel t the plate's point x = t stands
+under the follower's starting place. Seen from the plate the follower slides by t along +x, so its centre runs along
+z(t) = t + m(t), m its path in the fixed frame, and the profile is z + i d z'/|z'| with d = -r: the envelope of Savvin's
+method for a translation, in closed form (tests hold it against geometry/plane/envelope.py). A flat face has no place
+here: wherever the follower rests, the common normal would have to pass through an instant centre at infinity.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from geometry.base.errors import OffsetError, ParameterError
+from geometry.base.nearest import last_that_holds
+from geometry.base.series import Series, derived, exponential
+from geometry.cams.motion.follower_motion import Phase, PieceMotion
+from geometry.cams.plane.curves import CentreEnvelope, Lift, bound_series, lift_series
+from geometry.cams.plane.disk import FollowerKind
+from geometry.cams.plane.shape import quiet_edges
+from geometry.curves.curve import Complex, Curve, Real, Reversed, end_point, start_point
+from geometry.curves.line_arc import Arc, Line
+from geometry.laws.piece import LawPiece
+from geometry.plane.profile import Label, Profile, Segment
+
+_SAMPLES = 513
+# a step of the envelope below this part of its size is none
+_JOINT = 1e-12
+
+
+@dataclass(frozen=True, slots=True)
+class Upright:
+    """A follower that slides along +y at x = 0; its centre stands at ``start_height`` mm at S = 0."""
+
+    start_height: float
+
+    @property
+    def lever(self) -> float:
+        """Way of its centre for each unit of S."""
+        return 1.0
+
+    def centre(self, s: Series) -> Series:
+        """Path of its centre in the fixed frame."""
+        return [1j * (self.start_height + s[0]), *(1j * x for x in s[1:])]
+
+    def centre_bound(self, s: Series, about: object = None) -> Series:
+        """Bounds of the moduli of that series from those of S."""
+        return [abs(self.start_height) + s[0], *s[1:]]
+
+    def place(self, centre: Complex) -> tuple[Real, Real]:
+        """Where the follower must start for its centre to stand there in the plate's frame, and its S: t and S."""
+        return centre.real, centre.imag - self.start_height
+
+
+@dataclass(frozen=True, slots=True)
+class Swinging:
+    """An arm about a pivot in the fixed frame, mm; its end stands at x = 0 where S = 0, S in rad rises it.
+
+    ``side`` +1: the pivot stands at +x, so that the plate's friction pulls the arm; -1: at -x.
+    """
+
+    pivot: complex
+    arm_length: float
+    start_angle: float
+    side: int = 1
+
+    @property
+    def lever(self) -> float:
+        """Way of its centre for each unit of S, mm/rad."""
+        return self.arm_length
+
+    def centre(self, s: Series) -> Series:
+        """Path of the arm's end: pivot - side L exp(-i side psi)."""
+        turn = exponential([-1j * self.side * x for x in (self.start_angle + s[0], *s[1:])])
+        arm = -self.side * self.arm_length
+        return [self.pivot + arm * turn[0], *(arm * x for x in turn[1:])]
+
+    def centre_bound(self, s: Series, about: object = None) -> Series:
+        """Bounds of the moduli of that series from those of S."""
+        turn = exponential([0.0 * s[0], *s[1:]])
+        return [abs(self.pivot) + self.arm_length * turn[0], *(self.arm_length * x for x in turn[1:])]
+
+    def place(self, centre: Complex) -> tuple[Real, Real]:
+        """The travel t and S at which the arm's end stands there in the plate's frame; not a number: nowhere."""
+        with np.errstate(invalid="ignore"):
+            psi = np.arcsin((centre.imag - self.pivot.imag) / self.arm_length)
+        at = centre.real - self.pivot.real + self.side * self.arm_length * np.cos(psi)
+        return at, psi - self.start_angle
+
+
+@dataclass(frozen=True, slots=True)
+class SlideEnvelope(CentreEnvelope):
+    """The path of a follower's centre in the sliding plate's frame over the travel t, mm, or a parallel of it."""
+
+    def _fixed(self, t: Real, order: int) -> tuple[Series, Series]:
+        """Taylor coefficients of z = t + m and of z'."""
+        centre = self.mount.centre(lift_series(self.lift, t, order + 1))
+        centre = [centre[0] + t, centre[1] + 1.0, *centre[2:]]
+        return centre, derived(centre)
+
+    def _fixed_bound(self, order: int, a: Real, b: Real) -> tuple[Series, Series]:
+        whole = self.mount.centre_bound(bound_series(self.lift, order, a, b))
+        whole = [whole[0] + np.maximum(np.abs(a), np.abs(b)), whole[1] + 1.0, *whole[2:]]
+        return whole, derived(whole)
+
+    def _in_cam(self, fixed: Series, t: Real | None) -> Series:
+        """The plate does not turn."""
+        return fixed
+
+    def pitch_curvature(self, t: ArrayLike) -> Real:
+        """Curvature of the centre's path, 1/mm: positive in a valley, which the follower must fit into."""
+        _, (first, second) = self._fixed(np.asarray(t, dtype=float), 1)
+        return (np.conj(first) * second).imag / np.abs(first) ** 3
+
+    def vertex_function(self, t: ArrayLike) -> Real:
+        """Changes its sign where the curvature is greatest or least."""
+        _, (v, a, half) = self._fixed(np.asarray(t, dtype=float), 2)
+        cross = (np.conj(v) * a).imag
+        return (np.conj(v) * 2 * half).imag * np.abs(v) ** 2 - 3 * cross * (np.conj(v) * a).real
+
+    def tangent(self, t: ArrayLike) -> Complex:
+        at = np.asarray(t, dtype=float)
+        first = self._fixed(at, 0)[1][0]
+        sense = np.where(self.stretch(at) < 0, -1.0, 1.0) if self.distance else 1.0
+        return sense * first / np.abs(first)
+
+
+@dataclass(frozen=True, slots=True)
+class WedgeMotion(PieceMotion):
+    """S over the travel t from 0 to the whole travel, mm: analytic pieces one behind the other."""
+
+    pieces: tuple[LawPiece, ...]
+
+    @property
+    def travel(self) -> float:
+        """The whole travel, mm."""
+        return self.pieces[-1].end
+
+
+def wedge_motion(phases: Sequence[Phase]) -> WedgeMotion:
+    """The motion of phases that follow each other; the ``angle`` of each is its travel, mm.
+
+    Raises
+    ------
+    ParameterError
+        No phase, or one without travel.
+    """
+    if not phases:
+        raise ParameterError("phases", 0, "no_phases")
+    pieces: list[LawPiece] = []
+    at, s = 0.0, 0.0
+    for index, phase in enumerate(phases):
+        if not phase.angle > 0:
+            raise ParameterError(f"phases.item {index + 1}.travel", phase.angle, "not_above_zero")
+        end, after = at + phase.angle, s + phase.lift
+        if phase.law is None:
+            pieces.append(LawPiece(at, end, (s,)))
+        else:
+            placed = [p.placed(at, phase.angle, s, after - s) for p in phase.law.pieces]
+            edges = [at, *(p.start for p in placed[1:]), end]
+            pieces += [p.spanning(edges[k], edges[k + 1]) for k, p in enumerate(placed)]
+        at, s = end, after
+    return WedgeMotion(tuple(pieces))
+
+
+@dataclass(frozen=True, slots=True)
+class WedgeCam:
+    """The motion, how the follower is guided, its radius, mm (0 of a point), and its shape.
+
+    ``runs``: straight ends of the plate before and after the profile, ``corner``: rounding of its corners, mm.
+    """
+
+    motion: WedgeMotion
+    mount: Upright | Swinging
+    radius: float = 0.0
+    kind: FollowerKind = FollowerKind.ROLLER
+    runs: tuple[float, float] = (10.0, 10.0)
+    corner: float = 0.0
+
+    def curve(self, piece: Lift, start: float, end: float, grow: float = 0.0) -> SlideEnvelope:
+        """The exact profile over one piece of the motion, ``grow`` mm out of the material."""
+        return SlideEnvelope(piece, self.mount, start, end, grow - self.radius)
+
+    def centre(self, travel: ArrayLike) -> Complex:
+        """The follower's centre in the plate's frame, mm."""
+        at = np.asarray(travel, dtype=float)
+        return at + self.mount.centre([self.motion.value(at)])[0]
+
+    def rate(self, travel: ArrayLike) -> Complex:
+        """Its derivative over the travel."""
+        at = np.asarray(travel, dtype=float)
+        return 1.0 + self.mount.centre([self.motion.value(at), self.motion.value(at, 1)])[1]
+
+    def pressure_angle(self, travel: ArrayLike) -> Real:
+        """Signed, rad: between the normal and the velocity of the rising follower's centre; upright tan nu = S'."""
+        normal = 1j * self.rate(travel)
+        at = np.asarray(travel, dtype=float)
+        way = self.mount.centre([self.motion.value(at), np.ones(np.shape(at))])[1]
+        return -np.angle(way / normal)
+
+    def pitch_curvature(self, travel: ArrayLike) -> Real:
+        """Curvature of the centre's path, 1/mm: negative at crests."""
+        return self.curve(self.motion, 0.0, self.motion.travel, self.radius).pitch_curvature(travel)
+
+    @property
+    def swings(self) -> bool:
+        """Whether the follower swings about a pivot."""
+        return isinstance(self.mount, Swinging)
+
+    @property
+    def is_flat(self) -> bool:
+        """A flat face is no follower of a wedge."""
+        return False
+
+    def stop(self, point: Complex, normal: Complex, offset: float) -> tuple[Real, Real]:
+        """Where an edge's point with its outward normal stops the follower: the travel as an angle, and S there.
+
+        The whole travel is half a turn; what lies far beyond its ends is not a number.
+        """
+        at, lift = self.mount.place(point + (self.radius - offset) * normal)
+        angle = at * (math.pi / self.motion.travel)
+        return np.where(np.abs(angle - math.pi / 2) < 0.6 * math.pi, angle, np.nan), lift
+
+    def height_at(self, travel: float) -> float:
+        """y of the profile under the resting follower, mm."""
+        return float(self.centre(travel).imag) - self.radius
+
+
+def wedge_fault(cam: WedgeCam, grow: float = 0.0) -> tuple[str, float] | None:
+    """Why a profile is not whole, and where along the travel, mm: None where it is.
+
+    "steep": the follower runs along with the plate; "crest": one of the path is sharper than the follower; "corner": a
+    jump of velocity makes such a crest. A path that always goes on in x, with a parallel that does so too, has no
+    double point.
+    """
+    before: complex | None = None
+    for piece in _with_runs(cam, (1.0, 1.0)):
+        curve, path = (cam.curve(piece, *piece.domain, g) for g in (grow, cam.radius))
+        t = np.linspace(*piece.domain, _SAMPLES)
+        rate = path.derivative(t)
+        if not np.all(rate.real > 0):
+            return "steep", float(t[int(np.argmin(rate.real))])
+        stretch = curve.stretch(t)
+        lowest = int(np.argmin(stretch))
+        near = np.linspace(t[max(lowest - 1, 0)], t[min(lowest + 1, len(t) - 1)], _SAMPLES)
+        if min(float(stretch[lowest]), float(curve.stretch(near).min())) <= 0:
+            return "crest", float(t[lowest])
+        start = complex(curve.point(piece.start))
+        # a valley opens a gap, which the follower's own arc fills; at a crest both sides step back and cross
+        if before is not None and (start - before).real < -_JOINT * (1 + abs(start)):
+            return "corner", piece.start
+        before = complex(curve.point(piece.end))
+    return None
+
+
+def sharpest_crest(cam: WedgeCam) -> float:
+    """Least radius of curvature of the path's crests, mm: a roller must be smaller; inf without crests."""
+    worst = 0.0
+    for piece in cam.motion.pieces:
+        path = cam.curve(piece, *piece.domain, cam.radius)
+        t = np.linspace(*piece.domain, _SAMPLES)
+        lowest = int(np.argmin(path.pitch_curvature(t)))
+        near = np.linspace(t[max(lowest - 1, 0)], t[min(lowest + 1, len(t) - 1)], _SAMPLES)
+        worst = min(worst, float(path.pitch_curvature(near).min()))
+    return math.inf if worst >= 0 else -1 / worst
+
+
+def wedge_profile(cam: WedgeCam, runs: tuple[float, float], corner: float = 0.0, grow: float = 0.0) -> Profile:
+    """The plate's outline, counter-clockwise, moved ``grow`` mm out of the material.
+
+    ``runs``: straight ends before and after the profile, mm; ``corner``: rounding of the plate's four corners, mm.
+
+    Raises
+    ------
+    OffsetError
+        The profile is not whole any more, or an end vanishes; names the nearest offset that works.
+    """
+    made = _outline(cam, runs, corner, grow)
+    if made is not None:
+        return made
+    works = last_that_holds(lambda offset: _outline(cam, runs, corner, offset) is not None, grow)
+    raise OffsetError(grow, "no_whole_profile", works)
+
+
+def _outline(cam: WedgeCam, runs: tuple[float, float], corner: float, grow: float) -> Profile | None:
+    """The outline, or None where it is not whole."""
+    radius, travel = max(0.0, corner + grow), cam.motion.travel
+    first, last = cam.height_at(0.0) + grow, cam.height_at(travel) + grow
+    starting, ending = float(cam.centre(0.0).real), float(cam.centre(travel).real)
+    # the follower's starting place is x = 0, its last one is where the arm has carried it
+    left, right = starting - runs[0] - grow, ending + runs[1] + grow
+    least = min(first, last, *(_lowest(cam, p) + grow for p in cam.motion.pieces))
+    if wedge_fault(cam, grow) is not None or not least + grow > 2 * radius or not least + grow > 0:
+        return None
+    top = _top(cam, runs, grow)
+    # the straight ends are cut or made longer as far as the corners' roundings
+    left_end, right_end = end_point(top[0]), start_point(top[-1])
+    if not (left + radius < left_end.real and right_end.real < right - radius):
+        return None
+    top = [Line(complex(left + radius, first), left_end), *top[1:-1], Line(right_end, complex(right - radius, last))]
+    made: list[Curve] = [Line(complex(left + radius, -grow), complex(right - radius, -grow))]
+    made += _corner(complex(right, -grow), radius, -math.pi / 2)
+    made.append(Line(complex(right, -grow + radius), complex(right, last - radius)))
+    made += _corner(complex(right, last), radius, 0.0)
+    made += [c.reversed() if isinstance(c, Arc | Line) else Reversed(c) for c in reversed(top)]
+    made += _corner(complex(left, first), radius, math.pi / 2)
+    made.append(Line(complex(left, first - radius), complex(left, -grow + radius)))
+    made += _corner(complex(left, -grow), radius, math.pi)
+    return Profile(tuple(Segment(c, Label.CAM if isinstance(c, Reversed) else Label.BODY) for c in made))
+
+
+def _corner(tip: complex, radius: float, start: float) -> list[Curve]:
+    """The rounding of a square corner, counter-clockwise from a direction, rad."""
+    if radius == 0:
+        return []
+    return [
+        Arc(tip - radius * (cmath.exp(1j * start) + cmath.exp(1j * (start + math.pi / 2))), radius, start, math.pi / 2)
+    ]
+
+
+def _lowest(cam: WedgeCam, piece: LawPiece) -> float:
+    """Lowest height of the profile over a piece, mm: no lower than its lowest follower."""
+    return float((cam.centre(np.minimum(piece.extremes(0), piece.end)).imag - cam.radius).min())
+
+
+def _with_runs(cam: WedgeCam, runs: tuple[float, float]) -> list[LawPiece]:
+    """The motion with a rest before and one after it, mm of travel."""
+    pieces, travel = cam.motion.pieces, cam.motion.travel
+    before, after = (float(cam.motion.value(at)) for at in (0.0, travel))
+    return [LawPiece(-runs[0], 0.0, (before,)), *pieces, LawPiece(travel, travel + runs[1], (after,))]
+
+
+def _top(cam: WedgeCam, runs: tuple[float, float], grow: float) -> list[Curve]:
+    """The profile along the travel: exact curves split at inflections and vertices, arcs where velocity jumps."""
+    made: list[Curve] = []
+    for piece in _with_runs(cam, runs):
+        curve = cam.curve(piece, *piece.domain, grow)
+        if made:
+            start, end = end_point(made[-1]), complex(curve.point(piece.start))
+            if abs(end - start) > _JOINT * (1 + abs(start)):
+                centre = complex(cam.curve(piece, *piece.domain, cam.radius).point(piece.start))
+                sweep = cmath.phase((end - centre) / (start - centre))
+                made.append(Arc(centre, abs(grow - cam.radius), cmath.phase(start - centre), sweep))
+        if piece.is_constant:
+            made.append(Line(complex(curve.point(piece.start)), complex(curve.point(piece.end))))
+            continue
+        made += [curve.trimmed(a, b) for a, b in pairwise(quiet_edges(curve))]
+    return made

@@ -1,0 +1,1 @@
+"""Exact plane curves, their images, parallels and bounds."""

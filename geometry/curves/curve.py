@@ -1,0 +1,367 @@
+"""What every exact plane curve can do, and what follows from any curve: reversed, carried, mirrored, parallel.
+
+A plane point is a complex number x + iy, mm.
+"""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Callable, Sequence
+from dataclasses import Field, dataclass, replace
+from itertools import pairwise
+from typing import Any, ClassVar, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from geometry.base.errors import CuspError
+from geometry.base.placement import Placement2
+from geometry.base.roots import bracketed_root
+from geometry.base.series import FACTORIALS, Series, conjugate, power, product
+
+Complex = NDArray[np.complex128]
+Real = NDArray[np.float64]
+
+_CUSP_SAMPLES = 257
+
+
+class Curve:
+    """Regular plane arc c: [t0, t1] -> C. Immutable; ``t`` is the class's own parameter.
+
+    All methods are vectorised over ``t``. Curvature is positive where the curve turns left
+    (counter-clockwise); the normal is the tangent turned by +90 degrees, so an offset d > 0 goes left.
+
+    A kind of curve gives ``domain``, ``point``, ``derivative`` and ``trimmed``; it overrides the rest where its own
+    formula knows better: a tangent that holds at a cusp, a proven bound, a parallel or an image of its own kind.
+    """
+
+    __slots__ = ()
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        """Parameter interval [t0, t1], t0 < t1."""
+        raise NotImplementedError
+
+    def point(self, t: ArrayLike) -> Complex:
+        """Exact points, mm."""
+        raise NotImplementedError
+
+    def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
+        """Exact derivative of the given order (1 to 4), mm per parameter unit to that power."""
+        raise NotImplementedError
+
+    def tangent(self, t: ArrayLike) -> Complex:
+        """Unit tangent in the direction of travel; at a cusp its limit from inside the domain."""
+        first = self.derivative(t)
+        return first / np.abs(first)
+
+    def curvature(self, t: ArrayLike) -> Real:
+        """Signed curvature, 1/mm."""
+        return curvature_from_derivatives(self.derivative(t), self.derivative(t, 2))
+
+    def derivative_bound(self, order: int, a: float, b: float) -> float | None:
+        """Proven upper bound of |c^(order)| on [a, b]; None where none is known."""
+        return None
+
+    def derivative_bounds(self, edges: Real, orders: Sequence[int]) -> Real:
+        """Proven bounds of |c^(k)|, k in ``orders``, between neighbouring ``edges``: (len(orders), n - 1).
+
+        inf where none is known.
+        """
+        found = [[self.derivative_bound(k, a, b) for a, b in pairwise(edges.tolist())] for k in orders]
+        return np.array([[np.inf if x is None else x for x in row] for row in found])
+
+    def offset(self, distance: float) -> Curve:
+        """Parallel curve, ``distance`` mm to the left. Raises CuspError where it would turn back."""
+        return OffsetCurve(self, distance).checked()
+
+    def trimmed(self, a: float, b: float) -> Curve:
+        """The part between parameters a < b."""
+        raise NotImplementedError
+
+    def reversed(self) -> Curve:
+        """The same points travelled the other way."""
+        return Reversed(self)
+
+    def placed(self, placement: Placement2) -> Curve:
+        """The curve carried by a rigid motion."""
+        return Carried(self, placement)
+
+    def mirrored(self) -> Curve:
+        """Mirror image in the x axis, travelled the other way: material stays on the same side."""
+        return Mirrored(self)
+
+
+class Span(Curve):
+    """A frozen dataclass with ``start`` and ``end``: the ends of the stretch of its formula that it shows."""
+
+    __slots__ = ()
+    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
+    start: float
+    end: float
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        return self.start, self.end
+
+    def trimmed(self, a: float, b: float) -> Self:
+        check_interval(self.domain, a, b)
+        return replace(self, start=a, end=b)
+
+
+class SeriesSpan(Span):
+    """A curve that gives its Taylor series."""
+
+    __slots__ = ()
+
+    def series(self, t: ArrayLike, order: int) -> Series:
+        """Taylor coefficients 0 to ``order`` at ``t``."""
+        raise NotImplementedError
+
+    def point(self, t: ArrayLike) -> Complex:
+        return self.series(t, 0)[0]
+
+    def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
+        return FACTORIALS[order] * self.series(t, order)[order]
+
+
+@dataclass(frozen=True, slots=True)
+class Reversed(Curve):
+    """A curve travelled backwards: parameter t runs as -t of the original."""
+
+    original: Curve
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        a, b = self.original.domain
+        return -b, -a
+
+    def point(self, t: ArrayLike) -> Complex:
+        return self.original.point(-np.asarray(t, dtype=float))
+
+    def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
+        return (-1) ** order * self.original.derivative(-np.asarray(t, dtype=float), order)
+
+    def tangent(self, t: ArrayLike) -> Complex:
+        return -self.original.tangent(-np.asarray(t, dtype=float))
+
+    def curvature(self, t: ArrayLike) -> Real:
+        return -self.original.curvature(-np.asarray(t, dtype=float))
+
+    def derivative_bound(self, order: int, a: float, b: float) -> float | None:
+        return self.original.derivative_bound(order, -b, -a)
+
+    def derivative_bounds(self, edges: Real, orders: Sequence[int]) -> Real:
+        return self.original.derivative_bounds(-edges[::-1], orders)[:, ::-1]
+
+    def offset(self, distance: float) -> Curve:
+        try:
+            return Reversed(self.original.offset(-distance))
+        except CuspError as cusp:
+            raise CuspError(-cusp.t, distance) from None
+
+    def trimmed(self, a: float, b: float) -> Curve:
+        return Reversed(self.original.trimmed(-b, -a))
+
+    def reversed(self) -> Curve:
+        return self.original
+
+    def placed(self, placement: Placement2) -> Curve:
+        return Reversed(self.original.placed(placement))
+
+    def mirrored(self) -> Curve:
+        return Reversed(self.original.mirrored())
+
+
+@dataclass(frozen=True, slots=True)
+class Carried(Curve):
+    """``base`` turned and moved by ``placement``; parameter, speed and curvature are its own."""
+
+    base: Curve
+    placement: Placement2
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        return self.base.domain
+
+    def point(self, t: ArrayLike) -> Complex:
+        return self.placement.apply(self.base.point(t))
+
+    def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
+        return cmath.exp(1j * self.placement.angle) * self.base.derivative(t, order)
+
+    def tangent(self, t: ArrayLike) -> Complex:
+        return cmath.exp(1j * self.placement.angle) * self.base.tangent(t)
+
+    def curvature(self, t: ArrayLike) -> Real:
+        return self.base.curvature(t)
+
+    def derivative_bound(self, order: int, a: float, b: float) -> float | None:
+        return self.base.derivative_bound(order, a, b)
+
+    def offset(self, distance: float) -> Curve:
+        return Carried(self.base.offset(distance), self.placement)
+
+    def trimmed(self, a: float, b: float) -> Curve:
+        return Carried(self.base.trimmed(a, b), self.placement)
+
+    def placed(self, placement: Placement2) -> Curve:
+        return Carried(self.base, placement @ self.placement)
+
+    def mirrored(self) -> Curve:
+        return Carried(self.base.mirrored(), self.placement.mirrored())
+
+
+@dataclass(frozen=True, slots=True)
+class Mirrored(Curve):
+    """Mirror image of ``base`` in the x axis, travelled the other way: parameter t runs as -t of the base."""
+
+    base: Curve
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        low, high = self.base.domain
+        return -high, -low
+
+    def point(self, t: ArrayLike) -> Complex:
+        return np.conj(self.base.point(-np.asarray(t, dtype=float)))
+
+    def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
+        return (-1) ** order * np.conj(self.base.derivative(-np.asarray(t, dtype=float), order))
+
+    def tangent(self, t: ArrayLike) -> Complex:
+        return -np.conj(self.base.tangent(-np.asarray(t, dtype=float)))
+
+    def curvature(self, t: ArrayLike) -> Real:
+        # mirroring and travelling back both turn the sign
+        return self.base.curvature(-np.asarray(t, dtype=float))
+
+    def derivative_bound(self, order: int, a: float, b: float) -> float | None:
+        return self.base.derivative_bound(order, -b, -a)
+
+    def offset(self, distance: float) -> Curve:
+        try:
+            return Mirrored(self.base.offset(distance))
+        except CuspError as cusp:
+            raise CuspError(-cusp.t, distance) from None
+
+    def trimmed(self, a: float, b: float) -> Curve:
+        return Mirrored(self.base.trimmed(-b, -a))
+
+    def mirrored(self) -> Curve:
+        return self.base
+
+
+@dataclass(frozen=True, slots=True)
+class OffsetCurve(Curve):
+    """c(t) + d n(t), d mm to the left of ``base``, whose derivatives must reach one order further.
+
+    No bound is proven for a general parallel curve.
+    """
+
+    base: Curve
+    distance: float
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        return self.base.domain
+
+    def point(self, t: ArrayLike) -> Complex:
+        return self.base.point(t) + 1j * self.distance * self.base.tangent(t)
+
+    def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
+        """Taylor arithmetic: n = i c' / sqrt(c' conj(c'))."""
+        first = [self.base.derivative(t, k + 1) / FACTORIALS[k] for k in range(order + 1)]
+        square = product(first, conjugate(first))
+        normal = product(first, power([x.real for x in square], -0.5))
+        return self.base.derivative(t, order) + 1j * self.distance * FACTORIALS[order] * normal[order]
+
+    def _stretch(self, t: ArrayLike) -> Real:
+        return 1 - self.distance * self.base.curvature(t)
+
+    def tangent(self, t: ArrayLike) -> Complex:
+        return np.where(self._stretch(t) < 0, -1.0, 1.0) * self.base.tangent(t)
+
+    def checked(self) -> OffsetCurve:
+        """This curve, or CuspError where it turns back: at the least stretch near 257 samples, refined."""
+        t = np.linspace(*self.domain, _CUSP_SAMPLES)
+        stretch = self._stretch(t)
+        lowest = int(np.argmin(stretch))
+        low, high = float(t[max(lowest - 1, 0)]), float(t[min(lowest + 1, len(t) - 1)])
+        for _ in range(80):
+            third = (high - low) / 3
+            left, right = low + third, high - third
+            low, high = (low, right) if self._stretch(left) < self._stretch(right) else (left, high)
+        least = min(((low + high) / 2, float(t[lowest])), key=lambda place: float(self._stretch(place)))
+        if float(self._stretch(least)) > 0:
+            return self
+        places = np.sort(np.append(t, least))
+        turned = self._stretch(places) <= 0
+        changes = np.flatnonzero(turned[1:] != turned[:-1])
+        if not changes.size:
+            raise CuspError(float(t[0]), self.distance)
+        low, high = places[changes[0]], places[changes[0] + 1]
+        raise CuspError(bracketed_root(lambda s: float(self._stretch(s)), float(low), float(high)).value, self.distance)
+
+    def offset(self, distance: float) -> OffsetCurve:
+        try:
+            return OffsetCurve(self.base, self.distance + distance).checked()
+        except CuspError as cusp:
+            raise CuspError(cusp.t, distance) from None
+
+    def trimmed(self, a: float, b: float) -> OffsetCurve:
+        return replace(self, base=self.base.trimmed(a, b))
+
+    def placed(self, placement: Placement2) -> OffsetCurve:
+        return replace(self, base=self.base.placed(placement))
+
+    def mirrored(self) -> OffsetCurve:
+        return replace(self, base=self.base.mirrored())
+
+
+def first_turning(
+    after: Callable[[Real], Real], before: Callable[[Real], Real], domain: tuple[float, float]
+) -> float | None:
+    """First parameter at which an offset curve's speed has another sign than the curve's own; None: nowhere.
+
+    257 samples, and the least ones refined, so that a dip between two samples is seen.
+    """
+    t = np.linspace(*domain, _CUSP_SAMPLES)
+
+    def ratio(x: Real) -> Real:
+        return after(x) * np.sign(before(x))
+
+    values = ratio(t)
+    lowest = int(np.argmin(values))
+    low, high = t[max(lowest - 1, 0)], t[min(lowest + 1, len(t) - 1)]
+    fine = np.linspace(low, high, _CUSP_SAMPLES)
+    t = np.sort(np.concatenate([t, fine]))
+    turned = np.flatnonzero(ratio(t) <= 0)
+    if not turned.size:
+        return None
+    first = int(turned[0])
+    if first == 0:
+        return float(t[0])
+    low, high = float(t[first - 1]), float(t[first])
+    return bracketed_root(lambda x: float(ratio(np.asarray(x))), low, high).value
+
+
+def start_point(curve: Curve) -> complex:
+    """First point of a curve."""
+    return complex(curve.point(curve.domain[0]))
+
+
+def end_point(curve: Curve) -> complex:
+    """Last point of a curve."""
+    return complex(curve.point(curve.domain[1]))
+
+
+def curvature_from_derivatives(first: Complex, second: Complex) -> Real:
+    """Signed curvature from c' and c''."""
+    return (np.conj(first) * second).imag / np.abs(first) ** 3
+
+
+def check_interval(domain: tuple[float, float], a: float, b: float) -> None:
+    """Refuse a trim that is empty; trims may extend a curve along its own formula."""
+    if not a < b:
+        raise ValueError(f"empty parameter interval [{a}, {b}] in domain {domain}")

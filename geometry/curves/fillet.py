@@ -1,0 +1,62 @@
+"""What root fillets of all cutters have in common: they turn about a centre, and parallels are of their own kind."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from geometry.base.errors import CuspError
+from geometry.base.placement import Placement2
+from geometry.curves.curve import Real, Span
+
+
+class TurnedSpan(Span):
+    """centre + exp(i angle) f(t) with f(-t) = conj f(t): its images are of its own kind."""
+
+    __slots__ = ()
+    angle: float
+    centre: complex
+
+    def placed(self, placement: Placement2) -> Self:
+        turned = self.angle + placement.angle
+        return replace(self, angle=turned, centre=placement.apply(self.centre))
+
+    def mirrored(self) -> Self:
+        ends = {"start": -self.end, "end": -self.start}
+        return replace(self, angle=-self.angle, centre=self.centre.conjugate(), **ends)
+
+
+class Fillet(TurnedSpan):
+    """Envelope of a cutter's rounded tip; a left offset d only has the ``tip_radius`` rho + d.
+
+    Its parameter u is the angle of the contact normal, rad: 0 at the cutter's tip, negative on the mirror image.
+    """
+
+    __slots__ = ()
+    tip_radius: float
+
+    def speed(self, t: ArrayLike) -> Real:
+        """de/du along the tangent, mm/rad; negative where the curve runs back."""
+        raise NotImplementedError
+
+    def turning(self, t: ArrayLike) -> Real:
+        """How fast the tangent turns to the right, rad/rad."""
+        raise NotImplementedError
+
+    def cusp(self) -> float | None:
+        """The first parameter in the domain, by size, at which the speed is not positive; else None."""
+        raise NotImplementedError
+
+    def curvature(self, t: ArrayLike) -> Real:
+        with np.errstate(divide="ignore"):
+            return -self.turning(t) / np.abs(self.speed(t))
+
+    def offset(self, distance: float) -> Self:
+        moved = replace(self, tip_radius=self.tip_radius + distance)
+        cusp = moved.cusp()
+        if cusp is not None:
+            raise CuspError(cusp, distance)
+        return moved

@@ -1,0 +1,1 @@
+"""The exact search for gaps and contact of meshing teeth."""

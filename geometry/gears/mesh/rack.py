@@ -1,0 +1,149 @@
+"""Contact of a gear with a rack over one whole pitch, on the exact outlines: verdict, gap curve, worst place."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from geometry.base.placement import Placement2
+from geometry.curves.curve import Complex, Real
+from geometry.gears.mesh.search import CONTACT_TOLERANCE, MeshSearch, PairContact, gear_outline, searched
+from geometry.gears.mesh.transmission_error import TransmissionError, transmission_errors
+from geometry.gears.pairs.rack import RackPair, rack_flank_gaps
+from geometry.plane.distance import Boundary
+from geometry.plane.profile import Segment
+
+
+def rack_contact(
+    pair: RackPair,
+    *,
+    rack_shift: float = 0.0,
+    distance_shift: float = 0.0,
+    tolerance: float | None = None,
+    overlap_ratio: float = 0.0,
+) -> PairContact:
+    """The exact gap of gear and rack over one pitch; "first" is the gear, "second" the rack, taken without ends.
+
+    Parameters
+    ----------
+    rack_shift
+        mm that the rack stands to +y of the middle (``pair.rack_position``); +- normal backlash / (2 cos alpha) drives
+        it to the contact of one flank.
+    distance_shift
+        mm by which the distance is more than the pair's.
+    tolerance
+        mm; default 1e-8 module.
+    overlap_ratio
+        Of helical teeth whose section the pair is: drive angle that their face covers, in pitches.
+
+    Raises
+    ------
+    ParameterError
+        A part of the pair cannot be built.
+    """
+    allowed = CONTACT_TOLERANCE * pair.module if tolerance is None else tolerance
+    return searched(_RackMesh(pair, rack_shift, distance_shift), allowed, overlap_ratio)
+
+
+def rack_transmission(
+    pair: RackPair, *, distance_shift: float = 0.0, overlap_ratio: float = 0.0
+) -> tuple[TransmissionError, TransmissionError]:
+    """Transmission error of gear and rack; the gear drives: counter-clockwise, then clockwise.
+
+    ``distance_shift``: mm by which the distance is more than the pair's; ``overlap_ratio``: of helical teeth.
+
+    Raises
+    ------
+    ParameterError, ConvergenceError
+        A part of the pair cannot be built; its teeth do not reach each other.
+    """
+    return transmission_errors(_RackMesh(pair, 0.0, distance_shift), overlap_ratio)
+
+
+def _as_gear(segments: tuple[Segment, ...]) -> tuple[Segment, ...]:
+    """The lower half of a tooth that points to +x, space to tooth, as gears have it."""
+    half_turn = Placement2(math.pi)
+    return tuple(Segment(s.curve.mirrored().placed(half_turn), s.label) for s in reversed(segments))
+
+
+class _RackMesh(MeshSearch):
+    """The rack's datum line lies at +distance; its position is y of a tooth's centre line, mm."""
+
+    def __init__(self, pair: RackPair, rack_shift: float, distance_shift: float) -> None:
+        self.pair, self.rack_shift = pair, rack_shift
+        self.distance = pair.distance + distance_shift
+        gear, rack = pair.sides
+        segments = _as_gear(rack.segments)
+        outline = Boundary(tuple(s.curve for s in segments), end_normals=(1 + 0j, 1 + 0j))
+        super().__init__(
+            (gear_outline(gear), outline),
+            (gear.segments, segments),
+            pair.module,
+            (pair.gear.root_radius, pair.gear.tip_radius),
+            (pair.gear.pitch_angle, pair.rack.pitch),
+            pair.gear.reference_radius,
+        )
+
+    def _reach(self) -> float:
+        """Half of the rack's length that lies inside the gear's tip circle, mm."""
+        tip, line = self.pair.gear.tip_radius, self.distance - self.pair.rack.addendum
+        return math.sqrt(max(tip**2 - max(line, 0.0) ** 2, 0.0))
+
+    def teeth_in_reach(self) -> tuple[int, int]:
+        """Enough for the whole path of contact and one more, and no more than the tip circle encloses."""
+        alpha = self.pair.rack.rack.pressure_angle
+        radius = self.pair.gear.reference_radius
+        after = math.sqrt(self.pair.gear.tip_radius**2 - self.pair.gear.base_radius**2) - radius * math.sin(alpha)
+        before = (radius - self.distance + self.pair.rack.addendum) / math.sin(alpha)
+        teeth = math.ceil(max(after, before, 0.0) / self.pair.base_pitch + 0.5) + 1
+        teeth = min(teeth, math.ceil(self._reach() / self.pitches[1] + 0.5))
+        return teeth, teeth
+
+    def second_position(self, drive: Real) -> Real:
+        return self.pair.rack.pitch / 2 + self.rack_shift + self.rate * drive
+
+    def facing_copy(self, position: Real) -> Real:
+        return np.round(-position / self.pitches[1])
+
+    def placing(self, position: Real, copy: Real) -> tuple[Complex, Complex]:
+        shift = np.asarray(self.distance + 1j * (position + copy * self.pitches[1]), dtype=np.complex128)
+        return np.full_like(shift, -1.0), shift
+
+    def to_fixed(self, points: Complex, drive: Real) -> tuple[Complex, Complex]:
+        moved = np.asarray(self.distance - points + 1j * self.second_position(drive))
+        return moved, np.full_like(moved, 1j * self.rate)
+
+    @property
+    def relative_turning(self) -> float:
+        return 1.0
+
+    @property
+    def arm(self) -> float:
+        return math.cos(self.pair.rack.rack.pressure_angle)
+
+    @property
+    def closing(self) -> int:
+        return -1
+
+    @property
+    def reach(self) -> float:
+        return 1.0
+
+    def to_second(self, points: Complex, drive: Real, turn: Real | float = 0.0) -> tuple[Complex, Complex]:
+        turned = np.exp(1j * drive) * points
+        return self.distance + 1j * (self.second_position(drive) + turn) - turned, 1j * self.rate - 1j * turned
+
+    def second_folded(self, points: Complex, vectors: Complex) -> tuple[Complex, Complex]:
+        points = points - 1j * self.pitches[1] * np.round(points.imag / self.pitches[1])
+        upper = points.imag > 0
+        return np.where(upper, np.conj(points), points), np.where(upper, np.conj(vectors), vectors)
+
+    def corner_window(self, which: int, corners: Complex) -> tuple[Real, float]:
+        reach = min(self._reach(), (self.second_teeth + 0.5) * self.pitches[1])
+        if not which:
+            return -np.angle(corners), reach / self.pair.gear.reference_radius
+        return (corners.imag - float(self.second_position(np.zeros(1))[0])) / self.rate, reach / self.rate
+
+    def closed_form(self, drive: Real, shift: float = 0.0) -> Real:
+        return rack_flank_gaps(self.pair, drive, self.second_position(drive) + shift, self.distance)

@@ -1,0 +1,1 @@
+"""Gears whose centrodes are not circles."""

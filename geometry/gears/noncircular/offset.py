@@ -1,0 +1,101 @@
+"""Kerf and print offset of a noncircular gear on its exact curves: every parallel curve is one of the same family."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from functools import partial
+
+from geometry.base.errors import GeometryError, OffsetError
+from geometry.base.findings import Finding
+from geometry.base.nearest import last_that_holds
+from geometry.base.tolerance import TOLERANCES
+from geometry.curves.curve import start_point
+from geometry.curves.line_arc import Arc
+from geometry.gears.noncircular.gear import NoncircularGear, cut_outline
+from geometry.plane.offset_region import OffsetRegion
+from geometry.plane.profile import Label, Profile, Region, Segment
+
+
+def noncircular_region(gear: NoncircularGear, offset: float = 0.0) -> OffsetRegion:
+    """The exact section, every boundary moved ``offset`` mm out of the material.
+
+    Raises
+    ------
+    OffsetError
+        The offset closes a space or a hole, or leaves no tooth or wall; the largest one that works is named.
+    """
+    if not math.isfinite(offset):
+        raise OffsetError(offset, "not_finite", 0.0)
+    try:
+        outer = moved_outline(gear, offset)
+    except GeometryError as refusal:
+        if offset == 0:
+            raise
+        code = "closes_spaces_or_fillets" if offset > 0 else "leaves_no_tooth"
+        raise OffsetError(offset, code, last_that_holds(partial(moved_outline, gear), offset)) from refusal
+    if not gear.root_radius + offset > gear.holes.reach - offset:
+        raise OffsetError(offset, "leaves_no_rim", (gear.holes.reach - gear.root_radius) / 2 * (1 - 1e-9))
+    return OffsetRegion(Region(outer, gear.holes.profiles(offset)), offset, ())
+
+
+def moved_outline(gear: NoncircularGear, offset: float) -> Profile:
+    """The outline moved ``offset`` mm out of the material.
+
+    Raises
+    ------
+    GeometryError
+        Nothing is left of a tooth, a fillet or a space.
+    """
+    if offset <= 0:
+        made = gear.outline if offset == 0 else cut_outline(gear, -offset)
+        return made.profile(gear.count)
+    return Profile(_grown(gear.outline.segments, offset, 2 * math.pi / gear.count), gear.count)
+
+
+def _grown(segments: Sequence[Segment], distance: float, pitch: float) -> tuple[Segment, ...]:
+    """Every segment of a period moved outwards, an arc about each convex corner."""
+    grown: list[Segment] = []
+    # convex corners of each tooth side, by number of its flank
+    corners: dict[int, list[complex]] = {}
+    flank = -1
+    for index, segment in enumerate(segments):
+        flank += segment.label is Label.FLANK
+        before = segments[index - 1].curve
+        # the first of a period follows the last of the period before
+        back = cmath.exp(-1j * pitch) if index == 0 else 1.0
+        arriving = complex(before.tangent(before.domain[1])) * back
+        turn = cmath.phase(complex(segment.curve.tangent(segment.curve.domain[0])) / arriving)
+        if turn > TOLERANCES.smooth_angle:
+            centre = start_point(segment.curve)
+            corners.setdefault(flank, []).append(centre)
+            grown.append(Segment(Arc(centre, distance, cmath.phase(arriving) - math.pi / 2, turn), Label.CORNER))
+        grown.append(Segment(segment.curve.offset(-distance), segment.label))
+    _check_spaces(corners, flank + 1, distance, pitch)
+    return tuple(grown)
+
+
+def _check_spaces(corners: dict[int, list[complex]], flanks: int, distance: float, pitch: float) -> None:
+    """What grows about the corners of neighbouring teeth stays apart."""
+    for upper in range(1, flanks, 2):
+        turned = cmath.exp(1j * pitch) if upper + 1 == flanks else 1.0
+        facing = [c * turned for c in corners.get((upper + 1) % flanks, [])]
+        gap = min((abs(a - b) for a in corners.get(upper, []) for b in facing), default=math.inf)
+        if not gap > 2 * distance:
+            raise OffsetError(distance, "closes_tooth_spaces", gap / 2)
+
+
+def findings_of(gear: NoncircularGear) -> tuple[Finding, ...]:
+    """What is legal but poor: undercut, thin tips, a thin rim."""
+    found = []
+    outline, m = gear.outline, gear.module
+    if outline.undercut:
+        least = (gear.rack.form_dedendum - gear.profile_shift_coefficient) * m / math.sin(gear.rack.pressure_angle) ** 2
+        found.append(Finding("undercut_on_centrode", 1 / gear.curvatures[1], least))
+    if outline.tip_thickness < 0.3 * m:
+        found.append(Finding("thin_tip", outline.tip_thickness, 0.3 * m))
+    rim = gear.root_radius - gear.holes.bore_reach
+    if gear.holes.bore_reach > 0 and rim < m:
+        found.append(Finding("thin_rim", rim, m))
+    return tuple(found)

@@ -1,0 +1,1 @@
+"""Pairs of involute gears: distances, limits and numbers of quality."""

@@ -1,0 +1,191 @@
+"""Rack and pinion: distance, contact ratio, backlash, phase, conditions.
+
+Frame: the pinion's axis is the origin, the rack lies towards +x in the mesh frame, its datum line at x = ``distance``,
+its teeth pointing to -x. The pitch circle is always the reference circle. Symbols are those of ISO 21771.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.findings import Finding
+from geometry.base.tolerance import TOLERANCES
+from geometry.curves.curve import Real, end_point, start_point
+from geometry.gears.teeth.limits import Margin
+from geometry.gears.teeth.rack import Rack, RackSide
+from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.tooth import ToothSide, tooth_side
+from geometry.plane.profile import Label
+
+
+@dataclass(frozen=True)
+class RackPair:
+    """A gear in mesh with a rack; made by ``rack_pair``. Lengths in mm, angles in rad."""
+
+    gear: SpurGear
+    rack: Rack
+    distance: float
+
+    @property
+    def gears(self) -> tuple[SpurGear]:
+        """The one gear."""
+        return (self.gear,)
+
+    @property
+    def module(self) -> float:
+        """m, mm."""
+        return self.gear.module
+
+    @property
+    def base_pitch(self) -> float:
+        """p_b = pi m cos(alpha), mm."""
+        return math.pi * self.module * math.cos(self.rack.rack.pressure_angle)
+
+    @cached_property
+    def sides(self) -> tuple[ToothSide, RackSide]:
+        """The exact tooth sides; raises ParameterError where one cannot be built."""
+        return tooth_side(self.gear), self.rack.side
+
+    @property
+    def travel_per_turn(self) -> float:
+        """pi d, mm."""
+        return 2 * math.pi * self.gear.reference_radius
+
+    @property
+    def _line(self) -> float:
+        """r sin(alpha): from the base circle to the pitch point along the line of action, mm."""
+        return self.gear.reference_radius * math.sin(self.rack.rack.pressure_angle)
+
+    def _gear_tangents(self, *, relief: bool = True) -> tuple[float, float]:
+        """Length from the base circle to the gear's first and last flank point, mm; ``relief``: that part too."""
+        labels = (Label.FLANK, Label.RELIEF) if relief else (Label.FLANK,)
+        curves = [s.curve for s in self.sides[0].segments if s.label in labels]
+        ends = abs(start_point(curves[0])), abs(end_point(curves[-1]))
+        low, high = (math.sqrt(max(r * r - self.gear.base_radius**2, 0.0)) for r in ends)
+        return low, high
+
+    def _rack_depths(self) -> tuple[float, float]:
+        """x of the rack's first and last flank point in the mesh frame with the datum line at ``distance``, mm."""
+        line = next(s.curve for s in self.sides[1].segments if s.label is Label.FLANK)
+        return self.distance + start_point(line).real, self.distance + end_point(line).real
+
+    def _rack_tangents(self) -> tuple[float, float]:
+        """Length from the gear's base circle to where the rack's tip and root end the line of action, mm."""
+        radius, sine = self.gear.reference_radius, math.sin(self.rack.rack.pressure_angle)
+        low, high = self._rack_depths()
+        return self._line - (radius - low) / sine, self._line + (high - radius) / sine
+
+    @property
+    def contact_ratio(self) -> float:
+        """eps_alpha between the tips of gear and rack."""
+        return (self._gear_tangents()[1] - self._rack_tangents()[0]) / self.base_pitch
+
+    @property
+    def effective_contact_ratio(self) -> float:
+        """eps_alpha between the ends of the active profiles: less where a fillet ends a flank."""
+        low, high = self.active_ends
+        return (high - low) / self.base_pitch
+
+    @property
+    def active_ends(self) -> tuple[float, float]:
+        """Where contact begins and ends on the line of action, mm from the gear's base circle."""
+        gear, rack = self._gear_tangents(), self._rack_tangents()
+        return max(gear[0], rack[0]), min(gear[1], rack[1])
+
+    @property
+    def tip_clearances(self) -> tuple[float, float]:
+        """Bottom clearance at the gear's root and at the rack's, mm."""
+        return (
+            self.distance - self.rack.addendum - self.gear.root_radius,
+            self.distance + self.rack.dedendum - self.gear.tip_radius,
+        )
+
+    @property
+    def normal_backlash(self) -> float:
+        """j_bt, mm (j_bn of spur gears): (A_1 + A_2) cos(alpha) + 2 (distance - r - x m) sin(alpha)."""
+        return _normal_backlash(self.gear, self.rack, self.distance)
+
+    def rack_position(self, rotation: float, *, contact: int = 0) -> float:
+        """y of the space's centre line that faces the tooth at ``rotation`` (rad), mm; the rack moves by r per radian.
+
+        ``contact`` = +1 or -1 moves the rack to +y or -y by half of the backlash: its flanks then touch.
+        """
+        slack = self.normal_backlash / (2 * math.cos(self.rack.rack.pressure_angle))
+        return self.gear.reference_radius * rotation + contact * slack
+
+    def margins(self) -> tuple[Margin, ...]:
+        """The pair's limits, each with its margin (>= 0 where kept); mm along the line of action or of clearance."""
+        gear, rack = self._gear_tangents(), self._rack_tangents()
+        clearances, ratio, backlash = self.tip_clearances, self.effective_contact_ratio, self.normal_backlash
+        return (
+            Margin("fillet_interference_gear", rack[0], gear[0], rack[0] - gear[0]),
+            Margin("fillet_interference_rack", gear[1], rack[1], rack[1] - gear[1]),
+            Margin("contact_ratio", ratio, 1.0, ratio - 1.0),
+            Margin("tip_clearance_gear", clearances[0], 0.0, clearances[0]),
+            Margin("tip_clearance_rack", clearances[1], 0.0, clearances[1]),
+            Margin("normal_backlash", backlash, 0.0, backlash),
+        )
+
+    def findings(self) -> tuple[Finding, ...]:
+        """The limits that are not kept; a margin within rounding of the distance counts as kept."""
+        rounding = 1e3 * TOLERANCES.relative_rounding * self.distance
+        return tuple(Finding(m.name, m.value, m.limit) for m in self.margins() if m.margin < -rounding)
+
+
+def rack_pair(gear: SpurGear, rack: Rack, distance: float | None = None) -> RackPair:
+    """The pair at r + x m from axis to datum line, without backlash but for thinning, or at a given distance, mm.
+
+    Raises
+    ------
+    ParameterError
+        Modules or pressure angles differ, or the teeth would overlap at the distance; names what would work.
+    """
+    if gear.module != rack.module:
+        raise ParameterError("module", rack.module, "not_that_of_gear", Nearest(gear.module))
+    one, two = math.degrees(gear.rack.pressure_angle), math.degrees(rack.rack.pressure_angle)
+    if abs(one - two) > 1e-12 * one:
+        raise ParameterError("pressure_angle_deg", two, "not_that_of_gear", Nearest(round(one, 12)))
+    nominal = gear.reference_radius + gear.profile_shift_coefficient * gear.module
+    if distance is None:
+        return RackPair(gear, rack, nominal)
+    if not _normal_backlash(gear, rack, distance) >= -1e-12 * nominal:
+        thinning = gear.circumferential_thinning + rack.circumferential_thinning
+        least = nominal - thinning / (2 * math.tan(rack.rack.pressure_angle))
+        raise ParameterError("working_centre_distance", distance, "teeth_overlap", limit(least, distance, digits=6))
+    return RackPair(gear, rack, distance)
+
+
+def _normal_backlash(gear: SpurGear, rack: Rack, distance: float) -> float:
+    alpha = rack.rack.pressure_angle
+    thinning = gear.circumferential_thinning + rack.circumferential_thinning
+    nominal = gear.reference_radius + gear.profile_shift_coefficient * gear.module
+    return thinning * math.cos(alpha) + 2 * (distance - nominal) * math.sin(alpha)
+
+
+def rack_flank_gaps(pair: RackPair, rotation: Real, position: Real, distance: float) -> Real:
+    """Closed form for the flanks: gear rotations (n,) rad, positions of a rack tooth's centre line (n,) mm: (n, 2) mm.
+
+    Columns: lower and upper flanks of the gear's teeth. The common normal touches the base circle at the pressure
+    angle: gap = distance sin(alpha) - (y + s/2) cos(alpha) - r_b f. inf where it misses one flank.
+    """
+    alpha, base, base_pitch = pair.rack.rack.pressure_angle, pair.gear.base_radius, pair.base_pitch
+    low, high = pair._gear_tangents(relief=False)
+    least, most = (x + distance - pair.distance for x in pair._rack_depths())
+    result = np.full((len(rotation), 2), np.inf)
+    half = pair.rack.tooth_thickness / 2
+    for column, sense in enumerate((1.0, -1.0)):
+        reached = base * (alpha - sense * rotation + pair.gear.base_half_angle)
+        gap = distance * math.sin(alpha) - (sense * position + half) * math.cos(alpha) - reached
+        gap = gap - np.round(gap / base_pitch) * base_pitch
+        start = low + np.mod(reached - low, base_pitch)
+        for k in range(math.ceil((high - low) / base_pitch) + 1):
+            at = start + k * base_pitch
+            depth = base * math.cos(alpha) + (at + gap) * math.sin(alpha)
+            inside = (at <= high) & (depth >= least) & (depth <= most)
+            result[inside, column] = gap[inside]
+    return result

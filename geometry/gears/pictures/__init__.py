@@ -1,0 +1,1 @@
+"""What lessons draw of gears: generating, meshing and readings."""

@@ -1,0 +1,290 @@
+"""The picture of meshing: what stands on the drawing of a pair, figures 3.4 to 3.13 of the practicum, lesson 3.
+
+Frame: the first body's axis is the origin and the mesh lies towards +y; the first body drives and turns
+counter-clockwise. Contact runs along the line of action from N1; a place on it is its distance s from there, mm. An
+internal pair's ring has its axis below the pinion's; a rack lies above and moves towards -x.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from geometry.base.errors import ParameterError
+from geometry.base.placement import Placement2
+from geometry.curves.curve import Curve, Reversed
+from geometry.curves.involute import Involute
+from geometry.curves.line_arc import Arc, Line
+from geometry.gears.pairs.external import ExternalPair
+from geometry.gears.pairs.internal import InternalPair
+from geometry.gears.pairs.rack import RackPair
+from geometry.gears.teeth.ring_tooth import RingSide
+from geometry.gears.teeth.tooth import ToothSide
+from geometry.plane.profile import Label, Segment
+
+Pair = ExternalPair | InternalPair | RackPair
+# exact, or the curves that a file holds in place of them
+Curves = tuple[Any, ...]
+CIRCLES = ("tip", "working", "reference", "base", "root")
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """One of both bodies, its curves in its own frame, mm.
+
+    ``radii`` of its circles by name; of a rack the heights of its lines above the first axis. ``tooth`` is the tooth
+    in contact, ``gap`` the land that joins it to the next, ``active`` the part of its flank that is in contact.
+    """
+
+    centre: complex | None
+    radii: dict[str, float]
+    step: Placement2
+    tooth: Curves
+    gap: Curves
+    active: Curves
+    place: Callable[[float], Placement2]
+
+    def chain(self, s: float, count: int) -> list[Any]:
+        """``count`` teeth in a row and the lands at both of their ends, with contact at s."""
+        at = self.place(s)
+        first = -(count // 2)
+        steps = [self._stepped(k) for k in range(first - 1, first + count)]
+        curves = [c.placed(at @ k) for k in steps[1:] for c in self.tooth]
+        return curves + [c.placed(at @ k) for k in steps for c in self.gap]
+
+    def _stepped(self, k: int) -> Placement2:
+        return Placement2(self.step.angle * k, self.step.translation * k)
+
+    def tooth_at(self, s: float) -> list[Any]:
+        """The tooth in contact at s."""
+        return [c.placed(self.place(s)) for c in self.tooth]
+
+    def active_at(self, s: float) -> list[Any]:
+        """The working part of its flank there."""
+        return [c.placed(self.place(s)) for c in self.active]
+
+
+@dataclass(frozen=True, slots=True)
+class MeshingPicture:
+    """Bodies, points and arcs of the picture, mm, rad; ``tangent_points`` N1 and N2 (None: a rack has none).
+
+    ``start`` and ``end`` of contact and the ``pole`` are places s on the line of action, whose direction of travel is
+    ``direction``; ``arc_of_action`` (d d') lies on the first working circle, ``pitch`` (p_w) on the second one.
+    """
+
+    kind: str
+    bodies: tuple[Body, Body]
+    angle: float
+    tangent_points: tuple[complex, complex | None]
+    direction: complex
+    start: float
+    end: float
+    pole: float
+    arc_of_action: Arc
+    pitch: Arc | Line
+    working_pitch: float
+    base_pitch: float
+    contact_ratio: float
+
+    def on_line(self, s: float) -> complex:
+        """The point of the line of action at a distance s from N1."""
+        return self.tangent_points[0] + s * self.direction
+
+    @property
+    def shown(self) -> float:
+        """The place of contact in the main position: the pole, or the middle of an active line that leaves it out."""
+        return self.pole if self.start <= self.pole <= self.end else (self.start + self.end) / 2
+
+
+def meshing_picture(pair: Pair) -> MeshingPicture:
+    """The picture of an external, internal or rack pair.
+
+    Raises
+    ------
+    ParameterError
+        The flanks do not reach each other: there is no contact to draw.
+    """
+    if isinstance(pair, ExternalPair):
+        picture = _external(pair)
+    else:
+        picture = _internal(pair) if isinstance(pair, InternalPair) else _rack(pair)
+    if not picture.end > picture.start:
+        raise ParameterError("mate", picture.end - picture.start, "flanks_do_not_reach")
+    return picture
+
+
+def _external(pair: ExternalPair) -> MeshingPicture:
+    angle, a_w = pair.working_pressure_angle, pair.working_centre_distance
+    one, two = (g.base_radius for g in pair.gears)
+    theta, line = math.pi / 2 - angle, a_w * math.sin(angle)
+    low, high = (_along(r, one) for r in pair.active_profile_radii[0])
+    pole, axis = one * math.tan(angle), 1j * a_w
+    spokes = cmath.exp(1j * theta), -cmath.exp(1j * theta)
+    betas = pair.first.base_half_angle, pair.second.base_half_angle
+
+    def first(s: float) -> Placement2:
+        return Placement2(theta - betas[0] + s / one)
+
+    def second(s: float) -> Placement2:
+        return Placement2(theta + math.pi - betas[1] + (line - s) / two, axis)
+
+    bodies = []
+    for index, (gear, place) in enumerate(zip(pair.gears, (first, second), strict=True)):
+        radii = dict(
+            zip(CIRCLES, (gear.tip_radius, pair.working_radii[index], gear.reference_radius, gear.base_radius,
+                          gear.root_radius), strict=True)
+        )  # fmt: skip
+        ends = pair.active_profile_radii[index]
+        side = pair.sides[index]
+        bodies.append(
+            Body(
+                (0j, axis)[index],
+                radii,
+                Placement2(gear.pitch_angle),
+                *_external_tooth(side),
+                _active(side, ends),
+                place,
+            )
+        )
+    back = (pair.working_radii[1], two)
+    shown = pole if low <= pole <= high else (low + high) / 2
+    pitch = Arc(axis, back[0], -math.pi / 2 + (pole - shown) / back[1], pair.second.pitch_angle)
+    arc = Arc(0j, pair.working_radii[0], math.pi / 2 + (low - pole) / one, (high - low) / one)
+    points = one * spokes[0], axis + two * spokes[1]
+    return MeshingPicture(
+        "external", (bodies[0], bodies[1]), angle, points, 1j * spokes[0], low, high, pole, arc, pitch,
+        pair.working_pitch, pair.base_pitch, pair.effective_contact_ratio,
+    )  # fmt: skip
+
+
+def _internal(pair: InternalPair) -> MeshingPicture:
+    angle, a_w = pair.working_pressure_angle, pair.working_centre_distance
+    one, two = pair.pinion.base_radius, pair.ring.base_radius
+    theta, line, axis = math.pi / 2 - angle, a_w * math.sin(angle), -1j * a_w
+    low, high = (_along(r, two) - line for r in pair.active_profile_radii[1])
+    low, pole = max(low, 0.0), one * math.tan(angle)
+    betas = pair.pinion.base_half_angle, pair.ring.base_half_angle
+
+    def first(s: float) -> Placement2:
+        return Placement2(theta - betas[0] + s / one)
+
+    def second(s: float) -> Placement2:
+        return Placement2(theta - betas[1] + (s + line) / two, axis)
+
+    radii = [
+        dict(zip(CIRCLES, (g.tip_radius, w, g.reference_radius, g.base_radius, g.root_radius), strict=True))
+        for g, w in ((pair.pinion, pair.working_radii[0]), (pair.ring, pair.working_radii[1]))
+    ]
+    ends = pair.active_profile_radii
+    bodies = (
+        Body(0j, radii[0], Placement2(pair.pinion.pitch_angle), *_external_tooth(pair.sides[0]),
+             _active(pair.sides[0], ends[0]), first),
+        Body(axis, radii[1], Placement2(pair.ring.pitch_angle), *_ring_tooth(pair.sides[1]),
+             _active(pair.sides[1], ends[1]), second),
+    )  # fmt: skip
+    shown = pole if low <= pole <= high else (low + high) / 2
+    turned = math.pi / 2 + (shown - pole) / two
+    pitch = Arc(axis, pair.working_radii[1], turned - pair.ring.pitch_angle, pair.ring.pitch_angle)
+    arc = Arc(0j, pair.working_radii[0], math.pi / 2 + (low - pole) / one, (high - low) / one)
+    spoke = cmath.exp(1j * theta)
+    return MeshingPicture(
+        "internal", bodies, angle, (one * spoke, axis + two * spoke), 1j * spoke, low, high, pole, arc, pitch,
+        pair.working_pitch, pair.base_pitch, pair.effective_contact_ratio,
+    )  # fmt: skip
+
+
+def _rack(pair: RackPair) -> MeshingPicture:
+    gear, rack, angle = pair.gear, pair.rack, pair.rack.rack.pressure_angle
+    one, theta = gear.base_radius, math.pi / 2 - angle
+    spoke = cmath.exp(1j * theta)
+    low, high = pair.active_ends
+    pole, half = one * math.tan(angle), rack.tooth_thickness / 2
+    ends = math.hypot(one, low), math.hypot(one, high)
+
+    def first(s: float) -> Placement2:
+        return Placement2(theta - gear.base_half_angle + s / one)
+
+    def second(s: float) -> Placement2:
+        at = spoke * (one + 1j * s)
+        middle = at.real - half + (pair.distance - at.imag) * math.tan(angle)
+        return Placement2(math.pi / 2, complex(middle, pair.distance))
+
+    heights = {
+        "tip": pair.distance - rack.addendum, "working": gear.reference_radius, "reference": pair.distance,
+        "root": pair.distance + rack.dedendum,
+    }  # fmt: skip
+    radii = dict(
+        zip(
+            CIRCLES, (gear.tip_radius, gear.reference_radius, gear.reference_radius, one, gear.root_radius), strict=True
+        )
+    )
+    tooth = [s for s in pair.sides[1].segments if s.label is not Label.ROOT_LAND]
+    land = [s for s in pair.sides[1].segments if s.label is Label.ROOT_LAND]
+    depths = sorted((spoke * (one + 1j * s)).imag - pair.distance for s in (low, high))
+    flank = next(s.curve for s in tooth if s.label is Label.FLANK)
+    step, active = Placement2(0.0, 1j * rack.pitch), _active(pair.sides[0], ends)
+    # the land above a tooth: the upper half of its own space and the lower half of the next tooth's
+    gap = tuple(c for s in land for c in (s.curve.mirrored(), s.curve.placed(step)))
+    bodies = (
+        Body(0j, radii, Placement2(gear.pitch_angle), *_external_tooth(pair.sides[0]), active, first),
+        Body(None, heights, step, _both(tooth), gap, (_between(flank, *depths),), second),
+    )
+    shown = pole if low <= pole <= high else (low + high) / 2
+    at = complex((pole - shown) * gear.reference_radius / one, gear.reference_radius)
+    arc = Arc(0j, gear.reference_radius, math.pi / 2 + (low - pole) / one, (high - low) / one)
+    return MeshingPicture(
+        "rack", bodies, angle, (one * spoke, None), 1j * spoke, low, high, pole, arc, Line(at, at + rack.pitch),
+        rack.pitch, pair.base_pitch, pair.effective_contact_ratio,
+    )  # fmt: skip
+
+
+def _external_tooth(side: ToothSide) -> tuple[Curves, Curves]:
+    """Tooth 1 and the root land behind it."""
+    period = side.profile().period
+    land = tuple(s.curve for s in period if s.label is Label.ROOT_LAND)
+    return tuple(s.curve for s in period if s.label is not Label.ROOT_LAND), land
+
+
+def _ring_tooth(side: RingSide) -> tuple[Curves, Curves]:
+    """The tooth between the spaces 1 and 2, and the root land of space 2."""
+    turn = Placement2(side.pitch_angle)
+    lower = [s for s in side.segments if s.label not in (Label.ROOT_LAND, Label.TIP_LAND)]
+    period = side.profile().period
+    tip = tuple(s.curve.placed(turn) for s in period if s.label is Label.TIP_LAND)
+    land = tuple(s.curve.placed(turn) for s in period if s.label is Label.ROOT_LAND)
+    # from root to root, whichever way each curve is travelled
+    return (*(s.curve.mirrored() for s in lower), *tip, *(s.curve.placed(turn) for s in reversed(lower))), land
+
+
+def _both(lower: list[Segment]) -> Curves:
+    return (*(s.curve.mirrored() for s in reversed(lower)), *(s.curve for s in lower))
+
+
+def _active(side: ToothSide | RingSide, ends: tuple[float, float]) -> Curves:
+    """The part of the upper flank between two radii, mm."""
+    low, high = ends
+    curves = []
+    for curve in (s.curve for s in side.segments if s.label in (Label.FLANK, Label.RELIEF)):
+        # a ring's flank is travelled inwards
+        curve = curve.original if isinstance(curve, Reversed) else curve
+        if not isinstance(curve, Involute):
+            continue
+        begin, stop = curve.domain
+        a, b = max(begin, float(curve.roll_at_radius(low))), min(stop, float(curve.roll_at_radius(high)))
+        if b > a:
+            curves.append(curve.trimmed(a, b).mirrored())
+    return tuple(curves)
+
+
+def _between(line: Curve, low: float, high: float) -> Curve:
+    """The part of a straight flank between two depths x, mm."""
+    start, end = (complex(line.point(t)) for t in (0.0, 1.0))
+    places = sorted((x - start.real) / (end.real - start.real) for x in (low, high))
+    return line.trimmed(*places)
+
+
+def _along(radius: float, base: float) -> float:
+    return math.sqrt(max((radius - base) * (radius + base), 0.0))

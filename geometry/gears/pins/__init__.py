@@ -1,0 +1,1 @@
+"""Gears of pins: cycloidal discs and lanterns."""

@@ -1,0 +1,198 @@
+"""Contact of round pins on a circle with the body that they cut: cycloidal disc or lantern gear, on exact outlines.
+
+All pins pass the same places one after another, so one pin over one whole turn of its phase tells of every pin at every
+drive angle: a pin's gap is the signed distance of its centre from the exact outline, less its radius.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from geometry.base.placement import Placement2
+from geometry.curves.curve import Complex, Real
+from geometry.gears.mesh.search import ContactPlace, PairContact
+from geometry.gears.pins.cycloidal import CycloidalDisc
+from geometry.gears.teeth.tooth import ToothSide
+from geometry.plane.distance import Boundary, Indices, Verdict, least_in_brackets
+from geometry.plane.profile import Label
+
+# |gap| up to this part of the pin's radius is contact
+PIN_CONTACT_TOLERANCE = 1e-8
+# drive angles in a pitch of the pins; fewer where there are many pins
+_DRIVE_ANGLES, _MOST_PLACES = 24, 6000
+_LEAST_ANGLES = 4
+# least gaps are found to this part of the pin's radius
+_ACCURACY = 1e-13
+
+
+class PinMotion(Protocol):
+    """One pin's way past the body that it cuts, over its phase: 0 on the line of centres."""
+
+    @property
+    def number_of_pins(self) -> int:
+        """N."""
+
+    @property
+    def pin_radius(self) -> float:
+        """rho, mm."""
+
+    def centre(self, phase: Real) -> tuple[Complex, Complex]:
+        """The pin's centre in the frame of the cut body, mm, and its rate by the phase."""
+
+    def placement(self, phase: float) -> Placement2:
+        """Frame of the line of centres (origin: the axis of the pins) from that of the body."""
+
+
+@dataclass(frozen=True, slots=True)
+class DiscMotion:
+    """A fixed pin seen from a cycloidal disc. The phase is the eccentric's angle less the pin's.
+
+    ``turn`` (rad) and ``shift`` (mm): how far the disc is turned and its eccentricity off the exact ones.
+    """
+
+    disc: CycloidalDisc
+    turn: float = 0.0
+    shift: float = 0.0
+
+    @property
+    def number_of_pins(self) -> int:
+        """N."""
+        return self.disc.number_of_pins
+
+    @property
+    def pin_radius(self) -> float:
+        """rho, mm."""
+        return self.disc.pin_diameter / 2
+
+    def centre(self, phase: Real) -> tuple[Complex, Complex]:
+        """The pin in the disc's frame, mm, and its rate."""
+        z, big = self.disc.number_of_lobes, self.disc.pin_circle_diameter / 2
+        arm = (self.disc.eccentricity + self.shift) * np.exp(1j * phase)
+        turned = np.exp(1j * (phase / z - math.pi / z - self.turn))
+        return (big - arm) * turned, (1j / z * (big - arm) - 1j * arm) * turned
+
+    def placement(self, phase: float) -> Placement2:
+        """Frame of the line of centres from the disc's."""
+        turned = self.disc.rotation(phase) + self.turn - phase
+        return Placement2(turned, complex(self.disc.eccentricity + self.shift))
+
+
+def half_outline(side: ToothSide) -> Boundary:
+    """Half a pitch of a body's outline; beyond its ends it goes on as its mirror image."""
+    ends = complex(np.exp(-0.5j * side.pitch_angle)), 1 + 0j
+    return Boundary(tuple(s.curve for s in side.segments), end_normals=ends)
+
+
+class _Gap:
+    """The gap of one pin over its phase."""
+
+    def __init__(self, side: ToothSide, motion: PinMotion) -> None:
+        self.outline, self.pitch, self.motion = half_outline(side), side.pitch_angle, motion
+        self.labels = [s.label for s in side.segments]
+
+    def __call__(self, phase: Real) -> tuple[Real, Real, Indices, Complex]:
+        """Gap and its rate, the outline's curve, and the outward normal in the body's frame."""
+        points, rates = self.motion.centre(phase)
+        turn = np.exp(-1j * self.pitch * np.round(np.angle(points) / self.pitch))
+        points, rates = points * turn, rates * turn
+        upper = points.imag > 0
+        feet = self.outline.feet(np.where(upper, np.conj(points), points))
+        normal = np.where(upper, np.conj(feet.normal), feet.normal)
+        slope = (np.conj(normal) * rates).real
+        return feet.distance - self.motion.pin_radius, slope, feet.curve_index, normal * np.conj(turn)
+
+
+def pin_gaps(side: ToothSide, motion: PinMotion) -> tuple[Real, Real]:
+    """Phases (n,) over a whole turn from -pi on, rad, n a multiple of the pins, and the gap at each, mm."""
+    pins = motion.number_of_pins
+    number = min(_DRIVE_ANGLES, max(_LEAST_ANGLES, _MOST_PLACES // pins))
+    # no phase is 0: there both sides of a tooth would have the same pin
+    phases: Real = (np.arange(number * pins, dtype=float) + 0.5) * (2 * math.pi / (number * pins)) - math.pi
+    return phases, _Gap(side, motion)(phases)[0]
+
+
+def pin_contact(
+    side: ToothSide, motion: PinMotion, tolerance: float | None = None, others: tuple[ContactPlace, ...] = ()
+) -> PairContact:
+    """The exact gap of all pins over one pitch of the drive; ``tolerance``: |gap| in mm that is contact.
+
+    ``others``: gaps beside the pins' own, as between lobes and the ring that holds the pins. The verdict is that of
+    every pair (mesh_search.PairContact); its sides are the phases below and above 0.
+    """
+    allowed = PIN_CONTACT_TOLERANCE * motion.pin_radius if tolerance is None else tolerance
+    gap, pins = _Gap(side, motion), motion.number_of_pins
+    phases, _ = pin_gaps(side, motion)
+    values, slopes, *_ = gap(phases)
+    step = 2 * math.pi / len(phases)
+    low = np.flatnonzero((slopes <= 0) & (np.roll(slopes, -1) >= 0))
+    high = (low + 1) % len(phases)
+    near = np.flatnonzero(np.minimum(values[low], values[high]) < values.min() + np.abs(slopes).max() * step)
+    low, high = low[near], high[near]
+    start = phases[low]
+    where, least = least_in_brackets(
+        lambda t, rows: gap(t)[:2], start, start + step, (slopes[low], slopes[high]), _ACCURACY * motion.pin_radius
+    )
+    place = _worst(gap, np.append(where, phases), np.append(least, values), others)
+    # phase = drive + 2 pi k / N: sorted phases fall into N runs of the same drive angles
+    table = values.reshape(pins, -1)
+    lower = phases.reshape(pins, -1) < 0
+    sides = [np.where(flags, table, np.inf).min(axis=0) for flags in (lower, ~lower)]
+    both = np.minimum(*sides)
+    finite = bool(np.all(np.isfinite(both))) and math.isfinite(place.gap)
+    verdict = Verdict.UNDECIDED
+    if finite:
+        verdict = Verdict.CONTACT if min(s.max() for s in sides) <= allowed else Verdict.CLEAR
+        verdict = Verdict.OVERLAP if place.gap < -allowed else verdict
+    drives = phases[: table.shape[1]] + math.pi
+    return PairContact(
+        verdict, allowed, tuple(drives.tolist()), tuple(both.tolist()),
+        (tuple(sides[0].tolist()), tuple(sides[1].tolist())), place, float(both.max()),
+    )  # fmt: skip
+
+
+def _worst(gap: _Gap, phases: Real, values: Real, others: tuple[ContactPlace, ...]) -> ContactPlace:
+    """The least gap of all, with its place on the body's outline."""
+    at = float(phases[int(np.argmin(values))])
+    distance, _, index, normal = gap(np.array([at]))
+    centre, _ = gap.motion.centre(np.array([at]))
+    foot = complex(centre[0] - (distance[0] + gap.motion.pin_radius) * normal[0])
+    label = gap.labels[int(index[0])]
+    found = ContactPlace(
+        float(distance[0]), at % (2 * math.pi), complex(gap.motion.placement(at).apply(foot)), (Label.PIN, label)
+    )
+    return min((found, *others), key=lambda place: place.gap)
+
+
+def lost_motion(side: ToothSide, motion: PinMotion) -> float:
+    """How far the body turns from one stop to the other while the drive stands still, rad: the most over its angles.
+
+    To the first order in the gaps: a pin's gap over its lever, which is how fast turning the body closes it.
+    """
+    phases, _ = pin_gaps(side, motion)
+    gaps, _, _, normal = _Gap(side, motion)(phases)
+    centres, _ = motion.centre(phases)
+    lever = (np.conj(normal) * -1j * centres).real
+    with np.errstate(divide="ignore", invalid="ignore"):
+        turns = np.maximum(gaps, 0.0) / np.abs(lever)
+    table = np.stack([np.where(lever < 0, turns, np.inf), np.where(lever > 0, turns, np.inf)])
+    stops = table.reshape(2, motion.number_of_pins, -1).min(axis=1)
+    return float(stops.sum(axis=0).max())
+
+
+def pins_in_contact(side: ToothSide, motion: PinMotion) -> int:
+    """How many pins touch at every drive angle."""
+    _, gaps = pin_gaps(side, motion)
+    touching = np.abs(gaps) <= PIN_CONTACT_TOLERANCE * motion.pin_radius
+    return int(touching.reshape(motion.number_of_pins, -1).sum(axis=0).min())
+
+
+def stated_contact(gap: float, allowed: float, labels: tuple[Label, Label], point: complex) -> PairContact:
+    """The verdict on a gap (mm) that is the same at every drive angle."""
+    verdict = Verdict.CONTACT if gap <= allowed else Verdict.CLEAR
+    verdict = Verdict.OVERLAP if gap < -allowed else verdict
+    place = ContactPlace(gap, 0.0, point, labels)
+    return PairContact(verdict, allowed, (0.0,), (gap,), ((gap,), (gap,)), place, gap)

@@ -1,0 +1,1 @@
+"""Blocking contours and the choice of profile shifts."""

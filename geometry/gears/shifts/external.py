@@ -1,0 +1,350 @@
+"""The blocking contour of an external spur pair: which profile shifts x1, x2 give a pair that works.
+
+All in modules, z1 drives. Each condition is a function of x1, x2 that is >= 0 where it is kept; its line is where it
+is 0. The tips follow ``shortened_tips``: r_a = r + h_a + x - k with k = x1 + x2 - y (GOST 16532-70), or k = 0; the
+distance is that of zero backlash, practicum (3.3), (3.4). Sources: ISO 21771; practicum 1, below (1.3).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from geometry.base.angles import inverse_involute, involute_function
+from geometry.base.errors import ConvergenceError
+from geometry.curves.implicit import Box, level_lines
+from geometry.gears.teeth.basic_rack import BasicRack
+from geometry.gears.teeth.joints import fillet_flank_joint
+from geometry.gears.teeth.limits import Margin, least_shift_without_undercut
+from geometry.gears.teeth.spur import SpurGear
+
+if TYPE_CHECKING:
+    from geometry.gears.shifts.internal_shifts import InternalShiftPair
+
+TIP_THICKNESSES = (0.0, 0.25, 0.3, 0.4)
+CONTACT_RATIOS = (1.0, 1.1, 1.2)
+_NAN = math.nan
+
+
+@dataclass(frozen=True, slots=True)
+class ShiftPair:
+    """Two numbers of teeth and one rack, for any shifts."""
+
+    first_teeth: int
+    second_teeth: int
+    rack: BasicRack
+    shortened_tips: bool = True
+
+    @property
+    def gear_ratio(self) -> float:
+        """u = z2 / z1."""
+        return self.second_teeth / self.first_teeth
+
+    @property
+    def teeth(self) -> tuple[int, int]:
+        """z1, z2."""
+        return self.first_teeth, self.second_teeth
+
+
+@dataclass(frozen=True, slots=True)
+class PairState:
+    """A pair at shifts x1, x2; lengths in modules, along the line of action from the first base circle.
+
+    ``involute`` is inv(alpha_w); where it is negative all others are nan. ``starts`` is where the mate's tip touches,
+    from each gear's own base circle, ``tips`` where its flank ends.
+    """
+
+    involute: float
+    working_pressure_angle: float
+    working_centre_distance: float
+    line: float
+    pole: float
+    starts: tuple[float, float]
+    tips: tuple[float, float]
+    tip_thicknesses: tuple[float, float]
+    contact_ratio: float
+    tip_shortening: float
+
+    def root_sliding(self, gear_ratio: float) -> tuple[float, float]:
+        """zeta_f1 and zeta_f2; -inf where a base circle is reached."""
+        (low1, low2), (high1, high2) = self.starts, self.tips
+        first = 1 - high2 / (gear_ratio * low1) if low1 > 0 else -math.inf
+        return first, 1 - gear_ratio * high1 / low2 if low2 > 0 else -math.inf
+
+
+@lru_cache(maxsize=1 << 17)
+def state_of(pair: ShiftPair, x1: float, x2: float) -> PairState:
+    """The pair at two shifts, by closed forms; only an undercut gear's form circle is a root."""
+    rack, alpha = pair.rack, pair.rack.pressure_angle
+    teeth, cosine = pair.first_teeth + pair.second_teeth, math.cos(alpha)
+    involute = involute_function(alpha) + 2 * (x1 + x2) * math.tan(alpha) / teeth
+    if not involute >= 0:
+        nans = (_NAN, _NAN)
+        return PairState(involute, _NAN, _NAN, _NAN, _NAN, nans, nans, nans, _NAN, _NAN)
+    angle = _working_angle(involute)
+    distance = teeth / 2 * cosine / math.cos(angle)
+    shortening = x1 + x2 - (distance - teeth / 2)
+    cut = max(shortening, 0.0) if pair.shortened_tips else 0.0
+    line = distance * math.sin(angle)
+    tips, thick = [], []
+    for z, x in zip(pair.teeth, (x1, x2), strict=True):
+        tip, base = z / 2 + rack.addendum + x - cut, z / 2 * cosine
+        tangent = math.sqrt((tip - base) * (tip + base)) if tip > base else _NAN
+        half = (math.pi / 2 + 2 * x * math.tan(alpha)) / z + involute_function(alpha)
+        tips.append(tangent)
+        thick.append(2 * tip * (half - involute_function(math.atan2(tangent, base))))
+    return PairState(
+        involute,
+        angle,
+        distance,
+        line,
+        pair.first_teeth / 2 * cosine * math.tan(angle),
+        (line - tips[1], line - tips[0]),
+        (tips[0], tips[1]),
+        (thick[0], thick[1]),
+        (tips[0] + tips[1] - line) / (math.pi * cosine),
+        shortening,
+    )
+
+
+@lru_cache(maxsize=1 << 14)
+def _working_angle(involute: float) -> float:
+    """One root serves all pairs of one sum of shifts."""
+    return inverse_involute(involute).value
+
+
+@lru_cache(maxsize=1 << 14)
+def form_tangent(number_of_teeth: int, rack: BasicRack, shift: float) -> float:
+    """Length along the line of action from the base circle to where the involute begins, in modules.
+
+    r sin(alpha) - (h_Ff - x) / sin(alpha) without undercut, else the true crossing of fillet and involute; nan where
+    the fillet leaves no tooth.
+    """
+    sine = math.sin(rack.pressure_angle)
+    tangent = number_of_teeth / 2 * sine - (rack.form_dedendum - shift) / sine
+    if tangent >= 0:
+        return tangent
+    gear = SpurGear(1.0, number_of_teeth, rack, shift)
+    try:
+        _, flank = fillet_flank_joint(gear.fillet(), gear.flank())
+    except ConvergenceError:
+        return _NAN
+    return flank.start_roll * flank.base_radius
+
+
+def active_flank(pair: ShiftPair, x1: float, x2: float, index: int) -> Margin:
+    """Where the mate's tip asks the flank of the first (0) or second (1) gear to begin, against where it does."""
+    start = state_of(pair, x1, x2).starts[index]
+    form = form_tangent(pair.teeth[index], pair.rack, (x1, x2)[index])
+    return Margin(f"active_flank_{('first', 'second')[index]}", start, form, start - form)
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """A condition: its name, the level where it has one, and its margin at x1, x2 (>= 0 where it is kept)."""
+
+    name: str
+    level: float | None
+    margin: Callable[[float, float], float]
+
+
+def conditions(pair: ShiftPair) -> dict[str, Condition]:
+    """All conditions of the contour by name and level, like ``tip_thickness_first 0.25``.
+
+    ``active_flank_*`` is where the mate's tip asks for the flank against where it begins: fillet interference of a gear
+    that is not undercut, undercut that reaches the active flank of one that is. ``approach`` and ``recess`` keep the
+    pole inside the active line; ``equal_sliding`` is > 0 where the first gear's foot slides more.
+    """
+
+    def state(x1: float, x2: float) -> PairState:
+        return state_of(pair, x1, x2)
+
+    found = [Condition("working_angle", None, lambda x1, x2: state(x1, x2).involute)]
+    for i, who in enumerate(("first", "second")):
+        least = least_shift(pair, i)
+        found += [
+            Condition(f"undercut_{who}", None, lambda x1, x2, i=i, least=least: (x1, x2)[i] - least),  # type: ignore[misc]
+            Condition(
+                f"active_flank_{who}",
+                None,
+                lambda x1, x2, i=i: active_flank(pair, x1, x2, i).margin,  # type: ignore[misc]
+            ),
+        ]
+        found += [
+            Condition(
+                f"tip_thickness_{who}",
+                level,
+                lambda x1, x2, i=i, level=level: state(x1, x2).tip_thicknesses[i] - level,  # type: ignore[misc]
+            )
+            for level in TIP_THICKNESSES
+        ]
+    found += [
+        Condition("contact_ratio", level, lambda x1, x2, level=level: state(x1, x2).contact_ratio - level)  # type: ignore[misc]
+        for level in CONTACT_RATIOS
+    ]
+    found += [
+        Condition("approach", None, lambda x1, x2: state(x1, x2).pole - state(x1, x2).starts[0]),
+        Condition("recess", None, lambda x1, x2: state(x1, x2).tips[0] - state(x1, x2).pole),
+        Condition("equal_sliding", None, lambda x1, x2: equal_sliding(pair, x1, x2)),
+    ]
+    return {c.name if c.level is None else f"{c.name} {c.level:g}": c for c in found}
+
+
+def equal_sliding(pair: ShiftPair, x1: float, x2: float) -> float:
+    """(L - g_A)(L - g_E) - u^2 g_A g_E: 0 where zeta_f1 = zeta_f2, > 0 where the first foot slides more.
+
+    nan where the active line reaches a base circle: no sliding is finite there.
+    """
+    state = state_of(pair, x1, x2)
+    (low1, low2), (high1, high2) = state.starts, state.tips
+    if not (low1 > 0 and low2 > 0):
+        return _NAN
+    return high2 * low2 - pair.gear_ratio**2 * low1 * high1
+
+
+@lru_cache(maxsize=256)
+def least_shift(pair: ShiftPair, index: int) -> float:
+    """x_min of the first (0) or second (1) gear."""
+    return least_shift_without_undercut(SpurGear(1.0, pair.teeth[index], pair.rack))
+
+
+@dataclass(frozen=True, slots=True)
+class Requirements:
+    """What a choice of shifts must keep: tip thickness in modules, contact ratio, undercut at all or only unseen.
+
+    The defaults are those of practicum 1, below (1.3).
+    """
+
+    tip_thickness: float = 0.3
+    contact_ratio: float = 1.1
+    allow_undercut: bool = False
+    pole_inside: bool = False
+
+
+def margins(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> tuple[Margin, ...]:
+    """Every requirement with its margin; nan where the pair does not exist."""
+    return tuple(_margins(pair, wish, x1, x2))
+
+
+def _margins(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> Iterator[Margin]:
+    """The requirements, those that cost a root last."""
+    state = state_of(pair, x1, x2)
+    yield Margin("working_angle", state.involute, 0.0, state.involute)
+    for i, who in enumerate(("first", "second")):
+        if not wish.allow_undercut:
+            least = least_shift(pair, i)
+            yield Margin(f"undercut_{who}", (x1, x2)[i], least, (x1, x2)[i] - least)
+        thick = state.tip_thicknesses[i]
+        yield Margin(f"tip_thickness_{who}", thick, wish.tip_thickness, thick - wish.tip_thickness)
+    ratio = state.contact_ratio
+    yield Margin("contact_ratio", ratio, wish.contact_ratio, ratio - wish.contact_ratio)
+    if wish.pole_inside:
+        low, high = state.starts[0], state.tips[0]
+        yield Margin("approach", state.pole, low, state.pole - low)
+        yield Margin("recess", high, state.pole, high - state.pole)
+    for i in (0, 1):
+        yield active_flank(pair, x1, x2, i)
+
+
+def least_margin(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> float:
+    """The least of all margins, -1 where the pair does not exist; form circles only where all else is kept."""
+    least = math.inf
+    for margin in _margins(pair, wish, x1, x2):
+        if math.isnan(margin.margin):
+            return -1.0
+        if least < 0 and margin.name.startswith("active_flank"):
+            break
+        least = min(least, margin.margin)
+    return least
+
+
+@dataclass(frozen=True, slots=True)
+class ContourLine:
+    """One line of the contour: its condition, and points x1 + i x2."""
+
+    name: str
+    level: float | None
+    points: tuple[complex, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class BlockingContour:
+    """All lines inside a box, and the borders of the region that keeps the requirements."""
+
+    pair: ShiftPair | InternalShiftPair
+    requirements: Requirements
+    box: Box
+    lines: tuple[ContourLine, ...]
+    region: tuple[tuple[complex, ...], ...]
+
+
+def usual_box(pair: ShiftPair, cells: int = 40) -> Box | None:
+    """A box around all pairs that turn at all (contact ratio 1, pointed tips, undercut unseen); None: there are none.
+
+    Found on a coarse grid of shifts from -3 to 5.
+    """
+    steps, loose = [-3 + k / 10 for k in range(81)], Requirements(0.0, 1.0, allow_undercut=True)
+    inside = [(x1, x2) for x1 in steps for x2 in steps if least_margin(pair, loose, x1, x2) >= 0]
+    if not inside:
+        return None
+    ones, twos = [x for x, _ in inside], [x for _, x in inside]
+    room = 0.2
+    return Box(min(ones) - room, max(ones) + room, min(twos) - room, max(twos) + room, cells)
+
+
+def blocking_contour(
+    pair: ShiftPair, wish: Requirements, box: Box, tolerance: float = 2e-4, names: Iterable[str] | None = None
+) -> BlockingContour:
+    """The lines of the contour in a box; chords within ``tolerance`` of them, points to rounding.
+
+    ``active_flank`` lines are told apart by undercut: ``fillet_interference_*`` and ``undercut_to_active_flank_*``.
+    """
+    lines = contour_lines(conditions(pair), lambda index: least_shift(pair, index), box, tolerance, names)
+    region = level_lines(lambda x1, x2: least_margin(pair, wish, x1, x2), box, tolerance)
+    return BlockingContour(pair, wish, box, lines, tuple(tuple(r) for r in region))
+
+
+def contour_lines(
+    known: dict[str, Condition],
+    least: Callable[[int], float],
+    box: Box,
+    tolerance: float,
+    names: Iterable[str] | None = None,
+    shifts_at: Callable[[complex], complex] = complex,
+) -> tuple[ContourLine, ...]:
+    """The lines of conditions in a box; ``least`` is x_min of the first (0) or second (1) gear.
+
+    ``shifts_at`` gives x1 + i x2 at a point of the box, where conditions are told in other coordinates.
+    """
+    lines: list[ContourLine] = []
+    for name, condition in known.items():
+        if names is not None and name not in names:
+            continue
+        for chain in level_lines(condition.margin, box, tolerance):
+            points = [shifts_at(p) for p in chain]
+            if not condition.name.startswith("active_flank"):
+                lines.append(ContourLine(condition.name, condition.level, tuple(points)))
+                continue
+            who = condition.name.removeprefix("active_flank_")
+            lines += _by_undercut(who, least(0 if who == "first" else 1), points)
+    return tuple(lines)
+
+
+def _by_undercut(who: str, least: float, points: list[complex]) -> list[ContourLine]:
+    """A line cut where it crosses x_min; both pieces share the point next to it."""
+    index = 0 if who == "first" else 1
+    pieces: list[ContourLine] = []
+    run: list[complex] = []
+    name = ""
+    for point in points:
+        shift = point.real if index == 0 else point.imag
+        now = f"fillet_interference_{who}" if shift >= least else f"undercut_to_active_flank_{who}"
+        if name and now != name:
+            pieces.append(ContourLine(name, None, (*run, point)))
+            run = []
+        name = now
+        run.append(point)
+    return [*pieces, ContourLine(name, None, tuple(run))]

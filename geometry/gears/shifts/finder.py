@@ -1,0 +1,309 @@
+"""Shifts inside the blocking contour: for least wear, for the greatest contact ratio, for a centre distance.
+
+Everything is sought along lines of one working angle, x1 + x2 = s, or x2 - x1 = s for an internal pair: on them equal
+sliding has one root, and the legal part is found by its sign on a grid with bracketed ends.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+
+from geometry.base.errors import ParameterError
+from geometry.base.roots import bracketed_root
+from geometry.curves.implicit import Box
+from geometry.gears.shifts import external as blocking_contour
+from geometry.gears.shifts import internal as internal_contour
+from geometry.gears.shifts import internal_shifts
+from geometry.gears.shifts.external import PairState, Requirements, ShiftPair, usual_box
+from geometry.gears.shifts.internal import InternalRequirements
+from geometry.gears.shifts.internal_shifts import InternalShiftPair, InternalState
+
+# how finely sums and shifts are looked at, in modules; between grid points the greatest margin is sought
+_STEP = 0.05
+# no margin rises faster than this many modules a module
+_STEEPEST = 8.0
+# golden sections within a line and between lines: to 1e-9 and 1e-7; halvings at an end: to 1e-12
+_SECTIONS, _OUTER_SECTIONS, _HALVINGS = 40, 28, 36
+# what a root leaves of a margin of 0
+_ROUNDING = 1e-9
+_GOLDEN = (math.sqrt(5) - 1) / 2
+
+
+@dataclass(frozen=True, slots=True)
+class Proposal:
+    """Shifts, and what they give: contact ratio, specific sliding at both feet, the least margin of all."""
+
+    first: float
+    second: float
+    contact_ratio: float
+    root_sliding: tuple[float, float]
+    margin: float
+
+
+AnyShiftPair = ShiftPair | InternalShiftPair
+
+
+@lru_cache(maxsize=64)
+def _window(pair: ShiftPair) -> Box | None:
+    """Where to look: no shifts outside are legal."""
+    return usual_box(pair)
+
+
+def _step(box: Box) -> float:
+    """How finely to look: coarser where the legal shifts spread far."""
+    return max(_STEP, max(box.right - box.left, box.top - box.bottom) / 60)
+
+
+def state_of(pair: AnyShiftPair, x1: float, x2: float) -> PairState | InternalState:
+    """A pair of either kind at two shifts."""
+    if isinstance(pair, InternalShiftPair):
+        return internal_shifts.internal_state(pair, x1, x2)
+    return blocking_contour.state_of(pair, x1, x2)
+
+
+def least_margin(pair: AnyShiftPair, wish: Requirements, x1: float, x2: float) -> float:
+    """The least margin of a pair of either kind; an internal one may have ``InternalRequirements``."""
+    if not isinstance(pair, InternalShiftPair):
+        return blocking_contour.least_margin(pair, wish, x1, x2)
+    if not isinstance(wish, InternalRequirements):
+        wish = InternalRequirements(wish.tip_thickness, wish.contact_ratio, wish.allow_undercut, wish.pole_inside)
+    return internal_contour.least_margin(pair, wish, x1, x2)
+
+
+def second_shift(pair: AnyShiftPair, shift_sum: float, x1: float) -> float:
+    """x2 on the line of one working angle."""
+    return shift_sum + x1 if isinstance(pair, InternalShiftPair) else shift_sum - x1
+
+
+def _first_shifts(pair: AnyShiftPair, shift_sum: float) -> tuple[float, float, float] | None:
+    """Where to look for x1 on a line of one working angle: from, to, step; None: nowhere."""
+    if isinstance(pair, InternalShiftPair):
+        found = internal_contour.window(pair)
+        if found is None:
+            return None
+        box = found.box
+        low, high = max(box.left, box.bottom - shift_sum), min(box.right, box.top - shift_sum)
+    else:
+        known = _window(pair)
+        if known is None:
+            return None
+        box = known
+        low, high = max(box.left, shift_sum - box.top), min(box.right, shift_sum - box.bottom)
+    return (low, high, _step(box)) if low < high else None
+
+
+def _sums(pair: AnyShiftPair) -> list[float]:
+    """The lines of one working angle that are looked at."""
+    if isinstance(pair, InternalShiftPair):
+        found = internal_contour.window(pair)
+        if found is None:
+            return []
+        low, high, step = found.lowest, found.highest, found.step
+    else:
+        box = _window(pair)
+        if box is None:
+            return []
+        low, high, step = box.left + box.bottom, box.right + box.top, _step(box)
+    return [low + step * k for k in range(math.ceil((high - low) / step) + 1)]
+
+
+def legal_shifts(pair: AnyShiftPair, wish: Requirements, shift_sum: float) -> list[tuple[float, float]]:
+    """The intervals of x1 that keep the requirements at x1 + x2, or x2 - x1 of an internal pair, = ``shift_sum``."""
+
+    def margin(x1: float) -> float:
+        return least_margin(pair, wish, x1, second_shift(pair, shift_sum, x1))
+
+    found = _first_shifts(pair, shift_sum)
+    return [] if found is None else _positive(margin, *found)
+
+
+def for_sum(pair: AnyShiftPair, wish: Requirements, shift_sum: float) -> Proposal | None:
+    """The legal shifts of a given sum (a given centre distance) whose feet slide most equally; None: none is legal."""
+    found = legal_shifts(pair, wish, shift_sum)
+    if not found:
+        return None
+    low, high = max(found, key=lambda part: part[1] - part[0])
+    wanted = equal_sliding_shift(pair, shift_sum, low, high)
+    return proposal(pair, wish, wanted, second_shift(pair, shift_sum, wanted))
+
+
+def nearest_sum(pair: AnyShiftPair, wish: Requirements, shift_sum: float) -> float | None:
+    """The sum (x2 - x1 of an internal pair) nearest to an illegal one that has legal shifts; None: there is none."""
+
+    def legal(total: float) -> float:
+        return 0.0 if legal_shifts(pair, wish, total) else -math.inf
+
+    good = min((s for s in _sums(pair) if legal(s) == 0), key=lambda s: abs(s - shift_sum), default=None)
+    return None if good is None else _last_inside(legal, good, shift_sum)
+
+
+def equal_sliding_shift(pair: AnyShiftPair, shift_sum: float, low: float, high: float) -> float:
+    """x1 of equal sliding between two x1 of one sum, or the end nearer to it: with x1 the first foot slides less."""
+
+    def difference(x1: float) -> float:
+        x2 = second_shift(pair, shift_sum, x1)
+        if isinstance(pair, InternalShiftPair):
+            return internal_shifts.equal_sliding(pair, x1, x2)
+        return blocking_contour.equal_sliding(pair, x1, x2)
+
+    ends = difference(low), difference(high)
+    # beyond the base circle of the first gear sliding has no bound, so the root lies above; of the second, below
+    if math.isnan(ends[0]) or math.isnan(ends[1]):
+        return high if math.isnan(ends[0]) else low
+    if ends[0] <= 0:
+        return low
+    return high if ends[1] >= 0 else bracketed_root(difference, low, high).value
+
+
+def least_wear(pair: AnyShiftPair, wish: Requirements) -> Proposal | None:
+    """The legal shifts with equal sliding of both feet and the least of it; None where no such pair is legal."""
+
+    def shift(total: float) -> float | None:
+        parts = legal_shifts(pair, wish, total)
+        for low, high in parts:
+            x1 = equal_sliding_shift(pair, total, low, high)
+            if low < x1 < high and least_margin(pair, wish, x1, second_shift(pair, total, x1)) >= -_ROUNDING:
+                return x1
+        return None
+
+    def wear(total: float) -> float:
+        x1 = shift(total)
+        if x1 is None:
+            return -math.inf
+        return min(state_of(pair, x1, second_shift(pair, total, x1)).root_sliding(pair.gear_ratio))
+
+    best = _greatest_of(pair, wear)
+    if best is None:
+        return None
+    x1 = shift(best)
+    return None if x1 is None else proposal(pair, wish, x1, second_shift(pair, best, x1))
+
+
+def least_sliding(pair: AnyShiftPair, wish: Requirements) -> Proposal | None:
+    """The legal shifts with the least sliding at the foot that slides more, equal or not; None: no pair is legal.
+
+    For pairs whose legal shifts all lie on one side of equal sliding.
+    """
+
+    def wear_at(total: float, x1: float) -> float:
+        return min(state_of(pair, x1, second_shift(pair, total, x1)).root_sliding(pair.gear_ratio))
+
+    def shift(total: float) -> float | None:
+        found = [equal_sliding_shift(pair, total, low, high) for low, high in legal_shifts(pair, wish, total)]
+        legal = [x1 for x1 in found if least_margin(pair, wish, x1, second_shift(pair, total, x1)) >= -_ROUNDING]
+        return max(legal, key=lambda x1: wear_at(total, x1), default=None)
+
+    def wear(total: float) -> float:
+        x1 = shift(total)
+        return -math.inf if x1 is None else wear_at(total, x1)
+
+    best = _greatest_of(pair, wear)
+    x1 = None if best is None else shift(best)
+    return None if best is None or x1 is None else proposal(pair, wish, x1, second_shift(pair, best, x1))
+
+
+def greatest_contact_ratio(pair: AnyShiftPair, wish: Requirements) -> Proposal | None:
+    """The legal shifts with the greatest contact ratio; None where no pair is legal."""
+
+    def shift(total: float) -> float | None:
+        parts = legal_shifts(pair, wish, total)
+        ratio: Callable[[float], float] = lambda x1: state_of(pair, x1, second_shift(pair, total, x1)).contact_ratio  # noqa: E731
+        found = [x1 for low, high in parts for x1 in (_golden(ratio, low, high), low, high)]
+        # between marks a narrow gap in the legal shifts may have been overlooked
+        legal = [x1 for x1 in found if least_margin(pair, wish, x1, second_shift(pair, total, x1)) >= -_ROUNDING]
+        return max(legal, key=ratio, default=None)
+
+    def ratio_of(total: float) -> float:
+        x1 = shift(total)
+        return -math.inf if x1 is None else state_of(pair, x1, second_shift(pair, total, x1)).contact_ratio
+
+    best = _greatest_of(pair, ratio_of)
+    if best is None:
+        return None
+    x1 = shift(best)
+    return None if x1 is None else proposal(pair, wish, x1, second_shift(pair, best, x1))
+
+
+def proposal(pair: AnyShiftPair, wish: Requirements, x1: float, x2: float) -> Proposal:
+    """What a pair of shifts gives."""
+    state = state_of(pair, x1, x2)
+    return Proposal(x1, x2, state.contact_ratio, state.root_sliding(pair.gear_ratio), least_margin(pair, wish, x1, x2))
+
+
+def checked_proposal(found: Proposal | None, name: str, value: object) -> Proposal:
+    """The proposal, or a refusal that names the key to loosen.
+
+    Raises
+    ------
+    ParameterError
+        Nothing was found.
+    """
+    if found is None:
+        raise ParameterError(name, value, "no_shifts_keep_requirements")
+    return found
+
+
+def _greatest_of(pair: AnyShiftPair, function: Callable[[float], float]) -> float | None:
+    """The sum of shifts at which a function is greatest; -inf is outside its domain, whose ends are halved in on."""
+    sums = _sums(pair)
+    if not sums:
+        return None
+    values = [function(s) for s in sums]
+    best = max(range(len(sums)), key=lambda k: values[k])
+    if values[best] == -math.inf:
+        return None
+    ends = []
+    for k in (best - 1, best + 1):
+        end = sums[min(max(k, 0), len(sums) - 1)]
+        ends.append(end if function(end) > -math.inf else _last_inside(function, sums[best], end))
+    return max((_golden(function, ends[0], ends[1], _OUTER_SECTIONS), sums[best]), key=function)
+
+
+def _last_inside(function: Callable[[float], float], inside: float, outside: float) -> float:
+    for _ in range(_HALVINGS):
+        middle = (inside + outside) / 2
+        inside, outside = (middle, outside) if function(middle) > -math.inf else (inside, middle)
+    return inside
+
+
+def _golden(function: Callable[[float], float], low: float, high: float, sections: int = _SECTIONS) -> float:
+    """Where a function of one hill is greatest; -inf outside its domain only pushes inwards."""
+    one, two = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+    values = function(one), function(two)
+    for _ in range(sections):
+        if values[0] >= values[1]:
+            high, two = two, one
+            one = high - _GOLDEN * (high - low)
+            values = function(one), values[0]
+        else:
+            low, one = one, two
+            two = low + _GOLDEN * (high - low)
+            values = values[1], function(two)
+    return max((low, high, (low + high) / 2), key=function)
+
+
+def _positive(function: Callable[[float], float], low: float, high: float, step: float) -> list[tuple[float, float]]:
+    """The intervals in which a function is >= 0; ends are roots, the side that is >= 0."""
+    count = max(2, math.ceil((high - low) / step))
+    marks = [low + (high - low) * k / count for k in range(count + 1)]
+    values = [function(m) for m in marks]
+    if max(values) < -_STEEPEST * step:
+        return []
+    if max(values) < 0:
+        # a narrow interval between two marks
+        best = max(range(count + 1), key=lambda k: values[k])
+        top = _golden(function, marks[max(best - 1, 0)], marks[min(best + 1, count)])
+        marks = [marks[max(best - 1, 0)], top, marks[min(best + 1, count)]]
+        values = [function(m) for m in marks]
+    ends: list[float] = [marks[0]] if values[0] >= 0 else []
+    for (a, b), (fa, fb) in zip(pairwise(marks), pairwise(values), strict=True):
+        if (fa >= 0) != (fb >= 0):
+            bracket = bracketed_root(function, a, b).bracket
+            ends.append(next((e for e in bracket if function(e) >= 0), bracket[0]))
+    if len(ends) % 2:
+        ends.append(marks[-1])
+    return list(zip(ends[::2], ends[1::2], strict=True))

@@ -1,0 +1,1 @@
+"""Involute teeth: racks, cutters, gears, rings, their outlines, limits and measures."""

@@ -1,0 +1,268 @@
+"""Limits of a spur gear, each a function with its margin, and the search for the nearest gear that works."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from geometry.base.errors import GeometryError, Nearest, ParameterError, UndercutError, limit
+from geometry.base.findings import Finding
+from geometry.base.nearest import Suspect, blamed, nearest
+from geometry.curves.curve import start_point
+from geometry.gears.teeth.joints import pointed_radius
+from geometry.gears.teeth.shaping import check_shaping, least_shift_with_cutter
+from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.tooth import tooth_side
+from geometry.gears.teeth.transverse import transverse_gear
+from geometry.plane.profile import Label
+
+if TYPE_CHECKING:
+    from geometry.gears.teeth.ring import RingGear
+
+G = TypeVar("G", "SpurGear", "RingGear")
+
+# practicum, condition below (1.3): S_a >= 0.3 m
+LEAST_TIP_THICKNESS = 0.3
+# practicum (1.2): xi_min = (17 - z) / 17
+PRACTICUM_LEAST_TEETH = 17
+
+
+@dataclass(frozen=True, slots=True)
+class Margin:
+    """How far a gear is from a limit; ``margin`` >= 0 where the limit is kept."""
+
+    name: str
+    value: float
+    limit: float
+    margin: float
+
+
+def least_shift_without_undercut(gear: SpurGear) -> float:
+    """x_min = h_Ff - z sin^2(alpha) / 2: exact for a rack with a rounded tip; with a cutter see ``shaping``."""
+    if gear.cutter is not None:
+        return least_shift_with_cutter(gear)
+    return gear.rack.form_dedendum - gear.number_of_teeth * math.sin(gear.rack.pressure_angle) ** 2 / 2
+
+
+def undercut(gear: SpurGear) -> Margin:
+    """Undercut, exactly: the generating shift against x_min."""
+    limit = least_shift_without_undercut(gear)
+    value = gear.generating_shift_coefficient
+    return Margin("undercut", value, limit, value - limit)
+
+
+def practicum_undercut(gear: SpurGear) -> Margin:
+    """Undercut by the practicum's rule (1.2), xi_min = (17 - z) / 17, meant for 20 degrees and h_a = 1."""
+    limit = (PRACTICUM_LEAST_TEETH - gear.number_of_teeth) / PRACTICUM_LEAST_TEETH
+    value = gear.profile_shift_coefficient
+    return Margin("practicum_undercut", value, limit, value - limit)
+
+
+def pointed_diameter(gear: SpurGear) -> float:
+    """Diameter at which both flanks of a tooth meet, mm."""
+    flanks = [gear.flank()]
+    if gear.rack.relief is not None:
+        flanks.append(gear.relief_flank())
+    return 2 * min(pointed_radius(f) for f in flanks)
+
+
+def pointed_tip(gear: SpurGear) -> Margin:
+    """Tip diameter against the diameter at which the tooth is pointed, mm."""
+    limit, value = pointed_diameter(gear), 2 * gear.tip_radius
+    return Margin("pointed_tip", value, limit, limit - value)
+
+
+def tip_thickness(gear: SpurGear) -> float:
+    """s_a: thickness of the tooth on the tip circle before its corners are broken, mm (an arc)."""
+    flanks = [gear.flank()]
+    if gear.rack.relief is not None:
+        flanks.append(gear.relief_flank())
+    angle = max(float(f.polar_angle_at_radius(gear.tip_radius)) for f in flanks)
+    return -2 * gear.tip_radius * angle
+
+
+def thin_tip(gear: SpurGear) -> Margin:
+    """s_a against 0.3 m, mm; practicum, below (1.3)."""
+    value, limit = tip_thickness(gear), LEAST_TIP_THICKNESS * gear.module
+    return Margin("thin_tip", value, limit, value - limit)
+
+
+def root_below_bore(gear: SpurGear) -> Margin:
+    """Diameter that the bore reaches against the root diameter, mm."""
+    value, limit = 2 * gear.bore_radius, 2 * gear.root_radius
+    return Margin("root_below_bore", value, limit, limit - value)
+
+
+def root_form_diameter(gear: SpurGear) -> float:
+    """d_Ff: diameter at which the involute begins, mm."""
+    flank = next(s for s in tooth_side(gear).segments if s.label is Label.FLANK)
+    return 2 * abs(start_point(flank.curve))
+
+
+def margins(gear: SpurGear) -> tuple[Margin, ...]:
+    """All limits of a gear."""
+    return undercut(gear), practicum_undercut(gear), pointed_tip(gear), thin_tip(gear), root_below_bore(gear)
+
+
+def findings(gear: SpurGear) -> tuple[Finding, ...]:
+    """Remarks on a gear that is legal but poor: undercut, thin tip, tip circle above the rack's root."""
+    found = [Finding(m.name, m.value, m.limit) for m in (undercut(gear), thin_tip(gear)) if m.margin < 0]
+    if gear.bore_radius > 0 and gear.root_radius - gear.bore_radius < gear.module:
+        found.append(Finding("thin_rim", gear.root_radius - gear.bore_radius, gear.module))
+    return tuple(found)
+
+
+def checked_gear(gear: SpurGear, helix_angle: float = 0.0) -> SpurGear:
+    """The gear if it can be built, else a refusal that names a parameter which alone cures it.
+
+    ``gear``: in normal data, which the refusals name, where ``helix_angle`` is not 0, rad; returned is its transverse
+    section then.
+
+    Raises
+    ------
+    ParameterError
+        The gear cannot be built: the parameter, its value, why, and the nearest value that works.
+    """
+    _check_numbers(gear)
+    section = transverse_gear(gear, helix_angle)
+    rim = root_below_bore(section)
+    if section.root_radius > 0 and section.bore_diameter > 0 and rim.margin <= 0:
+        most = limit(rim.limit - 1e-4, rim.value)
+        raise ParameterError("bore_diameter", rim.value, "reaches_root_circle", most, diameter=rim.limit)
+    try:
+        check_shaping(section)
+    except ParameterError as refusal:
+        raise in_normal_modules(refusal, helix_angle) from refusal
+    try:
+        tooth_side(section)
+    except ParameterError as refusal:
+        raise _blamed(gear, helix_angle, refusal) from refusal
+    section.holes.check(section.root_radius)
+    return section
+
+
+def exists(gear: SpurGear, helix_angle: float = 0.0) -> bool:
+    """Whether ``checked_gear`` has nothing to say, without its search for what is to blame."""
+    try:
+        _check_numbers(gear)
+    except ParameterError:
+        return False
+    section = transverse_gear(gear, helix_angle)
+    return (gear.bore_diameter <= 0 or root_below_bore(section).margin > 0) and _builds(section)
+
+
+def _builds(section: SpurGear) -> bool:
+    try:
+        check_shaping(section)
+        tooth_side(section)
+    except GeometryError:
+        return False
+    return section.holes.fits(section.root_radius)
+
+
+def in_normal_modules(refusal: ParameterError, helix_angle: float) -> ParameterError:
+    """A refusal of a transverse section's coefficient as one of the normal coefficient."""
+    if helix_angle == 0 or refusal.name not in _COEFFICIENTS:
+        return refusal
+    return refusal.renamed(refusal.name, 1 / math.cos(helix_angle))
+
+
+def check_dimensions(gear: object, positive: Iterable[str], least_zero: Iterable[str]) -> None:
+    """Refuse fields that are no finite numbers above 0 (where given), or at least 0."""
+    for name in positive:
+        value = getattr(gear, name)
+        if value is not None and not 0 < value < math.inf:
+            raise ParameterError(_NAMES.get(name, name), value, "not_finite_above_zero")
+    for name in least_zero:
+        if not 0 <= getattr(gear, name) < math.inf:
+            raise ParameterError(name, getattr(gear, name), "not_finite_or_negative", Nearest(0.0))
+
+
+def _check_numbers(gear: SpurGear) -> None:
+    """Refuse what is no dimension at all."""
+    if not gear.number_of_teeth >= 1:
+        raise ParameterError("number_of_teeth", gear.number_of_teeth, "too_few", Nearest(1, "at_least"))
+    if not math.isfinite(gear.profile_shift_coefficient):
+        raise ParameterError("profile_shift_coefficient", gear.profile_shift_coefficient, "not_finite", Nearest(0.0))
+    check_dimensions(
+        gear,
+        ("module", "given_tip_diameter"),
+        ("circumferential_thinning", "tip_chamfer", "tip_rounding", "bore_diameter"),
+    )
+
+
+# coefficients in modules, and fields that stand for a parameter
+_COEFFICIENTS = frozenset(
+    {"profile_shift_coefficient", "cutter.profile_shift_coefficient", "cutter.addendum", "cutter.tip_rounding"}
+)
+_NAMES = {"given_tip_diameter": "tip_diameter"}
+
+
+def corner_suspects(gear: G, builds: Callable[[G], bool]) -> list[Suspect]:
+    """Parameters of any toothed part that may be to blame: broken tip corners and thinning."""
+
+    def with_field(name: str, value: float) -> bool:
+        field: dict[str, Any] = {name: value}
+        return builds(replace(gear, **field))
+
+    names = ("tip_chamfer", "tip_rounding", "circumferential_thinning")
+    return [Suspect(name, getattr(gear, name), 0.0, partial(with_field, name)) for name in names]
+
+
+def refused_as(refusal: ParameterError, suspect: Suspect) -> ParameterError:
+    """A refusal told of the suspect that can cure it, with the value that does."""
+    cure = partial(nearest, suspect.works, suspect.value, suspect.harmless, digits=suspect.digits)
+    return type(refusal)(suspect.name, suspect.value, refusal.code, cure, **refusal.numbers)
+
+
+def _blamed(gear: SpurGear, helix_angle: float, refusal: ParameterError) -> ParameterError:
+    """The refusal told of the parameter that can cure it alone: the most special one, then shift, tip and teeth."""
+
+    def builds(changed: SpurGear) -> bool:
+        return _builds(transverse_gear(changed, helix_angle))
+
+    def with_shift(shift: float) -> bool:
+        return builds(replace(gear, profile_shift_coefficient=shift))
+
+    def with_tip(diameter: float) -> bool:
+        return builds(replace(gear, given_tip_diameter=diameter))
+
+    found = blamed(_suspects(gear, helix_angle, builds), refusal.name)
+    if found is not None:
+        return refused_as(refusal, found)
+    x = gear.profile_shift_coefficient
+    if (shift := working_shift(with_shift, x)) is not None:
+        return refused_as(refusal, Suspect("profile_shift_coefficient", x, shift, with_shift))
+    diameter = 2 * transverse_gear(gear, helix_angle).tip_radius
+    lower = next((d for k in range(1, 160) if with_tip(d := diameter * (1 - k / 200))), None)
+    if lower is not None:
+        return refused_as(refusal, Suspect("tip_diameter", diameter, lower, with_tip))
+    z = gear.number_of_teeth
+    teeth = next((n for n in range(z + 1, z + 60) if builds(replace(gear, number_of_teeth=n))), None)
+    cure = None if teeth is None else Nearest(teeth, "at_least")
+    return UndercutError("number_of_teeth", z, refusal.code, cure, **refusal.numbers)
+
+
+def _suspects(gear: SpurGear, helix_angle: float, builds: Callable[[SpurGear], bool]) -> list[Suspect]:
+    """Parameters of a gear that could be changed alone, the most special first."""
+    suspects = corner_suspects(gear, builds)
+    if (relief := gear.rack.relief) is not None:
+
+        def with_relief(name: str, value: float) -> bool:
+            return builds(replace(gear, rack=replace(gear.rack, relief=replace(relief, **{name: value}))))
+
+        suspects.append(Suspect("relief.depth", relief.depth, 0.0, partial(with_relief, "depth")))
+        suspects.append(Suspect("relief.height", relief.height, 1e-6, partial(with_relief, "height")))
+    given = 2 * transverse_gear(gear, helix_angle).tip_radius
+    default = 2 * transverse_gear(replace(gear, given_tip_diameter=None), helix_angle).tip_radius
+    suspects.append(Suspect("tip_diameter", given, default, lambda v: builds(replace(gear, given_tip_diameter=v))))
+    return suspects
+
+
+def working_shift(works: Callable[[float], bool], given: float) -> float | None:
+    """A shift that works, the nearest to a refused one of those from -3 to 3 in steps of 0.05."""
+    grid = sorted((k / 20 for k in range(-60, 61)), key=lambda v: abs(v - given))
+    return next((v for v in grid if works(v)), None)

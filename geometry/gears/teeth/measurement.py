@@ -1,0 +1,247 @@
+"""What a calliper reads on an external gear: span, pins or balls, chords; spur and helical.
+
+``gear`` is the transverse section (``transverse.transverse_gear``), ``helix_angle`` on the reference cylinder, rad.
+The gear's own thinning counts: ``nominal`` gives the same gear without it. Lengths in mm.
+Sources: ISO 21771; GOST 16532-70 (span, pins, chords); exact, no table of constants.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from geometry.base.angles import inverse_involute, involute_function, roll_minus_polar
+from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.roots import bracketed_root
+from geometry.gears.teeth.limits import root_form_diameter
+from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.transverse import base_helix_angle, normal_angle
+
+# b_M, mm: length of contact that a measuring face needs on helical teeth, and its growth with W_k; DIN 3960
+SPAN_CONTACT = (1.2, 0.018)
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """W_k over ``teeth`` teeth, mm, and where the faces touch: ``contact_diameter``, mm.
+
+    ``touches_flanks``: both faces lie on the involute between its form circle and its tip.
+    ``least_face_width``: a helical gear must be wider than this, mm, for the faces to find both flanks;
+    ``secure_face_width``: W sin(beta_b) + b_M cos(beta_b), with b_M of them in contact on each; DIN 3960.
+    """
+
+    teeth: int
+    length: float
+    contact_diameter: float
+    touches_flanks: bool
+    least_face_width: float
+    secure_face_width: float
+
+
+@dataclass(frozen=True, slots=True)
+class OverPins:
+    """M over two pins or balls, mm; ``touches_flanks`` as in ``Span``; ``stands_out``: M is beyond the tip circle."""
+
+    pin_diameter: float
+    length: float
+    centre_diameter: float
+    contact_diameter: float
+    touches_flanks: bool
+    stands_out: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Chord:
+    """Chordal thickness and the height from the tip at which it is measured, mm."""
+
+    thickness: float
+    height: float
+
+
+def nominal(gear: SpurGear) -> SpurGear:
+    """The gear without its thinning."""
+    return replace(gear, circumferential_thinning=0.0)
+
+
+def thickness_at(gear: SpurGear, radius: float) -> float:
+    """s_y: arc of the tooth between its main flanks on a circle of a radius, mm; ISO 21771.
+
+    Raises
+    ------
+    ParameterError
+        The circle lies inside the base circle, where there is no involute.
+    """
+    if radius < gear.base_radius:
+        raise ParameterError("diameter", 2 * radius, "inside_base_circle", limit(2 * gear.base_radius, 2 * radius))
+    return -2 * radius * float(gear.flank().polar_angle_at_radius(radius))
+
+
+def base_thickness(gear: SpurGear) -> float:
+    """s_b = 2 r_b psi_b, mm."""
+    return 2 * gear.base_radius * gear.base_half_angle
+
+
+def span(gear: SpurGear, teeth: int, helix_angle: float = 0.0) -> Span:
+    """W_k = cos(beta_b) ((k - 1) p_bt + s_bt); ISO 21771.
+
+    Raises
+    ------
+    ParameterError
+        ``teeth`` is not from 1 to z.
+    """
+    if not 1 <= teeth <= gear.number_of_teeth:
+        z = gear.number_of_teeth
+        cure = Nearest(1, "at_least") if teeth < 1 else Nearest(z, "at_most")
+        raise ParameterError("teeth_spanned", teeth, "span_beyond_teeth", cure, teeth=z)
+    cosine = math.cos(base_helix_angle(gear.rack.pressure_angle, helix_angle))
+    length = cosine * ((teeth - 1) * gear.pitch_angle * gear.base_radius + base_thickness(gear))
+    contact = math.hypot(gear.base_radius, length * cosine / 2)
+    touches = root_form_diameter(gear) / 2 <= contact <= gear.tip_radius
+    width = length * abs(math.sin(base_helix_angle(gear.rack.pressure_angle, helix_angle)))
+    secure = width + (SPAN_CONTACT[0] + SPAN_CONTACT[1] * length) * cosine
+    return Span(teeth, length, 2 * contact, touches, width, secure)
+
+
+def teeth_to_span(gear: SpurGear, helix_angle: float = 0.0) -> float:
+    """k before rounding: the span that would touch the flanks at d + 2 x m; GOST 16532-70, KHK.
+
+    k = z / pi (tan(alpha_x) / cos^2(beta_b) - 2 x tan(alpha) / z - inv(alpha)) + 1/2 with the circle's angle alpha_x,
+    no smaller than that of the base circle.
+    """
+    middle = gear.reference_radius + gear.profile_shift_coefficient * gear.module
+    tangent = math.sqrt(max((middle / gear.base_radius) ** 2 - 1, 0.0))
+    cosine = math.cos(base_helix_angle(gear.rack.pressure_angle, helix_angle))
+    thick = nominal(gear).base_half_angle
+    return (tangent / cosine**2 - thick) * gear.number_of_teeth / math.pi + 1
+
+
+def best_span(gear: SpurGear, helix_angle: float = 0.0) -> Span | None:
+    """The span whose k is nearest to ``teeth_to_span`` among those that touch the flanks; None where none does."""
+    wanted = teeth_to_span(gear, helix_angle)
+    nearest = max(1, min(gear.number_of_teeth, round(wanted)))
+    around = range(max(1, nearest - 3), min(gear.number_of_teeth, nearest + 3) + 1)
+    found = [s for s in (span(gear, k, helix_angle) for k in around) if s.touches_flanks]
+    # halfway between two the tables take the greater
+    return min(found, key=lambda s: (round(abs(s.teeth - wanted), 9), -s.teeth), default=None)
+
+
+def best_pin_diameter(gear: SpurGear, helix_angle: float = 0.0) -> float:
+    """D_M that touches the flanks at d + 2 x m, mm; exact for balls in helical gears too."""
+    middle = gear.reference_radius + gear.profile_shift_coefficient * gear.module
+    return pin_touching_at(nominal(gear), max(middle, gear.base_radius), helix_angle)
+
+
+def pin_touching_at(gear: SpurGear, radius: float, helix_angle: float = 0.0) -> float:
+    """The pin or ball that touches both flanks of a space at a distance from the axis, mm.
+
+    With c = cos(beta_b), eta = pi / z - psi_b and the angle alpha_y at that circle: the pin's centre lies at
+    tan(alpha_K) = tan(alpha_y) + c D / d_b on the plane of action, and inv(alpha_K) = D / (d_b c) - eta brings it to
+    the middle of the space.
+
+    Raises
+    ------
+    ParameterError
+        No pin in front of the axis touches there: the space is wider than the angle that the tangents leave.
+    """
+    if radius < gear.base_radius:
+        raise ParameterError("diameter", 2 * radius, "inside_base_circle", limit(2 * gear.base_radius, 2 * radius))
+    cosine = math.cos(base_helix_angle(gear.rack.pressure_angle, helix_angle))
+    eta, tangent = _space_half_angle(gear), math.sqrt((radius / gear.base_radius) ** 2 - 1)
+
+    def excess(angle: float) -> float:
+        return (math.tan(angle) - tangent) / cosine**2 - eta - (math.tan(angle) - angle)
+
+    low, high = math.atan(tangent), math.pi / 2 - 1e-9
+    if excess(low) >= 0 or excess(high) <= 0:
+        raise ParameterError("pin_diameter", 2 * radius, "no_pin_touches_there")
+    angle = bracketed_root(excess, low, high).value
+    return (math.tan(angle) - tangent) * 2 * gear.base_radius / cosine
+
+
+def pin_limits(gear: SpurGear, helix_angle: float = 0.0) -> tuple[float, float]:
+    """The least and greatest pins that touch the involute itself, from its form circle to its tip, mm."""
+    low = pin_touching_at(gear, max(root_form_diameter(gear) / 2, gear.base_radius), helix_angle)
+    return low, pin_touching_at(gear, gear.tip_radius, helix_angle)
+
+
+def over_pins(gear: SpurGear, pin_diameter: float, helix_angle: float = 0.0) -> OverPins:
+    """M_d over two pins (balls in helical gears) in opposite spaces, or the nearest to opposite for odd z.
+
+    inv(alpha_K) = D / (d_b cos(beta_b)) - (pi / z - psi_b), d_K = d_b / cos(alpha_K);
+    M = d_K + D for even z, d_K cos(pi / (2 z)) + D for odd z; ISO 21771, GOST 16532-70.
+
+    Raises
+    ------
+    ParameterError
+        The pin is so small that it falls through to the bottom of the space.
+    """
+    cosine = math.cos(base_helix_angle(gear.rack.pressure_angle, helix_angle))
+    value = pin_diameter / (2 * gear.base_radius * cosine) - _space_half_angle(gear)
+    if not value >= 0:
+        least = _space_half_angle(gear) * 2 * gear.base_radius * cosine
+        raise ParameterError("pin_diameter", pin_diameter, "pin_falls_through", limit(least, pin_diameter))
+    angle = inverse_involute(value).value
+    centre = gear.base_radius / math.cos(angle)
+    tangent = math.tan(angle) - pin_diameter * cosine / (2 * gear.base_radius)
+    contact = gear.base_radius * math.hypot(1.0, tangent)
+    odd = gear.number_of_teeth % 2 == 1
+    length = 2 * centre * (math.cos(math.pi / (2 * gear.number_of_teeth)) if odd else 1.0) + pin_diameter
+    touches = tangent >= 0 and root_form_diameter(gear) / 2 <= contact <= gear.tip_radius
+    stands_out = centre + pin_diameter / 2 > gear.tip_radius and centre - pin_diameter / 2 > gear.root_radius
+    return OverPins(pin_diameter, length, 2 * centre, 2 * contact, touches, stands_out)
+
+
+def gear_with_span(gear: SpurGear, teeth: int, length: float, helix_angle: float = 0.0) -> SpurGear:
+    """The gear thinned so that its span over ``teeth`` teeth is ``length``, mm: what a measured span tells.
+
+    Raises
+    ------
+    ParameterError
+        The span is longer than the nominal one: that tooth is thicker, not thinner.
+    """
+    full = span(nominal(gear), teeth, helix_angle).length
+    if length > full:
+        raise ParameterError("measured_span", length, "above_nominal_span", limit(full, length))
+    cosine = math.cos(base_helix_angle(gear.rack.pressure_angle, helix_angle))
+    return replace(gear, circumferential_thinning=(full - length) / (cosine * math.cos(gear.rack.pressure_angle)))
+
+
+def reference_chord(gear: SpurGear, helix_angle: float = 0.0) -> Chord:
+    """Chord of the tooth at the reference circle, in the normal section of helical gears; ISO 21771.
+
+    d_n = d / cos^2(beta), s_n = s cos(beta): thickness d_n sin(s_n / d_n), height r_a - r + d_n sin^2(s_n / (2 d_n)).
+    """
+    diameter = 2 * gear.reference_radius / math.cos(helix_angle) ** 2
+    half = gear.reference_thickness * math.cos(helix_angle) / diameter
+    height = gear.tip_radius - gear.reference_radius + diameter * math.sin(half / 2) ** 2
+    return Chord(diameter * math.sin(half), height)
+
+
+def constant_chord(gear: SpurGear, helix_angle: float = 0.0) -> Chord:
+    """Chord between the points where the basic rack's flanks touch, the same for every z; GOST 16532-70.
+
+    s_c = s_n cos^2(alpha_n), height r_a - r - s_c tan(alpha_n) / 2.
+    """
+    alpha = normal_angle(gear.rack.pressure_angle, helix_angle)
+    thickness = gear.reference_thickness * math.cos(helix_angle) * math.cos(alpha) ** 2
+    return Chord(thickness, gear.tip_radius - gear.reference_radius - thickness * math.tan(alpha) / 2)
+
+
+def _space_half_angle(gear: SpurGear) -> float:
+    """eta_b = pi / z - psi_b: half of the space's angle on the base circle, rad; negative: overlap."""
+    return math.pi / gear.number_of_teeth - gear.base_half_angle
+
+
+def angle_at(gear: SpurGear, radius: float) -> float:
+    """alpha_y = arccos(r_b / r_y): the involute's pressure angle on a circle, rad."""
+    return math.acos(min(gear.base_radius / radius, 1.0))
+
+
+def polar_thickness_angle(gear: SpurGear, radius: float) -> float:
+    """Half of the tooth's angle on a circle: psi_b - inv(alpha_y), rad; beyond the base circle."""
+    return gear.base_half_angle - float(roll_minus_polar(math.tan(angle_at(gear, radius))))
+
+
+def involute_at(gear: SpurGear, radius: float) -> float:
+    """inv(alpha_y) on a circle, rad."""
+    return involute_function(angle_at(gear, radius))

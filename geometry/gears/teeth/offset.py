@@ -1,0 +1,196 @@
+"""Kerf and print offset of a tooth side, taken on the exact curves before any approximation.
+
+Inwards every curve stays of its family, so the side is generated again from moved curves. Outwards the
+curves are moved, convex corners get their arc, and what would turn back or cross the space's centre line
+is trimmed; an offset that closes the space is refused.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from geometry.base.errors import GeometryError, OffsetError
+from geometry.base.findings import Finding
+from geometry.base.roots import bracketed_root
+from geometry.base.tolerance import TOLERANCES
+from geometry.curves.curve import Curve, end_point, start_point
+from geometry.curves.intersect import first_above
+from geometry.curves.line_arc import Arc
+from geometry.gears.teeth.joints import GearFillet
+from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.tooth import SideCurves, ToothSide, assemble_side, tooth_side
+from geometry.plane.offset_region import OffsetRegion
+from geometry.plane.profile import Label, Profile, Region, Segment, joint_turn
+
+_SAMPLES = 65
+# share of a tip rounding's radius that is left at the edge of a deep face chamfer
+_KEPT_ROUNDING = 0.25
+
+
+def gear_region(gear: SpurGear, offset: float = 0.0) -> OffsetRegion:
+    """The exact section of a gear; ``offset`` > 0 moves every boundary out of the material, mm.
+
+    Raises
+    ------
+    ParameterError
+        The gear cannot exist, or the offset closes a space or a hole, or leaves no tooth, rim or wall between
+        holes; the largest offset that works is named.
+    """
+    side = offset_side(gear, offset)
+    return OffsetRegion(Region(side.profile(), gear.holes.profiles(offset)), offset, side.findings)
+
+
+def chamfered_outline(gear: SpurGear, depth: float) -> Profile:
+    """The outline moved ``depth`` > 0 mm into the material, segment for segment: the edge of a face chamfer.
+
+    A rounded tip corner keeps a part of its radius, where a parallel one would vanish.
+    """
+    curves = SideCurves.of(gear).shrunk(depth)
+    curves = replace(curves, tip_rounding=max(curves.tip_rounding, _KEPT_ROUNDING * gear.tip_rounding))
+    return assemble_side(curves, gear.pitch_angle).profile()
+
+
+def offset_side(gear: SpurGear, offset: float) -> ToothSide:
+    """The lower side of tooth 1 moved outwards by ``offset`` mm (inwards where negative)."""
+    if offset == 0:
+        return tooth_side(gear)
+    if not math.isfinite(offset):
+        raise OffsetError(offset, "not_finite", 0.0)
+    try:
+        return _moved_side(gear, offset)
+    except GeometryError as refusal:
+        tooth_side(gear)
+        limit = _largest_offset(gear, offset)
+        word = "closes_tooth_spaces" if offset > 0 else "leaves_no_tooth"
+        raise OffsetError(offset, refusal.reason if isinstance(refusal, OffsetError) else word, limit) from refusal
+
+
+def _moved_side(gear: SpurGear, offset: float) -> ToothSide:
+    if offset < 0:
+        if gear.root_radius + offset <= gear.holes.reach - offset:
+            raise OffsetError(offset, "leaves_no_rim", 0.0)
+        return assemble_side(SideCurves.of(gear).shrunk(-offset), gear.pitch_angle, blunt=True)
+    return grown_side(tooth_side(gear), offset)
+
+
+def _largest_offset(gear: SpurGear, refused: float) -> float:
+    """The offset nearest to a refused one that works, by bisection, to a millionth of it."""
+    works, fails = 0.0, refused
+    for _ in range(24):
+        middle = (works + fails) / 2
+        try:
+            _moved_side(gear, middle)
+            gear.holes.profiles(middle)
+            works = middle
+        except GeometryError:
+            fails = middle
+    return works
+
+
+def grown_side(side: ToothSide, distance: float) -> ToothSide:
+    """A tooth side moved ``distance`` mm out of the material."""
+    pieces = _with_corner_arcs(side.segments, distance)
+    findings = list(side.findings)
+    half_pitch = side.pitch_angle / 2
+    land = pieces.pop(0) if pieces[0].label is Label.ROOT_LAND else None
+    start = _after_cusp(pieces, distance, findings)
+    bottom = abs(start_point(side.segments[0].curve)) + distance
+    pieces, land = _joined_to_root(start, land, bottom, half_pitch, trimmed=len(findings) > len(side.findings))
+    if land is None:
+        pieces = _above_centre_line(pieces, half_pitch, bottom, findings)
+    else:
+        _above_centre_line(pieces, half_pitch, bottom, findings)
+        pieces = [land, *pieces]
+    return ToothSide(tuple(pieces), side.pitch_angle, tuple(findings))
+
+
+def _with_corner_arcs(segments: tuple[Segment, ...], distance: float) -> list[Segment]:
+    """Every segment moved outwards, an arc about each convex corner, the tip closed on the centre line."""
+    moved: list[Segment] = []
+    for index, segment in enumerate(segments):
+        if index and (turn := joint_turn(segments[index - 1].curve, segment.curve)) > TOLERANCES.smooth_angle:
+            arriving = complex(segments[index - 1].curve.tangent(segments[index - 1].curve.domain[1]))
+            centre = start_point(segment.curve)
+            moved.append(Segment(Arc(centre, distance, cmath.phase(arriving) - math.pi / 2, turn), Label.CORNER))
+        moved.append(Segment(_grown(segment.curve, distance), segment.label))
+    last = segments[-1].curve
+    if segments[-1].label is not Label.TIP_LAND:
+        leaving = cmath.phase(complex(last.tangent(last.domain[1]))) - math.pi / 2
+        if leaving < -TOLERANCES.smooth_angle:
+            moved.append(Segment(Arc(end_point(last), distance, leaving, -leaving), Label.CORNER))
+    return moved
+
+
+def _grown(curve: Curve, distance: float) -> Curve:
+    """The parallel curve on the space's side; a fillet may turn back, which is trimmed afterwards."""
+    if isinstance(curve, GearFillet):
+        return replace(curve, tip_radius=curve.tip_radius - distance)
+    return curve.offset(-distance)
+
+
+def _after_cusp(pieces: list[Segment], distance: float, findings: list[Finding]) -> list[Segment]:
+    """The pieces without the part of the fillet that runs back; a finding where there was one."""
+    fillet = pieces[0].curve
+    if not isinstance(fillet, GearFillet) or fillet.cusp() is None:
+        return pieces
+    findings.append(Finding("fillet_cusp_trimmed", distance, fillet.tip_radius + distance))
+    low, high = fillet.domain
+    if float(fillet.speed(high)) <= 0:
+        return pieces[1:]
+    turning = bracketed_root(lambda u: float(fillet.speed(u)), low, high).value
+    return [Segment(replace(fillet, start=turning), Label.ROOT_FILLET), *pieces[1:]]
+
+
+def _joined_to_root(
+    pieces: list[Segment], land: Segment | None, radius: float, half_pitch: float, *, trimmed: bool
+) -> tuple[list[Segment], Segment | None]:
+    """Pieces and root land trimmed to their crossing; no land where they meet beyond the centre line."""
+    if not trimmed or land is None:
+        return pieces, land
+    found = _from_first_above(pieces, lambda point: abs(point) - radius)
+    if found is None:
+        return pieces, None
+    kept = found
+    angle = cmath.phase(start_point(kept[0].curve)) + half_pitch
+    if angle <= TOLERANCES.relative_length:
+        return kept, None
+    return kept, Segment(Arc(0j, radius, -half_pitch, angle), Label.ROOT_LAND)
+
+
+def _above_centre_line(
+    pieces: list[Segment], half_pitch: float, bottom: float, findings: list[Finding]
+) -> list[Segment]:
+    """The pieces from where they leave the space's centre line for good; refused where that closes the space."""
+    turn = cmath.exp(1j * half_pitch)
+    heights = [np.imag(p.curve.point(np.linspace(*p.curve.domain, _SAMPLES)) * turn) for p in pieces]
+    outside = [h < -1e-13 * bottom for h in heights]
+    if not any(o.any() for o in outside):
+        return pieces
+    last = max(i for i, o in enumerate(outside) if o.any())
+    flags = np.concatenate(outside[: last + 1])
+    entered = int(np.flatnonzero(flags)[-1])
+    if not flags[:entered].all() or pieces[last].label in (Label.TIP_LAND, Label.TIP_BREAK) or last == len(pieces) - 1:
+        raise OffsetError(bottom, "closes_tooth_spaces", 0.0)
+    if pieces[last].label is Label.CORNER and pieces[last + 1].label in (Label.TIP_LAND, Label.TIP_BREAK):
+        raise OffsetError(bottom, "closes_tooth_spaces", 0.0)
+    kept = _from_first_above(pieces[last:], lambda point: (point * turn).imag)
+    if kept is None:
+        raise OffsetError(bottom, "closes_tooth_spaces", 0.0)
+    findings.append(Finding("space_shallowed", abs(start_point(kept[0].curve)), bottom))
+    return kept
+
+
+def _from_first_above(pieces: list[Segment], height: Callable[[complex], float]) -> list[Segment] | None:
+    """The pieces from the first point at which ``height`` becomes positive."""
+    found = first_above([p.curve for p in pieces], height)
+    if found is None:
+        return None
+    index, at = found
+    curve, label = pieces[index].curve, pieces[index].label
+    rest = pieces[index + 1 :]
+    return [Segment(curve.trimmed(at, curve.domain[1]), label), *rest] if at < curve.domain[1] else rest

@@ -1,0 +1,199 @@
+"""Kerf and print offset of a ring: rim and toothed hole, taken on the exact curves before any approximation.
+
+Into the material every curve stays of its family and the side is generated again. Out of it the curves are moved, each
+convex corner gets its arc, and what would turn back or cross the space's centre line is trimmed.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from geometry.base.errors import CuspError, GeometryError, OffsetError
+from geometry.base.findings import Finding
+from geometry.base.roots import bracketed_root
+from geometry.base.tolerance import TOLERANCES
+from geometry.curves.curve import Curve, Reversed, end_point, start_point
+from geometry.curves.cutter_fillet import CutterFillet
+from geometry.curves.intersect import first_above
+from geometry.curves.line_arc import Arc
+from geometry.gears.teeth.ring import RingGear
+from geometry.gears.teeth.ring_limits import rim_walls
+from geometry.gears.teeth.ring_tooth import RingCurves, RingSide, assemble_ring_side, ring_side
+from geometry.plane.offset_region import OffsetRegion
+from geometry.plane.profile import Label, Region, Segment, circle, joint_turn
+
+_SAMPLES = 65
+
+
+def ring_region(gear: RingGear, offset: float = 0.0) -> OffsetRegion:
+    """The exact section of a ring; ``offset`` > 0 moves every boundary out of the material, mm.
+
+    Raises
+    ------
+    ParameterError
+        The ring cannot exist, or the offset closes the spaces or leaves no tooth or rim; the nearest offset that
+        works is named.
+    """
+    if not math.isfinite(offset):
+        raise OffsetError(offset, "not_finite", 0.0)
+    try:
+        return _section(gear, offset)
+    except GeometryError as refusal:
+        if offset == 0:
+            raise
+        _section(gear, 0.0)
+        word = "closes_tooth_spaces" if offset > 0 else "leaves_no_tooth"
+        reason = refusal.reason if isinstance(refusal, OffsetError) else word
+        raise OffsetError(offset, reason, _largest_offset(gear, offset)) from refusal
+
+
+def _section(gear: RingGear, offset: float) -> OffsetRegion:
+    side = _moved_side(gear, offset)
+    thinnest = min((wall.thickness for wall in rim_walls(gear)), default=math.inf)
+    if -2 * offset >= thinnest:
+        raise OffsetError(offset, "no_wall_beside_holes", -thinnest / 2 * (1 - 1e-6))
+    outer = circle(gear.outer_radius + offset, Label.RIM)
+    return OffsetRegion(Region(outer, (side.profile(), *gear.holes.profiles(offset))), offset, side.findings)
+
+
+def _moved_side(gear: RingGear, offset: float) -> RingSide:
+    """The lower side of space 1 moved out of the material by ``offset`` mm (into it where negative)."""
+    if offset == 0:
+        return ring_side(gear)
+    if offset < 0:
+        if gear.root_radius - offset >= gear.outer_radius + offset:
+            raise OffsetError(offset, "leaves_no_rim", 0.0)
+        return assemble_ring_side(RingCurves.of(gear).shrunk(-offset), gear.pitch_angle, blunt=True)
+    return grown_ring_side(ring_side(gear), offset)
+
+
+def _largest_offset(gear: RingGear, refused: float) -> float:
+    """The offset nearest to a refused one that works, by bisection, to a millionth of it."""
+    works, fails = 0.0, refused
+    for _ in range(24):
+        middle = (works + fails) / 2
+        try:
+            _section(gear, middle)
+            works = middle
+        except GeometryError:
+            fails = middle
+    return works
+
+
+def grown_ring_side(side: RingSide, distance: float) -> RingSide:
+    """A side moved ``distance`` mm out of the material."""
+    findings = list(side.findings)
+    segments = side.segments
+    bottom = abs(start_point(segments[0].curve)) - distance
+    pieces = _with_corner_arcs(segments, distance, side.pitch_angle)
+    land = pieces.pop(0) if pieces[0].label is Label.ROOT_LAND else None
+    pieces, trimmed = _after_cusp(pieces, distance, findings)
+    if land is not None and trimmed:
+        pieces, land = _joined_to_root(pieces, bottom)
+    if land is None:
+        pieces = _below_centre_line(pieces, bottom, findings)
+    _check_space(pieces)
+    return RingSide(tuple(pieces if land is None else [land, *pieces]), side.pitch_angle, tuple(findings))
+
+
+def _with_corner_arcs(segments: tuple[Segment, ...], distance: float, pitch: float) -> list[Segment]:
+    """Every segment moved out of the material, an arc about each convex corner, the tooth closed on its centre line."""
+    moved: list[Segment] = []
+    for index, segment in enumerate(segments):
+        if index and (turn := joint_turn(segments[index - 1].curve, segment.curve)) > TOLERANCES.smooth_angle:
+            arriving = complex(segments[index - 1].curve.tangent(segments[index - 1].curve.domain[1]))
+            centre = start_point(segment.curve)
+            moved.append(Segment(Arc(centre, distance, cmath.phase(arriving) - math.pi / 2, turn), Label.CORNER))
+        moved += _grown(segment, distance)
+    last = segments[-1].curve
+    if segments[-1].label is not Label.TIP_LAND:
+        leaving = cmath.phase(complex(last.tangent(last.domain[1])) * cmath.exp(0.5j * pitch)) - math.pi / 2
+        # the tooth's centre line points inwards, at pi once it is turned onto the x axis
+        rest = math.remainder(math.pi - leaving, 2 * math.pi)
+        if rest > TOLERANCES.smooth_angle:
+            moved.append(Segment(Arc(end_point(last), distance, leaving - pitch / 2, rest), Label.CORNER))
+    return moved
+
+
+def _grown(segment: Segment, distance: float) -> list[Segment]:
+    """The parallel curve on the space's side; a fillet may turn back, which is trimmed afterwards."""
+    curve = segment.curve
+    if isinstance(curve, CutterFillet):
+        return [Segment(replace(curve, tip_radius=curve.tip_radius - distance), segment.label)]
+    if segment.label is Label.ROOT_FILLET and isinstance(curve, Arc) and curve.radius <= distance:
+        # the arc is used up: what is left of its sides meets beside it
+        return []
+    try:
+        moved: Curve = curve.offset(-distance)
+    except CuspError as cusp:
+        raise OffsetError(distance, "passes_base_circle_at_tips", 0.0) from cusp
+    return [Segment(moved, segment.label)]
+
+
+def _after_cusp(pieces: list[Segment], distance: float, findings: list[Finding]) -> tuple[list[Segment], bool]:
+    """The pieces without the part of the fillet that runs back, and whether there was one."""
+    fillet = pieces[0].curve
+    if pieces[0].label is Label.FLANK:
+        findings.append(Finding("fillet_cusp_trimmed", distance, 0.0))
+        return pieces, True
+    if not isinstance(fillet, CutterFillet) or fillet.cusp() is None:
+        return pieces, False
+    findings.append(Finding("fillet_cusp_trimmed", distance, fillet.tip_radius + distance))
+    low, high = fillet.domain
+    if float(fillet.speed(high)) <= 0:
+        return pieces[1:], True
+    if float(fillet.speed(low)) > 0:
+        # regular at both ends, running back between them: what is behind the last turn is kept
+        places = np.linspace(low, high, _SAMPLES)
+        low = float(places[np.flatnonzero(fillet.speed(places) <= 0)[-1]]) if np.any(fillet.speed(places) <= 0) else low
+        if float(fillet.speed(low)) > 0:
+            return pieces, True
+    turning = bracketed_root(lambda u: float(fillet.speed(u)), low, high).value
+    return [Segment(replace(fillet, start=turning), Label.ROOT_FILLET), *pieces[1:]], True
+
+
+def _joined_to_root(pieces: list[Segment], radius: float) -> tuple[list[Segment], Segment | None]:
+    """Pieces and root land trimmed to their crossing; no land where they meet beyond the centre line."""
+    found = first_above([p.curve for p in pieces], lambda point: radius - abs(point))
+    if found is None:
+        raise OffsetError(radius, "closes_tooth_spaces", 0.0)
+    kept = _from(pieces, found)
+    angle = cmath.phase(start_point(kept[0].curve))
+    if angle >= -TOLERANCES.relative_length:
+        return kept, None
+    return kept, Segment(Arc(0j, radius, 0.0, angle), Label.ROOT_LAND)
+
+
+def _from(pieces: list[Segment], found: tuple[int, float]) -> list[Segment]:
+    index, at = found
+    curve, label = pieces[index].curve, pieces[index].label
+    rest = pieces[index + 1 :]
+    return [Segment(curve.trimmed(at, curve.domain[1]), label), *rest] if at < curve.domain[1] else rest
+
+
+def _below_centre_line(pieces: list[Segment], bottom: float, findings: list[Finding]) -> list[Segment]:
+    """The pieces from where they leave the space's centre line for good."""
+    heights = [np.imag(p.curve.point(np.linspace(*p.curve.domain, _SAMPLES))) for p in pieces]
+    if not any((h > 1e-13 * bottom).any() for h in heights):
+        return pieces
+    found = first_above([p.curve for p in pieces], lambda point: -point.imag)
+    if found is None or found[0] == len(pieces) - 1:
+        raise OffsetError(bottom, "closes_tooth_spaces", 0.0)
+    kept = _from(pieces, found)
+    findings.append(Finding("space_shallowed", abs(start_point(kept[0].curve)), bottom))
+    return kept
+
+
+def _check_space(pieces: list[Segment]) -> None:
+    """Refused where a flank is gone or crosses the space's centre line: the space is closed."""
+    flank = next((p.curve for p in pieces if p.label is Label.FLANK), None)
+    if flank is None or not isinstance(flank, Reversed):
+        raise OffsetError(0.0, "closes_tooth_spaces", 0.0)
+    for piece in pieces:
+        points = piece.curve.point(np.linspace(*piece.curve.domain, _SAMPLES))
+        if np.imag(points).max() > 1e-12 * float(np.abs(points).max()):
+            raise OffsetError(0.0, "closes_tooth_spaces", 0.0)

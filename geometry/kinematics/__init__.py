@@ -1,0 +1,1 @@
+"""Motions of the plane: linkages, centrodes and poses."""

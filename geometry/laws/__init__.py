@@ -1,0 +1,1 @@
+"""Laws of motion as chains of analytic pieces."""

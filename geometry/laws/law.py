@@ -1,0 +1,59 @@
+"""A law of motion: lift 0 to 1 over the phase's share 0 to 1, in analytic pieces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from geometry.laws.piece import LawPiece, Real
+
+
+@dataclass(frozen=True, slots=True)
+class Law:
+    """Pieces that follow each other from u = 0 to 1, with s(0) = 0 and s(1) = 1.
+
+    A follower's S over a phase of angle phi and lift H is H s(u), u = k of the tables (share of the phase); its
+    derivatives are H/phi s', H/phi^2 s'', H/phi^3 s'''.
+    """
+
+    name: str
+    pieces: tuple[LawPiece, ...]
+
+    def value(self, u: ArrayLike, order: int = 0) -> Real:
+        """s or its derivative at ``u``, of its shape; at an inner joint the value from the right."""
+        return piecewise_value(self.pieces, np.asarray(u, dtype=float), order)
+
+    def peak(self, order: int) -> tuple[float, float]:
+        """The greatest |s^(order)| (finite part) and the u at which it stands."""
+        best, where = 0.0, 0.0
+        for piece in self.pieces:
+            at = piece.extremes(order)
+            size = np.abs(piece.value(at, order))
+            index = int(np.argmax(size))
+            if size[index] > best * (1 + 1e-12):
+                best, where = float(size[index]), float(at[index])
+        return best, where
+
+    def reversed_in_time(self) -> Law:
+        """The law run backwards and upside down, 1 - s(1 - u): first and last half exchanged."""
+        pieces = []
+        for piece in reversed(self.pieces):
+            back = piece.reversed_in_time().placed(0.0, 1.0, 1.0, -1.0)
+            pieces.append(back.spanning(1.0 - piece.end, 1.0 - piece.start))
+        return Law(f"{self.name}, reversed", tuple(pieces))
+
+
+def piecewise_value(pieces: tuple[LawPiece, ...], t: Real, order: int) -> Real:
+    """Value of a chain of pieces; arguments beyond its ends take the first or the last formula."""
+    if len(pieces) == 1:
+        return pieces[0].value(t, order)
+    inner = np.array([p.start for p in pieces[1:]])
+    index = np.searchsorted(inner, t, side="right")
+    result = np.empty(np.shape(t))
+    for k, piece in enumerate(pieces):
+        mine = index == k
+        if np.any(mine):
+            result[mine] = piece.value(t[mine], order)
+    return result

@@ -1,0 +1,198 @@
+"""The laws that have names. Peak coefficients in closed form: tests/geometry/laws/test_named.py holds them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.laws.diagram import (
+    constant,
+    half_cosine,
+    law_of_diagram,
+    linear,
+    quarter_cosine,
+    quarter_sine,
+    trapezoid,
+)
+from geometry.laws.law import Law
+from geometry.laws.piece import LawPiece, Wave
+from geometry.laws.splines import hermite_coefficients
+
+_MOST_DEGREE = 31
+_USUAL_RAMP = Nearest(0.125)
+
+
+def constant_velocity() -> Law:
+    """s = u: rigid impacts at both ends, unless its neighbours move with the same velocity."""
+    return Law("constant velocity", (LawPiece(0.0, 1.0, (0.0, 1.0)),))
+
+
+def constant_acceleration() -> Law:
+    """Parabolas; acceleration +-4."""
+    return law_of_diagram("constant acceleration", [constant(0.5, 1.0), constant(0.5, -1.0)])
+
+
+def linearly_decreasing() -> Law:
+    """s = 3 u^2 - 2 u^3, acceleration 6 (1 - 2u): table 2.2 of the coursework guidelines."""
+    return Law("linearly decreasing acceleration", (LawPiece(0.0, 1.0, (0.0, 0.0, 1.0, 1.0)),))
+
+
+def cosine() -> Law:
+    """Simple harmonic: s = (1 - cos(pi u))/2."""
+    return Law("cosine acceleration", (LawPiece(0.0, 1.0, (0.5,), (Wave(-0.5, math.pi, math.pi / 2),)),))
+
+
+def sine() -> Law:
+    """Cycloidal: s = u - sin(2 pi u)/(2 pi)."""
+    wave = Wave(-1 / (2 * math.pi), 2 * math.pi, 0.0)
+    return Law("sine acceleration", (LawPiece(0.0, 1.0, (0.0, 1.0), (wave,)),))
+
+
+def trapezoidal(ramp: float = 0.125) -> Law:
+    """Straight ramps of the share ``ramp`` of the phase, four of them.
+
+    Raises
+    ------
+    ParameterError
+        ``ramp`` not from 0 (constant acceleration) to 0.25 (triangle).
+    """
+    _check_ramp(ramp)
+    name = "trapezoidal acceleration"
+    return law_of_diagram(name, [*trapezoid(0.5, 1.0, 2 * ramp), *trapezoid(0.5, -1.0, 2 * ramp)])
+
+
+def triangle() -> Law:
+    """Isosceles triangles up and down: peak acceleration 8."""
+    stretches = [linear(0.25, 0, 1), linear(0.5, 1, -1), linear(0.25, -1, 0)]
+    return law_of_diagram("triangular acceleration", stretches)
+
+
+def modified_trapezoid(ramp: float = 0.125) -> Law:
+    """Quarter sines of the share ``ramp`` in place of the straight ramps.
+
+    Raises
+    ------
+    ParameterError
+        ``ramp`` not above 0 and below 0.25.
+    """
+    if not 0 < ramp < 0.25:
+        raise ParameterError("ramp", ramp, "not_within", _USUAL_RAMP, low=0.0, high=0.25)
+    level = 0.5 - 2 * ramp
+    stretches = [
+        quarter_sine(ramp, 1),
+        constant(level, 1),
+        half_cosine(2 * ramp, 1, -1),
+        constant(level, -1),
+        quarter_cosine(ramp, -1),
+    ]
+    return law_of_diagram("modified trapezoid", stretches)
+
+
+def modified_sine(ramp: float = 0.125) -> Law:
+    """A quarter sine up in the share ``ramp``, a slow half cosine down, a quarter sine up.
+
+    Raises
+    ------
+    ParameterError
+        ``ramp`` not above 0 and below 0.5 (there it has no slow part).
+    """
+    if not 0 < ramp < 0.5:
+        raise ParameterError("ramp", ramp, "not_within", _USUAL_RAMP, low=0.0, high=0.5)
+    stretches = [quarter_sine(ramp, 1), half_cosine(1 - 2 * ramp, 1, -1), quarter_cosine(ramp, -1)]
+    return law_of_diagram("modified sine", stretches)
+
+
+def polynomial_345() -> Law:
+    """s = 10 u^3 - 15 u^4 + 6 u^5."""
+    return Law("3-4-5 polynomial", (LawPiece(0.0, 1.0, (0.0,) * 3 + (1.0,) * 3),))
+
+
+def polynomial_4567() -> Law:
+    """s = 35 u^4 - 84 u^5 + 70 u^6 - 20 u^7."""
+    return Law("4-5-6-7 polynomial", (LawPiece(0.0, 1.0, (0.0,) * 4 + (1.0,) * 4),))
+
+
+def gutman_13() -> Law:
+    """First and third harmonic: s = u - 15/(32 pi) sin(2 pi u) - 1/(96 pi) sin(6 pi u); Gutman."""
+    waves = (Wave(-15 / (32 * math.pi), 2 * math.pi, 0.0), Wave(-1 / (96 * math.pi), 6 * math.pi, 0.0))
+    return Law("Gutman 1-3", (LawPiece(0.0, 1.0, (0.0, 1.0), waves),))
+
+
+def polynomial_law(conditions: Sequence[tuple[float, int, float]]) -> Law:
+    """The polynomial that meets conditions (u, order of derivative, value), s(0) = 0 and s(1) = 1 among them.
+
+    Conditions at the ends fix the Bernstein coefficients one by one; those inside solve a small system for the rest.
+
+    Raises
+    ------
+    ParameterError
+        s(0) = 0 or s(1) = 1 is missing, a condition outside the phase, twice, or with an order left out at an end,
+        degree above 31, or conditions that contradict each other.
+    """
+    given = {(u, order): value for u, order, value in conditions}
+    if len(given) != len(conditions) or not all(0 <= u <= 1 and order >= 0 for u, order in given):
+        raise ParameterError("conditions", len(conditions), "condition_twice_or_outside")
+    if given.get((0.0, 0)) != 0 or given.get((1.0, 0)) != 1:
+        raise ParameterError("conditions", len(conditions), "conditions_without_ends")
+    n = len(given) - 1
+    if n > _MOST_DEGREE:
+        raise ParameterError("conditions", len(conditions), "too_many_conditions", most=_MOST_DEGREE + 1)
+    ends = [sorted(order for u, order in given if u == end) for end in (0.0, 1.0)]
+    for end, orders in zip((0, 1), ends, strict=True):
+        if orders != list(range(len(orders))):
+            raise ParameterError("conditions", orders, "orders_with_gap", end=end)
+    left, right = ([given[end, k] for k in orders] for end, orders in zip((0.0, 1.0), ends, strict=True))
+    inner = [(u, order, value) for (u, order), value in given.items() if 0 < u < 1]
+    values = _with_inner(left, right, inner, n) if inner else hermite_coefficients(left, right, 1.0)
+    return Law(f"polynomial of degree {n}", (LawPiece(0.0, 1.0, values),))
+
+
+def _with_inner(
+    left: list[float], right: list[float], inner: list[tuple[float, int, float]], degree: int
+) -> tuple[float, ...]:
+    """Bernstein coefficients from the ends and from conditions inside."""
+    # the ends' coefficients come from a polynomial of the full degree with zeros in between
+    zeros = [0.0] * (degree + 1)
+    known = list(zeros)
+    first = hermite_coefficients(left, [0.0] * (degree + 1 - len(left)), 1.0)[: len(left)]
+    last = hermite_coefficients([0.0] * (degree + 1 - len(right)), right, 1.0)[degree + 1 - len(right) :]
+    known[: len(left)], known[degree + 1 - len(right) :] = first, last
+    free = range(len(left), degree + 1 - len(right))
+
+    def effect(values: Sequence[float]) -> list[float]:
+        piece = LawPiece(0.0, 1.0, tuple(values))
+        return [float(piece.value(u, order)) for u, order, _ in inner]
+
+    matrix = np.array([effect([float(k == i) for i in range(degree + 1)]) for k in free]).T
+    missing = np.array([value for _, _, value in inner]) - effect(known)
+    solved, _, rank, _ = np.linalg.lstsq(matrix, missing, rcond=1e-13)
+    if rank < len(inner) or not np.allclose(matrix @ solved, missing, atol=1e-9):
+        raise ParameterError("conditions", len(inner), "conditions_contradict")
+    for k, value in zip(free, solved.tolist(), strict=True):
+        known[k] = value
+    return tuple(known)
+
+
+def _check_ramp(ramp: float) -> None:
+    if not 0 <= ramp <= 0.25:
+        raise ParameterError("ramp", ramp, "out_of_range", limit(min(max(ramp, 0.0), 0.25), ramp), least=0.0, most=0.25)
+
+
+# names as scenes and calculations type them
+NAMED_LAWS: dict[str, Callable[[], Law]] = {
+    "constant_velocity": constant_velocity,
+    "constant_acceleration": constant_acceleration,
+    "linearly_decreasing": linearly_decreasing,
+    "cosine": cosine,
+    "sine": sine,
+    "trapezoid": trapezoidal,
+    "triangle": triangle,
+    "modified_trapezoid": modified_trapezoid,
+    "modified_sine": modified_sine,
+    "polynomial_345": polynomial_345,
+    "polynomial_4567": polynomial_4567,
+    "gutman_13": gutman_13,
+}

@@ -1,1 +1,0 @@
-"""Laws of motion: acceleration diagrams, their closed integrals, and the laws that have names."""

@@ -1,0 +1,1 @@
+"""Plane profiles and regions: distances, measures, envelopes and loops."""

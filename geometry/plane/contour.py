@@ -1,0 +1,92 @@
+"""Polygons with arcs: what a curve becomes in a file. Vertices are complex, a bulge is tan(sweep / 4)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from geometry.curves.bounds import Bound
+from geometry.curves.curve import Complex, Real
+
+
+@dataclass(frozen=True, slots=True)
+class Contour:
+    """One period of a closed chain of lines (bulge 0) and arcs; edge i starts at vertex i.
+
+    The last edge ends at the first vertex of the next period, which is turned by ``pitch_angle``.
+    """
+
+    vertices: Complex
+    bulges: Real
+    count: int = 1
+    clockwise: bool = False
+
+    @property
+    def pitch_angle(self) -> float:
+        """Angle from one period to the next, rad; negative where clockwise."""
+        return (-2 if self.clockwise else 2) * math.pi / self.count
+
+    def expanded(self) -> tuple[Complex, Real]:
+        """Vertices (n,) and bulges (n,) of the whole contour, period after period."""
+        turns = np.exp(1j * self.pitch_angle * np.arange(self.count))
+        return (turns[:, None] * self.vertices).ravel(), np.tile(self.bulges, self.count)
+
+    def period_ends(self) -> Complex:
+        """End vertex of each edge of the first period."""
+        return np.append(self.vertices[1:], self.vertices[0] * np.exp(1j * self.pitch_angle))
+
+    def __len__(self) -> int:
+        return len(self.vertices) * self.count
+
+
+@dataclass(frozen=True, slots=True)
+class Approximation:
+    """An approximated boundary with the bound of its deviation from the exact one, mm.
+
+    ``turn_step``: how far a twisted wall over it may turn from slice to slice, rad; the bound holds on that wall too.
+    """
+
+    geometry: Contour
+    max_error: float
+    bound: Bound
+    tolerance: float
+    turn_step: float = math.inf
+
+
+def edge_points(starts: Complex, ends: Complex, bulges: Real, fractions: Real) -> Complex:
+    """Points (n, k) of edges (n,) at fractions (k,) of each chord or sweep."""
+    starts, ends, bulges = starts[:, None], ends[:, None], bulges[:, None]
+    quarter = np.arctan(bulges)
+    # an arc through both ends with sweep 4 q: z = s + (e - s) sin(2 q f) / sin(2 q) exp(-2 i q (1 - f))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        share = np.where(quarter == 0, fractions, np.sin(2 * quarter * fractions) / np.sin(2 * quarter))
+    return starts + (ends - starts) * share * np.exp(-2j * quarter * (1 - fractions))
+
+
+def edge_box(starts: Complex, ends: Complex, bulges: Real) -> tuple[complex, complex]:
+    """Lower left and upper right corner of the box about edges (n,), the crowns of arcs included."""
+    chord, bent = ends - starts, bulges != 0
+    b, c = bulges[bent], chord[bent]
+    centre = (starts + ends)[bent] / 2 + 1j * c * (1 - b**2) / (4 * b)
+    radius, first = np.abs(c) * (1 + b**2) / (4 * np.abs(b)), np.angle(starts[bent] - centre)
+    points = [starts, ends]
+    for direction in range(4):
+        way = 0.5 * np.pi * direction
+        inside = np.mod(np.sign(b) * (way - first), 2 * np.pi) <= 4 * np.arctan(np.abs(b))
+        points.append((centre + radius * 1j**direction)[inside])
+    whole = np.concatenate(points)
+    return complex(whole.real.min(), whole.imag.min()), complex(whole.real.max(), whole.imag.max())
+
+
+def signed_area(vertices: Complex, bulges: Real) -> float:
+    """Area of a closed contour of lines and arcs, mm^2; positive where counter-clockwise."""
+    # about its own first vertex: a small hole far from the axis loses no digits
+    ends = np.roll(vertices, -1)
+    polygon = 0.5 * np.sum((np.conj(vertices - vertices[0]) * (ends - vertices[0])).imag)
+    sweep = 4 * np.arctan(bulges)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        radius = np.abs(ends - vertices) * (1 + bulges**2) / (4 * np.abs(bulges))
+        caps = np.where(bulges == 0, 0.0, 0.5 * radius**2 * (sweep - np.sin(sweep)))
+    return float(polygon + np.sum(caps))

@@ -1,0 +1,103 @@
+"""Feet of perpendiculars on curves without a closed form: roots bracketed by samples, safeguarded Newton iteration."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.curves.curve import Complex, Curve, Real
+from geometry.curves.cutter_fillet import CutterFillet
+from geometry.curves.trochoid import TrochoidFillet
+
+_FOOT_SAMPLES = 17
+_STEPS = 60
+Indices = NDArray[np.intp]
+Slopes = Callable[[Complex, Real], tuple[Real, Real]]
+
+
+class FootSearch:
+    """Feet on a curve without a closed form: every change of sign between samples, safeguarded Newton iteration."""
+
+    def __init__(self, curve: Curve) -> None:
+        self.slopes = _slopes_of(curve)
+        self.parameters = np.linspace(*curve.domain, _FOOT_SAMPLES)
+        self.samples = np.asarray(curve.point(self.parameters))
+        self.middle = complex(np.mean(self.samples))
+        # half of the longest chord, with room for what the arc is longer
+        self.reach = 0.6 * float(np.max(np.abs(np.diff(self.samples))))
+        self.radius = float(np.max(np.abs(self.samples - self.middle))) + self.reach
+
+    def feet(self, points: Complex, best: Real) -> tuple[Indices, Real]:
+        """Points that may have a foot nearer than ``best`` inside the curve, once for each foot, and its parameter."""
+        chosen = np.flatnonzero(np.abs(points - self.middle) - self.radius < best)
+        if not chosen.size:
+            return chosen, np.zeros(0)
+        away = np.abs(points[chosen, None] - self.samples).min(axis=1)
+        chosen = chosen[away - self.reach <= best[chosen]]
+        slopes = self.slopes(points[chosen, None], self.parameters)[0]
+        row, k = np.nonzero((slopes[:, :-1] >= 0) & (slopes[:, 1:] <= 0))
+        chosen = chosen[row]
+        return chosen, self._root(points[chosen], self.parameters[k], self.parameters[k + 1])
+
+    def _root(self, points: Complex, low: Real, high: Real) -> Real:
+        t = (low + high) / 2
+        least = 1e-10 * float(self.parameters[-1] - self.parameters[0])
+        for _ in range(_STEPS):
+            slope, change = self.slopes(points, t)
+            low, high = np.where(slope >= 0, t, low), np.where(slope <= 0, t, high)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                step = t - slope / change
+            following = np.where((step >= low) & (step <= high), step, (low + high) / 2)
+            moved = np.abs(following - t)
+            t = following
+            if not np.any(moved > least):
+                break
+        return t
+
+
+def _slopes_of(curve: Curve) -> Slopes:
+    if isinstance(curve, TrochoidFillet):
+        return _fillet_slopes(curve)
+    if isinstance(curve, CutterFillet):
+        return _cutter_slopes(curve)
+    # a curve may know a shorter way
+    known: Slopes | None = getattr(curve, "slopes", None)
+    return known or _general_slopes(curve)
+
+
+def _cutter_slopes(fillet: CutterFillet) -> Slopes:
+    """Re(conj(tangent) (p - e)) along growing u, and its derivative: the tangent turns at -(1 - k th')."""
+
+    def slopes(points: Complex, t: Real) -> tuple[Real, Real]:
+        speed = fillet.speed(t)
+        gap = np.conj(fillet.tangent(t)) * (points - fillet.point(t)) * np.where(speed < 0, -1.0, 1.0)
+        return gap.real, -fillet.turning(t) * gap.imag - speed
+
+    return slopes
+
+
+def _general_slopes(curve: Curve) -> Slopes:
+    """Half of the falling rate of the squared distance, Re(conj(c') (p - c)), and its derivative."""
+
+    def slopes(points: Complex, t: Real) -> tuple[Real, Real]:
+        gap, first = points - curve.point(t), curve.derivative(t)
+        return (np.conj(first) * gap).real, (np.conj(curve.derivative(t, 2)) * gap).real - np.abs(first) ** 2
+
+    return slopes
+
+
+def _fillet_slopes(fillet: TrochoidFillet) -> Slopes:
+    """The same over the fillet's speed: its normals pass through the rack's pitch point.
+
+    Re(conj(tangent) (p - e)) = |p| sin(arg p - angle + u + q tan u) - r sin u.
+    """
+    q, r = fillet.depth / fillet.pitch_radius, fillet.pitch_radius
+
+    def slopes(points: Complex, t: Real) -> tuple[Real, Real]:
+        tan = np.tan(t)
+        turned = (points - fillet.centre) * np.exp(1j * (t + q * tan - fillet.angle))
+        return turned.imag - r * np.sin(t), turned.real * (1 + q * (1 + tan**2)) - r * np.cos(t)
+
+    return slopes

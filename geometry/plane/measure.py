@@ -1,0 +1,176 @@
+"""Measuring: area of exact profiles, and distances between exact boundaries and what was made of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.curves.curve import Complex, Curve, Real, start_point
+from geometry.curves.line_arc import Arc, Line
+from geometry.plane.profile import Profile, Region
+
+_GAUSS_POINTS = 20
+_GAUSS_PANELS = 4
+_COARSE_SAMPLES, _FINE_SAMPLES = 17, 65
+# near a cusp the steps only halve the error, so the thorough pass takes many
+_QUICK_STEPS, _THOROUGH_STEPS = 4, 24
+NDArrayInt = NDArray[np.int64]
+
+
+def profile_area(profile: Profile) -> float:
+    """Signed area inside a closed profile, mm^2, by Green's theorem (counter-clockwise positive).
+
+    A profile of one period is measured about its own first point, so that a small hole far from the axis loses no
+    digits. Gauss quadrature of 20 points on 4 panels a segment: exact to rounding for these analytic integrands.
+    """
+    total = 0.0
+    pole = start_point(profile.period[0].curve) if profile.count == 1 else 0j
+    for segment in profile.period:
+        t, weights = _quadrature(segment.curve)
+        integrand = (np.conj(segment.curve.point(t) - pole) * segment.curve.derivative(t)).imag
+        total += 0.5 * float(np.sum(integrand * weights))
+    return total * profile.count
+
+
+def profile_length(profile: Profile) -> float:
+    """Length of a closed profile, mm."""
+    total = 0.0
+    for segment in profile.period:
+        t, weights = _quadrature(segment.curve)
+        total += float(np.sum(np.abs(segment.curve.derivative(t)) * weights))
+    return total * profile.count
+
+
+def _quadrature(curve: Curve) -> tuple[Real, Real]:
+    """Nodes and weights over a curve's domain."""
+    x, weights = gauss_rule(_GAUSS_POINTS)
+    edges = np.linspace(*curve.domain, _GAUSS_PANELS + 1)
+    half = np.diff(edges)[:, None] / 2
+    return (edges[:-1, None] + edges[1:, None]) / 2 + half * x, weights * half
+
+
+@lru_cache(maxsize=4)
+def gauss_rule(count: int) -> tuple[Real, Real]:
+    """Nodes and weights on [-1, 1] from the eigenvalues of the Jacobi matrix (Golub and Welsch, 1969)."""
+    k = np.arange(1, count)
+    off = k / np.sqrt(4.0 * k**2 - 1)
+    nodes, vectors = np.linalg.eigh(np.diag(off, 1) + np.diag(off, -1))
+    return nodes, 2 * vectors[0] ** 2
+
+
+def region_area(region: Region) -> float:
+    """Area of the material, mm^2."""
+    return sum(profile_area(p) for p in region.profiles())
+
+
+def distance_to_profile(points: Complex, profile: Profile, *, trusted: float = 0.0) -> Real:
+    """Distance of each point (n,) from an exact profile, mm.
+
+    A quick pass projects each point on the curves beside its nearest coarse sample; it can only be too large,
+    so what it finds above ``trusted`` mm is measured again on every curve with fine samples.
+    """
+    result = _quick_distance(points, profile)
+    doubtful = np.flatnonzero(result > trusted)
+    if doubtful.size:
+        result[doubtful] = _thorough_distance(points[doubtful], profile)
+    return result
+
+
+def distance_to_curve(points: Complex, curve: Curve) -> Real:
+    """Distance of each point (n,) from one curve, mm: projection from its nearest of 65 samples."""
+    t = np.linspace(*curve.domain, _FINE_SAMPLES)
+    # lines and arcs have their foot in closed form
+    plain = isinstance(curve, Arc | Line)
+    start = np.zeros(points.shape, dtype=np.int64) if plain else _nearest_index(points, curve.point(t))
+    return _projected(points, curve, t, start, newton=True)
+
+
+def distance_to_curves(points: Complex, curves: Sequence[Curve]) -> Real:
+    """Distance of each point (n,) from the nearest of some exact curves, mm."""
+    return np.min([distance_to_curve(points, curve) for curve in curves], axis=0)
+
+
+def _quick_distance(points: Complex, profile: Profile) -> Real:
+    curves = [s.curve for s in profile.period]
+    parameters = [np.linspace(*c.domain, _COARSE_SAMPLES) for c in curves]
+    samples = np.concatenate([c.point(t) for c, t in zip(curves, parameters, strict=True)])
+    folded = _folded(points, profile)
+    nearest = _nearest_index(folded, samples)
+    best = np.full(points.shape, np.inf)
+    for index, curve in enumerate(curves):
+        # a nearest sample at a joint speaks for the curves on both sides of it
+        first, last = index * _COARSE_SAMPLES - 1, (index + 1) * _COARSE_SAMPLES
+        ring = (nearest - first) % len(samples)
+        mine = np.flatnonzero(ring <= last - first)
+        if mine.size:
+            start = np.clip(nearest[mine] - first - 1, 0, _COARSE_SAMPLES - 1)
+            found = _projected(folded[mine], curve, parameters[index], start, newton=False)
+            best[mine] = np.minimum(best[mine], found)
+    return best
+
+
+def _thorough_distance(points: Complex, profile: Profile) -> Real:
+    folded, best = _folded(points, profile), np.full(points.shape, np.inf)
+    for segment in profile.period:
+        t = np.linspace(*segment.curve.domain, _FINE_SAMPLES)
+        samples = segment.curve.point(t)
+        for shift in (0,) if profile.count == 1 else (-1, 0, 1):
+            near = folded * np.exp(-1j * profile.pitch_angle * shift)
+            start = _nearest_index(near, samples)
+            best = np.minimum(best, _projected(near, segment.curve, t, start, newton=True))
+    return best
+
+
+def _folded(points: Complex, profile: Profile) -> Complex:
+    """Points turned into the sector of the first period."""
+    start = profile.period[0].curve.point(profile.period[0].curve.domain[0])
+    period = np.floor((np.angle(points) - float(np.angle(start))) / profile.pitch_angle)
+    return points * np.exp(-1j * profile.pitch_angle * period)
+
+
+def _projected(points: Complex, curve: Curve, samples: Real, start: NDArrayInt, *, newton: bool) -> Real:
+    """Distance from a curve by projection from the nearest sample; the steps stay beside it.
+
+    Without ``newton`` the curvature's part of the slope is left out, which is little for points near the curve.
+    """
+    if isinstance(curve, Arc):
+        return _distance_to_arc(points, curve)
+    if isinstance(curve, Line):
+        chord = curve.end - curve.start
+        share = np.clip(((points - curve.start) * np.conj(chord)).real / abs(chord) ** 2, 0, 1)
+        return np.abs(points - curve.start - share * chord)
+    low, high = curve.domain
+    reach = (high - low) / (len(samples) - 1)
+    t = samples[start]
+    for _ in range(_THOROUGH_STEPS if newton else _QUICK_STEPS):
+        gap, first = curve.point(t) - points, curve.derivative(t)
+        square = (np.conj(first) * first).real
+        slope = square + (np.conj(gap) * curve.derivative(t, 2)).real if newton else square
+        with np.errstate(divide="ignore", invalid="ignore"):
+            step = np.nan_to_num((np.conj(gap) * first).real / np.where(slope > 0, slope, square))
+        t = np.clip(t - np.clip(step, -reach, reach), low, high)
+    ends = np.abs(curve.point(samples[[0, -1]])[:, None] - points).min(0)
+    return np.minimum(np.abs(curve.point(t) - points), ends)
+
+
+def _nearest_index(points: Complex, samples: Complex) -> NDArrayInt:
+    """Index of the nearest sample of each point, in blocks that fit the cache."""
+    result = np.zeros(points.shape, dtype=np.int64)
+    block = max(1, 2_000_000 // len(samples))
+    for start in range(0, len(points), block):
+        part = slice(start, start + block)
+        result[part] = np.argmin(np.abs(points[part, None] - samples), axis=1)
+    return result
+
+
+def _distance_to_arc(points: Complex, arc: Arc) -> Real:
+    sense = 1.0 if arc.sweep > 0 else -1.0
+    spoke = points - arc.centre
+    swept = np.mod(sense * (np.angle(spoke) - arc.start_angle), 2 * math.pi)
+    radial = np.abs(np.abs(spoke) - arc.radius)
+    ends = arc.point(np.array(arc.domain))
+    return np.where(swept <= abs(arc.sweep), radial, np.abs(points - ends[:, None]).min(0))

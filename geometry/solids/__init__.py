@@ -1,0 +1,1 @@
+"""Bodies over plane sections: wheels, plates, holes and their masses."""

@@ -1,0 +1,125 @@
+"""Volume, centre and inertia of bodies by exact integrals: Green's theorem in each section, Gauss's rule between."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.curves.curve import Complex, Real
+from geometry.plane.measure import gauss_rule, profile_area
+from geometry.plane.profile import Profile
+from geometry.solids.body import Body, Wall
+
+_GAUSS_POINTS = 20
+_GAUSS_PANELS = 4
+# sections of a ruled wall are polynomials of degree 4 in z, times z^2: four nodes integrate degree 7 exactly
+_HEIGHT_POINTS = 4
+# turned sections vary like cosines of twice the turn
+_TURNED_POINTS = 20
+
+
+@dataclass(frozen=True, slots=True)
+class Moments:
+    """Integrals over a body of unit density.
+
+    ``volume`` mm^3; ``centre`` (3,) mm; ``inertia`` (3, 3) about the origin's axes, mm^5: the tensor
+    with -integral of x y off its diagonal.
+    """
+
+    volume: float
+    centre: NDArray[np.float64]
+    inertia: NDArray[np.float64]
+
+
+def body_moments(body: Body) -> Moments:
+    """Moments of a body: each wall carries its signed sections from its lower to its upper loop."""
+    total = np.zeros(10)
+    for wall in body.walls:
+        total += _wall_share(body, wall)
+    v, x, y, z, xx, yy, xy, zz, xz, yz = total.tolist()
+    inertia = np.array([[yy + zz, -xy, -xz], [-xy, xx + zz, -yz], [-xz, -yz, xx + yy]])
+    return Moments(v, np.array([x, y, z]) / v, inertia)
+
+
+def _wall_share(body: Body, wall: Wall) -> Real:
+    """Integrals of 1, x, y, z, xx, yy, xy, zz, xz, yz over what a wall carries, (10,)."""
+    low, high = body.height(wall)
+    lower, upper = body.loop_profile(wall.lower), body.loop_profile(wall.upper)
+    one_section = None if body.is_ruled(wall) else section_moments(lower)
+    # the moments of three periods or more do not feel a turn
+    moved = one_section is not None and (lower.count < 3 or body.shear(wall) != 0)
+    nodes, weights = gauss_rule(_TURNED_POINTS if moved else _HEIGHT_POINTS)
+    share = np.zeros(10)
+    for node, weight in zip(nodes.tolist(), weights.tolist(), strict=True):
+        z = (low + high) / 2 + (high - low) / 2 * node
+        section = one_section if one_section is not None else section_moments(lower, upper, (node + 1) / 2)
+        if moved:
+            section = _moved(section, float(body.turn_at(wall, z)), complex(body.shift_at(wall, z)))
+        a, x, y, xx, yy, xy = section.tolist()
+        share += weight * (high - low) / 2 * np.array([a, x, y, a * z, xx, yy, xy, a * z * z, x * z, y * z])
+    return share
+
+
+def _moved(section: Real, angle: float, shift: complex) -> Real:
+    """Integrals of 1, x, y, xx, yy, xy over a section turned by an angle, rad, and then moved, mm."""
+    a, x, y, xx, yy, xy = section.tolist()
+    first = (x + 1j * y) * np.exp(1j * angle)
+    # integrals of the square of x + iy, and of its modulus
+    second = (xx - yy + 2j * xy) * np.exp(2j * angle) + 2 * shift * first + a * shift**2
+    polar = xx + yy + 2 * (shift.conjugate() * first).real + a * abs(shift) ** 2
+    first += a * shift
+    return np.array([a, first.real, first.imag, (polar + second.real) / 2, (polar - second.real) / 2, second.imag / 2])
+
+
+def ruled_excess(body: Body, wall: Wall) -> float:
+    """Volume of a ruled wall's share above that of the trapezium of its end sections, mm^3."""
+    low, high = body.height(wall)
+    ends = profile_area(body.loop_profile(wall.lower)) + profile_area(body.loop_profile(wall.upper))
+    return float(_wall_share(body, wall)[0]) - (high - low) * ends / 2
+
+
+def section_moments(lower: Profile, upper: Profile | None = None, share: float = 0.0) -> Real:
+    """Integrals of 1, x, y, x^2, y^2, xy inside a profile, (6,); counter-clockwise positive.
+
+    With ``upper``: inside the profile that lies ``share`` of the way from ``lower`` to it.
+    """
+    p, d, weights = _nodes(lower)
+    if upper is not None:
+        others, other_slopes, _ = _nodes(upper)
+        p, d = p + share * (others - p), d + share * (other_slopes - d)
+    # divergence of (x f, y f) for f homogeneous of degree n is (n + 2) f
+    if lower.count > 2:
+        # three periods or more: the centre lies on the axis, both second moments are equal
+        cross = (np.conj(p) * d).imag * weights
+        polar = lower.count * float(np.sum(np.abs(p) ** 2 * cross)) / 4
+        return np.array([lower.count * cross.sum() / 2, 0, 0, polar / 2, polar / 2, 0])
+    turn = np.exp(1j * lower.pitch_angle * np.arange(lower.count))[:, None]
+    p, cross = (turn * p).ravel(), np.tile((np.conj(p) * d).imag * weights, lower.count)
+    x, y = p.real, p.imag
+    return np.array(
+        [
+            cross.sum() / 2,
+            (x * cross).sum() / 3,
+            (y * cross).sum() / 3,
+            (x * x * cross).sum() / 4,
+            (y * y * cross).sum() / 4,
+            (x * y * cross).sum() / 4,
+        ]
+    )
+
+
+def _nodes(profile: Profile) -> tuple[Complex, Complex, Real]:
+    """Quadrature points of one period, derivatives by the share of each segment, and weights."""
+    x, w = gauss_rule(_GAUSS_POINTS)
+    edges = np.linspace(0, 1, _GAUSS_PANELS + 1)
+    shares = ((edges[:-1, None] + edges[1:, None]) / 2 + np.diff(edges)[:, None] / 2 * x).ravel()
+    weights = (np.diff(edges)[:, None] / 2 * w).ravel()
+    points, slopes = [], []
+    for segment in profile.period:
+        low, high = segment.curve.domain
+        t = low + (high - low) * shares
+        points.append(segment.curve.point(t))
+        slopes.append(segment.curve.derivative(t) * (high - low))
+    return np.concatenate(points), np.concatenate(slopes), np.tile(weights, len(points))

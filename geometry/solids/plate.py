@@ -1,0 +1,334 @@
+"""Flat bodies bounded by lines and arcs, with round holes and slots, every boundary moved exactly.
+
+Outwards every convex corner gets its arc, inwards every concave one; at the others neighbours are cut where they
+cross. A rounding that an offset consumes is dropped and its neighbours meet.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError, limit
+from geometry.base.nearest import last_that_holds
+from geometry.base.tolerance import TOLERANCES
+from geometry.curves.curve import Complex, end_point, start_point
+from geometry.curves.line_arc import Arc, Line, arc_between
+from geometry.plane.offset_region import OffsetRegion
+from geometry.plane.profile import Label, Profile, Region, Segment, circle, joint_turn
+
+Edge = Line | Arc
+_ARC_SAMPLES = 24
+# as a part of the edges beside it
+_LEAST_ROUNDING = 1e-9
+# what is left for a hole at a place that has no room for one, mm
+_LEAST_HOLE = 1e-3
+
+
+@dataclass(frozen=True, slots=True)
+class PlateHole:
+    """A round hole at ``centre``, mm."""
+
+    centre: complex
+    diameter: float
+
+    def profile(self, offset: float) -> Profile:
+        """The clockwise boundary, moved ``offset`` mm out of the material."""
+        if not offset < self.diameter / 2:
+            raise OffsetError(offset, "hole_closed", self.diameter / 2 * (1 - 1e-6))
+        return circle(self.diameter / 2 - offset, Label.HOLE, hole=True, centre=self.centre)
+
+
+@dataclass(frozen=True, slots=True)
+class PlateSlot:
+    """A slot with round ends about the centres ``start`` and ``end``, mm."""
+
+    start: complex
+    end: complex
+    width: float
+
+    def profile(self, offset: float) -> Profile:
+        """The clockwise boundary, moved ``offset`` mm out of the material."""
+        radius = self.width / 2 - offset
+        if not radius > 0:
+            raise OffsetError(offset, "slot_closed", self.width / 2 * (1 - 1e-6))
+        along = cmath.phase(self.end - self.start)
+        left = 1j * cmath.rect(radius, along)
+        edges: list[Edge] = [
+            Line(self.start + left, self.end + left),
+            Arc(self.end, radius, along + math.pi / 2, -math.pi),
+            Line(self.end - left, self.start - left),
+            Arc(self.start, radius, along - math.pi / 2, -math.pi),
+        ]
+        return Profile(tuple(Segment(e, Label.HOLE) for e in edges))
+
+
+@dataclass(frozen=True, slots=True)
+class PlateOutline:
+    """A counter-clockwise outline of lines and arcs, and holes in it."""
+
+    edges: tuple[Edge, ...]
+    holes: tuple[PlateHole | PlateSlot, ...] = ()
+
+    def region(self, offset: float = 0.0) -> OffsetRegion:
+        """The section, every boundary moved ``offset`` mm out of the material.
+
+        Raises
+        ------
+        OffsetError
+            Something vanishes or two boundaries meet; names the offset nearest to it that works.
+        """
+        try:
+            return OffsetRegion(self._region(offset), offset, ())
+        except GeometryError as refusal:
+            if offset == 0:
+                raise
+            works = last_that_holds(self._region, offset)
+            raise OffsetError(offset, str(refusal.args[-1]), works * (1 - 1e-6)) from refusal
+
+    def check_holes(self, keys: Sequence[str]) -> None:
+        """Refuse holes that touch each other or the edge; ``keys`` name the size of each."""
+        for count, hole in enumerate(self.holes, 1):
+            if not PlateOutline(self.edges, self.holes[:count]).exists():
+                size = hole.diameter if isinstance(hole, PlateHole) else hole.width
+                room = self._room(count)
+                code = "hole_lies_outside" if room is None else "hole_reaches_edge"
+                raise ParameterError(keys[count - 1], size, code, room)
+
+    def _room(self, count: int) -> Nearest | None:
+        """What size of the last of so many holes still fits; none where nothing does."""
+        hole = self.holes[count - 1]
+        size = "diameter" if isinstance(hole, PlateHole) else "width"
+
+        def fits(value: float) -> bool:
+            smaller = replace(hole, diameter=value) if isinstance(hole, PlateHole) else replace(hole, width=value)
+            return PlateOutline(self.edges, (*self.holes[: count - 1], smaller)).exists()
+
+        given = float(getattr(hole, size))
+        works = last_that_holds(fits, given, steps=30)
+        return None if works < _LEAST_HOLE else limit(works * (1 - 1e-6), given)
+
+    def exists(self, offset: float = 0.0) -> bool:
+        """Whether there is such a section."""
+        try:
+            self._region(offset)
+        except GeometryError:
+            return False
+        return True
+
+    def _region(self, offset: float) -> Region:
+        outer = Profile(tuple(Segment(e, Label.BODY) for e in moved_edges(self.edges, offset)))
+        holes = tuple(h.profile(offset) for h in self.holes)
+        _refuse_crossings([outer, *holes])
+        return Region(outer, holes)
+
+
+def moved_profile(edges: Sequence[Edge], offset: float) -> Profile:
+    """A closed chain, material on its left, moved ``offset`` mm out of the material.
+
+    Raises
+    ------
+    OffsetError
+        An edge vanishes; names the offset nearest to it that works.
+    """
+    try:
+        return Profile(tuple(Segment(e, Label.BODY) for e in moved_edges(edges, offset)))
+    except GeometryError as refusal:
+        works = last_that_holds(lambda moved: moved_edges(edges, moved), offset)
+        raise OffsetError(offset, str(refusal.args[-1]), works * (1 - 1e-6)) from refusal
+
+
+def moved_edges(edges: Sequence[Edge], offset: float) -> tuple[Edge, ...]:
+    """A closed counter-clockwise chain moved ``offset`` mm to its right, corners rounded or cut.
+
+    Raises
+    ------
+    GeometryError
+        An edge vanishes.
+    """
+    if offset == 0:
+        return tuple(edges)
+    kept = [(e, _carrier(e, offset)) for e in edges]
+    alive = [(edge, carrier) for edge, carrier in kept if carrier is not None]
+    ends: list[tuple[complex, Arc | None, complex]] = []
+    for index, (edge, carrier) in enumerate(alive):
+        following, after = alive[(index + 1) % len(alive)]
+        ends.append(_joint(edge, carrier, following, after, offset))
+    made: list[Edge] = []
+    for index, (edge, carrier) in enumerate(alive):
+        leaving, arc, _ = ends[index]
+        made.append(_between(edge, carrier, ends[index - 1][2], leaving))
+        if arc is not None:
+            made.append(arc)
+    return tuple(made)
+
+
+def _carrier(edge: Edge, offset: float) -> Edge | None:
+    """The moved edge; None where an arc is consumed."""
+    if isinstance(edge, Arc) and edge.radius + math.copysign(offset, edge.sweep * offset) <= 0:
+        return None
+    return edge.offset(-offset)
+
+
+def _joint(
+    edge: Edge, carrier: Edge, following: Edge, after: Edge, offset: float
+) -> tuple[complex, Arc | None, complex]:
+    """Where a moved edge ends, the arc about the corner if there is one, and where the next one starts."""
+    corner = end_point(edge)
+    adjacent = abs(start_point(following) - corner) <= TOLERANCES.relative_join * (abs(corner) + 1)
+    turn = joint_turn(edge, following)
+    if adjacent and abs(turn) <= TOLERANCES.smooth_angle:
+        return end_point(carrier), None, end_point(carrier)
+    if adjacent and turn * offset > 0:
+        first, last = end_point(carrier), start_point(after)
+        return first, Arc(corner, abs(offset), cmath.phase(first - corner), turn), last
+    middle = corner if adjacent else (corner + start_point(following)) / 2
+    found = min(_crossings(carrier, after), key=lambda p: abs(p - middle), default=None)
+    if found is None:
+        raise GeometryError("no_edge_between_corners")
+    return found, None, found
+
+
+def _between(edge: Edge, carrier: Edge, start: complex, end: complex) -> Edge:
+    """The part of a moved edge between two points of it."""
+    if isinstance(carrier, Line):
+        way = complex(carrier.tangent(0.0))
+        if not ((end - start) * way.conjugate()).real > 0:
+            raise GeometryError("edge_consumed")
+        return Line(start, end)
+    made = arc_between(carrier.centre, start, end, carrier.sweep > 0)
+    whole = abs(carrier.sweep)
+    # what is cut off on both sides is never longer than the arc; one that goes round again has turned over
+    if abs(made.sweep) > whole * (1 + 1e-9) + 1e-12:
+        raise GeometryError("arc_consumed")
+    return made
+
+
+def _crossings(one: Edge, two: Edge) -> list[complex]:
+    """Points that the whole lines or circles of two edges have in common."""
+    if isinstance(one, Line) and isinstance(two, Line):
+        u, v = one.end - one.start, two.end - two.start
+        whole = (u.conjugate() * v).imag
+        if whole == 0:
+            return []
+        return [one.start + u * (((two.start - one.start).conjugate() * v).imag / whole)]
+    if isinstance(one, Arc) and isinstance(two, Arc):
+        apart = two.centre - one.centre
+        distance = abs(apart)
+        if distance == 0:
+            return []
+        along = (distance**2 + one.radius**2 - two.radius**2) / (2 * distance)
+        return _both(one.centre + along * apart / distance, 1j * apart / distance, one.radius**2 - along**2)
+    line, arc = (one, two) if isinstance(one, Line) else (two, one)
+    assert isinstance(line, Line)
+    assert isinstance(arc, Arc)
+    way = complex(line.tangent(0.0))
+    foot = line.start + way * ((arc.centre - line.start) * way.conjugate()).real
+    return _both(foot, way, arc.radius**2 - abs(foot - arc.centre) ** 2)
+
+
+def _both(middle: complex, way: complex, square: float) -> list[complex]:
+    if square < 0:
+        return []
+    half = math.sqrt(square)
+    return [middle - half * way, middle + half * way]
+
+
+def _refuse_crossings(profiles: Sequence[Profile]) -> None:
+    """Boundaries that cross themselves or each other, by the edges of fine polygons; holes inside the outline."""
+    polygons = [np.concatenate([_samples(s.curve) for s in p.period]) for p in profiles]
+    starts = np.concatenate(polygons)
+    ends = np.concatenate([np.roll(p, -1) for p in polygons])
+    owner = np.concatenate([np.full(len(p), i) for i, p in enumerate(polygons)])
+    edge = ends - starts
+    a = (np.conj(edge)[:, None] * (starts[None, :] - starts[:, None])).imag
+    b = (np.conj(edge)[:, None] * (ends[None, :] - starts[:, None])).imag
+    cross = (a * b < 0) & (a * b < 0).T
+    if cross.any():
+        one, two = np.argwhere(cross)[0]
+        raise GeometryError("boundary_crosses_itself" if owner[one] == owner[two] else "boundaries_cross")
+    for index, hole in enumerate(polygons[1:], 1):
+        others = [p for i, p in enumerate(polygons[1:], 1) if i != index]
+        if _winding(hole[0], polygons[0]) != 1 or any(_winding(hole[0], p) or _winding(p[0], hole) for p in others):
+            raise GeometryError("hole_lies_outside")
+
+
+def _samples(curve: object) -> Complex:
+    """The start of a line, fine points of an arc without its end."""
+    assert isinstance(curve, Line | Arc)
+    if isinstance(curve, Line):
+        return np.array([curve.start])
+    return curve.point(np.linspace(*curve.domain, _ARC_SAMPLES + 1)[:-1])
+
+
+def _winding(point: complex, polygon: Complex) -> int:
+    """How often a polygon runs round a point."""
+    spokes = polygon - point
+    if not spokes.all():
+        # on its corner: neither inside (1) nor outside (0)
+        return 2
+    return round(float(np.angle(np.roll(spokes, -1) / spokes).sum()) / (2 * math.pi))
+
+
+def rounded(corners: Sequence[tuple[complex, float]]) -> tuple[Edge, ...]:
+    """The closed outline through corners (point, rounding radius), counter-clockwise; mm.
+
+    A rounding that is lost beside its corner's neighbours is none.
+
+    Raises
+    ------
+    GeometryError
+        A rounding that its edges have no room for.
+    """
+    cut = []
+    for index, (corner, radius) in enumerate(corners):
+        before, after = corners[index - 1][0] - corner, corners[(index + 1) % len(corners)][0] - corner
+        u, v = before / abs(before), after / abs(after)
+        turn = cmath.phase(-v / u)
+        radius = radius if radius > _LEAST_ROUNDING * min(abs(before), abs(after)) else 0.0
+        reach = radius * abs(math.tan(turn / 2))
+        cut.append((corner + reach * u, corner + reach * v, turn, u, radius))
+    edges: list[Edge] = []
+    for index, (enter, _, turn, u, radius) in enumerate(cut):
+        last = cut[index - 1][1]
+        way = enter - last
+        whole = corners[index][0] - corners[index - 1][0]
+        if (way * whole.conjugate()).real < -1e-9 * abs(whole) ** 2:
+            raise GeometryError("roundings_meet")
+        if abs(way) > 1e-9 * abs(whole):
+            edges.append(Line(last, enter))
+        if radius > 0 and turn != 0:
+            centre = enter - 1j * u * math.copysign(radius, turn)
+            edges.append(Arc(centre, radius, cmath.phase(enter - centre), turn))
+    return tuple(edges)
+
+
+def tangent_point(point: complex, centre: complex, radius: float, side: int) -> complex:
+    """Where a tangent from a point touches a circle: the touching point to the left (side 1) or right of the way
+    from the point to the centre."""
+    way = centre - point
+    angle = math.acos(radius / abs(way))
+    return centre - cmath.rect(radius, cmath.phase(way) - side * angle)
+
+
+def belt(first: tuple[complex, float], second: tuple[complex, float]) -> tuple[Edge, ...]:
+    """The hull of two circles (centre, radius), the second to the right of the first or anywhere else; mm."""
+    (one, small), (two, large) = first, second
+    apart = two - one
+    if not abs(apart) > abs(large - small):
+        raise GeometryError("end_within_the_other")
+    lean = math.asin((small - large) / abs(apart))
+    along = cmath.phase(apart)
+    low, high = along - math.pi / 2 + lean, along + math.pi / 2 - lean
+    a, b = one + cmath.rect(small, low), two + cmath.rect(large, low)
+    c, d = two + cmath.rect(large, high), one + cmath.rect(small, high)
+    return (
+        Line(a, b),
+        Arc(two, large, low, math.pi - 2 * lean),
+        Line(c, d),
+        Arc(one, small, high, math.pi + 2 * lean),
+    )

@@ -1,0 +1,341 @@
+"""The solid of a wheel: toothed rim, web, hub, holes and 45 degree face chamfers, as one exact body."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
+
+from geometry.base.errors import GeometryError, OffsetError, ParameterError, limit
+from geometry.base.nearest import nearest
+from geometry.base.tolerance import LEAST_SEGMENT_MM
+from geometry.curves.curve import Curve, end_point, start_point
+from geometry.plane.profile import Label, Profile, Region, circle
+from geometry.solids.body import Body, BodyBuilder, Twist, plate
+from geometry.solids.hub_holes import HubHoles, least_wall
+
+# of a short piece, at least this share stays
+_KEPT_SHARE = 0.1
+# diameters of steps differ by this much at least, mm: thinner ones are mistakes of the keyboard
+_LEAST_STEP = 0.05
+# lower steps and chamfers are none, mm
+_LEAST_HEIGHT = 1e-3
+
+
+@dataclass(frozen=True, slots=True)
+class Web:
+    """The thin disk between rim and hub: axial thickness, inner diameter of the rim, mm.
+
+    ``shift``: how far its middle stands above the middle of the face width.
+    """
+
+    thickness: float
+    rim_diameter: float
+    shift: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Hub:
+    """The hub: its diameter, and how far it stands out below and above the faces of the rim, mm."""
+
+    diameter: float
+    below: float = 0.0
+    above: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class WheelShape:
+    """What turns the section of a wheel into a solid, lengths in mm; lower face of the rim at z = 0.
+
+    ``chamfer_below``, ``chamfer_above``: axial and radial height of the 45 degree chamfer along every edge of
+    the end faces (below, it takes the elephant foot of a print). ``twist``: of helical teeth, which have no chamfers.
+    """
+
+    face_width: float
+    web: Web | None = None
+    hub: Hub | None = None
+    chamfer_below: float = 0.0
+    chamfer_above: float = 0.0
+    twist: Twist | None = None
+
+    @property
+    def is_plate(self) -> bool:
+        """Whether the wheel is its section and nothing else."""
+        return self == WheelShape(self.face_width, twist=self.twist)
+
+
+# a boundary moved ``offset`` mm out of the material and then cut ``depth`` mm into it, segment for segment
+Boundary = Callable[[float, float], Profile]
+
+
+@dataclass(frozen=True, slots=True)
+class WheelSections:
+    """The boundaries of a wheel's section. A cut keeps sharp corners, so that chamfer faces meet in edges."""
+
+    outline: Boundary
+    root_radius: float
+    core: HubHoles
+    bore: Boundary | None
+    holes: tuple[Boundary, ...] = ()
+
+
+def wheel_sections(outline: Boundary, root_radius: float, holes: HubHoles) -> WheelSections:
+    """The boundaries of a wheel: its outline, which stays outside ``root_radius`` mm, and its holes."""
+
+    def hole(index: int) -> Boundary:
+        def boundary(offset: float, depth: float) -> Profile:
+            # an offset inwards has rounded the corners already: they stay round
+            if offset < 0 or depth == 0:
+                return holes.profiles(offset - depth)[index]
+            return holes.widened(depth).profiles(offset)[index]
+
+        return boundary
+
+    boundaries = tuple(hole(i) for i in range(holes.number))
+    first = 0 if holes.bore is None else 1
+    return WheelSections(outline, root_radius, holes, boundaries[0] if first else None, boundaries[first:])
+
+
+def wheel_body(shape: WheelShape, sections: WheelSections, offset: float = 0.0) -> Body:
+    """The exact solid of a wheel, every upright wall moved ``offset`` mm out of the material.
+
+    Raises
+    ------
+    ParameterError
+        A dimension leaves no solid; names its key and the nearest value that works.
+    """
+    _check_heights(shape)
+    if shape.is_plate:
+        holes = [s(offset, 0.0) for s in ((sections.bore,) if sections.bore else ()) + sections.holes]
+        outline = sections.outline(offset, 0.0)
+        return plate(Region(outline, tuple(holes)), 0.0, shape.face_width, shape.twist, toothed=outline)
+    _check_faces(shape, sections.root_radius, sections.core, offset)
+    return _Wheel(shape, sections, offset).body()
+
+
+def _check_heights(shape: WheelShape) -> None:
+    """The axial dimensions fit each other."""
+    width, web = shape.face_width, shape.web
+    if web is not None:
+        if web.thickness > width:
+            raise ParameterError("web.thickness", web.thickness, "thicker_than_face", limit(width, math.inf))
+        play = (width - web.thickness) / 2
+        if abs(web.shift) > play:
+            most = limit(math.copysign(play, web.shift), web.shift)
+            raise ParameterError("web.shift", web.shift, "web_out_of_rim", most)
+    both = shape.chamfer_below + shape.chamfer_above
+    if both > width:
+        key = "below" if shape.chamfer_below >= shape.chamfer_above else "above"
+        other = both - max(shape.chamfer_below, shape.chamfer_above)
+        value = getattr(shape, f"chamfer_{key}")
+        raise ParameterError(f"face_chamfer.{key}", value, "chamfers_meet", limit(max(0.0, width - other), math.inf))
+
+
+class _Wheel:
+    """Builds one wheel; z values of both sides in mm, side 0 below and side 1 above."""
+
+    def __init__(self, shape: WheelShape, sections: WheelSections, offset: float) -> None:
+        self.sections, self.offset, self.twist = sections, offset, shape.twist
+        width, web, hub = shape.face_width, shape.web, shape.hub
+        self.rim = (0.0, width)
+        middle = width / 2 + (web.shift if web else 0.0)
+        half = (web.thickness if web else width) / 2
+        self.web = (_snapped(middle - half, 0.0), _snapped(middle + half, width))
+        self.hub = (_snapped(-hub.below, 0.0), _snapped(width + hub.above, width)) if hub else self.web
+        self.chamfer = (_snapped(shape.chamfer_below, 0.0), _snapped(shape.chamfer_above, 0.0))
+        self.hub_circle = circle(hub.diameter / 2 + offset, Label.HUB) if hub else None
+        recess = web is not None and self.web != self.rim
+        self.rim_circle = circle(web.rim_diameter / 2 - offset, Label.RIM, hole=True) if web and recess else None
+        self.made = BodyBuilder()
+        self.holes: list[tuple[int, int]] = []
+
+    def body(self) -> Body:
+        """Walls first, then the caps of both sides."""
+        recessed = self._recessed
+        if self.twist is None:
+            outline = self._run(self.sections.outline, self.rim, (True, True), "tooth_outline")
+        else:
+            outline = self.made.run(self.sections.outline(self.offset, 0.0), self.twist.stations(*self.rim))
+        self.holes = [
+            self._run(hole, self.web, (not recessed(0), not recessed(1)), "hole") for hole in self.sections.holes
+        ]
+        bore = None
+        if self.sections.bore is not None:
+            # a bore that ends in the floor of a recess has no chamfer there
+            ends = (self._is_end(0), self._is_end(1))
+            bore = self._run(self.sections.bore, self.hub, ends, "bore")
+        for side in (0, 1):
+            self._side(side, outline[side], None if bore is None else bore[side])
+        return self.made.body()
+
+    def _recessed(self, side: int) -> bool:
+        return self.web[side] != self.rim[side]
+
+    def _stepped(self, side: int) -> bool:
+        """Whether the hub stands out of the web on a side."""
+        return self.hub[side] != self.web[side]
+
+    def _is_end(self, side: int) -> bool:
+        return self._stepped(side) or not self._recessed(side)
+
+    def _side(self, side: int, outline: int, bore: int | None) -> None:
+        """The caps of one side, and the walls of rim and hub that stand between them."""
+        up = side == 1
+        inside = [] if bore is None else [bore]
+        if self._stepped(side):
+            assert self.hub_circle is not None
+            foot, end = self._step(self.hub_circle, side, self.web[side], self.hub[side])
+            self.made.cap(end, inside, up=up)
+            inside = [foot]
+        inside += [hole[side] for hole in self.holes]
+        if self._recessed(side):
+            assert self.rim_circle is not None
+            foot, end = self._step(self.rim_circle, side, self.web[side], self.rim[side])
+            self.made.cap(foot, inside, up=up)
+            inside = [end]
+        self.made.cap(outline, inside, up=up)
+
+    def _step(self, profile: Profile, side: int, near: float, far: float) -> tuple[int, int]:
+        """The wall of a circle from the web to an end face, chamfered there: loops at the web and at the end."""
+        arc = profile.period[0].curve
+        radius, hole = abs(complex(arc.point(0.0))), profile is self.rim_circle
+
+        def moved(offset: float, depth: float) -> Profile:
+            if depth == 0:
+                return profile
+            return circle(radius + depth if hole else radius - depth, profile.period[0].label, hole=hole)
+
+        heights = (near, far) if side == 1 else (far, near)
+        ends = self._run(moved, heights, (side == 0, side == 1), "rim" if hole else "hub")
+        return ends[1 - side], ends[side]
+
+    def _run(
+        self,
+        profile: Boundary,
+        heights: tuple[float, float],
+        chamfered: tuple[bool, bool],
+        who: str,
+    ) -> tuple[int, int]:
+        """The walls of one boundary from its lower to its upper end; returns the loops at both ends."""
+        whole = profile(self.offset, 0.0)
+        cuts = [c if flag else 0.0 for c, flag in zip(self.chamfer, chamfered, strict=True)]
+        if sum(cuts) > heights[1] - heights[0]:
+            key = "below" if cuts[0] >= cuts[1] else "above"
+            most = limit(max(0.0, heights[1] - heights[0] - min(cuts)), math.inf)
+            raise ParameterError(f"face_chamfer.{key}", max(cuts), f"chamfer_higher_than_{who}", most)
+        stations = [(heights[0] + cuts[0], whole), (heights[1] - cuts[1], whole)]
+        if cuts[0] > 0:
+            stations.insert(0, (heights[0], _inset(profile, self.offset, cuts[0], "below", who)))
+        if cuts[1] > 0:
+            inset = stations[0][1] if cuts[1] == cuts[0] else _inset(profile, self.offset, cuts[1], "above", who)
+            stations.append((heights[1], inset))
+        loops = list(dict.fromkeys(self.made.loop(p, z) for z, p in stations))
+        for lower, upper in pairwise(loops):
+            self.made.wall(lower, upper)
+        return loops[0], loops[-1]
+
+
+def _snapped(z: float, face: float) -> float:
+    """A height, or the face that it meets but for a step that no file shows."""
+    return face if abs(z - face) <= _LEAST_HEIGHT else z
+
+
+def _inset(profile: Boundary, offset: float, chamfer: float, side: str, who: str) -> Profile:
+    """A boundary moved ``chamfer`` mm into the material, segment for segment that of the whole boundary."""
+    before = profile(offset, 0.0).period
+    whole = [s.label for s in before]
+    if offset > 0:
+        raise ParameterError("offset", offset, "offset_rounds_chamfered_edges", limit(0.0, offset))
+
+    def attempt(depth: float) -> Profile | None:
+        try:
+            inset = profile(offset, depth)
+        except GeometryError:
+            return None
+        if [s.label for s in inset.period] != whole:
+            return None
+        return inset if all(_keeps(a.curve, b.curve) for a, b in zip(before, inset.period, strict=True)) else None
+
+    found = attempt(chamfer)
+    if found is not None:
+        return found
+    cure = partial(nearest, lambda depth: attempt(depth) is not None, chamfer, 0.0)
+    raise ParameterError(f"face_chamfer.{side}", chamfer, f"chamfer_leaves_nothing_of_{who}", cure)
+
+
+def check_wheel(shape: WheelShape, root_diameter: float, holes: HubHoles) -> None:
+    """Refuse a shape whose diameters do not fit between bore, holes and root circle.
+
+    Raises
+    ------
+    ParameterError
+        Names the key and the nearest value that works.
+    """
+    web, hub = shape.web, shape.hub
+    inner, outer = (2 * r for r in holes.beside_bore())
+    if hub is not None:
+        _between("hub.diameter", hub.diameter, (2 * holes.bore_reach, "bore"), (root_diameter, "root_circle"))
+        _between("hub.diameter", hub.diameter, (0.0, ""), (inner, "holes"))
+    if web is not None:
+        core = (hub.diameter, "hub") if hub else (2 * holes.bore_reach, "bore")
+        _between("web.rim_diameter", web.rim_diameter, core, (root_diameter, "root_circle"))
+        _between("web.rim_diameter", web.rim_diameter, (outer, "holes"), (math.inf, ""))
+    _check_heights(shape)
+    if not _leaves_faces(shape, root_diameter / 2, holes, 0.0, 0.0):
+        key = "holes" if holes.round_holes else "spokes" if holes.spokes else "hub.diameter" if hub else "bore_diameter"
+        given = hub.diameter if key == "hub.diameter" and hub is not None else None
+        raise ParameterError(key, given, "leaves_no_face_between_edges")
+    _check_faces(shape, root_diameter / 2, holes, 0.0)
+
+
+def _check_faces(shape: WheelShape, root_radius: float, holes: HubHoles, offset: float) -> None:
+    """Offset and chamfers leave an end face between every two boundaries."""
+
+    def fits(moved: float, depth: float) -> bool:
+        return _leaves_faces(shape, root_radius, holes, moved, depth)
+
+    if not fits(offset, 0.0):
+        cure = partial(nearest, lambda v: fits(v, 0.0), offset, 0.0)
+        raise ParameterError("offset", offset, "leaves_no_face_between_edges", cure)
+    for side, depth in (("below", shape.chamfer_below), ("above", shape.chamfer_above)):
+        if not fits(offset, depth):
+            cure = partial(nearest, partial(fits, offset), depth, 0.0)
+            raise ParameterError(f"face_chamfer.{side}", depth, "leaves_no_face_between_edges", cure)
+
+
+def _leaves_faces(shape: WheelShape, root_radius: float, holes: HubHoles, offset: float, depth: float) -> bool:
+    """Whether every ring of the end faces, and the floor of a recess, keeps some width."""
+    inset = depth - offset
+    try:
+        wide = holes.widened(max(inset, 0.0))
+    except OffsetError:
+        return False
+    inner, outer = wide.beside_bore()
+    rings = [(max(wide.bore_reach, outer), root_radius - inset)]
+    if shape.hub is not None:
+        rings += [(wide.bore_reach, shape.hub.diameter / 2 - inset), (shape.hub.diameter / 2 + offset, inner)]
+    if shape.web is not None:
+        core = shape.hub.diameter / 2 + offset if shape.hub else wide.bore_reach
+        rings += [
+            (shape.web.rim_diameter / 2 + inset, root_radius - inset),
+            (core, shape.web.rim_diameter / 2 - offset),
+            (outer, shape.web.rim_diameter / 2 - offset),
+        ]
+    # a ring that is no face at all (a hub as wide as what it stands on) was refused before
+    least = least_wall(root_radius) if depth > 0 or offset != 0 else 0.0
+    return all(low + least < high for low, high in rings)
+
+
+def _keeps(whole: Curve, inset: Curve) -> bool:
+    """Whether a boundary's piece keeps some length at the edge of a chamfer: what is less is lost to rounding."""
+    before, after = (abs(end_point(c) - start_point(c)) for c in (whole, inset))
+    return after >= min(LEAST_SEGMENT_MM, _KEPT_SHARE * before)
+
+
+def _between(key: str, value: float, low: tuple[float, str], high: tuple[float, str]) -> None:
+    if value <= low[0]:
+        raise ParameterError(key, value, f"within_{low[1]}", limit(low[0] + _LEAST_STEP, value), diameter=low[0])
+    if value >= high[0]:
+        raise ParameterError(key, value, f"reaches_{high[1]}", limit(high[0] - _LEAST_STEP, value), diameter=high[0])

@@ -1,0 +1,1 @@
+"""What every kind of part and mate stands on: registries, parts, refusals, texts, schema."""

@@ -1,0 +1,118 @@
+"""What a kind of part has to say, in one place: keys, exact thing, solid, report, probes, page, sheet, drawing.
+
+A kind is an instance of a subclass, registered by one line of ``parts/base/registry.py`` (or by ``register``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Generic, TypeVar
+
+from msgspec import Struct
+
+from geometry.base.errors import GeometryError, Nearest, ParameterError
+from parts.base.refusal import SceneError, placed
+from parts.base.schema import tried, unit_of
+from parts.base.texts import Text
+
+if TYPE_CHECKING:
+    from geometry.base.findings import Finding
+    from geometry.plane.offset_region import OffsetRegion
+    from geometry.solids.body import Body
+    from geometry.solids.mass import Moments
+    from parts.base.readback import Probe
+
+K = TypeVar("K", bound=Struct)
+T = TypeVar("T")
+# the keys of every part of a scene, for what is made from another part's
+Others = Mapping[str, Struct]
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """What a part says of itself: remarks, named diameters (mm) and all other named results.
+
+    ``flat_findings``: remarks on each flat outline of the part.
+    """
+
+    findings: tuple[Finding, ...] = ()
+    circles: dict[str, float] = field(default_factory=dict)
+    quantities: dict[str, float] = field(default_factory=dict)
+    flat_findings: tuple[Finding, ...] = ()
+
+
+class Kind(Generic[K, T]):
+    """A kind of part. ``K``: its keys (a msgspec struct, tagged with the kind's name), ``T``: its exact thing."""
+
+    name: str
+    keys: type[K]
+    # where it comes from outside: sentences of its own refusals and remarks by code, names of its quantities
+    reasons: Mapping[str, Text] = {}
+    findings: Mapping[str, Text] = {}
+    quantities: Mapping[str, str] = {}
+    # modules with its calculation page, its sheet and its working drawing, loaded when one is asked for
+    page: str | None = None
+    sheet: str | None = None
+    drawing: str | None = None
+    # what ``new`` shows: keys of the part that its key ``of`` names; the purpose of a sheet that shows one part of it
+    made_from: Mapping[str, object] | None = None
+    sheet_shown: tuple[str, str] | None = None
+
+    def thing(self, keys: K, others: Others) -> T:
+        """The exact thing, checked to exist.
+
+        Raises
+        ------
+        ParameterError
+            It cannot exist: the key (``tip_relief.depth_coefficient``), its value in the key's unit, and why.
+        """
+        raise NotImplementedError
+
+    def section(self, keys: K, thing: T, offset: float) -> OffsetRegion:
+        """The flat section, every boundary moved ``offset`` mm out of the material."""
+        raise NotImplementedError
+
+    def solid(self, keys: K, thing: T, offset: float) -> Body:
+        """The solid, its lower face at z = 0, every boundary moved ``offset`` mm out of the material."""
+        raise NotImplementedError
+
+    def moments(self, solid: Body) -> Moments:
+        """Volume, centre and inertia of a solid of the kind, by exact integrals."""
+        from geometry.solids.mass import body_moments
+
+        return body_moments(solid)
+
+    def height(self, keys: K, thing: T) -> float:
+        """Height along the axis, of the rim where there is one, mm."""
+        height: float = keys.face_width  # type: ignore[attr-defined]
+        return height
+
+    def is_plate(self, keys: K, thing: T) -> bool:
+        """Whether the solid is its section, extruded."""
+        return True
+
+    def report(self, keys: K, thing: T) -> Report:
+        """Remarks and named results."""
+        return Report()
+
+    def probes(self, keys: K, thing: T) -> tuple[Probe, ...]:
+        """What its files must also do: a follower rolled over them, a pin that fits."""
+        return ()
+
+    def refused(self, keys: K, others: Others, refusal: ParameterError, source: str, place: str) -> SceneError:
+        """The refusal under the scene's key; what it offers has been tried once, and goes where it does not build."""
+
+        def cure() -> Nearest | None:
+            found = refusal.nearest
+            if found is None:
+                return None
+            try:
+                self.thing(tried(keys, refusal.name, found.value), others)
+            except (GeometryError, ArithmeticError):
+                return None
+            return found
+
+        told = placed(source, place, refusal, unit_of(self.keys, refusal.name))
+        told.offer(cure)
+        return told

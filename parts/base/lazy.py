@@ -1,0 +1,36 @@
+"""Registries whose entries are loaded one by one, when a scene has something of theirs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from importlib import import_module
+from typing import Generic, TypeVar
+
+E = TypeVar("E")
+
+
+class Registry(Mapping[str, E], Generic[E]):
+    """Names, and for each the place of its entry, ``module:NAME``."""
+
+    def __init__(self, homes: Mapping[str, str]) -> None:
+        self._homes, self._loaded = dict(homes), dict[str, E]()
+
+    def __getitem__(self, name: str) -> E:
+        """The entry of a name."""
+        if name not in self._loaded:
+            module, _, attribute = self._homes[name].partition(":")
+            self._loaded[name] = getattr(import_module(module), attribute)
+        return self._loaded[name]
+
+    def register(self, name: str, entry: E) -> None:
+        """One more entry, from outside."""
+        self._homes[name], self._loaded[name] = "", entry
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._homes)
+
+    def __len__(self) -> int:
+        return len(self._homes)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._homes

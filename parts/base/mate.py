@@ -1,0 +1,153 @@
+"""What a kind of mate has to say, in one place: keys, what it joins, what it wants of both parts, how they then stand.
+
+A kind is an instance of a subclass, registered by one line of ``parts/mates/registry.py`` (or by ``register_mate``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass
+from typing import TYPE_CHECKING, Annotated, Any, Generic, TypeVar
+
+from msgspec import Meta, Struct
+
+from geometry.gears.pairs.common_face import STRAIGHT, CommonFace
+from parts.base.texts import Text
+
+if TYPE_CHECKING:
+    from geometry.base.findings import Finding
+    from geometry.gears.mesh.search import PairContact
+    from geometry.gears.pairs.external import ExternalPair
+    from geometry.gears.pairs.internal import InternalPair
+    from geometry.gears.pairs.rack import RackPair
+
+
+class MateKeys(Struct, forbid_unknown_fields=True, tag_field="kind", kw_only=True):
+    """The two instances that a mate joins: the keys of every mate."""
+
+    first: Annotated[str, Meta(description="instance that is already placed")]
+    second: Annotated[str, Meta(description="instance that is placed by this mate")]
+
+
+K = TypeVar("K", bound=MateKeys)
+A = TypeVar("A")
+B = TypeVar("B")
+# axis (mm) and rotation (rad) of an instance
+Pose = tuple[complex, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """How two placed instances stand to each other against what their mate asks for.
+
+    The phase is ``phase_off`` from the middle of the backlash, ``play`` is half of it; both in rad at the arm (mm) of a
+    base radius, or in mm along the way of a second that ``slides``.
+    """
+
+    direction: float
+    distance: float
+    phase_off: float
+    play: float
+    arm: float = 1.0
+    slides: bool = False
+
+    def slack(self, allowed: float) -> float:
+        """What ``allowed`` mm along the flanks is in the unit of the phase."""
+        return allowed / self.arm
+
+
+@dataclass(frozen=True, slots=True)
+class End(Generic[A]):
+    """One of the two parts that a mate joins: its keys in the scene and its exact thing."""
+
+    keys: Struct
+    thing: A
+
+    @property
+    def kind(self) -> str:
+        """Its kind's name."""
+        return str(self.keys.__struct_config__.tag)
+
+
+@dataclass(frozen=True, slots=True)
+class Mating:
+    """Two instances, the ``second`` placed by the ``first``; what most mates answer stands here.
+
+    ``direction_deg``: from the first to the second as the scene has it. ``height``: of the second's lower face above
+    the first's, mm. ``distance``: between the axes, or from the axis to a rack's datum line, mm. ``module``: the length
+    that tolerances go by, mm. ``ratio``: turns of the second for one of the first, negative where they turn against
+    each other; None: it carries no turns on. ``normal_backlash``: j_bn, mm. ``has_contact``: ``contact`` decides how
+    the outlines of two plates stand to each other; else their solids do. ``pair``: the calculated pair of involute
+    gears, ``face``: what both have in common along their axes.
+    """
+
+    kind: str
+    first: str
+    second: str
+    _: KW_ONLY
+    direction_deg: float = 0.0
+    height: float = 0.0
+    distance: float = 0.0
+    module: float = 1.0
+    ratio: float | None = None
+    first_teeth: int = 1
+    normal_backlash: float = 0.0
+    has_contact: bool = True
+    pair: ExternalPair | InternalPair | RackPair | None = None
+    face: CommonFace = STRAIGHT
+
+    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+        """Axis (mm) and rotation (rad) of the second where the first stands so."""
+        raise NotImplementedError
+
+    def standing(self, first: Pose, second: Pose) -> Standing:
+        """How two placed instances stand to each other."""
+        raise NotImplementedError
+
+    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact | None:
+        """Verdict over one pitch or turn, the second that far off its exact place; None: nothing moves here."""
+        return None
+
+    def transmission_error(self, distance_off: float) -> dict[str, Any] | None:
+        """Peak to peak for both senses of the first's rotation; None of what has no involute teeth."""
+        return None
+
+    def findings(self) -> tuple[Finding, ...]:
+        """Conditions of both together that are not kept."""
+        return ()
+
+    def quantities(self) -> dict[str, Any]:
+        """What the calculation says, for reports."""
+        return {}
+
+
+class MateKind(Generic[K, A, B]):
+    """A kind of mate. ``K``: its keys (a msgspec struct, tagged with its name), ``A``, ``B``: things of both parts.
+
+    Refusals are ``ParameterError`` named ``mate.KEY``, or ``first.KEY`` by a key of the first part, else the second's.
+    """
+
+    name: str
+    keys: type[K]
+    # the kinds of parts it joins, first and second in every order that works; None: any
+    joins: tuple[tuple[str, str], ...] | None = None
+    # whether its gears run in each other on involutes: they have a picture of meshing and a transmission error
+    meshes = False
+    # where it comes from outside: sentences of its own refusals by code, and how a mating of it is told
+    reasons: Mapping[str, Text] = {}
+    told: Text = ""
+
+    def check(self, keys: K, first: Struct, second: Struct) -> None:
+        """Hold the keys of both parts against each other."""
+
+    def thinning(self, keys: K, first: End[A], second: End[B]) -> tuple[float, float]:
+        """Thinning (mm along the reference circle) that it wants of each; the largest of all mates wins."""
+        return 0.0, 0.0
+
+    def tips(self, keys: K, first: End[A], second: End[B]) -> tuple[float | None, float | None]:
+        """Tip radius (mm) that it wants of each after thinning; the smallest wins, None: as it is."""
+        return None, None
+
+    def mating(self, keys: K, first: End[A], second: End[B]) -> Mating:
+        """How both stand to each other, with the parts as they are built at last."""
+        raise NotImplementedError

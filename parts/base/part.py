@@ -1,0 +1,129 @@
+"""A part: a kind, its keys and the exact thing made of them, ready for every exporter."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING, Any
+
+from geometry.base.findings import Finding
+from geometry.plane.offset_region import OffsetRegion
+from parts.base.materials import density_of
+
+if TYPE_CHECKING:
+    import cadquery
+    import trimesh
+    from msgspec import Struct
+
+    from geometry.solids.body import Body
+    from parts.base.kind import Kind, Report
+    from parts.base.readback import Probe
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part with one flat section for plane formats and one solid, lower face of its rim at z = 0.
+
+    ``keys``: as the scene has them, ``thing``: what the kind has made of them and the scene's mates have left of it.
+    Everything else is asked of the kind, once, when somebody wants it.
+    """
+
+    id: str
+    made_by: Kind[Any, Any]
+    keys: Struct
+    thing: Any
+
+    @property
+    def kind(self) -> str:
+        """The name of its kind."""
+        return self.made_by.name
+
+    @cached_property
+    def section(self) -> Callable[[float], OffsetRegion]:
+        """The exact flat section, every boundary moved so many mm out of the material."""
+        return lru_cache(maxsize=8)(lambda offset: self.made_by.section(self.keys, self.thing, offset))
+
+    @cached_property
+    def body(self) -> Callable[[float], Body]:
+        """The exact solid, every boundary moved so many mm out of the material."""
+        return lru_cache(maxsize=2)(lambda offset: self.made_by.solid(self.keys, self.thing, offset))
+
+    @cached_property
+    def face_width(self) -> float:
+        """Height of the rim, mm."""
+        return self.made_by.height(self.keys, self.thing)
+
+    @cached_property
+    def is_plate(self) -> bool:
+        """Whether the solid is its section, extruded."""
+        return self.made_by.is_plate(self.keys, self.thing)
+
+    @cached_property
+    def report(self) -> Report:
+        """Remarks and named results."""
+        return self.made_by.report(self.keys, self.thing)
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """Remarks."""
+        return self.report.findings
+
+    @property
+    def flat_findings(self) -> tuple[Finding, ...]:
+        """Remarks on each flat outline."""
+        return self.report.flat_findings
+
+    @property
+    def circles(self) -> dict[str, float]:
+        """Named diameters, mm."""
+        return self.report.circles
+
+    @property
+    def quantities(self) -> dict[str, float]:
+        """All other named results."""
+        return self.report.quantities
+
+    @property
+    def material(self) -> str | None:
+        """What it is made of, as typed."""
+        return self.keys.material  # type: ignore[attr-defined]
+
+    @property
+    def colour(self) -> str | None:
+        """Its colour in pictures."""
+        return self.keys.colour  # type: ignore[attr-defined]
+
+    @property
+    def density(self) -> float | None:
+        """g/cm^3; None where the material is not known."""
+        given: float | None = self.keys.density  # type: ignore[attr-defined]
+        return given or density_of(self.material)
+
+    @cached_property
+    def probes(self) -> tuple[Probe, ...]:
+        """What every file of it must also do."""
+        return self.made_by.probes(self.keys, self.thing)
+
+    def to_trimesh(self, tolerance: float = 0.01, offset: float = 0.0) -> trimesh.Trimesh:
+        """A ``trimesh.Trimesh`` within ``tolerance`` mm of the exact solid."""
+        import trimesh
+
+        from parts.solids.mesh import body_mesh, mesh_outlines
+
+        body = self.body(offset)
+        mesh = body_mesh(body, mesh_outlines(body, tolerance, 0.0))
+        return trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False)
+
+    def to_cadquery(self, tolerance: float = 1e-6, offset: float = 0.0) -> cadquery.Workplane:
+        """A ``cadquery.Workplane`` that holds the solid, splines within ``tolerance`` mm; needs cadquery."""
+        try:
+            import cadquery
+        except ImportError as error:
+            text = 'to_cadquery needs cadquery: pip install "cadquery" in place of cadquery-ocp-novtk'
+            raise ImportError(text) from error
+        from parts.solids.brep import body_outlines, body_solid
+
+        body = self.body(offset)
+        solid = cadquery.Solid(body_solid(body, body_outlines(body, tolerance)))
+        return cadquery.Workplane("XY").newObject([solid])

@@ -1,0 +1,92 @@
+"""What a file says when it is read again, whatever its format, and the probes that a kind of part puts it to."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Protocol
+
+from geometry.base.findings import Finding
+from geometry.curves.curve import Complex, Real
+
+if TYPE_CHECKING:
+    from geometry.cams.contact.rolled import Outline
+
+
+class ReadError(ValueError):
+    """A file is not what its ending says, or holds something that its receivers refuse."""
+
+
+class ReadLoop(Protocol):
+    """A closed outline as a file has it."""
+
+    @property
+    def points(self) -> Complex:
+        """Where each of its edges begins, mm."""
+        ...
+
+    @property
+    def size(self) -> float:
+        """By which the outermost of several is told."""
+        ...
+
+    def outline(self, turn: complex = 1.0, *, clockwise: bool = False) -> Outline:
+        """It, turned about the axis, for a follower to touch; ``clockwise``: about a hole."""
+        ...
+
+
+class ReadBack(Protocol):
+    """A file of one part. Each question may raise ``ReadError``."""
+
+    @property
+    def has_arcs(self) -> bool:
+        """Whether its curves are lines and arcs, whose curvature jumps."""
+        ...
+
+    def names(self) -> tuple[str, ...] | None:
+        """What its parts are called; None where the format has no names."""
+        ...
+
+    def section(self, z: float) -> Sequence[ReadLoop]:
+        """The closed outlines at a height, mm; of a flat file all of its outlines."""
+        ...
+
+    def faces(self) -> Real:
+        """Corners (n, 3, 3) of its triangles, mm; n = 0 where it has none."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Probed:
+    """What a probe has measured, what it finds wrong, and what is worth a remark."""
+
+    measured: dict[str, float] = field(default_factory=dict)
+    failures: tuple[str, ...] = ()
+    findings: tuple[Finding, ...] = ()
+
+
+class Probe(Protocol):
+    """What a part's files must also do, beside agreeing with its exact section or solid.
+
+    ``needs_whole``: it is left out where an offset has trimmed the outline.
+    """
+
+    @property
+    def name(self) -> str:
+        """What the names of its measured values begin with; empty where the part has only this probe."""
+        ...
+
+    @property
+    def needs_whole(self) -> bool:
+        """Whether it is left out where an offset has trimmed the outline."""
+        ...
+
+    def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
+        """Put a file to it whose outlines are ``offset`` mm out of the material and ``declared`` mm off at most.
+
+        Raises
+        ------
+        ReadError
+            The file holds nothing that it could be put to.
+        """
+        ...

@@ -1,0 +1,35 @@
+"""Where the sentence of a refusal's code is found: the tables of ``parts/reasons``, read when one is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from importlib import import_module
+
+from parts.base.texts import N_, Text
+
+SUBJECTS = ("general", "gears", "cams", "wheels", "pins", "noncircular", "mates", "scene", "pages", "exports")
+# what would work, by the side of the nearest value
+REMEDIES = {
+    "at_most": N_("at most {value} works"),
+    "at_least": N_("at least {value} works"),
+    "exactly": N_("{value} works"),
+    "meant": N_("did you mean {value}?"),
+    "without": N_("remove it"),
+}
+_MORE: dict[str, Text] = {}
+
+
+def add_reasons(table: Mapping[str, Text]) -> None:
+    """The sentences of a kind that is registered from outside."""
+    _MORE.update(table)
+
+
+@cache
+def _tables() -> tuple[Mapping[str, Text], ...]:
+    return tuple(import_module(f"parts.reasons.{subject}").REASONS for subject in SUBJECTS)
+
+
+def reason(code: str) -> Text:
+    """The English sentence of a code, with ``{name}`` for its numbers; a code without one is told as it is."""
+    return next((table[code] for table in (*_tables(), _MORE) if code in table), code)

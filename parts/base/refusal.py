@@ -1,0 +1,109 @@
+"""A refusal as data: what is wrong with which key of a scene, and what would work; and its sentence, at the edge."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from geometry.base.errors import Cure, Nearest, ParameterError, format_value
+from parts.base.reasons import REMEDIES, reason
+from parts.base.texts import ENGLISH, Message, Text, filled, listed, message, words
+
+
+class SceneError(ValueError):
+    """A scene cannot be read or built.
+
+    ``source``: the file, ``key``: the place in it, ``value``: what stands there (None: nothing), ``code``: what is
+    wrong, ``numbers``: what the sentence of that code needs, ``nearest``: the value of the key that works, found when
+    it is asked for; ``unit``: its unit.
+    """
+
+    def __init__(self, source: str, key: str, value: object, code: str, nearest: Cure = None, /,
+                 unit: str = "", **numbers: object) -> None:  # fmt: skip
+        self.source, self.key, self.value, self.code, self.numbers, self.unit = source, key, value, code, numbers, unit
+        self._cure = nearest
+        super().__init__(source, key, value, code)
+
+    @property
+    def nearest(self) -> Nearest | None:
+        """The value nearest to the given one that works; None where this key alone cannot cure it."""
+        if callable(self._cure):
+            self._cure = self._cure()
+        return self._cure
+
+    def offer(self, cure: Cure) -> None:
+        """Another value that works, or how to find it."""
+        self._cure = cure
+
+    @property
+    def remedy(self) -> str:
+        """What is wrong and what would work, in English."""
+        return words(ENGLISH).say(explained(self))
+
+    def __str__(self) -> str:
+        return sentence(self)
+
+
+# what works is to leave the key out
+REMOVED = Nearest(None)
+
+
+def meant(word: object, known: Iterable[str]) -> Nearest | None:
+    """The known word that was probably meant, or nothing."""
+    import difflib
+
+    match = [] if word is None else difflib.get_close_matches(str(word), list(known), 1, 0.5)
+    return Nearest(match[0], "meant") if match else None
+
+
+def placed(source: str, place: str, refusal: ParameterError, unit: str = "") -> SceneError:
+    """A refusal of what a table describes as one of the scene; ``place``: where the table stands."""
+    return SceneError(
+        source, f"{place}.{refusal.name}", refusal.value, refusal.code, lambda: refusal.nearest, unit, **refusal.numbers
+    )
+
+
+def sentence(refusal: SceneError, language: str = ENGLISH) -> str:
+    """The one line that a user reads: file, key, value, what is wrong, what would work."""
+    given = "" if refusal.value is None else f" = {_shown(refusal.value)}"
+    place = f"{refusal.source}: {refusal.key}{given}" if refusal.key else refusal.source or '""'
+    line = f"{place}: {words(language).say(explained(refusal))}"
+    return "".join(c if c.isprintable() else "?" for c in line)
+
+
+def explained(refusal: SceneError) -> Message:
+    """What is wrong and what would work."""
+    text = reason(refusal.code)
+    # the number that a plural goes by stays a number
+    counted = text.by if isinstance(text, Message) else ""
+    why = filled(text, **{name: n if name == counted else _told(n) for name, n in refusal.numbers.items()})
+    nearest = refusal.nearest
+    if nearest is None:
+        return why
+    return message("{why}; {remedy}", why=why, remedy=_remedy(nearest, refusal.unit))
+
+
+def _remedy(nearest: Nearest, unit: str) -> Message:
+    """What would work: a limit or a value with its unit, a word that was meant, or to leave the key out."""
+    if nearest.value is None:
+        return Message(REMEDIES["without"])
+    if isinstance(nearest.value, int | float) and not isinstance(nearest.value, bool):
+        number = f"{nearest.value:.12g}"
+        value: Text = message("{number} {unit}", number=number, unit=Message(unit)) if unit else number
+    else:
+        value = str(nearest.value) if nearest.side == "meant" else format_value(nearest.value)
+    return message(REMEDIES[nearest.side], value=value)
+
+
+def _told(number: object) -> object:
+    """A number as it is told: floats by six digits, lists with commas."""
+    if isinstance(number, float):
+        return f"{number:.6g}"
+    if isinstance(number, list | tuple):
+        told = [_told(item) for item in number]
+        return listed([t if isinstance(t, Message) else Message("{it}", {"it": t}) for t in told])
+    return "" if number is None else number
+
+
+def _shown(value: object) -> str:
+    text = " ".join((format_value(value) if not isinstance(value, dict | list) else str(value)).split())
+    return text if len(text) <= 60 else text[:57] + "..."

@@ -1,0 +1,313 @@
+"""From plain tables to validated structs, and from a schema to words: key, value, range, unit, remedy."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+from inspect import get_annotations
+from typing import Any, Literal, TypeVar, get_args, get_origin
+
+import msgspec
+from msgspec import Meta, Struct
+
+from geometry.base.errors import ParameterError, format_value
+from parts.base.refusal import SceneError, meant
+from parts.base.texts import N_, Message, Words, counted, listed, message
+
+S = TypeVar("S", bound=Struct)
+
+
+def refuse_infinite(value: object, source: str, place: str) -> None:
+    """TOML knows nan and inf, and 1e400 becomes inf: none of them is a dimension."""
+    if isinstance(value, float) and not math.isfinite(value):
+        raise SceneError(source, place, value, "not_finite")
+    if isinstance(value, dict):
+        for key, item in value.items():
+            refuse_infinite(item, source, f"{place}.{key}" if place else str(key))
+    if isinstance(value, list):
+        for index, item in enumerate(value):
+            refuse_infinite(item, source, f"{place}[{index + 1}]")
+
+
+def converted(table: object, kind: type[Struct], source: str, place: str) -> Any:
+    """A table as a struct; msgspec's refusals are told with the key, its value and the allowed range."""
+    if not isinstance(table, dict):
+        raise SceneError(source, place, table, "not_a_table", key=place)
+    try:
+        return msgspec.convert(table, kind)
+    except msgspec.ValidationError as error:
+        raise _explained(str(error), table, kind, source, place) from None
+
+
+def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str, place: str) -> SceneError:
+    """msgspec's message in the user's terms."""
+    path = re.search(r" - at `\$\.?(.*?)`$", text)
+    message = text[: path.start()] if path else text
+    keys = [k for k in re.split(r"[.\[\]]+", path.group(1) if path else "") if k]
+    where = ".".join([place, *(f"item {int(k) + 1}" if k.isdigit() else k for k in keys)])
+    if unknown := re.search(r"unknown field `(.*?)`", message):
+        owner, name = _owner(kind, keys, table), unknown.group(1)
+        tag = owner.__struct_config__.tag_field
+        known = ([tag] if tag else []) + [f.encode_name for f in own_first(owner)]
+        held = _lookup(table, [*keys, name])
+        return SceneError(source, f"{where}.{name}", held, "unknown_key", meant(name, known), known=known)
+    if missing := re.search(r"missing required field `(.*?)`", message):
+        name = missing.group(1)
+        what = _tags_of(kind, [*keys, name], table) or described_key(_owner(kind, keys, table), name)
+        return SceneError(source, f"{where}.{name}", None, "missing_key" if what else "missing", None, what=what)
+    allowed, words = _tags_of(kind, keys, table), _tag_words_of(kind, keys, table)
+    if allowed is None and (named := [i for i, k in enumerate(keys) if not k.isdigit()]):
+        owner, name = _owner(kind, keys[: named[-1]], table), keys[named[-1]]
+        allowed, words = described_key(owner, name), _words_of(owner, name)
+    value, wrong_type = _lookup(table, keys), re.match(r"Expected `(.*?)`, got `(.*?)`", message)
+    nearest = meant(value, words) if isinstance(value, str) and message.startswith("Invalid") else None
+    if wrong_type:
+        code = "wrong_type" if allowed is None else "wrong_type_of"
+        return SceneError(source, where, value, code, nearest, type=_type_words(wrong_type.group(1)), allowed=allowed)
+    return SceneError(source, where, value, "not_allowed", nearest, allowed=allowed or message)
+
+
+_TYPES = {
+    "float": N_("a number"),
+    "int": N_("a whole number"),
+    "bool": N_("true or false"),
+    "str": N_("text in quotes"),
+    "object": N_("a table"),
+    "array": N_("a list in brackets"),
+    "array | object": N_("a table or a list of tables"),
+    "bool | object": N_("true, false or a table"),
+}
+
+
+def _type_words(types: str) -> Message:
+    """msgspec's union of types in words."""
+    names = sorted(name for name in types.split(" | ") if name != "null")
+    whole = " | ".join(names)
+    if whole in _TYPES:
+        return Message(_TYPES[whole])
+    return _either([Message(_TYPES.get(name, name)) for name in names])
+
+
+def _either(choices: list[Message]) -> Message:
+    """Several choices, one after the other."""
+    made = choices[0]
+    for choice in choices[1:]:
+        made = message("{one} or {other}", one=made, other=choice)
+    return made
+
+
+def _owner(kind: type[Struct], keys: list[str], table: object) -> type[Struct]:
+    """The struct that holds the last key of a path; of several, the one whose tag stands in the table."""
+    structs = [kind]
+    for key in keys:
+        table = _lookup(table, [key])
+        field = next((f for f in msgspec.structs.fields(kind) if f.encode_name == key), None)
+        if field is not None:
+            structs = _structs_of(field.type) or structs
+        # items of a list are told apart by their own tags
+        tag = table.get(structs[0].__struct_config__.tag_field) if isinstance(table, dict) else None
+        kind = next((s for s in structs if s.__struct_config__.tag == tag), structs[0])
+    return kind
+
+
+def _structs_of(kind: object) -> list[type[Struct]]:
+    """The structs that a type allows, those in a list too."""
+    if isinstance(kind, type) and issubclass(kind, Struct):
+        return [kind]
+    return list(dict.fromkeys(s for a in get_args(kind) for s in _structs_of(a)))
+
+
+def _tagged_at(kind: type[Struct], keys: list[str], table: object) -> list[type[Struct]]:
+    """The tables that the last key of a path tells apart, where it does; else none."""
+    above = len(keys) - 2
+    while above >= 0 and keys[above].isdigit():
+        above -= 1
+    if above < 0:
+        return []
+    owner = _owner(kind, keys[:above], table)
+    field = next((f for f in msgspec.structs.fields(owner) if f.encode_name == keys[above]), None)
+    structs = _structs_of(field.type) if field is not None else []
+    return structs if structs and structs[0].__struct_config__.tag_field == keys[-1] else []
+
+
+def _tags_of(kind: type[Struct], keys: list[str], table: object) -> Message | None:
+    """The words that the last key of a path may hold, where it tells several tables apart; else nothing."""
+    tables = _tagged_at(kind, keys, table)
+    return _one_of(_tags(tables)) if tables else None
+
+
+def _tag_words_of(kind: type[Struct], keys: list[str], table: object) -> list[str]:
+    return _tags(_tagged_at(kind, keys, table))
+
+
+def _tags(structs: list[type[Struct]]) -> list[str]:
+    return [str(s.__struct_config__.tag) for s in structs]
+
+
+def _one_of(words: Iterable[object]) -> Message:
+    quoted = [format_value(w) for w in words]
+    return (
+        message("one of {choices}", choices=", ".join(quoted))
+        if len(quoted) > 1
+        else message("only {choice} works", choice=quoted[0])
+    )
+
+
+def _lookup(table: object, keys: list[str]) -> Any:
+    for key in keys:
+        if isinstance(table, dict):
+            table = table.get(key)
+        elif isinstance(table, list) and key.isdigit():
+            table = table[int(key)]
+    return table
+
+
+def described_key(owner: type[Struct], name: str) -> Message | None:
+    """Meaning, range and unit of a key, in one phrase."""
+    field = next((f for f in msgspec.structs.fields(owner) if f.encode_name == name), None)
+    return None if field is None else described(field.type)
+
+
+def _words_of(owner: type[Struct], name: str) -> list[str]:
+    """The words that a key may hold."""
+    field = next((f for f in msgspec.structs.fields(owner) if f.encode_name == name), None)
+    return [] if field is None else _literals(field.type)
+
+
+def _literals(kind: object) -> list[str]:
+    if get_origin(kind) is Literal:
+        return [str(a) for a in get_args(kind)]
+    return [w for a in get_args(kind) if not isinstance(a, str) for w in _literals(a)]
+
+
+def described(kind: object) -> Message | None:
+    """Meaning, range, choices and unit of an annotated type."""
+    if get_origin(kind) is Literal:
+        return _one_of(get_args(kind))
+    meta = next((m for m in getattr(kind, "__metadata__", ()) if isinstance(m, Meta)), None)
+    if meta is None:
+        if isinstance(kind, type) and issubclass(kind, Struct):
+            return message("table: {what}", what=Message((kind.__doc__ or "").splitlines()[0].rstrip(".")))
+        tagged = [s for s in _structs_of(kind) if s.__struct_config__.tag]
+        if len(tagged) > 1:
+            field = tagged[0].__struct_config__.tag_field
+            return message("table with {key} = {choices}", key=field, choices=_one_of(_tags(tagged)))
+        found = [d for d in (described(a) for a in get_args(kind)) if d is not None]
+        return _either([d for i, d in enumerate(found) if d not in found[:i]]) if found else None
+    inner = described(get_args(kind)[0])
+    pieces = [Message(meta.description) if meta.description else None, _span(meta, kind), inner]
+    made: Message | None = None
+    for piece in filter(None, pieces):
+        made = piece if made is None else message("{what}: {range}", what=made, range=piece)
+    return made
+
+
+def _span(meta: Meta, kind: object) -> Message | None:
+    """The range of a key with its unit; nothing where it has none."""
+    ends: list[Message] = []
+    if meta.min_length is not None and get_origin(get_args(kind)[0]) is list:
+        if meta.max_length == meta.min_length:
+            ends.append(counted("{n} value", "{n} values", "n", n=meta.min_length))
+        else:
+            ends.append(message("at least {limit:g}", limit=meta.min_length))
+            if meta.max_length is not None:
+                ends.append(message("at most {limit:g}", limit=meta.max_length))
+    else:
+        low = (N_("above {limit:g}"), meta.gt), (N_("at least {limit:g}"), meta.ge)
+        high = (N_("below {limit:g}"), meta.lt), (N_("at most {limit:g}"), meta.le)
+        for rows in (low, high):
+            ends += [message(text, limit=end) for text, end in rows if end is not None][:1]
+    unit = meta.extra.get("unit", "") if meta.extra else ""
+    if not ends:
+        return Message(unit) if unit else None
+    return message("{range} {unit}", range=listed(ends), unit=Message(unit)) if unit else listed(ends)
+
+
+def own_first(kind: type[Struct]) -> list[msgspec.structs.FieldInfo]:
+    """The keys of a table: those that it needs, its own, and what it shares with more and more others."""
+    names = [name for one in kind.__mro__ for name in get_annotations(one)]
+    return sorted(msgspec.structs.fields(kind), key=lambda field: (not field.required, names.index(field.name)))
+
+
+def first_line(kind: type[Struct], told: Words) -> str:
+    """What a table of keys is, in one phrase."""
+    return told.text((kind.__doc__ or "").splitlines()[0].rstrip("."))
+
+
+def _steps(path: str) -> list[str | int]:
+    """The keys and indices of a place as refusals write it: ``holes.item 2.diameter``."""
+    return [int(w[5:]) - 1 if w.startswith("item ") else w for w in path.split(".")]
+
+
+def replaced(keys: object, path: str, value: object) -> Any:
+    """A struct with the value of one key changed, at any depth; lists are copied.
+
+    Raises
+    ------
+    ParameterError
+        There is no such place.
+    """
+    return _replaced(keys, _steps(path), value, path)
+
+
+def tried(keys: S, path: str, value: object) -> S:
+    """A struct with another value of one key, None: without it, as a scene would give it.
+
+    Raises
+    ------
+    ParameterError
+        The value is not one that the key may have.
+    """
+    changed = replaced(keys, path, value)
+    try:
+        return msgspec.convert(_without_none(msgspec.to_builtins(changed)), type(keys))
+    except msgspec.ValidationError as error:
+        raise ParameterError(path, value, "not_allowed", allowed=str(error)) from error
+
+
+def _without_none(held: object) -> Any:
+    if isinstance(held, dict):
+        return {key: _without_none(value) for key, value in held.items() if value is not None}
+    return [_without_none(value) for value in held] if isinstance(held, list | tuple) else held
+
+
+def _replaced(held: object, steps: list[str | int], value: object, path: str) -> Any:
+    if not steps:
+        if isinstance(held, int) and not isinstance(held, bool) and isinstance(value, float) and value.is_integer():
+            return int(value)
+        return value
+    step, *rest = steps
+    if isinstance(held, Struct) and isinstance(step, str) and step in held.__struct_fields__:
+        return msgspec.structs.replace(held, **{step: _replaced(getattr(held, step), rest, value, path)})
+    if isinstance(held, list | tuple) and isinstance(step, int) and step < len(held):
+        return [*held[:step], _replaced(held[step], rest, value, path), *held[step + 1 :]]
+    raise ParameterError(path, value, "unknown_key", known=[])
+
+
+def value_at(keys: object, path: str) -> Any:
+    """What stands at a key, at any depth; None where there is no such place."""
+    for step in _steps(path):
+        if isinstance(step, int):
+            keys = keys[step] if isinstance(keys, list | tuple) and step < len(keys) else None
+        else:
+            keys = getattr(keys, step) if isinstance(keys, Struct) and step in keys.__struct_fields__ else None
+    return keys
+
+
+def unit_of(kind: type[Struct], path: str) -> str:
+    """The unit of a key, at any depth; empty where it has none."""
+    names = [s for s in _steps(path) if isinstance(s, str)]
+    owners = [kind]
+    for name in names[:-1]:
+        fields = (f for o in owners for f in msgspec.structs.fields(o) if f.encode_name == name)
+        owners = [s for f in fields for s in _structs_of(f.type)]
+    found = next((f.type for o in owners for f in msgspec.structs.fields(o) if f.encode_name == names[-1]), None)
+    return _unit(found)
+
+
+def _unit(kind: object) -> str:
+    for meta in getattr(kind, "__metadata__", ()):
+        if isinstance(meta, Meta) and meta.extra and "unit" in meta.extra:
+            return str(meta.extra["unit"])
+    return next(filter(None, (_unit(a) for a in get_args(kind) if not isinstance(a, str))), "")

@@ -1,0 +1,151 @@
+"""Texts in the reader's language: English stands in the code, every other language is one gettext catalogue.
+
+A text is a msgid, or a ``Message``: a msgid with the numbers for its ``{name}`` placeholders, put off until the
+language is known. Data keep texts; ``words(language).say(text)`` tells them. English reads no file.
+
+The marks that the extraction finds (``python -m tests.catalogues``): ``N_``, ``NC_``, ``message``, ``counted``,
+``in_context`` and the methods ``text``, ``plural`` and ``term``, where their msgids are literals.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from gettext import NullTranslations
+
+ENGLISH = "en"
+DOMAIN = "higherpair"
+LOCALE = Path(__file__).parents[1] / "locale"
+# what plural rules say of a number with a fraction: that of a negative count, which no text has
+_FRACTION = -1
+
+# catalogues of other packages, behind ours: domain and folder
+_added: list[tuple[str, Path]] = []
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """A text that waits for its language: ``many`` is its plural by the number called ``by``.
+
+    ``numbers`` may hold messages too, which are told in the same language.
+    """
+
+    msgid: str
+    numbers: Mapping[str, object] = field(default_factory=dict)
+    many: str = ""
+    by: str = ""
+    context: str = ""
+
+
+Text = str | Message
+
+
+def N_(text: str) -> str:
+    """Mark a msgid for extraction: the same text."""
+    return text
+
+
+def NC_(context: str, text: str) -> str:
+    """Mark a msgid that one English word shares with another meaning: the same text, without its context."""
+    return text
+
+
+def message(msgid: str, /, **numbers: object) -> Message:
+    """A text with what its placeholders stand for."""
+    return Message(msgid, numbers)
+
+
+def counted(one: str, many: str, /, by: str, **numbers: object) -> Message:
+    """A text whose form follows the number called ``by``, given here or by ``filled``."""
+    return Message(one, numbers, many, by)
+
+
+def in_context(context: str, msgid: str, /, **numbers: object) -> Message:
+    """A text that says which of an English word's meanings it has."""
+    return Message(msgid, numbers, context=context)
+
+
+def listed(texts: Sequence[Text]) -> Message:
+    """Several texts with commas between them."""
+    named = {f"text_{k}": Message(text) if isinstance(text, str) else text for k, text in enumerate(texts)}
+    return Message(", ".join(f"{{{name}}}" for name in named), named)
+
+
+def filled(text: Text, /, **numbers: object) -> Message:
+    """A text of a table with its numbers."""
+    made = Message(text) if isinstance(text, str) else text
+    return replace(made, numbers={**made.numbers, **numbers})
+
+
+@dataclass(frozen=True, slots=True)
+class Words:
+    """One language; its methods translate, then fill in the placeholders where numbers are given."""
+
+    language: str
+    _catalogue: NullTranslations | None
+
+    def text(self, msgid: str, /, **numbers: object) -> str:
+        """A text."""
+        told = self._catalogue.gettext(msgid) if self._catalogue and msgid else msgid
+        return told.format(**numbers) if numbers else told
+
+    def plural(self, one: str, many: str, n: float, /, **numbers: object) -> str:
+        """A text by a count, 1 tooth or 2 teeth; a count with a fraction may have a form of its own."""
+        if self._catalogue:
+            told = self._catalogue.ngettext(one, many, abs(int(n)) if n == int(n) else _FRACTION)
+        else:
+            told = one if n == 1 else many
+        return told.format(**numbers) if numbers else told
+
+    def term(self, context: str, msgid: str, /, **numbers: object) -> str:
+        """A text of one of the meanings of an English word."""
+        told = self._catalogue.pgettext(context, msgid) if self._catalogue else msgid
+        return told.format(**numbers) if numbers else told
+
+    def say(self, text: Text) -> str:
+        """A text that may have waited, with all that it holds."""
+        if isinstance(text, str):
+            return self.text(text)
+        numbers = {name: self.say(n) if isinstance(n, Message) else n for name, n in text.numbers.items()}
+        if text.many:
+            count = text.numbers[text.by]
+            assert isinstance(count, int | float)
+            return self.plural(text.msgid, text.many, count, **numbers)
+        if text.context:
+            return self.term(text.context, text.msgid, **numbers)
+        return self.text(text.msgid, **numbers)
+
+    def decimal(self, number: str) -> str:
+        """A number as the language prints it on drawings: 0.5 or 0,5."""
+        return number.replace(".", self.term("decimal point", "."))
+
+
+@cache
+def words(language: str) -> Words:
+    """The words of a language; one without a catalogue speaks English."""
+    if language == ENGLISH:
+        return Words(ENGLISH, None)
+    from gettext import find, translation
+
+    homes = [home for home in ((DOMAIN, LOCALE), *_added) if find(*home, [language])]
+    catalogues = [translation(*home, [language]) for home in homes]
+    for one in catalogues[1:]:
+        catalogues[0].add_fallback(one)
+    return Words(language, catalogues[0] if catalogues else None)
+
+
+def languages() -> tuple[str, ...]:
+    """English, and each language whose folder lies beside the others."""
+    return ENGLISH, *sorted(p.name for p in LOCALE.iterdir() if (p / "LC_MESSAGES" / f"{DOMAIN}.mo").is_file())
+
+
+def add_catalogue(domain: str, folder: Path) -> None:
+    """Another package's texts: ``folder/LANGUAGE/LC_MESSAGES/domain.mo``, asked where ours has nothing."""
+    if (domain, folder) not in _added:
+        _added.append((domain, folder))
+        words.cache_clear()

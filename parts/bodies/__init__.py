@@ -1,0 +1,1 @@
+"""Flat bodies of lines and arcs."""

@@ -1,0 +1,128 @@
+"""The part kind ``plate``: a flat body with holes and slots, and what every flat body of lines and arcs shares."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated, TypeVar
+
+from msgspec import Meta, Struct, field
+
+from geometry.base.errors import ParameterError, limit
+from parts.base.kind import Kind, Others
+from parts.keys.base import MadeKeys, mm
+
+if TYPE_CHECKING:
+    from geometry.plane.offset_region import OffsetRegion
+    from geometry.solids.body import Body
+    from geometry.solids.plate import Edge, PlateOutline
+
+_MOST = 100_000.0
+_Place = Annotated[float, mm("a coordinate", least=-_MOST, most=_MOST)]
+
+
+class HoleAtTable(Struct, forbid_unknown_fields=True):
+    """A round hole anywhere."""
+
+    at: Annotated[tuple[_Place, _Place], mm("x, y of its centre")]
+    diameter: Annotated[float, mm("diameter of the hole", above=0, most=_MOST)]
+
+
+class SlotTable(Struct, forbid_unknown_fields=True):
+    """A slot with round ends, between the centres of its ends."""
+
+    start: Annotated[tuple[_Place, _Place], mm("x, y of one end's centre")]
+    end: Annotated[tuple[_Place, _Place], mm("x, y of the other end's centre")]
+    width: Annotated[float, mm("width of the slot", above=0, most=_MOST)]
+
+
+HolesAt = Annotated[list[HoleAtTable], Meta(max_length=1000, examples=[[{"at": [0.0, 20.0], "diameter": 3.0}]])]
+Slots = Annotated[
+    list[SlotTable],
+    Meta(max_length=1000, examples=[[{"start": [0.0, 28.0], "end": [0.0, 36.0], "width": 3.0}]]),
+]
+
+
+class FlatKeys(MadeKeys, kw_only=True):
+    """Keys of every flat body of lines and arcs."""
+
+    holes: HolesAt = field(default_factory=list)
+    slots: Slots = field(default_factory=list)
+
+
+class PlateSpec(FlatKeys, forbid_unknown_fields=True, tag_field="kind", tag="plate"):
+    """Rectangular plate with rounded corners, holes and slots: a frame, a guide, a cover."""
+
+    width: Annotated[float, mm("along x", above=0, most=_MOST, example=60.0)]
+    height: Annotated[float, mm("along y", above=0, most=_MOST, example=90.0)]
+    centre: Annotated[tuple[_Place, _Place], mm("x, y of the middle")] = (0.0, 0.0)
+    corner_radius: Annotated[float, mm("rounding of the corners", least=0, most=_MOST)] = 0.0
+
+
+def checked_outline(
+    edges: tuple[Edge, ...], keys: FlatKeys, own: Sequence[tuple[str, complex, float]] = ()
+) -> PlateOutline:
+    """Edges with the holes and slots of a part's keys, checked one after the other; ``own``: key, centre, diameter."""
+    from geometry.solids.plate import PlateHole, PlateOutline, PlateSlot
+
+    holes = (*(PlateHole(at, d) for _, at, d in own), *(PlateHole(complex(*h.at), h.diameter) for h in keys.holes))
+    slots = tuple(PlateSlot(complex(*s.start), complex(*s.end), s.width) for s in keys.slots)
+    for number, slot in enumerate(slots, 1):
+        if slot.start == slot.end:
+            raise ParameterError(f"slots.item {number}.end", list(keys.slots[number - 1].end), "slot_ends_at_start")
+    outline = PlateOutline(edges, (*holes, *slots))
+    names = [key for key, _, _ in own]
+    names += [f"holes.item {i + 1}.diameter" for i in range(len(keys.holes))]
+    outline.check_holes([*names, *(f"slots.item {i + 1}.width" for i in range(len(slots)))])
+    return outline
+
+
+K = TypeVar("K", bound=FlatKeys)
+T = TypeVar("T")
+
+
+class Extruded(Kind[K, T]):
+    """An outline of lines and arcs that is extruded as it is, lower face at z = 0."""
+
+    def flat(self, thing: T) -> PlateOutline:
+        """The outline of the exact thing."""
+        raise NotImplementedError
+
+    def section(self, keys: K, thing: T, offset: float) -> OffsetRegion:
+        """The outline moved."""
+        return self.flat(thing).region(offset)
+
+    def solid(self, keys: K, thing: T, offset: float) -> Body:
+        """The outline, extruded."""
+        from geometry.solids.body import plate
+
+        return plate(self.flat(thing).region(offset).region, 0.0, keys.face_width)
+
+
+class Flat(Extruded[K, "PlateOutline"]):
+    """A kind whose thing is an outline and nothing else."""
+
+    def flat(self, thing: PlateOutline) -> PlateOutline:
+        """The thing itself."""
+        return thing
+
+
+class Plate(Flat[PlateSpec]):
+    """A rectangular plate with holes and slots."""
+
+    name, keys = "plate", PlateSpec
+
+    def thing(self, keys: PlateSpec, others: Others) -> PlateOutline:
+        """The outline, checked: roundings that the sides have room for, holes that keep their walls."""
+        from geometry.solids.plate import rounded
+
+        most = min(keys.width, keys.height) / 2
+        if keys.corner_radius > most:
+            raise ParameterError("corner_radius", keys.corner_radius, "rounding_above_half_side", limit(most, math.inf))
+        x, y = keys.centre
+        half = complex(keys.width, keys.height) / 2
+        corners = [complex(x, y) + c for c in (-half, half.conjugate(), half, -half.conjugate())]
+        return checked_outline(rounded([(c, keys.corner_radius) for c in corners]), keys)
+
+
+PLATE = Plate()

@@ -1,0 +1,1 @@
+"""The kinds of cams and of what they move."""

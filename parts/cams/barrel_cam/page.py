@@ -1,0 +1,148 @@
+"""``higherpair calc cam`` of a cylindrical cam: motion, sizes, both walls on the unrolled outer cylinder and floor."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from geometry.base.errors import ParameterError
+from geometry.cams.barrel.body import BarrelBody
+from geometry.cams.barrel.cam import LOWER, UPPER, AxialGuide, BarrelCam, SwingGuide
+from geometry.cams.motion.follower_motion import PhaseKind
+from geometry.curves.curve import Real
+from parts.base.texts import N_, message
+from parts.cams.barrel_cam.part import BARREL_CAM
+from parts.cams.disk_cam.speed_page import speed_section
+from parts.keys.barrel import BarrelCamSpec
+from parts.pages.cam_steps import (
+    TOPIC,
+    Phases,
+    Speed,
+    Step,
+    cam_angles,
+    coefficient_steps,
+    impact_notes,
+    motion_columns,
+    phase_steps,
+    straightened,
+    table_of,
+)
+from parts.pages.inputs import checked, refusal
+from parts.pages.page import Sheet, Table
+
+
+class BarrelKeys(BarrelCamSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
+    """Keys of a cylindrical cam, the step of its table, and its speed."""
+
+    step: Step = 10.0
+    speed_rpm: Speed | None = None
+
+
+def sheet(kind: str, table: dict[str, Any]) -> Sheet:
+    """The calculation of a cylindrical cam."""
+    keys: BarrelKeys = checked(table, BarrelKeys, TOPIC)
+    try:
+        body = BARREL_CAM.thing(keys, {})
+    except ParameterError as error:
+        raise refusal(TOPIC, error, keys=keys) from error
+    cam, swings = body.cam, keys.oscillating is not None
+    phases = Phases(cam.motion.phases, cam.motion.lift, swings)
+    page = Sheet(TOPIC, N_("Cylindrical cam"))
+    page.section(N_("Characteristics"))
+    phase_steps(page, phases)
+    page.add("roller_diameter", keys.roller_diameter)
+    if isinstance(cam.guide, SwingGuide):
+        page.add("arm_length", cam.guide.arm_length)
+        page.add("pivot_offset", cam.guide.pivot_offset)
+        page.add("pivot_height", cam.guide.pivot_height)
+        page.add("start_angle_deg", math.degrees(cam.guide.start_angle))
+    coefficient_steps(page, phases)
+    _sizes(page, keys, body)
+    page.data["phases"] = phases.data()
+    page.tables += [_positions(cam, keys.step, swings=swings), *_walls(cam, keys.step)]
+    if keys.speed_rpm is not None:
+        speed_section(page, cam.motion, keys.speed_rpm, slides=not swings)
+    impact_notes(page, cam.motion)
+    page.notes.append(
+        N_("x = R (polar angle + pi) on the unrolled cylinder, seen from outside, cam angle 0 at the right end")
+    )  # fmt: skip
+    return page
+
+
+def _sizes(page: Sheet, keys: BarrelKeys, body: BarrelBody) -> None:
+    cam = body.cam
+    page.section(N_("Sizes"))
+    page.add("outer_diameter", 2 * cam.outer)
+    page.add("groove_depth", keys.groove_depth)
+    page.add("floor_diameter", 2 * cam.inner, "{D} - 2 * {t}")
+    if cam.is_groove:
+        page.add("clearance", keys.clearance)
+        page.add("groove_width", 2 * cam.radius, "{d} + {c_r}")
+    page.add("barrel_length", body.length)
+    page.add("roller_height", float(cam.place(0.0, 0)[0].imag))
+    for kind, name in ((PhaseKind.RISE, "rise"), (PhaseKind.RETURN, "return")):
+        pieces = cam.motion.moving_pieces(kind)
+        if not pieces:
+            continue
+        page.add(f"pressure_angle_{name}_deg", math.degrees(cam.greatest_pressure_angle(kind)[0]))
+        if isinstance(cam.guide, AxialGuide):
+            sign = 1 if kind is PhaseKind.RISE else -1
+            steep = max(float((sign * p.value(p.extremes(1), 1)).max()) for p in pieces)
+            page.add("peak_velocity", steep, symbol="|S'|_max", key="S1m")
+            angle = math.degrees(math.atan(steep / cam.outer))
+            page.add(f"outer_pressure_angle_{name}_deg", angle, "arctan({S1m} / ({D} / 2))")
+    page.add("largest_roller_diameter", BARREL_CAM.report(keys, body).quantities["largest_roller_diameter"])
+
+
+def _positions(cam: BarrelCam, step: float, *, swings: bool) -> Table:
+    """phi, S, S', S'', the greater pressure angle of the walls at the floor, the roller's axis y, z."""
+    degrees, angle = cam_angles(cam.motion, step)
+    columns, heads = motion_columns([cam.motion.value(angle, k) for k in range(3)], degrees, swings=swings)
+    slope = np.max([_by_piece(cam, angle, lambda p, t, s=side: cam.pressure_angle(t, cam.inner, p, s))
+                    for side in cam.sides], axis=0)  # fmt: skip
+    place = np.asarray(cam.place(angle, 0)[0])
+    title = N_("Positions: cam angle, motion, pressure angle at the floor, the roller's axis across and along the cam")
+    heads += [("nu", "deg"), ("y", "mm"), ("z", "mm")]
+    return table_of("positions", title, [*columns, np.degrees(slope), place.real, place.imag], heads)
+
+
+def _walls(cam: BarrelCam, step: float) -> list[Table]:
+    """x, z and radius of curvature of every wall, unrolled on the outer cylinder and on the floor."""
+    degrees, angle = cam_angles(cam.motion, step)
+    made = []
+    for name, radius, title in (
+        ("development", cam.outer, message("Development of the outer cylinder")),
+        ("development_floor", cam.inner, message("Development of the floor")),
+    ):
+        columns, heads = [degrees], [("phi", "deg")]
+        for side in cam.sides:
+            found = _by_piece(cam, angle, lambda p, t, s=side, r=radius: wall_line(cam, p, s, r, t))
+            index = "" if not cam.is_groove else "_1" if side == UPPER else "_2"
+            columns += [*found]
+            heads += [(f"x{index}", "mm"), (f"z{index}", "mm"), (f"rho{index}", "mm")]
+        if cam.is_groove:
+            title = message("{title}: upper wall (1) and lower wall (2)", title=title)
+        made.append(table_of(name, title, columns, heads))
+    return made
+
+
+def wall_line(cam: BarrelCam, piece: Any, side: int, radius: float, angle: Real) -> Real:
+    """A wall's line on an unrolled cylinder, (3, ...): x, z and its radius of curvature, mm, convex above 0."""
+    polar, height = cam.edge_series(piece, side, radius, angle, 2)
+    first = radius * polar[1] + 1j * height[1]
+    second = 2 * (radius * polar[2] + 1j * height[2])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        bend = np.abs(first) ** 3 / (np.conj(first) * second).imag
+    # the line runs to -x: it turns left over a crest, where a lower wall is convex
+    bend = straightened(bend * (1 if side == LOWER else -1), radius)
+    return np.stack([radius * (polar[0] + math.pi), height[0], bend])
+
+
+def _by_piece(cam: BarrelCam, angle: Real, function: Any) -> Real:
+    """A function of a piece of the motion and its cam angles, at all cam angles; joints belong to what begins."""
+    starts = np.array([p.start for p in cam.motion.pieces])
+    index = np.searchsorted(starts, angle, side="right") - 1
+    parts = [function(cam.motion.pieces[k], angle[index == k]) for k in range(len(starts))]
+    return np.concatenate(parts, axis=-1)

@@ -1,0 +1,357 @@
+"""The part kind ``barrel_cam``: a cylindrical cam with a groove, or with its track on the end of a tube."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from msgspec.structs import replace as changed
+
+from geometry.base.errors import Nearest, OffsetError, ParameterError, UndercutError, limit, rounded
+from geometry.base.findings import Finding
+from geometry.base.nearest import last_that_holds, nearest
+from geometry.plane.offset_region import OffsetRegion
+from geometry.solids.hub_holes import HubHoles, least_wall
+from parts.base.kind import Kind, Others, Report
+from parts.cams.barrel_cam.roller import (
+    INSIDE,
+    check_cone,
+    end_height,
+    guides,
+    kept_apex,
+    largest_radius,
+    moved_cam,
+    taper,
+    thinnest,
+)
+from parts.keys.barrel import BarrelCamSpec, SwingingTable
+from parts.keys.cam import check_stroke, motion_of, rough_law
+from parts.keys.holes import bore_of, hub_holes, wide_bore
+
+if TYPE_CHECKING:
+    from geometry.cams.barrel.body import BarrelBody
+    from geometry.cams.barrel.cam import BarrelCam, Guide
+    from geometry.cams.motion.follower_motion import FollowerMotion
+    from geometry.solids.mass import Moments
+    from parts.base.readback import Probe
+
+# usual limits of the pressure angle: translating 30, swinging 45 degrees (practicum: 30 to 35, 40 to 50)
+_USUAL_PRESSURE_ANGLE = {False: 30.0, True: 45.0}
+# rollers are kept below this share of the one that undercuts
+_USUAL_ROLLER_SHARE = 0.8
+# an arm stays this far from the cam's axis, degrees
+_STEEPEST = 89.0
+# shares of a swing or an arm that are tried
+_SMALLER = (0.9, 0.75, 0.5, 0.25, 0.1, 0.03, 0.01, 0.001)
+
+
+def _check_keys(keys: BarrelCamSpec) -> None:
+    """Keys that exclude each other."""
+    check_stroke(keys, keys.oscillating is not None, tabled=keys.motion_table is not None)
+    bore_of(keys)
+    if keys.length is not None and keys.end_margin is not None:
+        raise ParameterError("end_margin", keys.end_margin, "follows_from", Nearest(None), key="length")
+    if keys.form == "groove" and keys.web_thickness > 0:
+        raise ParameterError("web_thickness", keys.web_thickness, "for_end_only", Nearest(0.0))
+    if keys.roller_form == "cylindrical" and keys.cone_angle_deg is not None:
+        raise ParameterError("cone_angle_deg", keys.cone_angle_deg, "for_conical_only", Nearest(None))
+    if keys.form == "end" and keys.clearance > 0:
+        raise ParameterError("clearance", keys.clearance, "end_without_play", Nearest(0.0))
+
+
+def _motion(keys: BarrelCamSpec) -> FollowerMotion:
+    motion = motion_of(keys, keys.oscillating is not None)
+    rigid = [j for j in motion.impacts() if j.impact == "rigid"]
+    if rigid:
+        name, value = rough_law(keys.phases or [], motion.phases) or ("phases", None)
+        at = math.degrees(rigid[0].angle)
+        raise ParameterError(name, value, "velocity_jumps_in_groove", Nearest("sine"), at=at)
+    return motion
+
+
+def _cam_of(keys: BarrelCamSpec) -> BarrelCam:
+    """The cam with its guide at the height that leaves the margins, not yet checked for undercut."""
+    from geometry.cams.barrel.cam import AxialGuide, BarrelCam, SwingGuide
+
+    motion, table, outer = _motion(keys), keys.oscillating, keys.outer_diameter / 2
+    radius, inner = (keys.roller_diameter + keys.clearance) / 2, keys.outer_diameter / 2 - keys.groove_depth
+    guide: Guide
+    if table is None:
+        guide = AxialGuide(0.0)
+    else:
+        low, high = motion.extremes()
+        start = -(low + high) / 2 if table.start_angle_deg is None else math.radians(table.start_angle_deg)
+        if not max(abs(start + low), abs(start + high)) < math.radians(_STEEPEST):
+            raise _along_axis(keys, table, math.degrees(low), math.degrees(high))
+        flat = 1.0 if (start + low) * (start + high) < 0 else max(math.cos(start + low), math.cos(start + high))
+        least = min(math.cos(start + low), math.cos(start + high))
+        offset = table.arm_length * (flat + least) / 2 if table.pivot_offset is None else table.pivot_offset
+        guide = SwingGuide(offset, 0.0, table.arm_length, start)
+    cam = BarrelCam(motion, guide, radius, outer, inner, keys.form == "groove", taper(keys, radius), outer)
+    stray = max(map(abs, cam.side_range()))
+    if not stray + radius < INSIDE * inner:
+        room = outer - (stray + radius) / INSIDE
+        if table is not None and room <= 0 and stray > radius:
+            raise _straying(keys, table, stray)
+        if room <= 0:
+            most = limit((2 * (stray + radius) / INSIDE + 2 * keys.groove_depth) * (1 + 1e-9), keys.outer_diameter)
+            raise ParameterError("outer_diameter", keys.outer_diameter, "roller_too_big", most)
+
+        def works(depth: float) -> bool:
+            return _is_guided(changed(keys, groove_depth=depth))
+
+        ends = [room * share for share in (1 - 1e-9, *_SMALLER)]
+        cure = lambda: nearest(works, keys.groove_depth, ends)  # noqa: E731
+        raise ParameterError("groove_depth", keys.groove_depth, "floor_too_narrow", cure)
+    check_cone(keys, cam, stray)
+    return _raised(keys, cam)
+
+
+def _along_axis(keys: BarrelCamSpec, table: SwingingTable, low: float, high: float) -> ParameterError:
+    """The refusal of an arm that turns along the cam's axis; lowest and highest S, degrees."""
+    given = table.start_angle_deg
+    if given is None:
+        most = limit(2 * _STEEPEST * (1 - 1e-9), keys.swing_deg) if keys.motion_table is None else None
+        return ParameterError("swing_deg", keys.swing_deg, "arm_along_axis", most)
+    least, most_angle = -_STEEPEST - low, _STEEPEST - high
+    works = limit((most_angle - 1e-6 if given >= most_angle else least + 1e-6), given) if least < most_angle else None
+    return ParameterError("oscillating.start_angle_deg", given, "arm_along_axis", works)
+
+
+def _straying(keys: BarrelCamSpec, table: SwingingTable, stray: float) -> ParameterError:
+    """The refusal of a roller that its arm carries past the side of the barrel."""
+    key = "arm_length" if table.pivot_offset is None else "pivot_offset"
+    given: float = getattr(table, key)
+
+    def works(value: float) -> bool:
+        _cam_of(changed(keys, oscillating=changed(table, **{key: value})))
+        return True
+
+    # half the way between the ends of the swing
+    middle = table.arm_length * (1 + math.cos(math.radians(keys.swing_deg / 2))) / 2
+    ends = [middle] if key == "pivot_offset" else [given * share for share in _SMALLER]
+    return ParameterError(
+        f"oscillating.{key}", given, "roller_strays", lambda: nearest(works, given, ends), stray=stray
+    )
+
+
+def _raised(keys: BarrelCamSpec, cam: BarrelCam) -> BarrelCam:
+    """The cam with its roller so high that the groove has its margins."""
+    low, high = cam.height_range()
+    reach = high - low + 2 * cam.radius if cam.is_groove else high - low
+    margin = keys.roller_diameter / 2 if keys.end_margin is None else keys.end_margin
+    if keys.length is not None:
+        sides = 2 if cam.is_groove else 1
+        margin = (keys.length - reach) / sides
+        wall = least_wall(cam.outer)
+        if not margin >= wall:
+            raise ParameterError("length", keys.length, "groove_needs_length", limit(reach + sides * wall, keys.length))
+    return replace(cam, guide=cam.guide.raised(margin + cam.radius - low))
+
+
+def _is_guided(keys: BarrelCamSpec) -> bool:
+    from geometry.cams.barrel.cam import LEAST_SPEED
+
+    return _cam_of(keys).least_edge_speed()[0] >= LEAST_SPEED
+
+
+def _check_roller(keys: BarrelCamSpec, cam: BarrelCam) -> None:
+    """The roller is small enough for every bend of its way."""
+    from geometry.cams.barrel.cam import LEAST_SPEED
+
+    speed, angle = cam.least_edge_speed()
+    if speed >= LEAST_SPEED:
+        return
+    at = math.degrees(angle)
+    most, play = 2 * largest_radius(cam, kept_apex(keys)) * (1 - 1e-6), keys.clearance
+    if most > 1.01 * play and rounded(most - play, up=False) > 0:
+        given = keys.roller_diameter
+        raise UndercutError("roller_diameter", given, "wall_undercut", limit(most - play, given), at=at)
+    if most > 0 and play > 0:
+        raise UndercutError("clearance", play, "wall_undercut", at=at)
+    if not keys.swing_deg:
+        raise UndercutError("motion_table", None, "roller_outruns_surface", at=at)
+
+    def works(swing_deg: float) -> bool:
+        return _is_guided(changed(keys, swing_deg=swing_deg))
+
+    ends = [keys.swing_deg * share for share in _SMALLER]
+    cure = lambda: nearest(works, keys.swing_deg, ends)  # noqa: E731
+    raise UndercutError("swing_deg", keys.swing_deg, "roller_outruns_surface", cure, at=at)
+
+
+def _holes_of(keys: BarrelCamSpec) -> HubHoles:
+    return hub_holes(bore_of(keys), None, None)
+
+
+def _body_of(keys: BarrelCamSpec, cam: BarrelCam) -> BarrelBody:
+    from geometry.cams.barrel.body import BarrelBody
+
+    low, high = cam.height_range()
+    margin = low - cam.radius
+    length = high + cam.radius + margin if cam.is_groove else end_height(cam)
+    bores = _holes_of(keys).profiles(0.0)
+    hub = None if keys.hub is None else (keys.hub.diameter / 2, keys.hub.below, keys.hub.above)
+    return BarrelBody(cam, length, bores[0] if bores else None, hub, keys.web_thickness)
+
+
+def _check_hub(keys: BarrelCamSpec, body: BarrelBody) -> None:
+    """Bore, hub and web fit each other and the barrel."""
+    cam, reach, wall = body.cam, _holes_of(keys).bore_reach, least_wall(body.cam.outer)
+    if reach > 0 and not reach + wall <= cam.inner:
+        raise _wide(keys, reach, cam.inner - wall, "no_wall_to_floor")
+    low = cam.height_range()[0] - cam.radius
+    needy = next((name for name in ("bore_diameter", "bore", "hub") if getattr(keys, name)), None)
+    if not cam.is_groove and body.web == 0 and needy:
+        half = Nearest(rounded(low / 2, up=False))
+        raise ParameterError("web_thickness", body.web, "bottom_missing", half, key=needy)
+    if body.web > 0 and not body.web + wall <= low:
+        raise ParameterError("web_thickness", body.web, "web_reaches_track", limit(low - wall, body.web))
+    if keys.hub is None:
+        return
+    # inside a tube the hub stands within its inner cylinder
+    hub, most = keys.hub.diameter, 2 * ((cam.inner if not cam.is_groove and keys.hub.above > 0 else cam.outer) - wall)
+    if not 2 * (reach + wall) <= most:
+        raise _wide(keys, reach, most / 2 - wall, "no_room_for_hub")
+    if not hub <= most:
+        raise ParameterError("hub.diameter", hub, "hub_beyond_barrel", limit(most, hub))
+    if not hub >= 2 * (reach + wall):
+        raise ParameterError("hub.diameter", hub, "no_wall_around_bore", limit(2 * (reach + wall), hub))
+
+
+def _wide(keys: BarrelCamSpec, reach: float, inside: float, code: str) -> ParameterError:
+    """The refusal of a bore that may reach so far, mm."""
+    if keys.bore_diameter > 0:
+        return ParameterError("bore_diameter", 2 * reach, code, limit(2 * inside, 2 * reach))
+    return wide_bore(keys, inside, code)
+
+
+def _moved(keys: BarrelCamSpec, body: BarrelBody, offset: float) -> BarrelBody:
+    """The solid with every boundary but its end faces moved out of the material."""
+    if offset == 0:
+        return body
+    cam = body.cam
+    moved = moved_cam(cam, offset)
+    most = thinnest(cam) * cam.upright
+    if not offset < most:
+        raise OffsetError(offset, "groove_closed", most * (1 - 1e-9))
+    wall = least_wall(cam.outer)
+    thin = (cam.outer - cam.inner - wall) / 2
+    if not cam.is_groove and not offset > -thin:
+        raise OffsetError(offset, "no_wall", -thin * (1 - 1e-9))
+    if offset < 0 and not guides(moved):
+        raise OffsetError(
+            offset, "walls_undercut", last_that_holds(lambda moved: guides(moved_cam(cam, moved)), offset)
+        )
+    bores = _holes_of(keys).profiles(offset)
+    bore_reach = _holes_of(keys).bore_reach
+    if bores and not bore_reach - offset + wall <= moved.inner:
+        raise OffsetError(offset, "no_wall_to_floor", (bore_reach + wall - cam.inner) / 2)
+    hub = None if body.hub is None else (body.hub[0] + offset, *body.hub[1:])
+    return replace(body, cam=moved, bore=bores[0] if bores else None, hub=hub)
+
+
+def _quantities(keys: BarrelCamSpec, body: BarrelBody) -> dict[str, float]:
+    from geometry.cams.barrel.cam import SwingGuide
+    from geometry.cams.barrel.sliding import cam_sliding
+    from geometry.cams.motion.follower_motion import PhaseKind
+
+    cam = body.cam
+    found = {
+        "outer_diameter": 2 * cam.outer,
+        "floor_diameter": 2 * cam.inner,
+        "length": body.length,
+        "roller_diameter": keys.roller_diameter,
+    }
+    if cam.is_groove:
+        found["groove_width"] = 2 * cam.radius
+    if cam.taper:
+        found["cone_angle_deg"] = math.degrees(2 * math.atan(cam.taper))
+        found["roller_floor_diameter"] = keys.roller_diameter - 2 * cam.taper * (cam.outer - cam.inner)
+    found["roller_sliding"] = cam_sliding(cam)
+    if isinstance(cam.guide, SwingGuide):
+        found["swing_deg"] = math.degrees(cam.motion.lift)
+        found["arm_length"] = cam.guide.arm_length
+        found["pivot_offset"] = cam.guide.pivot_offset
+        found["pivot_height"] = cam.guide.pivot_height
+        found["start_angle_deg"] = math.degrees(cam.guide.start_angle)
+    else:
+        found["lift"] = cam.motion.lift
+    found["start_height"] = float(cam.place(0.0, 0)[0].imag)
+    for kind in (PhaseKind.RISE, PhaseKind.RETURN):
+        if cam.motion.moving_pieces(kind):
+            name = f"pressure_angle_{'rise' if kind is PhaseKind.RISE else 'return'}_deg"
+            found[name] = math.degrees(cam.greatest_pressure_angle(kind)[0])
+    found["largest_roller_diameter"] = 2 * largest_radius(cam, kept_apex(keys)) - keys.clearance
+    return found
+
+
+def _findings(keys: BarrelCamSpec, cam: BarrelCam) -> tuple[Finding, ...]:
+    from geometry.cams.motion.follower_motion import PhaseKind
+
+    found = []
+    soft = [(abs(j.jumps[2]), math.degrees(j.angle)) for j in cam.motion.impacts()]
+    if soft:
+        found.append(Finding("soft_impact", *max(soft)))
+    usual = _USUAL_PRESSURE_ANGLE[keys.oscillating is not None]
+    # a groove pushes both ways, a spring takes the return of an end cam
+    kinds = (PhaseKind.RISE, PhaseKind.RETURN) if cam.is_groove else (PhaseKind.RISE,)
+    steepest = math.degrees(max(cam.greatest_pressure_angle(kind)[0] for kind in kinds))
+    if steepest > usual + 1e-9:
+        found.append(Finding("steep_groove", steepest, usual))
+    limit = _USUAL_ROLLER_SHARE * largest_radius(cam, kept_apex(keys))
+    if cam.radius > limit:
+        found.append(Finding("large_groove_roller", cam.radius, limit))
+    return tuple(found)
+
+
+class Barrel(Kind[BarrelCamSpec, "BarrelBody"]):
+    """A cylindrical cam; its flat outline is the development of its outer cylinder."""
+
+    name, keys = "barrel_cam", BarrelCamSpec
+
+    def thing(self, keys: BarrelCamSpec, others: Others) -> BarrelBody:
+        """The solid, checked to guide its roller all the way."""
+        _check_keys(keys)
+        cam = _cam_of(keys)
+        _check_roller(keys, cam)
+        body = _body_of(keys, cam)
+        _check_hub(keys, body)
+        return body
+
+    def section(self, keys: BarrelCamSpec, thing: BarrelBody, offset: float) -> OffsetRegion:
+        """The jackets of the outer cylinder, unrolled."""
+        from geometry.cams.barrel.development import development
+
+        return development(thing.cam, thing.length, offset)
+
+    def solid(self, keys: BarrelCamSpec, thing: BarrelBody, offset: float) -> Any:
+        """The barrel: a ``BarrelBody``, whose walls are no plane's."""
+        return _moved(keys, thing, offset)
+
+    def height(self, keys: BarrelCamSpec, thing: BarrelBody) -> float:
+        """The barrel's length."""
+        return thing.length
+
+    def report(self, keys: BarrelCamSpec, thing: BarrelBody) -> Report:
+        """Sizes, pressure angles, the largest roller."""
+        unrolled = (Finding("development", 2 * math.pi * thing.cam.outer, 2 * thing.cam.outer),)
+        found = _findings(keys, thing.cam)
+        return Report(found, quantities=_quantities(keys, thing), flat_findings=unrolled)
+
+    def moments(self, solid: BarrelBody) -> Moments:  # type: ignore[override]
+        """Volume, centre and inertia."""
+        from geometry.cams.barrel.body import barrel_moments
+
+        return barrel_moments(solid)
+
+    def probes(self, keys: BarrelCamSpec, thing: BarrelBody) -> tuple[Probe, ...]:
+        """The roller, put into the groove of every mesh."""
+        from parts.cams.barrel_cam.probe import GrooveRoller
+
+        roller = self.report(keys, thing).quantities["roller_diameter"]
+        return (GrooveRoller(lambda offset: self.solid(keys, thing, offset), roller),)
+
+
+BARREL_CAM = Barrel()

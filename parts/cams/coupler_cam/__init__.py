@@ -1,0 +1,1 @@
+"""Cams whose follower sits on a connecting rod."""

@@ -1,0 +1,186 @@
+"""``higherpair calc cam`` of a cam whose follower sits on the connecting rod of a linkage."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any
+
+import numpy as np
+
+from geometry.base.errors import ParameterError
+from geometry.cams.motion.follower_motion import PhaseKind
+from geometry.cams.plane.coupler import LinkageCam
+from geometry.cams.plane.synthesis import greatest_pressure_angle, least_convex_radius
+from geometry.kinematics.linkage import RockerDrive, RockerGuide, SliderGuide
+from parts.base.texts import N_, message
+from parts.cams.coupler_cam.part import LINKAGE_CAM, LinkageCamSpec, linkage_findings
+from parts.cams.coupler_cam.position_page import position_at, position_steps
+from parts.cams.disk_cam.graphical_page import graphical_section
+from parts.cams.disk_cam.speed_page import speed_section
+from parts.cams.wheel import inner_radius
+from parts.keys.base import degrees
+from parts.pages.cam_steps import (
+    DEFAULT_INTERVALS,
+    TOPIC,
+    Drawing,
+    Intervals,
+    Phases,
+    Speed,
+    Step,
+    cam_angles,
+    coefficient_steps,
+    impact_notes,
+    phase_steps,
+    positions,
+    table_of,
+)
+from parts.pages.inputs import checked, refusal
+from parts.pages.page import Sheet, Table
+from parts.texts.findings import finding_message
+
+_SAMPLES = 720
+# remarks of every page
+_NOTES = (
+    N_("the graphical method integrates the motion S of the driven member; the profile drawn from it is the linkage's"),
+    N_("nu_0 is at the centre of a roller, which turns freely; nu, Savvin's (28), at the contact with a follower "
+     "that is fixed to the connecting rod"),
+)  # fmt: skip
+
+
+class LinkageKeys(LinkageCamSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
+    """Keys of a linkage cam, the step of its table, and the position that is worked out in numbers."""
+
+    step: Step = 10.0
+    intervals: Intervals = DEFAULT_INTERVALS
+    drawing: Drawing = "smooth"
+    speed_rpm: Speed | None = None
+    position_deg: (
+        Annotated[
+            float,
+            degrees("cam angle worked out in numbers; default: middle of the first rise", least=0, below=360),
+        ]
+        | None
+    ) = None
+
+
+def sheet(kind: str, table: dict[str, Any]) -> Sheet:
+    """The calculation of a linkage cam."""
+    keys: LinkageKeys = checked(table, LinkageKeys, TOPIC)
+    try:
+        cam = LINKAGE_CAM.thing(keys, {})
+    except ParameterError as error:
+        raise refusal(TOPIC, error, keys=keys) from error
+    title = N_("Cam with its follower on a connecting rod")
+    page, phases = Sheet(TOPIC, title), Phases(cam.motion.phases, cam.motion.lift, cam.swings)
+    page.section(N_("Characteristics"))
+    phase_steps(page, phases)
+    if cam.radius:
+        page.add("follower_radius", cam.radius)
+    _linkage(page, keys, cam)
+    coefficient_steps(page, phases)
+    _sizes(page, keys, cam)
+    position_steps(page, position_at(cam, _chosen(keys, cam)))
+    page.data["phases"] = phases.data()
+    page.tables.append(positions(cam, keys.step))
+    page.tables.append(linkage_table(cam, keys.step))
+    graphical_section(page, cam, None, keys.intervals, keys.drawing)
+    if keys.speed_rpm is not None:
+        speed_section(page, cam.motion, keys.speed_rpm, slides=not cam.swings)
+    page.notes += _NOTES
+    impact_notes(page, cam.motion)
+    told = [f for f in linkage_findings(keys, cam) if not f.code.endswith("_impact")]
+    page.notes += [finding_message(f) for f in told]
+    return page
+
+
+def _chosen(keys: LinkageKeys, cam: LinkageCam) -> float:
+    """The cam angle that is worked out, rad: as typed, or the middle of the first rise."""
+    if keys.position_deg is not None:
+        return math.radians(keys.position_deg)
+    at = 0.0
+    for phase in cam.motion.phases:
+        if phase.kind is PhaseKind.RISE:
+            return at + phase.angle / 2
+        at += phase.angle
+    # a table of points: where it rises most steeply
+    angle = np.linspace(0, 2 * math.pi, _SAMPLES, endpoint=False)
+    return float(angle[np.argmax(cam.motion.value(angle, 1))])
+
+
+def _linkage(page: Sheet, keys: LinkageKeys, cam: LinkageCam) -> None:
+    """The data of the linkage, fixed frame: the axis of the cam is its origin."""
+    page.section(N_("Linkage (the axis of the cam is the origin)"))
+    linkage = cam.mount.linkage
+    drive, guide = linkage.drive, linkage.guide
+    if isinstance(drive, RockerDrive):
+        page.add("driven_pivot_x", drive.pivot.real)
+        page.add("driven_pivot_y", drive.pivot.imag)
+        page.add("driven_length", drive.length)
+        page.add("driven_start_angle_deg", math.degrees(drive.start_angle))
+    else:
+        page.add("driven_start_x", drive.start.real)  # type: ignore[attr-defined]
+        page.add("driven_start_y", drive.start.imag)  # type: ignore[attr-defined]
+        page.add("driven_direction_deg", keys.driven.direction_deg)  # type: ignore[union-attr]
+    page.add("coupler_length", linkage.coupler_length)
+    if isinstance(guide, RockerGuide):
+        page.add("guide_pivot_x", guide.pivot.real)
+        page.add("guide_pivot_y", guide.pivot.imag)
+        page.add("guide_length", guide.length)
+    elif isinstance(guide, SliderGuide):
+        page.add("guide_through_x", guide.point.real)
+        page.add("guide_through_y", guide.point.imag)
+        page.add("guide_direction_deg", math.degrees(guide.direction))
+    page.add("coupler_point_x", cam.mount.point.real)
+    page.add("coupler_point_y", cam.mount.point.imag)
+    if str(cam.kind) in ("flat", "mushroom"):
+        page.add("follower_direction_deg", math.degrees(cam.mount.direction))
+
+
+def _sizes(page: Sheet, keys: LinkageKeys, cam: LinkageCam) -> None:
+    """What the cam and the linkage reach over a turn."""
+    page.section(N_("Sizes"))
+    if keys.least_curvature_radius:
+        page.add("curvature_reserve", keys.least_curvature_radius)
+    page.add("least_cam_radius", inner_radius(cam))
+    page.add("greatest_cam_radius", cam.greatest(lambda t: np.abs(cam.contact(t))))
+    for kind, name in ((PhaseKind.RISE, "rise"), (PhaseKind.RETURN, "return")):
+        if cam.motion.moving_pieces(kind):
+            page.add(f"pressure_angle_{name}_deg", math.degrees(greatest_pressure_angle(cam, kind).value))
+    if cam.radius:
+        page.add("contact_pressure_angle_deg", math.degrees(cam.greatest(cam.contact_pressure_angle)))
+    page.add("least_curvature_radius", least_convex_radius(cam).value)
+    page.add("coupler_swing_deg", math.degrees(cam.member_swing("coupler")))
+    page.add("joint_transmission_angle_deg", math.degrees(cam.mount.linkage.transmission_angle()))
+    if str(cam.kind) != "roller":
+        page.add("greatest_sliding_velocity", cam.greatest(cam.sliding_velocity))
+    if str(cam.kind) in ("flat", "mushroom"):
+        low, high = cam.face_reach()
+        page.add("face_from", low)
+        page.add("face_to", high)
+        page.add("least_plate_diameter", cam.least_plate_diameter())
+
+
+def linkage_table(cam: LinkageCam, step: float) -> Table:
+    """Joints, coupler angle, reference point, transmission angle, pressure angle and sliding at the contact."""
+    degrees, angle = cam_angles(cam.motion, step)
+    linkage = cam.mount.linkage
+    joint, turn = (x[0] for x in linkage.pose([cam.motion.value(angle)]))
+    far, place = joint + linkage.coupler_length * turn, cam.place(angle)
+    guide = linkage.guide
+    if isinstance(guide, RockerGuide):
+        across = np.abs((np.conj(turn) * (far - guide.pivot)).imag) / guide.length
+    else:
+        assert isinstance(guide, SliderGuide)
+        across = np.abs((turn * np.exp(-1j * guide.direction)).real)
+    columns = [degrees, np.degrees(np.unwrap(np.angle(turn)))]
+    for point in (joint, far, place):
+        columns += [point.real, point.imag]
+    columns += [np.degrees(np.arcsin(np.minimum(across, 1.0))), np.degrees(cam.contact_pressure_angle(angle))]
+    columns.append(cam.sliding_velocity(angle))
+    heads = [("phi", "deg"), ("theta", "deg"), ("x_A", "mm"), ("y_A", "mm"), ("x_B", "mm"), ("y_B", "mm"),
+             ("x_02", "mm"), ("y_02", "mm"), ("mu", "deg"), ("nu_c", "deg"), ("v_s", "mm/rad")]  # fmt: skip
+    columns_told = N_(
+        "Linkage: coupler angle, joints, follower, transmission angle, pressure angle at the contact, {last}"
+    )
+    last = message("rolling velocity") if str(cam.kind) == "roller" else message("sliding velocity")
+    return table_of("linkage", message(columns_told, last=last), columns, heads)

@@ -1,0 +1,197 @@
+"""``higherpair calc cam``: phases, coefficients, least sizes, table of motion and profile, of every kind of cam.
+
+A scene's part tells its kind; without a scene ``kind=groove_cam`` does. The disk cam's own page is here.
+"""
+
+from __future__ import annotations
+
+import importlib
+import math
+from contextlib import suppress
+from typing import Any
+
+from geometry.base.errors import GeometryError, ParameterError
+from geometry.cams.motion.follower_motion import PhaseKind
+from geometry.cams.motion.guides import Oscillating, Translating
+from geometry.cams.plane.disk import DiskCam
+from geometry.cams.plane.rocker import rocker_base
+from geometry.cams.plane.synthesis import (
+    flat_base_radius,
+    greatest_pressure_angle,
+    least_convex_radius,
+    roller_prime_radius,
+)
+from parts.base.refusal import REMOVED, SceneError, meant
+from parts.base.texts import N_
+from parts.cams.disk_cam.graphical_page import graphical_section
+from parts.cams.disk_cam.part import CAM, CamSpec, base_radius
+from parts.cams.disk_cam.speed_page import speed_section
+from parts.pages.cam_steps import (
+    DEFAULT_INTERVALS,
+    LESSON_4,
+    LESSON_5,
+    TOPIC,
+    Drawing,
+    Intervals,
+    Phases,
+    Speed,
+    Step,
+    cam_swings,
+    coefficient_steps,
+    impact_notes,
+    phase_steps,
+    positions,
+)
+from parts.pages.inputs import PLACE, SceneKeys, checked, given, refusal
+from parts.pages.page import Sheet
+
+# the module of each kind's page; each has KEYS and page_of(table, keys of the cam that it is made of)
+PAGES = {
+    "cam": "parts.cams.disk_cam.page",
+    "groove_cam": "parts.cams.groove_cam.page",
+    "conjugate_cam": "parts.cams.positive.page",
+    "yoke_frame": "parts.cams.positive.page",
+    "wedge_cam": "parts.cams.wedge_cam.page",
+    "barrel_cam": "parts.cams.barrel_cam.page",
+    "linkage_cam": "parts.cams.coupler_cam.page",
+}
+
+
+class CamKeys(CamSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
+    """Keys of the topic: those of a cam, and the step of its table."""
+
+    step: Step = 10.0
+    intervals: Intervals = DEFAULT_INTERVALS
+    drawing: Drawing = "smooth"
+    speed_rpm: Speed | None = None
+
+
+def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
+    """The keys of a cam of a scene, changed by those of the command line.
+
+    A conjugate cam or a yoke has the keys of the cam that it is made of under ``of``.
+    """
+    kinds = {key: spec.__struct_config__.tag for key, spec in scene.parts.items()}
+    cams = [key for key, kind in kinds.items() if kind in PAGES]
+    # a page of the second disk or of the yoke tells of the cam too
+    whole = [c for c in cams if c not in {getattr(scene.parts[other], "of", None) for other in cams}]
+    part = table.pop("part", None)
+    if part is None and len(whole) != 1:
+        code = "choose_a_part" if whole else "none_of_kind"
+        raise SceneError(source, "parts", None, code, None, known=whole, kind="cam")
+    if part is not None and part not in cams:
+        code = "no_such_part" if cams else "none_of_kind"
+        raise SceneError(source, "part", part, code, meant(part, cams), known=cams, kind="cam")
+    chosen = part or whole[0]
+    found, kind = given(scene.parts[chosen]), kinds[chosen]
+    if kind == "cam":
+        return found | table
+    # a linkage's member is changed key by key, or given anew with its name
+    for key in ("driven", "guide"):
+        if isinstance(table.get(key), dict) and "member" not in table[key] and key in found:
+            table[key] = found[key] | table[key]
+    owner = scene.parts.get(getattr(scene.parts[chosen], "of", ""))
+    if owner is not None:
+        found["of"] = given(owner) | (table.pop("of") if isinstance(table.get("of"), dict) else {})
+    return found | table | {"kind": kind}
+
+
+def sheet(table: dict[str, Any]) -> Sheet:
+    """The calculation of one cam."""
+    kind = table.get("kind", "cam")
+    if kind not in PAGES:
+        raise SceneError(PLACE, "kind", kind, "unknown_kind", meant(kind, PAGES), known=list(PAGES))
+    if "part" in table:
+        raise SceneError(PLACE, "part", table["part"], "part_without_scene", REMOVED)
+    rest = {key: value for key, value in table.items() if key != "kind"}
+    if kind == "cam":
+        keys: CamKeys = checked(rest, CamKeys, TOPIC)
+        try:
+            return disk_page(keys, CAM.thing(keys, {}))
+        except ParameterError as error:
+            raise refusal(TOPIC, error, keys=keys) from error
+    page: Sheet = importlib.import_module(PAGES[kind]).sheet(kind, rest)
+    return page
+
+
+def phases_of(cam: DiskCam) -> Phases:
+    """The phases of a disk cam."""
+    return Phases(cam.motion.phases, cam.motion.lift, cam_swings(cam))
+
+
+def disk_page(keys: CamKeys, cam: DiskCam) -> Sheet:
+    """The page of a disk cam."""
+    page = Sheet(TOPIC, N_("Disk cam"))
+    phases = phases_of(cam)
+    characteristics(page, keys, cam)
+    coefficient_steps(page, phases)
+    sizes(page, keys, cam)
+    page.data["phases"] = phases.data()
+    page.tables.append(positions(cam, keys.step))
+    finish(page, keys, cam, keys.least_transmission_angle_deg)
+    return page
+
+
+def finish(page: Sheet, keys: Any, cam: DiskCam, transmission_angle_deg: float | None) -> None:
+    """The graphical method (its least radius by this angle), velocities, and the remarks on the motion."""
+    graphical_section(page, cam, transmission_angle_deg, keys.intervals, keys.drawing)
+    if keys.speed_rpm is not None:
+        speed_section(page, cam.motion, keys.speed_rpm, slides=not cam_swings(cam))
+    impact_notes(page, cam.motion)
+
+
+def characteristics(page: Sheet, keys: Any, cam: DiskCam) -> None:
+    """The characteristics table of the sheets: H, phases, E, gamma_min."""
+    page.section(N_("Characteristics"))
+    phase_steps(page, phases_of(cam))
+    if not cam_swings(cam):
+        page.add("follower_offset", keys.follower_offset)
+    if keys.least_transmission_angle_deg is not None:
+        page.add("least_transmission_angle_deg", keys.least_transmission_angle_deg)
+    if cam.radius:
+        page.add("follower_radius", cam.radius)
+
+
+def sizes(page: Sheet, keys: CamKeys, cam: DiskCam) -> None:
+    """Least radius by the pressure angle or the curvature, and what the cam has."""
+    page.section(N_("Sizes"))
+    asked = keys.least_transmission_angle_deg
+    if isinstance(cam.mount, Translating):
+        if cam.is_flat:
+            page.add("least_prime_circle_radius", flat_base_radius(cam.motion).value, "", LESSON_4)
+        elif asked is not None:
+            least = roller_prime_radius(cam.motion, keys.follower_offset, math.radians(90 - asked))
+            page.add("least_prime_circle_radius", least, "", LESSON_5)
+    if isinstance(cam.mount, Oscillating) and cam.is_flat:
+        _rocker(page, keys, cam, cam.mount)
+    if keys.least_curvature_radius:
+        page.add("curvature_reserve", keys.least_curvature_radius)
+    base = base_radius(cam)
+    derived = cam.is_flat and keys.base_circle_radius is None and keys.least_curvature_radius > 0
+    exact = derived and abs(base - flat_base_radius(cam.motion).value - keys.least_curvature_radius) < 1e-12 * base
+    page.add("least_base_circle_radius", base, "{r_0} + {rho}" if exact else "", LESSON_4 if exact else "")
+    reached(page, cam)
+    page.add("least_curvature_radius", least_convex_radius(cam).value)
+    if isinstance(cam.mount, Translating) and cam.kind in ("flat", "mushroom"):
+        page.add("least_plate_diameter", cam.least_plate_diameter())
+
+
+def reached(page: Sheet, cam: DiskCam) -> None:
+    """Initial height, and the pressure angles that the cam has."""
+    if isinstance(cam.mount, Translating):
+        page.add("initial_height", cam.mount.start_height)
+    for kind, name in ((PhaseKind.RISE, "rise"), (PhaseKind.RETURN, "return")):
+        if cam.motion.moving_pieces(kind):
+            page.add(f"pressure_angle_{name}_deg", math.degrees(greatest_pressure_angle(cam, kind).value))
+    if not cam.is_flat and cam.motion.moving_pieces(PhaseKind.RISE):
+        steep = math.degrees(greatest_pressure_angle(cam, PhaseKind.RISE).value)
+        page.add("transmission_angle_reached_deg", 90 - steep, "", LESSON_5)
+
+
+def _rocker(page: Sheet, keys: CamKeys, cam: DiskCam, mount: Oscillating) -> None:
+    """The least base circle of a flat rocker's convex cam at its pivot's distance, where there is one."""
+    with suppress(GeometryError):
+        least = rocker_base(
+            cam.motion, mount.centre_distance, mount.sense, mount.face_offset, keys.least_curvature_radius
+        )
+        page.add("least_prime_circle_radius", least.prime_radius)

@@ -1,0 +1,396 @@
+"""The part kind ``cam``: a disk cam for a pointed, roller, mushroom or flat follower."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated, Literal, Protocol, TypeVar
+
+from msgspec import Meta, Struct
+from msgspec.structs import replace
+
+from geometry.base.errors import Cure, Nearest, ParameterError, UndercutError, limit
+from geometry.base.findings import Finding
+from geometry.base.nearest import nearest
+from geometry.plane.profile import Profile
+from geometry.solids.hub_holes import HubHoles
+from geometry.solids.wheel import WheelShape
+from parts.base.kind import Others, Report
+from parts.base.schema import replaced
+from parts.base.texts import N_
+from parts.cams.wheel import DiskKeys, Turned, body_of, check_disk, inner_radius, marked_holes
+from parts.keys.base import degrees, mm, start
+from parts.keys.cam import (
+    Follower,
+    FollowerOffset,
+    Lift,
+    MotionTable,
+    MovingPhase,
+    Phases,
+    Swing,
+    check_stroke,
+    motion_of,
+    rough_law,
+    turn,
+)
+from parts.keys.law import with_own_laws
+
+if TYPE_CHECKING:
+    from geometry.cams.motion.follower_motion import FollowerMotion
+    from geometry.cams.plane.disk import DiskCam
+    from parts.base.readback import Probe
+
+_MOST = 100_000.0
+# of a base circle that is just large enough
+_ROUNDING = 1e-9
+# shares of a limit, and of the way to it, at which a size is tried that gives a whole cam
+_SMALLER = (0.9, 0.75, 0.5, 0.25, 0.1, 0.03)
+_FARTHER = (0.01, 0.1, 0.3, 1.0)
+
+
+class OscillatingTable(Struct, forbid_unknown_fields=True):
+    """A follower that swings about a pivot on +x."""
+
+    centre_distance: Annotated[float, mm("from the cam's axis to the pivot", above=0, most=_MOST, example=90.0)]
+    arm_length: Annotated[float, mm("from the pivot to the roller's centre; not for flat", least=0, most=_MOST)] = 0.0
+    sense: Annotated[
+        Literal["against", "with"], Meta(description="how the follower rises: against or with the cam's turning")
+    ] = "against"
+    face_offset: Annotated[float, mm("flat face nearer to the axis than the pivot", least=-_MOST, most=_MOST)] = 0.0
+
+
+class CamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="cam"):
+    """Disk cam; it turns counter-clockwise, cam angle 0 is the start of the first phase."""
+
+    follower: Follower
+    lift: Lift = 0.0
+    swing_deg: Swing = 0.0
+    phases: Annotated[Phases, with_own_laws(turn("polynomial_345"))] | None = None
+    motion_table: MotionTable | None = None
+    follower_radius: Annotated[float, mm("radius of the roller or mushroom", least=0, most=_MOST), start(8.0)] = 0.0
+    follower_offset: FollowerOffset = 0.0
+    plate_diameter: (
+        Annotated[
+            float, mm("round plate of a translating flat or mushroom follower", above=0, most=_MOST, example=60.0)
+        ]
+        | None
+    ) = None
+    oscillating: OscillatingTable | None = None
+    base_circle_radius: (
+        Annotated[
+            float,
+            mm("base circle; default: the least by least_transmission_angle_deg", above=0, most=_MOST),
+            start(30.0),
+        ]
+        | None
+    ) = None
+    least_transmission_angle_deg: (
+        Annotated[
+            float,
+            degrees("gamma_min = 90 - pressure angle; flat: 45", above=0, below=90, example=60.0),
+        ]
+        | None
+    ) = None
+    least_curvature_radius: Annotated[float, mm("rho: least convex radius of the cam", least=0, most=_MOST)] = 0.0
+
+
+# of constant breadth, for what is made from a cam
+EVEN_CAM: dict[str, object] = {
+    "kind": "cam", "follower": "roller", "follower_radius": 8.0, "lift": 20.0, "base_circle_radius": 30.0,
+    "phases": turn("sine"), "bore_diameter": 12.0,
+}  # fmt: skip
+
+
+class FacedKeys(Protocol):
+    """Keys of a cam whose follower may have a plate."""
+
+    plate_diameter: float | None
+
+
+def base_radius(cam: DiskCam) -> float:
+    """Radius of the base circle, mm."""
+    return float(abs(cam.reference_point(0.0))) - cam.radius
+
+
+def cam_of(keys: CamSpec) -> DiskCam:
+    """The cam of the keys, not yet checked for undercut; refusals speak in the scene's keys."""
+    from geometry.cams.plane.disk import FollowerKind, oscillating_cam, translating_cam
+
+    swing, base = keys.oscillating, keys.base_circle_radius
+    check_stroke(keys, swing is not None, tabled=keys.motion_table is not None)
+    motion, kind = motion_of(keys, swing is not None), FollowerKind(keys.follower)
+    try:
+        if swing is None:
+            base = _least_base(keys, motion) if base is None else base
+            return translating_cam(
+                motion, kind, base, radius=keys.follower_radius, follower_offset=keys.follower_offset
+            )
+        if base is None:
+            raise ParameterError("base_circle_radius", None, "base_circle_missing_of_arm")
+        if keys.follower_offset:
+            raise ParameterError("follower_offset", keys.follower_offset, "arm_has_no_offset", Nearest(0.0))
+        if swing.face_offset and keys.follower != "flat":
+            raise ParameterError("face_offset", swing.face_offset, "for_flat_only", Nearest(0.0))
+        return oscillating_cam(
+            motion,
+            kind,
+            base,
+            centre_distance=swing.centre_distance,
+            arm_length=swing.arm_length,
+            radius=keys.follower_radius,
+            sense=1 if swing.sense == "against" else -1,
+            face_offset=swing.face_offset,
+        )
+    except ParameterError as refusal:
+        name, factor = _IN_KEYS[swing is not None].get(refusal.name, (refusal.name, None))
+        raise _fitted(keys, refusal.renamed(name, factor)) from refusal
+
+
+# parameters of the mathematics as keys of a follower that slides and of one that swings, and their units
+_IN_KEYS: dict[bool, dict[str, tuple[str, float | None]]] = {
+    False: {"radius": ("follower_radius", None)},
+    True: {
+        "radius": ("follower_radius", None),
+        "lift": ("swing_deg", math.degrees(1.0)),
+        **{key: (f"oscillating.{key}", None) for key in ("centre_distance", "arm_length", "face_offset", "sense")},
+    },
+}
+
+
+def _fits(keys: CamSpec) -> bool:
+    """Whether the cam is whole and has room for its holes."""
+    from geometry.cams.plane.undercut import lost_to_undercut
+
+    cam = cam_of(keys)
+    if lost_to_undercut(cam) is not None:
+        return False
+    check_disk(keys, cam)
+    return True
+
+
+def _fitted(keys: CamSpec, refusal: ParameterError) -> ParameterError:
+    """The refusal of a size with the nearest one that gives a whole cam too, from its own limit on."""
+
+    def works(value: float) -> bool:
+        return _fits(replaced(keys, refusal.name, value))
+
+    def cure() -> Nearest | None:
+        own = refusal.nearest
+        if own is None or not isinstance(own.value, float) or own.side == "exactly":
+            return own
+        end, given = own.value, float(str(refusal.value))
+        farther = [end * share for share in _SMALLER] if own.side == "at_most" else []
+        return nearest(works, given, [end, *farther, *(end + (end - given) * share for share in _FARTHER)])
+
+    return type(refusal)(refusal.name, refusal.value, refusal.code, cure, **refusal.numbers)
+
+
+def _least_base(keys: CamSpec, motion: FollowerMotion) -> float:
+    """The base circle by the textbook's condition: r_0 + rho of a flat face, r_0 - r of a roller."""
+    from geometry.cams.plane.synthesis import convex_roller_base_radius, flat_base_radius, roller_prime_radius
+
+    angle, radius = keys.least_transmission_angle_deg, keys.follower_radius
+    if angle is None:
+        raise ParameterError("base_circle_radius", None, "base_circle_missing")
+    if keys.follower == "flat":
+        if angle != 45:
+            raise ParameterError("least_transmission_angle_deg", angle, "flat_angle_is_45", Nearest(45.0))
+        return max(flat_base_radius(motion, keys.least_curvature_radius).value, 1e-3 * motion.lift)
+    prime = roller_prime_radius(motion, keys.follower_offset, math.radians(90 - angle))
+    base = prime - radius
+    if not base > 0:
+        most = limit(prime * 0.9999, radius) if prime > 0 else None
+        raise ParameterError("follower_radius", radius, "fills_prime_circle", most, prime=prime)
+    if keys.follower == "pointed":
+        return base
+    rho = keys.least_curvature_radius
+    return max(base, convex_roller_base_radius(motion, radius, rho, follower_offset=keys.follower_offset))
+
+
+def undercut(cam: DiskCam, key: str, value: float, lost: float, cure: Cure) -> UndercutError:
+    """The refusal of a cam that loses so much lift, mm or rad."""
+    if math.isinf(lost):
+        return UndercutError(key, value, "undercut_all", cure)
+    if cam.swings:
+        return UndercutError(key, value, "undercut_swing", cure, lost=math.degrees(lost))
+    return UndercutError(key, value, "undercut", cure, lost=lost)
+
+
+def by_impact(keys: Sequence[MovingPhase] | None, motion: FollowerMotion, *, both: bool) -> UndercutError | None:
+    """The refusal of a cam that is undercut where the velocity drops (``both``: or rises), of whatever size."""
+    jumps = [j.jumps[1] for j in motion.impacts() if j.impact == "rigid"]
+    rough = rough_law(keys or [], motion.phases)
+    if rough is None or not (jumps if both else [jump for jump in jumps if jump < 0]):
+        return None
+    return UndercutError(*rough, "undercut_by_impact", Nearest("sine"))
+
+
+def larger_bases(base: float) -> list[float]:
+    """Base circles that are tried for a whole cam, mm: ever larger ones, then some between."""
+    # a flat face that swings has a greatest base circle too
+    return [*(base * 2 * 1.5**k for k in range(12)), *(base * (1 + k / 16) for k in range(1, 16))]
+
+
+def check_face(keys: FacedKeys, cam: DiskCam, *, plain: bool) -> None:
+    """The contact stays on the plate of the follower, which ``plain`` followers have."""
+    if keys.plate_diameter is None:
+        return
+    if not plain:
+        raise ParameterError("plate_diameter", keys.plate_diameter, "for_faces_only", Nearest(None))
+    least = cam.least_plate_diameter()
+    if not keys.plate_diameter >= least:
+        raise ParameterError(
+            "plate_diameter", keys.plate_diameter, "contact_over_edge", limit(least, keys.plate_diameter)
+        )
+
+
+def cam_circles(cam: DiskCam) -> dict[str, float]:
+    """Named diameters of a cam, mm."""
+    circles = {"base_circle_diameter": 2 * base_radius(cam)}
+    if cam.radius > 0:
+        circles["prime_circle_diameter"] = 2 * (base_radius(cam) + cam.radius)
+    return circles
+
+
+K = TypeVar("K", bound=DiskKeys)
+T = TypeVar("T", bound="DiskCam")
+
+
+class DiskKind(Turned[K, T]):
+    """A kind whose thing is a disk cam and nothing else."""
+
+    def body(self, keys: K, thing: T) -> WheelShape:
+        """By the keys."""
+        return body_of(keys)
+
+    def holes(self, keys: K, thing: T) -> HubHoles:
+        """Within the base circle."""
+        return marked_holes(keys, thing)
+
+    def inside(self, thing: T) -> float:
+        """The lowest follower's circle."""
+        return inner_radius(thing)
+
+    def outline(self, thing: T, offset: float) -> tuple[Profile, tuple[object, ...]]:
+        """The profile."""
+        from geometry.cams.plane.shape import cam_shape
+
+        shape = cam_shape(thing, offset)
+        return shape.profile, shape.gaps
+
+    def probes(self, keys: K, thing: T) -> tuple[Probe, ...]:
+        """The follower, rolled over every file."""
+        from parts.cams.probes import TurningProbe
+
+        return (TurningProbe(thing, self.height(keys, thing) / 2),)
+
+
+# usual limits of the pressure angle: translating 30, swinging 45 degrees (practicum: 30 to 35, 40 to 50)
+_USUAL_PRESSURE_ANGLE = {False: 30.0, True: 45.0}
+# rollers are kept below this share of the least convex radius of the pitch curve
+_USUAL_ROLLER_SHARE = 0.8
+# cam angles at which the greatest radius is looked for: off by a part in a million
+_SAMPLES = 3601
+
+
+def cam_quantities(spec: CamSpec, cam: DiskCam) -> dict[str, float]:
+    """Named results of a cam: sizes in mm, angles in degrees."""
+    from geometry.cams.motion.follower_motion import PhaseKind
+    from geometry.cams.plane.synthesis import greatest_pressure_angle, least_convex_radius
+
+    found: dict[str, float] = {}
+    if spec.oscillating is None:
+        found["lift"] = cam.motion.lift
+    else:
+        found["swing_deg"] = math.degrees(cam.motion.lift)
+        found["start_angle_deg"] = math.degrees(cam.swing.start_angle)
+    if cam.radius > 0:
+        found["follower_radius"] = cam.radius
+    if spec.oscillating is None and not cam.is_flat:
+        found["follower_offset"] = spec.follower_offset
+    for kind in (PhaseKind.RISE, PhaseKind.RETURN):
+        if cam.motion.moving_pieces(kind):
+            name = f"pressure_angle_{'rise' if kind is PhaseKind.RISE else 'return'}_deg"
+            found[name] = math.degrees(greatest_pressure_angle(cam, kind).value)
+    found["least_curvature_radius"] = least_convex_radius(cam).value
+    if cam.kind in ("flat", "mushroom"):
+        found["face_from"], found["face_to"] = cam.face_reach()
+        if spec.oscillating is None:
+            found["least_plate_diameter"] = cam.least_plate_diameter()
+    return found
+
+
+def cam_findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
+    """Impacts, steep pressure angles and large rollers of a cam."""
+    from geometry.cams.motion.follower_motion import PhaseKind
+    from geometry.cams.plane.synthesis import greatest_pressure_angle, least_convex_radius
+
+    found = []
+    for impact, order in (("rigid", 1), ("soft", 2)):
+        jumps = [(abs(j.jumps[order]), math.degrees(j.angle)) for j in cam.motion.impacts() if j.impact == impact]
+        if jumps:
+            size, angle = max(jumps)
+            found.append(Finding(f"{impact}_impact", size, angle))
+    swings = spec.oscillating is not None
+    steepest = math.degrees(greatest_pressure_angle(cam, PhaseKind.RISE).value)
+    if steepest > _USUAL_PRESSURE_ANGLE[swings] + 1e-9:
+        found.append(Finding("steep_pressure_angle", steepest, _USUAL_PRESSURE_ANGLE[swings]))
+    pitch = least_convex_radius(cam).value + cam.radius
+    if cam.kind == "roller" and cam.radius > _USUAL_ROLLER_SHARE * pitch:
+        found.append(Finding("large_roller", cam.radius, _USUAL_ROLLER_SHARE * pitch))
+    if spec.oscillating is None and cam.is_flat and spec.follower_offset != 0:
+        found.append(Finding("flat_offset", spec.follower_offset, cam.least_plate_diameter()))
+    if swings and (within := _greatest_radius(cam) - cam.swing.centre_distance) > 0:
+        found.append(Finding("pivot_within_cam", within, cam.swing.centre_distance))
+    if pitch - cam.radius < (asked := spec.least_curvature_radius) * (1 - 1e-6):
+        found.append(Finding("curvature_radius_not_kept", pitch - cam.radius, asked))
+    return tuple(found)
+
+
+def _greatest_radius(cam: DiskCam) -> float:
+    """Greatest distance of the profile from the axis, mm."""
+    import numpy as np
+
+    return float(np.abs(cam.profile_point(np.linspace(0, 2 * math.pi, _SAMPLES))).max())
+
+
+class Cam(DiskKind[CamSpec, "DiskCam"]):
+    """A disk cam."""
+
+    name, keys = "cam", CamSpec
+    sheet_shown = "cam", N_("diagrams and profile of the cam, DXF and SVG")
+
+    def thing(self, keys: CamSpec, others: Others) -> DiskCam:
+        """The cam, checked to move its follower all the way: an undercut one is told a large enough base circle."""
+        from geometry.cams.plane.undercut import lost_to_undercut
+
+        cam, base, least = cam_of(keys), keys.base_circle_radius, 0.0
+        if cam.is_flat and not cam.swings and base is not None:
+            from geometry.cams.plane.synthesis import flat_base_radius
+
+            least = flat_base_radius(cam.motion).value
+        lost, hollow = lost_to_undercut(cam), base is not None and base < least * (1 - _ROUNDING)
+        if lost is not None or hollow:
+            if (refusal := by_impact(keys.phases, cam.motion, both=False)) is not None:
+                raise refusal
+            base = base_radius(cam)
+            if hollow and lost is None:
+                cure = limit(least, base)
+                raise UndercutError("base_circle_radius", base, "undercut_hollow", cure, radius=base - least)
+            assert lost is not None
+
+            def works(value: float) -> bool:
+                return _fits(replace(keys, base_circle_radius=value))
+
+            found = limit(least, base) if hollow else lambda: nearest(works, base, larger_bases(base))
+            raise undercut(cam, "base_circle_radius", base, lost, found)
+        check_face(keys, cam, plain=keys.follower in ("flat", "mushroom") and keys.oscillating is None)
+        check_disk(keys, cam)
+        return cam
+
+    def report(self, keys: CamSpec, thing: DiskCam) -> Report:
+        """Impacts, pressure angles, curvature."""
+        return Report(cam_findings(keys, thing), cam_circles(thing), cam_quantities(keys, thing))
+
+
+CAM = Cam()

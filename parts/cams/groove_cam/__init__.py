@@ -1,0 +1,1 @@
+"""Groove cams and their pieces for the laser."""

@@ -1,0 +1,99 @@
+"""The part kind ``groove_piece``: a plate of a groove cam that is glued from three, cut by a laser."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from msgspec import Meta
+
+from geometry.base.errors import OffsetError
+from geometry.plane.offset_region import OffsetRegion
+from geometry.plane.profile import Label, Region, circle
+from geometry.solids.body import plate
+from parts.base.kind import Kind, Others, Report
+from parts.base.links import owner_of
+from parts.cams.groove_cam.part import GROOVE_CAM, GrooveCamSpec, GrooveDisk, groove_section
+from parts.keys.base import MaterialKeys, mm
+from parts.keys.cam import turn
+
+if TYPE_CHECKING:
+    from geometry.solids.body import Body
+    from parts.base.readback import Probe
+
+
+_GROOVE_CAM: dict[str, object] = {
+    "kind": "groove_cam", "follower_radius": 8.0, "lift": 20.0, "base_circle_radius": 30.0, "phases": turn("sine"),
+    "groove_depth": 5.0,
+}  # fmt: skip
+
+
+class GroovePieceSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", tag="groove_piece"):
+    """A plate of a groove cam: the core within the groove, the ring about it, or the disk under both."""
+
+    of: Annotated[str, Meta(description="the part of kind groove_cam that the plate is a layer of")]
+    piece: Annotated[Literal["core", "ring", "floor"], Meta(description="which of the three plates", examples=["core"])]
+    thickness: (
+        Annotated[
+            float,
+            mm("of the plate; default: groove_depth, of the floor what is left", least=0.01, most=10_000, example=3.0),
+        ]
+        | None
+    ) = None
+
+
+@dataclass(frozen=True, slots=True)
+class GroovePiece:
+    """The groove cam of a plate, and the plate's thickness, mm."""
+
+    disk: GrooveDisk
+    thickness: float
+
+
+class Piece(Kind[GroovePieceSpec, GroovePiece]):
+    """A plate of a groove cam."""
+
+    name, keys, made_from = "groove_piece", GroovePieceSpec, _GROOVE_CAM
+
+    def thing(self, keys: GroovePieceSpec, others: Others) -> GroovePiece:
+        """The plate of another part's groove cam."""
+        disk = GROOVE_CAM.thing(owner_of(keys.of, others, GrooveCamSpec), others)
+        return GroovePiece(disk, keys.thickness or (disk.floor if keys.piece == "floor" else disk.depth))
+
+    def section(self, keys: GroovePieceSpec, thing: GroovePiece, offset: float) -> OffsetRegion:
+        """The plate's section with every boundary moved out of the material."""
+        disk = thing.disk
+        if keys.piece == "floor":
+            rim = disk.outer_radius - disk.holes.reach
+            if not -2 * offset < rim:
+                raise OffsetError(offset, "no_rim", -rim / 2 * (1 - 1e-6))
+            round_ = circle(disk.outer_radius + offset, Label.BODY)
+            return OffsetRegion(Region(round_, disk.holes.profiles(offset)), offset, ())
+        whole = groove_section(disk, offset)
+        outer, inner = whole.region.marks
+        region = Region(inner, whole.region.holes) if keys.piece == "core" else Region(whole.region.outer, (outer,))
+        return OffsetRegion(region, offset, whole.findings)
+
+    def solid(self, keys: GroovePieceSpec, thing: GroovePiece, offset: float) -> Body:
+        """The section, extruded."""
+        return plate(self.section(keys, thing, offset).region, 0.0, thing.thickness)
+
+    def height(self, keys: GroovePieceSpec, thing: GroovePiece) -> float:
+        """The plate's thickness."""
+        return thing.thickness
+
+    def report(self, keys: GroovePieceSpec, thing: GroovePiece) -> Report:
+        """The disk's edge."""
+        return Report(circles={} if keys.piece == "core" else {"outer_diameter": 2 * thing.disk.outer_radius})
+
+    def probes(self, keys: GroovePieceSpec, thing: GroovePiece) -> tuple[Probe, ...]:
+        """A roller along the wall that the plate has."""
+        if keys.piece == "floor":
+            return ()
+        from parts.cams.probes import wall_probe
+
+        made = thing.disk.inner_wall if keys.piece == "core" else thing.disk.outer_wall
+        return (wall_probe(made(thing.thickness / 2), alone=True),)
+
+
+GROOVE_PIECE = Piece()

@@ -1,0 +1,1 @@
+"""Cams that hold their follower from both sides: conjugate pairs and yokes."""

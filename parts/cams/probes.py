@@ -1,0 +1,171 @@
+"""Cams: the follower is rolled over the outline read back from a file, and its lift held against the exact law."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geometry.base.findings import Finding
+from geometry.cams.contact.rolled import lift_bound, rolled_lift
+from geometry.cams.motion.follower_motion import TURN
+from geometry.curves.curve import Real
+from geometry.plane.measure import distance_to_profile
+from parts.base.readback import Probed, ReadBack, ReadError, ReadLoop
+
+if TYPE_CHECKING:
+    from geometry.cams.plane.disk import DiskCam
+    from geometry.cams.plane.walls import CamWall
+    from geometry.cams.plane.wedge import WedgeCam
+    from geometry.plane.profile import Profile
+
+# steps of a turn, and of the travel of a plate
+ANGLES = 3600
+# jumps of S'' above this share of its peak are told
+_JUMP_SHARE = 0.1
+# a second difference meets a joint between these many places
+_JUMP_WIDTH = 3
+# rounding of the rolling itself, part of the outline's size
+_ROUNDING = 1e-12
+# points of a loop by which it is told from others
+_ROUGH = 16
+
+
+@dataclass(frozen=True, slots=True)
+class TurningProbe:
+    """A follower rolled over a cam that turns; ``height``: where a solid is cut, mm.
+
+    ``profile(offset)``: the exact wall, moved out of the material, next to which its loop lies; without one it is the
+    outermost. ``turn``, ``below``: see ``geometry.cams.plane.walls.CamWall``. On the outer wall of a groove runs the
+    roller that fills it: its lift is the law's, and what a smaller one has beyond that is the play.
+    """
+
+    cam: DiskCam
+    height: float
+    profile: Callable[[float], Profile] | None = None
+    turn: float = 0.0
+    below: bool = True
+    name: str = ""
+    needs_whole = True
+
+    def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
+        """Roll the follower through 3600 angles, smaller by the ``offset``; see ``parts.base.readback.Probe``."""
+        cam, loops = self.cam, file.section(self.height)
+        loop = outermost(loops) if self.profile is None else _nearest(loops, self.profile(offset))
+        outline = loop.outline(np.exp(-1j * self.turn), clockwise=not self.below)
+        angle = np.arange(ANGLES) * (TURN / ANGLES)
+        law = cam.motion.value(angle)
+        error = rolled_lift(cam, outline, ANGLES, offset, below=self.below) - law
+        if np.any(np.isnan(error)):
+            lost = math.degrees(angle[np.isnan(error)][0])
+            return Probed(failures=(f"{self._who}the follower finds no outline at cam angle {lost:.6g} degrees",))
+        bound = lift_bound(cam, ANGLES, declared + _ROUNDING * float(np.abs(cam.contact(angle)).max()))
+        found = _measured(error, law, TURN / ANGLES, swings=cam.swings, round_about=True)
+        wrong = _failure(error, bound, lambda k: f"at cam angle {k * 360 / ANGLES:.6g} degrees", swings=cam.swings)
+        failures = tuple(f"{self._who}{failure}" for failure in wrong)
+        return Probed(found, failures, _jumps(found, cam.swings) if file.has_arcs else ())
+
+    @property
+    def _who(self) -> str:
+        return f"{self.name} wall: " if self.name else ""
+
+
+def wall_probe(wall: CamWall, *, alone: bool) -> TurningProbe:
+    """The probe of one wall, named where the part has more of them."""
+    return TurningProbe(wall.cam, wall.height, wall.profile, wall.turn, wall.below, "" if alone else wall.name)
+
+
+@dataclass(frozen=True, slots=True)
+class SlidingProbe:
+    """A follower on a plate that slides; ``height``: where a solid is cut, mm."""
+
+    cam: WedgeCam
+    height: float
+    name: str = ""
+    needs_whole = False
+
+    def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
+        """Slide the follower over 3600 steps of the travel; see ``parts.base.readback.Probe``."""
+        cam = self.cam
+        outline = outermost(file.section(self.height)).outline()
+        travel = np.linspace(0, cam.motion.travel, ANGLES + 1)
+        law = cam.motion.value(travel)
+        error = rolled_lift(cam, outline, 2 * ANGLES, offset)[: ANGLES + 1] - law
+        if np.any(np.isnan(error)):
+            text = f"the follower finds no edge at {travel[np.isnan(error)][0]:.6g} mm of travel"
+            return Probed(failures=(text,))
+        bound = travel_bound(cam, declared + _ROUNDING * float(np.abs(cam.centre(travel)).max()))
+        found = _measured(error, law, cam.motion.travel / ANGLES, swings=cam.swings, round_about=False)
+        failure = _failure(error, bound, lambda k: f"at {travel[k]:.6g} mm of travel", swings=cam.swings)
+        return Probed(found, failure, _jumps(found, cam.swings) if file.has_arcs else ())
+
+
+def outermost(loops: Sequence[ReadLoop]) -> ReadLoop:
+    """The largest of some outlines."""
+    if not loops:
+        raise ReadError("there is no outline for the follower to touch")
+    return max(loops, key=lambda loop: loop.size)
+
+
+def _nearest(loops: Sequence[ReadLoop], exact: Profile) -> ReadLoop:
+    """The loop that stays nearest to a profile at all of its points."""
+    if not loops:
+        raise ReadError("there is no outline for the follower to touch")
+    rough = [x.points[:: max(1, len(x.points) // _ROUGH)] for x in loops]
+    return loops[int(np.argmin([distance_to_profile(x, exact, trusted=np.inf).max() for x in rough]))]
+
+
+def _measured(error: Real, law: Real, step: float, *, swings: bool, round_about: bool) -> dict[str, float]:
+    """Errors of S, S' and S'' (mm or rad) in mm or degrees, the jump and the peak of S''; ``step`` of the angle, rad,
+    or of the travel, mm. Not ``round_about``: the ends of the travel have no neighbours.
+    """
+    unit = math.degrees(1.0) if swings else 1.0
+    name, suffix = ("swing_error_deg", "_deg") if swings else ("lift_error", "")
+    inner = slice(None) if round_about else slice(1, -1)
+
+    def bending(values: Real) -> Real:
+        return ((np.roll(values, -1) - 2 * values + np.roll(values, 1)) / step**2)[inner]
+
+    first = ((np.roll(error * unit, -1) - np.roll(error * unit, 1)) / (2 * step))[inner]
+    second = bending(error * unit)
+    jumps = np.roll(second, -_JUMP_WIDTH) - second
+    return {
+        name: float(np.abs(error).max() * unit),
+        f"velocity_error{suffix}": float(np.abs(first).max()),
+        f"acceleration_error{suffix}": float(np.abs(second).max()),
+        f"acceleration_jump{suffix}": float(np.abs(jumps if round_about else jumps[:-_JUMP_WIDTH]).max()),
+        f"acceleration_peak{suffix}": float(np.abs(bending(law * unit)).max()),
+    }
+
+
+def _failure(error: Real, bound: Real, place: Callable[[int], str], *, swings: bool) -> tuple[str, ...]:
+    """What is wrong with a lift whose errors (mm or rad) exceed their bound somewhere."""
+    excess = np.abs(error) - bound
+    worst = int(np.argmax(excess))
+    if excess[worst] <= 0:
+        return ()
+    size = f"{math.degrees(abs(error[worst])):.6g} degrees" if swings else f"{abs(error[worst]):.6g} mm"
+    return (f"the follower's lift is wrong by {size} {place(worst)}, more than the outline's error allows",)
+
+
+def _jumps(found: dict[str, float], swings: bool) -> tuple[Finding, ...]:
+    suffix = "_deg" if swings else ""
+    jump, peak = found[f"acceleration_jump{suffix}"], found[f"acceleration_peak{suffix}"]
+    return (Finding("rolled_jumps", jump, peak),) if jump > _JUMP_SHARE * peak > 0 else ()
+
+
+def travel_bound(cam: WedgeCam, error: float) -> Real:
+    """How far S may be wrong at each place where the outline is within ``error`` mm: error / cos nu, second order.
+
+    See ``geometry.cams.contact.rolled.lift_bound``; the worst of three neighbouring places counts.
+    """
+    travel = np.linspace(0, cam.motion.travel, ANGLES + 1)
+    slope = np.abs(cam.pressure_angle(travel))
+    cosine = np.maximum(np.cos(slope), 1e-9)
+    first = error / cosine
+    bound = first + np.abs(cam.pitch_curvature(travel)) * (first * np.sin(slope)) ** 2 / cosine
+    bound = bound / cam.mount.lever
+    return np.maximum(np.maximum(np.roll(bound, 1), np.roll(bound, -1)), bound)

@@ -1,0 +1,1 @@
+"""The sheets of cams: diagrams, least radius, profile."""

@@ -1,0 +1,235 @@
+"""S'', S' and S over the cam angle, one below another, with the poles and broken lines of the graphical method."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+
+from geometry.cams.motion.diagrams import diagram, hermite_spline
+from geometry.cams.motion.follower_motion import FollowerMotion
+from geometry.curves.curve import Curve
+from geometry.curves.line_arc import Arc, Line
+from parts.base.texts import words
+from parts.cams.sheets.picture import CamPicture, Scales, standard_scale, thinned
+from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Stroke, text_width
+from parts.pages.page import unit_text
+from parts.texts.sheets import sheet_words
+
+LAYERS = {2: "DIAGRAM_BEND", 1: "DIAGRAM_RATE", 0: "DIAGRAM_LIFT"}
+# room on the left for the pole, on the right for the numbers of the ordinate; below for the phases; mm
+LEFT, RIGHT, BELOW = 36.0, 17.0, 16.0
+# between diagrams, for their names and numbers
+_GAP = 15.0
+_ORDERS = (2, 1, 0)
+_TICKS = 5
+Exact = list[tuple[str, complex, complex]]
+
+
+@dataclass(slots=True)
+class Drawn:
+    """What was drawn and must be read back: exact curves of each layer on paper, straight lines, arcs."""
+
+    curves: dict[str, list[Curve]] = field(default_factory=dict)
+    lines: Exact = field(default_factory=list)
+
+    def add(self, canvas: Canvas, layer: str, curve: Curve, tolerance: float) -> None:
+        """Draw an exact curve that is given on paper."""
+        self.curves.setdefault(layer, []).append(curve)
+        if isinstance(curve, Line | Arc):
+            canvas.strokes.append(Stroke(layer, curve))
+            return
+        spline, error = hermite_spline(curve, tolerance)
+        canvas.max_error = max(canvas.max_error, error)
+        canvas.strokes.append(Stroke(layer, spline))
+
+    def line(self, canvas: Canvas, layer: str, start: complex, end: complex) -> None:
+        """Draw a straight line that is checked."""
+        canvas.line(layer, start, end)
+        self.lines.append((layer, start, end))
+
+
+def heights_of(area: Box) -> float:
+    """How high each diagram may be in an area."""
+    return (area.high - area.low - BELOW - 3 * _GAP) / 3
+
+
+def draw_diagrams(canvas: Canvas, picture: CamPicture, area: Box, scales: Scales, tolerance: float) -> Drawn:
+    """All three diagrams in an area, mm; their lines and exact curves on paper."""
+    drawn, motion, unit = Drawn(), picture.cam.motion, picture.unit
+    height, left = heights_of(area), area.left + LEFT
+    zeros, top = {}, area.high - _GAP
+    for order in _ORDERS:
+        low, high = _range(motion, order, unit / scales.of(order))
+        # in the middle of its band
+        zeros[order] = complex(left, top - (height - (high - low)) / 2 - high)
+        top -= height + _GAP
+    width = 360 / scales.phi_deg
+    _phases(canvas, picture, zeros, left, width, area)
+    for order in _ORDERS:
+        zero, up = zeros[order], unit / scales.of(order)
+        low, high = _range(motion, order, up)
+        _axes(canvas, picture, zero, width, (low, high), order, scales)
+        _ordinates(canvas, drawn, picture, zero, scales, order)
+        _curve(canvas, drawn, picture, zero, scales, order, tolerance)
+    if picture.drawn is not None:
+        _graphical(canvas, drawn, picture, zeros, scales)
+    return drawn
+
+
+def _range(motion: FollowerMotion, order: int, up: float) -> tuple[float, float]:
+    low, high = motion.extremes(order)
+    return min(low, 0.0) * up, max(high, 0.0) * up
+
+
+def _axes(
+    canvas: Canvas,
+    picture: CamPicture,
+    zero: complex,
+    width: float,
+    reach: tuple[float, float],
+    order: int,
+    scales: Scales,
+) -> None:
+    """Both axes with arrows and names, and the ordinate's numbers on the right."""
+    low, high = reach
+    right = zero + width + 9.0
+    canvas.line("AXIS", zero, right)
+    _arrow(canvas, right, 1.0)
+    top = zero + 1j * (high + 6.0)
+    canvas.line("AXIS", zero + 1j * min(low - 2.0, 0.0), top)
+    _arrow(canvas, top, 1j)
+    unit = ("deg" if picture.swings else "mm") + ("", "/rad", "/rad2")[order]
+    name = ("ψ" if picture.swings else "S") + "'" * order
+    canvas.write(f"{name}, {unit_text(unit, words(picture.language))}", top + complex(2.5, -2.0))
+    canvas.write("φ", right + complex(-3.0, 3.0))
+    scale = scales.of(order)
+    step = standard_scale(max(high - low, 1e-9) * scale / _TICKS)
+    for k in range(math.ceil(low * scale / step - 1e-9), math.floor(high * scale / step + 1e-9) + 1):
+        if k == 0:
+            continue
+        at = zero + width + 1j * (k * step / scale)
+        canvas.line("AXIS", at - 0.8, at + 0.8)
+        text = picture.say(k * step, max(0, -math.floor(math.log10(step) + 1e-9)) + (step * 10 % 1 > 0))
+        canvas.write(text, at + complex(1.8, -SMALL_TEXT / 2), SMALL_TEXT)
+    canvas.line("AXIS", zero + width + 1j * min(low, 0.0), zero + width + 1j * high)
+
+
+def _arrow(canvas: Canvas, tip: complex, way: complex) -> None:
+    for side in (1, -1):
+        canvas.line("AXIS", tip, tip - 3.0 * way * np.exp(1j * side * math.radians(12)))
+
+
+def _ordinates(canvas: Canvas, drawn: Drawn, picture: CamPicture, zero: complex, scales: Scales, order: int) -> None:
+    """A line up to the curve at each position, and its number on the other side of the axis."""
+    motion, up = picture.cam.motion, picture.unit / scales.of(order)
+    places = [(p.number, p.angle) for p in picture.positions] + [(0, 2 * math.pi)]
+    x = np.array([a / scales.phi for _, a in places])
+    widest = max(text_width(str(n), SMALL_TEXT) for n, _ in places)
+    kept = thinned(x, widest + 0.8)
+    for (number, angle), at, named in zip(places, x.tolist(), kept, strict=True):
+        value = float(motion.value(angle, order)) * up
+        foot = zero + at
+        if abs(value) > 1e-6:
+            drawn.line(canvas, "ORDINATE", foot, foot + 1j * value)
+        if not named:
+            continue
+        # on the side of the axis that the curve leaves free
+        beside = _beside(motion, angle, order, 2.0 * scales.phi) * up
+        place = SMALL_TEXT * -1.35 if beside >= -1e-6 else 0.8
+        canvas.write(str(number), foot + complex(0.5, place), SMALL_TEXT)
+
+
+def _beside(motion: FollowerMotion, angle: float, order: int, reach: float) -> float:
+    """The value of a diagram that counts for the number at ``angle``: the lowest just after it."""
+    at = np.linspace(angle, angle + reach, 5)
+    return float(np.min(motion.value(at, order)))
+
+
+def _curve(
+    canvas: Canvas, drawn: Drawn, picture: CamPicture, zero: complex, scales: Scales, order: int, tolerance: float
+) -> None:
+    """The exact curve, piece by piece, upright where it jumps."""
+    up, along = picture.unit / scales.of(order), 1 / scales.phi
+    before: complex | None = None
+    first: complex | None = None
+    for piece in picture.cam.motion.pieces:
+        curve = diagram(piece, order, zero, along, up)
+        a, b = curve.domain
+        start, end = complex(curve.point(a)), complex(curve.point(b))
+        if before is not None and abs(start - before) > 1e-6:
+            drawn.add(canvas, LAYERS[order], Line(before, start), tolerance)
+        drawn.add(canvas, LAYERS[order], curve, tolerance)
+        first, before = start if first is None else first, end
+    assert first is not None
+    assert before is not None
+    closing = first + 2 * math.pi * along
+    # the jump from the end of the turn to its start
+    if abs(closing - before) > 1e-6:
+        drawn.add(canvas, LAYERS[order], Line(before, closing), tolerance)
+
+
+def _phases(
+    canvas: Canvas, picture: CamPicture, zeros: dict[int, complex], left: float, width: float, area: Box
+) -> None:
+    """Lines through all diagrams where a phase ends, and the names and angles of the phases below."""
+    phases = picture.cam.motion.phases
+    low, high = area.low + 4.0, area.high - _GAP + 4.0
+    at, height = left, 0.0
+    counts: dict[str, int] = {}
+    names = []
+    for phase in phases:
+        kind = phase.kind.value
+        if kind == "dwell":
+            kind = "far" if height > picture.cam.motion.lift / 2 else "near"
+        counts[kind] = counts.get(kind, 0) + 1
+        names.append((kind, counts[kind]))
+        height += phase.lift
+    for index, phase in enumerate(phases):
+        length = width * phase.angle / (2 * math.pi)
+        if index:
+            canvas.line("PHASE", complex(at, low), complex(at, high))
+        kind, number = names[index]
+        y = low + 2.0
+        canvas.line("DIMENSION", complex(at, y), complex(at + length, y))
+        for tip, way in ((complex(at, y), -1.0), (complex(at + length, y), 1.0)):
+            for side in (1, -1):
+                canvas.line("DIMENSION", tip, tip - 2.5 * way * np.exp(1j * side * math.radians(12)))
+        symbol = sheet_words(picture.language, f"phase_{kind}")
+        symbol += str(number) if counts[kind] > 1 else ""
+        angle = words(picture.language).decimal(f"{math.degrees(phase.angle):.6g}°")
+        text = f"φ_{{{symbol}}} = {angle}"
+        size = TEXT_HEIGHT if text_width(text) < length - 2 else SMALL_TEXT
+        if text_width(text, size) > length - 1:
+            text = angle
+        if text_width(text, size) <= length - 1:
+            canvas.write(text, complex(at + (length - text_width(text, size)) / 2, y + 1.3), size)
+        at += length
+    for x in (left, left + width):
+        canvas.line("PHASE", complex(x, low), complex(x, zeros[0].imag))
+
+
+def _graphical(canvas: Canvas, drawn: Drawn, picture: CamPicture, zeros: dict[int, complex], scales: Scales) -> None:
+    """The broken lines of both integrations, and the poles with their rays for the first rise (fig. 4.6, 4.7)."""
+    motion = picture.drawn
+    assert motion is not None
+    unit = picture.unit
+    for phase in motion.phases:
+        x = phase.angles / scales.phi
+        for order, values in ((1, phase.rate), (0, phase.lift)):
+            points = (zeros[order] + x + 1j * values * unit / scales.of(order)).tolist()
+            for start, end in pairwise(points):
+                drawn.line(canvas, "GRAPHICAL", start, end)
+    if not motion.phases:
+        return
+    phase = motion.phases[0]
+    for order, ordinates, reach in ((2, phase.middles, scales.poles[1]), (1, phase.rate_middles, scales.poles[0])):
+        if reach > LEFT - 4.0:
+            continue
+        pole = zeros[order] - reach
+        drawn.line(canvas, "GRAPHICAL", pole, zeros[order])
+        for value in ordinates.tolist():
+            drawn.line(canvas, "GRAPHICAL", pole, zeros[order] + 1j * value * unit / scales.of(order))
+        canvas.write(f"P_{{{order}}}", pole + complex(-6.0, -1.0), SMALL_TEXT)

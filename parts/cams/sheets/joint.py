@@ -1,0 +1,221 @@
+"""The joint diagram: S over S' (roller, point, mushroom) or over S'' (flat), its tangents and the cam's centre."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from geometry.cams.motion.diagrams import joint_diagram
+from geometry.cams.motion.follower_motion import PhaseKind
+from geometry.cams.motion.guides import Translating
+from geometry.cams.plane.synthesis import AxisRegion, axis_region, flat_base_radius
+from geometry.curves.line_arc import Arc
+from parts.cams.sheets.diagrams import Drawn
+from parts.cams.sheets.picture import CamPicture
+from parts.drawing.canvas import SCALES, SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Paper
+from parts.drawing.labels import Labeller
+
+# strokes of the hatching along a border, mm
+_HATCH, _HATCH_STEP = 4.0, 2.5
+# points that lie nearer than this on paper are one, mm
+_ONE = 0.7
+_MARK = 0.7
+
+
+@dataclass(frozen=True, slots=True)
+class Joint:
+    """The joint diagram in model mm: abscissa S^(order); S_0 is 0, the axis of the cam stands below it.
+
+    ``borders``: lines y = slope x - a as (a, slope) below which the axis may stand; ``least``: O'_1, the nearest
+    axis on the line of the offset; ``centre``: the cam's own axis; ``return_line`` for form closure.
+    """
+
+    order: int
+    offset: float
+    borders: tuple[tuple[float, float], ...]
+    least: complex
+    centre: complex
+    return_line: tuple[float, float] | None
+
+
+def joint_of(picture: CamPicture) -> Joint | None:
+    """The joint diagram of a translating follower; None of an oscillating one or one that never rises."""
+    cam = picture.cam
+    mount = cam.mount
+    if not isinstance(mount, Translating) or not cam.motion.moving_pieces(PhaseKind.RISE):
+        return None
+    if cam.is_flat:
+        radius = flat_base_radius(cam.motion).value
+        return Joint(2, mount.offset, ((radius, -1.0),), complex(0, -radius), complex(0, -mount.start_height), None)
+    if picture.gamma is None:
+        return None
+    limit = math.pi / 2 - picture.gamma
+    region: AxisRegion = axis_region(cam.motion, limit)
+    least = complex(mount.offset, -region.least_height(mount.offset))
+    back = None
+    if cam.motion.moving_pieces(PhaseKind.RETURN):
+        back = axis_region(cam.motion, limit, limit).lines[-1]
+    return Joint(1, mount.offset, region.lines, least, complex(mount.offset, -mount.start_height), back)
+
+
+def joint_window(picture: CamPicture, joint: Joint) -> Box:
+    """What must be seen, model mm."""
+    low, high = picture.cam.motion.extremes(joint.order)
+    depth = min(joint.least.imag, joint.centre.imag)
+    least, most = picture.cam.motion.extremes(0)
+    tall, wide = most - depth, max(high - low, 0.3 * (most - depth))
+    return Box(
+        min(low, joint.offset, 0.0) - 0.12 * wide,
+        min(depth, least) - 0.1 * tall,
+        max(high, joint.offset, 0.0) + 0.12 * wide,
+        max(most, 0.0) + 0.08 * tall,
+    )
+
+
+def joint_paper(window: Box, area: Box) -> tuple[Paper, Box]:
+    """The largest standard scale, and the window widened to the area, model mm."""
+    room = min(
+        (area.right - area.left) / (window.right - window.left), (area.high - area.low) / (window.high - window.low)
+    )
+    scale = next((s for s in SCALES if s <= room), room)
+    middle = complex(window.left + window.right, window.low + window.high) / 2
+    origin = complex(area.left + area.right, area.low + area.high) / 2 - scale * middle
+    wide = (area.right - area.left) / scale / 2
+    spread = min(wide, 0.75 * (window.right - window.left))
+    return Paper(scale, origin), Box(middle.real - spread, window.low, middle.real + spread, window.high)
+
+
+def draw_joint(canvas: Canvas, picture: CamPicture, joint: Joint, paper: Paper, window: Box, tolerance: float) -> Drawn:
+    """The diagram with its axes, positions, tangents, admissible region and centres; names come with ``name_joint``."""
+    drawn, to = Drawn(), paper.point
+    canvas.line("AXIS", to(1j * window.low), to(1j * window.high))
+    canvas.line("AXIS", to(complex(window.left, 0)), to(complex(window.right, 0)))
+    for tip, way in ((to(1j * window.high), 1j), (to(complex(window.right, 0)), 1.0)):
+        for side in (1, -1):
+            canvas.line("AXIS", tip, tip - 3.0 * way * cmath.exp(1j * side * math.radians(12)))
+    for piece in picture.cam.motion.pieces:
+        curve = joint_diagram(piece, joint.order, paper.origin, paper.scale)
+        if curve is not None:
+            drawn.add(canvas, "JOINT_DIAGRAM", curve, tolerance)
+    for point in _points(picture, joint):
+        canvas.arc("JOINT_DIAGRAM", Arc(to(point), _MARK, 0.0, 2 * math.pi))
+    for a, slope in joint.borders:
+        start, end = _clipped(-1j * a, 1 + 1j * slope, window)
+        drawn.line(canvas, "GAMMA_TANGENT", to(start), to(end))
+    _hatch(canvas, joint, paper, window)
+    if joint.return_line is not None:
+        a, slope = joint.return_line
+        ends = _clipped(-1j * a, 1 + 1j * slope, window)
+        if ends[0] != ends[1]:
+            drawn.line(canvas, "RETURN_TANGENT", to(ends[0]), to(ends[1]))
+    if joint.offset:
+        drawn.line(canvas, "OFFSET_AXIS", to(complex(joint.offset, window.low)), to(complex(joint.offset, window.high)))
+    for point in dict.fromkeys((0j, joint.least, joint.centre)):
+        canvas.arc("DIMENSION", Arc(to(point), 0.9, 0.0, 2 * math.pi))
+    drawn.line(canvas, "DIMENSION", to(0j), to(joint.least))
+    _angle(canvas, picture, joint, paper)
+    return drawn
+
+
+def _points(picture: CamPicture, joint: Joint) -> list[complex]:
+    """Numbered points: (S^(order), S), on both sides of a jump where there is one."""
+    motion = picture.cam.motion
+    angles = np.array([p.angle for p in picture.positions])
+    before = np.nextafter(np.where(angles == 0, 2 * math.pi, angles), 0)
+    points = []
+    for at in (angles, before):
+        points += (motion.value(at, joint.order) + 1j * motion.value(at)).tolist()
+    return points
+
+
+def name_joint(labels: Labeller, picture: CamPicture, joint: Joint, paper: Paper, window: Box) -> None:
+    """Names of axes, positions, centres and sizes."""
+    to, say = paper.point, picture.say
+    labels.name("S", to(1j * window.high), prefer=1 - 1j)
+    labels.name("S" + "'" * joint.order, to(complex(window.right, 0)), prefer=-1 + 1j)
+    labels.name("S_{0}", to(0j), SMALL_TEXT, prefer=-1 - 1j)
+    if joint.offset:
+        labels.name(f"E = {say(joint.offset)}", to(complex(joint.offset, window.high)), SMALL_TEXT, prefer=1 - 1j)
+    is_least = abs(joint.centre - joint.least) < 1e-9 * abs(joint.least)
+    radius = abs(joint.least)
+    name = "O'_{1}" if joint.offset and joint.order == 1 else "O_{1}"
+    labels.name(name, to(joint.least), prefer=1 - 1j)
+    if not is_least:
+        labels.name("O", to(joint.centre), prefer=1 - 1j)
+        if joint.order == 2:
+            labels.name(f"R_{{min}} = {say(abs(joint.centre))}", to((joint.centre + joint.least) / 2), prefer=1 + 0j)
+    labels.name(f"r_{{0}} = {say(radius)}", to(joint.least / 2), prefer=1 + 0j)
+    if picture.gamma is not None:
+        symbol = "γ_{min}" if picture.asked or joint.order == 2 else "γ"
+        centre, arc = _angle_arc(joint, paper, picture.gamma)
+        text = f"{symbol} = {say(math.degrees(picture.gamma)).rstrip('0').rstrip(',.')}°"
+        labels.name(text, centre + arc, prefer=arc)
+    for text, point in _numbers(picture, joint, paper):
+        labels.name(text, point, SMALL_TEXT, prefer=complex(point.real - paper.origin.real, 0.1))
+
+
+def _numbers(picture: CamPicture, joint: Joint, paper: Paper) -> list[tuple[str, complex]]:
+    """Numbers of positions on paper; those that fall on one point share a name."""
+    found: list[tuple[list[int], complex]] = []
+    motion = picture.cam.motion
+    for position in picture.positions:
+        at = position.angle
+        point = paper.point(complex(float(motion.value(at, joint.order)), float(motion.value(at))))
+        for numbers, place in found:
+            if abs(place - point) < _ONE:
+                numbers.append(position.number)
+                break
+        else:
+            found.append(([position.number], point))
+    return [(", ".join(map(str, numbers)), point) for numbers, point in found]
+
+
+def _clipped(point: complex, way: complex, box: Box) -> tuple[complex, complex]:
+    """The part of a line within a box; both ends the point itself where there is none."""
+    low, high = -math.inf, math.inf
+    for at, step, least, most in (
+        (point.real, way.real, box.left, box.right),
+        (point.imag, way.imag, box.low, box.high),
+    ):
+        if step:
+            a, b = sorted(((least - at) / step, (most - at) / step))
+            low, high = max(low, a), min(high, b)
+        elif not least <= at <= most:
+            return point, point
+    return (point + low * way, point + high * way) if low < high else (point, point)
+
+
+def _hatch(canvas: Canvas, joint: Joint, paper: Paper, window: Box) -> None:
+    """Short strokes along the borders of the admissible region, on its side."""
+    for a, slope in joint.borders:
+        start, end = _clipped(-1j * a, 1 + 1j * slope, window)
+        length = abs(end - start) * paper.scale
+        if not length:
+            continue
+        way = (end - start) / abs(end - start)
+        # the region lies below: on the right of a line that runs to the right
+        inward = way * cmath.exp(-1j * math.radians(60))
+        for k in range(1, int(length / _HATCH_STEP)):
+            foot = start + way * (k * _HATCH_STEP / paper.scale)
+            tip = foot + inward * (_HATCH / paper.scale)
+            inside = all(p.imag <= s * p.real - b + 1e-9 for b, s in joint.borders for p in (foot, tip))
+            if inside and tip.imag >= window.low:
+                canvas.line("HATCH", paper.point(foot), paper.point(tip))
+
+
+def _angle(canvas: Canvas, picture: CamPicture, joint: Joint, paper: Paper) -> None:
+    if picture.gamma is None:
+        return
+    centre, arc = _angle_arc(joint, paper, picture.gamma)
+    start = 0.0 if joint.order == 1 else math.pi - picture.gamma
+    canvas.arc("DIMENSION", Arc(centre, abs(arc), start, picture.gamma))
+
+
+def _angle_arc(joint: Joint, paper: Paper, gamma: float) -> tuple[complex, complex]:
+    """Where the first tangent meets the axis of abscissae, on paper, and the middle of its arc from there."""
+    a, slope = joint.borders[0]
+    middle = gamma / 2 if joint.order == 1 else math.pi - gamma / 2
+    return paper.point(complex(a / slope, 0.0)), cmath.rect(3 * TEXT_HEIGHT, middle)

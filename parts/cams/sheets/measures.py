@@ -1,0 +1,128 @@
+"""A cam's sheet that was read back: its diagrams, construction lines, the stroke and the least radius as measured."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from geometry.curves.curve import Complex, Curve, Real
+from parts.drawing.canvas import Paper
+from parts.drawing.readback import ReadLine, ReadSheet
+
+_SAMPLES = 257
+_SECTIONS = 64
+_GOLDEN = (math.sqrt(5) - 1) / 2
+
+
+@dataclass(frozen=True, slots=True)
+class CamMeasures:
+    """What must be measured off a cam's sheet.
+
+    ``curves``: exact curves of each layer and ``lines`` (layer, both ends) on paper, mm; ``lift_scale`` and ``lift``:
+    mu_S and H. ``joint``: where the joint diagram lies; the first tangents meet the line x = ``offset`` in the axis,
+    ``least_radius`` (model mm) from S_0.
+    """
+
+    curves: dict[str, list[Curve]]
+    lines: tuple[tuple[str, complex, complex], ...]
+    lift_scale: float
+    lift: float
+    joint: Paper | None = None
+    offset: float = 0.0
+    least_radius: float = 0.0
+
+    def check(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:
+        """Add what is measured, and what is wrong."""
+        worst = 0.0
+        for layer, curves in self.curves.items():
+            found = [points for name, points in sheet.samples if name == layer]
+            # names and points of the picture are arcs and lines behind the curves
+            if len(found) < len(curves):
+                failures.append(f"{layer}: {len(found)} curves instead of {len(curves)}")
+                continue
+            for points, curve in zip(found, curves, strict=False):
+                ends = curve.point(np.array(curve.domain))
+                worst = max(worst, float(distance_by_sections(points, curve).max()))
+                worst = max(worst, float(np.abs(ends[:, None] - points).min(axis=1).max()))
+        measured["diagram_deviation"] = worst
+        if not worst <= allowed:
+            failures.append(f"diagrams deviate by {worst:.3g} mm from the exact ones")
+        self._check_lines(sheet, allowed, measured, failures)
+        self._check_lift(sheet, allowed, measured, failures)
+        if self.joint is not None:
+            self._check_radius(sheet, allowed, measured, failures)
+
+    def _check_lines(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:
+        """Every line of the construction is there, whichever way it runs."""
+        worst = 0.0
+        rows: dict[str, tuple[Complex, Complex]] = {}
+        for layer in {layer for layer, _, _ in self.lines}:
+            mine = [x for x in sheet.lines if x.layer == layer]
+            rows[layer] = np.array([x.start for x in mine]), np.array([x.end for x in mine])
+        for layer, start, end in self.lines:
+            starts, ends = rows[layer]
+            off = math.inf
+            if len(starts):
+                along = np.maximum(np.abs(starts - start), np.abs(ends - end))
+                back = np.maximum(np.abs(starts - end), np.abs(ends - start))
+                off = float(np.minimum(along, back).min())
+            worst = max(worst, off)
+            if not off <= allowed:
+                at = f"({start.real:.3f}, {start.imag:.3f}) - ({end.real:.3f}, {end.imag:.3f})"
+                failures.append(f"{layer}: no line {at} within {off:.3g} mm")
+        measured["lines"] = float(len(self.lines))
+        measured["line_deviation"] = worst
+
+    def _check_lift(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:
+        """The highest ordinate of S times mu_S is the stroke."""
+        heights = [points.imag for name, points in sheet.samples if name == "DIAGRAM_LIFT"]
+        if not heights:
+            return
+        every = np.concatenate(heights)
+        measured["lift_by_diagram"] = float(every.max() - every.min()) * self.lift_scale
+        # an extreme within a curve lies between its samples: of a table of points only
+        if not measured["lift_by_diagram"] <= self.lift + 2 * allowed * self.lift_scale:
+            failures.append(f"the diagram of S measures {measured['lift_by_diagram']:.6f} instead of {self.lift:.6f}")
+
+    def _check_radius(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:
+        """The lowest point in which a tangent at gamma_min meets the line of the offset is the nearest axis."""
+        assert self.joint is not None
+        tangents = [x for x in sheet.lines if x.layer == "GAMMA_TANGENT"]
+        if not tangents:
+            failures.append("the tangents of the joint diagram are missing")
+            return
+        model = [self._height(x) for x in tangents]
+        height = min(*model, 0.0)
+        measured["least_radius_by_diagram"] = math.hypot(self.offset, height)
+        off = abs(measured["least_radius_by_diagram"] - self.least_radius) * self.joint.scale
+        # the ends of a line carry its middle
+        if not off <= 8 * allowed:
+            text = f"{measured['least_radius_by_diagram']:.6f} mm instead of {self.least_radius:.6f} mm"
+            failures.append(f"the tangents give the least radius {text}")
+
+    def _height(self, line: ReadLine) -> float:
+        assert self.joint is not None
+        start, end = ((x - self.joint.origin) / self.joint.scale for x in (line.start, line.end))
+        share = (self.offset - start.real) / (end.real - start.real)
+        return start.imag + share * (end.imag - start.imag)
+
+
+def distance_by_sections(points: Complex, curve: Curve) -> Real:
+    """Distance of points from a curve that may stand still at its ends: golden sections about the nearest sample."""
+    t = np.linspace(*curve.domain, _SAMPLES)
+    nearest = np.abs(points[:, None] - curve.point(t)).argmin(axis=1)
+    low, high = t[np.maximum(nearest - 1, 0)], t[np.minimum(nearest + 1, _SAMPLES - 1)]
+
+    def off(at: Real) -> Real:
+        return np.abs(curve.point(at) - points)
+
+    left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+    a, b = off(left), off(right)
+    for _ in range(_SECTIONS):
+        lower = a < b
+        high, low = np.where(lower, right, high), np.where(lower, low, left)
+        left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+        a, b = off(left), off(right)
+    return np.minimum(np.minimum(a, b), np.minimum(off(t[0] + 0 * low), off(t[-1] + 0 * low)))

@@ -1,0 +1,92 @@
+"""The joint diagram of a flat rocker: the faces of all positions, and where the axis of a convex cam may stand."""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+import numpy as np
+
+from geometry.base.errors import GeometryError
+from geometry.cams.motion.guides import Oscillating
+from geometry.cams.plane.rocker import rocker_base, rocker_planes
+from geometry.curves.line_arc import Arc
+from parts.cams.sheets.diagrams import Drawn
+from parts.cams.sheets.picture import CamPicture
+from parts.drawing.canvas import SMALL_TEXT, Box, Canvas, Paper
+from parts.drawing.labels import Labeller
+
+# half-planes of the region's border on each piece of the motion
+_PLANES = 91
+
+
+def rocker_region(
+    picture: CamPicture,
+) -> tuple[complex, complex, float, tuple[tuple[complex, complex], ...]] | None:
+    """The axis of the smallest convex cam at this distance of the pivot, its foot on the lowest face, its base circle,
+    and the half-planes (point, normal), model mm; None where none is convex."""
+    cam, mount = picture.cam, picture.cam.mount
+    assert isinstance(mount, Oscillating)
+    radius = picture.least_curvature_radius
+    try:
+        best = rocker_base(cam.motion, mount.centre_distance, mount.sense, mount.face_offset, radius)
+    except GeometryError:
+        return None
+    pivot, direction = complex(mount.centre_distance), cmath.exp(1j * (math.pi - mount.sense * mount.start_angle))
+
+    def placed(point: complex) -> complex:
+        """From the pivot's frame, whose x axis is the lowest arm and whose axis of the cam stands above."""
+        return pivot + direction * (point if mount.sense > 0 else point.conjugate())
+
+    planes = []
+    for piece in cam.motion.pieces:
+        # where it rests one position tells of all
+        t = np.linspace(*piece.domain, 1 if piece.is_constant else _PLANES)
+        for normal, level in zip(*rocker_planes(piece, t, mount.sense, radius + mount.face_offset), strict=True):
+            foot = placed(complex(normal * level))
+            planes.append((foot, (placed(complex(normal)) - pivot)))
+    axis = cmath.rect(best.centre_distance, best.start_angle)
+    foot = complex(axis.real, mount.face_offset)
+    return placed(axis), placed(foot), best.prime_radius, tuple(planes)
+
+
+def faces(picture: CamPicture) -> list[tuple[complex, complex]]:
+    """Of each position the face's point nearest to the pivot, and where it touches the cam, model mm."""
+    cam, mount = picture.cam, picture.cam.mount
+    assert isinstance(mount, Oscillating)
+    found = []
+    for position in picture.positions:
+        normal = complex(cam.normal(position.angle))
+        found.append((mount.centre_distance - mount.face_offset * normal, complex(cam.contact(position.angle))))
+    return found
+
+
+def draw_faces(canvas: Canvas, drawn: Drawn, picture: CamPicture, paper: Paper) -> None:
+    """The faces from beside the pivot to the contact, which is marked."""
+    for beside, contact in faces(picture):
+        drawn.line(canvas, "CONSTRUCTION", paper.point(beside), paper.point(contact))
+        canvas.arc("JOINT_DIAGRAM", Arc(paper.point(contact), 0.7, 0.0, 2 * math.pi))
+
+
+def name_rocker(labels: Labeller, picture: CamPicture, paper: Paper, least: complex) -> None:
+    """The radius of curvature that is kept, and the numbers of the positions."""
+    to, say = paper.point, picture.say
+    kept = say(picture.least_curvature_radius).rstrip("0").rstrip(",.") or "0"
+    labels.name(f"ρ_{{min}} = {kept}", to(least), SMALL_TEXT, prefer=1 + 0j)
+    found: list[tuple[list[int], complex]] = []
+    for position, (_, contact) in zip(picture.positions, faces(picture), strict=True):
+        place = to(contact)
+        near = next((numbers for numbers, other in found if abs(other - place) < 0.7), None)
+        if near is None:
+            found.append(([position.number], place))
+        else:
+            near.append(position.number)
+    for numbers, place in found:
+        labels.name(", ".join(map(str, numbers)), place, SMALL_TEXT, prefer=place - to(least))
+
+
+def faces_box(picture: CamPicture) -> Box:
+    """What of the faces must be seen, model mm."""
+    points = [p for pair in faces(picture) for p in pair]
+    xs, ys = [p.real for p in points], [p.imag for p in points]
+    return Box(min(xs), min(ys), max(xs), max(ys))

@@ -1,0 +1,219 @@
+"""The joint diagram of an oscillating follower: L (1 +- psi') along a roller's arm, the faces of a flat one; and where
+the cam's axis may stand."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from geometry.base.errors import GeometryError
+from geometry.cams.motion.diagrams import ArmCurve
+from geometry.cams.motion.follower_motion import PhaseKind
+from geometry.cams.motion.guides import Oscillating
+from geometry.cams.plane.synthesis import oscillating_axis
+from geometry.curves.line_arc import Arc
+from parts.cams.sheets.diagrams import Drawn
+from parts.cams.sheets.picture import CamPicture
+from parts.cams.sheets.rocker import draw_faces, faces_box, name_rocker, rocker_region
+from parts.drawing.canvas import SMALL_TEXT, Box, Canvas, Paper
+from parts.drawing.labels import Labeller
+
+# half-planes of the region's border on each piece of a rise
+_PLANES = 181
+_HATCH, _HATCH_STEP = 4.0, 2.5
+
+
+@dataclass(frozen=True, slots=True)
+class Swing:
+    """Model mm, the cam's axis at 0 and the pivot on +x; ``least``: the axis of the smallest cam, with its r_0.
+
+    ``planes``: (point, normal) of half-planes in which the axis may stand, all of the rises (of a flat follower, whose
+    cam must be convex, all of the turn); ``lowest`` roller centre, or foot of ``least`` on the lowest face.
+    """
+
+    pivot: complex
+    lowest: complex
+    least: complex
+    least_radius: float
+    planes: tuple[tuple[complex, complex], ...]
+
+
+def swing_of(picture: CamPicture) -> Swing | None:
+    """The diagram of an oscillating follower; None where no axis keeps gamma, or makes a flat one's cam convex."""
+    cam, mount = picture.cam, picture.cam.mount
+    if not isinstance(mount, Oscillating):
+        return None
+    if cam.is_flat:
+        found = rocker_region(picture)
+        if found is None:
+            return None
+        least, foot, base, region = found
+        return Swing(complex(mount.centre_distance), foot, least, base, region)
+    if picture.gamma is None:
+        return None
+    limit = math.pi / 2 - picture.gamma
+    try:
+        best = oscillating_axis(cam.motion, mount.arm_length, mount.sense, limit)
+    except GeometryError:
+        return None
+    pivot, lowest = complex(mount.centre_distance, 0.0), complex(cam.reference_point(0.0))
+    direction = (lowest - pivot) / abs(lowest - pivot)
+
+    def placed(point: complex) -> complex:
+        """From the pivot's frame, whose x axis is the lowest arm and whose axis of the cam stands above."""
+        return pivot + direction * (point if mount.sense > 0 else point.conjugate())
+
+    planes = []
+    for piece in cam.motion.moving_pieces(PhaseKind.RISE):
+        t = np.linspace(*piece.domain, _PLANES)
+        for s, rate in zip(piece.value(t).tolist(), piece.value(t, 1).tolist(), strict=True):
+            along = cmath.exp(-1j * s)
+            foot = placed(mount.arm_length * (1 + mount.sense * rate) * along)
+            for side in (1.0, -1.0):
+                normal = math.tan(limit) * 1j * along + side * along
+                planes.append((foot, (placed(normal) - pivot) / abs(normal)))
+    least = placed(cmath.rect(best.centre_distance, best.start_angle))
+    return Swing(pivot, lowest, least, best.prime_radius, tuple(planes))
+
+
+def swing_window(picture: CamPicture, swing: Swing) -> Box:
+    """What must be seen, model mm."""
+    points = [0j, swing.pivot, swing.lowest, swing.least]
+    if picture.cam.is_flat:
+        box = faces_box(picture)
+        points += [complex(box.left, box.low), complex(box.right, box.high)]
+    else:
+        points += [foot for foot, _ in swing.planes]
+    for curve in _curves(picture, Paper(1.0, 0j)):
+        points += curve.point(np.linspace(*curve.domain, 33)).tolist()
+    xs, ys = [p.real for p in points], [p.imag for p in points]
+    pad = 0.12 * max(max(xs) - min(xs), max(ys) - min(ys))
+    return Box(min(xs) - pad, min(ys) - pad, max(xs) + pad, max(ys) + pad)
+
+
+def _curves(picture: CamPicture, paper: Paper) -> list[ArmCurve]:
+    """The exact diagram of every moving piece, on paper."""
+    mount = picture.cam.mount
+    assert isinstance(mount, Oscillating)
+    if picture.cam.is_flat:
+        return []
+    direction = math.pi - mount.sense * mount.start_angle
+    origin = paper.point(complex(mount.centre_distance, 0.0))
+    return [
+        ArmCurve(p, p.start, p.end, origin, paper.scale, mount.arm_length, mount.sense, direction)
+        for p in picture.cam.motion.moving_pieces()
+    ]
+
+
+def draw_swing(canvas: Canvas, picture: CamPicture, swing: Swing, paper: Paper, window: Box, tolerance: float) -> Drawn:
+    """Arms, the diagram, the region's border with its hatching, both axes."""
+    drawn, to, mount = Drawn(), paper.point, picture.cam.mount
+    assert isinstance(mount, Oscillating)
+    for curve in _curves(picture, paper):
+        drawn.add(canvas, "JOINT_DIAGRAM", curve, tolerance)
+    drawn.line(canvas, "AXIS", to(0j), to(swing.pivot))
+    if picture.cam.is_flat:
+        draw_faces(canvas, drawn, picture, paper)
+    else:
+        start, sweep = cmath.phase(swing.lowest - swing.pivot), -mount.sense * picture.cam.motion.extremes()[1]
+        if sweep:
+            canvas.arc("CENTRE", Arc(to(swing.pivot), paper.scale * mount.arm_length, start, sweep))
+        for foot, end in _arms(picture):
+            drawn.line(canvas, "CONSTRUCTION", to(swing.pivot), to(end))
+            drawn.line(canvas, "ORDINATE", to(end), to(foot))
+            canvas.arc("JOINT_DIAGRAM", Arc(to(foot), 0.7, 0.0, 2 * math.pi))
+    border = _border(swing, window)
+    for a, b in border:
+        drawn.line(canvas, "GAMMA_TANGENT", to(a), to(b))
+    _hatch(canvas, border, paper, window)
+    drawn.line(canvas, "DIMENSION", to(swing.lowest), to(swing.least))
+    for point in (0j, swing.pivot, swing.lowest, swing.least):
+        canvas.arc("DIMENSION", Arc(to(point), 0.9, 0.0, 2 * math.pi))
+    return drawn
+
+
+def _arms(picture: CamPicture) -> list[tuple[complex, complex]]:
+    """Of each position the diagram's point and the roller's centre, model mm."""
+    cam, mount = picture.cam, picture.cam.mount
+    assert isinstance(mount, Oscillating)
+    found = []
+    for position in picture.positions:
+        end = complex(cam.reference_point(position.angle))
+        reach = 1 + mount.sense * float(cam.motion.value(position.angle, 1))
+        found.append((mount.centre_distance + (end - mount.centre_distance) * reach, end))
+    return found
+
+
+def _border(swing: Swing, window: Box) -> list[tuple[complex, complex]]:
+    """Edges of the admissible region within the window, the region on their left."""
+    corners = [complex(window.left, window.low), complex(window.right, window.low), complex(window.right, window.high),
+               complex(window.left, window.high)]  # fmt: skip
+    polygon = corners
+    for foot, normal in swing.planes:
+        slack = [((p - foot) * normal.conjugate()).real for p in polygon]
+        kept: list[complex] = []
+        for k, (p, inside) in enumerate(zip(polygon, slack, strict=True)):
+            q, other = polygon[(k + 1) % len(polygon)], slack[(k + 1) % len(polygon)]
+            if inside >= 0:
+                kept.append(p)
+            if (inside < 0) != (other < 0):
+                kept.append(p + (q - p) * inside / (inside - other))
+        polygon = kept
+        if not polygon:
+            return []
+    edges = []
+    for a, b in pairwise([*polygon, polygon[0]]):
+        middle = (a + b) / 2
+        inner = min(middle.real - window.left, window.right - middle.real, middle.imag - window.low,
+                    window.high - middle.imag)  # fmt: skip
+        if abs(b - a) > 1e-9 * abs(window.right - window.left) and inner > 1e-9:
+            edges.append((a, b))
+    return edges
+
+
+def _hatch(canvas: Canvas, border: list[tuple[complex, complex]], paper: Paper, window: Box) -> None:
+    """Short strokes at even steps along the border, into the region."""
+    gone = 0.0
+    for a, b in border:
+        way, length = (b - a) / abs(b - a), abs(b - a) * paper.scale
+        while gone < length:
+            foot = a + way * gone / paper.scale
+            tip = foot + way * cmath.exp(1j * math.radians(60)) * _HATCH / paper.scale
+            if window.left < tip.real < window.right and window.low < tip.imag < window.high:
+                canvas.line("HATCH", paper.point(foot), paper.point(tip))
+            gone += _HATCH_STEP
+        gone -= length
+
+
+def name_swing(labels: Labeller, picture: CamPicture, swing: Swing, paper: Paper) -> None:
+    """Names of axes, pivot, radius, numbers of positions."""
+    to, say = paper.point, picture.say
+    labels.name("O", to(0j), prefer=-1 - 1j)
+    labels.name("C", to(swing.pivot), prefer=1 - 1j)
+    if not picture.cam.is_flat:
+        labels.name("B_{0}", to(swing.lowest), SMALL_TEXT, prefer=1 - 1j)
+    labels.name("O_{1}", to(swing.least), prefer=-1 - 1j)
+    labels.name(
+        f"r_{{0}} = {say(swing.least_radius)}", to((swing.lowest + swing.least) / 2), SMALL_TEXT, prefer=-1 + 0j
+    )
+    if picture.cam.is_flat:
+        name_rocker(labels, picture, paper, swing.least)
+        return
+    if picture.gamma is not None:
+        symbol = "γ_{min}" if picture.asked else "γ"
+        text = f"{symbol} = {say(math.degrees(picture.gamma)).rstrip('0').rstrip(',.')}°"
+        labels.name(text, to(swing.least + 0.25 * (swing.lowest - swing.least)), prefer=1 + 0j)
+    found: list[tuple[list[int], complex]] = []
+    for position, (foot, _) in zip(picture.positions, _arms(picture), strict=True):
+        place = to(foot)
+        near = next((numbers for numbers, other in found if abs(other - place) < 0.7), None)
+        if near is None:
+            found.append(([position.number], place))
+        else:
+            near.append(position.number)
+    for numbers, place in found:
+        labels.name(", ".join(map(str, numbers)), place, SMALL_TEXT, prefer=place - to(swing.pivot))

@@ -1,0 +1,1 @@
+"""Cams that slide."""

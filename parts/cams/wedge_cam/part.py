@@ -1,0 +1,404 @@
+"""The part kind ``wedge_cam``: a sliding plate whose upper edge moves a follower."""
+
+from __future__ import annotations
+
+import math
+from contextlib import suppress
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from msgspec import Meta, Struct
+from msgspec.structs import replace
+
+from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError, UndercutError, limit
+from geometry.base.findings import Finding
+from geometry.base.nearest import Suspect, blamed, nearest
+from geometry.plane.offset_region import OffsetRegion
+from geometry.plane.profile import Label, Profile, Region, circle
+from geometry.solids.body import plate
+from parts.base.kind import Kind, Others, Report
+from parts.keys.base import MadeKeys, mm, start
+from parts.keys.cam import Swing, check_dwell, check_stroke, rough_law, stroke_key
+from parts.keys.law import LawName, LawTable, law_of, with_own_laws
+
+if TYPE_CHECKING:
+    from geometry.cams.motion.follower_motion import Phase
+    from geometry.cams.plane.wedge import Swinging, Upright, WedgeCam, WedgeMotion
+    from geometry.solids.body import Body
+    from parts.base.readback import Probe
+
+_MOST = 100_000.0
+# places along the plate that are tried for a hole
+_PLACES = 400
+# least wall below the profile and about holes, mm
+_LEAST_WALL = 0.05
+# shares of a lift, and lengths over a least one, that are tried
+_SMALLER = (0.9, 0.75, 0.5, 0.25, 0.1, 0.03, 0.01, 0.001)
+_LONGER = (1.0001, 1.001, 1.01, 1.05, 1.2, 1.5, 2.0, 4.0)
+# usual limits of the pressure angle, degrees: sliding and swinging followers
+_USUAL_PRESSURE_ANGLE = {False: 30.0, True: 45.0}
+# jumps below this part of lift / travel^k are rounding
+_JUMP = 1e-9
+
+
+_START = [{"move": "rise", "travel": 60.0, "law": "sine"}, {"move": "dwell", "travel": 20.0}]
+
+
+class WedgePhaseTable(Struct, forbid_unknown_fields=True):
+    """A phase of the motion over a part of the travel; the follower need not come back."""
+
+    move: Annotated[Literal["rise", "dwell", "return_"], Meta(description="what the follower does")]
+    travel: Annotated[float, mm("way of the plate in this phase", above=0, most=_MOST)]
+    law: LawName | LawTable | None = None
+    share: Annotated[float, Meta(gt=0, le=1, description="of the lift, in this phase")] = 1.0
+
+
+class WedgeArmTable(Struct, forbid_unknown_fields=True):
+    """A follower that swings about a pivot in the frame."""
+
+    arm_length: Annotated[float, mm("from the pivot to the roller's centre", above=0, most=_MOST, example=80.0)]
+    pivot_height: Annotated[
+        float, mm("of the pivot over the plate's lower edge", least=-_MOST, most=_MOST, example=50.0)
+    ]
+    side: Annotated[
+        Literal["trailing", "leading"], Meta(description="the plate's friction pulls the arm, or pushes it")
+    ] = "trailing"
+
+
+class WedgeHoleTable(Struct, forbid_unknown_fields=True):
+    """A round hole of the plate."""
+
+    diameter: Annotated[float, mm("of the hole", above=0, most=_MOST, example=5.0)]
+    x: Annotated[
+        float, mm("along the travel from the follower's starting place", least=-_MOST, most=_MOST, example=20.0)
+    ]
+    y: Annotated[float, mm("above the plate's lower edge", above=0, most=_MOST, example=8.0)]
+
+
+class WedgeCamSpec(MadeKeys, forbid_unknown_fields=True, tag_field="kind", tag="wedge_cam"):
+    """Translating cam plate; it slides along -x, the follower starts over x = 0."""
+
+    follower: Annotated[
+        Literal["pointed", "roller", "mushroom", "flat"],
+        Meta(description="shape of the follower's end; flat cannot", examples=["roller"]),
+    ]
+    phases: Annotated[list[WedgePhaseTable], Meta(min_length=1, max_length=100), with_own_laws(_START)]
+    base_height: Annotated[float, mm("of the plate under the follower at S = 0", above=0, most=_MOST, example=15.0)]
+    lift: Annotated[float, mm("lift H of a sliding follower", least=0, most=_MOST), start(20.0)] = 0.0
+    swing_deg: Swing = 0.0
+    follower_radius: Annotated[float, mm("radius of the roller or mushroom", least=0, most=_MOST), start(6.0)] = 0.0
+    oscillating: WedgeArmTable | None = None
+    run_in: Annotated[float, mm("straight edge before the travel", above=0, most=_MOST)] = 10.0
+    run_out: Annotated[float, mm("straight edge after the travel", above=0, most=_MOST)] = 10.0
+    corner_radius: Annotated[float, mm("of the plate's corners", least=0, most=_MOST)] = 0.0
+    holes: WedgeHoleTable | list[WedgeHoleTable] | None = None
+
+
+def _spare(keys: WedgeCamSpec, cam: WedgeCam) -> float:
+    """Height of the plate at its lowest place over the least that is left, mm."""
+    lowest = min(float(cam.centre(p.extremes(0)).imag.min()) for p in cam.motion.pieces) - cam.radius
+    return lowest - _LEAST_WALL - 2 * keys.corner_radius
+
+
+def _too_low(keys: WedgeCamSpec, cam: WedgeCam) -> ParameterError:
+    """The refusal of a plate that is too low for its corners, or for its follower."""
+    spare, corner, height = _spare(keys, cam), keys.corner_radius, keys.base_height
+    roundings = Suspect("corner_radius", corner, 0.0, lambda value: spare + 2 * (corner - value) > 0)
+    if blamed([roundings], "corner_radius") is not None:
+        return ParameterError("corner_radius", corner, "no_room_in_plate", limit(corner + spare / 2 - 1e-6, corner))
+
+    # the arm turns with the height
+    ends = [height - spare * share for share in _LONGER]
+
+    def is_left(value: float) -> bool:
+        changed = replace(keys, base_height=value)
+        return _spare(changed, _wedge_of(changed)) > 0
+
+    def fits(value: float) -> bool:
+        return is_left(value) and _fits(replace(keys, base_height=value))
+
+    def cure() -> Nearest | None:
+        found = nearest(is_left, height, ends)
+        # only where the holes ask for more is the whole plate tried
+        if found is not None and isinstance(found.value, float):
+            with suppress(GeometryError):
+                if fits(found.value):
+                    return found
+        return nearest(fits, height, ends)
+
+    return ParameterError("base_height", height, "no_plate_under_follower", cure)
+
+
+def _wedge_of(keys: WedgeCamSpec) -> WedgeCam:
+    """The wedge cam of the keys, not yet checked to be whole."""
+    from geometry.cams.plane.disk import FollowerKind, check_radius
+    from geometry.cams.plane.wedge import WedgeCam, wedge_motion
+
+    if keys.follower == "flat":
+        raise ParameterError("follower", keys.follower, "flat_on_wedge")
+    swings, radius = keys.oscillating is not None, keys.follower_radius
+    check_stroke(keys, swings, tabled=False)
+    key, unit = stroke_key(swings)
+    lift = getattr(keys, key)
+    if not lift > 0:
+        raise ParameterError(key, lift, "no_lift")
+    kind = FollowerKind(keys.follower)
+    try:
+        check_radius(kind, radius)
+    except ParameterError as refusal:
+        raise refusal.renamed("follower_radius") from refusal
+    motion = wedge_motion(wedge_phases(keys, lift * unit))
+    return WedgeCam(motion, _mount(keys, motion), radius, kind, (keys.run_in, keys.run_out), keys.corner_radius)
+
+
+def _fits(keys: WedgeCamSpec) -> bool:
+    """Whether the profile is whole and leaves a plate below it, with room for the holes."""
+    from geometry.cams.plane.wedge import wedge_fault
+
+    cam = _wedge_of(keys)
+    if wedge_fault(cam) is not None or not _spare(keys, cam) > 0:
+        return False
+    _check_holes(keys, cam)
+    return True
+
+
+def wedge_phases(keys: WedgeCamSpec, lift: float) -> list[Phase]:
+    """The phases of the keys over the travel, mm; ``lift`` in mm, or rad of an arm.
+
+    Raises
+    ------
+    ParameterError
+        A dwell with a law or a share.
+    """
+    from geometry.cams.motion.follower_motion import Phase
+
+    made = []
+    for index, phase in enumerate(keys.phases):
+        place = f"phases.item {index + 1}"
+        if phase.move == "dwell":
+            check_dwell(phase, index)
+            made.append(Phase(phase.travel))
+            continue
+        change = phase.share * lift if phase.move == "rise" else -phase.share * lift
+        made.append(Phase(phase.travel, change, law_of(phase.law, f"{place}.law")))
+    return made
+
+
+def _mount(keys: WedgeCamSpec, motion: WedgeMotion) -> Upright | Swinging:
+    from geometry.cams.plane.wedge import Swinging, Upright
+
+    height, arm = keys.base_height + keys.follower_radius, keys.oscillating
+    if arm is None:
+        return Upright(height)
+    drop, length = height - arm.pivot_height, arm.arm_length
+    if not abs(drop) < length:
+
+        def works(value: float) -> bool:
+            return _fits(replace(keys, oscillating=replace(arm, arm_length=value)))
+
+        ends = [abs(drop) * share for share in _LONGER]
+        cure = lambda: nearest(works, length, ends)  # noqa: E731
+        raise ParameterError("oscillating.arm_length", length, "arm_does_not_reach_plate", cure)
+    side, start = 1 if arm.side == "trailing" else -1, math.asin(drop / length)
+    low, high = motion.extremes()
+    if not (start + high < math.pi / 2 and start + low > -math.pi / 2):
+        raise ParameterError("swing_deg", keys.swing_deg, "arm_beyond_upright", lambda: _most(keys, "swing_deg"))
+    return Swinging(complex(side * length * math.cos(start), arm.pivot_height), length, start, side)
+
+
+def _most(keys: WedgeCamSpec, key: str) -> Nearest | None:
+    """The greatest lift or swing that leaves a whole profile."""
+    value: float = getattr(keys, key)
+    return nearest(lambda v: _fits(replace(keys, **{key: v})), value, [value * share for share in _SMALLER])
+
+
+def _refusal(keys: WedgeCamSpec, cam: WedgeCam, fault: str, travel: float) -> UndercutError:
+    """A profile that is not whole, in the scene's keys."""
+    from geometry.cams.plane.wedge import sharpest_crest
+
+    key, unit = stroke_key(keys.oscillating is not None)
+    if fault == "corner":
+        rough = rough_law(keys.phases, wedge_phases(keys, getattr(keys, key) * unit))
+        name, value = rough or ("follower", keys.follower)
+        works = Nearest("pointed" if rough is None else "sine")
+        return UndercutError(name, value, "velocity_jumps_at_crest", works, travel=travel)
+    if fault == "crest" and keys.oscillating is None:
+        most = limit(sharpest_crest(cam) * (1 - 1e-6), cam.radius)
+        return UndercutError("follower_radius", cam.radius, "crest_undercut", most, travel=travel)
+    code = "runs_with_plate" if fault == "steep" else "plate_undercut"
+    return UndercutError(key, getattr(keys, key), code, lambda: _most(keys, key), travel=travel)
+
+
+def _holes_of(keys: WedgeCamSpec) -> list[WedgeHoleTable]:
+    return [keys.holes] if isinstance(keys.holes, WedgeHoleTable) else list(keys.holes or [])
+
+
+def _check_holes(keys: WedgeCamSpec, cam: WedgeCam) -> None:
+    """Every hole stays in the plate and clear of the others."""
+    import numpy as np
+
+    from geometry.plane.measure import distance_to_profile
+
+    holes, outline = _holes_of(keys), _outline(keys, cam, 0.0)
+    lone = isinstance(keys.holes, WedgeHoleTable)
+    for index, hole in enumerate(holes):
+        at = complex(hole.x, hole.y)
+        room = float(distance_to_profile(np.array([at]), outline)[0])
+        key = "holes" if lone else f"holes.item {index + 1}"
+        others = [abs(at - complex(h.x, h.y)) - h.diameter / 2 for h in holes[:index]]
+        most = 2 * (min([room, *others]) - _LEAST_WALL)
+        outside = not _inside(cam, keys, at)
+        if outside or (most <= 0 and hole.diameter > most):
+            place = _nearest_place(cam, keys, hole, holes[:index], outline)
+            works, code = (
+                None if place is None else Nearest(place),
+                "hole_outside_plate" if outside else "no_room_there",
+            )
+            if outside or place is not None:
+                raise ParameterError(f"{key}.x", hole.x, code, works, y=hole.y)
+            raise ParameterError(f"{key}.diameter", hole.diameter, code)
+        if hole.diameter > most:
+            raise ParameterError(f"{key}.diameter", hole.diameter, "hole_reaches_edge", limit(most, hole.diameter))
+
+
+def _nearest_place(
+    cam: WedgeCam, keys: WedgeCamSpec, hole: WedgeHoleTable, others: list[WedgeHoleTable], outline: Profile
+) -> float | None:
+    """The x nearest to a hole's at which it has room at its height, mm; None where there is none."""
+    import numpy as np
+
+    from geometry.plane.measure import distance_to_profile
+
+    ends = float(cam.centre(0.0).real) - keys.run_in, float(cam.centre(cam.motion.travel).real) + keys.run_out
+    places = (np.round(np.linspace(*ends, _PLACES), 4) + 1j * hole.y).astype(np.complex128)
+    room = distance_to_profile(places, outline)
+    for other in others:
+        room = np.minimum(room, np.abs(places - complex(other.x, other.y)) - other.diameter / 2)
+    fitting = places[room > hole.diameter / 2 + 1.01 * _LEAST_WALL]
+    near = sorted(fitting.real, key=lambda x: abs(float(x) - hole.x))
+    return next((float(x) for x in near if _inside(cam, keys, complex(float(x), hole.y))), None)
+
+
+def _inside(cam: WedgeCam, keys: WedgeCamSpec, at: complex) -> bool:
+    """Whether a place lies in the plate: between the ends, above the lower edge, below the profile."""
+    import numpy as np
+
+    ends = float(cam.centre(0.0).real) - keys.run_in, float(cam.centre(cam.motion.travel).real) + keys.run_out
+    if not (ends[0] < at.real < ends[1] and at.imag > 0):
+        return False
+    travel = np.linspace(0, cam.motion.travel, 2049)
+    centres = cam.centre(travel)
+    normal = 1j * cam.rate(travel)
+    edge = centres - cam.radius * normal / np.abs(normal)
+    return at.imag < float(np.interp(at.real, edge.real, edge.imag))
+
+
+def _outline(keys: WedgeCamSpec, cam: WedgeCam, offset: float) -> Profile:
+    from geometry.cams.plane.wedge import wedge_profile
+
+    return wedge_profile(cam, (keys.run_in, keys.run_out), keys.corner_radius, offset)
+
+
+def _region(keys: WedgeCamSpec, cam: WedgeCam, offset: float) -> Region:
+    """The plate's section, every boundary moved ``offset`` mm out of the material."""
+    holes = []
+    for hole in _holes_of(keys):
+        if not hole.diameter / 2 > offset:
+            raise OffsetError(offset, "hole_closed", hole.diameter / 2 * (1 - 1e-6))
+        holes.append(circle(hole.diameter / 2 - offset, Label.HOLE, hole=True, centre=complex(hole.x, hole.y)))
+    return Region(_outline(keys, cam, offset), tuple(holes))
+
+
+def wedge_quantities(keys: WedgeCamSpec, cam: WedgeCam) -> dict[str, float]:
+    """Named results of a wedge: sizes in mm, angles in degrees."""
+    import numpy as np
+
+    from geometry.cams.plane.wedge import sharpest_crest
+
+    low, high = cam.motion.extremes()
+    found = {"swing_deg": math.degrees(high - low)} if keys.oscillating else {"lift": high - low}
+    found["travel"] = cam.motion.travel
+    if cam.radius > 0:
+        found["follower_radius"] = cam.radius
+    found["pressure_angle_deg"] = math.degrees(_steepest(cam))
+    crest = sharpest_crest(cam)
+    if np.isfinite(crest):
+        found["least_curvature_radius"] = crest - cam.radius
+    return found
+
+
+def _steepest(cam: WedgeCam) -> float:
+    """Greatest pressure angle, rad; upright at the greatest |S'|."""
+    import numpy as np
+
+    found = [0.0]
+    for piece in cam.motion.pieces:
+        if piece.is_constant:
+            continue
+        travel = np.union1d(np.linspace(*piece.domain, 257), piece.extremes(1))
+        found.append(float(np.abs(cam.pressure_angle(np.minimum(travel, np.nextafter(piece.end, 0)))).max()))
+    return max(found)
+
+
+def wedge_findings(keys: WedgeCamSpec, cam: WedgeCam) -> tuple[Finding, ...]:
+    """Impacts where the velocity or the acceleration jumps, and a steep pressure angle."""
+    found, pieces = [], cam.motion.pieces
+    low, high = cam.motion.extremes()
+    for order, name in ((1, "rigid"), (2, "soft")):
+        # the follower rests before and after the travel
+        sides = [(float(p.value(p.start, order)), float(p.value(p.end, order))) for p in pieces]
+        ends = [0.0, *(end for _, end in sides)]
+        starts = [*(start for start, _ in sides), 0.0]
+        places = [*(p.start for p in pieces), cam.motion.travel]
+        jumps = [(abs(b - a), at) for a, b, at in zip(ends, starts, places, strict=True)]
+        size, at = max(jumps)
+        if size > _JUMP * (high - low) / cam.motion.travel**order:
+            found.append(Finding(f"wedge_{name}_impact", size, at))
+            break
+    usual, steepest = _USUAL_PRESSURE_ANGLE[keys.oscillating is not None], math.degrees(_steepest(cam))
+    if steepest > usual + 1e-9:
+        found.append(Finding("steep_pressure_angle", steepest, usual))
+    return tuple(found)
+
+
+class Wedge(Kind[WedgeCamSpec, "WedgeCam"]):
+    """A plate that slides under its follower."""
+
+    name, keys = "wedge_cam", WedgeCamSpec
+
+    def thing(self, keys: WedgeCamSpec, others: Others) -> WedgeCam:
+        """The cam, checked to move its follower all the way, and the plate about it."""
+        from geometry.cams.plane.wedge import wedge_fault
+
+        cam = _wedge_of(keys)
+        fault = wedge_fault(cam)
+        if fault is not None:
+            raise _refusal(keys, cam, *fault)
+        if not _spare(keys, cam) > 0:
+            raise _too_low(keys, cam)
+        least = keys.corner_radius + _LEAST_WALL
+        for name in ("run_in", "run_out"):
+            if not (run := getattr(keys, name)) > least:
+                raise ParameterError(name, run, "no_room_for_corner", limit(least * (1 + 1e-6), run))
+        _check_holes(keys, cam)
+        return cam
+
+    def section(self, keys: WedgeCamSpec, thing: WedgeCam, offset: float) -> OffsetRegion:
+        """The plate with its holes."""
+        return OffsetRegion(_region(keys, thing, offset), offset, ())
+
+    def solid(self, keys: WedgeCamSpec, thing: WedgeCam, offset: float) -> Body:
+        """The section, extruded."""
+        return plate(_region(keys, thing, offset), 0.0, keys.face_width)
+
+    def report(self, keys: WedgeCamSpec, thing: WedgeCam) -> Report:
+        """Sizes and angles, impacts and a steep pressure angle."""
+        return Report(wedge_findings(keys, thing), quantities=wedge_quantities(keys, thing))
+
+    def probes(self, keys: WedgeCamSpec, thing: WedgeCam) -> tuple[Probe, ...]:
+        """The follower, slid over every file."""
+        from parts.cams.probes import SlidingProbe
+
+        return (SlidingProbe(thing, self.height(keys, thing) / 2),)
+
+
+WEDGE_CAM = Wedge()

@@ -1,0 +1,55 @@
+"""What a sheet must hold, for its read-back to be measured against."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from geometry.curves.curve import Curve
+from parts.drawing.canvas import Canvas, Paper
+from parts.drawing.readback import ReadSheet
+
+
+class Measures(Protocol):
+    """What else is measured off a sheet of one family of parts."""
+
+    def check(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:
+        """Add what is measured, and what is wrong; ``allowed`` in mm on paper."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """A circle that must be there; without a centre a horizontal line at the height ``radius``; mm on paper."""
+
+    layer: str
+    centre: complex | None
+    radius: float
+
+
+@dataclass(frozen=True, slots=True)
+class Meshing:
+    """What must be measured off a picture of meshing, mm on paper.
+
+    ``tangents``: centres and radii of the circles that the line of action touches; ``base_pitch`` is measured off the
+    base circle of ``teeth`` teeth.
+    """
+
+    tangents: tuple[tuple[complex, float], ...]
+    teeth: int
+    active_length: float
+    arc_length: float
+    pitch_length: float
+    contact_ratio: float
+
+
+@dataclass(frozen=True, slots=True)
+class Expected:
+    """All that a sheet must hold; ``curves`` are the exact ones of each layer in model mm, which ``paper`` places."""
+
+    canvas: Canvas
+    paper: Paper
+    circles: tuple[Circle, ...]
+    curves: dict[str, list[Curve]] = field(default_factory=dict)
+    meshing: Meshing | None = None
+    cam: Measures | None = None

@@ -1,0 +1,61 @@
+"""A sheet as it is read again from a file: lines, arcs, points of curves and words, mm on paper."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from geometry.curves.curve import Complex
+
+# samples of each curve, or of each smooth span of it
+PER_CURVE = 13
+
+
+@dataclass(frozen=True, slots=True)
+class ReadLine:
+    """A straight line, mm."""
+
+    layer: str
+    start: complex
+    end: complex
+
+
+@dataclass(frozen=True, slots=True)
+class ReadArc:
+    """An arc or circle: centre, radius, mm; swept angle, rad, positive."""
+
+    layer: str
+    centre: complex
+    radius: float
+    sweep: float
+
+
+@dataclass(frozen=True, slots=True)
+class ReadText:
+    """Words: left end of the base line, length and height of capitals, mm."""
+
+    text: str
+    at: complex
+    width: float
+    height: float
+
+
+@dataclass(slots=True)
+class ReadSheet:
+    """All that a file holds; ``samples`` has points of every line, arc and spline, by layer, one array a curve."""
+
+    lines: list[ReadLine] = field(default_factory=list)
+    arcs: list[ReadArc] = field(default_factory=list)
+    texts: list[ReadText] = field(default_factory=list)
+    samples: list[tuple[str, Complex]] = field(default_factory=list)
+
+    def add_line(self, layer: str, start: complex, end: complex) -> None:
+        """A straight line with its samples."""
+        self.lines.append(ReadLine(layer, start, end))
+        self.samples.append((layer, (start + (end - start) * np.linspace(0, 1, PER_CURVE)).astype(np.complex128)))
+
+    def add_arc(self, layer: str, centre: complex, radius: float, first: float, sweep: float) -> None:
+        """An arc with its samples; angles in rad."""
+        self.arcs.append(ReadArc(layer, centre, radius, abs(sweep)))
+        self.samples.append((layer, centre + radius * np.exp(1j * (first + sweep * np.linspace(0, 1, PER_CURVE)))))

@@ -1,0 +1,188 @@
+"""The main inscription (title block) of a sheet: form 1 of GOST 2.104, 185 x 55 mm, in the frame's lower right corner.
+
+``draw_title_block`` draws it onto any canvas; layouts keep ``TITLE_BLOCK[1]`` mm free above the frame's lower side.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from parts.base.texts import Text, in_context, words
+from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, text_width
+from parts.keys.title import TitleBlockTable
+
+# width and height, mm; GOST 2.104, form 1
+TITLE_BLOCK = (185.0, 55.0)
+# lines of form 1, mm from the block's lower left corner: where, from, to
+_THICK_ROWS = (
+    (55, 0, 185), (40, 65, 185), (35, 0, 65), (35, 135, 185), (30, 0, 65), (20, 135, 185), (15, 65, 185), (0, 0, 185),
+)  # fmt: skip
+_THIN_ROWS = tuple((y, 0, 65) for y in (50, 45, 40, 25, 20, 15, 10, 5))
+_THICK_COLUMNS = (
+    (0, 0, 55), (7, 30, 55), (17, 0, 55), (40, 0, 55), (55, 0, 55), (65, 0, 55), (135, 0, 40), (150, 20, 40),
+    (155, 15, 20), (167, 20, 40), (185, 0, 55),
+)  # fmt: skip
+_THIN_COLUMNS = ((140, 20, 35), (145, 20, 35))
+_LABELS: dict[str, Text] = {
+    "change": in_context("title block", "Rev."),
+    "change_sheet": in_context("title block, changes", "Sheet"),
+    "document": in_context("title block", "Document"),
+    "signature": in_context("title block", "Sign."),
+    "date": in_context("title block", "Date"),
+    "drawn": in_context("title block", "Drawn"),
+    "checked": in_context("title block", "Checked"),
+    "technical_check": in_context("title block", "Tech."),
+    "standards_check": in_context("title block", "Norms"),
+    "approved": in_context("title block", "Approved"),
+    "letter": in_context("title block", "Stage"),
+    "mass": in_context("title block", "Mass"),
+    "scale": in_context("title block", "Scale"),
+    "sheet": in_context("title block", "Sheet"),
+    "sheets": in_context("title block", "Sheets"),
+}
+# who signs, from the top row down; the fourth row is free
+_ROLES = ("drawn", "checked", "technical_check", "", "standards_check", "approved")
+_INDENT = 0.8
+# heights of capitals of designation, name and the rest, mm
+_LARGE, _MIDDLE = 7.0, 5.0
+
+
+@dataclass(frozen=True, slots=True)
+class TitleBlock:
+    """What stands in the block; ``people`` by role (``drawn``, ``checked``, …); empty where it is left to a pen."""
+
+    name: str
+    designation: str = ""
+    scale: str = ""
+    organisation: str = ""
+    material: str = ""
+    mass: str = ""
+    letter: str = ""
+    date: str = ""
+    sheet: int = 1
+    sheets: int = 1
+    people: tuple[tuple[str, str], ...] = ()
+
+
+def title_block_of(given: bool | TitleBlockTable, name: str, scale: str, sheet: int = 1, sheets: int = 1) -> TitleBlock:
+    """The block that a scene asks for; ``name`` where it gives none."""
+    table = given if isinstance(given, TitleBlockTable) else TitleBlockTable()
+    return TitleBlock(
+        table.name or name,
+        table.designation,
+        scale,
+        table.organisation,
+        table.material,
+        table.mass,
+        table.letter,
+        table.date,
+        sheet,
+        sheets,
+        tuple((role, getattr(table, role)) for role in _ROLES if role),
+    )
+
+
+def draw_title_block(canvas: Canvas, block: TitleBlock, language: str) -> Box:
+    """Draw a title block into the lower right corner of the canvas's frame; the room that it takes, mm."""
+    width, height = TITLE_BLOCK
+    corner = complex(canvas.frame.right - width, canvas.frame.low)
+    for layer, rows in (("FRAME", _THICK_ROWS), ("TABLE", _THIN_ROWS)):
+        for y, a, b in rows:
+            canvas.line(layer, corner + complex(a, y), corner + complex(b, y))
+    for layer, columns in (("FRAME", _THICK_COLUMNS), ("TABLE", _THIN_COLUMNS)):
+        for x, a, b in columns:
+            canvas.line(layer, corner + complex(x, a), corner + complex(x, b))
+    _labels(canvas, corner, language)
+    _entries(canvas, corner, block)
+    _count(canvas, corner, block, language)
+    return Box(corner.real, corner.imag, corner.real + width, corner.imag + height)
+
+
+def _labels(canvas: Canvas, corner: complex, language: str) -> None:
+    """The words that stand in every block."""
+
+    def label(key: str, cell: tuple[float, float, float, float], *, middle: bool = True) -> None:
+        _write(canvas, corner, words(language).say(_LABELS[key]), cell, SMALL_TEXT, middle=middle)
+
+    for key, left, right in (
+        ("change", 0, 7), ("change_sheet", 7, 17), ("document", 17, 40), ("signature", 40, 55), ("date", 55, 65),
+    ):  # fmt: skip
+        label(key, (left, 30, right, 35))
+    for index, role in enumerate(_ROLES):
+        if role:
+            label(role, (0, 25 - 5 * index, 17, 30 - 5 * index), middle=False)
+    for key, left, right in (("letter", 135, 150), ("mass", 150, 167), ("scale", 167, 185)):
+        label(key, (left, 35, right, 40))
+
+
+def _entries(canvas: Canvas, corner: complex, block: TitleBlock) -> None:
+    """What this sheet says; number of the sheet only where there are several (GOST 2.104)."""
+    people = dict(block.people)
+    for index, role in enumerate(_ROLES):
+        low = 25 - 5 * index
+        if people.get(role):
+            _write(canvas, corner, people[role], (17, low, 40, low + 5), SMALL_TEXT, middle=False)
+            if block.date:
+                _write(canvas, corner, block.date, (55, low, 65, low + 5), SMALL_TEXT)
+    for text, cell, size in (
+        (block.designation, (65, 40, 185, 55), _LARGE),
+        (block.name, (65, 15, 135, 40), _MIDDLE),
+        (block.material, (65, 0, 135, 15), _MIDDLE),
+        (block.letter, (135, 20, 140, 35), TEXT_HEIGHT),
+        (block.mass, (150, 20, 167, 35), TEXT_HEIGHT),
+        (block.scale, (167, 20, 185, 35), TEXT_HEIGHT),
+        (block.organisation, (135, 0, 185, 15), _MIDDLE),
+    ):
+        _lines(canvas, corner, text, cell, size)
+
+
+def _count(canvas: Canvas, corner: complex, block: TitleBlock, language: str) -> None:
+    """Number of the sheet, left out where there is one only (GOST 2.104), and how many there are."""
+    sheet, sheets = (words(language).say(_LABELS[key]) for key in ("sheet", "sheets"))
+    number = f" {block.sheet}" if block.sheets > 1 else ""
+    _write(canvas, corner, f"{sheet}{number}", (135, 15, 155, 20), SMALL_TEXT, middle=False)
+    _write(canvas, corner, f"{sheets} {block.sheets}", (155, 15, 185, 20), SMALL_TEXT, middle=False)
+
+
+def _lines(canvas: Canvas, corner: complex, text: str, cell: tuple[float, float, float, float], size: float) -> None:
+    """A text in the middle of its cell, in as many lines as it needs at most of what has room."""
+    left, low, right, high = cell
+    rows = _wrapped(text, right - left - 2 * _INDENT, size)
+    most = max(1, int((high - low - 1) / (1.6 * size)))
+    while len(rows) > most and size > SMALL_TEXT:
+        size = max(SMALL_TEXT, size - 0.5)
+        rows, most = _wrapped(text, right - left - 2 * _INDENT, size), max(1, int((high - low - 1) / (1.6 * size)))
+    # what is longer still is squeezed into the last line
+    rows = [*rows[: most - 1], " ".join(rows[most - 1 :])] if len(rows) > most else rows
+    middle, step = (low + high) / 2, 1.6 * size
+    for index, row in enumerate(rows):
+        centre = middle + step * ((len(rows) - 1) / 2 - index)
+        _write(canvas, corner, row, (left, centre - step / 2, right, centre + step / 2), size)
+
+
+def _wrapped(text: str, width: float, size: float) -> list[str]:
+    """The text in lines no longer than a width, mm, at its spaces."""
+    rows: list[str] = []
+    for word in text.split():
+        if rows and text_width(f"{rows[-1]} {word}", size) <= width:
+            rows[-1] += f" {word}"
+        else:
+            rows.append(word)
+    return rows
+
+
+def _write(
+    canvas: Canvas,
+    corner: complex,
+    text: str,
+    cell: tuple[float, float, float, float],
+    size: float,
+    *,
+    middle: bool = True,
+) -> None:
+    """One line within a cell (left, low, right, high from the block's corner), in its middle or from its left."""
+    left, low, right, high = cell
+    room = right - left - 2 * _INDENT
+    long = min(text_width(text, size), room)
+    x = (left + right - long) / 2 if middle else left + _INDENT
+    canvas.write(text, corner + complex(x, (low + high - size) / 2), size, room)

@@ -1,0 +1,1 @@
+"""Noncircular gears."""

@@ -1,0 +1,245 @@
+"""The part kind ``ring_gear``: an internal spur gear cut by a pinion cutter, or with rounded roots."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from msgspec import Meta, Struct
+
+from parts.base.kind import Kind, Others, Report
+from parts.keys.base import degrees, either, in_modules, mm
+from parts.keys.cutter import CutterTable, cutter_of
+from parts.keys.helix import (
+    ToothedKeys,
+    checked_teeth,
+    helix_of,
+    helix_quantities,
+    section_finding,
+    told_in_keys,
+)
+from parts.keys.holes import HolesTable, PitchCircle, hub_holes, with_remedy
+
+if TYPE_CHECKING:
+    from geometry.base.findings import Finding
+    from geometry.gears.teeth.ring import RingGear
+    from geometry.plane.offset_region import OffsetRegion
+    from geometry.solids.body import Body
+
+# modules outside the root circle where no rim was asked for
+_RIM = 2.5
+# modules between a default cutter's addendum and the ring's: the tip clearance of ISO 53 A
+_CLEARANCE = 0.25
+
+
+class RoundedRootTable(Struct, forbid_unknown_fields=True):
+    """A root that no cutter made, for laser and printer: arcs tangent to flanks and root circle."""
+
+    dedendum_coefficient: Annotated[float, in_modules("depth of the root below the reference", least=0.1, most=3)] = (
+        1.25
+    )
+    radius_coefficient: Annotated[float, in_modules("radius of the arcs; 0 with full_round", least=0, most=2)] = 0.0
+    full_round: Annotated[bool, Meta(description="one arc from flank to flank, the largest there is")] = True
+
+
+class RimHolesTable(HolesTable, forbid_unknown_fields=True):
+    """Round holes in the rim (bolt circle), or a list of such tables."""
+
+    pitch_circle_diameter: Annotated[PitchCircle, Meta(examples=[140.0])]
+
+
+class RingGearSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="ring_gear"):
+    """Ring gear (internal teeth), spur or helical, cut by a pinion cutter."""
+
+    number_of_teeth: Annotated[int, Meta(ge=4, le=10_000, description="number of teeth z_2", examples=[60])]
+    profile_shift_coefficient: Annotated[
+        float, in_modules("profile shift x_2, positive away from the axis", least=-10, most=10)
+    ] = 0.0
+    pressure_angle_deg: Annotated[float, degrees("pressure angle of the cutter", least=5, most=45)] = 20.0
+    addendum_coefficient: Annotated[float, in_modules("addendum h_a", least=0.1, most=3)] = 1.0
+    cutter: CutterTable | None = None
+    rounded_root: RoundedRootTable | None = None
+    tip_rule: Literal["GOST 19274", "KHK"] = "GOST 19274"
+    tip_diameter: (
+        Annotated[
+            float,
+            mm(
+                "tip diameter; default: d - 2 (h_a - x - k) m, k of tip_rule (KHK: 0), no deeper than can be cut",
+                above=0,
+                most=100_000,
+                example=117.0,
+            ),
+        ]
+        | None
+    ) = None
+    thinning_method: Literal["wider_cutter_tooth", "deeper_cut"] = "wider_cutter_tooth"
+    outer_diameter: (
+        Annotated[
+            float,
+            mm(
+                "outside of the rim; default: root diameter + 5 m, or holes + 2 m", above=0, most=200_000, example=140.0
+            ),
+        ]
+        | None
+    ) = None
+    holes: RimHolesTable | list[RimHolesTable] | None = None
+
+
+@told_in_keys
+def checked_ring_gear(keys: RingGearSpec) -> RingGear:
+    """The ring of a part, checked to exist: its transverse section, where it is helical.
+
+    Raises
+    ------
+    ParameterError
+        The ring cannot exist or its cutter cannot make it; names the key and the nearest value that works.
+    """
+    from dataclasses import replace
+
+    from geometry.base.errors import ParameterError
+    from geometry.gears.teeth.ring_limits import check_rim, checked_ring
+
+    normal, section = _ring_of(keys), settled_section(keys)
+
+    def keeps_rim(changed: RingGearSpec) -> bool:
+        check_rim(_with_rim(changed, replace(section, holes=hub_holes(None, changed.holes, None))))
+        return True
+
+    try:
+        return _with_rim(keys, checked_ring(section, normal, checked_teeth(keys).angle))
+    except ParameterError as refusal:
+        raise with_remedy(refusal, keys, keeps_rim) from refusal
+
+
+@told_in_keys
+def settled_section(keys: RingGearSpec) -> RingGear:
+    """The transverse section with the cutter and the default tip that a build takes, not checked to exist.
+
+    Raises
+    ------
+    ParameterError
+        Keys that exclude each other; names one of them.
+    """
+    from geometry.gears.teeth.ring_made import settled_ring
+    from geometry.gears.teeth.transverse_ring import transverse_ring
+
+    return settled_ring(transverse_ring(_ring_of(keys), checked_teeth(keys).angle))
+
+
+def _with_rim(keys: RingGearSpec, gear: RingGear) -> RingGear:
+    """The ring with the outside that follows from root and holes, where nobody gave one."""
+    from dataclasses import replace
+
+    if keys.outer_diameter is not None:
+        return gear
+    # holes keep a module to the outside
+    radius = max(gear.root_radius + _RIM * keys.module, *(g.reach + keys.module for g in gear.holes.round_holes), 0.0)
+    return replace(gear, outer_diameter=2 * radius)
+
+
+def _ring_of(keys: RingGearSpec) -> RingGear:
+    """The ring that the keys describe, in normal data, with any cutter where none is named, not checked to exist."""
+    from geometry.gears.teeth.cutter import PinionCutter
+    from geometry.gears.teeth.ring import RingGear, RoundedRoot
+
+    if keys.cutter is not None and keys.rounded_root is not None:
+        raise either("rounded_root.dedendum_coefficient", keys.rounded_root.dedendum_coefficient, "cutter")
+    angle, rim = math.radians(keys.pressure_angle_deg), keys.outer_diameter
+    height = keys.addendum_coefficient + _CLEARANCE
+    root: PinionCutter | RoundedRoot = PinionCutter(keys.module, 25, angle, addendum=height)
+    if keys.cutter is not None:
+        root = cutter_of(keys.cutter, keys.module, angle)
+    if (table := keys.rounded_root) is not None:
+        root = RoundedRoot(table.dedendum_coefficient, None if table.full_round else table.radius_coefficient)
+    return RingGear(
+        module=keys.module,
+        number_of_teeth=keys.number_of_teeth,
+        pressure_angle=angle,
+        # larger than any ring, until the root diameter is known
+        outer_diameter=rim if rim is not None else 1e9,
+        root=root,
+        profile_shift_coefficient=keys.profile_shift_coefficient,
+        addendum=keys.addendum_coefficient,
+        plain_tip=keys.tip_rule == "KHK",
+        given_tip_diameter=keys.tip_diameter,
+        circumferential_thinning=keys.circumferential_thinning,
+        thinning_by_deeper_cut=keys.thinning_method == "deeper_cut",
+        tip_chamfer=keys.tip_chamfer,
+        tip_rounding=keys.tip_rounding,
+        any_cutter=keys.cutter is None and isinstance(root, PinionCutter),
+        holes=hub_holes(None, keys.holes, None),
+    )
+
+
+class RingGearKind(Kind[RingGearSpec, "RingGear"]):
+    """An internal gear: a toothed hole in a round rim."""
+
+    name, keys = "ring_gear", RingGearSpec
+
+    def thing(self, keys: RingGearSpec, others: Others) -> RingGear:
+        """The transverse section of the ring."""
+        return checked_ring_gear(keys)
+
+    def section(self, keys: RingGearSpec, thing: RingGear, offset: float) -> OffsetRegion:
+        """The exact section, moved."""
+        from geometry.gears.teeth.ring_offset import ring_region
+
+        return ring_region(thing, offset)
+
+    def solid(self, keys: RingGearSpec, thing: RingGear, offset: float) -> Body:
+        """The section, extruded along the helix."""
+        from geometry.solids.body import plate
+
+        region, twist = self.section(keys, thing, offset).region, helix_of(keys).twist(thing.reference_radius)
+        return plate(region, 0.0, keys.face_width, twist, toothed=region.holes[0])
+
+    def report(self, keys: RingGearSpec, thing: RingGear) -> Report:
+        """Diameters and thicknesses, the cutter, what is poor."""
+        from geometry.gears.teeth.ring_limits import findings, root_form_diameter, tip_thickness
+
+        circles = {
+            "tip_diameter": 2 * thing.tip_radius,
+            "reference_diameter": 2 * thing.reference_radius,
+            "base_diameter": 2 * thing.base_radius,
+            "root_form_diameter": root_form_diameter(thing),
+            "root_diameter": 2 * thing.root_radius,
+        }
+        quantities = {
+            "pitch": math.pi * thing.module,
+            "tooth_thickness": thing.reference_thickness,
+            "tip_tooth_thickness": tip_thickness(thing),
+            **helix_quantities(keys, thing.reference_radius),
+            **_cutter_quantities(keys, thing),
+        }
+        tip = tip_finding(thing, keys.module)
+        found = (*(() if tip is None else (tip,)), *findings(thing))
+        return Report(found, circles, quantities, section_finding(keys))
+
+
+RING_GEAR = RingGearKind()
+
+
+def _cutter_quantities(keys: RingGearSpec, gear: RingGear) -> dict[str, float]:
+    """The cutter that makes the ring, its heights in normal modules; nothing for rounded roots."""
+    cutter, normal = gear.cutter, gear.module / keys.module
+    if cutter is None:
+        return {}
+    return {
+        "cutter_number_of_teeth": cutter.number_of_teeth,
+        "cutter_addendum_coefficient": cutter.addendum * normal,
+        "cutter_tip_rounding_coefficient": cutter.tip_rounding * normal,
+    }
+
+
+def tip_finding(gear: RingGear, normal_module: float | None = None) -> Finding | None:
+    """The remark that a default tip was made shallower: addendum taken and asked, from the shifted reference circle.
+
+    ``normal_module``: that of the keys, mm, where ``gear`` is the transverse section of a helical ring.
+    """
+    from geometry.base.findings import Finding
+
+    if gear.given_tip_diameter is not None or gear.tip_radius <= gear.default_tip_radius:
+        return None
+    shifted = gear.reference_radius + gear.profile_shift_coefficient * gear.module
+    taken, asked = ((shifted - r) / (normal_module or gear.module) for r in (gear.tip_radius, gear.default_tip_radius))
+    return Finding("ring_tip_limited", taken, asked)

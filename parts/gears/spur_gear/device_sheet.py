@@ -1,0 +1,198 @@
+"""The sheet of the device TMM-42: the paper disk with the rack's positions, and tables 1.1 and 1.2 beside it."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+
+from geometry.base.errors import Nearest, ParameterError
+from geometry.base.placement import Placement2
+from geometry.curves.curve import Curve
+from geometry.curves.line_arc import Arc
+from geometry.gears.pictures.generating import rack_contours
+from geometry.gears.teeth.limits import root_form_diameter, undercut
+from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.tooth import tooth_side
+from parts.base.texts import words
+from parts.drawing.canvas import (
+    FRAME,
+    FRAME_LEFT,
+    PAPERS,
+    SCALES,
+    SMALL_TEXT,
+    Box,
+    Canvas,
+    Paper,
+    draw,
+    fitted,
+    scale_text,
+)
+from parts.drawing.expected import Circle, Expected
+from parts.drawing.labels import Labeller
+from parts.drawing.table import Row, draw_table, table_size
+from parts.pages.page import Sheet, formula_text, numbers_text
+from parts.pages.symbols import symbol_text
+from parts.pages.text import result_text, step_name
+from parts.texts.sheets import sheet_words
+
+TEETH = 3
+COLUMNS = (94.0, 104.0, 34.0)
+# an undercut is named where it takes more than this of the involute, in modules
+_SEEN_UNDERCUT = 0.01
+_MARGIN, _TITLE, _NAMES = 6.0, 14.0, 32.0
+_CIRCLES = ("tip", "reference", "base", "root")
+_SYMBOLS = {"tip": "a", "reference": "", "base": "b", "root": "f"}
+
+
+def generating_sheet(
+    gears: list[SpurGear], step: float, tables: Sheet, language: str, tolerance: float, band: float = 0.0
+) -> Expected:
+    """The sheet of one or two wheels on a disk: the first at the top, the second below.
+
+    ``band``: height that a title block takes, mm.
+
+    Raises
+    ------
+    ParameterError
+        The wheels do not fit one disk and rack, or the step asks for too many positions.
+    """
+    _check(gears)
+    rows = _rows(tables, language)
+    disk = max(g.tip_radius for g in gears)
+    canvas, paper, room = _layout(disk, rows, band)
+    canvas.box("FRAME", canvas.frame)
+    title = sheet_words(language, "generating")
+    canvas.write(title, complex(canvas.frame.left + _MARGIN, canvas.frame.high - 9.0), 5.0)
+    canvas.arc("DISK", _circle(paper, Arc(0j, disk, 0.0, 2 * math.pi)))
+    for way in (1, 1j):
+        canvas.line("CENTRE", paper.point(-1.04 * disk * way), paper.point(1.04 * disk * way))
+    circles = [Circle("DISK", paper.origin, paper.scale * disk)]
+    curves: dict[str, list[Curve]] = {"RACK": [], "OUTLINE": []}
+    names = []
+    for index, gear in enumerate(gears):
+        turn = math.pi / 2 + math.pi * index
+        place = Placement2(turn)
+        curves["RACK"] += [c.placed(place) for row in rack_contours(gear, disk, step, TEETH) for c in row]
+        curves["OUTLINE"] += _teeth(gear, place)
+        for name in _CIRCLES:
+            layer, radius = f"CIRCLE_{name.upper()}", _radius(gear, name)
+            whole = len(gears) == 1
+            arc = Arc(0j, radius, 0.0 if whole else turn - 1.5, 2 * math.pi if whole else 3.0)
+            canvas.arc(layer, _circle(paper, arc))
+            circles.append(Circle(layer, paper.origin, paper.scale * radius))
+            names.append((gear, index, name, paper.scale * radius, turn))
+    for layer in ("RACK", "OUTLINE"):
+        draw(canvas, layer, fitted(canvas, curves[layer], paper.scale, tolerance), paper)
+    rows.append(Row(sheet_words(language, "scale"), "", scale_text(paper.scale, language)))
+    width, _ = table_size(rows, COLUMNS)
+    draw_table(canvas, complex(canvas.frame.right - width, canvas.content.low), rows, COLUMNS, SMALL_TEXT)
+    _label(canvas, paper, room, gears, names, language)
+    return Expected(canvas, paper, tuple(circles), curves)
+
+
+def _check(gears: list[SpurGear]) -> None:
+    first = gears[0]
+    if len(gears) > 2:
+        raise ParameterError("parts", len(gears), "disk_holds_two_wheels", Nearest(2, "at_most"))
+    for gear in gears:
+        if (gear.module, gear.number_of_teeth) != (first.module, first.number_of_teeth):
+            told = f"module {gear.module:g}, {gear.number_of_teeth} teeth"
+            teeth = first.number_of_teeth
+            raise ParameterError("parts", told, "one_disk_one_size", module=first.module, teeth=teeth)
+
+
+def _radius(gear: SpurGear, name: str) -> float:
+    return {
+        "tip": gear.tip_radius, "reference": gear.reference_radius, "base": gear.base_radius, "root": gear.root_radius
+    }[name]  # fmt: skip
+
+
+def _teeth(gear: SpurGear, place: Placement2) -> list[Curve]:
+    """The exact outline of the teeth that the rack has finished."""
+    period = [s.curve for s in tooth_side(gear).profile().period]
+    middle = TEETH // 2
+    return [c.placed(place @ Placement2(k * gear.pitch_angle)) for k in range(-middle, TEETH - middle) for c in period]
+
+
+def _rows(tables: Sheet, language: str) -> list[Row]:
+    """The calculation as rows: a heading for each section, formula with numbers, result."""
+    told = words(language)
+    rows = []
+    for section in tables.sections:
+        rows.append(Row(told.say(section.title)))
+        for step in section.steps:
+            formula = f"{formula_text(step, told)} = {numbers_text(step, told)}" if step.formula else ""
+            symbol = symbol_text(step.symbol, told)
+            cells = f"{step_name(step, told)}, {symbol}", formula, result_text(step, told)
+            rows.append(Row(*(told.decimal(_lowered(cell)) for cell in cells)))
+    return rows
+
+
+def _lowered(text: str) -> str:
+    """S_t1 with its index lowered."""
+    return re.sub(r"_(\w[\w,]*)", r"_{\1}", text)
+
+
+def _layout(disk: float, rows: list[Row], band: float) -> tuple[Canvas, Paper, Box]:
+    """The smallest sheet that holds disk and tables, the disk as large as it may be; upright tables on the right."""
+    table = table_size([*rows, Row("")], COLUMNS)
+    best: tuple[float, str] | None = None
+    for name in ("A3", "A2", "A1"):
+        height, width = PAPERS[name]
+        if table[1] > height - 2 * FRAME - _TITLE - band:
+            continue
+        room = height - 2 * FRAME - _TITLE - band
+        free = min(width - FRAME_LEFT - FRAME - table[0] - 2 * _NAMES, room - 2 * _MARGIN)
+        scale = next((s for s in SCALES if s * 2.1 * disk <= free), None)
+        # at full size the device's own disk is seen; a smaller picture only where no paper holds that
+        if scale is not None and (best is None or best[0] < 1):
+            best = scale, name
+    if best is None:
+        raise ParameterError("parts", disk, "disk_fits_no_paper")
+    scale, name = best
+    height, width = PAPERS[name]
+    canvas = Canvas(width, height, name, band=band)
+    left, right, low = FRAME_LEFT, width - FRAME - table[0], FRAME + band
+    origin = complex((left + right) / 2, low + (height - low - FRAME - _TITLE) / 2)
+    return canvas, Paper(scale, origin), Box(left + 1, low + 1, right - 1, height - FRAME - _TITLE)
+
+
+def _circle(paper: Paper, arc: Arc) -> Arc:
+    made = paper.scaled(arc)
+    assert isinstance(made, Arc)
+    return made
+
+
+def _label(
+    canvas: Canvas,
+    paper: Paper,
+    room: Box,
+    gears: list[SpurGear],
+    names: list[tuple[SpurGear, int, str, float, float]],
+    language: str,
+) -> None:
+    labels = Labeller(canvas, room)
+    labels.name("O", paper.origin, prefer=1 + 1j)
+    for index, gear in enumerate(gears):
+        key = "zero_wheel" if gear.profile_shift_coefficient == 0 else "shifted_wheel"
+        way = 1j if index == 0 else -1j
+        # on its own side of the axis, right of the centre line
+        reach = paper.scale * gear.root_radius
+        canvas.write(sheet_words(language, key), paper.origin + 2.0 + 0.3 * reach * way, most=0.9 * reach)
+        form, side = root_form_diameter(gear) / 2, tooth_side(gear)
+        if undercut(gear).margin < 0 and form - gear.base_radius > _SEEN_UNDERCUT * gear.module:
+            at = next(
+                complex(s.curve.point(t)) for s in side.segments for t in s.curve.domain
+                if abs(abs(complex(s.curve.point(t))) - form) < 1e-9 * form
+            )  # fmt: skip
+            point = paper.point(at * cmath.exp(1j * (math.pi / 2 + math.pi * index)))
+            labels.name(sheet_words(language, "undercut"), point, prefer=point - paper.origin - 30)
+    for _, index, name, radius, turn in names:
+        suffix = str(index + 1) if len(gears) > 1 and name in ("tip", "root") else ""
+        if index and not suffix:
+            continue
+        # names stand left of the disk for the wheel at the top, right for the one below
+        spoke = cmath.exp(1j * (turn + (1.05 + 0.1 * _CIRCLES.index(name))))
+        text = f"r_{{{_SYMBOLS[name]}{suffix}}}" if _SYMBOLS[name] + suffix else "r"
+        labels.name(text, paper.origin + radius * spoke, prefer=-spoke)

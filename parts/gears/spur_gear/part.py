@@ -1,0 +1,312 @@
+"""The part kind ``spur_gear``: an external spur gear cut by a rack."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from functools import lru_cache, partial
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from msgspec import Meta, Struct
+
+from geometry.base.errors import GeometryError, Nearest, ParameterError
+from geometry.base.findings import Finding
+from geometry.base.nearest import nearest
+from geometry.gears.teeth.basic_rack import (
+    ISO_53_ANGLE,
+    BasicRack,
+    TipRelief,
+    checked_rack,
+    default_tip_radius,
+    iso_53,
+)
+from geometry.gears.teeth.limits import checked_gear, exists, findings, root_form_diameter, tip_thickness
+from geometry.gears.teeth.offset import chamfered_outline, gear_region
+from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.transverse import transverse_gear
+from geometry.solids.wheel import WheelShape, wheel_body, wheel_sections
+from parts.base.kind import Kind, Others, Report
+from parts.base.schema import replaced
+from parts.base.texts import N_
+from parts.keys.base import BoreDiameter, either, in_modules, mm
+from parts.keys.cutter import CutterTable, PressureAngle, RackName, cutter_of
+from parts.keys.helix import (
+    ToothedKeys,
+    checked_teeth,
+    helix_of,
+    helix_quantities,
+    section_finding,
+    told_in_keys,
+)
+from parts.keys.holes import BoreTable, HolesTable, SpokesTable, hub_holes, with_remedy
+from parts.keys.wheel import FaceChamfer, FaceChamferTable, HubTable, WebTable, checked_wheel, wheel_shape
+
+if TYPE_CHECKING:
+    from geometry.plane.offset_region import OffsetRegion
+    from geometry.plane.profile import Profile
+    from geometry.solids.body import Body
+
+# the radius that ISO 53 gives at the usual clearance; the default for racks given as a table
+_TABLE_TIP_RADIUS = 0.38
+
+
+class RackTable(Struct, forbid_unknown_fields=True):
+    """A cutting rack of one's own, in modules."""
+
+    addendum_coefficient: Annotated[float, in_modules("addendum of the basic rack", least=0.1, most=3)] = 1.0
+    tip_clearance_coefficient: Annotated[float, in_modules("tip clearance", least=0, most=1)] = 0.25
+    tip_radius_coefficient: (
+        Annotated[
+            float,
+            in_modules(
+                "tip rounding; default: the least of 0.38, c/(1 - sin a), full round", least=0, most=2, example=0.38
+            ),
+        ]
+        | None
+    ) = None
+
+
+class ReliefTable(Struct, forbid_unknown_fields=True):
+    """Flanking of the tooth tip (practicum, figure 1.4; GOST 13755), in modules."""
+
+    depth_coefficient: Annotated[
+        float, in_modules("depth normal to the flank at the rack's tip line", least=0, most=0.3, example=0.02)
+    ]
+    height_coefficient: Annotated[float, in_modules("height of the relieved part", least=0.01, most=3)] = 0.45
+
+
+class SpurGearSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="spur_gear"):
+    """External gear, spur or helical, cut by a rack or by a pinion cutter."""
+
+    number_of_teeth: Annotated[int, Meta(ge=3, le=10_000, description="number of teeth z", examples=[23])]
+    profile_shift_coefficient: Annotated[float, in_modules("profile shift x (the seeds' xi)", least=-10, most=10)] = 0.0
+    pressure_angle_deg: PressureAngle = 20.0
+    basic_rack: RackName | RackTable = "ISO 53 A"
+    cutter: CutterTable | None = None
+    tip_diameter: (
+        Annotated[float, mm("tip diameter; default: d + 2 (h_a + x) m", above=0, most=100_000, example=50.0)] | None
+    ) = None
+    thinning_method: Literal["wider_rack_tooth", "deeper_cut"] = "wider_rack_tooth"
+    tip_relief: ReliefTable | None = None
+    bore_diameter: BoreDiameter = 0.0
+    bore: BoreTable | None = None
+    holes: HolesTable | list[HolesTable] | None = None
+    spokes: SpokesTable | None = None
+    web: WebTable | None = None
+    hub: HubTable | None = None
+    face_chamfer: FaceChamfer | FaceChamferTable = 0.0
+
+
+@told_in_keys
+def checked_spur_gear(keys: SpurGearSpec) -> SpurGear:
+    """The gear of a part, checked to exist: its transverse section, where it is helical.
+
+    Raises
+    ------
+    ParameterError
+        The gear cannot exist; names the key and the nearest value that works.
+    """
+    helix = checked_teeth(keys)
+    _check_face_chamfer(keys)
+
+    def holes_fit(changed: SpurGearSpec) -> bool:
+        section = transverse_gear(gear_of(changed), helix.angle)
+        return section.holes.fits(section.root_radius)
+
+    try:
+        gear = checked_gear(gear_of(keys), helix.angle)
+        checked_wheel(keys, 2 * gear.root_radius, gear.holes)
+    except ParameterError as refusal:
+        raise with_remedy(_whole(keys, refusal), keys, holes_fit) from refusal
+    return gear
+
+
+def _whole(keys: SpurGearSpec, refusal: ParameterError) -> ParameterError:
+    """A refused key of one's own rack or relief with the nearest value that gives a gear, not only a rack."""
+    if not refusal.name.startswith(("basic_rack.", "tip_relief.")):
+        return refusal
+
+    def builds(value: float) -> bool:
+        changed = replaced(keys, refusal.name, value)
+        return exists(gear_of(changed), helix_of(changed).angle)
+
+    def cure() -> Nearest | None:
+        own, given = refusal.nearest, refusal.value
+        if own is not None and (not isinstance(own.value, float) or _holds(builds, own.value)):
+            return own
+        return nearest(builds, given, (0.5, 0.0)) if isinstance(given, float) else None
+
+    return type(refusal)(refusal.name, refusal.value, refusal.code, cure, **refusal.numbers)
+
+
+def _holds(builds: Callable[[float], bool], value: float) -> bool:
+    try:
+        return builds(value)
+    except GeometryError:
+        return False
+
+
+@told_in_keys
+def section_of(normal: SpurGear, helix: float) -> SpurGear:
+    """The transverse section of a gear in normal data, checked to exist; ``helix`` in rad.
+
+    Raises
+    ------
+    ParameterError
+        The gear cannot exist; names the key and the nearest value that works.
+    """
+    return checked_gear(normal, helix)
+
+
+class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
+    """An external gear; a mate may have shortened its tip."""
+
+    name, keys = "spur_gear", SpurGearSpec
+    sheet_shown = "generating", N_('; purpose = "generating": device TMM-42')
+
+    def thing(self, keys: SpurGearSpec, others: Others) -> SpurGear:
+        """The transverse section of the gear."""
+        return checked_spur_gear(keys)
+
+    def section(self, keys: SpurGearSpec, thing: SpurGear, offset: float) -> OffsetRegion:
+        """The exact section, moved."""
+        return gear_region(thing, offset)
+
+    def solid(self, keys: SpurGearSpec, thing: SpurGear, offset: float) -> Body:
+        """The wheel with its web, hub and chamfers."""
+        section = lru_cache(maxsize=8)(partial(gear_region, thing))
+
+        def outline(moved: float, depth: float) -> Profile:
+            return section(moved).region.outer if depth == 0 else chamfered_outline(thing, depth - moved)
+
+        shape = replace(_shape_of(keys), twist=helix_of(keys).twist(thing.reference_radius))
+        return wheel_body(shape, wheel_sections(outline, thing.root_radius, thing.holes), offset)
+
+    def is_plate(self, keys: SpurGearSpec, thing: SpurGear) -> bool:
+        """Whether there is nothing but the section."""
+        return _shape_of(keys).is_plate
+
+    def report(self, keys: SpurGearSpec, thing: SpurGear) -> Report:
+        """Diameters and thicknesses, what is poor."""
+        circles = {
+            "tip_diameter": 2 * thing.tip_radius,
+            "reference_diameter": 2 * thing.reference_radius,
+            "base_diameter": 2 * thing.base_radius,
+            "root_form_diameter": root_form_diameter(thing),
+            "root_diameter": 2 * thing.root_radius,
+        }
+        quantities = {
+            "pitch": math.pi * thing.module,
+            "tooth_thickness": thing.reference_thickness,
+            "tip_tooth_thickness": tip_thickness(thing),
+            **helix_quantities(keys, thing.reference_radius),
+        }
+        return Report((*_rack_finding(keys, thing), *findings(thing)), circles, quantities, section_finding(keys))
+
+
+SPUR_GEAR = SpurGearKind()
+
+
+def _shape_of(keys: SpurGearSpec) -> WheelShape:
+    return wheel_shape(keys.face_width, keys.web, keys.hub, keys.face_chamfer)
+
+
+def _check_face_chamfer(keys: SpurGearSpec) -> None:
+    """A plane chamfer of a screw surface is no ruled wall between parallel outlines."""
+    given = keys.face_chamfer
+    both = {"": given} if not isinstance(given, FaceChamferTable) else {".below": given.below, ".above": given.above}
+    for key, value in both.items():
+        if keys.helix_angle_deg and value > 0:
+            raise ParameterError(f"face_chamfer{key}", value, "no_chamfer_on_helix", Nearest(0.0))
+
+
+@told_in_keys
+def gear_of(keys: SpurGearSpec) -> SpurGear:
+    """The gear of a part as its keys say, not checked to exist: in normal data where it is helical.
+
+    Raises
+    ------
+    ParameterError
+        Its rack cannot exist, or two keys exclude each other.
+    """
+    checked_teeth(keys)
+    if keys.bore is not None and keys.bore_diameter > 0:
+        raise either("bore_diameter", keys.bore_diameter, "bore", 0.0)
+    _check_unused(keys)
+    cutter = None if keys.cutter is None else cutter_of(keys.cutter, keys.module, math.radians(keys.pressure_angle_deg))
+    return SpurGear(
+        module=keys.module,
+        number_of_teeth=keys.number_of_teeth,
+        rack=_rack_of(keys),
+        profile_shift_coefficient=keys.profile_shift_coefficient,
+        given_tip_diameter=keys.tip_diameter,
+        circumferential_thinning=keys.circumferential_thinning,
+        thinning_by_deeper_cut=keys.thinning_method == "deeper_cut",
+        tip_chamfer=keys.tip_chamfer,
+        tip_rounding=keys.tip_rounding,
+        bore_diameter=keys.bore_diameter,
+        hub=hub_holes(keys.bore, keys.holes, keys.spokes),
+        cutter=cutter,
+    )
+
+
+def _check_unused(keys: SpurGearSpec) -> None:
+    """A cutter leaves of a basic rack the addendum alone: what it would do to the root is refused, not passed over."""
+    rack, default = keys.basic_rack, RackTable()
+    if keys.cutter is None or not isinstance(rack, RackTable):
+        return
+    for key in ("tip_clearance_coefficient", "tip_radius_coefficient"):
+        given, usual = getattr(rack, key), getattr(default, key)
+        if given != usual:
+            raise ParameterError(f"basic_rack.{key}", given, "made_by_cutter", Nearest(usual))
+
+
+def _rack_finding(keys: SpurGearSpec, gear: SpurGear) -> tuple[Finding, ...]:
+    """The remark that only the addendum of a basic rack counts beside a cutter: it, and the root diameter."""
+    if keys.cutter is None or keys.basic_rack == "ISO 53 A":
+        return ()
+    addendum = gear.rack.addendum * gear.module / keys.module
+    return (Finding("cutter_makes_root", addendum, 2 * gear.root_radius),)
+
+
+def _rack_of(keys: SpurGearSpec) -> BasicRack:
+    given = keys.tip_relief
+    relief = None if given is None else TipRelief(given.depth_coefficient, given.height_coefficient)
+    return basic_rack_of(keys.basic_rack, math.radians(keys.pressure_angle_deg), relief)
+
+
+@told_in_keys
+def basic_rack_of(table: RackName | RackTable, angle: float, relief: TipRelief | None = None) -> BasicRack:
+    """The basic rack that a key names or describes; ``angle`` in rad.
+
+    Raises
+    ------
+    ParameterError
+        The rack cannot exist; names the key and the nearest value that works.
+    """
+    if isinstance(table, str):
+        return _standard_rack("A" if table == "GOST 13755" else table[-1], angle, relief)
+    addendum, clearance, radius = (
+        table.addendum_coefficient,
+        table.tip_clearance_coefficient,
+        table.tip_radius_coefficient,
+    )
+    if radius is None:
+        radius = default_tip_radius(angle, addendum, clearance, _TABLE_TIP_RADIUS)
+    return checked_rack(BasicRack(angle, addendum, clearance, radius, relief))
+
+
+def _standard_rack(profile: str, angle: float, relief: TipRelief | None) -> BasicRack:
+    """An ISO 53 rack; one that is pointed at this angle is refused with the largest angle that works."""
+    try:
+        return iso_53(profile, angle, relief)
+    except ParameterError as refusal:
+        if refusal.name.startswith("relief"):
+            raise
+
+        def whole(tried: float) -> bool:
+            return iso_53(profile, tried) is not None
+
+        cure = partial(nearest, whole, angle, ISO_53_ANGLE, digits=9)
+        raise ParameterError("pressure_angle", angle, "standard_rack_pointed", cure, profile=profile) from refusal

@@ -1,0 +1,1 @@
+"""Scene keys that kinds share."""

@@ -1,0 +1,110 @@
+"""Scene keys of the part kind ``barrel_cam``."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from msgspec import Meta, Struct
+
+from parts.keys.base import BoreDiameter, MaterialKeys, degrees, mm, start
+from parts.keys.cam import MotionTable, Phases, Swing, turn
+from parts.keys.holes import BoreTable
+from parts.keys.law import with_own_laws
+from parts.keys.wheel import HubTable
+
+_MOST = 100_000.0
+
+
+class SwingingTable(Struct, forbid_unknown_fields=True):
+    """A follower that swings about a pivot parallel to its roller's axis, beside the cam."""
+
+    arm_length: Annotated[float, mm("from the pivot to the roller's axis", above=0, most=_MOST, example=40.0)]
+    pivot_offset: (
+        Annotated[
+            float,
+            mm(
+                "from the cam's axis to the pivot, square to the roller's axis; above 0 the cam's surface runs "
+                "towards it; default: the roller strays as far to either side",
+                least=-_MOST,
+                most=_MOST,
+                example=40.0,
+            ),
+        ]
+        | None
+    ) = None
+    start_angle_deg: (
+        Annotated[
+            float,
+            degrees(
+                "arm above the plane across the axis where the phases begin; default: half the swing below",
+                above=-90,
+                below=90,
+                example=-10.0,
+            ),
+        ]
+        | None
+    ) = None
+
+
+class BarrelCamSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", tag="barrel_cam"):
+    """Cylindrical cam: a groove around a barrel, or a track on the end of a tube; it turns counter-clockwise."""
+
+    form: Annotated[
+        Literal["groove", "end"],
+        Meta(description="groove: moves the roller both ways; end: a spring holds it", examples=["groove"]),
+    ]
+    outer_diameter: Annotated[float, mm("diameter of the barrel", above=0, most=_MOST, example=60.0)]
+    roller_diameter: Annotated[
+        float,
+        mm(
+            "diameter of the roller, its axis across the cam's; of a cone at the barrel's outer radius",
+            above=0,
+            most=_MOST,
+            example=10.0,
+        ),
+    ]
+    groove_depth: Annotated[float, mm("depth of the groove, or width of the track", above=0, most=_MOST, example=8.0)]
+    roller_form: Annotated[
+        Literal["cylindrical", "conical"],
+        Meta(description="conical: thinner towards the cam's axis, so that it rolls and hardly slides"),
+    ] = "cylindrical"
+    cone_angle_deg: (
+        Annotated[
+            float,
+            degrees(
+                "between opposite sides of a conical roller; default: its apex lies on the cam's axis",
+                above=0,
+                below=120,
+                example=20.0,
+            ),
+        ]
+        | None
+    ) = None
+    lift: Annotated[float, mm("lift H along the axis", least=0, most=_MOST), start(20.0)] = 0.0
+    swing_deg: Swing = 0.0
+    phases: Annotated[Phases, with_own_laws(turn("polynomial_345"))] | None = None
+    motion_table: MotionTable | None = None
+    oscillating: SwingingTable | None = None
+    clearance: Annotated[float, mm("groove wider than the roller by this", least=0, most=100)] = 0.0
+    length: (
+        Annotated[
+            float, mm("length of the barrel; default: the groove and end_margin", above=0, most=_MOST, example=60.0)
+        ]
+        | None
+    ) = None
+    end_margin: (
+        Annotated[
+            float,
+            mm(
+                "material between the groove and each end; default: the roller's radius",
+                above=0,
+                most=_MOST,
+                example=8.0,
+            ),
+        ]
+        | None
+    ) = None
+    web_thickness: Annotated[float, mm("end: bottom of the tube; 0 leaves it open", least=0, most=_MOST)] = 0.0
+    bore_diameter: BoreDiameter = 0.0
+    bore: BoreTable | None = None
+    hub: HubTable | None = None

@@ -1,0 +1,85 @@
+"""Annotated types of scene keys: unit, range and meaning stand beside each key, once.
+
+The annotations are the schema: validation, error texts and ``higherpair new`` all read them.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Annotated, Any
+
+from msgspec import Meta, Struct
+
+from geometry.base.errors import Nearest, ParameterError
+
+
+def size(
+    unit: str,
+    text: str,
+    *,
+    above: float | None = None,
+    least: float | None = None,
+    below: float | None = None,
+    most: float | None = None,
+    example: object = None,
+) -> Meta:
+    """A key with a unit and a range; ``example``: for a scene to start from, of a key without a default."""
+    ends: dict[str, Any] = {"gt": above, "ge": least, "lt": below, "le": most}
+    return Meta(**ends, description=text, examples=None if example is None else [example], extra={"unit": unit})
+
+
+mm, degrees, in_modules = partial(size, "mm"), partial(size, "degrees"), partial(size, "modules")
+
+
+def start(value: object, *others: tuple[object, str]) -> Meta:
+    """What a scene to start from sets, even where the key has a default.
+
+    ``others``: values that would do as well, shown below it, each with what it is.
+    """
+    return Meta(examples=[value], extra={"start": True, "others": others})
+
+
+# names become parts of file names; Windows keeps some for devices
+IDENTIFIER = r"^[A-Za-z0-9][A-Za-z0-9_-]{0,63}\Z"
+DEVICE_NAMES = {"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(1, 10))}
+Identifier = Annotated[
+    str,
+    Meta(
+        pattern=IDENTIFIER,
+        description="part of the file's name where two exports share an ending; letters, digits, _, -",
+    ),
+]
+Colour = Annotated[
+    str, Meta(pattern=r"^#[0-9a-fA-F]{6}$", description="colour in pictures, like #c08040", examples=["#c08040"])
+]
+Material = Annotated[
+    str,
+    Meta(
+        max_length=200, description="material; names like steel, PLA, plywood give the mass", examples=["plywood 3 mm"]
+    ),
+]
+Density = Annotated[
+    float, Meta(gt=0, le=30, description="density for the mass", examples=[0.65], extra={"unit": "g/cm^3"})
+]
+FaceWidth = Annotated[float, mm("thickness of the part along its axis", least=0.01, most=10_000)]
+BoreDiameter = Annotated[float, mm("round bore; 0 is none", least=0, most=100_000)]
+
+
+def either(key: str, value: object, other: str, without: float | None = None) -> ParameterError:
+    """A refusal of two keys that exclude each other; the refused one works as ``without``."""
+    cure = None if without is None else Nearest(without)
+    return ParameterError(key, value, "either_key", cure, one=other, other=key.partition(".")[0])
+
+
+class MaterialKeys(Struct, forbid_unknown_fields=True, kw_only=True):
+    """Keys of every part that is made of something; the chain goes on below, in ``holes.py`` and ``wheel.py``."""
+
+    material: Material | None = None
+    density: Density | None = None
+    colour: Colour | None = None
+
+
+class MadeKeys(MaterialKeys, kw_only=True):
+    """Keys of every part whose thickness is a key too."""
+
+    face_width: FaceWidth = 10.0

@@ -1,0 +1,203 @@
+"""Scene keys of a follower's motion: phases with their laws, or a table."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated, Literal, Protocol
+
+from msgspec import Meta, Struct
+
+from geometry.base.errors import Nearest, ParameterError
+from parts.keys.base import degrees, mm, start
+from parts.keys.law import LawName, LawTable, law_of
+
+if TYPE_CHECKING:
+    from geometry.cams.motion.follower_motion import FollowerMotion, Phase
+
+_MOST = 100_000.0
+# angles that miss a turn by less are closed by the last phase, degrees
+_CLOSING_DEG = 5e-8
+# a phase that is so many times shorter than the last one was mistyped
+_FAR_SHORTER = 4
+# velocities of a law of stroke and length 1 below this are none
+_ROUGH = 1e-9
+
+
+class PhaseTable(Struct, forbid_unknown_fields=True):
+    """A phase of the motion; together they make 360 degrees, from cam angle 0."""
+
+    move: Annotated[Literal["rise", "dwell", "return_"], Meta(description="what the follower does")]
+    angle_deg: Annotated[float, degrees("cam angle of the phase", above=0, most=360)]
+    law: LawName | LawTable | None = None
+    share: Annotated[float, Meta(gt=0, le=1, description="of the lift, in this phase")] = 1.0
+
+
+def turn(back: LawName) -> list[dict[str, object]]:
+    """Phases to start from, as a scene has them; ``back``: law of the return."""
+    rest: dict[str, object] = {"move": "dwell", "angle_deg": 60.0}
+    rise, fall = ({"move": move, "angle_deg": 120.0} for move in ("rise", "return_"))
+    return [{**rise, "law": "sine"}, rest, {**fall, "law": back}, rest]
+
+
+# keys that several kinds of cams have
+Follower = Annotated[
+    Literal["pointed", "roller", "mushroom", "flat"],
+    Meta(description="shape of the follower's end", examples=["roller"]),
+]
+Lift = Annotated[float, mm("lift H of a translating follower", least=0, most=_MOST), start(20.0)]
+Swing = Annotated[float, degrees("swing of an oscillating follower", least=0, below=180)]
+Phases = Annotated[list[PhaseTable], Meta(min_length=1, max_length=100)]
+MotionTable = Annotated[
+    list[tuple[float, float]],
+    Meta(
+        min_length=3,
+        max_length=2000,
+        description="in place of phases: [cam angle deg, lift mm or deg]",
+        examples=[[[0.0, 0.0], [120.0, 10.0], [240.0, 5.0]]],
+    ),
+]
+FollowerOffset = Annotated[float, mm("line of motion at x = e; e > 0 eases the rise", least=-_MOST, most=_MOST)]
+
+
+class Stroke(Protocol):
+    """Keys of a follower that slides or swings."""
+
+    lift: float
+    swing_deg: float
+
+
+class Moved(Stroke, Protocol):
+    """Keys of a follower's motion over a turn."""
+
+    phases: list[PhaseTable] | None
+    motion_table: list[tuple[float, float]] | None
+
+
+class MovingPhase(Protocol):
+    """A phase over an angle or a way."""
+
+    move: Literal["rise", "dwell", "return_"]
+    law: LawName | LawTable | None
+    share: float
+
+
+def stroke_key(swings: bool) -> tuple[str, float]:
+    """The key of a follower's travel, and its unit in mm or rad."""
+    return ("swing_deg", math.radians(1.0)) if swings else ("lift", 1.0)
+
+
+def motion_of(keys: Moved, swings: bool) -> FollowerMotion:
+    """The follower's motion from its keys, mm, or rad of one that swings.
+
+    Raises
+    ------
+    ParameterError
+        Both or neither of phases and table, or a motion that cannot be.
+    """
+    from geometry.cams.motion.follower_motion import dwell, follower_motion, motion_of_table, return_, rise
+
+    key, unit = stroke_key(swings)
+    lift: float = getattr(keys, key)
+    phases, table = keys.phases, keys.motion_table
+    if table is not None:
+        if phases is not None:
+            raise ParameterError("phases", None, "phases_or_table", Nearest(None) if lift == 0 else None)
+        if lift != 0:
+            raise ParameterError(key, lift, "lift_in_table", Nearest(0.0))
+        try:
+            return motion_of_table([math.radians(a) for a, _ in table], [s * unit for _, s in table])
+        except ParameterError as refusal:
+            # a lift of a row stands in the unit of its key
+            raise refusal.renamed(refusal.name, 1 / unit if refusal.name.endswith(".item 2") else None) from refusal
+    if phases is None:
+        raise ParameterError("phases", None, "phases_or_table")
+    if not lift > 0:
+        raise ParameterError(key, lift, "no_lift")
+    lift *= unit
+    made = []
+    for index, phase in enumerate(phases):
+        angle = math.radians(phase.angle_deg)
+        if phase.move == "dwell":
+            check_dwell(phase, index)
+            made.append(dwell(angle))
+            continue
+        law = law_of(phase.law, f"phases.item {index + 1}.law")
+        made.append((rise if phase.move == "rise" else return_)(angle, phase.share * lift, law))
+    _check_whole_turn(phases)
+    _check_return(phases)
+    return follower_motion(made)
+
+
+def check_stroke(keys: Stroke, swings: bool, *, tabled: bool, table: str = "oscillating") -> None:
+    """A follower has a lift or a swing; ``table``: the key of its arm, "" where it is none of its own.
+
+    ``tabled``: a table holds its motion.
+
+    Raises
+    ------
+    ParameterError
+        The wrong one is given; without it the follower moves where the other one is given too.
+    """
+    key, other = ("lift", "swing_deg") if swings else ("swing_deg", "lift")
+    value = getattr(keys, key)
+    if value == 0:
+        return
+    code = "swing_without_arm" if table and not swings else "stroke_of_another"
+    works = Nearest(0.0) if tabled or getattr(keys, other) != 0 else None
+    raise ParameterError(key, value, code, works, other=other, table=table)
+
+
+def check_dwell(phase: MovingPhase, index: int) -> None:
+    """A dwell has neither law nor share; refused by the one that it has."""
+    place = f"phases.item {index + 1}"
+    if phase.law is not None and phase.share != 1:
+        raise ParameterError(f"{place}.move", "dwell", "dwell_with_law")
+    if phase.law is not None:
+        law = phase.law if isinstance(phase.law, str) else None
+        raise ParameterError(f"{place}.law", law, "dwell_with_law", Nearest(None))
+    if phase.share != 1:
+        raise ParameterError(f"{place}.share", phase.share, "dwell_with_law", Nearest(1.0))
+
+
+def rough_law(keys: Sequence[MovingPhase], phases: Sequence[Phase]) -> tuple[str, str | None] | None:
+    """The key of the first law whose velocity jumps at an end of its phase, and the law's name if it has one."""
+    for index, phase in enumerate(phases):
+        ends = () if phase.law is None else ((phase.law.pieces[0], 0.0), (phase.law.pieces[-1], 1.0))
+        if any(abs(float(piece.value(at, 1))) > _ROUGH for piece, at in ends):
+            law = keys[index].law
+            return f"phases.item {index + 1}.law", law if isinstance(law, str) else None
+    return None
+
+
+def _check_whole_turn(phases: list[PhaseTable]) -> None:
+    """The phases fill one turn; else refused by the last one that can, or one that is far too short, with what fits."""
+    angles = [p.angle_deg for p in phases]
+    whole = math.fsum(angles)
+    if abs(whole - 360) <= _CLOSING_DEG:
+        return
+    index = next((k for k in reversed(range(len(angles))) if angles[k] + 360 - whole > 0), 0)
+    if whole < 360 and _FAR_SHORTER * min(angles) < angles[index]:
+        index = angles.index(min(angles))
+    fitting = round(angles[index] + 360 - whole, 9)
+    works = Nearest(fitting) if fitting > 0 else None
+    raise ParameterError(f"phases.item {index + 1}.angle_deg", angles[index], "phases_not_a_turn", works, whole=whole)
+
+
+def _check_return(phases: list[PhaseTable]) -> None:
+    """Rises and returns cancel; else refused with the share of one of them that makes them do."""
+    signs = {"rise": 1, "dwell": 0, "return_": -1}
+    total = math.fsum(signs[p.move] * p.share for p in phases)
+    if abs(total) <= 1e-12:
+        return
+    for index in reversed(range(len(phases))):
+        sign, own = signs[phases[index].move], phases[index].share
+        fitting = round(own - sign * total, 12)
+        if sign and 0 < fitting <= 1:
+            raise ParameterError(f"phases.item {index + 1}.share", own, "does_not_come_back", Nearest(fitting))
+    rest = next((k for k, p in reversed(list(enumerate(phases))) if p.move == "dwell"), None)
+    if rest is not None:
+        raise ParameterError(f"phases.item {rest + 1}.move", "dwell", "does_not_come_back")
+    one_way = next(k for k, p in reversed(list(enumerate(phases))) if signs[p.move] * total > 0)
+    other = Nearest("return_" if total > 0 else "rise")
+    raise ParameterError(f"phases.item {one_way + 1}.move", phases[one_way].move, "does_not_come_back", other)

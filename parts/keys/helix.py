@@ -1,0 +1,128 @@
+"""Scene keys of helical teeth, shared by gears, rings and racks, and what a part says of its helix."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import wraps
+from typing import Annotated, Literal, ParamSpec, TypeVar
+
+from msgspec import Meta, Struct
+
+from geometry.base.errors import Nearest, ParameterError
+from geometry.base.findings import Finding
+from geometry.gears.pairs.common_face import STRAIGHT, CommonFace
+from geometry.gears.teeth.helix import Hand, Helix
+from parts.keys.base import MadeKeys, degrees, either, mm
+
+HelixAngle = Annotated[
+    float,
+    degrees(
+        "helix angle on the reference cylinder, all else is then normal; negative turns the hand", least=-60, most=60
+    ),
+]
+HandName = Annotated[Literal["right", "left"], Meta(description="hand of the helix; of the lower half of a double one")]
+Double = Annotated[bool, Meta(description="two helices of opposite hands that meet in the middle of the face width")]
+Module = Annotated[
+    float, mm("module m; the normal module where helix_angle_deg is not 0", least=0.01, most=1000, example=2.0)
+]
+
+
+class ToothedKeys(MadeKeys, forbid_unknown_fields=True, kw_only=True):
+    """Keys of everything with involute teeth on parallel axes, straight or helical."""
+
+    module: Module
+    circumferential_thinning: Annotated[
+        float, mm("thinning of each tooth for backlash, arc on the reference circle", least=0, most=1000)
+    ] = 0.0
+    tip_chamfer: Annotated[float, mm("radial height of a 45 degree tip chamfer", least=0, most=1000)] = 0.0
+    tip_rounding: Annotated[float, mm("radius of the tip corner", least=0, most=1000)] = 0.0
+    helix_angle_deg: HelixAngle = 0.0
+    hand: HandName = "right"
+    double_helical: Double = False
+
+
+def helix_of(keys: Struct) -> Helix:
+    """The helix of a part's keys; that of spur gears for parts without such keys."""
+    if not isinstance(keys, ToothedKeys):
+        return Helix()
+    hand: Hand = keys.hand
+    if keys.helix_angle_deg < 0:
+        hand = "left" if hand == "right" else "right"
+    return Helix(math.radians(abs(keys.helix_angle_deg)), hand, keys.double_helical)
+
+
+def checked_teeth(keys: ToothedKeys) -> Helix:
+    """The helix of a part's keys, which belong together.
+
+    Raises
+    ------
+    ParameterError
+        Two helices without an angle, or a tip corner that is broken twice.
+    """
+    if keys.tip_chamfer > 0 and keys.tip_rounding > 0:
+        raise either("tip_rounding", keys.tip_rounding, "tip_chamfer", 0.0)
+    helix = helix_of(keys)
+    if helix.double and helix.angle == 0:
+        raise ParameterError("double_helical", True, "double_helical_without_angle", Nearest(False))
+    return helix
+
+
+def common_face(first: Struct, second: Struct) -> CommonFace:
+    """The face that two mates' keys give them, both at one height; that of straight teeth for other parts."""
+    if not (isinstance(first, ToothedKeys) and first.helix_angle_deg and isinstance(second, MadeKeys)):
+        return STRAIGHT
+    return CommonFace(helix_of(first), first.module, min(first.face_width, second.face_width))
+
+
+def helix_quantities(keys: ToothedKeys, reference_radius: float) -> dict[str, float]:
+    """Normal pitch and lead of helical teeth, mm; nothing for straight ones."""
+    helix = helix_of(keys)
+    if helix.angle == 0:
+        return {}
+    return {"normal_pitch": math.pi * keys.module, "lead": helix.lead(reference_radius)}
+
+
+def section_finding(keys: ToothedKeys) -> tuple[Finding, ...]:
+    """The remark that a flat outline of helical teeth is their transverse section."""
+    return (Finding("transverse_section", keys.helix_angle_deg, 0.0),) if keys.helix_angle_deg else ()
+
+
+# parameters of teeth as scenes have them, and in which unit
+_KEYS: dict[str, tuple[str, float | None]] = {
+    "pressure_angle": ("pressure_angle_deg", math.degrees(1)),
+    "helix_angle": ("helix_angle_deg", math.degrees(1)),
+    "rack.addendum": ("basic_rack.addendum_coefficient", None),
+    "rack.tip_clearance": ("basic_rack.tip_clearance_coefficient", None),
+    "rack.tip_radius": ("basic_rack.tip_radius_coefficient", None),
+    "relief.depth": ("tip_relief.depth_coefficient", None),
+    "relief.height": ("tip_relief.height_coefficient", None),
+    "cutter.addendum": ("cutter.addendum_coefficient", None),
+    "cutter.tip_rounding": ("cutter.tip_rounding_coefficient", None),
+    "root.dedendum": ("rounded_root.dedendum_coefficient", None),
+    "root.radius": ("rounded_root.radius_coefficient", None),
+}
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+def in_keys(refusal: ParameterError) -> ParameterError:
+    """A refusal of teeth in the key and the unit that scenes have for the parameter."""
+    name, factor = _KEYS.get(refusal.name, (refusal.name, None))
+    return refusal if name == refusal.name else refusal.renamed(name, factor)
+
+
+def told_in_keys(made: Callable[P, T]) -> Callable[P, T]:
+    """Of what makes teeth from keys: its refusals are told ``in_keys``."""
+
+    @wraps(made)
+    def wrapper(*args: P.args, **kwargs: P.kwargs) -> T:
+        try:
+            return made(*args, **kwargs)
+        except ParameterError as refusal:
+            told = in_keys(refusal)
+            if told is refusal:
+                raise
+            raise told from refusal
+
+    return wrapper

@@ -1,0 +1,258 @@
+"""Scene keys of the holes in a wheel: ``bore``, ``holes`` and ``spokes``, and what would work where they do not fit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Annotated, Literal, Protocol, TypeVar
+
+from msgspec import Meta, Struct
+from msgspec.structs import replace
+
+from geometry.base.errors import ParameterError, limit
+from geometry.base.nearest import nearest
+from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
+from geometry.solids.hub_holes import HubHoles
+from geometry.solids.keyways import keyway_row
+from geometry.solids.windows import RoundHoles, Spokes
+from parts.base.schema import replaced, value_at
+from parts.keys.base import BoreDiameter, MadeKeys, degrees, either, mm
+
+K = TypeVar("K", bound=Struct)
+_MOST = 100_000.0
+# part of the room for a bore that it takes at most
+_WITHIN = 0.9999
+Direction = Annotated[float, degrees("direction of the first one", least=-360, most=360)]
+Diameter = Annotated[float, mm("diameter of the bore", above=0, most=_MOST, example=8.0)]
+AcrossFlats = Annotated[float, mm("from a flat to the opposite one", above=0, most=_MOST, example=7.0)]
+CornerRadius = Annotated[float, mm("rounding of the corners", least=0, most=_MOST)]
+PitchCircle = Annotated[float, mm("circle of their centres", above=0, most=_MOST, example=28.0)]
+
+
+class RoundBoreTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="round"):
+    """Round bore, the same as bore_diameter."""
+
+    diameter: Diameter
+
+    def bore(self) -> Bore:
+        """The bore of these sizes."""
+        return RoundBore(self.diameter)
+
+
+class KeywayTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="keyway"):
+    """Round bore with keyways by a standard, or of one's own width and depth."""
+
+    diameter: Diameter
+    standard: Literal["DIN 6885", "GOST 23360"] = "DIN 6885"
+    keys: Annotated[int, Meta(ge=1, le=2, description="one keyway, or two opposite ones")] = 1
+    angle_deg: Direction = 90.0
+    width: Annotated[float, mm("width b; default: the standard's", above=0, most=_MOST, example=2.0)] | None = None
+    depth: (
+        Annotated[float, mm("depth t2 in the hub; default: the standard's", above=0, most=_MOST, example=1.0)] | None
+    ) = None
+    corner_radius: (
+        Annotated[
+            float, mm("at the keyway's bottom; default: the standard's largest", least=0, most=_MOST, example=0.16)
+        ]
+        | None
+    ) = None
+
+    def bore(self) -> Bore:
+        """The keyway of the standard, each size replaced by one that is given; of one's own where both are."""
+        width, depth, radius = self.width, self.depth, self.corner_radius
+        if width is None or depth is None:
+            row = keyway_row(self.standard, self.diameter)
+            width, depth = width or row.width, depth or row.hub_depth
+            if radius is None:
+                # a keyway of other sizes may have less room for it
+                radius = min(row.most_radius, width / 4, depth / 4)
+        return KeywayBore(self.diameter, width, depth, radius or 0.0, self.keys, math.radians(self.angle_deg))
+
+
+class FlatBoreTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="D"):
+    """Round bore with one flat."""
+
+    diameter: Diameter
+    flat: Annotated[float, mm("from the flat to the opposite side", above=0, most=_MOST, example=7.0)]
+    angle_deg: Direction = 90.0
+
+    def bore(self) -> Bore:
+        """The bore of these sizes."""
+        return FlatBore(self.diameter, self.flat - self.diameter / 2, 1, math.radians(self.angle_deg))
+
+
+class DoubleFlatBoreTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="double_D"):
+    """Round bore with two opposite flats."""
+
+    diameter: Diameter
+    across_flats: AcrossFlats
+    angle_deg: Direction = 90.0
+
+    def bore(self) -> Bore:
+        """The bore of these sizes."""
+        return FlatBore(self.diameter, self.across_flats / 2, 2, math.radians(self.angle_deg))
+
+
+class HexagonTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="hexagon"):
+    """Hexagonal bore."""
+
+    across_flats: AcrossFlats
+    corner_radius: CornerRadius = 0.0
+    angle_deg: Direction = 90.0
+
+    def bore(self) -> Bore:
+        """The bore of these sizes."""
+        return PolygonBore(6, self.across_flats, self.corner_radius, math.radians(self.angle_deg))
+
+
+class SquareTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="square"):
+    """Square bore."""
+
+    across_flats: AcrossFlats
+    corner_radius: CornerRadius = 0.0
+    angle_deg: Direction = 90.0
+
+    def bore(self) -> Bore:
+        """The bore of these sizes."""
+        return PolygonBore(4, self.across_flats, self.corner_radius, math.radians(self.angle_deg))
+
+
+BoreTable = RoundBoreTable | KeywayTable | FlatBoreTable | DoubleFlatBoreTable | HexagonTable | SquareTable
+
+
+class HolesTable(Struct, forbid_unknown_fields=True):
+    """Round holes on a pitch circle (lightening holes, bolt circle), or a list of such tables."""
+
+    count: Annotated[int, Meta(ge=1, le=1000, description="number of holes", examples=[5])]
+    diameter: Annotated[float, mm("diameter of each hole", above=0, most=_MOST, example=6.0)]
+    pitch_circle_diameter: PitchCircle
+    start_deg: Direction = 0.0
+
+
+class SpokesTable(Struct, forbid_unknown_fields=True):
+    """Spokes between a hub ring and a rim: windows with rounded corners."""
+
+    count: Annotated[int, Meta(ge=2, le=200, description="number of spokes", examples=[5])]
+    inner_diameter: Annotated[float, mm("outside of the hub ring", above=0, most=_MOST, example=20.0)]
+    outer_diameter: Annotated[float, mm("inside of the rim", above=0, most=_MOST, example=36.0)]
+    width: Annotated[float, mm("width of a spoke", above=0, most=_MOST, example=4.0)]
+    corner_radius: CornerRadius = 0.0
+    start_deg: Direction = 0.0
+
+
+HolesKey = HolesTable | Sequence[HolesTable] | None
+
+
+def hub_holes(bore: BoreTable | None, holes: HolesKey, spokes: SpokesTable | None) -> HubHoles:
+    """The holes that the keys describe.
+
+    Raises
+    ------
+    ParameterError
+        A keyway has no row in its standard, or one of its sizes is missing.
+    """
+    groups = [holes] if isinstance(holes, HolesTable) else holes or []
+    windows = None
+    if spokes is not None:
+        windows = Spokes(
+            spokes.count,
+            spokes.inner_diameter,
+            spokes.outer_diameter,
+            spokes.width,
+            spokes.corner_radius,
+            math.radians(spokes.start_deg),
+        )
+    circles = tuple(RoundHoles(g.count, g.diameter, g.pitch_circle_diameter, math.radians(g.start_deg)) for g in groups)
+    return HubHoles(None if bore is None else bore.bore(), circles, windows)
+
+
+# shares of a value at which a search for one that fits begins, near ones first
+_SHARES = (31 / 32, 33 / 32, 15 / 16, 17 / 16, 7 / 8, 9 / 8, 3 / 4, 5 / 4, 1 / 2, 3 / 2, 2 / 5, 2, 1 / 4, 3, 1 / 8, 5,
+           1 / 64, 1e-4, 0)  # fmt: skip
+# keys that only turn holes
+_TURNS = ("angle_deg", "start_deg")
+
+
+class Bored(Protocol):
+    """A bore, given in short or in full."""
+
+    @property
+    def bore_diameter(self) -> float | None:
+        """0: none; None: that of another part."""
+
+    @property
+    def bore(self) -> BoreTable | None:
+        """Its shape."""
+
+
+def bore_of(keys: Bored) -> BoreTable | None:
+    """The bore in full.
+
+    Raises
+    ------
+    ParameterError
+        It is given in short too.
+    """
+    if keys.bore is not None and keys.bore_diameter:
+        raise either("bore_diameter", keys.bore_diameter, "bore", 0.0)
+    return RoundBoreTable(keys.bore_diameter) if keys.bore_diameter else keys.bore
+
+
+class BoredKeys(MadeKeys, kw_only=True):
+    """Keys of a part with a bore."""
+
+    bore_diameter: BoreDiameter = 0.0
+    bore: BoreTable | None = None
+
+    def hub_holes(self) -> HubHoles:
+        """The bore and what else is cut about it; refuses as ``bore_of`` and ``hub_holes`` do."""
+        return hub_holes(bore_of(self), None, None)
+
+
+class HoledKeys(BoredKeys, kw_only=True):
+    """Keys of a part with a bore and round holes about it."""
+
+    holes: HolesTable | list[HolesTable] | None = None
+
+    def hub_holes(self) -> HubHoles:
+        """Bore and holes."""
+        return hub_holes(bore_of(self), self.holes, None)
+
+
+def wide_bore(keys: Bored, inside: float, code: str) -> ParameterError:
+    """A refusal of a bore that reaches ``inside`` mm from the axis: its size as typed, and one that stays within."""
+    bore = keys.bore
+    if bore is None or keys.bore_diameter:
+        most = limit(2 * inside * _WITHIN, math.inf)
+        return ParameterError("bore_diameter", keys.bore_diameter, code, most)
+    name = "diameter" if "diameter" in bore.__struct_fields__ else "across_flats"
+    typed: float = getattr(bore, name)
+
+    def fits(size: float) -> bool:
+        return hub_holes(replace(bore, **{name: size}), None, None).bore_reach < inside
+
+    return ParameterError(f"bore.{name}", typed, code, lambda: nearest(fits, typed, (typed * s for s in _SHARES)))
+
+
+def with_remedy(refusal: ParameterError, keys: K, fits: Callable[[K], bool]) -> ParameterError:
+    """A refusal of ``bore``, ``holes`` or ``spokes`` told of the key of its table that alone can cure it.
+
+    ``fits`` judges changed keys; the refused key is tried before the others. The refusal itself where none can.
+    """
+    owner, _, key = refusal.name.rpartition(".")
+    if isinstance(value_at(keys, owner), list):
+        owner = f"{owner}.item 1"
+    table = value_at(keys, owner)
+    if not owner.startswith(("bore", "holes", "spokes")) or not isinstance(table, Struct):
+        return refusal
+    sizes = {f: v for f in table.__struct_fields__ if isinstance(v := getattr(table, f), float) and f not in _TURNS}
+    for name in sorted(sizes, key=lambda f: f != key):
+        path, given = f"{owner}.{name}", sizes[name]
+
+        def works(value: float, path: str = path) -> bool:
+            return fits(replaced(keys, path, value))
+
+        found = nearest(works, given, (given * s for s in _SHARES))
+        if found is not None:
+            return type(refusal)(path, given, refusal.code, found, **refusal.numbers)
+    return refusal

@@ -1,0 +1,291 @@
+"""Scene keys of motion laws: by name, by acceleration diagram or its halves, polynomials, B-splines."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from msgspec import Meta, Struct
+
+from geometry.base.errors import Nearest, ParameterError
+from parts.base.texts import N_
+from parts.keys.base import start
+
+if TYPE_CHECKING:
+    from geometry.laws.diagram import Stretch
+    from geometry.laws.law import Law
+
+LawName = Literal[
+    "constant_velocity",
+    "constant_acceleration",
+    "linearly_decreasing",
+    "cosine",
+    "sine",
+    "trapezoid",
+    "triangle",
+    "modified_trapezoid",
+    "modified_sine",
+    "polynomial_345",
+    "polynomial_4567",
+    "gutman_13",
+]
+Width = Annotated[float, Meta(gt=0, le=1e6, description="width, any scale")]
+Ordinate = Annotated[float, Meta(ge=-1e6, le=1e6, description="ordinate, any scale; below the axis negative")]
+Share = Annotated[float, Meta(ge=0, le=1, description="share of the width")]
+
+
+class ConstantTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="constant"):
+    """Horizontal segment of the acceleration diagram."""
+
+    width: Width
+    ordinate: Ordinate
+
+
+class LinearTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="linear"):
+    """Sloping segment."""
+
+    width: Width
+    first: Ordinate
+    last: Ordinate
+
+
+class HalfSineTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="half_sine"):
+    """0, the peak, 0."""
+
+    width: Width
+    peak: Ordinate
+
+
+class QuarterSineTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="quarter_sine"):
+    """0 to the peak, where it is horizontal."""
+
+    width: Width
+    peak: Ordinate
+
+
+class QuarterCosineTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="quarter_cosine"):
+    """Horizontal at the peak, down to 0."""
+
+    width: Width
+    peak: Ordinate
+
+
+class HalfCosineTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="half_cosine"):
+    """Horizontal at both ends."""
+
+    width: Width
+    first: Ordinate
+    last: Ordinate
+
+
+class TrapezoidTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="trapezoid"):
+    """0, ramp, level, ramp, 0."""
+
+    width: Width
+    ordinate: Ordinate
+    up: Share
+    down: Share | None = None
+
+
+class PointsTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="points"):
+    """A cubic spline through points (place, ordinate)."""
+
+    width: Width
+    points: Annotated[list[tuple[float, float]], Meta(min_length=2, max_length=2000, description="[place, ordinate]")]
+
+
+StretchTable = (
+    ConstantTable
+    | LinearTable
+    | HalfSineTable
+    | QuarterSineTable
+    | QuarterCosineTable
+    | HalfCosineTable
+    | TrapezoidTable
+    | PointsTable
+)
+
+
+class LawTable(Struct, forbid_unknown_fields=True):
+    """A law of one's own; one of diagram, first_half with second_half, conditions, poles, name."""
+
+    diagram: (
+        Annotated[list[StretchTable], Meta(min_length=1, max_length=200, description="its acceleration, in any scale")]
+        | None
+    ) = None
+    balance: Annotated[bool, Meta(description="scale what lies below the axis so that the diagram closes")] = False
+    first_half: (
+        Annotated[
+            list[StretchTable],
+            Meta(min_length=1, max_length=100, description="acceleration up to the greatest velocity, above the axis"),
+        ]
+        | None
+    ) = None
+    second_half: (
+        Annotated[
+            list[StretchTable],
+            Meta(min_length=1, max_length=100, description="deceleration after it, drawn above the axis too"),
+        ]
+        | None
+    ) = None
+    first_share: Annotated[float, Meta(gt=0, lt=1, description="of the phase that the first half takes")] = 0.5
+    conditions: (
+        Annotated[
+            list[tuple[float, int, float]],
+            Meta(min_length=2, max_length=32, description="polynomial: [place u from 0 to 1, order, s^(order)(u)]"),
+        ]
+        | None
+    ) = None
+    poles: (
+        Annotated[list[float], Meta(min_length=4, max_length=60, description="of a B-spline, from 0 to the lift")]
+        | None
+    ) = None
+    degree: Annotated[int, Meta(ge=3, le=9, description="of the B-spline")] = 5
+    knots: (
+        Annotated[list[float], Meta(max_length=56, description="inner knots, 0 to 1; default: equal spans")] | None
+    ) = None
+    name: LawName | None = None
+    ramp: (
+        Annotated[float, Meta(ge=0, lt=0.5, description="trapezoid, modified ones: share of each ramp, usual 0.125")]
+        | None
+    ) = None
+    reverse: Annotated[bool, Meta(description="run backwards: first and second half exchanged")] = False
+
+
+# which keys belong to which kind of law, the one that names it first
+_KINDS = {
+    "diagram": ("balance",),
+    "first_half": ("second_half", "first_share"),
+    "conditions": (),
+    "poles": ("degree", "knots"),
+    "name": ("ramp",),
+}
+
+
+# laws of one's own in place of a name, each with what it is
+_EXAMPLES: tuple[tuple[dict[str, object], str], ...] = (
+    (
+        {"diagram": [{"shape": "half_sine", "width": 1.0, "peak": peak} for peak in (1.0, -1.0)]},
+        N_(
+            "law by its acceleration diagram; shapes: constant, linear, half_sine, quarter_sine, quarter_cosine, "
+            "half_cosine, trapezoid, points"
+        ),
+    ),
+    (
+        {
+            "diagram": [
+                {"shape": "linear", "width": 3.0, "first": 0.0, "last": 2.0},
+                {"shape": "linear", "width": 5.0, "first": -2.0, "last": 0.0},
+            ],
+            "balance": True,
+        },
+        N_("balance scales what lies below the axis so that the diagram closes"),
+    ),
+    (
+        {
+            "first_half": [{"shape": "trapezoid", "width": 1.0, "ordinate": 1.0, "up": 0.25}],
+            "second_half": [{"shape": "half_sine", "width": 1.0, "peak": 1.0}],
+            "first_share": 0.5,
+        },
+        N_("acceleration and deceleration as two halves, both above the axis"),
+    ),
+    (
+        {"conditions": [[end, order, end if order == 0 else 0.0] for end in (0.0, 1.0) for order in (0, 1, 2)]},
+        N_("polynomial by conditions [u, order, value of that derivative]"),
+    ),
+    ({"poles": [*[0.0] * 4, *[1.0] * 4], "degree": 5}, N_("B-spline by its poles")),
+    ({"name": "modified_trapezoid", "ramp": 0.125, "reverse": False}, N_("named law with ramps of one's own")),
+)
+
+
+def with_own_laws(phases: list[dict[str, object]]) -> Meta:
+    """Phases to start from, and these with laws of one's own in the first of them."""
+    return start(phases, *(([{**phases[0], "law": law}, *phases[1:]], meant) for law, meant in _EXAMPLES))
+
+
+def law_of(law: LawName | LawTable | None, place: str) -> Law:
+    """The law of a phase, refusals under ``place``.
+
+    Raises
+    ------
+    ParameterError
+        No law, none or several kinds of law in one table, or a law that cannot be.
+    """
+    from geometry.laws.named import NAMED_LAWS
+
+    if law is None:
+        raise ParameterError(place, None, "law_missing", Nearest("sine"), names=[*NAMED_LAWS])
+    if isinstance(law, str):
+        return NAMED_LAWS[law]()
+    kinds = [kind for kind in _KINDS if getattr(law, kind) is not None]
+    if len(kinds) != 1:
+        raise ParameterError(place, None, "several_laws" if kinds else "empty_law", given=kinds, names=[*_KINDS])
+    allowed = {kinds[0], *_KINDS[kinds[0]], "reverse"}
+    plain = LawTable()
+    for field in LawTable.__struct_fields__:
+        if field not in allowed and getattr(law, field) != getattr(plain, field):
+            owner = next(kind for kind, keys in _KINDS.items() if field in keys)
+            given, rest = getattr(law, field), getattr(plain, field)
+            numbers = {"owner": owner, "other": kinds[0]}
+            raise ParameterError(f"{place}.{field}", given, "key_of_another_law", Nearest(rest), **numbers)
+    try:
+        made = _made(kinds[0], law)
+    except ParameterError as refusal:
+        raise refusal.renamed(f"{place}.{refusal.name}") from refusal
+    return made.reversed_in_time() if law.reverse else made
+
+
+def _made(kind: str, law: LawTable) -> Law:
+    """The law of a table of one kind."""
+    from geometry.laws import diagram
+    from geometry.laws.named import polynomial_law
+    from geometry.laws.splines import bspline_law
+
+    if kind == "diagram":
+        return diagram.law_of_diagram("own diagram", _drawn(law.diagram), balance=law.balance)
+    if kind == "first_half":
+        if law.second_half is None:
+            raise ParameterError("second_half", None, "second_half_missing")
+        halves = _drawn(law.first_half), _drawn(law.second_half)
+        return diagram.law_of_halves("own halves", *halves, share=law.first_share)
+    if kind == "conditions":
+        return polynomial_law(law.conditions or [])
+    if kind == "poles":
+        return bspline_law(law.poles or [], degree=law.degree, knots=law.knots)
+    return _ramped(law)
+
+
+def _ramped(law: LawTable) -> Law:
+    """A named law with ramps of one's own."""
+    from geometry.laws.named import NAMED_LAWS, modified_sine, modified_trapezoid, trapezoidal
+
+    if law.ramp is None:
+        return NAMED_LAWS[str(law.name)]()
+    with_ramps = {"trapezoid": trapezoidal, "modified_trapezoid": modified_trapezoid, "modified_sine": modified_sine}
+    if law.name not in with_ramps:
+        raise ParameterError("ramp", law.ramp, "law_without_ramps", Nearest(None), law=law.name, names=[*with_ramps])
+    return with_ramps[law.name](law.ramp)
+
+
+def _drawn(tables: list[StretchTable] | None) -> list[Stretch]:
+    return [s for table in tables or () for s in _stretches(table)]
+
+
+def _stretches(table: StretchTable) -> list[Stretch]:
+    from geometry.laws import diagram
+
+    width = table.width
+    if isinstance(table, ConstantTable):
+        return [diagram.constant(width, table.ordinate)]
+    if isinstance(table, LinearTable):
+        return [diagram.linear(width, table.first, table.last)]
+    if isinstance(table, HalfSineTable):
+        return [diagram.half_sine(width, table.peak)]
+    if isinstance(table, QuarterSineTable):
+        return [diagram.quarter_sine(width, table.peak)]
+    if isinstance(table, QuarterCosineTable):
+        return [diagram.quarter_cosine(width, table.peak)]
+    if isinstance(table, HalfCosineTable):
+        return [diagram.half_cosine(width, table.first, table.last)]
+    if isinstance(table, TrapezoidTable):
+        return diagram.trapezoid(width, table.ordinate, table.up, table.down)
+    return diagram.tabulated(width, [p for p, _ in table.points], [a for _, a in table.points])

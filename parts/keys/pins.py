@@ -1,0 +1,93 @@
+"""What parts around round pins share: bore and holes by their keys, sections whose refusals name an offset."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Annotated
+
+from msgspec import Meta
+
+from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError, limit
+from geometry.base.nearest import last_that_holds
+from geometry.plane.offset_region import OffsetRegion
+from geometry.plane.profile import Region
+from geometry.solids.hub_holes import HubHoles, least_wall
+from geometry.solids.windows import RoundHoles
+from parts.keys.base import mm
+from parts.keys.holes import BoredKeys, with_remedy
+
+MOST = 100_000.0
+LobeCount = Annotated[int, Meta(ge=2, le=1000, description="number of lobes z of the disc", examples=[11])]
+PinCount = Annotated[int, Meta(ge=3, le=1000, description="number of pins", examples=[12])]
+PinCircle = Annotated[float, mm("circle of the pins' centres", least=0.1, most=MOST, example=80.0)]
+PinDiameter = Annotated[float, mm("diameter of each pin", least=0.01, most=MOST, example=8.0)]
+# what is kept from every limit, as a part of it
+MARGIN = 1e-6
+
+
+def most_of(value: float, given: float) -> Nearest:
+    """An upper limit, a little less than ``value``; 0 where nothing is left."""
+    return limit(value * (1 - MARGIN), given, digits=6) if value > 0 else Nearest(0.0)
+
+
+def least_of(value: float, given: float) -> Nearest:
+    """A lower limit, a little more than ``value``."""
+    return limit(value * (1 + MARGIN), given, digits=6)
+
+
+def holes_of(keys: BoredKeys, *own: RoundHoles) -> HubHoles:
+    """Bore and holes by the keys of a part; ``own`` groups stand before the others.
+
+    Raises
+    ------
+    ParameterError
+        Both ``bore`` and ``bore_diameter`` are given, or a keyway has no row in its standard.
+    """
+    found = keys.hub_holes()
+    return HubHoles(found.bore, (*own, *found.round_holes), found.spokes)
+
+
+def check_holes(keys: BoredKeys, holes: HubHoles, radius: float, own: int = 0, centre: float = 0.0) -> None:
+    """Refuse holes that meet one another or reach ``radius`` mm; the first ``own`` groups are no table of the scene's.
+
+    ``centre``: how far the bore stands off the middle of that radius, mm.
+
+    Raises
+    ------
+    ParameterError
+        Names the key and what would work.
+    """
+    inside = radius - centre - least_wall(radius)
+    if holes.bore is not None and holes.bore_reach > inside and keys.bore_diameter > 0:
+        most = most_of(2 * inside, keys.bore_diameter)
+        raise ParameterError("bore_diameter", keys.bore_diameter, "leaves_no_wall_about_bore", most)
+
+    def fits(changed: BoredKeys) -> bool:
+        return holes_of(changed, *holes.round_holes[:own]).fits(radius - centre)
+
+    try:
+        holes.check(radius - centre)
+    except ParameterError as refusal:
+        raise with_remedy(_renamed(refusal, holes, own), keys, fits) from refusal
+
+
+def _renamed(refusal: ParameterError, holes: HubHoles, own: int) -> ParameterError:
+    """A refusal of a group of holes under its number in the scene; what meets a part's own group is the bore."""
+    table, *place, key = refusal.name.split(".")
+    if table != "holes" or not own:
+        return refusal
+    number = (int(place[0].removeprefix("item ")) if place else 1) - own
+    if number < 1 and holes.bore is not None:
+        return ParameterError(*holes.bore.size, "bore_reaches_pins")
+    return refusal.renamed(f"holes.{key}" if len(holes.round_holes) - own == 1 else f"holes.item {number}.{key}")
+
+
+def moved_region(build: Callable[[float], Region], offset: float) -> OffsetRegion:
+    """A section moved ``offset`` mm out of the material; a refusal names the nearest offset that works."""
+    try:
+        return OffsetRegion(build(offset), offset, ())
+    except GeometryError as refusal:
+        if offset == 0:
+            raise
+        code = refusal.reason if isinstance(refusal, OffsetError) else "leaves_no_outline"
+        raise OffsetError(offset, code, last_that_holds(build, offset)) from refusal

@@ -1,0 +1,126 @@
+"""Scene keys that give a wheel its body: web, hub, face chamfers."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Annotated, Protocol
+
+from msgspec import Struct
+
+from geometry.base.errors import ParameterError
+from geometry.base.nearest import nearest
+from geometry.solids.hub_holes import HubHoles
+from geometry.solids.wheel import Hub, Web, WheelShape, check_wheel
+from parts.base.schema import value_at
+from parts.keys.base import mm
+from parts.keys.holes import HoledKeys, SpokesTable, bore_of, hub_holes
+
+
+class WebTable(Struct, forbid_unknown_fields=True):
+    """The thin disk between rim and hub."""
+
+    thickness: Annotated[float, mm("thickness of the web along the axis", above=0, most=10_000, example=3.0)]
+    rim_diameter: Annotated[float, mm("inner diameter of the rim", above=0, most=100_000, example=36.0)]
+    shift: Annotated[float, mm("how far the web stands above the middle", least=-10_000, most=10_000)] = 0.0
+
+
+class HubTable(Struct, forbid_unknown_fields=True):
+    """The hub about the bore."""
+
+    diameter: Annotated[float, mm("outer diameter of the hub", above=0, most=100_000, example=14.0)]
+    below: Annotated[float, mm("how far the hub stands out below", least=0, most=10_000)] = 0.0
+    above: Annotated[float, mm("how far the hub stands out above", least=0, most=10_000)] = 0.0
+
+
+class FaceChamferTable(Struct, forbid_unknown_fields=True):
+    """45 degree chamfers along every edge of the end faces."""
+
+    below: Annotated[float, mm("chamfer of the lower face: against the elephant foot", least=0, most=100)] = 0.0
+    above: Annotated[float, mm("chamfer of the upper face", least=0, most=100)] = 0.0
+
+
+FaceChamfer = Annotated[float, mm("45 degree chamfer along every edge of both end faces", least=0, most=100)]
+
+
+class HubbedKeys(HoledKeys, kw_only=True):
+    """Keys of a disk: and with a hub and chamfers."""
+
+    hub: HubTable | None = None
+    face_chamfer: FaceChamfer | FaceChamferTable = 0.0
+
+
+class WheelKeys(HubbedKeys, kw_only=True):
+    """Keys of a wheel: and with spokes or a web."""
+
+    spokes: SpokesTable | None = None
+    web: WebTable | None = None
+
+    def hub_holes(self) -> HubHoles:
+        """Bore, holes and windows."""
+        return hub_holes(bore_of(self), self.holes, self.spokes)
+
+
+def as_typed(keys: Struct, error: ParameterError) -> ParameterError:
+    """A refusal of one face's chamfer in the key that the scene has: one number for both, or a table."""
+    if error.name.startswith("face_chamfer.") and isinstance(value_at(keys, "face_chamfer"), float):
+        return error.renamed("face_chamfer")
+    return error
+
+
+class Wheel(Protocol):
+    """A wheel's body."""
+
+    @property
+    def face_width(self) -> float:
+        """Of the rim, mm."""
+
+    @property
+    def web(self) -> WebTable | None:
+        """Thin disk."""
+
+    @property
+    def hub(self) -> HubTable | None:
+        """About the bore."""
+
+    @property
+    def face_chamfer(self) -> float | FaceChamferTable:
+        """Of both faces, or of each."""
+
+
+def checked_wheel(keys: Wheel, root_diameter: float, holes: HubHoles) -> WheelShape:
+    """The shape of a wheel whose diameters fit between bore, holes and root circle, mm.
+
+    Raises
+    ------
+    ParameterError
+        They do not; names the key and the nearest value that works.
+    """
+
+    def fits(chamfer: float) -> bool:
+        check_wheel(wheel_shape(keys.face_width, keys.web, keys.hub, chamfer), root_diameter, holes)
+        return True
+
+    shape, given = wheel_shape(keys.face_width, keys.web, keys.hub, keys.face_chamfer), keys.face_chamfer
+    try:
+        check_wheel(shape, root_diameter, holes)
+    except ParameterError as refusal:
+        if not refusal.name.startswith("face_chamfer.") or isinstance(given, FaceChamferTable):
+            raise
+        # one number stands for both faces
+        cure = partial(nearest, fits, given, 0.0)
+        raise ParameterError("face_chamfer", given, refusal.code, cure, **refusal.numbers) from refusal
+    return shape
+
+
+def wheel_shape(
+    face_width: float, web: WebTable | None, hub: HubTable | None, chamfer: float | FaceChamferTable
+) -> WheelShape:
+    """The keys of a wheel as its exact shape."""
+    both = chamfer if isinstance(chamfer, FaceChamferTable) else FaceChamferTable(chamfer, chamfer)
+    return WheelShape(
+        face_width,
+        None if web is None else Web(web.thickness, web.rim_diameter, web.shift),
+        None if hub is None else Hub(hub.diameter, hub.below, hub.above),
+        both.below,
+        both.above,
+    )

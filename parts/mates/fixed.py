@@ -1,0 +1,146 @@
+"""Two instances that do not move on each other (on one shaft, bolted, a pin in its seat), or share an axis."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
+
+from msgspec import Meta
+
+from geometry.base.errors import Nearest, ParameterError
+from parts.base.mate import End, MateKeys, MateKind, Mating, Pose, Standing
+from parts.keys.base import degrees, mm
+from parts.keys.mate import AboveKeys, Height
+from parts.mates.sizes import same_size
+
+if TYPE_CHECKING:
+    from geometry.solids.pin_plates import PinPlate, RoundDisc
+    from geometry.solids.pin_ring import PinRing
+
+_MOST = 1e6
+_Shift = Annotated[float, mm("a coordinate of the second in the first one's frame", least=-_MOST, most=_MOST)]
+_Turn = Annotated[float, degrees("turn about z", least=-36_000, most=36_000)]
+
+
+class FixedSpec(MateKeys, tag="fixed", kw_only=True):
+    """The second instance stands still on the first: ``offset`` and ``rotation_deg`` in the first one's frame."""
+
+    second: Annotated[str, Meta(description="instance that is fixed to it")]
+    offset: Annotated[tuple[_Shift, _Shift, _Shift], mm("x, y, z")] = (
+        0.0,
+        0.0,
+        0.0,
+    )
+    rotation_deg: _Turn = 0.0
+
+
+class CoaxialSpec(AboveKeys, tag="coaxial", kw_only=True):
+    """The second instance on the axis of the first, free to turn."""
+
+    rotation_deg: _Turn = 0.0
+
+
+class PinSeatSpec(MateKeys, tag="pin_seat", kw_only=True):
+    """A loose pin (second) in a seat or hole of a ring or plate (first)."""
+
+    number: Annotated[int, Meta(ge=1, le=1000, description="which seat, counted from the first one")] = 1
+    height: Height = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class FixedMating(Mating):
+    """One instance fixed to another; whether their solids run into each other is for the solids to tell."""
+
+    offset: complex
+    rotation: float = 0.0
+
+    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+        """Carried along by the first; it has no direction of its own."""
+        return centre + self.offset * cmath.rect(1.0, rotation), rotation + self.rotation
+
+    def standing(self, first: Pose, second: Pose) -> Standing:
+        """How far the second is from its place, mm (added to the distance), and its turn off it, rad."""
+        centre, rotation = self.second_pose(*first, 0.0)
+        off = math.remainder(second[1] - rotation, 2 * math.pi)
+        return Standing(cmath.phase(self.offset), self.distance + abs(second[0] - centre), off, 0.0)
+
+    def quantities(self) -> dict[str, Any]:
+        """Where the second stands in the first one's frame."""
+        return {
+            "offset": [self.offset.real, self.offset.imag, self.height],
+            "rotation_deg": math.degrees(self.rotation),
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class CoaxialMating(Mating):
+    """Two instances on one axis; the solids tell whether they run into each other."""
+
+    rotation: float
+
+    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+        """On the axis of the first."""
+        return centre, rotation + self.rotation
+
+    def standing(self, first: Pose, second: Pose) -> Standing:
+        """How far the axes are apart; the second is free to turn."""
+        return Standing(0.0, abs(second[0] - first[0]), 0.0, 0.0)
+
+
+class Fixed(MateKind[FixedSpec, Any, Any]):
+    """Anything on anything."""
+
+    name, keys = "fixed", FixedSpec
+
+    def mating(self, keys: FixedSpec, first: End[Any], second: End[Any]) -> FixedMating:
+        """Whatever the parts are."""
+        x, y, z = keys.offset
+        return _fixed(self.name, keys, complex(x, y), z, math.radians(keys.rotation_deg))
+
+
+def _fixed(name: str, keys: MateKeys, offset: complex, height: float, rotation: float = 0.0) -> FixedMating:
+    return FixedMating(
+        name,
+        keys.first,
+        keys.second,
+        height=height,
+        distance=abs(offset),
+        ratio=1.0,
+        has_contact=False,
+        offset=offset,
+        rotation=rotation,
+    )
+
+
+class Coaxial(MateKind[CoaxialSpec, Any, Any]):
+    """Anything about anything's axis."""
+
+    name, keys = "coaxial", CoaxialSpec
+
+    def mating(self, keys: CoaxialSpec, first: End[Any], second: End[Any]) -> CoaxialMating:
+        """Whatever the parts are."""
+        turn = math.radians(keys.rotation_deg)
+        return CoaxialMating(self.name, keys.first, keys.second, height=keys.height, has_contact=False, rotation=turn)
+
+
+class PinSeat(MateKind[PinSeatSpec, "PinRing | PinPlate", "RoundDisc"]):
+    """A loose pin in its seat."""
+
+    name, keys = "pin_seat", PinSeatSpec
+    joins = tuple((holder, "pin") for holder in ("pin_ring", "output_plate", "lantern_wheel"))
+
+    def mating(self, keys: PinSeatSpec, first: End[PinRing | PinPlate], second: End[RoundDisc]) -> FixedMating:
+        """There is such a seat for a loose pin of this diameter."""
+        holder = first.thing
+        if not holder.takes_loose_pins:
+            raise ParameterError("mate.first", keys.first, "has_its_pins")
+        centres = holder.pin_centres()
+        if keys.number > len(centres):
+            raise ParameterError("mate.number", keys.number, "fewer_seats", Nearest(len(centres), "at_most"))
+        same_size("diameter", 2 * second.thing.radius, 2 * holder.pin_radius, "not_of_the_seats")
+        return _fixed(self.name, keys, centres[keys.number - 1], keys.height)
+
+
+FIXED, COAXIAL, PIN_SEAT = Fixed(), Coaxial(), PinSeat()

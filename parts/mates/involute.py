@@ -1,0 +1,570 @@
+"""The mates of involute gears: two external ones, a pinion in its ring, a gear on its rack.
+
+Each sets distance and phase; the external pair shortens tips, and each thins both gears for its backlash.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Annotated, Any, Generic, TypeVar
+
+from geometry.base.errors import ConvergenceError, GeometryError, Nearest, ParameterError
+from geometry.base.nearest import nearest
+from parts.base.mate import End, MateKind, Mating, Pose, Standing
+from parts.keys.base import mm
+from parts.keys.mate import InvolutePairKeys
+from parts.mates.thinning import shared_thinning
+
+if TYPE_CHECKING:
+    from geometry.base.findings import Finding
+    from geometry.gears.mesh.search import PairContact
+    from geometry.gears.mesh.transmission_error import TransmissionError
+    from geometry.gears.pairs.external import ExternalPair
+    from geometry.gears.pairs.internal import InternalPair
+    from geometry.gears.pairs.rack import RackPair
+    from geometry.gears.teeth.rack import Rack
+    from geometry.gears.teeth.ring import RingGear
+    from geometry.gears.teeth.spur import SpurGear
+
+    Gear = SpurGear | RingGear
+
+
+class ExternalGearPairSpec(InvolutePairKeys, tag="external_gear_pair"):
+    """Two external spur gears in mesh: exact centre distance, tip shortening, phase."""
+
+
+class InternalGearPairSpec(InvolutePairKeys, tag="internal_gear_pair"):
+    """A pinion in a ring gear, in either order."""
+
+
+class RackPairSpec(InvolutePairKeys, tag="rack_pair", kw_only=True):
+    """A gear (first) and a rack (second) that moves across the direction from the gear to it."""
+
+    working_centre_distance: (
+        Annotated[
+            float,
+            mm("from the gear's axis to the rack's datum line; default: r + x m", above=0, most=1e6, example=60.5),
+        ]
+        | None
+    ) = None
+
+
+@dataclass(frozen=True, slots=True)
+class GearMating(Mating):
+    """Two involute gears in mesh, as they are built at last."""
+
+    pair: ExternalPair | InternalPair | RackPair
+
+    def findings(self) -> tuple[Finding, ...]:
+        """Conditions of the pair that are not kept: interference, assembly, clearance, contact ratio."""
+        return self.face.findings(self.pair.findings(), self.pair.effective_contact_ratio)
+
+    def _ratios(self) -> dict[str, Any]:
+        """Contact ratios and backlash."""
+        return {
+            "contact_ratio": self.pair.contact_ratio,
+            "effective_contact_ratio": self.pair.effective_contact_ratio,
+            **self.face.quantities(self.pair.effective_contact_ratio),
+            "normal_backlash": self.normal_backlash,
+        }
+
+    def _turned(self, first: Pose, second: Pose, gear: SpurGear | RingGear) -> Standing:
+        """Centre distance, and the second gear's turn off the middle of its backlash."""
+        direction = cmath.phase(second[0] - first[0])
+        turn = math.remainder(second[1] - self._middle(first[1], direction), gear.pitch_angle)
+        arm = gear.base_radius
+        play = max(self.pair.normal_backlash, 0.0) / (2 * arm)
+        return Standing(direction, abs(second[0] - first[0]), turn, play, arm)
+
+    def _middle(self, rotation: float, direction: float) -> float:
+        """Rotation of the second in the middle of the backlash."""
+        raise NotImplementedError
+
+    def _errors(self, distance_off: float) -> tuple[TransmissionError, TransmissionError, float]:
+        """Errors where the first turns counter-clockwise and clockwise; the second's arm on the line of action, mm."""
+        raise NotImplementedError
+
+    def transmission_error(self, distance_off: float) -> dict[str, Any]:
+        """Peak to peak over a pitch, for each sense of the first's rotation; ``distance_off``: mm beyond the distance.
+
+        ``line_of_action`` mm; and of the second: ``second_arcsec``, or ``second_travel`` mm where it is a rack. Empty
+        where teeth slip past each other at some drive angle.
+        """
+        try:
+            forward, backward, arm = self._errors(distance_off)
+        except ConvergenceError:
+            return {}
+        return {"counter_clockwise": self._peaks(forward, arm), "clockwise": self._peaks(backward, arm)}
+
+    def _peaks(self, error: TransmissionError, arm: float) -> dict[str, float]:
+        motion = error.peak_to_peak / arm
+        if self.ratio is None:
+            return {"line_of_action": error.peak_to_peak, "second_travel": motion}
+        return {"line_of_action": error.peak_to_peak, "second_arcsec": math.degrees(motion) * 3600}
+
+
+@dataclass(frozen=True, slots=True)
+class ExternalMating(GearMating):
+    """Two external gears."""
+
+    pair: ExternalPair
+
+    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+        """The second gear beyond the line of centres, a tooth in the first one's space."""
+        return centre + cmath.rect(self.distance, direction), self._middle(rotation, direction)
+
+    def _middle(self, rotation: float, direction: float) -> float:
+        return self.pair.second_rotation(rotation, direction)
+
+    def standing(self, first: Pose, second: Pose) -> Standing:
+        """Centre distance, and the second gear's turn off the middle of its backlash."""
+        return self._turned(first, second, self.pair.second)
+
+    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
+        """Verdict over one pitch of the first gear."""
+        from geometry.gears.mesh.external import pair_contact
+
+        overlap = self.face.overlap_ratio
+        return pair_contact(
+            self.pair, second_turn=phase_off, centre_shift=distance_off, tolerance=tolerance, overlap_ratio=overlap
+        )
+
+    def _errors(self, distance_off: float) -> tuple[TransmissionError, TransmissionError, float]:
+        from geometry.gears.mesh.external import pair_transmission
+
+        overlap = self.face.overlap_ratio
+        found = pair_transmission(self.pair, centre_shift=distance_off, overlap_ratio=overlap)
+        return *found, found[0].arm
+
+    def quantities(self) -> dict[str, Any]:
+        """Practicum, lesson 3."""
+        return {
+            "gear_ratio": self.pair.gear_ratio,
+            "working_pressure_angle_deg": math.degrees(self.pair.working_pressure_angle),
+            "working_centre_distance": self.distance,
+            "tip_shortening_coefficient": self.pair.tip_shortening_coefficient,
+            **self._ratios(),
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class InternalMating(GearMating):
+    """A pinion in a ring; ``ring_first``: the ring is the placed one. The pair itself has the ring at its origin."""
+
+    pair: InternalPair
+    ring_first: bool
+
+    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+        """The second beside the first; the mesh lies on the pinion's side of the ring's axis."""
+        return centre + cmath.rect(self.distance, direction), self._middle(rotation, direction)
+
+    def _middle(self, rotation: float, direction: float) -> float:
+        if self.ring_first:
+            return self.pair.pinion_rotation(rotation, direction)
+        return self.pair.ring_rotation(rotation, direction + math.pi)
+
+    def standing(self, first: Pose, second: Pose) -> Standing:
+        """Centre distance, and the second one's turn off the middle of its backlash."""
+        return self._turned(first, second, self.pair.pinion if self.ring_first else self.pair.ring)
+
+    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
+        """Verdict over one pitch of the pinion."""
+        from geometry.gears.mesh.internal import internal_contact
+
+        # a pinion that is ahead meets the flanks that a ring would meet that lags behind
+        turn = -phase_off / self.pair.gear_ratio if self.ring_first else phase_off
+        overlap = self.face.overlap_ratio
+        return internal_contact(
+            self.pair, ring_turn=turn, centre_shift=distance_off, tolerance=tolerance, overlap_ratio=overlap
+        )
+
+    def _errors(self, distance_off: float) -> tuple[TransmissionError, TransmissionError, float]:
+        from geometry.gears.mesh.internal import internal_transmission
+
+        overlap = self.face.overlap_ratio
+        found = internal_transmission(self.pair, centre_shift=distance_off, overlap_ratio=overlap)
+        if self.ring_first:
+            # a ring that drives counter-clockwise pushes the flanks with which a pinion would drive clockwise
+            return found[1], found[0], self.pair.pinion.base_radius
+        return *found, found[0].arm
+
+    def quantities(self) -> dict[str, Any]:
+        """Working quantities and the margins of the internal conditions."""
+        return {
+            "gear_ratio": self.pair.gear_ratio,
+            "working_pressure_angle_deg": math.degrees(self.pair.working_pressure_angle),
+            "working_centre_distance": self.distance,
+            **self._ratios(),
+            "margins": {m.name: m.margin for m in self.pair.margins() if math.isfinite(m.margin)}
+            | {"normal_backlash": self.normal_backlash},
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class RackMating(GearMating):
+    """A gear and a rack; the rack's teeth look at the gear's axis."""
+
+    pair: RackPair
+
+    @property
+    def _middle_space(self) -> float:
+        """x of the space nearest to the rack's middle, mm."""
+        return 0.0 if self.pair.rack.number_of_teeth % 2 == 0 else self.pair.rack.pitch / 2
+
+    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+        """The rack beyond the line of centres, its middle space about a tooth of the gear."""
+        turned = math.remainder(rotation - direction, self.pair.gear.pitch_angle)
+        along = self.pair.rack_position(turned) - self._middle_space
+        return centre + cmath.rect(1.0, direction) * complex(self.distance, along), direction + math.pi / 2
+
+    def standing(self, first: Pose, second: Pose) -> Standing:
+        """Distance of the datum line, and how far the rack is off the middle of its backlash, mm."""
+        direction = second[1] - math.pi / 2
+        place = (second[0] - first[0]) * cmath.rect(1.0, -direction)
+        middle, _ = self.second_pose(0j, first[1], direction)
+        off = place.imag - (middle * cmath.rect(1.0, -direction)).imag
+        play = max(self.pair.normal_backlash, 0.0) / (2 * math.cos(self.pair.rack.rack.pressure_angle))
+        return Standing(direction, place.real, math.remainder(off, self.pair.rack.pitch), play, slides=True)
+
+    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
+        """Verdict over one pitch of the gear."""
+        from geometry.gears.mesh.rack import rack_contact
+
+        overlap = self.face.overlap_ratio
+        return rack_contact(
+            self.pair, rack_shift=phase_off, distance_shift=distance_off, tolerance=tolerance, overlap_ratio=overlap
+        )
+
+    def _errors(self, distance_off: float) -> tuple[TransmissionError, TransmissionError, float]:
+        from geometry.gears.mesh.rack import rack_transmission
+
+        overlap = self.face.overlap_ratio
+        found = rack_transmission(self.pair, distance_shift=distance_off, overlap_ratio=overlap)
+        return *found, found[0].arm
+
+    def findings(self) -> tuple[Finding, ...]:
+        """Conditions of the pair that are not kept; a rack has the teeth that are in contact at once, and one more."""
+        from geometry.base.findings import Finding
+
+        teeth, needed = self.pair.rack.number_of_teeth, math.ceil(self.pair.contact_ratio) + 1
+        short = (Finding("short_rack", float(teeth), float(needed)),) if teeth < needed else ()
+        return self.face.findings((*self.pair.findings(), *short), self.pair.effective_contact_ratio)
+
+    def quantities(self) -> dict[str, Any]:
+        """Working quantities; the working circle is the reference circle."""
+        return {
+            "working_pressure_angle_deg": math.degrees(self.pair.rack.rack.pressure_angle),
+            "working_centre_distance": self.distance,
+            "travel_per_turn": self.pair.travel_per_turn,
+            **self._ratios(),
+        }
+
+
+A = TypeVar("A")
+B = TypeVar("B")
+# share of a distance that is one step
+_STEP = 1e-3
+K = TypeVar("K", bound=InvolutePairKeys)
+M = TypeVar("M", bound=GearMating)
+
+
+class InvolutePair(MateKind[K, A, B], Generic[K, A, B, M]):
+    """What the three have in common: helices that mesh, distance, thinning."""
+
+    meshes = True
+    internal = False
+
+    def made(self, keys: K, first: End[A], second: End[B], distance: float | None) -> M:
+        """The mating at a distance, mm; None: that of the shifts.
+
+        Raises
+        ------
+        ParameterError
+            The gears do not mesh, or not at ``working_centre_distance``.
+        """
+        raise NotImplementedError
+
+    def pressure_angle(self, first: End[A], second: End[B]) -> float:
+        """Of both, in the section in which they are, rad."""
+        raise NotImplementedError
+
+    def blames_first(self, first: End[A]) -> bool:
+        """Whether what the geometry refuses is a key of the first."""
+        return False
+
+    def build(self, end: End[Any]) -> object:
+        """A tooth of either, its flank and its ends; raises ``GeometryError`` where there is none."""
+        from geometry.gears.teeth.tooth import tooth_side
+
+        return tooth_side(end.thing)
+
+    def check(self, keys: K, first: Any, second: Any) -> None:
+        """Helices that mesh, and one normal module: in the keys of the parts, before their transverse sections."""
+        from parts.keys.helix import helix_of
+
+        one, two = helix_of(first), helix_of(second)
+        if one.angle == 0 and two.angle == 0:
+            return
+        if one.angle == 0 or two.angle == 0:
+            # straight teeth mesh with straight ones; the same angle would need the other hand too
+            owner, bent = ("first.", first) if two.angle == 0 else ("", second)
+            raise ParameterError(f"{owner}helix_angle_deg", bent.helix_angle_deg, "mate_is_straight", Nearest(0.0))
+        from geometry.gears.teeth.helix import mesh_fault
+
+        fault = mesh_fault(one, two, internal=self.internal)
+        if fault is not None:
+            raise ParameterError(*fault)
+        # the points of both herringbones stand half way up
+        for key in ("module", "face_width") if one.double else ("module",):
+            if getattr(first, key) != getattr(second, key):
+                raise ParameterError(key, getattr(second, key), "not_that_of_mate", Nearest(getattr(first, key)))
+
+    def thinning(self, keys: K, first: End[A], second: End[B]) -> tuple[float, float]:
+        """What the backlash asks for beyond that of the distance."""
+        if keys.normal_backlash is None:
+            return 0.0, 0.0
+        ends: tuple[End[Any], End[Any]] = (first, second)
+        given = 0.0
+        if keys.working_centre_distance is not None:
+            given = self._reaching(keys, *(_thinned(end, 0.0) for end in ends)).pair.normal_backlash
+        cosine = math.cos(self.pressure_angle(first, second))
+        share = self.normal_share(first, second)
+
+        def build(index: int, thinning: float) -> object:
+            return self.build(_thinned(ends[index], thinning))
+
+        return shared_thinning(keys.normal_backlash, [e.thing for e in ends], build, cosine, given, share)
+
+    def normal_share(self, first: End[A], second: End[B]) -> float:
+        """j_bn over the backlash of transverse sections: cos(beta_b)."""
+        from parts.keys.helix import helix_of
+
+        helix = helix_of(first.keys)
+        if not helix.angle:
+            return 1.0
+        from geometry.gears.teeth.transverse import normal_share
+
+        return normal_share(self.pressure_angle(first, second), helix.angle)
+
+    def tips(self, keys: K, first: End[A], second: End[B]) -> tuple[float | None, float | None]:
+        """None is changed; the teeth must reach each other."""
+        self._reaching(keys, first, second)
+        return None, None
+
+    def mating(self, keys: K, first: End[A], second: End[B]) -> Mating:
+        """At the distance that the keys give."""
+        return self.made(keys, first, second, keys.working_centre_distance)
+
+    def _reaching(self, keys: K, first: End[Any], second: End[Any]) -> M:
+        """The mating at the distance that the keys give, at which the teeth must reach each other."""
+        distance = keys.working_centre_distance
+        code, numbers = "teeth_do_not_reach", dict[str, Any]()
+        try:
+            made = self.made(keys, first, second, distance)
+            if distance is None or made.pair.contact_ratio > 0:
+                return made
+        except ParameterError as refusal:
+            if distance is None or refusal.name != "working_centre_distance":
+                raise self._in_normal_terms(refusal, first, second) from refusal
+            code, numbers = refusal.code, refusal.numbers
+
+        def cure() -> Nearest | None:
+            """From the distance of the shifts on, as far as contact goes on from tooth to tooth."""
+            nominal = self.made(keys, first, second, None)
+            wanted = min(1.0, nominal.pair.contact_ratio)
+
+            def reaches(at: float) -> bool:
+                return self.made(keys, first, second, at).pair.contact_ratio >= wanted
+
+            found = nearest(reaches, distance, nominal.distance)
+            if found is None or not isinstance(found.value, float):
+                return found
+            beyond = found.value + math.copysign(_STEP * found.value, distance - found.value)
+            try:
+                runs = self.made(keys, first, second, beyond).pair.contact_ratio > 0
+            except ParameterError:
+                runs = False
+            # where nearer ones run too, with interruptions, this is no limit, but what to take
+            return Nearest(found.value) if runs else found
+
+        raise ParameterError("mate.working_centre_distance", distance, code, cure, **numbers)
+
+    def _in_normal_terms(self, refusal: ParameterError, first: End[Any], second: End[Any]) -> ParameterError:
+        """A refusal of transverse sections with the normal value that the blamed part's keys give."""
+        from parts.keys.helix import helix_of
+
+        one, other, owner = (first, second, "first.") if self.blames_first(first) else (second, first, "")
+        cosine, key = math.cos(helix_of(one.keys).angle), refusal.name
+        if cosine == 1 or key not in ("profile_shift_coefficient", "pressure_angle_deg"):
+            return refusal.renamed(owner + key)
+
+        def cure() -> Nearest | None:
+            if key == "pressure_angle_deg":
+                return Nearest(getattr(other.keys, key))
+            return refusal.nearest and refusal.nearest.scaled(1 / cosine)
+
+        return type(refusal)(owner + key, getattr(one.keys, key), refusal.code, cure, **refusal.numbers)
+
+
+def _thinned(end: End[Any], thinning: float) -> End[Any]:
+    return replace(end, thing=replace(end.thing, circumferential_thinning=thinning))
+
+
+class ExternalGearPair(InvolutePair[ExternalGearPairSpec, "SpurGear", "SpurGear", ExternalMating]):
+    """Two external gears; their tips are shortened where the shifts bring them too near."""
+
+    name, keys = "external_gear_pair", ExternalGearPairSpec
+    joins = (("spur_gear", "spur_gear"),)
+
+    def pressure_angle(self, first: End[SpurGear], second: End[SpurGear]) -> float:
+        """Of the first."""
+        return first.thing.rack.pressure_angle
+
+    def made(
+        self, keys: ExternalGearPairSpec, first: End[SpurGear], second: End[SpurGear], distance: float | None
+    ) -> ExternalMating:
+        """Both gears at a distance, mm."""
+        from geometry.gears.pairs.external import external_pair
+        from parts.keys.helix import common_face
+
+        pair = external_pair(first.thing, second.thing, distance)
+        return ExternalMating(
+            self.name,
+            keys.first,
+            keys.second,
+            direction_deg=keys.direction_deg,
+            distance=pair.working_centre_distance,
+            module=pair.module,
+            ratio=-1 / pair.gear_ratio,
+            first_teeth=first.thing.number_of_teeth,
+            normal_backlash=pair.normal_backlash * self.normal_share(first, second),
+            pair=pair,
+            face=common_face(first.keys, second.keys),
+        )
+
+    def tips(
+        self, keys: ExternalGearPairSpec, first: End[SpurGear], second: End[SpurGear]
+    ) -> tuple[float | None, float | None]:
+        """Those of the pair, which must leave something of the involutes."""
+        from geometry.gears.pairs.external import external_pair
+
+        pair = self._reaching(keys, first, second).pair
+        gears, distance = (first.thing, second.thing), keys.working_centre_distance
+
+        def works(shift: float) -> bool:
+            changed = replace(gears[1], profile_shift_coefficient=shift)
+            return external_pair(gears[0], changed, distance).contact_ratio > 0
+
+        given = gears[1].profile_shift_coefficient
+        try:
+            for gear, bare in zip(pair.gears, gears, strict=True):
+                if gear.tip_radius < bare.tip_radius:
+                    self.build(End(first.keys, gear))
+        except GeometryError as fault:
+            ends = [given + sign * 0.05 * 1.4**k for k in range(11) for sign in (-1, 1)]
+            raise ParameterError(
+                "profile_shift_coefficient",
+                given,
+                "shortened_tips_keep_no_involute",
+                lambda: nearest(works, given, ends),
+            ) from fault
+        return pair.first.tip_radius, pair.second.tip_radius
+
+
+class InternalGearPair(
+    InvolutePair[InternalGearPairSpec, "SpurGear | RingGear", "SpurGear | RingGear", InternalMating]
+):
+    """A pinion in its ring, in either order."""
+
+    name, keys = "internal_gear_pair", InternalGearPairSpec
+    joins = (("ring_gear", "spur_gear"), ("spur_gear", "ring_gear"))
+    internal = True
+
+    def pressure_angle(self, first: End[Any], second: End[Any]) -> float:
+        """Of the pinion."""
+        pinion, _ = _pinion_and_ring(first, second)
+        return pinion.rack.pressure_angle
+
+    def build(self, end: End[Any]) -> object:
+        """A tooth of the pinion or of the ring."""
+        if end.kind != "ring_gear":
+            return InvolutePair.build(self, end)
+        from geometry.gears.teeth.ring_limits import checked_ring
+
+        return checked_ring(end.thing)
+
+    def made(
+        self, keys: InternalGearPairSpec, first: End[Any], second: End[Any], distance: float | None
+    ) -> InternalMating:
+        """Both gears at a distance, mm."""
+        from geometry.gears.pairs.internal import internal_pair
+        from parts.keys.helix import common_face
+
+        pinion, ring = _pinion_and_ring(first, second)
+        pair, ring_first = internal_pair(pinion, ring, distance), ring is first.thing
+        return InternalMating(
+            self.name,
+            keys.first,
+            keys.second,
+            direction_deg=keys.direction_deg,
+            distance=pair.working_centre_distance,
+            module=pair.module,
+            # both turn the same way
+            ratio=pair.gear_ratio if ring_first else 1 / pair.gear_ratio,
+            first_teeth=first.thing.number_of_teeth,
+            normal_backlash=pair.normal_backlash * self.normal_share(first, second),
+            pair=pair,
+            ring_first=ring_first,
+            face=common_face(first.keys, second.keys),
+        )
+
+    def blames_first(self, first: End[Any]) -> bool:
+        """The ring is blamed."""
+        return first.kind == "ring_gear"
+
+
+def _pinion_and_ring(first: End[Any], second: End[Any]) -> tuple[SpurGear, RingGear]:
+    return (second.thing, first.thing) if first.kind == "ring_gear" else (first.thing, second.thing)
+
+
+class RackGearPair(InvolutePair[RackPairSpec, "SpurGear", "Rack", RackMating]):
+    """A gear on its rack."""
+
+    name, keys = "rack_pair", RackPairSpec
+    joins = (("spur_gear", "rack"),)
+
+    def pressure_angle(self, first: End[SpurGear], second: End[Rack]) -> float:
+        """Of the gear."""
+        return first.thing.rack.pressure_angle
+
+    def build(self, end: End[Any]) -> object:
+        """A tooth of the gear or of the rack."""
+        if end.kind != "rack":
+            return InvolutePair.build(self, end)
+        from geometry.gears.teeth.rack import checked_part_rack
+
+        return checked_part_rack(end.thing)
+
+    def made(self, keys: RackPairSpec, first: End[SpurGear], second: End[Rack], distance: float | None) -> RackMating:
+        """Both at a distance from axis to datum line, mm."""
+        from geometry.gears.pairs.rack import rack_pair
+        from parts.keys.helix import common_face
+
+        pair = rack_pair(first.thing, second.thing, distance)
+        return RackMating(
+            self.name,
+            keys.first,
+            keys.second,
+            direction_deg=keys.direction_deg,
+            distance=pair.distance,
+            module=pair.module,
+            first_teeth=first.thing.number_of_teeth,
+            normal_backlash=pair.normal_backlash * self.normal_share(first, second),
+            pair=pair,
+            face=common_face(first.keys, second.keys),
+        )
+
+
+EXTERNAL, INTERNAL, RACK = ExternalGearPair(), InternalGearPair(), RackGearPair()

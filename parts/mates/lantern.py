@@ -1,0 +1,117 @@
+"""The mate ``lantern_pair``: a lantern and the gear that its pins drive."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
+
+from geometry.base.errors import Nearest, ParameterError, limit
+from parts.base.mate import End, MateKeys, MateKind, Mating, Pose, Standing
+from parts.keys.mate import Direction, height
+from parts.mates.sizes import same_size, turn_off
+
+if TYPE_CHECKING:
+    from geometry.base.findings import Finding
+    from geometry.gears.mesh.search import PairContact
+    from geometry.gears.pins.lantern import LanternGear
+    from geometry.solids.pin_plates import PinPlate
+
+
+class LanternPairSpec(MateKeys, tag="lantern_pair", kw_only=True):
+    """A lantern (first) and its gear (second): exact centre distance and phase."""
+
+    direction_deg: Direction = 0.0
+    height: Annotated[float, height("gear above the lantern's lower face; default: midway on the pins")] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class LanternMating(Mating):
+    """A lantern and its gear."""
+
+    ratio: float
+    gear: LanternGear
+
+    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+        """The gear beyond the line of centres; where a pin stands on it, a space does."""
+        turned = direction + math.pi - self.gear.pitch_angle / 2 + (rotation - direction) * self.ratio
+        return centre + cmath.rect(self.distance, direction), turned
+
+    def standing(self, first: Pose, second: Pose) -> Standing:
+        """Centre distance, and the gear's turn off the middle of its play."""
+        spoke = second[0] - first[0]
+        direction = cmath.phase(spoke)
+        _, right = self.second_pose(*first, direction)
+        off = turn_off(second[1], right, self.gear.pitch_angle)
+        # a pin's normal passes the gear's axis at r at most
+        arm = self.gear.pitch_radius
+        return Standing(direction, abs(spoke), off, self.gear.pin_clearance / arm, arm)
+
+    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
+        """Verdict of all pins over one pitch."""
+        from geometry.gears.pins.contact import pin_contact
+        from geometry.gears.pins.lantern import LanternMotion, lantern_side
+
+        return pin_contact(lantern_side(self.gear), LanternMotion(self.gear, phase_off, distance_off), tolerance)
+
+    def findings(self) -> tuple[Finding, ...]:
+        """A drive that is interrupted."""
+        from geometry.gears.pins.lantern import lantern_findings
+
+        return lantern_findings(self.gear)
+
+    def quantities(self) -> dict[str, Any]:
+        """Sizes of the pair, mm."""
+        return {
+            "gear_ratio": 1 / abs(self.ratio),
+            "working_centre_distance": self.distance,
+            "pitch": self.gear.pitch,
+            "lantern_contact_ratio": self.gear.contact_ratio,
+            "pin_clearance": self.gear.pin_clearance,
+        }
+
+
+class LanternPair(MateKind[LanternPairSpec, "PinPlate", "LanternGear"]):
+    """A lantern and its gear."""
+
+    name, keys = "lantern_pair", LanternPairSpec
+    joins = (("lantern_wheel", "lantern_gear"),)
+
+    def mating(self, keys: LanternPairSpec, first: End[PinPlate], second: End[LanternGear]) -> LanternMating:
+        """The gear is for these pins, and goes between the plates."""
+        lantern, gear = first.thing, second.thing
+        if gear.number_of_pins != lantern.pins.count:
+            raise ParameterError(
+                "number_of_pins", gear.number_of_pins, "not_of_the_lantern", Nearest(lantern.pins.count)
+            )
+        circles = gear.pin_circle_diameter, lantern.pins.pitch_circle_diameter
+        same_size("pin_circle_diameter", *circles, "not_of_the_lantern")
+        same_size("pin_diameter", gear.pin_diameter, lantern.pins.diameter, "not_of_the_lantern")
+        height = keys.height
+        if height is None:
+            height = lantern.thickness
+            if lantern.solid:
+                if gear.face_width > lantern.length:
+                    most = limit(lantern.length, gear.face_width)
+                    raise ParameterError("face_width", gear.face_width, "not_between_the_plates", most)
+                height += (lantern.length - gear.face_width) / 2
+        return LanternMating(
+            self.name,
+            keys.first,
+            keys.second,
+            direction_deg=keys.direction_deg,
+            height=height,
+            distance=gear.centre_distance,
+            module=gear.pin_diameter / 2,
+            ratio=-gear.number_of_pins / gear.number_of_teeth,
+            first_teeth=gear.number_of_pins,
+            # on both sides together
+            normal_backlash=2 * gear.pin_clearance,
+            # a single plate stands beside the gear
+            has_contact=lantern.solid,
+            gear=gear,
+        )
+
+
+LANTERN_PAIR = LanternPair()

@@ -1,0 +1,65 @@
+"""What a sheet carries of a blocking contour: a picture, letters, json, the file to write."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from geometry.base.errors import Nearest
+from geometry.gears.shifts.external import BlockingContour
+from geometry.gears.shifts.finder import Proposal
+from parts.base.refusal import SceneError
+from parts.base.texts import ENGLISH, Text, words
+from parts.pages.contour_picture import ContourPicture, Mark
+from parts.pages.inputs import PLACE
+from parts.pages.page import Sheet
+
+ENDINGS = (".svg", ".dxf")
+
+
+def checked_picture(topic: str, name: str | None) -> None:
+    """Refuse a picture file that would be no picture.
+
+    Raises
+    ------
+    SceneError
+        The name ends in neither .svg nor .dxf, or its folder does not exist; names one that works.
+    """
+    if name is None:
+        return
+    file = Path(name)
+    if file.suffix.lower() not in ENDINGS:
+        stem = file.with_suffix("") if file.suffix else file
+        works = Nearest(stem.with_name(f"{stem.name or 'contour'}.svg").as_posix())
+        raise SceneError(PLACE, f"{topic}.picture", name, "picture_ends_in", works, known=ENDINGS)
+    if not file.parent.is_dir():
+        raise SceneError(PLACE, f"{topic}.picture", name, "no_such_folder", Nearest(file.name))
+
+
+def contour_pictures(page: Sheet, contour: BlockingContour, marks: Sequence[Mark], picture: str | None) -> None:
+    """Put the contour on a sheet; ``marks`` are points x1, x2 with their words."""
+    page.picture = ContourPicture(contour, tuple(marks))
+    page.plain_picture = page.picture.letters()
+    page.data["blocking_contour"] = [
+        {"name": line.name, "level": line.level, "points": [[p.real, p.imag] for p in line.points]}
+        for line in contour.lines
+    ]
+    page.picture_file = picture
+
+
+def contour_data(name: Text, source: str, found: Proposal) -> dict[str, Any]:
+    """A choice as json has it."""
+    return {
+        "name": words(ENGLISH).say(name),
+        "source": source,
+        "profile_shift_coefficient": {"first": found.first, "second": found.second},
+        "contact_ratio": _number(found.contact_ratio),
+        "root_sliding": dict(zip(("first", "second"), map(_number, found.root_sliding), strict=True)),
+        "margin": found.margin,
+    }
+
+
+def _number(value: float) -> float | None:
+    return value if math.isfinite(value) else None

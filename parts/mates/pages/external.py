@@ -1,0 +1,369 @@
+"""``higherpair calc gear-pair``: pairs of gears; here the external one, practicum (3.2) to (3.22), and more."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Annotated, Any, Literal
+
+from msgspec import Meta, Struct
+
+from geometry.base.angles import involute_function
+from geometry.base.errors import Nearest, ParameterError, rounded
+from geometry.gears.pairs.common_face import CommonFace
+from geometry.gears.pairs.external import ExternalPair, external_pair
+from geometry.gears.pairs.side_clearance import guaranteed_normal_backlash, normal_from_circumferential, thinning_for
+from geometry.gears.shifts.choice import shifts_for_distance
+from geometry.gears.teeth import limits, measurement
+from geometry.gears.teeth.helix import Helix
+from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.transverse import base_helix_angle, transverse_gear
+from parts.base.refusal import REMOVED, SceneError, meant
+from parts.base.texts import N_
+from parts.gears.ring_gear.part import RingGearSpec
+from parts.gears.spur_gear.page import addendum_formula, dedendum_formula, given_data, thickness_formula
+from parts.gears.spur_gear.part import SpurGearSpec, gear_of, section_of
+from parts.keys.base import in_modules, mm
+from parts.keys.helix import in_keys
+from parts.mates.pages.internal import internal_sheet, merged, rack_sheet
+from parts.mates.pages.wishes import wish_refused
+from parts.pages.contact_steps import (
+    backlash_steps,
+    contact_steps,
+    limit_steps,
+    measured_steps,
+    sliding_steps,
+)
+from parts.pages.inputs import PLACE, SceneKeys, checked, given, keys_of, refusal
+from parts.pages.misprints import printed_for_pair
+from parts.pages.page import Sheet
+
+TOPIC = "gear-pair"
+GEARS = ("first", "second")
+
+
+class PairKeys(Struct, forbid_unknown_fields=True):
+    """Keys of the topic. A key of a gear without first. or second. before it goes to both."""
+
+    first: SpurGearSpec
+    second: SpurGearSpec
+    working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
+    normal_backlash: Annotated[float, mm("wanted normal backlash", least=0, most=1000)] | None = None
+    circumferential_backlash: (
+        Annotated[float, mm("wanted backlash, arc on the working circle", least=0, most=1000)] | None
+    ) = None
+    side_clearance_class: Annotated[Literal["H", "E", "D", "C", "B", "A"], Meta(description="GOST 1643")] | None = None
+    tip_shortening_coefficient: Annotated[float, in_modules("given tip shortening", least=0, most=3)] | None = None
+    measured_arc_of_action: Annotated[float, mm("arc dd' measured off a drawing", above=0, most=1e6)] | None = None
+    measured_working_pitch: Annotated[float, mm("p_w measured off the same drawing", above=0, most=1e6)] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """The pair of a calculation in its transverse section, its normal gears, and how its data came about."""
+
+    pair: ExternalPair
+    normal: tuple[SpurGear, SpurGear]
+    face: CommonFace
+    wanted_distance: bool
+    given_shortening: float | None
+    keys: PairKeys
+    shifts_follow: bool = False
+
+    @property
+    def helix(self) -> float:
+        """Helix angle, rad."""
+        return self.face.helix.angle
+
+
+def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
+    """The keys of a mate of a scene, changed by those of the command line."""
+    index = table.pop("mate", 1)
+    pairs = [m for m in scene.mates if m.__struct_config__.tag in PAIRS]
+    if not pairs:
+        raise SceneError(source, "mates", None, "no_gear_pair")
+    if not isinstance(index, int) or not 1 <= index <= len(pairs):
+        works = Nearest(len(pairs), "at_most") if isinstance(index, int) and index > 0 else Nearest(1, "at_least")
+        raise SceneError(source, "mate", index, "no_such_pair", works)
+    mate = pairs[index - 1]
+    kind = str(mate.__struct_config__.tag)
+    specs = [scene.parts[str(scene.instances[getattr(mate, name)].part)] for name in GEARS]
+    if isinstance(specs[0], RingGearSpec):
+        # a pinion is the first of its sheet
+        specs.reverse()
+    known = {"kind": kind, **{name: given(spec) for name, spec in zip(GEARS, specs, strict=True)}}
+    wishes = {key: getattr(mate, key) for key in ("working_centre_distance", "normal_backlash")}
+    if kind == "external_gear_pair":
+        return _merged(known | {k: v for k, v in wishes.items() if v is not None}, table)
+    return merged(known | {k: v for k, v in wishes.items() if v is not None}, table, kind)
+
+
+def _merged(under: dict[str, Any], over: dict[str, Any]) -> dict[str, Any]:
+    """Tables laid over each other, gear keys that name no gear over both gears."""
+    result = {key: dict(value) if isinstance(value, dict) else value for key, value in under.items()}
+    for key, value in over.items():
+        if key in GEARS and isinstance(value, dict):
+            result[key] = result.get(key, {}) | value
+        elif key in keys_of(SpurGearSpec) and key != "kind":
+            for name in GEARS:
+                mine = over.get(name)
+                if not (isinstance(mine, dict) and key in mine):
+                    result[name] = {**result.get(name, {}), key: value}
+        else:
+            result[key] = value
+    return result
+
+
+def sheet(table: dict[str, Any]) -> Sheet:
+    """The calculation of a pair, by its kind."""
+    kind = table.pop("kind", "external_gear_pair")
+    if kind not in PAIRS:
+        raise SceneError(PLACE, f"{TOPIC}.kind", kind, "unknown_pair", meant(kind, PAIRS), known=list(PAIRS))
+    return PAIRS[kind](table)
+
+
+def external_sheet(table: dict[str, Any]) -> Sheet:
+    """The calculation of an external pair."""
+    table = _merged({}, table)
+    for name in GEARS:
+        if name not in table:
+            raise SceneError(PLACE, f"{TOPIC}.{name}", None, "gear_missing", None, name=name)
+    known = [*keys_of(PairKeys), *keys_of(SpurGearSpec), "kind"]
+    for key in table:
+        if key not in known:
+            raise SceneError(PLACE, f"{TOPIC}.{key}", table[key], "unknown_key", meant(key, known), known=known)
+    keys: PairKeys = checked(table, PairKeys, TOPIC)
+    shifts_given = tuple("profile_shift_coefficient" in table[name] for name in GEARS)
+
+    def made(changed: PairKeys) -> ExternalPair:
+        return asked_pair(changed, shifts_given).pair
+
+    try:
+        return _page(asked_pair(keys, shifts_given))
+    except ParameterError as error:
+        owner = "" if error.name.partition(".")[0] in keys_of(PairKeys) else "second"
+        raise wish_refused(TOPIC, keys, refusal(TOPIC, in_keys(error), owner, keys), made) from error
+    except SceneError as error:
+        raise wish_refused(TOPIC, keys, error, made) from error
+
+
+def asked_pair(keys: PairKeys, shifts_given: tuple[bool, ...]) -> Asked:
+    """The pair that the keys ask for: shifts from the distance, thinning from the backlash, tips from Delta y."""
+    helix = math.radians(keys.first.helix_angle_deg)
+    if keys.second.helix_angle_deg != keys.first.helix_angle_deg:
+        works = Nearest(keys.first.helix_angle_deg)
+        raise ParameterError("helix_angle_deg", keys.second.helix_angle_deg, "not_that_of_first", works)
+    normal = (gear_of(keys.first), gear_of(keys.second))
+    if normal[0].module != normal[1].module:
+        # before any shift is looked for; the pair itself says it best
+        external_pair(*normal)
+    follow = keys.working_centre_distance is not None and not all(shifts_given)
+    if keys.working_centre_distance is not None and follow:
+        one, two = (transverse_gear(g, helix) for g in normal)
+        fixed = [
+            g.profile_shift_coefficient if is_given else None
+            for g, is_given in zip((one, two), shifts_given, strict=True)
+        ]
+        x1, x2 = shifts_for_distance(one, two, keys.working_centre_distance, fixed[0], fixed[1])
+        first, second = (
+            replace(g, profile_shift_coefficient=x / math.cos(helix)) for g, x in zip(normal, (x1, x2), strict=True)
+        )
+        normal = first, second
+    normal = _thinned(keys, normal, helix)
+    if keys.tip_shortening_coefficient is not None:
+        first, second = (_shortened(g, keys.tip_shortening_coefficient) for g in normal)
+        normal = first, second
+    gears = [_section_of(keys, name, g) for name, g in zip(GEARS, normal, strict=True)]
+    # shifts that were found for a distance give it back but for rounding
+    distance = None if follow else keys.working_centre_distance
+    pair = external_pair(gears[0], gears[1], distance)
+    width = min(keys.first.face_width, keys.second.face_width)
+    face = CommonFace(Helix(helix, double=keys.first.double_helical), normal[0].module, width)
+    wanted = keys.working_centre_distance is not None
+    return Asked(pair, normal, face, wanted, keys.tip_shortening_coefficient, keys, follow)
+
+
+def _section_of(keys: PairKeys, name: str, normal: SpurGear) -> SpurGear:
+    """The transverse section of one gear of the pair, refused under its own name if it cannot exist."""
+    try:
+        return section_of(normal, math.radians(keys.first.helix_angle_deg))
+    except ParameterError as error:
+        raise refusal(TOPIC, error, name, keys) from error
+
+
+def _shortened(gear: SpurGear, coefficient: float) -> SpurGear:
+    if gear.given_tip_diameter is not None:
+        return gear
+    return replace(gear, given_tip_diameter=2 * (gear.tip_radius - coefficient * gear.module))
+
+
+def _thinned(keys: PairKeys, normal: tuple[SpurGear, SpurGear], helix: float) -> tuple[SpurGear, SpurGear]:
+    """Both gears thinned, half each, for the backlash asked for; gears with a thinning of their own keep it."""
+    wishes = ("normal_backlash", "circumferential_backlash", "side_clearance_class")
+    asked = [name for name in wishes if getattr(keys, name) is not None]
+    if not asked:
+        return normal
+    if len(asked) > 1:
+        raise ParameterError(asked[0], getattr(keys, asked[0]), "other_is_given", REMOVED, other=asked[1])
+    gears = [replace(transverse_gear(g, helix), circumferential_thinning=0.0) for g in normal]
+    bare = external_pair(gears[0], gears[1], keys.working_centre_distance if _has_distance(keys, gears) else None)
+    cosine = math.cos(base_helix_angle(gears[0].rack.pressure_angle, helix))
+    if keys.normal_backlash is not None:
+        wanted = keys.normal_backlash / cosine
+    elif keys.circumferential_backlash is not None:
+        wanted = normal_from_circumferential(keys.circumferential_backlash, bare.working_pressure_angle)
+    else:
+        wanted = guaranteed_normal_backlash(str(keys.side_clearance_class), bare.working_centre_distance) / cosine
+    own = [g.circumferential_thinning for g in normal]
+    angle = gears[0].rack.pressure_angle
+    missing = thinning_for(wanted - bare.normal_backlash, angle) - sum(own)
+    if missing < 0:
+        least = (bare.normal_backlash + sum(own) * math.cos(angle)) * cosine
+        # of the other wishes the nearest is searched for
+        works = Nearest(rounded(least, up=True, digits=6), "at_least") if keys.normal_backlash is not None else None
+        raise ParameterError(asked[0], getattr(keys, asked[0]), "backlash_already_more", works)
+    free = [not a for a in own]
+    if not any(free):
+        return normal
+    share = missing / sum(free)
+    one, two = (
+        replace(g, circumferential_thinning=share) if is_free else g for g, is_free in zip(normal, free, strict=True)
+    )
+    return one, two
+
+
+def _has_distance(keys: PairKeys, gears: list[SpurGear]) -> bool:
+    """Whether the wanted distance is another than that of the shifts, which then were given."""
+    if keys.working_centre_distance is None:
+        return False
+    tight = external_pair(gears[0], gears[1]).working_centre_distance
+    return abs(tight - keys.working_centre_distance) > 1e-9 * tight
+
+
+def _page(asked: Asked) -> Sheet:
+    pair, (one, two) = asked.pair, asked.pair.gears
+    keys = asked.keys
+    shifts = (keys.first.profile_shift_coefficient, keys.second.profile_shift_coefficient)
+    plain = not (asked.helix or asked.wanted_distance or pair.normal_backlash)
+    printed = printed_for_pair((one.number_of_teeth, two.number_of_teeth), shifts, one.module) if plain else {}
+    page = Sheet(TOPIC, N_("External gear pair"), printed=printed)
+    page.section(N_("Given"))
+    for index, (normal, gear) in enumerate(zip(asked.normal, pair.gears, strict=True), 1):
+        given_data(page, normal, gear, asked.helix, index)
+    _mesh(page, asked)
+    _radii(page, asked)
+    _thicknesses(page, asked)
+    contact_steps(page, pair, asked.face)
+    measured = {name: getattr(keys, name) for name in ("measured_arc_of_action", "measured_working_pitch")}
+    for name, other in (tuple(measured), tuple(measured)[::-1]):
+        if measured[name] is not None and measured[other] is None:
+            raise ParameterError(name, measured[name], "needs_other", REMOVED, other=other)
+    if keys.measured_arc_of_action is not None and keys.measured_working_pitch is not None:
+        measured_steps(page, pair, keys.measured_arc_of_action, keys.measured_working_pitch)
+    sliding_steps(page, pair)
+    backlash_steps(page, pair, asked.helix)
+    limit_steps(page, pair, asked.face)
+    if printed:
+        note = N_("practicum (3.4) prints alpha_w on its left side for a_w")
+        page.notes.append(note)
+    return page
+
+
+def _mesh(page: Sheet, asked: Asked) -> None:
+    """(3.2) to (3.6), from the shifts to the distance or the other way round."""
+    pair, (one, two) = asked.pair, asked.pair.gears
+    angle = pair.working_pressure_angle
+    page.section(N_("Meshing"))
+    page.add("gear_ratio", pair.gear_ratio, "{z2} / {z1}", "practicum (3.2)")
+    alpha = one.rack.pressure_angle
+    page.add("tangent_of_pressure_angle", math.tan(alpha), "tan({alpha})", "practicum 3.1")
+    page.add("involute_of_pressure_angle", involute_function(alpha), "inv({alpha})", "practicum, table Д.1")
+    reference = "{m} * ({z1} + {z2}) / 2"
+    if asked.wanted_distance:
+        page.add("working_centre_distance", pair.working_centre_distance)
+        formula = f"arccos({reference} * cos({{alpha}}) / {{a_w}})"
+        page.add("working_pressure_angle_deg", math.degrees(angle), formula, "practicum (3.4)")
+        page.add("involute_of_working_pressure_angle", involute_function(angle), "inv({alpha_w})", "practicum (3.3)")
+        total = (one.number_of_teeth + two.number_of_teeth) * (involute_function(angle) - involute_function(alpha))
+        total /= 2 * math.tan(alpha)
+        formula = "({z1} + {z2}) * ({inv_alpha_w} - inv({alpha})) / (2 * tan({alpha}))"
+        if asked.shifts_follow:
+            page.add("profile_shift_sum", total, formula, "practicum (3.3)")
+        else:
+            # with shifts of one's own the distance leaves backlash
+            page.add("tight_profile_shift_sum", total, formula, "practicum (3.3)")
+    else:
+        formula = "2 * ({x1} + {x2}) * tan({alpha}) / ({z1} + {z2}) + inv({alpha})"
+        page.add("involute_of_working_pressure_angle", involute_function(angle), formula, "practicum (3.3)")
+        page.add("working_pressure_angle_deg", math.degrees(angle), "arcinv({inv_alpha_w})", "practicum (3.3)")
+        formula = f"{reference} * cos({{alpha}}) / cos({{alpha_w}})"
+        page.add("working_centre_distance", pair.working_centre_distance, formula, "practicum (3.4)")
+    page.add("cosine_of_working_pressure_angle", math.cos(angle), "cos({alpha_w})", "practicum, table Е.1")
+    page.add("reference_centre_distance", pair.reference_centre_distance, reference, "ISO 21771")
+    page.add("centre_distance_coefficient", pair.centre_distance_coefficient, "({a_w} - {a}) / {m}", "ISO 21771")
+    if asked.given_shortening is None:
+        page.add("tip_shortening_coefficient", pair.tip_shortening_coefficient, "{x1} + {x2} - {y}", "GOST 16532-70")
+    else:
+        exact = pair.tip_shortening_coefficient
+        page.add("exact_tip_shortening_coefficient", exact, "{x1} + {x2} - {y}", "GOST 16532-70")
+        page.add("tip_shortening_coefficient", asked.given_shortening, "", "practicum, table А.1")
+    page.add("working_radius", pair.working_radii[0], "{a_w} / ({u} + 1)", "practicum (3.5)", 1)
+    page.add("working_radius", pair.working_radii[1], "{a_w} * {u} / ({u} + 1)", "practicum (3.6)", 2)
+
+
+def _radii(page: Sheet, asked: Asked) -> None:
+    """(3.7) to (3.14)."""
+    gears = asked.pair.gears
+    page.section(N_("Radii"))
+    radii = (gears[0].reference_radius, gears[1].reference_radius)
+    page.both("reference_radius", radii, "{m} * {z#} / 2", ("practicum (3.7)", "practicum (3.8)"))
+    radii = (gears[0].base_radius, gears[1].base_radius)
+    page.both("base_radius", radii, "{r#} * cos({alpha})", ("practicum (3.9)", "practicum (3.10)"))
+    for index, gear in enumerate(gears, 1):
+        source = f"practicum (3.{10 + index})"
+        page.add("tip_radius", gear.tip_radius, _tip_formula(asked, index - 1), source, index)
+    for index, gear in enumerate(gears, 1):
+        formula = dedendum_formula(gear, asked.helix)
+        formula = f"{{r#}} - ({formula})" if asked.helix else f"{{r#}} - {formula}"
+        page.add("root_radius", gear.root_radius, formula, f"practicum (3.{12 + index})", index)
+
+
+def _tip_formula(asked: Asked, index: int) -> str:
+    """(3.11) where the tip follows it; a given tip has no formula."""
+    gear, given_gear = asked.pair.gears[index], asked.normal[index]
+    own = (asked.keys.first, asked.keys.second)[index].tip_diameter is not None
+    if own or (asked.helix and given_gear.given_tip_diameter is not None):
+        return ""
+    shortened = gear.given_tip_diameter is not None
+    return "{r#} + " + addendum_formula(asked.helix, " - {dy}" if shortened else "")
+
+
+def _thicknesses(page: Sheet, asked: Asked) -> None:
+    """(3.15) to (3.19) and the thicknesses on the base, working and tip circles."""
+    pair, gears = asked.pair, asked.pair.gears
+    page.section(N_("Pitch and tooth thickness"))
+    page.add("pitch", math.pi * pair.module, "pi * {m}", "practicum (3.15)")
+    for index, gear in enumerate(gears, 1):
+        page.add(
+            "reference_thickness",
+            gear.reference_thickness,
+            thickness_formula(gear),
+            f"practicum (3.{15 + index})",
+            index,
+        )
+    values = (measurement.base_thickness(gears[0]), measurement.base_thickness(gears[1]))
+    page.both("base_thickness", values, "2 * {r_b#} * ({S#} / (2 * {r#}) + inv({alpha}))", ("ISO 21771",) * 2)
+    one, two = (measurement.thickness_at(g, r) for g, r in zip(gears, pair.working_radii, strict=True))
+    formula = "2 * {r_w#} * ({S#} / (2 * {r#}) + inv({alpha}) - inv({alpha_w}))"
+    page.both("working_thickness", (one, two), formula, ("ISO 21771",) * 2)
+    for index, gear in enumerate(gears, 1):
+        angle = math.degrees(measurement.angle_at(gear, gear.tip_radius))
+        page.add("tip_pressure_angle_deg", angle, "arccos({r_b#} / {r_a#})", f"practicum (3.{17 + index})", index)
+    for index, gear in enumerate(gears, 1):
+        formula = "2 * {r_a#} * ({S#} / (2 * {r#}) + inv({alpha}) - inv({alpha_a#}))"
+        formula = formula if gear.rack.relief is None else ""
+        page.add("tip_thickness", limits.tip_thickness(gear), formula, "ISO 21771", index)
+
+
+# the kinds of pairs that have a sheet; each takes the table of its keys
+PAIRS = {"external_gear_pair": external_sheet, "internal_gear_pair": internal_sheet, "rack_pair": rack_sheet}

@@ -1,0 +1,331 @@
+"""``higherpair calc gear-pair`` of the kinds internal_gear_pair and rack_pair: a pinion in a ring, a gear on a rack."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any
+
+import msgspec
+from msgspec import Struct
+
+from geometry.base.angles import involute_function
+from geometry.base.errors import Nearest, ParameterError
+from geometry.gears.pairs.internal import InternalPair, shift_difference
+from geometry.gears.pairs.sliding import specific_sliding_internal
+from geometry.gears.teeth import limits, ring_limits
+from geometry.gears.teeth.ring import RingGear, RoundedRoot
+from geometry.gears.teeth.transverse_ring import transverse_ring
+from parts.base.mate import End
+from parts.base.refusal import SceneError, meant
+from parts.base.texts import N_
+from parts.gears.rack.part import RackSpec, checked_rack_part
+from parts.gears.ring_gear.part import RingGearSpec, checked_ring_gear
+from parts.gears.spur_gear.page import given_data
+from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of
+from parts.keys.base import mm
+from parts.keys.helix import common_face
+from parts.mates.involute import InternalGearPairSpec, RackPairSpec
+from parts.mates.pages.rack import (
+    ISO,
+    Helical,
+    backlash_steps,
+    first_limits,
+    first_radii,
+    heading,
+    overlap,
+    pair_notes,
+    rack_page,
+)
+from parts.mates.pages.wishes import wish_refused
+from parts.mates.pairing import mated
+from parts.pages.inputs import PLACE, checked, keys_of, refusal
+from parts.pages.misprints import printed_for_internal
+from parts.pages.page import Sheet
+
+TOPIC = "gear-pair"
+_GEARS = ("first", "second")
+_SAME = {name: name for name in _GEARS}
+
+
+class InternalKeys(Struct, forbid_unknown_fields=True):
+    """Keys of an internal pair: pinion, ring, and what is wanted of the pair."""
+
+    first: SpurGearSpec
+    second: RingGearSpec
+    working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
+    normal_backlash: Annotated[float, mm("wanted normal backlash", least=0, most=1000)] | None = None
+
+
+class RackKeys(Struct, forbid_unknown_fields=True):
+    """Keys of a gear and its rack."""
+
+    first: SpurGearSpec
+    second: RackSpec
+    working_centre_distance: (
+        Annotated[float, mm("wanted distance from axis to datum line", above=0, most=100_000)] | None
+    ) = None
+    normal_backlash: Annotated[float, mm("wanted normal backlash", least=0, most=1000)] | None = None
+
+
+_KINDS: dict[str, tuple[type[Struct], type[Struct]]] = {
+    "internal_gear_pair": (InternalKeys, RingGearSpec),
+    "rack_pair": (RackKeys, RackSpec),
+}
+
+
+def merged(under: dict[str, Any], over: dict[str, Any], kind: str) -> dict[str, Any]:
+    """Tables laid over each other; a key of both bodies without first. or second. goes to both of them."""
+    pair_keys, second = _KINDS[kind]
+    result = {key: dict(value) if isinstance(value, dict) else value for key, value in under.items()}
+    owners = {"first": keys_of(SpurGearSpec), "second": keys_of(second)}
+    for key, value in over.items():
+        if key in _GEARS and isinstance(value, dict):
+            result[key] = result.get(key, {}) | value
+        elif key in keys_of(pair_keys) or key == "kind":
+            result[key] = value
+        elif any(key in known for known in owners.values()):
+            for name, known in owners.items():
+                mine = over.get(name)
+                if key in known and not (isinstance(mine, dict) and key in mine):
+                    result[name] = {**result.get(name, {}), key: value}
+        else:
+            result[key] = value
+    return result
+
+
+def internal_sheet(table: dict[str, Any]) -> Sheet:
+    """The calculation of a pinion in a ring."""
+    keys, table = _keys(table, "internal_gear_pair")
+    given_shift = "profile_shift_coefficient" in table["second"]
+    try:
+        pair = _internal_pair(keys, given_shift)
+        return _internal_page(pair, keys, _helical(keys))
+    except ParameterError as error:
+        refused = _refused(error, keys)
+        raise wish_refused(TOPIC, keys, refused, lambda changed: _internal_pair(changed, given_shift)) from error
+
+
+def _internal_pair(keys: InternalKeys, given_shift: bool) -> InternalPair:
+    """The pair that the keys ask for; the ring's shift follows from a wanted distance where it is not given."""
+    mate = InternalGearPairSpec(
+        first="first",
+        second="second",
+        working_centre_distance=keys.working_centre_distance,
+        normal_backlash=keys.normal_backlash,
+    )
+    pinion, wanted = checked_spur_gear(keys.first), keys.working_centre_distance
+    ring_keys = keys.second
+    teeth = pinion.number_of_teeth, ring_keys.number_of_teeth
+    helix = _helix(keys)
+    if wanted is not None and not given_shift and teeth[0] < teeth[1]:
+        bare = RingGear(ring_keys.module, teeth[1], math.radians(ring_keys.pressure_angle_deg), 1e9, RoundedRoot())
+        shift = pinion.profile_shift_coefficient + shift_difference(pinion, transverse_ring(bare, helix), wanted)
+        ring_keys = msgspec.structs.replace(ring_keys, profile_shift_coefficient=shift / math.cos(helix))
+        # shifts that were found for a distance give it back but for rounding
+        mate = InternalGearPairSpec(first="first", second="second", normal_backlash=keys.normal_backlash)
+    ends: dict[str, End[Any]] = {
+        "first": End(keys.first, pinion),
+        "second": End(ring_keys, checked_ring_gear(ring_keys)),
+    }
+    pair: Any = mated(ends, [mate], _SAME)[1][0].pair
+    return pair
+
+
+def _helix(keys: Any) -> float:
+    """The helix angle of both, rad.
+
+    Raises
+    ------
+    ParameterError
+        They differ.
+    """
+    one, two = keys.first.helix_angle_deg, keys.second.helix_angle_deg
+    if one != two:
+        raise ParameterError("helix_angle_deg", two, "not_that_of_first", Nearest(one))
+    return math.radians(one)
+
+
+def _helical(keys: Any) -> Helical:
+    """What the page of a pair says beside its transverse section."""
+    _helix(keys)
+    return Helical(gear_of(keys.first), common_face(keys.first, keys.second))
+
+
+def rack_sheet(table: dict[str, Any]) -> Sheet:
+    """The calculation of a gear on a rack."""
+    keys, _ = _keys(table, "rack_pair")
+    mate = RackPairSpec(
+        first="first",
+        second="second",
+        working_centre_distance=keys.working_centre_distance,
+        normal_backlash=keys.normal_backlash,
+    )
+    try:
+        _helix(keys)
+        ends: dict[str, End[Any]] = {
+            "first": End(keys.first, checked_spur_gear(keys.first)),
+            "second": End(keys.second, checked_rack_part(keys.second)),
+        }
+        pair: Any = mated(ends, [mate], _SAME)[1][0].pair
+        return rack_page(pair, TOPIC, _helical(keys))
+    except ParameterError as error:
+        raise _refused(error, keys) from error
+
+
+def _keys(table: dict[str, Any], kind: str) -> tuple[Any, dict[str, Any]]:
+    pair_keys, second = _KINDS[kind]
+    table = merged({}, {k: v for k, v in table.items() if k != "kind"}, kind)
+    known = list(dict.fromkeys([*keys_of(pair_keys), *keys_of(SpurGearSpec), *keys_of(second)]))
+    for key in table:
+        if key not in keys_of(pair_keys):
+            raise SceneError(PLACE, f"{TOPIC}.{key}", table[key], "unknown_key", meant(key, known), known=known)
+    for name in _GEARS:
+        if name not in table:
+            raise SceneError(PLACE, f"{TOPIC}.{name}", None, "gear_missing", None, name=name)
+    return checked(table, pair_keys, TOPIC), table
+
+
+def _refused(error: ParameterError, keys: Struct) -> SceneError:
+    """A refusal under the key that was typed: those of the pair stand alone, others are the second's."""
+    name = error.name.removeprefix("mate.")
+    owner = "" if name.partition(".")[0] in keys_of(type(keys)) else "second"
+    return refusal(TOPIC, error.renamed(name), owner, keys)
+
+
+def _internal_page(pair: InternalPair, keys: InternalKeys, helical: Helical) -> Sheet:
+    pinion, ring = pair.pinion, pair.ring
+    printed = {} if helical.angle else printed_for_internal(pair.teeth, pair.module)
+    page = Sheet(TOPIC, N_("Internal gear pair"), printed=printed)
+    page.section(N_("Given"))
+    given_data(page, helical.normal, pinion, helical.angle, 1)
+    page.add("number_of_teeth", ring.number_of_teeth, gear=2)
+    if helical.angle:
+        normal = ring.profile_shift_coefficient / math.cos(helical.angle)
+        page.add("profile_shift_coefficient", normal, "", "", 2, symbol="x_n", key="x_n")
+        value = ring.profile_shift_coefficient
+        page.add("transverse_profile_shift_coefficient", value, "{x_n2} * cos({beta})", "ISO 21771", 2)
+    else:
+        page.add("profile_shift_coefficient", ring.profile_shift_coefficient, gear=2)
+    page.add("addendum_coefficient", keys.second.addendum_coefficient, gear=2)
+    if ring.circumferential_thinning:
+        page.add("circumferential_thinning", ring.circumferential_thinning, gear=2)
+    heading(page, helical, N_("Meshing"))
+    _internal_mesh(page, pair, keys.working_centre_distance is not None)
+    heading(page, helical, N_("Radii"))
+    _internal_radii(page, pair, keys, helical)
+    heading(page, helical, N_("Pitch and tooth thickness"))
+    _internal_sizes(page, pair)
+    heading(page, helical, N_("Contact ratio"))
+    _internal_contact(page, pair, helical)
+    _internal_limits(page, pair, helical)
+    return page
+
+
+def _internal_mesh(page: Sheet, pair: InternalPair, wanted_distance: bool) -> None:
+    """Working angle and distance, from the shifts or the other way round."""
+    angle, alpha = pair.working_pressure_angle, pair.ring.pressure_angle
+    page.add("gear_ratio", pair.gear_ratio, "{z2} / {z1}", "practicum (3.2)")
+    page.add("involute_of_pressure_angle", involute_function(alpha), "inv({alpha})", "practicum, table Д.1")
+    reference = "{m} * ({z2} - {z1}) / 2"
+    if wanted_distance:
+        page.add("working_centre_distance", pair.working_centre_distance)
+        formula = f"arccos({reference} * cos({{alpha}}) / {{a_w}})"
+        page.add("working_pressure_angle_deg", math.degrees(angle), formula, "GOST 19274")
+        page.add("involute_of_working_pressure_angle", involute_function(angle), "inv({alpha_w})", "GOST 19274")
+        value = (involute_function(angle) - involute_function(alpha)) * (pair.teeth[1] - pair.teeth[0])
+        formula = "({z2} - {z1}) * ({inv_alpha_w} - inv({alpha})) / (2 * tan({alpha}))"
+        page.add("profile_shift_difference", value / (2 * math.tan(alpha)), formula, "GOST 19274")
+    else:
+        formula = "2 * ({x2} - {x1}) * tan({alpha}) / ({z2} - {z1}) + inv({alpha})"
+        page.add("involute_of_working_pressure_angle", involute_function(angle), formula, "GOST 19274")
+        page.add("working_pressure_angle_deg", math.degrees(angle), "arcinv({inv_alpha_w})", "GOST 19274")
+        formula = f"{reference} * cos({{alpha}}) / cos({{alpha_w}})"
+        page.add("working_centre_distance", pair.working_centre_distance, formula, "GOST 19274")
+    page.add("reference_centre_distance", pair.reference_centre_distance, reference, "ISO 21771")
+    page.add("centre_distance_coefficient", pair.centre_distance_coefficient, "({a_w} - {a}) / {m}", "ISO 21771")
+    page.add("working_radius", pair.working_radii[0], "{a_w} / ({u} - 1)", "ISO 21771", 1)
+    page.add("working_radius", pair.working_radii[1], "{a_w} * {u} / ({u} - 1)", "ISO 21771", 2)
+
+
+def _internal_radii(page: Sheet, pair: InternalPair, keys: InternalKeys, helical: Helical) -> None:
+    """Radii; a tip that was given or made shallower and the roots of rings have no formula."""
+    pinion, ring = pair.pinion, pair.ring
+    page.both("reference_radius", (pinion.reference_radius, ring.reference_radius), "{m} * {z#} / 2", ISO)
+    page.both("base_radius", (pinion.base_radius, ring.base_radius), "{r#} * cos({alpha})", ISO)
+    first_radii(page, pinion, helical)
+    formula = ""
+    if ring.tip_radius == ring.default_tip_radius and ring.given_tip_diameter is None:
+        spec, shift = keys.second, "{x_n2}" if helical.angle else "{x2}"
+        plain = spec.tip_rule == "KHK" or ring.profile_shift_coefficient >= 2 * math.cos(helical.angle)
+        short = "" if plain else f" - (0.25 - 0.125 * {shift})"
+        formula = f"{{r2}} - ({{h_a2}} - {{x2}}{short}) * {{m}}"
+        if helical.angle:
+            formula = f"{{r2}} - ({{h_a2}}{short}) * {{m_n}} + {{x2}} * {{m}}"
+    page.add("tip_radius", ring.tip_radius, formula, "GOST 19274", 2)
+    page.add("root_radius", ring.root_radius, "", "ISO 21771", 2)
+
+
+def _internal_sizes(page: Sheet, pair: InternalPair) -> None:
+    """Pitch, thicknesses, angles at the tips."""
+    pinion, ring = pair.pinion, pair.ring
+    gears: tuple[Any, Any] = (pinion, ring)
+    page.add("pitch", math.pi * pair.module, "pi * {m}", "practicum (3.15)")
+    for index, gear, sign in ((1, pinion, "+"), (2, ring, "-")):
+        less = " - {A#}" if gear.circumferential_thinning else ""
+        formula = f"0.5 * {{p}} {sign} 2 * {{x#}} * {{m}} * tan({{alpha}}){less}"
+        page.add("reference_thickness", gear.reference_thickness, formula, "ISO 21771", index)
+    forms = [abs(f - g.tip_radius) < 1e-12 * f for f, g in zip(pair.tip_form_radii, gears, strict=True)]
+    for index, angle in enumerate(pair.tip_pressure_angles, 1):
+        formula = "arccos({r_b#} / {r_a#})" if forms[index - 1] else ""
+        page.add("tip_pressure_angle_deg", math.degrees(angle), formula, "ISO 21771", index)
+    formula = "2 * {r_a1} * ({S1} / (2 * {r1}) + inv({alpha}) - inv({alpha_a1}))"
+    usual = pinion.rack.relief is None and forms[0]
+    page.add("tip_thickness", limits.tip_thickness(pinion), formula if usual else "", "ISO 21771", 1)
+    formula = "2 * {r_a2} * ({S2} / (2 * {r2}) - inv({alpha}) + inv({alpha_a2}))"
+    page.add("tip_thickness", ring_limits.tip_thickness(ring), formula if forms[1] else "", "ISO 21771", 2)
+
+
+def _internal_contact(page: Sheet, pair: InternalPair, helical: Helical) -> None:
+    """Contact ratio both ways, the line of action, form and active diameters, sliding."""
+    formula = "({z1} * tan({alpha_a1}) - {z2} * tan({alpha_a2}) + ({z2} - {z1}) * tan({alpha_w})) / (2 * pi)"
+    page.add("contact_ratio", pair.contact_ratio, formula, "GOST 19274")
+    page.add("working_pitch", pair.working_pitch, "2 * pi * {r_w1} / {z1}", "practicum (3.21)")
+    formula = "{r_w1} * ({r_b1} * tan({alpha_a1}) - {r_b2} * tan({alpha_a2}) + {a_w} * sin({alpha_w})) / {r_b1}"
+    page.add("arc_of_action", pair.arc_of_action, formula, "practicum, fig. 3.13")
+    page.add("contact_ratio_by_arc", pair.contact_ratio_by_arc, "{dd} / {p_w}", "practicum (3.21)")
+    if abs(pair.effective_contact_ratio - pair.contact_ratio) > 1e-9:
+        page.add("effective_contact_ratio", pair.effective_contact_ratio, "", "ISO 21771")
+    overlap(page, pair, helical)
+    active, forms, tips = pair.active_profile_radii, pair.root_form_radii, pair.tip_form_radii
+    page.both("root_form_diameter", (2 * forms[0], 2 * forms[1]), "", ISO)
+    page.both("start_of_active_profile_diameter", (2 * active[0][0], 2 * active[1][1]), "", ISO)
+    page.both("active_tip_diameter", (2 * active[0][1], 2 * active[1][0]), "", ISO)
+    page.both("tip_form_diameter", (2 * tips[0], 2 * tips[1]), "", ISO)
+    page.section(N_("Line of action and sliding"))
+    line = pair.working_centre_distance * math.sin(pair.working_pressure_angle)
+    page.add("line_of_action_length", line, "{a_w} * sin({alpha_w})", "practicum, fig. 3.5")
+    base = pair.pinion.base_radius
+    low, high = (math.sqrt(max(r * r - base * base, 0.0)) for r in active[0])
+    pole = base * math.tan(pair.working_pressure_angle)
+    page.add("active_line_length", high - low, "", "practicum, fig. 3.11")
+    page.add("approach_length", pole - low, "", "ISO 21771")
+    page.add("recess_length", high - pole, "{g} - {g_f}", "ISO 21771")
+    starts = specific_sliding_internal(low, line, pair.gear_ratio)
+    ends = specific_sliding_internal(high, line, pair.gear_ratio)
+    page.both("root_sliding", (starts[0], ends[1]), "", ISO)
+    page.both("tip_sliding", (ends[0], starts[1]), "", ISO)
+    backlash_steps(page, pair, pair.circumferential_backlash, helical)
+
+
+def _internal_limits(page: Sheet, pair: InternalPair, helical: Helical) -> None:
+    """The conditions of an internal pair, each with its margin, mm; negative: broken."""
+    page.section(N_("Conditions: margins"))
+    found = {m.name: m for m in pair.margins()}
+    for name in ("involute_interference", "trochoid_interference", "radial_assembly"):
+        page.add(f"{name}_margin", found[name].margin, "", "KHK")
+    fillets = found["fillet_interference_pinion"].margin, found["fillet_interference_ring"].margin
+    page.both("fillet_interference_margin", fillets, "", ISO)
+    page.add("greatest_tip_diameter_pinion", pair.tip_limits[0], "", "ISO 21771")
+    page.add("least_tip_diameter_ring", pair.tip_limits[1], "", "ISO 21771")
+    first_limits(page, pair.pinion, helical)
+    pair_notes(page, pair, pair.pinion, helical)

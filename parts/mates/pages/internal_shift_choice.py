@@ -1,0 +1,372 @@
+"""``higherpair calc shift-choice`` of a pinion in a ring: shifts inside the blocking contour of internal pairs."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Annotated, Any, Literal
+
+from msgspec import Meta, Struct
+
+from geometry.base.errors import Nearest, ParameterError, at_least, at_most
+from geometry.gears.pairs.internal import shift_difference
+from geometry.gears.shifts.finder import (
+    Proposal,
+    for_sum,
+    greatest_contact_ratio,
+    least_sliding,
+    least_wear,
+    nearest_sum,
+    proposal,
+)
+from geometry.gears.shifts.internal import InternalRequirements, internal_contour, margins, window
+from geometry.gears.shifts.internal_shifts import InternalShiftPair, internal_state, least_pinion_shift
+from geometry.gears.teeth.cutter import PinionCutter, checked_cutter
+from geometry.gears.teeth.ring import RingGear, RoundedRoot
+from geometry.gears.teeth.spur import SpurGear
+from parts.base.refusal import SceneError, meant
+from parts.base.texts import N_, Message, counted, listed, message
+from parts.gears.ring_gear.part import RingGearSpec, RoundedRootTable, settled_section, tip_finding
+from parts.gears.spur_gear.part import RackTable, basic_rack_of
+from parts.keys.base import degrees, in_modules, mm
+from parts.keys.cutter import CutterTable, cutter_of
+from parts.keys.helix import in_keys
+from parts.mates.pages.contour_marks import checked_picture, contour_data, contour_pictures
+from parts.pages.contour_picture import line_name
+from parts.pages.inputs import PLACE, checked, refusal
+from parts.pages.page import Sheet
+from parts.texts.findings import finding_message
+
+TOPIC = "shift-choice"
+KIND = "internal_gear_pair"
+# modules between a line of the picture and its chords
+_TOLERANCE = 5e-4
+RACKS = ("ISO 53 A", "ISO 53 B", "ISO 53 C", "ISO 53 D", "GOST 13755")
+
+
+class PinionKeys(Struct, forbid_unknown_fields=True):
+    """What the topic needs of the pinion."""
+
+    number_of_teeth: Annotated[int, Meta(ge=3, le=1000, description="number of teeth z_1")]
+    profile_shift_coefficient: Annotated[float, in_modules("shift x_1 to judge", least=-10, most=10)] | None = None
+    cutter: CutterTable | None = None
+
+
+class RingKeys(Struct, forbid_unknown_fields=True):
+    """What the topic needs of the ring."""
+
+    number_of_teeth: Annotated[int, Meta(ge=4, le=1000, description="number of teeth z_2")]
+    profile_shift_coefficient: Annotated[float, in_modules("shift x_2 to judge", least=-10, most=10)] | None = None
+    addendum_coefficient: Annotated[float, in_modules("addendum h_a2", least=0.1, most=3)] = 1.0
+    tip_rule: Literal["GOST 19274", "KHK"] = "GOST 19274"
+    cutter: CutterTable | None = None
+    rounded_root: RoundedRootTable | None = None
+
+
+class InternalShiftKeys(Struct, forbid_unknown_fields=True):
+    """Keys of the topic for a pinion (first) in a ring (second)."""
+
+    first: PinionKeys
+    second: RingKeys
+    module: Annotated[float, mm("module, for a centre distance", least=0.01, most=1000)] = 1.0
+    pressure_angle_deg: Annotated[float, degrees("pressure angle", least=5, most=45)] = 20.0
+    basic_rack: str | RackTable = "ISO 53 A"
+    working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
+    least_contact_ratio: Annotated[float, Meta(ge=0.5, le=3, description="contact ratio to keep")] = 1.1
+    least_tip_thickness: Annotated[float, in_modules("tip thickness to keep", least=0, most=1)] = 0.3
+    least_tip_clearance: Annotated[float, in_modules("bottom clearance to keep", least=0, most=1)] = 0.2
+    allow_undercut: Annotated[bool, Meta(description="undercut that stays below the active flank is legal")] = False
+    pole_inside: Annotated[bool, Meta(description="the pole must lie inside the active line of action")] = False
+    radial_assembly: Annotated[bool, Meta(description="the pinion must go into the ring radially")] = False
+    picture: Annotated[str, Meta(description="SVG or DXF file of the contour to write")] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """Shifts with the rule that gave them; ``pair``: whose numbers are told."""
+
+    name: Message
+    found: Proposal
+    pair: InternalShiftPair
+
+
+def table_from(pair: dict[str, Any], table: dict[str, Any], source: str) -> dict[str, Any]:
+    """The keys of a scene's pair (pinion first) that matter here, changed by those of the command line."""
+    for name in ("first", "second"):
+        if angle := pair[name].get("helix_angle_deg"):
+            raise SceneError(source, "helix_angle_deg", angle, "shifts_of_spur_gears")
+    known: dict[str, Any] = {k: pair["first"][k] for k in ("module", "pressure_angle_deg", "basic_rack")}
+    for name, kind in (("first", PinionKeys), ("second", RingKeys)):
+        own = {k: v for k, v in pair[name].items() if k in kind.__struct_fields__}
+        typed = table.pop(name, {})
+        if not isinstance(typed, dict):
+            raise SceneError(PLACE, f"{TOPIC}.{name}", typed, "write_teeth", None, name=name)
+        # one root goes when the other is typed
+        for one, other in (("cutter", "rounded_root"), ("rounded_root", "cutter")):
+            if one in typed and other not in typed:
+                own.pop(other, None)
+        known[name] = own | typed
+    return {"kind": KIND, **known, **table}
+
+
+def internal_sheet(table: dict[str, Any]) -> Sheet:
+    """The choices and the contour of a pinion in a ring."""
+    keys: InternalShiftKeys = checked(table, InternalShiftKeys, TOPIC)
+    checked_picture(TOPIC, keys.picture)
+    if isinstance(keys.basic_rack, str) and keys.basic_rack not in RACKS:
+        raise unknown_rack(keys.basic_rack)
+    teeth = keys.first.number_of_teeth, keys.second.number_of_teeth
+    if teeth[0] >= teeth[1]:
+        works = Nearest(teeth[0] + 1, "at_least")
+        raise SceneError(PLACE, f"{TOPIC}.second.number_of_teeth", teeth[1], "not_above_pinion_teeth", works)
+    pair = shift_pair(keys)
+    wish = InternalRequirements(
+        keys.least_tip_thickness,
+        keys.least_contact_ratio,
+        keys.allow_undercut,
+        keys.pole_inside,
+        keys.least_tip_clearance,
+        keys.radial_assembly,
+    )
+    try:
+        return _page(keys, pair, wish)
+    except ParameterError as error:
+        raise refusal(TOPIC, in_keys(error), keys=keys) from error
+
+
+def unknown_rack(name: str) -> SceneError:
+    """The refusal of a basic rack that is none of those with a name."""
+    return SceneError(PLACE, f"{TOPIC}.basic_rack", name, "not_one_of", meant(name, RACKS), known=RACKS)
+
+
+def shift_pair(keys: InternalShiftKeys) -> InternalShiftPair:
+    """The pair of the keys, module 1.
+
+    Raises
+    ------
+    SceneError
+        A rack or cutter cannot exist, or the ring has two roots.
+    """
+    angle, owner = math.radians(keys.pressure_angle_deg), ""
+    try:
+        rack = basic_rack_of(keys.basic_rack, angle)  # type: ignore[arg-type]
+        owner = "first"
+        shaper = None if keys.first.cutter is None else checked_cutter(cutter_of(keys.first.cutter, 1.0, angle))
+        owner = "second"
+        root = _root_of(keys, angle)
+    except ParameterError as error:
+        raise refusal(TOPIC, in_keys(error), owner, keys) from error
+    ring = keys.second
+    return InternalShiftPair(
+        keys.first.number_of_teeth,
+        ring.number_of_teeth,
+        rack,
+        root,
+        ring.addendum_coefficient,
+        ring.tip_rule == "KHK",
+        shaper,
+    )
+
+
+def _root_of(keys: InternalShiftKeys, angle: float) -> PinionCutter | RoundedRoot:
+    """The ring's cutter or rounded root; where none is named, the cutter that a ring without shift gets."""
+    ring = keys.second
+    if ring.cutter is not None and ring.rounded_root is None:
+        cutter = checked_cutter(cutter_of(ring.cutter, 1.0, angle))
+        if cutter.number_of_teeth >= ring.number_of_teeth:
+            works = Nearest(ring.number_of_teeth - 1, "at_most")
+            raise ParameterError("cutter.number_of_teeth", cutter.number_of_teeth, "not_below_ring_teeth", works)
+    return _ring_of(keys, 0.0).root
+
+
+def _ring_of(keys: InternalShiftKeys, shift: float) -> RingGear:
+    """The ring at a shift with the cutter and the tip of a build, module 1."""
+    ring = keys.second
+    return settled_section(
+        RingGearSpec(
+            module=1.0,
+            number_of_teeth=ring.number_of_teeth,
+            profile_shift_coefficient=shift,
+            pressure_angle_deg=keys.pressure_angle_deg,
+            addendum_coefficient=ring.addendum_coefficient,
+            cutter=ring.cutter,
+            rounded_root=ring.rounded_root,
+            tip_rule=ring.tip_rule,
+        )
+    )
+
+
+def _as_built(keys: InternalShiftKeys, pair: InternalShiftPair, shift: float) -> InternalShiftPair:
+    """The pair with the cutter and the tip that a build gives the ring at a shift."""
+    ring = _ring_of(keys, shift)
+    return replace(pair, root=ring.root, least_tip_diameter=ring.least_tip_diameter)
+
+
+def _page(keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequirements) -> Sheet:
+    page = Sheet(TOPIC, N_("Choice of profile shifts, internal pair"))
+    wanted = _wanted_difference(keys, pair)
+    _given(page, keys, pair, wish)
+    choices = [*_own_choices(keys, pair, wish), *_found_choices(page, keys, pair, wish, wanted)]
+    for number, choice in enumerate(choices, 1):
+        _choice(page, wish, choice, number)
+    found = window(pair)
+    if found is None:
+        page.notes.append(N_("no shifts give a pair that turns"))
+        return page
+    contour = internal_contour(pair, wish, found.box, _TOLERANCE)
+    marks = [(c.name, (c.found.first, c.found.second)) for c in choices]
+    contour_pictures(page, contour, marks, keys.picture)
+    page.data["choices"] = [contour_data(c.name, "", c.found) for c in choices]
+    return page
+
+
+def _given(page: Sheet, keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequirements) -> None:
+    page.section(N_("Given"))
+    page.both("number_of_teeth", pair.teeth)
+    page.add("gear_ratio", pair.gear_ratio, "{z2} / {z1}", "practicum (3.2)")
+    page.add("module", keys.module)
+    page.add("pressure_angle_deg", math.degrees(pair.rack.pressure_angle))
+    page.both("addendum_coefficient", (pair.rack.addendum, pair.ring_addendum))
+    page.add("tip_clearance_coefficient", pair.rack.tip_clearance)
+    page.add("tip_radius_coefficient", pair.rack.tip_radius)
+    if isinstance(pair.root, PinionCutter):
+        page.add("cutter_teeth", pair.root.number_of_teeth)
+        page.add("cutter_shift", pair.root.profile_shift_coefficient)
+        page.add("cutter_addendum", pair.root.addendum)
+        page.add("cutter_tip_rounding", pair.root.tip_rounding)
+        if keys.second.cutter is None:
+            page.notes.append(N_("nobody named the ring's cutter: that of a ring with x2 = 0 is taken"))
+    page.add("required_contact_ratio", wish.contact_ratio, "", "practicum 1")
+    page.add("required_tip_thickness", wish.tip_thickness, "", "practicum (1.3)")
+    page.add("required_tip_clearance", wish.tip_clearance)
+    formula = "({h_a1} + {c} - {rho_f} * (1 - sin({alpha}))) - {z1} * sin({alpha})**2 / 2"
+    formula = formula if pair.pinion_cutter is None else ""
+    page.add("least_shift_without_undercut", least_pinion_shift(pair), formula, "ISO 21771", 1)
+
+
+def _own_choices(keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequirements) -> list[Choice]:
+    """The shifts that were typed, or none at all."""
+    shifts = keys.first.profile_shift_coefficient, keys.second.profile_shift_coefficient
+    name = message("as given") if any(x is not None for x in shifts) else message("no shift")
+    built = _as_built(keys, pair, shifts[1] or 0.0)
+    return [Choice(name, proposal(built, wish, shifts[0] or 0.0, shifts[1] or 0.0), built)]
+
+
+def _wanted_difference(keys: InternalShiftKeys, pair: InternalShiftPair) -> float | None:
+    """x2 - x1 that a wanted centre distance asks for; refused before anything is sought."""
+    if keys.working_centre_distance is None:
+        return None
+    pinion = SpurGear(keys.module, pair.first_teeth, pair.rack)
+    ring = RingGear(keys.module, pair.second_teeth, pair.rack.pressure_angle, 1e9, RoundedRoot())
+    return shift_difference(pinion, ring, keys.working_centre_distance)
+
+
+def _found_choices(
+    page: Sheet, keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequirements, wanted: float | None
+) -> list[Choice]:
+    """What the finder proposes inside the contour."""
+    wear, name = least_wear(pair, wish), message("least wear: equal sliding")
+    if wear is None:
+        wear, name = least_sliding(pair, wish), message("least sliding")
+    proposals = [(name, wear), (message("greatest contact ratio"), greatest_contact_ratio(pair, wish))]
+    if wanted is not None:
+        found = for_sum(pair, wish, wanted)
+        if found is None:
+            _nearest_distance(page, keys.module, pair, wish, wanted)
+        proposals.append((message("a_w = {distance:g} mm", distance=keys.working_centre_distance), found))
+        page.notes.append(message("a_w asks for x2 - x1 = {difference:.4f}", difference=wanted))
+    result = []
+    for rule, found in proposals:
+        if found is not None:
+            result.append(Choice(rule, found, pair))
+            _tell_other_cutter(page, keys, pair, found.second, rule)
+            continue
+        page.notes.append(
+            message(
+                "{rule}: no shifts keep all requirements; less least_contact_ratio, least_tip_thickness or "
+                "least_tip_clearance, or a smaller addendum_coefficient may work",
+                rule=rule,
+            )
+        )
+    return result
+
+
+def _tell_other_cutter(
+    page: Sheet, keys: InternalShiftKeys, pair: InternalShiftPair, shift: float, rule: Message
+) -> None:
+    """That a build gives the ring of a proposal another cutter than the contour has, where nobody names one."""
+    root = _as_built(keys, pair, shift).root
+    if isinstance(root, PinionCutter) and root != pair.root:
+        page.notes.append(
+            counted(
+                "{rule}: a build with this x2 and no cutter named takes one of {teeth} tooth",
+                "{rule}: a build with this x2 and no cutter named takes one of {teeth} teeth",
+                by="teeth",
+                rule=rule,
+                teeth=root.number_of_teeth,
+            )
+        )
+
+
+def _nearest_distance(
+    page: Sheet, module: float, pair: InternalShiftPair, wish: InternalRequirements, wanted: float
+) -> None:
+    """The distance nearest to the wanted one that has legal shifts."""
+    nearest = nearest_sum(pair, wish, wanted)
+    if nearest is None:
+        return
+    distance = module * internal_state(pair, 0.0, nearest).working_centre_distance
+    text = at_most(distance, 4) if nearest < wanted else at_least(distance, 4)
+    works = N_("a_w: at most {distance} mm works") if nearest < wanted else N_("a_w: at least {distance} mm works")
+    page.notes.append(message(works, distance=text))
+
+
+def _choice(page: Sheet, wish: InternalRequirements, choice: Choice, number: int) -> None:
+    """One proposal and what it gives."""
+    found, pair, module = choice.found, choice.pair, float(page.known["m"].value)
+    page.section(message("{number}. {rule}", number=number, rule=choice.name))
+    page.both("profile_shift_coefficient", (found.first, found.second))
+    state = internal_state(pair, found.first, found.second)
+    if not state.involute >= 0:
+        page.notes.append(message("{number}: no working angle", number=number))
+        return
+    formula = "2 * ({x2} - {x1}) * tan({alpha}) / ({z2} - {z1}) + inv({alpha})"
+    page.add("involute_of_working_pressure_angle", state.involute, formula, "GOST 19274")
+    angle = math.degrees(state.working_pressure_angle)
+    page.add("working_pressure_angle_deg", angle, "arcinv({inv_alpha_w})", "GOST 19274")
+    formula = "{m} * ({z2} - {z1}) / 2 * cos({alpha}) / cos({alpha_w})"
+    page.add("working_centre_distance", state.working_centre_distance * module, formula, "GOST 19274")
+    iso = ("ISO 21771", "ISO 21771")
+    if math.isfinite(state.contact_ratio):
+        page.add("contact_ratio", state.contact_ratio, "", "GOST 19274")
+        page.both("root_sliding", found.root_sliding, "", iso)
+    for name, pairs in (("tip_thickness", state.tip_thicknesses), ("tip_clearance", state.tip_clearances)):
+        if all(math.isfinite(v) for v in pairs):
+            page.both(name, (pairs[0] * module, pairs[1] * module), "", iso)
+    _limited_tip(page, pair, found.second, number)
+    _broken(page, pair, wish, choice, number)
+
+
+def _limited_tip(page: Sheet, pair: InternalShiftPair, shift: float, number: int) -> None:
+    """That the default tip was made shallower, in the words of a build."""
+    ring = pair.ring(shift)
+    if (found := tip_finding(ring)) is not None:
+        page.notes.append(message("{number}: {finding}", number=number, finding=finding_message(found)))
+
+
+def _broken(page: Sheet, pair: InternalShiftPair, wish: InternalRequirements, choice: Choice, number: int) -> None:
+    """What a choice breaks, and whether the pinion goes in radially."""
+    x1, x2 = choice.found.first, choice.found.second
+    found = {m.name: m for m in margins(pair, replace(wish, radial_assembly=True), x1, x2)}
+    if not wish.radial_assembly and not found.pop("radial_assembly").margin >= -1e-9:
+        page.notes.append(message("{number}: the pinion goes into the ring along its axis only", number=number))
+    broken = [m for m in found.values() if not m.margin >= -1e-9]
+    if not broken:
+        return
+    margins_told = [
+        line_name(m.name)
+        if math.isnan(m.margin)
+        else message("{line} ({margin:.4g})", line=line_name(m.name), margin=m.margin)
+        for m in broken
+    ]
+    page.notes.append(message("{number}: outside the contour: {margins}", number=number, margins=listed(margins_told)))

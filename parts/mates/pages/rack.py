@@ -1,0 +1,151 @@
+"""Steps that the internal pair and the rack have in common, and the page of gear and rack."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from geometry.gears.pairs.common_face import CommonFace
+from geometry.gears.pairs.rack import RackPair
+from geometry.gears.teeth import limits, measurement
+from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.transverse import normal_share, transverse_angle
+from parts.base.texts import N_, message
+from parts.gears.spur_gear.page import addendum_formula, dedendum_formula, given_data
+from parts.pages.contact_steps import overlap_steps
+from parts.pages.page import Sheet
+from parts.texts.findings import finding_of
+
+ISO = ("ISO 21771", "ISO 21771")
+
+
+@dataclass(frozen=True, slots=True)
+class Helical:
+    """What a pair of transverse sections does not know of itself: its first gear in normal data, and the face."""
+
+    normal: SpurGear
+    face: CommonFace
+
+    @property
+    def angle(self) -> float:
+        """Helix angle, rad; 0 for straight teeth."""
+        return self.face.helix.angle
+
+    def normal_backlash(self, pair: Any) -> float:
+        """j_bn of the pair, mm."""
+        return float(pair.normal_backlash) * normal_share(self.section_angle, self.angle)
+
+    @property
+    def section_angle(self) -> float:
+        """alpha_t, rad, which the base helix angle follows from."""
+        return transverse_angle(self.normal.rack.pressure_angle, self.angle)
+
+
+def heading(page: Sheet, helical: Helical, title: str) -> None:
+    """A section whose numbers are transverse where the teeth are helical, and says so."""
+    page.section(message("{title} (transverse section)", title=message(title)) if helical.angle else title)
+
+
+def first_radii(page: Sheet, gear: SpurGear, helical: Helical) -> None:
+    """Tip and root of the first gear; a given tip and a root that a pinion cut have no formula."""
+    formula = f"{{r1}} + {addendum_formula(helical.angle)}" if gear.given_tip_diameter is None else ""
+    page.add("tip_radius", gear.tip_radius, formula, "practicum (3.11)", 1)
+    formula = ""
+    if gear.cutter is None:
+        formula = dedendum_formula(gear, helical.angle)
+        formula = f"{{r1}} - ({formula})" if helical.angle else f"{{r1}} - {formula}"
+    page.add("root_radius", gear.root_radius, formula, "practicum (3.13)", 1)
+
+
+def overlap(page: Sheet, pair: Any, helical: Helical) -> None:
+    """Axial overlap of helical teeth; nothing of straight ones."""
+    overlap_steps(page, pair.contact_ratio, helical.face, "{b}@ * sin(abs({beta})) / (pi * {m_n})")
+
+
+def backlash_steps(page: Sheet, pair: Any, circumferential: float, helical: Helical) -> None:
+    """j_t, j_n and the tip clearances."""
+    page.section(N_("Backlash and clearance"))
+    page.add("circumferential_backlash", circumferential, "", "ISO 21771")
+    cosine = " * cos({beta_b})" if helical.angle else ""
+    formula = f"{{j_wt}} * cos({{alpha_w}}){cosine}"
+    page.add("normal_backlash", helical.normal_backlash(pair), formula, "ISO 21771")
+    page.both("tip_clearance", pair.tip_clearances, "", ISO)
+
+
+def first_limits(page: Sheet, gear: SpurGear, helical: Helical) -> None:
+    """Undercut and tip thickness of the first gear, with remarks where a limit is not kept."""
+    least = limits.least_shift_without_undercut(gear) / math.cos(helical.angle)
+    symbol = "x_n,min" if helical.angle else ""
+    page.add("least_shift_without_undercut", least, "", "ISO 21771", 1, symbol=symbol)
+    value = limits.LEAST_TIP_THICKNESS * gear.module
+    page.add("least_tip_thickness", value, f"{limits.LEAST_TIP_THICKNESS} * {{m}}", "practicum (1.3)")
+
+
+def pair_notes(page: Sheet, pair: Any, gear: SpurGear, helical: Helical) -> None:
+    """What the pair does not keep, and its first gear."""
+    found = [(f, 0) for f in helical.face.findings(pair.findings(), pair.effective_contact_ratio)]
+    found += [(f, 1) for f in limits.findings(gear) if f.code != "thin_rim"]
+    for finding, owner in found:
+        page.notes.append(finding_of(owner, finding))
+
+
+def rack_page(pair: RackPair, topic: str, helical: Helical) -> Sheet:
+    """The page of a gear and its rack."""
+    gear, rack = pair.gear, pair.rack
+    alpha = rack.rack.pressure_angle
+    page = Sheet(topic, N_("Gear and rack"))
+    page.section(N_("Given"))
+    given_data(page, helical.normal, gear, helical.angle, 1)
+    page.add("rack_addendum", rack.addendum)
+    if rack.circumferential_thinning:
+        page.add("circumferential_thinning", rack.circumferential_thinning, gear=2)
+    heading(page, helical, N_("Meshing"))
+    page.add("reference_radius", gear.reference_radius, "{m} * {z1} / 2", "practicum (3.7)", 1)
+    nominal = gear.reference_radius + gear.profile_shift_coefficient * gear.module
+    formula = "{r1} + {x1} * {m}" if abs(nominal - pair.distance) < 1e-12 * nominal else ""
+    page.add("rack_distance", pair.distance, formula, "ISO 21771")
+    page.add("working_pressure_angle_deg", math.degrees(alpha), "{alpha}", "ISO 21771")
+    page.add("travel_per_turn", pair.travel_per_turn, "pi * {m} * {z1}", "ISO 21771")
+    heading(page, helical, N_("Radii"))
+    page.add("base_radius", gear.base_radius, "{r1} * cos({alpha})", "practicum (3.9)", 1)
+    first_radii(page, gear, helical)
+    heading(page, helical, N_("Pitch and tooth thickness"))
+    page.add("pitch", rack.pitch, "pi * {m}", "practicum (3.15)")
+    less = " - {A1}" if gear.circumferential_thinning else ""
+    formula = f"0.5 * {{p}} + 2 * {{x1}} * {{m}} * tan({{alpha}}){less}"
+    page.add("reference_thickness", gear.reference_thickness, formula, "practicum (3.16)", 1)
+    formula = "0.5 * {p} - {A2}" if rack.circumferential_thinning else "0.5 * {p}"
+    page.add("reference_thickness", rack.tooth_thickness, formula, "ISO 21771", 2)
+    angle = measurement.angle_at(gear, gear.tip_radius)
+    page.add("tip_pressure_angle_deg", math.degrees(angle), "arccos({r_b1} / {r_a1})", "practicum (3.18)", 1)
+    page.add("tip_thickness", limits.tip_thickness(gear), "", "ISO 21771", 1)
+    _rack_contact(page, pair, helical)
+    return page
+
+
+def _rack_contact(page: Sheet, pair: RackPair, helical: Helical) -> None:
+    """Contact ratio, backlash and the conditions."""
+    page.section(N_("Contact ratio"))
+    formula = (
+        "({r_b1} * tan({alpha_a1}) - {r1} * sin({alpha}) + ({r1} - {a_w} + {h_aR}) / sin({alpha})) "
+        "/ (pi * {m} * cos({alpha}))"
+    )
+    gear, rack = pair.gear, pair.rack
+    plain = not (gear.tip_chamfer or gear.tip_rounding or gear.rack.relief or rack.tip_chamfer or rack.tip_rounding)
+    page.add("contact_ratio", pair.contact_ratio, formula if plain else "", "ISO 21771")
+    if abs(pair.effective_contact_ratio - pair.contact_ratio) > 1e-9:
+        page.add("effective_contact_ratio", pair.effective_contact_ratio, "", "ISO 21771")
+    overlap(page, pair, helical)
+    low, high = pair.active_ends
+    pole = gear.base_radius * math.tan(rack.rack.pressure_angle)
+    page.add("active_line_length", high - low, "", "practicum, fig. 3.11")
+    page.add("approach_length", pole - low, "", "ISO 21771")
+    page.add("recess_length", high - pole, "{g} - {g_f}", "ISO 21771")
+    backlash_steps(page, pair, pair.normal_backlash / math.cos(rack.rack.pressure_angle), helical)
+    page.section(N_("Conditions: margins"))
+    found = {m.name: m for m in pair.margins()}
+    fillets = found["fillet_interference_gear"].margin, found["fillet_interference_rack"].margin
+    page.both("fillet_interference_margin", fillets, "", ISO)
+    first_limits(page, gear, helical)
+    pair_notes(page, pair, gear, helical)

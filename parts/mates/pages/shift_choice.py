@@ -1,0 +1,241 @@
+"""``higherpair calc shift-choice``: shifts by the tables, by GOST 16532, and inside the blocking contour."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from msgspec import Meta, Struct
+
+from geometry.base.errors import ParameterError, at_most
+from geometry.gears.shifts import tables as shift_tables
+from geometry.gears.shifts.choice import shift_sum_for_distance
+from geometry.gears.shifts.external import (
+    Requirements,
+    ShiftPair,
+    blocking_contour,
+    least_shift,
+    margins,
+    state_of,
+    usual_box,
+)
+from geometry.gears.shifts.finder import Proposal, for_sum, greatest_contact_ratio, least_wear, proposal
+from geometry.gears.teeth.spur import SpurGear
+from parts.base.refusal import SceneError, meant
+from parts.base.texts import N_, Message, message
+from parts.gears.spur_gear.part import RackTable, SpurGearSpec, gear_of
+from parts.keys.base import in_modules, mm
+from parts.keys.cutter import PressureAngle
+from parts.keys.helix import in_keys
+from parts.mates.pages import external as gear_pair
+from parts.mates.pages import internal_shift_choice
+from parts.mates.pages.contour_marks import checked_picture, contour_data, contour_pictures
+from parts.mates.pages.internal_shift_choice import RACKS, unknown_rack
+from parts.pages.inputs import PLACE, SceneKeys, checked, refusal, told
+from parts.pages.page import Printed, Sheet
+
+TOPIC = "shift-choice"
+_KINDS = ("external_gear_pair", internal_shift_choice.KIND)
+
+
+class Teeth(Struct, forbid_unknown_fields=True):
+    """What the topic needs of one gear."""
+
+    number_of_teeth: Annotated[int, Meta(ge=3, le=1000, description="number of teeth z")]
+
+
+class ShiftChoiceKeys(Struct, forbid_unknown_fields=True):
+    """Keys of the topic."""
+
+    first: Teeth
+    second: Teeth
+    module: Annotated[float, mm("module, for a centre distance", least=0.01, most=1000)] = 1.0
+    pressure_angle_deg: PressureAngle = 20.0
+    basic_rack: str | RackTable = "ISO 53 A"
+    working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
+    least_contact_ratio: Annotated[float, Meta(ge=0.5, le=3, description="contact ratio to keep")] = 1.1
+    least_tip_thickness: Annotated[float, in_modules("tip thickness to keep", least=0, most=1)] = 0.3
+    allow_undercut: Annotated[bool, Meta(description="undercut that stays below the active flank is legal")] = False
+    pole_inside: Annotated[bool, Meta(description="the pole must lie inside the active line of action")] = False
+    shortened_tips: Annotated[bool, Meta(description="tips shortened by x1 + x2 - y")] = True
+    picture: Annotated[str, Meta(description="SVG or DXF file of the contour to write")] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """Shifts of one rule: its name, the source, and a misprint that was mended."""
+
+    name: Message
+    source: str
+    found: Proposal
+    printed: Printed | None = None
+
+
+def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
+    """The keys of a mate of a scene that matter here, changed by those of the command line."""
+    pair = gear_pair.table_from(scene, source, {k: table.pop(k) for k in ("mate",) if k in table})
+    first, kind = pair["first"], pair.get("kind", "external_gear_pair")
+    if kind == internal_shift_choice.KIND:
+        return internal_shift_choice.table_from(pair, table, source)
+    if kind not in _KINDS:
+        raise SceneError(source, "mate", kind, "shifts_of_gear_pairs")
+    if any(pair[name].get("helix_angle_deg") for name in gear_pair.GEARS):
+        angle = first.get("helix_angle_deg", 0.0)
+        raise SceneError(source, "helix_angle_deg", angle, "shifts_of_spur_gears")
+    known = {k: first[k] for k in ("module", "pressure_angle_deg", "basic_rack") if k in first}
+    teeth = {name: {"number_of_teeth": pair[name]["number_of_teeth"]} for name in gear_pair.GEARS}
+    return {**known, **teeth, **table}
+
+
+def sheet(table: dict[str, Any]) -> Sheet:
+    """The choices and the contour, by the kind of pair."""
+    kind = table.pop("kind", "external_gear_pair")
+    if kind not in _KINDS:
+        raise SceneError(PLACE, f"{TOPIC}.kind", kind, "unknown_pair", meant(kind, _KINDS), known=_KINDS)
+    if kind == internal_shift_choice.KIND:
+        return internal_shift_choice.internal_sheet(table)
+    keys: ShiftChoiceKeys = checked(table, ShiftChoiceKeys, TOPIC)
+    checked_picture(TOPIC, keys.picture)
+    if isinstance(keys.basic_rack, str) and keys.basic_rack not in RACKS:
+        raise unknown_rack(keys.basic_rack)
+    try:
+        gear = gear_of(
+            SpurGearSpec(
+                module=keys.module,
+                number_of_teeth=keys.first.number_of_teeth,
+                pressure_angle_deg=keys.pressure_angle_deg,
+                basic_rack=keys.basic_rack,  # type: ignore[arg-type]
+            )
+        )
+        pair = ShiftPair(gear.number_of_teeth, keys.second.number_of_teeth, gear.rack, keys.shortened_tips)
+        wish = Requirements(keys.least_tip_thickness, keys.least_contact_ratio, keys.allow_undercut, keys.pole_inside)
+        return _page(keys, pair, wish)
+    except ParameterError as error:
+        raise refusal(TOPIC, in_keys(error), keys=keys) from error
+
+
+def _page(keys: ShiftChoiceKeys, pair: ShiftPair, wish: Requirements) -> Sheet:
+    page = Sheet(TOPIC, N_("Choice of profile shifts"))
+    page.section(N_("Given"))
+    page.both("number_of_teeth", pair.teeth)
+    page.add("gear_ratio", pair.gear_ratio, "{z2} / {z1}", "practicum (3.2)")
+    page.add("module", keys.module)
+    page.add("pressure_angle_deg", math.degrees(pair.rack.pressure_angle))
+    page.add("addendum_coefficient", pair.rack.addendum)
+    page.add("tip_clearance_coefficient", pair.rack.tip_clearance)
+    page.add("tip_radius_coefficient", pair.rack.tip_radius)
+    page.add("required_contact_ratio", wish.contact_ratio, "", "practicum 1")
+    page.add("required_tip_thickness", wish.tip_thickness, "", "practicum (1.3)")
+    least = (least_shift(pair, 0), least_shift(pair, 1))
+    formula = "({h_a} + {c} - {rho_f} * (1 - sin({alpha}))) - {z#} * sin({alpha})**2 / 2"
+    page.both("least_shift_without_undercut", least, formula, ("ISO 21771", "ISO 21771"))
+    choices = [*_table_choices(page, pair, wish), *_found_choices(page, keys, pair, wish)]
+    for number, choice in enumerate(choices, 1):
+        _choice(page, pair, wish, choice, number)
+    box = usual_box(pair)
+    if box is None:
+        page.notes.append(N_("no shifts give a pair that turns"))
+        return page
+    contour = blocking_contour(pair, wish, box)
+    marks = [(c.name, (c.found.first, c.found.second)) for c in choices]
+    contour_pictures(page, contour, marks, keys.picture)
+    page.data["choices"] = [contour_data(c.name, c.source, c.found) for c in choices]
+    return page
+
+
+def _table_choices(page: Sheet, pair: ShiftPair, wish: Requirements) -> list[Choice]:
+    """Kudryavtsev, the guidelines and GOST 16532; a table that lacks the pair is a remark."""
+    z1, z2 = pair.teeth
+    found = []
+    for function, rule, name in (
+        (shift_tables.kudryavtsev, message("Kudryavtsev"), "practicum"),
+        (shift_tables.guidelines, message("least wear by table 2.1"), "guidelines"),
+    ):
+        try:
+            shifts = function(z1, z2)
+        except ParameterError as error:
+            page.notes.append(message("{rule}: {why}", rule=rule, why=told(error)))
+            continue
+        source = f"{name}, table {shifts.table}"
+        found.append(Choice(rule, source, proposal(pair, wish, shifts.first, shifts.second), _mending(shifts)))
+    for kinematic, rule in (
+        (False, message("GOST 16532, power drive")),
+        (True, message("GOST 16532, kinematic drive")),
+    ):
+        try:
+            for shifts in shift_tables.gost_16532(z1, z2, kinematic=kinematic):
+                found.append(Choice(rule, "GOST 16532-70", proposal(pair, wish, shifts.first, shifts.second)))
+        except ParameterError as error:
+            page.notes.append(message("{rule}: {why}", rule=rule, why=told(error)))
+    return found
+
+
+def _mending(shifts: shift_tables.TableShift) -> Printed | None:
+    if shifts.mended is None:
+        return None
+    text = " / ".join(f"{v:.3f}" for v in shifts.mended.printed)
+    return Printed(text, N_("the table's own Δy and its neighbours show the misprint"))
+
+
+def _found_choices(page: Sheet, keys: ShiftChoiceKeys, pair: ShiftPair, wish: Requirements) -> list[Choice]:
+    """What the finder proposes inside the contour."""
+    proposals = [
+        (message("least wear: equal sliding"), least_wear(pair, wish)),
+        (message("greatest contact ratio"), greatest_contact_ratio(pair, wish)),
+    ]
+    if keys.working_centre_distance is not None:
+        one, two = (SpurGear(keys.module, z, pair.rack) for z in pair.teeth)
+        total = shift_sum_for_distance(one, two, keys.working_centre_distance)
+        found = for_sum(pair, wish, total)
+        proposals.append((message("a_w = {distance:g} mm", distance=keys.working_centre_distance), found))
+        if found is None:
+            _explain_sum(page, pair, wish, total)
+    result = []
+    for rule, found in proposals:
+        if found is not None:
+            result.append(Choice(rule, "", found))
+            continue
+        page.notes.append(
+            message(
+                "{rule}: no shifts keep all requirements; less least_contact_ratio or least_tip_thickness may work",
+                rule=rule,
+            )
+        )
+    return result
+
+
+def _explain_sum(page: Sheet, pair: ShiftPair, wish: Requirements, total: float) -> None:
+    """Which limit a centre distance breaks when its shifts are split for equal tips."""
+    broken = [m for m in margins(pair, wish, total / 2, total / 2) if not m.margin >= 0]
+    names = ", ".join(f"{m.name} {at_most(m.margin, 4)}" for m in broken if not math.isnan(m.margin))
+    page.notes.append(message("x1 + x2 = {total:.4f}, half each: {margins}", total=total, margins=names))
+
+
+def _choice(page: Sheet, pair: ShiftPair, wish: Requirements, choice: Choice, number: int) -> None:
+    """One proposal and what it gives."""
+    found = choice.found
+    page.section(message("{number}. {rule}", number=number, rule=choice.name))
+    page.add("profile_shift_coefficient", found.first, "", choice.source, 1)
+    page.add("profile_shift_coefficient", found.second, "", choice.source, 2)
+    if choice.printed is not None:
+        page.mark_misprint(choice.printed)
+    state = state_of(pair, found.first, found.second)
+    if not state.involute >= 0:
+        page.notes.append(message("{number}: no working angle", number=number))
+        return
+    formula = "2 * ({x1} + {x2}) * tan({alpha}) / ({z1} + {z2}) + inv({alpha})"
+    page.add("involute_of_working_pressure_angle", state.involute, formula, "practicum (3.3)")
+    angle = math.degrees(state.working_pressure_angle)
+    page.add("working_pressure_angle_deg", angle, "arcinv({inv_alpha_w})", "practicum (3.3)")
+    formula = "{m} * ({z1} + {z2}) / 2 * cos({alpha}) / cos({alpha_w})"
+    module = float(page.known["m"].value)
+    page.add("working_centre_distance", state.working_centre_distance * module, formula, "practicum (3.4)")
+    page.add("contact_ratio", found.contact_ratio, "", "practicum (3.20)")
+    thick = state.tip_thicknesses
+    page.both("tip_thickness", (thick[0] * module, thick[1] * module), "", ("practicum (1.3)", "practicum (1.3)"))
+    page.both("root_sliding", found.root_sliding, "", ("ISO 21771", "ISO 21771"))
+    broken = [m for m in margins(pair, wish, found.first, found.second) if m.margin < -1e-9]
+    if broken:
+        names = ", ".join(f"{m.name} {m.margin:.4g}" for m in broken)
+        page.notes.append(message("{number}: outside the contour: {margins}", number=number, margins=names))

@@ -1,0 +1,314 @@
+"""The picture of meshing as a sheet: both bodies, all circles, the line of action, the arc of action, with names."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass, replace
+
+from geometry.curves.line_arc import Arc, Line
+from geometry.gears.pictures.meshing import CIRCLES, Body, MeshingPicture
+from parts.drawing.canvas import (
+    TEXT_HEIGHT,
+    Box,
+    Canvas,
+    Paper,
+    Stroke,
+    decimal,
+    draw,
+    fitted,
+    scale_text,
+)
+from parts.drawing.labels import Labeller
+from parts.drawing.table import Row, draw_table, table_size
+from parts.drawing.view import GAP, NAMES, TEETH, View, ends_of, is_up, layout
+from parts.texts.sheets import sheet_words
+
+# how far inside a body its dimension arc runs, mm on paper
+_INSIDE = 11.0
+# circles are drawn at most this far from the line of centres
+_WIDEST = math.radians(75)
+SYMBOLS = {"tip": "a", "working": "w", "reference": "", "base": "b", "root": "f"}
+
+
+# names of circles and where each ends on the left and on the right
+Ends = list[tuple[str, tuple[complex, complex]]]
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """What stands beside the picture: its title and the rows of its table."""
+
+    title: str
+    rows: tuple[Row, ...]
+
+
+def meshing_canvas(
+    picture: MeshingPicture, module: float, facts: Facts, language: str, tolerance: float, band: float = 0.0
+) -> tuple[Canvas, View]:
+    """The sheet of a picture and what of the plane it shows, where.
+
+    ``module`` in mm, ``tolerance`` and ``band``, the height of a title block, in mm on paper.
+    """
+    canvas, view = layout(picture, module, facts.rows, band)
+    scale = view.paper.scale
+    canvas.box("FRAME", canvas.frame)
+    fans = [_fan(body, view.window) for body in picture.bodies]
+    ends = [_circles(canvas, body, fan, view) for body, fan in zip(picture.bodies, fans, strict=True)]
+    _teeth(canvas, picture, view, tolerance)
+    _lines(canvas, picture, view)
+    canvas.arc("ARC_OF_ACTION", _arc(view.paper, picture.arc_of_action))
+    mark = picture.pitch
+    canvas.strokes += [_stroke("WORKING_PITCH", view.paper, mark)]
+    dimensions = _dimensions(canvas, picture, view)
+    title = facts.title
+    top = canvas.frame.high - 9.0
+    canvas.write(title, complex(canvas.frame.left + GAP, top), 5.0, canvas.frame.right - canvas.frame.left - 2 * GAP)
+    rows = list(facts.rows)
+    for index, body in enumerate(picture.bodies, 1):
+        # what a picture of large gears leaves out
+        for name in (n for n in body.radii if not view.shows(body, n)):
+            value = decimal(f"{body.radii[name]:.3f}", language)
+            rows.append(Row(sheet_words(language, "off_sheet"), f"r_{{{SYMBOLS[name]}{index}}}", value))
+    rows.append(Row(sheet_words(language, "scale"), "", scale_text(scale, language)))
+    width, _ = table_size(rows)
+    corner = complex(canvas.frame.right - width, canvas.content.low)
+    draw_table(canvas, corner, rows)
+    labels = Labeller(canvas, view.room)
+    for index, (found, body) in enumerate(zip(ends, picture.bodies, strict=True)):
+        left = index == 0
+        edge = view.room.left + NAMES - 3 if left else view.room.right - NAMES + 3
+        low = view.room.low + TEXT_HEIGHT
+        names = [(_circle_name(body, name, index, language), end[0 if left else 1]) for name, end in found]
+        labels.column(names, edge, low, view.room.high - TEXT_HEIGHT, left=left)
+    _names(labels, picture, view, dimensions, language)
+    return canvas, view
+
+
+def _circle_name(body: Body, name: str, index: int, language: str) -> str:
+    symbol = f"{SYMBOLS[name]}{index + 1}"
+    if body.centre is None:
+        return sheet_words(language, f"{name}_line")
+    return f"r_{{{symbol}}} = {decimal(f'{body.radii[name]:.2f}', language)}"
+
+
+def _fan(body: Body, window: Box) -> tuple[float, float]:
+    """How far the circles run to the left and to the right of the line of centres, rad; a rack's lines, mm."""
+    if body.centre is None:
+        return -window.left, window.right
+    up = is_up(body, window)
+    sides = []
+    for reach in (body.centre.real - window.left, window.right - body.centre.real):
+        angles = [_WIDEST]
+        for radius in body.radii.values():
+            if radius > reach:
+                angles.append(math.asin(reach / radius))
+            drop = (window.low - body.centre.imag) if up else (body.centre.imag - window.high)
+            if abs(drop) < radius and drop > 0:
+                angles.append(math.acos(drop / radius))
+        sides.append(min(angles))
+    return sides[0], sides[1]
+
+
+def _circles(
+    canvas: Canvas, body: Body, fan: tuple[float, float], view: View
+) -> list[tuple[str, tuple[complex, complex]]]:
+    """The circles of a body as arcs about the mesh; the names and both ends of each, on paper."""
+    found: Ends = []
+    for name in CIRCLES:
+        if name not in body.radii or not view.shows(body, name):
+            continue
+        layer, radius = f"CIRCLE_{name.upper()}", body.radii[name]
+        if body.centre is None:
+            line = Line(complex(-fan[0], radius), complex(fan[1], radius))
+            canvas.strokes.append(_stroke(layer, view.paper, line))
+            found.append((name, (view.paper.point(line.start), view.paper.point(line.end))))
+            continue
+        if is_up(body, view.window):
+            arc = Arc(body.centre, radius, math.pi / 2 - fan[1], fan[0] + fan[1])
+            ends = ends_of(arc)[1], ends_of(arc)[0]
+        else:
+            arc = Arc(body.centre, radius, -math.pi / 2 - fan[0], fan[0] + fan[1])
+            ends = ends_of(arc)
+        canvas.arc(layer, _arc(view.paper, arc))
+        found.append((name, (view.paper.point(ends[0]), view.paper.point(ends[1]))))
+    return found
+
+
+def _teeth(canvas: Canvas, picture: MeshingPicture, view: View, tolerance: float) -> None:
+    """Three teeth of each body in the main position, one at both ends of contact, and the working flanks."""
+    for exact in picture.bodies:
+        tooth, gap, active = (
+            fitted(canvas, curves, view.paper.scale, tolerance) for curves in (exact.tooth, exact.gap, exact.active)
+        )
+        body = replace(exact, tooth=tooth, gap=gap, active=active)
+        for layer, made in (
+            ("TOOTH_START", body.tooth_at(picture.start)),
+            ("TOOTH_END", body.tooth_at(picture.end)),
+            ("OUTLINE", body.chain(picture.shown, TEETH)),
+            ("ACTIVE_FLANK", body.active_at(picture.shown)),
+        ):
+            draw(canvas, layer, made, view.paper)
+
+
+def _lines(canvas: Canvas, picture: MeshingPicture, view: View) -> None:
+    """Line of centres, T-T, the theoretical and the active line of action, the spokes to N1 and N2."""
+    window, to = view.window, view.paper.point
+    canvas.line("CENTRE", to(complex(0, window.low)), to(complex(0, window.high)))
+    pole = picture.on_line(picture.pole)
+    canvas.line("TANGENT", to(complex(window.left, pole.imag)), to(complex(window.right, pole.imag)))
+    low, high = _clipped(picture, window)
+    canvas.line("LINE_OF_ACTION", to(picture.on_line(low)), to(picture.on_line(high)))
+    canvas.line("ACTIVE_LINE", to(picture.on_line(picture.start)), to(picture.on_line(picture.end)))
+    for body, point in zip(picture.bodies, picture.tangent_points, strict=True):
+        if body.centre is not None and point is not None and _inside(body.centre, window) and _inside(point, window):
+            canvas.line("DIMENSION", to(body.centre), to(point))
+    for point in _marks(picture):
+        if _inside(point, window):
+            canvas.arc("DIMENSION", Arc(to(point), 0.8, 0.0, 2 * math.pi))
+    radius = _angle_radius(picture, view)
+    phase = cmath.phase(picture.direction)
+    canvas.arc("DIMENSION", Arc(to(pole), radius, phase, math.pi - phase))
+
+
+def _angle_radius(picture: MeshingPicture, view: View) -> float:
+    """Radius of the arc that shows alpha_w, mm on paper: outside of the active line where there is room."""
+    most = view.paper.scale * -view.window.left * 0.85
+    return min(max(1.35 * view.paper.scale * (picture.end - picture.pole), 14.0), most)
+
+
+def _lineends_of(picture: MeshingPicture) -> tuple[float, float]:
+    """Places s of N1 and N2; of a rack the end lies beyond the active line."""
+    last = picture.tangent_points[1]
+    if last is None:
+        return 0.0, picture.end + 0.35 * (picture.end - picture.start)
+    reach = ((last - picture.tangent_points[0]) / picture.direction).real
+    return min(0.0, reach), max(picture.end if reach < 0 else reach, reach)
+
+
+def _clipped(picture: MeshingPicture, window: Box) -> tuple[float, float]:
+    """The part of the line of action between N1 and N2 (and the active line) that the window holds."""
+    low, high = _lineends_of(picture)
+    start, way = picture.tangent_points[0], picture.direction
+    for at, step, least, most in (
+        (start.real, way.real, window.left, window.right),
+        (start.imag, way.imag, window.low, window.high),
+    ):
+        if abs(step) > 1e-12:
+            ends = sorted(((least - at) / step, (most - at) / step))
+            low, high = max(low, ends[0]), min(high, ends[1])
+    return low, high
+
+
+def _marks(picture: MeshingPicture) -> list[complex]:
+    points = [picture.on_line(s) for s in (picture.start, picture.end, picture.pole)]
+    points += [p for p in picture.tangent_points if p is not None]
+    points += [b.centre for b in picture.bodies if b.centre is not None]
+    return points
+
+
+def _dimensions(canvas: Canvas, picture: MeshingPicture, view: View) -> dict[str, complex]:
+    """Arcs inside the bodies that carry d d' and p_w, with lines out to where these lie; the middle of each."""
+    first, second = picture.bodies
+    scale = view.paper.scale
+    inner = first.radii["base"] if view.shows(first, "base") else first.radii["root"]
+    radius = min(first.radii["root"], inner) - _INSIDE / scale
+    found = {}
+    if radius > 0:
+        arc = picture.arc_of_action
+        found["arc"] = _dimension_arc(canvas, view, arc, radius)
+    mark = picture.pitch
+    if isinstance(mark, Line):
+        depth = second.radii["root"] + _INSIDE / scale
+        start, end = complex(mark.start.real, depth), complex(mark.end.real, depth)
+        for a, b in ((mark.start, start), (mark.end, end)):
+            canvas.line("DIMENSION", view.paper.point(a), view.paper.point(b))
+        canvas.line("DIMENSION", view.paper.point(start), view.paper.point(end))
+        _arrow(canvas, view.paper.point(start), -1)
+        _arrow(canvas, view.paper.point(end), 1)
+        found["pitch"] = view.paper.point((start + end) / 2)
+        return found
+    outside = picture.kind == "internal"
+    radii = second.radii
+    inner = radii["base"] if view.shows(second, "base") else radii["root"]
+    radius = radii["root"] + _INSIDE / scale if outside else min(radii["root"], inner) - _INSIDE / scale
+    if radius > 0:
+        found["pitch"] = _dimension_arc(canvas, view, mark, radius)
+    return found
+
+
+def _dimension_arc(canvas: Canvas, view: View, arc: Arc, radius: float) -> complex:
+    """An arc about the same centre with arrows at its ends; its middle on paper."""
+    shown = Arc(arc.centre, radius, arc.start_angle, arc.sweep)
+    canvas.arc("DIMENSION", _arc(view.paper, shown))
+    for t, sense in ((0.0, -1), (arc.sweep, 1)):
+        inner, outer = complex(shown.point(t)), complex(arc.point(t))
+        canvas.line("DIMENSION", view.paper.point(outer), view.paper.point(inner))
+        _arrow(canvas, view.paper.point(inner), sense * complex(shown.tangent(t)))
+    return view.paper.point(complex(shown.point(arc.sweep / 2)))
+
+
+def _arrow(canvas: Canvas, tip: complex, way: complex) -> None:
+    """An open arrow head of 3 mm that points along ``way``."""
+    for side in (1, -1):
+        canvas.line("DIMENSION", tip, tip - 3.0 * way * cmath.exp(1j * side * math.radians(12)))
+
+
+def _names(
+    labels: Labeller, picture: MeshingPicture, view: View, dimensions: dict[str, complex], language: str
+) -> None:
+    """Names of points, arcs and angles."""
+    to, window = view.paper.point, view.window
+    pole = picture.on_line(picture.pole)
+    arc = picture.arc_of_action
+    labels.name("P", to(pole), prefer=1 + 0.3j)
+    labels.name("a", to(picture.on_line(picture.start)), prefer=1 - 1j)
+    labels.name("b", to(picture.on_line(picture.end)), prefer=-1 + 1j)
+    labels.name("d", to(complex(arc.point(0.0))), prefer=1 - 1j)
+    labels.name("d'", to(complex(arc.point(arc.sweep))), prefer=-1 - 1j)
+    low, high = _clipped(picture, window)
+    for index, point in enumerate(picture.tangent_points):
+        if point is None:
+            continue
+        if _inside(point, window):
+            labels.name(f"N_{{{index + 1}}}", to(point))
+        else:
+            end = low if abs(picture.on_line(low) - point) < abs(picture.on_line(high) - point) else high
+            labels.name(sheet_words(language, "towards", name=f"N_{{{index + 1}}}"), to(picture.on_line(end)))
+    outside: dict[float, list[str]] = {}
+    for index, body in enumerate(picture.bodies):
+        if body.centre is None:
+            continue
+        if _inside(body.centre, window):
+            labels.name(f"O_{{{index + 1}}}", to(body.centre), prefer=1 + 0j)
+        else:
+            outside.setdefault(window.low if body.centre.imag < window.low else window.high, []).append(
+                f"O_{{{index + 1}}}"
+            )
+    for y, names in outside.items():
+        labels.name(sheet_words(language, "towards", name=", ".join(names)), to(complex(0, y)))
+    phase = cmath.phase(picture.direction)
+    middle = to(pole) + cmath.rect(_angle_radius(picture, view), (math.pi + phase) / 2)
+    labels.name("α_{w}", middle, prefer=-1 + 0j)
+    labels.name("T", to(complex(window.left, pole.imag)), prefer=1 + 1j)
+    labels.name("T", to(complex(window.right, pole.imag)), prefer=-1 + 1j)
+    if "arc" in dimensions:
+        length = decimal(f"{abs(arc.sweep) * arc.radius:.3f}", language)
+        labels.name(f"dd' = {length}", dimensions["arc"], prefer=-1j)
+    if "pitch" in dimensions:
+        length = decimal(f"{picture.working_pitch:.3f}", language)
+        labels.name(f"p_{{w}} = {length}", dimensions["pitch"], prefer=1j)
+
+
+def _inside(point: complex, window: Box) -> bool:
+    return window.left <= point.real <= window.right and window.low <= point.imag <= window.high
+
+
+def _arc(paper: Paper, arc: Arc) -> Arc:
+    made = paper.scaled(arc)
+    assert isinstance(made, Arc)
+    return made
+
+
+def _stroke(layer: str, paper: Paper, curve: Arc | Line) -> Stroke:
+    return Stroke(layer, paper.scaled(curve))

@@ -1,0 +1,29 @@
+"""Sizes that must be equal in two parts, and turns that count but for whole pitches."""
+
+from __future__ import annotations
+
+import math
+
+from geometry.base.errors import Nearest, ParameterError
+
+# sizes that must be equal in two parts: they are typed, not calculated
+_SAME = 1e-9
+# radii and lengths that people type agree with those of the cam this well, mm
+_SAME_AS_CAM = 1e-6
+
+
+def same_size(key: str, own: float, other: float, code: str) -> None:
+    """Refuse a size of the second part that is not the first one's; ``code``: whose it must be."""
+    if abs(own - other) > _SAME * max(abs(own), abs(other)):
+        raise ParameterError(key, own, code, Nearest(other))
+
+
+def same_as_cam(key: str, value: float, wanted: float, code: str = "cam_has_another") -> None:
+    """Refuse a size of the follower that is not the one its cam is made for, mm."""
+    if abs(value - wanted) > _SAME_AS_CAM:
+        raise ParameterError(key, value, code, Nearest(wanted))
+
+
+def turn_off(found: float, right: float, pitch: float) -> float:
+    """How far a rotation is off the right one, rad, pitches left out."""
+    return math.remainder(found - right, pitch)

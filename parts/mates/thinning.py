@@ -1,0 +1,70 @@
+"""Backlash of two gears as thinning of their teeth: half each, all of it from one where the other sets its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Protocol
+
+from geometry.base.errors import GeometryError, Nearest, ParameterError, rounded
+from geometry.base.nearest import nearest
+
+
+class Thinned(Protocol):
+    """A gear whose teeth can be thinned."""
+
+    @property
+    def module(self) -> float:
+        """m, mm."""
+
+    @property
+    def circumferential_thinning(self) -> float:
+        """Of each tooth, mm along the reference circle."""
+
+
+def shared_thinning(
+    backlash: float,
+    gears: Sequence[Thinned],
+    build: Callable[[int, float], object],
+    cosine: float,
+    given: float = 0.0,
+    share: float = 1.0,
+) -> tuple[float, float]:
+    """What a normal backlash (mm) takes of each tooth of two gears, mm; 0 of a gear that sets its own thinning.
+
+    ``build(0 or 1, thinning)`` makes a tooth of that gear, ``cosine``: of the pressure angle, ``given``: backlash that
+    the distance alone gives, mm, ``share``: j_bn over the backlash of the section in which the gears are.
+
+    Raises
+    ------
+    ParameterError
+        ``mate.normal_backlash`` is less than there is already, or leaves no whole teeth.
+    """
+    own = [gear.circumferential_thinning for gear in gears]
+    free = [index for index, thinning in enumerate(own) if thinning == 0]
+    least = ((sum(own) * cosine) + given) * share
+
+    def each(value: float) -> float:
+        """The thinning of each free gear."""
+        return ((value / share - given) / cosine - sum(own)) / len(free)
+
+    def whole(value: float) -> bool:
+        """Whether whole teeth are left."""
+        thinning = each(value)
+        for index in free:
+            build(index, thinning)
+        return True
+
+    if (backlash / share - given) / cosine - sum(own) < -1e-12 * gears[0].module:
+        cure = Nearest(rounded(least, up=True, digits=6), "at_least")
+        raise ParameterError("mate.normal_backlash", backlash, "backlash_already_more", cure)
+    if not free:
+        return 0.0, 0.0
+    found = each(backlash)
+    try:
+        if found > 0:
+            whole(backlash)
+    except GeometryError as refusal:
+        raise ParameterError(
+            "mate.normal_backlash", backlash, "backlash_leaves_no_teeth", lambda: nearest(whole, backlash, least)
+        ) from refusal
+    return found if 0 in free else 0.0, found if 1 in free else 0.0

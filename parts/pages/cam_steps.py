@@ -1,0 +1,244 @@
+"""Steps that the calculations of all kinds of cams have in common: phases, coefficients, positions, impacts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+import numpy as np
+from msgspec import Meta
+
+from geometry.cams.motion.follower_motion import FollowerMotion, Phase, PhaseKind
+from geometry.cams.plane.disk import DiskCam
+from geometry.cams.plane.graphical import INTERVALS, LEAST_INTERVALS, MOST_INTERVALS
+from geometry.curves.curve import Complex, Real
+from geometry.laws.piece import LawPiece
+from parts.base.texts import N_, Message, Text, filled, message
+from parts.keys.base import degrees
+from parts.pages.page import Sheet, Table
+from parts.pages.terms import TERMS
+
+TOPIC = "cam"
+LESSON_4, LESSON_5 = "practicum, lesson 4", "practicum, lesson 5"
+# what the laws of motion are called
+_LAWS = (
+    N_("constant velocity"),
+    N_("constant acceleration"),
+    N_("linearly decreasing acceleration"),
+    N_("cosine acceleration"),
+    N_("sine acceleration"),
+    N_("trapezoidal acceleration"),
+    N_("triangular acceleration"),
+    N_("modified trapezoid"),
+    N_("modified sine"),
+    N_("3-4-5 polynomial"),
+    N_("4-5-6-7 polynomial"),
+    N_("Gutman 1-3"),
+    N_("own diagram"),
+    N_("own halves"),
+    N_("polynomial of degree {degree}"),
+    N_("B-spline of degree {degree}"),
+)
+_PHASES = {"rise": "rise", "far": "far_dwell", "return": "return", "near": "near_dwell"}
+
+# radii of curvature beyond this many sizes of a cam are those of straight lines
+_STRAIGHT = 1e9
+# units of the last place that a sum of phases or a turn into radians and back may cost
+_ROUNDING = 8
+
+# keys that several of the calculations take
+Step = Annotated[float, degrees("step of the table over the cam angle", least=0.1, most=90)]
+Intervals = Annotated[
+    int, Meta(ge=LEAST_INTERVALS, le=MOST_INTERVALS, description="of each phase in the graphical method")
+]
+DEFAULT_INTERVALS = INTERVALS
+Drawing = Annotated[
+    Literal["smooth", "chords"], Meta(description="S' of the graphical method: a smooth curve or a broken line")
+]
+Speed = Annotated[float, Meta(gt=0, le=1e6, description="of the cam: adds velocities", extra={"unit": "rpm"})]
+
+
+@dataclass(frozen=True, slots=True)
+class Phases:
+    """The phases of a motion with its lift, mm (rad where it ``swings``), over the cam's angle or a plate's travel."""
+
+    phases: tuple[Phase, ...]
+    lift: float
+    swings: bool = False
+    slides: bool = False
+
+    def named(self) -> list[tuple[str, Phase]]:
+        """Every phase as rise, far, return or near; a dwell is far above half of the lift."""
+        found, height = [], 0.0
+        for phase in self.phases:
+            if phase.kind is PhaseKind.DWELL:
+                found.append(("far" if height > self.lift / 2 else "near", phase))
+            else:
+                found.append(("rise" if phase.kind is PhaseKind.RISE else "return", phase))
+            height += phase.lift
+        return found
+
+    def term(self, name: str) -> str:
+        """The term of a phase's angle or travel."""
+        return f"{_PHASES[name]}_{'travel' if self.slides else 'angle_deg'}"
+
+    def size(self, phase: Phase) -> float:
+        """The phase's angle in degrees, or its travel in mm."""
+        return phase.angle if self.slides else as_typed(math.degrees(phase.angle))
+
+    def data(self) -> list[dict[str, object]]:
+        """For json."""
+        key = "travel" if self.slides else "angle_deg"
+        return [
+            {"move": name, key: self.size(phase), "law": phase.law.name if phase.law else None}
+            for name, phase in self.named()
+        ]
+
+
+def as_typed(value: float) -> float:
+    """The number of few digits that rounding in sums and in radians has left by a few units of the last place."""
+    short = float(f"{value:.14g}")
+    return short if abs(short - value) <= _ROUNDING * math.ulp(value) else value
+
+
+def phase_steps(page: Sheet, phases: Phases) -> None:
+    """Lift or swing, and the angle or travel of every phase."""
+    if phases.swings:
+        page.add("swing_deg", as_typed(math.degrees(phases.lift)))
+    else:
+        page.add("lift", as_typed(phases.lift))
+    named = phases.named()
+    index = dict.fromkeys(_PHASES, 0)
+    for name, phase in named:
+        index[name] += 1
+        many = sum(other == name for other, _ in named) > 1
+        term = phases.term(name)
+        page.add(term, phases.size(phase), symbol=f"{TERMS[term].symbol}{index[name]}" if many else "")
+
+
+def coefficient_steps(page: Sheet, phases: Phases) -> None:
+    """Law, h and the peaks of each moving phase: S'_max = C_v h / phi, S''_max = C_a h / phi^2."""
+    titles = {"rise": N_("Rise: {law}"), "return": N_("Return: {law}")}
+    for name, phase in phases.named():
+        if phase.law is None:
+            continue
+        law, h = phase.law.name, abs(phase.lift)
+        page.section(filled(titles[name], law=law_text(law)))
+        page.add(phases.term(name), phases.size(phase), key="phi")
+        if phases.swings:
+            page.add("swing_of_phase_deg", as_typed(math.degrees(h)))
+        else:
+            page.add("lift_of_phase", as_typed(h))
+        speed, bend = (max(map(abs, phase.law.peak(order))) for order in (1, 2))
+        page.add("velocity_coefficient", speed)
+        page.add("acceleration_coefficient", bend)
+        if phases.swings:
+            continue
+        terms = ("peak_slope", "peak_bend") if phases.slides else ("peak_velocity", "peak_acceleration")
+        source = "" if phases.slides else LESSON_4
+        page.add(terms[0], speed * h / phase.angle, "{c_v} * {h} / {phi}", source)
+        page.add(terms[1], bend * h / phase.angle**2, "{c_a} * {h} / {phi}**2", source)
+
+
+def law_text(name: str) -> Message:
+    """A law by its name, which may end in a degree."""
+    kind, _, last = name.rpartition(" ")
+    return message(f"{kind} {{degree}}", degree=last) if last.isdigit() else message(name)
+
+
+def grid(pieces: Sequence[LawPiece], step: float, end: float) -> Real:
+    """Every ``step`` from 0 up to ``end``, and where a piece of the motion begins.
+
+    A step that meets a joint but for rounding stands on it, and reads what follows.
+    """
+    starts = np.array([piece.start for piece in pieces])
+    even = np.arange(math.ceil(end / step - 1e-9)) * step
+    own = [a for a in starts if np.abs(even - a).min() > 1e-9 * max(end, 1.0)]
+    found = np.sort(np.concatenate([even, own]))
+    close = np.abs(found[:, None] - starts).argmin(axis=1)
+    return np.where(np.abs(found - starts[close]) < 1e-9 * max(end, 1.0), starts[close], found)
+
+
+def cam_angles(motion: FollowerMotion, step: float) -> tuple[Real, Real]:
+    """The cam angles of a table in degrees and rad: every ``step`` degrees and where a phase begins."""
+    angle = grid(motion.pieces, math.radians(step), 2 * math.pi)
+    # the steps as typed
+    degrees = np.degrees(angle)
+    even = np.round(degrees / step) * step
+    return np.where(np.abs(degrees - even) < 1e-9, even, degrees), angle
+
+
+def motion_columns(
+    values: Sequence[Real], argument: Real, *, swings: bool, slides: bool = False
+) -> tuple[list[Real], list[tuple[str, str]]]:
+    """The columns phi, S, S', S'' and their heads; ``argument`` in degrees, or mm of a plate that ``slides``."""
+    scale, u = (180 / math.pi, "deg") if swings else (1.0, "mm")
+    units = (f"{u}/rad", f"{u}/rad2")
+    if slides:
+        units = ("deg/mm", "deg/mm2") if swings else ("", "1/mm")
+    heads = [("s", "mm") if slides else ("phi", "deg"), ("S", u), ("S'", units[0]), ("S''", units[1])]
+    return [argument, *(v * scale for v in values)], heads
+
+
+def table_of(name: str, title: Text, columns: Sequence[Real], heads: Sequence[tuple[str, str]]) -> Table:
+    """Columns as the rows of a table."""
+    rows = tuple(tuple(float(x) for x in row) for row in zip(*columns, strict=True))
+    return Table(name, title, tuple(heads), rows)
+
+
+def positions(
+    cam: DiskCam,
+    step: float,
+    name: str = "positions",
+    whose: str = "",
+    *,
+    beyond: float | None = None,
+    turn: float = 0.0,
+) -> Table:
+    """phi, S, S', S'', pressure angle, radius of curvature, profile: at every step and where a phase begins.
+
+    ``beyond``: mm from the roller's centre to the wall beyond it, whose table is then made; ``turn``: rad by which a
+    disk is turned on its shaft; ``whose``: wall or disk.
+    """
+    degrees, angle = cam_angles(cam.motion, step)
+    columns, heads = motion_columns([cam.motion.value(angle, k) for k in range(3)], degrees, swings=cam_swings(cam))
+    slope = np.degrees(cam.pressure_angle(angle))
+    if beyond is None:
+        profile, bend = cam.profile_point(angle), cam.curvature_radius(angle)
+    else:
+        profile, bend = outer_points(cam, angle, beyond), -(cam.pitch_curvature_radius(angle) + beyond)
+    profile = profile * np.exp(1j * turn)
+    heads += [("nu", "deg"), ("rho", "mm"), ("x", "mm"), ("y", "mm")]
+    title = message("Positions: cam angle, motion, pressure angle, radius of curvature, profile")
+    if whose:
+        title = message("{title} ({whose})", title=title, whose=message(whose))
+    return table_of(name, title, [*columns, slope, bend, profile.real, profile.imag], heads)
+
+
+def outer_points(cam: DiskCam, angle: Real, beyond: float) -> Complex:
+    """Points of the wall ``beyond`` mm past the roller's centre, in the cam's frame, mm."""
+    return np.asarray((cam.reference_point(angle) + beyond * cam.normal(angle)) * np.exp(-1j * angle))
+
+
+def straightened(radius: Real, size: float) -> Real:
+    """Radii of curvature, those of what is straight but for rounding as infinity; ``size`` of the cam, mm."""
+    return np.where(np.abs(radius) < _STRAIGHT * size, radius, np.inf)
+
+
+def cam_swings(cam: DiskCam) -> bool:
+    """Whether S of a disk cam is an angle."""
+    return cam.swings
+
+
+def impact_notes(page: Sheet, motion: FollowerMotion) -> None:
+    """What the table holds at joints, and where they are felt."""
+    page.notes.append(N_("at the joint of two phases the table holds the values of the one that begins"))
+    felt = {
+        "rigid": N_("rigid impact at cam angle {angle} degrees"),
+        "soft": N_("soft impact at cam angle {angle} degrees"),
+    }
+    for joint in motion.impacts():
+        if joint.impact is not None:
+            page.notes.append(filled(felt[joint.impact], angle=f"{math.degrees(joint.angle):.6g}"))

@@ -1,0 +1,105 @@
+"""What a calculation is given: keys on the command line, or a scene, as one table checked against a schema."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol
+
+import msgspec
+from msgspec import Struct
+
+from geometry.base.errors import ParameterError
+from parts.base.refusal import SceneError, explained, meant, placed
+from parts.base.schema import converted, refuse_infinite, unit_of
+from parts.base.texts import Message
+
+# whose keys they are in refusals
+PLACE = "calc"
+
+
+class Placed(Protocol):
+    """An instance, as far as a page asks: whose part it is, as loaded always named."""
+
+    @property
+    def part(self) -> str | None: ...
+
+
+class SceneKeys(Protocol):
+    """A scene, as far as a page asks: the keys of its parts, instances and mates."""
+
+    @property
+    def parts(self) -> Mapping[str, Struct]: ...
+    @property
+    def instances(self) -> Mapping[str, Placed]: ...
+    @property
+    def mates(self) -> Sequence[Struct]: ...
+
+
+def table_of(pairs: Sequence[str]) -> dict[str, Any]:
+    """``key=value`` words as a table; dots make tables within it, values are TOML or plain text."""
+    table: dict[str, Any] = {}
+    for pair in pairs:
+        key, sign, text = pair.partition("=")
+        if not sign or not key.strip():
+            raise SceneError(PLACE, pair, None, "write_key_value")
+        *path, name = key.strip().split(".")
+        owner = table
+        for part in path:
+            owner = owner.setdefault(part, {})
+            if not isinstance(owner, dict):
+                raise SceneError(PLACE, key, text, "has_a_value", None, key=part)
+        if name in owner:
+            raise SceneError(PLACE, key, text, "given_twice")
+        owner[name] = _value(text.strip())
+    refuse_infinite(table, PLACE, "")
+    return table
+
+
+def _value(text: str) -> Any:
+    try:
+        parsed = tomllib.loads(f"v = {text}")
+    except (tomllib.TOMLDecodeError, RecursionError):
+        return text
+    return parsed["v"] if set(parsed) == {"v"} else text
+
+
+def keys_of(kind: type[Struct]) -> list[str]:
+    """The keys of a struct as typed."""
+    return [f.encode_name for f in msgspec.structs.fields(kind)]
+
+
+def given(spec: Struct) -> dict[str, Any]:
+    """A part's keys as a plain table, without what it leaves open."""
+    data = msgspec.to_builtins(spec)
+    return {key: value for key, value in data.items() if value is not None and key != "kind"}
+
+
+def checked(table: dict[str, Any], kind: type[Struct], topic: str) -> Any:
+    """A table as the struct of a topic; refusals name the key and its nearest neighbour."""
+    return converted(table, kind, PLACE, topic)
+
+
+def refusal(topic: str, error: ParameterError, owner: str = "", keys: Struct | None = None) -> SceneError:
+    """A geometry's refusal as a line about the key that the user typed; ``keys``: the topic's, which know its unit."""
+    unit = "" if keys is None else unit_of(type(keys), ".".join(filter(None, (owner, error.name))))
+    return placed(PLACE, ".".join(filter(None, (topic, owner))), error, unit)
+
+
+def told(error: ParameterError) -> Message:
+    """A geometry's refusal as a remark: what is wrong and what would work."""
+    return explained(placed("", "", error))
+
+
+def part_of_kind(scene: SceneKeys, source: str, table: dict[str, Any], kind: str) -> dict[str, Any]:
+    """The keys of the scene's one part of a kind, or of the one that ``part`` names, changed by those of ``table``."""
+    fitting = [key for key, spec in scene.parts.items() if spec.__struct_config__.tag == kind]
+    part = table.pop("part", None)
+    if part is None and len(fitting) != 1:
+        raise SceneError(
+            source, "parts", None, "choose_a_part" if fitting else "none_of_kind", None, known=fitting, kind=kind
+        )
+    if part is not None and part not in fitting:
+        code = "no_such_part" if fitting else "none_of_kind"
+        raise SceneError(source, "part", part, code, meant(part, fitting), known=fitting, kind=kind)
+    return given(scene.parts[part or fitting[0]]) | table

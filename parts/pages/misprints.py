@@ -1,0 +1,94 @@
+"""Where the sources misprint: the printed number of a case, beside which the right one is shown.
+
+Numbers of the practicum on higher pairs (Melitopol 2023) and of the guidelines on coursework (table 2.1), recomputed
+at 40 digits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from parts.base.texts import N_
+from parts.pages.page import Printed
+
+_COSINE = N_("the cosine of 27°55' was read: 0.8836 for 0.8915")
+_FOLLOWS = N_("follows from the wrong centre distance")
+_ROUNDED = N_("cut off with pi = 3.14 and tan 20° = 0.364")
+
+# lesson 3, section 3.1: z 13/21, m 10, x 0.694/0.384
+_PRACTICUM: dict[tuple[str, int], Printed] = {
+    ("involute_of_working_pressure_angle", 0): Printed("0.037985", N_("the last digit is cut off")),
+    ("working_pressure_angle_deg", 0): Printed("26°55' (26.92°)", N_("26°56.0': inv 26°55' = 0.037910")),
+    ("working_centre_distance", 0): Printed("180.79", _COSINE),
+    ("working_radius", 1): Printed("69.14", _FOLLOWS),
+    ("working_radius", 2): Printed("111.65", _FOLLOWS),
+    ("base_radius", 1): Printed("61.06", N_("65 cos 20° = 61.08")),
+    ("pitch", 0): Printed("14.13", N_("fig. 3.9: 3.14 * 4.5 of another variant")),
+    ("reference_thickness", 1): Printed("20.75", _ROUNDED),
+    ("reference_thickness", 2): Printed("18.49", _ROUNDED),
+    ("tip_pressure_angle_deg", 1): Printed("40.53°", N_("from r_b1 = 61.06")),
+    ("contact_ratio", 0): Printed("1.14", N_("the printed angles themselves give 1.1668")),
+    ("cosine_of_working_pressure_angle", 0): Printed("0.8836", N_("that is cos 27°55'")),
+    ("measured_difference_percent", 0): Printed("0.2 %", N_("(1.14 - 1.137)/1.14 = 0.26 %")),
+}
+# guidelines, table 2.1: printed alpha_w that its own shifts do not give, and why
+_GUIDELINES = {
+    (9, 11): ("30.28°", N_("x2 = 0.543 would give it")),
+    (9, 12): ("30.23°", N_("x2 = 0.580 would give it")),
+    (10, 11): ("29.79°", N_("shifts rounded to 0.001")),
+    (10, 12): ("29.51°", N_("x2 = 0.532 gives it: one wrong digit")),
+    (11, 11): ("29.23°", N_("shifts rounded to 0.001")),
+    (11, 12): ("28.99°", N_("x2 = 0.518 would give it")),
+}
+_GUIDELINE_SHIFTS = {
+    (9, 11): (0.570, 0.546),
+    (9, 12): (0.580, 0.561),
+    (10, 11): (0.549, 0.535),
+    (10, 12): (0.558, 0.522),
+    (11, 11): (0.522, 0.522),
+    (11, 12): (0.531, 0.516),
+}
+
+
+def printed_for_pair(
+    teeth: tuple[int, int], shifts: tuple[float, float], module: float
+) -> Mapping[tuple[str, int], Printed]:
+    """What a source prints wrongly for exactly this pair; empty for any other."""
+    if (teeth, shifts, module) == ((13, 21), (0.694, 0.384), 10.0):
+        return _PRACTICUM
+    if _GUIDELINE_SHIFTS.get(teeth) == shifts:
+        return {("working_pressure_angle_deg", 0): Printed(*_GUIDELINES[teeth])}
+    return {}
+
+
+# thesis, section 2.3: z 96/144, m 3
+_THESIS: dict[tuple[str, int], Printed] = {
+    ("contact_ratio", 0): Printed("1.87", N_("an approximate formula's; the tip circles give less")),
+    ("pitch", 0): Printed("9.42", N_("cut off with pi = 3.14")),
+}
+
+
+def printed_for_internal(teeth: tuple[int, int], module: float) -> Mapping[tuple[str, int], Printed]:
+    """What the thesis prints wrongly for its internal pair; empty for any other."""
+    return _THESIS if (teeth, module) == ((96, 144), 3.0) else {}
+
+
+_INFINITE = N_("multiplied by the relative turning: divided by it F and R are infinite where both links turn alike")
+# Savvin's synthesis of plane cams: misprints by the number of the equation, each follows from the others
+SAVVIN: dict[str, Printed] = {
+    "12": Printed("1/(ω_2-ω_1)·[A'·sin(α_2-α_1) - B'·cos(α_2-α_1)]", _INFINITE),
+    "13": Printed("1/(ω_2-ω_1)·[A'·cos(α_2-α_1) + B'·sin(α_2-α_1)]", _INFINITE),
+    "19": Printed(
+        "one sign of the root",
+        N_("both sides of the circle satisfy (11); with F, R times the relative turning the minus is the cam's"),
+    ),
+    "21": Printed(
+        "F·cos(α_2-α_1) + R·sin(α_2-α_1)",
+        N_("(4) gives the minus; the printed point leaves the circle of the roller"),
+    ),
+    "27": Printed("γ_2 = γ_11 + α_1", N_("this is gamma_1, as (28) has it")),
+    "28": Printed(
+        "arctg(-ξ_21'/r_21) + α_1 - arctg(y_A2'/x_A2)",
+        N_("eta_21' and x_A2' by (25), (26); two arctangents lose quadrants, so the acute angle is taken"),
+    ),
+}

@@ -1,0 +1,244 @@
+"""A calculation as data: ordered steps, each with formula, numbers put in, value, unit and source.
+
+A formula is written once, as an expression over ``{key}`` placeholders: shown with symbols it is the formula, with
+values the numbers put in, and the tests evaluate it. ``#`` in a placeholder is the gear's number, ``~`` its mate's.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+from parts.base.texts import NC_, Text, Words
+from parts.pages.symbols import symbol_text
+from parts.pages.terms import TERMS
+
+if TYPE_CHECKING:
+    from parts.pages.contour_picture import ContourPicture
+
+Value = float | int | str
+_SUPERSCRIPTS = {"2": "²", "3": "³"}
+# decimals shown for each unit; json has all of them
+_DECIMALS = {
+    "mm": 5,
+    "deg": 5,
+    "": 6,
+    "%": 3,
+    "mm/rad": 5,
+    "mm/rad2": 5,
+    "rpm": 3,
+    "rad/s": 5,
+    "s": 6,
+    "mm/s": 3,
+    "m/s2": 4,
+    "rad/s2": 3,
+    "1/mm": 6,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Printed:
+    """What the source prints where it is wrong, a number or formula, and why it is wrong."""
+
+    text: str
+    why: Text
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """What a placeholder stands for."""
+
+    symbol: str
+    value: Value
+    unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One line of a calculation; ``gear`` is 0 (neither), 1 or 2; ``inputs`` is what its formula's keys stood for.
+
+    ``of``: which of several steps of the same name it is.
+    """
+
+    name: str
+    gear: int
+    symbol: str
+    value: Value
+    unit: str
+    formula: str = ""
+    source: str = ""
+    printed: Printed | None = None
+    inputs: Mapping[str, Known] = field(default_factory=dict)
+    of: Text = ""
+
+
+@dataclass(slots=True)
+class Section:
+    """Steps under a heading."""
+
+    title: Text
+    steps: list[Step] = field(default_factory=list)
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Rows of numbers under heads (symbol, unit), by ``name`` in json."""
+
+    name: str
+    title: Text
+    heads: tuple[tuple[str, str], ...]
+    rows: tuple[tuple[float, ...], ...]
+
+
+@dataclass(slots=True)
+class Sheet:
+    """A calculation that grows step by step; ``notes`` are remarks."""
+
+    topic: str
+    title: Text
+    sections: list[Section] = field(default_factory=list)
+    known: dict[str, Known] = field(default_factory=dict)
+    notes: list[Text] = field(default_factory=list)
+    # what is drawn, the same in letters, and what only json carries
+    picture: ContourPicture | None = None
+    plain_picture: str = ""
+    tables: list[Table] = field(default_factory=list)
+    picture_file: str | None = None
+    data: dict[str, Any] = field(default_factory=dict)
+    printed: Mapping[tuple[str, int], Printed] = field(default_factory=dict)
+
+    def section(self, title: Text) -> None:
+        """A new heading."""
+        self.sections.append(Section(title))
+
+    def add(
+        self,
+        name: str,
+        value: Value,
+        formula: str = "",
+        source: str = "",
+        gear: int = 0,
+        *,
+        symbol: str = "",
+        key: str = "",
+        of: Text = "",
+    ) -> None:
+        """A step; later formulas know its value by the term's key; ``symbol`` and ``key`` stand in for the term's."""
+        term = TERMS[name]
+        index = str(gear) if gear else ""
+        shown = _numbered(symbol or term.symbol, index)
+        formula = formula.replace("#", index).replace("~", {"1": "2", "2": "1"}.get(index, ""))
+        needed = KEYS.findall(formula)
+        if unknown := [placeholder for placeholder in needed if placeholder not in self.known]:
+            raise KeyError(f"{name}: {', '.join(unknown)} not known yet")
+        inputs = {placeholder: self.known[placeholder] for placeholder in needed}
+        step = Step(name, gear, shown, value, term.unit, formula, source, self.printed.get((name, gear)), inputs, of)
+        self.sections[-1].steps.append(step)
+        self.known[(key or term.key) + index] = Known(shown, value, term.unit)
+
+    def both(
+        self, name: str, values: tuple[Value, Value], formula: str = "", sources: tuple[str, str] = ("", "")
+    ) -> None:
+        """A step for each gear."""
+        for gear in (1, 2):
+            self.add(name, values[gear - 1], formula, sources[gear - 1], gear)
+
+    def mark_misprint(self, printed: Printed) -> None:
+        """The last step as one that its source misprints."""
+        steps = self.sections[-1].steps
+        steps[-1] = replace(steps[-1], printed=printed)
+
+    def steps(self) -> list[Step]:
+        """All steps in order."""
+        return [step for section in self.sections for step in section.steps]
+
+
+KEYS = re.compile(r"\{(\w+)\}")
+
+
+def _numbered(symbol: str, index: str) -> str:
+    """A symbol of one gear: S_a1, ab stays ab."""
+    return f"{symbol[:-1]}{index}*" if index and symbol.endswith("*") else symbol + index
+
+
+def number(value: Value, unit: str, *, enclosed: bool = False) -> str:
+    """A value as a reader wants it; ``enclosed`` puts negative numbers in brackets."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, int):
+        text = str(value)
+    elif not math.isfinite(value):
+        text = "∞" if value > 0 else "-∞"
+    else:
+        decimals = _DECIMALS[unit]
+        text = f"{value:.{decimals}f}".rstrip("0").rstrip(".")
+        # a small number keeps its leading digits: involutes, clearances
+        if 1e-12 < abs(value) < (0.1 if not unit else 10.0 ** (2 - decimals)):
+            text = f"{value:.6g}" if not unit else f"{value:.3g}"
+        text = "0" if text == "-0" else text
+    if unit == "deg" and enclosed:
+        text += "°"
+    return f"({text})" if enclosed and text.startswith("-") else text
+
+
+def formula_text(step: Step, words: Words) -> str:
+    """The right side of a step's formula with symbols."""
+    return symbol_text(pretty(KEYS.sub(lambda m: step.inputs[m[1]].symbol, step.formula), words), words)
+
+
+def numbers_text(step: Step, words: Words) -> str:
+    """The right side of a step's formula with the numbers put in."""
+
+    def put_in(match: re.Match[str]) -> str:
+        known = step.inputs[match[1]]
+        return number(known.value, known.unit, enclosed=True)
+
+    return pretty(KEYS.sub(put_in, step.formula), words)
+
+
+def pretty(text: str, words: Words) -> str:
+    """An expression as printed: products as dots, powers raised, functions as the language writes them."""
+    text = text.replace(" * ", "·").replace(" / ", "/").replace("sqrt(", "√(")
+    # one argument needs no brackets: cos α; the power of a function stands behind its name: cos² α
+    simple = r"([^()\s/·]+|\([^()\s/·]+\))"
+    text = re.sub(rf"\b(cos|sin|tan|inv)\({simple}\)\*\*([23])", lambda m: f"{m[1]}{_SUPERSCRIPTS[m[3]]} {m[2]}", text)
+    text = re.sub(rf"\b(cos|sin|tan|inv)\({simple}\)", r"\1 \2", text)
+    text = re.sub(r"\*\*([23])", lambda m: _SUPERSCRIPTS[m[1]], text)
+    text = re.sub(r"\bpi\b", "π", text)
+    text = re.sub(r"\babs\(((?:[^()]|\([^()]*\))*)\)", r"|\1|", text)
+    return re.sub(r"\b(arctan|tan)\b", lambda m: words.term("function", m[1]), text)
+
+
+# as printed; what stands behind the sign is a power
+_UNITS = {
+    "": "",
+    "%": "%",
+    "deg": "°",
+    "mm": NC_("unit", "mm"),
+    "rad": NC_("unit", "rad"),
+    "rpm": NC_("unit", "rpm"),
+    "s": NC_("unit", "s"),
+    "s/mm": NC_("unit", "s/mm"),
+    "1/mm": NC_("unit", "1/mm"),
+    "mm/rad": NC_("unit", "mm/rad"),
+    "mm/rad2": NC_("unit", "mm/rad²"),
+    "deg/rad": NC_("unit", "°/rad"),
+    "deg/rad2": NC_("unit", "°/rad²"),
+    "deg/mm": NC_("unit", "°/mm"),
+    "deg/mm2": NC_("unit", "°/mm²"),
+    "rad/s": NC_("unit", "rad/s"),
+    "rad/s2": NC_("unit", "rad/s²"),
+    "mm/s": NC_("unit", "mm/s"),
+    "m/s2": NC_("unit", "m/s²"),
+}
+# functions that languages write in their own way
+_FUNCTIONS = (NC_("function", "tan"), NC_("function", "arctan"))
+
+
+def unit_text(unit: str, words: Words) -> str:
+    """A unit in a language."""
+    text = _UNITS.get(unit, unit)
+    return words.term("unit", text) if text else ""

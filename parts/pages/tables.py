@@ -1,0 +1,55 @@
+"""Tables of numbers within a calculation, in every format of a sheet."""
+
+from __future__ import annotations
+
+import html
+import math
+from typing import Any
+
+from parts.base.texts import Words
+from parts.pages.page import Table, unit_text
+
+_DIGITS = 4
+
+
+def _heads(table: Table, words: Words) -> list[str]:
+    return [", ".join(filter(None, (symbol, unit_text(unit, words)))) for symbol, unit in table.heads]
+
+
+def _cell(value: float) -> str:
+    if not math.isfinite(value):
+        return "∞" if value > 0 else "-∞"
+    text = f"{value:.{_DIGITS}f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
+
+
+def plain_table(table: Table, words: Words) -> list[str]:
+    """Lines of a table for a terminal, columns flush right."""
+    rows = [_heads(table, words), *([_cell(x) for x in row] for row in table.rows)]
+    widths = [max(len(row[k]) for row in rows) for k in range(len(table.heads))]
+    lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in rows]
+    title = words.say(table.title)
+    return [title, "-" * len(title), *lines]
+
+
+def markdown_table(table: Table, words: Words) -> list[str]:
+    """Lines of a table in Markdown."""
+    heads = [head.replace("_", r"\_") for head in _heads(table, words)]
+    rows = [heads, ["---:"] * len(heads), *([_cell(x) for x in row] for row in table.rows)]
+    return [f"## {words.say(table.title)}", "", *(f"| {' | '.join(row)} |" for row in rows)]
+
+
+def html_table(table: Table, words: Words) -> str:
+    """A table of a page."""
+    head = "".join(f"<th>{html.escape(h)}</th>" for h in _heads(table, words))
+    rows = ["".join(f"<td>{_cell(x)}</td>" for x in row) for row in table.rows]
+    body = "\n".join(f"<tr>{row}</tr>" for row in (head, *rows))
+    return f"<h2>{html.escape(words.say(table.title))}</h2>\n<table>\n{body}\n</table>"
+
+
+def table_data(table: Table) -> list[dict[str, Any]]:
+    """All digits: one object for each row; infinity is null."""
+    return [
+        {symbol: value if math.isfinite(value) else None for (symbol, _), value in zip(table.heads, row, strict=True)}
+        for row in table.rows
+    ]

@@ -1,0 +1,61 @@
+"""What a step of a calculation says, piece by piece, in a language."""
+
+from __future__ import annotations
+
+import re
+
+from parts.base.texts import NC_, Words
+from parts.pages.page import Step, formula_text, number, numbers_text, unit_text
+from parts.pages.symbols import symbol_text
+from parts.pages.terms import TERMS
+
+# the words in the names of sources: "practicum (3.4)", "GOST 16532-70, table 2"
+_SOURCES = (
+    NC_("source", "practicum"),
+    NC_("source", "guidelines"),
+    NC_("source", "Savvin"),
+    NC_("source", "thesis"),
+    NC_("source", "GOST"),
+    NC_("source", "table"),
+    NC_("source", "fig"),
+    NC_("source", "lesson"),
+)
+
+
+def source_text(source: str, words: Words) -> str:
+    """A source as printed."""
+    for word in _SOURCES:
+        source = re.sub(rf"\b{word}\b", words.term("source", word), source)
+    return source
+
+
+def step_name(step: Step, words: Words) -> str:
+    """The quantity in words, with the gear it belongs to."""
+    name = words.text(TERMS[step.name].name)
+    more = words.text("gear {number}", number=step.gear) if step.gear else words.say(step.of)
+    return f"{name}, {more}" if more else name
+
+
+def result_text(step: Step, words: Words) -> str:
+    """Value and unit."""
+    unit = unit_text(step.unit, words)
+    gap = "" if unit in ("°", "%") or not unit else " "
+    return f"{number(step.value, step.unit)}{gap}{unit}"
+
+
+def equation(step: Step, words: Words) -> str:
+    """Symbol = formula = numbers = result, as far as the step has them."""
+    parts = [symbol_text(step.symbol, words)]
+    if step.formula:
+        parts += [formula_text(step, words), numbers_text(step, words)]
+    if len(parts) > 1 and parts[-1] == number(step.value, step.unit, enclosed=True):
+        parts.pop()
+    return " = ".join([*dict.fromkeys(parts), result_text(step, words)])
+
+
+def printed_text(step: Step, words: Words) -> str:
+    """What a wrong source prints, and why it is wrong; empty where it is right."""
+    if step.printed is None:
+        return ""
+    why = words.say(step.printed.why)
+    return words.text("printed in the source: {text} ({why})", text=step.printed.text, why=why)

@@ -1,0 +1,1 @@
+"""Cycloidal discs, lanterns, pins and their plates."""

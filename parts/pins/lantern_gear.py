@@ -1,0 +1,111 @@
+"""The part kind ``lantern_gear``: the wheel that meshes with the pins of a lantern."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Annotated
+
+from msgspec import Meta
+
+from geometry.solids.wheel import WheelShape, wheel_body, wheel_sections
+from parts.base.kind import Kind, Others, Report
+from parts.keys.base import mm
+from parts.keys.pins import MOST, PinDiameter, check_holes, holes_of
+from parts.keys.wheel import WheelKeys, checked_wheel, wheel_shape
+
+if TYPE_CHECKING:
+    from geometry.gears.pins.lantern import LanternGear
+    from geometry.plane.offset_region import OffsetRegion
+    from geometry.plane.profile import Profile
+    from geometry.solids.body import Body
+
+
+class LanternGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="lantern_gear"):
+    """External gear for a lantern: flanks parallel to the epicycloid of its pins."""
+
+    number_of_teeth: Annotated[int, Meta(ge=3, le=1000, description="number of teeth z", examples=[30])]
+    number_of_pins: Annotated[int, Meta(ge=3, le=1000, description="number of pins N of the lantern", examples=[12])]
+    pin_circle_diameter: Annotated[
+        float, mm("pin circle of the lantern: its pitch circle", least=0.1, most=MOST, example=80.0)
+    ]
+    pin_diameter: PinDiameter
+    pin_clearance: Annotated[float, mm("gap between flank and pin along the normal", least=0, most=100)] = 0.0
+    root_clearance: Annotated[float, mm("radius of the root beyond pin and pin_clearance", least=0, most=100)] = 0.0
+    tip_diameter: (
+        Annotated[
+            float,
+            mm("tip diameter; default: a tip land of a tenth of the pitch", above=0, most=2 * MOST, example=220.0),
+        ]
+        | None
+    ) = None
+
+
+class LanternGearKind(Kind[LanternGearSpec, "LanternGear"]):
+    """A lantern's gear."""
+
+    name, keys = "lantern_gear", LanternGearSpec
+
+    def thing(self, keys: LanternGearSpec, others: Others) -> LanternGear:
+        """The gear, checked to have teeth, and holes inside its roots."""
+        from geometry.gears.pins.lantern import LanternGear, checked_lantern_gear
+
+        gear = checked_lantern_gear(
+            LanternGear(
+                keys.number_of_teeth,
+                keys.number_of_pins,
+                keys.pin_circle_diameter,
+                keys.pin_diameter,
+                keys.pin_clearance,
+                keys.root_clearance,
+                keys.tip_diameter,
+            )
+        )
+        holes = holes_of(keys)
+        check_holes(keys, holes, gear.root_radius)
+        checked_wheel(keys, 2 * gear.root_radius, holes)
+        return replace(gear, holes=holes, face_width=keys.face_width)
+
+    def section(self, keys: LanternGearSpec, thing: LanternGear, offset: float) -> OffsetRegion:
+        """The exact section, moved."""
+        from geometry.gears.pins.lantern import lantern_region
+
+        return lantern_region(thing, offset)
+
+    def solid(self, keys: LanternGearSpec, thing: LanternGear, offset: float) -> Body:
+        """The wheel with its web, hub and chamfers."""
+        from geometry.gears.pins.lantern import lantern_side
+
+        def outline(offset: float, depth: float) -> Profile:
+            return lantern_side(thing, offset - depth).profile()
+
+        return wheel_body(_shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
+
+    def is_plate(self, keys: LanternGearSpec, thing: LanternGear) -> bool:
+        """Whether there is nothing but the section."""
+        return _shape_of(keys).is_plate
+
+    def report(self, keys: LanternGearSpec, thing: LanternGear) -> Report:
+        """Diameters, pitch and what is poor."""
+        from geometry.gears.pins.lantern import lantern_findings, limits_of
+
+        found = limits_of(thing)
+        circles = {
+            "tip_diameter": 2 * thing.tip_radius,
+            "pitch_diameter": 2 * thing.pitch_radius,
+            "root_diameter": 2 * thing.root_radius,
+        }
+        quantities = {
+            "pitch": thing.pitch,
+            "tip_tooth_thickness": thing.tip_thickness,
+            "pointed_tip_diameter": 2 * found.pointed_radius,
+            "flank_start_diameter": 2 * found.start_radius,
+            "lantern_contact_ratio": thing.contact_ratio,
+        }
+        return Report(lantern_findings(thing), circles, quantities)
+
+
+LANTERN_GEAR = LanternGearKind()
+
+
+def _shape_of(keys: LanternGearSpec) -> WheelShape:
+    return wheel_shape(keys.face_width, keys.web, keys.hub, keys.face_chamfer)

@@ -1,0 +1,100 @@
+"""The part kinds ``pin`` (a round pin or its sleeve) and ``eccentric`` (the disc that moves a cycloidal disc)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, TypeVar
+
+from geometry.base.errors import ParameterError, limit
+from geometry.solids.hub_holes import HubHoles, least_wall
+from parts.base.kind import Kind, Others, Report
+from parts.keys.base import BoreDiameter, MaterialKeys, mm
+from parts.keys.holes import BoredKeys
+from parts.keys.pins import MOST, check_holes, holes_of, most_of, moved_region
+
+if TYPE_CHECKING:
+    from geometry.plane.offset_region import OffsetRegion
+    from geometry.solids.body import Body
+    from geometry.solids.pin_plates import RoundDisc
+
+
+class PinSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", tag="pin"):
+    """Round pin, or with a bore the sleeve that turns on it."""
+
+    diameter: Annotated[float, mm("outer diameter", least=0.01, most=MOST, example=8.0)]
+    length: Annotated[float, mm("length along the axis", least=0.01, most=10_000, example=60.0)]
+    bore_diameter: BoreDiameter = 0.0
+
+
+class EccentricSpec(BoredKeys, kw_only=True, tag_field="kind", tag="eccentric"):
+    """Round disc whose centre stands off its axis along +x; the bore is about the axis."""
+
+    diameter: Annotated[float, mm("diameter of the disc", least=0.01, most=MOST, example=22.0)]
+    eccentricity: Annotated[float, mm("from the axis to the disc's centre", least=0, most=MOST, example=2.5)]
+
+
+K = TypeVar("K", PinSpec, EccentricSpec)
+
+
+class _Round(Kind[K, "RoundDisc"]):
+    """A round disc."""
+
+    def section(self, keys: K, thing: RoundDisc, offset: float) -> OffsetRegion:
+        """The disc moved."""
+        return moved_region(thing.region, offset)
+
+    def solid(self, keys: K, thing: RoundDisc, offset: float) -> Body:
+        """The disc, extruded."""
+        from geometry.solids.body import plate
+
+        return plate(self.section(keys, thing, offset).region, 0.0, self.height(keys, thing))
+
+
+class Pin(_Round[PinSpec]):
+    """A pin."""
+
+    name, keys = "pin", PinSpec
+
+    def thing(self, keys: PinSpec, others: Others) -> RoundDisc:
+        """A disc whose bore leaves a wall."""
+        from geometry.solids.bores import RoundBore
+        from geometry.solids.pin_plates import RoundDisc
+
+        most = keys.diameter - 2 * least_wall(keys.diameter / 2)
+        if keys.bore_diameter > most:
+            cure = limit(most, keys.bore_diameter, digits=6)
+            raise ParameterError("bore_diameter", keys.bore_diameter, "leaves_no_wall", cure)
+        holes = HubHoles(RoundBore(keys.bore_diameter)) if keys.bore_diameter > 0 else HubHoles()
+        return RoundDisc(keys.diameter / 2, 0.0, holes)
+
+    def height(self, keys: PinSpec, thing: RoundDisc) -> float:
+        """Its length."""
+        return keys.length
+
+    def report(self, keys: PinSpec, thing: RoundDisc) -> Report:
+        """Its diameter."""
+        return Report(quantities={"diameter": keys.diameter})
+
+
+class Eccentric(_Round[EccentricSpec]):
+    """An eccentric."""
+
+    name, keys = "eccentric", EccentricSpec
+
+    def thing(self, keys: EccentricSpec, others: Others) -> RoundDisc:
+        """A disc whose bore stays in it."""
+        from geometry.solids.pin_plates import RoundDisc
+
+        radius, holes = keys.diameter / 2, holes_of(keys)
+        if holes.bore is not None:
+            if keys.eccentricity >= radius - 2 * least_wall(radius):
+                cure = most_of(radius - least_wall(radius) - holes.bore_reach, keys.eccentricity)
+                raise ParameterError("eccentricity", keys.eccentricity, "bore_axis_leaves_disc", cure)
+            check_holes(keys, holes, radius, centre=keys.eccentricity)
+        return RoundDisc(radius, keys.eccentricity, holes)
+
+    def report(self, keys: EccentricSpec, thing: RoundDisc) -> Report:
+        """Its sizes."""
+        return Report(quantities={"diameter": keys.diameter, "eccentricity": keys.eccentricity})
+
+
+PIN, ECCENTRIC = Pin(), Eccentric()

@@ -1,0 +1,58 @@
+"""Why the files of a scene are not made, checked or measured."""
+
+from __future__ import annotations
+
+from parts.base.texts import N_
+
+REASONS = {
+    "chords_cross_wall": N_("its chords cross a thin wall of {part}"),
+    "damaged_report": N_("is damaged ({why}); build the scene again"),
+    "device_cuts_straight_teeth": N_("the device cuts straight teeth; name other gears in parts of the export"),
+    "device_cuts_with_rack": N_(
+        "the device cuts with a rack: leave cutter out, or name other gears in parts of the export"
+    ),
+    "device_draws_external_gears": N_("the device draws external gears; name a spur_gear"),
+    "disk_fits_no_paper": N_("the disk fits no paper: its module is too large"),
+    "disk_holds_two_wheels": N_("a disk holds two wheels"),
+    "draws_only": N_("draws only {kinds}; here: {known}"),
+    "draws_only_what_is_not_here": N_("draws only {kinds}; add one or remove the export"),
+    "finer_than_mesh_digits": N_("a mesh file stores 7 digits, too few for that at this size"),
+    "folder_of_files": N_("no such file: it is a folder; name the files in it"),
+    "last_build_failed": N_(
+        "its last build failed ({why}); what lies here is of an earlier build of the same scene; build the scene again"
+    ),
+    "last_build_failed_otherwise": N_(
+        "its last build failed ({why}); what lies here is of an earlier build and need not fit the scene; "
+        "build the scene again"
+    ),
+    "mate_of_no_gears": N_("is a {kind} mate; name a pair of gears"),
+    "more_phases_than_paper": N_("has more phases than the tables of one paper hold; leave it out of parts"),
+    "needs_kernel": N_('needs the CAD kernel: pip install "cadquery-ocp-novtk<8" (small), or cadquery in its place'),
+    "needs_kernel_to_be_read": N_('needs the CAD kernel to be read: pip install "cadquery-ocp-novtk<8"'),
+    "no_exports": N_(
+        'the scene asks for no file; add [[exports]] with format = "dxf" (or svg, stl, 3mf, step), or use --format'
+    ),
+    "no_outline": N_("no whole outline comes of it: {why}"),
+    "no_report": N_("is damaged (it is not the JSON of a report); build the scene again"),
+    "no_report_beside": N_("no {name} beside it; build the scene again to get one"),
+    "no_such_file": N_("no such file"),
+    "no_such_mate": N_("the scene has no such mate"),
+    "not_in_empty_report": N_("not named in {name}, which knows no file"),
+    "not_in_report": N_("not named in {name}; it knows: {known}"),
+    "nothing_to_check": N_('nothing to check; add [[mates]] kind = "external_gear_pair"'),
+    "nothing_to_measure": N_("hold no file of a single part to measure; add one"),
+    "of_part": N_("{part}: {why}"),
+    "one_disk_one_size": N_("one disk needs module {module} and {teeth} teeth for both wheels"),
+    "same_file": N_("writes the same file as {other}; give one of them another name"),
+    "shows_external_gears": N_("shows external gears; add one or remove the export"),
+    "shows_gear_pairs": N_("shows pairs of involute gears only; remove the export or change its purpose"),
+    "shows_gear_pairs_of_mates": N_("shows pairs of involute gears only; add [[mates]] or remove the export"),
+    "table_fits_no_paper": N_("its table fits no paper"),
+    "tolerance_not_met": N_("cannot be met: a residual of {residual} stays after {steps} steps; make it larger"),
+    "too_many_edges": N_("would need {edges} edges"),
+    "unknown_format": N_("unknown format; formats: {known}"),
+    "wall_too_thin_for_mesh": N_(
+        "its chords cross a thin wall of {part}, too thin for the digits of a mesh file; "
+        "make the wall thicker, or write STEP"
+    ),
+}

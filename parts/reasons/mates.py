@@ -1,0 +1,48 @@
+"""Why a scene is refused: mates."""
+
+from __future__ import annotations
+
+from parts.base.texts import N_
+
+REASONS = {
+    "backlash_already_more": N_("the gears' own thinning and distance give more"),
+    "backlash_leaves_no_teeth": N_("leaves no whole teeth"),
+    "cam_has_another": N_("the cam is made for another"),
+    "cam_wants": N_("the cam is made for a {wanted}"),
+    "contact_over_bar": N_("the contact runs over the bar's end"),
+    "contact_over_plate": N_("the contact runs over the plate's edge"),
+    "eccentric_needs_round_bore": N_("the disc needs a round bore for the eccentric"),
+    "fewer_seats": N_("there are not so many seats"),
+    "has_its_pins": N_("has its pins already; give it seats or holes"),
+    "linkage_carries_follower": N_("the linkage carries the follower, which is no arm"),
+    "linkage_has_another": N_("the linkage has another"),
+    "made_from_another_cam": N_("is made from another cam than the mate's first; name that one"),
+    "mate_is_straight": N_("straight teeth mesh with straight ones, and its mate's are"),
+    "mate_joins": N_("is a {found}; {mate} joins {joins}"),
+    "mate_joins_other": N_('is a {found}; {mate} joins {joins}; kind = "{other}" joins these two'),
+    "member_is_a_slider": N_("this member is a slider; a plate can be one, an arm cannot"),
+    "no_output_holes": N_("has no output_holes; give the disc that table"),
+    "not_between_the_plates": N_("does not go between the plates of the lantern"),
+    "not_of_its_mate": N_("must fit its mate"),
+    "not_of_the_eccentric": N_("must be that of the eccentric"),
+    "not_of_the_holes": N_("must be that of the disc's holes"),
+    "not_of_the_lantern": N_("must be that of the lantern"),
+    "not_of_the_pair": N_("is not of the first gear's pair"),
+    "not_of_the_pair_at_all": N_(
+        "is not of the same pair: centrode, its shape, module and numbers of teeth must be the first one's, {pair}"
+    ),
+    "not_of_the_ring": N_("must be that of the ring"),
+    "not_of_the_seats": N_("must be that of the seats"),
+    "one_lobe_fewer_than_pins": N_("{pins} pins need one lobe fewer"),
+    "one_role_does_not_mesh": N_(
+        "two gears of one role mesh only where a tooth on the long radius meets a space on the short one"
+    ),
+    "one_role_meshes_with_teeth": N_(
+        "two gears of one role mesh only where a tooth on the long radius meets a space on the short one, "
+        "as with {teeth} teeth"
+    ),
+    "other_centrode_shape": N_("the centrodes differ in shape (axis_ratio or eccentricity)"),
+    "plate_slides_less": N_("the plate slides less"),
+    "shortened_tips_keep_no_involute": N_("the tips that the pair shortens keep no involute"),
+    "teeth_do_not_reach": N_("the teeth do not reach each other"),
+}

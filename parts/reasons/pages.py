@@ -1,0 +1,36 @@
+"""Why a calculation is refused."""
+
+from __future__ import annotations
+
+from parts.base.texts import N_
+
+REASONS = {
+    "choose_a_part": N_("there are several: {known}; add part=ID"),
+    "first_cam_under_it": N_(
+        "give the first cam's keys under it, as of.follower=roller of.lift=20, or name a scene with the part"
+    ),
+    "gear_missing": N_("is missing: give {name}.number_of_teeth=…, and the same for the other one"),
+    "give_it_or": N_("is missing: give it or {other}"),
+    "given_twice": N_("is given twice: once is enough"),
+    "has_a_value": N_("{key} has a value already; remove one of them"),
+    "needs_other": N_("needs {other} too"),
+    "no_gear_pair": N_('has no pair of gears; add [[mates]] kind = "external_gear_pair"'),
+    "no_such_folder": N_("there is no such folder"),
+    "no_such_pair": N_("the scene has no such pair"),
+    "no_whole_modules": N_("must be a whole number of modules, at least 3"),
+    "none_of_kind": N_("the scene has no {kind}; name another one, or type its keys"),
+    "one_scene_only": N_("one scene is enough; {other} is given already"),
+    "other_is_given": N_("{other} is given already"),
+    "part_without_scene": N_("names a part of a scene, and none is given"),
+    "picture_ends_in": N_("pictures end in one of {known}"),
+    "reference_circle_leaves_teeth": N_("the reference circle leaves the teeth"),
+    "shifts_of_gear_pairs": N_("shifts are chosen for external and internal pairs only; give mate = the number of one"),
+    "shifts_of_spur_gears": N_("shifts are chosen for spur gears only; name a scene with a pair of these"),
+    "teeth_of_disk": N_("{other} asks for {teeth}; one of both keys is enough"),
+    "too_many_rows": N_("makes too many rows"),
+    "unknown_pair": N_("unknown kind of pair; known: {known}"),
+    "unknown_topic": N_("unknown topic; topics: {known}"),
+    "wish_not_met": N_("{place}: {why}"),
+    "write_key_value": N_("write key=value, like number_of_teeth=23"),
+    "write_teeth": N_("write {name}.number_of_teeth=…"),
+}

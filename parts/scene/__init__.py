@@ -1,0 +1,1 @@
+"""Scenes: loading, instances, placing, checks."""

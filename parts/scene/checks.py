@@ -1,0 +1,110 @@
+"""Mates of a scene: they join the parts that they are for, and their refusals are told in the keys of the scene."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from msgspec import Struct
+
+from geometry.base.errors import Nearest, ParameterError
+from geometry.base.nearest import nearest
+from parts.base.mate import End, MateKeys, MateKind, Mating
+from parts.base.refusal import SceneError, placed
+from parts.base.registry import KINDS
+from parts.base.schema import tried, unit_of
+from parts.base.texts import message
+from parts.mates.pairing import mated
+from parts.mates.registry import MATES
+
+# of the parts: their keys, what they are made from, and which part each instance is
+Ends = Mapping[str, End[Any]]
+PartOf = Mapping[str, str]
+
+
+def joined(
+    parts: Mapping[str, Struct], things: Mapping[str, Any], mates: Sequence[MateKeys], part_of: PartOf, source: str
+) -> tuple[dict[str, Any], list[Mating]]:
+    """What the parts are made from, as a scene's mates want it, and the matings.
+
+    Raises
+    ------
+    SceneError
+        A mate joins other kinds of parts, or two parts that do not go together.
+    """
+    ends = {key: End(spec, things[key]) for key, spec in parts.items()}
+    for number, mate in enumerate(mates, 1):
+        kind, place = MATES[str(mate.__struct_config__.tag)], f"mates[{number}]"
+        one, two = ends[part_of[mate.first]], ends[part_of[mate.second]]
+        _check_kinds(kind, mate, (one.kind, two.kind), source, place)
+        try:
+            kind.check(mate, one.keys, two.keys)
+            mated(ends, [mate], part_of)
+        except ParameterError as refusal:
+            raise pair_refused(refusal, ends, mate, part_of, source, place) from refusal
+    final, matings = mated(ends, mates, part_of)
+    return {key: end.thing for key, end in final.items()}, matings
+
+
+def pair_refused(
+    refusal: ParameterError, ends: Ends, mate: MateKeys, part_of: PartOf, source: str, place: str
+) -> SceneError:
+    """The refusal of a mate under the key of the scene, its own or that of a part; ``place``: where the mate stands.
+
+    What it offers is tried once, on both parts and this mate alone.
+    """
+    kind = MATES[str(mate.__struct_config__.tag)]
+    owner, _, key = refusal.name.partition(".")
+    if owner == "mate":
+        told = placed(source, place, refusal.renamed(key), unit_of(kind.keys, key))
+        told.offer(lambda: _tried(refusal, lambda value: mated(ends, [tried(mate, key, value)], part_of)))
+        return told
+    owner, key = ("first", key) if owner == "first" else ("second", refusal.name)
+    part = part_of[mate.first if owner == "first" else mate.second]
+    spec = ends[part].keys
+
+    def works(value: object) -> None:
+        changed = tried(spec, key, value)
+        thing = KINDS[ends[part].kind].thing(changed, {name: end.keys for name, end in ends.items()})
+        trial = {**ends, part: End(changed, thing)}
+        kind.check(mate, trial[part_of[mate.first]].keys, trial[part_of[mate.second]].keys)
+        mated(trial, [mate], part_of)
+
+    told = placed(source, f"{place}: parts.{part}", refusal.renamed(key), unit_of(type(spec), key))
+    told.offer(lambda: _tried(refusal, works))
+    return told
+
+
+def _tried(refusal: ParameterError, works: Callable[[Any], object]) -> Nearest | None:
+    """What a refusal offers, tried; a limit that another one stops is sought on beyond it. None where none works."""
+    found, given = refusal.nearest, refusal.value
+    if found is None or found.value is None or _holds(works, found.value):
+        return found
+    if found.side == "exactly" or not isinstance(found.value, float) or not isinstance(given, float):
+        return None
+    ends = (given + (found.value - given) * 2.0**k for k in range(1, 12))
+    return nearest(lambda value: _holds(works, value), given, ends)
+
+
+def _holds(works: Callable[[Any], object], value: object) -> bool:
+    try:
+        works(value)
+    except (ParameterError, ArithmeticError):
+        return False
+    return True
+
+
+def _check_kinds(
+    kind: MateKind[Any, Any, Any], mate: MateKeys, found: tuple[str, str], source: str, place: str
+) -> None:
+    """A mate joins the kinds of parts that it is for."""
+    if kind.joins is None or found in kind.joins:
+        return
+    index = 0 if all(first != found[0] for first, _ in kind.joins) else 1
+    key = ("first", "second")[index]
+    pairs = [message("{first} and {second}", first=a, second=b) for a, b in kind.joins]
+    told: dict[str, Any] = {"found": found[index], "mate": kind.name, "joins": pairs}
+    code = "mate_joins"
+    if other := next((m.name for m in MATES.values() if m.joins and found in m.joins), None):
+        code, told["other"] = "mate_joins_other", other
+    raise SceneError(source, f"{place}.{key}", getattr(mate, key), code, **told)

@@ -1,0 +1,102 @@
+"""Who runs into whom as the scene stands: solids against solids, for what the exact plane contact does not decide.
+
+Each solid is taken with its boundaries moved a little into the material and meshed within that, so that the mesh lies
+inside the true solid: what overlaps then overlaps for certain. The booleans are those of manifold3d.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from geometry.base.errors import GeometryError
+from parts.base.part import Part
+from parts.scene.placing import Instance, Placing
+
+# boundaries go this far into the material, as a part of the solid's size, and the mesh half of it
+_INSET = 2e-4
+_SHARE = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class SolidOverlap:
+    """Two instances whose solids have this volume (mm^3) in common, as they stand; None: a wall too thin to tell."""
+
+    first: str
+    second: str
+    volume: float | None
+
+
+def solid_overlaps(placing: Placing, parts: dict[str, Part]) -> tuple[SolidOverlap, ...]:
+    """Every two instances that run into each other for certain; teeth of plates in a mate are left to their contact."""
+    contact = {
+        frozenset((m.first.id, m.second.id))
+        for m in placing.mates
+        if m.mating.has_contact and parts[m.first.part].is_plate and parts[m.second.part].is_plate
+    }
+    solids: dict[str, Any] = {}
+    boxes = {i.id: _box(i, parts[i.part]) for i in placing.instances}
+    found = []
+    for index, one in enumerate(placing.instances):
+        for two in placing.instances[index + 1 :]:
+            if frozenset((one.id, two.id)) in contact or not _meet(boxes[one.id], boxes[two.id]):
+                continue
+            try:
+                volume = _common_volume([_placed(i, parts, solids) for i in (one, two)])
+            except GeometryError:
+                found.append(SolidOverlap(one.id, two.id, None))
+                continue
+            if volume > 0:
+                found.append(SolidOverlap(one.id, two.id, volume))
+    return tuple(found)
+
+
+def _box(instance: Instance, part: Part) -> tuple[complex, float, float, float]:
+    """Centre, reach, lower and upper end of an instance, mm."""
+    body = part.body(0.0)
+    reach = max(p.reach() for p in body.profiles)
+    return instance.centre, reach, instance.at[2] + body.levels()[0], instance.at[2] + body.levels()[-1]
+
+
+def _meet(one: tuple[complex, float, float, float], two: tuple[complex, float, float, float]) -> bool:
+    near = abs(one[0] - two[0]) < one[1] + two[1]
+    return near and min(one[3], two[3]) > max(one[2], two[2])
+
+
+def _placed(instance: Instance, parts: dict[str, Part], solids: dict[str, Any]) -> Any:
+    """The solid of an instance in its place; one mesh a part."""
+    if instance.part not in solids:
+        solids[instance.part] = _inner_solid(parts[instance.part])
+    x, y, z = instance.at
+    turned = solids[instance.part].rotate([0.0, 0.0, math.degrees(math.remainder(instance.rotation, 2 * math.pi))])
+    return turned.translate([x, y, z])
+
+
+def _inner_solid(part: Part) -> Any:
+    """A mesh inside the part's solid, as manifold3d has it; finer where its walls are thin."""
+    import manifold3d
+
+    from parts.solids.mesh import body_mesh, mesh_outlines
+
+    inset = _INSET * max(p.reach() for p in part.body(0.0).profiles)
+    for _ in range(8):
+        try:
+            body = part.body(-inset)
+            mesh = body_mesh(body, mesh_outlines(body, _SHARE * inset, 0.0))
+        except GeometryError:
+            inset /= 4
+            continue
+        vertices, triangles = mesh.vertices.astype(np.float32), mesh.triangles.astype(np.uint32)
+        return manifold3d.Manifold(manifold3d.Mesh(vertices, triangles))
+    raise GeometryError(f"no mesh lies within {part.id}")
+
+
+def _common_volume(pair: Sequence[Any]) -> float:
+    """Volume in common, mm^3; slivers of a billionth of the lesser solid are rounding."""
+    common = pair[0] ^ pair[1]
+    least = 1e-9 * min(solid.volume() for solid in pair)
+    return float(common.volume()) if common.volume() > least else 0.0

@@ -1,0 +1,28 @@
+"""The language that a scene asks for, even where the scene itself is refused."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from pathlib import Path
+
+from parts.base.texts import ENGLISH, languages
+
+
+def language_of(address: str) -> str:
+    """The language of a scene by its name or file, as far as it can be read; English where it cannot."""
+    from parts.scene.load import built_in_scenes
+
+    path = Path(address)
+    try:
+        path = built_in_scenes().get(address, path) if not path.is_file() else path
+        raw = path.read_bytes()[:4_000_000]
+    except (OSError, ValueError):
+        return ENGLISH
+    try:
+        asked = tomllib.loads(raw.decode("utf-8-sig")).get("scene", {}).get("language")
+    except (ValueError, AttributeError, RecursionError):
+        # what is no TOML may still say it
+        found = re.search(rb"""(?m)^\s*language\s*=\s*["'](\w+)["']""", raw)
+        asked = found[1].decode() if found else ENGLISH
+    return asked if asked in languages() else ENGLISH

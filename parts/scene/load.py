@@ -1,0 +1,321 @@
+"""Scene files: read, validated key by key, every refusal with place, value and remedy."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import msgspec
+from msgspec import Meta, Struct
+
+from geometry.base.errors import GeometryError, Nearest, ParameterError
+from parts.base.part import Part
+from parts.base.refusal import REMOVED, SceneError, meant
+from parts.base.registry import KINDS
+from parts.base.schema import converted, refuse_infinite
+from parts.base.texts import ENGLISH, languages
+from parts.keys.base import DEVICE_NAMES, IDENTIFIER, Identifier, mm
+from parts.keys.sheet import CamSpeed, Intervals, MateNumber, RackStep, check_sheet_keys
+from parts.keys.title import TitleBlockKey
+from parts.scene.formats import ASSEMBLY_FORMATS, Form, file_kind, tolerances_of
+from parts.scene.instances import DriveSpec, InstanceSpec, check_instance, drive_spec, instance_specs
+
+if TYPE_CHECKING:
+    from parts.base.mate import Mating
+
+SCENE_FOLDER = Path(__file__).parents[1] / "scenes"
+# a scene that is larger than this is not one
+_MAX_SCENE_BYTES = 4_000_000
+
+
+# the languages that have a catalogue
+if TYPE_CHECKING:
+    Language = str
+else:
+    Language = Literal[languages()]
+
+
+class SceneInfo(Struct, forbid_unknown_fields=True):
+    """Keys of ``[scene]``."""
+
+    title: Annotated[str, Meta(max_length=500, description="what the scene shows")] = ""
+    language: Annotated[Language, Meta(description="language of reports")] = ENGLISH
+
+
+class ExportSpec(Struct, forbid_unknown_fields=True):
+    """Keys of ``[[exports]]``."""
+
+    format: Annotated[
+        Literal["dxf", "svg", "stl", "3mf", "step", "sheet"], Meta(description="file format", examples=["dxf"])
+    ]
+    purpose: (
+        Annotated[
+            Literal["laser", "print", "drawing", "model", "meshing", "generating", "cam"],
+            Meta(
+                description="dxf: laser (arcs) or drawing (splines); sheet: meshing (picture of each pair), "
+                "generating (device TMM-42) or cam (diagrams, least radius, profile)",
+                examples=["laser"],
+            ),
+        ]
+        | None
+    ) = None
+    tolerance: (
+        Annotated[float, mm("largest deviation from the exact curve", least=1e-7, most=1.0, example=0.005)] | None
+    ) = None
+    kerf: Annotated[float, mm("full width of the cut; the path runs half of it outside the part", least=0, most=10)] = (
+        0.0
+    )
+    offset: Annotated[
+        float, mm("moves every outline: positive out of the material, negative into it", least=-10, most=10)
+    ] = 0.0
+    curves: Annotated[Literal["arcs", "lines"], Meta(description="dxf, svg: arcs, or straight lines only")] = "arcs"
+    dxf_version: Annotated[Literal["R2000", "R12"], Meta(description="dxf only")] = "R2000"
+    name: (
+        Annotated[
+            Identifier, Meta(description="tells files of one part apart; default: the purpose", examples=["laser"])
+        ]
+        | None
+    ) = None
+    parts: (
+        Annotated[list[str], Meta(min_length=1, description="parts to export; default: all", examples=[["gear"]])]
+        | None
+    ) = None
+    assembly: Annotated[bool, Meta(description="step, 3mf: one file of all instances in their places")] = False
+    rack_step: RackStep | None = None
+    intervals: Intervals | None = None
+    speed_rpm: CamSpeed | None = None
+    title_block: TitleBlockKey = False
+    mate: MateNumber | None = None
+
+
+class ChecksSpec(Struct, forbid_unknown_fields=True):
+    """Keys of ``[checks]``."""
+
+    interference: Annotated[bool, Meta(description="contact and interference of every mate")] = False
+    transmission_error: Annotated[
+        bool, Meta(description="how unevenly each mate runs: peak to peak from the exact contact, without load")
+    ] = False
+
+
+class SceneFile(Struct, forbid_unknown_fields=True):
+    """A scene as resolved: what ``report.json`` keeps and ``verify`` builds again."""
+
+    name: str
+    scene: SceneInfo
+    parts: dict[str, Any]
+    exports: list[ExportSpec]
+    instances: dict[str, InstanceSpec] = {}
+    mates: list[Any] = []
+    drives: list[DriveSpec] = []
+    checks: ChecksSpec = msgspec.field(default_factory=ChecksSpec)
+
+
+def built_in_scenes() -> dict[str, Path]:
+    """Names and files of the scenes that come with the package."""
+    return {path.stem: path for path in sorted(SCENE_FOLDER.glob("*.toml"))}
+
+
+def load_scene(address: str) -> SceneFile:
+    """A scene by the name of a built-in one or by the path of a TOML file.
+
+    Raises
+    ------
+    SceneError
+        With the key, its value and what is allowed.
+    """
+    built_in = built_in_scenes()
+    path = Path(address)
+    try:
+        if address in built_in and not path.is_file():
+            path = built_in[address]
+        folder = not address or path.is_dir()
+        raw_bytes = b"" if folder else _content(path)
+    except FileNotFoundError:
+        known = [*built_in, *([f"{address}.toml"] if Path(f"{address}.toml").is_file() else [])]
+        raise SceneError(address, "", None, "no_such_scene", meant(address, known), known=list(built_in)) from None
+    except OSError as error:
+        raise SceneError(address, "", None, "unreadable", None, why=error.strerror or str(error)) from None
+    except ValueError as error:
+        raise SceneError(repr(address), "", None, "not_a_path", None, why=str(error)) from None
+    if folder:
+        raise SceneError(address, "", None, "a_folder" if address else "no_scene", None, known=list(built_in))
+    name = path.stem.encode("utf-8", "replace").decode()
+    if not name.strip(". ") or not name.isprintable():
+        raise SceneError(address, "", None, "nameless_file")
+    return scene_from_toml(raw_bytes, str(path), name)
+
+
+def _content(path: Path) -> bytes:
+    with path.open("rb") as stream:
+        return stream.read(_MAX_SCENE_BYTES + 1)
+
+
+def scene_from_toml(raw_bytes: bytes, source: str, name: str) -> SceneFile:
+    """Parse and validate a scene."""
+    if len(raw_bytes) > _MAX_SCENE_BYTES:
+        raise SceneError(source, "", None, "too_large_file", None, most=_MAX_SCENE_BYTES)
+    try:
+        raw = tomllib.loads(raw_bytes.decode("utf-8-sig"))
+    except UnicodeDecodeError as error:
+        raise SceneError(source, "", None, "not_utf8", None, byte=error.start) from None
+    except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
+        code = "not_toml" if str(error) else "too_deep"
+        raise SceneError(source, "", None, code, None, why=str(error)) from None
+    try:
+        return scene_from_dict(raw, source, name)
+    except RecursionError:
+        raise SceneError(source, "", None, "too_deep") from None
+
+
+def scene_from_dict(raw: dict[str, Any], source: str, name: str) -> SceneFile:
+    """Validate the tables of a scene."""
+    refuse_infinite(raw, source, "")
+    tables: dict[str, type] = {key: dict for key in ("scene", "parts", "instances", "checks")}
+    tables |= {key: list for key in ("mates", "drives", "exports")}
+    for key, value in raw.items():
+        if key not in tables:
+            raise SceneError(source, key, None, "unknown_table", meant(key, tables), known=list(tables))
+        if not isinstance(value, tables[key]):
+            raise SceneError(source, key, value, "not_a_list" if tables[key] is list else "not_a_table", None, key=key)
+    if not raw.get("parts"):
+        raise SceneError(source, "parts", None, "no_parts")
+    info = converted(raw.get("scene", {}), SceneInfo, source, "scene")
+    parts = {key: _part_spec(key, table, source) for key, table in raw["parts"].items()}
+    for key in parts:
+        twin = next((k for k in parts if k != key and k.lower() == key.lower()), None)
+        if twin is not None:
+            raise SceneError(source, f"parts.{key}", None, "same_but_for_case", None, twin=twin)
+    exports = [
+        _export_spec(table, parts, source, f"exports[{i + 1}]") for i, table in enumerate(raw.get("exports", []))
+    ]
+    instances = instance_specs(raw.get("instances", {}), parts, source)
+    mates = [_mate_spec(t, instances, parts, source, f"mates[{i + 1}]") for i, t in enumerate(raw.get("mates", []))]
+    drives = [drive_spec(t, instances, source, f"drives[{i + 1}]") for i, t in enumerate(raw.get("drives", []))]
+    checks = converted(raw.get("checks", {}), ChecksSpec, source, "checks")
+    return SceneFile(name, info, parts, exports, instances, mates, drives, checks)
+
+
+def _mate_spec(
+    table: object, instances: dict[str, InstanceSpec], parts: dict[str, Struct], source: str, place: str
+) -> Struct:
+    from parts.mates.registry import MATES
+
+    if not isinstance(table, dict):
+        raise SceneError(source, place, table, "not_a_list", None, key="mates")
+    kind = table.get("kind")
+    if not isinstance(kind, str) or kind not in MATES:
+        code = "missing_kind" if kind is None else "unknown_mate"
+        raise SceneError(source, f"{place}.kind", kind, code, meant(kind, MATES), known=list(MATES))
+    mate = converted(table, MATES[kind].keys, source, place)
+    for key in ("first", "second"):
+        check_instance(getattr(mate, key), instances, source, f"{place}.{key}")
+    if mate.first == mate.second:
+        raise SceneError(source, f"{place}.second", mate.second, "mate_in_itself")
+    return mate
+
+
+def _part_spec(key: str, table: object, source: str) -> Struct:
+    place = f"parts.{key}"
+    if key.lower() in DEVICE_NAMES:
+        raise SceneError(source, place, None, "device_name", Nearest(f"{key}_1"))
+    if not re.fullmatch(IDENTIFIER, key):
+        raise SceneError(source, place, None, "not_a_name", Nearest("part_1"))
+    if not isinstance(table, dict):
+        raise SceneError(source, place, table, "not_a_table", None, key=f"parts.{key}")
+    kind = table.get("kind")
+    if not isinstance(kind, str) or kind not in KINDS:
+        code = "missing_kind" if kind is None else "unknown_kind"
+        raise SceneError(source, f"{place}.kind", kind, code, meant(kind, KINDS), known=list(KINDS))
+    return converted(table, KINDS[kind].keys, source, place)
+
+
+def _export_spec(table: object, parts: dict[str, Struct], source: str, place: str) -> ExportSpec:
+    spec = converted(table, ExportSpec, source, place)
+
+    def refuse(key: str, code: str, **numbers: Any) -> None:
+        raise SceneError(source, f"{place}.{key}", getattr(spec, key), code, REMOVED, **numbers)
+
+    for part in spec.parts or ():
+        if (spec.parts or []).count(part) > 1:
+            raise SceneError(source, f"{place}.parts", part, "listed_twice")
+        if part not in parts:
+            raise SceneError(source, f"{place}.parts", part, "no_such_part", meant(part, parts), known=list(parts))
+    if spec.kerf and spec.offset:
+        raise SceneError(source, f"{place}.kerf", spec.kerf, "kerf_and_offset", REMOVED)
+    if spec.format != "dxf" and spec.dxf_version != "R2000":
+        refuse("dxf_version", "only_for_format", formats='"dxf"', format=spec.format)
+    if spec.assembly and spec.format not in ASSEMBLY_FORMATS:
+        refuse("assembly", "only_for_format", formats=[f'"{f}"' for f in ASSEMBLY_FORMATS], format=spec.format)
+    purposes = tolerances_of(spec.format)
+    if spec.purpose is None:
+        spec.purpose = default_export(spec.format).purpose
+    if spec.purpose not in purposes:
+        near = meant(spec.purpose, purposes)
+        raise SceneError(
+            source, f"{place}.purpose", spec.purpose, "wrong_purpose", near, format=spec.format, known=list(purposes)
+        )
+    check_sheet_keys(spec, source, place)
+    kind = file_kind(spec.format, spec.purpose)
+    if spec.kerf and kind.form is Form.TRIANGLES:
+        raise SceneError(source, f"{place}.kerf", spec.kerf, "kerf_of_a_print", REMOVED, offset=spec.kerf / 2)
+    if kind.is_cad:
+        if spec.kerf:
+            refuse("kerf", "shows_the_part")
+        if spec.curves != "arcs":
+            refuse("curves", "has_true_splines")
+        if spec.dxf_version != "R2000":
+            refuse("dxf_version", "not_for_r12")
+    if spec.tolerance is None:
+        spec.tolerance = purposes[str(spec.purpose)]
+    return spec
+
+
+def default_export(name: str) -> ExportSpec:
+    """An export of a format with its default purpose and tolerance."""
+    purpose, tolerance = next(iter(tolerances_of(name).items()))
+    return msgspec.convert({"format": name, "purpose": purpose, "tolerance": tolerance}, ExportSpec)
+
+
+def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mating]]:
+    """The parts of a scene, each checked to exist, as its mates want them; and the mates."""
+    gears = {}
+    # what is made from another part's keys looks for it in the scene
+    for key, spec in sorted(scene.parts.items(), key=lambda item: "of" in item[1].__struct_fields__):
+        kind = KINDS[spec.__struct_config__.tag]
+        try:
+            gears[key] = kind.thing(spec, scene.parts)
+        except ParameterError as refusal:
+            raise kind.refused(spec, scene.parts, refusal, source, f"parts.{key}") from refusal
+        except GeometryError as error:
+            raise SceneError(source, f"parts.{key}", None, "no_outline", None, why=str(error)) from error
+    matings: list[Mating] = []
+    if scene.mates:
+        from parts.scene.checks import joined
+
+        part_of = {key: str(spec.part) for key, spec in scene.instances.items()}
+        gears, matings = joined(scene.parts, gears, scene.mates, part_of, source)
+    parts = {
+        key: Part(key, KINDS[str(spec.__struct_config__.tag)], spec, gears[key]) for key, spec in scene.parts.items()
+    }
+    return parts, matings
+
+
+def resolved(scene: SceneFile) -> dict[str, Any]:
+    """The scene as plain data with every default filled in."""
+    return msgspec.to_builtins(scene)
+
+
+def scene_from_resolved(data: dict[str, Any], source: str) -> SceneFile:
+    """A scene from what a report has kept."""
+    known = ("scene", "parts", "instances", "mates", "drives", "exports", "checks")
+    tables: dict[str, Any] = {key: data[key] for key in known if key in data}
+    tables["exports"] = [{k: v for k, v in e.items() if v is not None} for e in tables.get("exports", [])]
+    for name in ("parts", "instances"):
+        tables[name] = {k: _without_none(v) for k, v in tables.get(name, {}).items()}
+    return scene_from_dict(tables, source, str(data.get("name", "scene")))
+
+
+def _without_none(table: object) -> Any:
+    return {k: _without_none(v) for k, v in table.items() if v is not None} if isinstance(table, dict) else table

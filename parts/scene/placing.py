@@ -1,0 +1,347 @@
+"""Instances of parts and where they stand: places given by the scene, mates in the order of the file, else a row.
+
+Mates that join two placed instances only check. The frame of a scene is that of its first mate's first gear.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from geometry.base.placement import Placement3, Vector
+from geometry.base.tolerance import PLACED_MM, TOLERANCES
+from parts.base.part import Part
+from parts.base.refusal import REMOVED, SceneError
+from parts.scene.instances import DriveSpec, InstanceSpec
+
+if TYPE_CHECKING:
+    from parts.base.mate import Mating
+
+# between things that no mate and no ``at`` places, mm
+_GAP = 5.0
+
+
+@dataclass(frozen=True, slots=True)
+class Instance:
+    """A part at its place: the part's frame turned by ``rotation`` (rad) about z, then moved to ``at`` (mm).
+
+    ``placed_by``: "at" (the scene says where), "mate", "origin" (the first of all), or "row" (laid out beside).
+    """
+
+    id: str
+    part: str
+    at: Vector = (0.0, 0.0, 0.0)
+    rotation: float = 0.0
+    placed_by: str = "origin"
+
+    @property
+    def centre(self) -> complex:
+        """Its axis in the plane, mm."""
+        return complex(self.at[0], self.at[1])
+
+    @property
+    def scene_from_part(self) -> Placement3:
+        """The placement of the part's frame in the scene."""
+        return Placement3.about_z(math.remainder(self.rotation, 2 * math.pi), self.at)
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """What two placed instances must satisfy: ``value`` within ``tolerance`` of ``required``.
+
+    ``code`` with unit: "centre_distance" mm, "phase" (rotation of the second) degrees, "common_face_width" mm
+    (at least), "train" (turns of the second for one of the first).
+    """
+
+    code: str
+    value: float
+    required: float
+    tolerance: float
+    met: bool
+
+
+@dataclass(frozen=True, slots=True)
+class PlacedMate:
+    """A mate between two instances that stand; one that ``only_checks`` found both placed, and has conditions.
+
+    ``second_turn`` (rad) and ``centre_shift`` (mm) tell how far such a mate is off the exact pair.
+    """
+
+    mating: Mating
+    first: Instance
+    second: Instance
+    only_checks: bool = False
+    conditions: tuple[Condition, ...] = ()
+    second_turn: float = 0.0
+    centre_shift: float = 0.0
+
+    @property
+    def direction(self) -> float:
+        """Direction of the line of centres as placed, rad."""
+        return cmath.phase(self.second.centre - self.first.centre)
+
+
+@dataclass(frozen=True, slots=True)
+class Closeness:
+    """Two instances that no mate joins, nearer than their tip circles allow: they may touch as they turn."""
+
+    first: str
+    second: str
+    distance: float
+    tip_sum: float
+
+
+@dataclass(frozen=True, slots=True)
+class Placing:
+    """Where everything stands. ``turns``: for each drive, how often it turns each instance of its train."""
+
+    instances: tuple[Instance, ...]
+    mates: tuple[PlacedMate, ...] = ()
+    close: tuple[Closeness, ...] = ()
+    turns: tuple[dict[str, float], ...] = ()
+
+    @property
+    def needs_check(self) -> bool:
+        """Whether there is anything to check or to tell: mates, neighbours that are too close, drives."""
+        return bool(self.mates or self.close or self.turns)
+
+
+def place(
+    specs: dict[str, InstanceSpec],
+    drives: Sequence[DriveSpec],
+    parts: dict[str, Part],
+    matings: list[Mating],
+    source: str,
+) -> Placing:
+    """Put every instance of a scene in its place.
+
+    Raises
+    ------
+    SceneError
+        A mate asks for an instance that nothing has placed before; a drive meets another one.
+    """
+    placed = _Placed(specs, parts, matings, source)
+    mates = tuple(placed.join(index, mating) for index, mating in enumerate(matings))
+    placed.lay_out()
+    stand = placed.stand
+    mates = tuple(_closed(replace(m, first=stand[m.mating.first], second=stand[m.mating.second])) for m in mates)
+    mates = _with_faces_and_speeds(mates, parts)
+    instances = tuple(stand[i] for i in specs)
+    return Placing(instances, mates, _close_ones(instances, mates, parts), _turns(drives, matings, source))
+
+
+class _Placed:
+    """Instances that stand so far, in groups: the members of a free group move together when the row is laid out."""
+
+    def __init__(
+        self, specs: dict[str, InstanceSpec], parts: dict[str, Part], matings: list[Mating], source: str
+    ) -> None:
+        self.specs, self.parts, self.matings, self.source = specs, parts, matings, source
+        self.stand: dict[str, Instance] = {}
+        self.free: list[list[str]] = []
+        for key, spec in specs.items():
+            if spec.at is not None:
+                x, y, z = spec.at
+                self.stand[key] = Instance(key, str(spec.part), (x, y, z), _turned(spec), "at")
+
+    def join(self, index: int, mating: Mating) -> PlacedMate:
+        """Run one mate: place its second, or only note that both stand."""
+        first, second = mating.first, mating.second
+        if first not in self.stand:
+            self._begin(index, mating)
+        here = self.stand[first]
+        if second in self.stand:
+            return PlacedMate(mating, here, self.stand[second], only_checks=True)
+        if self.specs[second].rotation_deg is not None:
+            place, given = f"instances.{second}.rotation_deg", self.specs[second].rotation_deg
+            raise SceneError(self.source, place, given, "turned_into_mesh", REMOVED, mate=f"mates[{index + 1}]")
+        direction = math.radians(mating.direction_deg)
+        centre, turned = mating.second_pose(here.centre, here.rotation, direction)
+        at = (centre.real, centre.imag, here.at[2] + mating.height)
+        self.stand[second] = Instance(second, str(self.specs[second].part), at, turned, "mate")
+        for group in self.free:
+            if first in group:
+                group.append(second)
+        return PlacedMate(mating, here, self.stand[second])
+
+    def _begin(self, index: int, mating: Mating) -> None:
+        """Place the first of a mate that nothing has placed: the very first at the origin, a new train in the row."""
+        first, place = mating.first, f"mates[{index + 1}].first"
+        if index:
+            train = _train(first, self.matings)
+            later = next((i for i, m in enumerate(self.matings) if i > index and m.second == first), None)
+            if later is not None:
+                raise SceneError(self.source, place, first, "placed_later", None, mate=f"mates[{later + 1}]")
+            standing = [i for i in self.stand if i in train]
+            if mating.second in standing:
+                angle = math.degrees(math.remainder(math.radians(mating.direction_deg + 180), 2 * math.pi))
+                told = {"second": mating.second, "angle": angle, "first": first}
+                raise SceneError(self.source, place, first, "placed_is_the_second", None, "", **told)
+            if standing:
+                raise SceneError(self.source, place, first, "not_placed", None, standing=standing[0], first=first)
+            self.free.append([first])
+        self.stand[first] = Instance(first, str(self.specs[first].part), rotation=_turned(self.specs[first]))
+
+    def lay_out(self) -> None:
+        """What no mate and no ``at`` places goes into a row to the right of all else, or to the origin."""
+        for key, spec in self.specs.items():
+            if key not in self.stand:
+                alone = not self.stand
+                self.stand[key] = Instance(key, str(spec.part), rotation=_turned(spec))
+                if not alone:
+                    self.free.append([key])
+        if not self.free:
+            return
+        waiting = {key for group in self.free for key in group}
+        right = max(self._edge(key, 1) for key in self.stand if key not in waiting)
+        for group in self.free:
+            shift = right + _GAP - min(self._edge(key, -1) for key in group)
+            for key in group:
+                here = self.stand[key]
+                how = "row" if here.placed_by == "origin" else here.placed_by
+                self.stand[key] = replace(here, at=(here.at[0] + shift, here.at[1], here.at[2]), placed_by=how)
+            right = max(self._edge(key, 1) for key in group)
+
+    def _edge(self, key: str, side: int) -> float:
+        """How far an instance reaches to the right (side 1) or left (-1), mm."""
+        return self.stand[key].at[0] + side * _reach(self.parts[self.stand[key].part])
+
+
+def _turned(spec: InstanceSpec) -> float:
+    return math.radians(spec.rotation_deg or 0.0)
+
+
+def _reach(part: Part) -> float:
+    """Greatest distance of a part from its axis, mm."""
+    if part.kind == "spur_gear":
+        return part.circles["tip_diameter"] / 2
+    return part.section(0.0).region.outer.reach()
+
+
+def _train(start: str, matings: Sequence[Mating]) -> dict[str, float]:
+    """Turns of every instance joined to ``start`` by mates, for one turn of ``start``; the first way found counts."""
+    found, queue = {start: 1.0}, [start]
+    while queue:
+        here = queue.pop(0)
+        for mating in matings:
+            if mating.ratio is None:
+                # a rack moves straight: it carries no turns on
+                continue
+            for one, two, ratio in (
+                (mating.first, mating.second, mating.ratio),
+                (mating.second, mating.first, 1 / mating.ratio),
+            ):
+                if one == here and two not in found:
+                    found[two] = found[here] * ratio
+                    queue.append(two)
+    return found
+
+
+def _closed(mate: PlacedMate) -> PlacedMate:
+    """A mate between two instances that stood before it: centre distance and phase, with the numbers."""
+    if not mate.only_checks:
+        return mate
+    first, second = mate.first, mate.second
+    # helical teeth are compared at one height: that of the second's lower face
+    turned = first.rotation + mate.mating.face.turn(mate.mating.first_teeth, second.at[2] - first.at[2])
+    found = mate.mating.standing((first.centre, turned), (second.centre, second.rotation))
+    required, shift = mate.mating.distance, found.distance - mate.mating.distance
+    # numbers that large cannot be known better
+    allowed = PLACED_MM + TOLERANCES.relative_join * (abs(mate.first.centre) + abs(mate.second.centre))
+    conditions = [Condition("centre_distance", found.distance, required, allowed, abs(shift) <= allowed)]
+    off, met = found.phase_off, abs(found.phase_off) <= found.play + found.slack(allowed)
+    if found.slides:
+        conditions.append(Condition("rack_phase", off, 0.0, found.play + allowed, met))
+    else:
+        turned, right = math.degrees(second.rotation), math.degrees(second.rotation - off)
+        conditions.append(Condition("phase", turned, right, math.degrees(found.play + found.slack(allowed)), met))
+    return replace(mate, conditions=tuple(conditions), second_turn=off, centre_shift=shift)
+
+
+def _with_faces_and_speeds(mates: tuple[PlacedMate, ...], parts: dict[str, Part]) -> tuple[PlacedMate, ...]:
+    """The same mates with the conditions that concern their height and the motion of the whole train."""
+    done = []
+    for index, mate in enumerate(mates):
+        more: list[Condition] = []
+        if mate.only_checks or (mate.mating.has_contact and mate.mating.height):
+            more.append(_height(mate, parts))
+        if mate.only_checks:
+            face = mate.mating.face
+            if face.helix.angle:
+                width = max(_common_width(mate.first, mate.second, parts), 0.0)
+                mate = replace(mate, mating=replace(mate.mating, face=replace(face, width=width)))
+            if face.helix.double:
+                height = mate.second.at[2] - mate.first.at[2]
+                more.append(Condition("herringbone_height", height, 0.0, PLACED_MM, abs(height) <= PLACED_MM))
+            before = _train(mate.mating.first, [m.mating for m in mates[:index]])
+            ratio, other = mate.mating.ratio, before.get(mate.mating.second)
+            if other is not None and ratio is not None:
+                allowed = 1e3 * TOLERANCES.relative_rounding * max(abs(ratio), abs(other))
+                more.append(Condition("train", other, ratio, allowed, abs(other - ratio) <= allowed))
+        done.append(replace(mate, conditions=(*mate.conditions, *more)))
+    return tuple(done)
+
+
+def _height(mate: PlacedMate, parts: dict[str, Part]) -> Condition:
+    """Bodies that touch need a common height; bodies that are fixed stand at a height to each other."""
+    if mate.mating.has_contact:
+        width = _common_width(mate.first, mate.second, parts)
+        return Condition("common_face_width", width, 0.0, 0.0, width > 0)
+    height, required = mate.second.at[2] - mate.first.at[2], mate.mating.height
+    return Condition("height", height, required, PLACED_MM, abs(height - required) <= PLACED_MM)
+
+
+def _common_width(one: Instance, two: Instance, parts: dict[str, Part]) -> float:
+    """Length of the common range along the axes, mm; negative where there is none."""
+    low = max(one.at[2], two.at[2])
+    return min(i.at[2] + parts[i.part].face_width for i in (one, two)) - low
+
+
+def _close_ones(
+    instances: Sequence[Instance], mates: Sequence[PlacedMate], parts: dict[str, Part]
+) -> tuple[Closeness, ...]:
+    """Spur gears at one height whose tip circles cut each other though no mate joins them."""
+    joined = {frozenset((m.first.id, m.second.id)) for m in mates}
+    gears = [i for i in instances if parts[i.part].kind == "spur_gear"]
+    found = []
+    for index, one in enumerate(gears):
+        for two in gears[index + 1 :]:
+            if frozenset((one.id, two.id)) in joined or _common_width(one, two, parts) <= 0:
+                continue
+            tips = [parts[i.part].circles["tip_diameter"] / 2 for i in (one, two)]
+            distance = abs(two.centre - one.centre)
+            slack = TOLERANCES.relative_join * (abs(one.centre) + abs(two.centre) + sum(tips))
+            # one within the other's bore is for the solids to tell
+            if abs(tips[0] - tips[1]) < distance < sum(tips) - slack:
+                found.append(Closeness(one.id, two.id, distance, sum(tips)))
+    return tuple(found)
+
+
+def _check_held(
+    drives: Sequence[DriveSpec], trains: list[dict[str, float]], matings: list[Mating], source: str
+) -> None:
+    """The ring of a cycloidal pair is held: neither its disc nor a drive may carry it along."""
+    for index, mating in enumerate(matings, 1):
+        if mating.kind != "cycloidal_pair":
+            continue
+        ring, disc = mating.first, mating.second
+        if disc in _train(ring, matings):
+            raise SceneError(source, f"mates[{index}].first", ring, "held_ring_is_joined", None, disc=disc)
+        for number, (drive, train) in enumerate(zip(drives, trains, strict=True), 1):
+            if ring in train:
+                place, told = f"drives[{number}].instance", {"ring": ring, "disc": disc}
+                raise SceneError(source, place, drive.instance, "drives_held_ring", None, "", **told)
+
+
+def _turns(drives: Sequence[DriveSpec], matings: list[Mating], source: str) -> tuple[dict[str, float], ...]:
+    trains = [_train(d.instance, matings) for d in drives]
+    _check_held(drives, trains, matings, source)
+    for index, drive in enumerate(drives):
+        for earlier, train in zip(drives[:index], trains, strict=False):
+            if drive.instance in train:
+                place, other = f"drives[{index + 1}].instance", earlier.instance
+                raise SceneError(source, place, drive.instance, "driven_already", None, other=other)
+    return tuple({k: d.turns * v for k, v in train.items()} for d, train in zip(drives, trains, strict=True))

@@ -1,0 +1,1 @@
+"""Meshes and solids of the kernel from exact bodies."""

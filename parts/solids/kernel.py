@@ -1,0 +1,58 @@
+"""What writing, reading and measuring with the CAD kernel have in common."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopoDS import TopoDS_Edge, TopoDS_Face, TopoDS_Shape
+
+
+def faces_of(shape: TopoDS_Shape) -> Iterator[TopoDS_Face]:
+    """The faces of a shape."""
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopoDS import TopoDS
+
+    return (TopoDS.Face_s(face) for face in _explored(shape, TopAbs_ShapeEnum.TopAbs_FACE))
+
+
+def edges_of(shape: TopoDS_Shape) -> Iterator[TopoDS_Edge]:
+    """The edges of a shape; one between two faces of it comes twice."""
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopoDS import TopoDS
+
+    return (TopoDS.Edge_s(edge) for edge in _explored(shape, TopAbs_ShapeEnum.TopAbs_EDGE))
+
+
+def count_solids(shape: TopoDS_Shape) -> int:
+    """How many solids a shape has."""
+    from OCP.TopAbs import TopAbs_ShapeEnum
+
+    return sum(1 for _ in _explored(shape, TopAbs_ShapeEnum.TopAbs_SOLID))
+
+
+def _explored(shape: TopoDS_Shape, kind: TopAbs_ShapeEnum) -> Iterator[TopoDS_Shape]:
+    from OCP.TopExp import TopExp_Explorer
+
+    explorer = TopExp_Explorer(shape, kind)
+    while explorer.More():
+        yield explorer.Current()
+        explorer.Next()
+
+
+@contextmanager
+def silent_kernel() -> Iterator[None]:
+    """The kernel prints a statistic at every write; its printers are taken away while it works."""
+    from OCP.Message import Message
+
+    messenger = Message.DefaultMessenger_s()
+    printers = list(messenger.Printers())
+    messenger.ChangePrinters().Clear()
+    try:
+        yield
+    finally:
+        for printer in printers:
+            messenger.AddPrinter(printer)

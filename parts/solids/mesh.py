@@ -1,0 +1,182 @@
+"""The only builder of solids, mesh half: exact bodies become closed triangle meshes straight from numpy.
+
+Every loop of a body is approximated once; the walls and caps that meet in it share its vertices, so the mesh is
+closed by construction. parts/solids/brep.py is the other half.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.approximation.chords import approximate_profile, approximate_together
+from geometry.approximation.twisted import approximate_twisted, rising_diagonals, slice_turns
+from geometry.base.errors import ThinWallError
+from geometry.curves.curve import Complex
+from geometry.plane.contour import Approximation, Contour
+from geometry.solids.body import Body, Cap
+from parts.solids.caps import Triangles, aligned_bore, begun_at, cap_triangles, is_round, start_in_space
+
+
+@dataclass(frozen=True, slots=True)
+class Mesh:
+    """Vertices (n, 3) float, mm; triangles (k, 3) int, counter-clockwise seen from outside."""
+
+    vertices: NDArray[np.float64]
+    triangles: Triangles
+
+
+def mesh_outlines(body: Body, tolerance: float, least_edge: float) -> tuple[Approximation, ...]:
+    """Chords of every profile of a body within ``tolerance`` mm; edges below ``least_edge`` mm are merged.
+
+    Profiles that a chamfer joins get matching vertices. A cylindrical cam's mesh is made whole.
+    """
+    if body.is_faced:
+        from parts.solids.barrel_mesh import barrel_mesh
+
+        return (barrel_mesh(body, tolerance),)
+    made: dict[int, Approximation] = {}
+    twisted = body.twisted_profiles()
+    for group in body.groups():
+        profiles = [body.profiles[i] for i in group]
+        if group[0] in twisted:
+            made[group[0]] = approximate_twisted(profiles[0], tolerance, least_edge)
+        elif len(group) == 1:
+            made[group[0]] = approximate_profile(profiles[0], tolerance, arcs=False, least_edge=least_edge)
+        else:
+            made |= dict(zip(group, approximate_together(profiles, tolerance, least_edge), strict=True))
+    return tuple(made[i] for i in range(len(body.profiles)))
+
+
+def count_edges(body: Body, outlines: tuple[Approximation, ...]) -> int:
+    """How many edges the slices of a mesh have in all: what its size goes by."""
+    total = sum(len(a.geometry) for a in outlines)
+    if body.is_faced:
+        return total
+    for wall in body.walls:
+        own = outlines[body.loops[wall.lower].profile]
+        total += len(own.geometry) * (len(slice_turns(body.twist(wall), own.turn_step)) - 2)
+    return total
+
+
+def body_mesh(body: Body, outlines: tuple[Approximation, ...]) -> Mesh:
+    """The closed mesh of a body from the chords of its profiles.
+
+    Raises
+    ------
+    ThinWallError
+        The chords touch or cross at this tolerance.
+    """
+    if body.is_faced:
+        return Mesh(outlines[0].vertices, outlines[0].geometry)
+    contours = _begun_in_spaces(body, [a.geometry for a in outlines])
+    try:
+        caps = _cap_triangles(body, contours)
+    except ThinWallError:
+        contours = _with_aligned_bores(body, contours)
+        caps = _cap_triangles(body, contours)
+    return _assembled(body, contours, [a.turn_step for a in outlines], caps)
+
+
+def _begun_in_spaces(body: Body, contours: list[Contour]) -> list[Contour]:
+    """Toothed contours begun where a tooth leaves the root circle; joined ones at the same vertex."""
+    begun = list(contours)
+    for group in body.groups():
+        leader = contours[group[0]]
+        if leader.count > 2 and not is_round(leader):
+            index = start_in_space(leader)
+            for i in group:
+                begun[i] = begun_at(contours[i], index)
+    return begun
+
+
+_Key = tuple[tuple[int, float, complex], ...]
+_Caps = dict[_Key, tuple[Triangles, Complex]]
+
+
+def _cap_key(body: Body, cap: Cap) -> _Key:
+    """The profiles of a cap's loops with their turns and shifts, the latter from that of the outer one."""
+    loops = [body.loops[i] for i in (cap.outer, *cap.holes)]
+    return tuple((loop.profile, loop.turn, loop.shift - loops[0].shift) for loop in loops)
+
+
+def _cap_triangles(body: Body, contours: list[Contour]) -> _Caps:
+    """Triangles of every cap by its profiles and turns; both faces of a plate share theirs."""
+    keys = {_cap_key(body, cap) for cap in body.caps}
+    made = {}
+    for key in sorted(keys, key=lambda k: [(p, t, s.real, s.imag) for p, t, s in k]):
+        outer, *holes = (_moved(contours[profile], turn, shift) for profile, turn, shift in key)
+        made[key] = cap_triangles(outer, holes)
+    return made
+
+
+def _moved(contour: Contour, turn: float, shift: complex) -> Contour:
+    if turn == 0 and shift == 0:
+        return contour
+    return replace(contour, vertices=contour.vertices * np.exp(1j * turn) + shift)
+
+
+def _with_aligned_bores(body: Body, contours: list[Contour]) -> list[Contour]:
+    """Round bores with corners behind every tooth, where chords of a thin rim have crossed."""
+    alone = {group[0] for group in body.groups() if len(group) == 1}
+    aligned = list(contours)
+    for cap in body.caps:
+        outer, *holes = (body.loops[i].profile for i in (cap.outer, *cap.holes))
+        if len(holes) == 1 and holes[0] in alone and is_round(contours[holes[0]]) and contours[outer].count > 2:
+            aligned[holes[0]] = aligned_bore(contours[outer], contours[holes[0]])
+    return aligned
+
+
+def _assembled(body: Body, contours: list[Contour], steps: list[float], caps: _Caps) -> Mesh:
+    plane = [c.expanded()[0] for c in contours]
+    starts, pieces, place = [], [], 0
+
+    def added(points: Complex, z: float) -> int:
+        """Puts points at a height; the number of the first one."""
+        nonlocal place
+        pieces.append(np.stack([points.real, points.imag, np.full(len(points), z)], axis=1))
+        place += len(points)
+        return place - len(points)
+
+    for loop in body.loops:
+        turn = np.exp(1j * loop.turn) if loop.turn else 1.0
+        starts.append(added(plane[loop.profile] * turn + loop.shift, loop.z))
+    triangles = []
+    for wall in body.walls:
+        loop = body.loops[wall.lower]
+        points, (low, high), twist = plane[loop.profile], body.height(wall), body.twist(wall)
+        turns, rising, below = np.zeros(2), None, starts[wall.lower]
+        if twist:
+            turns = slice_turns(twist, steps[loop.profile])
+            contour = contours[loop.profile]
+            rising = np.tile(rising_diagonals(contour, float(turns[1])), contour.count)
+        for k, turn in enumerate(turns[1:-1].tolist(), 1):
+            here = added(points * np.exp(1j * (loop.turn + turn)), low + (high - low) * k / (len(turns) - 1))
+            triangles.append(_wall_triangles(len(points), below, here, rising))
+            below = here
+        triangles.append(_wall_triangles(len(points), below, starts[wall.upper], rising))
+    for cap in body.caps:
+        loops = (cap.outer, *cap.holes)
+        found, middle = caps[_cap_key(body, cap)]
+        index = [starts[i] + np.arange(len(plane[body.loops[i].profile])) for i in loops]
+        index.append(added(middle + body.loops[cap.outer].shift, body.loops[cap.outer].z) + np.arange(len(middle)))
+        face = np.concatenate(index)[found]
+        triangles.append(face if cap.up else face[:, ::-1])
+    return Mesh(np.concatenate(pieces), np.concatenate(triangles))
+
+
+def _wall_triangles(count: int, lower: int, upper: int, rising: NDArray[np.bool_] | None = None) -> Triangles:
+    """Two triangles an edge between loops whose vertices begin at two indices; material lies left of them.
+
+    ``rising`` (count,): which edges take the diagonal from their lower start to their upper end; all without it.
+    """
+    here = np.arange(count)
+    after = np.roll(here, -1)
+    first = np.stack([lower + here, lower + after, upper + after], axis=1)
+    second = np.stack([lower + here, upper + after, upper + here], axis=1)
+    if rising is not None:
+        first[~rising, 2] = (upper + here)[~rising]
+        second[~rising, 0] = (lower + after)[~rising]
+    return np.concatenate([first, second])

@@ -1,0 +1,1 @@
+"""Texts for users by code: findings, quantities, checks, sheets."""

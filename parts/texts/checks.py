@@ -1,0 +1,92 @@
+"""What the checks of a scene say: who is joined and how, which conditions hold, what stands in what."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from parts.base.texts import N_, Message, Text, counted, filled
+
+# by the kind of mate, with the numbers that its mating tells
+MATES: dict[str, Text] = {
+    "cam_follower": N_("{first} moves {second} by {travel:.6g} {unit}"),
+    "conjugate_cams": N_("{first} - {second}: conjugate cams, rollers {between_rollers:.9g} {unit} from each other"),
+    "cam_yoke": N_("{first} moves the yoke {second} by {lift:.6g} mm, breadth {yoke_breadth:.9g} mm"),
+    "noncircular_gear_pair": N_(
+        "pair {first} - {second}: a = {centre_distance:.5f} mm, ratio {least_ratio:.4f} to "
+        "{greatest_ratio:.4f}, least contact ratio {least_contact_ratio:.4f}"
+    ),
+    "fixed": N_("{first} - {second}: fixed to each other"),
+    "cycloidal_pair": counted(
+        "{second} in {first}: reduction {reduction:.6g}, e = {eccentricity:.6g} mm, {pins_in_contact} pin touches, "
+        "lost motion {lost_motion_deg:.4g} deg",
+        "{second} in {first}: reduction {reduction:.6g}, e = {eccentricity:.6g} mm, {pins_in_contact} pins touch, "
+        "lost motion {lost_motion_deg:.4g} deg",
+        by="pins_in_contact",
+    ),
+    "eccentric_bearing": N_("{second} on {first}: e = {eccentricity:.6g} mm, bearing play {bearing_play:.4g} mm"),
+    "output_pins": counted(
+        "{second} in the holes of {first}: {output_pins} pin of {pin_diameter:.6g} mm in holes of "
+        "{hole_diameter:.6g} mm",
+        "{second} in the holes of {first}: {output_pins} pins of {pin_diameter:.6g} mm in holes of "
+        "{hole_diameter:.6g} mm",
+        by="output_pins",
+    ),
+    "coaxial": N_("{first} - {second}: on one axis"),
+    "pin_seat": N_("seated in {first}: {second}"),
+    "lantern_pair": N_(
+        "lantern pair {first} - {second}: a_w = {working_centre_distance:.5f} mm, ratio {gear_ratio:.6g}, "
+        "contact ratio {lantern_contact_ratio:.4f}"
+    ),
+    "linkage_member": N_("{second}: {member} of the linkage of {first}, turns by {swing_deg:.6g} deg"),
+    "wedge_follower": N_("{first}, slid {plate_travel:.6g} mm, moves {second} by {travel:.6g} {unit} in all"),
+}
+# a pair of involute gears, of whatever kind
+GEAR_PAIR = N_("pair {first} - {second}: a_w = {a_w:.5f} mm, alpha_w = {alpha_w:.4f} deg, contact ratio {ratio:.4f}")
+# by the code of a condition, with its value, what is required, and its tolerance
+CONDITIONS: dict[str, str] = {
+    "height": N_("{second} stands {value:.9g} mm above {first}, {required:.9g} mm is asked"),
+    "centre_distance": N_(
+        "the centres of {first} and {second} stand {value:.9g} mm apart, {required:.9g} mm is asked "
+        "(within {tolerance:.2g} mm)"
+    ),
+    "rack_phase": N_(
+        "{second} stands {value:.10g} mm along its way from where it meets {first} (within {tolerance:.2g} mm)"
+    ),
+    "phase": N_(
+        "{second} stands turned by {value:.10g} deg, rotation_deg = {required:.10g} brings it into the "
+        "spaces of {first} (within {tolerance:.2g} deg)"
+    ),
+    "common_face_width": N_(
+        "{first} and {second} share {value:.6g} mm of their face width, more than {required:g} mm is asked"
+    ),
+    "herringbone_height": N_(
+        "the points of the herringbones of {second} stand {value:.6g} mm above those of {first} (within "
+        "{tolerance:.2g} mm)"
+    ),
+    "train": N_(
+        "the other mates turn {second} {value} for one turn of {first}, this one {required}: unlike numbers lock the "
+        "train"
+    ),
+}
+VERDICTS = {
+    "clear": N_("CLEAR"),
+    "contact": N_("CONTACT"),
+    "overlap": N_("OVERLAP"),
+    "undecided": N_("UNDECIDED"),
+}
+
+
+def add_mates(table: Mapping[str, Text]) -> None:
+    """How mates that are registered from outside are told, with the numbers of their matings."""
+    MATES.update(table)
+
+
+def condition_message(code: str, first: str, second: str, value: float, required: float, tolerance: float) -> Message:
+    """A condition of a mate as a sentence."""
+    if code == "train":
+        turns = (counted("{n:.9g} time", "{n:.9g} times", by="n", n=n) for n in (value, required))
+        return filled(
+            CONDITIONS[code], first=first, second=second, **dict(zip(("value", "required"), turns, strict=True))
+        )
+    numbers = {"value": value, "required": required, "tolerance": tolerance}
+    return filled(CONDITIONS[code], first=first, second=second, **numbers)

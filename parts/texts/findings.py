@@ -1,0 +1,188 @@
+"""What a build remarks on, by the codes of the findings: sentences with ``value`` and ``limit``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from geometry.base.findings import Finding
+from parts.base.texts import N_, Message, Text, counted, filled, message, words
+
+FINDINGS: dict[str, Text] = {
+    "undercut": N_("the tooth is undercut: profile shift {value:.4f} is below x_min = {limit:.4f}"),
+    "undercut_on_centrode": N_(
+        "teeth are undercut where the centrode's radius of curvature, {value:.4f} mm at least, is below {limit:.4f} mm"
+    ),
+    "thin_tip": N_("thin tip: s_a = {value:.3f} mm is below 0.3 m = {limit:.3f} mm"),
+    "thin_rim": N_("thin rim: {value:.3f} mm between bore and root circle, less than one module ({limit:.3f} mm)"),
+    "relief_not_reached": N_("the tip circle ({value:.3f} mm) ends below the tip relief: no relief on this tooth"),
+    "tip_lost": N_("the offset makes the teeth pointed: {value:.4f} mm of the tip is lost"),
+    "fillet_cusp_trimmed": N_(
+        "the offset {value:.4f} mm is more than the fillet radius {limit:.4f} mm: its corner is trimmed"
+    ),
+    "space_shallowed": N_(
+        "the offset flanks meet at radius {value:.4f} mm: the space ends above its root at {limit:.4f} mm"
+    ),
+    "fillet_interference_first": N_(
+        "the mate's tip reaches the fillet of the first gear: {value:.4f} mm, the involute begins at {limit:.4f} mm"
+    ),
+    "active_flank_cut_away_first": N_(
+        "undercut has taken active flank of the first gear: {value:.4f} mm is asked, {limit:.4f} mm is there"
+    ),
+    "tip_clearance_first": N_("the tip of the first gear strikes the mate's root: clearance {value:.4f} mm"),
+    "fillet_interference_second": N_(
+        "the mate's tip reaches the fillet of the second gear: {value:.4f} mm, the involute begins at {limit:.4f} mm"
+    ),
+    "active_flank_cut_away_second": N_(
+        "undercut has taken active flank of the second gear: {value:.4f} mm is asked, {limit:.4f} mm is there"
+    ),
+    "tip_clearance_second": N_("the tip of the second gear strikes the mate's root: clearance {value:.4f} mm"),
+    "contact_ratio": N_("contact ratio {value:.4f} is below {limit:.1f}: the drive is interrupted"),
+    "transverse_contact_ratio": N_(
+        "transverse contact ratio {value:.4f} is below 1: the drive runs on along the face, total contact "
+        "ratio {limit:.4f}"
+    ),
+    "total_contact_ratio": N_("total contact ratio {value:.4f} is below {limit:.1f}: the drive is interrupted"),
+    "normal_backlash": N_("the flanks overlap: normal backlash {value:.6f} mm"),
+    "fillet_interference_pinion": N_(
+        "the mate's tip reaches the fillet of the pinion: {value:.4f} mm, the involute ends at {limit:.4f} mm"
+    ),
+    "tip_clearance_pinion": N_("the mate's tip strikes the root of the pinion: clearance {value:.4f} mm"),
+    "fillet_interference_ring": N_(
+        "the mate's tip reaches the fillet of the ring: {value:.4f} mm, the involute ends at {limit:.4f} mm"
+    ),
+    "tip_clearance_ring": N_("the mate's tip strikes the root of the ring: clearance {value:.4f} mm"),
+    "fillet_interference_gear": N_(
+        "the mate's tip reaches the fillet of the gear: {value:.4f} mm, the involute ends at {limit:.4f} mm"
+    ),
+    "tip_clearance_gear": N_("the mate's tip strikes the root of the gear: clearance {value:.4f} mm"),
+    "fillet_interference_rack": N_(
+        "the mate's tip reaches the fillet of the rack: {value:.4f} mm, the involute ends at {limit:.4f} mm"
+    ),
+    "tip_clearance_rack": N_("the mate's tip strikes the root of the rack: clearance {value:.4f} mm"),
+    "involute_interference": N_(
+        "involute interference: the ring's flank begins at {value:.4f} mm, the pinion's involute at {limit:.4f} mm"
+    ),
+    "trochoid_interference": N_(
+        "the tips of pinion and ring strike each other on their way out: {value:.4f} mm of arc, {limit:.4f} mm needed"
+    ),
+    "radial_assembly": N_(
+        "the pinion goes into the ring only along its axis: room {value:.4f} mm, {limit:.4f} mm needed"
+    ),
+    "thin_ring_rim": N_("thin rim: {value:.3f} mm outside the root circle, less than one module ({limit:.3f} mm)"),
+    "cutter_makes_root": N_(
+        "basic_rack gives the addendum alone ({value:.4g} m): the cutter makes the root, diameter "
+        "{limit:.4f} mm, and the fillet"
+    ),
+    "ring_tip_limited": N_(
+        "the ring's tips are made shallower: addendum {value:.4f} m, {limit:.4f} m would lie below the "
+        "base circle or be trimmed by every cutter; tip_diameter overrides"
+    ),
+    "short_rack": counted(
+        "the rack has {value:.0f} tooth: fewer than {limit:.0f}; the check knows nothing of its ends",
+        "the rack has {value:.0f} teeth: fewer than {limit:.0f}; the check knows nothing of its ends",
+        by="value",
+    ),
+    "offset_in_mesh": N_(
+        "the outlines are moved out by {value:.4g} mm: gears in mesh lose {limit:.4g} mm of backlash, unchecked"
+    ),
+    "flat_outline": N_("web, hub and face chamfers are not in a flat outline; STL, 3MF and STEP have them"),
+    "rigid_impact": N_("rigid impact: velocity jumps by {value:.4g} per rad at cam angle {limit:.4g} deg"),
+    "soft_impact": N_("soft impact: acceleration jumps by {value:.4g} per rad^2 at cam angle {limit:.4g} deg"),
+    "steep_pressure_angle": N_("pressure angle {value:.2f} deg on the rise, usual is at most {limit:.0f} deg"),
+    "steep_return_pressure_angle": N_(
+        "pressure angle {value:.2f} deg on the return, which the cam drives too; usual is at most {limit:.0f} deg"
+    ),
+    "roller_play": N_(
+        "the roller's play in its groove is {value:.4g} mm; with none it jams, above {limit:.4g} mm it knocks"
+    ),
+    "engraved_groove": N_(
+        "the groove is {value:.4g} mm deep of {limit:.4g} mm: its walls stand on layer ENGRAVE, not cut "
+        "through; groove_piece gives plates to glue"
+    ),
+    "wedge_rigid_impact": N_("rigid impact: S' jumps by {value:.4g} at {limit:.4g} mm of travel"),
+    "wedge_soft_impact": N_("soft impact: S'' jumps by {value:.4g} per mm^2 at {limit:.4g} mm of travel"),
+    "large_roller": N_(
+        "roller radius {value:.4g} mm is above 0.8 of the least radius of the pitch curve ({limit:.4g} mm)"
+    ),
+    "steep_groove": N_("pressure angle {value:.2f} deg at the groove's floor, usual is at most {limit:.0f} deg"),
+    "large_groove_roller": N_(
+        "half the groove's width {value:.4g} mm is above 0.8 of the one that undercuts ({limit:.4g} mm)"
+    ),
+    "development": N_(
+        "flat outline: the outer cylinder of {limit:.9g} mm unrolled, seen from outside, {value:.9g} mm around"
+    ),
+    "outline_trimmed": counted(
+        "the outline moved by {limit:.4g} mm crosses itself in {value:.0f} place: it is trimmed there",
+        "the outline moved by {limit:.4g} mm crosses itself in {value:.0f} places: it is trimmed there",
+        by="value",
+    ),
+    "transverse_section": N_(
+        "helical teeth, {value:.6g} degrees: a flat outline is their transverse section; STL, 3MF and "
+        "STEP have the screw surfaces"
+    ),
+    "rolled_jumps": N_(
+        "rolled over this file the follower's acceleration S'' jumps by {value:.3g} at joints of arcs or "
+        "lines, its peak is {limit:.3g}: a drawing DXF or STEP has splines; a smaller tolerance makes the "
+        "jumps smaller"
+    ),
+    "coarse_tolerance": N_(
+        "tolerance {value:.4g} mm is more than 5 % of the module ({limit:.4g} mm): the teeth lose their shape"
+    ),
+    "short_edges": counted(
+        "{value:.0f} edge is shorter than {limit:.3g} mm; merging it would break the tolerance",
+        "{value:.0f} edges are shorter than {limit:.3g} mm; merging them would break the tolerance",
+        by="value",
+    ),
+    "flat_pins": N_(
+        "the pins of one piece are not in a flat outline, which has holes in their place; STL, 3MF and STEP have them"
+    ),
+    "cycloidal_near_cusp": N_(
+        "the lobes are nearly sharp: least radius {value:.4f} mm is below a tenth of the pin's, "
+        "{limit:.4f} mm; a smaller eccentricity or thinner pins round them"
+    ),
+    "lobes_reach_ring": N_(
+        "the lobes reach the inside of the ring: inner_diameter is {value:.6g} mm, at least {limit:.6g} mm clears them"
+    ),
+    "output_holes_small": N_(
+        "the output pins jam in holes of {value:.6g} mm: pin + 2 e is {limit:.6g} mm; set the table's pin_diameter"
+    ),
+    "cycloidal_thin_wall": N_(
+        "thin wall: {value:.3f} mm between holes and valleys, less than half of a pin's radius ({limit:.3f} mm)"
+    ),
+    "curvature_radius_not_kept": N_(
+        "least convex radius {value:.4g} mm, asked {limit:.4g} mm: base_circle_radius is given and too small for it"
+    ),
+    "flat_offset": N_(
+        "follower_offset = {value:.6g} mm changes nothing of a flat follower's cam: only the stem stands "
+        "beside the axis, so the plate has to be {limit:.6g} mm wide"
+    ),
+    "pivot_within_cam": N_(
+        "the follower's pivot, {limit:.6g} mm from the axis, stands within the cam's outline: the cam "
+        "reaches {value:.4g} mm over it, so arm and pivot need a place above or below the cam"
+    ),
+    "linkage_curvature_radius": N_("least convex radius {value:.4g} mm, asked {limit:.4g} mm"),
+    "small_transmission_angle": N_(
+        "transmission angle {value:.2f} deg between connecting rod and guide, usual is at least {limit:.0f} deg"
+    ),
+}
+
+
+def add_findings(table: Mapping[str, Text]) -> None:
+    """The sentences of a kind that is registered from outside, with ``value`` and ``limit``."""
+    FINDINGS.update(table)
+
+
+def finding_message(finding: Finding) -> Message:
+    """A finding as a sentence that waits for its language."""
+    return filled(FINDINGS[finding.code], value=finding.value, limit=finding.limit)
+
+
+def finding_of(gear: int, finding: Finding) -> Message:
+    """A finding of gear 1 or 2; of the pair where the number is 0."""
+    told = finding_message(finding)
+    return message("gear {number}: {finding}", number=gear, finding=told) if gear else told
+
+
+def finding_text(language: str, finding: Finding) -> str:
+    """A finding as a sentence."""
+    return words(language).say(finding_message(finding))

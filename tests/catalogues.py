@@ -1,0 +1,189 @@
+"""The catalogues of languages: ``python -m tests.catalogues`` takes the texts out of the code and compiles.
+
+Each ``parts/locale/LANGUAGE/LC_MESSAGES/higherpair.po`` gets the texts of today, keeps its translations and its head,
+and is compiled to the .mo beside it. A new language begins as such a .po with a head of its own (``Language`` and
+``Plural-Forms``; the rule for ``n < 0`` is that of numbers with a fraction). Texts without a translation are counted;
+``test_catalogues`` refuses them. Babel is needed here only.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import io
+import pkgutil
+import sys
+from collections.abc import Iterator
+from importlib import import_module
+from pathlib import Path
+from typing import Any, get_args
+
+from babel.messages.catalog import Catalog, Message
+from babel.messages.mofile import write_mo
+from babel.messages.pofile import read_po, write_po
+from msgspec import Meta, Struct
+from msgspec.structs import fields
+
+import parts
+from parts.base.texts import DOMAIN, LOCALE
+from parts.pages.terms import TERMS
+
+HOUSE = Path(parts.__file__).parents[1]
+_PACKAGES = (HOUSE / "parts", HOUSE / "exporters")
+# the marks of parts/base/texts.py and what their first words are: a context, a text, its plural
+_MARKS = {
+    "N_": "t",
+    "NC_": "ct",
+    "message": "t",
+    "counted": "tp",
+    "in_context": "ct",
+    ".text": "t",
+    ".plural": "tp",
+    ".term": "ct",
+}
+Key = tuple[str | None, str]
+_HEAD = """\
+msgid ""
+msgstr ""
+"Project-Id-Version: higherpair\\n"
+"Language: {language}\\n"
+"MIME-Version: 1.0\\n"
+"Content-Type: text/plain; charset=UTF-8\\n"
+"Content-Transfer-Encoding: 8bit\\n"
+"""
+
+
+def extracted() -> dict[Key, str]:
+    """All texts by context and msgid; for each its plural, empty where it has none.
+
+    Raises
+    ------
+    ValueError
+        A text with two plurals.
+    """
+    found: dict[Key, str] = {}
+    for context, one, many in (*_marked(), *((None, text, "") for text in _kept_in_data())):
+        if found.setdefault((context, one), many) != many:
+            raise ValueError(f"{one!r} stands with a plural and without it, or with two")
+    return found
+
+
+def _marked() -> Iterator[tuple[str | None, str, str]]:
+    """What the marks in the code name, where it is written out there."""
+    for file in (file for package in _PACKAGES for file in sorted(package.rglob("*.py"))):
+        for call in ast.walk(ast.parse(file.read_text("utf-8"))):
+            if isinstance(call, ast.Call) and (shape := _MARKS.get(_called(call), "")):
+                words = [a.value if isinstance(a, ast.Constant) else None for a in call.args[: len(shape)]]
+                told = dict(zip(shape, words, strict=False))
+                if isinstance(told.get("t"), str) and told["t"]:
+                    yield told.get("c"), told["t"], told.get("p") or ""
+
+
+def _called(call: ast.Call) -> str:
+    """The name of what is called, with a point before that of a method."""
+    if isinstance(call.func, ast.Attribute):
+        return f".{call.func.attr}"
+    return call.func.id if isinstance(call.func, ast.Name) else ""
+
+
+def _kept_in_data() -> Iterator[str]:
+    """Terms, keys and tables of scenes and calculations: they need no mark."""
+    yield from (term.name for term in TERMS.values())
+    for kind in _structs():
+        if not (told := (kind.__doc__ or "").splitlines()[0].rstrip(".")).startswith("Keys of"):
+            yield told
+        for field in fields(kind):
+            yield from _descriptions(field.type)
+
+
+def _structs() -> list[type[Struct]]:
+    """All tables of keys, in the order of their names."""
+    found: dict[str, type[Struct]] = {}
+    for module in pkgutil.walk_packages(parts.__path__, "parts."):
+        if ".solids" in module.name:
+            continue
+        for _, thing in inspect.getmembers(import_module(module.name), inspect.isclass):
+            if issubclass(thing, Struct) and thing.__module__.startswith("parts."):
+                found[f"{thing.__module__}.{thing.__qualname__}"] = thing
+    return [found[name] for name in sorted(found)]
+
+
+def _descriptions(kind: Any) -> Iterator[str]:
+    """The meanings in an annotated type."""
+    for meta in getattr(kind, "__metadata__", ()):
+        if isinstance(meta, Meta) and meta.description:
+            yield meta.description
+        if isinstance(meta, Meta) and meta.extra and "unit" in meta.extra:
+            yield meta.extra["unit"]
+    for one in get_args(kind):
+        yield from _descriptions(one)
+
+
+def catalogue_files() -> list[Path]:
+    """The .po of every language."""
+    return sorted(LOCALE.glob(f"*/LC_MESSAGES/{DOMAIN}.po"))
+
+
+def read(file: Path) -> Catalog:
+    """A .po with the number of plural forms of its head."""
+    with file.open("rb") as stream:
+        return read_po(stream, abort_invalid=True)
+
+
+def updated(file: Path, texts: dict[Key, str]) -> str:
+    """A .po with the texts of today, its translations and its head kept."""
+    head, _, _ = file.read_text("utf-8").partition("\n\n")
+    old = read(file)
+    # begun with the head: a catalogue that knows no language has two forms of each plural
+    new = read_po(io.BytesIO(f"{head}\n".encode()), abort_invalid=True)
+    for (context, one), many in texts.items():
+        kept = old.get(one, context)
+        string = kept.string if kept is not None and bool(kept.pluralizable) == bool(many) else None
+        empty = ("",) * old.num_plurals if many else ""
+        new.add((one, many) if many else one, string or empty, context=context)
+    stream = io.BytesIO()
+    write_po(stream, new, width=110, no_location=True, omit_header=True, sort_output=True)
+    return f"{head}\n\n{stream.getvalue().decode('utf-8').strip()}\n"
+
+
+def compiled(file: Path) -> bytes:
+    """The .mo of a .po: the same bytes from any Babel."""
+    head = ast.literal_eval("(" + file.read_text("utf-8").partition("\n\n")[0].partition("msgstr ")[2] + ")")
+    told = [m for m in read(file) if m.id and all(_forms(m)) and not m.fuzzy]
+    stream = io.BytesIO()
+    write_mo(stream, _Compiled([Message("", head), *told]))  # type: ignore[arg-type]
+    return stream.getvalue()
+
+
+class _Compiled(list[Message]):
+    """Messages with the head of their .po: a Babel catalogue would put its own version and the date there."""
+
+    charset = "utf-8"
+
+
+def untranslated(file: Path) -> list[str]:
+    """The msgids of a .po that lack a translation, or one of its forms, or have a doubtful one."""
+    return [str(m.id) for m in read(file) if m.id and (m.fuzzy or not all(_forms(m)))]
+
+
+def _forms(told: Message) -> tuple[str, ...]:
+    return tuple(told.string) if isinstance(told.string, tuple) else (told.string,)
+
+
+def main(words: list[str]) -> int:
+    """Bring every language up to date; ``words``: languages to begin."""
+    for language in words:
+        file = LOCALE / language / "LC_MESSAGES" / f"{DOMAIN}.po"
+        if not file.exists():
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(_HEAD.format(language=language) + "\n", "utf-8")
+    texts = extracted()
+    for file in catalogue_files():
+        file.write_text(updated(file, texts), "utf-8")
+        file.with_suffix(".mo").write_bytes(compiled(file))
+        print(f"{file.relative_to(HOUSE)}: {len(texts)} texts, {len(untranslated(file))} without a translation")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

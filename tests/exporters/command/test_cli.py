@@ -1,0 +1,338 @@
+"""The command as people use it: exit codes, one line of complaint, listing, and a scene to start from."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from exporters import __version__
+from parts.base.registry import KINDS
+from parts.mates.registry import MATES
+from parts.scene.load import built_in_scenes
+from tests.exporters.making import build_gear, part_keys, read_report, run, write_scene
+from tests.exporters.outside import Gear
+from tests.exporters.production.test_build import command
+
+GEAR = Gear(2, 23, bore=8)
+
+
+def complaint(capsys: pytest.CaptureFixture[str], *arguments: object) -> str:
+    """The one line that wrong input gets; exit code 2 and nothing on stdout."""
+    capsys.readouterr()
+    assert run(*arguments) == 2
+    out, error = capsys.readouterr()
+    assert out == ""
+    assert error.startswith("higherpair: ")
+    assert error.count("\n") == 1
+    assert error.endswith("\n")
+    assert "Traceback" not in error
+    return error
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Path:
+    """A sound scene of one gear, g, in all formats."""
+    return write_scene(tmp_path / "s.toml", {"g": part_keys(GEAR)}, [{"format": f} for f in ("dxf", "svg", "stl")])
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", built_in_scenes())
+def test_every_built_in_scene_builds_and_verifies(name: str, tmp_path: Path) -> None:
+    assert run("build", name, "--out", tmp_path) == 0
+    files = [tmp_path / name / e["path"] for e in read_report(tmp_path / name)["files"]]
+    assert files
+    assert run("verify", *files) == 0
+
+
+# in which format each built-in scene is built by default: all formats, a cheap one for a scene that takes long
+DAILY = {
+    "barrel_cam": "svg", "conjugate_cams": "svg", "cycloidal_reducer": "step", "groove_cam": "svg",
+    "guidelines_cam": "sheet", "helical_gears": "stl", "helical_pair": "3mf", "idler_train": "3mf",
+    "lantern_pair": "step", "laser_cam_model": "dxf", "laser_gear": "dxf", "laser_gear_set": "svg",
+    "linkage_cam": "svg", "oval_gears": "dxf", "practicum_flat_cam": "stl", "practicum_pair": "step",
+    "practicum_roller_cam": "stl", "print_cam_set": "3mf", "print_gear": "stl", "rack_and_pinion": "sheet",
+    "thesis_internal_pair": "dxf", "tmm42": "svg", "wedge_cam": "stl", "yoke_cam": "svg",
+}  # fmt: skip
+
+
+def formats_of_scenes() -> list[Any]:
+    """Every built-in scene with each of the formats that it names."""
+    exports = {name: tomllib.loads(path.read_text("utf-8"))["exports"] for name, path in built_in_scenes().items()}
+    return [
+        pytest.param(name, form, marks=() if DAILY.get(name) == form else pytest.mark.heavy)
+        for name, found in exports.items()
+        for form in sorted({e["format"] for e in found})
+    ]
+
+
+def test_every_built_in_scene_and_every_format_has_its_day() -> None:
+    cases = [case.values for case in formats_of_scenes() if not case.marks]
+    assert dict(cases) == DAILY
+    assert set(DAILY) == set(built_in_scenes())
+    assert set(DAILY.values()) == {case.values[1] for case in formats_of_scenes()}
+
+
+@pytest.mark.parametrize(("name", "form"), formats_of_scenes())
+def test_a_built_in_scene_builds_and_verifies_in_a_format(name: str, form: str, tmp_path: Path) -> None:
+    """Each file is read back once, by the command for it."""
+    assert run("build", name, "--out", tmp_path, "--format", form, "--no-verify") == 0
+    files = [tmp_path / name / e["path"] for e in read_report(tmp_path / name)["files"]]
+    assert files
+    assert run("verify", *files) == 0
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        (),
+        ("biuld",),
+        ("build",),
+        ("build", "laser_gear", "--frmat", "dxf"),
+        ("verify",),
+        ("new",),
+        ("list", "x"),
+        ("build", "laser_gear", "--out"),
+        ("build", "a", "b"),
+    ],
+    ids=str,
+)
+def test_a_wrong_command_line_gets_one_line(arguments: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
+    assert "--help" in complaint(capsys, *arguments)
+
+
+def test_wrong_input_leaves_no_file_and_no_folder(
+    tmp_path: Path, scene: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    bad = tmp_path / "bad.toml"
+    bad.write_text(scene.read_text(encoding="utf-8").replace("= 23", "= 2"), encoding="utf-8")
+    wide = tmp_path / "wide.toml"
+    wide.write_text(scene.read_text(encoding="utf-8").replace('"svg"', '"svg"\nkerf = 9.9'), encoding="utf-8")
+    fine = tmp_path / "fine.toml"
+    fine.write_text(scene.read_text(encoding="utf-8").replace('"stl"', '"stl"\ntolerance = 1e-7'), encoding="utf-8")
+    before = {p.name for p in tmp_path.iterdir()}
+    for arguments, words in (
+        ([bad], "number_of_teeth = 2"), ([wide], "kerf = 9.9"), ([fine], "tolerance = 1e-07"),
+        (["no_such_scene"], "laser_gear"), ([tmp_path], "folder"), ([scene, "--part", "h"], "parts: g"),
+        ([scene, "--format", "dwg"], "dxf, svg"), ([scene, "--format", "dxf", "--part", "G"], "parts: g"),
+    ):  # fmt: skip
+        for out in ([], ["--out", "new/deep"]):
+            assert words in complaint(capsys, "build", *arguments, *out)
+    assert {p.name for p in tmp_path.iterdir()} == before
+
+
+def test_a_place_below_a_file_is_refused_and_left_alone(
+    tmp_path: Path, scene: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    blocked = tmp_path / "file"
+    blocked.write_bytes(b"mine")
+    for place in (blocked, blocked / "deep" / "er"):
+        assert "--out" in complaint(capsys, "build", scene, "--out", place)
+    (tmp_path / "o").mkdir()
+    (tmp_path / "o" / "s").write_bytes(b"mine too")
+    assert "--out" in complaint(capsys, "build", scene, "--out", tmp_path / "o")
+    assert "--out" in complaint(capsys, "build", scene, "--out", tmp_path / ("x" * 300))
+    assert {p.name for p in tmp_path.iterdir()} == {"file", "o", "s.toml"}
+    assert blocked.read_bytes() == b"mine"
+
+
+def test_a_folder_where_a_file_should_go_is_refused_and_nothing_else_is_replaced(
+    tmp_path: Path, scene: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / "o" / "s"
+    (folder / "g.stl").mkdir(parents=True)
+    complaint(capsys, "build", scene, "--out", tmp_path / "o")
+    assert {p.name for p in folder.iterdir()} == {"g.stl"}
+
+
+@pytest.mark.parametrize("name", ["...toml", "..toml", "a b.toml", ".toml", "noending"])
+def test_no_scene_name_leads_out_of_the_folder_for_results(tmp_path: Path, scene: Path, name: str) -> None:
+    """A build stands in a folder of its own below --out, or is refused."""
+    odd = scene.rename(tmp_path / name)
+    code = run("build", odd, "--out", tmp_path / "up" / "out", "--format", "svg")
+    written = [p.relative_to(tmp_path) for p in tmp_path.rglob("*") if p.is_file() and p != odd]
+    assert (code == 0) == bool(written)
+    assert all(p.parts[:2] == ("up", "out") and len(p.parts) == 4 for p in written), written
+
+
+def test_verify_complains_about_what_it_cannot_judge(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    build_gear(tmp_path, GEAR, {"format": "svg"})
+    folder = tmp_path / "out" / "s"
+    stranger = folder / "stranger.svg"
+    stranger.write_bytes((folder / "g.svg").read_bytes())
+    alone = tmp_path / "g.svg"
+    alone.write_bytes(stranger.read_bytes())
+    assert "no such file" in complaint(capsys, "verify", folder / "none.svg")
+    assert "no such file" in complaint(capsys, "verify", folder)
+    assert "g.svg" in complaint(capsys, "verify", stranger)
+    assert "report.json" in complaint(capsys, "verify", alone)
+    assert run("verify", folder / "g.svg", folder / "g.svg") == 0
+
+
+@pytest.mark.parametrize("spoil", [
+    lambda r: [], lambda r: {}, lambda r: 3, lambda r: {"files": 3}, lambda r: {"files": [3]},
+    lambda r: r | {"scene": None}, lambda r: r | {"scene": {}}, lambda r: r | {"scene": {"parts": []}},
+    lambda r: r | {"scene": r["scene"] | {"parts": {}}}, lambda r: r | {"scene": r["scene"] | {"parts": {"g": 3}}},
+    lambda r: r | {"scene": r["scene"] | {"exports": 3}}, lambda r: r | {"scene": r["scene"] | {"exports": [3]}},
+    *(lambda r, k=k: r | {"files": [{x: y for x, y in r["files"][0].items() if x != k}]}
+      for k in ("part", "offset", "tolerance", "max_error", "format", "sha256", "path")),
+    *(lambda r, k=k, v=v: r | {"files": [r["files"][0] | {k: v}]}
+      for k, v in (("part", "h"), ("part", None), ("offset", "x"), ("offset", 1e9), ("offset", None),
+                   ("tolerance", "x"),
+                   ("max_error", [1]), ("path", [1]), ("part", {}))),
+])  # fmt: skip
+def test_a_damaged_report_is_one_line_too(tmp_path: Path, capsys: pytest.CaptureFixture[str], spoil: object) -> None:
+    report = build_gear(tmp_path, GEAR, {"format": "svg"})
+    folder = tmp_path / "out" / "s"
+    (folder / "report.json").write_text(json.dumps(spoil(report)), encoding="utf-8")  # type: ignore[operator]
+    complaint(capsys, "verify", folder / "g.svg")
+
+
+@pytest.mark.parametrize("data", [b"", b"{", b"\xff\xfe", b"[" * 100_000, b"NaN", b'"x"'], ids=lambda d: repr(d)[:12])
+def test_a_report_that_is_no_json_is_one_line_too(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], data: bytes
+) -> None:
+    build_gear(tmp_path, GEAR, {"format": "svg"})
+    folder = tmp_path / "out" / "s"
+    (folder / "report.json").write_bytes(data)
+    assert "report.json" in complaint(capsys, "verify", folder / "g.svg")
+    scene = tmp_path / "s.toml"
+    assert run("build", scene, "--out", tmp_path / "out", "--format", "svg") == 0
+    assert run("verify", folder / "g.svg") == 0
+
+
+def test_a_process_ends_with_the_same_codes(tmp_path: Path, scene: Path) -> None:
+    good = command("build", scene, "--out", "o", cwd=tmp_path)
+    assert (good.returncode, good.stderr) == (0, "")
+    assert "g.dxf" in good.stdout
+    file = tmp_path / "o" / "s" / "g.stl"
+    file.write_bytes(file.read_bytes()[:-50])
+    assert command("verify", file, cwd=tmp_path).returncode == 1
+    bad = command("build", "nothing", cwd=tmp_path)
+    assert bad.returncode == 2
+    assert bad.stdout == ""
+    assert bad.stderr.count("\n") == 1
+
+
+def test_help_and_version() -> None:
+    shown = [command(*a, cwd=Path.cwd()) for a in (["--help"], ["build", "--help"], ["--version"])]
+    assert [s.returncode for s in shown] == [0, 0, 0]
+    assert all(word in shown[0].stdout for word in ("build", "verify", "list", "new"))
+    assert all(word in shown[1].stdout for word in ("--out", "--part", "--format", "--no-verify"))
+    assert shown[2].stdout.strip() == f"higherpair {__version__}"
+
+
+def test_list_names_every_built_in_scene_and_kind(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("list") == 0
+    out = capsys.readouterr().out
+    folder = Path(next(iter(built_in_scenes().values()))).parent
+    names = [p.stem for p in folder.glob("*.toml")]
+    assert len(names) >= 3
+    for name in [*names, "spur_gear"]:
+        assert re.search(rf"^\s*{name}\s+\S", out, re.MULTILINE), name
+
+
+def new_scene(capsys: pytest.CaptureFixture[str], kind: str = "spur_gear") -> str:
+    """What `new KIND` prints."""
+    capsys.readouterr()
+    assert run("new", kind) == 0
+    return capsys.readouterr().out
+
+
+@pytest.mark.sampled(8)
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_scene_to_start_from_builds(kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "mine.toml"
+    file.write_text(new_scene(capsys, kind), encoding="utf-8")
+    assert run("build", file, "--out", tmp_path / "o") == 0
+    assert {e["format"] for e in read_report(tmp_path / "o" / "mine")["files"]} >= {"dxf", "svg", "stl"}
+
+
+@pytest.mark.parametrize("kind", MATES)
+def test_new_prints_every_mate_with_its_keys(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+    table = tomllib.loads(new_scene(capsys, kind))["mates"][0]
+    assert table["kind"] == kind
+    assert {"first", "second"} <= set(table)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_mate_at_the_end_of_a_new_scene_joins_its_kind(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+    text = new_scene(capsys, kind)
+    told = tomllib.loads("\n".join(line[3:] for line in text.splitlines() if line.startswith("## ")))
+    mate, partner = told["mates"][0], re.search(r'second part, \[parts\.(\w+)\](?: of kind "(\w+)")?', text)
+    joined = MATES[mate["kind"]].joins
+    kinds = {"gear": kind, partner[1]: partner[2]}
+    assert joined is None or (kinds[mate["first"]], kinds[mate["second"]]) in joined
+    assert ("transmission_error" in text) is mate["kind"].endswith(
+        ("external_gear_pair", "internal_gear_pair", "rack_pair")
+    )
+
+
+def test_every_commented_key_may_be_set_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Defaults and examples as printed: each on its own builds, so that nobody starts with an error."""
+    lines = new_scene(capsys).splitlines()
+    keys = [i for i, line in enumerate(lines) if re.match(r"# [a-z_]+ = \S", line)]
+    assert len(keys) > 15
+    for index in keys:
+        changed = [line.removeprefix("# ") if i == index else line for i, line in enumerate(lines)]
+        file = tmp_path / "one.toml"
+        file.write_text("\n".join(changed), encoding="utf-8")
+        assert run("build", file, "--out", tmp_path / "o", "--no-verify") == 0, lines[index]
+
+
+def test_all_commented_keys_together_build_or_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = re.sub(r"^# (?=[a-z_]+ = \S)", "", new_scene(capsys), flags=re.MULTILINE)
+    file = tmp_path / "all.toml"
+    file.write_text(text, encoding="utf-8")
+    assert run("build", file, "--out", tmp_path / "o") in (0, 2)
+    assert "Traceback" not in capsys.readouterr().err
+
+
+def test_new_knows_its_kinds(capsys: pytest.CaptureFixture[str]) -> None:
+    assert "did you mean spur_gear" in complaint(capsys, "new", "spur_gaer")
+
+
+@pytest.fixture
+def ukrainian(tmp_path: Path) -> Path:
+    """A scene that reports in Ukrainian."""
+    head = '[scene]\ntitle = "Шестерня [b]"\nlanguage = "uk"\n\n'
+    return write_scene(tmp_path / "uk.toml", {"g": part_keys(Gear(2, 8))}, [{"format": "svg"}], head)
+
+
+def test_output_in_ukrainian(tmp_path: Path, ukrainian: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("build", ukrainian, "--out", tmp_path / "o") == 0
+    out = capsys.readouterr().out
+    assert "Шестерня [b]" in out
+    assert "похибка" in out
+    assert "зуб підрізаний" in out
+    assert "undercut" not in out
+    picture = (tmp_path / "o" / "uk" / "g.preview.svg").read_text(encoding="utf-8")
+    assert "діаметр вершин" in picture
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "cp1252", "cp1251", "utf-8"])
+def test_output_in_ukrainian_on_a_console_of_another_alphabet(tmp_path: Path, ukrainian: Path, encoding: str) -> None:
+    environment = {**os.environ, "PYTHONIOENCODING": encoding, "PYTHONUTF8": "0"}
+    done = subprocess.run([sys.executable, "-m", "exporters", "build", str(ukrainian), "--out", "o"], cwd=tmp_path,
+                          env=environment, capture_output=True, timeout=60, check=False)  # fmt: skip
+    assert done.returncode == 0, done.stderr.decode(errors="replace")
+    assert done.stderr == b""
+    assert b"g.svg" in done.stdout
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes of POSIX")
+def test_a_reader_that_goes_away_is_no_error(tmp_path: Path) -> None:
+    done = subprocess.run(f'"{sys.executable}" -m exporters list | head -c 1', shell=True, cwd=tmp_path, text=True,
+                          capture_output=True, timeout=60, check=False)  # fmt: skip
+    assert done.stderr == ""
+    shut = subprocess.run(f'"{sys.executable}" -m exporters new spur_gear >&-', shell=True, cwd=tmp_path, text=True,
+                          capture_output=True, timeout=60, check=False)  # fmt: skip
+    assert "Traceback" not in shut.stderr

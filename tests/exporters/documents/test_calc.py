@@ -1,0 +1,390 @@
+"""``higherpair calc``: published cases, every formula evaluated, every format and language, every refusal one line."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+import re
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from exporters.documents.render import FORMATS, render
+from exporters.documents.topics import TOPICS, calculate, sheet_of
+from geometry.base.angles import inverse_involute, involute_function
+from parts.base.refusal import SceneError
+from parts.base.texts import words
+from parts.pages.page import KEYS, Sheet, Step
+from parts.pages.terms import TERMS
+from tests.exporters.command.test_cli import complaint
+from tests.exporters.making import run
+
+PUBLISHED = Path(__file__).parents[2] / "published"
+PRACTICUM = json.loads((PUBLISHED / "practicum_calculations.json").read_text(encoding="utf-8"))["cases"]
+PAIR = ("module=3", "first.number_of_teeth=12", "second.number_of_teeth=60")
+# regressions that broke others: branch switches at 20 and 25 degrees, steep helix with shift, many teeth, undercut
+SHEETS = [
+    ("spur", "practicum_pair", "part=pinion"),
+    ("spur", "module=2", "number_of_teeth=24", "profile_shift_coefficient=0.3", "circumferential_thinning=0.1",
+     "helix_angle_deg=20", "diameter=50"),
+    ("spur", "module=2", "number_of_teeth=25", "circumferential_thinning=0.1", "thinning_method=deeper_cut",
+     "pin_diameter=3.5"),
+    ("spur", "module=2", "number_of_teeth=23", "kerf=0.2", "measured_span=15.1"),
+    ("spur", "module=2", "number_of_teeth=23", "helix_angle_deg=10", "kerf=0.2", "measured_span=15",
+     "circumferential_thinning=0.1"),
+    *(("spur", "module=1", f"number_of_teeth={z}") for z in (6, 8, 17, 41, 42, 43, 200, 10_000)),
+    *(("spur", "module=1", f"number_of_teeth={z}", "pressure_angle_deg=25") for z in (26, 27)),
+    ("spur", "module=1", "number_of_teeth=20", "helix_angle_deg=45", "profile_shift_coefficient=0.5"),
+    ("spur", "module=2", "number_of_teeth=20", "tip_relief.depth_coefficient=0.02", "tip_diameter=43.5"),
+    ("tmm42", "module=10", "reference_diameter=100"),
+    ("tmm42", "module=5", "number_of_teeth=20"),
+    ("tmm42", "practicum_pair", "part=wheel"),
+    ("gear-pair", "practicum_pair"),
+    ("gear-pair", *PAIR),
+    ("gear-pair", *PAIR, "helix_angle_deg=30", "working_centre_distance=125", "second.profile_shift_coefficient=0"),
+    ("gear-pair", *PAIR, "helix_angle_deg=-30", "first.profile_shift_coefficient=0.09809", "side_clearance_class=C"),
+    ("gear-pair", *PAIR, "working_centre_distance=109", "normal_backlash=0.1"),
+    ("gear-pair", *PAIR, "working_centre_distance=109.2", "normal_backlash=0.5", "profile_shift_coefficient=0.2"),
+    ("gear-pair", *PAIR, "circumferential_backlash=0.1", "first.profile_shift_coefficient=0.4",
+     "thinning_method=deeper_cut"),
+    ("gear-pair", "module=2", "first.number_of_teeth=150", "second.number_of_teeth=8", "tip_chamfer=0.1"),
+    ("shift-choice", "first.number_of_teeth=17", "second.number_of_teeth=33", "module=2",
+     "working_centre_distance=51.5"),
+    ("cam", "practicum_flat_cam"),
+    ("cam", "guidelines_cam", "step=2.5"),
+    ("cam", "practicum_roller_cam"),
+    ("cam", "linkage_cam"),
+    ("cycloidal", "cycloidal_reducer"),
+    ("lantern", "lantern_pair"),
+    ("noncircular", "oval_gears", "part=oval"),
+]  # fmt: skip
+
+
+@cache
+def sheet_for(words: str) -> Sheet:
+    """The sheet of a calculation, made once."""
+    topic, *rest = words.split()
+    return sheet_of(topic, rest)[0]
+
+
+@cache
+def values_of(words: str) -> dict[str, Any]:
+    """The json of a calculation."""
+    return json.loads(render(sheet_for(words), "json", "en"))
+
+
+def ident(words: tuple[str, ...]) -> str:
+    return " ".join(words)
+
+
+@pytest.mark.parametrize("case", PRACTICUM, ids=lambda c: f"{c['id']} {c['name']} {c.get('gear', '')}")
+def test_the_practicum_and_the_guidelines(case: dict[str, Any]) -> None:
+    data = values_of(case["words"])
+    found = data["values"][case["name"]]
+    found = found[case["gear"]] if "gear" in case else found
+    assert found == pytest.approx(case["recomputed"], rel=1e-12)
+    steps = [s for s in data["steps"] if (s["name"], s.get("gear")) == (case["name"], case.get("gear"))]
+    if case.get("misprint"):
+        assert case["printed"].split()[0] in steps[0]["misprint"]
+
+
+def test_only_the_printed_pair_is_flagged() -> None:
+    words = "gear-pair module=10 first.number_of_teeth=13 second.number_of_teeth=21 first.profile_shift_coefficient=0.7"
+    assert not [s for s in values_of(words)["steps"] if "misprint" in s]
+
+
+def test_the_misprinted_inequality_and_left_side_are_named() -> None:
+    assert "x_min ≤ x ≤ x_0,3" in calculate("tmm42", ["module=10", "number_of_teeth=10"], "text", "uk")
+    assert "(3.4) prints alpha_w" in calculate("gear-pair", ["practicum_pair"], "text", None)
+
+
+def evaluated(step: Step, spoilt: float = 0.0) -> float:
+    """A printed formula worked out with all digits; angles go in as radians. ``spoilt`` changes its first input."""
+    names = {
+        "cos": math.cos, "sin": math.sin, "tan": math.tan, "arccos": math.acos, "arctan": math.atan,
+        "sqrt": math.sqrt, "abs": abs, "pi": math.pi, "inv": involute_function,
+        "arcinv": lambda v: inverse_involute(v).value,
+    }  # fmt: skip
+
+    def value(match: re.Match[str]) -> str:
+        known = step.inputs[match[1]]
+        number = float(known.value) + spoilt * (match[1] == next(iter(step.inputs)))
+        return f"({math.radians(number) if known.unit == 'deg' else number!r})"
+
+    result = eval(KEYS.sub(value, step.formula), {"__builtins__": {}}, names)
+    return math.degrees(result) if step.unit == "deg" else result
+
+
+@pytest.mark.parametrize("words", SHEETS, ids=ident)
+def test_every_printed_formula_gives_its_value(words: tuple[str, ...]) -> None:
+    sheet = sheet_for(" ".join(words))
+    checked = [step for step in sheet.steps() if step.formula]
+    assert len(checked) >= (4 if words[0] == "cam" else 8)
+    for step in checked:
+        assert evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), (step.name, step.formula)
+
+
+def test_a_wrong_formula_would_be_noticed() -> None:
+    sheet = sheet_for("gear-pair practicum_pair")
+    wrong = [s for s in sheet.steps() if s.formula and evaluated(s, 1e-3) == pytest.approx(s.value, rel=1e-9)]
+    assert [s.name for s in wrong] == []
+
+
+def test_every_term_speaks_both_languages() -> None:
+    for name, term in TERMS.items():
+        told = words("uk").text(term.name)
+        assert term.name.isascii(), name
+        assert re.search(r"[а-яіїєґ]{3}", told), name
+        assert not re.search(r"[ыэъё]", told), name
+
+
+@pytest.mark.parametrize("asked", SHEETS, ids=ident)
+def test_headings_notes_and_misprints_speak_both_languages(asked: tuple[str, ...]) -> None:
+    sheet = sheet_for(" ".join(asked))
+    texts = [sheet.title, *(s.title for s in sheet.sections), *sheet.notes]
+    texts += [s.printed.why for s in sheet.steps() if s.printed]
+    for text in texts:
+        en, uk = (words(one).say(text) for one in ("en", "uk"))
+        assert not re.search(r"[а-яіїєґА-ЯІЇЄҐ]{2}", en), en
+        assert re.search(r"[а-яіїєґА-ЯІЇЄҐ]{2}", uk) or uk[0].isdigit() or "cos" in uk or "inv" in uk, uk
+
+
+@pytest.mark.parametrize("topic", TOPICS)
+@pytest.mark.parametrize("language", ["en", "uk"])
+def test_every_format_of_every_topic(topic: str, language: str) -> None:
+    sheet = sheet_for(" ".join(next(w for w in SHEETS if w[0] == topic)))
+    made = {form: render(sheet, form, language) for form in FORMATS}
+    assert all(text.endswith("\n") for text in made.values())
+    title = words(language).say(sheet.title)
+    assert made["text"].startswith(title)
+    assert made["md"].startswith(f"# {title}")
+    assert f'<html lang="{language}">' in made["html"]
+    for tag in ("html", "table", "tr", "td", "ul", "sub", "svg"):
+        assert len(re.findall(rf"<{tag}[ >]", made["html"])) == made["html"].count(f"</{tag}>"), tag
+    data = json.loads(made["json"])
+    assert len(data["steps"]) == len(sheet.steps())
+    for step in data["steps"]:
+        assert step["text"] in made["text"]
+
+
+def test_json_has_full_precision_and_design_names() -> None:
+    values = values_of("gear-pair practicum_pair")["values"]
+    assert values["working_centre_distance"] == pytest.approx(179.18263740574994, rel=1e-15)
+    assert set(values["root_form_diameter"]) == {"first", "second"}
+
+
+def test_a_kerf_that_was_forgotten_shows_in_span_and_pins() -> None:
+    """An outline offset by half the kerf: an involute stays one, turned about its base circle."""
+    plain = values_of("spur module=2 number_of_teeth=23 pin_diameter=3.5")["values"]
+    cut = values_of("spur module=2 number_of_teeth=23 pin_diameter=3.5 kerf=0.2")["values"]
+    assert cut["span_after_kerf"] == pytest.approx(plain["span"] - 0.2, rel=1e-12)
+    # a pin in a space whose flanks lie 0.1 mm deeper sits as a pin thicker by 0.2 mm would, minus its own thickness
+    thinner = values_of("spur module=2 number_of_teeth=23 pin_diameter=3.3")["values"]
+    assert cut["over_pins_after_kerf"] == pytest.approx(thinner["over_pins"] + 0.2, rel=1e-12)
+
+
+def test_the_scene_gives_the_language(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    scene = tmp_path / "pair.toml"
+    scene.write_text(
+        '[scene]\nlanguage = "uk"\n[parts.a]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 23\n', "utf-8"
+    )
+    assert run("calc", "spur", scene) == 0
+    assert "товщина зуба" in capsys.readouterr().out
+    assert run("calc", "spur", scene, "--language", "en") == 0
+    assert "tooth thickness" in capsys.readouterr().out
+
+
+def refused(topic: str, *arguments: str) -> SceneError:
+    """What ``higherpair calc`` refuses, as data."""
+    options = dict(itertools.pairwise(arguments))
+    given = {word for one in options if one.startswith("--") for word in (one, options[one])}
+    with pytest.raises(SceneError) as caught:
+        calculate(topic, [word for word in arguments if word not in given], options.get("--format", "text"),
+                  options.get("--language"))  # fmt: skip
+    return caught.value
+
+
+@pytest.mark.parametrize(
+    ("arguments", "key", "code", "nearest"),
+    [
+        (("spr",), "TOPIC", "unknown_topic", "spur"),
+        (("spur", "module=2"), "spur.number_of_teeth", "missing_key", None),
+        (("spur", "module=2", "number_of_teth=20"), "spur.number_of_teth", "unknown_key", "number_of_teeth"),
+        (("spur", "module=2", "number_of_teeth=two"), "spur.number_of_teeth", "wrong_type_of", None),
+        (("spur", "module=2", "module=3"), "module", "given_twice", None),
+        (("spur", "module=2", "number_of_teeth=20", "--format", "pdf"), "--format", "not_one_of", None),
+        (("spur", "module=2", "number_of_teeth=20", "--language", "de"), "--language", "not_one_of", "en"),
+        (
+            ("spur", "module=2", "number_of_teeth=20", "profile_shift_coefficient=3"),
+            "spur.profile_shift_coefficient",
+            "flanks_meet_below_form",
+            1.2223,
+        ),
+        (("spur", "module=2", "number_of_teeth=20", "teeth_spanned=21"), "spur.teeth_spanned", "span_beyond_teeth", 20),
+        (("spur", "module=2", "number_of_teeth=20", "diameter=30"), "spur.diameter", "inside_base_circle", 37.5878),
+        (
+            ("spur", "module=2", "number_of_teeth=20", "pin_diameter=0.01"),
+            "spur.pin_diameter",
+            "pin_falls_through",
+            2.392,
+        ),
+        (("spur", "module=nan", "number_of_teeth=20"), "module", "not_finite", None),
+        (("spur", "practicum_pair"), "parts", "choose_a_part", None),
+        (("spur", "practicum_pair", "part=pinon"), "part", "no_such_part", "pinion"),
+        (("spur", "no_such_scene"), "", "no_such_scene", None),
+        (("spur", "practicum_pair", "laser_gear"), "laser_gear", "one_scene_only", None),
+        (("tmm42", "module=10", "reference_diameter=101"), "tmm42.reference_diameter", "no_whole_modules", 100.0),
+        (("tmm42", "module=10"), "tmm42.reference_diameter", "give_it_or", None),
+        (
+            ("tmm42", "module=10", "reference_diameter=100", "number_of_teeth=11"),
+            "tmm42.number_of_teeth",
+            "teeth_of_disk",
+            None,
+        ),
+        (("gear-pair", "module=2"), "gear-pair.first.number_of_teeth", "missing_key", None),
+        (
+            ("gear-pair", *PAIR, "working_center_distance=100"),
+            "gear-pair.working_center_distance",
+            "unknown_key",
+            "working_centre_distance",
+        ),
+        (
+            ("gear-pair", *PAIR, "working_centre_distance=90"),
+            "gear-pair.working_centre_distance",
+            "no_working_angle",
+            101.486804,
+        ),
+        (("gear-pair", *PAIR, "side_clearance_class=F"), "gear-pair.side_clearance_class", "not_allowed", None),
+        (
+            ("gear-pair", *PAIR, "normal_backlash=0.1", "side_clearance_class=C"),
+            "gear-pair.normal_backlash",
+            "other_is_given",
+            None,
+        ),
+        (("gear-pair", *PAIR, "second.module=4"), "gear-pair.second.module", "not_that_of_first", 3.0),
+        (("gear-pair", *PAIR, "first.tip_diameter=80"), "gear-pair.first.tip_diameter", "tooth_pointed", 44.414),
+        (("gear-pair", *PAIR, "kind=external"), "gear-pair.kind", "unknown_pair", "external_gear_pair"),
+        (("gear-pair", *PAIR, "measured_arc_of_action=1"), "gear-pair.measured_arc_of_action", "needs_other", None),
+        (("gear-pair", "laser_gear"), "mates", "no_gear_pair", None),
+        (("gear-pair", "practicum_pair", "mate=2"), "mate", "no_such_pair", 1),
+        (("shift-choice", "first.number_of_teeth=13"), "shift-choice.second", "missing_key", None),
+        (
+            ("shift-choice", "first.number_of_teeth=13", "second.number_of_teeth=21", "basic_rack=ISO"),
+            "shift-choice.basic_rack",
+            "not_one_of",
+            "ISO 53 D",
+        ),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, tuple) else "",
+)
+def test_wrong_input_gets_one_clear_line(
+    arguments: tuple[str, ...], key: str, code: str, nearest: object, capsys: pytest.CaptureFixture[str]
+) -> None:
+    told = refused(*arguments)
+    assert (told.key, told.code, told.nearest and told.nearest.value) == (key, code, nearest)
+    assert complaint(capsys, "calc", *arguments) == f"higherpair: {told}\n"
+
+
+def test_a_shift_table_cell_that_was_mended_is_flagged() -> None:
+    data = values_of("shift-choice first.number_of_teeth=17 second.number_of_teeth=33")
+    flagged = [s for s in data["steps"] if "misprint" in s]
+    assert [s["value"] for s in flagged] == [0.487]
+    assert "0.951 / 0.459" in flagged[0]["misprint"]
+    assert {line["name"] for line in data["blocking_contour"]} >= {"undercut_first", "contact_ratio", "equal_sliding"}
+
+
+def test_the_picture_is_written_in_the_language(tmp_path: Path) -> None:
+    file = tmp_path / "contour.svg"
+    words = ["first.number_of_teeth=17", "second.number_of_teeth=33", f'picture="{file.as_posix()}"']
+    calculate("shift-choice", words, "text", "uk")
+    text = file.read_text(encoding="utf-8")
+    assert text.startswith("<svg")
+    assert "однакове ковзання" in text
+    assert text.count("<polyline") >= 8
+
+
+def test_a_formula_cannot_use_what_is_not_known_yet() -> None:
+    page = Sheet("x", "x")
+    page.section("x")
+    with pytest.raises(KeyError, match="not known yet"):
+        page.add("pitch", 1.0, "pi * {m}")
+
+
+@pytest.mark.parametrize("teeth", [24, 25])
+def test_helical_gears_are_measured_over_balls_and_told_when_pins_do(teeth: int) -> None:
+    sheet = sheet_for(f"spur module=2 number_of_teeth={teeth} helix_angle_deg=20")
+    names = {s.name for s in sheet.steps()}
+    assert "over_balls" in names
+    assert not any("pin" in name.split("_") or "pins" in name for name in names)
+    assert "Over balls" in [s.title for s in sheet.sections]
+    notes = " ".join(words("en").say(note) for note in sheet.notes)
+    assert ("same M" in notes) == (teeth % 2 == 0)
+    assert ("not for pins" in notes) == (teeth % 2 == 1)
+    straight = {s.name for s in sheet_for(f"spur module=2 number_of_teeth={teeth}").steps()}
+    assert "over_pins" in straight
+    assert "over_balls" not in straight
+
+
+@pytest.mark.parametrize(("width", "word"), [(2.0, "too small"), (7.0, "little hold"), (30.0, "")])
+def test_a_face_too_narrow_for_the_span_is_told(width: float, word: str) -> None:
+    """W sin(beta_b) by hand: beta_b = asin(sin 20 cos 20), W from the sheet."""
+    sheet = sheet_for(f"spur module=2 number_of_teeth=24 helix_angle_deg=20 face_width={width}")
+    values = {s.name: s.value for s in sheet.steps()}
+    beta_b = math.asin(math.sin(math.radians(20)) * math.cos(math.radians(20)))
+    least = float(values["span"]) * math.sin(beta_b)
+    assert values["least_face_width"] == pytest.approx(least, rel=1e-12)
+    assert float(values["secure_face_width"]) > least
+    notes = " ".join(words("en").say(note) for note in sheet.notes)
+    told = [w for w in ("too small", "little hold") if w in notes]
+    assert told == ([word] if word else [])
+
+
+def test_a_pin_in_a_helical_space_touches_where_a_ball_does() -> None:
+    """The axis of a pin, along the screw line of the ball's centre, is at right angles to the flank's normal there."""
+    import numpy as np
+
+    module, teeth, beta, size = 2.0, 24, math.radians(20), 3.5
+    alpha = math.atan(math.tan(math.radians(20)) / math.cos(beta))
+    base = module / math.cos(beta) * teeth / 2 * math.cos(alpha)
+    lead = math.pi * module * teeth / math.sin(beta)
+    values = {s.name: s.value for s in sheet_for(
+        "spur module=2 number_of_teeth=24 helix_angle_deg=20 pin_diameter=3.5").steps()}  # fmt: skip
+    centre = np.array([float(values["ball_centre_diameter"]) / 2, 0.0, 0.0])
+    screw = 2 * math.pi / lead
+
+    def flank(u: float, z: float) -> np.ndarray:
+        # an involute of the base circle, turned so that the ball touches it, carried along the helix
+        point = base * np.exp(1j * (u + start)) * (1 - 1j * u) * np.exp(1j * screw * z)
+        return np.array([point.real, point.imag, z])
+
+    def nearest(angle: float) -> tuple[float, np.ndarray, np.ndarray]:
+        nonlocal start
+        start = angle
+        u, z = 0.4, 0.0
+        for _ in range(60):
+            at = flank(u, z)
+            du, dz = (flank(u + 1e-6, z) - at) / 1e-6, (flank(u, z + 1e-6) - at) / 1e-6
+            step, *_ = np.linalg.lstsq(np.column_stack([du, dz]), centre - at, rcond=None)
+            u, z = u + 0.7 * step[0], z + 0.7 * step[1]
+        at = flank(u, z)
+        return float(np.linalg.norm(centre - at)), at, centre - at
+
+    start, touched = 0.0, []
+    gaps = [(a, nearest(a)[0] - size / 2) for a in np.linspace(-1.2, 0.6, 73)]
+    for (one, before), (two, after) in itertools.pairwise(gaps):
+        if before * after > 0:
+            continue
+        for _ in range(40):
+            middle = (one + two) / 2
+            same = (nearest(middle)[0] > size / 2) == (before > 0)
+            one, two = (middle, two) if same else (one, middle)
+        gap, at, normal = nearest(one)
+        axis = np.array([0.0, screw * centre[0], 1.0])
+        assert abs(float(axis @ normal)) / np.linalg.norm(axis) / gap < 1e-5
+        touched.append(math.hypot(at[0], at[1]))
+    # the tooth beside the ball is touched from the outside, and once from within
+    wanted = float(values["ball_contact_diameter"]) / 2
+    assert min(abs(t - wanted) for t in touched) < 1e-5

@@ -1,0 +1,158 @@
+"""``higherpair calc cam``: the cases of lessons 4 and 5 and of table 2.2, refusals, the table in every format."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from exporters.documents.topics import calculate
+from tests.exporters.command.test_cli import complaint
+
+CASES = json.loads((Path(__file__).parents[2] / "published" / "cams.json").read_text(encoding="utf-8"))["cases"]
+LAWS = {
+    "constant acceleration": "constant_acceleration",
+    "cosine acceleration": "cosine",
+    "sine acceleration": "sine",
+    "linearly decreasing acceleration": "linearly_decreasing",
+    "3-4-5 polynomial": "polynomial_345",
+}
+
+
+def phases(rise: float, far: float, back: float, law: str) -> str:
+    """The phases of a cam as a key of the command."""
+    near = 360 - rise - far - back
+    moves = [("rise", rise, law), ("dwell", far, ""), ("return_", back, law), ("dwell", near, "")]
+    law_of = {"": ""} | {law: f', law = "{law}"'}
+    text = ", ".join(f'{{ move = "{m}", angle_deg = {a}{law_of[w]} }}' for m, a, w in moves if a)
+    return f"phases=[{text}]"
+
+
+def calculated(*words: str) -> dict[str, Any]:
+    return json.loads(calculate("cam", words, "json", "en"))
+
+
+@pytest.mark.parametrize("case", [c for c in CASES if ".p4.r0." in c["id"]], ids=lambda c: c["id"])
+def test_lesson_4(case: dict[str, Any]) -> None:
+    law = LAWS[case["inputs"]["law"]]
+    data = calculated("follower=flat", "lift=38", "follower_offset=2", phases(120, 30, 120, law),
+                      "least_transmission_angle_deg=45", "least_curvature_radius=10")  # fmt: skip
+    expected, values = case["recomputed"], data["values"]
+    assert values["least_prime_circle_radius"] == pytest.approx(expected["r0_mm"], rel=1e-12)
+    assert values["least_base_circle_radius"] == pytest.approx(expected["R_min_with_rho_10_mm"], rel=1e-12)
+    assert values["peak_acceleration"] == pytest.approx(expected["S2_max_mm"], rel=1e-12)
+    assert [values[k] for k in ("rise_angle_deg", "far_dwell_angle_deg", "return_angle_deg", "near_dwell_angle_deg")] \
+        == pytest.approx([120, 30, 120, 90])  # fmt: skip
+
+
+@pytest.mark.parametrize("case", [c for c in CASES if ".p5.r0." in c["id"]], ids=lambda c: c["id"])
+@pytest.mark.parametrize(("offset", "side"), [(3, "helps"), (-3, "hinders")])
+def test_lesson_5(case: dict[str, Any], offset: float, side: str) -> None:
+    law = LAWS[case["inputs"]["law"]]
+    data = calculated("follower=pointed", "lift=30", f"follower_offset={offset}", phases(130, 50, 130, law),
+                      "least_transmission_angle_deg=60")  # fmt: skip
+    expected, values = case["recomputed"], data["values"]
+    assert values["least_prime_circle_radius"] == pytest.approx(expected[f"r0_offset_{side}_mm"], rel=1e-12)
+    assert values["initial_height"] == pytest.approx(expected[f"s0_offset_{side}_mm"], rel=1e-12)
+    assert values["transmission_angle_reached_deg"] == pytest.approx(60, abs=1e-9)
+
+
+@pytest.mark.parametrize("case", [c for c in CASES if "table2_2.k" in c["id"]], ids=lambda c: c["id"])
+def test_table_2_2(case: dict[str, Any]) -> None:
+    data = calculated("guidelines_cam", "step=11.25")
+    at = 90 * case["inputs"]["k"]
+    # at 90 degrees the table holds what follows; the law is odd about its middle, its end the negative of its start
+    row = next(r for r in data["positions"] if r["phi"] == pytest.approx(at if at < 90 else 0))
+    expected, end = case["recomputed"], at == 90
+    found = [row["S"] + 32 * end, row["S'"], row["S''"] * (-1 if end else 1)]
+    assert found == pytest.approx([expected[k] for k in ("S_mm", "S1_mm", "S2_mm")], rel=1e-12, abs=1e-12)
+    assert data["values"]["least_prime_circle_radius"] == pytest.approx(45.81466903731541, rel=1e-12)
+
+
+def test_positions_hold_the_textbooks_contact_point() -> None:
+    """Flat face: contact at S' beside the axis and R_b + S above it, turned back by the cam angle."""
+    import cmath
+    import math
+
+    data = calculated("practicum_flat_cam", "step=7")
+    base = data["values"]["least_base_circle_radius"]
+    assert len(data["positions"]) == 52 + 3
+    for row in data["positions"]:
+        point = complex(row["S'"], base + row["S"]) * cmath.exp(-1j * math.radians(row["phi"]))
+        assert complex(row["x"], row["y"]) == pytest.approx(point, abs=1e-10)
+        assert row["rho"] == pytest.approx(base + row["S"] + row["S''"], abs=1e-9)
+
+
+def test_both_languages_hold_the_table() -> None:
+    for form in ("text", "md", "html"):
+        assert "Положення" in calculate("cam", ["guidelines_cam"], form, None)
+        assert "Positions" in calculate("cam", ["guidelines_cam"], form, "en")
+    text = calculate("cam", ["guidelines_cam"], "text", "uk")
+    assert "м'який удар при куті повороту 90°" in text
+    assert "лінійно спадне прискорення" in text
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (("follower=flat", "lift=3"), "phases"),
+        (("practicum_flat_cam", "step=0"), "step"),
+        (("practicum_flat_cam", "part=cams"), "did you mean cam"),
+        (("practicum_pair",), "has no cam"),
+        (("practicum_roller_cam", "follower_radius=80"), "works"),
+        (("practicum_flat_cam", "lft=3"), "did you mean lift"),
+    ],
+)
+def test_wrong_input_gets_one_clear_line(
+    arguments: tuple[str, ...], expected: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert expected in complaint(capsys, "calc", "cam", *arguments)
+
+
+def test_the_graphical_method_stands_beside_the_exact_motion() -> None:
+    """Table 2.2 by drawing: a straight S'' gives S' exactly, the scales by (4.2) are 128/129 of the true ones."""
+    data = calculated("guidelines_cam")
+    values, rows = data["values"], data["graphical"]
+    assert values["graphical_factor"] == pytest.approx(128 / 129, rel=1e-13)
+    assert values["graphical_prime_circle_radius"] == pytest.approx(
+        (45.81466903731541 + 32) * 128 / 129 - 32, rel=1e-12
+    )
+    error = values["graphical_prime_circle_radius"] - values["least_prime_circle_radius"]
+    assert values["graphical_radius_error"] == pytest.approx(error, rel=1e-12)
+    for case in (c for c in CASES if "table2_2.k" in c["id"]):
+        row = rows[round(8 * case["inputs"]["k"])]
+        assert row["phi"] == pytest.approx(90 * case["inputs"]["k"])
+        assert row["S"] == pytest.approx(case["recomputed"]["S_mm"], abs=1e-9)
+        assert row["S'"] == pytest.approx(case["recomputed"]["S1_mm"], abs=1e-9)
+        assert row["S'g"] == pytest.approx(case["recomputed"]["S1_mm"] * 128 / 129, abs=1e-9)
+    assert values["graphical_lift_error"] == pytest.approx(max(abs(r["Sg"] - r["S"]) for r in rows), rel=1e-12)
+    finer = calculated("guidelines_cam", "intervals=16")
+    assert len(finer["graphical"]) == 34
+    assert 3.8 < values["graphical_velocity_error"] / finer["values"]["graphical_velocity_error"] < 4.2
+    assert calculated("guidelines_cam", "drawing=chords")["values"]["graphical_factor"] == pytest.approx(64 / 63)
+    for language, words in (("uk", "Графічний метод"), ("en", "Graphical method")):
+        text = calculate("cam", ["guidelines_cam"], "text", language)
+        assert words in text
+    assert "практикум, заняття 4, 3.1, рис. 4.5" in calculate("cam", ["guidelines_cam"], "text", "uk")
+
+
+def test_a_law_with_a_rigid_impact_has_no_graphical_method() -> None:
+    data = calculated("follower=pointed", "lift=10", phases(120, 30, 120, "constant_velocity"), "base_circle_radius=60")
+    assert "graphical" not in data
+    assert any("rigid impact: its acceleration diagram is infinite" in note for note in data["notes"])
+
+
+def test_speeds_are_those_of_the_sine_law() -> None:
+    """H = 38 in T = phi / omega: v = 2 H / T, a = 2 pi H / T^2 (cycloidal motion)."""
+    import math
+
+    values = calculated("practicum_flat_cam", "speed_rpm=300")["values"]
+    time = 60 / 300 * 120 / 360
+    assert values["angular_speed"] == pytest.approx(10 * math.pi)
+    assert values["time_of_phase"] == pytest.approx(time)
+    assert values["greatest_velocity"] == pytest.approx(2 * 38 / time)
+    assert values["greatest_acceleration"] == pytest.approx(2 * math.pi * 38e-3 / time**2)
+    assert "angular_speed" not in calculated("practicum_flat_cam")["values"]
+    assert "об/хв" in calculate("cam", ["practicum_flat_cam", "speed_rpm=300"], "text", "uk")

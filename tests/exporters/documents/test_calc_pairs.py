@@ -1,0 +1,224 @@
+"""``higherpair calc gear-pair`` of internal and rack pairs: published cases, formulas, margins, wishes, refusals."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+
+from exporters.documents.render import FORMATS, render
+from exporters.documents.topics import calculate
+from geometry.gears.pairs.sliding import specific_sliding_internal
+from parts.base.refusal import SceneError
+from parts.base.texts import words
+from parts.scene.load import load_scene, make_parts
+from parts.texts.findings import FINDINGS
+from tests.exporters.documents.test_calc import PUBLISHED, evaluated, sheet_for, values_of
+
+DATA = json.loads((PUBLISHED / "internal_and_rack_pairs.json").read_text(encoding="utf-8"))
+WORDS: dict[str, str] = DATA["words"]
+SHEETS = [
+    *WORDS.values(),
+    "gear-pair thesis_internal_pair",
+    "gear-pair rack_and_pinion",
+    "gear-pair kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=80 normal_backlash=0.1",
+    "gear-pair kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=80 "
+    "working_centre_distance=61 first.tip_chamfer=0.1",
+    "gear-pair kind=rack_pair module=2 first.number_of_teeth=20 second.number_of_teeth=9 normal_backlash=0.1",
+    "gear-pair kind=rack_pair module=2 first.number_of_teeth=20 second.number_of_teeth=9 working_centre_distance=20.3",
+    "gear-pair kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=80 helix_angle_deg=15 "
+    "face_width=30 normal_backlash=0.1 first.profile_shift_coefficient=0.2 second.profile_shift_coefficient=0.3",
+    "gear-pair kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=80 helix_angle_deg=-15 "
+    "working_centre_distance=62.5 second.tip_rule=KHK",
+    "gear-pair kind=rack_pair module=2 first.number_of_teeth=20 second.number_of_teeth=9 helix_angle_deg=20 "
+    "normal_backlash=0.1 first.profile_shift_coefficient=0.2",
+]
+
+
+@pytest.mark.parametrize("case", DATA["cases"], ids=lambda c: f"{c['id']} {c['name']} {c.get('gear', '')}")
+def test_published_cases(case: dict[str, Any]) -> None:
+    data = values_of(WORDS[case["words"]])
+    found = data["values"][case["name"]]
+    found = found[case["gear"]] if "gear" in case else found
+    assert found == pytest.approx(case["value"], abs=0.6 * 10 ** -case["digits"], rel=1e-12)
+    step = next(s for s in data["steps"] if (s["name"], s.get("gear")) == (case["name"], case.get("gear")))
+    assert case.get("misprint", "") in step.get("misprint", "")
+    assert ("misprint" in step) == ("misprint" in case)
+
+
+@pytest.mark.parametrize("words", SHEETS)
+def test_every_printed_formula_gives_its_value(words: str) -> None:
+    checked = [step for step in sheet_for(words).steps() if step.formula]
+    assert len(checked) >= 13
+    for step in checked:
+        assert evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), (step.name, step.formula)
+    assert any(abs(evaluated(step, 1e-3) - float(step.value)) > 1e-6 for step in checked)
+
+
+@pytest.mark.parametrize("language", ["en", "uk"])
+@pytest.mark.parametrize("words", ["gear-pair thesis_internal_pair", "gear-pair rack_and_pinion"])
+def test_every_form_and_language(words: str, language: str) -> None:
+    for form in FORMATS:
+        assert len(render(sheet_for(words), form, language)) > 1000
+
+
+def test_a_scene_gives_the_pair_that_it_builds() -> None:
+    """The ring stands first in the scene; the pinion is the first of the sheet."""
+    data = values_of("gear-pair thesis_internal_pair")["values"]
+    mating: Any = make_parts(load_scene("thesis_internal_pair"), "t")[1][0]
+    assert data["number_of_teeth"] == {"first": 96, "second": 144}
+    margins = {m.name: m.margin for m in mating.pair.margins()}
+    for name in ("involute_interference", "trochoid_interference", "radial_assembly"):
+        assert data[f"{name}_margin"] == pytest.approx(margins[name], rel=1e-12)
+    fillets = data["fillet_interference_margin"]
+    assert fillets["first"] == pytest.approx(margins["fillet_interference_pinion"], rel=1e-12)
+    assert fillets["second"] == pytest.approx(margins["fillet_interference_ring"], rel=1e-12)
+
+
+def test_broken_conditions_are_named() -> None:
+    asked = ["kind=internal_gear_pair", "module=2", "first.number_of_teeth=28", "second.number_of_teeth=32",
+             "second.rounded_root.full_round=true"]  # fmt: skip
+    text = calculate("gear-pair", asked, "text", "uk")
+    assert words("uk").say(FINDINGS["trochoid_interference"]).split(":")[0] in text
+
+
+def test_wishes_are_met() -> None:
+    values = values_of(SHEETS[7])["values"]
+    assert values["normal_backlash"] == pytest.approx(0.1, rel=1e-9)
+    assert values["circumferential_thinning"]["first"] == pytest.approx(values["circumferential_thinning"]["second"])
+    values = values_of(SHEETS[8])["values"]
+    assert values["working_centre_distance"] == pytest.approx(61, rel=1e-12)
+    assert values["normal_backlash"] == pytest.approx(0, abs=1e-9)
+    values = values_of(SHEETS[9])["values"]
+    assert values["normal_backlash"] == pytest.approx(0.1, rel=1e-9)
+
+
+def test_sliding_vanishes_at_the_pole_and_is_that_of_speeds() -> None:
+    mating: Any = make_parts(load_scene("thesis_internal_pair"), "t")[1][0]
+    pair = mating.pair
+    line = pair.working_centre_distance * 0.3420201433256687
+    pole = pair.pinion.base_radius * 0.36397023426620236
+    assert specific_sliding_internal(pole, line, pair.gear_ratio) == pytest.approx((0, 0), abs=1e-12)
+    # speeds of both flanks along themselves: omega times the distance from their base circles
+    for s in (pole - 5, pole + 5):
+        one, two = s, (s + line) / pair.gear_ratio
+        wanted = (1 - two / one, 1 - one / two)
+        assert specific_sliding_internal(s, line, pair.gear_ratio) == pytest.approx(wanted, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("words", "key"),
+    [
+        ("kind=internal_gear_pair module=2 first.number_of_teeth=20", "gear-pair.second"),
+        ("kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=60 modul=3", "modul"),
+        ("kind=internal_gear_pair module=2 first.number_of_teeth=60 second.number_of_teeth=60", "number_of_teeth"),
+        ("kind=internal_gear_pair module=2 first.number_of_teeth=60 second.number_of_teeth=50 "
+         "working_centre_distance=9", "number_of_teeth"),
+        ("kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=60 "
+         "second.profile_shift_coefficient=0 working_centre_distance=44", "working_centre_distance"),
+        ("kind=rack_pair module=2 first.number_of_teeth=20 second.number_of_teeth=6 second.module=3", "module"),
+        ("kind=rack_pair module=2 first.number_of_teeth=20 second.number_of_teeth=6 working_centre_distance=19",
+         "working_centre_distance"),
+        ("kind=rack_pairs module=2", "kind"),
+    ],
+)  # fmt: skip
+def test_refusals_name_the_key(words: str, key: str) -> None:
+    with pytest.raises(SceneError) as caught:
+        calculate("gear-pair", words.split(), "text", None)
+    assert key in str(caught.value)
+
+
+WISHES = {
+    "distance": ("external_gear_pair", "module=2 first.number_of_teeth=17 second.number_of_teeth=23",
+                 "working_centre_distance", 70.0),
+    "backlash": ("external_gear_pair", "module=2 first.number_of_teeth=17 second.number_of_teeth=23",
+                 "normal_backlash", 9.0),
+    "circumferential": ("external_gear_pair", "module=2 first.number_of_teeth=17 second.number_of_teeth=23",
+                        "circumferential_backlash", 9.0),
+    "internal distance": ("internal_gear_pair", "module=2 first.number_of_teeth=20 second.number_of_teeth=60",
+                          "working_centre_distance", 70.0),
+    "internal backlash": ("internal_gear_pair", "module=2 first.number_of_teeth=20 second.number_of_teeth=60",
+                          "normal_backlash", 9.0),
+    "rack distance": ("rack_pair", "module=2 first.number_of_teeth=20 second.number_of_teeth=10",
+                      "working_centre_distance", 70.0),
+    "rack backlash": ("rack_pair", "module=2 first.number_of_teeth=20 second.number_of_teeth=10",
+                      "normal_backlash", 9.0),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("kind", "keys", "name", "value"), WISHES.values(), ids=WISHES.keys())
+def test_a_wish_that_asks_too_much_is_named_with_the_nearest(kind: str, keys: str, name: str, value: float) -> None:
+    from exporters.documents.topics import sheet_of
+
+    words = [f"kind={kind}", *keys.split()]
+    with pytest.raises(SceneError) as refused:
+        sheet_of("gear-pair", [*words, f"{name}={value}"])
+    assert refused.value.key == f"gear-pair.{name}"
+    assert refused.value.value == value
+    offered = refused.value.nearest
+    assert offered
+    assert isinstance(offered.value, float)
+    assert offered.side in ("exactly", "at_most" if offered.value < value else "at_least")
+    sheet_of("gear-pair", [*words, f"{name}={offered.value}"])
+
+
+HELICAL = "first.number_of_teeth=20 module=2 helix_angle_deg=30 face_width=30"
+
+
+@pytest.mark.parametrize("kind", ["kind=external_gear_pair second.number_of_teeth=41",
+                                  "kind=internal_gear_pair second.number_of_teeth=80",
+                                  "kind=rack_pair second.number_of_teeth=9"])  # fmt: skip
+def test_a_helical_pair_has_the_normal_backlash_that_was_asked_for(kind: str) -> None:
+    """j_bn = j_wt cos(alpha_wt) cos(beta_b), worked out here from alpha_n 20 and beta 30 degrees by hand."""
+    import math
+
+    values = values_of(f"gear-pair {kind} {HELICAL} normal_backlash=0.1")["values"]
+    alpha_t = math.atan(math.tan(math.radians(20)) / math.cos(math.radians(30)))
+    beta_b = math.asin(math.sin(math.radians(30)) * math.cos(math.radians(20)))
+    assert values["normal_backlash"] == pytest.approx(0.1, rel=1e-9)
+    expected = 0.1 / math.cos(alpha_t) / math.cos(beta_b)
+    assert values["circumferential_backlash"] == pytest.approx(expected, rel=1e-9)
+    assert expected / 0.1 > 1.1
+
+
+def test_helical_pages_say_that_their_sections_are_transverse() -> None:
+    for asked in SHEETS[-3:]:
+        titles = [s.title for s in sheet_for(asked).sections]
+        assert any("transverse" in words("en").say(t) and "торцевий" in words("uk").say(t) for t in titles)
+        values = values_of(asked)["values"]
+        assert values["total_contact_ratio"] == pytest.approx(values["overlap_ratio"] + values["contact_ratio"])
+    assert not any("transverse" in words("en").say(s.title) for s in sheet_for(SHEETS[0]).sections)
+
+
+def test_the_shift_that_a_distance_asks_of_a_helical_ring_gives_that_distance() -> None:
+    """The found shift fed back without the distance gives the distance again."""
+    words = SHEETS[-2]
+    shift = next(s.value for s in sheet_for(words).steps() if s.symbol.startswith("x_n") and s.gear == 2)
+    again = words.replace("working_centre_distance=62.5", f"second.profile_shift_coefficient={shift!r}")
+    assert values_of(again)["values"]["working_centre_distance"] == pytest.approx(62.5, rel=1e-12)
+
+
+def test_an_undercut_pinion_is_told_in_internal_and_rack_pairs() -> None:
+    for kind, teeth in (("internal_gear_pair", 60), ("rack_pair", 9)):
+        asked = f"gear-pair kind={kind} module=2 first.number_of_teeth=10 second.number_of_teeth={teeth}"
+        notes = sheet_for(asked).notes
+        assert any("undercut" in words("en").say(n) and "підрізаний" in words("uk").say(n) for n in notes)
+        assert not any("undercut" in words("en").say(n) for n in sheet_for(asked.replace("=10", "=25")).notes)
+
+
+def test_a_mate_at_a_distance_of_its_own_has_its_sheet(tmp_path: Any) -> None:
+    gear = "[parts.{}]\nkind = 'spur_gear'\nmodule = 2.0\nnumber_of_teeth = {}\n"
+    text = gear.format("a", 20) + gear.format("b", 40)
+    text += "[[mates]]\nkind = 'external_gear_pair'\nfirst = 'a'\nsecond = 'b'\nworking_centre_distance = 60.2\n"
+    file = tmp_path / "far.toml"
+    file.write_text(text, encoding="utf-8")
+    sheet = sheet_for(f"gear-pair {file}")
+    values = {(s.name, s.gear): s.value for s in sheet.steps()}
+    pair = make_parts(load_scene(str(file)), "far")[1][0]
+    assert values["working_centre_distance", 0] == 60.2
+    assert values["normal_backlash", 0] == pytest.approx(pair.normal_backlash, rel=1e-9)
+    assert values["normal_backlash", 0] > 0.1
+    assert ("profile_shift_sum", 0) not in values
+    for step in sheet.steps():
+        assert not step.formula or evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), step.name

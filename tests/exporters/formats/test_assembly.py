@@ -1,0 +1,257 @@
+"""Assembly files: names, true instances, places, the same bytes every time, spoiled files caught, the kernel absent."""
+
+from __future__ import annotations
+
+import math
+import re
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from tests.exporters.making import read_report, run, table
+from tests.exporters.train import IDS, STEP, THREEMF, TRAIN, made
+
+CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
+
+
+def places(folder: Path) -> dict[str, np.ndarray]:
+    """(3, 4) of every instance by hand: z 13 / 11 by (3.4) with the working angle found by bisection."""
+    alpha = math.radians(20)
+    goal = math.tan(alpha) - alpha + 2 * 0.3 * math.tan(alpha) / 24
+    low, high = alpha, 1.0
+    for _ in range(80):
+        middle = (low + high) / 2
+        low, high = (middle, high) if math.tan(middle) - middle < goal else (low, middle)
+    distance = 24 * math.cos(alpha) / math.cos(low)
+    found = {"sun": (10.0, (1.5, -2.0, 0.25)), "free": (-33.0, (0.0, 60.0, 1.0))}
+    for key, direction in (("left", 180.0), ("right", 25.0)):
+        angle = math.radians(direction)
+        # a space of the planet looks back at the sun when a tooth of the sun looks along the direction
+        turned = direction + 180 + 180 / 11 - (10.0 - direction) * 13 / 11
+        found[key] = (turned, (1.5 + distance * math.cos(angle), -2.0 + distance * math.sin(angle), 0.25))
+    return {key: motion(math.radians(turned), at) for key, (turned, at) in found.items()}
+
+
+def motion(angle: float, at: tuple[float, float, float]) -> np.ndarray:
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, -s, 0, at[0]], [s, c, 0, at[1]], [0, 0, 1, at[2]]])
+
+
+def same_place(found: np.ndarray, expected: np.ndarray) -> bool:
+    """Up to whole pitches of the planet."""
+    pitches = [motion(2 * math.pi * k / 11, (0, 0, 0))[:, :3] for k in range(11)]
+    return bool(
+        np.abs(found[:, 3] - expected[:, 3]).max() < 1e-9
+        and min(np.abs(found[:, :3] - expected[:, :3] @ p).max() for p in pitches) < 1e-10
+    )
+
+
+def test_a_3mf_has_one_object_a_part_and_one_item_an_instance(train_3mf: Path) -> None:
+    root = ElementTree.fromstring(zipfile.ZipFile(train_3mf).read("3D/3dmodel.model"))
+    objects = {o.get("id"): o.get("name") for o in root.iter(f"{CORE}object")}
+    assert sorted(map(str, objects.values())) == ["planet", "sun"]
+    items = {str(i.get("partnumber")): i for i in root.iter(f"{CORE}item")}
+    assert {key: objects[item.get("objectid")] for key, item in items.items()} == IDS
+    for key, expected in places(train_3mf.parent).items():
+        found = np.array([float(x) for x in str(items[key].get("transform")).split()]).reshape(4, 3).T
+        assert same_place(found, expected), key
+    shades = [b.get("displaycolor") for b in root.iter(f"{CORE}base")]
+    assert shades[0] == "#C08040FF"
+    names = {p.name for p in train_3mf.parent.iterdir()}
+    assert {"train.3mf", "sun.3mf", "planet.3mf"} <= names
+
+
+def test_lib3mf_reads_the_places_too(train_3mf: Path) -> None:
+    import lib3mf
+
+    model = lib3mf.get_wrapper().CreateModel()
+    reader = model.QueryReader("3mf")
+    reader.SetStrictModeActive(True)
+    reader.ReadFromFile(str(train_3mf))
+    assert reader.GetWarningCount() == 0
+    items, found = model.GetBuildItems(), {}
+    while items.MoveNext():
+        item = items.GetCurrent()
+        fields = item.GetObjectTransform().Fields
+        found[item.GetPartNumber()] = np.array([[fields[i][j] for i in range(4)] for j in range(3)])
+    for key, expected in places(train_3mf.parent).items():
+        assert np.abs(found[key][:, 3] - expected[:, 3]).max() < 1e-5, key
+
+
+def test_a_step_has_one_product_a_part_and_one_occurrence_an_instance(train_step: Path) -> None:
+    text = train_step.read_text(encoding="ascii")
+    assert sorted(re.findall(r"PRODUCT\('([^']*)'", text)) == ["planet", "sun", "train"]
+    assert re.findall(r"NEXT_ASSEMBLY_USAGE_OCCURRENCE\('(\d+)','([^']*)'", text) == [
+        (str(n), key) for n, key in enumerate(IDS, 1)
+    ]
+    assert text.count("MANIFOLD_SOLID_BREP(") == 2
+    assert "COLOUR_RGB" in text
+    # 11 spaces and 11 tips, 13 and 13, two bores
+    assert text.count("CYLINDRICAL_SURFACE(") == 2 * (11 + 13) + 2
+
+
+def test_the_kernel_finds_every_solid_of_a_step_in_its_place(train_step: Path) -> None:
+    """The plain reader, which knows of no names: centres of mass lie on the axes, half a face width up."""
+    from OCP.BRepGProp import BRepGProp
+    from OCP.GProp import GProp_GProps
+    from OCP.STEPControl import STEPControl_Reader
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopExp import TopExp_Explorer
+
+    reader = STEPControl_Reader()
+    reader.ReadFile(str(train_step))
+    reader.TransferRoots()
+    solids, centres = TopExp_Explorer(reader.OneShape(), TopAbs_ShapeEnum.TopAbs_SOLID), []
+    while solids.More():
+        properties = GProp_GProps()
+        BRepGProp.VolumeProperties_s(solids.Current(), properties)
+        place = properties.CentreOfMass()
+        centres.append([place.X(), place.Y(), place.Z()])
+        solids.Next()
+    expected = [m[:, 3] + [0, 0, 5.0] for m in places(train_step.parent).values()]
+    assert len(centres) == 4
+    for row in expected:
+        assert min(np.abs(np.array(centres) - row).max(axis=1)) < 1e-6
+
+
+def test_locations_in_a_step_are_exact(train_step: Path) -> None:
+    from exporters.formats.read_step import read_step_assembly
+
+    found = read_step_assembly(train_step)
+    assert found.title == "train"
+    assert sorted(name for name, *_ in found.prototypes) == ["planet", "sun"]
+    placed = {name: (found.prototypes[index][0], matrix) for name, index, matrix in found.occurrences}
+    assert {name: part for name, (part, _) in placed.items()} == IDS
+    for key, expected in places(train_step.parent).items():
+        assert same_place(placed[key][1], expected), key
+
+
+@pytest.mark.parametrize("kind", ["train_3mf", "train_step"])
+def test_the_report_tells_of_an_assembly_and_verify_reads_it(kind: str, request: pytest.FixtureRequest) -> None:
+    file = request.getfixturevalue(kind)
+    report = read_report(file.parent)
+    (entry,) = [e for e in report["files"] if e["part"] is None]
+    assert (entry["path"], entry["instances"]) == (file.name, list(IDS))
+    assert entry["verified"]
+    assert entry["measured"]["max_deviation"] <= entry["max_error"] <= entry["tolerance"]
+    assert entry["measured"]["max_displacement"] < 1e-9
+    assert {key: i["part"] for key, i in report["instances"].items()} == IDS
+    for key, expected in places(file.parent).items():
+        assert report["instances"][key]["at"] == pytest.approx(expected[:, 3].tolist(), abs=1e-9)
+    assert [m["second"] for m in report["checks"]["mates"]] == ["left", "right"]
+    assert run("verify", file) == 0
+
+
+def test_both_assemblies_keep_their_bytes_in_any_process(train_step: Path, train_3mf: Path, tmp_path: Path) -> None:
+    """In this process, where a good many occurrences have been written since, and in a fresh one."""
+    exports = (STEP, THREEMF)
+    made(tmp_path, *exports, name="other")
+    here = made(tmp_path / "out", *exports)
+    scene = here.parents[1] / "train.toml"
+    command = [sys.executable, "-m", "exporters", "build", str(scene), "--out", str(tmp_path / "b"), "--no-verify"]
+    subprocess.run(command, check=True, capture_output=True)
+    for file in (train_step, train_3mf):
+        assert (here / file.name).read_bytes() == file.read_bytes()
+        assert (tmp_path / "b" / "train" / file.name).read_bytes() == file.read_bytes()
+
+
+def test_the_length_of_the_kernels_own_ids_moves_no_line_end(tmp_path: Path) -> None:
+    """Occurrences of the longest names, whose records need a second line once the id has three digits."""
+    pytest.importorskip("OCP", reason="the CAD kernel is an extra")
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox
+
+    from exporters.formats.step import StepPart, write_step_assembly
+    from geometry.base.placement import Placement3
+
+    box = StepPart("b", BRepPrimAPI_MakeBox(1, 2, 3).Solid(), None)
+    names = ["n" * size for size in range(1, 65)]
+    rows = [(name, "b", Placement3()) for name in names]
+    files = [tmp_path / f"{n}.step" for n in range(20)]
+    for file in files:
+        write_step_assembly(file, "s", [box], rows)
+    # more than 1000 ids later
+    assert len({file.read_bytes() for file in files}) == 1
+
+
+def test_assemblies_beside_parts_keep_their_own_names(tmp_path: Path) -> None:
+    """A scene of a part's name, two assemblies, and one of chosen parts."""
+    some = {**THREEMF, "name": "planets", "parts": ["planet"]}
+    folder = made(tmp_path, {"format": "3mf"}, {**THREEMF, "name": "all"}, some, name="sun")
+    assert {p.name for p in folder.glob("*.3mf")} == {"sun.3mf", "planet.3mf", "sun.all.3mf", "sun.planets.3mf"}
+    entries = {e["path"]: e for e in read_report(folder)["files"]}
+    assert entries["sun.planets.3mf"]["instances"] == ["left", "right", "free"]
+    assert run("verify", *folder.glob("*.3mf")) == 0
+    folder = made(tmp_path / "out", {"format": "3mf"}, THREEMF, name="sun")
+    assert {p.name for p in folder.glob("*.3mf")} == {"sun.3mf", "planet.3mf", "sun.assembly.3mf"}
+
+
+def test_a_build_of_one_part_leaves_the_assembly_as_it_is(tmp_path: Path) -> None:
+    folder = made(tmp_path, {"format": "3mf"}, THREEMF)
+    before = (folder / "train.3mf").read_bytes()
+    assert run("build", tmp_path / "train.toml", "--out", tmp_path / "out", "--part", "sun") == 0
+    assert (folder / "train.3mf").read_bytes() == before
+    report = read_report(folder)
+    assert {"what": "exports[2]", "why": "an assembly of all its parts was not asked for"} in report["left_out"]
+    assert run("verify", folder / "train.3mf") == 0
+
+
+def test_a_scene_in_another_script_gets_an_ascii_title(tmp_path: Path) -> None:
+    pytest.importorskip("OCP", reason="the CAD kernel is an extra")
+    folder = made(tmp_path, STEP, THREEMF, name="передача 2")
+    assert re.search(r"PRODUCT\('_+2'", (folder / "передача 2.step").read_text(encoding="ascii"))
+    assert run("verify", folder / "передача 2.step", folder / "передача 2.3mf") == 0
+
+
+def test_an_offset_shrinks_the_parts_and_not_the_places(tmp_path: Path) -> None:
+    folder = made(tmp_path, {**THREEMF, "offset": -0.05})
+    (entry,) = read_report(folder)["files"]
+    assert entry["offset"] == -0.05
+    assert entry["measured"]["max_displacement"] < 1e-9
+    assert run("verify", folder / "train.3mf") == 0
+
+
+@pytest.fixture
+def kernel_absent(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("exporters.production.plan.find_spec", lambda name: None)
+
+
+@pytest.mark.usefixtures("kernel_absent")
+def test_without_the_kernel_the_other_files_are_made(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = made(tmp_path, {"format": "svg"}, {"format": "step"}, THREEMF, STEP)
+    assert {p.name for p in folder.iterdir()} == {
+        "sun.svg", "planet.svg", "train.3mf", "sun.preview.svg", "planet.preview.svg", "train.preview.svg",
+        "report.json",
+    }  # fmt: skip
+    left_out = {e["what"]: e["why"] for e in read_report(folder)["left_out"]}
+    assert set(left_out) == {"exports[2]", "exports[4]"}
+    out = capsys.readouterr().out
+    for place, why in left_out.items():
+        assert 'pip install "cadquery-ocp-novtk<8"' in why
+        assert f"left out: {place}: {why}" in out
+
+
+@pytest.mark.usefixtures("kernel_absent")
+@pytest.mark.parametrize(
+    ("exports", "options"),
+    [
+        ((STEP,), ()),
+        (({"format": "svg"}, STEP), ("--format", "step")),
+        (({"format": "svg"},), ("--format", "svg", "--format", "step")),
+    ],
+)
+def test_a_step_that_was_asked_for_by_name_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], exports: Any, options: tuple[str, ...]
+) -> None:
+    scene = tmp_path / "train.toml"
+    scene.write_text(TRAIN + "".join(table("[[exports]]", e) for e in exports), encoding="utf-8")
+    assert run("build", scene, "--out", tmp_path / "out", *options) == 2
+    complaint = capsys.readouterr().err
+    assert complaint.count("\n") == 1
+    assert 'pip install "cadquery-ocp-novtk<8"' in complaint
+    assert not (tmp_path / "out").exists()

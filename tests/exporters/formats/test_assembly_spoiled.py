@@ -1,0 +1,128 @@
+"""Spoiled assembly files are caught: places, instances, names, colours; and single parts of the wrong name."""
+
+from __future__ import annotations
+
+import re
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tests.exporters.making import run
+
+
+def in_model(change: Callable[[str], str]) -> Callable[[Path], None]:
+    """A spoiler of the XML in a 3MF."""
+
+    def spoil(file: Path) -> None:
+        with zipfile.ZipFile(file) as package:
+            content = {n: package.read(n) for n in package.namelist()}
+        changed = change(content["3D/3dmodel.model"].decode()).encode()
+        assert changed != content["3D/3dmodel.model"]
+        with zipfile.ZipFile(file, "w") as package:
+            for name, data in (content | {"3D/3dmodel.model": changed}).items():
+                package.writestr(name, data)
+
+    return spoil
+
+
+def in_text(change: Callable[[str], str]) -> Callable[[Path], None]:
+    """A spoiler of a STEP file."""
+
+    def spoil(file: Path) -> None:
+        text = file.read_text(encoding="ascii")
+        assert change(text) != text
+        file.write_text(change(text), encoding="ascii", newline="\n")
+
+    return spoil
+
+
+SPOIL_3MF = {
+    "place": (in_model(lambda t: t.replace(" 0.0 60.0 1.0", " 0.0 60.000001 1.0")), "free stands"),
+    "turn": (in_model(lambda t: t.replace('transform="0.8386705679454', 'transform="0.8386715679454')), "free stands"),
+    "missing": (in_model(lambda t: re.sub(r'<item [^>]*partnumber="left"[^>]*>', "", t)), "left is missing"),
+    "twice": (in_model(lambda t: re.sub(r'(<item [^>]*partnumber="left"[^>]*>)', r"\1\1", t)), "left is there 2"),
+    "stranger": (in_model(lambda t: t.replace('partnumber="left"', 'partnumber="lift"')), '"lift" does not belong'),
+    "other part": (in_model(lambda t: re.sub(r'objectid="\d+" partnumber="sun"', 'objectid="3" partnumber="sun"', t)),
+                   "sun is planet"),
+    "name": (in_model(lambda t: t.replace('name="planet" type', 'name="plant" type')), '"plant" does not belong'),
+    "title": (in_model(lambda t: t.replace(">train<", ">tram<")), '"tram"'),
+    "colour": (in_model(lambda t: t.replace("#C08040FF", "#C08840FF")), "coloured"),
+    "unit": (in_model(lambda t: t.replace('"millimeter"', '"inch"')), "not in mm"),
+    "vertex": (in_model(lambda t: re.sub(r'<vertex x="(\d+)\.', r'<vertex x="\g<1>1.', t, count=1)), ""),
+    "cut short": (lambda file: file.write_bytes(file.read_bytes()[:-200]), "not a readable 3MF"),
+}  # fmt: skip
+SWAPPED = {"left": "'right'", "right": "'left'"}
+SPOIL_STEP = {
+    "place": (in_text(lambda t: t.replace("(0.,60.,1.)", "(0.,60.000001,1.)")), "free stands"),
+    "missing": (in_text(lambda t: re.sub(r"#\d+ = CONTEXT_DEPENDENT_SHAPE_REP[^;]*;", "", t, count=1)), ""),
+    "stranger": (in_text(lambda t: t.replace("'left'", "'lift'")), '"lift" does not belong'),
+    "swapped names": (in_text(lambda t: re.sub("'(left|right)'", lambda m: str(SWAPPED[m[1]]), t)), "left stands"),
+    "name": (in_text(lambda t: t.replace("PRODUCT('planet','planet'", "PRODUCT('plant','plant'")), "planet is missing"),
+    "title": (in_text(lambda t: t.replace("PRODUCT('train','train'", "PRODUCT('tram','tram'")), '"tram"'),
+    "colour": (in_text(lambda t: re.sub(r"COLOUR_RGB\('',0\.\d+", "COLOUR_RGB('',0.9", t)), "coloured"),
+    "cut short": (in_text(lambda t: t[: len(t) // 2]), ""),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("kind", "spoil"), [("train_3mf", k) for k in SPOIL_3MF] + [("train_step", k) for k in SPOIL_STEP]
+)
+def test_a_spoiled_assembly_is_caught(
+    kind: str,
+    spoil: str,
+    tmp_path: Path,
+    request: pytest.FixtureRequest,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    file = request.getfixturevalue(kind)
+    for name in (file.name, "report.json"):
+        (tmp_path / name).write_bytes((file.parent / name).read_bytes())
+    change, word = (SPOIL_3MF if kind == "train_3mf" else SPOIL_STEP)[spoil]
+    change(tmp_path / file.name)
+    capsys.readouterr()
+    assert run("verify", tmp_path / file.name) == 1
+    assert word in capsys.readouterr().out
+
+
+def test_copies_of_a_solid_are_no_instances(train_step: Path, tmp_path: Path) -> None:
+    """An occurrence whose product is a copy: the same picture, but not one part in two places."""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_Copy
+
+    from exporters.formats.read_step import read_step_assembly
+    from exporters.formats.step import StepPart, write_step_assembly
+    from exporters.production.recheck import recheck
+    from geometry.base.placement import Placement3
+
+    found = read_step_assembly(train_step)
+    solids = {name: read.shape for name, read, _ in found.prototypes}
+    parts = [StepPart(n, s, "#c08040") for n, s in solids.items()]
+    parts.append(StepPart("copy", BRepBuilderAPI_Copy(solids["planet"]).Shape(), None))
+    rows = []
+    for name, index, matrix in found.occurrences:
+        rotation = tuple(tuple(row) for row in matrix[:, :3].tolist())
+        part = "copy" if name == "free" else found.prototypes[index][0]
+        rows.append((name, part, Placement3(rotation, tuple(matrix[:, 3].tolist()))))  # type: ignore[arg-type]
+    write_step_assembly(tmp_path / "train.step", "train", parts, rows)
+    text = (tmp_path / "train.step").read_text(encoding="ascii").replace("'copy','copy'", "'planet','planet'")
+    (tmp_path / "train.step").write_text(text, encoding="ascii")
+    (tmp_path / "report.json").write_bytes((train_step.parent / "report.json").read_bytes())
+    assert "part planet is there 2 times" in recheck(tmp_path / "train.step").verdict.failures
+
+
+@pytest.mark.parametrize("kind", ["step", "3mf"])
+def test_a_file_of_one_part_must_have_its_name(
+    kind: str, tmp_path: Path, request: pytest.FixtureRequest, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = request.getfixturevalue("train_step" if kind == "step" else "train_3mf").parent
+    file = tmp_path / f"sun.{kind}"
+    for name in (file.name, "report.json"):
+        (tmp_path / name).write_bytes((folder / name).read_bytes())
+    assert run("verify", file) == 0
+    if kind == "step":
+        in_text(lambda t: t.replace("PRODUCT('sun','sun'", "PRODUCT('son','son'"))(file)
+    else:
+        in_model(lambda t: t.replace('name="sun" type', 'name="son" type'))(file)
+    assert run("verify", file) == 1
+    assert "son" in capsys.readouterr().out

@@ -1,0 +1,350 @@
+"""Sheets of cams: numbers equal the calculation's, measured off the files with dividers, damage noticed."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import ezdxf
+import pytest
+
+from exporters.documents.topics import calculate
+from exporters.production.build import build
+from exporters.production.plan import plan_build
+from exporters.production.sheets import SheetJob
+from geometry.base.errors import Nearest
+from parts.base.refusal import SceneError
+from parts.cams.sheets.picture import standard_scale
+from parts.scene.load import SceneFile, load_scene, scene_from_dict
+from tests.exporters.making import run
+
+CASES = {
+    c["id"]: c
+    for c in json.loads((Path(__file__).parents[2] / "published" / "cams.json").read_text(encoding="utf-8"))["cases"]
+}
+SCENES = {"practicum_flat_cam": "en", "practicum_roller_cam": "en", "guidelines_cam": "uk"}
+RISE_AND_RETURN = [
+    {"move": "rise", "angle_deg": 120.0, "law": "polynomial_345"},
+    {"move": "dwell", "angle_deg": 30.0},
+    {"move": "return_", "angle_deg": 120.0, "law": "cosine"},
+    {"move": "dwell", "angle_deg": 90.0},
+]
+ROCKER = {
+    "kind": "cam", "follower": "roller", "swing_deg": 20.0, "follower_radius": 6.0, "base_circle_radius": 40.0,
+    "phases": RISE_AND_RETURN, "oscillating": {"centre_distance": 90.0, "arm_length": 80.0},
+    "least_transmission_angle_deg": 45.0,
+}  # fmt: skip
+
+
+@cache
+def jobs_of(name: str) -> tuple[SheetJob, ...]:
+    return plan_build(load_scene(name), name, [], ["sheet"]).sheets
+
+
+def job_of(name: str, ending: str) -> SheetJob:
+    return next(j for j in jobs_of(name) if j.path.endswith(ending))
+
+
+def words_of(job: SheetJob) -> list[str]:
+    return sorted(run.text for text in job.canvas.texts for run in text.runs)
+
+
+def cam_scene(part: dict[str, Any], **export: Any) -> Any:
+    return scene_from_dict(
+        {"parts": {"rocker": part}, "exports": [{"format": "sheet", "purpose": "cam", **export}]}, "t", "t"
+    )
+
+
+@pytest.mark.parametrize(("name", "language"), SCENES.items())
+def test_every_sheet_is_good(tmp_path: Path, name: str, language: str) -> None:
+    words = {}
+    for job in jobs_of(name):
+        assert job.path in (f"{name}.cam.cam.dxf", f"{name}.cam.cam.svg")
+        job.write({}, tmp_path / job.path)
+        verdict = job.verify(tmp_path / job.path, 0.0)
+        assert verdict.failures == ()
+        for key in ("max_deviation", "diagram_deviation", "line_deviation", "circle_deviation"):
+            assert verdict.measured[key] <= 1.1e-6
+        words[job.path[-3:]] = words_of(job)
+        assert job.canvas.paper == "A2"
+        twin = tmp_path / f"twin.{job.path[-3:]}"
+        job.write({}, twin)
+        assert twin.read_bytes() == (tmp_path / job.path).read_bytes()
+    assert words["dxf"] == words["svg"]
+    assert any(re.search("[а-яіїє]{4}", word) for word in words["dxf"]) == (language == "uk")
+
+
+def test_the_sizes_of_the_lessons_are_measured_off_the_sheets(tmp_path: Path) -> None:
+    for name, lift, case, key in (
+        ("practicum_flat_cam", 38, "000.p4.r0.sine_acceleration", "r0_mm"),
+        ("practicum_roller_cam", 30, "000.p5.r0.3-4-5_polynomial", "r0_offset_helps_mm"),
+    ):
+        wanted = next(c["recomputed"][key] for i, c in CASES.items() if i.startswith(case))
+        job = job_of(name, "svg")
+        job.write({}, tmp_path / job.path)
+        measured = job.verify(tmp_path / job.path, 0.0).measured
+        assert measured["lift_by_diagram"] == pytest.approx(lift, abs=1e-6)
+        assert measured["least_radius_by_diagram"] == pytest.approx(wanted, abs=1e-6)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_numbers_on_the_sheet_are_those_of_the_calculation(name: str) -> None:
+    language = SCENES[name]
+    data = json.loads(calculate("cam", [name], "json", language))
+    texts = [t.text for t in job_of(name, "dxf").canvas.texts]
+
+    def said(value: float, digits: int) -> str:
+        text = f"{value:.{digits}f}"
+        text = text.lstrip("-") if float(text) == 0 else text
+        return text.replace(".", ",") if language == "uk" else text
+
+    values = data["values"]
+    for key in (
+        "least_prime_circle_radius",
+        "least_base_circle_radius",
+        "graphical_prime_circle_radius",
+        "graphical_radius_error",
+    ):
+        number = said(values[key], 5).rstrip("0").rstrip(".,")
+        assert any(t.startswith(number) for t in texts), key
+    assert len(data["graphical"]) == 18
+    # the table stands row by row, its cells in order
+    rows = []
+    for row in data["graphical"]:
+        phi, bend, rate, exact_rate = (row[k] for k in ("phi", "S''g", "S'g", "S'"))
+        cells = [said(x, 2) for x in (phi, bend, rate, exact_rate)]
+        cells += [said(rate - exact_rate, 3), said(row["Sg"], 2), said(row["S"], 2), said(row["Sg"] - row["S"], 3)]
+        rows += [f"{row['n']:.0f}", *cells]
+    start = next(k for k in range(len(texts)) if texts[k : k + len(rows)] == rows)
+    assert texts[start - 9] == "№"
+
+
+def test_both_views_of_the_roller_cam_tell_the_same_motion(tmp_path: Path) -> None:
+    """With ezdxf alone: S of the diagram, the rollers of the inversion and H (10 u^3 - 15 u^4 + 6 u^5) agree."""
+    job = job_of("practicum_roller_cam", "dxf")
+    job.write({}, tmp_path / job.path)
+    space = ezdxf.readfile(tmp_path / job.path).modelspace()
+    base = space.query('CIRCLE[layer=="CIRCLE_BASE"]').first.dxf
+    prime = space.query('CIRCLE[layer=="CIRCLE_PRIME"]').first.dxf
+    rollers = [e.dxf for e in space.query('CIRCLE[layer=="ROLLER"]')]
+    assert len(rollers) == 18
+    assert {round(r.radius, 9) for r in rollers} == {8.0}
+    assert prime.radius - base.radius == pytest.approx(8.0, abs=1e-9)
+    start = math.sqrt(prime.radius**2 - 3.0**2)
+    ways = [math.sqrt(r.center.distance(base.center) ** 2 - 3.0**2) - start for r in rollers]
+    share = [k / 8 for k in range(9)]
+    law = [30 * (10 * u**3 - 15 * u**4 + 6 * u**5) for u in share]
+    assert ways == pytest.approx([*law, *law[::-1]], abs=1e-9)
+    # the lowest diagram's ordinates, from the left; those of height 0 are no lines
+    ordinates = sorted((e.dxf for e in space.query('LINE[layer=="ORDINATE"]')), key=lambda e: e.start.x)
+    low = min(e.start.y for e in ordinates)
+    heights = [e.end.y - e.start.y for e in ordinates if abs(e.start.y - low) < 1e-9]
+    assert [0.4 * y for y in heights] == pytest.approx([*law[1:], *law[::-1][:-1]], abs=1e-8)
+    # each follower stands at its angle, turned against the cam
+    angles = [16.25 * k for k in range(9)] + [180 + 16.25 * k for k in range(9)]
+    for roller, angle, way in zip(rollers, angles, ways, strict=True):
+        place = complex(*(roller.center - base.center).vec2)
+        place *= complex(math.cos(math.radians(angle)), math.sin(math.radians(angle)))
+        assert place == pytest.approx(complex(3.0, start + way), abs=1e-8)
+
+
+def test_scales_are_round_and_tied_by_the_lessons_formulas() -> None:
+    texts = [t.text for t in job_of("practicum_roller_cam", "dxf").canvas.texts]
+
+    def after(symbol: str) -> str:
+        return texts[texts.index(symbol) + 1]
+
+    lift, rate, bend = (float(after(f"μS{k * chr(39)}").split()[0]) for k in range(3))
+    phi = math.radians(2.0)
+    assert after("μφ").startswith(f"{phi:.6f} rad/mm")
+    assert float(after("H1").split()[0]) == pytest.approx(lift / (rate * phi), abs=5e-4)  # (4.3)
+    assert float(after("H2").split()[0]) == pytest.approx(rate / (bend * phi), abs=5e-4)  # (4.4)
+    for needed, wanted in ((0.39, 0.4), (0.4, 0.4), (0.41, 0.5), (2.1, 2.5), (51.0, 100.0), (1.0, 1.0), (3e-7, 4e-7)):
+        assert standard_scale(needed) == pytest.approx(wanted, rel=1e-12)
+
+
+def on_layer(space: Any, kind: str, layer: str) -> Any:
+    return space.query(f'{kind}[layer=="{layer}"]').first
+
+
+def bend_spline(space: Any, layer: str) -> None:
+    spline = on_layer(space, "SPLINE", layer)
+    points = [list(p) for p in spline.control_points]
+    points[len(points) // 2][1] += 1e-3
+    spline.control_points = points
+
+
+def last(space: Any, kind: str, layer: str) -> Any:
+    return list(space.query(f'{kind}[layer=="{layer}"]'))[-1]
+
+
+DAMAGE: dict[str, tuple[Callable[[Any], Any], str]] = {
+    "S''": (lambda s: bend_spline(s, "DIAGRAM_BEND"), "diagrams deviate"),
+    "S'": (lambda s: bend_spline(s, "DIAGRAM_RATE"), "diagrams deviate"),
+    "S": (lambda s: bend_spline(s, "DIAGRAM_LIFT"), "diagrams deviate"),
+    "S lost": (lambda s: s.delete_entity(on_layer(s, "SPLINE", "DIAGRAM_LIFT")), "curves instead of"),
+    "joint diagram": (lambda s: bend_spline(s, "JOINT_DIAGRAM"), "diagrams deviate"),
+    "joint diagram lost": (lambda s: s.delete_entity(on_layer(s, "SPLINE", "JOINT_DIAGRAM")), "diagrams deviate"),
+    "first tangent": (lambda s: on_layer(s, "LINE", "GAMMA_TANGENT").translate(0, 1e-4, 0), "least radius"),
+    "tangents": (lambda s: [s.delete_entity(e) for e in s.query('LINE[layer=="GAMMA_TANGENT"]')], "are missing"),
+    "line of the offset": (lambda s: on_layer(s, "LINE", "OFFSET_AXIS").translate(1e-4, 0, 0), "OFFSET_AXIS: no line"),
+    "first ordinate": (lambda s: on_layer(s, "LINE", "ORDINATE").translate(0, 1e-4, 0), "ORDINATE: no line"),
+    "broken line": (lambda s: on_layer(s, "LINE", "GRAPHICAL").translate(0, 1e-4, 0), "GRAPHICAL: no line"),
+    "first roller": (lambda s: on_layer(s, "CIRCLE", "ROLLER").translate(1e-4, 0, 0), "ROLLER: no circle"),
+    "last roller": (lambda s: last(s, "CIRCLE", "ROLLER").dxf.set("radius", 8.001), "ROLLER: no circle"),
+    "base circle": (lambda s: on_layer(s, "CIRCLE", "CIRCLE_BASE").dxf.set("radius", 17.0), "CIRCLE_BASE: no circle"),
+    "profile": (lambda s: bend_spline(s, "CAM"), "outlines deviate"),
+    "pitch curve": (lambda s: bend_spline(s, "PITCH_CURVE"), "outlines deviate"),
+    "line of motion": (lambda s: last(s, "LINE", "CONSTRUCTION").translate(1e-4, 0, 0), "CONSTRUCTION: no line"),
+    "number": (lambda s: s.query('TEXT[text=="25.17668 mm"]').first.dxf.set("text", "25.17669 mm"), "25.17668"),
+    "position": (lambda s: s.delete_entity(s.query('TEXT[text=="13"]').first), "words are missing: 13"),
+}
+
+
+@cache
+def written(folder: Path) -> Path:
+    job = job_of("practicum_roller_cam", "dxf")
+    file = folder / job.path
+    job.write({}, file)
+    return file
+
+
+@pytest.fixture(scope="module")
+def sheet_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return written(tmp_path_factory.mktemp("sheet"))
+
+
+@pytest.mark.parametrize("damage", DAMAGE)
+def test_damage_is_noticed(sheet_file: Path, tmp_path: Path, damage: str) -> None:
+    drawing = ezdxf.readfile(sheet_file)
+    spoil, wanted = DAMAGE[damage]
+    spoil(drawing.modelspace())
+    drawing.saveas(tmp_path / sheet_file.name)
+    failures = job_of("practicum_roller_cam", "dxf").verify(tmp_path / sheet_file.name, 0.0).failures
+    assert any(wanted in failure for failure in failures), failures
+
+
+def test_a_rocker_has_its_pivots_arms_and_axis(tmp_path: Path) -> None:
+    """The pivots stand on their circle, the arms keep their length, both cams' axes in the joint diagram."""
+    jobs = plan_build(cam_scene(ROCKER, intervals=3), "t", [], []).sheets
+    assert [j.path for j in jobs] == ["t.cam.rocker.dxf", "t.cam.rocker.svg"]
+    for job in jobs:
+        job.write({}, tmp_path / job.path)
+        assert job.verify(tmp_path / job.path, 0.0).failures == ()
+    space = ezdxf.readfile(tmp_path / jobs[0].path).modelspace()
+    pivots = on_layer(space, "CIRCLE", "CIRCLE_PIVOT").dxf
+    scale = jobs[0].expected.paper.scale
+    assert pivots.radius == pytest.approx(90 * scale)
+    arms = list(space.query('LINE[layer=="FOLLOWER"]'))
+    assert len(arms) == 8
+    for arm in arms:
+        ends = arm.dxf.start, arm.dxf.end
+        assert ends[0].distance(ends[1]) == pytest.approx(80 * scale, rel=1e-12)
+        assert min(abs(e.distance(pivots.center) - pivots.radius) for e in ends) < 1e-9
+    assert list(space.query('LINE[layer=="GAMMA_TANGENT"]'))
+    texts = words_of(jobs[0])
+    assert "C" in texts
+    assert "7" in texts
+
+
+def test_a_given_speed_adds_scales_of_time() -> None:
+    """The same diagrams are S(t), v(t), a(t) with mu_phi / omega, mu_S' omega and mu_S'' omega^2."""
+    part = {"kind": "cam", "follower": "flat", "lift": 0.3, "phases": RISE_AND_RETURN,
+            "least_transmission_angle_deg": 45.0, "least_curvature_radius": 1.0}  # fmt: skip
+    texts = [
+        t.text for t in plan_build(cam_scene(part, speed_rpm=600.0, intervals=2), "t", [], []).sheets[0].canvas.texts
+    ]
+
+    def after(symbol: str) -> float:
+        return float(texts[texts.index(symbol) + 1].split()[0])
+
+    omega = 20 * math.pi
+    assert after("μt") == pytest.approx(math.radians(2) / omega, rel=1e-5)
+    assert after("μv") == pytest.approx(after("μS'") * omega, rel=1e-5)
+    assert after("μa") == pytest.approx(after("μS''") * omega**2 / 1000, rel=1e-5)
+
+
+LEGAL: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
+    "points of a table": ({"motion_table": [[a, 10 - 10 * math.cos(math.radians(a))] for a in range(0, 360, 30)],
+                           "follower": "roller", "follower_radius": 6.0, "base_circle_radius": 40.0}, {}),
+    "no dwell": ({"phases": [{"move": m, "angle_deg": 180.0, "law": "cosine"} for m in ("rise", "return_")],
+                  "follower": "pointed", "lift": 20.0, "base_circle_radius": 40.0, "follower_offset": -9.0}, {}),
+    "few": ({"phases": RISE_AND_RETURN, "follower": "flat", "lift": 0.3, "least_transmission_angle_deg": 45.0,
+             "least_curvature_radius": 1.0}, {"intervals": 2}),
+    "large": ({"phases": RISE_AND_RETURN, "follower": "mushroom", "lift": 3000.0, "follower_radius": 900.0,
+               "base_circle_radius": 9000.0}, {}),
+    "flat rocker": ({"phases": RISE_AND_RETURN, "follower": "flat", "swing_deg": 10.0, "base_circle_radius": 40.0,
+                     "oscillating": {"centre_distance": 100.0, "face_offset": 3.0}}, {}),
+}  # fmt: skip
+
+
+@pytest.mark.heavy
+def test_the_number_of_intervals_that_works_works() -> None:
+    with pytest.raises(SceneError) as caught:
+        plan_build(cam_scene(ROCKER, intervals=72), "t", [], [])
+    most = int(re.findall(r"at most (\d+) works", str(caught.value))[0])
+    assert plan_build(cam_scene(ROCKER, intervals=most), "t", [], []).sheets
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", LEGAL)
+def test_unusual_but_legal_cams_have_their_sheet(tmp_path: Path, name: str) -> None:
+    part, export = LEGAL[name]
+    for job in plan_build(cam_scene({"kind": "cam", **part}, **export), "t", [], []).sheets:
+        job.write({}, tmp_path / job.path)
+        assert job.verify(tmp_path / job.path, 0.0).failures == ()
+
+
+def test_a_table_of_points_has_a_sheet_without_the_graphical_method() -> None:
+    part = {"kind": "cam", "follower": "pointed", "base_circle_radius": 60.0,
+            "motion_table": [[0, 0], [120, 5], [240, 3]]}  # fmt: skip
+    job = plan_build(cam_scene(part, intervals=2), "t", [], []).sheets[0]
+    assert not any("by the drawing" in t.text for t in job.canvas.texts)
+    with pytest.raises(AssertionError):
+        assert not any("by the drawing" in t.text for t in job_of("practicum_flat_cam", "dxf").canvas.texts)
+
+
+def test_refusals_name_the_key_and_what_works() -> None:
+    def told(scene: SceneFile) -> tuple[str, str, Nearest | None]:
+        with pytest.raises(SceneError) as caught:
+            plan_build(scene, "t", [], [])
+        return caught.value.key, caught.value.code, caught.value.nearest
+
+    key, code, nearest = told(cam_scene(ROCKER, intervals=72))
+    assert (key, code) == ("exports[1].intervals", "table_fits_no_paper")
+    assert nearest is not None
+    assert nearest.side == "at_most"
+    scene = cam_scene(ROCKER)
+    assert [j.path for j in plan_build(scene, "t", ["rocker"], []).sheets] == ["t.cam.rocker.dxf", "t.cam.rocker.svg"]
+    scene.exports[0].purpose = "meshing"
+    assert told(scene) == ("exports[1].purpose", "shows_gear_pairs", Nearest("cam"))
+    gear = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20}
+    assert told(cam_scene(gear)) == ("exports[1].purpose", "draws_only_what_is_not_here", None)
+    assert told(cam_scene(gear, parts=["rocker"])) == ("exports[1].parts", "draws_only_what_is_not_here", None)
+    with pytest.raises(SceneError, match="intervals"):
+        cam_scene(ROCKER, intervals=1)
+    for key in ("intervals", "speed_rpm"):
+        with pytest.raises(SceneError, match='only for purpose = "cam"'):
+            cam_scene(ROCKER, purpose="generating", **{key: 8})
+    with pytest.raises(SceneError, match="shows the part, not the cut"):
+        cam_scene(ROCKER, kerf=0.1)
+
+
+def test_a_build_reports_its_cam_sheets_and_verify_measures_them_again(tmp_path: Path) -> None:
+    plan = plan_build(load_scene("guidelines_cam"), "guidelines_cam", [], ["sheet"])
+    folder = tmp_path / "guidelines_cam"
+    made, _, _ = build(plan, folder)
+    assert [item.failures for item in made] == [(), ()]
+    report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
+    entries = {e["path"]: e for e in report["files"]}
+    assert set(entries) == {"guidelines_cam.cam.cam.dxf", "guidelines_cam.cam.cam.svg"}
+    assert all(e["verified"] and e["paper"] == "A2" and e["purpose"] == "cam" for e in entries.values())
+    file = folder / "guidelines_cam.cam.cam.svg"
+    assert run("verify", str(file)) == 0
+    file.write_text(file.read_text(encoding="utf-8").replace("45,81467", "45,81468"), encoding="utf-8")
+    assert run("verify", str(file)) == 1

@@ -1,0 +1,244 @@
+"""Files of cylindrical cams: read back, the roller put into the groove, and spoiled meshes and solids seen."""
+
+from __future__ import annotations
+
+import contextlib
+import random
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from exporters.formats.read_stl import read_stl
+from exporters.formats.readback import ReadMesh
+from exporters.formats.stl import write_stl
+from exporters.production.recheck import recheck
+from exporters.verification.faces import verify_faced_mesh
+from exporters.verification.judge import probed, verify_file
+from exporters.verification.verdict import Verdict
+from geometry.cams.barrel.body import BarrelBody, Track
+from geometry.cams.barrel.cam import LOWER, UPPER
+from geometry.cams.motion.follower_motion import TURN
+from parts.base.refusal import SceneError
+from parts.cams.barrel_cam.probe import rolled_places
+from parts.scene.formats import FILE_KINDS
+from parts.solids.mesh import Mesh, body_mesh, mesh_outlines
+from tests.exporters.making import read_report, run
+from tests.parts.cams.barrel_cam.test_barrel_cam import CONE, END, GROOVE, SWING, body_of, part_of
+from tests.parts.cams.disk_cam.test_cam import scene_text
+
+FORMS = {"groove": GROOVE | {"clearance": 0.2, "bore": {"shape": "keyway", "diameter": 12.0},
+                             "hub": {"diameter": 24.0, "above": 4.0, "below": 2.0}},
+         "end": END | {"bore_diameter": 10.0}, "tube": END | {"web_thickness": 0.0}, "swing": SWING,
+         "cone": CONE, "cone end": END | {"roller_form": "conical"}}  # fmt: skip
+TOLERANCE = 0.05
+# angles at which the roller is put in
+COUNT = 240
+
+
+def mesh_of(body: BarrelBody) -> tuple[ReadMesh, float]:
+    outlines = mesh_outlines(body, TOLERANCE, 0.0)
+    made = body_mesh(body, outlines)
+    return ReadMesh(made.vertices, made.triangles), outlines[0].max_error
+
+
+@cache
+def formed(name: str) -> tuple[BarrelBody, ReadMesh, float]:
+    """One of the forms, its mesh and the error that is told of it, made once."""
+    body = body_of(FORMS[name])
+    return body, *mesh_of(body)
+
+
+def verdict(mesh: ReadMesh, body: BarrelBody, error: float) -> Verdict:
+    return verify_faced_mesh(mesh, body, error, TOLERANCE)
+
+
+def away_from_triangles(points: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """Distance of each point from the nearest triangle: to its plane inside, to its edges outside."""
+    found = []
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    for point in points:
+        rest = point - corners
+        height = (rest[:, 0] * normal).sum(axis=1)
+        inside, best = np.ones(len(corners), dtype=bool), np.full(len(corners), np.inf)
+        for k in range(3):
+            edge = corners[:, (k + 1) % 3] - corners[:, k]
+            inside &= (np.cross(edge, rest[:, k]) * normal).sum(axis=1) >= 0
+            share = np.clip((edge * rest[:, k]).sum(axis=1) / (edge**2).sum(axis=1), 0, 1)
+            best = np.minimum(best, np.linalg.norm(rest[:, k] - share[:, None] * edge, axis=1))
+        found.append(np.where(inside, np.abs(height), best).min())
+    return np.array(found)
+
+
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize("name", FORMS)
+def test_meshes_are_closed_and_near_by_an_outside_measure(name: str) -> None:
+    import trimesh
+
+    body, mesh, error = formed(name)
+    solid = trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False)
+    assert solid.is_watertight
+    assert solid.is_winding_consistent
+    assert not verdict(mesh, body, error).failures
+    # points of the walls by brute force stand on the mesh
+    angles = np.linspace(0, TURN, 19)
+    for side in body.cam.sides:
+        for radius in (body.cam.inner, (body.cam.inner + body.cam.outer) / 2, body.cam.outer):
+            points = body.cam.wall(angles, side, radius)
+            assert away_from_triangles(points, mesh.vertices[mesh.triangles]).max() <= error
+
+
+def test_spoiled_walls_are_seen_at_the_start_the_middle_and_the_end() -> None:
+    body, mesh, error = formed("groove")
+    walls = [face for face in body.faces() if isinstance(face, Track)]
+    for wall in walls:
+        away = body.distance(wall, mesh.vertices)
+        mine = np.flatnonzero(away < 1e-6)
+        for pick in (mine[0], mine[len(mine) // 2], mine[-1]):
+            vertices = mesh.vertices.copy()
+            vertices[pick, 2] += 2.5 * error
+            assert any("deviates" in f for f in verdict(ReadMesh(vertices, mesh.triangles), body, error).failures)
+
+
+def test_missing_triangles_and_faces_are_seen() -> None:
+    body, mesh, error = formed("groove")
+    for k in (0, len(mesh.triangles) // 2, len(mesh.triangles) - 1):
+        holed = ReadMesh(mesh.vertices, np.delete(mesh.triangles, k, axis=0))
+        assert "not closed" in verdict(holed, body, error).failures[0]
+    # a cam of another lift, another groove, another length
+    for other in (GROOVE | {"lift": 19.0, "length": body.length}, GROOVE | {"groove_depth": 7.9},
+                  {**FORMS["groove"], "end_margin": 5.2}):  # fmt: skip
+        assert verdict(mesh, body_of(other), error).failures
+    bare = replace(body, hub=None)
+    assert any("face" in f or "deviates" in f for f in verdict(mesh_of(bare)[0], body, error).failures)
+
+
+def test_the_roller_in_the_groove_feels_the_walls() -> None:
+    """Heights by the mesh agree with the exact ones; a wall lifted by d lifts the roller by d."""
+    body, mesh, error = formed("groove")
+    cam = body.cam
+    axis = cam.place(np.arange(COUNT) * TURN / COUNT, 0)[0].imag
+    found, smaller = rolled_places(mesh.faces(), cam, (cam.radius, cam.radius - 0.5), COUNT)
+    for side in (UPPER, LOWER):
+        assert np.abs(found[side] - axis).max() < 1.5 * error
+    # half a mm of play on each side in a dwell, more on slopes
+    play = smaller[UPPER] - smaller[LOWER]
+    assert play.min() > 1.0 - 2 * error
+    assert play[COUNT * 150 // 360] == pytest.approx(1.0, abs=2 * error)
+    assert play.max() > 1.05
+    away = body.distance(next(f for f in body.faces() if isinstance(f, Track) and f.side == LOWER), mesh.vertices)
+    vertices = mesh.vertices.copy()
+    vertices[away < 1e-6, 2] += 0.3
+    lifted = rolled_places(ReadMesh(vertices, mesh.triangles).faces(), cam, (cam.radius,), COUNT)[0]
+    assert np.abs(lifted[LOWER] - found[LOWER] - 0.3).max() < 1e-9
+    assert np.array_equal(lifted[UPPER], found[UPPER])
+
+
+CONICAL = {"clearance": 0.1, "roller_form": "conical"}
+
+
+def test_files_of_a_swinging_follower_with_a_conical_roller(tmp_path: Path) -> None:
+    scene = tmp_path / "s.toml"
+    tail = ('tolerance = 0.01\n[[exports]]\nformat = "stl"\ntolerance = 0.05\n'
+            '[[exports]]\nformat = "dxf"\npurpose = "drawing"\ntolerance = 1e-2\n')  # fmt: skip
+    scene.write_text(scene_text(SWING | CONICAL, tail), encoding="utf-8")
+    assert run("build", scene, "--out", tmp_path / "o") == 0
+    folder = tmp_path / "o" / "s"
+    by_path = {f["path"]: f for f in read_report(folder)["files"]}
+    measured = by_path["cam.stl"]["measured"]
+    assert measured["lift_error"] < 1.3 * TOLERANCE
+    assert measured["least_play"] > 0.1 - 2 * TOLERANCE
+    assert by_path["cam.laser.dxf"]["entities"]["LWPOLYLINE"] == 2
+    assert "SPLINE" in by_path["cam.drawing.dxf"]["entities"]
+    assert recheck(folder / "cam.stl").verdict.failures == ()
+    # walls that the mesh's own check would have let through
+    lifted = read_stl(folder / "cam.stl")
+    part = part_of(SWING | CONICAL)
+    wall = next(f for f in part.body(0.0).faces() if isinstance(f, Track) and f.side == LOWER)
+    vertices = lifted.vertices.copy()
+    vertices[part.body(0.0).distance(wall, vertices) < 1e-4, 2] += 0.1
+    write_stl(folder / "bad.stl", Mesh(vertices, lifted.triangles))
+    found = probed(read_stl(folder / "bad.stl"), part, 0.0, TOLERANCE, Verdict({}, ()))
+    assert "the roller's place is wrong by 0.1" in found.failures[0]
+    # the file of another cam in its place
+    body = body_of(SWING | CONICAL | {"swing_deg": 23.5, "length": measured_length(folder)})
+    mesh, _ = mesh_of(body)
+    write_stl(folder / "cam.stl", Mesh(mesh.vertices, mesh.triangles))
+    assert recheck(folder / "cam.stl").verdict.failures
+
+
+def measured_length(folder: Path) -> float:
+    return float(read_stl(folder / "cam.stl").vertices[:, 2].max())
+
+
+def test_a_step_file_holds_the_exact_cam(tmp_path: Path) -> None:
+    pytest.importorskip("OCP")
+    from exporters.formats.step import write_step
+    from parts.solids.brep import body_outlines, body_solid
+
+    for name in ("end", "cone"):
+        body = body_of(FORMS[name])
+        splines = body_outlines(body, 1e-6)
+        file = tmp_path / f"{name}.step"
+        write_step(file, "cam", body_solid(body, splines), None)
+        error = splines[0].max_error + 1e-9
+        assert error < 5e-8
+        good = verify_file(file, FILE_KINDS["step"], body, error, 1e-6, "cam")
+        assert good.failures == ()
+        assert abs(good.measured["volume_error"]) < 1e-8
+        # against a cam that differs a little, at its walls, its floor, and its ends
+        cam = body.cam
+        low = replace(body, cam=replace(cam, guide=cam.guide.raised(1e-4)))
+        assert any("deviates" in f for f in verify_file(file, FILE_KINDS["step"], low, error, 1e-6, "cam").failures)
+        deep = replace(body, cam=replace(cam, inner=cam.inner - 1e-4))
+        assert verify_file(file, FILE_KINDS["step"], deep, error, 1e-6, "cam").failures
+        longer = replace(body, length=body.length + 1e-3)
+        assert bool(verify_file(file, FILE_KINDS["step"], longer, error, 1e-6, "cam").failures) == cam.is_groove
+
+
+def random_cam(rng: random.Random) -> dict[str, object]:
+    """A cylindrical cam of any size, with a cone or a cylinder; what cannot be is refused, see the caller."""
+    size = 10 ** rng.uniform(0.5, 3)
+    shares = [rng.uniform(0.1, 1) for _ in range(4)]
+    rise, high, fall = (x / sum(shares) * 360 for x in shares[:3])
+    names = ("constant_acceleration", "sine", "modified_trapezoid", "gutman_13", "polynomial_4567")
+    phases = [{"move": "rise", "angle_deg": rise, "law": rng.choice(names)}, {"move": "dwell", "angle_deg": high},
+              {"move": "return_", "angle_deg": fall, "law": rng.choice(names)},
+              {"move": "dwell", "angle_deg": 360 - (rise + high + fall)}]  # fmt: skip
+    keys: dict[str, object] = {"kind": "barrel_cam", "form": rng.choice(["groove", "end"]), "phases": phases,
+                               "outer_diameter": size, "groove_depth": size * rng.uniform(0.02, 0.4),
+                               "roller_diameter": size * rng.uniform(0.01, 0.4)}  # fmt: skip
+    if rng.random() < 0.5:
+        keys |= {"roller_form": "conical"} | ({"cone_angle_deg": rng.uniform(5, 60)} if rng.random() < 0.5 else {})
+    if rng.random() < 0.4:
+        return keys | {"swing_deg": rng.uniform(2, 50), "oscillating": {"arm_length": size * rng.uniform(0.3, 1.5)}}
+    return keys | {"lift": size * 10 ** rng.uniform(-2, 0)}
+
+
+def possible_cam(rng: random.Random) -> BarrelBody:
+    """The first of random cams that is not refused."""
+    while True:
+        with contextlib.suppress(SceneError):
+            return body_of(random_cam(rng))
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("seed", range(30))
+def test_random_cams_become_good_files(seed: int) -> None:
+    pytest.importorskip("OCP")
+    from exporters.formats.read_step import ReadSolid
+    from exporters.verification.faces import verify_faced_solid
+    from parts.solids.brep import body_outlines, body_solid
+
+    body = possible_cam(random.Random(seed))
+    tolerance = 1e-3 * body.cam.outer
+    outlines = mesh_outlines(body, tolerance, 0.0)
+    made = body_mesh(body, outlines)
+    mesh = ReadMesh(made.vertices, made.triangles)
+    assert verify_faced_mesh(mesh, body, outlines[0].max_error, tolerance).failures == ()
+    splines = body_outlines(body, 1e-6)
+    error = max(1e-6, splines[0].max_error)
+    assert verify_faced_solid(ReadSolid(body_solid(body, splines), ()), body, error, 1e-6).failures == ()

@@ -1,0 +1,280 @@
+"""Files of helical parts: the command's own read-back, outside readers, spoiled files that are caught."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from exporters.command.cli import main
+from exporters.formats.readback import ReadMesh
+from exporters.verification.mesh import verify_mesh
+from geometry.solids.body import Body
+from parts.base.refusal import SceneError
+from parts.scene.load import load_scene, make_parts, scene_from_dict
+from parts.solids.mesh import body_mesh, mesh_outlines
+from tests.oracles.rack_sweep import RackTool
+from tests.oracles.space_rack import space_penetration
+
+needs_kernel = pytest.mark.skipif(importlib.util.find_spec("OCP") is None, reason="needs the CAD kernel")
+GEAR = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 23, "helix_angle_deg": 30.0, "face_width": 10.0,
+        "bore_diameter": 10.0}  # fmt: skip
+PARTS: dict[str, dict[str, Any]] = {
+    "right": GEAR,
+    "double": {**GEAR, "number_of_teeth": 10, "hand": "left", "double_helical": True, "tip_rounding": 0.2,
+               "web": {"thickness": 4.0, "rim_diameter": 16.5}, "hub": {"diameter": 13.0, "above": 2.0}},
+    "steep": {**GEAR, "number_of_teeth": 9, "helix_angle_deg": 45.0, "face_width": 70.0, "tip_chamfer": 0.2},
+    "shaped": {**GEAR, "number_of_teeth": 15, "helix_angle_deg": 20.0, "cutter": {"number_of_teeth": 25}},
+    "ring": {"kind": "ring_gear", "module": 2.0, "number_of_teeth": 40, "helix_angle_deg": 20.0, "face_width": 10.0},
+    "rack": {"kind": "rack", "module": 2.0, "number_of_teeth": 3, "helix_angle_deg": 30.0, "face_width": 10.0},
+    "chevrons": {"kind": "rack", "module": 2.0, "number_of_teeth": 3, "helix_angle_deg": 20.0, "tip_rounding": 0.3,
+                 "double_helical": True},
+}  # fmt: skip
+
+
+def body_of(keys: dict[str, Any], offset: float = 0.0) -> Body:
+    return make_parts(scene_from_dict({"parts": {"p": keys}}, "test", "test"), "test")[0]["p"].body(offset)
+
+
+def write(folder: Path, parts: dict[str, Any], *exports: str) -> Path:
+    file = folder / "s.toml"
+    rows = [
+        f"[parts.{name}]\n" + "\n".join(f"{k} = {_toml(v)}" for k, v in keys.items()) for name, keys in parts.items()
+    ]
+    file.write_text("\n".join([*rows, *(f"[[exports]]\n{e}" for e in exports)]))
+    return file
+
+
+def _toml(value: object) -> str:
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{k} = {_toml(v)}" for k, v in value.items()) + "}"
+    return json.dumps(value)
+
+
+@pytest.mark.sampled(4)
+@pytest.mark.parametrize("name", PARTS)
+def test_meshes_pass_their_read_back_and_trimesh(tmp_path: Path, name: str) -> None:
+    import trimesh
+
+    keys = PARTS[name]
+    scene = write(
+        tmp_path, {name: keys}, 'format = "stl"\ntolerance = 0.02', 'format = "3mf"\noffset = -0.05', 'format = "dxf"'
+    )
+    assert main(["build", str(scene), "--out", str(tmp_path)]) == 0
+    report = json.loads((tmp_path / "s" / "report.json").read_text())
+    for entry in report["files"]:
+        if entry["format"] != "dxf":
+            assert 0.4 * entry["max_error"] <= entry["measured"]["max_deviation"] <= entry["max_error"]
+            assert abs(entry["measured"]["volume_error"]) < 4e-3
+    mesh = trimesh.load(tmp_path / "s" / f"{name}.stl")
+    assert mesh.is_watertight
+    assert mesh.is_winding_consistent
+    exact = _area_times_width(keys)
+    if exact is not None:
+        assert mesh.volume == pytest.approx(exact, rel=4e-3)
+    for entry in report["files"]:
+        codes = {f["code"] for f in entry["findings"]}
+        assert ("transverse_section" in codes) == (entry["format"] == "dxf")
+
+
+def _area_times_width(keys: dict[str, Any]) -> float | None:
+    """Volume by Cavalieri from the same part without a helix of its transverse section; None where a web is cut out."""
+    if "web" in keys:
+        return None
+    from geometry.plane.measure import region_area
+
+    made = make_parts(scene_from_dict({"parts": {"p": keys}}, "test", "test"), "test")[0]["p"]
+    return region_area(made.section(0.0).region) * keys.get("face_width", 10.0)
+
+
+@needs_kernel
+def test_step_points_lie_on_the_screw_surface(tmp_path: Path) -> None:
+    """Module 2, 23 teeth, 30 degrees: the involute helicoid by its own formula, fillets by the rack swept in space."""
+    from OCP.BRepAdaptor import BRepAdaptor_Surface
+    from OCP.GeomAbs import GeomAbs_SurfaceType
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopExp import TopExp_Explorer
+    from OCP.TopoDS import TopoDS
+
+    from exporters.formats.read_step import read_step
+
+    scene = write(tmp_path, {"right": GEAR}, 'format = "step"')
+    files = []
+    for run in ("a", "b"):
+        assert main(["build", str(scene), "--out", str(tmp_path / run), "--no-verify"]) == 0
+        files.append(tmp_path / run / "s" / "right.step")
+    assert files[0].read_bytes() == files[1].read_bytes()
+    points, radii = [], []
+    explorer = TopExp_Explorer(read_step(files[0]).shape, TopAbs_ShapeEnum.TopAbs_FACE)
+    while explorer.More():
+        surface = BRepAdaptor_Surface(TopoDS.Face_s(explorer.Current()))
+        if surface.GetType() == GeomAbs_SurfaceType.GeomAbs_Cylinder:
+            radii.append(surface.Cylinder().Radius())
+        elif surface.GetType() == GeomAbs_SurfaceType.GeomAbs_BSplineSurface:
+            u = np.linspace(surface.FirstUParameter(), surface.LastUParameter(), 9)
+            v = np.linspace(surface.FirstVParameter(), surface.LastVParameter(), 7)
+            found = [surface.Value(a, b) for a in u.tolist() for b in v.tolist()]
+            points.append([(p.X(), p.Y(), p.Z()) for p in found])
+        explorer.Next()
+    beta, alpha = math.radians(30.0), math.radians(20.0)
+    reference = 23.0 / math.cos(beta)
+    expected = [5.0] + 23 * [reference - 2.5] + 23 * [reference + 2.0]
+    assert sorted(radii) == pytest.approx(expected, abs=1e-9)
+    assert len(points) == 4 * 23
+    error = _distance_from_helical_gear(np.array(points).reshape(-1, 3), 23, 2.0, alpha, beta)
+    assert error.max() < 1e-6
+
+
+def _distance_from_helical_gear(p: np.ndarray, teeth: int, module: float, alpha: float, beta: float) -> np.ndarray:
+    """Distance from the zero helical gear: normal to the involute in its section, and the depth in the swept rack."""
+    transverse = math.atan(math.tan(alpha) / math.cos(beta))
+    reference = module * teeth / math.cos(beta) / 2
+    base = reference * math.cos(transverse)
+    place = (p[:, 0] + 1j * p[:, 1]) * np.exp(-1j * p[:, 2] * math.tan(beta) / reference)
+    pitch = 2 * math.pi / teeth
+    angle = np.abs(np.angle(place) - pitch * np.round(np.angle(place) / pitch))
+    pressure = np.arccos(np.minimum(base / np.abs(place), 1.0))
+    half = math.pi / 2 / teeth + math.tan(transverse) - transverse
+    flank = base * np.abs(angle - (half - (np.tan(pressure) - pressure)))
+    tool = RackTool(module, alpha, 1.0, 0.25, 0.38, 0.0)
+    swept = np.abs(space_penetration(p[:, 0] + 1j * p[:, 1], p[:, 2], tool, teeth, beta))
+    above = np.abs(place) > reference - 0.5 * module
+    assert np.abs(swept - flank)[above].max() < 1e-9
+    return np.where(above, flank, swept)
+
+
+@pytest.mark.sampled(2)
+@needs_kernel
+@pytest.mark.parametrize("name", ["double", "shaped", "rack", "chevrons"])
+def test_step_files_pass_their_read_back(tmp_path: Path, name: str) -> None:
+    scene = write(tmp_path, {name: PARTS[name]}, 'format = "step"')
+    assert main(["build", str(scene), "--out", str(tmp_path)]) == 0
+    entry = json.loads((tmp_path / "s" / "report.json").read_text())["files"][0]
+    assert entry["measured"]["max_deviation"] <= entry["max_error"] <= 1e-6
+    assert abs(entry["measured"]["volume_error"]) < 1e-8
+
+
+@pytest.mark.heavy
+@needs_kernel
+@pytest.mark.parametrize("name", ["steep", "ring"])
+def test_long_step_files_pass_their_read_back(tmp_path: Path, name: str) -> None:
+    test_step_files_pass_their_read_back(tmp_path, name)
+
+
+@needs_kernel
+def test_the_wrong_screw_is_seen_in_step() -> None:
+    """The solid of another hand, of a slightly other angle, of a single helix: none passes for the part."""
+    from exporters.formats.read_step import ReadSolid
+    from exporters.verification.solid import verify_solid
+    from parts.solids.brep import body_outlines, body_solid
+
+    keys = {**GEAR, "number_of_teeth": 8, "bore_diameter": 4.0}
+    body = body_of(keys)
+    solid = body_solid(body, body_outlines(body, 1e-6))
+    assert not verify_solid(ReadSolid(solid, ()), body, 1e-6, 1e-6).failures
+    for other in ({"hand": "left"}, {"double_helical": True}):
+        assert verify_solid(ReadSolid(solid, ()), body_of(keys | other), 1e-6, 1e-6).failures
+    slightly = replace(body, loops=tuple(replace(loop, turn=loop.turn * (1 + 1e-6)) for loop in body.loops))
+    assert any("deviates" in f for f in verify_solid(ReadSolid(solid, ()), slightly, 1e-6, 1e-6).failures)
+
+
+def read(body: Body, tolerance: float = 0.02) -> tuple[ReadMesh, float]:
+    made = mesh_outlines(body, tolerance, 1e-4)
+    mesh = body_mesh(body, made)
+    return ReadMesh(mesh.vertices.astype(np.float32).astype(float), mesh.triangles), max(
+        a.max_error for a in made
+    ) + 1e-5
+
+
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize("name", ["right", "double", "rack", "chevrons"])
+def test_the_wrong_screw_is_seen_in_a_mesh(name: str) -> None:
+    body = body_of(PARTS[name])
+    mesh, declared = read(body)
+    assert not verify_mesh(mesh, body, declared, 0.03).failures
+    turned_round = {"right": "left", "left": "right"}[PARTS[name].get("hand", "right")]
+    assert verify_mesh(mesh, body_of(PARTS[name] | {"hand": turned_round}), declared, 0.03).failures
+    other = not PARTS[name].get("double_helical", False)
+    assert verify_mesh(mesh, body_of(PARTS[name] | {"double_helical": other}), declared, 0.03).failures
+
+
+def test_a_spoiled_slice_is_seen() -> None:
+    """A vertex between the ends that is moved, a slice that is turned, a slice that is left out."""
+    body = body_of(GEAR)
+    mesh, declared = read(body)
+    z, places = mesh.vertices[:, 2], mesh.vertices[:, 0] + 1j * mesh.vertices[:, 1]
+    inner = np.flatnonzero((z > 0) & (z < 10.0))
+    for spoiled in (inner[:1], inner[len(inner) // 2 :][:1], inner[-1:], np.flatnonzero(z == z[inner[0]])):
+        moved = mesh.vertices.copy()
+        # a corner moves aside and outwards, a whole slice turns
+        turned = places[spoiled] * np.exp((4j if len(spoiled) > 1 else 4 + 4j) * declared / 25.0)
+        moved[spoiled, 0], moved[spoiled, 1] = turned.real, turned.imag
+        assert verify_mesh(ReadMesh(moved, mesh.triangles), body, declared, 0.03).failures
+    # every second slice left out: each slice is right, what lies between is not
+    made = list(mesh_outlines(body, 0.02, 1e-4))
+    made[0] = replace(made[0], turn_step=2 * made[0].turn_step)
+    coarse = body_mesh(body, tuple(made))
+    failures = verify_mesh(ReadMesh(coarse.vertices, coarse.triangles), body, declared, 0.03).failures
+    assert any("deviates" in f for f in failures)
+
+
+REFUSED: dict[str, tuple[dict[str, Any], str]] = {
+    "chamfered faces": ({**GEAR, "face_chamfer": 0.5}, "face_chamfer"),
+    "one chamfered face": ({**GEAR, "face_chamfer": {"below": 0.5}}, "face_chamfer.below"),
+    "double without an angle": ({**GEAR, "helix_angle_deg": 0.0, "double_helical": True}, "double_helical"),
+    "too steep": ({**GEAR, "helix_angle_deg": 61.0}, "helix_angle_deg"),
+    "no hand": ({**GEAR, "hand": "up"}, "hand"),
+    "undercut away": (
+        {
+            **GEAR,
+            "number_of_teeth": 5,
+            "helix_angle_deg": 20.0,
+            "profile_shift_coefficient": -0.9,
+            "bore_diameter": 0.0,
+        },
+        "profile_shift_coefficient",
+    ),
+    "pointed ring": ({**PARTS["ring"], "profile_shift_coefficient": -3.0}, ""),
+    "holes in a helical rack": ({**PARTS["rack"], "holes": {"count": 1, "diameter": 2.0}}, "holes.count"),
+}
+
+
+@pytest.mark.parametrize(("keys", "key"), REFUSED.values(), ids=REFUSED.keys())
+def test_refusals_name_the_key(keys: dict[str, Any], key: str) -> None:
+    with pytest.raises(SceneError) as caught:
+        body_of(keys)
+    assert key in caught.value.key
+    assert (
+        "work" in caught.value.remedy
+        or "remove" in caught.value.remedy
+        or "one of" in caught.value.remedy
+        or ("at most 60" in caught.value.remedy)
+    )
+
+
+def test_a_refused_shift_is_told_in_normal_modules_and_its_remedy_works() -> None:
+    keys = {
+        **GEAR,
+        "number_of_teeth": 7,
+        "helix_angle_deg": 40.0,
+        "profile_shift_coefficient": 1.5,
+        "bore_diameter": 0.0,
+    }
+    with pytest.raises(SceneError) as caught:
+        body_of(keys)
+    assert caught.value.key.endswith("profile_shift_coefficient")
+    assert caught.value.value == pytest.approx(1.5)
+    nearest = float(caught.value.remedy.rpartition("at most ")[2].split()[0])
+    assert body_of(keys | {"profile_shift_coefficient": nearest}).walls
+    with pytest.raises(SceneError):
+        body_of(keys | {"profile_shift_coefficient": nearest + 0.01})
+
+
+def test_the_built_in_scene_loads() -> None:
+    assert make_parts(load_scene("helical_gears"), "helical_gears")[0]

@@ -1,0 +1,82 @@
+"""Splines that start from the one of a neighbouring tooth: as good as those made alone, and never worse than told."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from geometry.approximation.outline import spline_outline
+from geometry.approximation.splines import SplineFit, fit_spline
+from geometry.curves.bounds import BoundedSpan
+from geometry.gears.noncircular.curves import RolledFillet, RolledFlank
+from parts.scene.load import make_parts, scene_from_dict
+
+TOLERANCE = 1e-5
+
+
+def outline() -> Any:
+    gear = {"kind": "noncircular_gear", "centrode": "focal_ellipse", "eccentricity": 0.7, "module": 2.0,
+            "number_of_teeth": 21}  # fmt: skip
+    part = make_parts(scene_from_dict({"parts": {"gear": gear}}, "s", "s"), "s")[0]["gear"]
+    return part.section(0.0).region.outer
+
+
+def away(curve: Any, spline: Any) -> float:
+    """Greatest distance of points of a spline from a polyline of the curve that is finer than what is measured."""
+    points = spline.point(np.linspace(*spline.domain, 61))
+    fine = curve.point(np.linspace(*curve.domain, 20_001))
+    edge = np.diff(fine)
+    found = []
+    for p in points:
+        near = int(np.clip(np.argmin(np.abs(fine - p)), 1, len(edge) - 1))
+        found.append(min(abs((np.conj(edge[k]) * (p - fine[k])).imag) / abs(edge[k]) for k in (near - 1, near)))
+    return max(found)
+
+
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize(("degree", "continuity"), [(3, 2), (7, 6)])
+def test_every_curve_of_an_outline_keeps_its_tolerance(degree: int, continuity: int) -> None:
+    profile = outline()
+    made = spline_outline(profile, TOLERANCE, degree=degree, continuity=continuity)
+    assert made.bound == "certified"
+    assert made.max_error <= TOLERANCE
+    poles = 0
+    for segment, spline in zip(profile.period, made.period, strict=True):
+        assert away(segment.curve, spline) <= made.max_error + 1e-9
+    alone = 0
+    for segment, spline in list(zip(profile.period, made.period, strict=True))[::7]:
+        poles += len(spline.poles)  # type: ignore[union-attr]
+        alone += len(fit_spline(segment.curve, TOLERANCE, degree=degree, continuity=continuity).spline.poles)
+    assert poles <= 1.1 * alone
+
+
+def test_a_curve_that_is_not_alike_is_made_alone() -> None:
+    """The knots of a short flank are too few for a fillet: the fit starts anew and still keeps its word."""
+    curves = [s.curve for s in outline().period]
+    flank = next(c for c in curves if isinstance(c, RolledFlank))
+    fillet = next(c for c in curves if isinstance(c, RolledFillet))
+    model = fit_spline(flank, 1e-2, degree=3, continuity=2)
+    found = fit_spline(fillet, 1e-7, degree=3, continuity=2, like=model)
+    assert found.pieces > model.pieces
+    assert away(fillet, found.spline) <= found.max_error + 1e-9 <= 1.02e-7
+    bare = SplineFit(model.spline, model.max_error, model.bound, model.pieces)
+    assert fit_spline(fillet, 1e-3, degree=3, continuity=2, like=bare).max_error <= 1e-3
+
+
+def test_bounds_of_all_parts_at_once_hold() -> None:
+    for curve in [s.curve for s in outline().period if isinstance(s.curve, BoundedSpan)][:12]:
+        edges = np.linspace(*curve.domain, 6)
+        found = curve.derivative_bounds(edges, (2, 3, 4))
+        for k in range(5):
+            t = np.linspace(edges[k], edges[k + 1], 41)
+            for row, order in enumerate((2, 3, 4)):
+                most = float(np.abs(curve.derivative(t, order)).max())
+                assert most <= found[row, k] < np.inf
+
+
+def test_lands_of_mirrored_teeth_are_made_once() -> None:
+    profile = outline()
+    made = {id(s.curve) for s in profile.period if type(s.curve).__name__.startswith("Mirrored")}
+    assert len(made) == pytest.approx(len(profile.period) / 2, abs=4)

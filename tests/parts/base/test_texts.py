@@ -1,0 +1,186 @@
+"""Texts by language: messages that wait, plurals, catalogues of strangers, and a third language out of one .po."""
+
+from __future__ import annotations
+
+import gettext
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import parts
+from parts.base import texts
+from parts.base.texts import LOCALE, add_catalogue, counted, filled, in_context, languages, listed, message, words
+from tests.catalogues import compiled
+
+HOUSE = Path(parts.__file__).parents[1]
+HEAD = """\
+msgid ""
+msgstr ""
+"Language: {language}\\n"
+"Content-Type: text/plain; charset=UTF-8\\n"
+"Plural-Forms: nplurals=2; plural=(n != 1);\\n"
+
+"""
+COUNTS = {1: "1 раз", 2: "2 рази", 5: "5 разів", 11: "11 разів", 21: "21 раз", 112: "112 разів", 1.5: "1.5 раза",
+          0: "0 разів", 22: "22 рази", 14: "14 разів", 101: "101 раз", 0.5: "0.5 раза",
+          3.0: "3 рази", -1: "-1 раз"}  # fmt: skip
+
+
+@pytest.fixture
+def own() -> Iterator[None]:
+    """Catalogues that a test adds are gone after it."""
+    before = list(texts._added)
+    yield
+    texts._added[:] = before
+    words.cache_clear()
+
+
+def catalogue(folder: Path, language: str, domain: str, body: str) -> Path:
+    """A compiled catalogue in a folder of its own."""
+    file = folder / language / "LC_MESSAGES" / f"{domain}.po"
+    file.parent.mkdir(parents=True)
+    file.write_text(HEAD.format(language=language) + body, "utf-8")
+    file.with_suffix(".mo").write_bytes(compiled(file))
+    return folder
+
+
+@pytest.mark.parametrize(("count", "told"), COUNTS.items())
+def test_ukrainian_counts(count: float, told: str) -> None:
+    assert words("uk").say(counted("{n:.9g} time", "{n:.9g} times", by="n", n=count)) == told
+    one = "{value:.0f} edge is shorter than {limit:.3g} mm; merging it would break the tolerance"
+    many = "{value:.0f} edges are shorter than {limit:.3g} mm; merging them would break the tolerance"
+    assert words("uk").plural(one, many, count, value=count, limit=1.0).startswith(f"{count:.0f} відрі")
+
+
+def test_english_counts() -> None:
+    times = [words("en").plural("{n:g} time", "{n:g} times", n, n=n) for n in (1, 2, 0, 1.5, 21, -1)]
+    assert times == ["1 time", "2 times", "0 times", "1.5 times", "21 times", "-1 times"]
+
+
+def test_a_message_tells_what_it_holds_in_the_same_language() -> None:
+    inner = message("gear {number}", number=2)
+    outer = filled("{rule}: {why}", rule=inner, why="as typed: {brace}")
+    assert words("en").say(outer) == "gear 2: as typed: {brace}"
+    assert words("uk").say(outer) == "колесо 2: as typed: {brace}"
+    assert words("uk").say(listed(["number of teeth", inner])) == "число зубців колеса, колесо 2"
+    assert words("uk").say(in_context("sheet", "number of teeth")) == "число зубців"
+    assert words("uk").say("nobody said this") == "nobody said this"
+    # braces are plain where no number is given
+    assert words("en").text("{ a }") == "{ a }"
+    assert words("uk").text("") == ""
+
+
+def test_numbers_as_drawings_print_them() -> None:
+    assert [words(one).decimal("0.25 mm") for one in ("en", "uk")] == ["0.25 mm", "0,25 mm"]
+
+
+def test_a_stranger_brings_a_catalogue(tmp_path: Path, own: None) -> None:
+    said = "a plate of {corners} corners, by a stranger"
+    assert words("uk").text(said, corners=6) == "a plate of 6 corners, by a stranger"
+    body = f'msgid "{said}"\nmsgstr "плита, кутів {{corners}}"\n\nmsgid "number of teeth"\nmsgstr "не наше"\n'
+    add_catalogue("stranger", catalogue(tmp_path, "uk", "stranger", body))
+    assert words("uk").text(said, corners=6) == "плита, кутів 6"
+    # ours is asked first
+    assert words("uk").text("number of teeth") == "число зубців колеса"
+    assert words("en").text(said, corners=6) == "a plate of 6 corners, by a stranger"
+
+
+def test_english_asks_for_no_catalogue(tmp_path: Path, own: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    def never(*_: object, **__: object) -> None:
+        raise AssertionError("a catalogue is looked for")
+
+    words.cache_clear()
+    monkeypatch.setattr(gettext, "find", never)
+    monkeypatch.setattr(gettext, "translation", never)
+    add_catalogue("stranger", tmp_path)
+    assert words("en").text("gear {number}", number=1) == "gear 1"
+    assert words("en").decimal("0.5") == "0.5"
+    # negative control
+    with pytest.raises(AssertionError, match="looked for"):
+        words("uk")
+
+
+def run(code: str, house: Path = HOUSE, **environment: str) -> str:
+    """What Python prints in a process of its own, with the packages of a house."""
+    kept = {k: v for k, v in os.environ.items() if k not in ("LANG", "LANGUAGE", "LC_ALL", "LC_MESSAGES")}
+    env = kept | {"PYTHONPATH": str(house), "PYTHONUTF8": "1", "COLUMNS": "120", **environment}
+    made = subprocess.run(
+        [sys.executable, "-P", "-c", code], env=env, capture_output=True, encoding="utf-8", check=False
+    )
+    return made.stdout + made.stderr
+
+
+OPENED = """
+import sys
+opened = []
+sys.addaudithook(lambda event, args: opened.append(str(args[0])) if event == "open" else None)
+from exporters.command.cli import main
+for asked in (["calc", "spur", "module=2", "number_of_teeth=23"], ["check", "practicum_pair"]):
+    main([*asked, *sys.argv[1:], {more}])
+print("MO", [name for name in opened if name.endswith((".mo", ".po"))])
+"""
+
+
+def test_english_commands_open_no_catalogue_and_ukrainian_ones_open_one() -> None:
+    """By what Python itself says it opens, in a process of its own."""
+    assert run(OPENED.format(more="")).endswith("MO []\n")
+    told = run(OPENED.format(more='"--language", "uk"'))
+    assert told.count("higherpair.mo") == 1
+    assert "колесо" in told
+
+
+@pytest.mark.parametrize("name", ["LANGUAGE", "LANG", "LC_ALL", "LC_MESSAGES"])
+def test_the_language_of_the_terminal_does_not_matter(name: str, tmp_path: Path) -> None:
+    """Even where the system has a catalogue for argparse, which gettext would ask for by that variable."""
+    catalogue(tmp_path, "uk", "messages", 'msgid "usage: "\nmsgstr "SYSTEM: "\n')
+    code = "import gettext; gettext.bindtextdomain('messages', {!r})\n{}\n"
+    code += "from exporters.command.cli import main\nmain({!r})"
+    control = "import argparse; argparse.ArgumentParser().print_usage()"
+    speaks = {name: "uk_UA.UTF-8"}
+    # negative control: argparse alone does as the terminal says
+    assert "SYSTEM: " in run(code.format(str(tmp_path), control, ["list"]), **speaks)
+    assert "usage: higherpair build" in run(code.format(str(tmp_path), "", ["build", "--help"]), **speaks)
+    asked = ["build", "--help", "--language", "uk"]
+    assert "використання: higherpair build" in run(code.format(str(tmp_path), "", asked), **speaks)
+    wrong = run(code.format(str(tmp_path), "", ["build"]), **speaks)
+    assert wrong == "higherpair: the following arguments are required: scene; see `higherpair build --help`\n"
+
+
+def test_the_scene_says_in_which_language_its_command_is_misused(tmp_path: Path) -> None:
+    scene = tmp_path / "s.toml"
+    scene.write_text('[scene]\nlanguage = "uk"\n', "utf-8")
+    code = "from exporters.command.cli import main\nmain({!r})"
+    told = run(code.format(["build", str(scene), "--nothing"]))
+    assert told == "higherpair: невідомі аргументи: --nothing; див. `higherpair --help`\n"
+    told = run(code.format(["build", str(scene), "--nothing", "--language", "en"]))
+    assert told == "higherpair: unrecognized arguments: --nothing; see `higherpair --help`\n"
+    assert "використання: " in run(code.format(["build", str(scene), "--help"]))
+
+
+def test_a_third_language_is_one_po(tmp_path: Path) -> None:
+    """A copy of the house with one file more: its scenes, its command and its calculations speak that language."""
+    for package in ("geometry", "parts", "exporters"):
+        shutil.copytree(HOUSE / package, tmp_path / package, ignore=shutil.ignore_patterns("__pycache__"))
+    body = 'msgid "External gear"\nmsgstr "Koło zębate"\n\nmsgid "options"\nmsgstr "opcje"\n\n'
+    catalogue(tmp_path / "parts" / "locale", "pl", "higherpair", body)
+    code = "from exporters.command.cli import main\nmain({!r})"
+    calc = ["calc", "spur", "module=2", "number_of_teeth=23", "--language", "pl"]
+    told = run(code.format(calc), tmp_path)
+    assert told.startswith("Koło zębate\n")
+    # what it lacks is English
+    assert "number of teeth" in told
+    assert "opcje:" in run(code.format(["list", "--help", "--language", "pl"]), tmp_path)
+    assert 'one of "en", "pl", "uk"' in run(code.format(["new", "spur_gear"]), tmp_path)
+    scene = tmp_path / "s.toml"
+    scene.write_text('[scene]\nlanguage = "pl"\n[parts.gear]\nkind = "spur_gear"\nmodule = 2\nnumber_of_teeth = 23\n')
+    assert run(code.format(["calc", "spur", str(scene)]), tmp_path).startswith("Koło zębate\n")
+    # negative control: this house has none
+    told = run(code.format(calc))
+    assert told == 'higherpair: calc: --language = "pl": must be one of en, uk\n'
+    assert languages() == ("en", "uk")
+    assert sorted(p.name for p in LOCALE.iterdir()) == ["uk"]

@@ -1,0 +1,338 @@
+"""The part kind ``cam``: built-in scenes, refusals with a remedy that works, and the follower rolled over the files."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any, get_args
+
+import ezdxf
+import numpy as np
+import pytest
+
+from exporters.command.cli import main
+from geometry.base.errors import OffsetError
+from geometry.cams.motion.follower_motion import PhaseKind
+from geometry.cams.motion.guides import Translating
+from geometry.cams.plane.disk import DiskCam
+from geometry.cams.plane.synthesis import greatest_pressure_angle
+from geometry.laws.named import NAMED_LAWS
+from geometry.plane.measure import distance_to_profile
+from parts.base.part import Part
+from parts.base.refusal import SceneError
+from parts.cams.disk_cam.part import CAM, CamSpec
+from parts.keys.cam import LawName
+from parts.scene.load import load_scene, make_parts, scene_from_toml
+from tests.exporters.making import read_report, toml
+from tests.geometry.cams.oracle import followed
+from tests.parts.nearest import cured, refused
+
+PHASES = [
+    {"move": "rise", "angle_deg": 120.0, "law": "sine"},
+    {"move": "dwell", "angle_deg": 40.0},
+    {"move": "return_", "angle_deg": 130.0, "law": "polynomial_345"},
+    {"move": "dwell", "angle_deg": 70.0},
+]
+STEEP = [PHASES[0] | {"angle_deg": 55.0}, PHASES[1], PHASES[2] | {"angle_deg": 70.0}, PHASES[3] | {"angle_deg": 195.0}]
+ROLLER: dict[str, Any] = {"kind": "cam", "follower": "roller", "lift": 20.0, "phases": PHASES, "follower_radius": 8.0,
+                          "base_circle_radius": 35.0, "bore_diameter": 12.0}  # fmt: skip
+SWING = {"centre_distance": 95.0, "arm_length": 80.0}
+CAMS: dict[str, dict[str, Any]] = {
+    "roller": ROLLER | {"follower_offset": 5.0},
+    "pointed": ROLLER | {"follower": "pointed", "follower_radius": 0.0},
+    "mushroom": ROLLER | {"follower": "mushroom", "follower_radius": 70.0},
+    "flat": ROLLER | {"follower": "flat", "follower_radius": 0.0, "base_circle_radius": 42.0},
+    "oscillating roller": ROLLER | {"lift": 0.0, "swing_deg": 18.0, "oscillating": SWING},
+    "oscillating flat": ROLLER | {"lift": 0.0, "swing_deg": 12.0, "follower": "flat", "follower_radius": 0.0,
+                                  "oscillating": {"centre_distance": 95.0, "sense": "with", "face_offset": 4.0}},
+}  # fmt: skip
+
+
+def scene_text(keys: dict[str, Any], tail: str = "") -> str:
+    def value(x: Any) -> str:
+        return (
+            f"[{', '.join(value(y) for y in x)}]"
+            if isinstance(x, list)
+            else toml(x)
+            if not isinstance(x, dict)
+            else _table(x)
+        )
+
+    def _table(x: dict[str, Any]) -> str:
+        return "{ " + ", ".join(f"{k} = {value(v)}" for k, v in x.items()) + " }"
+
+    lines = ["[parts.cam]", *(f"{k} = {value(v)}" for k, v in keys.items())]
+    return "\n".join([*lines, '[[exports]]\nformat = "dxf"', tail, ""])
+
+
+def part_of(keys: dict[str, Any]) -> Part:
+    return make_parts(scene_from_toml(scene_text(keys).encode(), "s.toml", "s"), "s.toml")[0]["cam"]
+
+
+def cam_of(name_or_keys: str | dict[str, Any]) -> DiskCam:
+    """The cam of a built-in scene or of keys."""
+    if isinstance(name_or_keys, str):
+        spec = load_scene(name_or_keys).parts["cam"]
+    else:
+        spec = scene_from_toml(scene_text(name_or_keys).encode(), "s.toml", "s").parts["cam"]
+    assert isinstance(spec, CamSpec)
+    return CAM.thing(spec, {})
+
+
+def test_scenes_know_every_named_law() -> None:
+    assert get_args(LawName) == tuple(NAMED_LAWS)
+
+
+def test_the_practicums_cams_have_the_least_sizes() -> None:
+    """Lessons 4 and 5: r_0 of the taken laws, recomputed at 40 digits; R_min = r_0 + 10 of the flat one."""
+    flat, roller = cam_of("practicum_flat_cam"), cam_of("practicum_roller_cam")
+    assert isinstance(flat.mount, Translating)
+    assert flat.mount.start_height == pytest.approx(30.26159019146893, rel=1e-12)
+    assert flat.motion.lift == pytest.approx(38, rel=1e-14)
+    assert abs(complex(roller.reference_point(0.0))) == pytest.approx(25.176679221264166, rel=1e-12)
+    assert roller.motion.lift == pytest.approx(30, rel=1e-14)
+    assert greatest_pressure_angle(roller, PhaseKind.RISE).value == pytest.approx(math.radians(30), abs=1e-12)
+    ends = [math.degrees(p.angle) for p in roller.motion.phases]
+    assert ends == pytest.approx([130, 50, 130, 50])
+
+
+def test_the_guidelines_cam() -> None:
+    cam = cam_of("guidelines_cam")
+    assert isinstance(cam.mount, Translating)
+    assert cam.mount.start_height == pytest.approx(45.81466903731541 + 10, rel=1e-12)
+    assert float(cam.motion.value(math.radians(90 * 3 / 8))) == pytest.approx(10.125, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", CAMS)
+def test_sections_move_outwards_by_the_offset(name: str) -> None:
+    part = part_of(CAMS[name])
+    plain = part.section(0.0).region
+    for offset in (-0.4, 0.4):
+        moved = part.section(offset).region
+        points = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 33)) for s in moved.outer.segments()])
+        assert np.allclose(distance_to_profile(points, plain.outer), 0.4, atol=1e-9)
+        assert abs(complex(moved.holes[0].period[0].curve.point(0.0))) == pytest.approx(6 - offset)
+
+
+def polyline(file: Path) -> np.ndarray:
+    """The outer contour of a laser DXF, its arcs finely flattened by ezdxf."""
+    space = ezdxf.readfile(file).modelspace()
+    outline = next(e for e in space.query("LWPOLYLINE") if e.dxf.layer == "CUT_OUTER")
+    path = ezdxf.path.make_path(outline)
+    return np.array([complex(p.x, p.y) for p in path.flattening(1e-6)])
+
+
+@pytest.mark.parametrize("name", ["roller", "flat", "mushroom", "oscillating roller", "oscillating flat"])
+def test_the_follower_rolled_over_the_file_lifts_as_it_should(name: str, tmp_path: Path) -> None:
+    """|dS| <= tolerance / cos nu; of a swinging follower, over the arm of the contact."""
+    scene = tmp_path / "s.toml"
+    scene.write_text(scene_text(CAMS[name]), encoding="utf-8")
+    assert main(["build", str(scene), "--out", str(tmp_path / "o")]) == 0
+    report = read_report(tmp_path / "o" / "s")
+    declared = report["files"][0]["max_error"]
+    assert declared <= 0.005
+    outline = polyline(tmp_path / "o" / "s" / "cam.dxf")
+    cam = cam_of(CAMS[name])
+    worst = 0.0
+    for angle in np.linspace(0, 2 * math.pi, 181):
+        if isinstance(cam.mount, Translating):
+            start, arm = cam.mount.start_height, math.cos(float(cam.pressure_angle(angle)))
+        else:
+            start = cam.mount.start_angle
+            point = complex(cam.reference_point(angle) if not cam.is_flat else cam.contact(angle))
+            arm = abs(point - cam.mount.centre_distance) * math.cos(float(cam.pressure_angle(angle)))
+        error = abs(start + float(cam.motion.value(angle)) - followed(cam, outline, float(angle)))
+        assert error * arm <= declared * 1.01 + 2e-6
+        worst = max(worst, error * arm)
+    assert worst >= 0.2 * declared
+
+
+@pytest.mark.parametrize("name", ["concave", "oscillating roller"])
+def test_every_format_is_written_and_read_back(name: str, tmp_path: Path) -> None:
+    keys = CAMS.get(name, ROLLER | {"base_circle_radius": 18.0, "lift": 25.0})
+    formats = ["svg", "stl", "3mf"]
+    tail = (
+        "".join(f'[[exports]]\nformat = "{f}"\n' for f in formats)
+        + '[[exports]]\nformat = "dxf"\npurpose = "drawing"\n'
+    )
+    scene = tmp_path / "s.toml"
+    scene.write_text(scene_text(keys, tail), encoding="utf-8")
+    assert main(["build", str(scene), "--out", str(tmp_path / "o")]) == 0
+    files = read_report(tmp_path / "o" / "s")["files"]
+    assert {f["format"] for f in files} == {"dxf", "svg", "stl", "3mf"}
+    assert all(f["verified"] and f["measured"]["max_deviation"] <= f["max_error"] for f in files)
+
+
+def test_own_diagrams_and_tables() -> None:
+    half = {"shape": "half_sine", "width": 1.0, "peak": 1.0}
+    down = {"shape": "half_sine", "width": 1.0, "peak": -1.0}
+    law = {"diagram": [half, down]}
+    phases = [PHASES[0] | {"law": law}, *PHASES[1:]]
+    angle = np.linspace(0, 2 * math.pi, 99)
+    assert np.allclose(cam_of(ROLLER | {"phases": phases}).profile_point(angle), cam_of(ROLLER).profile_point(angle))
+    every = [
+        {"shape": "constant", "width": 1.0, "ordinate": 1.0},
+        {"shape": "linear", "width": 1.0, "first": 1.0, "last": 0.5},
+        {"shape": "quarter_sine", "width": 1.0, "peak": 2.0},
+        {"shape": "quarter_cosine", "width": 1.0, "peak": 2.0},
+        {"shape": "half_cosine", "width": 1.0, "first": 1.0, "last": -1.0},
+        {"shape": "points", "width": 1.0, "points": [[0.0, -1.0], [0.5, -2.0], [1.0, -1.0]]},
+        {"shape": "trapezoid", "width": 5.0, "ordinate": -1.0, "up": 0.2},
+    ]
+    shared = [PHASES[0] | {"law": {"diagram": every, "balance": True}, "share": 0.5, "angle_deg": 60.0},
+              {"move": "rise", "angle_deg": 60.0, "law": "sine", "share": 0.5}, *PHASES[1:]]  # fmt: skip
+    cam = cam_of(ROLLER | {"phases": shared, "base_circle_radius": 60.0})
+    assert float(cam.motion.value(math.radians(60))) == pytest.approx(10)
+    table = [[a, 10 - 10 * math.cos(math.radians(a))] for a in range(0, 360, 10)]
+    read = {k: v for k, v in ROLLER.items() if k not in ("phases", "lift")} | {"motion_table": table}
+    assert cam_of(read).motion.lift == pytest.approx(20, rel=1e-4)
+
+
+def test_a_chamfered_hub_and_keyway() -> None:
+    keys = ROLLER | {"bore_diameter": 0.0, "bore": {"shape": "keyway", "diameter": 16.0}, "face_chamfer": 0.5,
+                     "hub": {"diameter": 34.0, "above": 6.0}}  # fmt: skip
+    part = part_of(keys)
+    assert not part.is_plate
+    mesh = part.to_trimesh()
+    assert mesh.is_watertight
+    assert mesh.bounds[1][2] == pytest.approx(16.0)
+
+
+@pytest.mark.parametrize("tolerance", [1.0, 0.1, 0.01])
+def test_a_cam_without_bore_whose_base_circle_has_few_corners(tolerance: float) -> None:
+    """What stands on the lowest circle of a cam is no ring of spaces between teeth."""
+    phases = [PHASES[0] | {"angle_deg": 2.0}, PHASES[2] | {"angle_deg": 120.0}, PHASES[3] | {"angle_deg": 238.0}]
+    part = part_of(CAMS["flat"] | {"phases": phases, "lift": 0.05, "base_circle_radius": 900.0, "bore_diameter": 0.0})
+    for offset in (0.0, -400.0):
+        mesh = part.to_trimesh(tolerance, offset)
+        assert mesh.is_watertight
+        assert mesh.volume > 0
+
+
+def test_notes_on_impacts_rollers_and_pressure() -> None:
+    jerky = [p | ({"law": "constant_velocity"} if p["move"] == "rise" else {}) for p in PHASES]
+    codes = {
+        f.code for f in part_of(ROLLER | {"follower": "pointed", "follower_radius": 0.0, "phases": jerky}).findings
+    }
+    assert "rigid_impact" in codes
+    codes = {f.code for f in part_of(ROLLER | {"base_circle_radius": 12.0, "bore_diameter": 0.0}).findings}
+    assert "steep_pressure_angle" in codes
+    assert part_of(ROLLER).findings == ()
+
+
+def without(key: str) -> dict[str, Any]:
+    return {k: v for k, v in ROLLER.items() if k != key}
+
+
+LEVEL = {"shape": "constant", "width": 1.0, "ordinate": 1.0}
+# keys, the key that is blamed, why
+WRONG: dict[str, tuple[dict[str, Any], str, str]] = {
+    "no motion": (without("phases"), "phases", "phases_or_table"),
+    "both motions": (ROLLER | {"lift": 0.0, "motion_table": [[0.0, 0.0], [120.0, 20.0], [200.0, 12.0]]}, "phases",
+                     "phases_or_table"),
+    "no lift": (ROLLER | {"lift": 0.0}, "lift", "no_lift"),
+    "no law": (ROLLER | {"phases": [{"move": "rise", "angle_deg": 120.0}, *PHASES[1:]]}, "phases.item 1.law",
+               "law_missing"),
+    "dwell with a law": (ROLLER | {"phases": [*PHASES[:3], PHASES[3] | {"law": "sine"}]}, "phases.item 4.law",
+                         "dwell_with_law"),
+    "dwell with a share": (ROLLER | {"phases": [*PHASES[:3], PHASES[3] | {"share": 0.5}]}, "phases.item 4.share",
+                           "dwell_with_law"),
+    "phases of 290 degrees": (ROLLER | {"phases": PHASES[:3]}, "phases.item 3.angle_deg", "phases_not_a_turn"),
+    "short phase": (ROLLER | {"phases": [PHASES[0] | {"angle_deg": 12.0}, *PHASES[1:]]}, "phases.item 1.angle_deg",
+                    "phases_not_a_turn"),
+    "long phase": (ROLLER | {"phases": [PHASES[0] | {"angle_deg": 300.0}, *PHASES[1:]]}, "phases.item 1.angle_deg",
+                   "phases_not_a_turn"),
+    "half way back": (ROLLER | {"phases": [*PHASES[:2], PHASES[2] | {"share": 0.5}, PHASES[3]]}, "phases.item 3.share",
+                      "does_not_come_back"),
+    "never back": (ROLLER | {"phases": [*PHASES[:3], PHASES[0] | {"angle_deg": 70.0}]}, "phases.item 2.move",
+                   "does_not_come_back"),
+    "open diagram": (ROLLER | {"phases": [PHASES[0] | {"law": {"diagram": [LEVEL]}}, *PHASES[1:]]},
+                     "phases.item 1.law.diagram", "diagram_on_one_side"),
+    "no roller": (ROLLER | {"follower_radius": 0.0}, "follower_radius", "follower_without_radius"),
+    "radius of a flat": (ROLLER | {"follower": "flat"}, "follower_radius", "follower_has_no_radius"),
+    "no base circle": (without("base_circle_radius"), "base_circle_radius", "base_circle_missing"),
+    "flat at 60": (without("base_circle_radius") | {"follower": "flat", "follower_radius": 0.0,
+                                                    "least_transmission_angle_deg": 60.0},
+                   "least_transmission_angle_deg", "flat_angle_is_45"),
+    "large roller": (without("base_circle_radius") | {"follower_radius": 80.0, "least_transmission_angle_deg": 60.0},
+                     "follower_radius", "fills_prime_circle"),
+    "offset beyond": (ROLLER | {"follower_offset": 50.0}, "follower_offset", "offset_beyond_prime_circle"),
+    "offset to the other side": (ROLLER | {"follower_offset": -50.0}, "follower_offset", "offset_beyond_prime_circle"),
+    "bore beyond": (ROLLER | {"bore_diameter": 70.5}, "bore_diameter", "no_wall_to_base_circle"),
+    "holes beyond": (ROLLER | {"holes": {"count": 4, "diameter": 10.0, "pitch_circle_diameter": 64.0}},
+                     "holes", "holes_beyond_base_circle"),
+    "small plate": (CAMS["flat"] | {"follower_offset": 4.0, "plate_diameter": 30.0}, "plate_diameter",
+                    "contact_over_edge"),
+    "plate of a roller": (ROLLER | {"plate_diameter": 30.0}, "plate_diameter", "for_faces_only"),
+    "two bores": (ROLLER | {"bore": {"shape": "round", "diameter": 9.0}}, "bore_diameter", "either_key"),
+    "lift of a rocker": (CAMS["oscillating roller"] | {"lift": 3.0}, "lift", "stroke_of_another"),
+    "swing of a stem": (ROLLER | {"swing_deg": 3.0}, "swing_deg", "swing_without_arm"),
+    "offset of a rocker": (CAMS["oscillating roller"] | {"follower_offset": 3.0}, "follower_offset",
+                           "arm_has_no_offset"),
+    "short arm": (CAMS["oscillating roller"] | {"oscillating": SWING | {"arm_length": 30.0}},
+                  "base_circle_radius", "arm_does_not_reach"),
+    "rocker without base": ({k: v for k, v in CAMS["oscillating roller"].items() if k != "base_circle_radius"},
+                            "base_circle_radius", "base_circle_missing_of_arm"),
+    "wild swing": (CAMS["oscillating roller"] | {"swing_deg": 170.0}, "swing_deg", "swings_beyond_centres"),
+    "fast flat rocker": (CAMS["oscillating flat"] | {"swing_deg": 75.0}, "swing_deg", "flat_outruns_cam"),
+    "impact": (ROLLER | {"phases": [PHASES[0] | {"law": "constant_velocity"}, *PHASES[1:]]}, "phases.item 1.law",
+               "undercut_by_impact"),
+    "small flat": (CAMS["flat"] | {"base_circle_radius": 9.0, "bore_diameter": 0.0, "lift": 30.0},
+                   "base_circle_radius", "undercut"),
+    "small roller cam": (ROLLER | {"base_circle_radius": 9.0, "bore_diameter": 0.0, "follower_radius": 25.0,
+                                   "phases": STEEP}, "base_circle_radius", "undercut"),
+    "small flat rocker": (CAMS["oscillating flat"] | {"base_circle_radius": 12.0, "bore_diameter": 0.0,
+                                                      "swing_deg": 20.0}, "base_circle_radius", "undercut_swing"),
+}  # fmt: skip
+# no one value of the blamed key is enough, or it is the user's to choose
+NOT_CURED = {"no motion", "no lift", "never back", "open diagram", "no roller", "no base circle",
+             "rocker without base"}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_wrong_keys_are_refused_in_the_users_terms(name: str) -> None:
+    keys, blamed, code = WRONG[name]
+    refusal = refused({"cam": keys})
+    assert (refusal.key, refusal.code) == (f"parts.cam.{blamed}", code)
+    assert (refusal.nearest is None) == (name in NOT_CURED)
+    if name not in NOT_CURED:
+        cured({"cam": keys}, refusal)
+
+
+def test_the_plate_is_as_large_as_the_contact_runs() -> None:
+    """Contact at S' beside the axis, the stem at e: the named diameter is the least one."""
+    keys = CAMS["flat"] | {"follower_offset": 4.0}
+    cam = cam_of(keys)
+    reach = cam.motion.value(np.linspace(0, 2 * math.pi, 7201), 1) - 4.0
+    least = cam.least_plate_diameter()
+    assert least == pytest.approx(2 * float(np.abs(reach).max()), rel=1e-6)
+    part_of(keys | {"plate_diameter": least * 1.0001})
+    with pytest.raises(SceneError):
+        part_of(keys | {"plate_diameter": least * 0.9999})
+
+
+def test_a_cam_does_not_mate_as_a_gear() -> None:
+    tail = '[parts.gear]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 20\n' \
+           '[[mates]]\nkind = "external_gear_pair"\nfirst = "gear"\nsecond = "cam"\n'  # fmt: skip
+    with pytest.raises(SceneError, match="is a cam"):
+        make_parts(scene_from_toml(scene_text(ROLLER, tail).encode(), "s.toml", "s"), "s.toml")
+
+
+def test_a_closing_offset_names_one_that_works() -> None:
+    for keys, most in ((ROLLER, -14.5), (ROLLER | {"bore_diameter": 0.0}, -35.0)):
+        part = part_of(keys)
+        with pytest.raises(OffsetError) as caught:
+            part.section(-36.0)
+        assert caught.value.nearest_offset >= most
+        part.section(caught.value.nearest_offset)
+
+
+def test_gear_scenes_load_no_cams(tmp_path: Path) -> None:
+    import subprocess
+    import sys
+
+    code = (
+        "import sys; from parts.scene.load import load_scene, make_parts; make_parts(load_scene('print_gear'), 'x'); "
+        "assert not [m for m in sys.modules if m.startswith(('geometry.cams', 'geometry.laws'))]"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, cwd=Path(__file__).parents[4])

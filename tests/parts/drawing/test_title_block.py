@@ -1,0 +1,151 @@
+"""The title block of a sheet: form 1 of GOST 2.104, its lines and words, and nothing of the picture under it."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import ezdxf
+import numpy as np
+import pytest
+
+from exporters.production.plan import plan_build
+from parts.base.refusal import SceneError
+from parts.drawing.canvas import Canvas
+from parts.drawing.title_block import TITLE_BLOCK, TitleBlock, draw_title_block
+from parts.scene.load import built_in_scenes, scene_from_dict
+
+# widths of the eleven columns and the right-hand ones, as the form has them
+COLUMNS = [7, 10, 23, 15, 10, 70, 5, 5, 5, 5, 12, 18]
+WORDS = {"designation": "TMM.03.001", "drawn": "Ann", "approved": "Bob", "date": "21.11.26", "organisation": "Group 21"}
+
+
+def scene_of(title_block: Any, language: str = "en", **export: Any) -> Any:
+    """A pair of gears whose sheet has a title block."""
+    gear = {"kind": "spur_gear", "module": 10.0, "number_of_teeth": 13, "profile_shift_coefficient": 0.3}
+    raw = {
+        "scene": {"title": "External pair", "language": language},
+        "parts": {"one": gear, "two": {**gear, "number_of_teeth": 21}},
+        "mates": [{"kind": "external_gear_pair", "first": "one", "second": "two"}],
+        "exports": [{"format": "sheet", "title_block": title_block, **export}],
+    }
+    return scene_from_dict(raw, "t", "t")
+
+
+def sheets(title_block: Any, language: str = "en", **export: Any) -> Any:
+    return plan_build(scene_of(title_block, language, **export), "t", [], []).sheets
+
+
+def test_form_1_has_its_eleven_columns_and_rows_of_5_mm() -> None:
+    canvas = Canvas(420.0, 297.0, "A3")
+    box = draw_title_block(canvas, TitleBlock("name"), "en")
+    assert (box.right - box.left, box.high - box.low) == TITLE_BLOCK == (185.0, 55.0)
+    assert (box.right, box.low) == (canvas.frame.right, canvas.frame.low)
+    lines = [(s.layer, s.curve.start - complex(box.left, box.low), s.curve.end - complex(box.left, box.low))
+             for s in canvas.strokes]  # fmt: skip
+    upright = sorted({round(a.real) for _, a, b in lines if a.real == b.real})
+    assert list(np.diff(upright)) == COLUMNS
+    level = sorted({round(a.imag) for _, a, b in lines if a.imag == b.imag})
+    assert level == list(range(0, 60, 5))
+    assert {layer for layer, *_ in lines} == {"FRAME", "TABLE"}
+
+
+@pytest.mark.parametrize("language", ["en", "uk"])
+@pytest.mark.parametrize("export", [{}, {"purpose": "generating", "parts": ["one"]}], ids=["meshing", "generating"])
+@pytest.mark.parametrize("asked", [True, WORDS], ids=["plain", "table"])
+def test_the_block_stands_in_its_corner_and_nothing_else_does(
+    asked: Any, export: dict[str, Any], language: str, tmp_path: Path
+) -> None:
+    for job in sheets(asked, language, **export):
+        job.write({}, tmp_path / job.path)
+        assert job.verify(tmp_path / job.path, 0.0).failures == ()
+        frame = job.canvas.frame
+        left, top = frame.right - TITLE_BLOCK[0], frame.low + TITLE_BLOCK[1]
+        inside = [s.layer for s in job.canvas.strokes
+                  if any(left + 1e-6 < p.real < frame.right - 1e-6 and frame.low + 1e-6 < p.imag < top - 1e-6
+                         for p in np.atleast_1d(s.curve.point(np.linspace(*s.curve.domain, 40))))]  # fmt: skip
+        assert set(inside) == {"FRAME", "TABLE"}
+        words = [t.text for t in job.canvas.texts]
+        assert ("Масштаб" if language == "uk" else "Scale") in words
+        assert (("Аркушів 1" if language == "uk" else "Sheets 1") in words) is True
+        if asked is not True:
+            assert words.count("21.11.26") == 2
+            assert {"TMM.03.001", "Ann", "Bob", "Group 21"} <= set(words)
+
+
+def test_the_block_is_in_the_drawing_file(tmp_path: Path) -> None:
+    job = next(j for j in sheets(WORDS) if j.path.endswith("dxf"))
+    job.write({}, tmp_path / job.path)
+    texts = {e.dxf.text for e in ezdxf.readfile(tmp_path / job.path).modelspace().query("TEXT")}
+    assert {"TMM.03.001", "External pair", "Drawn", "Approved", "Mass"} <= texts
+
+
+def test_long_words_stay_in_their_cells() -> None:
+    canvas = Canvas(420.0, 297.0, "A3")
+    long = "a name that is much longer than any cell of the form has room for, told at length " * 2
+    draw_title_block(
+        canvas, TitleBlock(long, long, long, long, long, long, "abc", long, 1, 1, (("drawn", long),)), "en"
+    )
+    for text in canvas.texts:
+        assert text.box.left >= canvas.frame.right - TITLE_BLOCK[0]
+        assert text.box.right <= canvas.frame.right
+    names = [t for t in canvas.texts if t.box.left > canvas.frame.right - 121 and t.box.right < canvas.frame.right - 49]
+    assert all(canvas.frame.low <= t.runs[0].at.imag <= canvas.frame.low + 55 for t in names)
+
+
+def test_cam_sheets_leave_room_for_it() -> None:
+    """The lower right corner of a cam sheet is free: nothing else is written where the title block stands."""
+    raw = tomllib.loads(built_in_scenes()["practicum_roller_cam"].read_text())
+    plain, titled = [
+        plan_build(
+            scene_from_dict({**raw, "exports": [{"format": "sheet", "purpose": "cam", **more}]}, "t", "t"), "t", [], []
+        ).sheets[0].expected.canvas
+        for more in ({}, {"title_block": True})
+    ]  # fmt: skip
+    left, top = titled.frame.right - TITLE_BLOCK[0], titled.frame.low + TITLE_BLOCK[1]
+    assert len(titled.texts) > len(plain.texts)
+    assert not [t for t in plain.texts if t.box.right > left and t.box.low < top]
+
+
+@pytest.mark.parametrize(
+    ("export", "key"),
+    [
+        ({"format": "dxf", "title_block": True}, "title_block = true"),
+        ({"format": "sheet", "title_block": {"designaton": "x"}}, "did you mean designation"),
+        ({"format": "sheet", "title_block": "yes"}, "true, false or a table"),
+        ({"format": "sheet", "title_block": {"letter": "long"}}, "title_block.letter"),
+    ],
+)
+def test_refusals_name_the_key(export: dict[str, Any], key: str) -> None:
+    scene = scene_of(True)
+    raw = {"parts": {k: {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20} for k in scene.parts},
+           "exports": [export]}  # fmt: skip
+    with pytest.raises(SceneError) as caught:
+        scene_from_dict(raw, "t", "t")
+    assert key in str(caught.value)
+
+
+def test_without_the_key_a_sheet_has_none() -> None:
+    for job in sheets(False):
+        assert "Scale" not in [t.text for t in job.canvas.texts]
+        assert job.canvas.band == 0
+
+
+@pytest.mark.parametrize("language", ["en", "uk"])
+def test_words_of_blocks_and_legends_fit_their_cells_unsqueezed(language: str) -> None:
+    """Viewers that do not narrow letters show what overruns its cell."""
+    from parts.base.texts import words
+    from parts.drawing.canvas import plain_width, text_of
+    from parts.drawing.title_block import _LABELS
+    from parts.texts.sheets import sheet_words
+
+    cells = [(words(language).say(text), 15.4) for key, text in _LABELS.items() if key != "document"]
+    legends = ("cam", "pitch_curve", "graphical", "return_tangent", "scale_velocity", "scale_1", "scale_2", "pole_2")
+    cells += [(sheet_words(language, key), 59.0) for key in legends]
+    for text, room in cells:
+        made = text_of(text, 0j, 2.5, room)
+        assert made.box.right <= room + 1e-9
+        for run in made.runs:
+            assert run.height >= 1.8 - 1e-9
+            assert run.width == pytest.approx(plain_width(run.text, run.height)), text

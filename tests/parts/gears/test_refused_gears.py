@@ -1,0 +1,99 @@
+"""Refusals of toothed parts as data: the key as typed, a code with a sentence, the nearest value in the key's unit."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from geometry.base import nearest
+from parts.base.reasons import reason
+from parts.base.refusal import SceneError
+from parts.scene.load import make_parts, scene_from_dict
+
+SPUR = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 23}
+RING = {"kind": "ring_gear", "module": 2.0, "number_of_teeth": 50}
+RACK = {"kind": "rack", "module": 2.0, "number_of_teeth": 8}
+HELIX = {"helix_angle_deg": 20.0}
+REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
+    "pointed": ({**SPUR, "profile_shift_coefficient": 1.9}, "profile_shift_coefficient", "tooth_pointed"),
+    "pointed, helical": ({**SPUR, **HELIX, "profile_shift_coefficient": 1.9}, "profile_shift_coefficient",
+                         "tooth_pointed"),
+    "relief, helical": ({**SPUR, **HELIX, "tip_relief": {"depth_coefficient": 0.3, "height_coefficient": 0.1}},
+                        "tip_relief.depth_coefficient", "flanks_meet_below_form"),
+    "cutter corner, helical": (
+        {**SPUR, **HELIX, "cutter": {"number_of_teeth": 20, "tip_rounding_coefficient": 0.9}},
+        "cutter.tip_rounding_coefficient", "cutter_rounding_does_not_fit"),
+    "rack corner": ({**SPUR, "basic_rack": {"tip_radius_coefficient": 0.6}}, "basic_rack.tip_radius_coefficient",
+                    "rack_rounding_does_not_fit"),
+    "angle": ({**SPUR, "pressure_angle_deg": 40.0}, "pressure_angle_deg", "standard_rack_pointed"),
+    "chamfers": ({**SPUR, "face_chamfer": 6.0}, "face_chamfer", "chamfers_meet"),
+    "ring tip, helical": ({**RING, **HELIX, "tip_diameter": 90.0}, "tip_diameter", "involute_ends_at_base_circle"),
+    "ring shift, helical": ({**RING, **HELIX, "profile_shift_coefficient": -4.0}, "profile_shift_coefficient",
+                            "no_working_angle_with_cutter"),
+    "ring cutter": ({**RING, "cutter": {"number_of_teeth": 45}}, "cutter.number_of_teeth",
+                    "cutter_trochoid_interference"),
+    "ring root": ({**RING, "rounded_root": {"radius_coefficient": 1.2, "full_round": False}},
+                  "rounded_root.radius_coefficient", "space_rounding_does_not_fit"),
+    "rack tip": ({**RACK, "tip_rounding": 2.0}, "tip_rounding", "rounding_does_not_fit"),
+    "rack pointed, helical": (
+        {**RACK, **HELIX, "basic_rack": {"addendum_coefficient": 2.5, "tip_clearance_coefficient": 0.0}},
+        "basic_rack.addendum_coefficient", "rack_pointed"),
+}  # fmt: skip
+
+
+def refusal(table: dict[str, Any]) -> SceneError | None:
+    try:
+        make_parts(scene_from_dict({"parts": {"p": table}}, "s", "s"), "s")
+    except SceneError as refused:
+        return refused
+    return None
+
+
+def with_value(table: dict[str, Any], path: str, value: Any) -> dict[str, Any]:
+    key, _, rest = path.partition(".")
+    return {**table, key: with_value(table[key], rest, value) if rest else value}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_a_refusal_is_told_in_the_keys_of_the_scene_with_the_nearest_that_works(name: str) -> None:
+    table, key, code = REFUSED[name]
+    refused = refusal(table)
+    assert refused is not None
+    given = table
+    for word in key.split("."):
+        given = given[word]
+    assert (refused.key, refused.code) == (f"parts.p.{key}", code)
+    assert refused.value == pytest.approx(given, rel=1e-12)
+    assert reason(code) != code
+    found = refused.nearest
+    assert found is not None
+    assert refusal(with_value(table, key, found.value)) is None
+    step: float = 1 if isinstance(found.value, int) else 1e-3 * max(2.0, abs(found.value))  # type: ignore[arg-type]
+    farther = found.value + (step if found.side == "at_most" else -step)  # type: ignore[operator]
+    assert refusal(with_value(table, key, farther)) is not None
+
+
+def test_a_search_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No search of a refusal tries more values than it may, whatever is wrong."""
+    tried: list[int] = []
+    search = nearest.nearest
+
+    def counted(holds: Any, *rest: Any, **more: Any) -> Any:
+        tried.append(0)
+
+        def one(value: float) -> bool:
+            tried[-1] += 1
+            return bool(holds(value))
+
+        return search(one, *rest, **more)
+
+    for home in ("geometry.gears.teeth.limits", "geometry.gears.teeth.ring_limits", "parts.gears.spur_gear.part",
+                 "parts.keys.holes", "parts.keys.wheel"):  # fmt: skip
+        monkeypatch.setattr(f"{home}.nearest", counted)
+    for table, *_ in REFUSED.values():
+        refused = refusal(table)
+        assert refused is not None
+        assert refused.nearest is not None
+    assert tried
+    assert max(tried) <= nearest.MOST_TRIALS

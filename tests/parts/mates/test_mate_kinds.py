@@ -1,0 +1,237 @@
+"""Internal and rack mates, wanted distances and backlash: places by polygons of GEOS, refusals in one line."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+import shapely.affinity
+
+from geometry.approximation.chords import approximate_profile
+from geometry.base.errors import Nearest
+from parts.base.part import Part
+from parts.base.refusal import SceneError
+from parts.scene.load import make_parts, scene_from_dict
+from parts.scene.placing import Instance, place
+
+RING = {"kind": "ring_gear", "module": 2.0, "number_of_teeth": 60}
+SUN = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20}
+WHEEL = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 31, "profile_shift_coefficient": 0.2}
+RACK = {"kind": "rack", "module": 2.0, "number_of_teeth": 11}
+
+
+def scene(parts: dict[str, Any], *mates: dict[str, Any], instances: dict[str, Any] | None = None) -> Any:
+    """Parts and where they stand."""
+    raw = {"parts": parts, "mates": list(mates), "instances": instances or {}}
+    file = scene_from_dict(raw, "test", "test")
+    made, matings = make_parts(file, "test")
+    return made, matings, place(file.instances, file.drives, made, matings, "test")
+
+
+def polygon(part: Part, instance: Instance, extra: float = 0.0) -> shapely.Polygon:
+    """The section of an instance, chords within 2 um, turned ``extra`` rad more."""
+    region = part.section(0.0).region
+    rings = []
+    for profile in (region.outer, *region.holes):
+        points, _ = approximate_profile(profile, 0.002, arcs=False).geometry.expanded()
+        points = points * np.exp(1j * (instance.rotation + extra)) + instance.centre
+        rings.append(np.stack([points.real, points.imag], axis=1))
+    return shapely.Polygon(rings[0], rings[1:])
+
+
+def overlap(made: dict[str, Part], stand: Any, first: str, second: str, extra: float = 0.0) -> tuple[float, float]:
+    """Common area, mm^2, and least distance, mm, of two instances; the second turned more."""
+    by_id = {i.id: i for i in stand.instances}
+    one, two = (polygon(made[by_id[k].part], by_id[k], e) for k, e in ((first, 0.0), (second, extra)))
+    return one.intersection(two).area, one.distance(two)
+
+
+@pytest.mark.parametrize("direction", [0.0, 33.0, -120.0])
+@pytest.mark.parametrize("ring_first", [True, False])
+def test_a_pinion_stands_in_its_ring_in_either_order(direction: float, ring_first: bool) -> None:
+    first, second = ("ring", "sun") if ring_first else ("sun", "ring")
+    mate = {"kind": "internal_gear_pair", "first": first, "second": second, "direction_deg": direction}
+    made, _, stand = scene({"ring": RING, "sun": SUN}, mate)
+    assert abs(stand.instances[0].centre - stand.instances[1].centre) == pytest.approx(40.0, rel=1e-12)
+    area, distance = overlap(made, stand, first, second)
+    assert area < 2e-3
+    assert distance < 0.004
+    assert overlap(made, stand, first, second, extra=math.pi / (20 if ring_first else 60))[0] > 1.0
+
+
+@pytest.mark.parametrize("teeth", [10, 11])
+@pytest.mark.parametrize("direction", [-90.0, 25.0])
+def test_a_rack_stands_under_its_gear(teeth: int, direction: float) -> None:
+    mate = {"kind": "rack_pair", "first": "wheel", "second": "rack", "direction_deg": direction}
+    made, matings, stand = scene({"wheel": WHEEL, "rack": {**RACK, "number_of_teeth": teeth}}, mate)
+    assert matings[0].distance == pytest.approx(31.4, rel=1e-12)
+    area, distance = overlap(made, stand, "wheel", "rack")
+    assert area < 2e-3
+    assert distance < 0.004
+    assert overlap(made, stand, "rack", "wheel", extra=math.pi / 31)[0] > 1.0
+
+
+@pytest.mark.parametrize("kind", ["internal_gear_pair", "rack_pair", "external_gear_pair"])
+def test_a_wanted_backlash_thins_both_by_half(kind: str) -> None:
+    parts = {"internal_gear_pair": (RING, SUN), "rack_pair": (WHEEL, RACK), "external_gear_pair": (SUN, WHEEL)}[kind]
+    mate = {"kind": kind, "first": "a", "second": "b", "normal_backlash": 0.1}
+    made, matings, stand = scene({"a": parts[0], "b": parts[1]}, mate)
+    assert matings[0].normal_backlash == pytest.approx(0.1, rel=1e-9)
+    found = matings[0].contact(0.0, 0.0, None)
+    # the corner of a standard rack just reaches where the thinned gear's fillet begins
+    assert found.worst.gap == pytest.approx(0.05, abs=5e-4 if kind == "rack_pair" else 1e-9)
+    assert overlap(made, stand, "a", "b")[1] == pytest.approx(0.05, abs=0.005)
+
+
+def test_a_part_that_sets_its_own_thinning_keeps_it() -> None:
+    mate = {"kind": "external_gear_pair", "first": "a", "second": "b", "normal_backlash": 0.1}
+    made, matings, _ = scene({"a": {**SUN, "circumferential_thinning": 0.03}, "b": WHEEL}, mate)
+    total = 0.1 / math.cos(math.radians(20))
+    thickness = [made[k].quantities["tooth_thickness"] for k in "ab"]
+    plain = [make_parts(scene_from_dict({"parts": {"x": p}}, "t", "t"), "t")[0]["x"] for p in (SUN, WHEEL)]
+    assert plain[0].quantities["tooth_thickness"] - thickness[0] == pytest.approx(0.03, abs=1e-12)
+    assert plain[1].quantities["tooth_thickness"] - thickness[1] == pytest.approx(total - 0.03, abs=1e-12)
+    assert matings[0].normal_backlash == pytest.approx(0.1, rel=1e-9)
+
+
+def test_a_wanted_centre_distance_is_kept_and_one_too_small_is_refused() -> None:
+    mate = {"kind": "external_gear_pair", "first": "a", "second": "b", "working_centre_distance": 51.6}
+    _, matings, stand = scene({"a": SUN, "b": WHEEL}, mate)
+    assert abs(stand.instances[1].centre - stand.instances[0].centre) == pytest.approx(51.6, rel=1e-14)
+    assert matings[0].normal_backlash > 0.1
+    with pytest.raises(SceneError) as caught:
+        scene({"a": SUN, "b": WHEEL}, {**mate, "working_centre_distance": 51.0})
+    assert caught.value.key == "mates[1].working_centre_distance"
+    assert caught.value.nearest is not None
+    least = caught.value.nearest.value
+    scene({"a": SUN, "b": WHEEL}, {**mate, "working_centre_distance": least})
+
+
+@pytest.mark.parametrize(
+    ("kind", "first", "second", "key", "hint"),
+    [
+        ("external_gear_pair", "ring", "sun", "first", "internal_gear_pair"),
+        ("internal_gear_pair", "sun", "wheel", "second", "external_gear_pair"),
+        ("rack_pair", "rack", "sun", "first", "spur_gear and rack"),
+        ("external_gear_pair", "sun", "rack", "second", "rack_pair"),
+    ],
+)
+def test_a_mate_of_the_wrong_kind_names_the_right_one(kind: str, first: str, second: str, key: str, hint: str) -> None:
+    parts = {"ring": RING, "sun": SUN, "wheel": WHEEL, "rack": RACK}
+    with pytest.raises(SceneError) as caught:
+        scene(parts, {"kind": kind, "first": first, "second": second})
+    assert caught.value.key == f"mates[1].{key}"
+    assert hint in caught.value.remedy
+
+
+def test_a_planet_between_sun_and_ring_closes_only_in_the_right_place() -> None:
+    """z 60 = 20 + 2 x 20: the third mate only checks; a planet that is turned by hand is found out."""
+    parts = {"sun": SUN, "planet": SUN, "ring": RING}
+    mates = (
+        {"kind": "external_gear_pair", "first": "sun", "second": "planet", "direction_deg": 90.0},
+        {"kind": "internal_gear_pair", "first": "planet", "second": "ring", "direction_deg": -90.0},
+    )
+    made, _, stand = scene(parts, *mates)
+    assert abs(stand.instances[2].centre) < 1e-12
+    assert overlap(made, stand, "planet", "ring")[0] < 2e-3
+    turns = {i.id: i.rotation for i in stand.instances}
+    for off, met in ((0.0, True), (0.02, False)):
+        fixed = {
+            "planet": {"at": [0.0, 40.0, 0.0], "rotation_deg": math.degrees(turns["planet"]) + off},
+            "ring": {"at": [0.0, 0.0, 0.0], "rotation_deg": math.degrees(turns["ring"])},
+        }
+        _, _, again = scene(parts, *mates, instances=fixed)
+        assert all(c.met for c in again.mates[1].conditions) is met
+
+
+HELICAL = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 19, "helix_angle_deg": 25.0}
+
+
+@pytest.mark.parametrize(
+    ("other", "key", "remedy"),
+    [
+        ({"hand": "right"}, "hand", '"left" works'),
+        ({"helix_angle_deg": 20.0, "hand": "left"}, "helix_angle_deg", "25 degrees works"),
+        ({"double_helical": True, "hand": "left"}, "double_helical", "false works"),
+        ({"module": 2.5, "hand": "left"}, "module", "2 mm works"),
+    ],
+)
+def test_helices_that_do_not_mesh_are_refused_in_the_parts_own_keys(
+    other: dict[str, Any], key: str, remedy: str
+) -> None:
+    mate = {"kind": "external_gear_pair", "first": "a", "second": "b"}
+    with pytest.raises(SceneError) as caught:
+        scene({"a": HELICAL, "b": {**HELICAL, **other}}, mate)
+    assert caught.value.key == f"mates[1]: parts.b.{key}"
+    assert remedy in caught.value.remedy
+
+
+def test_a_straight_gear_beside_a_helical_one_is_cured_in_one_step() -> None:
+    """The same angle would need the other hand too: straight teeth mesh with straight ones."""
+    mate = {"kind": "external_gear_pair", "first": "a", "second": "b"}
+    with pytest.raises(SceneError) as caught:
+        scene({"a": HELICAL, "b": {**HELICAL, "helix_angle_deg": 0.0}}, mate)
+    assert caught.value.key == "mates[1]: parts.a.helix_angle_deg"
+    assert caught.value.nearest == Nearest(0.0)
+    scene({"a": {**HELICAL, "helix_angle_deg": 0.0}, "b": {**HELICAL, "helix_angle_deg": 0.0}}, mate)
+
+
+def test_helical_gears_mesh_at_every_height() -> None:
+    """Sections turned by the lead of each gear touch and do not overlap, by polygons."""
+    mate = {"kind": "external_gear_pair", "first": "a", "second": "b"}
+    made, matings, stand = scene({"a": HELICAL, "b": {**HELICAL, "number_of_teeth": 33, "hand": "left"}}, mate)
+    assert matings[0].distance == pytest.approx(52 / math.cos(math.radians(25)), rel=1e-12)
+    by_id = {i.id: i for i in stand.instances}
+    for z in (0.0, 3.3, 8.0):
+        turns = [math.tan(math.radians(25)) * z / (2 * t / math.cos(math.radians(25)) / 2) for t in (19, -33)]
+        one, two = (polygon(made[k], by_id[k], extra) for k, extra in zip("ab", turns, strict=True))
+        assert one.intersection(two).area < 2e-3
+        assert one.distance(two) < 0.004
+
+
+@pytest.mark.parametrize("kind", ["internal_gear_pair", "rack_pair", "external_gear_pair"])
+def test_a_backlash_that_leaves_no_teeth_names_one_that_does(kind: str) -> None:
+    parts = {"internal_gear_pair": (RING, SUN), "rack_pair": (WHEEL, RACK), "external_gear_pair": (SUN, WHEEL)}[kind]
+    mate = {"kind": kind, "first": "a", "second": "b", "normal_backlash": 6.0}
+    with pytest.raises(SceneError) as caught:
+        scene({"a": parts[0], "b": parts[1]}, mate)
+    assert caught.value.key == "mates[1].normal_backlash"
+    most = float(caught.value.remedy.split("at most ")[1].split(" mm")[0])
+    assert scene({"a": parts[0], "b": parts[1]}, {**mate, "normal_backlash": most})[1]
+
+
+@pytest.mark.parametrize(
+    ("kind", "distance"), [("external_gear_pair", 60.0), ("rack_pair", 40.0), ("internal_gear_pair", 37.7)]
+)
+def test_gears_that_do_not_reach_each_other_are_refused(kind: str, distance: float) -> None:
+    parts = {"internal_gear_pair": (RING, SUN), "rack_pair": (WHEEL, RACK), "external_gear_pair": (SUN, WHEEL)}[kind]
+    mate = {"kind": kind, "first": "a", "second": "b", "working_centre_distance": distance}
+    with pytest.raises(SceneError) as caught:
+        scene({"a": parts[0], "b": parts[1]}, mate)
+    assert caught.value.key == "mates[1].working_centre_distance"
+    value = float(caught.value.remedy.split(" mm works")[0].split()[-1])
+    assert scene({"a": parts[0], "b": parts[1]}, {**mate, "working_centre_distance": value})[1]
+
+
+def test_a_ring_is_blamed_for_what_is_the_ring_s() -> None:
+    mate = {"kind": "internal_gear_pair", "first": "ring", "second": "sun"}
+    with pytest.raises(SceneError) as caught:
+        scene({"ring": RING, "sun": {**SUN, "module": 3.0}}, mate)
+    assert caught.value.key == "mates[1]: parts.ring.module"
+
+
+def test_a_rack_that_is_shorter_than_its_mesh_says_so() -> None:
+    mate = {"kind": "rack_pair", "first": "a", "second": "b"}
+    for teeth, codes in ((1, {"short_rack"}), (8, set())):
+        _, matings, _ = scene({"a": WHEEL, "b": {**RACK, "number_of_teeth": teeth}}, mate)
+        assert {f.code for f in matings[0].findings()} & {"short_rack"} == codes
+
+
+def test_herringbones_need_one_width() -> None:
+    double = {**HELICAL, "double_helical": True}
+    mate = {"kind": "external_gear_pair", "first": "a", "second": "b"}
+    with pytest.raises(SceneError, match="face_width"):
+        scene({"a": {**double, "face_width": 10.0}, "b": {**double, "hand": "left", "face_width": 20.0}}, mate)

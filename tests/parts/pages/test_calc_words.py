@@ -1,0 +1,65 @@
+"""Calculations in English hold no Ukrainian letter, give typed numbers back, and tell steps of one name apart."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import pytest
+
+from exporters.documents.render import FORMATS
+from exporters.documents.topics import calculate
+from parts.base.texts import words
+from parts.pages.cam_steps import as_typed
+from parts.pages.symbols import symbol_text
+from parts.pages.terms import TERMS
+
+CYRILLIC = re.compile("[а-яіїєґА-ЯІЇЄҐ]")
+SHEETS = {
+    "noncircular": ("noncircular", ["oval_gears", "part=oval"]),
+    "lantern": ("lantern", ["lantern_pair"]),
+    "cycloidal": ("cycloidal", ["cycloidal_reducer"]),
+    "barrel": ("cam", ["barrel_cam", "part=barrel"]),
+    "wedge": ("cam", ["wedge_cam"]),
+    "linkage": ("cam", ["linkage_cam"]),
+    "yoke": ("cam", ["yoke_cam"]),
+    "cam": ("cam", ["guidelines_cam"]),
+}
+
+
+def test_every_symbol_has_an_english_index() -> None:
+    found = [term.symbol for term in TERMS.values() if CYRILLIC.search(term.symbol)]
+    assert len(found) > 20
+    assert [s for s in found if CYRILLIC.search(symbol_text(s, words("en")))] == []
+    assert symbol_text("z_екв", words("en")) == "z_e"
+    assert symbol_text("z_екв", words("uk")) == "z_екв"
+
+
+@pytest.mark.parametrize(("topic", "asked"), SHEETS.values(), ids=SHEETS.keys())
+@pytest.mark.parametrize("form", FORMATS)
+def test_an_english_calculation_has_no_ukrainian_letter(topic: str, asked: list[str], form: str) -> None:
+    told = calculate(topic, asked, form, "en")
+    assert CYRILLIC.findall(told) == []
+    assert CYRILLIC.search(calculate(topic, asked, form, "uk"))
+
+
+CAM = ["follower=roller", "follower_radius=10", "lift=30", "base_circle_radius=50", 'phases=[{move="rise", angle_deg=95'
+       ', law="sine", share=0.7}, {move="rise", angle_deg=71, law="sine", share=0.3}, {move="return_", angle_deg=121, '
+       'law="cosine"}, {move="dwell", angle_deg=73}]']  # fmt: skip
+
+
+def test_the_lift_is_what_was_typed_and_factors_tell_their_phases() -> None:
+    data = json.loads(calculate("cam", CAM, "json", "en"))
+    assert data["values"]["lift"] == 30.0
+    assert [phase["angle_deg"] for phase in data["phases"]] == [95.0, 71.0, 121.0, 73.0]
+    assert data["values"]["least_base_circle_radius"] == 50.0
+    factors = [step["text"] for step in data["steps"] if step["name"] == "graphical_factor"]
+    assert len(set(factors)) == len(factors) == 3
+    assert "rise" in factors[0]
+    assert "return" in factors[2]
+
+
+def test_only_rounding_is_taken_for_what_was_typed() -> None:
+    assert as_typed(30.000000000000007) == 30.0
+    assert as_typed(45.81466903731541) == 45.81466903731541
+    assert as_typed(30.0000000001) == 30.0000000001

@@ -1,0 +1,233 @@
+"""Cams that a stranger typed: a rest for a whole turn, rounding taken for impacts, unknown words, what cannot swing."""
+
+from __future__ import annotations
+
+import math
+import re
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from exporters.command.cli import main
+from exporters.command.new import new_scene
+from geometry.cams.motion.follower_motion import follower_motion, return_, rise
+from geometry.cams.plane.graphical import graphical_fault
+from geometry.laws.named import NAMED_LAWS
+from parts.base.refusal import SceneError
+from parts.scene.load import make_parts, scene_from_toml
+from parts.texts.findings import finding_text
+
+_CAM = """
+[parts.gear]
+kind = "cam"
+follower = "roller"
+lift = 20.0
+follower_radius = 8.0
+base_circle_radius = 30.0
+"""
+
+
+def _built(tmp_path: Path, text: str, capsys: pytest.CaptureFixture[str]) -> tuple[int, str]:
+    """The command's answer to a scene, and all that it prints."""
+    scene = tmp_path / "scene.toml"
+    scene.write_text(text)
+    code = main(["build", str(scene), "--out", str(tmp_path)])
+    told = capsys.readouterr()
+    return code, told.out + told.err
+
+
+def test_all_dwell_has_a_sheet(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    phases = 'phases = [{ move = "dwell", angle_deg = 360.0 }]\n'
+    exports = '[[exports]]\nformat = "sheet"\npurpose = "cam"\n[[exports]]\nformat = "svg"\n'
+    code, told = _built(tmp_path, _CAM + phases + exports, capsys)
+    assert code == 0, told
+    # nothing accelerates: no jump of S'' is told
+    assert "jumps" not in told
+
+
+def test_rounding_is_no_impact() -> None:
+    sine = NAMED_LAWS["sine"]()
+    assert not follower_motion([rise(math.pi, 20.0, sine), return_(math.pi, 20.0, sine)]).impacts()
+    cosine = NAMED_LAWS["cosine"]()
+    unequal = follower_motion([rise(2.0, 20.0, cosine), return_(2 * math.pi - 2.0, 20.0, cosine)])
+    assert {j.impact for j in unequal.impacts()} == {"soft"}
+    assert graphical_fault(unequal) is None
+
+
+def _swept(law: str = '"sine"', move: str = "return_", more: str = "") -> str:
+    first = f'{{ move = "rise", angle_deg = 180.0, law = {law} }}'
+    return _CAM + f'phases = [{first}, {{ move = "{move}", angle_deg = 180.0, law = "sine"{more} }}]\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (_swept('"sinus"'), ("item 1.law", '"cosine"', "did you mean sine?")),
+        (_swept(move="return"), ("item 2.move", '"dwell"', "did you mean return_?")),
+        (_swept(more=", lawn = 1"), ("item 2.lawn", "move, angle_deg, law, share")),
+        (_swept("{ diagramm = [] }"), ("law.diagramm", "did you mean diagram?", "conditions, poles")),
+        (_swept('{ diagram = [{ shape = "sine", width = 1.0 }] }'), ("item 1.shape", "did you mean half_sine?")),
+        (_swept('{ diagram = [{ shape = "linear", peak = 1.0 }] }'), ("item 1.peak", "shape, width, first, last")),
+        (_swept("3"), ("item 1.law = 3", "must be a table or text in quotes")),
+        (_swept(f"{{ poles = {[float(x) for x in range(61)]} }}"), ("law.poles", "at most 60")),
+        (_CAM + "least_transmission_angle_deg = 95.0\n", ("= 95.0", "above 0, below 90 degrees")),
+    ],
+)
+def test_unknown_words_are_answered_with_the_known_ones(text: str, words: tuple[str, ...]) -> None:
+    with pytest.raises(SceneError) as refusal:
+        scene_from_toml(text.encode(), "scene", "scene")
+    for word in words:
+        assert word in str(refusal.value)
+    assert "null" not in str(refusal.value)
+
+
+def test_calc_names_the_kind_that_works(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["calc", "gear-pair", "number_of_teeth=20", "module=2.0", "second.kind=ring_gear"]) != 0
+    assert '"spur_gear"' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("rows", "key", "value", "code"),
+    [
+        ([(1.0, 0.0), (2.0, 1.0), (3.0, 2.0)], "item 1.item 1", 1.0, "table_not_from_zero"),
+        ([(0.0, 0.0), (20.0, 1.0), (10.0, 2.0)], "item 3.item 1", 10.0, "angles_do_not_rise"),
+        ([(0.0, 0.0), (20.0, 1.0), (400.0, 2.0)], "item 3.item 1", 400.0, "table_beyond_turn"),
+        ([(0.0, 0.0), (20.0, 1.0), (360.0, 0.0)], "item 3.item 1", 360.0, "table_too_short"),
+        ([(0.0, 0.0), (120.0, 10.0), (240.0, 6.0), (360.0, 3.0)], "item 4.item 2", 3.0, "last_row_not_as_first"),
+    ],
+)
+def test_tables_are_refused_in_degrees(rows: list[tuple[float, float]], key: str, value: float, code: str) -> None:
+    text = _CAM.replace("lift = 20.0\n", "") + f"motion_table = {[list(row) for row in rows]}\n"
+    with pytest.raises(SceneError) as refusal:
+        make_parts(scene_from_toml(text.encode(), "scene", "scene"), "scene")
+    assert refusal.value.key == f"parts.gear.motion_table.{key}"
+    assert (refusal.value.value, refusal.value.code) == (pytest.approx(value), code)
+    # the first row stands at 0, the last one as the first; the others are cured only where the cam stays whole
+    if code in ("table_not_from_zero", "last_row_not_as_first"):
+        assert refusal.value.nearest is not None
+        assert refusal.value.nearest.value == 0
+
+
+def test_holes_at_one_place_are_refused_without_warnings(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    hole = "{ at = [0.0, 20.0], diameter = 3.0 }"
+    plate = f'[parts.a]\nkind = "plate"\nwidth = 60.0\nheight = 90.0\nholes = [{hole}, {hole}]\n'
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        code, told = _built(tmp_path, plate, capsys)
+    assert code != 0
+    assert "another hole" in told
+
+
+@pytest.mark.parametrize("kind", ["cam", "groove_cam", "barrel_cam", "wedge_cam"])
+def test_every_law_that_new_shows_makes_a_cam(kind: str) -> None:
+    text = new_scene(kind)
+    shown = re.findall(r"^# (phases = .*?)  # \.\.\. or this", text, re.MULTILINE)
+    assert len({re.search(r"law = \{ (\w+)", line).group(1) for line in shown}) == 5  # type: ignore[union-attr]
+    for line in shown:
+        used = re.sub(r"^phases = .*$", line.replace("\\", r"\\"), text, flags=re.MULTILINE)
+        parts, _ = make_parts(scene_from_toml(used.encode(), "scene", "scene"), "scene")
+        assert line in used
+        assert parts["gear"].quantities
+
+
+def test_every_bore_that_new_shows_fits_a_roller() -> None:
+    text = new_scene("roller").split("[[exports]]")[0]
+    shown = re.findall(r"^# ((?:bore|hub) = .*?\})  ?#", text.replace("} #", "}  #"), re.MULTILINE)
+    assert len(shown) == 7
+    for line in shown:
+        used = text + line + '\n[[exports]]\nformat = "svg"\n'
+        make_parts(scene_from_toml(used.encode(), "scene", "scene"), "scene")
+    assert "diameter = 16.0" in text
+
+
+_FLAT = """
+[parts.gear]
+kind = "cam"
+follower = "flat"
+swing_deg = 30.0
+base_circle_radius = 80.0
+oscillating = { centre_distance = 90.0 }
+phases = [{ move = "rise", angle_deg = 180.0, law = "sine" }, { move = "return_", angle_deg = 180.0, law = "sine" }]
+[[exports]]
+format = "svg"
+"""
+
+
+def test_a_flat_face_beyond_the_square_is_refused_and_both_offers_work() -> None:
+    with pytest.raises(SceneError) as refusal:
+        make_parts(scene_from_toml(_FLAT.encode(), "scene", "scene"), "scene")
+    (degrees,) = re.findall(r"at most ([\d.]+)", str(refusal.value))
+    for old, new in (("30.0", degrees),):
+        parts, _ = make_parts(scene_from_toml(_FLAT.replace(old, new).encode(), "scene", "scene"), "scene")
+        # the push of a flat face runs along its normal while its arm keeps its sign
+        assert parts["gear"].quantities["pressure_angle_rise_deg"] < 90
+
+
+def test_a_radius_of_curvature_that_is_not_kept_is_told() -> None:
+    text = _swept() + 'least_curvature_radius = 35.0\n[[exports]]\nformat = "svg"\n'
+    for base, told in (("30.0", True), ("90.0", False)):
+        scene = scene_from_toml(text.replace("radius = 30.0", f"radius = {base}").encode(), "scene", "scene")
+        parts, _ = make_parts(scene, "scene")
+        found = [f for f in parts["gear"].findings if f.code == "curvature_radius_not_kept"]
+        assert bool(found) == told
+        assert (parts["gear"].quantities["least_curvature_radius"] < 35) == told
+        for language in ("uk", "en"):
+            assert all("35" in finding_text(language, f) for f in found)
+
+
+def test_an_undercut_by_impacts_is_offered_what_works() -> None:
+    text = _swept('"constant_velocity"') + '[[exports]]\nformat = "svg"\n'
+    with pytest.raises(SceneError) as refusal:
+        make_parts(scene_from_toml(text.encode(), "scene", "scene"), "scene")
+    assert '.law = "constant_velocity"' in str(refusal.value)
+    assert '"sine" works' in str(refusal.value)
+    make_parts(scene_from_toml(text.replace("constant_velocity", "sine").encode(), "scene", "scene"), "scene")
+
+
+@pytest.mark.parametrize("arm", ["73.0", "75.0"])
+def test_a_wedges_arm_near_the_upright_is_refused_at_once(arm: str) -> None:
+    text = (
+        '[parts.g]\nkind = "wedge_cam"\nfollower = "roller"\nbase_height = 15.0\nswing_deg = 30.0\n'
+        f"follower_radius = 6.0\noscillating = {{ arm_length = {arm}, pivot_height = -50.0 }}\n"
+        'phases = [{ move = "rise", travel = 60.0, law = "sine" }, { move = "dwell", travel = 20.0 }]\n'
+        '[[exports]]\nformat = "svg"\n'
+    )
+    with pytest.raises(SceneError, match="beyond the upright") as refusal:
+        make_parts(scene_from_toml(text.encode(), "scene", "scene"), "scene")
+    degrees = re.findall(r"at most ([\d.]+) degrees", str(refusal.value))[0]
+    scene = scene_from_toml(text.replace("swing_deg = 30.0", f"swing_deg = {degrees}").encode(), "scene", "scene")
+    parts, _ = make_parts(scene, "scene")
+    assert parts["g"].thing.motion
+
+
+def test_a_flat_arm_of_defaults_builds_and_fits_a_cam_of_defaults() -> None:
+    arm = '[parts.arm]\nkind = "follower_arm"\nend = "flat"\narm_length = 120.0\n'
+    cam = _FLAT.replace("swing_deg = 30.0", "swing_deg = 10.0").replace("radius = 80.0", "radius = 40.0")
+    mate = '[[mates]]\nkind = "cam_follower"\nfirst = "gear"\nsecond = "arm"\n'
+    _, matings = make_parts(scene_from_toml((arm + cam + mate).encode(), "scene", "scene"), "scene")
+    assert len(matings) == 1
+
+
+@pytest.mark.sampled(6)
+@pytest.mark.parametrize("face", [-6.0, -3.0, 0.0, 4.0, 8.0, 10.0, 12.0, 17.0])
+@pytest.mark.parametrize("sense", ["with", "against"])
+def test_a_flat_arms_outline_is_its_bar_and_its_boss(face: float, sense: str) -> None:
+    """Against the union of a rectangle and a disc by shapely."""
+    from shapely import Point, Polygon, box
+
+    keys = f'end = "flat"\narm_length = 60.0\nsense = "{sense}"\nface_offset = {face}\nboss_diameter = 16.0\n'
+    text = f'[parts.arm]\nkind = "follower_arm"\n{keys}width = 10.0\npivot_diameter = 0.0\n'
+    parts, _ = make_parts(scene_from_toml(text.encode(), "scene", "scene"), "scene")
+    outer = parts["arm"].section(0.0).region.outer
+    sampled = [z for s in outer.segments() for z in s.curve.point(np.linspace(*s.curve.domain, 2000))[:-1]]
+    near, far = (face, face - 10.0) if sense == "against" else (-face, 10.0 - face)
+    bar = box(0.0, min(near, far), 60.0, max(near, far))
+    boss = Point(0, 0).buffer(8.0, quad_segs=4000)
+    made = Polygon([(z.real, z.imag) for z in sampled])
+    assert made.is_valid
+    assert boss.union(bar).difference(made).area < 2e-3
+    # where the boss does not stand out, the bar ends square behind it
+    square = box(-8.0, min(near, far, 0.0), 0.0, max(near, far, 0.0))
+    assert made.difference(boss.union(bar).union(square)).area < 2e-3

@@ -1,0 +1,75 @@
+"""Solids against solids: what runs into what, judged by volumes known beforehand and by polygons of GEOS."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pytest
+
+from parts.scene.interference import solid_overlaps
+from parts.scene.load import make_parts, scene_from_dict
+from parts.scene.placing import place
+
+DISK = {"kind": "spur_gear", "module": 1.0, "number_of_teeth": 40}
+SUN = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20}
+WHEEL = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 30}
+MATE = {"kind": "external_gear_pair", "first": "a", "second": "b"}
+
+
+def overlaps(parts: dict[str, Any], instances: dict[str, Any] | None = None, mates: tuple[Any, ...] = ()) -> Any:
+    """Names and volumes of all overlaps of a scene."""
+    raw = {"parts": parts, "instances": instances or {}, "mates": list(mates)}
+    file = scene_from_dict(raw, "test", "test")
+    made, matings = make_parts(file, "test")
+    stand = place(file.instances, file.drives, made, matings, "test")
+    return {(o.first, o.second): o.volume for o in solid_overlaps(stand, made)}
+
+
+def test_gears_in_mesh_do_not_overlap_and_half_a_pitch_off_they_do() -> None:
+    assert overlaps({"a": SUN, "b": WHEEL}, mates=(MATE,)) == {}
+    placed = {"a": {"at": [0, 0, 0]}, "b": {"at": [50, 0, 0], "rotation_deg": 180 / 30}}
+    assert overlaps({"a": SUN, "b": WHEEL}, placed) == {}
+    found = overlaps({"a": SUN, "b": WHEEL}, {**placed, "b": {"at": [50, 0, 0]}})
+    assert found[("a", "b")] > 20
+
+
+def test_a_hub_that_runs_into_a_mate_is_found_though_the_teeth_are_right() -> None:
+    hub = {**SUN, "hub": {"diameter": 30, "above": 8}}
+    beside = {"a": hub, "b": WHEEL, "c": WHEEL}
+    # c lies above b, where only the hub of a reaches
+    found = overlaps(beside, {"a": {"at": [0, 0, 0]}, "b": {"at": [50, 0, 0], "rotation_deg": 6},
+                              "c": {"at": [40, 0, 12]}})  # fmt: skip
+    assert set(found) == {("a", "c")}
+
+
+def test_a_gear_within_a_bore_is_clear_until_it_touches_the_wall() -> None:
+    ring = {**WHEEL, "number_of_teeth": 80, "bore_diameter": 60}
+    small = {**SUN, "number_of_teeth": 17}
+    assert overlaps({"a": ring, "b": small}, {"a": {"at": [0, 0, 0]}, "b": {"at": [10.9, 0, 0]}}) == {}
+    assert overlaps({"a": ring, "b": small}, {"a": {"at": [0, 0, 0]}, "b": {"at": [11.5, 0, 0]}})
+
+
+def test_coaxial_disks_share_the_common_height() -> None:
+    found = overlaps({"a": DISK, "b": DISK}, {"a": {"at": [0, 0, 0]}, "b": {"at": [0, 0, 4]}})
+    section = make_parts(scene_from_dict({"parts": {"a": DISK}}, "t", "t"), "t")[0]["a"].to_trimesh(0.001).volume / 10
+    assert found[("a", "b")] == pytest.approx(section * 6, rel=5e-3)
+    assert overlaps({"a": DISK, "b": DISK}, {"a": {"at": [0, 0, 0]}, "b": {"at": [0, 0, 10]}}) == {}
+
+
+def test_the_volume_is_that_of_another_library() -> None:
+    placed = {"a": {"at": [0, 0, 0]}, "b": {"at": [47, 3, 2], "rotation_deg": 11}}
+    found = overlaps({"a": SUN, "b": WHEEL}, placed)[("a", "b")]
+    parts = make_parts(scene_from_dict({"parts": {"a": SUN, "b": WHEEL}}, "t", "t"), "t")[0]
+    shapely = pytest.importorskip("shapely")
+    from shapely import affinity
+
+    from geometry.approximation.chords import approximate_profile
+
+    areas = []
+    for key in ("a", "b"):
+        points, _ = approximate_profile(parts[key].section(0.0).region.outer, 0.001, arcs=False).geometry.expanded()
+        areas.append(shapely.Polygon(list(zip(points.real, points.imag, strict=True))))
+    turned = affinity.translate(affinity.rotate(areas[1], 11, origin=(0, 0)), 47, 3)
+    common = areas[0].intersection(turned).area * 8
+    assert math.isclose(found, common, rel_tol=0.05)

@@ -1,0 +1,222 @@
+"""Junk in every place of a scene: refused in one line or built, never anything else, and soon."""
+
+from __future__ import annotations
+
+import contextlib
+import datetime
+from typing import Any
+
+import msgspec
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from exporters.formats.registry import shape_of
+from exporters.production.plan import plan_build
+from geometry.base.errors import GeometryError
+from parts.base.refusal import SceneError
+from parts.gears.spur_gear.part import RackTable, ReliefTable, SpurGearSpec
+from parts.scene.load import ExportSpec, SceneInfo, scene_from_dict, scene_from_resolved, scene_from_toml
+from tests.sampling import examples
+
+# long enough for any machine under load; what hangs takes for ever
+PATIENCE = datetime.timedelta(seconds=60)
+
+
+def keys_of(*owners: Any) -> list[str]:
+    """All keys that a user may write."""
+    return ["kind", *(f.encode_name for owner in owners for f in msgspec.structs.fields(owner))]
+
+
+PART_KEYS = keys_of(SpurGearSpec, RackTable, ReliefTable)
+EXPORT_KEYS = keys_of(ExportSpec)[1:]
+KEYS = ["scene", "parts", "exports", "gear", *PART_KEYS, *EXPORT_KEYS, *keys_of(SceneInfo)]
+numbers = st.one_of(
+    st.floats(),
+    st.floats(-10, 60),
+    st.integers(),
+    st.integers(-5, 60),
+    st.just(10**400),
+    st.sampled_from([0.0, -0.0, 5e-324, 1.8e308, 2**63, -(2**63) - 1, 1e-7, 1e12, 3, 10_000, 1000, 100_000]),
+)
+words = st.one_of(
+    st.text(max_size=12),
+    st.sampled_from(["dxf", "svg", "stl", "laser", "print", "arcs", "lines", "R12", "ISO 53 D", "GOST 13755", "gear"]),
+    st.sampled_from(["spur_gear", "uk", "deeper_cut", "#c08040", "../x", "`$.a`", " - at `$.a`", "unknown field `x`"]),
+)
+dates = st.one_of(st.dates(), st.times(), st.datetimes())
+scalars = st.one_of(numbers, words, st.booleans(), dates)
+keys = st.one_of(st.sampled_from(KEYS), st.text(max_size=8))
+values = st.recursive(
+    scalars, lambda part: st.one_of(st.lists(part, max_size=3), st.dictionaries(keys, part, max_size=4)), max_leaves=8
+)
+
+
+def survives(raw: dict[str, Any]) -> bool:
+    """Whether a scene is accepted; everything but a one-line refusal is an error of the test."""
+    try:
+        plan = plan_build(scene_from_dict(raw, "junk.toml", "junk"), "junk.toml", [], [])
+    except SceneError as error:
+        text = str(error)
+    else:
+        assert plan.jobs
+        return True
+    assert "\n" not in text, text
+    assert len(text) < 2000
+    return False
+
+
+def sound() -> dict[str, Any]:
+    """A scene that builds, to put junk into."""
+    gear = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 23}
+    return {"scene": {"title": "t"}, "parts": {"gear": gear}, "exports": [{"format": "dxf"}]}
+
+
+def test_the_sound_scene_is_sound() -> None:
+    assert survives(sound())
+
+
+@examples(200, deadline=PATIENCE)
+@given(st.sampled_from(["", "scene", "parts", "gear", "exports"]), keys, values)
+def test_junk_at_one_key(table: str, key: str, value: Any) -> None:
+    raw = sound()
+    places = {
+        "": raw,
+        "scene": raw["scene"],
+        "parts": raw["parts"],
+        "gear": raw["parts"]["gear"],
+        "exports": raw["exports"][0],
+    }
+    places[table][key] = value
+    survives(raw)
+
+
+@examples(200, deadline=PATIENCE)
+@given(
+    st.dictionaries(st.sampled_from(PART_KEYS), values, max_size=6),
+    st.lists(st.dictionaries(st.sampled_from(EXPORT_KEYS), values, max_size=4), max_size=3),
+)
+def test_junk_at_many_known_keys(gear: dict[str, Any], exports: list[dict[str, Any]]) -> None:
+    raw = sound()
+    raw["parts"]["gear"] |= gear
+    raw["exports"] += exports
+    survives(raw)
+
+
+@examples(100, deadline=PATIENCE)
+@given(st.dictionaries(keys, values, max_size=4))
+def test_junk_instead_of_a_scene(raw: dict[str, Any]) -> None:
+    survives(raw)
+
+
+@examples(200, deadline=PATIENCE)
+@given(st.binary(max_size=200))
+@example(b"\xef\xbb\xbf")
+def test_bytes_instead_of_a_file(data: bytes) -> None:
+    with pytest.raises(SceneError):
+        scene_from_toml(data, "junk.toml", "junk")
+
+
+legal_gears = st.fixed_dictionaries(
+    {"kind": st.just("spur_gear"), "module": st.floats(1e-6, 1000), "number_of_teeth": st.integers(3, 10_000)},
+    optional={
+        "profile_shift_coefficient": st.floats(-10, 10),
+        "pressure_angle_deg": st.floats(5, 45),
+        "basic_rack": st.one_of(
+            st.sampled_from(["ISO 53 A", "ISO 53 D"]),
+            st.fixed_dictionaries(
+                {},
+                optional={
+                    "addendum_coefficient": st.floats(0.1, 3),
+                    "tip_clearance_coefficient": st.floats(0, 1),
+                    "tip_radius_coefficient": st.floats(0, 2),
+                },
+            ),
+        ),
+        "tip_diameter": st.floats(1e-9, 100_000),
+        "circumferential_thinning": st.floats(0, 1000),
+        "thinning_method": st.sampled_from(["wider_rack_tooth", "deeper_cut"]),
+        "tip_relief": st.fixed_dictionaries(
+            {"depth_coefficient": st.floats(0, 0.3)}, optional={"height_coefficient": st.floats(0.01, 3)}
+        ),
+        "tip_chamfer": st.floats(0, 1000),
+        "tip_rounding": st.floats(0, 1000),
+        "bore_diameter": st.floats(0, 100_000),
+        "face_width": st.floats(0.01, 10_000),
+    },
+)
+legal_exports = st.fixed_dictionaries(
+    {"format": st.sampled_from(["dxf", "svg", "stl"])},
+    optional={"tolerance": st.floats(1e-7, 1), "kerf": st.floats(0, 10), "curves": st.sampled_from(["arcs", "lines"])},
+)
+
+
+@examples(150, deadline=PATIENCE)
+@given(legal_gears, legal_exports)
+def test_every_key_in_its_range_but_together_impossible(gear: dict[str, Any], export: dict[str, Any]) -> None:
+    survives({"parts": {"g": gear}, "exports": [export]})
+
+
+@examples(150, deadline=PATIENCE)
+@given(st.floats(0.05, 50), st.integers(3, 60), st.data())
+def test_ordinary_gears_with_one_key_anywhere_in_its_range(module: float, teeth: int, data: st.DataObject) -> None:
+    gear = {"kind": "spur_gear", "module": module, "number_of_teeth": teeth}
+    drawn = data.draw(legal_gears)
+    for key in data.draw(st.lists(st.sampled_from(sorted(drawn)), max_size=2)):
+        gear.setdefault(key, drawn[key])
+    survives({"parts": {"g": gear}, "exports": [data.draw(legal_exports)]})
+
+
+SMALL = {"kind": "spur_gear", "module": 1.0, "number_of_teeth": 20}
+
+
+@pytest.mark.heavy
+@settings(max_examples=1500, deadline=PATIENCE)
+@given(legal_gears, legal_exports)
+@example(SMALL | {"tip_chamfer": 1e-20}, {"format": "dxf"})
+def test_what_is_planned_can_be_approximated_or_is_refused(gear: dict[str, Any], export: dict[str, Any]) -> None:
+    """The step after the plan, still before any byte is written."""
+    from exporters.production.build import approximated
+
+    gear["number_of_teeth"] = 3 + gear["number_of_teeth"] % 200
+    raw = {"parts": {"g": gear}, "exports": [export]}
+    if survives(raw):
+        plan = plan_build(scene_from_dict(raw, "junk.toml", "junk"), "junk.toml", [], [])
+        try:
+            made, _ = approximated(plan.jobs[0], "junk.toml")
+        except SceneError as error:
+            if "tolerance" not in error.key:
+                raise
+        else:
+            assert all(a.max_error <= plan.jobs[0].export.tolerance for a in made)
+
+
+@examples(150, deadline=PATIENCE)
+@given(st.dictionaries(keys, values, max_size=3), st.lists(values, max_size=2))
+def test_a_tampered_report_is_refused_like_a_scene(parts: dict[str, Any], exports: list[Any]) -> None:
+    """What a report keeps is data like any other; its tables may hold null for keys that were not given."""
+    data = {"name": "s", "parts": parts, "exports": [e for e in exports if isinstance(e, dict)]}
+    with contextlib.suppress(SceneError):
+        assert scene_from_resolved(data, "report.json").parts
+
+
+@pytest.mark.parametrize("depth", [100, 900, 5000])
+def test_the_deepest_table_is_no_trouble(depth: int) -> None:
+    """Dotted keys nest without brackets, so that no parser stops them."""
+    for head in ("parts.gear.tip_relief", "parts.gear", "scene", "deep"):
+        text = f"[{head}{'.a' * depth}]\nb = 1\n"
+        with pytest.raises(SceneError) as caught:
+            scene_from_toml(text.encode(), "junk.toml", "junk")
+        assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("key", ["tip_chamfer", "tip_rounding", "bore_diameter", "circumferential_thinning"])
+@pytest.mark.parametrize("value", [5e-324, 1e-132, 1e-20, 1e-15, 1e-9])
+def test_a_length_of_almost_nothing(key: str, value: float) -> None:
+    """It has an outline or is refused; nothing divides by it."""
+    raw = sound()
+    raw["parts"]["gear"][key] = value
+    if survives(raw):
+        plan = plan_build(scene_from_dict(raw, "s", "s"), "s", [], [])
+        with contextlib.suppress(GeometryError):
+            assert shape_of(plan.jobs[0])

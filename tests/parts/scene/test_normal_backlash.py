@@ -1,0 +1,99 @@
+"""Normal backlash of helical mates: at right angles to the flanks, for every kind of pair and way of asking."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from geometry.gears.teeth.transverse import normal_share
+from parts.base.refusal import SceneError
+from parts.scene.load import make_parts, scene_from_dict
+
+BETA = 25.0
+SUN = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 19, "helix_angle_deg": BETA}
+PARTS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
+    "external_gear_pair": (SUN, {**SUN, "number_of_teeth": 33, "hand": "left"}),
+    "internal_gear_pair": ({**SUN, "kind": "ring_gear", "number_of_teeth": 70}, SUN),
+    "rack_pair": (SUN, {**SUN, "kind": "rack", "number_of_teeth": 9, "hand": "left"}),
+}
+KINDS = pytest.mark.parametrize("kind", PARTS)
+
+
+def mated(kind: str, **keys: Any) -> Any:
+    """The pair of two parts, the mate with more keys."""
+    first, second = PARTS[kind]
+    mate = {"kind": kind, "first": "a", "second": "b", **keys}
+    return make_parts(scene_from_dict({"parts": {"a": first, "b": second}, "mates": [mate]}, "t", "t"), "t")[1][0]
+
+
+def shares() -> tuple[float, float]:
+    """cos(alpha_t) and cos(beta_b) by hand: sin(beta_b) = sin(beta) cos(alpha_n)."""
+    alpha = math.atan(math.tan(math.radians(20)) / math.cos(math.radians(BETA)))
+    return math.cos(alpha), math.cos(math.asin(math.sin(math.radians(BETA)) * math.cos(math.radians(20))))
+
+
+@KINDS
+def test_what_is_asked_is_normal_to_the_flanks(kind: str) -> None:
+    mating = mated(kind, normal_backlash=0.1)
+    cosine, share = shares()
+    assert mating.normal_backlash == pytest.approx(0.1, rel=1e-9)
+    assert mating.quantities()["normal_backlash"] == pytest.approx(0.1, rel=1e-9)
+    # the thinning of both on the reference circles is the circumferential backlash
+    bodies = [getattr(mating.pair, n) for n in ("first", "second", "pinion", "ring", "gear", "rack")
+              if hasattr(mating.pair, n)]  # fmt: skip
+    thinning = sum(b.circumferential_thinning for b in bodies)
+    assert thinning * cosine * share == pytest.approx(0.1, rel=1e-9)
+    # the transverse section still touches itself in the middle of its own, larger play
+    assert mating.contact(0.0, 0.0, None).worst.gap == pytest.approx(0.05 / share, abs=6e-4)
+
+
+@KINDS
+def test_a_refused_backlash_names_a_normal_one_that_works(kind: str) -> None:
+    with pytest.raises(SceneError) as refused:
+        mated(kind, normal_backlash=9.0)
+    most = float(refused.value.remedy.split("at most ")[1].split(" mm")[0])
+    assert mated(kind, normal_backlash=most).normal_backlash == pytest.approx(most)
+    with pytest.raises(SceneError):
+        mated(kind, normal_backlash=most * 1.001)
+
+
+def test_a_distance_that_gives_more_names_the_normal_one() -> None:
+    far = mated("external_gear_pair", working_centre_distance=58.0)
+    assert far.normal_backlash == pytest.approx(far.pair.normal_backlash * shares()[1], rel=1e-12)
+    with pytest.raises(SceneError) as refused:
+        mated("external_gear_pair", working_centre_distance=58.0, normal_backlash=0.01)
+    least = float(refused.value.remedy.split("at least ")[1].split(" mm")[0])
+    assert least == pytest.approx(far.normal_backlash, abs=1e-6)
+    mated("external_gear_pair", working_centre_distance=58.0, normal_backlash=least)
+
+
+def test_spur_pairs_keep_theirs() -> None:
+    first, second = ({**p, "helix_angle_deg": 0.0, "hand": "right"} for p in PARTS["external_gear_pair"])
+    mate = {"kind": "external_gear_pair", "first": "a", "second": "b", "normal_backlash": 0.1}
+    raw = {"parts": {"a": first, "b": second}, "mates": [mate]}
+    mating = make_parts(scene_from_dict(raw, "t", "t"), "t")[1][0]
+    assert mating.normal_backlash == mating.pair.normal_backlash == pytest.approx(0.1, rel=1e-9)
+
+
+def test_a_screw_surface_that_turns_moves_by_the_share_along_its_normal() -> None:
+    """Nearest distance in space from an involute screw surface to its copy turned by delta: r_b delta cos(beta_b)."""
+    alpha = math.atan(math.tan(math.radians(20)) / math.cos(math.radians(BETA)))
+    base, delta = 30.0 * math.cos(alpha), 1e-3
+    screw = math.tan(math.radians(BETA)) / 30.0
+
+    def point(roll: float, z: float, turn: float = 0.0) -> np.ndarray:
+        at = base * (1 - 1j * roll) * np.exp(1j * (roll + screw * z + turn))
+        return np.array([at.real, at.imag, z])
+
+    target, (roll, z) = point(0.5, 0.0, delta), (0.5, 0.0)
+    for _ in range(30):
+        at = point(roll, z)
+        slopes = np.column_stack([(point(roll + h, z + k) - at) / 1e-7 for h, k in ((1e-7, 0.0), (0.0, 1e-7))])
+        step, *_ = np.linalg.lstsq(slopes, target - at, rcond=None)
+        roll, z = roll + step[0], z + step[1]
+    moved = float(np.linalg.norm(target - point(roll, z)))
+    assert moved == pytest.approx(base * delta * normal_share(alpha, math.radians(BETA)), rel=1e-3)
+    assert moved < 0.999 * base * delta

@@ -1,0 +1,155 @@
+"""What a refusal says and offers, over scenes of every kind with one wrong value each.
+
+One line, the key and its value in it, in both languages the same data; what is offered builds, and where it is a limit
+one step further does not (one of whole numbers, else a thousandth); the text is the same at any speed.
+"""
+
+from __future__ import annotations
+
+import copy
+import random
+import re
+import time
+import zlib
+from typing import Any
+
+import pytest
+
+from geometry.base import nearest as search
+from parts.base.refusal import SceneError, sentence
+from parts.scene.load import make_parts, scene_from_dict
+from tests.offered import Raw, at, put, scenes, spoiled
+
+# trials of each scene in a turn
+TRIALS = 3
+
+
+def refusal_of(raw: Raw) -> SceneError | None:
+    """The refusal of a scene's parts and mates; None where they are made."""
+    try:
+        make_parts(scene_from_dict(copy.deepcopy(raw), "s", "s"), "s")
+    except SceneError as refused:
+        return refused
+    return None
+
+
+def place_of(key: str) -> tuple[Any, ...]:
+    """The place that a key names: ``mates[1]: parts.b.holes.item 2.diameter``."""
+    steps: list[Any] = []
+    for word in key.rpartition(": ")[2].split("."):
+        if item := re.fullmatch(r"item (\d+)", word):
+            steps.append(int(item[1]) - 1)
+        elif listed := re.fullmatch(r"(\w+)\[(\d+)\]", word):
+            steps += [listed[1], int(listed[2]) - 1]
+        else:
+            steps.append(word)
+    return tuple(steps)
+
+
+def without(raw: Raw, place: tuple[Any, ...]) -> Raw:
+    """A scene without one of its keys."""
+    made = copy.deepcopy(raw)
+    owner = at(made, place[:-1])
+    if isinstance(owner, dict):
+        owner.pop(place[-1], None)
+    return made
+
+
+def judged(raw: Raw, refusal: SceneError) -> list[str]:
+    """What is wrong with a refusal, nothing where all is right."""
+    faults = []
+    english, ukrainian = sentence(refusal, "en"), sentence(refusal, "uk")
+    for line in (english, ukrainian):
+        if "\n" in line or not line.startswith(f"s: {refusal.key}") or re.search(r"\{\w+\}", line):
+            faults.append(f"badly told: {line}")
+    if english == ukrainian:
+        faults.append(f"not translated: {english}")
+    nearest = refusal.nearest
+    if nearest is None or nearest.side == "meant":
+        return faults
+    place = place_of(refusal.key)
+    better = without(raw, place) if nearest.value is None else put(raw, place, nearest.value)
+    again = refusal_of(better)
+    if again is not None and (again.key == refusal.key or not mated(raw)):
+        faults.append(f"{english}: then {again}")
+    numeric = isinstance(nearest.value, int | float) and not isinstance(nearest.value, bool)
+    if again is None and numeric and nearest.side != "exactly":
+        whole = isinstance(nearest.value, int)
+        step = 1 if whole else 1e-3 * max(abs(nearest.value), module_of(raw, place))  # type: ignore[arg-type]
+        beyond = nearest.value + (step if nearest.side == "at_most" else -step)  # type: ignore[operator]
+        if refusal_of(put(raw, place, beyond)) is None:
+            faults.append(f"{english}: {beyond} builds too")
+    return faults
+
+
+def mated(raw: Raw) -> bool:
+    """Whether a part's offer may still be stopped by a mate: it is tried with the part alone."""
+    return bool(raw.get("mates"))
+
+
+def module_of(raw: Raw, place: tuple[Any, ...]) -> float:
+    """The module of the blamed part, 0 where it has none."""
+    owner = at(raw, place[:2])
+    module = owner.get("module", 0.0) if isinstance(owner, dict) else 0.0
+    return float(module) if isinstance(module, int | float) else 0.0
+
+
+@pytest.mark.sampled(16)
+@pytest.mark.parametrize("turn", range(8))
+@pytest.mark.parametrize("share", range(16))
+def test_what_is_offered_builds_and_one_step_further_does_not(share: int, turn: int) -> None:
+    """A sixteenth of the scenes at a time: they are made when a test asks for them, not at collection."""
+    faults = [f"{name}: {fault}" for name in sorted(scenes())[share::16] for fault in faults_of(name, turn)]
+    assert faults == []
+
+
+def faults_of(name: str, turn: int) -> list[str]:
+    """What is wrong with the refusals of a scene, one wrong value at a time."""
+    raw, faults = scenes()[name], list[str]()
+    for number in range(TRIALS * turn, TRIALS * (turn + 1)):
+        choice = random.Random(zlib.crc32(f"{name} {number}".encode()))
+        what, wrong = spoiled(raw, choice)
+        refusal = refusal_of(wrong)
+        if refusal is not None:
+            faults += [f"{what}: {fault}" for fault in judged(wrong, refusal)]
+    return faults
+
+
+def test_the_search_is_counted_and_needs_no_clock(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same text whatever the time; no search takes more than its trials, none builds a scene."""
+    wrong = put(scenes()["external"], ("parts", "a", "profile_shift_coefficient"), -4.0)
+    first = str(refusal_of(wrong))
+    asked: list[int] = []
+    plain = search.nearest
+
+    def counted(holds: Any, given: float, toward: Any, **more: Any) -> Any:
+        asked.append(0)
+
+        def once(value: float) -> bool:
+            asked[-1] += 1
+            return bool(holds(value))
+
+        return plain(once, given, toward, **more)
+
+    clock = iter(range(10**9))
+    for name in ("time", "process_time", "perf_counter", "monotonic"):
+        monkeypatch.setattr(time, name, lambda: float(next(clock) * 1000))
+    import geometry.gears.teeth.limits as limits
+
+    monkeypatch.setattr(limits, "nearest", counted)
+    assert str(refusal_of(wrong)) == first
+    assert asked
+    assert max(asked) <= search.MOST_TRIALS
+
+
+def test_a_wrong_offer_is_noticed() -> None:
+    """The judge itself: an offer that does not build, one that is too timid, a sentence in one language."""
+    raw = {"parts": {"p": {"kind": "plate", "width": 20.0, "height": 10.0, "corner_radius": 6.0}}}
+    right = refusal_of(raw)
+    assert right is not None
+    assert judged(raw, right) == []
+    for value, fault in ((5.5, "then s: parts.p.corner_radius"), (4.0, "builds too")):
+        wrong = SceneError("s", right.key, right.value, right.code, search.Nearest(value, "at_most"))
+        assert fault in judged(raw, wrong)[0]
+    untold = SceneError("s", right.key, right.value, "no_such_code_at_all")
+    assert "not translated" in judged(raw, untold)[0]

@@ -1,0 +1,91 @@
+"""What users broke: pairs with relief, thin walls, offers of distances and of helical shifts."""
+
+from typing import Any
+
+import pytest
+
+from exporters.production.check import scene_checks
+from geometry.plane.distance import Verdict
+from parts.scene.load import SceneError, make_parts, scene_from_dict
+from parts.scene.placing import place
+
+RELIEF = {"depth_coefficient": 0.02, "height_coefficient": 0.5}
+
+
+def checked(raw: dict[str, Any]) -> dict[str, Any]:
+    scene = scene_from_dict(raw, "t", "t")
+    parts, matings = make_parts(scene, "t")
+    placing = place(scene.instances, scene.drives, parts, matings, "t")
+    return scene_checks(placing, parts, scene.drives, "en", contact=True)
+
+
+def pair(kind: str, second: dict[str, Any], mate: dict[str, Any] | None = None, **first: Any) -> dict[str, Any]:
+    gear = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 17, **first}
+    joined = {"kind": kind, "first": "p", "second": "w", **(mate or {})}
+    return {"parts": {"p": gear, "w": {"module": 2.0, **second}}, "mates": [joined]}
+
+
+@pytest.mark.parametrize("backlash", [0.0, 0.05])
+@pytest.mark.parametrize(
+    ("kind", "second"),
+    [
+        ("internal_gear_pair", {"kind": "ring_gear", "number_of_teeth": 60}),
+        ("rack_pair", {"kind": "rack", "number_of_teeth": 14}),
+        ("external_gear_pair", {"kind": "spur_gear", "number_of_teeth": 30}),
+    ],
+)
+def test_relieved_tips_leave_the_verdict_decided(kind: str, second: dict[str, Any], backlash: float) -> None:
+    raw = pair(
+        kind,
+        {**second, "pressure_angle_deg": 30.0},
+        {"normal_backlash": backlash},
+        pressure_angle_deg=30.0,
+        tip_relief=RELIEF,
+    )
+    verdict = checked(raw)["mates"][0]["verdict"]
+    # with backlash the pinion stands in its middle
+    assert verdict in ({Verdict.CLEAR.value} if backlash else {Verdict.CONTACT.value, Verdict.CLEAR.value})
+
+
+def test_a_wall_that_is_too_thin_to_mesh_is_no_traceback() -> None:
+    second = {"kind": "spur_gear", "number_of_teeth": 31}
+    raw = pair("external_gear_pair", second, web={"thickness": 3.0, "rim_diameter": 28.95})
+    (found,) = checked(raw)["solids"]
+    assert (found["first"], found["second"], found["verdict"]) == ("p", "w", "undecided")
+    raw["parts"]["p"]["web"]["rim_diameter"] = 28.0
+    assert "solids" not in checked(raw)
+
+
+def offered(raw: dict[str, Any]) -> float:
+    with pytest.raises(SceneError) as refusal:
+        checked(raw)
+    nearest = refusal.value.nearest
+    assert nearest is not None
+    assert isinstance(nearest.value, float)
+    return nearest.value
+
+
+def test_offers_of_helical_shifts_are_normal_ones() -> None:
+    second = {"kind": "spur_gear", "number_of_teeth": 20, "helix_angle_deg": 30.0, "hand": "left"}
+    first = {"number_of_teeth": 40, "profile_shift_coefficient": -2.0, "helix_angle_deg": 30.0}
+    raw = pair("external_gear_pair", {**second, "profile_shift_coefficient": 0.1}, **first)
+    works = offered(raw)
+    raw["parts"]["w"]["profile_shift_coefficient"] = works
+    checked(raw)
+    raw["parts"]["w"]["profile_shift_coefficient"] = works - 1e-3
+    assert offered(raw) == pytest.approx(works, abs=1e-3)
+
+
+def test_tips_that_a_pair_shortens_away_are_refused() -> None:
+    second = {"kind": "spur_gear", "number_of_teeth": 20, "profile_shift_coefficient": 0.3}
+    raw = pair("external_gear_pair", second, number_of_teeth=40, profile_shift_coefficient=-2.0)
+    with pytest.raises(SceneError, match=r"profile_shift_coefficient = 0\.3: "):
+        checked(raw)
+
+
+@pytest.mark.parametrize("distance", [30.0, 41.0 - 5.0, 55.0])
+def test_offers_of_distances_work(distance: float) -> None:
+    ring = {"kind": "ring_gear", "number_of_teeth": 60}
+    raw = pair("internal_gear_pair", ring, {"working_centre_distance": distance})
+    raw["mates"][0]["working_centre_distance"] = offered(raw)
+    assert checked(raw)["mates"][0]["contact_ratio"] >= 1 - 1e-3

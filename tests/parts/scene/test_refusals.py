@@ -1,0 +1,313 @@
+"""Wrong scenes: each gives one refusal that names the key, the value and what would work."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import pytest
+
+from exporters.production.build import build
+from exporters.production.plan import plan_build
+from parts.base.refusal import SceneError
+from parts.scene.load import load_scene, scene_from_toml
+
+GEAR = {"kind": '"spur_gear"', "module": "2.0", "number_of_teeth": "23"}
+Keys = dict[str, str | None]
+EXPORT = {"format": '"dxf"'}
+
+
+def scene_text(part: Keys | None = None, export: Keys | None = None, tail: str = "") -> str:
+    """A scene of one gear; values are TOML already, None leaves a key out."""
+    lines = ["[parts.gear]"]
+    lines += [f"{k} = {v}" for k, v in (GEAR | (part or {})).items() if v is not None]
+    lines += ["[[exports]]", *(f"{k} = {v}" for k, v in (EXPORT | (export or {})).items() if v is not None)]
+    return "\n".join([*lines, tail, ""])
+
+
+def _built(raw: bytes, folder: Path) -> None:
+    build(plan_build(scene_from_toml(raw, "test.toml", "test"), "test.toml", [], []), folder)
+
+
+def refusal(text: str | bytes) -> SceneError:
+    """The one refusal that a scene gets on its way to files; none may be there afterwards."""
+    raw = text if isinstance(text, bytes) else text.encode()
+    with TemporaryDirectory() as folder:
+        with pytest.raises(SceneError) as caught:
+            _built(raw, Path(folder) / "new" / "out")
+        assert not list(Path(folder).iterdir())
+    message = str(caught.value)
+    assert "\n" not in message
+    assert message.startswith("test.toml")
+    assert not re.search(r"Traceback|msgspec|Struct|<class|Meta\(", message), message
+    return caught.value
+
+
+# part keys to change, export keys to change: the key, the value and words of the remedy in the refusal
+# fmt: off
+WRONG_KEYS: dict[str, tuple[Keys, Keys, str, str, str]] = {
+    "unknown key": ({"modul": "2"}, {}, "parts.gear.modul", "2", "did you mean module"),
+    "unknown export key": ({}, {"tolerence": "1"}, "exports[1].tolerence", "1", "did you mean tolerance"),
+    "unknown key in a table": ({"tip_relief": "{ dept = 1 }"}, {}, "tip_relief.dept", "1", "depth_coefficient"),
+    "text for a number": ({"module": '"two"'}, {}, "parts.gear.module", '"two"', "a number"),
+    "number for text": ({"material": "3"}, {}, "parts.gear.material", "3", "text"),
+    "bool for a whole number": ({"number_of_teeth": "true"}, {}, "number_of_teeth", "true", "whole number"),
+    "bool for a number": ({"module": "true"}, {}, "parts.gear.module", "true", "a number"),
+    "fraction of a tooth": ({"number_of_teeth": "23.5"}, {}, "number_of_teeth", "23.5", "whole number"),
+    "list for a number": ({"module": "[2.0]"}, {}, "parts.gear.module", "[2.0]", "a number"),
+    "date for a number": ({"module": "2024-01-01"}, {}, "parts.gear.module", "2024-01-01", "a number"),
+    "negative module": ({"module": "-2.0"}, {}, "parts.gear.module", "-2", "at least 0.01"),
+    "no module": ({"module": "0"}, {}, "parts.gear.module", "0", "at least 0.01"),
+    "huge module": ({"module": "1e300"}, {}, "parts.gear.module", "1e+300", "at most 1000"),
+    "two teeth": ({"number_of_teeth": "2"}, {}, "number_of_teeth", "2", "at least 3"),
+    "1e12 teeth": ({"number_of_teeth": "1e12"}, {}, "number_of_teeth", "1e+12", "at most 10000"),
+    "10^12 teeth": ({"number_of_teeth": "1000000000000"}, {}, "number_of_teeth", "1000000000000", "at most 10000"),
+    "10^30 teeth": ({"number_of_teeth": "1" + 30 * "0"}, {}, "number_of_teeth", "1" + 30 * "0", "at most 10000"),
+    "negative teeth": ({"number_of_teeth": "-23"}, {}, "number_of_teeth", "-23", "at least 3"),
+    "bore larger than the root": ({"bore_diameter": "45.0"}, {}, "bore_diameter", "45", "41"),
+    "nan": ({"module": "nan"}, {}, "parts.gear.module", "nan", "finite"),
+    "minus infinity": ({"tip_chamfer": "-inf"}, {}, "parts.gear.tip_chamfer", "-inf", "finite"),
+    "1e400": ({"face_width": "1e400"}, {}, "parts.gear.face_width", "inf", "finite"),
+    "nan in a table": ({"tip_relief": "{ depth_coefficient = nan }"}, {}, "relief.depth_coefficient", "nan", "finite"),
+    "infinite tolerance": ({}, {"tolerance": "inf"}, "exports[1].tolerance", "inf", "finite"),
+    "unknown kind": ({"kind": '"spur_gaer"'}, {}, "parts.gear.kind", '"spur_gaer"', "did you mean spur_gear"),
+    "kind is a number": ({"kind": "7"}, {}, "parts.gear.kind", "7", "spur_gear"),
+    "missing kind": ({"kind": None}, {}, "parts.gear.kind", "", "spur_gear"),
+    "missing module": ({"module": None}, {}, "parts.gear.module", "", "missing"),
+    "unknown format": ({}, {"format": '"dwg"'}, "exports[1].format", '"dwg"', '"dxf", "svg"'),
+    "missing format": ({}, {"format": None}, "exports[1].format", "", '"dxf"'),
+    "unknown rack": ({"basic_rack": '"ISO 53 E"'}, {}, "basic_rack", '"ISO 53 E"', "ISO 53 A"),
+    "rack is a number": ({"basic_rack": "53"}, {}, "basic_rack", "53", "table"),
+    "colour by name": ({"colour": '"red"'}, {}, "colour", '"red"', "#c08040"),
+    "kerf and offset": ({}, {"kerf": "0.1", "offset": "0.1"}, "exports[1].kerf", "0.1", "either kerf or offset"),
+    "kerf closes the spaces": ({}, {"kerf": "9.0"}, "exports[1].kerf", "9", "at most"),
+    "kerf closes the bore": ({"bore_diameter": "1"}, {"kerf": "1.5"}, "exports[1].kerf", "1.5", "at most"),
+    "offset leaves no tooth": ({}, {"offset": "-9.9"}, "exports[1].offset", "-9.9", "at least"),
+    "chamfer and rounding": ({"tip_chamfer": "0.2", "tip_rounding": "0.2"}, {}, "tip_rounding", "0.2", "either"),
+    "unknown part": ({}, {"parts": '["gaer"]'}, "exports[1].parts", "gaer", "did you mean gear"),
+    "no part": ({}, {"parts": "[]"}, "exports[1].parts", "[]", ""),
+    "parts is text": ({}, {"parts": '"gear"'}, "exports[1].parts", '"gear"', "list"),
+    "tolerance 0": ({}, {"tolerance": "0"}, "exports[1].tolerance", "0", "at least 1e-07"),
+    "tolerance 1e-12": ({}, {"tolerance": "1e-12"}, "exports[1].tolerance", "1e-12", "at least 1e-07"),
+    "tolerance 1e9": ({}, {"tolerance": "1e9"}, "exports[1].tolerance", "1000000000", "at most 1"),
+    "negative tolerance": ({}, {"tolerance": "-0.1"}, "exports[1].tolerance", "-0.1", "at least"),
+    "R12 of an stl": ({}, {"format": '"stl"', "dxf_version": '"R12"'}, "exports[1].dxf_version", "R12", "remove"),
+    "printing on a laser": ({}, {"purpose": '"print"'}, "exports[1].purpose", "print", "laser"),
+    "path as export name": ({}, {"name": '"../x"'}, "exports[1].name", "../x", "letters"),
+    "stl finer than its numbers": ({"module": "1000"}, {"format": '"stl"', "tolerance": "1e-6"},
+                                   "exports[1].tolerance", "1e-06", "at least"),
+}
+# fmt: on
+
+
+@pytest.mark.parametrize("name", WRONG_KEYS)
+def test_a_wrong_key_is_named_with_its_value_and_a_remedy(name: str) -> None:
+    part, export, key, value, remedy = WRONG_KEYS[name]
+    message = str(refusal(scene_text(part, export)))
+    assert key in message
+    assert f"{key} = " in message or not value
+    for text in (value, remedy):
+        assert text in message, message
+
+
+@pytest.mark.parametrize(
+    ("raw", "words"),
+    [
+        (b"", "at least one part"),
+        (b"\n# only a comment\n", "at least one part"),
+        (b"\x00\x01\x02\xff\xfe", "UTF-8"),
+        (bytes(range(256)), "UTF-8"),
+        (b"\x00" * 100, "not TOML"),
+        (b"[parts.gear\nkind = 1", "not TOML"),
+        (b"kind = spur_gear", "not TOML"),
+        (b'{"parts": {}}', "not TOML"),
+        (b"a = " + b"[" * 5000 + b"]" * 5000, "not TOML"),
+        (b"a = 1" + b"0" * 5000, "TOML"),
+        (b"#" * 5_000_000, "larger than"),
+        (b"[parts]\n", "at least one part"),
+        (b"parts = 3\n", "write it as a table"),
+        (b"[parts]\ngear = 3\n", "write it as a table"),
+        (b"[[parts.gear]]\nkind = 'spur_gear'\n", "write it as a table"),
+        (b"exports = 3\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "[[exports]]"),
+        (b"exports = [3]\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "table"),
+        (b"scene = 3\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "table"),
+        (b"[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "asks for no file"),
+        (b"[scene]\nlanguage='de'\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", '"en", "uk"'),
+        (b"[scene]\ntitel='x'\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "did you mean title"),
+        (b"[sceen]\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "did you mean scene"),
+        (b"[gears]\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "unknown table"),
+    ],
+    ids=lambda value: repr(value)[:25],
+)
+def test_what_is_no_scene_is_refused(raw: bytes, words: str) -> None:
+    assert words in str(refusal(raw))
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "../up",
+        "a/b",
+        "a\\b",
+        "/etc/x",
+        ".",
+        "..",
+        "",
+        "a b",
+        "шестерня",
+        "a.b",
+        "-x",
+        "x" * 65,
+        "con:",
+        "a\nb",
+        "a\u0000b",
+        "a\n",
+    ],
+)
+def test_a_part_cannot_be_named_like_a_path(name: str) -> None:
+    quoted = "".join(f"\\u{ord(c):04x}" for c in name)
+    text = scene_text().replace("[parts.gear]", f'[parts."{quoted}"]')
+    assert "letters, digits, _ and -" in str(refusal(text))
+
+
+@pytest.mark.parametrize("name", ["a/b", "..", "", "a b", "x" * 65, "a\\u000a"])
+def test_an_export_cannot_be_named_like_a_path(name: str) -> None:
+    assert "exports[1].name" in str(refusal(scene_text(export={"name": f'"{name}"'})))
+
+
+@pytest.mark.parametrize(
+    "tail",
+    [
+        '[[exports]]\nformat = "dxf"',
+        '[[exports]]\nformat = "dxf"\nname = "laser"',
+        '[[exports]]\nformat = "dxf"\nname = "a"\n[[exports]]\nformat = "dxf"\nname = "a"',
+        '[[exports]]\nformat = "dxf"\nparts = ["gear", "gear"]\nname = "b"',
+        '[[exports]]\nformat = "svg"\nname = "preview"\n[[exports]]\nformat = "svg"',
+    ],
+    ids=["same defaults", "the default's name", "same name", "same part twice", "the preview's name"],
+)
+def test_two_exports_into_one_file_are_refused(tail: str) -> None:
+    assert re.search(r"exports\[\d\]", str(refusal(scene_text(tail=tail))))
+
+
+def test_a_missing_file_a_folder_and_a_hint(tmp_path: Path) -> None:
+    for address, words in (
+        ("laser_gaer", "did you mean laser_gear"),
+        (str(tmp_path / "no.toml"), "no such file"),
+        (str(tmp_path), "is a folder"),
+        ("", ""),
+        (str(tmp_path / "a\0b"), "not a path"),
+        ("x" * 5000, ""),
+    ):
+        with pytest.raises(SceneError) as caught:
+            load_scene(address)
+        assert words in str(caught.value)
+        assert "\n" not in str(caught.value)
+
+
+def offered_by(error: SceneError) -> float:
+    """The number that a refusal says works."""
+    assert error.nearest is not None, str(error)
+    assert isinstance(error.nearest.value, int | float)
+    return error.nearest.value
+
+
+def builds(text: str, folder: Path) -> bool:
+    """Whether a scene gives all its files, each good."""
+    plan = plan_build(scene_from_toml(text.encode(), "test.toml", "test"), "test.toml", [], [])
+    written, *_ = build(plan, folder)
+    return not any(item.failures for item in written)
+
+
+# changed keys of the part and of the export, and the key that is to blame
+SMALL_RACK = {"addendum_coefficient": 0.9, "tip_clearance_coefficient": 0.1}
+NEAREST: dict[str, tuple[dict[str, Any], dict[str, Any], str]] = {
+    "kerf": ({"bore_diameter": 9.0}, {"kerf": 8.0}, "kerf"),
+    "kerf in the bore": ({"bore_diameter": 0.5}, {"kerf": 0.7}, "kerf"),
+    "offset out": ({"module": 0.5}, {"offset": 3.0}, "offset"),
+    "offset in": ({"module": 0.5}, {"offset": -3.0}, "offset"),
+    "offset in on a rim": ({"bore_diameter": 38.0}, {"offset": -1.0}, "offset"),
+    "offset of a chamfered tooth": ({"tip_chamfer": 0.3}, {"offset": -9.0}, "offset"),
+    "offset of a rounded tooth": ({"tip_rounding": 0.3}, {"offset": -9.0}, "offset"),
+    "offset of a relieved tooth": ({"tip_relief": {"depth_coefficient": 0.02}}, {"offset": -9.0}, "offset"),
+    "chamfer": ({"tip_chamfer": 3.0}, {}, "tip_chamfer"),
+    "huge chamfer": ({"tip_chamfer": 1000.0}, {}, "tip_chamfer"),
+    "rounding": ({"tip_rounding": 2.0}, {}, "tip_rounding"),
+    "tip circle too large": ({"tip_diameter": 60.0}, {}, "tip_diameter"),
+    "tip circle much too large": ({"tip_diameter": 1e5}, {}, "tip_diameter"),
+    "tip circle too small": ({"tip_diameter": 30.0}, {}, "tip_diameter"),
+    "tip circle much too small": ({"tip_diameter": 0.001, "number_of_teeth": 200}, {}, "tip_diameter"),
+    "chamfer below the base circle": ({"tip_chamfer": 0.3, "tip_diameter": 42.0}, {}, "tip_"),
+    "thinning": ({"circumferential_thinning": 3.0}, {}, "circumferential_thinning"),
+    "deeper cut": ({"circumferential_thinning": 9.0, "thinning_method": "deeper_cut"}, {}, "circumferential_thinning"),
+    "pointed by its shift": ({"profile_shift_coefficient": 3.0}, {}, "profile_shift_coefficient"),
+    "far too much shift": ({"profile_shift_coefficient": 9.0, "number_of_teeth": 5}, {}, "profile_shift_coefficient"),
+    "far too little shift": ({"profile_shift_coefficient": -9.0, "number_of_teeth": 5}, {}, "profile_shift"),
+    "undercut by its shift": ({"profile_shift_coefficient": -3.0, "number_of_teeth": 9}, {}, "profile_shift"),
+    "few teeth": ({"number_of_teeth": 3, "pressure_angle_deg": 5.0}, {}, ""),
+    "steep flanks": ({"pressure_angle_deg": 40.0}, {}, ""),
+    "clearance of a rack": ({"basic_rack": {"tip_clearance_coefficient": 1.0, "addendum_coefficient": 1.5}}, {},
+                            "basic_rack.tip_clearance_coefficient"),
+    "addendum of a rack": ({"basic_rack": {"addendum_coefficient": 3.0}}, {}, "basic_rack.addendum_coefficient"),
+    "radius of a rack": ({"basic_rack": {"tip_radius_coefficient": 1.5}}, {}, "basic_rack.tip_radius_coefficient"),
+    "depth of a relief": ({"pressure_angle_deg": 35.0, "basic_rack": SMALL_RACK,
+                           "tip_relief": {"depth_coefficient": 0.29}}, {}, "tip_relief.depth_coefficient"),
+    "depth that points the tooth": ({"pressure_angle_deg": 35.0, "basic_rack": SMALL_RACK,
+                                     "tip_relief": {"depth_coefficient": 0.12}}, {}, "tip_relief.depth_coefficient"),
+    "height of a relief": ({"tip_relief": {"depth_coefficient": 0.02, "height_coefficient": 2.5}}, {},
+                           "tip_relief.height_coefficient"),
+    "bore": ({"bore_diameter": 41.0}, {}, "bore_diameter"),
+    "bore of a solid": ({"bore_diameter": 41.0}, {"format": "stl"}, "bore_diameter"),
+    "stl tolerance": ({"module": 500.0}, {"format": "stl", "tolerance": 1e-5}, "tolerance"),
+    "edges": ({"module": 1000.0, "number_of_teeth": 10000}, {"tolerance": 1e-7, "curves": "lines"}, "tolerance"),
+}  # fmt: skip
+
+
+def written_as_toml(value: Any) -> str:
+    """A value as TOML."""
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{k} = {written_as_toml(v)}" for k, v in value.items()) + " }"
+    return f'"{value}"' if isinstance(value, str) else repr(value)
+
+
+def with_values(part: dict[str, Any], export: dict[str, Any]) -> str:
+    """A scene with values changed."""
+    keys, more = ({k: written_as_toml(v) for k, v in table.items()} for table in (part, export))
+    return scene_text(keys, more)
+
+
+Tables = tuple[dict[str, Any], dict[str, Any]]
+
+
+def with_offer(part: dict[str, Any], export: dict[str, Any], error: SceneError) -> Tables:
+    """Both tables with the offered number at the key that the refusal names."""
+    number = offered_by(error)
+    table, *keys = re.sub(r"^(parts\.gear|exports\[1\])\.", r"\1|", error.key).split("|")
+    assert keys, error.key
+    head, _, inner = keys[0].partition(".")
+    target = part if table == "parts.gear" else export
+    if inner:
+        before = target.get(head, {})
+        target = target | {head: (before if isinstance(before, dict) else {}) | {inner: number}}
+    else:
+        target = target | {head: int(number) if head == "number_of_teeth" else number}
+    return (target, export) if table == "parts.gear" else (part, target)
+
+
+@pytest.mark.parametrize("name", [pytest.param(n, marks=[pytest.mark.heavy] * (n == "edges")) for n in NEAREST])
+def test_the_nearest_value_that_a_refusal_names_does_build(name: str, tmp_path: Path) -> None:
+    part, export, key = NEAREST[name]
+    error = refusal(with_values(part, export))
+    assert key in error.key, str(error)
+    changed = with_offer(part, export, error)
+    assert changed != (part, export)
+    assert builds(with_values(*changed), tmp_path / "out")
+
+
+def test_the_nearest_kerf_is_near(tmp_path: Path) -> None:
+    """A little more than the offered number is refused again: it is a limit, not just any number that works."""
+    for key, value in (("kerf", 8.0), ("offset", 5.0), ("offset", -5.0)):
+        offer = offered_by(refusal(with_values({}, {key: value})))
+        assert "works" in str(refusal(with_values({}, {key: offer * 1.001})))

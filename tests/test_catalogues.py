@@ -1,0 +1,236 @@
+"""The catalogues are whole: every text has its translation, with the same placeholders, and is told with numbers."""
+
+from __future__ import annotations
+
+import ast
+import re
+import string
+import subprocess
+import sys
+import tarfile
+import tomllib
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from babel.messages.catalog import Message
+
+from parts.base.texts import LOCALE, words
+from tests import catalogues
+from tests.catalogues import HOUSE, catalogue_files, compiled, extracted, read, untranslated, updated
+from tests.test_architecture import product_files
+
+ROOT = Path(__file__).resolve().parent.parent
+FILES = pytest.mark.parametrize("file", catalogue_files(), ids=lambda f: f.parts[-3])
+CYRILLIC = re.compile("[\u0400-\u04ff]")
+# where Ukrainian letters stand in the code, and why
+CYRILLIC_PLACES = {
+    "parts/pages/terms.py": "symbols as the sources print them",
+    "parts/pages/symbols.py": "their indices",
+    "parts/base/materials.py": "materials as users write them in scenes of any language",
+    "parts/drawing/canvas.py": "narrow and wide letters of drawings",
+    "parts/mates/pages/internal.py": "the practicum's table Д.1",
+    "parts/mates/pages/external.py": "the practicum's tables А.1, Д.1, Е.1",
+    "geometry/gears/shifts/tables.py": "the practicum's tables А.1, Б.1, В.1, Г.1",
+}
+
+
+def texts_of(file: Path) -> list[Message]:
+    """The messages of a .po without its head."""
+    return [m for m in read(file) if m.id]
+
+
+def placeholders(text: str) -> set[tuple[str, str, str]]:
+    """Names, conversions and formats, of {braces} and of %."""
+    found: set[tuple[str, str, str]] = set()
+    for _, name, spec, conversion in string.Formatter().parse(text):
+        # the braces of an index, O_{2}, are no placeholder
+        if name is not None and not name.isdigit():
+            found.add((name, spec or "", conversion or ""))
+    return found | {("%", one, "") for one in re.findall(r"%(?:\(\w+\))?[sr]", text)}
+
+
+def pieces(one: Message) -> tuple[list[str], list[str]]:
+    """Its msgids and its translations."""
+    return ([*one.id], [*one.string]) if isinstance(one.id, tuple | list) else ([one.id], [one.string])
+
+
+@FILES
+def test_every_text_has_its_translation(file: Path) -> None:
+    stand = {(m.context, pieces(m)[0][0]) for m in texts_of(file)}
+    asked = set(extracted())
+    assert sorted(map(str, asked - stand)) == [], "run python -m tests.catalogues and translate"
+    assert sorted(map(str, stand - asked)) == [], "run python -m tests.catalogues"
+    assert untranslated(file) == []
+    assert updated(file, extracted()) == file.read_text("utf-8"), "run python -m tests.catalogues"
+
+
+@FILES
+def test_the_mo_is_the_compiled_po(file: Path) -> None:
+    assert compiled(file) == file.with_suffix(".mo").read_bytes(), "run python -m tests.catalogues"
+
+
+@FILES
+def test_translations_hold_the_same_placeholders(file: Path) -> None:
+    for one in texts_of(file):
+        ids, told = pieces(one)
+        if any("{ " in text for text in ids):
+            continue
+        for text in (*ids, *told):
+            assert placeholders(text) == placeholders(ids[0]), (ids[0], text)
+
+
+@FILES
+def test_plurals_have_all_forms(file: Path) -> None:
+    catalogue = read(file)
+    plurals = [m for m in catalogue if m.pluralizable]
+    assert len(plurals) > 5
+    assert all(len(m.string) == catalogue.num_plurals for m in plurals)
+    # Babel writes two forms in silence where the head names no language and no rule
+    assert catalogue.num_plurals >= 2
+    head = file.read_text("utf-8").partition("\n\n")[0]
+    assert f'"Language: {file.parts[-3]}\\n"' in head
+    assert "Plural-Forms: nplurals=" in head
+
+
+def sample(name: str, spec: str) -> Any:
+    """What may stand in a placeholder."""
+    return "x" if not spec else 1.5 if spec[-1] in "fg" else 3
+
+
+def numbers_of(text: str) -> dict[str, Any]:
+    """Numbers for each placeholder; {inner[0]} asks for a list."""
+    found = {}
+    for name, spec, _ in placeholders(text):
+        if name != "%":
+            found[name.partition("[")[0]] = [1.5, 2.5] if "[" in name else sample(name, spec)
+    return found
+
+
+def told(one: Message, language: str) -> Iterator[str]:
+    """A message taken through a language as the product takes it."""
+    ids, _ = pieces(one)
+    if "{ " in ids[0]:
+        yield words(language).text(ids[0])
+    elif len(ids) == 2:
+        for count in (1, 2, 5, 11, 21, 112, 1.5):
+            numbers = {k: count if v != "x" else v for k, v in numbers_of(ids[0]).items()}
+            yield words(language).plural(*ids, count, **numbers)
+    elif one.context:
+        yield words(language).term(one.context, ids[0], **numbers_of(ids[0]))
+    else:
+        yield words(language).text(ids[0], **numbers_of(ids[0]))
+
+
+@FILES
+def test_every_message_is_told_with_numbers(file: Path) -> None:
+    language = file.parts[-3]
+    same = []
+    for one in texts_of(file):
+        for text in told(one, language):
+            assert not placeholders(text) or "{ " in pieces(one)[0][0] or "%" in text, text
+            if text in list(told(one, "en")):
+                same.append(text)
+    # units, symbols and patterns without a word
+    assert len(same) < 40
+    assert [text for text in same if len(re.findall("[a-z]{3,}", text)) > 2] == []
+
+
+def test_a_text_without_translation_would_be_noticed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Negative controls: a new mark in the code; a lost form; a doubtful translation; other placeholders."""
+    package = tmp_path / "parts"
+    package.mkdir()
+    (package / "__init__.py").write_text("", "utf-8")
+    code = 'title = N_("nobody has translated this")\npage.say(message("{n} of it", n=1), words.term("unit", "ell"))\n'
+    (package / "new.py").write_text(code + 'counted("{n} ell", "{n} ells", by="n")\nN_(title)\n', "utf-8")
+    monkeypatch.setattr(catalogues, "_PACKAGES", (package,))
+    monkeypatch.setattr(catalogues, "_kept_in_data", lambda: iter(()))
+    made = extracted()
+    assert made == {(None, "nobody has translated this"): "", (None, "{n} of it"): "", ("unit", "ell"): "",
+                    (None, "{n} ell"): "{n} ells"}  # fmt: skip
+    file = tmp_path / "higherpair.po"
+    head = (LOCALE / "uk" / "LC_MESSAGES" / "higherpair.po").read_text("utf-8").partition("\n\n")[0]
+    file.write_text(head + "\n\n", "utf-8")
+    file.write_text(updated(file, made), "utf-8")
+    assert len(untranslated(file)) == 4
+    forms = "".join(f'msgstr[{k}] "{k}"\n' for k in range(3))
+    file.write_text(file.read_text("utf-8").replace('msgstr[0] ""\nmsgstr[1] ""\nmsgstr[2] ""\n', forms), "utf-8")
+    text = file.read_text("utf-8").replace('"ell"\nmsgstr ""', '"ell"\nmsgstr "лікоть"')
+    file.write_text(
+        text.replace('msgid "{n} of it"\nmsgstr ""', '#, fuzzy\nmsgid "{n} of it"\nmsgstr "{m} з нього"'), "utf-8"
+    )
+    assert sorted(untranslated(file)) == sorted(
+        ["nobody has translated this", "{n} of it", str(("{n} ell", "{n} ells"))]
+    )
+    assert placeholders("{n} of it") != placeholders("{m} з нього")
+    assert placeholders("{n:.4f}") != placeholders("{n:.3f}")
+    assert placeholders("expected %s") != placeholders("потрібно")
+
+
+def cyrillic_in(source: str) -> list[int]:
+    """Lines of code with a Cyrillic letter."""
+    return [n for n, line in enumerate(source.splitlines(), 1) if CYRILLIC.search(line)]
+
+
+def test_ukrainian_stands_in_the_catalogue_and_not_in_the_code() -> None:
+    found = {}
+    for place, file in product_files().items():
+        if lines := cyrillic_in(file.read_text("utf-8")):
+            found[place] = lines
+    assert {place: lines for place, lines in found.items() if place not in CYRILLIC_PLACES} == {}
+    assert sorted(CYRILLIC_PLACES) == sorted(set(CYRILLIC_PLACES) & set(found)), "a place that needs no leave"
+    # in terms only symbols: no word of two letters but an index
+    for line in (HOUSE / "parts/pages/terms.py").read_text("utf-8").splitlines():
+        if CYRILLIC.search(line):
+            name, key, symbol, unit, english = line.split("|")
+            assert not CYRILLIC.search(name + key + unit + english)
+            assert len(symbol) < 12
+    assert cyrillic_in('a = "ok"\nb = "ні"') == [2]
+
+
+def test_argparse_says_nothing_of_its_own() -> None:
+    """What this Python's argparse may tell a user of ours stands in the catalogue."""
+    import argparse
+    import inspect
+
+    developers = ("conflict", "__call__", "required", "mutually", "callable", "merge", "must start", "dest=", "parser",
+                  "deprecated", 'argument "-"', "%(prog)s", "can't open", "unexpected option")  # fmt: skip
+    calls = [c for c in ast.walk(ast.parse(inspect.getsource(argparse))) if isinstance(c, ast.Call)]
+    said = [a.value for c in calls if isinstance(c.func, ast.Name) and c.func.id in ("_", "ngettext") for a in c.args
+            if isinstance(a, ast.Constant)]  # fmt: skip
+    assert len(said) > 20
+    known = {word for (_, one), many in extracted().items() for word in (one, many)}
+    left = [text for text in said if text not in known and not any(word in text for word in developers)]
+    assert left == []
+
+
+def test_the_archives_carry_the_catalogues(tmp_path: Path) -> None:
+    """By the build of setuptools itself; skipped where there is no source tree or no build."""
+    if not (ROOT / "pyproject.toml").is_file():
+        pytest.skip("no source tree")
+    data = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["setuptools"]["package-data"]["parts"]
+    for language in (p.name for p in LOCALE.iterdir()):
+        for ending in ("po", "mo"):
+            place = Path(f"locale/{language}/LC_MESSAGES/higherpair.{ending}")
+            assert any(place.match(pattern) for pattern in data), place
+    pytest.importorskip("setuptools", "77")
+    tree = tmp_path / "tree"
+    for file in (*ROOT.glob("*.toml"), ROOT / "README.md", ROOT / "LICENSE"):
+        (tree / file.name).parent.mkdir(exist_ok=True)
+        (tree / file.name).write_bytes(file.read_bytes())
+    for package in ("parts", "exporters", "geometry"):
+        for file in (ROOT / package).rglob("*"):
+            if file.suffix in (".po", ".mo") or file.name == "__init__.py":
+                goal = tree / file.relative_to(ROOT)
+                goal.parent.mkdir(parents=True, exist_ok=True)
+                goal.write_bytes(file.read_bytes())
+    code = f"from setuptools import build_meta as b; b.build_wheel({str(tmp_path)!r}); b.build_sdist({str(tmp_path)!r})"
+    done = subprocess.run([sys.executable, "-c", code], cwd=tree, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    (wheel,), (archive,) = list(tmp_path.glob("*.whl")), list(tmp_path.glob("*.tar.gz"))
+    with tarfile.open(archive) as packed:
+        names = [*zipfile.ZipFile(wheel).namelist(), *packed.getnames()]
+    for ending in ("po", "mo"):
+        assert sum(name.endswith(f"parts/locale/uk/LC_MESSAGES/higherpair.{ending}") for name in names) == 2
