@@ -22,18 +22,24 @@ class Placed(Protocol):
     """An instance, as far as a page asks: whose part it is, as loaded always named."""
 
     @property
-    def part(self) -> str | None: ...
+    def part(self) -> str | None:
+        """The part that it is an instance of."""
 
 
 class SceneKeys(Protocol):
     """A scene, as far as a page asks: the keys of its parts, instances and mates."""
 
     @property
-    def parts(self) -> Mapping[str, Struct]: ...
+    def parts(self) -> Mapping[str, Struct]:
+        """By the ID of the part."""
+
     @property
-    def instances(self) -> Mapping[str, Placed]: ...
+    def instances(self) -> Mapping[str, Placed]:
+        """By the ID of the instance."""
+
     @property
-    def mates(self) -> Sequence[Struct]: ...
+    def mates(self) -> Sequence[Struct]:
+        """In the order of the scene."""
 
 
 def table_of(pairs: Sequence[str]) -> dict[str, Any]:
