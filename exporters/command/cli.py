@@ -9,6 +9,7 @@ import sys
 from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
+from types import FrameType
 from typing import TYPE_CHECKING, Any, NoReturn, TextIO
 
 from exporters import __version__
@@ -29,20 +30,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = _parsed(list(sys.argv[1:] if arguments is None else arguments))
     # only a command of its own may split: whoever calls this function keeps the process
     options.splits = arguments is None
-    interrupt = _Interrupt()
     previous: dict[signal.Signals, Any] = {}
     try:
         for stop in _stops():
-            previous[stop] = signal.signal(stop, interrupt)
+            previous[stop] = signal.signal(stop, _stop)
         code = options.run(options)
         sys.stdout.flush()
         return code
     except KeyboardInterrupt:
-        return _interrupted()
-    except ImportError:
-        # a library that is stopped while it loads says only that it could not be loaded
-        if not interrupt.came:
-            raise
         return _interrupted()
     except BrokenPipeError:
         # whoever read the output has left: nothing more can be said to it
@@ -154,14 +149,32 @@ def _split(options: argparse.Namespace, folder: Path | None) -> None:
         work_apart(_stops(), folder, FAILED)
 
 
-class _Interrupt:
-    """A signal handler that stops the command, and remembers that it did."""
+def _stop(number: int, frame: FrameType | None) -> None:
+    """A signal handler that stops the command; within an import, as soon as that is over.
 
-    came = False
-
-    def __call__(self, number: int, frame: object) -> NoReturn:
-        self.came = True
+    A library that is stopped while it loads may do without what it was loading, and the stop would be lost.
+    """
+    importer = _outermost_import(frame)
+    if importer is None:
         raise KeyboardInterrupt
+    importer.f_trace = _stop_traced
+    sys.settrace(lambda *_: None)
+
+
+def _outermost_import(frame: FrameType | None) -> FrameType | None:
+    """Who within ``main`` has asked for the import that ``frame`` is a part of; None outside of imports."""
+    importer = None
+    while frame is not None and frame.f_code is not main.__code__:
+        if frame.f_code.co_filename.startswith("<frozen importlib"):
+            importer = frame.f_back
+        frame = frame.f_back
+    return importer
+
+
+def _stop_traced(frame: FrameType, event: str, value: object) -> NoReturn:
+    frame.f_trace = None
+    sys.settrace(None)
+    raise KeyboardInterrupt
 
 
 def _interrupted() -> int:

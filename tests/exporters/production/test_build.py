@@ -293,6 +293,19 @@ def test_a_stop_within_an_exec_ends_with_the_code_of_an_interrupt(tmp_path: Path
     assert done.returncode == 130
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+@pytest.mark.parametrize("last", ["", "; return 0"], ids=["the last line", "a line follows"])
+def test_a_stop_that_a_loading_library_passes_over_still_stops(tmp_path: Path, last: str) -> None:
+    """As xml.etree does where its C half is stopped: it goes on without it, and the build ended as if nothing was."""
+    careless = "import os, signal\ntry:\n    os.kill(os.getpid(), signal.SIGINT)\nexcept BaseException:\n    pass\n"
+    (tmp_path / "careless.py").write_text(careless, encoding="utf-8")
+    lines = ["import sys", "from exporters.command import cli", "def listed(options):", f"    import careless{last}"]
+    lines += ["cli._list = listed", "sys.exit(cli.main(['list']))"]
+    (tmp_path / "stopped.py").write_text("\n".join(lines), encoding="utf-8")
+    done = subprocess.run([sys.executable, "-m", "stopped"], cwd=tmp_path, capture_output=True, timeout=60, check=False)
+    assert done.returncode == 130
+
+
 HEAVY = ("cadquery", "OCP", "trimesh", "manifold3d", "scipy", "matplotlib")
 
 
