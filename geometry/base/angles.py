@@ -21,7 +21,9 @@ def roll_minus_polar(tangent: ArrayLike) -> NDArray[np.float64]:
     This is the polar angle that an involute has gained at roll angle ``t``: inv(alpha) = tan(alpha) - alpha.
     """
     t = np.asarray(tangent, dtype=float)
-    return np.where(np.abs(t) < _SERIES_BELOW, _by_series(t), t - np.arctan(t))
+    small = np.abs(t) < _SERIES_BELOW
+    # the series of what is not small is never asked: of an infinite tangent it is 0 times infinity
+    return np.where(small, _by_series(np.where(small, t, 0.0)), t - np.arctan(t))
 
 
 def _roll_minus_polar(t: float) -> float:

@@ -28,15 +28,19 @@ CRASH = "os.kill(os.getpid(), signal.SIGSEGV)"
 GO_ON = "pass"
 
 
-def started(folder: Path, *moments: str, out: str = "new/out") -> subprocess.Popen[str]:
-    """A build of one STEP file whose writer, in the place of the kernel, does what ``moments`` say."""
+def started(folder: Path, *moments: str, out: str = "new/out", hang_up: str = "SIG_DFL") -> subprocess.Popen[str]:
+    """A build of one STEP file whose writer, in the place of the kernel, does what ``moments`` say.
+
+    What a hang-up does is set, for tests that run under nohup would hand on that it does nothing.
+    """
     scene = write_scene(folder / "s.toml", {"g": part_keys(Gear(2, 23))}, [{"format": "step"}])
     writer = ("import ctypes, dataclasses, os, signal, sys\nfrom exporters.command import cli\n"
               "from exporters.formats.registry import REGISTRY\n"
               "def write(job, made, file):\n    file.write_text('half')\n")  # fmt: skip
     writer += "".join(f"    {moment}\n" for moment in ("(file.parent / 'begun').touch()", *moments))
+    writer += f"    return {{}}\nsignal.signal(signal.SIGHUP, signal.{hang_up})\n"
     row = "REGISTRY['step'] = dataclasses.replace(REGISTRY['step'], write=write)"
-    code = f"{writer}    return {{}}\n{row}\nsys.exit(cli.main())\n"
+    code = f"{writer}{row}\nsys.exit(cli.main())\n"
     return subprocess.Popen([sys.executable, "-c", code, "build", str(scene), "--out", out, "--no-verify"], cwd=folder,
                             text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # fmt: skip
 
@@ -59,6 +63,13 @@ def test_a_signal_does_not_wait_for_the_kernel(tmp_path: Path, number: signal.Si
     assert process.returncode == 130
     assert complaint == "higherpair: interrupted; nothing half-written is left\n"
     assert {p.name for p in tmp_path.iterdir()} == {"s.toml"}
+
+
+def test_a_hang_up_that_is_turned_off_stays_off(tmp_path: Path) -> None:
+    """As under nohup."""
+    with started(tmp_path, "os.kill(os.getppid(), signal.SIGHUP)", hang_up="SIG_IGN") as process:
+        _, complaint = process.communicate(timeout=60)
+    assert (process.returncode, complaint) == (0, "")
 
 
 def test_a_signal_leaves_the_files_of_the_last_build(tmp_path: Path) -> None:

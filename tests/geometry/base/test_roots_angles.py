@@ -141,3 +141,9 @@ def test_roll_minus_polar_is_vectorised_and_odd() -> None:
     assert values.shape == t.shape
     assert np.array_equal(values, -roll_minus_polar(-t))
     assert values[0, 30] == 0
+
+
+def test_an_infinite_tangent_is_a_right_angle_and_no_warning() -> None:
+    """The profile angle of an involute that never ends; the series for small angles gave 0 times infinity there."""
+    with np.errstate(all="raise"):
+        assert roll_minus_polar(np.array([math.inf, -math.inf, 1e200, 0.0])).tolist() == [math.inf, -math.inf, 1e200, 0]
