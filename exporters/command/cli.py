@@ -337,8 +337,8 @@ def _verify(options: argparse.Namespace) -> int:
 
 def _converge(options: argparse.Namespace) -> int:
     from exporters.command.tables import converge_tables
-    from exporters.production.build import move_into, staging_folder
     from exporters.production.converge import ladder, orders, write_csv, write_pictures
+    from exporters.production.moving import alone_in, move_into, staging_folder
     from exporters.production.plan import plan_build
     from parts.base.refusal import SceneError
 
@@ -353,7 +353,8 @@ def _converge(options: argparse.Namespace) -> int:
         rungs, found = ladder(plan, staging), orders(plan)
         write_csv(staging / "converge.csv", rungs, found)
         names = ["converge.csv", *write_pictures(staging, rungs, found)]
-        move_into(folder, staging, names)
+        with alone_in(folder):
+            move_into(folder, staging, names)
     converge_tables(rungs, found, [folder / name for name in names], words(scene.scene.language))
     return FAILED if any(r.measured > r.max_error for r in rungs) else DONE
 

@@ -30,7 +30,7 @@ def work_apart(stops: list[signal.Signals], folder: Path | None, failed: int) ->
     """
     if not hasattr(os, "fork") or sys.platform == "darwin" or threading.active_count() > 1:
         return
-    from exporters.production.build import missing_folders
+    from exporters.production.moving import missing_folders
 
     missing = missing_folders(folder) if folder is not None else []
     sys.stdout.flush()
@@ -64,13 +64,13 @@ def work_apart(stops: list[signal.Signals], folder: Path | None, failed: int) ->
 
 def _clean_up(folder: Path | None, missing: list[Path]) -> None:
     """Remove what a dead child was writing, and folders that it made and left empty."""
-    from exporters.production.build import remove_empty, remove_stale
+    from exporters.production.moving import clear, remove_empty
 
     if sys.stdout.isatty():
         sys.stdout.write(_SHOW_CURSOR)
         sys.stdout.flush()
     if folder is not None:
-        remove_stale(folder)
+        clear(folder)
         remove_empty(missing)
 
 

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import errno
-import os
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from exporters.formats.registry import Chords, Shape, number_rounding, shape_of
 from exporters.production.jobs import FileJob, Job, Made, ShapeKey, Written
+from exporters.production.moving import alone_in, move_into, staging_folder
 from exporters.production.plan import Plan
 from exporters.production.preview import part_preview, scene_preview
 from exporters.production.report import NAME, read_report, write_report
 from geometry.base.errors import ConvergenceError, Nearest, ParameterError, ThinWallError, rounded
 from parts.base.refusal import SceneError, placed
-
-_STAGING = ".building-"
 
 
 def build(
@@ -32,9 +28,7 @@ def build(
     """Write every job, a preview of every part and the report into ``folder``; what fails its read-back stays out.
 
     ``partial``: keep what the report in ``folder`` says of other files of the same scene. Returns what was
-    written, the previews, and what the checks found. Nothing half-written is left behind: all is made in a
-    folder beside and moved
-    when all is done; on any exception, an interrupt too, that folder goes.
+    written, the previews, and what the checks found. Nothing half-written is left behind: see ``moving.py``.
     """
     start = time.perf_counter()
     checks = _checks(plan)
@@ -57,11 +51,12 @@ def build(
         previews = [part_preview(plan.parts[p], staging, plan.scene.scene.language) for p in wanted]
         if len(plan.placing.instances) > 1 and len(wanted) == len(plan.parts):
             previews.append(scene_preview(plan, checks, staging))
-        before = read_report(folder) if partial or any(item.failures for item in written) else None
-        seconds = time.perf_counter() - start
-        write_report(staging / NAME, plan, written, previews, checks, seconds, folder, before, partial=partial)
         names = [item.job.path for item in written if not item.failures]
-        move_into(folder, staging, [*names, *(p.name for p in previews), NAME])
+        with alone_in(folder):
+            before = read_report(folder) if partial or any(item.failures for item in written) else None
+            seconds = time.perf_counter() - start
+            write_report(staging / NAME, plan, written, previews, checks, seconds, folder, before, partial=partial)
+            move_into(folder, staging, [*names, *(p.name for p in previews), NAME])
     return written, [folder / p.name for p in previews], checks
 
 
@@ -75,15 +70,6 @@ def _checks(plan: Plan) -> dict[str, Any]:
     asked, language = scene.checks, scene.scene.language
     contact, transmission = asked.interference, asked.transmission_error
     return scene_checks(plan.placing, plan.parts, scene.drives, language, contact=contact, transmission=transmission)
-
-
-def move_into(folder: Path, staging: Path, names: list[str]) -> None:
-    """Move finished files into their place; refused before the first move where a folder stands in the way."""
-    for name in names:
-        if (folder / name).is_dir():
-            raise IsADirectoryError(errno.EISDIR, "a folder stands where a file should go", str(folder / name))
-    for name in names:
-        os.replace(staging / name, folder / name)
 
 
 def approximated(job: Job, source: str) -> tuple[Shape, float]:
@@ -142,57 +128,3 @@ def _too_coarse(job: Job, source: str) -> SceneError:
         works = Nearest(rounded(finer, up=False, digits=9), "at_most")
         return SceneError(source, place, tolerance, "chords_cross_wall", works, "mm", part=part)
     return SceneError(source, place, tolerance, "wall_too_thin_for_mesh", None, part=part)
-
-
-@contextmanager
-def staging_folder(folder: Path) -> Iterator[Path]:
-    """A folder beside ``folder`` that is gone afterwards; ``folder`` itself goes too if nothing came into it."""
-    created = missing_folders(folder)
-    staging = folder / f"{_STAGING}{os.getpid()}"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        remove_stale(folder)
-        staging.mkdir()
-        yield staging
-    finally:
-        _remove(staging)
-        remove_empty(created)
-
-
-def missing_folders(folder: Path) -> list[Path]:
-    """A folder and those above it that do not exist yet, the innermost first."""
-    return [p for p in (folder, *folder.parents) if not p.exists()]
-
-
-def remove_stale(folder: Path) -> None:
-    """Remove what builds that were killed have left half-written in a folder."""
-    for stale in folder.glob(f"{_STAGING}*"):
-        if not _is_running(stale.name.removeprefix(_STAGING)):
-            _remove(stale)
-
-
-def remove_empty(created: list[Path]) -> None:
-    """Remove those folders, the innermost first, that nothing came into."""
-    for place in created:
-        if place.is_dir() and not any(place.iterdir()):
-            place.rmdir()
-
-
-def _remove(staging: Path) -> None:
-    if staging.is_dir():
-        for file in staging.iterdir():
-            file.unlink()
-        staging.rmdir()
-
-
-def _is_running(process: str) -> bool:
-    """Whether a process may still be at work; only a POSIX system can be asked without harm."""
-    if os.name != "posix" or not process.isdigit():
-        return True
-    try:
-        os.kill(int(process), 0)
-    except ProcessLookupError:
-        return False
-    except OSError:
-        return True
-    return int(process) != os.getpid()

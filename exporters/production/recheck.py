@@ -10,6 +10,7 @@ from typing import Any
 
 from exporters.production.jobs import assembly_name
 from exporters.production.kept import failure_of
+from exporters.production.moving import is_half_moved
 from exporters.production.report import NAME, read_report
 from exporters.verification.judge import verify_part
 from exporters.verification.verdict import Verdict
@@ -39,6 +40,8 @@ def recheck(file: Path) -> Recheck:
     SceneError
         There is no such file, or no report that knows it.
     """
+    if is_half_moved(file.parent):
+        raise SceneError(str(file), "", None, "stopped_while_moving")
     if not file.is_file():
         raise SceneError(str(file), "", None, "folder_of_files" if file.is_dir() else "no_such_file")
     source = str(file.parent / NAME)

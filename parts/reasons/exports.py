@@ -47,6 +47,9 @@ REASONS = {
     "shows_external_gears": N_("shows external gears; add one or remove the export"),
     "shows_gear_pairs": N_("shows pairs of involute gears only; remove the export or change its purpose"),
     "shows_gear_pairs_of_mates": N_("shows pairs of involute gears only; add [[mates]] or remove the export"),
+    "stopped_while_moving": N_(
+        "a build moves its files into this folder, or was stopped while it did; build the scene again"
+    ),
     "table_fits_no_paper": N_("its table fits no paper"),
     "tolerance_not_met": N_("cannot be met: a residual of {residual} stays after {steps} steps; make it larger"),
     "too_many_edges": N_("would need {edges} edges"),

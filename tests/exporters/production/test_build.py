@@ -209,30 +209,6 @@ def test_a_writer_that_stops_half_way_leaves_nothing(
     assert {p.name for p in tmp_path.iterdir()} == {"s.toml"}
 
 
-@pytest.mark.parametrize("error", STOPS, ids=["full", "stop"])
-def test_a_stop_while_files_move_into_place_leaves_only_whole_ones(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: BaseException
-) -> None:
-    """At every single move: whatever lies there afterwards is a finished file, and nothing is hidden beside it."""
-    scene = pair(tmp_path)
-    run("build", scene, "--out", tmp_path / "good")
-    good = contents(tmp_path / "good")
-    real = os.replace
-    for stop in range(len(good)):
-        moves = iter(range(len(good)))
-
-        def stopped(source: Any, target: Any, stop: int = stop, moves: Any = moves) -> None:
-            if next(moves) == stop:
-                raise error
-            real(source, target)
-
-        with monkeypatch.context() as patch:
-            patch.setattr(os, "replace", stopped)
-            assert run("build", scene, "--out", tmp_path / f"o{stop}") in (2, 130)
-        left = contents(tmp_path / f"o{stop}") if (tmp_path / f"o{stop}").exists() else {}
-        assert left.items() <= good.items()
-
-
 def started(*arguments: object, cwd: Path) -> subprocess.Popen[str]:
     """The command in a process of its own, not waited for."""
     return subprocess.Popen([sys.executable, "-m", "exporters", *map(str, arguments)], cwd=cwd, text=True,
