@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 # each module has sheet_of(table, scene, source, language)
 TOPICS = {
     "spur": "parts.gears.spur_gear.page",
+    "ring": "parts.gears.ring_gear.page",
+    "rack": "parts.gears.rack.page",
     "tmm42": "parts.gears.spur_gear.device_page",
     "gear-pair": "parts.mates.pages.external",
     "shift-choice": "parts.mates.pages.shift_choice",

@@ -75,6 +75,7 @@ working_pitch|p_w|p_w|mm|pitch on the working circle
 reference_thickness|S|S|mm|tooth thickness on the reference circle
 space_width|e|e|mm|space width on the reference circle
 base_thickness|S_b|S_b|mm|tooth thickness on the base circle
+base_space_width|e_b|e_b|mm|space width on the base circle
 working_thickness|S_w|S_w|mm|tooth thickness on the working circle
 tip_thickness|S_a|S_a|mm|tooth thickness on the tip circle
 diameter|d_y|d_y|mm|diameter of any circle
@@ -116,9 +117,15 @@ cutter_teeth|z_0|z_0||teeth of the ring's cutter
 cutter_shift|x_0|x_0||profile shift of the cutter
 cutter_addendum|h_a0|h_a0*||addendum of the cutter
 cutter_tip_rounding|rho_0|ρ_0*||rounding of the cutter's corner, in modules
+dedendum_coefficient|h_f|h_f*||dedendum coefficient
+generating_angle_deg|alpha_w0|α_w0|deg|working pressure angle with the cutter
+generating_distance|a_w0|a_w0|mm|centre distance with the cutter
 teeth_spanned|k|k||teeth in the span
 teeth_to_span|k_t|k_t||teeth to span, before rounding
+spaces_spanned|k|k||spaces in the span
+spaces_to_span|k_t|k_t||spaces to span, before rounding
 span|W|W|mm|span over k teeth
+span_over_spaces|W|W|mm|span over k spaces
 span_nominal|W_0|W_0|mm|span of the gear without thinning
 kerf|kerf|k_c|mm|kerf that the cut was not corrected for
 span_after_kerf|W_c|W_c|mm|span of the part cut so
@@ -135,6 +142,9 @@ pin_centre_angle_deg|alpha_D|α_D|deg|pressure angle at the pin's centre
 pin_centre_diameter|d_D|d_D|mm|diameter of the pins' centres
 over_pins|M|M|mm|size over pins
 over_pins_nominal|M_0|M_0|mm|size over pins of the gear without thinning
+between_pins|M|M|mm|size between pins
+between_pins_nominal|M_0|M_0|mm|size between pins of the ring without thinning
+between_pins_after_kerf|M_c|M_c|mm|size between pins of the ring cut so
 pin_contact_diameter|d_DM|d_DM|mm|diameter where the pins touch
 best_ball_diameter|D_M|D_M|mm|ball that touches at d + 2 x m
 least_ball_diameter|D_min|D_min|mm|least ball that touches the involute
@@ -145,6 +155,9 @@ ball_centre_diameter|d_D|d_D|mm|diameter of the balls' centres
 over_balls|M|M|mm|size over balls
 over_balls_nominal|M_0|M_0|mm|size over balls of the gear without thinning
 over_balls_after_kerf|M_c|M_c|mm|size over balls of the part cut so
+between_balls|M|M|mm|size between balls
+between_balls_nominal|M_0|M_0|mm|size between balls of the ring without thinning
+between_balls_after_kerf|M_c|M_c|mm|size between balls of the ring cut so
 ball_contact_diameter|d_DM|d_DM|mm|diameter where the balls touch
 chordal_thickness|S_ch|S_x|mm|chordal thickness at the reference circle
 chordal_height|h_ch|h_x|mm|height to the chord
@@ -160,6 +173,14 @@ disk_diameter|d_disk|d_0|mm|diameter of the paper disk
 rack_distance|a_w|a_w|mm|from the axis to the rack's datum line
 travel_per_turn|L_1|L_1|mm|way of the rack for one turn
 rack_addendum|h_aR|h_a2|mm|addendum of the rack
+rack_dedendum|h_fR|h_f|mm|dedendum of the rack
+rack_length|L_R|L|mm|length of the rack
+rack_back_distance|H|H|mm|from the rack's back to its datum line
+over_pin|M|M|mm|size from the rack's back over a pin
+over_pin_nominal|M_0|M_0|mm|size over a pin of the rack without thinning
+over_pin_after_kerf|M_c|M_c|mm|size over a pin of the rack cut so
+pin_at_datum_line|D_M|D_M|mm|pin that touches at the datum line
+pin_contact_height|h_D|h_D|mm|height over the datum line where the pin touches
 profile_shift_difference|x_diff|x_2-x_1||difference of the profile shift coefficients
 involute_interference_margin|q_1|q_1|mm|no involute interference: margin
 trochoid_interference_margin|q_2|q_2|mm|no tip interference: margin

@@ -7,6 +7,7 @@ from parts.base.texts import N_
 # fmt: off
 REASONS = {
     "above_nominal_span": N_("is more than the nominal one"),
+    "below_nominal_span": N_("is less than the nominal one"),
     "chamfer_misses_flank": N_("does not cut the flank"),
     "chamfers_overlap": N_("both chamfers of a tooth would overlap"),
     "classes_end_at_distance": N_("the classes end at {distance} mm of centre distance; give normal_backlash instead"),
@@ -40,6 +41,7 @@ REASONS = {
     "no_recommendation": N_("has no recommendation"),
     "no_recommendation_with": N_("has no recommendation with {first}"),
     "no_relief_by_cutter": N_("a pinion cutter cuts none"),
+    "no_span_of_helical_ring": N_("no faces find the flanks of a helical ring; measure between balls"),
     "no_shifts_keep_requirements": N_("no shifts keep all requirements; try a smaller least_contact_ratio"),
     "no_such_cutter_teeth": N_("no cutter has so many teeth; a rack stands for larger ones"),
     "no_working_angle": N_("no working pressure angle exists"),
@@ -57,6 +59,7 @@ REASONS = {
     "not_that_of_pinion": N_("must be that of the pinion"),
     "one_double_helix": N_("a double helical gear meshes with another one only"),
     "passes_base_circle_at_tips": N_("passes the base circle at the ring's tips"),
+    "pin_beyond_base_circle": N_("does not go into the space: its centre does not come to the base circle"),
     "pin_falls_through": N_("falls between the flanks"),
     "rack_pointed": N_("the rack tooth is pointed at {angle} degrees before it reaches its tip line"),
     "rack_rounding_does_not_fit": N_("does not fit the rack tooth; the largest is the full round"),

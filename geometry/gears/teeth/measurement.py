@@ -1,6 +1,8 @@
-"""What a calliper reads on an external gear: span, pins or balls, chords; spur and helical.
+"""What a calliper reads on an involute gear, external or internal: span, pins or balls, chords; spur and helical.
 
-``gear`` is the transverse section (``transverse.transverse_gear``), ``helix_angle`` on the reference cylinder, rad.
+``gear`` is the transverse section (``transverse.transverse_gear``, ``transverse_ring``), ``helix_angle`` on the
+reference cylinder, rad. A ring is measured from within: its span is one over spaces, and M lies between its pins. What
+an external gear has outwards, a ring has towards the axis: ``_sense``, which is the sign of ISO 21771's tooth number.
 The gear's own thinning counts: ``nominal`` gives the same gear without it. Lengths in mm.
 Sources: ISO 21771; GOST 16532-70 (span, pins, chords); exact, no table of constants.
 """
@@ -9,13 +11,21 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 from geometry.base.angles import inverse_involute, involute_function, roll_minus_polar
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.roots import bracketed_root
-from geometry.gears.teeth.limits import root_form_diameter
+from geometry.curves.curve import end_point, start_point
+from geometry.gears.teeth.ring import RingGear
+from geometry.gears.teeth.ring_tooth import flank_ends, ring_side
 from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.tooth import tooth_side
 from geometry.gears.teeth.transverse import base_helix_angle, normal_angle
+from geometry.plane.profile import Label
+
+Measured = SpurGear | RingGear
+G = TypeVar("G", bound=SpurGear | RingGear)
 
 # b_M, mm: length of contact that a measuring face needs on helical teeth, and its growth with W_k; DIN 3960
 SPAN_CONTACT = (1.2, 0.018)
@@ -23,7 +33,7 @@ SPAN_CONTACT = (1.2, 0.018)
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """W_k over ``teeth`` teeth, mm, and where the faces touch: ``contact_diameter``, mm.
+    """W_k over ``teeth`` teeth, of a ring over as many spaces, mm, and where the faces touch: ``contact_diameter``, mm.
 
     ``touches_flanks``: both faces lie on the involute between its form circle and its tip.
     ``least_face_width``: a helical gear must be wider than this, mm, for the faces to find both flanks;
@@ -40,7 +50,10 @@ class Span:
 
 @dataclass(frozen=True, slots=True)
 class OverPins:
-    """M over two pins or balls, mm; ``touches_flanks`` as in ``Span``; ``stands_out``: M is beyond the tip circle."""
+    """M over two pins or balls, of a ring between them, mm; ``touches_flanks`` as in ``Span``.
+
+    ``stands_out``: the pins reach beyond the tip circle and do not sit on the root circle.
+    """
 
     pin_diameter: float
     length: float
@@ -58,12 +71,45 @@ class Chord:
     height: float
 
 
-def nominal(gear: SpurGear) -> SpurGear:
+def _sense(gear: Measured) -> int:
+    """+1 where teeth point away from the axis, -1 in a ring."""
+    return -1 if isinstance(gear, RingGear) else 1
+
+
+def _angle(gear: Measured) -> float:
+    """The transverse pressure angle at the reference circle, rad."""
+    return gear.pressure_angle if isinstance(gear, RingGear) else gear.rack.pressure_angle
+
+
+def _base_helix(gear: Measured, helix_angle: float) -> float:
+    return base_helix_angle(_angle(gear), helix_angle)
+
+
+def flank_radii(gear: Measured) -> tuple[float, float]:
+    """Radii at which the main flank ends, mm: at its fillet, and at the tip or what breaks it (chamfer, relief)."""
+    if isinstance(gear, RingGear):
+        tip, root = flank_ends(ring_side(gear))
+        return root, tip
+    flank = next(s.curve for s in tooth_side(gear).segments if s.label is Label.FLANK)
+    return abs(start_point(flank)), abs(end_point(flank))
+
+
+def _on_flank(gear: Measured, radius: float) -> bool:
+    low, high = sorted(flank_radii(gear))
+    return low <= radius <= high
+
+
+def _middle_radius(gear: Measured) -> float:
+    """r + x m, the circle at which pins and faces are to touch, but for the base circle; mm."""
+    return gear.reference_radius + gear.profile_shift_coefficient * gear.module
+
+
+def nominal(gear: G) -> G:
     """The gear without its thinning."""
     return replace(gear, circumferential_thinning=0.0)
 
 
-def thickness_at(gear: SpurGear, radius: float) -> float:
+def thickness_at(gear: Measured, radius: float) -> float:
     """s_y: arc of the tooth between its main flanks on a circle of a radius, mm; ISO 21771.
 
     Raises
@@ -73,16 +119,19 @@ def thickness_at(gear: SpurGear, radius: float) -> float:
     """
     if radius < gear.base_radius:
         raise ParameterError("diameter", 2 * radius, "inside_base_circle", limit(2 * gear.base_radius, 2 * radius))
-    return -2 * radius * float(gear.flank().polar_angle_at_radius(radius))
+    arc = -2 * radius * float(gear.flank().polar_angle_at_radius(radius))
+    return gear.pitch_angle * radius - arc if isinstance(gear, RingGear) else arc
 
 
-def base_thickness(gear: SpurGear) -> float:
-    """s_b = 2 r_b psi_b, mm."""
+def base_thickness(gear: Measured) -> float:
+    """s_b = 2 r_b psi_b, mm; of a ring e_b, the arc of its space."""
     return 2 * gear.base_radius * gear.base_half_angle
 
 
-def span(gear: SpurGear, teeth: int, helix_angle: float = 0.0) -> Span:
-    """W_k = cos(beta_b) ((k - 1) p_bt + s_bt); ISO 21771.
+def span(gear: Measured, teeth: int, helix_angle: float = 0.0) -> Span:
+    """W_k = cos(beta_b) ((k - 1) p_bt + s_bt), of a ring with e_bt in the place of s_bt; ISO 21771.
+
+    A helical ring has none: no faces find its hollow screw surfaces.
 
     Raises
     ------
@@ -92,30 +141,30 @@ def span(gear: SpurGear, teeth: int, helix_angle: float = 0.0) -> Span:
     if not 1 <= teeth <= gear.number_of_teeth:
         z = gear.number_of_teeth
         cure = Nearest(1, "at_least") if teeth < 1 else Nearest(z, "at_most")
-        raise ParameterError("teeth_spanned", teeth, "span_beyond_teeth", cure, teeth=z)
-    cosine = math.cos(base_helix_angle(gear.rack.pressure_angle, helix_angle))
+        key = "spaces_spanned" if isinstance(gear, RingGear) else "teeth_spanned"
+        raise ParameterError(key, teeth, "span_beyond_teeth", cure, teeth=z)
+    base_helix = _base_helix(gear, helix_angle)
+    cosine = math.cos(base_helix)
     length = cosine * ((teeth - 1) * gear.pitch_angle * gear.base_radius + base_thickness(gear))
     contact = math.hypot(gear.base_radius, length * cosine / 2)
-    touches = root_form_diameter(gear) / 2 <= contact <= gear.tip_radius
-    width = length * abs(math.sin(base_helix_angle(gear.rack.pressure_angle, helix_angle)))
+    width = length * abs(math.sin(base_helix))
     secure = width + (SPAN_CONTACT[0] + SPAN_CONTACT[1] * length) * cosine
-    return Span(teeth, length, 2 * contact, touches, width, secure)
+    return Span(teeth, length, 2 * contact, _on_flank(gear, contact), width, secure)
 
 
-def teeth_to_span(gear: SpurGear, helix_angle: float = 0.0) -> float:
+def teeth_to_span(gear: Measured, helix_angle: float = 0.0) -> float:
     """k before rounding: the span that would touch the flanks at d + 2 x m; GOST 16532-70, KHK.
 
     k = z / pi (tan(alpha_x) / cos^2(beta_b) - 2 x tan(alpha) / z - inv(alpha)) + 1/2 with the circle's angle alpha_x,
     no smaller than that of the base circle.
     """
-    middle = gear.reference_radius + gear.profile_shift_coefficient * gear.module
-    tangent = math.sqrt(max((middle / gear.base_radius) ** 2 - 1, 0.0))
-    cosine = math.cos(base_helix_angle(gear.rack.pressure_angle, helix_angle))
+    tangent = math.sqrt(max((_middle_radius(gear) / gear.base_radius) ** 2 - 1, 0.0))
+    cosine = math.cos(_base_helix(gear, helix_angle))
     thick = nominal(gear).base_half_angle
     return (tangent / cosine**2 - thick) * gear.number_of_teeth / math.pi + 1
 
 
-def best_span(gear: SpurGear, helix_angle: float = 0.0) -> Span | None:
+def best_span(gear: Measured, helix_angle: float = 0.0) -> Span | None:
     """The span whose k is nearest to ``teeth_to_span`` among those that touch the flanks; None where none does."""
     wanted = teeth_to_span(gear, helix_angle)
     nearest = max(1, min(gear.number_of_teeth, round(wanted)))
@@ -125,18 +174,18 @@ def best_span(gear: SpurGear, helix_angle: float = 0.0) -> Span | None:
     return min(found, key=lambda s: (round(abs(s.teeth - wanted), 9), -s.teeth), default=None)
 
 
-def best_pin_diameter(gear: SpurGear, helix_angle: float = 0.0) -> float:
+def best_pin_diameter(gear: Measured, helix_angle: float = 0.0) -> float:
     """D_M that touches the flanks at d + 2 x m, mm; exact for balls in helical gears too."""
-    middle = gear.reference_radius + gear.profile_shift_coefficient * gear.module
-    return pin_touching_at(nominal(gear), max(middle, gear.base_radius), helix_angle)
+    return pin_touching_at(nominal(gear), max(_middle_radius(gear), gear.base_radius), helix_angle)
 
 
-def pin_touching_at(gear: SpurGear, radius: float, helix_angle: float = 0.0) -> float:
+def pin_touching_at(gear: Measured, radius: float, helix_angle: float = 0.0) -> float:
     """The pin or ball that touches both flanks of a space at a distance from the axis, mm.
 
     With c = cos(beta_b), eta = pi / z - psi_b and the angle alpha_y at that circle: the pin's centre lies at
     tan(alpha_K) = tan(alpha_y) + c D / d_b on the plane of action, and inv(alpha_K) = D / (d_b c) - eta brings it to
-    the middle of the space.
+    the middle of the space. In a ring both change their signs: tan(alpha_K) = tan(alpha_y) - c D / d_b and
+    inv(alpha_K) = eta - D / (d_b c).
 
     Raises
     ------
@@ -145,94 +194,117 @@ def pin_touching_at(gear: SpurGear, radius: float, helix_angle: float = 0.0) -> 
     """
     if radius < gear.base_radius:
         raise ParameterError("diameter", 2 * radius, "inside_base_circle", limit(2 * gear.base_radius, 2 * radius))
-    cosine = math.cos(base_helix_angle(gear.rack.pressure_angle, helix_angle))
+    cosine, sense = math.cos(_base_helix(gear, helix_angle)), _sense(gear)
     eta, tangent = _space_half_angle(gear), math.sqrt((radius / gear.base_radius) ** 2 - 1)
 
     def excess(angle: float) -> float:
-        return (math.tan(angle) - tangent) / cosine**2 - eta - (math.tan(angle) - angle)
+        return (math.tan(angle) - tangent) / cosine**2 - sense * eta - (math.tan(angle) - angle)
 
-    low, high = math.atan(tangent), math.pi / 2 - 1e-9
+    # the centre lies farther out than the contact, in a ring farther in
+    low, high = (math.atan(tangent), math.pi / 2 - 1e-9) if sense > 0 else (0.0, math.atan(tangent))
     if excess(low) >= 0 or excess(high) <= 0:
         raise ParameterError("pin_diameter", 2 * radius, "no_pin_touches_there")
     angle = bracketed_root(excess, low, high).value
-    return (math.tan(angle) - tangent) * 2 * gear.base_radius / cosine
+    return sense * (math.tan(angle) - tangent) * 2 * gear.base_radius / cosine
 
 
-def pin_limits(gear: SpurGear, helix_angle: float = 0.0) -> tuple[float, float]:
-    """The least and greatest pins that touch the involute itself, from its form circle to its tip, mm."""
-    low = pin_touching_at(gear, max(root_form_diameter(gear) / 2, gear.base_radius), helix_angle)
-    return low, pin_touching_at(gear, gear.tip_radius, helix_angle)
+def pin_limits(gear: Measured, helix_angle: float = 0.0) -> tuple[float, float]:
+    """The least and greatest pins that touch the involute itself, from its form circle to its tip, mm.
+
+    In a ring the greatest is also the one whose centre comes to the base circle.
+    """
+    root, tip = flank_radii(gear)
+    low = pin_touching_at(gear, max(root, gear.base_radius), helix_angle)
+    cosine = math.cos(_base_helix(gear, helix_angle))
+    tangent = cosine**2 * _space_half_angle(gear)
+    if isinstance(gear, RingGear) and tip <= gear.base_radius * math.hypot(1.0, tangent):
+        return low, 2 * gear.base_radius * tangent / cosine
+    return low, pin_touching_at(gear, tip, helix_angle)
 
 
-def over_pins(gear: SpurGear, pin_diameter: float, helix_angle: float = 0.0) -> OverPins:
+def over_pins(gear: Measured, pin_diameter: float, helix_angle: float = 0.0) -> OverPins:
     """M_d over two pins (balls in helical gears) in opposite spaces, or the nearest to opposite for odd z.
 
-    inv(alpha_K) = D / (d_b cos(beta_b)) - (pi / z - psi_b), d_K = d_b / cos(alpha_K);
+    inv(alpha_K) = D / (d_b cos(beta_b)) - eta, eta = pi / z - psi_b, d_K = d_b / cos(alpha_K);
     M = d_K + D for even z, d_K cos(pi / (2 z)) + D for odd z; ISO 21771, GOST 16532-70.
+    Between those of a ring: inv(alpha_K) = eta - D / (d_b cos(beta_b)), M = d_K - D or d_K cos(pi / (2 z)) - D.
 
     Raises
     ------
     ParameterError
-        The pin is so small that it falls through to the bottom of the space.
+        The pin is so small that it falls through to the bottom of the space; of a ring, so large that its centre would
+        not come to the base circle.
     """
-    cosine = math.cos(base_helix_angle(gear.rack.pressure_angle, helix_angle))
-    value = pin_diameter / (2 * gear.base_radius * cosine) - _space_half_angle(gear)
+    cosine, sense = math.cos(_base_helix(gear, helix_angle)), _sense(gear)
+    value = sense * (pin_diameter / (2 * gear.base_radius * cosine) - _space_half_angle(gear))
     if not value >= 0:
-        least = _space_half_angle(gear) * 2 * gear.base_radius * cosine
-        raise ParameterError("pin_diameter", pin_diameter, "pin_falls_through", limit(least, pin_diameter))
+        bound = _space_half_angle(gear) * 2 * gear.base_radius * cosine
+        code = "pin_falls_through" if sense > 0 else "pin_beyond_base_circle"
+        raise ParameterError("pin_diameter", pin_diameter, code, limit(bound, pin_diameter))
     angle = inverse_involute(value).value
     centre = gear.base_radius / math.cos(angle)
-    tangent = math.tan(angle) - pin_diameter * cosine / (2 * gear.base_radius)
+    tangent = math.tan(angle) - sense * pin_diameter * cosine / (2 * gear.base_radius)
     contact = gear.base_radius * math.hypot(1.0, tangent)
     odd = gear.number_of_teeth % 2 == 1
-    length = 2 * centre * (math.cos(math.pi / (2 * gear.number_of_teeth)) if odd else 1.0) + pin_diameter
-    touches = tangent >= 0 and root_form_diameter(gear) / 2 <= contact <= gear.tip_radius
-    stands_out = centre + pin_diameter / 2 > gear.tip_radius and centre - pin_diameter / 2 > gear.root_radius
+    pin = sense * pin_diameter
+    length = 2 * centre * (math.cos(math.pi / (2 * gear.number_of_teeth)) if odd else 1.0) + pin
+    touches = tangent >= 0 and _on_flank(gear, contact)
+    stands_out = min(sense * (centre + pin / 2 - gear.tip_radius), sense * (centre - pin / 2 - gear.root_radius)) > 0
     return OverPins(pin_diameter, length, 2 * centre, 2 * contact, touches, stands_out)
 
 
-def gear_with_span(gear: SpurGear, teeth: int, length: float, helix_angle: float = 0.0) -> SpurGear:
-    """The gear thinned so that its span over ``teeth`` teeth is ``length``, mm: what a measured span tells.
+def gear_with_span(gear: G, teeth: int, length: float, helix_angle: float = 0.0) -> G:
+    """The gear thinned so that its span over ``teeth`` teeth (of a ring: spaces) is ``length``, mm.
 
     Raises
     ------
     ParameterError
-        The span is longer than the nominal one: that tooth is thicker, not thinner.
+        The span is longer than the nominal one, of a ring shorter: that tooth is thicker, not thinner.
     """
     full = span(nominal(gear), teeth, helix_angle).length
-    if length > full:
-        raise ParameterError("measured_span", length, "above_nominal_span", limit(full, length))
-    cosine = math.cos(base_helix_angle(gear.rack.pressure_angle, helix_angle))
-    return replace(gear, circumferential_thinning=(full - length) / (cosine * math.cos(gear.rack.pressure_angle)))
+    lack = _sense(gear) * (full - length)
+    if lack < 0:
+        code = "below_nominal_span" if isinstance(gear, RingGear) else "above_nominal_span"
+        raise ParameterError("measured_span", length, code, limit(full, length))
+    return replace(gear, circumferential_thinning=lack / normal_share(gear, helix_angle))
 
 
-def reference_chord(gear: SpurGear, helix_angle: float = 0.0) -> Chord:
+def normal_share(gear: Measured, helix_angle: float = 0.0) -> float:
+    """What a millimetre of thinning takes from a tooth along the normals of its flanks: cos(beta_b) cos(alpha_t)."""
+    return math.cos(_base_helix(gear, helix_angle)) * math.cos(_angle(gear))
+
+
+def reference_chord(gear: Measured, helix_angle: float = 0.0) -> Chord:
     """Chord of the tooth at the reference circle, in the normal section of helical gears; ISO 21771.
 
-    d_n = d / cos^2(beta), s_n = s cos(beta): thickness d_n sin(s_n / d_n), height r_a - r + d_n sin^2(s_n / (2 d_n)).
+    d_n = d / cos^2(beta), s_n = s cos(beta): thickness d_n sin(s_n / d_n), height r_a - r + d_n sin^2(s_n / (2 d_n)),
+    in a ring r - r_a - d_n sin^2(s_n / (2 d_n)).
     """
     diameter = 2 * gear.reference_radius / math.cos(helix_angle) ** 2
     half = gear.reference_thickness * math.cos(helix_angle) / diameter
     height = gear.tip_radius - gear.reference_radius + diameter * math.sin(half / 2) ** 2
-    return Chord(diameter * math.sin(half), height)
+    return Chord(diameter * math.sin(half), _sense(gear) * height)
 
 
-def constant_chord(gear: SpurGear, helix_angle: float = 0.0) -> Chord:
+def constant_chord(gear: Measured, helix_angle: float = 0.0) -> Chord:
     """Chord between the points where the basic rack's flanks touch, the same for every z; GOST 16532-70.
 
-    s_c = s_n cos^2(alpha_n), height r_a - r - s_c tan(alpha_n) / 2.
+    s_c = s_n cos^2(alpha_n), height r_a - r - s_c tan(alpha_n) / 2; the tooth of a ring has it as well, its height
+    r - r_a - s_c tan(alpha_n) / 2 (DERIVATIONS.md, 3).
     """
-    alpha = normal_angle(gear.rack.pressure_angle, helix_angle)
+    alpha = normal_angle(_angle(gear), helix_angle)
     thickness = gear.reference_thickness * math.cos(helix_angle) * math.cos(alpha) ** 2
-    return Chord(thickness, gear.tip_radius - gear.reference_radius - thickness * math.tan(alpha) / 2)
+    addendum = _sense(gear) * (gear.tip_radius - gear.reference_radius)
+    return Chord(thickness, addendum - thickness * math.tan(alpha) / 2)
 
 
-def _space_half_angle(gear: SpurGear) -> float:
+def _space_half_angle(gear: Measured) -> float:
     """eta_b = pi / z - psi_b: half of the space's angle on the base circle, rad; negative: overlap."""
-    return math.pi / gear.number_of_teeth - gear.base_half_angle
+    own = gear.base_half_angle
+    return own if isinstance(gear, RingGear) else math.pi / gear.number_of_teeth - own
 
 
-def angle_at(gear: SpurGear, radius: float) -> float:
+def angle_at(gear: Measured, radius: float) -> float:
     """alpha_y = arccos(r_b / r_y): the involute's pressure angle on a circle, rad."""
     return math.acos(min(gear.base_radius / radius, 1.0))
 
@@ -242,6 +314,6 @@ def polar_thickness_angle(gear: SpurGear, radius: float) -> float:
     return gear.base_half_angle - float(roll_minus_polar(math.tan(angle_at(gear, radius))))
 
 
-def involute_at(gear: SpurGear, radius: float) -> float:
+def involute_at(gear: Measured, radius: float) -> float:
     """inv(alpha_y) on a circle, rad."""
     return involute_function(angle_at(gear, radius))

@@ -11,14 +11,14 @@ from msgspec import Meta
 from geometry.base.errors import ParameterError
 from geometry.gears.teeth import limits, measurement
 from geometry.gears.teeth.limits import LEAST_TIP_THICKNESS
-from geometry.gears.teeth.measurement import SPAN_CONTACT
 from geometry.gears.teeth.spur import SpurGear
-from geometry.gears.teeth.transverse import base_helix_angle
+from geometry.gears.teeth.transverse import base_helix_angle, transverse_angle
 from parts.base.refusal import REMOVED, SceneError
-from parts.base.texts import N_, message
+from parts.base.texts import N_
 from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of, section_of
 from parts.keys.base import mm
 from parts.pages.inputs import PLACE, SceneKeys, checked, part_of_kind, refusal
+from parts.pages.measured_steps import Asked, measured_steps
 from parts.pages.page import Sheet
 
 TOPIC = "spur"
@@ -54,35 +54,48 @@ def sheet(table: dict[str, Any]) -> Sheet:
         dimensions(page, gear, helix)
         _thicknesses(page, gear, keys.diameter)
         _limits(page, gear, helix)
-        _measured(page, gear, helix, keys)
+        spanned, pin = keys.teeth_spanned, keys.pin_diameter
+        measured_steps(page, gear, Asked(helix, keys.face_width, spanned, pin, keys.kerf, keys.measured_span))
     except ParameterError as error:
         raise refusal(TOPIC, error, keys=keys) from error
     return page
 
 
+def section_data(page: Sheet, normal_module: float, normal_pressure_angle: float, helix: float) -> None:
+    """Module and pressure angle; of helical teeth the normal ones, the helix, and what follows from them."""
+    alpha = math.degrees(normal_pressure_angle)
+    if not helix:
+        page.add("module", normal_module)
+        page.add("pressure_angle_deg", alpha)
+        return
+    page.add("module", normal_module, symbol="m_n", key="m_n")
+    page.add("helix_angle_deg", math.degrees(helix))
+    page.add("pressure_angle_deg", alpha, symbol="α_n", key="alpha_n")
+    page.add("transverse_module", normal_module / math.cos(helix), "{m_n} / cos({beta})", "ISO 21771")
+    transverse = transverse_angle(normal_pressure_angle, helix)
+    formula = "arctan(tan({alpha_n}) / cos({beta}))"
+    page.add("transverse_pressure_angle_deg", math.degrees(transverse), formula, "ISO 21771")
+    angle = math.degrees(base_helix_angle(transverse, helix))
+    page.add("base_helix_angle_deg", angle, "arctan(tan({beta}) * cos({alpha}))", "ISO 21771")
+
+
+def shift_data(page: Sheet, normal_shift: float, helix: float, index: int = 0) -> None:
+    """The profile shift; of helical teeth the normal one and the transverse."""
+    if not helix:
+        page.add("profile_shift_coefficient", normal_shift, gear=index)
+        return
+    page.add("profile_shift_coefficient", normal_shift, "", "", index, symbol="x_n", key="x_n")
+    value = normal_shift * math.cos(helix)
+    page.add("transverse_profile_shift_coefficient", value, "{x_n#} * cos({beta})", "ISO 21771", index)
+
+
 def given_data(page: Sheet, normal: SpurGear, gear: SpurGear, helix: float, index: int = 0) -> None:
     """Module, angle, rack and shift; of helical gears first the normal data, then the transverse that follow."""
     rack = normal.rack
-    alpha, shift = math.degrees(rack.pressure_angle), normal.profile_shift_coefficient
-    if index < 2 and helix:
-        page.add("module", normal.module, symbol="m_n", key="m_n")
-        page.add("helix_angle_deg", math.degrees(helix))
-        page.add("pressure_angle_deg", alpha, symbol="α_n", key="alpha_n")
-        page.add("transverse_module", gear.module, "{m_n} / cos({beta})", "ISO 21771")
-        formula = "arctan(tan({alpha_n}) / cos({beta}))"
-        page.add("transverse_pressure_angle_deg", math.degrees(gear.rack.pressure_angle), formula, "ISO 21771")
-        angle = math.degrees(base_helix_angle(gear.rack.pressure_angle, helix))
-        page.add("base_helix_angle_deg", angle, "arctan(tan({beta}) * cos({alpha}))", "ISO 21771")
-    elif index < 2:
-        page.add("module", normal.module)
-        page.add("pressure_angle_deg", alpha)
+    if index < 2:
+        section_data(page, normal.module, rack.pressure_angle, helix)
     page.add("number_of_teeth", gear.number_of_teeth, gear=index)
-    if helix:
-        page.add("profile_shift_coefficient", shift, "", "", index, symbol="x_n", key="x_n")
-        formula, value = "{x_n#} * cos({beta})", gear.profile_shift_coefficient
-        page.add("transverse_profile_shift_coefficient", value, formula, "ISO 21771", index)
-    else:
-        page.add("profile_shift_coefficient", shift, gear=index)
+    shift_data(page, normal.profile_shift_coefficient, helix, index)
     page.add("addendum_coefficient", rack.addendum, gear=index)
     page.add("tip_clearance_coefficient", rack.tip_clearance, gear=index)
     page.add("tip_radius_coefficient", rack.tip_radius, gear=index)
@@ -205,144 +218,3 @@ def greatest_shift(gear: SpurGear) -> float | None:
     while spare(high) > 0 and high < 100:
         high *= 2
     return bracketed_root(spare, low, high).value if spare(low) > 0 > spare(high) else None
-
-
-def _measured(page: Sheet, gear: SpurGear, helix: float, keys: SpurKeys) -> None:
-    page.section(N_("Span"))
-    cosine = " * cos({beta_b})" if helix else ""
-    page.add("teeth_to_span", measurement.teeth_to_span(gear, helix), "", "GOST 16532-70")
-    best = measurement.best_span(gear, helix)
-    if keys.teeth_spanned is not None:
-        best = measurement.span(gear, keys.teeth_spanned, helix)
-    if best is None:
-        page.notes.append(N_("no span touches the flanks of this gear"))
-    else:
-        page.add("teeth_spanned", best.teeth)
-        formula = "({k} - 1) * {p_b} + {S_b}"
-        formula = f"({formula}){cosine}" if helix else formula
-        page.add("span", best.length, formula, "ISO 21771")
-        if gear.circumferential_thinning:
-            full = measurement.span(measurement.nominal(gear), best.teeth, helix).length
-            page.add("span_nominal", full, f"{{W}} + {{A}} * cos({{alpha}}){cosine}", "ISO 21771")
-        formula = f"sqrt({{d_b}}**2 + ({{W}}{cosine})**2)" if helix else "sqrt({d_b}**2 + {W}**2)"
-        page.add("span_contact_diameter", best.contact_diameter, formula, "GOST 16532-70")
-        _real_part(page, gear, best, helix, keys)
-        if helix:
-            _span_width(page, best, keys.face_width)
-        if not best.touches_flanks:
-            page.notes.append(N_("the span does not touch the involutes"))
-    _pins(page, gear, helix, keys.pin_diameter, keys.kerf)
-    page.section(N_("Chords"))
-    chord, constant = measurement.reference_chord(gear, helix), measurement.constant_chord(gear, helix)
-    formulas = ("", "") if helix else ("{d} * sin({S} / {d})", "({d_a} - {d} * cos({S} / {d})) / 2")
-    page.add("chordal_thickness", chord.thickness, formulas[0], "GOST 16532-70")
-    page.add("chordal_height", chord.height, formulas[1], "GOST 16532-70")
-    formulas = ("", "") if helix else ("{S} * cos({alpha})**2", "({d_a} - {d} - {S_c} * tan({alpha})) / 2")
-    page.add("constant_chord", constant.thickness, formulas[0], "GOST 16532-70")
-    page.add("constant_chord_height", constant.height, formulas[1], "GOST 16532-70")
-
-
-def _span_width(page: Sheet, best: measurement.Span, face_width: float) -> None:
-    """What the face must be wide for the span of helical teeth, and what it is."""
-    page.add("face_width", face_width)
-    page.add("least_face_width", best.least_face_width, "{W} * sin(abs({beta_b}))", "ISO 21771")
-    formula = f"{{b_min}} + ({SPAN_CONTACT[0]} + {SPAN_CONTACT[1]} * {{W}}) * cos({{beta_b}})"
-    page.add("secure_face_width", best.secure_face_width, formula, "DIN 3960")
-    if face_width < best.least_face_width:
-        page.notes.append(
-            message(
-                "the face width of {width:g} mm is too small for the span: above {least:.4f} mm is needed; measure "
-                "over balls",
-                width=face_width,
-                least=best.least_face_width,
-            )
-        )
-    elif face_width < best.secure_face_width:
-        page.notes.append(
-            message(
-                "the span finds little hold on a face width of {width:g} mm: {secure:.4f} mm is secure",
-                width=face_width,
-                secure=best.secure_face_width,
-            )
-        )
-
-
-def _real_part(page: Sheet, gear: SpurGear, best: measurement.Span, helix: float, keys: SpurKeys) -> None:
-    """The span that a cut without correction leaves, and what a measured span tells."""
-    cosine = " * cos({beta_b})" if helix else ""
-    if keys.kerf:
-        page.add("kerf", keys.kerf)
-        # each face touches a flank that lies half a kerf deeper along its normal
-        page.add("span_after_kerf", best.length - keys.kerf, "{W} - {kerf}")
-    if keys.measured_span is not None:
-        page.add("measured_span", keys.measured_span)
-        page.add("normal_allowance", best.length - keys.measured_span, "{W} - {W_m}")
-        thinned = measurement.gear_with_span(gear, best.teeth, keys.measured_span, helix).circumferential_thinning
-        own = " + {A}" if gear.circumferential_thinning else ""
-        page.add("thinning_from_span", thinned, f"{{E}} / (cos({{alpha}}){cosine}){own}", "ISO 21771")
-
-
-# what is laid into the spaces: cylinders (pins) with straight teeth, balls with helical ones
-_PINS = {
-    name: (name, name.replace("pin", "ball"))
-    for name in (
-        "best_pin_diameter", "least_pin_diameter", "greatest_pin_diameter", "pin_diameter", "pin_centre_angle_deg",
-        "pin_centre_diameter", "over_pins", "over_pins_nominal", "over_pins_after_kerf", "pin_contact_diameter",
-    )
-}  # fmt: skip
-
-
-def _pins(page: Sheet, gear: SpurGear, helix: float, wanted: float | None, kerf: float | None) -> None:
-    """Over pins, over balls where the teeth are helical, and when pins give the same there."""
-    balls = bool(helix)
-
-    def add(name: str, value: float, formula: str = "", source: str = "") -> None:
-        page.add(_PINS[name][balls], value, formula, source)
-
-    page.section(N_("Over balls") if balls else N_("Over pins"))
-    cosine = " / cos({beta_b})" if helix else ""
-    try:
-        best = measurement.best_pin_diameter(gear, helix)
-        low, high = measurement.pin_limits(gear, helix)
-    except ParameterError:
-        page.notes.append(
-            N_("no ball touches both flanks of a space") if balls else N_("no pin touches both flanks of a space")
-        )
-        return
-    add("best_pin_diameter", best, "", "ISO 21771")
-    add("least_pin_diameter", low)
-    add("greatest_pin_diameter", high)
-    pin = best if wanted is None else wanted
-    found = measurement.over_pins(gear, pin, helix)
-    add("pin_diameter", pin)
-    angle = math.degrees(math.acos(2 * gear.base_radius / found.centre_diameter))
-    formula = f"arcinv({{D}} / {{d_b}}{cosine} + {{S_b}} / {{d_b}} - pi / {{z}})"
-    add("pin_centre_angle_deg", angle, formula, "ISO 21771")
-    add("pin_centre_diameter", found.centre_diameter, "{d_b} / cos({alpha_D})", "ISO 21771")
-    even = gear.number_of_teeth % 2 == 0
-    formula = "{d_D} + {D}" if even else "{d_D} * cos(pi / (2 * {z})) + {D}"
-    add("over_pins", found.length, formula, "ISO 21771")
-    if gear.circumferential_thinning:
-        add("over_pins_nominal", measurement.over_pins(measurement.nominal(gear), pin, helix).length)
-    if kerf:
-        base = base_helix_angle(gear.rack.pressure_angle, helix)
-        thinner = kerf / (math.cos(base) * math.cos(gear.rack.pressure_angle))
-        cut = replace(gear, circumferential_thinning=gear.circumferential_thinning + thinner)
-        add("over_pins_after_kerf", measurement.over_pins(cut, pin, helix).length)
-    add("pin_contact_diameter", found.contact_diameter)
-    if not (found.touches_flanks and found.stands_out):
-        told = (
-            N_("a ball of {diameter:.4g} mm does not touch the involutes or does not stand out; take the best one")
-            if balls
-            else N_("a pin of {diameter:.4g} mm does not touch the involutes or does not stand out; take the best one")
-        )
-        page.notes.append(message(told, diameter=pin))
-    if balls:
-        page.notes.append(_same_over_pins(even=even))
-
-
-def _same_over_pins(*, even: bool) -> str:
-    """Pins lie along the screw line of their middle, which stands at right angles to both normals of contact."""
-    if even:
-        return N_("the number of teeth is even: pins of the ball's diameter give the same M")
-    return N_("the number of teeth is odd: M holds for balls in one transverse plane, not for pins in helical spaces")

@@ -24,6 +24,7 @@ from tests.exporters.making import run
 
 PUBLISHED = Path(__file__).parents[2] / "published"
 PRACTICUM = json.loads((PUBLISHED / "practicum_calculations.json").read_text(encoding="utf-8"))["cases"]
+RINGS = json.loads((PUBLISHED / "ring_measurement.json").read_text(encoding="utf-8"))
 PAIR = ("module=3", "first.number_of_teeth=12", "second.number_of_teeth=60")
 # regressions that broke others: branch switches at 20 and 25 degrees, steep helix with shift, many teeth, undercut
 SHEETS = [
@@ -39,6 +40,19 @@ SHEETS = [
     *(("spur", "module=1", f"number_of_teeth={z}", "pressure_angle_deg=25") for z in (26, 27)),
     ("spur", "module=1", "number_of_teeth=20", "helix_angle_deg=45", "profile_shift_coefficient=0.5"),
     ("spur", "module=2", "number_of_teeth=20", "tip_relief.depth_coefficient=0.02", "tip_diameter=43.5"),
+    ("ring", "thesis_internal_pair"),
+    ("ring", "module=2", "number_of_teeth=61", "profile_shift_coefficient=0.3", "circumferential_thinning=0.1",
+     "helix_angle_deg=-20", "diameter=131", "kerf=0.2"),
+    ("ring", "module=2", "number_of_teeth=60", "helix_angle_deg=20", "tip_rule=KHK", "rounded_root.full_round=true",
+     "circumferential_thinning=0.1", "thinning_method=deeper_cut"),
+    ("ring", "module=2", "number_of_teeth=45", "circumferential_thinning=0.1", "thinning_method=deeper_cut",
+     "pin_diameter=3.5", "kerf=0.2", "measured_span=35.2", "spaces_spanned=6", "cutter.number_of_teeth=20",
+     "cutter.profile_shift_coefficient=0.1"),
+    ("ring", "module=1", "number_of_teeth=2000", "rounded_root.radius_coefficient=0.2",
+     "rounded_root.full_round=false"),
+    ("rack", "rack_and_pinion"),
+    ("rack", "module=2", "number_of_teeth=12", "circumferential_thinning=0.1", "pin_diameter=3.5", "kerf=0.2"),
+    ("rack", "module=2", "number_of_teeth=12", "circumferential_thinning=0.1", "helix_angle_deg=15", "kerf=0.2"),
     ("tmm42", "module=10", "reference_diameter=100"),
     ("tmm42", "module=5", "number_of_teeth=20"),
     ("tmm42", "practicum_pair", "part=wheel"),
@@ -231,6 +245,31 @@ def refused(topic: str, *arguments: str) -> SceneError:
             "pin_falls_through",
             2.392,
         ),
+        (
+            ("ring", "module=2", "number_of_teeth=60", "spaces_spanned=61"),
+            "ring.spaces_spanned",
+            "span_beyond_teeth",
+            60,
+        ),
+        (("ring", "module=2", "number_of_teeth=60", "diameter=100"), "ring.diameter", "inside_base_circle", 112.7632),
+        (
+            ("ring", "module=2", "number_of_teeth=60", "pin_diameter=5"),
+            "ring.pin_diameter",
+            "pin_beyond_base_circle",
+            4.6327,
+        ),
+        (
+            ("ring", "module=2", "number_of_teeth=60", "spaces_spanned=7", "measured_span=40"),
+            "ring.measured_span",
+            "below_nominal_span",
+            40.0584,
+        ),
+        (
+            ("ring", "module=2", "number_of_teeth=60", "helix_angle_deg=10", "measured_span=40"),
+            "ring.measured_span",
+            "no_span_of_helical_ring",
+            None,
+        ),
         (("spur", "module=nan", "number_of_teeth=20"), "module", "not_finite", None),
         (("spur", "practicum_pair"), "parts", "choose_a_part", None),
         (("spur", "practicum_pair", "part=pinon"), "part", "no_such_part", "pinion"),
@@ -388,3 +427,52 @@ def test_a_pin_in_a_helical_space_touches_where_a_ball_does() -> None:
     # the tooth beside the ball is touched from the outside, and once from within
     wanted = float(values["ball_contact_diameter"]) / 2
     assert min(abs(t - wanted) for t in touched) < 1e-5
+
+
+@pytest.mark.parametrize("row", RINGS["rings"], ids=lambda r: f"z{r['number_of_teeth']}")
+def test_a_ring_is_measured_as_in_the_reports_of_a_wind_turbine(row: dict[str, Any]) -> None:
+    """KISSsoft's reports of the NREL 5 MW gearbox: span over spaces, size between pins, chord; thinned too."""
+    keys = f"module={row['module']} number_of_teeth={row['number_of_teeth']} profile_shift_coefficient={row['x']}"
+    asked = f"ring {keys} tip_diameter={row['tip_diameter']} pin_diameter={row['pin']}"
+    for thinning, printed in ((0.0, row), *((one["thinning"], one) for one in row["allowances"])):
+        values = values_of(f"{asked} circumferential_thinning={thinning}")["values"]
+        assert values["spaces_spanned"] == row["spaces"]
+        for name, key in (
+            ("span_over_spaces", "span"),
+            ("between_pins", "between_pins"),
+            ("chordal_thickness", "chord"),
+        ):
+            assert values[name] == pytest.approx(printed[key], abs=5.1e-4), name
+    assert values["best_pin_diameter"] == pytest.approx(row["best_pin"], abs=5.1e-4)
+    assert values["span_nominal"] == pytest.approx(row["span"], abs=5.1e-4)
+    assert values["between_pins_nominal"] == pytest.approx(row["between_pins"], abs=5.1e-4)
+
+
+def test_a_ring_cut_without_correction_is_wider() -> None:
+    plain = values_of("ring module=2 number_of_teeth=60 pin_diameter=3.3")["values"]
+    cut = values_of("ring module=2 number_of_teeth=60 pin_diameter=3.3 kerf=0.2")["values"]
+    assert cut["span_after_kerf"] == pytest.approx(plain["span_over_spaces"] + 0.2, rel=1e-12)
+    # as outside: a pin that is thinner by the kerf would sit there, in a space whose flanks lie 0.1 mm deeper
+    thinner = values_of("ring module=2 number_of_teeth=60 pin_diameter=3.1")["values"]
+    assert cut["between_pins_after_kerf"] == pytest.approx(thinner["between_pins"] - 0.2, rel=1e-12)
+    sawn = values_of("rack module=2 number_of_teeth=6 pin_diameter=3.3 kerf=0.2")["values"]
+    thinner = values_of("rack module=2 number_of_teeth=6 pin_diameter=3.1")["values"]
+    # the rack's back is lower by as much as the pin's top would stand higher
+    assert sawn["over_pin_after_kerf"] == pytest.approx(thinner["over_pin"], rel=1e-12)
+
+
+def test_a_helical_ring_is_measured_between_balls_alone() -> None:
+    sheet = sheet_for("ring module=2 number_of_teeth=61 helix_angle_deg=20")
+    names = {s.name for s in sheet.steps()}
+    assert "between_balls" in names
+    assert not names & {"span_over_spaces", "between_pins", "over_balls"}
+    notes = " ".join(words("en").say(note) for note in sheet.notes)
+    assert "no span" in notes
+    assert "pins do not fit" in notes
+
+
+def test_a_chord_beyond_the_tip_is_not_told() -> None:
+    """A ring whose whole tooth stands outside its reference circle."""
+    sheet = sheet_for("ring module=2 number_of_teeth=240 profile_shift_coefficient=1.5")
+    assert not {s.name for s in sheet.steps()} & {"chordal_thickness", "constant_chord"}
+    assert sum("beyond the tip" in words("en").say(note) for note in sheet.notes) == 2

@@ -1,0 +1,120 @@
+"""``higherpair calc rack``: one rack, spur or helical: dimensions, and what is measured on it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Annotated, Any
+
+from geometry.base.errors import ParameterError
+from geometry.gears.teeth import rack_measurement
+from geometry.gears.teeth.rack import Rack
+from parts.base.refusal import REMOVED, SceneError
+from parts.base.texts import N_, message
+from parts.gears.rack.part import RackSpec, checked_rack_part
+from parts.gears.spur_gear.page import section_data
+from parts.keys.base import mm
+from parts.pages.inputs import PLACE, SceneKeys, checked, part_of_kind, refusal
+from parts.pages.page import Sheet
+
+TOPIC = "rack"
+_ISO = "ISO 21771"
+
+
+class RackKeys(RackSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
+    """Keys of the topic: those of a rack, and what is measured."""
+
+    pin_diameter: Annotated[float, mm("pin in a space", above=0, most=10_000)] | None = None
+    kerf: Annotated[float, mm("full width of a cut that was not corrected for", least=0, most=10)] | None = None
+
+
+def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
+    """The keys of a part of a scene, changed by those of the command line."""
+    return part_of_kind(scene, source, table, "rack")
+
+
+def sheet(table: dict[str, Any]) -> Sheet:
+    """The calculation of one rack."""
+    if "part" in table:
+        raise SceneError(PLACE, "part", table["part"], "part_without_scene", REMOVED)
+    keys: RackKeys = checked(table, RackKeys, TOPIC)
+    try:
+        rack = checked_rack_part(keys)
+    except ParameterError as error:
+        raise refusal(TOPIC, error, keys=keys) from error
+    page = Sheet(TOPIC, N_("Rack"))
+    helix = math.radians(keys.helix_angle_deg)
+    _given(page, rack, keys, helix)
+    _dimensions(page, rack, helix)
+    _pins(page, rack, keys, helix)
+    page.section(N_("Chords"))
+    chord, constant = rack_measurement.reference_chord(rack, helix), rack_measurement.constant_chord(rack, helix)
+    page.add("chordal_thickness", chord.thickness, "{S} * cos({beta})" if helix else "{S}", _ISO)
+    page.add("chordal_height", chord.height, "{h_aR}", _ISO)
+    page.add("constant_chord", constant.thickness, f"{{S_ch}} * cos({_alpha(helix)})**2", "GOST 16532-70")
+    formula = f"{{h_ch}} - {{S_c}} * tan({_alpha(helix)}) / 2"
+    page.add("constant_chord_height", constant.height, formula, "GOST 16532-70")
+    return page
+
+
+def _alpha(helix: float) -> str:
+    """The normal pressure angle, as a placeholder."""
+    return "{alpha_n}" if helix else "{alpha}"
+
+
+def _given(page: Sheet, rack: Rack, keys: RackKeys, helix: float) -> None:
+    """Module, angle, teeth and the basic rack, in normal modules."""
+    page.section(N_("Given"))
+    section_data(page, keys.module, math.radians(keys.pressure_angle_deg), helix)
+    page.add("number_of_teeth", rack.number_of_teeth)
+    normal = rack.module / keys.module
+    page.add("addendum_coefficient", rack.rack.addendum * normal)
+    page.add("tip_clearance_coefficient", rack.rack.tip_clearance * normal)
+    page.add("tip_radius_coefficient", rack.rack.tip_radius * normal)
+    if rack.circumferential_thinning:
+        page.add("circumferential_thinning", rack.circumferential_thinning)
+
+
+def _dimensions(page: Sheet, rack: Rack, helix: float) -> None:
+    """Pitch, heights and thicknesses."""
+    unit = "{m_n}" if helix else "{m}"
+    page.section(N_("Pitch and tooth thickness"))
+    page.add("pitch", rack.pitch, "pi * {m}", _ISO)
+    page.add("rack_length", rack.length, "{z} * {p}")
+    page.add("rack_addendum", rack.addendum, f"{{h_a}} * {unit}", _ISO, symbol="h_a")
+    page.add("rack_dedendum", rack.dedendum, f"({{h_a}} + {{c}}) * {unit}", _ISO)
+    less = " - {A}" if rack.circumferential_thinning else ""
+    page.add("reference_thickness", rack.tooth_thickness, f"0.5 * {{p}}{less}", _ISO)
+    page.add("space_width", rack.pitch - rack.tooth_thickness, "{p} - {S}", _ISO)
+    page.add("tip_thickness", rack.tip_thickness, "{S} - 2 * {h_aR} * tan({alpha})", _ISO)
+    page.add("rack_back_distance", rack.body_height + rack.dedendum)
+
+
+def _pins(page: Sheet, rack: Rack, keys: RackKeys, helix: float) -> None:
+    """Over a pin, from the rack's back."""
+    page.section(N_("Over a pin"))
+    alpha, share = _alpha(helix), " * cos({beta})" if helix else ""
+    best = rack_measurement.pin_touching_at(rack, 0.0, helix)
+    low, high = rack_measurement.pin_limits(rack, helix)
+    page.add("pin_at_datum_line", best, f"{{e}}{share} / cos({alpha})", "KHK")
+    page.add("least_pin_diameter", low)
+    page.add("greatest_pin_diameter", high)
+    pin = best if keys.pin_diameter is None else keys.pin_diameter
+    found = rack_measurement.over_pin(rack, pin, helix)
+    page.add("pin_diameter", pin)
+    formula = f"{{H}} - {{e}}{share} / (2 * tan({alpha})) + {{D}} / 2 * (1 + 1 / sin({alpha}))"
+    page.add("over_pin", found.length, formula, "KHK")
+    if rack.circumferential_thinning:
+        nominal = replace(rack, circumferential_thinning=0.0)
+        page.add("over_pin_nominal", rack_measurement.over_pin(nominal, pin, helix).length)
+    if keys.kerf:
+        page.add("kerf", keys.kerf)
+        # the space's flanks and the back lie half a kerf deeper
+        formula = f"{{M}} - {{kerf}} / 2 * (1 + 1 / sin({alpha}))"
+        cut = found.length - keys.kerf / 2 * (1 + 1 / math.sin(math.radians(keys.pressure_angle_deg)))
+        page.add("over_pin_after_kerf", cut, formula)
+    formula = f"({{D}} * cos({alpha}) - {{e}}{share}) / (2 * tan({alpha}))"
+    page.add("pin_contact_height", found.contact_height, formula)
+    if not (found.touches_flanks and found.stands_out):
+        told = N_("a pin of {diameter:.4g} mm does not touch the flanks or does not stand out; take the best one")
+        page.notes.append(message(told, diameter=pin))

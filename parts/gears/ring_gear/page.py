@@ -1,0 +1,156 @@
+"""``higherpair calc ring``: one internal gear, spur or helical: dimensions, limits and what is measured from within."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any
+
+from msgspec import Meta
+
+from geometry.base.errors import ParameterError
+from geometry.gears.teeth import measurement, ring_limits
+from geometry.gears.teeth.limits import LEAST_TIP_THICKNESS
+from geometry.gears.teeth.ring import RingGear, RoundedRoot
+from geometry.gears.teeth.ring_made import generation
+from parts.base.refusal import REMOVED, SceneError
+from parts.base.texts import N_
+from parts.gears.ring_gear.part import RingGearSpec, checked_ring_gear, tip_finding
+from parts.gears.spur_gear.page import section_data, shift_data
+from parts.keys.base import mm
+from parts.pages.inputs import PLACE, SceneKeys, checked, part_of_kind, refusal
+from parts.pages.measured_steps import Asked, measured_steps
+from parts.pages.page import Sheet
+from parts.texts.findings import finding_of
+
+TOPIC = "ring"
+_GOST, _ISO = "GOST 19274", "ISO 21771"
+
+
+class RingKeys(RingGearSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
+    """Keys of the topic: those of a ring, and what is measured."""
+
+    spaces_spanned: Annotated[int, Meta(ge=1, le=10_000, description="spaces in the span")] | None = None
+    pin_diameter: Annotated[float, mm("pin or ball", above=0, most=10_000)] | None = None
+    kerf: Annotated[float, mm("full width of a cut that was not corrected for", least=0, most=10)] | None = None
+    measured_span: Annotated[float, mm("span measured on the part", above=0, most=100_000)] | None = None
+    diameter: Annotated[float, mm("circle on which the tooth is measured", above=0, most=100_000)] | None = None
+
+
+def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
+    """The keys of a part of a scene, changed by those of the command line."""
+    return part_of_kind(scene, source, table, "ring_gear")
+
+
+def sheet(table: dict[str, Any]) -> Sheet:
+    """The calculation of one ring."""
+    if "part" in table:
+        raise SceneError(PLACE, "part", table["part"], "part_without_scene", REMOVED)
+    keys: RingKeys = checked(table, RingKeys, TOPIC)
+    try:
+        ring = checked_ring_gear(keys)
+        page = Sheet(TOPIC, N_("Internal gear"))
+        helix = math.radians(keys.helix_angle_deg)
+        _given(page, ring, keys, helix)
+        _dimensions(page, ring, keys, helix)
+        _thicknesses(page, ring, keys.diameter)
+        _limits(page, ring, keys)
+        spanned, pin = keys.spaces_spanned, keys.pin_diameter
+        measured_steps(page, ring, Asked(helix, keys.face_width, spanned, pin, keys.kerf, keys.measured_span))
+    except ParameterError as error:
+        raise refusal(TOPIC, error, keys=keys) from error
+    return page
+
+
+def _given(page: Sheet, ring: RingGear, keys: RingKeys, helix: float) -> None:
+    """Module, angle, shift, addendum, and what makes the root, in normal modules."""
+    page.section(N_("Given"))
+    section_data(page, keys.module, math.radians(keys.pressure_angle_deg), helix)
+    page.add("number_of_teeth", ring.number_of_teeth)
+    shift_data(page, keys.profile_shift_coefficient, helix)
+    page.add("addendum_coefficient", keys.addendum_coefficient)
+    if ring.circumferential_thinning:
+        page.add("circumferential_thinning", ring.circumferential_thinning)
+        if ring.thinning_by_deeper_cut:
+            formula = "{x} + {A} / (2 * {m} * tan({alpha}))"
+            page.add("generating_shift_coefficient", ring.generating_shift_coefficient, formula, _ISO)
+    normal = ring.module / keys.module
+    if isinstance(ring.root, RoundedRoot):
+        page.add("dedendum_coefficient", ring.root.dedendum * normal)
+        return
+    cutter = ring.root
+    page.add("cutter_teeth", cutter.number_of_teeth)
+    page.add("cutter_shift", cutter.profile_shift_coefficient * normal)
+    page.add("cutter_addendum", cutter.addendum * normal)
+    page.add("cutter_tip_rounding", cutter.tip_rounding * normal)
+
+
+def _generating_shift(ring: RingGear) -> str:
+    """The shift that the space follows, as a placeholder."""
+    return "{x_E}" if ring.circumferential_thinning and ring.thinning_by_deeper_cut else "{x}"
+
+
+def _dimensions(page: Sheet, ring: RingGear, keys: RingKeys, helix: float) -> None:
+    """Pitches and diameters; the root is where the cutter's tips come to."""
+    page.section(N_("Diameters"))
+    page.add("pitch", math.pi * ring.module, "pi * {m}", _ISO)
+    page.add("base_pitch", ring.pitch_angle * ring.base_radius, "{p} * cos({alpha})", _ISO)
+    page.add("reference_diameter", 2 * ring.reference_radius, "{m} * {z}", _ISO)
+    page.add("base_diameter", 2 * ring.base_radius, "{d} * cos({alpha})", _ISO)
+    formula = ""
+    if ring.given_tip_diameter is None and ring.tip_radius == ring.default_tip_radius:
+        shift = keys.profile_shift_coefficient
+        plain = keys.tip_rule == "KHK" or shift >= 2
+        height = "{h_a}" if plain else f"({{h_a}} - (0.25 - 0.125 * {'{x_n}' if helix else '{x}'}))"
+        formula = f"{{d}} - 2 * ({height} * {{m_n}} - {{x}} * {{m}})"
+        formula = formula if helix else formula.replace("{m_n}", "{m}")
+    page.add("tip_diameter", 2 * ring.tip_radius, formula, _GOST if formula else "")
+    unit, cosine = ("{m_n}", " * cos({beta})") if helix else ("{m}", "")
+    shift_key = _generating_shift(ring)
+    if isinstance(ring.root, RoundedRoot):
+        page.add("root_diameter", 2 * ring.root_radius, f"{{d}} + 2 * ({{h_f}} * {unit} + {shift_key} * {{m}})")
+    else:
+        angle = f"arcinv(inv({{alpha}}) + 2 * ({shift_key} - {{x_0}}{cosine}) * tan({{alpha}}) / ({{z}} - {{z_0}}))"
+        page.add("generating_angle_deg", math.degrees(ring.generating_angle), angle, _GOST)
+        distance = "({z} - {z_0}) * {m} * cos({alpha}) / (2 * cos({alpha_w0}))"
+        page.add("generating_distance", ring.generating_distance, distance, _GOST)
+        formula = f"2 * {{a_w0}} + {{m}} * {{z_0}} + 2 * ({{h_a0}} + {{x_0}}) * {unit}"
+        page.add("root_diameter", 2 * ring.root_radius, formula, _GOST)
+    page.add("root_form_diameter", ring_limits.root_form_diameter(ring), "", _ISO)
+
+
+def _thicknesses(page: Sheet, ring: RingGear, diameter: float | None) -> None:
+    """Tooth and space on the reference, base and tip circles, and on one that is asked for."""
+    page.section(N_("Tooth thickness"))
+    page.add("profile_shift", ring.profile_shift_coefficient * ring.module, "{x} * {m}", _ISO)
+    less = " - {A}" if ring.circumferential_thinning else ""
+    formula = f"0.5 * {{p}} - 2 * {{x}} * {{m}} * tan({{alpha}}){less}"
+    page.add("reference_thickness", ring.reference_thickness, formula, _ISO)
+    page.add("space_width", math.pi * ring.module - ring.reference_thickness, "{p} - {S}", _ISO)
+    formula = "{d_b} * ({e} / {d} + inv({alpha}))"
+    page.add("base_space_width", measurement.base_thickness(ring), formula, _ISO)
+    angle = math.degrees(measurement.angle_at(ring, ring.tip_radius))
+    page.add("tip_pressure_angle_deg", angle, "arccos({d_b} / {d_a})", _ISO)
+    formula = "{d_a} * ({S} / {d} - inv({alpha}) + inv({alpha_a}))"
+    page.add("tip_thickness", ring_limits.tip_thickness(ring), formula, _ISO)
+    if diameter is not None:
+        thickness = measurement.thickness_at(ring, diameter / 2)
+        page.add("diameter", diameter)
+        angle = math.degrees(measurement.angle_at(ring, diameter / 2))
+        page.add("pressure_angle_at_diameter_deg", angle, "arccos({d_b} / {d_y})", _ISO)
+        formula = "{d_y} * ({S} / {d} - inv({alpha}) + inv({alpha_y}))"
+        page.add("thickness_at_diameter", thickness, formula, _ISO)
+
+
+def _limits(page: Sheet, ring: RingGear, keys: RingKeys) -> None:
+    """Margins of the cutting, the pointed tip, and what is poor."""
+    page.section(N_("Conditions: margins"))
+    if (mesh := generation(ring)) is not None:
+        for margin in mesh.margins():
+            page.add(f"{margin.name}_margin", margin.margin, "", "KHK")
+    if (pointed := ring_limits.pointed_tip(ring).limit) > 0:
+        page.add("pointed_diameter", pointed)
+    least = LEAST_TIP_THICKNESS * ring.module
+    page.add("least_tip_thickness", least, f"{LEAST_TIP_THICKNESS} * {{m}}", "practicum (1.3)")
+    limited = tip_finding(ring, keys.module)
+    found = [*([] if limited is None else [limited]), *ring_limits.findings(ring)]
+    page.notes += [finding_of(0, finding) for finding in found]

@@ -1,0 +1,227 @@
+"""Steps of what a calliper reads on a gear or a ring: span, pins or balls, chords; on the pages of both."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from geometry.base.errors import ParameterError
+from geometry.gears.teeth import measurement
+from geometry.gears.teeth.measurement import SPAN_CONTACT, Measured, Span
+from geometry.gears.teeth.ring import RingGear
+from parts.base.texts import N_, Text, message
+from parts.pages.page import Sheet
+
+ISO = "ISO 21771"
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What a page is asked to measure: helix angle in rad, lengths in mm; ``spanned`` teeth, of a ring spaces."""
+
+    helix: float
+    face_width: float
+    spanned: int | None
+    pin_diameter: float | None
+    kerf: float | None
+    measured_span: float | None
+
+    def share(self, sign: str) -> str:
+        """What brings a transverse length of a formula into the normal section."""
+        return f" {sign} cos({{beta_b}})" if self.helix else ""
+
+
+@dataclass(frozen=True, slots=True)
+class _Side:
+    """How teeth are told that point outwards, or inwards: names of terms, titles, pieces of formulas.
+
+    ``arc``: key of what fills a span at the base circle, the tooth or a ring's space; ``out`` and ``back``: the signs
+    of what counts away from the tooth's root and towards it.
+    """
+
+    spanned: str
+    to_span: str
+    span: str
+    size: str
+    titles: tuple[str, str]
+    arc: str
+    out: str
+    back: str
+    pin_angle: str
+    chord_height: str
+    constant_height: str
+    source: str
+
+
+_OUTER = _Side(
+    "teeth_spanned", "teeth_to_span", "span", "over", (N_("Over pins"), N_("Over balls")), "S_b", "+", "-",
+    "{D} / {d_b}% + {S_b} / {d_b} - pi / {z}",
+    "({d_a} - {d} * cos({S} / {d})) / 2", "({d_a} - {d} - {S_c} * tan({alpha})) / 2",
+    "GOST 16532-70",
+)  # fmt: skip
+_INNER = _Side(
+    "spaces_spanned", "spaces_to_span", "span_over_spaces", "between", (N_("Between pins"), N_("Between balls")),
+    "e_b", "-", "+", "{e_b} / {d_b} - {D} / {d_b}%",
+    "({d} * cos({S} / {d}) - {d_a}) / 2", "({d} - {d_a} - {S_c} * tan({alpha})) / 2",
+    "ISO 21771",
+)  # fmt: skip
+
+
+def measured_steps(page: Sheet, gear: Measured, asked: Asked) -> None:
+    """Span, pins or balls, chords; the page knows diameters, thicknesses and the arc of the span already.
+
+    Raises
+    ------
+    ParameterError
+        What is asked cannot be measured; names the key.
+    """
+    side = _INNER if isinstance(gear, RingGear) else _OUTER
+    _spans(page, gear, asked, side)
+    _pins(page, gear, asked, side)
+    _chords(page, gear, asked, side)
+
+
+def _chords(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
+    """Thickness on chords, where they are on the tooth."""
+    page.section(N_("Chords"))
+    chord, constant = measurement.reference_chord(gear, asked.helix), measurement.constant_chord(gear, asked.helix)
+    formulas = ("", "", "", "")
+    if not asked.helix:
+        formulas = "{d} * sin({S} / {d})", side.chord_height, "{S} * cos({alpha})**2", side.constant_height
+    if chord.height > 0:
+        page.add("chordal_thickness", chord.thickness, formulas[0], side.source)
+        page.add("chordal_height", chord.height, formulas[1], side.source)
+    else:
+        page.notes.append(N_("the chord at the reference circle would lie beyond the tip"))
+    if constant.height > 0:
+        page.add("constant_chord", constant.thickness, formulas[2], side.source)
+        page.add("constant_chord_height", constant.height, formulas[3], side.source)
+    else:
+        page.notes.append(N_("the constant chord would lie beyond the tip"))
+
+
+def _spans(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
+    """The span that fits best, or that over as many as are asked for, and what it tells of the part."""
+    if isinstance(gear, RingGear) and asked.helix:
+        for key, value in ((side.spanned, asked.spanned), ("measured_span", asked.measured_span)):
+            if value is not None:
+                raise ParameterError(key, value, "no_span_of_helical_ring")
+        page.notes.append(N_("no faces find the flanks of a helical ring: it has no span, only a size between balls"))
+        return
+    page.section(N_("Span"))
+    page.add(side.to_span, measurement.teeth_to_span(gear, asked.helix), "", side.source)
+    best = measurement.best_span(gear, asked.helix)
+    if asked.spanned is not None:
+        best = measurement.span(gear, asked.spanned, asked.helix)
+    if best is None:
+        page.notes.append(N_("no span touches the flanks of this gear"))
+        return
+    share = asked.share("*")
+    page.add(side.spanned, best.teeth)
+    formula = f"({{k}} - 1) * {{p_b}} + {{{side.arc}}}"
+    page.add(side.span, best.length, f"({formula}){share}" if share else formula, ISO)
+    if gear.circumferential_thinning:
+        full = measurement.span(measurement.nominal(gear), best.teeth, asked.helix).length
+        page.add("span_nominal", full, f"{{W}} {side.out} {{A}} * cos({{alpha}}){share}", ISO)
+    formula = f"sqrt({{d_b}}**2 + ({{W}}{share})**2)" if share else "sqrt({d_b}**2 + {W}**2)"
+    page.add("span_contact_diameter", best.contact_diameter, formula, side.source)
+    _real_part(page, gear, best, asked, side)
+    if asked.helix:
+        _span_width(page, best, asked.face_width)
+    if not best.touches_flanks:
+        page.notes.append(N_("the span does not touch the involutes"))
+
+
+def _span_width(page: Sheet, best: Span, face_width: float) -> None:
+    """What the face must be wide for the span of helical teeth, and what it is."""
+    page.add("face_width", face_width)
+    page.add("least_face_width", best.least_face_width, "{W} * sin(abs({beta_b}))", ISO)
+    formula = f"{{b_min}} + ({SPAN_CONTACT[0]} + {SPAN_CONTACT[1]} * {{W}}) * cos({{beta_b}})"
+    page.add("secure_face_width", best.secure_face_width, formula, "DIN 3960")
+    if face_width < best.least_face_width:
+        page.notes.append(
+            message(
+                "the face width of {width:g} mm is too small for the span: above {least:.4f} mm is needed; measure "
+                "over balls",
+                width=face_width,
+                least=best.least_face_width,
+            )
+        )
+    elif face_width < best.secure_face_width:
+        page.notes.append(
+            message(
+                "the span finds little hold on a face width of {width:g} mm: {secure:.4f} mm is secure",
+                width=face_width,
+                secure=best.secure_face_width,
+            )
+        )
+
+
+def _real_part(page: Sheet, gear: Measured, best: Span, asked: Asked, side: _Side) -> None:
+    """The span that a cut without correction leaves, and what a measured span tells."""
+    if asked.kerf:
+        page.add("kerf", asked.kerf)
+        # each face touches a flank that lies half a kerf deeper along its normal
+        sign = 1 if side.out == "+" else -1
+        page.add("span_after_kerf", best.length - sign * asked.kerf, f"{{W}} {side.back} {{kerf}}")
+    if asked.measured_span is not None:
+        page.add("measured_span", asked.measured_span)
+        lack = abs(best.length - asked.measured_span)
+        page.add("normal_allowance", lack, "{W} - {W_m}" if side.out == "+" else "{W_m} - {W}")
+        thinned = measurement.gear_with_span(gear, best.teeth, asked.measured_span, asked.helix)
+        own = " + {A}" if gear.circumferential_thinning else ""
+        formula = f"{{E}} / (cos({{alpha}}){asked.share('*')}){own}"
+        page.add("thinning_from_span", thinned.circumferential_thinning, formula, ISO)
+
+
+def _pins(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
+    """Pins, balls where the teeth are helical, and when pins give the same there."""
+    tool, helix = "ball" if asked.helix else "pin", asked.helix
+    size = f"{side.size}_{tool}s"
+    page.section(side.titles[bool(helix)])
+    try:
+        best = measurement.best_pin_diameter(gear, helix)
+        low, high = measurement.pin_limits(gear, helix)
+    except ParameterError:
+        page.notes.append(
+            N_("no ball touches both flanks of a space") if helix else N_("no pin touches both flanks of a space")
+        )
+        return
+    page.add(f"best_{tool}_diameter", best, "", ISO)
+    page.add(f"least_{tool}_diameter", low)
+    page.add(f"greatest_{tool}_diameter", high)
+    pin = best if asked.pin_diameter is None else asked.pin_diameter
+    found = measurement.over_pins(gear, pin, helix)
+    page.add(f"{tool}_diameter", pin)
+    angle = math.degrees(math.acos(2 * gear.base_radius / found.centre_diameter))
+    formula = f"arcinv({side.pin_angle.replace('%', asked.share('/'))})"
+    page.add(f"{tool}_centre_angle_deg", angle, formula, ISO)
+    page.add(f"{tool}_centre_diameter", found.centre_diameter, "{d_b} / cos({alpha_D})", ISO)
+    even = gear.number_of_teeth % 2 == 0
+    formula = f"{{d_D}} {side.out} {{D}}" if even else f"{{d_D}} * cos(pi / (2 * {{z}})) {side.out} {{D}}"
+    page.add(size, found.length, formula, ISO)
+    if gear.circumferential_thinning:
+        page.add(f"{size}_nominal", measurement.over_pins(measurement.nominal(gear), pin, helix).length)
+    if asked.kerf:
+        thinner = gear.circumferential_thinning + asked.kerf / measurement.normal_share(gear, helix)
+        cut = replace(gear, circumferential_thinning=thinner)
+        page.add(f"{size}_after_kerf", measurement.over_pins(cut, pin, helix).length)
+    page.add(f"{tool}_contact_diameter", found.contact_diameter)
+    if not (found.touches_flanks and found.stands_out):
+        told = (
+            N_("a ball of {diameter:.4g} mm does not touch the involutes or does not stand out; take the best one")
+            if helix
+            else N_("a pin of {diameter:.4g} mm does not touch the involutes or does not stand out; take the best one")
+        )
+        page.notes.append(message(told, diameter=pin))
+    if helix:
+        page.notes.append(_same_with_pins(gear, even=even))
+
+
+def _same_with_pins(gear: Measured, *, even: bool) -> Text:
+    """Pins lie along the screw line of their middle, at right angles to both normals of contact; in a ring on edge."""
+    if isinstance(gear, RingGear):
+        return N_("M holds for balls in one transverse plane; pins do not fit the hollow spaces of a helical ring")
+    if even:
+        return N_("the number of teeth is even: pins of the ball's diameter give the same M")
+    return N_("the number of teeth is odd: M holds for balls in one transverse plane, not for pins in helical spaces")
