@@ -14,7 +14,7 @@ import msgspec
 from exporters.command.new import new_scene
 from parts.base.registry import KINDS
 from parts.mates.registry import MATES
-from parts.scene.load import built_in_scenes
+from parts.scene.files import built_in_scenes
 
 Raw = dict[str, Any]
 Place = tuple[Any, ...]

@@ -6,20 +6,29 @@ import argparse
 import os
 import signal
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from pathlib import Path
 from types import FrameType
-from typing import TYPE_CHECKING, Any, NoReturn, TextIO
+from typing import TYPE_CHECKING, Any, NoReturn, TextIO, TypeVar
 
 from exporters import __version__
 from exporters.command.parser import WRONG_INPUT, Misused, Parser, speaking
 from parts.base.texts import ENGLISH, Words, languages, words
 
 if TYPE_CHECKING:
+    from exporters.production.plan import Plan
     from parts.scene.load import SceneFile
 
 DONE, FAILED, INTERRUPTED = 0, 1, 130
+T = TypeVar("T")
+_EXAMPLES = """
+  higherpair build practicum_pair
+  higherpair new spur_gear --out my_gear.toml
+  higherpair build my_gear.toml --format dxf --format stl
+  higherpair check practicum_pair
+  higherpair verify out/practicum_pair/*.dxf
+  higherpair calc gear-pair practicum_pair"""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -96,7 +105,8 @@ def _language(options: argparse.Namespace) -> str:
     """The language of a command: that of --language, of the scene, or of a scene among the words of calc."""
     if options.language in languages():
         return str(options.language)
-    return _language_among([options.scene] if hasattr(options, "scene") else getattr(options, "words", []))
+    asked = vars(options)
+    return _language_among([*asked.get("scenes", []), *filter(None, [asked.get("scene")]), *asked.get("words", [])])
 
 
 def _check_language(options: argparse.Namespace) -> None:
@@ -109,25 +119,25 @@ def _check_language(options: argparse.Namespace) -> None:
         raise SceneError(options.command, "--language", given, "not_one_of", meant(given, known), known=known)
 
 
-def _scene(options: argparse.Namespace) -> SceneFile:
-    """The scene of a command, in its language."""
+def _scene(address: str, options: argparse.Namespace) -> SceneFile:
+    """A scene of a command, in its language."""
     from parts.scene.load import load_scene
 
     _check_language(options)
-    scene = load_scene(options.scene)
+    scene = load_scene(address)
     if options.language is not None:
         scene.scene.language = options.language
     return scene
 
 
 def _prepare_streams() -> None:
-    """Output that cannot fail: a character that the terminal lacks becomes ?, and a closed stream becomes none."""
+    """Output that cannot fail: what a terminal lacks becomes ?, a file or a pipe gets UTF-8, a closed stream none."""
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
         if stream is None:
             setattr(sys, name, _nowhere())
         elif hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="replace")
+            stream.reconfigure(encoding=None if stream.isatty() else "utf-8", errors="replace")
 
 
 def _nowhere() -> TextIO:
@@ -141,12 +151,12 @@ def _stops() -> list[signal.Signals]:
     return [s for s in found if s.name != "SIGHUP" or signal.getsignal(s) != signal.SIG_IGN]
 
 
-def _split(options: argparse.Namespace, folder: Path | None) -> None:
+def _split(options: argparse.Namespace, folders: Sequence[Path]) -> None:
     """Before the CAD kernel is used: go on in a process apart, so that a signal need not wait for the kernel."""
     if options.splits:
         from exporters.production.apart import work_apart
 
-        work_apart(_stops(), folder, FAILED)
+        work_apart(_stops(), folders, FAILED)
 
 
 def _stop(number: int, frame: FrameType | None) -> None:
@@ -190,8 +200,10 @@ def _parser(told: Words) -> argparse.ArgumentParser:
     parser = Parser(
         prog="higherpair",
         description=told.text("Exact gears as DXF, SVG, STL, 3MF and STEP, each file read back and measured."),
+        epilog=told.text("examples:") + _EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("--version", action="version", version=f"higherpair {__version__}")
+    parser.add_argument("-V", "--version", action="version", version=f"higherpair {__version__}")
     commands = parser.add_subparsers(
         prog="higherpair", required=True, metavar=told.term("command line", "COMMAND"), parser_class=Parser
     )
@@ -202,16 +214,29 @@ def _parser(told: Words) -> argparse.ArgumentParser:
         help=told.text("{languages} (default: that of the scene, or en)", languages=", ".join(languages())),
     )
 
-    def command(name: str, meaning: str) -> argparse.ArgumentParser:
-        made = commands.add_parser(name, help=meaning, parents=[spoken])
-        made.set_defaults(command=name)
+    as_json = Parser(add_help=False)
+    as_json.add_argument("--json", action="store_true", help=told.text("print the results as JSON"))
+    quiet = Parser(add_help=False)
+    quiet.add_argument("-q", "--quiet", action="store_true", help=told.text("print nothing where all is well"))
+    page = Parser(add_help=False)
+    page.add_argument(
+        "--out",
+        type=Path,
+        metavar=told.term("command line", "FILE"),
+        help=told.text("write to a file, in UTF-8 (default: to the terminal)"),
+    )
+
+    def command(name: str, meaning: str, *takes: Parser) -> argparse.ArgumentParser:
+        made = commands.add_parser(name, help=meaning, parents=[spoken, *takes])
+        made.set_defaults(command=name, json=False, quiet=False)
         return made
 
     scene = told.text("a built-in scene or a scene file (.toml)")
+    scenes = told.text("built-in scenes or scene files (.toml)")
     one = told.term("command line", "ID")
     out = told.text("results go to OUT/<scene name> (default: out)")
-    build = command("build", told.text("make the files of a scene"))
-    build.add_argument("scene", help=scene)
+    build = command("build", told.text("make the files of a scene"), as_json, quiet)
+    build.add_argument("scenes", nargs="+", metavar=told.term("command line", "SCENE"), help=scenes)
     build.add_argument("--out", default="out", type=Path, help=out)
     build.add_argument(
         "--part", action="append", default=[], metavar=one, help=told.text("only this part (may be repeated)")
@@ -221,10 +246,12 @@ def _parser(told: Words) -> argparse.ArgumentParser:
     )
     build.add_argument("--no-verify", action="store_true", help=told.text("do not read the files back"))
     build.set_defaults(run=_build)
-    check = command("check", told.text("contact and interference of the pairs of a scene"))
-    check.add_argument("scene", help=scene)
+    check = command("check", told.text("contact and interference of the pairs of a scene"), as_json, quiet)
+    check.add_argument("scenes", nargs="+", metavar=told.term("command line", "SCENE"), help=scenes)
     check.set_defaults(run=_check)
-    verify = command("verify", told.text("read files back and hold them against the part in their report"))
+    verify = command(
+        "verify", told.text("read files back and hold them against the part in their report"), as_json, quiet
+    )
     verify.add_argument("files", nargs="+", type=Path, metavar=told.term("command line", "FILE"))
     verify.set_defaults(run=_verify)
     converge = command("converge", told.text("error against run time, over a ladder of tolerances"))
@@ -233,9 +260,9 @@ def _parser(told: Words) -> argparse.ArgumentParser:
     converge.add_argument("--part", action="append", default=[], metavar=one, help=told.text("only this part"))
     converge.add_argument("--format", action="append", default=[], metavar="F", help=told.text("only this format"))
     converge.set_defaults(run=_converge)
-    listing = command("list", told.text("kinds of parts and built-in scenes"))
+    listing = command("list", told.text("kinds of parts and built-in scenes"), as_json)
     listing.set_defaults(run=_list)
-    calc = command("calc", told.text("a textbook calculation, step by step"))
+    calc = command("calc", told.text("a textbook calculation, step by step"), page)
     calc.add_argument(
         "topic",
         metavar=told.term("command line", "TOPIC"),
@@ -253,62 +280,121 @@ def _parser(told: Words) -> argparse.ArgumentParser:
     )
     calc.add_argument("--format", default="text", metavar="F", help=told.text("text, md, html or json (default: text)"))
     calc.set_defaults(run=_calc)
-    new = command("new", told.text("print a commented scene to start from; of a mate its table, to add to one"))
+    new = command("new", told.text("print a commented scene to start from; of a mate its table, to add to one"), page)
     new.add_argument(
         "kind",
         metavar=told.term("command line", "KIND"),
-        help=told.text("a kind of part or mate, see `{command}`", command="higherpair list"),
+        help=told.text("a kind of part or mate or a built-in scene, see `{command}`", command="higherpair list"),
     )
     new.set_defaults(run=_new)
+    schema = command("schema", told.text("print the JSON Schema of scenes, by which an editor completes keys"), page)
+    schema.set_defaults(run=_schema)
     return parser
 
 
 def _build(options: argparse.Namespace) -> int:
-    from exporters.command.tables import build_table
-    from exporters.production.build import build
-    from exporters.production.check_lines import has_bad_verdict
     from exporters.production.plan import plan_build
 
-    scene = _scene(options)
-    plan = plan_build(scene, options.scene, options.part, options.format)
-    folder, verify = options.out / scene.name, not options.no_verify
-    if "step" in {j.export.format for j in plan.jobs} | {a.export.format for a in plan.assemblies}:
-        _split(options, folder)
-    partial = bool(options.part or options.format)
-    if sys.stdout.isatty():
+    def planned(address: str) -> Plan:
+        return plan_build(_scene(address, options), address, options.part, options.format)
+
+    plans, refused = _each(options, planned)
+    _refuse_one_folder(plans)
+    if any(file.export.format == "step" for p in plans for file in p.files):
+        _split(options, [options.out / p.scene.name for p in plans])
+    made = [_built(plan, options) for plan in plans]
+    if options.json:
+        from exporters.production.report import read_report
+
+        _print_json(options.scenes, [read_report(options.out / p.scene.name) for p in plans])
+    return FAILED if not all(made) else WRONG_INPUT if refused else DONE
+
+
+def _built(plan: Plan, options: argparse.Namespace) -> bool:
+    """Build a scene and show what was made; returns whether all is well."""
+    from exporters.command.tables import build_table
+    from exporters.production.build import build
+
+    folder = options.out / plan.scene.name
+    partial, verify = bool(options.part or options.format), not options.no_verify
+    if sys.stdout.isatty() and not (options.quiet or options.json):
         from rich.progress import Progress
 
         with Progress(transient=True) as bar:
-            task = bar.add_task(scene.name, total=len(plan.jobs) + len(plan.assemblies) + len(plan.sheets))
+            task = bar.add_task(plan.scene.name, total=len(plan.files))
 
             def advance(path: str) -> None:
                 bar.update(task, advance=1, description=path)
 
-            written, previews, checks = build(plan, folder, verify=verify, partial=partial, progress=advance)
+            built = build(plan, folder, verify=verify, partial=partial, progress=advance)
     else:
-        written, previews, checks = build(plan, folder, verify=verify, partial=partial)
-    build_table(plan, folder, written, previews, checks)
-    return FAILED if any(item.failures for item in written) or has_bad_verdict(checks) else DONE
+        built = build(plan, folder, verify=verify, partial=partial)
+    if not options.json and not (options.quiet and built.well):
+        build_table(plan, folder, built)
+    return built.well
+
+
+def _refuse_one_folder(plans: Sequence[Plan]) -> None:
+    """Two scenes of one name would be made in one folder."""
+    from parts.base.refusal import SceneError
+
+    first: dict[str, str] = {}
+    for plan in plans:
+        other = first.setdefault(plan.scene.name.lower(), plan.source)
+        if other != plan.source:
+            raise SceneError("build", "SCENE", plan.source, "same_scene_name", None, other=other)
+
+
+def _each(options: argparse.Namespace, run: Callable[[str], T]) -> tuple[list[T], bool]:
+    """Something of every scene of a command, and whether one was refused; the refusal of the only one is raised."""
+    from parts.base.refusal import SceneError, sentence
+
+    found, refused = [], False
+    for address in options.scenes:
+        try:
+            found.append(run(address))
+        except SceneError as error:
+            if len(options.scenes) == 1:
+                raise
+            print(f"higherpair: {sentence(error, _language(options))}", file=sys.stderr)
+            refused = True
+    return found, refused
+
+
+def _print_json(asked: Sequence[object], found: Sequence[object]) -> None:
+    """One result as it is, several as a list."""
+    import json
+
+    print(json.dumps(found[0] if len(asked) == 1 else found, indent=1, ensure_ascii=False))
 
 
 def _check(options: argparse.Namespace) -> int:
     from exporters.production.check import scene_checks
     from exporters.production.check_lines import check_lines, has_bad_verdict
     from parts.base.refusal import SceneError
-    from parts.base.texts import words
     from parts.scene.load import make_parts
     from parts.scene.placing import place
 
-    scene = _scene(options)
-    parts, matings = make_parts(scene, options.scene)
-    placing = place(scene.instances, scene.drives, parts, matings, options.scene)
-    if len(placing.instances) < 2:
-        raise SceneError(options.scene, "mates", None, "nothing_to_check")
-    asked = scene.checks.transmission_error
-    checks = scene_checks(placing, parts, scene.drives, scene.scene.language, contact=True, transmission=asked)
-    found = check_lines(checks, scene.scene.language)
-    print("\n".join(found or [words(scene.scene.language).text("no mates; no solids run into each other")]))
-    return FAILED if has_bad_verdict(checks) else DONE
+    def checked(address: str) -> tuple[dict[str, Any], SceneFile]:
+        scene = _scene(address, options)
+        parts, matings = make_parts(scene, address)
+        placing = place(scene.instances, scene.drives, parts, matings, address)
+        if len(placing.instances) < 2:
+            raise SceneError(address, "mates", None, "nothing_to_check")
+        asked, language = scene.checks.transmission_error, scene.scene.language
+        return scene_checks(placing, parts, scene.drives, language, contact=True, transmission=asked), scene
+
+    found, refused = _each(options, checked)
+    if options.json:
+        _print_json(options.scenes, [checks for checks, _ in found])
+    for checks, scene in found:
+        if options.json or (options.quiet and not has_bad_verdict(checks)):
+            continue
+        language = scene.scene.language
+        title = [] if len(options.scenes) == 1 else [f"{scene.name}:"]
+        lines = check_lines(checks, language)
+        print("\n".join(title + (lines or [words(language).text("no mates; no solids run into each other")])))
+    return FAILED if any(has_bad_verdict(checks) for checks, _ in found) else WRONG_INPUT if refused else DONE
 
 
 def _verify(options: argparse.Namespace) -> int:
@@ -320,7 +406,7 @@ def _verify(options: argparse.Namespace) -> int:
     _check_language(options)
     language = options.language or report_language(options.files[0])
     if any(file.suffix.lower() == ".step" for file in options.files):
-        _split(options, None)
+        _split(options, [])
     results, refused = [], False
     for file in options.files:
         try:
@@ -328,9 +414,12 @@ def _verify(options: argparse.Namespace) -> int:
         except SceneError as error:
             print(f"higherpair: {sentence(error, language)}", file=sys.stderr)
             refused = True
-    if results:
+    failed = any(r.verdict.failures for r in results)
+    if options.json:
+        _print_json(options.files, [r.told for r in results])
+    elif results and not (options.quiet and not failed):
         verify_table(results, words(language))
-    if any(r.verdict.failures for r in results):
+    if failed:
         return FAILED
     return WRONG_INPUT if refused else DONE
 
@@ -342,13 +431,13 @@ def _converge(options: argparse.Namespace) -> int:
     from exporters.production.plan import plan_build
     from parts.base.refusal import SceneError
 
-    scene = _scene(options)
+    scene = _scene(options.scene, options)
     plan = plan_build(scene, options.scene, options.part, options.format)
     if not plan.jobs:
         raise SceneError(options.scene, "exports", None, "nothing_to_measure")
     folder = options.out / scene.name
     if any(job.export.format == "step" for job in plan.jobs):
-        _split(options, folder)
+        _split(options, [folder])
     with staging_folder(folder) as staging:
         rungs, found = ladder(plan, staging), orders(plan)
         write_csv(staging / "converge.csv", rungs, found)
@@ -363,19 +452,26 @@ def _list(options: argparse.Namespace) -> int:
     from parts.base.registry import KINDS
     from parts.base.schema import first_line
     from parts.mates.registry import MATES
-    from parts.scene.load import built_in_scenes, load_scene
+    from parts.scene.files import built_in_scenes
+    from parts.scene.load import load_scene
 
     _check_language(options)
     told = words(_language(options))
+    kinds = {kind: first_line(made.keys, told) for kind, made in KINDS.items()}
+    mates = {kind: first_line(mate.keys, told) for kind, mate in MATES.items()}
+    scenes = {name: load_scene(name).scene.title for name in built_in_scenes()}
+    if options.json:
+        _print_json([""], [{"parts": kinds, "mates": mates, "scenes": scenes}])
+        return DONE
     print(told.text("kinds of parts (higherpair new KIND):"))
-    for kind, made in KINDS.items():
-        print(f"  {kind:<22} {first_line(made.keys, told)}.")
+    for kind, meaning in kinds.items():
+        print(f"  {kind:<22} {meaning}.")
     print(told.text("kinds of mates between instances (higherpair new KIND prints a table to add to a scene):"))
-    for kind, mate in MATES.items():
-        print(f"  {kind:<22} {first_line(mate.keys, told)}.")
-    print(told.text("built-in scenes (higherpair build NAME):"))
-    for name in built_in_scenes():
-        print(f"  {name:<22} {load_scene(name).scene.title}")
+    for kind, meaning in mates.items():
+        print(f"  {kind:<22} {meaning}.")
+    print(told.text("built-in scenes (higherpair build NAME; higherpair new NAME prints one to change):"))
+    for name, title in scenes.items():
+        print(f"  {name:<22} {title}")
     return DONE
 
 
@@ -384,18 +480,43 @@ def _new(options: argparse.Namespace) -> int:
     from parts.base.refusal import SceneError, meant
     from parts.base.registry import KINDS
     from parts.mates.registry import MATES
+    from parts.scene.files import built_in_scenes
 
     _check_language(options)
-    known = [*KINDS, *MATES]
+    scenes = built_in_scenes()
+    known = [*KINDS, *MATES, *scenes]
     if options.kind not in known:
         raise SceneError("new", "KIND", options.kind, "unknown_kind", meant(options.kind, known), known=known)
+    if options.kind in scenes:
+        _page(scenes[options.kind].read_text(encoding="utf-8"), options)
+        return DONE
     make = new_mate if options.kind in MATES else new_scene
-    print(make(options.kind, _language(options)), end="")
+    _page(make(options.kind, _language(options)), options)
+    return DONE
+
+
+def _page(text: str, options: argparse.Namespace) -> None:
+    """A text to the file that was asked for, or to the terminal."""
+    if options.out is None:
+        print(text, end="")
+    else:
+        from exporters.production.moving import write_whole
+        from parts.base.refusal import SceneError
+
+        if options.command == "new" and options.out.exists():
+            raise SceneError("new", "--out", str(options.out), "file_exists")
+        write_whole(options.out, text)
+
+
+def _schema(options: argparse.Namespace) -> int:
+    from parts.scene.schema import scene_schema
+
+    _page(scene_schema(), options)
     return DONE
 
 
 def _calc(options: argparse.Namespace) -> int:
     from exporters.documents.topics import calculate
 
-    print(calculate(options.topic, options.words, options.format, options.language), end="")
+    _page(calculate(options.topic, options.words, options.format, options.language), options)
     return DONE

@@ -21,10 +21,12 @@ from parts.scene.load import ExportSpec, SceneInfo
 
 # parts of the scene: of the kind that is shown, the one that it is made from, any other one
 _OWN, _SOURCE, _OTHER = "gear", "source", "wheel"
+_SCHEMA = "higherpair.schema.json"
+_SCHEMA_COMMAND = f"higherpair schema --out {_SCHEMA}"
 _COMMENTS = {
     "sheet": N_("picture of meshing of every pair, DXF and SVG"),
     "one_pair": N_("only of this one"),
-    "block": N_('GOST 2.104, form 1; or { designation = "...", … }'),
+    "block": N_('GOST 2.104, form 1; or { designation = "...", ... }'),
     "more": N_("a part may stand more than once"),
     "place": N_("mm; or let a mate place it"),
     "contact": N_("contact and overlap through a whole pitch"),
@@ -74,9 +76,12 @@ def new_scene(kind: str, language: str = ENGLISH) -> str:
         note = told.text("the cam that the part below belongs to")
         owner = [f"# {note}", f"[parts.{_SOURCE}]", *(f"{key} = {_toml(v)}" for key, v in made_from.items()), ""]
     lines = [
+        # the directive by which an editor finds the schema, see Taplo
+        f"#:schema {_SCHEMA}",
         f"# {told.text('A scene of higherpair: build it with  higherpair build THIS_FILE.toml')}",
         f"# {told.text('Lines that begin with # show defaults or examples; remove the # to set them.')}",
         f"# {told.text('Lengths in mm, angles in degrees.')}",
+        f"# {told.text('An editor of TOML completes the keys after  {command}', command=_SCHEMA_COMMAND)}",
         "",
         "[scene]",
         *_keys(fields(SceneInfo), told),

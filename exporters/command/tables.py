@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from exporters.production.check_lines import check_lines
 from exporters.production.jobs import Written
@@ -14,24 +14,25 @@ from parts.base.texts import N_, Words, words
 from parts.texts.findings import finding_message
 
 if TYPE_CHECKING:
+    from exporters.production.build import Built
     from exporters.production.converge import Order, Rung
     from exporters.production.recheck import Recheck
 
 
-def build_table(plan: Plan, folder: Path, written: list[Written], previews: list[Path], checks: dict[str, Any]) -> None:
+def build_table(plan: Plan, folder: Path, built: Built) -> None:
     """What a build has made, how far each file is from the exact curve, and what was noticed."""
+    written = built.written
     language = plan.scene.scene.language
     told = words(language)
     header = [
         told.text("file"),
         told.text("max error, mm"),
         told.text("tolerance, mm"),
-        told.text("entities"),
         told.text("kB"),
         told.text("read back"),
     ]
     rows = [_row(item, folder, told) for item in written]
-    remarks = [told.text("preview: {path}", path=preview) for preview in previews]
+    remarks = [told.text("preview: {path}", path=preview) for preview in built.previews]
     if any(item.failures for item in written):
         from exporters.production.kept import kept_lines
         from exporters.production.report import read_report
@@ -39,11 +40,19 @@ def build_table(plan: Plan, folder: Path, written: list[Written], previews: list
         kept = kept_lines(read_report(folder), language)
         remarks += [told.text("FAILED: {why}", why=line) for line in kept]
     remarks += dict.fromkeys(_remarks(written, told))
-    remarks += check_lines(checks, language)
-    remarks += [told.text("left out: {what}: {why}", what=what, why=told.say(why)) for what, why in plan.left_out]
-    _show(plan.scene.scene.title or plan.scene.name, header, rows, remarks)
+    remarks += check_lines(built.checks, language)
+    left_out = [(one.what, one.why) for one in plan.left_out if not one.as_asked]
+    remarks += [told.text("left out: {what}: {why}", what=what, why=told.say(why)) for what, why in left_out]
+    remarks += [
+        told.text("note: {text}", text=told.text("{path} is of an earlier build: this one does not make it", path=path))
+        for path in built.left_behind
+    ]
+    title = told.text("{title}: files in {folder}", title=plan.scene.scene.title or plan.scene.name, folder=folder)
+    _show(title, header, rows, remarks)
 
 
+# letters in a line of a terminal that nobody has widened
+_PAGE_WIDTH = 80
 # how far the error of a file is known
 _BOUNDS = {"exact": N_("exact"), "certified": N_("certified"), "sampled": N_("sampled")}
 _STATES = {"good": N_("ok"), "bad": N_("FAILED"), "skipped": N_("not verified")}
@@ -52,13 +61,12 @@ _STATES = {"good": N_("ok"), "bad": N_("FAILED"), "skipped": N_("not verified")}
 def _row(item: Written, folder: Path, told: Words) -> list[str]:
     path = folder / item.job.path
     size = f"{path.stat().st_size / 1000:.1f}" if not item.failures else "-"
-    count = ", ".join(f"{value} {name}" for name, value in item.entities.items())
     state = "bad" if item.failures else "good" if item.measured else "skipped"
     error = f"{item.max_error:.3g} ({told.text(_BOUNDS[item.bound])})"
-    return [str(path), error, f"{item.job.export.tolerance:g}", count, size, told.text(_STATES[state])]
+    return [item.job.path, error, f"{item.job.export.tolerance:g}", size, told.text(_STATES[state])]
 
 
-def _remarks(written: list[Written], told: Words) -> list[str]:
+def _remarks(written: Sequence[Written], told: Words) -> list[str]:
     lines = []
     for item in written:
         lines += [told.text("FAILED: {why}", why=f"{item.job.path}: {failure}") for failure in item.failures]
@@ -146,14 +154,20 @@ def _show(title: str, header: Sequence[str], rows: list[list[str]], remarks: lis
     if sys.stdout.isatty():
         _show_rich(title, header, rows)
     else:
-        columns = list(zip(header, *rows, strict=True))
-        widths = [max(map(len, column)) for column in columns]
-        lines = [_printable(title)] if title else []
-        for row in (header, *rows):
-            cells = [row[0].ljust(widths[0]), *(c.rjust(w) for c, w in zip(row[1:], widths[1:], strict=True))]
-            lines.append("  ".join(cells))
-        sys.stdout.write("\n".join(lines) + "\n")
+        sys.stdout.write("".join(f"{line}\n" for line in [*filter(None, [_printable(title)]), *_plain(header, rows)]))
     sys.stdout.write("".join(line + "\n" for line in remarks))
+
+
+def _plain(header: Sequence[str], rows: list[list[str]]) -> Iterator[str]:
+    """Columns; a name for which the width of a page leaves no room stands on a line of its own."""
+    widths = [max(map(len, column)) for column in zip(header, *rows, strict=True)]
+    room = max(len(header[0]), _PAGE_WIDTH - sum(w + 2 for w in widths[1:]))
+    widths[0] = max(len(row[0]) for row in (header, *rows) if len(row[0]) <= room)
+    for first, *rest in (header, *rows):
+        if len(first) > widths[0]:
+            yield first
+            first = ""
+        yield "  ".join([first.ljust(widths[0]), *(c.rjust(w) for c, w in zip(rest, widths[1:], strict=True))])
 
 
 def _show_rich(title: str, header: Sequence[str], rows: list[list[str]]) -> None:

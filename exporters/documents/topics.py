@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -70,7 +71,7 @@ def _write_picture(picture: ContourPicture, file: Path, words: Words) -> None:
 
 def sheet_of(topic: str, words: Sequence[str]) -> tuple[Sheet, str]:
     """The sheet of a topic and the language of its scene."""
-    addresses = [word for word in words if "=" not in word or Path(word).is_file()]
+    addresses = [word for word in words if "=" not in word or os.path.isfile(word)]
     if len(addresses) > 1:
         raise SceneError(PLACE, addresses[1], None, "one_scene_only", None, other=addresses[0])
     table = table_of([word for word in words if word not in addresses])

@@ -9,6 +9,7 @@ import os
 import signal
 import sys
 import threading
+from collections.abc import Sequence
 from pathlib import Path
 
 # show the cursor again, which a progress bar hides, and clear the bar's line
@@ -16,10 +17,10 @@ _SHOW_CURSOR = "\x1b[?25h\r\x1b[K"
 _DIE_WITH_PARENT = 1
 
 
-def work_apart(stops: list[signal.Signals], folder: Path | None, failed: int) -> None:
+def work_apart(stops: list[signal.Signals], folders: Sequence[Path], failed: int) -> None:
     """Return in a child process, where ``stops`` are ignored; the caller waits for it and ends as it does.
 
-    A child that is killed or crashes leaves nothing half-written in ``folder``; the caller then ends with ``failed``.
+    A child that is killed or crashes leaves nothing half-written in ``folders``; the caller then ends with ``failed``.
     On macOS, where a fork is not safe, on Windows, and where threads run, the caller itself returns: there a signal
     waits until the kernel's call is over.
 
@@ -32,7 +33,7 @@ def work_apart(stops: list[signal.Signals], folder: Path | None, failed: int) ->
         return
     from exporters.production.moving import missing_folders
 
-    missing = missing_folders(folder) if folder is not None else []
+    missing = [gone for folder in folders for gone in missing_folders(folder)]
     sys.stdout.flush()
     sys.stderr.flush()
     parent = os.getpid()
@@ -50,11 +51,11 @@ def work_apart(stops: list[signal.Signals], folder: Path | None, failed: int) ->
     except BaseException:
         os.kill(child, signal.SIGKILL)
         os.waitpid(child, 0)
-        _clean_up(folder, missing)
+        _clean_up(folders, missing)
         raise
     code = os.waitstatus_to_exitcode(status)
     if code < 0:
-        _clean_up(folder, missing)
+        _clean_up(folders, missing)
         crash = f"the CAD kernel has crashed (signal {-code})"
         sys.stderr.write(f"higherpair: {crash}; nothing half-written is left\n")
         sys.stderr.flush()
@@ -62,16 +63,16 @@ def work_apart(stops: list[signal.Signals], folder: Path | None, failed: int) ->
     os._exit(code)
 
 
-def _clean_up(folder: Path | None, missing: list[Path]) -> None:
+def _clean_up(folders: Sequence[Path], missing: list[Path]) -> None:
     """Remove what a dead child was writing, and folders that it made and left empty."""
     from exporters.production.moving import clear, remove_empty
 
     if sys.stdout.isatty():
         sys.stdout.write(_SHOW_CURSOR)
         sys.stdout.flush()
-    if folder is not None:
+    for folder in folders:
         clear(folder)
-        remove_empty(missing)
+    remove_empty(missing)
 
 
 def _end_with(parent: int) -> None:

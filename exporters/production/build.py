@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from exporters.formats.registry import Chords, Shape, number_rounding, shape_of
+from exporters.production.check_lines import has_bad_verdict
 from exporters.production.jobs import FileJob, Job, Made, ShapeKey, Written
 from exporters.production.moving import alone_in, move_into, staging_folder
 from exporters.production.plan import Plan
@@ -17,6 +19,21 @@ from geometry.base.errors import ConvergenceError, Nearest, ParameterError, Thin
 from parts.base.refusal import SceneError, placed
 
 
+@dataclass(frozen=True, slots=True)
+class Built:
+    """What was written and found; ``left_behind``: files of earlier builds that this one does not make."""
+
+    written: tuple[Written, ...]
+    previews: tuple[Path, ...]
+    checks: dict[str, Any]
+    left_behind: tuple[Path, ...]
+
+    @property
+    def well(self) -> bool:
+        """Whether every file passed its read-back, and no check failed."""
+        return not has_bad_verdict(self.checks) and not any(item.failures for item in self.written)
+
+
 def build(
     plan: Plan,
     folder: Path,
@@ -24,11 +41,11 @@ def build(
     verify: bool = True,
     partial: bool = False,
     progress: Callable[[str], None] = lambda path: None,
-) -> tuple[list[Written], list[Path], dict[str, Any]]:
+) -> Built:
     """Write every job, a preview of every part and the report into ``folder``; what fails its read-back stays out.
 
-    ``partial``: keep what the report in ``folder`` says of other files of the same scene. Returns what was
-    written, the previews, and what the checks found. Nothing half-written is left behind: see ``moving.py``.
+    ``partial``: keep what the report in ``folder`` says of other files of the same scene. Nothing half-written is left
+    behind: see ``moving.py``.
     """
     start = time.perf_counter()
     checks = _checks(plan)
@@ -41,8 +58,7 @@ def build(
             made[job.shape_key], _ = approximated(job, plan.source)
     with staging_folder(folder) as staging:
         written: list[Written] = []
-        files: tuple[FileJob, ...] = (*plan.jobs, *plan.assemblies, *plan.sheets)
-        for file_job in files:
+        for file_job in plan.files:
             progress(file_job.path)
             written.append(_write(file_job, made, staging / file_job.path, plan.source, verify=verify))
             if file_job.path in spent:
@@ -53,11 +69,14 @@ def build(
             previews.append(scene_preview(plan, checks, staging))
         names = [item.job.path for item in written if not item.failures]
         with alone_in(folder):
-            before = read_report(folder) if partial or any(item.failures for item in written) else None
+            before = read_report(folder)
             seconds = time.perf_counter() - start
-            write_report(staging / NAME, plan, written, previews, checks, seconds, folder, before, partial=partial)
+            report = staging / NAME
+            left = write_report(report, plan, written, previews, checks, seconds, folder, before, partial=partial)
             move_into(folder, staging, [*names, *(p.name for p in previews), NAME])
-    return written, [folder / p.name for p in previews], checks
+    return Built(
+        tuple(written), tuple(folder / p.name for p in previews), checks, tuple(folder / name for name in left)
+    )
 
 
 def _checks(plan: Plan) -> dict[str, Any]:

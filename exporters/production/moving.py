@@ -184,3 +184,13 @@ def _locked(folder: Path) -> Iterator[None]:
         yield
     finally:
         os.close(place)
+
+
+def write_whole(file: Path, text: str) -> None:
+    """Write a text in UTF-8: all of it, or nothing and what was there stays."""
+    beside = file.with_name(f"{file.name}{_STAGING}{os.getpid()}")
+    try:
+        beside.write_text(text, encoding="utf-8", newline="\n")
+        os.replace(beside, file)
+    finally:
+        beside.unlink(missing_ok=True)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
-from exporters.production.jobs import AssemblyJob, Job, assembly_name
+from exporters.production.jobs import AssemblyJob, FileJob, Job, assembly_name
 from geometry.base.errors import GeometryError, OffsetError, ParameterError
 from geometry.plane.offset_region import OffsetRegion
 from parts.base.part import Part
@@ -27,6 +27,15 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
+class LeftOut:
+    """What a build does not make, and why; ``as_asked``: the command itself left it out."""
+
+    what: str
+    why: Text
+    as_asked: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class Plan:
     """The files of a build, the parts they need, where these stand, and what was left out and why."""
 
@@ -36,8 +45,13 @@ class Plan:
     placing: Placing
     jobs: tuple[Job, ...]
     assemblies: tuple[AssemblyJob, ...]
-    left_out: tuple[tuple[str, Text], ...]
+    left_out: tuple[LeftOut, ...]
     sheets: tuple[SheetJob, ...] = ()
+
+    @property
+    def files(self) -> tuple[FileJob, ...]:
+        """Every file of the build."""
+        return (*self.jobs, *self.assemblies, *self.sheets)
 
 
 def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_formats: list[str]) -> Plan:
@@ -58,16 +72,18 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
     parts, matings = make_parts(scene, source)
     placing = place(scene.instances, scene.drives, parts, matings, source)
     exports = _wanted_exports(scene, source, only_formats)
-    left_out: list[tuple[str, Text]] = [
-        (f"exports[{i + 1}]", message("format {format} was not asked for", format=e.format))
+    left_out = [
+        LeftOut(f"exports[{i + 1}]", message("format {format} was not asked for", format=e.format), as_asked=True)
         for i, e in enumerate(scene.exports)
         if only_formats and e.format not in only_formats
     ]
-    left_out += [(f"parts.{p}", N_("was not asked for")) for p in parts if only_parts and p not in only_parts]
+    unasked = [p for p in parts if only_parts and p not in only_parts]
+    left_out += [LeftOut(f"parts.{p}", N_("was not asked for"), as_asked=True) for p in unasked]
     exports, unmakeable = _without_kernel(exports, source, only_formats)
     left_out += unmakeable
     used = {p for _, e in exports for p in e.parts or parts}
-    left_out += [(f"parts.{p}", N_("no export asks for it")) for p in parts if p not in used]
+    unused = [p for p in parts if p not in used]
+    left_out += [LeftOut(f"parts.{p}", N_("no export asks for it"), as_asked=bool(only_formats)) for p in unused]
     jobs: list[Job] = []
     assemblies: list[AssemblyJob] = []
     sheets: list[SheetJob] = []
@@ -75,7 +91,8 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
     for where, export in exports:
         if only_parts and (export.assembly or (export.format == "sheet" and export.purpose != "cam")):
             alone = N_("an assembly of all its parts was not asked for")
-            left_out.append((where, alone if export.assembly else N_("a sheet of several parts was not asked for")))
+            why = alone if export.assembly else N_("a sheet of several parts was not asked for")
+            left_out.append(LeftOut(where, why))
             continue
         if export.format == "sheet":
             sheets += _sheets(scene, matings, _of_cams(export, parts, only_parts), where, source, taken)
@@ -131,7 +148,7 @@ def _take(path: str, where: str, taken: dict[str, Text], source: str) -> None:
 
 def _without_kernel(
     exports: list[tuple[str, ExportSpec]], source: str, only_formats: list[str]
-) -> tuple[list[tuple[str, ExportSpec]], list[tuple[str, Text]]]:
+) -> tuple[list[tuple[str, ExportSpec]], list[LeftOut]]:
     """The exports that can be made, and those left out because the CAD kernel is not installed.
 
     Raises
@@ -145,7 +162,7 @@ def _without_kernel(
     if "step" in only_formats or len(places) == len(exports):
         raise SceneError(source, f"{places[0]}.format", "step", "needs_kernel")
     why = message("STEP {why}", why=filled(reason("needs_kernel")))
-    return [(w, e) for w, e in exports if w not in places], [(where, why) for where in places]
+    return [(w, e) for w, e in exports if w not in places], [LeftOut(where, why) for where in places]
 
 
 def _check_body(job: Job, scene: SceneFile, source: str) -> None:

@@ -31,6 +31,19 @@ class Recheck:
     tolerance: float
     same_bytes: bool
 
+    @property
+    def told(self) -> dict[str, Any]:
+        """As plain data."""
+        return {
+            "file": str(self.file),
+            "ok": not self.verdict.failures,
+            "failures": list(self.verdict.failures),
+            "measured": self.verdict.measured,
+            "declared": self.declared,
+            "tolerance": self.tolerance,
+            "same_bytes": self.same_bytes,
+        }
+
 
 def recheck(file: Path) -> Recheck:
     """Hold one file against its report; a preview is only compared byte by byte.

@@ -36,8 +36,8 @@ def write_report(
     before: dict[str, Any] | None,
     *,
     partial: bool,
-) -> None:
-    """Write the report of a build in ``folder``.
+) -> list[str]:
+    """Write the report of a build in ``folder``; returns the files of earlier builds there of which it knows no more.
 
     ``before``: the report that lies there; ``partial``: this one is merged into it by path.
     """
@@ -59,7 +59,7 @@ def write_report(
         "failed": [_failed(item, folder, resolved(plan.scene), before) for item in written if item.failures],
         "previews": [{"path": p.name, "bytes": p.stat().st_size, "sha256": _sha256(p)} for p in previews],
         "checks": checks,
-        "left_out": [{"what": what, "why": words(ENGLISH).say(why)} for what, why in plan.left_out],
+        "left_out": [{"what": one.what, "why": words(ENGLISH).say(one.why)} for one in plan.left_out],
         "versions": _versions(written),
         "run": {
             "seconds": round(seconds, 4),
@@ -70,7 +70,18 @@ def write_report(
     }
     if partial:
         _merge(report, before)
+    report["left_behind"] = _left_behind(report, before, folder)
     file.write_text(json.dumps(report, indent=1, ensure_ascii=False) + "\n", encoding="utf-8", newline="\n")
+    return report["left_behind"]
+
+
+def _left_behind(report: dict[str, Any], before: dict[str, Any] | None, folder: Path) -> list[str]:
+    """Files that an earlier build has made, as far as they still lie there, and that are not of this report."""
+    known = {entry["path"] for key in ("files", "failed", "previews") for entry in report[key]}
+    told = before or {}
+    earlier = [entry.get("path") for key in ("files", "previews") for entry in told.get(key, [])]
+    earlier += told.get("left_behind", [])
+    return sorted({path for path in earlier if path and path not in known and (folder / path).is_file()})
 
 
 def read_report(folder: Path) -> dict[str, Any] | None:

@@ -44,6 +44,8 @@ REASONS = {
     "shows_the_part": N_("a drawing, a sheet or a solid shows the part, not the cut"),
     "stands_as": N_("the part stands as {known}; name one of them"),
     "too_deep": N_("tables are nested too deeply: a scene needs three levels"),
+    "file_exists": N_("exists already, and what stands in it may be yours; name another file"),
+    "same_scene_name": N_("has the name of {other}: both would be made in one folder; build one of them with --out"),
     "too_large_file": N_("is larger than {most} bytes: not a scene file"),
     "turned_into_mesh": N_("{mate} turns it into mesh; give `at` too, and the mate only checks"),
     "turns_nothing": N_("turns nothing: 1.0 is one turn"),

@@ -7,12 +7,11 @@ import tomllib
 from pathlib import Path
 
 from parts.base.texts import ENGLISH, languages
+from parts.scene.files import built_in_scenes, text_of
 
 
 def language_of(address: str) -> str:
     """The language of a scene by its name or file, as far as it can be read; English where it cannot."""
-    from parts.scene.load import built_in_scenes
-
     path = Path(address)
     try:
         path = built_in_scenes().get(address, path) if not path.is_file() else path
@@ -20,7 +19,7 @@ def language_of(address: str) -> str:
     except (OSError, ValueError):
         return ENGLISH
     try:
-        asked = tomllib.loads(raw.decode("utf-8-sig")).get("scene", {}).get("language")
+        asked = tomllib.loads(text_of(raw)).get("scene", {}).get("language")
     except (ValueError, AttributeError, RecursionError):
         # what is no TOML may still say it
         found = re.search(rb"""(?m)^\s*language\s*=\s*["'](\w+)["']""", raw)

@@ -19,13 +19,13 @@ from parts.base.texts import ENGLISH, languages
 from parts.keys.base import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.keys.sheet import CamSpeed, Intervals, MateNumber, RackStep, check_sheet_keys
 from parts.keys.title import TitleBlockKey
+from parts.scene.files import built_in_scenes, text_of
 from parts.scene.formats import ASSEMBLY_FORMATS, Form, file_kind, tolerances_of
 from parts.scene.instances import DriveSpec, InstanceSpec, check_instance, drive_spec, instance_specs
 
 if TYPE_CHECKING:
     from parts.base.mate import Mating
 
-SCENE_FOLDER = Path(__file__).parents[1] / "scenes"
 # a scene that is larger than this is not one
 _MAX_SCENE_BYTES = 4_000_000
 
@@ -112,11 +112,6 @@ class SceneFile(Struct, forbid_unknown_fields=True):
     checks: ChecksSpec = msgspec.field(default_factory=ChecksSpec)
 
 
-def built_in_scenes() -> dict[str, Path]:
-    """Names and files of the scenes that come with the package."""
-    return {path.stem: path for path in sorted(SCENE_FOLDER.glob("*.toml"))}
-
-
 def load_scene(address: str) -> SceneFile:
     """A scene by the name of a built-in one or by the path of a TOML file.
 
@@ -157,7 +152,7 @@ def scene_from_toml(raw_bytes: bytes, source: str, name: str) -> SceneFile:
     if len(raw_bytes) > _MAX_SCENE_BYTES:
         raise SceneError(source, "", None, "too_large_file", None, most=_MAX_SCENE_BYTES)
     try:
-        raw = tomllib.loads(raw_bytes.decode("utf-8-sig"))
+        raw = tomllib.loads(text_of(raw_bytes))
     except UnicodeDecodeError as error:
         raise SceneError(source, "", None, "not_utf8", None, byte=error.start) from None
     except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:

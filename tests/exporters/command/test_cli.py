@@ -16,7 +16,7 @@ import pytest
 from exporters import __version__
 from parts.base.registry import KINDS
 from parts.mates.registry import MATES
-from parts.scene.load import built_in_scenes
+from parts.scene.files import built_in_scenes
 from tests.exporters.making import build_gear, part_keys, read_report, run, write_scene
 from tests.exporters.outside import Gear
 from tests.exporters.production.test_build import command

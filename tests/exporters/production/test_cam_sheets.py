@@ -338,7 +338,7 @@ def test_refusals_name_the_key_and_what_works() -> None:
 def test_a_build_reports_its_cam_sheets_and_verify_measures_them_again(tmp_path: Path) -> None:
     plan = plan_build(load_scene("guidelines_cam"), "guidelines_cam", [], ["sheet"])
     folder = tmp_path / "guidelines_cam"
-    made, _, _ = build(plan, folder)
+    made = build(plan, folder).written
     assert [item.failures for item in made] == [(), ()]
     report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
     entries = {e["path"]: e for e in report["files"]}

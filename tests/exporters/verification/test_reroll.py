@@ -22,8 +22,9 @@ from geometry.cams.contact.rolled import lift_bound, outline_of_loop, rolled_lif
 from geometry.cams.motion.guides import Oscillating, Translating
 from geometry.cams.plane.disk import FollowerKind, oscillating_cam, translating_cam
 from parts.cams.probes import ANGLES, outermost
+from parts.scene.files import built_in_scenes
 from parts.scene.formats import FILE_KINDS
-from parts.scene.load import built_in_scenes, load_scene, make_parts
+from parts.scene.load import load_scene, make_parts
 from parts.scene.placing import place
 from tests.exporters.making import dxf_chains, read_report, run
 from tests.geometry.cams.oracle import MP, Eccentric, followed
@@ -156,7 +157,7 @@ def test_the_cams_of_an_assembly_are_rolled(tmp_path: Path) -> None:
     scene = load_scene(str(built_in_scenes()["laser_cam_model"]))
     parts, matings = make_parts(scene, "t")
     plan = plan_build(scene, "t", [], ["3mf"])
-    written, _, _ = build(plan, tmp_path / "o")
+    written = build(plan, tmp_path / "o").written
     (made,) = [w for w in written if w.job.path == "laser_cam_model.3mf"]
     assert not made.failures
     assert 0 < made.measured["cam.lift_error"] <= made.max_error * (1 + 1e-6)

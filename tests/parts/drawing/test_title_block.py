@@ -14,7 +14,8 @@ from exporters.production.plan import plan_build
 from parts.base.refusal import SceneError
 from parts.drawing.canvas import Canvas
 from parts.drawing.title_block import TITLE_BLOCK, TitleBlock, draw_title_block
-from parts.scene.load import built_in_scenes, scene_from_dict
+from parts.scene.files import built_in_scenes
+from parts.scene.load import scene_from_dict
 
 # widths of the eleven columns and the right-hand ones, as the form has them
 COLUMNS = [7, 10, 23, 15, 10, 70, 5, 5, 5, 5, 12, 18]

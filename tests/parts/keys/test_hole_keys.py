@@ -73,7 +73,7 @@ def test_every_shape_becomes_verified_files(name: str, tmp_path: Path) -> None:
         {"format": "dxf", "curves": "lines", "name": "lines"},
     ]  # fmt: skip
     plan = plan_build(scene(GOOD[name], *exports), "t.toml", [], [])
-    written, *_ = build(plan, tmp_path)
+    written = build(plan, tmp_path).written
     assert [item.failures for item in written] == [()] * 3
     found = ezdxf.readfile(tmp_path / "gear.lines.dxf").modelspace().query("LWPOLYLINE[layer=='CUT_INNER']")
     holes = region(GOOD[name]).holes

@@ -12,7 +12,8 @@ from geometry.curves.curve import Complex
 from geometry.plane.distance import Verdict
 from geometry.plane.profile import Profile
 from parts.mates.follower import CamFollowerMating
-from parts.scene.load import SceneError, built_in_scenes, load_scene, make_parts, scene_from_toml
+from parts.scene.files import built_in_scenes
+from parts.scene.load import SceneError, load_scene, make_parts, scene_from_toml
 from parts.scene.placing import Placing, place
 
 PHASES = """phases = [

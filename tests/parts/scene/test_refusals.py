@@ -217,7 +217,7 @@ def offered_by(error: SceneError) -> float:
 def builds(text: str, folder: Path) -> bool:
     """Whether a scene gives all its files, each good."""
     plan = plan_build(scene_from_toml(text.encode(), "test.toml", "test"), "test.toml", [], [])
-    written, *_ = build(plan, folder)
+    written = build(plan, folder).written
     return not any(item.failures for item in written)
 
 

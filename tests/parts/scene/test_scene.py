@@ -13,8 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from exporters.production.plan import plan_build
+from parts.scene.files import built_in_scenes
 from parts.scene.load import (
-    built_in_scenes,
     load_scene,
     make_parts,
     resolved,

@@ -1,0 +1,24 @@
+"""Scene files: where those of the package lie, and the text that a file holds."""
+
+from __future__ import annotations
+
+import codecs
+from pathlib import Path
+
+SCENE_FOLDER = Path(__file__).parents[1] / "scenes"
+
+
+def built_in_scenes() -> dict[str, Path]:
+    """Names and files of the scenes that come with the package."""
+    return {path.stem: path for path in sorted(SCENE_FOLDER.glob("*.toml"))}
+
+
+def text_of(raw: bytes) -> str:
+    """The text of a scene file: UTF-8, with a mark of byte order or without; UTF-16 with one, as PowerShell writes it.
+
+    Raises
+    ------
+    UnicodeDecodeError
+        It is neither.
+    """
+    return raw.decode("utf-16" if raw[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE) else "utf-8-sig")

@@ -1,0 +1,33 @@
+"""The JSON Schema of scenes: what an editor needs to complete keys and to mark wrong ones."""
+
+from __future__ import annotations
+
+import json
+from typing import Annotated, Any, Union
+
+import msgspec
+from msgspec import NODEFAULT, Meta
+
+from parts.base.registry import KINDS
+from parts.mates.registry import MATES
+from parts.scene.instances import DriveSpec, InstanceSpec
+from parts.scene.load import ChecksSpec, ExportSpec, SceneInfo
+
+
+def scene_schema() -> str:
+    """The schema of every key of every kind of part and mate, JSON Schema 2020-12."""
+    # a type made while we run, which mypy cannot follow
+    part: Any = Union[tuple(kind.keys for kind in KINDS.values())]  # noqa: UP007
+    mate: Any = Union[tuple(kind.keys for kind in MATES.values())]  # noqa: UP007
+    tables: list[tuple[str, Any, Any]] = [
+        ("scene", SceneInfo, msgspec.field(default_factory=SceneInfo)),
+        ("parts", Annotated[dict[str, part], Meta(min_length=1)], NODEFAULT),
+        ("instances", dict[str, InstanceSpec], {}),
+        ("mates", list[mate], []),
+        ("drives", list[DriveSpec], []),
+        ("checks", ChecksSpec, msgspec.field(default_factory=ChecksSpec)),
+        ("exports", list[ExportSpec], []),
+    ]
+    scene = msgspec.defstruct("Scene", tables, forbid_unknown_fields=True, kw_only=True)
+    schema = msgspec.json.schema(scene)
+    return json.dumps({"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}, indent=1) + "\n"
