@@ -504,7 +504,7 @@ def _page(text: str, options: argparse.Namespace) -> None:
         from parts.base.refusal import SceneError
 
         if options.command == "new" and options.out.exists():
-            raise SceneError("new", "--out", str(options.out), "file_exists")
+            raise SceneError(str(options.out), "", None, "file_exists")
         write_whole(options.out, text)
 
 

@@ -1,0 +1,183 @@
+"""The first minute with the command: a scene to start from, its files named, results for people and for programs."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import jsonschema
+import pytest
+
+from exporters.command.cli import main
+from parts.base.registry import KINDS
+from parts.mates.registry import MATES
+from parts.scene.files import SCENE_FOLDER, built_in_scenes
+from tests.exporters.making import part_keys, run, write_scene
+from tests.exporters.outside import Gear
+
+GEAR = part_keys(Gear(2, 23))
+HEAD = '[scene]\ntitle = "Колесо"\nlanguage = "uk"\n'
+
+
+def said(capsys: pytest.CaptureFixture[str], *arguments: object) -> str:
+    capsys.readouterr()
+    assert run(*arguments) == 0
+    return capsys.readouterr().out
+
+
+def validator() -> jsonschema.Draft202012Validator:
+    """The schema that the command prints."""
+    done = subprocess.run([sys.executable, "-m", "exporters", "schema"], capture_output=True, check=True, timeout=60)
+    return jsonschema.Draft202012Validator(json.loads(done.stdout))
+
+
+def test_the_schema_takes_every_built_in_scene_and_every_new_one_and_no_wrong_one(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    judge = validator()
+    for file in built_in_scenes().values():
+        assert not list(judge.iter_errors(tomllib.loads(file.read_text(encoding="utf-8")))), file
+    for kind in KINDS:
+        assert not list(judge.iter_errors(tomllib.loads(said(capsys, "new", kind)))), kind
+    wrong = [GEAR | {"modul": 1}, GEAR | {"number_of_teeth": 2}, {"kind": "spur_gaer"}]
+    for spoiled in ({"parts": {}}, {"parts": {"g": GEAR}, "export": []}, *({"parts": {"g": keys}} for keys in wrong)):
+        assert list(judge.iter_errors(spoiled)), spoiled
+    assert not list(judge.iter_errors({"parts": {"g": GEAR}}))
+
+
+@pytest.mark.parametrize("language", ["en", "uk"])
+def test_new_writes_a_file_that_builds_whatever_the_terminal_can_show(tmp_path: Path, language: str) -> None:
+    file = tmp_path / "my_gear.toml"
+    assert run("new", "spur_gear", "--language", language, "--out", file) == 0
+    assert run("build", file, "--out", tmp_path, "--format", "svg") == 0
+
+
+def test_new_in_english_is_ascii(capsys: pytest.CaptureFixture[str]) -> None:
+    """A shell that reads a pipe in its own code page spoils nothing."""
+    for kind in (*KINDS, *MATES):
+        assert said(capsys, "new", kind).isascii(), kind
+
+
+def test_new_prints_a_built_in_scene(capsys: pytest.CaptureFixture[str]) -> None:
+    text = (SCENE_FOLDER / "practicum_pair.toml").read_text(encoding="utf-8")
+    assert said(capsys, "new", "practicum_pair") == text
+
+
+def test_new_never_writes_over_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "mine.toml"
+    file.write_text("mine", encoding="utf-8")
+    assert run("new", "spur_gear", "--out", file) == 2
+    assert "mine.toml" in capsys.readouterr().err
+    assert file.read_text(encoding="utf-8") == "mine"
+    assert [p.name for p in tmp_path.iterdir()] == ["mine.toml"]
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
+def test_a_scene_with_a_mark_of_byte_order_is_read(tmp_path: Path, encoding: str) -> None:
+    """PowerShell's > writes UTF-16, Notepad UTF-8 with a mark."""
+    scene = write_scene(tmp_path / "s.toml", {"g": GEAR}, [{"format": "svg"}], HEAD)
+    scene.write_text(scene.read_text(encoding="utf-8"), encoding=encoding)
+    assert run("build", scene, "--out", tmp_path / "o") == 0
+    report = json.loads((tmp_path / "o/s/report.json").read_text(encoding="utf-8"))
+    assert report["scene"]["scene"]["title"] == "Колесо"
+
+
+def test_a_pipe_gets_utf8_whatever_the_locale(tmp_path: Path) -> None:
+    """A terminal may lack a letter, a file does not."""
+    plain = {**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONIOENCODING": "cp1252", "PYTHONCOERCECLOCALE": "0"}
+    command = [sys.executable, "-m", "exporters", "calc", "gear-pair", "practicum_pair", "--language", "uk"]
+    done = subprocess.run(command, capture_output=True, env=plain, check=True, timeout=60)
+    file = tmp_path / "page.txt"
+    assert run(*command[3:], "--out", file) == 0
+    assert done.stdout.decode("utf-8").splitlines() == file.read_text(encoding="utf-8").splitlines()
+
+
+def test_the_table_of_a_build_fits_a_page_and_names_what_an_earlier_build_left(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    name = "a_gear_with_a_long_name_that_nobody_would_cut_short"
+    both = [{"format": "dxf"}, {"format": "svg"}]
+    scene = write_scene(tmp_path / "s.toml", {"g": GEAR, name: GEAR}, both)
+    lines = said(capsys, "build", scene, "--out", tmp_path / "o").splitlines()
+    table = [line for line in lines if not line.startswith("preview") and str(tmp_path) not in line]
+    assert max(map(len, table)) <= 80
+    assert f"{name}.dxf" in lines
+    write_scene(tmp_path / "s.toml", {"g": GEAR, name: GEAR}, both[:1])
+    for options in ((), ("--format", "dxf")):
+        out = said(capsys, "build", scene, "--out", tmp_path / "o", *options)
+        assert {f"note: {tmp_path / 'o/s' / f'{part}.svg'} is of an earlier build: this one does not make it"
+                for part in ("g", name)} <= {*out.splitlines()}  # fmt: skip
+    (tmp_path / "o/s/g.svg").unlink()
+    assert "g.svg is of" not in said(capsys, "build", scene, "--out", tmp_path / "o")
+
+
+def test_what_was_not_asked_for_is_not_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    exports = [{"format": "dxf", "parts": ["g"]}, {"format": "svg"}]
+    scene = write_scene(tmp_path / "s.toml", {"g": GEAR, "h": GEAR}, exports)
+    assert "left out" not in said(capsys, "build", scene, "--out", tmp_path / "o", "--format", "dxf")
+    assert "left out" not in said(capsys, "build", scene, "--out", tmp_path / "o", "--part", "g")
+    write_scene(tmp_path / "s.toml", {"g": GEAR, "h": GEAR}, exports[:1])
+    assert "left out: parts.h" in said(capsys, "build", scene, "--out", tmp_path / "o")
+
+
+def test_several_scenes_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for name in ("one", "two"):
+        write_scene(tmp_path / f"{name}.toml", {"g": GEAR}, [{"format": "svg"}])
+    made = [tmp_path / "one.toml", tmp_path / "two.toml"]
+    found = json.loads(said(capsys, "build", *made, "--out", tmp_path / "o", "--json"))
+    assert [report["scene"]["name"] for report in found] == ["one", "two"]
+    # one that is refused does not keep the others from being made
+    (tmp_path / "one.toml").write_text("[parts.g]\nkind = 3", encoding="utf-8")
+    assert run("build", *made, "--out", tmp_path / "p") == 2
+    assert capsys.readouterr().err.count("\n") == 1
+    assert (tmp_path / "p/two/g.svg").exists()
+    (tmp_path / "x").mkdir()
+    twin = write_scene(tmp_path / "x/TWO.toml", {"g": GEAR}, [{"format": "svg"}])
+    assert run("build", made[1], twin, "--out", tmp_path / "q") == 2
+    assert "one folder" in capsys.readouterr().err
+    assert not (tmp_path / "q").exists()
+
+
+def test_results_as_json(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    scene = write_scene(tmp_path / "s.toml", {"g": GEAR}, [{"format": "svg"}])
+    report = json.loads(said(capsys, "build", scene, "--out", tmp_path, "--json"))
+    assert report == json.loads((tmp_path / "s/report.json").read_text(encoding="utf-8"))
+    file = tmp_path / "s/g.svg"
+    found = json.loads(said(capsys, "verify", file, "--json"))
+    assert (found["file"], found["ok"], found["same_bytes"]) == (str(file), True, True)
+    assert 0 < found["measured"]["max_deviation"] <= found["declared"] <= found["tolerance"]
+    file.write_text(file.read_text(encoding="utf-8").replace(" A0.", " A0.5", 1), encoding="utf-8")
+    capsys.readouterr()
+    assert run("verify", file, "--json") == 1
+    spoiled = json.loads(capsys.readouterr().out)
+    assert not spoiled["ok"]
+    assert spoiled["failures"]
+    checks = json.loads(said(capsys, "check", "practicum_pair", "--json"))
+    assert checks["mates"][0]["verdict"] == "contact"
+    assert set(json.loads(said(capsys, "list", "--json"))["parts"]) == set(KINDS)
+
+
+def test_a_quiet_command_speaks_of_faults_only(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    scene = write_scene(tmp_path / "s.toml", {"g": GEAR}, [{"format": "svg"}])
+    file = tmp_path / "s/g.svg"
+    assert said(capsys, "build", scene, "-q", "--out", tmp_path) == ""
+    assert said(capsys, "verify", file, "-q") == said(capsys, "check", "practicum_pair", "-q") == ""
+    file.write_text("<svg/>", encoding="utf-8")
+    assert run("verify", file, "-q") == 1
+    assert "FAILED" in capsys.readouterr().out
+
+
+def test_a_long_value_of_a_calculation_is_no_file_name(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("calc", "spur", f"module={'9' * 300}") == 2
+    assert "module" in capsys.readouterr().err
+
+
+def test_the_version_has_a_short_name(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["-V"])
+    assert ended.value.code == 0
+    assert capsys.readouterr().out.startswith("higherpair ")
