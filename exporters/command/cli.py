@@ -469,7 +469,7 @@ def _list(options: argparse.Namespace) -> int:
     print(told.text("kinds of mates between instances (higherpair new KIND prints a table to add to a scene):"))
     for kind, meaning in mates.items():
         print(f"  {kind:<22} {meaning}.")
-    print(told.text("built-in scenes (higherpair build NAME; higherpair new NAME prints one to change):"))
+    print(told.text("built-in scenes (higherpair build NAME; higherpair new NAME.toml prints one to change):"))
     for name, title in scenes.items():
         print(f"  {name:<22} {title}")
     return DONE
@@ -483,11 +483,12 @@ def _new(options: argparse.Namespace) -> int:
     from parts.scene.files import built_in_scenes
 
     _check_language(options)
-    scenes = built_in_scenes()
+    scenes = {address: file for name, file in built_in_scenes().items() for address in (name, file.name)}
     known = [*KINDS, *MATES, *scenes]
     if options.kind not in known:
         raise SceneError("new", "KIND", options.kind, "unknown_kind", meant(options.kind, known), known=known)
-    if options.kind in scenes:
+    # a scene that has the name of a kind is asked for with its ending
+    if options.kind not in (*KINDS, *MATES):
         _page(scenes[options.kind].read_text(encoding="utf-8"), options)
         return DONE
     make = new_mate if options.kind in MATES else new_scene

@@ -100,7 +100,7 @@ def test_a_built_in_scene_builds_and_verifies_in_a_format(name: str, form: str, 
         ("new",),
         ("list", "x"),
         ("build", "laser_gear", "--out"),
-        ("build", "a", "b"),
+        ("converge", "a", "b"),
     ],
     ids=str,
 )

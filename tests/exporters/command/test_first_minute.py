@@ -63,8 +63,11 @@ def test_new_in_english_is_ascii(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_new_prints_a_built_in_scene(capsys: pytest.CaptureFixture[str]) -> None:
-    text = (SCENE_FOLDER / "practicum_pair.toml").read_text(encoding="utf-8")
-    assert said(capsys, "new", "practicum_pair") == text
+    for name in ("practicum_pair", "barrel_cam"):
+        text = (SCENE_FOLDER / f"{name}.toml").read_text(encoding="utf-8")
+        assert said(capsys, "new", f"{name}.toml") == text
+        # the name alone is that of a kind where there is one
+        assert (said(capsys, "new", name) == text) is (name not in KINDS)
 
 
 def test_new_never_writes_over_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
