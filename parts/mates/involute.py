@@ -163,7 +163,7 @@ class InternalMating(GearMating):
     def _middle(self, rotation: float, direction: float) -> float:
         if self.ring_first:
             return self.pair.pinion_rotation(rotation, direction)
-        return self.pair.ring_rotation(rotation, direction + math.pi)
+        return self.pair.second_rotation(rotation, direction + math.pi)
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """Centre distance, and the second one's turn off the middle of its backlash."""

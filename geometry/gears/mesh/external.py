@@ -12,7 +12,8 @@ import numpy as np
 from geometry.curves.curve import Complex, Real
 from geometry.gears.mesh.search import CONTACT_TOLERANCE, ContactPlace, MeshSearch, PairContact, gear_outline, searched
 from geometry.gears.mesh.transmission_error import TransmissionError, transmission_errors
-from geometry.gears.pairs.external import ExternalPair, flank_gaps
+from geometry.gears.pairs.external import ExternalPair
+from geometry.gears.pairs.involute import flank_gaps
 
 __all__ = ["CONTACT_TOLERANCE", "ContactPlace", "PairContact", "pair_contact"]
 

@@ -10,7 +10,8 @@ import numpy as np
 from geometry.curves.curve import Complex, Real
 from geometry.gears.mesh.search import CONTACT_TOLERANCE, MeshSearch, PairContact, gear_outline, searched
 from geometry.gears.mesh.transmission_error import TransmissionError, transmission_errors
-from geometry.gears.pairs.internal import InternalPair, internal_flank_gaps
+from geometry.gears.pairs.internal import InternalPair
+from geometry.gears.pairs.involute import flank_gaps
 from geometry.gears.teeth.internal_mesh import InternalMesh
 from geometry.gears.teeth.ring_tooth import RingSide
 from geometry.plane.distance import Boundary
@@ -35,7 +36,7 @@ def internal_contact(
     Parameters
     ----------
     ring_turn
-        Rotation of the ring, rad, beyond the middle of the pinion's tooth (``pair.ring_rotation``);
+        Rotation of the ring, rad, beyond the middle of the pinion's tooth (``pair.second_rotation``);
         +- ``normal_backlash / (2 ring.base_radius)`` drives it to the contact of one flank.
     centre_shift
         mm by which the centre distance is more than the pair's.
@@ -119,7 +120,7 @@ class _InternalMesh(MeshSearch):
         return math.acos(min(1.0, max(-1.0, cosine)))
 
     def second_position(self, drive: Real) -> Real:
-        return self.pair.ring_rotation(0.0) + self.ring_turn + self.rate * drive
+        return self.pair.second_rotation(0.0) + self.ring_turn + self.rate * drive
 
     def facing_copy(self, position: Real) -> Real:
         return np.round(-position / self.pitches[1])
@@ -157,4 +158,4 @@ class _InternalMesh(MeshSearch):
         return drive, lens / self.rate
 
     def closed_form(self, drive: Real, shift: float = 0.0) -> Real:
-        return internal_flank_gaps(self.pair, drive, self.second_position(drive) + shift, self.distance)
+        return flank_gaps(self.pair, drive, self.second_position(drive) + shift, self.distance)

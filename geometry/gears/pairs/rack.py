@@ -12,14 +12,15 @@ from functools import cached_property
 
 import numpy as np
 
-from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.errors import ParameterError, limit
 from geometry.base.findings import Finding
-from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Real, end_point, start_point
-from geometry.gears.teeth.limits import Margin
+from geometry.gears.pairs.involute import facing_gaps, flank_radii, refuse_other_rack
+from geometry.gears.teeth.limits import Margin, not_kept
 from geometry.gears.teeth.rack import Rack, RackSide
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import ToothSide, tooth_side
+from geometry.plane.distance import Flags
 from geometry.plane.profile import Label
 
 
@@ -63,9 +64,7 @@ class RackPair:
 
     def _gear_tangents(self, *, relief: bool = True) -> tuple[float, float]:
         """Length from the base circle to the gear's first and last flank point, mm; ``relief``: that part too."""
-        labels = (Label.FLANK, Label.RELIEF) if relief else (Label.FLANK,)
-        curves = [s.curve for s in self.sides[0].segments if s.label in labels]
-        ends = abs(start_point(curves[0])), abs(end_point(curves[-1]))
+        ends = flank_radii(self.sides[0], relief=relief)
         low, high = (math.sqrt(max(r * r - self.gear.base_radius**2, 0.0)) for r in ends)
         return low, high
 
@@ -133,8 +132,7 @@ class RackPair:
 
     def findings(self) -> tuple[Finding, ...]:
         """The limits that are not kept; a margin within rounding of the distance counts as kept."""
-        rounding = 1e3 * TOLERANCES.relative_rounding * self.distance
-        return tuple(Finding(m.name, m.value, m.limit) for m in self.margins() if m.margin < -rounding)
+        return not_kept(self.margins(), self.distance)
 
 
 def rack_pair(gear: SpurGear, rack: Rack, distance: float | None = None) -> RackPair:
@@ -145,11 +143,7 @@ def rack_pair(gear: SpurGear, rack: Rack, distance: float | None = None) -> Rack
     ParameterError
         Modules or pressure angles differ, or the teeth would overlap at the distance; names what would work.
     """
-    if gear.module != rack.module:
-        raise ParameterError("module", rack.module, "not_that_of_gear", Nearest(gear.module))
-    one, two = math.degrees(gear.rack.pressure_angle), math.degrees(rack.rack.pressure_angle)
-    if abs(one - two) > 1e-12 * one:
-        raise ParameterError("pressure_angle_deg", two, "not_that_of_gear", Nearest(round(one, 12)))
+    refuse_other_rack(gear, rack.module, rack.rack.pressure_angle, "gear")
     nominal = gear.reference_radius + gear.profile_shift_coefficient * gear.module
     if distance is None:
         return RackPair(gear, rack, nominal)
@@ -174,18 +168,17 @@ def rack_flank_gaps(pair: RackPair, rotation: Real, position: Real, distance: fl
     angle: gap = distance sin(alpha) - (y + s/2) cos(alpha) - r_b f. inf where it misses one flank.
     """
     alpha, base, base_pitch = pair.rack.rack.pressure_angle, pair.gear.base_radius, pair.base_pitch
-    low, high = pair._gear_tangents(relief=False)
+    ends = pair._gear_tangents(relief=False)
     least, most = (x + distance - pair.distance for x in pair._rack_depths())
     result = np.full((len(rotation), 2), np.inf)
     half = pair.rack.tooth_thickness / 2
+
+    def meets(at: Real, gap: Real) -> Flags:
+        depth = base * math.cos(alpha) + (at + gap) * math.sin(alpha)
+        return (depth >= least) & (depth <= most)
+
     for column, sense in enumerate((1.0, -1.0)):
         reached = base * (alpha - sense * rotation + pair.gear.base_half_angle)
         gap = distance * math.sin(alpha) - (sense * position + half) * math.cos(alpha) - reached
-        gap = gap - np.round(gap / base_pitch) * base_pitch
-        start = low + np.mod(reached - low, base_pitch)
-        for k in range(math.ceil((high - low) / base_pitch) + 1):
-            at = start + k * base_pitch
-            depth = base * math.cos(alpha) + (at + gap) * math.sin(alpha)
-            inside = (at <= high) & (depth >= least) & (depth <= most)
-            result[inside, column] = gap[inside]
+        result[:, column] = facing_gaps(gap, reached, ends, base_pitch, meets)
     return result

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from geometry.base.errors import GeometryError, Nearest, ParameterError, UndercutError, limit
 from geometry.base.findings import Finding
 from geometry.base.nearest import Suspect, blamed, nearest
+from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import start_point
 from geometry.gears.teeth.joints import pointed_radius
 from geometry.gears.teeth.shaping import check_shaping, least_shift_with_cutter
@@ -38,6 +39,12 @@ class Margin:
     value: float
     limit: float
     margin: float
+
+
+def not_kept(margins: Iterable[Margin], size: float) -> tuple[Finding, ...]:
+    """The limits that are not kept, as remarks; a margin within rounding of a size, mm, counts as kept."""
+    rounding = 1e3 * TOLERANCES.relative_rounding * size
+    return tuple(Finding(m.name, m.value, m.limit) for m in margins if m.margin < -rounding)
 
 
 def least_shift_without_undercut(gear: SpurGear) -> float:

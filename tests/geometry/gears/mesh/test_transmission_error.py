@@ -121,7 +121,7 @@ class Brute:
         elif isinstance(pair, InternalPair):
             self.at = pair.pinion.reference_radius
             self.centre, self.closing = -pair.working_centre_distance - shift + 0j, -1
-            self.arm, self.middle = pair.ring.base_radius, pair.ring_rotation
+            self.arm, self.middle = pair.ring.base_radius, pair.second_rotation
             profiles = [s.profile() for s in pair.sides]
         else:
             self.at, self.centre, self.closing = pair.gear.reference_radius, pair.distance + shift + 0j, -1

@@ -8,6 +8,7 @@ import random
 from dataclasses import replace
 from pathlib import Path
 
+import mpmath
 import numpy as np
 import pytest
 import shapely
@@ -16,6 +17,7 @@ from geometry.base.angles import involute_function
 from geometry.base.errors import ParameterError
 from geometry.gears.mesh.internal import internal_contact
 from geometry.gears.pairs.internal import InternalPair, internal_pair, shift_difference
+from geometry.gears.pairs.involute import Sums, signed
 from geometry.gears.teeth.basic_rack import BasicRack, iso_53
 from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.internal_mesh import InternalMesh
@@ -256,7 +258,7 @@ def test_gap_against_polygons() -> None:
     pinion, hole = polygons(pair, 30)
     for k in range(0, len(found.drive_angles), 25):
         drive = found.drive_angles[k]
-        around = placed(hole, pair.ring_rotation(drive) + turn, -pair.working_centre_distance)
+        around = placed(hole, pair.second_rotation(drive) + turn, -pair.working_centre_distance)
         gap = placed(pinion, drive, 0.0).distance(around.exterior)
         assert gap == pytest.approx(found.gaps[k], abs=5e-4)
 
@@ -294,7 +296,7 @@ def test_rotations_are_inverse_and_roll() -> None:
     pair = pair_of(30, 60)
     for direction in (0.0, 0.7):
         for turn in (0.0, 0.3, -2.0):
-            back = pair.ring_rotation(pair.pinion_rotation(turn, direction), direction)
+            back = pair.second_rotation(pair.pinion_rotation(turn, direction), direction)
             assert back == pytest.approx(turn, abs=1e-14)
     step = pair.pinion_rotation(0.2) - pair.pinion_rotation(0.1)
     assert step == pytest.approx(0.1 * pair.gear_ratio, rel=1e-12)
@@ -354,3 +356,30 @@ def test_random_legal_pairs() -> None:
 @pytest.mark.parametrize("seed", range(20))
 def test_two_thousand_random_legal_pairs(seed: int) -> None:
     check_random_pairs(100, 1000 + seed)
+
+
+@pytest.mark.parametrize(
+    ("z1", "more", "x1", "x2", "farther"),
+    [(17, 33, 0.0, 0.0, 0.0), (20, 40, 0.3, 0.5, 0.2), (8, 15, 0.6, -0.2, 0.05), (96, 48, -0.25, 0.4, 0.3)],
+)
+def test_signed_numbers_give_what_is_written_out_for_a_ring(
+    z1: int, more: int, x1: float, x2: float, farther: float
+) -> None:
+    """ISO 21771's signs, both ways, and the sums against GOST 19274's differences in 30 digits."""
+    pinion = SpurGear(2.0, z1, iso_53(), x1)
+    ring = RingGear(2.0, z1 + more, pinion.rack.pressure_angle, 1e3, RoundedRoot(), x2, circumferential_thinning=0.1)
+    plain, there = signed(pinion), signed(ring)
+    assert plain == (z1, x1, pinion.reference_radius, pinion.base_radius)
+    assert [-v for v in there] == [z1 + more, x2, ring.reference_radius, ring.base_radius]
+    sums = Sums.of(pinion, ring)
+    with mpmath.workdps(30):
+        alpha = mpmath.mpf(ring.pressure_angle)
+        inv = mpmath.tan(alpha) - alpha + 2 * (mpmath.mpf(x2) - mpmath.mpf(x1)) * mpmath.tan(alpha) / more
+        assert abs(sums.involute - inv) < 1e-14
+        base = more * mpmath.cos(alpha)
+        distance = float(base / mpmath.cos(alpha)) + farther
+        angle = mpmath.acos(base / mpmath.mpf(distance))
+        play = mpmath.mpf("0.1") * mpmath.cos(alpha) - 2 * base * (mpmath.tan(angle) - angle - inv)
+        assert abs(sums.normal_backlash(sums.angle(distance)) - play) < 1e-11
+        wanted = (mpmath.tan(angle) - angle - mpmath.tan(alpha) + alpha) * more / (2 * mpmath.tan(alpha))
+        assert abs(shift_difference(pinion, ring, distance) - wanted) < 1e-10

@@ -20,7 +20,8 @@ import pytest
 from geometry.base.errors import GeometryError, ParameterError
 from geometry.gears.mesh import external as module_under_test
 from geometry.gears.mesh.external import PairContact, pair_contact
-from geometry.gears.pairs.external import ExternalPair, external_pair, flank_gaps
+from geometry.gears.pairs.external import ExternalPair, external_pair
+from geometry.gears.pairs.involute import flank_gaps
 from geometry.gears.teeth import limits
 from geometry.gears.teeth.basic_rack import BasicRack, iso_53
 from geometry.gears.teeth.spur import SpurGear

@@ -1,0 +1,486 @@
+"""The involute pair, external or a pinion in its ring: one set of formulas, ISO 21771's for signed tooth numbers.
+
+A ring has a negative tooth number there, and with it negative radii and the opposite sign of its profile shift. Outside
+this file nothing is negative, and a ring's shift is positive away from its axis (GOST 19274): ``signed`` goes between
+both. The practicum's numbers (lesson 3, seed 000) are those of its equations for external pairs.
+
+Frame: the first gear's axis is the origin, or the ring's; the other lies at ``working_centre_distance`` in the given
+direction, and so does the mesh.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar, Generic, NamedTuple, TypeVar
+
+import numpy as np
+
+from geometry.base.angles import inverse_involute, involute_function
+from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.findings import Finding
+from geometry.base.tolerance import TOLERANCES
+from geometry.curves.curve import Curve, Real, end_point, start_point
+from geometry.gears.teeth.limits import Margin, not_kept
+from geometry.gears.teeth.ring import RingGear
+from geometry.gears.teeth.ring_tooth import RingSide
+from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.tooth import ToothSide, tooth_side
+from geometry.plane.distance import Flags
+from geometry.plane.profile import Label
+
+# to which the sought limit is given, so that it works when a printed one is typed back
+_NEAREST_DIGITS = 6
+
+Gear = SpurGear | RingGear
+Side = ToothSide | RingSide
+G = TypeVar("G", bound=Gear)
+S = TypeVar("S", bound=Side)
+
+
+class Signed(NamedTuple):
+    """Tooth number, shift coefficient, reference and base radius (mm) as ISO 21771 has them: a ring's negated."""
+
+    teeth: int
+    shift: float
+    reference_radius: float
+    base_radius: float
+
+
+def sign_of(gear: Gear) -> int:
+    """-1 for a ring, 1 for an external gear."""
+    return -1 if isinstance(gear, RingGear) else 1
+
+
+def signed(gear: Gear) -> Signed:
+    """A gear's numbers with the signs of ISO 21771; the same change of sign leads back."""
+    sign = sign_of(gear)
+    return Signed(
+        sign * gear.number_of_teeth,
+        sign * gear.profile_shift_coefficient,
+        sign * gear.reference_radius,
+        sign * gear.base_radius,
+    )
+
+
+def pressure_angle(gear: Gear) -> float:
+    """alpha, rad."""
+    return gear.pressure_angle if isinstance(gear, RingGear) else gear.rack.pressure_angle
+
+
+@dataclass(frozen=True)
+class InvolutePair(Generic[G, S]):
+    """Two gears in mesh at a centre distance; lengths in mm, angles in rad, coefficients in modules.
+
+    Results for both gears are tuples (first, second).
+    """
+
+    first: SpurGear
+    second: G
+    working_centre_distance: float
+    working_pressure_angle: float
+
+    # how the limits name both gears
+    roles: ClassVar[tuple[str, str]] = ("first", "second")
+
+    @property
+    def sign(self) -> int:
+        """Of the second gear's tooth number: 1 external, -1 in a ring."""
+        return sign_of(self.second)
+
+    @property
+    def module(self) -> float:
+        """m, mm."""
+        return self.first.module
+
+    @property
+    def gears(self) -> tuple[SpurGear, G]:
+        """Both gears."""
+        return self.first, self.second
+
+    @property
+    def teeth(self) -> tuple[int, int]:
+        """Numbers of teeth, without signs."""
+        return self.first.number_of_teeth, self.second.number_of_teeth
+
+    @property
+    def gear_ratio(self) -> float:
+        """u = z2 / z1 without its sign; practicum (3.2). Both gears of an internal pair turn the same way."""
+        return self.second.number_of_teeth / self.first.number_of_teeth
+
+    @property
+    def reference_centre_distance(self) -> float:
+        """a = r1 + r2, mm; r2 - r1 in a ring."""
+        return abs(self.first.reference_radius + signed(self.second).reference_radius)
+
+    @property
+    def centre_distance_coefficient(self) -> float:
+        """y = (a_w - a) / m."""
+        return (self.working_centre_distance - self.reference_centre_distance) / self.module
+
+    @property
+    def working_radii(self) -> tuple[float, float]:
+        """r_w1, r_w2, mm; practicum (3.5), (3.6)."""
+        a_w, u = self.working_centre_distance, self.gear_ratio
+        return a_w / (u + self.sign), a_w * u / (u + self.sign)
+
+    @property
+    def base_pitch(self) -> float:
+        """p_b = pi m cos(alpha), mm: the pitch along the line of action; ISO 21771."""
+        return math.pi * self.module * math.cos(self.first.rack.pressure_angle)
+
+    @property
+    def working_pitch(self) -> float:
+        """p_w = 2 pi r_w1 / z1, mm."""
+        return self.working_radii[0] * self.first.pitch_angle
+
+    @cached_property
+    def first_side(self) -> ToothSide:
+        """The exact side of the first gear's teeth; raises ParameterError where it cannot be built."""
+        return tooth_side(self.first)
+
+    @property
+    def second_side(self) -> S:
+        """That of the second's teeth or, of a ring, spaces; raises ParameterError where it cannot be built."""
+        raise NotImplementedError
+
+    @property
+    def sides(self) -> tuple[ToothSide, S]:
+        """Both sides."""
+        return self.first_side, self.second_side
+
+    @property
+    def root_form_radii(self) -> tuple[float, float]:
+        """r_Ff, mm: where each involute gives way to the fillet; the ring's is its outer end."""
+        return flank_radii(self.first_side)[0], flank_radii(self.second_side)[0]
+
+    @property
+    def tip_form_radii(self) -> tuple[float, float]:
+        """r_Fa, mm: where each flank (relief included) ends; the tip radius unless the tip is broken."""
+        return flank_radii(self.first_side)[1], flank_radii(self.second_side)[1]
+
+    @property
+    def tip_pressure_angles(self) -> tuple[float, float]:
+        """alpha_a = arccos(r_b / r_Fa), rad; practicum (3.18), (3.19)."""
+        one, two = self._tip_tangents()
+        return math.atan2(one, self.first.base_radius), math.atan2(two, self.second.base_radius)
+
+    @property
+    def contact_ratio(self) -> float:
+        """eps_alpha from the angles at the tips, relieved flanks counted; practicum (3.20), ISO 21771."""
+        return self._ratio_between(*self.tip_pressure_angles)
+
+    @property
+    def main_flank_contact_ratio(self) -> float:
+        """eps_alpha of the main flanks alone: equal to ``contact_ratio`` where no tip is relieved."""
+        tips = [flank_radii(side, relief=False)[1] for side in self.sides]
+        one = math.acos(self.first.base_radius / tips[0])
+        return self._ratio_between(one, math.acos(self.second.base_radius / tips[1]))
+
+    def _ratio_between(self, first_tip: float, second_tip: float) -> float:
+        """(z1 tan(alpha_a1) + z2 tan(alpha_a2) - (z1 + z2) tan(alpha_w)) / (2 pi)."""
+        z1, z2 = self.first.number_of_teeth, signed(self.second).teeth
+        tangents = z1 * math.tan(first_tip) + z2 * math.tan(second_tip)
+        return (tangents - (z1 + z2) * math.tan(self.working_pressure_angle)) / (2 * math.pi)
+
+    @property
+    def effective_contact_ratio(self) -> float:
+        """eps_alpha between the ends of the active profiles: less where a fillet or a base circle ends a flank."""
+        low, high = self._active_line()
+        return (high - low) / self.base_pitch
+
+    @property
+    def arc_of_action(self) -> float:
+        """Arc dd' on the working circles while one pair of teeth is in contact, mm; practicum, figure 3.13."""
+        along = self._tip_tangents()[0] - self._start_tangents()[0]
+        return self.working_radii[0] * along / self.first.base_radius
+
+    @property
+    def contact_ratio_by_arc(self) -> float:
+        """eps_alpha = dd' / p_w; practicum (3.21)."""
+        return self.arc_of_action / self.working_pitch
+
+    @property
+    def active_profile_radii(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Radii between which each flank is in contact, mm, the lesser first; ISO 21771 (d_Nf, d_Na).
+
+        Where the mate's tip asks for more than the involute has, the root form circle or the base circle bounds it.
+        """
+        active, line = self._active_line(), self._line_of_action
+        (low, high), two = active, self.second.base_radius
+        ends = [math.hypot(two, line - self.sign * at) for at in active[:: -self.sign]]
+        one = self.first.base_radius
+        return (math.hypot(one, low), math.hypot(one, high)), (ends[0], ends[1])
+
+    def _active_line(self) -> tuple[float, float]:
+        """Where contact begins and ends on the line of action, mm from the first gear's base circle."""
+        asked, forms, tips = self._start_tangents(), self._form_tangents(), self._tip_tangents()
+        return max(asked[0], forms[0]), min(tips[0], self.sign * (self._line_of_action - forms[1]))
+
+    @property
+    def tip_clearances(self) -> tuple[float, float]:
+        """Bottom clearance at the root of the first and of the second gear, mm: a_w - r_f - r_a of the mate, signed."""
+        a_w, sign = self.sign * self.working_centre_distance, self.sign
+        return (
+            a_w - self.first.root_radius - sign * self.second.tip_radius,
+            a_w - sign * self.second.root_radius - self.first.tip_radius,
+        )
+
+    @property
+    def normal_backlash(self) -> float:
+        """j_bt, mm (j_bn of spur gears): play along the line of action, from thinning and centre distance.
+
+        j_bt = (A_1 + A_2) cos(alpha) + 2 (r_b1 + r_b2) (inv alpha_w - inv alpha_w0), alpha_w0 from (3.3).
+        """
+        return Sums.of(self.first, self.second).normal_backlash(self.working_pressure_angle)
+
+    @property
+    def circumferential_backlash(self) -> float:
+        """j_wt = j_bn / cos(alpha_w), mm: play as an arc on the working circles; ISO 21771."""
+        return self.normal_backlash / math.cos(self.working_pressure_angle)
+
+    @property
+    def facing(self) -> float:
+        """The direction in which the second gear sees the mesh, from the line of centres, rad."""
+        return math.pi if self.sign > 0 else 0.0
+
+    def second_rotation(self, first_rotation: float, direction: float = 0.0, *, contact: int = 0) -> float:
+        """Rotation of the second gear that brings a tooth of one into the middle of a space of the other, rad.
+
+        ``first_rotation`` is the first gear's, ``direction`` that of the line of centres (both rad, from +x).
+        ``contact`` = +1 or -1 turns the second gear on, counter-clockwise or clockwise, by half of the backlash:
+        its flanks then touch. The result is not reduced to one turn: it runs on as the first gear turns.
+        """
+        z1, z2 = self.first.number_of_teeth, signed(self.second).teeth
+        # a ring is described from the middle of a space, which a tooth of the pinion enters
+        faced = direction + self.facing - (math.pi / z2 if self.sign > 0 else 0.0)
+        return faced - (first_rotation - direction) * z1 / z2 + contact * self._half_play(self.second)
+
+    def _half_play(self, gear: Gear) -> float:
+        """Half of the backlash as a rotation of one of the gears, rad."""
+        return self.normal_backlash / (2 * gear.base_radius)
+
+    def margins(self) -> tuple[Margin, ...]:
+        """The pair's own limits, each with its margin (>= 0 where kept); practicum 3.1, blocking contours.
+
+        ``fillet_interference_*``: where the mate's tip asks the flank to start against where the involute starts, both
+        in mm along the line of action from the base circle (exact for a rounded rack: the limit comes from the root
+        form circle). ``contact_ratio`` (effective) against 1; ``tip_clearance_*`` and ``normal_backlash`` against 0,
+        mm. With little clearance a sharp tip may still strike a fillet beside the flanks: the contact search tells.
+        """
+        starts, forms, names = self._start_tangents(), self._form_tangents(), self._start_limits()
+        ratio, backlash, (one, two) = self.effective_contact_ratio, self.normal_backlash, self.roles
+        clearances = self.tip_clearances
+        return (
+            Margin(f"{names[0]}_{one}", starts[0], forms[0], starts[0] - forms[0]),
+            Margin(f"{names[1]}_{two}", starts[1], forms[1], self.sign * (starts[1] - forms[1])),
+            Margin("contact_ratio", ratio, 1.0, ratio - 1.0),
+            Margin(f"tip_clearance_{one}", clearances[0], 0.0, clearances[0]),
+            Margin(f"tip_clearance_{two}", clearances[1], 0.0, clearances[1]),
+            Margin("normal_backlash", backlash, 0.0, backlash),
+        )
+
+    def _start_limits(self) -> tuple[str, str]:
+        """What the limit of each flank's start is called."""
+        return "fillet_interference", "fillet_interference"
+
+    def findings(self) -> tuple[Finding, ...]:
+        """The limits that are not kept; a margin within rounding of the pair's size counts as kept."""
+        return not_kept(self.margins(), max(self.working_centre_distance, self.second.root_radius))
+
+    @property
+    def _line_of_action(self) -> float:
+        """a_w sin(alpha_w): length between the points where the line of action touches the base circles, mm."""
+        return self.working_centre_distance * math.sin(self.working_pressure_angle)
+
+    def _tangents(self, radii: tuple[float, float]) -> tuple[float, float]:
+        """Length from each gear's base circle to a radius, along the line of action, mm."""
+        return tangent_length(radii[0], self.first.base_radius), tangent_length(radii[1], self.second.base_radius)
+
+    def _tip_tangents(self) -> tuple[float, float]:
+        """The same to each gear's last flank point."""
+        return self._tangents(self.tip_form_radii)
+
+    def _form_tangents(self) -> tuple[float, float]:
+        """The same to each gear's first flank point."""
+        return self._tangents(self.root_form_radii)
+
+    def _start_tangents(self) -> tuple[float, float]:
+        """The same to where the mate's tip touches; negative beyond the base circle's point of contact."""
+        tips, line, sign = self._tip_tangents(), self._line_of_action, self.sign
+        return sign * (line - tips[1]), line - sign * tips[0]
+
+
+@dataclass(frozen=True, slots=True)
+class Sums:
+    """What a mesh follows from: sums over both gears of signed teeth, shifts and base radii; and thinning, mm."""
+
+    teeth: int
+    shift: float
+    base: float
+    thinning: float
+    alpha: float
+
+    @classmethod
+    def of(cls, first: SpurGear, second: Gear) -> Sums:
+        """Those of two gears."""
+        one, two = signed(first), signed(second)
+        thinning = first.circumferential_thinning + second.circumferential_thinning
+        return cls(
+            one.teeth + two.teeth,
+            one.shift + two.shift,
+            one.base_radius + two.base_radius,
+            thinning,
+            pressure_angle(second),
+        )
+
+    @property
+    def involute(self) -> float:
+        """inv(alpha_w) without thinning: inv(alpha) + 2 (x1 + x2) tan(alpha) / (z1 + z2); practicum (3.3)."""
+        return involute_function(self.alpha) + 2 * self.shift * math.tan(self.alpha) / self.teeth
+
+    def distance(self, angle: float) -> float:
+        """a_w = (r_b1 + r_b2) / cos(alpha_w), mm; practicum (3.4)."""
+        return abs(self.base) / math.cos(angle)
+
+    def angle(self, distance: float) -> float:
+        """alpha_w at a distance of at least both base radii, mm."""
+        return math.acos(abs(self.base) / distance)
+
+    def normal_backlash(self, angle: float) -> float:
+        """j_bt at a working angle, mm."""
+        opened = involute_function(angle) - self.involute
+        # the inverse involute function leaves a few roundings: at the distance of (3.4) there is nothing else
+        if abs(opened) < 16 * TOLERANCES.relative_root:
+            opened = 0.0
+        return self.thinning * math.cos(self.alpha) + 2 * self.base * opened
+
+    def shift_at(self, distance: float) -> float:
+        """x1 + x2 of the pair without thinning at a distance, mm.
+
+        Raises
+        ------
+        ParameterError
+            The distance is less than the base circles leave.
+        """
+        self.refuse_below_base(distance)
+        gained = involute_function(self.angle(distance)) - involute_function(self.alpha)
+        return gained * self.teeth / (2 * math.tan(self.alpha))
+
+    def refuse_below_base(self, distance: float) -> None:
+        """Raise where the base circles leave no working angle."""
+        if not distance >= abs(self.base):
+            least = limit(abs(self.base), distance, digits=_NEAREST_DIGITS)
+            raise ParameterError("working_centre_distance", distance, "no_working_angle", least)
+
+
+def common_sums(first: SpurGear, second: Gear, blamed: str) -> Sums:
+    """The sums of two gears that fit; ``blamed``: what refusals call the first gear (first, pinion).
+
+    Raises
+    ------
+    ParameterError
+        Modules or pressure angles differ; names what would work.
+    """
+    refuse_other_rack(first, second.module, pressure_angle(second), blamed)
+    return Sums.of(first, second)
+
+
+def refuse_other_rack(first: SpurGear, module: float, alpha: float, blamed: str) -> None:
+    """Raise where the mate of a gear has another module, mm, or pressure angle, rad, than that gear."""
+    if first.module != module:
+        raise ParameterError("module", module, f"not_that_of_{blamed}", Nearest(first.module))
+    one, two = math.degrees(first.rack.pressure_angle), math.degrees(alpha)
+    if abs(one - two) > 1e-12 * one:
+        raise ParameterError("pressure_angle_deg", two, f"not_that_of_{blamed}", Nearest(round(one, 12)))
+
+
+def working_angle(sums: Sums, first: SpurGear, second: Gear, blamed: str) -> float:
+    """alpha_w by (3.3), rad; raises ParameterError with the second's nearest shift where there is none."""
+    value = sums.involute
+    if value >= 0:
+        return inverse_involute(value).value
+    least = -involute_function(sums.alpha) * sums.teeth / (2 * math.tan(sums.alpha)) - first.profile_shift_coefficient
+    x = second.profile_shift_coefficient
+    cure = limit(sign_of(second) * least, x, digits=_NEAREST_DIGITS)
+    raise ParameterError("profile_shift_coefficient", x, f"no_working_angle_with_{blamed}", cure, involute=value)
+
+
+def angle_at(sums: Sums, distance: float) -> float:
+    """alpha_w at a distance, mm, at which the teeth have room; raises ParameterError with the nearest one that has."""
+    if distance >= abs(sums.base) and sums.normal_backlash(sums.angle(distance)) >= -1e-12 * distance:
+        return sums.angle(distance)
+    spare = sums.thinning * math.cos(sums.alpha) / (2 * sums.base)
+    angle = inverse_involute(max(sums.involute - spare, 0.0)).value
+    cure = limit(sums.distance(angle), distance, digits=_NEAREST_DIGITS)
+    raise ParameterError("working_centre_distance", distance, "teeth_overlap", cure)
+
+
+def flank_gaps(pair: InvolutePair[G, S], first_rotation: Real, second_rotation: Real, distance: float) -> Real:
+    """Closed form for the main flanks at a centre distance (mm), for rotations (n,) of both gears (rad): (n, 2) mm.
+
+    Columns: lower and upper flanks of the first gear's teeth, line of centres along +x; from the ring to its pinion.
+    The common normal touches both base circles: gap = a sin(alpha_w) - r_b1 f1 - r_b2 f2 with the roll angles f
+    (``contact.involute_gap``), signed for a ring. inf where no common normal meets two flanks.
+    """
+    one, two, sign = pair.first.base_radius, pair.second.base_radius, pair.sign
+    base, result = abs(one + sign * two), np.full((len(first_rotation), 2), np.inf)
+    if not distance > base:
+        return result
+    angle = math.acos(base / distance)
+    length = distance * math.sin(angle)
+    own, (least, most) = _main_flank(pair.first_side, one), _main_flank(pair.second_side, two)
+    for column, sense in enumerate((1.0, -1.0)):
+        reached = one * (angle - sense * first_rotation + pair.first.base_half_angle)
+        mate = two * (angle - sense * (second_rotation - pair.facing) + pair.second.base_half_angle)
+
+        def meets(at: Real, gap: Real) -> Flags:
+            roll = length - sign * (gap + at)
+            return (roll >= least) & (roll <= most)
+
+        result[:, column] = facing_gaps(sign * length - reached - sign * mate, reached, own, pair.base_pitch, meets)
+    return result
+
+
+def facing_gaps(
+    gap: Real, reached: Real, ends: tuple[float, float], base_pitch: float, meets: Callable[[Real, Real], Flags]
+) -> Real:
+    """Gaps (n,), mm, of the flanks that face each other, of flanks a base pitch apart: those with the least.
+
+    ``reached`` (n,): where the first gear's flank is on the line of action, mm from its base circle, as it is up to
+    whole base pitches; ``ends``: between which lengths it is a flank. ``meets`` tells of such lengths and gaps whether
+    the mate's flank is there. inf where no common normal meets two flanks.
+    """
+    low, high = ends
+    gap = gap - np.round(gap / base_pitch) * base_pitch
+    found = np.full(gap.shape, np.inf)
+    start = low + np.mod(reached - low, base_pitch)
+    for k in range(math.ceil((high - low) / base_pitch) + 1):
+        at = start + k * base_pitch
+        inside = (at <= high) & meets(at, gap)
+        found[inside] = gap[inside]
+    return found
+
+
+def tangent_length(radius: float, base: float) -> float:
+    """sqrt(r^2 - r_b^2), mm; 0 inside the base circle."""
+    return math.sqrt(max((radius - base) * (radius + base), 0.0))
+
+
+def flank_radii(side: Side, *, relief: bool = True) -> tuple[float, float]:
+    """Radii at which the involute gives way to the fillet and to the tip, mm; ``relief``: with that part."""
+    curves = _flanks(side, relief=relief)
+    return abs(start_point(curves[0])), abs(end_point(curves[-1]))
+
+
+def _flanks(side: Side, *, relief: bool = True) -> list[Curve]:
+    labels = (Label.FLANK, Label.RELIEF) if relief else (Label.FLANK,)
+    return [s.curve for s in side.segments if s.label in labels]
+
+
+def _main_flank(side: Side, base: float) -> tuple[float, float]:
+    """The lengths from the base circle, mm, between which the main flank lies."""
+    low, high = sorted(abs(roll) * base for roll in _flanks(side, relief=False)[0].domain)
+    return low, high
