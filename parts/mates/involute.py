@@ -144,7 +144,8 @@ class ExternalMating(GearMating):
             "gear_ratio": self.pair.gear_ratio,
             "working_pressure_angle_deg": math.degrees(self.pair.working_pressure_angle),
             "working_centre_distance": self.distance,
-            "tip_shortening_coefficient": self.pair.tip_shortening_coefficient,
+            # of the section's pair in transverse modules, told in normal ones as scenes have them
+            "tip_shortening_coefficient": self.pair.tip_shortening_coefficient / math.cos(self.face.helix.angle),
             **self._ratios(),
         }
 

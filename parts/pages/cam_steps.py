@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 import numpy as np
 from msgspec import Meta
 
-from geometry.cams.motion.follower_motion import FollowerMotion, Phase, PhaseKind
+from geometry.cams.motion.follower_motion import TURN, FollowerMotion, Phase, PhaseKind
 from geometry.cams.plane.disk import DiskCam
 from geometry.cams.plane.graphical import INTERVALS, LEAST_INTERVALS, MOST_INTERVALS
 from geometry.curves.curve import Complex, Real
@@ -162,12 +162,24 @@ def grid(pieces: Sequence[LawPiece], step: float, end: float) -> Real:
 
 
 def cam_angles(motion: FollowerMotion, step: float) -> tuple[Real, Real]:
-    """The cam angles of a table in degrees and rad: every ``step`` degrees and where a phase begins."""
-    angle = grid(motion.pieces, math.radians(step), 2 * math.pi)
+    """The cam angles of a table in degrees and rad: every ``step`` degrees and where a phase begins.
+
+    At an impact there are two rows, of both its sides; what jumps as the turn closes has its left side at 360 degrees.
+    """
+    told, angle = with_left_sides(
+        grid(motion.pieces, math.radians(step), TURN), [j.angle or TURN for j in motion.impacts()]
+    )
     # the steps as typed
-    degrees = np.degrees(angle)
+    degrees = np.degrees(told)
     even = np.round(degrees / step) * step
     return np.where(np.abs(degrees - even) < 1e-9, even, degrees), angle
+
+
+def with_left_sides(at: Real, jumps: Sequence[float]) -> tuple[Real, Real]:
+    """Arguments with those of ``jumps`` before them, and the same for a motion, which reads the left side of a jump."""
+    told, asked = np.append(at, jumps), np.append(at, np.nextafter(jumps, 0))
+    order = np.argsort(asked)
+    return told[order], asked[order]
 
 
 def motion_columns(
@@ -233,12 +245,14 @@ def cam_swings(cam: DiskCam) -> bool:
 
 
 def impact_notes(page: Sheet, motion: FollowerMotion) -> None:
-    """What the table holds at joints, and where they are felt."""
-    page.notes.append(N_("at the joint of two phases the table holds the values of the one that begins"))
+    """Where joints are felt, and what the table holds there."""
+    impacts = motion.impacts()
+    if impacts:
+        page.notes.append(N_("at an impact the table has two rows: what was before, and what begins"))
     felt = {
         "rigid": N_("rigid impact at cam angle {angle} degrees"),
         "soft": N_("soft impact at cam angle {angle} degrees"),
     }
-    for joint in motion.impacts():
+    for joint in impacts:
         if joint.impact is not None:
             page.notes.append(filled(felt[joint.impact], angle=f"{math.degrees(joint.angle):.6g}"))

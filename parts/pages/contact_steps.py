@@ -98,21 +98,21 @@ def sliding_steps(page: Sheet, pair: ExternalPair) -> None:
     ):
         page.add("tip_sliding", tip, when_whole(formula), "ISO 21771", gear)
     factors = line.speed_factors(pair.working_radii[0])
-    page.add("sliding_factor", factors[0], "{g_f} * (1 + 1 / {u}) / {r_w1}", "ISO 21771", 1)
-    page.add("sliding_factor", factors[1], "{g_a} * (1 + 1 / {u}) / {r_w1}", "ISO 21771", 2)
+    page.add("sliding_factor_at_start", factors[0], "{g_f} * (1 + 1 / {u}) / {r_w1}", "ISO 21771")
+    page.add("sliding_factor_at_end", factors[1], "{g_a} * (1 + 1 / {u}) / {r_w1}", "ISO 21771")
     if line.approach < 0 or line.recess < 0:
         page.notes.append(N_("the pole lies outside the active line of action"))
 
 
 def backlash_steps(page: Sheet, pair: ExternalPair, helix: float) -> None:
-    """j_n, j_t and the tip clearances."""
+    """j_n, j_t and the bottom clearances."""
     page.section(N_("Backlash and clearance"))
     circumferential = pair.circumferential_backlash
     normal = pair.normal_backlash * math.cos(base_helix_angle(pair.first.rack.pressure_angle, helix))
     page.add("circumferential_backlash", circumferential, "{p_w} - {S_w1} - {S_w2}", "ISO 21771")
     cosine = " * cos({beta_b})" if helix else ""
     page.add("normal_backlash", normal, f"{{j_wt}} * cos({{alpha_w}}){cosine}", "ISO 21771")
-    page.both("tip_clearance", pair.tip_clearances, "{a_w} - {r_f#} - {r_a~}", ("ISO 21771", "ISO 21771"))
+    page.both("bottom_clearance_at_root", pair.tip_clearances, "{a_w} - {r_f#} - {r_a~}", ("ISO 21771", "ISO 21771"))
 
 
 def limit_steps(page: Sheet, pair: ExternalPair, face: CommonFace) -> None:

@@ -139,6 +139,11 @@ class Sheet:
         self.sections[-1].steps.append(step)
         self.known[(key or term.key) + index] = Known(shown, value, term.unit)
 
+    def name(self, key: str, known: str, gear: int = 0) -> None:
+        """A second key for a value that is known, for formulas that are the same of other parts."""
+        index = str(gear) if gear else ""
+        self.known[key + index] = self.known[known + index]
+
     def both(
         self, name: str, values: tuple[Value, Value], formula: str = "", sources: tuple[str, str] = ("", "")
     ) -> None:

@@ -100,10 +100,11 @@ approach_length|g_f|aP|mm|length of approach
 recess_length|g_a|Pb|mm|length of recess
 root_sliding|zeta_f|ζ_f||specific sliding at the root
 tip_sliding|zeta_a|ζ_a||specific sliding at the tip
-sliding_factor|K_g|K_g||sliding speed at the end, part of the pitch speed
+sliding_factor_at_start|K_gf|K_gf||sliding speed at the start of contact, part of the pitch speed
+sliding_factor_at_end|K_ga|K_ga||sliding speed at the end of contact, part of the pitch speed
 normal_backlash|j_bn|j_n|mm|normal backlash
 circumferential_backlash|j_wt|j_t|mm|circumferential backlash
-tip_clearance|c_tip|c|mm|tip clearance at the root
+bottom_clearance_at_root|c_tip|c|mm|bottom clearance at the root, below the mate's tip
 least_shift_practicum|xi_min|ξ_min||least shift without undercut by the rule
 least_shift_without_undercut|x_min|x_min||least shift without undercut, exactly
 least_number_of_teeth|z_min|z_min||least number of teeth without undercut at x = 0

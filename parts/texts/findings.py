@@ -28,14 +28,14 @@ FINDINGS: dict[str, Text] = {
     "active_flank_cut_away_first": N_(
         "undercut has taken active flank of the first gear: {value:.4f} mm is asked, {limit:.4f} mm is there"
     ),
-    "tip_clearance_first": N_("the tip of the first gear strikes the mate's root: clearance {value:.4f} mm"),
+    "tip_clearance_first": N_("the mate's tip strikes the root of the first gear: clearance {value:.4f} mm"),
     "fillet_interference_second": N_(
         "the mate's tip reaches the fillet of the second gear: {value:.4f} mm, the involute begins at {limit:.4f} mm"
     ),
     "active_flank_cut_away_second": N_(
         "undercut has taken active flank of the second gear: {value:.4f} mm is asked, {limit:.4f} mm is there"
     ),
-    "tip_clearance_second": N_("the tip of the second gear strikes the mate's root: clearance {value:.4f} mm"),
+    "tip_clearance_second": N_("the mate's tip strikes the root of the second gear: clearance {value:.4f} mm"),
     "contact_ratio": N_("contact ratio {value:.4f} is below {limit:.1f}: the drive is interrupted"),
     "transverse_contact_ratio": N_(
         "transverse contact ratio {value:.4f} is below 1: the drive runs on along the face, total contact "
@@ -69,6 +69,10 @@ FINDINGS: dict[str, Text] = {
         "the pinion goes into the ring only along its axis: room {value:.4f} mm, {limit:.4f} mm needed"
     ),
     "thin_ring_rim": N_("thin rim: {value:.3f} mm outside the root circle, less than one module ({limit:.3f} mm)"),
+    "rack_rounding_reduced": N_(
+        "the tip of the basic rack is rounded by {value:.4f} m: the standard's {limit:.2f} m, which is for 20 degrees, "
+        "does not fit at this pressure angle"
+    ),
     "cutter_makes_root": N_(
         "basic_rack gives the addendum alone ({value:.4g} m): the cutter makes the root, diameter "
         "{limit:.4f} mm, and the fillet"

@@ -102,6 +102,14 @@ class PieceMotion:
         found = [p.value(p.extremes(order), order) for p in self.pieces]
         return float(min(v.min() for v in found)), float(max(v.max() for v in found))
 
+    def joints(self) -> tuple[Joint, ...]:
+        """Every joint of two pieces; the first stands between the last piece and the first."""
+        return _joints(self.pieces)
+
+    def impacts(self) -> list[Joint]:
+        """Joints with a rigid or soft impact."""
+        return [j for j in self.joints() if j.impact]
+
 
 @dataclass(frozen=True, slots=True)
 class FollowerMotion(PieceMotion):
@@ -137,14 +145,6 @@ class FollowerMotion(PieceMotion):
         """-S: what the counter-follower of a conjugate cam does."""
         phases = tuple(Phase(p.angle, -p.lift, p.law) for p in self.phases)
         return FollowerMotion(tuple(p.placed(0.0, 1.0, 0.0, -1.0) for p in self.pieces), phases)
-
-    def joints(self) -> tuple[Joint, ...]:
-        """Every joint between pieces, the one at cam angle 0 first."""
-        return _joints(self.pieces)
-
-    def impacts(self) -> list[Joint]:
-        """Joints with a rigid or soft impact."""
-        return [j for j in self.joints() if j.impact]
 
 
 @lru_cache(maxsize=16)

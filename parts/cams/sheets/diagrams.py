@@ -25,6 +25,8 @@ LEFT, RIGHT, BELOW = 36.0, 17.0, 16.0
 _GAP = 15.0
 _ORDERS = (2, 1, 0)
 _TICKS = 5
+# after the point of an axis' numbers: more than any scale of a drawing has
+_MOST_DIGITS = 400
 Exact = list[tuple[str, complex, complex]]
 
 
@@ -107,12 +109,13 @@ def _axes(
     canvas.write("φ", right + complex(-3.0, 3.0))
     scale = scales.of(order)
     step = standard_scale(max(high - low, 1e-9) * scale / _TICKS)
+    digits = next(d for d in range(_MOST_DIGITS) if round(step, d) == step)
     for k in range(math.ceil(low * scale / step - 1e-9), math.floor(high * scale / step + 1e-9) + 1):
         if k == 0:
             continue
         at = zero + width + 1j * (k * step / scale)
         canvas.line("AXIS", at - 0.8, at + 0.8)
-        text = picture.say(k * step, max(0, -math.floor(math.log10(step) + 1e-9)) + (step * 10 % 1 > 0))
+        text = picture.say(k * step, digits)
         canvas.write(text, at + complex(1.8, -SMALL_TEXT / 2), SMALL_TEXT)
     canvas.line("AXIS", zero + width + 1j * min(low, 0.0), zero + width + 1j * high)
 

@@ -24,6 +24,7 @@ from parts.pages.cam_steps import (
     phase_steps,
     straightened,
     table_of,
+    with_left_sides,
 )
 from parts.pages.inputs import checked, refusal
 from parts.pages.page import Sheet, Table
@@ -127,8 +128,9 @@ def _pressure(cam: WedgeCam, piece: LawPiece, t: Real) -> Real:
 def _positions(cam: WedgeCam, step: float, *, swings: bool) -> Table:
     """s, S, S', S'', pressure angle, radius of curvature, profile in the plate's frame; the last row is the end."""
     travel = cam.motion.travel
-    at = np.append(grid(cam.motion.pieces, step, travel), travel)
-    columns, heads = motion_columns([cam.motion.value(at, k) for k in range(3)], at, swings=swings, slides=True)
+    inner = [joint.angle for joint in cam.motion.impacts() if joint.angle > 0]
+    told, at = with_left_sides(np.append(grid(cam.motion.pieces, step, travel), travel), inner)
+    columns, heads = motion_columns([cam.motion.value(at, k) for k in range(3)], told, swings=swings, slides=True)
     normal = 1j * cam.rate(at)
     profile = cam.centre(at) - cam.radius * normal / np.abs(normal)
     with np.errstate(divide="ignore"):

@@ -16,7 +16,7 @@ from geometry.base.nearest import Suspect, blamed, nearest
 from geometry.solids.wheel import WheelShape, wheel_body, wheel_sections
 from parts.base.kind import Kind, Others, Report
 from parts.base.schema import replaced
-from parts.gears.spur_gear.part import RackTable, basic_rack_of
+from parts.gears.spur_gear.part import RackTable, basic_rack_of, rounding_finding
 from parts.keys.base import either, in_modules, mm, start
 from parts.keys.cutter import PressureAngle, RackName
 from parts.keys.holes import hub_holes, with_remedy
@@ -189,7 +189,7 @@ class NoncircularGearKind(Kind[NoncircularGearSpec, "NoncircularGear"]):
             "least_curvature_radius_of_centrode": 1 / thing.curvatures[1],
             "tip_tooth_thickness": thing.outline.tip_thickness,
         }
-        return Report(findings_of(thing), circles, quantities)
+        return Report((*rounding_finding(keys), *findings_of(thing)), circles, quantities)
 
 
 NONCIRCULAR_GEAR = NoncircularGearKind()

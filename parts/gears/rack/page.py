@@ -13,9 +13,11 @@ from parts.base.refusal import REMOVED, SceneError
 from parts.base.texts import N_, message
 from parts.gears.rack.part import RackSpec, checked_rack_part
 from parts.gears.spur_gear.page import section_data
+from parts.gears.spur_gear.part import rounding_finding
 from parts.keys.base import mm
 from parts.pages.inputs import PLACE, SceneKeys, checked, part_of_kind, refusal
 from parts.pages.page import Sheet
+from parts.texts.findings import finding_message
 
 TOPIC = "rack"
 _ISO = "ISO 21771"
@@ -45,21 +47,17 @@ def sheet(table: dict[str, Any]) -> Sheet:
     page = Sheet(TOPIC, N_("Rack"))
     helix = math.radians(keys.helix_angle_deg)
     _given(page, rack, keys, helix)
-    _dimensions(page, rack, helix)
+    _dimensions(page, rack)
     _pins(page, rack, keys, helix)
     page.section(N_("Chords"))
     chord, constant = rack_measurement.reference_chord(rack, helix), rack_measurement.constant_chord(rack, helix)
     page.add("chordal_thickness", chord.thickness, "{S} * cos({beta})" if helix else "{S}", _ISO)
     page.add("chordal_height", chord.height, "{h_aR}", _ISO)
-    page.add("constant_chord", constant.thickness, f"{{S_ch}} * cos({_alpha(helix)})**2", "GOST 16532-70")
-    formula = f"{{h_ch}} - {{S_c}} * tan({_alpha(helix)}) / 2"
+    page.add("constant_chord", constant.thickness, "{S_ch} * cos({alpha_n})**2", "GOST 16532-70")
+    formula = "{h_ch} - {S_c} * tan({alpha_n}) / 2"
     page.add("constant_chord_height", constant.height, formula, "GOST 16532-70")
+    page.notes += [finding_message(f) for f in rounding_finding(keys)]
     return page
-
-
-def _alpha(helix: float) -> str:
-    """The normal pressure angle, as a placeholder."""
-    return "{alpha_n}" if helix else "{alpha}"
 
 
 def _given(page: Sheet, rack: Rack, keys: RackKeys, helix: float) -> None:
@@ -75,14 +73,13 @@ def _given(page: Sheet, rack: Rack, keys: RackKeys, helix: float) -> None:
         page.add("circumferential_thinning", rack.circumferential_thinning)
 
 
-def _dimensions(page: Sheet, rack: Rack, helix: float) -> None:
+def _dimensions(page: Sheet, rack: Rack) -> None:
     """Pitch, heights and thicknesses."""
-    unit = "{m_n}" if helix else "{m}"
     page.section(N_("Pitch and tooth thickness"))
     page.add("pitch", rack.pitch, "pi * {m}", _ISO)
     page.add("rack_length", rack.length, "{z} * {p}")
-    page.add("rack_addendum", rack.addendum, f"{{h_a}} * {unit}", _ISO, symbol="h_a")
-    page.add("rack_dedendum", rack.dedendum, f"({{h_a}} + {{c}}) * {unit}", _ISO)
+    page.add("rack_addendum", rack.addendum, "{h_a} * {m_n}", _ISO, symbol="h_a")
+    page.add("rack_dedendum", rack.dedendum, "({h_a} + {c}) * {m_n}", _ISO)
     less = " - {A}" if rack.circumferential_thinning else ""
     page.add("reference_thickness", rack.tooth_thickness, f"0.5 * {{p}}{less}", _ISO)
     page.add("space_width", rack.pitch - rack.tooth_thickness, "{p} - {S}", _ISO)
@@ -93,16 +90,16 @@ def _dimensions(page: Sheet, rack: Rack, helix: float) -> None:
 def _pins(page: Sheet, rack: Rack, keys: RackKeys, helix: float) -> None:
     """Over a pin, from the rack's back."""
     page.section(N_("Over a pin"))
-    alpha, share = _alpha(helix), " * cos({beta})" if helix else ""
+    share = " * cos({beta})" if helix else ""
     best = rack_measurement.pin_touching_at(rack, 0.0, helix)
     low, high = rack_measurement.pin_limits(rack, helix)
-    page.add("pin_at_datum_line", best, f"{{e}}{share} / cos({alpha})", "KHK")
+    page.add("pin_at_datum_line", best, f"{{e}}{share} / cos({{alpha_n}})", "KHK")
     page.add("least_pin_diameter", low)
     page.add("greatest_pin_diameter", high)
     pin = best if keys.pin_diameter is None else keys.pin_diameter
     found = rack_measurement.over_pin(rack, pin, helix)
     page.add("pin_diameter", pin)
-    formula = f"{{H}} - {{e}}{share} / (2 * tan({alpha})) + {{D}} / 2 * (1 + 1 / sin({alpha}))"
+    formula = f"{{H}} - {{e}}{share} / (2 * tan({{alpha_n}})) + {{D}} / 2 * (1 + 1 / sin({{alpha_n}}))"
     page.add("over_pin", found.length, formula, "KHK")
     if rack.circumferential_thinning:
         nominal = replace(rack, circumferential_thinning=0.0)
@@ -110,10 +107,10 @@ def _pins(page: Sheet, rack: Rack, keys: RackKeys, helix: float) -> None:
     if keys.kerf:
         page.add("kerf", keys.kerf)
         # the space's flanks and the back lie half a kerf deeper
-        formula = f"{{M}} - {{kerf}} / 2 * (1 + 1 / sin({alpha}))"
+        formula = "{M} - {kerf} / 2 * (1 + 1 / sin({alpha_n}))"
         cut = found.length - keys.kerf / 2 * (1 + 1 / math.sin(math.radians(keys.pressure_angle_deg)))
         page.add("over_pin_after_kerf", cut, formula)
-    formula = f"({{D}} * cos({alpha}) - {{e}}{share}) / (2 * tan({alpha}))"
+    formula = f"({{D}} * cos({{alpha_n}}) - {{e}}{share}) / (2 * tan({{alpha_n}}))"
     page.add("pin_contact_height", found.contact_height, formula)
     if not (found.touches_flanks and found.stands_out):
         told = N_("a pin of {diameter:.4g} mm does not touch the flanks or does not stand out; take the best one")

@@ -9,7 +9,7 @@ from msgspec import Meta, Struct
 
 from geometry.base.errors import ParameterError
 from parts.base.kind import Kind, Others, Report
-from parts.gears.spur_gear.part import RackTable, basic_rack_of
+from parts.gears.spur_gear.part import RackTable, basic_rack_of, rounding_finding
 from parts.keys.base import degrees, mm
 from parts.keys.cutter import RackName
 from parts.keys.helix import ToothedKeys, checked_teeth, helix_of, section_finding, told_in_keys
@@ -108,7 +108,7 @@ class RackKind(Kind[RackSpec, "Rack"]):
             "tip_tooth_thickness": thing.tip_thickness,
             **({"normal_pitch": math.pi * keys.module} if keys.helix_angle_deg else {}),
         }
-        return Report(quantities=quantities, flat_findings=section_finding(keys))
+        return Report(rounding_finding(keys), quantities=quantities, flat_findings=section_finding(keys))
 
 
 RACK = RackKind()

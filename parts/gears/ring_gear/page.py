@@ -51,7 +51,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
         page = Sheet(TOPIC, N_("Internal gear"))
         helix = math.radians(keys.helix_angle_deg)
         _given(page, ring, keys, helix)
-        _dimensions(page, ring, keys, helix)
+        _dimensions(page, ring, keys)
         _thicknesses(page, ring, keys.diameter)
         _limits(page, ring, keys)
         spanned, pin = keys.spaces_spanned, keys.pin_diameter
@@ -71,8 +71,9 @@ def _given(page: Sheet, ring: RingGear, keys: RingKeys, helix: float) -> None:
     if ring.circumferential_thinning:
         page.add("circumferential_thinning", ring.circumferential_thinning)
         if ring.thinning_by_deeper_cut:
-            formula = "{x} + {A} / (2 * {m} * tan({alpha}))"
-            page.add("generating_shift_coefficient", ring.generating_shift_coefficient, formula, _ISO)
+            formula = "{x_n} + {A} / (2 * {m_n} * tan({alpha}))"
+            value = ring.generating_shift_coefficient / math.cos(helix)
+            page.add("generating_shift_coefficient", value, formula, _ISO)
     normal = ring.module / keys.module
     if isinstance(ring.root, RoundedRoot):
         page.add("dedendum_coefficient", ring.root.dedendum * normal)
@@ -86,10 +87,10 @@ def _given(page: Sheet, ring: RingGear, keys: RingKeys, helix: float) -> None:
 
 def _generating_shift(ring: RingGear) -> str:
     """The shift that the space follows, as a placeholder."""
-    return "{x_E}" if ring.circumferential_thinning and ring.thinning_by_deeper_cut else "{x}"
+    return "{x_E}" if ring.circumferential_thinning and ring.thinning_by_deeper_cut else "{x_n}"
 
 
-def _dimensions(page: Sheet, ring: RingGear, keys: RingKeys, helix: float) -> None:
+def _dimensions(page: Sheet, ring: RingGear, keys: RingKeys) -> None:
     """Pitches and diameters; the root is where the cutter's tips come to."""
     page.section(N_("Diameters"))
     page.add("pitch", math.pi * ring.module, "pi * {m}", _ISO)
@@ -100,20 +101,18 @@ def _dimensions(page: Sheet, ring: RingGear, keys: RingKeys, helix: float) -> No
     if ring.given_tip_diameter is None and ring.tip_radius == ring.default_tip_radius:
         shift = keys.profile_shift_coefficient
         plain = keys.tip_rule == "KHK" or shift >= 2
-        height = "{h_a}" if plain else f"({{h_a}} - (0.25 - 0.125 * {'{x_n}' if helix else '{x}'}))"
-        formula = f"{{d}} - 2 * ({height} * {{m_n}} - {{x}} * {{m}})"
-        formula = formula if helix else formula.replace("{m_n}", "{m}")
+        short = "" if plain else " - (0.25 - 0.125 * {x_n})"
+        formula = f"{{d}} - 2 * ({{h_a}} - {{x_n}}{short}) * {{m_n}}"
     page.add("tip_diameter", 2 * ring.tip_radius, formula, _GOST if formula else "")
-    unit, cosine = ("{m_n}", " * cos({beta})") if helix else ("{m}", "")
     shift_key = _generating_shift(ring)
     if isinstance(ring.root, RoundedRoot):
-        page.add("root_diameter", 2 * ring.root_radius, f"{{d}} + 2 * ({{h_f}} * {unit} + {shift_key} * {{m}})")
+        page.add("root_diameter", 2 * ring.root_radius, f"{{d}} + 2 * ({{h_f}} + {shift_key}) * {{m_n}}")
     else:
-        angle = f"arcinv(inv({{alpha}}) + 2 * ({shift_key} - {{x_0}}{cosine}) * tan({{alpha}}) / ({{z}} - {{z_0}}))"
+        angle = f"arcinv(inv({{alpha}}) + 2 * ({shift_key} - {{x_0}}) * tan({{alpha_n}}) / ({{z}} - {{z_0}}))"
         page.add("generating_angle_deg", math.degrees(ring.generating_angle), angle, _GOST)
         distance = "({z} - {z_0}) * {m} * cos({alpha}) / (2 * cos({alpha_w0}))"
         page.add("generating_distance", ring.generating_distance, distance, _GOST)
-        formula = f"2 * {{a_w0}} + {{m}} * {{z_0}} + 2 * ({{h_a0}} + {{x_0}}) * {unit}"
+        formula = "2 * {a_w0} + {m} * {z_0} + 2 * ({h_a0} + {x_0}) * {m_n}"
         page.add("root_diameter", 2 * ring.root_radius, formula, _GOST)
     page.add("root_form_diameter", ring_limits.root_form_diameter(ring), "", _ISO)
 

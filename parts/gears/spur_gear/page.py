@@ -15,11 +15,12 @@ from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import base_helix_angle, transverse_angle
 from parts.base.refusal import REMOVED, SceneError
 from parts.base.texts import N_
-from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of, section_of
+from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of, rack_findings, section_of
 from parts.keys.base import mm
 from parts.pages.inputs import PLACE, SceneKeys, checked, part_of_kind, refusal
 from parts.pages.measured_steps import Asked, measured_steps
 from parts.pages.page import Sheet
+from parts.texts.findings import finding_message
 
 TOPIC = "spur"
 
@@ -56,17 +57,23 @@ def sheet(table: dict[str, Any]) -> Sheet:
         _limits(page, gear, helix)
         spanned, pin = keys.teeth_spanned, keys.pin_diameter
         measured_steps(page, gear, Asked(helix, keys.face_width, spanned, pin, keys.kerf, keys.measured_span))
+        page.notes += [finding_message(f) for f in rack_findings(keys, gear)]
     except ParameterError as error:
         raise refusal(TOPIC, error, keys=keys) from error
     return page
 
 
 def section_data(page: Sheet, normal_module: float, normal_pressure_angle: float, helix: float) -> None:
-    """Module and pressure angle; of helical teeth the normal ones, the helix, and what follows from them."""
+    """Module and pressure angle; of helical teeth the normal ones, the helix, and what follows from them.
+
+    ``{m_n}`` and ``{alpha_n}`` stand in the formulas of both: coefficients are told in normal modules.
+    """
     alpha = math.degrees(normal_pressure_angle)
     if not helix:
         page.add("module", normal_module)
         page.add("pressure_angle_deg", alpha)
+        page.name("m_n", "m")
+        page.name("alpha_n", "alpha")
         return
     page.add("module", normal_module, symbol="m_n", key="m_n")
     page.add("helix_angle_deg", math.degrees(helix))
@@ -80,9 +87,10 @@ def section_data(page: Sheet, normal_module: float, normal_pressure_angle: float
 
 
 def shift_data(page: Sheet, normal_shift: float, helix: float, index: int = 0) -> None:
-    """The profile shift; of helical teeth the normal one and the transverse."""
+    """The profile shift, ``{x_n#}`` in formulas; of helical teeth the normal one and the transverse."""
     if not helix:
         page.add("profile_shift_coefficient", normal_shift, gear=index)
+        page.name("x_n", "x", index)
         return
     page.add("profile_shift_coefficient", normal_shift, "", "", index, symbol="x_n", key="x_n")
     value = normal_shift * math.cos(helix)
@@ -102,33 +110,20 @@ def given_data(page: Sheet, normal: SpurGear, gear: SpurGear, helix: float, inde
     if gear.circumferential_thinning:
         page.add("circumferential_thinning", gear.circumferential_thinning, gear=index)
         if gear.thinning_by_deeper_cut:
-            formula = "{x#} - {A#} / (2 * {m} * tan({alpha}))"
-            page.add("generating_shift_coefficient", gear.generating_shift_coefficient, formula, "ISO 21771", index)
+            formula = "{x_n#} - {A#} / (2 * {m_n} * tan({alpha}))"
+            value = gear.generating_shift_coefficient / math.cos(helix)
+            page.add("generating_shift_coefficient", value, formula, "ISO 21771", index)
 
 
-def addendum_formula(helix: float, shortening: str = "") -> str:
-    """h_a + x m, or with the normal module and the transverse shift, over placeholders."""
-    if helix:
-        return f"{{h_a#}} * {{m_n}} + ({{x#}}{shortening}) * {{m}}" if shortening else "{h_a#} * {m_n} + {x#} * {m}"
-    return f"({{h_a#}} + {{x#}}{shortening}) * {{m}}"
+def addendum_formula(shortening: str = "") -> str:
+    """h_a + x m, over placeholders."""
+    return f"({{h_a#}} + {{x_n#}}{shortening}) * {{m_n}}"
 
 
-def dedendum_formula(gear: SpurGear, helix: float) -> str:
-    """The same for h_f - x m."""
-    shift = thinned_shift(gear)
-    if helix:
-        return f"({{h_a#}} + {{c#}}) * {{m_n}} - {shift} * {{m}}"
-    return f"({{h_a#}} + {{c#}} - {shift}) * {{m}}"
-
-
-def _enclosed(formula: str, helix: float) -> str:
-    """A sum in brackets; of spur gears it is a product."""
-    return f"({formula})" if helix else formula
-
-
-def thinned_shift(gear: SpurGear, index: str = "#") -> str:
-    """The shift that the root follows, as a placeholder."""
-    return f"{{x_E{index}}}" if gear.circumferential_thinning and gear.thinning_by_deeper_cut else f"{{x{index}}}"
+def dedendum_formula(gear: SpurGear) -> str:
+    """The same for h_f - x m, with the shift that the root follows."""
+    deeper = gear.circumferential_thinning and gear.thinning_by_deeper_cut
+    return f"({{h_a#}} + {{c#}} - {'{x_E#}' if deeper else '{x_n#}'}) * {{m_n}}"
 
 
 def thickness_formula(gear: SpurGear) -> str:
@@ -144,9 +139,9 @@ def dimensions(page: Sheet, gear: SpurGear, helix: float) -> None:
     page.add("base_pitch", gear.pitch_angle * gear.base_radius, "{p} * cos({alpha})", "ISO 21771")
     page.add("reference_diameter", 2 * gear.reference_radius, "{m} * {z}", "practicum (3.7)")
     page.add("base_diameter", 2 * gear.base_radius, "{d} * cos({alpha})", "practicum, table 1.1")
-    formula = "" if gear.given_tip_diameter is not None else f"{{d}} + 2 * {_enclosed(addendum_formula(helix), helix)}"
+    formula = "" if gear.given_tip_diameter is not None else f"{{d}} + 2 * {addendum_formula()}"
     page.add("tip_diameter", 2 * gear.tip_radius, formula, "practicum (3.11)" if formula else "")
-    formula = f"{{d}} - 2 * {_enclosed(dedendum_formula(gear, helix), helix)}"
+    formula = f"{{d}} - 2 * {dedendum_formula(gear)}"
     page.add("root_diameter", 2 * gear.root_radius, formula, "practicum (3.13)")
     page.add("root_form_diameter", limits.root_form_diameter(gear), "", "ISO 21771")
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache, partial
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal, Protocol
 
 from msgspec import Meta, Struct
 
@@ -14,6 +14,7 @@ from geometry.base.errors import GeometryError, Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
 from geometry.gears.teeth.basic_rack import (
+    ISO_53,
     ISO_53_ANGLE,
     BasicRack,
     TipRelief,
@@ -202,7 +203,7 @@ class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
             "tip_tooth_thickness": tip_thickness(thing),
             **helix_quantities(keys, thing.reference_radius),
         }
-        return Report((*_rack_finding(keys, thing), *findings(thing)), circles, quantities, section_finding(keys))
+        return Report((*rack_findings(keys, thing), *findings(thing)), circles, quantities, section_finding(keys))
 
 
 SPUR_GEAR = SpurGearKind()
@@ -262,9 +263,27 @@ def _check_unused(keys: SpurGearSpec) -> None:
             raise ParameterError(f"basic_rack.{key}", given, "made_by_cutter", Nearest(usual))
 
 
-def _rack_finding(keys: SpurGearSpec, gear: SpurGear) -> tuple[Finding, ...]:
-    """The remark that only the addendum of a basic rack counts beside a cutter: it, and the root diameter."""
-    if keys.cutter is None or keys.basic_rack == "ISO 53 A":
+class Racked(Protocol):
+    """Keys of a part that a rack cuts, or that is one."""
+
+    pressure_angle_deg: float
+    basic_rack: RackName | RackTable
+
+
+def rounding_finding(keys: Racked) -> tuple[Finding, ...]:
+    """The remark that a standard rack's tip rounding is less at this pressure angle: both, in modules."""
+    if isinstance(keys.basic_rack, RackTable):
+        return ()
+    radius = basic_rack_of(keys.basic_rack, math.radians(keys.pressure_angle_deg)).tip_radius
+    standard = ISO_53[_profile(keys.basic_rack)][2]
+    return (Finding("rack_rounding_reduced", radius, standard),) if radius < standard else ()
+
+
+def rack_findings(keys: SpurGearSpec, gear: SpurGear) -> tuple[Finding, ...]:
+    """What a gear does not take as it stands from its basic rack; beside a cutter only the addendum counts."""
+    if keys.cutter is None:
+        return rounding_finding(keys)
+    if keys.basic_rack == "ISO 53 A":
         return ()
     addendum = gear.rack.addendum * gear.module / keys.module
     return (Finding("cutter_makes_root", addendum, 2 * gear.root_radius),)
@@ -286,7 +305,7 @@ def basic_rack_of(table: RackName | RackTable, angle: float, relief: TipRelief |
         The rack cannot exist; names the key and the nearest value that works.
     """
     if isinstance(table, str):
-        return _standard_rack("A" if table == "GOST 13755" else table[-1], angle, relief)
+        return _standard_rack(_profile(table), angle, relief)
     addendum, clearance, radius = (
         table.addendum_coefficient,
         table.tip_clearance_coefficient,
@@ -295,6 +314,11 @@ def basic_rack_of(table: RackName | RackTable, angle: float, relief: TipRelief |
     if radius is None:
         radius = default_tip_radius(angle, addendum, clearance, _TABLE_TIP_RADIUS)
     return checked_rack(BasicRack(angle, addendum, clearance, radius, relief))
+
+
+def _profile(name: RackName) -> str:
+    """The ISO 53 profile of a standard rack."""
+    return "A" if name == "GOST 13755" else name[-1]
 
 
 def _standard_rack(profile: str, angle: float, relief: TipRelief | None) -> BasicRack:

@@ -22,7 +22,7 @@ from parts.base.refusal import REMOVED, SceneError, meant
 from parts.base.texts import N_
 from parts.gears.ring_gear.part import RingGearSpec
 from parts.gears.spur_gear.page import addendum_formula, dedendum_formula, given_data, thickness_formula
-from parts.gears.spur_gear.part import SpurGearSpec, gear_of, section_of
+from parts.gears.spur_gear.part import SpurGearSpec, gear_of, rack_findings, section_of
 from parts.keys.base import in_modules, mm
 from parts.keys.helix import in_keys
 from parts.mates.pages.internal import internal_sheet, merged, rack_sheet
@@ -37,6 +37,7 @@ from parts.pages.contact_steps import (
 from parts.pages.inputs import PLACE, SceneKeys, checked, given, keys_of, refusal
 from parts.pages.misprints import printed_for_pair
 from parts.pages.page import Sheet
+from parts.texts.findings import finding_of
 
 TOPIC = "gear-pair"
 GEARS = ("first", "second")
@@ -171,7 +172,7 @@ def asked_pair(keys: PairKeys, shifts_given: tuple[bool, ...]) -> Asked:
         normal = first, second
     normal = _thinned(keys, normal, helix)
     if keys.tip_shortening_coefficient is not None:
-        first, second = (_shortened(g, keys.tip_shortening_coefficient) for g in normal)
+        first, second = (_shortened(g, keys.tip_shortening_coefficient, helix) for g in normal)
         normal = first, second
     gears = [_section_of(keys, name, g) for name, g in zip(GEARS, normal, strict=True)]
     # shifts that were found for a distance give it back but for rounding
@@ -191,10 +192,12 @@ def _section_of(keys: PairKeys, name: str, normal: SpurGear) -> SpurGear:
         raise refusal(TOPIC, error, name, keys) from error
 
 
-def _shortened(gear: SpurGear, coefficient: float) -> SpurGear:
+def _shortened(gear: SpurGear, coefficient: float, helix: float) -> SpurGear:
     if gear.given_tip_diameter is not None:
         return gear
-    return replace(gear, given_tip_diameter=2 * (gear.tip_radius - coefficient * gear.module))
+    # a tip circle is that of the transverse section, a coefficient one of normal modules
+    tip = transverse_gear(gear, helix).tip_radius
+    return replace(gear, given_tip_diameter=2 * (tip - coefficient * gear.module))
 
 
 def _thinned(keys: PairKeys, normal: tuple[SpurGear, SpurGear], helix: float) -> tuple[SpurGear, SpurGear]:
@@ -263,6 +266,8 @@ def _page(asked: Asked) -> Sheet:
     sliding_steps(page, pair)
     backlash_steps(page, pair, asked.helix)
     limit_steps(page, pair, asked.face)
+    for index, (spec, gear) in enumerate(zip((keys.first, keys.second), pair.gears, strict=True), 1):
+        page.notes += [finding_of(index, f) for f in rack_findings(spec, gear)]
     if printed:
         note = N_("practicum (3.4) prints alpha_w on its left side for a_w")
         page.notes.append(note)
@@ -285,27 +290,29 @@ def _mesh(page: Sheet, asked: Asked) -> None:
         page.add("working_pressure_angle_deg", math.degrees(angle), formula, "practicum (3.4)")
         page.add("involute_of_working_pressure_angle", involute_function(angle), "inv({alpha_w})", "practicum (3.3)")
         total = (one.number_of_teeth + two.number_of_teeth) * (involute_function(angle) - involute_function(alpha))
-        total /= 2 * math.tan(alpha)
-        formula = "({z1} + {z2}) * ({inv_alpha_w} - inv({alpha})) / (2 * tan({alpha}))"
+        total /= 2 * math.tan(asked.normal[0].rack.pressure_angle)
+        formula = "({z1} + {z2}) * ({inv_alpha_w} - inv({alpha})) / (2 * tan({alpha_n}))"
         if asked.shifts_follow:
             page.add("profile_shift_sum", total, formula, "practicum (3.3)")
         else:
             # with shifts of one's own the distance leaves backlash
             page.add("tight_profile_shift_sum", total, formula, "practicum (3.3)")
     else:
-        formula = "2 * ({x1} + {x2}) * tan({alpha}) / ({z1} + {z2}) + inv({alpha})"
+        formula = "2 * ({x_n1} + {x_n2}) * tan({alpha_n}) / ({z1} + {z2}) + inv({alpha})"
         page.add("involute_of_working_pressure_angle", involute_function(angle), formula, "practicum (3.3)")
         page.add("working_pressure_angle_deg", math.degrees(angle), "arcinv({inv_alpha_w})", "practicum (3.3)")
         formula = f"{reference} * cos({{alpha}}) / cos({{alpha_w}})"
         page.add("working_centre_distance", pair.working_centre_distance, formula, "practicum (3.4)")
     page.add("cosine_of_working_pressure_angle", math.cos(angle), "cos({alpha_w})", "practicum, table Е.1")
     page.add("reference_centre_distance", pair.reference_centre_distance, reference, "ISO 21771")
-    page.add("centre_distance_coefficient", pair.centre_distance_coefficient, "({a_w} - {a}) / {m}", "ISO 21771")
+    # of the pair in transverse modules, told in normal ones like the shifts
+    cosine = math.cos(asked.helix)
+    distance, shortening = pair.centre_distance_coefficient / cosine, pair.tip_shortening_coefficient / cosine
+    page.add("centre_distance_coefficient", distance, "({a_w} - {a}) / {m_n}", "ISO 21771")
     if asked.given_shortening is None:
-        page.add("tip_shortening_coefficient", pair.tip_shortening_coefficient, "{x1} + {x2} - {y}", "GOST 16532-70")
+        page.add("tip_shortening_coefficient", shortening, "{x_n1} + {x_n2} - {y}", "GOST 16532-70")
     else:
-        exact = pair.tip_shortening_coefficient
-        page.add("exact_tip_shortening_coefficient", exact, "{x1} + {x2} - {y}", "GOST 16532-70")
+        page.add("exact_tip_shortening_coefficient", shortening, "{x_n1} + {x_n2} - {y}", "GOST 16532-70")
         page.add("tip_shortening_coefficient", asked.given_shortening, "", "practicum, table А.1")
     page.add("working_radius", pair.working_radii[0], "{a_w} / ({u} + 1)", "practicum (3.5)", 1)
     page.add("working_radius", pair.working_radii[1], "{a_w} * {u} / ({u} + 1)", "practicum (3.6)", 2)
@@ -323,19 +330,17 @@ def _radii(page: Sheet, asked: Asked) -> None:
         source = f"practicum (3.{10 + index})"
         page.add("tip_radius", gear.tip_radius, _tip_formula(asked, index - 1), source, index)
     for index, gear in enumerate(gears, 1):
-        formula = dedendum_formula(gear, asked.helix)
-        formula = f"{{r#}} - ({formula})" if asked.helix else f"{{r#}} - {formula}"
-        page.add("root_radius", gear.root_radius, formula, f"practicum (3.{12 + index})", index)
+        page.add(
+            "root_radius", gear.root_radius, f"{{r#}} - {dedendum_formula(gear)}", f"practicum (3.{12 + index})", index
+        )
 
 
 def _tip_formula(asked: Asked, index: int) -> str:
     """(3.11) where the tip follows it; a given tip has no formula."""
-    gear, given_gear = asked.pair.gears[index], asked.normal[index]
-    own = (asked.keys.first, asked.keys.second)[index].tip_diameter is not None
-    if own or (asked.helix and given_gear.given_tip_diameter is not None):
+    if (asked.keys.first, asked.keys.second)[index].tip_diameter is not None:
         return ""
-    shortened = gear.given_tip_diameter is not None
-    return "{r#} + " + addendum_formula(asked.helix, " - {dy}" if shortened else "")
+    shortened = asked.pair.gears[index].given_tip_diameter is not None
+    return "{r#} + " + addendum_formula(" - {dy}" if shortened else "")
 
 
 def _thicknesses(page: Sheet, asked: Asked) -> None:

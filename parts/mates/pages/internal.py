@@ -20,8 +20,8 @@ from parts.base.refusal import SceneError, meant
 from parts.base.texts import N_
 from parts.gears.rack.part import RackSpec, checked_rack_part
 from parts.gears.ring_gear.part import RingGearSpec, checked_ring_gear
-from parts.gears.spur_gear.page import given_data
-from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of
+from parts.gears.spur_gear.page import given_data, shift_data
+from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of, rack_findings, rounding_finding
 from parts.keys.base import mm
 from parts.keys.helix import common_face
 from parts.mates.involute import InternalGearPairSpec, RackPairSpec
@@ -41,6 +41,7 @@ from parts.mates.pairing import mated
 from parts.pages.inputs import PLACE, checked, keys_of, refusal
 from parts.pages.misprints import printed_for_internal
 from parts.pages.page import Sheet
+from parts.texts.findings import finding_of
 
 TOPIC = "gear-pair"
 _GEARS = ("first", "second")
@@ -99,10 +100,12 @@ def internal_sheet(table: dict[str, Any]) -> Sheet:
     given_shift = "profile_shift_coefficient" in table["second"]
     try:
         pair = _internal_pair(keys, given_shift)
-        return _internal_page(pair, keys, _helical(keys))
+        page = _internal_page(pair, keys, _helical(keys))
     except ParameterError as error:
         refused = _refused(error, keys)
         raise wish_refused(TOPIC, keys, refused, lambda changed: _internal_pair(changed, given_shift)) from error
+    page.notes += [finding_of(1, f) for f in rack_findings(keys.first, pair.pinion)]
+    return page
 
 
 def _internal_pair(keys: InternalKeys, given_shift: bool) -> InternalPair:
@@ -167,9 +170,12 @@ def rack_sheet(table: dict[str, Any]) -> Sheet:
             "second": End(keys.second, checked_rack_part(keys.second)),
         }
         pair: Any = mated(ends, [mate], _SAME)[1][0].pair
-        return rack_page(pair, TOPIC, _helical(keys))
+        page = rack_page(pair, TOPIC, _helical(keys))
     except ParameterError as error:
         raise _refused(error, keys) from error
+    for index, found in ((1, rack_findings(keys.first, pair.gear)), (2, rounding_finding(keys.second))):
+        page.notes += [finding_of(index, f) for f in found]
+    return page
 
 
 def _keys(table: dict[str, Any], kind: str) -> tuple[Any, dict[str, Any]]:
@@ -199,18 +205,12 @@ def _internal_page(pair: InternalPair, keys: InternalKeys, helical: Helical) -> 
     page.section(N_("Given"))
     given_data(page, helical.normal, pinion, helical.angle, 1)
     page.add("number_of_teeth", ring.number_of_teeth, gear=2)
-    if helical.angle:
-        normal = ring.profile_shift_coefficient / math.cos(helical.angle)
-        page.add("profile_shift_coefficient", normal, "", "", 2, symbol="x_n", key="x_n")
-        value = ring.profile_shift_coefficient
-        page.add("transverse_profile_shift_coefficient", value, "{x_n2} * cos({beta})", "ISO 21771", 2)
-    else:
-        page.add("profile_shift_coefficient", ring.profile_shift_coefficient, gear=2)
+    shift_data(page, ring.profile_shift_coefficient / math.cos(helical.angle), helical.angle, 2)
     page.add("addendum_coefficient", keys.second.addendum_coefficient, gear=2)
     if ring.circumferential_thinning:
         page.add("circumferential_thinning", ring.circumferential_thinning, gear=2)
     heading(page, helical, N_("Meshing"))
-    _internal_mesh(page, pair, keys.working_centre_distance is not None)
+    _internal_mesh(page, pair, keys.working_centre_distance is not None, helical)
     heading(page, helical, N_("Radii"))
     _internal_radii(page, pair, keys, helical)
     heading(page, helical, N_("Pitch and tooth thickness"))
@@ -221,7 +221,7 @@ def _internal_page(pair: InternalPair, keys: InternalKeys, helical: Helical) -> 
     return page
 
 
-def _internal_mesh(page: Sheet, pair: InternalPair, wanted_distance: bool) -> None:
+def _internal_mesh(page: Sheet, pair: InternalPair, wanted_distance: bool, helical: Helical) -> None:
     """Working angle and distance, from the shifts or the other way round."""
     angle, alpha = pair.working_pressure_angle, pair.ring.pressure_angle
     page.add("gear_ratio", pair.gear_ratio, "{z2} / {z1}", "practicum (3.2)")
@@ -233,16 +233,18 @@ def _internal_mesh(page: Sheet, pair: InternalPair, wanted_distance: bool) -> No
         page.add("working_pressure_angle_deg", math.degrees(angle), formula, "GOST 19274")
         page.add("involute_of_working_pressure_angle", involute_function(angle), "inv({alpha_w})", "GOST 19274")
         value = (involute_function(angle) - involute_function(alpha)) * (pair.teeth[1] - pair.teeth[0])
-        formula = "({z2} - {z1}) * ({inv_alpha_w} - inv({alpha})) / (2 * tan({alpha}))"
-        page.add("profile_shift_difference", value / (2 * math.tan(alpha)), formula, "GOST 19274")
+        value /= 2 * math.tan(helical.normal.rack.pressure_angle)
+        formula = "({z2} - {z1}) * ({inv_alpha_w} - inv({alpha})) / (2 * tan({alpha_n}))"
+        page.add("profile_shift_difference", value, formula, "GOST 19274")
     else:
-        formula = "2 * ({x2} - {x1}) * tan({alpha}) / ({z2} - {z1}) + inv({alpha})"
+        formula = "2 * ({x_n2} - {x_n1}) * tan({alpha_n}) / ({z2} - {z1}) + inv({alpha})"
         page.add("involute_of_working_pressure_angle", involute_function(angle), formula, "GOST 19274")
         page.add("working_pressure_angle_deg", math.degrees(angle), "arcinv({inv_alpha_w})", "GOST 19274")
         formula = f"{reference} * cos({{alpha}}) / cos({{alpha_w}})"
         page.add("working_centre_distance", pair.working_centre_distance, formula, "GOST 19274")
     page.add("reference_centre_distance", pair.reference_centre_distance, reference, "ISO 21771")
-    page.add("centre_distance_coefficient", pair.centre_distance_coefficient, "({a_w} - {a}) / {m}", "ISO 21771")
+    value = pair.centre_distance_coefficient / math.cos(helical.angle)
+    page.add("centre_distance_coefficient", value, "({a_w} - {a}) / {m_n}", "ISO 21771")
     page.add("working_radius", pair.working_radii[0], "{a_w} / ({u} - 1)", "ISO 21771", 1)
     page.add("working_radius", pair.working_radii[1], "{a_w} * {u} / ({u} - 1)", "ISO 21771", 2)
 
@@ -255,12 +257,10 @@ def _internal_radii(page: Sheet, pair: InternalPair, keys: InternalKeys, helical
     first_radii(page, pinion, helical)
     formula = ""
     if ring.tip_radius == ring.default_tip_radius and ring.given_tip_diameter is None:
-        spec, shift = keys.second, "{x_n2}" if helical.angle else "{x2}"
+        spec = keys.second
         plain = spec.tip_rule == "KHK" or ring.profile_shift_coefficient >= 2 * math.cos(helical.angle)
-        short = "" if plain else f" - (0.25 - 0.125 * {shift})"
-        formula = f"{{r2}} - ({{h_a2}} - {{x2}}{short}) * {{m}}"
-        if helical.angle:
-            formula = f"{{r2}} - ({{h_a2}}{short}) * {{m_n}} + {{x2}} * {{m}}"
+        short = "" if plain else " - (0.25 - 0.125 * {x_n2})"
+        formula = f"{{r2}} - ({{h_a2}} - {{x_n2}}{short}) * {{m_n}}"
     page.add("tip_radius", ring.tip_radius, formula, "GOST 19274", 2)
     page.add("root_radius", ring.root_radius, "", "ISO 21771", 2)
 

@@ -340,7 +340,7 @@ def _choice(page: Sheet, wish: InternalRequirements, choice: Choice, number: int
     if math.isfinite(state.contact_ratio):
         page.add("contact_ratio", state.contact_ratio, "", "GOST 19274")
         page.both("root_sliding", found.root_sliding, "", iso)
-    for name, pairs in (("tip_thickness", state.tip_thicknesses), ("tip_clearance", state.tip_clearances)):
+    for name, pairs in (("tip_thickness", state.tip_thicknesses), ("bottom_clearance_at_root", state.tip_clearances)):
         if all(math.isfinite(v) for v in pairs):
             page.both(name, (pairs[0] * module, pairs[1] * module), "", iso)
     _limited_tip(page, pair, found.second, number)

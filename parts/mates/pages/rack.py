@@ -49,12 +49,9 @@ def heading(page: Sheet, helical: Helical, title: str) -> None:
 
 def first_radii(page: Sheet, gear: SpurGear, helical: Helical) -> None:
     """Tip and root of the first gear; a given tip and a root that a pinion cut have no formula."""
-    formula = f"{{r1}} + {addendum_formula(helical.angle)}" if gear.given_tip_diameter is None else ""
+    formula = f"{{r1}} + {addendum_formula()}" if gear.given_tip_diameter is None else ""
     page.add("tip_radius", gear.tip_radius, formula, "practicum (3.11)", 1)
-    formula = ""
-    if gear.cutter is None:
-        formula = dedendum_formula(gear, helical.angle)
-        formula = f"{{r1}} - ({formula})" if helical.angle else f"{{r1}} - {formula}"
+    formula = f"{{r1}} - {dedendum_formula(gear)}" if gear.cutter is None else ""
     page.add("root_radius", gear.root_radius, formula, "practicum (3.13)", 1)
 
 
@@ -64,13 +61,13 @@ def overlap(page: Sheet, pair: Any, helical: Helical) -> None:
 
 
 def backlash_steps(page: Sheet, pair: Any, circumferential: float, helical: Helical) -> None:
-    """j_t, j_n and the tip clearances."""
+    """j_t, j_n and the bottom clearances."""
     page.section(N_("Backlash and clearance"))
     page.add("circumferential_backlash", circumferential, "", "ISO 21771")
     cosine = " * cos({beta_b})" if helical.angle else ""
     formula = f"{{j_wt}} * cos({{alpha_w}}){cosine}"
     page.add("normal_backlash", helical.normal_backlash(pair), formula, "ISO 21771")
-    page.both("tip_clearance", pair.tip_clearances, "", ISO)
+    page.both("bottom_clearance_at_root", pair.tip_clearances, "", ISO)
 
 
 def first_limits(page: Sheet, gear: SpurGear, helical: Helical) -> None:
@@ -103,7 +100,7 @@ def rack_page(pair: RackPair, topic: str, helical: Helical) -> Sheet:
     heading(page, helical, N_("Meshing"))
     page.add("reference_radius", gear.reference_radius, "{m} * {z1} / 2", "practicum (3.7)", 1)
     nominal = gear.reference_radius + gear.profile_shift_coefficient * gear.module
-    formula = "{r1} + {x1} * {m}" if abs(nominal - pair.distance) < 1e-12 * nominal else ""
+    formula = "{r1} + {x_n1} * {m_n}" if abs(nominal - pair.distance) < 1e-12 * nominal else ""
     page.add("rack_distance", pair.distance, formula, "ISO 21771")
     page.add("working_pressure_angle_deg", math.degrees(alpha), "{alpha}", "ISO 21771")
     page.add("travel_per_turn", pair.travel_per_turn, "pi * {m} * {z1}", "ISO 21771")

@@ -63,12 +63,28 @@ def test_lesson_5(case: dict[str, Any], offset: float, side: str) -> None:
 def test_table_2_2(case: dict[str, Any]) -> None:
     data = calculated("guidelines_cam", "step=11.25")
     at = 90 * case["inputs"]["k"]
-    # at 90 degrees the table holds what follows; the law is odd about its middle, its end the negative of its start
-    row = next(r for r in data["positions"] if r["phi"] == pytest.approx(at if at < 90 else 0))
-    expected, end = case["recomputed"], at == 90
-    found = [row["S"] + 32 * end, row["S'"], row["S''"] * (-1 if end else 1)]
+    # of the two rows at 90 degrees the first is the end of the rise
+    row = next(r for r in data["positions"] if r["phi"] == pytest.approx(at))
+    expected = case["recomputed"]
+    found = [row[k] for k in ("S", "S'", "S''")]
     assert found == pytest.approx([expected[k] for k in ("S_mm", "S1_mm", "S2_mm")], rel=1e-12, abs=1e-12)
     assert data["values"]["least_prime_circle_radius"] == pytest.approx(45.81466903731541, rel=1e-12)
+
+
+def test_an_impact_has_a_row_for_each_of_its_sides() -> None:
+    """S'' jumps at the ends of both moves, as the turn closes too; a plate's and a linkage's tables do the same."""
+    rows = calculated("guidelines_cam", "step=30")["positions"]
+    sides = [(r["phi"], round(r["S''"], 2)) for r in rows if r["phi"] in (0, 90, 150, 240, 360)]
+    assert sides == [
+        (0, 77.81), (90, -77.81), (90, 0), (150, 0), (150, -77.81), (240, 77.81), (240, 0), (360, 0),
+    ]  # fmt: skip
+    assert len(rows) == 12 + 4
+    assert not [r for r in calculated("practicum_flat_cam", "step=30")["positions"] if r["phi"] == 360]
+    wedge = calculated("kind=wedge_cam", "follower=pointed", "lift=8", "base_height=15", "step=20",
+                       'phases=[{move="rise",travel=60,law="constant_acceleration"}]')["positions"]  # fmt: skip
+    assert [(r["s"], round(r["S''"], 6)) for r in wedge] == [
+        (0, 0.008889), (20, 0.008889), (30, 0.008889), (30, -0.008889), (40, -0.008889), (60, -0.008889),
+    ]  # fmt: skip
 
 
 def test_positions_hold_the_textbooks_contact_point() -> None:

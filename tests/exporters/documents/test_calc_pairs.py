@@ -182,6 +182,56 @@ def test_a_helical_pair_has_the_normal_backlash_that_was_asked_for(kind: str) ->
     assert expected / 0.1 > 1.1
 
 
+def test_coefficients_of_helical_gears_are_told_in_normal_modules() -> None:
+    """KHK, calculations of a helical pair in the normal system: m_n 3, beta 30, z 12 and 60, x_n 0.09809 and 0."""
+    gears = "module=3 helix_angle_deg=30 face_width=30 first.number_of_teeth=12 second.number_of_teeth=60"
+    values = values_of(f"gear-pair {gears} first.profile_shift_coefficient=0.09809")["values"]
+    assert values["working_centre_distance"] == pytest.approx(125.0, abs=5e-4)
+    assert values["centre_distance_coefficient"] == pytest.approx(0.09744, abs=1e-5)
+    assert [2 * r for r in values["tip_radius"].values()] == pytest.approx([48.153, 213.842], abs=1e-3)
+    total = values_of(f"gear-pair {gears} working_centre_distance=125")["values"]["profile_shift_sum"]
+    assert total == pytest.approx(0.09809, abs=6e-6)
+    # a shortening is given in them too: h_a = (1 + x_n - Delta y) m_n
+    short = values_of(f"gear-pair {gears} first.profile_shift_coefficient=0.09809 tip_shortening_coefficient=0.05")
+    for name, shift in (("first", 0.09809), ("second", 0.0)):
+        height = short["values"]["tip_radius"][name] - short["values"]["reference_radius"][name]
+        assert height == pytest.approx((1 + shift - 0.05) * 3, rel=1e-12)
+
+
+@pytest.mark.parametrize("kind", ["external_gear_pair second.number_of_teeth=41",
+                                  "internal_gear_pair second.number_of_teeth=80"])  # fmt: skip
+def test_coefficients_of_a_helical_pair_are_its_lengths_over_the_normal_module(kind: str) -> None:
+    for more in ("first.profile_shift_coefficient=0.3", "working_centre_distance={}"):
+        distance = 71.0 if kind.startswith("external") else 70.2
+        values = values_of(f"gear-pair kind={kind} {HELICAL} {more.format(distance)}")["values"]
+        apart = values["working_centre_distance"] - values["reference_centre_distance"]
+        assert values["centre_distance_coefficient"] == pytest.approx(apart / 2, rel=1e-12)
+        shifts = values["profile_shift_coefficient"]
+        if (told := values.get("profile_shift_sum")) is not None:
+            assert told == pytest.approx(shifts["first"] + shifts["second"], rel=1e-9)
+        if (told := values.get("profile_shift_difference")) is not None:
+            assert told == pytest.approx(shifts["second"] - shifts["first"], rel=1e-9)
+
+
+def test_a_length_of_one_end_or_one_gear_says_which() -> None:
+    """Sliding at A is that of the second gear's tip, a clearance stands between a root and the mate's tip."""
+    asked = "gear-pair module=2 first.number_of_teeth=20 second.number_of_teeth=41 first.tip_diameter=43"
+    values = values_of(asked)["values"]
+    per_mm = (1 + 20 / 41) / values["working_radius"]["first"]
+    assert values["sliding_factor_at_start"] == pytest.approx(values["approach_length"] * per_mm, rel=1e-12)
+    assert values["sliding_factor_at_end"] == pytest.approx(values["recess_length"] * per_mm, rel=1e-12)
+    # the first gear's tip stands 0.5 mm lower than usual: so much more room at the second one's root
+    assert values["bottom_clearance_at_root"] == pytest.approx({"first": 0.5, "second": 1.0}, abs=1e-12)
+
+
+@pytest.mark.parametrize("name", ["first", "second"])
+def test_a_tip_that_strikes_a_root_is_told_of_the_right_gear(name: str) -> None:
+    asked = f"gear-pair module=2 first.number_of_teeth=20 second.number_of_teeth=41 {name}.tip_diameter="
+    notes = [words("en").say(n) for n in sheet_for(asked + ("45.2" if name == "first" else "87.2")).notes]
+    other = {"first": "second", "second": "first"}[name]
+    assert any(f"strikes the root of the {other} gear: clearance -0.1000" in note for note in notes), notes
+
+
 def test_helical_pages_say_that_their_sections_are_transverse() -> None:
     for asked in SHEETS[-3:]:
         titles = [s.title for s in sheet_for(asked).sections]

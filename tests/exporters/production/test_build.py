@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import os
 import signal
 import subprocess
@@ -50,6 +51,29 @@ def command(*arguments: object, cwd: Path, **more: Any) -> subprocess.CompletedP
     """The command in a process of its own."""
     return subprocess.run([sys.executable, "-m", "exporters", *map(str, arguments)], cwd=cwd, text=True,
                           capture_output=True, timeout=120, encoding="utf-8", check=False, **more)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("language", "word"), [("en", "the tip of the basic rack"), ("uk", "вершину вихідного контуру")]
+)
+def test_a_standard_racks_rounding_that_does_not_fit_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], language: str, word: str
+) -> None:
+    """ISO 53 is for 20 degrees; elsewhere c / (1 - sin alpha) keeps the mate's tip off the fillet."""
+    gear = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 30, "pressure_angle_deg": 14.5}
+    parts = {
+        "a": gear, "b": gear | {"helix_angle_deg": 25.0}, "c": gear | {"kind": "rack"},
+        "none": gear | {"basic_rack": "ISO 53 C"} | {"pressure_angle_deg": 20.0},
+    }  # fmt: skip
+    scene = write_scene(tmp_path / "s.toml", parts, [{"format": "svg"}])
+    assert run("build", scene, "--out", tmp_path / "out", "--language", language) == 0
+    told = [line for line in capsys.readouterr().out.splitlines() if word in line]
+    assert len(told) == 3
+    least = f"{0.25 / (1 - math.sin(math.radians(14.5))):.4f}"
+    assert all(least in line for line in told), told
+    report = read_report(tmp_path / "out" / "s")["parts"]
+    codes = {name: [f["code"] for f in part["findings"]] for name, part in report.items()}
+    assert all(("rack_rounding_reduced" in found) == (name != "none") for name, found in codes.items()), codes
 
 
 def test_the_report_has_the_keys_of_the_design(tmp_path: Path) -> None:

@@ -309,6 +309,15 @@ def test_a_table_of_points_has_a_sheet_without_the_graphical_method() -> None:
         assert not any("by the drawing" in t.text for t in job_of("practicum_flat_cam", "dxf").canvas.texts)
 
 
+def test_numbers_of_an_axis_have_the_digits_of_their_step() -> None:
+    """A lift of 12 mm is told every 2.5 mm; rounded to whole ones that would be 2, 5, 8, 10."""
+    scene = cam_scene({"kind": "cam", "follower": "roller", "lift": 12.0, "follower_radius": 6.0,
+                       "base_circle_radius": 40.0, "phases": RISE_AND_RETURN})  # fmt: skip
+    texts = words_of(plan_build(scene, "t", [], ["sheet"]).sheets[0])
+    assert {"2.5", "5.0", "7.5", "10.0"} <= set(texts)
+    assert "8" not in texts
+
+
 def test_refusals_name_the_key_and_what_works() -> None:
     def told(scene: SceneFile) -> tuple[str, str, Nearest | None]:
         with pytest.raises(SceneError) as caught:
