@@ -133,12 +133,13 @@ def _check_words(sheet: ReadSheet, canvas: Canvas, measured: dict[str, float], f
     missing = wanted - Counter(t.text for t in sheet.texts)
     if missing:
         failures.append(f"words are missing: {', '.join(sorted(missing))}")
-    boxes = [_box(t) for t in sheet.texts]
+    # a rounding less than each: neighbours may touch
+    boxes = [_box(t).grown(-1e-6) for t in sheet.texts]
     for index, box in enumerate(boxes):
-        if not box.within(canvas.frame.grown(1e-6)):
+        if not box.within(canvas.frame):
             failures.append(f"{sheet.texts[index].text} leaves the frame")
         for other in range(index):
-            if box.grown(-1e-6).overlaps(boxes[other].grown(-1e-6)):
+            if box.overlaps(boxes[other]):
                 failures.append(f"{sheet.texts[index].text} stands over {sheet.texts[other].text}")
     measured["words"] = float(len(boxes))
 

@@ -13,7 +13,7 @@ from exporters.production.check_lines import has_bad_verdict
 from exporters.production.jobs import FileJob, Job, Made, ShapeKey, Written
 from exporters.production.moving import alone_in, move_into, staging_folder
 from exporters.production.plan import Plan
-from exporters.production.preview import part_preview, scene_preview
+from exporters.production.preview import outlines_of, part_preview, scene_preview
 from exporters.production.report import NAME, read_report, write_report
 from geometry.base.errors import ConvergenceError, Nearest, ParameterError, ThinWallError, rounded
 from parts.base.refusal import SceneError, placed
@@ -64,9 +64,10 @@ def build(
             if file_job.path in spent:
                 written[-1].seconds["approximate"] = spent[file_job.path]
         wanted = dict.fromkeys(j.part.id for j in (*plan.jobs, *(m for a in plan.assemblies for m in a.members)))
-        previews = [part_preview(plan.parts[p], staging, plan.scene.scene.language) for p in wanted]
+        outlines = {p: outlines_of(plan.parts[p]) for p in wanted}
+        previews = [part_preview(plan.parts[p], o, staging, plan.scene.scene.language) for p, o in outlines.items()]
         if len(plan.placing.instances) > 1 and len(wanted) == len(plan.parts):
-            previews.append(scene_preview(plan, checks, staging))
+            previews.append(scene_preview(plan, outlines, checks, staging))
         names = [item.job.path for item in written if not item.failures]
         with alone_in(folder):
             before = read_report(folder)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import cmath
+from collections.abc import Mapping
 from pathlib import Path
 from textwrap import wrap
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -29,11 +30,12 @@ _PIN_STYLE = "fill:#7f8c99;stroke:#202830"
 # outlines of more curves than this are drawn by so many points of each: arcs take seconds to fit
 _MOST_ARCS, _POINTS = 300, 8
 _FILLS = ("#b8c4d0", "#d9c39a", "#b5cfae", "#d3b3b3", "#bdb6d6")
+# the boundaries of a part, the outer one last
+Outlines: TypeAlias = tuple[Approximation, ...]
 
 
-def part_preview(part: Part, folder: Path, language: str) -> Path:
+def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) -> Path:
     """The filled part, its circles with their diameters, and what was noticed."""
-    boundaries = _outlines(part)
     remarks = [finding_text(language, f) for f in part.findings]
     reach = max(float(np.abs(b.geometry.vertices).max()) for b in boundaries)
     middle = reach * 1.08
@@ -70,10 +72,9 @@ def part_preview(part: Part, folder: Path, language: str) -> Path:
     return file
 
 
-def scene_preview(plan: Plan, checks: dict[str, Any], folder: Path) -> Path:
+def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str, Any], folder: Path) -> Path:
     """All instances in their places, the upper ones last, and what the checks found."""
     language = plan.scene.scene.language
-    outlines = {part: _outlines(plan.parts[part]) for part in dict.fromkeys(i.part for i in plan.placing.instances)}
     stand = sorted(plan.placing.instances, key=lambda i: i.at[2])
     outers = [_samples(outlines[i.part][-1].geometry) * cmath.exp(1j * i.rotation) + i.centre for i in stand]
     points = np.concatenate(outers)
@@ -124,7 +125,8 @@ def scene_preview_name(plan: Plan) -> str:
     return f"{plan.scene.name}{'.assembly' if alike else ''}.preview.svg"
 
 
-def _outlines(part: Part) -> tuple[Approximation, ...]:
+def outlines_of(part: Part) -> Outlines:
+    """The boundaries of a part, near enough for the eye."""
     region = part.section(0.0).region
     tolerance = max(2e-4 * region.outer.reach(), 1e-6)
     return tuple(
@@ -141,7 +143,7 @@ def _sampled(profile: Profile, tolerance: float) -> Approximation:
     return Approximation(contour, tolerance, "sampled", tolerance)
 
 
-def _solid_pins(part: Part, outlines: tuple[Approximation, ...]) -> list[Contour]:
+def _solid_pins(part: Part, outlines: Outlines) -> list[Contour]:
     """Where a flat outline has holes in place of pins of one piece: the holes on the pin circle."""
     if not any(f.code == "flat_pins" for f in part.flat_findings):
         return []
@@ -157,7 +159,7 @@ def _samples(contour: Contour) -> Complex:
     return edge_points(vertices, np.roll(vertices, -1), bulges, np.linspace(0, 1, 9)[:-1]).ravel()
 
 
-def _label_height(outlines: tuple[Approximation, ...], outer: Complex) -> float:
+def _label_height(outlines: Outlines, outer: Complex) -> float:
     """Height over the axis at which a name stands on material: half way from the largest hole about it to the teeth."""
     inner = max((float(np.abs(a.geometry.vertices).max()) for a in outlines[:-1]), default=0.0)
     if not outlines[:-1] and outlines[-1].geometry.count == 1:

@@ -223,14 +223,15 @@ def _slanted_share(face: TopoDS_Face, surface: BRepAdaptor_Surface, *, flat: boo
     place, along, across = gp_Pnt(), gp_Vec(), gp_Vec()
     nodes, weights = _gauss(8)
     total = 0.0
-    rows = np.linspace(surface.FirstVParameter(), surface.LastVParameter(), 2)
+    low, high = surface.FirstVParameter(), surface.LastVParameter()
+    rows = [((low + high) / 2 + (high - low) / 2 * node, weight) for node, weight in zip(nodes, weights, strict=True)]
     for a, b in pairwise(np.linspace(surface.FirstUParameter(), surface.LastUParameter(), 9).tolist()):
         for node, weight in zip(nodes, weights, strict=True):
-            for other, other_weight in zip(nodes, weights, strict=True):
-                v = float(rows.mean() + np.ptp(rows) / 2 * other)
-                surface.D1((a + b) / 2 + (b - a) / 2 * node, v, place, along, across)
+            u = (a + b) / 2 + (b - a) / 2 * node
+            for v, other_weight in rows:
+                surface.D1(u, v, place, along, across)
                 lift = along.X() * across.Y() - along.Y() * across.X()
-                total += weight * other_weight * (b - a) / 4 * float(np.ptp(rows)) * place.Z() * lift
+                total += weight * other_weight * (b - a) / 4 * (high - low) * place.Z() * lift
     return -total if face.Orientation() == TopAbs_Orientation.TopAbs_REVERSED else total
 
 

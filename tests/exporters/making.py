@@ -6,8 +6,10 @@ import json
 import math
 import re
 import struct
+import tempfile
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -71,10 +73,25 @@ def run(*arguments: object) -> int:
 
 
 def build_gear(folder: Path, gear: Gear, *exports: dict[str, Any], face_width: float = 5.0) -> dict[str, Any]:
-    """Build one gear named ``g``; the report, its files in ``folder/out/s``."""
-    scene = write_scene(folder / "s.toml", {"g": part_keys(gear, face_width)}, exports)
-    assert run("build", scene, "--out", folder / "out") == 0
+    """Build one gear named ``g``; the report, its files in ``folder/out/s``.
+
+    The same gear with the same exports is built once: every test has a copy of its own.
+    """
+    text = write_scene(folder / "s.toml", {"g": part_keys(gear, face_width)}, exports).read_text(encoding="utf-8")
+    (folder / "out" / "s").mkdir(parents=True, exist_ok=True)
+    for name, data in _built(text).items():
+        (folder / "out" / "s" / name).write_bytes(data)
     return read_report(folder / "out" / "s")
+
+
+@cache
+def _built(text: str) -> dict[str, bytes]:
+    """The files of a scene, by name."""
+    with tempfile.TemporaryDirectory() as place:
+        scene = Path(place) / "s.toml"
+        scene.write_text(text, encoding="utf-8")
+        assert run("build", scene, "--out", Path(place) / "out") == 0
+        return {file.name: file.read_bytes() for file in (Path(place) / "out" / "s").iterdir()}
 
 
 def read_report(folder: Path) -> dict[str, Any]:

@@ -247,7 +247,7 @@ def new_scene(capsys: pytest.CaptureFixture[str], kind: str = "spur_gear") -> st
     return capsys.readouterr().out
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_scene_to_start_from_builds(kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "mine.toml"
@@ -318,6 +318,7 @@ def test_output_in_ukrainian(tmp_path: Path, ukrainian: Path, capsys: pytest.Cap
     assert "діаметр вершин" in picture
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("encoding", ["ascii", "cp1252", "cp1251", "utf-8"])
 def test_output_in_ukrainian_on_a_console_of_another_alphabet(tmp_path: Path, ukrainian: Path, encoding: str) -> None:
     environment = {**os.environ, "PYTHONIOENCODING": encoding, "PYTHONUTF8": "0"}

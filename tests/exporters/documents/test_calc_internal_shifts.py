@@ -317,7 +317,7 @@ def test_a_helical_pair_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture
     assert "spur gears only" in complaint(capsys, "calc", "shift-choice", file)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("pinion", "ring", "more", "limited"),
     [(20, 28, {}, True), (13, 24, {"h": 0.8}, True), (20, 60, {}, False), (40, 80, {"x2": 0.5}, False)],

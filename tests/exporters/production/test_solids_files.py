@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
-from exporters.formats.read_stl import read_stl
+from exporters.formats.reading import READERS
 from exporters.formats.registry import REGISTRY, declared_error, shape_of
 from exporters.production.plan import plan_build
-from exporters.verification.judge import verify_file
+from exporters.verification.judge import held, verify_file
 from exporters.verification.mesh import verify_mesh
 from parts.scene.formats import FILE_KINDS
 from parts.scene.load import scene_from_dict
@@ -66,13 +68,24 @@ def test_a_wheel_is_written_and_read_back(kind: str, keys: dict[str, Any], tmp_p
     assert abs(verdict.measured["volume_error"]) < (1e-6 if kind == "step" else 1e-3)
 
 
+@dataclass(frozen=True)
+class Once:
+    """The wheel's file in one format, read once for all tests."""
+
+    job: Any
+    found: Any
+    declared: float
+
+
 @pytest.fixture(scope="module")
-def once(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
-    """The file of the wheel in each format and its declared error, written once."""
+def once(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Once]:
+    """The file of the wheel in each format."""
     kinds = [kind for kind in ("stl", "step") if kind == "stl" or find_spec("OCP")]
-    return {kind: made(kind, tmp_path_factory.mktemp(kind))[1:] for kind in kinds}
+    files = {kind: made(kind, tmp_path_factory.mktemp(kind)) for kind in kinds}
+    return {kind: Once(job, READERS[kind](file), declared) for kind, (job, file, declared) in files.items()}
 
 
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("other", [{"face_chamfer": 0.3}, {"hub": {"diameter": 22.5, "above": 5.0}},
                                    {"hub": {"diameter": 22.0, "above": 5.5}},
                                    {"web": {"thickness": 4.0, "rim_diameter": 48.0, "shift": 0.1}},
@@ -81,32 +94,53 @@ def once(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
                                    {"holes": {"count": 4, "diameter": 8.0, "pitch_circle_diameter": 35.0}},
                                    {"bore": {"shape": "round", "diameter": 12.0}}], ids=str)  # fmt: skip
 @pytest.mark.parametrize("kind", ["stl", "step"])
-def test_another_wheel_is_not_taken_for_it(kind: str, other: dict[str, Any], once: dict[str, Any]) -> None:
+def test_another_wheel_is_not_taken_for_it(kind: str, other: dict[str, Any], once: dict[str, Once]) -> None:
     if kind == "step":
         pytest.importorskip("OCP")
-    file, declared = once[kind]
-    assert verify_file(file, FILE_KINDS[kind], asked(kind, **other).exact, declared, 0.01).failures
+    wheel = once[kind]
+    assert held(wheel.found, FILE_KINDS[kind], asked(kind, **other).exact, wheel.declared, 0.01).failures
 
 
-def test_a_spoiled_mesh_is_caught_wherever_it_is_spoiled(tmp_path: Path) -> None:
-    job, file, declared = made("stl", tmp_path)
-    good = read_stl(file)
-    assert verify_mesh(good, job.body, declared, 0.01).failures == ()
-    count, size = len(good.triangles), len(good.vertices)
-    for at in (0, count // 3, count // 2, count - 1):
-        flipped = good.triangles.copy()
-        flipped[at] = flipped[at][::-1]
-        for triangles in (flipped, np.delete(good.triangles, at, axis=0)):
-            assert verify_mesh(type(good)(good.vertices, triangles), job.body, declared, 0.01).failures
-    for at in range(0, size, size // 40):
-        # a vertex may slide along its outline, but not both ways across
-        caught = []
-        for step in ((0.03, 0.03, 0.0), (0.03, -0.03, 0.0), (0.0, 0.0, 0.01)):
-            moved = good.vertices.copy()
-            moved[at] += step
-            caught.append(bool(verify_mesh(type(good)(moved, good.triangles), job.body, declared, 0.01).failures))
-        assert any(caught[:2]), at
-        assert caught[2], at
+PLACES = 41
+
+
+def spoiled(wheel: Once, vertices: NDArray[Any] | None = None, triangles: NDArray[Any] | None = None) -> bool:
+    """Whether the mesh with other vertices or triangles is refused."""
+    good = wheel.found
+    mesh = type(good)(
+        good.vertices if vertices is None else vertices, good.triangles if triangles is None else triangles
+    )
+    return bool(verify_mesh(mesh, wheel.job.body, wheel.declared, 0.01).failures)
+
+
+def test_the_mesh_as_it_is_passes(once: dict[str, Once]) -> None:
+    assert not spoiled(once["stl"])
+
+
+@pytest.mark.parametrize("share", [0.0, 1 / 3, 1 / 2, 1.0])
+def test_a_triangle_flipped_or_lost_is_caught(once: dict[str, Once], share: float) -> None:
+    good = once["stl"].found.triangles
+    at = int(share * (len(good) - 1))
+    flipped = good.copy()
+    flipped[at] = flipped[at][::-1]
+    assert spoiled(once["stl"], triangles=flipped)
+    assert spoiled(once["stl"], triangles=np.delete(good, at, axis=0))
+
+
+@pytest.mark.sampled(10)
+@pytest.mark.parametrize("place", range(PLACES))
+def test_a_spoiled_vertex_is_caught_wherever_it_is(once: dict[str, Once], place: int) -> None:
+    good = once["stl"].found.vertices
+    at = place * (len(good) - 1) // (PLACES - 1)
+
+    def caught(*step: float) -> bool:
+        moved = good.copy()
+        moved[at] += step
+        return spoiled(once["stl"], moved)
+
+    # a vertex may slide along its outline, but not both ways across
+    assert caught(0.03, 0.03, 0.0) or caught(0.03, -0.03, 0.0)
+    assert caught(0.0, 0.0, 0.01)
 
 
 def test_trimesh_for_those_who_go_on_in_python(tmp_path: Path) -> None:

@@ -73,6 +73,7 @@ def test_an_eccentric_disk_lifts_as_its_triangle_says(kind: FollowerKind, swings
     assert isinstance(mount, Oscillating) == swings
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", CAMS)
 def test_every_file_is_rolled_and_agrees_with_a_sweep(name: str, tmp_path: Path) -> None:
     folder, report = built(tmp_path, CAMS[name], TAIL)
@@ -117,6 +118,7 @@ def test_arcs_make_the_acceleration_jump_by_half_its_peak(tmp_path: Path) -> Non
     assert found[0.0005] < found[0.005] / 1.7
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", ["roller", "flat", "oscillating roller"])
 @pytest.mark.parametrize("spoil", [0.02, -0.02])
 def test_a_file_spoiled_at_one_place_is_found_by_its_lift(name: str, spoil: float, tmp_path: Path) -> None:

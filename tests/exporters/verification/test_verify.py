@@ -97,7 +97,7 @@ def test_a_dxf_that_was_only_saved_again_passes(originals: Path, tmp_path: Path,
     assert failures(file, entry) == ()
 
 
-@pytest.mark.sampled(24)
+@pytest.mark.sampled(15)
 @pytest.mark.parametrize("where", SHARES)
 @pytest.mark.parametrize("change", spoil.ROW_CHANGES, ids=lambda c: c.__name__)
 @pytest.mark.parametrize("name", [n for n in FORMATS if n != "stl"])
@@ -109,7 +109,7 @@ def test_a_changed_vertex_is_caught(
     check_caught(file, entry, command=where == "middle" and "lines" not in name)
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("change", spoil.WHOLE_CHANGES, ids=lambda c: c.__name__)
 @pytest.mark.parametrize("name", [n for n in FORMATS if n != "stl"])
 def test_a_scaled_or_turned_outline_is_caught(
@@ -128,7 +128,7 @@ def test_a_changed_bore_is_caught(originals: Path, tmp_path: Path, name: str) ->
     check_caught(file, entry)
 
 
-@pytest.mark.sampled(16)
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("change", spoil.DXF_CHANGES, ids=lambda c: c.__name__)
 @pytest.mark.parametrize("name", ["dxf", "r12.dxf"])
 def test_a_spoiled_dxf_is_caught(originals: Path, tmp_path: Path, name: str, change: Callable[..., None]) -> None:
@@ -175,7 +175,7 @@ def test_a_mesh_that_was_only_written_again_passes(originals: Path, tmp_path: Pa
     assert failures(file, entry) == ()
 
 
-@pytest.mark.sampled(10)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", FORMATS)
 @pytest.mark.parametrize("share", [0.0, 0.02, 0.5, 0.97])
 def test_a_truncated_file_is_caught(originals: Path, tmp_path: Path, name: str, share: float) -> None:
@@ -185,6 +185,7 @@ def test_a_truncated_file_is_caught(originals: Path, tmp_path: Path, name: str, 
     check_caught(file, entry)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", FORMATS)
 def test_another_gear_under_the_same_name_is_caught(originals: Path, tmp_path: Path, name: str) -> None:
     file, entry = copied(originals, name, tmp_path)

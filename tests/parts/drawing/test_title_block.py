@@ -52,6 +52,7 @@ def test_form_1_has_its_eleven_columns_and_rows_of_5_mm() -> None:
     assert {layer for layer, *_ in lines} == {"FRAME", "TABLE"}
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("language", ["en", "uk"])
 @pytest.mark.parametrize("export", [{}, {"purpose": "generating", "parts": ["one"]}], ids=["meshing", "generating"])
 @pytest.mark.parametrize("asked", [True, WORDS], ids=["plain", "table"])

@@ -176,6 +176,7 @@ WRONG: dict[str, tuple[Keys, str]] = {
 }  # fmt: skip
 
 
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("name", WRONG)
 def test_a_refusal_names_the_key_and_a_value_that_works_when_it_is_fed_back(name: str) -> None:
     keys, blamed = WRONG[name]
@@ -184,6 +185,7 @@ def test_a_refusal_names_the_key_and_a_value_that_works_when_it_is_fed_back(name
     cured({"cam": keys}, refusal)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", ["too short", "other way", "slides in", "big roller", "face away", "bent face"])
 def test_a_refusal_speaks_ukrainian(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "s.toml"
