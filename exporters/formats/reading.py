@@ -7,10 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from exporters.formats.readback import ReadAssembly
 from parts.base.lazy import Registry
-from parts.base.readback import ReadBack
+
+if TYPE_CHECKING:
+    from exporters.formats.readback import ReadAssembly
+    from parts.base.readback import ReadBack
 
 _HERE = "exporters.formats"
 READERS: Registry[Callable[[Path], ReadBack]] = Registry(

@@ -20,7 +20,6 @@ from geometry.plane.contour import Approximation
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Region
 from parts.base.part import Part
-from parts.base.readback import ReadBack
 from parts.scene.formats import FileKind, file_kind
 from parts.scene.load import ExportSpec
 
@@ -29,6 +28,7 @@ if TYPE_CHECKING:
     from geometry.approximation.outline import Outline
     from geometry.cams.barrel.body import BarrelBody
     from geometry.solids.body import Body
+    from parts.base.readback import ReadBack
 
 Chords: TypeAlias = tuple[Approximation, ...]
 Curves: TypeAlias = "tuple[Outline, ...]"

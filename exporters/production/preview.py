@@ -11,9 +11,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from exporters.formats.svg import head, number, path_data, save
-from exporters.production.check_lines import check_lines
 from exporters.production.plan import Plan
-from exporters.production.preview_labels import Label, spread_labels
 from geometry.approximation.chords import approximate_profile
 from geometry.curves.curve import Complex
 from geometry.plane.contour import Approximation, Contour, edge_points
@@ -74,6 +72,9 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
 
 def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str, Any], folder: Path) -> Path:
     """All instances in their places, the upper ones last, and what the checks found."""
+    from exporters.production.check_lines import check_lines
+    from exporters.production.preview_labels import Label, spread_labels
+
     language = plan.scene.scene.language
     stand = sorted(plan.placing.instances, key=lambda i: i.at[2])
     outers = [_samples(outlines[i.part][-1].geometry) * cmath.exp(1j * i.rotation) + i.centre for i in stand]

@@ -13,7 +13,6 @@ import numpy as np
 
 from exporters import __version__
 from exporters.production.jobs import Written
-from exporters.production.kept import kept_file
 from exporters.production.plan import Plan
 from geometry.base.findings import Finding
 from parts.base.part import Part
@@ -144,6 +143,8 @@ def _entry(item: Written, language: str) -> dict[str, Any]:
 
 def _failed(item: Written, folder: Path, scene: dict[str, Any], before: dict[str, Any] | None) -> dict[str, Any]:
     """A file that failed its read-back, and the one of an earlier build that keeps its place."""
+    from exporters.production.kept import kept_file
+
     kept = kept_file(folder / item.job.path, scene, before)
     return {"path": item.job.path, "failures": list(item.failures), "kept": kept}
 

@@ -8,7 +8,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -18,7 +18,9 @@ from geometry.curves.line_arc import Arc
 from geometry.plane.measure import distance_to_profile
 from geometry.plane.profile import Profile
 from geometry.solids.bores import Bore, RoundBore
-from geometry.solids.windows import RoundHoles, Spokes
+
+if TYPE_CHECKING:
+    from geometry.solids.windows import RoundHoles, Spokes
 
 _INSIDE = 1 - 1e-6
 # mm, and for the smallest wheels as a part of their radius

@@ -7,14 +7,18 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 from geometry.base.errors import GeometryError, OffsetError, ParameterError, limit
 from geometry.base.nearest import nearest
 from geometry.base.tolerance import LEAST_SEGMENT_MM
 from geometry.curves.curve import Curve, end_point, start_point
 from geometry.plane.profile import Label, Profile, Region, circle
-from geometry.solids.body import Body, BodyBuilder, Twist, plate
 from geometry.solids.hub_holes import HubHoles, least_wall
+
+if TYPE_CHECKING:
+    # a flat section asks for the shape of a wheel, not for its solid
+    from geometry.solids.body import Body, Twist
 
 # of a short piece, at least this share stays
 _KEPT_SHARE = 0.1
@@ -106,6 +110,8 @@ def wheel_body(shape: WheelShape, sections: WheelSections, offset: float = 0.0) 
     ParameterError
         A dimension leaves no solid; names its key and the nearest value that works.
     """
+    from geometry.solids.body import plate
+
     _check_heights(shape)
     if shape.is_plate:
         holes = [s(offset, 0.0) for s in ((sections.bore,) if sections.bore else ()) + sections.holes]
@@ -137,6 +143,8 @@ class _Wheel:
     """Builds one wheel; z values of both sides in mm, side 0 below and side 1 above."""
 
     def __init__(self, shape: WheelShape, sections: WheelSections, offset: float) -> None:
+        from geometry.solids.body import BodyBuilder
+
         self.sections, self.offset, self.twist = sections, offset, shape.twist
         width, web, hub = shape.face_width, shape.web, shape.hub
         self.rim = (0.0, width)

@@ -5,15 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import wraps
-from typing import Annotated, Literal, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Annotated, Literal, ParamSpec, TypeVar
 
 from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
-from geometry.gears.pairs.common_face import STRAIGHT, CommonFace
 from geometry.gears.teeth.helix import Hand, Helix
 from parts.keys.base import MadeKeys, degrees, either, mm
+
+if TYPE_CHECKING:
+    from geometry.gears.pairs.common_face import CommonFace
 
 HelixAngle = Annotated[
     float,
@@ -70,6 +72,8 @@ def checked_teeth(keys: ToothedKeys) -> Helix:
 
 def common_face(first: Struct, second: Struct) -> CommonFace:
     """The face that two mates' keys give them, both at one height; that of straight teeth for other parts."""
+    from geometry.gears.pairs.common_face import STRAIGHT, CommonFace
+
     if not (isinstance(first, ToothedKeys) and first.helix_angle_deg and isinstance(second, MadeKeys)):
         return STRAIGHT
     return CommonFace(helix_of(first), first.module, min(first.face_width, second.face_width))

@@ -13,8 +13,6 @@ from geometry.base.errors import ParameterError, limit
 from geometry.base.nearest import nearest
 from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
-from geometry.solids.keyways import keyway_row
-from geometry.solids.windows import RoundHoles, Spokes
 from parts.base.schema import replaced, value_at
 from parts.keys.base import BoreDiameter, MadeKeys, degrees, either, mm
 
@@ -61,6 +59,8 @@ class KeywayTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="ke
         """The keyway of the standard, each size replaced by one that is given; of one's own where both are."""
         width, depth, radius = self.width, self.depth, self.corner_radius
         if width is None or depth is None:
+            from geometry.solids.keyways import keyway_row
+
             row = keyway_row(self.standard, self.diameter)
             width, depth = width or row.width, depth or row.hub_depth
             if radius is None:
@@ -152,6 +152,11 @@ def hub_holes(bore: BoreTable | None, holes: HolesKey, spokes: SpokesTable | Non
         A keyway has no row in its standard, or one of its sizes is missing.
     """
     groups = [holes] if isinstance(holes, HolesTable) else holes or []
+    own = None if bore is None else bore.bore()
+    if not groups and spokes is None:
+        return HubHoles(own)
+    from geometry.solids.windows import RoundHoles, Spokes
+
     windows = None
     if spokes is not None:
         windows = Spokes(
@@ -163,7 +168,7 @@ def hub_holes(bore: BoreTable | None, holes: HolesKey, spokes: SpokesTable | Non
             math.radians(spokes.start_deg),
         )
     circles = tuple(RoundHoles(g.count, g.diameter, g.pitch_circle_diameter, math.radians(g.start_deg)) for g in groups)
-    return HubHoles(None if bore is None else bore.bore(), circles, windows)
+    return HubHoles(own, circles, windows)
 
 
 # shares of a value at which a search for one that fits begins, near ones first

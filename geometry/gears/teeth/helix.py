@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from geometry.base.errors import Nearest
-from geometry.solids.body import Twist
+
+if TYPE_CHECKING:
+    from geometry.solids.body import Twist
 
 Hand = Literal["right", "left"]
 # angles that are typed have a handful of decimals, rad
@@ -35,6 +37,8 @@ class Helix:
         """How the teeth turn along the axis: tan(beta) / r rad/mm; None for spur gears."""
         if self.angle == 0:
             return None
+        from geometry.solids.body import Twist
+
         return Twist(math.tan(self.signed_angle) / reference_radius, self.double)
 
     def shear(self) -> Twist | None:
@@ -43,7 +47,11 @@ class Helix:
         Seen from the tips with the gear's axis upright, right-hand teeth rise to the right: towards -x in the rack
         frame, whose teeth point to +y.
         """
-        return None if self.angle == 0 else Twist(slope=complex(-math.tan(self.signed_angle)), double=self.double)
+        if self.angle == 0:
+            return None
+        from geometry.solids.body import Twist
+
+        return Twist(slope=complex(-math.tan(self.signed_angle)), double=self.double)
 
     def lead(self, reference_radius: float) -> float:
         """p_z = 2 pi r / tan(beta): rise of a tooth in one turn, mm; inf for spur gears."""

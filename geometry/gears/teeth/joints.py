@@ -9,15 +9,18 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import replace
+from typing import TYPE_CHECKING, TypeAlias
 
 from geometry.base.roots import bracketed_root
-from geometry.curves.cutter_fillet import CutterFillet
-from geometry.curves.elliptic_fillet import EllipticFillet
 from geometry.curves.intersect import crossing_circle
 from geometry.curves.involute import Involute
 from geometry.curves.trochoid import TrochoidFillet
 
-GearFillet = TrochoidFillet | EllipticFillet | CutterFillet
+if TYPE_CHECKING:
+    from geometry.curves.cutter_fillet import CutterFillet
+    from geometry.curves.elliptic_fillet import EllipticFillet
+
+GearFillet: TypeAlias = "TrochoidFillet | EllipticFillet | CutterFillet"
 
 
 def joint_roll(fillet: GearFillet, base_radius: float) -> float:

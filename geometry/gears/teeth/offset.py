@@ -19,9 +19,9 @@ from geometry.base.findings import Finding
 from geometry.base.roots import bracketed_root
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Curve, end_point, start_point
+from geometry.curves.fillet import Fillet
 from geometry.curves.intersect import first_above
 from geometry.curves.line_arc import Arc
-from geometry.gears.teeth.joints import GearFillet
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import SideCurves, ToothSide, assemble_side, tooth_side
 from geometry.plane.offset_region import OffsetRegion
@@ -128,7 +128,7 @@ def _with_corner_arcs(segments: tuple[Segment, ...], distance: float) -> list[Se
 
 def _grown(curve: Curve, distance: float) -> Curve:
     """The parallel curve on the space's side; a fillet may turn back, which is trimmed afterwards."""
-    if isinstance(curve, GearFillet):
+    if isinstance(curve, Fillet):
         return replace(curve, tip_radius=curve.tip_radius - distance)
     return curve.offset(-distance)
 
@@ -136,7 +136,7 @@ def _grown(curve: Curve, distance: float) -> Curve:
 def _after_cusp(pieces: list[Segment], distance: float, findings: list[Finding]) -> list[Segment]:
     """The pieces without the part of the fillet that runs back; a finding where there was one."""
     fillet = pieces[0].curve
-    if not isinstance(fillet, GearFillet) or fillet.cusp() is None:
+    if not isinstance(fillet, Fillet) or fillet.cusp() is None:
         return pieces
     findings.append(Finding("fillet_cusp_trimmed", distance, fillet.tip_radius + distance))
     low, high = fillet.domain

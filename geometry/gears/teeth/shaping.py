@@ -7,7 +7,6 @@ from dataclasses import replace
 
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.roots import bracketed_root
-from geometry.gears.teeth.cutter import checked_cutter
 from geometry.gears.teeth.joints import joint_roll
 from geometry.gears.teeth.spur import SpurGear
 
@@ -24,6 +23,8 @@ def check_shaping(gear: SpurGear) -> None:
     cutter = gear.cutter
     if cutter is None:
         return
+    from geometry.gears.teeth.cutter import checked_cutter
+
     checked_cutter(cutter)
     if cutter.module != gear.module:
         raise ParameterError("cutter.module", cutter.module, "not_that_of_gear", Nearest(gear.module))

@@ -5,17 +5,20 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from geometry.base.angles import inverse_involute, involute_function
 from geometry.base.errors import ParameterError, limit
-from geometry.curves.cutter_fillet import CutterFillet
-from geometry.curves.elliptic_fillet import EllipticFillet
 from geometry.curves.involute import Involute
 from geometry.curves.trochoid import TrochoidFillet
 from geometry.gears.teeth.basic_rack import BasicRack
-from geometry.gears.teeth.cutter import PinionCutter
 from geometry.solids.bores import RoundBore
 from geometry.solids.hub_holes import HubHoles
+
+if TYPE_CHECKING:
+    from geometry.curves.cutter_fillet import CutterFillet
+    from geometry.curves.elliptic_fillet import EllipticFillet
+    from geometry.gears.teeth.cutter import PinionCutter
 
 _NO_HOLES = HubHoles()
 
@@ -184,10 +187,14 @@ class SpurGear:
         end = math.pi / 2 - self.rack.pressure_angle
         radii = self.reference_radius, self.rounding_depth, self.rounding_radius
         if self.rack.stretch != 1 and self.rounding_radius > 0:
+            from geometry.curves.elliptic_fillet import EllipticFillet
+
             return EllipticFillet(*radii, angle, 0.0, end, self.rounding_radius, self.rack.stretch)
         return TrochoidFillet(*radii, angle, 0.0, end)
 
     def _cutter_fillet(self, cutter: PinionCutter) -> CutterFillet:
+        from geometry.curves.cutter_fillet import CutterFillet
+
         teeth = self.number_of_teeth + cutter.number_of_teeth
         pitch_radius = self.generating_distance * self.number_of_teeth / teeth
         rolling = self.generating_distance * cutter.number_of_teeth / teeth

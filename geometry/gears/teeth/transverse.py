@@ -8,11 +8,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.gears.teeth.basic_rack import BasicRack, TipRelief
-from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.spur import SpurGear
+
+if TYPE_CHECKING:
+    from geometry.gears.teeth.cutter import PinionCutter
 
 
 def transverse_angle(normal_pressure_angle: float, helix_angle: float) -> float:
