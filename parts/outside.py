@@ -8,6 +8,7 @@ from parts.base.kind import Kind
 from parts.base.mate import MateKind
 from parts.base.reasons import add_reasons
 from parts.base.registry import KINDS
+from parts.base.schema import phrase_of
 from parts.base.texts import add_catalogue
 from parts.mates.registry import MATES
 from parts.texts.checks import add_mates
@@ -18,16 +19,19 @@ __all__ = ["add_catalogue", "add_kind", "add_mate"]
 
 
 def add_kind(kind: Kind[Any, Any]) -> None:
-    """A kind of part, with the sentences of its refusals and remarks and the names of its quantities."""
-    KINDS.register(kind.name, kind)
+    """A kind of part, with the sentences of its refusals and remarks and the names of its quantities.
+
+    ``list`` tells it by the first line of what its keys say of themselves.
+    """
+    KINDS.add(kind.name, kind, phrase_of(kind.keys))
     add_reasons(kind.reasons)
     add_findings(kind.findings)
     add_quantities(kind.quantities)
 
 
 def add_mate(kind: MateKind[Any, Any, Any]) -> None:
-    """A kind of mate, with the sentences of its refusals and how it is told."""
-    MATES.register(kind.name, kind)
+    """A kind of mate, with the sentences of its refusals and how it is told; listed as ``add_kind`` says."""
+    MATES.add(kind.name, kind, phrase_of(kind.keys))
     add_reasons(kind.reasons)
     if kind.told:
         add_mates({kind.name: kind.told})

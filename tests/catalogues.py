@@ -25,7 +25,10 @@ from msgspec import Meta, Struct
 from msgspec.structs import fields
 
 import parts
+from parts.base.registry import KINDS
+from parts.base.schema import phrase_of
 from parts.base.texts import DOMAIN, LOCALE
+from parts.mates.registry import MATES
 from parts.pages.terms import TERMS
 
 HOUSE = Path(parts.__file__).parents[1]
@@ -87,10 +90,11 @@ def _called(call: ast.Call) -> str:
 
 
 def _kept_in_data() -> Iterator[str]:
-    """Terms, keys and tables of scenes and calculations: they need no mark."""
+    """Kinds, terms, keys and tables of scenes and calculations: they need no mark."""
+    yield from (*KINDS.phrases.values(), *MATES.phrases.values())
     yield from (term.name for term in TERMS.values())
     for kind in _structs():
-        if not (told := (kind.__doc__ or "").splitlines()[0].rstrip(".")).startswith("Keys of"):
+        if not (told := phrase_of(kind)).startswith("Keys of"):
             yield told
         for field in fields(kind):
             yield from _descriptions(field.type)

@@ -450,16 +450,14 @@ def _converge(options: argparse.Namespace) -> int:
 
 def _list(options: argparse.Namespace) -> int:
     from parts.base.registry import KINDS
-    from parts.base.schema import first_line
     from parts.mates.registry import MATES
-    from parts.scene.files import built_in_scenes
-    from parts.scene.load import load_scene
+    from parts.scene.files import built_in_scenes, title_of
 
     _check_language(options)
     told = words(_language(options))
-    kinds = {kind: first_line(made.keys, told) for kind, made in KINDS.items()}
-    mates = {kind: first_line(mate.keys, told) for kind, mate in MATES.items()}
-    scenes = {name: load_scene(name).scene.title for name in built_in_scenes()}
+    kinds = {kind: told.text(phrase) for kind, phrase in KINDS.phrases.items()}
+    mates = {kind: told.text(phrase) for kind, phrase in MATES.phrases.items()}
+    scenes = {name: title_of(file) for name, file in built_in_scenes().items()}
     if options.json:
         _print_json([""], [{"parts": kinds, "mates": mates, "scenes": scenes}])
         return DONE

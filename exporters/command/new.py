@@ -13,7 +13,7 @@ from msgspec import NODEFAULT, Meta, Struct
 from msgspec.structs import FieldInfo, fields
 
 from parts.base.registry import KINDS
-from parts.base.schema import described, first_line, own_first
+from parts.base.schema import described, own_first, phrase_of
 from parts.base.texts import ENGLISH, N_, Words, words
 from parts.keys.sheet import SHEET_KEYS
 from parts.mates.registry import MATES
@@ -112,7 +112,7 @@ def new_mate(kind: str, language: str = ENGLISH) -> str:
         pairs = (told.text("{first} and {second}", first=a, second=b) for a, b in mate.joins)
         who = told.text(" or ").join(pairs)
     lines = [
-        f"# {first_line(mate.keys, told)}.",
+        f"# {told.text(MATES.phrases[kind])}.",
         f"# {told.text('A table to be added to a scene that has both parts; it is no scene by itself.')}",
         f"# {told.text('Joins {who}; see higherpair new KIND for their keys.', who=who)}",
         "[[mates]]",
@@ -133,7 +133,7 @@ def _keys(keys: Iterable[FieldInfo], told: Words, names: Mapping[str, str] | Non
         yield f"{code:<44} # {text}" if text else code
         others = [(_toml(other), told.text(meant)) for other, meant in marks.get("others", ())]
         tables = _tables_of(field)
-        others += [(_table(t), first_line(t, told)) for t in (tables[1:] if _is_open(field) else tables)]
+        others += [(_table(t), told.text(phrase_of(t))) for t in (tables[1:] if _is_open(field) else tables)]
         yield from (f"# {name} = {v}  # {told.text('... or this: {what}', what=meant)}" for v, meant in others)
 
 

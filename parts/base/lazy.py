@@ -34,3 +34,16 @@ class Registry(Mapping[str, E], Generic[E]):
 
     def __contains__(self, name: object) -> bool:
         return name in self._homes
+
+
+class Index(Registry[E], Generic[E]):
+    """A registry that says what each entry is before that is loaded: for each name its place and a phrase."""
+
+    def __init__(self, entries: Mapping[str, tuple[str, str]]) -> None:
+        super().__init__({name: home for name, (home, _) in entries.items()})
+        self.phrases = {name: phrase for name, (_, phrase) in entries.items()}
+
+    def add(self, name: str, entry: E, phrase: str) -> None:
+        """One more entry, from outside, and what it is."""
+        self.register(name, entry)
+        self.phrases[name] = phrase

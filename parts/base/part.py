@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
 
-from geometry.base.findings import Finding
-from geometry.plane.offset_region import OffsetRegion
 from parts.base.materials import density_of
 
 if TYPE_CHECKING:
@@ -16,6 +14,8 @@ if TYPE_CHECKING:
     import trimesh
     from msgspec import Struct
 
+    from geometry.base.findings import Finding
+    from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.body import Body
     from parts.base.kind import Kind, Report
     from parts.base.readback import Probe

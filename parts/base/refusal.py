@@ -98,7 +98,7 @@ def _told(number: object) -> object:
     """A number as it is told: floats by six digits, lists with commas."""
     if isinstance(number, float):
         return f"{number:.6g}"
-    if isinstance(number, list | tuple):
+    if isinstance(number, list | tuple) and not isinstance(number, Message):
         told = [_told(item) for item in number]
         return listed([t if isinstance(t, Message) else Message("{it}", {"it": t}) for t in told])
     return "" if number is None else number

@@ -1,36 +1,100 @@
-"""The kinds of parts, one line each: where the kind is found."""
+"""The kinds of parts, one entry each: where the kind is found, and what it is in a phrase."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from parts.base.kind import Kind
-from parts.base.lazy import Registry
+from parts.base.lazy import Index
 
-KINDS: Registry[Kind[Any, Any]] = Registry(
+if TYPE_CHECKING:
+    from parts.base.kind import Kind
+
+KINDS: Index[Kind[Any, Any]] = Index(
     {
-        "spur_gear": "parts.gears.spur_gear.part:SPUR_GEAR",
-        "ring_gear": "parts.gears.ring_gear.part:RING_GEAR",
-        "rack": "parts.gears.rack.part:RACK",
-        "noncircular_gear": "parts.gears.noncircular_gear.part:NONCIRCULAR_GEAR",
-        "cam": "parts.cams.disk_cam.part:CAM",
-        "linkage_cam": "parts.cams.coupler_cam.part:LINKAGE_CAM",
-        "groove_cam": "parts.cams.groove_cam.part:GROOVE_CAM",
-        "groove_piece": "parts.cams.groove_cam.piece:GROOVE_PIECE",
-        "conjugate_cam": "parts.cams.positive.conjugate:CONJUGATE_CAM",
-        "yoke_frame": "parts.cams.positive.yoke:YOKE_FRAME",
-        "wedge_cam": "parts.cams.wedge_cam.part:WEDGE_CAM",
-        "barrel_cam": "parts.cams.barrel_cam.part:BARREL_CAM",
-        "cycloidal_disc": "parts.pins.cycloidal_disc:CYCLOIDAL_DISC",
-        "pin_ring": "parts.pins.pin_ring:PIN_RING",
-        "output_plate": "parts.pins.pin_plate:OUTPUT_PLATE",
-        "eccentric": "parts.pins.pin:ECCENTRIC",
-        "pin": "parts.pins.pin:PIN",
-        "lantern_wheel": "parts.pins.pin_plate:LANTERN_WHEEL",
-        "lantern_gear": "parts.pins.lantern_gear:LANTERN_GEAR",
-        "follower": "parts.cams.follower:FOLLOWER",
-        "follower_arm": "parts.cams.follower:FOLLOWER_ARM",
-        "roller": "parts.cams.follower:ROLLER",
-        "plate": "parts.bodies.plate:PLATE",
+        "spur_gear": (
+            "parts.gears.spur_gear.part:SPUR_GEAR",
+            "External gear, spur or helical, cut by a rack or by a pinion cutter",
+        ),
+        "ring_gear": (
+            "parts.gears.ring_gear.part:RING_GEAR",
+            "Ring gear (internal teeth), spur or helical, cut by a pinion cutter",
+        ),
+        "rack": (
+            "parts.gears.rack.part:RACK",
+            "Straight rack, spur or helical; its teeth are those of the basic rack",
+        ),
+        "noncircular_gear": (
+            "parts.gears.noncircular_gear.part:NONCIRCULAR_GEAR",
+            "Noncircular gear, one of a pair: the keys tell the driver's centrode, ``role`` which of both this part is",
+        ),
+        "cam": (
+            "parts.cams.disk_cam.part:CAM",
+            "Disk cam; it turns counter-clockwise, cam angle 0 is the start of the first phase",
+        ),
+        "linkage_cam": (
+            "parts.cams.coupler_cam.part:LINKAGE_CAM",
+            "Disk cam for a follower on the coupler of a linkage; it turns counter-clockwise about the origin",
+        ),
+        "groove_cam": (
+            "parts.cams.groove_cam.part:GROOVE_CAM",
+            "Groove cam; the keys of the motion, bore, holes and hub are those of ``cam``",
+        ),
+        "groove_piece": (
+            "parts.cams.groove_cam.piece:GROOVE_PIECE",
+            "A plate of a groove cam: the core within the groove, the ring about it, or the disk under both",
+        ),
+        "conjugate_cam": (
+            "parts.cams.positive.conjugate:CONJUGATE_CAM",
+            "Second cam of a pair, turned as it sits on the shaft of the first: both have rotation_deg = 0",
+        ),
+        "yoke_frame": (
+            "parts.cams.positive.yoke:YOKE_FRAME",
+            "Frame about a cam, drawn as it stands at cam angle 0: "
+            "two flat faces, or a plate with pins for two rollers",
+        ),
+        "wedge_cam": (
+            "parts.cams.wedge_cam.part:WEDGE_CAM",
+            "Translating cam plate; it slides along -x, the follower starts over x = 0",
+        ),
+        "barrel_cam": (
+            "parts.cams.barrel_cam.part:BARREL_CAM",
+            "Cylindrical cam: a groove around a barrel, or a track on the end of a tube; it turns counter-clockwise",
+        ),
+        "cycloidal_disc": (
+            "parts.pins.cycloidal_disc:CYCLOIDAL_DISC",
+            "Disc of a cycloidal reducer; "
+            "it rolls inside number_of_lobes + 1 pins and turns 1 / number_of_lobes as fast",
+        ),
+        "pin_ring": ("parts.pins.pin_ring:PIN_RING", "Ring that holds pins on a circle, the first one on +x"),
+        "output_plate": (
+            "parts.pins.pin_plate:OUTPUT_PLATE",
+            "Plate with the output pins of a cycloidal reducer on its upper face, or with holes for them",
+        ),
+        "eccentric": (
+            "parts.pins.pin:ECCENTRIC",
+            "Round disc whose centre stands off its axis along +x; the bore is about the axis",
+        ),
+        "pin": ("parts.pins.pin:PIN", "Round pin, or with a bore the sleeve that turns on it"),
+        "lantern_wheel": (
+            "parts.pins.pin_plate:LANTERN_WHEEL",
+            "Lantern: round pins between two plates, or one of its plates with holes for them; the first pin on +x",
+        ),
+        "lantern_gear": (
+            "parts.pins.lantern_gear:LANTERN_GEAR",
+            "External gear for a lantern: flanks parallel to the epicycloid of its pins",
+        ),
+        "follower": (
+            "parts.cams.follower:FOLLOWER",
+            "Translating follower: its reference point is the origin, the stem runs along +y",
+        ),
+        "follower_arm": (
+            "parts.cams.follower:FOLLOWER_ARM",
+            "Oscillating follower: its pivot is the origin, the arm runs along +x",
+        ),
+        "roller": ("parts.cams.follower:ROLLER", "Roller of a cam follower"),
+        "plate": (
+            "parts.bodies.plate:PLATE",
+            "Rectangular plate with rounded corners, holes and slots: a frame, a guide, a cover",
+        ),
     }
 )

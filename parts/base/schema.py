@@ -13,7 +13,7 @@ from msgspec import Meta, Struct
 
 from geometry.base.errors import ParameterError, format_value
 from parts.base.refusal import SceneError, meant
-from parts.base.texts import N_, Message, Words, counted, listed, message
+from parts.base.texts import N_, Message, counted, listed, message
 
 S = TypeVar("S", bound=Struct)
 
@@ -188,7 +188,7 @@ def described(kind: object) -> Message | None:
     meta = next((m for m in getattr(kind, "__metadata__", ()) if isinstance(m, Meta)), None)
     if meta is None:
         if isinstance(kind, type) and issubclass(kind, Struct):
-            return message("table: {what}", what=Message((kind.__doc__ or "").splitlines()[0].rstrip(".")))
+            return message("table: {what}", what=Message(phrase_of(kind)))
         tagged = [s for s in _structs_of(kind) if s.__struct_config__.tag]
         if len(tagged) > 1:
             field = tagged[0].__struct_config__.tag_field
@@ -230,9 +230,9 @@ def own_first(kind: type[Struct]) -> list[msgspec.structs.FieldInfo]:
     return sorted(msgspec.structs.fields(kind), key=lambda field: (not field.required, names.index(field.name)))
 
 
-def first_line(kind: type[Struct], told: Words) -> str:
-    """What a table of keys is, in one phrase."""
-    return told.text((kind.__doc__ or "").splitlines()[0].rstrip("."))
+def phrase_of(kind: type[Struct]) -> str:
+    """What a table of keys is, in one phrase: a text."""
+    return (kind.__doc__ or "").splitlines()[0].rstrip(".")
 
 
 def _steps(path: str) -> list[str | int]:

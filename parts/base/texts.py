@@ -10,10 +10,10 @@ The marks that the extraction finds (``python -m tests.catalogues``): ``N_``, ``
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from types import MappingProxyType
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from gettext import NullTranslations
@@ -28,15 +28,14 @@ _FRACTION = -1
 _added: list[tuple[str, Path]] = []
 
 
-@dataclass(frozen=True, slots=True)
-class Message:
+class Message(NamedTuple):
     """A text that waits for its language: ``many`` is its plural by the number called ``by``.
 
     ``numbers`` may hold messages too, which are told in the same language.
     """
 
     msgid: str
-    numbers: Mapping[str, object] = field(default_factory=dict)
+    numbers: Mapping[str, object] = MappingProxyType({})
     many: str = ""
     by: str = ""
     context: str = ""
@@ -79,32 +78,31 @@ def listed(texts: Sequence[Text]) -> Message:
 def filled(text: Text, /, **numbers: object) -> Message:
     """A text of a table with its numbers."""
     made = Message(text) if isinstance(text, str) else text
-    return replace(made, numbers={**made.numbers, **numbers})
+    return made._replace(numbers={**made.numbers, **numbers})
 
 
-@dataclass(frozen=True, slots=True)
-class Words:
+class Words(NamedTuple):
     """One language; its methods translate, then fill in the placeholders where numbers are given."""
 
     language: str
-    _catalogue: NullTranslations | None
+    catalogue: NullTranslations | None
 
     def text(self, msgid: str, /, **numbers: object) -> str:
         """A text."""
-        told = self._catalogue.gettext(msgid) if self._catalogue and msgid else msgid
+        told = self.catalogue.gettext(msgid) if self.catalogue and msgid else msgid
         return told.format(**numbers) if numbers else told
 
     def plural(self, one: str, many: str, n: float, /, **numbers: object) -> str:
         """A text by a count, 1 tooth or 2 teeth; a count with a fraction may have a form of its own."""
-        if self._catalogue:
-            told = self._catalogue.ngettext(one, many, abs(int(n)) if n == int(n) else _FRACTION)
+        if self.catalogue:
+            told = self.catalogue.ngettext(one, many, abs(int(n)) if n == int(n) else _FRACTION)
         else:
             told = one if n == 1 else many
         return told.format(**numbers) if numbers else told
 
     def term(self, context: str, msgid: str, /, **numbers: object) -> str:
         """A text of one of the meanings of an English word."""
-        told = self._catalogue.pgettext(context, msgid) if self._catalogue else msgid
+        told = self.catalogue.pgettext(context, msgid) if self.catalogue else msgid
         return told.format(**numbers) if numbers else told
 
     def say(self, text: Text) -> str:

@@ -51,7 +51,7 @@ class FlatKeys(MadeKeys, kw_only=True):
 
 
 class PlateSpec(FlatKeys, forbid_unknown_fields=True, tag_field="kind", tag="plate"):
-    """Rectangular plate with rounded corners, holes and slots: a frame, a guide, a cover."""
+    """Keys of ``plate``."""
 
     width: Annotated[float, mm("along x", above=0, most=_MOST, example=60.0)]
     height: Annotated[float, mm("along y", above=0, most=_MOST, example=90.0)]

@@ -39,7 +39,7 @@ Radius = Annotated[float, mm("radius of a mushroom's face", least=0, most=_MOST)
 
 
 class FollowerSpec(FlatKeys, forbid_unknown_fields=True, tag_field="kind", tag="follower"):
-    """Translating follower: its reference point is the origin, the stem runs along +y."""
+    """Keys of ``follower``."""
 
     end: End
     stem_width: Annotated[float, mm("width of the stem", above=0, most=_MOST)] = 10.0
@@ -53,7 +53,7 @@ class FollowerSpec(FlatKeys, forbid_unknown_fields=True, tag_field="kind", tag="
 
 
 class FollowerArmSpec(FlatKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="follower_arm"):
-    """Oscillating follower: its pivot is the origin, the arm runs along +x."""
+    """Keys of ``follower_arm``."""
 
     end: End
     arm_length: Annotated[
@@ -79,7 +79,7 @@ class FollowerArmSpec(FlatKeys, forbid_unknown_fields=True, kw_only=True, tag_fi
 
 
 class RollerSpec(BoredKeys, forbid_unknown_fields=True, tag_field="kind", tag="roller"):
-    """Roller of a cam follower."""
+    """Keys of ``roller``."""
 
     diameter: Annotated[float, mm("outer diameter", above=0, most=_MOST, example=16.0)]
     hub: HubTable | None = None

@@ -47,7 +47,7 @@ class SwingingTable(Struct, forbid_unknown_fields=True):
 
 
 class BarrelCamSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", tag="barrel_cam"):
-    """Cylindrical cam: a groove around a barrel, or a track on the end of a tube; it turns counter-clockwise."""
+    """Keys of ``barrel_cam``."""
 
     form: Annotated[
         Literal["groove", "end"],

@@ -28,7 +28,7 @@ _Eccentric = Annotated[float, direction("direction of the eccentric, from the pi
 
 
 class CycloidalPairSpec(MateKeys, tag="cycloidal_pair", kw_only=True):
-    """A cycloidal disc (second) in its pin ring (first): eccentric distance and phase."""
+    """Keys of ``cycloidal_pair``."""
 
     direction_deg: _Eccentric = 0.0
     turned_lobes: Annotated[
@@ -38,11 +38,11 @@ class CycloidalPairSpec(MateKeys, tag="cycloidal_pair", kw_only=True):
 
 
 class EccentricBearingSpec(AboveKeys, tag="eccentric_bearing"):
-    """A cycloidal disc (second) on its eccentric (first), which drives it."""
+    """Keys of ``eccentric_bearing``."""
 
 
 class OutputPinsSpec(MateKeys, tag="output_pins", kw_only=True):
-    """The pins of an output plate (second) in the holes of a cycloidal disc (first)."""
+    """Keys of ``output_pins``."""
 
     direction_deg: _Eccentric = 0.0
     height: Annotated[float, height("plate above the disc; default: it carries the disc on its face")] | None = None

@@ -25,7 +25,7 @@ _Turn = Annotated[float, degrees("turn about z", least=-36_000, most=36_000)]
 
 
 class FixedSpec(MateKeys, tag="fixed", kw_only=True):
-    """The second instance stands still on the first: ``offset`` and ``rotation_deg`` in the first one's frame."""
+    """Keys of ``fixed``."""
 
     second: Annotated[str, Meta(description="instance that is fixed to it")]
     offset: Annotated[tuple[_Shift, _Shift, _Shift], mm("x, y, z")] = (
@@ -37,13 +37,13 @@ class FixedSpec(MateKeys, tag="fixed", kw_only=True):
 
 
 class CoaxialSpec(AboveKeys, tag="coaxial", kw_only=True):
-    """The second instance on the axis of the first, free to turn."""
+    """Keys of ``coaxial``."""
 
     rotation_deg: _Turn = 0.0
 
 
 class PinSeatSpec(MateKeys, tag="pin_seat", kw_only=True):
-    """A loose pin (second) in a seat or hole of a ring or plate (first)."""
+    """Keys of ``pin_seat``."""
 
     number: Annotated[int, Meta(ge=1, le=1000, description="which seat, counted from the first one")] = 1
     height: Height = 0.0

@@ -27,7 +27,7 @@ FOLLOWERS = ("follower", "follower_arm", "roller")
 
 
 class CamFollowerSpec(MateKeys, tag="cam_follower", kw_only=True):
-    """A cam (first) and what follows it (second); the cam's own turn tells at which cam angle it stands."""
+    """Keys of ``cam_follower``."""
 
     first: Annotated[str, Meta(description="instance of a cam that is already placed")]
     second: Annotated[str, Meta(description="its follower, follower_arm or roller")]

@@ -32,15 +32,15 @@ if TYPE_CHECKING:
 
 
 class ExternalGearPairSpec(InvolutePairKeys, tag="external_gear_pair"):
-    """Two external spur gears in mesh: exact centre distance, tip shortening, phase."""
+    """Keys of ``external_gear_pair``."""
 
 
 class InternalGearPairSpec(InvolutePairKeys, tag="internal_gear_pair"):
-    """A pinion in a ring gear, in either order."""
+    """Keys of ``internal_gear_pair``."""
 
 
 class RackPairSpec(InvolutePairKeys, tag="rack_pair", kw_only=True):
-    """A gear (first) and a rack (second) that moves across the direction from the gear to it."""
+    """Keys of ``rack_pair``."""
 
     working_centre_distance: (
         Annotated[

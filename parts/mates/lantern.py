@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class LanternPairSpec(MateKeys, tag="lantern_pair", kw_only=True):
-    """A lantern (first) and its gear (second): exact centre distance and phase."""
+    """Keys of ``lantern_pair``."""
 
     direction_deg: Direction = 0.0
     height: Annotated[float, height("gear above the lantern's lower face; default: midway on the pins")] | None = None

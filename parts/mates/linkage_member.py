@@ -22,7 +22,7 @@ Member = Literal["driven", "coupler", "guide"]
 
 
 class LinkageMemberSpec(MateKeys, tag="linkage_member", kw_only=True):
-    """A linkage cam (first) and a member of its linkage (second), which stands where the cam's turn puts it.
+    """Keys of ``linkage_member``.
 
     Frames: rocker: origin at its pivot, x axis to its joint; coupler: origin in joint A, x axis to joint B; slider:
     origin in its joint, x axis along its direction.

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class NoncircularGearPairSpec(GearPairKeys, tag="noncircular_gear_pair", kw_only=True):
-    """Two noncircular gears of one pair: exact centre distance, and the phase at which their centrodes touch."""
+    """Keys of ``noncircular_gear_pair``."""
 
     normal_backlash: (
         Annotated[

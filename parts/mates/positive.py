@@ -25,7 +25,7 @@ _Height = Annotated[float, height("how far the second one's lower face stands ab
 
 
 class ConjugateCamsSpec(MateKeys, tag="conjugate_cams", kw_only=True):
-    """A cam (first) and the conjugate cam made from it (second), keyed to one shaft."""
+    """Keys of ``conjugate_cams``."""
 
     first: Annotated[str, Meta(description="instance of a cam that is already placed")]
     second: Annotated[str, Meta(description="instance of the conjugate_cam made from it")]
@@ -33,7 +33,7 @@ class ConjugateCamsSpec(MateKeys, tag="conjugate_cams", kw_only=True):
 
 
 class CamYokeSpec(MateKeys, tag="cam_yoke", kw_only=True):
-    """A cam of constant breadth (first) and its yoke (second), lifted as the cam's own turn says."""
+    """Keys of ``cam_yoke``."""
 
     first: Annotated[str, Meta(description="instance of a cam that is already placed")]
     second: Annotated[str, Meta(description="instance of the yoke_frame made from it")]

@@ -1,29 +1,73 @@
-"""The kinds of mates, one line each: where the kind is found."""
+"""The kinds of mates, one entry each: where the kind is found, and what it is in a phrase."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from parts.base.lazy import Registry
-from parts.base.mate import MateKind
+from parts.base.lazy import Index
 
-MATES: Registry[MateKind[Any, Any, Any]] = Registry(
+if TYPE_CHECKING:
+    from parts.base.mate import MateKind
+
+MATES: Index[MateKind[Any, Any, Any]] = Index(
     {
-        "external_gear_pair": "parts.mates.involute:EXTERNAL",
-        "internal_gear_pair": "parts.mates.involute:INTERNAL",
-        "rack_pair": "parts.mates.involute:RACK",
-        "cam_follower": "parts.mates.follower:CAM_FOLLOWER",
-        "linkage_member": "parts.mates.linkage_member:LINKAGE_MEMBER",
-        "wedge_follower": "parts.mates.wedge:WEDGE_FOLLOWER",
-        "conjugate_cams": "parts.mates.positive:CONJUGATE_CAMS",
-        "cam_yoke": "parts.mates.positive:CAM_YOKE",
-        "fixed": "parts.mates.fixed:FIXED",
-        "coaxial": "parts.mates.fixed:COAXIAL",
-        "cycloidal_pair": "parts.mates.cycloidal:CYCLOIDAL_PAIR",
-        "eccentric_bearing": "parts.mates.cycloidal:ECCENTRIC_BEARING",
-        "output_pins": "parts.mates.cycloidal:OUTPUT_PINS",
-        "pin_seat": "parts.mates.fixed:PIN_SEAT",
-        "lantern_pair": "parts.mates.lantern:LANTERN_PAIR",
-        "noncircular_gear_pair": "parts.mates.noncircular:NONCIRCULAR_GEAR_PAIR",
+        "external_gear_pair": (
+            "parts.mates.involute:EXTERNAL",
+            "Two external spur gears in mesh: exact centre distance, tip shortening, phase",
+        ),
+        "internal_gear_pair": ("parts.mates.involute:INTERNAL", "A pinion in a ring gear, in either order"),
+        "rack_pair": (
+            "parts.mates.involute:RACK",
+            "A gear (first) and a rack (second) that moves across the direction from the gear to it",
+        ),
+        "cam_follower": (
+            "parts.mates.follower:CAM_FOLLOWER",
+            "A cam (first) and what follows it (second); the cam's own turn tells at which cam angle it stands",
+        ),
+        "linkage_member": (
+            "parts.mates.linkage_member:LINKAGE_MEMBER",
+            "A linkage cam (first) and a member of its linkage (second), which stands where the cam's turn puts it",
+        ),
+        "wedge_follower": (
+            "parts.mates.wedge:WEDGE_FOLLOWER",
+            "A wedge cam (first) and what follows it (second), which rises across the plate: rotation_deg turns both",
+        ),
+        "conjugate_cams": (
+            "parts.mates.positive:CONJUGATE_CAMS",
+            "A cam (first) and the conjugate cam made from it (second), keyed to one shaft",
+        ),
+        "cam_yoke": (
+            "parts.mates.positive:CAM_YOKE",
+            "A cam of constant breadth (first) and its yoke (second), lifted as the cam's own turn says",
+        ),
+        "fixed": (
+            "parts.mates.fixed:FIXED",
+            "The second instance stands still on the first: ``offset`` and ``rotation_deg`` in the first one's frame",
+        ),
+        "coaxial": ("parts.mates.fixed:COAXIAL", "The second instance on the axis of the first, free to turn"),
+        "cycloidal_pair": (
+            "parts.mates.cycloidal:CYCLOIDAL_PAIR",
+            "A cycloidal disc (second) in its pin ring (first): eccentric distance and phase",
+        ),
+        "eccentric_bearing": (
+            "parts.mates.cycloidal:ECCENTRIC_BEARING",
+            "A cycloidal disc (second) on its eccentric (first), which drives it",
+        ),
+        "output_pins": (
+            "parts.mates.cycloidal:OUTPUT_PINS",
+            "The pins of an output plate (second) in the holes of a cycloidal disc (first)",
+        ),
+        "pin_seat": (
+            "parts.mates.fixed:PIN_SEAT",
+            "A loose pin (second) in a seat or hole of a ring or plate (first)",
+        ),
+        "lantern_pair": (
+            "parts.mates.lantern:LANTERN_PAIR",
+            "A lantern (first) and its gear (second): exact centre distance and phase",
+        ),
+        "noncircular_gear_pair": (
+            "parts.mates.noncircular:NONCIRCULAR_GEAR_PAIR",
+            "Two noncircular gears of one pair: exact centre distance, and the phase at which their centrodes touch",
+        ),
     }
 )

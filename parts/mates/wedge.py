@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 class WedgeFollowerSpec(MateKeys, tag="wedge_follower", kw_only=True):
-    """A wedge cam (first) and what follows it (second), which rises across the plate: rotation_deg turns both."""
+    """Keys of ``wedge_follower``."""
 
     first: Annotated[str, Meta(description="instance of a wedge_cam that is already placed")]
     second: Annotated[str, Meta(description="its follower, follower_arm or roller")]

@@ -39,7 +39,7 @@ class OutputHolesTable(Struct, forbid_unknown_fields=True):
 
 
 class CycloidalDiscSpec(HubbedKeys, kw_only=True, tag_field="kind", tag="cycloidal_disc"):
-    """Disc of a cycloidal reducer; it rolls inside number_of_lobes + 1 pins and turns 1 / number_of_lobes as fast."""
+    """Keys of ``cycloidal_disc``."""
 
     number_of_lobes: LobeCount
     pin_circle_diameter: PinCircle

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class LanternGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="lantern_gear"):
-    """External gear for a lantern: flanks parallel to the epicycloid of its pins."""
+    """Keys of ``lantern_gear``."""
 
     number_of_teeth: Annotated[int, Meta(ge=3, le=1000, description="number of teeth z", examples=[30])]
     number_of_pins: Annotated[int, Meta(ge=3, le=1000, description="number of pins N of the lantern", examples=[12])]

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class PinSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", tag="pin"):
-    """Round pin, or with a bore the sleeve that turns on it."""
+    """Keys of ``pin``."""
 
     diameter: Annotated[float, mm("outer diameter", least=0.01, most=MOST, example=8.0)]
     length: Annotated[float, mm("length along the axis", least=0.01, most=10_000, example=60.0)]
@@ -26,7 +26,7 @@ class PinSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", tag="p
 
 
 class EccentricSpec(BoredKeys, kw_only=True, tag_field="kind", tag="eccentric"):
-    """Round disc whose centre stands off its axis along +x; the bore is about the axis."""
+    """Keys of ``eccentric``."""
 
     diameter: Annotated[float, mm("diameter of the disc", least=0.01, most=MOST, example=22.0)]
     eccentricity: Annotated[float, mm("from the axis to the disc's centre", least=0, most=MOST, example=2.5)]

@@ -54,7 +54,7 @@ class PinPlateKeys(HoledKeys, kw_only=True):
 
 
 class OutputPlateSpec(PinPlateKeys, kw_only=True, tag_field="kind", tag="output_plate"):
-    """Plate with the output pins of a cycloidal reducer on its upper face, or with holes for them."""
+    """Keys of ``output_plate``."""
 
     number_of_pins: Annotated[int, Meta(ge=1, le=200, description="number of output pins", examples=[6])]
     pin_circle_diameter: Annotated[PinCircle, Meta(examples=[44.0])]
@@ -66,7 +66,7 @@ class OutputPlateSpec(PinPlateKeys, kw_only=True, tag_field="kind", tag="output_
 
 
 class LanternWheelSpec(PinPlateKeys, kw_only=True, tag_field="kind", tag="lantern_wheel"):
-    """Lantern: round pins between two plates, or one of its plates with holes for them; the first pin on +x."""
+    """Keys of ``lantern_wheel``."""
 
     number_of_pins: Annotated[int, Meta(ge=3, le=1000, description="number of pins N", examples=[12])]
     pin_circle_diameter: Annotated[

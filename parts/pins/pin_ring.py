@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class PinRingSpec(MadeKeys, kw_only=True, tag_field="kind", tag="pin_ring"):
-    """Ring that holds pins on a circle, the first one on +x."""
+    """Keys of ``pin_ring``."""
 
     number_of_pins: PinCount
     pin_circle_diameter: PinCircle

@@ -1,8 +1,9 @@
-"""Scene files: where those of the package lie, and the text that a file holds."""
+"""Scene files: where those of the package lie, their titles, and the text that a file holds."""
 
 from __future__ import annotations
 
 import codecs
+import tomllib
 from pathlib import Path
 
 SCENE_FOLDER = Path(__file__).parents[1] / "scenes"
@@ -11,6 +12,11 @@ SCENE_FOLDER = Path(__file__).parents[1] / "scenes"
 def built_in_scenes() -> dict[str, Path]:
     """Names and files of the scenes that come with the package."""
     return {path.stem: path for path in sorted(SCENE_FOLDER.glob("*.toml"))}
+
+
+def title_of(file: Path) -> str:
+    """The title of a scene of the package."""
+    return str(tomllib.loads(file.read_text(encoding="utf-8"))["scene"]["title"])
 
 
 def text_of(raw: bytes) -> str:

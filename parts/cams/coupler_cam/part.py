@@ -35,7 +35,7 @@ _USUAL_ROLLER_SHARE = 0.8
 
 
 class LinkageCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="linkage_cam"):
-    """Disk cam for a follower on the coupler of a linkage; it turns counter-clockwise about the origin."""
+    """Keys of ``linkage_cam``."""
 
     follower: Follower
     driven: DrivenRocker | DrivenSlider

@@ -60,7 +60,7 @@ class OscillatingTable(Struct, forbid_unknown_fields=True):
 
 
 class CamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="cam"):
-    """Disk cam; it turns counter-clockwise, cam angle 0 is the start of the first phase."""
+    """Keys of ``cam``."""
 
     follower: Follower
     lift: Lift = 0.0

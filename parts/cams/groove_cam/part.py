@@ -49,7 +49,7 @@ _USUAL_CLEARANCE = (0.0, 0.02)
 
 
 class GrooveCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="groove_cam"):
-    """Groove cam; the keys of the motion, bore, holes and hub are those of ``cam``."""
+    """Keys of ``groove_cam``."""
 
     follower_radius: Annotated[float, mm("radius of the roller", above=0, most=_MOST, example=8.0)]
     groove_depth: Annotated[

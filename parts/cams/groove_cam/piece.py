@@ -29,7 +29,7 @@ _GROOVE_CAM: dict[str, object] = {
 
 
 class GroovePieceSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", tag="groove_piece"):
-    """A plate of a groove cam: the core within the groove, the ring about it, or the disk under both."""
+    """Keys of ``groove_piece``."""
 
     of: Annotated[str, Meta(description="the part of kind groove_cam that the plate is a layer of")]
     piece: Annotated[Literal["core", "ring", "floor"], Meta(description="which of the three plates", examples=["core"])]

@@ -33,7 +33,7 @@ _MOST = 100_000.0
 
 
 class ConjugateCamSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", tag="conjugate_cam"):
-    """Second cam of a pair, turned as it sits on the shaft of the first: both have rotation_deg = 0."""
+    """Keys of ``conjugate_cam``."""
 
     of: Annotated[str, Meta(description="the first cam: a part of kind cam with a roller")]
     roller_distance: (

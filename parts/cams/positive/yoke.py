@@ -29,7 +29,7 @@ _LEAST_WALL = 0.05
 
 
 class YokeFrameSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", tag="yoke_frame"):
-    """Frame about a cam, drawn as it stands at cam angle 0: two flat faces, or a plate with pins for two rollers."""
+    """Keys of ``yoke_frame``."""
 
     of: Annotated[str, Meta(description="the cam: a part of kind cam, flat or roller, of constant breadth")]
     clearance: Annotated[float, mm("play of the cam between faces or rollers", least=0, most=10)] = 0.0

@@ -75,7 +75,7 @@ class WedgeHoleTable(Struct, forbid_unknown_fields=True):
 
 
 class WedgeCamSpec(MadeKeys, forbid_unknown_fields=True, tag_field="kind", tag="wedge_cam"):
-    """Translating cam plate; it slides along -x, the follower starts over x = 0."""
+    """Keys of ``wedge_cam``."""
 
     follower: Annotated[
         Literal["pointed", "roller", "mushroom", "flat"],

@@ -40,7 +40,7 @@ _ROUND = {"axis_ratio": 1.0, "eccentricity": 0.0}
 
 
 class NoncircularGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="noncircular_gear"):
-    """Noncircular gear, one of a pair: the keys tell the driver's centrode, ``role`` which of both this part is."""
+    """Keys of ``noncircular_gear``."""
 
     centrode: Annotated[
         Literal["oval", "focal_ellipse", "ratio"],

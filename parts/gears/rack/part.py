@@ -39,7 +39,7 @@ class RackHolesTable(Struct, forbid_unknown_fields=True):
 
 
 class RackSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="rack"):
-    """Straight rack, spur or helical; its teeth are those of the basic rack."""
+    """Keys of ``rack``."""
 
     number_of_teeth: Annotated[int, Meta(ge=1, le=500, description="number of teeth", examples=[23])]
     pressure_angle_deg: Annotated[float, degrees("pressure angle", least=5, most=40)] = 20.0

@@ -49,7 +49,7 @@ class RimHolesTable(HolesTable, forbid_unknown_fields=True):
 
 
 class RingGearSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="ring_gear"):
-    """Ring gear (internal teeth), spur or helical, cut by a pinion cutter."""
+    """Keys of ``ring_gear``."""
 
     number_of_teeth: Annotated[int, Meta(ge=4, le=10_000, description="number of teeth z_2", examples=[60])]
     profile_shift_coefficient: Annotated[

@@ -78,7 +78,7 @@ class ReliefTable(Struct, forbid_unknown_fields=True):
 
 
 class SpurGearSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="spur_gear"):
-    """External gear, spur or helical, cut by a rack or by a pinion cutter."""
+    """Keys of ``spur_gear``."""
 
     number_of_teeth: Annotated[int, Meta(ge=3, le=10_000, description="number of teeth z", examples=[23])]
     profile_shift_coefficient: Annotated[float, in_modules("profile shift x (the seeds' xi)", least=-10, most=10)] = 0.0

@@ -306,6 +306,15 @@ def test_a_stop_that_a_loading_library_passes_over_still_stops(tmp_path: Path, l
     assert done.returncode == 130
 
 
+def loaded_by(*words: object, cwd: Path) -> list[str]:
+    """The modules that a command has loaded when it ends."""
+    code = ("import atexit, sys; from exporters.command.cli import main; "
+            "atexit.register(lambda: sys.stderr.write('|' + ' '.join(sys.modules))); main(sys.argv[1:])")  # fmt: skip
+    done = subprocess.run([sys.executable, "-c", code, *map(str, words)], cwd=cwd, text=True, capture_output=True,
+                          timeout=60, check=True)  # fmt: skip
+    return done.stderr.rpartition("|")[2].split()
+
+
 HEAVY = ("cadquery", "OCP", "trimesh", "manifold3d", "scipy", "matplotlib")
 
 
@@ -320,13 +329,35 @@ HEAVY = ("cadquery", "OCP", "trimesh", "manifold3d", "scipy", "matplotlib")
 )
 def test_a_build_imports_nothing_in_vain(tmp_path: Path, formats: list[str], never: tuple[str, ...]) -> None:
     scene = pair(tmp_path, *({"format": f} for f in formats))
-    code = ("import sys; from exporters.command.cli import main; code = main(sys.argv[1:]); "
-            "sys.stderr.write(' '.join(sys.modules)); sys.exit(code)")  # fmt: skip
-    done = subprocess.run([sys.executable, "-c", code, "build", str(scene), "--out", str(tmp_path / "o")],
-                          cwd=tmp_path, text=True, capture_output=True, timeout=60, check=True)  # fmt: skip
-    loaded = {name.split(".")[0] for name in done.stderr.split()}
+    loaded = {name.split(".")[0] for name in loaded_by("build", scene, "--out", tmp_path / "o", cwd=tmp_path)}
     assert {"numpy", "msgspec", "geometry"} <= loaded
     assert not loaded & set(never)
+
+
+# what one plain gear has no use for: cutters and their fillets, keyways, windows, pairs, other kinds
+NOT_OF_A_GEAR = ("geometry.gears.teeth.cutter", "geometry.curves.cutter_fillet", "geometry.curves.elliptic_fillet",
+                 "geometry.solids.keyways", "geometry.solids.windows", "geometry.gears.pairs", "geometry.gears.mesh",
+                 "geometry.cams", "geometry.laws", "geometry.kinematics", "parts.mates", "parts.cams", "parts.pins",
+                 "exporters.production.kept", "exporters.production.preview_labels",
+                 "exporters.production.check")  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("words", "never"),
+    [
+        (["build", "one.toml", "--format", "dxf"], (*NOT_OF_A_GEAR, "geometry.solids.body", "parts.solids")),
+        (["build", "one.toml", "--format", "stl"], NOT_OF_A_GEAR),
+        (["list"], ("numpy", "msgspec", "geometry", "parts.keys", "parts.gears", "parts.mates.involute")),
+        (["new", "external_gear_pair"], ("numpy", "parts.gears", "geometry.solids")),
+        (["--version"], ("numpy", "msgspec", "dataclasses", "inspect")),
+    ],
+    ids=lambda value: value[0] if isinstance(value, list) else "",
+)
+def test_a_command_loads_what_it_needs(tmp_path: Path, words: list[str], never: tuple[str, ...]) -> None:
+    write_scene(tmp_path / "one.toml", {"a": part_keys(GEAR)}, ALL)
+    loaded = loaded_by(*words, cwd=tmp_path)
+    assert "exporters.command.cli" in loaded
+    assert [m for m in loaded if m in never or m.startswith(tuple(f"{name}." for name in never))] == []
 
 
 def test_findings_reach_the_report_in_both_languages(tmp_path: Path) -> None:

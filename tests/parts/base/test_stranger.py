@@ -87,8 +87,10 @@ def known(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     tables = (
         KINDS._homes,
         KINDS._loaded,
+        KINDS.phrases,
         MATES._homes,
         MATES._loaded,
+        MATES.phrases,
         TERMS,
         quantities.QUANTITIES,
         findings.FINDINGS,
