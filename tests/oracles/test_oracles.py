@@ -83,6 +83,7 @@ def test_every_tooth_and_both_flanks_are_alike(name: str) -> None:
     assert outline_error(copies, tool_of(p), p.z, float(p.tip_radius)).max() < 4e-15 * float(p.tip_radius)
 
 
+@pytest.mark.sampled(13)
 @every_case
 @pytest.mark.parametrize("sign", [1, -1])
 def test_negative_control_one_billionth_is_seen(name: str, sign: int) -> None:
@@ -110,6 +111,7 @@ def test_negative_control_other_tool_is_seen(change: dict[str, str]) -> None:
     assert outline_error(points, other, p.z, float(p.tip_radius)).max() > 1e-7
 
 
+@pytest.mark.sampled(7)
 @every_case
 def test_penetration_is_the_distance_in_the_metal(name: str) -> None:
     """True maximum over the rolling: brute force and the 50-digit distance agree at random metal points."""
@@ -126,6 +128,7 @@ def test_penetration_is_the_distance_in_the_metal(name: str) -> None:
     assert np.all(depth[~metal] <= distance[~metal] + 1e-14 * ra)
 
 
+@pytest.mark.sampled(8)
 @every_case
 def test_grid_does_not_matter(name: str) -> None:
     p = CASES[name]
@@ -135,6 +138,7 @@ def test_grid_does_not_matter(name: str) -> None:
     assert np.abs(coarse - dense).max() < 2e-15 * float(p.tip_radius)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("rho", [0.0, 0.2])
 @pytest.mark.parametrize("z", [3, 5, 8])
 def test_grid_does_not_matter_in_deep_undercut(z: int, rho: float) -> None:

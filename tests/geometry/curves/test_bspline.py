@@ -195,7 +195,7 @@ def test_knots_that_make_no_spline_are_refused(degree: int, knots: list[float], 
         BSpline(degree, np.array(knots, dtype=float), np.array(poles, dtype=complex))
 
 
-@pytest.mark.sampled(72)
+@pytest.mark.sampled(24)
 @EVERY
 @KINDS
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])
@@ -237,6 +237,7 @@ def test_the_worst_place_against_fifty_digits(name: str, kind: tuple[int, int]) 
     assert fit.max_error / 1.1 <= distance <= fit.max_error
 
 
+@pytest.mark.sampled(40)
 @EVERY
 @KINDS
 def test_ends_are_the_curves(name: str, kind: tuple[int, int]) -> None:
@@ -310,7 +311,7 @@ def test_near_the_least_number_of_poles(name: str, kind: tuple[int, int]) -> Non
     assert degree + fit.pieces == len(fit.spline.poles) <= 1.25 * (degree + least)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("name", "kind"),
     [

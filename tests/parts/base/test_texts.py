@@ -149,7 +149,7 @@ def test_the_language_of_the_terminal_does_not_matter(name: str, tmp_path: Path)
     asked = ["build", "--help", "--language", "uk"]
     assert "використання: higherpair build" in run(code.format(str(tmp_path), "", asked), **speaks)
     wrong = run(code.format(str(tmp_path), "", ["build"]), **speaks)
-    assert wrong == "higherpair: the following arguments are required: scene; see `higherpair build --help`\n"
+    assert wrong == "higherpair: the following arguments are required: SCENE; see `higherpair build --help`\n"
 
 
 def test_the_scene_says_in_which_language_its_command_is_misused(tmp_path: Path) -> None:

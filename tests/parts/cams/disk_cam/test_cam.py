@@ -289,6 +289,7 @@ NOT_CURED = {"no motion", "no lift", "never back", "open diagram", "no roller", 
              "rocker without base"}  # fmt: skip
 
 
+@pytest.mark.sampled(20)
 @pytest.mark.parametrize("name", WRONG)
 def test_wrong_keys_are_refused_in_the_users_terms(name: str) -> None:
     keys, blamed, code = WRONG[name]

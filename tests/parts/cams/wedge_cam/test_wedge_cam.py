@@ -47,6 +47,7 @@ def wedge(name: str) -> tuple[Part, WedgeCam]:
     return part, part.thing
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", CAMS)
 def test_the_follower_touches_all_the_way(name: str) -> None:
     part, cam = wedge(name)
@@ -210,6 +211,7 @@ WRONG: dict[str, tuple[Keys, str, str]] = {
 NOT_CURED = {"flat", "no radius", "no lift", "arm with a jump"}
 
 
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("name", WRONG)
 def test_wrong_keys_are_refused_with_what_works(name: str) -> None:
     keys, blamed, code = WRONG[name]
