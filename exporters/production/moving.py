@@ -14,7 +14,7 @@ import shutil
 import signal
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 _STAGING = ".building-"
@@ -27,15 +27,18 @@ def staging_folder(folder: Path) -> Iterator[Path]:
     """A folder within ``folder`` that is gone afterwards; ``folder`` itself goes too if nothing came into it."""
     created = missing_folders(folder)
     staging = folder / f"{_STAGING}{os.getpid()}"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        clear(folder)
-        staging.mkdir()
-        yield staging
-    finally:
-        _settle(folder)
-        _remove(staging)
-        remove_empty(created)
+    with ExitStack() as held:
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            with alone_in(folder):
+                _remove_abandoned(folder)
+                staging.mkdir()
+                held.enter_context(_locked(staging))
+            yield staging
+        finally:
+            _settle(folder)
+            _remove(staging)
+            remove_empty(created)
 
 
 @contextmanager
@@ -68,10 +71,9 @@ def move_into(folder: Path, staging: Path, names: list[str]) -> None:
 
 def clear(folder: Path) -> None:
     """Put back, or remove, what builds that were killed have left half done in a folder."""
-    _settle(folder)
-    for stale in folder.glob(f"{_STAGING}*"):
-        if not _is_running(stale.name.removeprefix(_STAGING).partition("-")[0]):
-            _remove(stale)
+    if folder.is_dir():
+        with alone_in(folder):
+            _remove_abandoned(folder)
 
 
 def missing_folders(folder: Path) -> list[Path]:
@@ -134,17 +136,26 @@ def _is_ours(place: Path) -> bool:
     return place.is_dir() and not place.is_symlink()
 
 
-def _is_running(process: str) -> bool:
-    """Whether a process may still be at work; only a POSIX system can be asked without harm."""
-    if os.name != "posix" or not process.isdigit():
-        return True
-    try:
-        os.kill(int(process), 0)
-    except ProcessLookupError:
+def _remove_abandoned(folder: Path) -> None:
+    for place in folder.glob(f"{_STAGING}*"):
+        if _is_ours(place) and _is_abandoned(place):
+            _remove(place)
+
+
+def _is_abandoned(place: Path) -> bool:
+    """Whether nobody holds a folder; told by its lock: a dead process may keep its number."""
+    if sys.platform == "win32":
         return False
-    except (OSError, OverflowError):
-        return True
-    return int(process) != os.getpid()
+    import fcntl
+
+    handle = os.open(place, os.O_RDONLY)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    finally:
+        os.close(handle)
+    return True
 
 
 @contextmanager
@@ -176,14 +187,14 @@ def _locked(folder: Path) -> Iterator[None]:
         return
     import fcntl
 
-    place = os.open(folder, os.O_RDONLY)
+    handle = os.open(folder, os.O_RDONLY)
     try:
         # some network disks lock nothing: two builds at once on them are the user's to avoid
         with suppress(OSError):
-            fcntl.flock(place, fcntl.LOCK_EX)
+            fcntl.flock(handle, fcntl.LOCK_EX)
         yield
     finally:
-        os.close(place)
+        os.close(handle)
 
 
 def write_whole(file: Path, text: str) -> None:
