@@ -60,6 +60,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
             text = told.text("{why}; choose another place with --out", why=why)
         print(f"higherpair: {text}", file=sys.stderr)
         return WRONG_INPUT
+    except MemoryError:
+        text = words(_language(options)).text(
+            "the memory does not suffice; a larger tolerance or fewer parts need less"
+        )
+        print(f"higherpair: {text}", file=sys.stderr)
+        return WRONG_INPUT
     except ValueError as error:
         from parts.base.refusal import SceneError, sentence
 

@@ -10,9 +10,11 @@ from xml.etree import ElementTree
 import numpy as np
 from numpy.typing import NDArray
 
-from exporters.formats.readback import Occurrence, Prototype, ReadAssembly, ReadMesh
+from exporters.formats.readback import MOST_READ_BYTES, Occurrence, Prototype, ReadAssembly, ReadMesh
 from parts.base.readback import ReadError
 
+# numbers as text pack five to ten times; a small package may do as it likes
+_DENSEST, _SMALL = 30, 4_000_000
 _CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
 
 
@@ -74,6 +76,11 @@ def _model(file: Path) -> ElementTree.Element:
     """The root of the model in a whole package, in mm."""
     try:
         with zipfile.ZipFile(file) as package:
+            inside, most = sum(entry.file_size for entry in package.infolist()), _most_inside(file)
+            if inside > most:
+                raise ReadError(
+                    f"the 3MF package unpacks to {inside} bytes; at most {most} are read of one of its size"
+                )
             if package.testzip() is not None:
                 raise ReadError("the 3MF package is damaged")
             root = ElementTree.fromstring(package.read("3D/3dmodel.model"))
@@ -82,6 +89,10 @@ def _model(file: Path) -> ElementTree.Element:
     if root.get("unit") != "millimeter":
         raise ReadError("the 3MF is not in mm")
     return root
+
+
+def _most_inside(file: Path) -> int:
+    return min(MOST_READ_BYTES, max(_SMALL, _DENSEST * file.stat().st_size))
 
 
 def _mesh(item: ElementTree.Element) -> ReadMesh:

@@ -11,6 +11,7 @@ import math
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
     from OCP.TopoDS import TopoDS_Shape
     from OCP.XCAFDoc import XCAFDoc_ColorTool
 
+# the kernel wants a name for what it reads, and takes none that is not UTF-8
+_STREAM = "part.step"
 _UNMENDED = ("FixShape.FixSelfIntersectionMode", "FixShape.FixIntersectingWiresMode")
 _STRINGS = re.compile(rb"'[^']*'")
 # what C's reader of numbers takes for one, and exponents beyond any length
@@ -99,15 +102,15 @@ def read_step(file: Path) -> ReadSolid:
     from OCP.IFSelect import IFSelect_RetDone
     from OCP.STEPControl import STEPControl_Reader
 
-    _check_numbers(file)
+    data = _content(file)
     with silent_kernel():
         reader = STEPControl_Reader()
-        if reader.ReadFile(str(file)) != IFSelect_RetDone:
+        if reader.ReadStream(_STREAM, BytesIO(data)) != IFSelect_RetDone:
             raise ReadError("not a readable STEP file")
         leave_crossings(reader)
         reader.TransferRoots()
         shape = reader.OneShape()
-    text = file.read_text(encoding="utf-8", errors="replace")
+    text = data.decode("utf-8", errors="replace")
     return ReadSolid(shape, tuple(name.replace("''", "'") for name in _PRODUCT.findall(text)))
 
 
@@ -120,13 +123,13 @@ def read_step_assembly(file: Path) -> ReadAssembly:
     from OCP.TDocStd import TDocStd_Document
     from OCP.XCAFDoc import XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 
-    _check_numbers(file)
+    data = _content(file)
     with silent_kernel():
         reader = STEPCAFControl_Reader()
         reader.SetNameMode(True)
         reader.SetColorMode(True)
         document = TDocStd_Document(TCollection_ExtendedString("XmlOcaf"))
-        if reader.ReadFile(str(file)) != IFSelect_RetDone:
+        if reader.ReadStream(_STREAM, BytesIO(data)) != IFSelect_RetDone:
             raise ReadError("not a readable STEP file")
         leave_crossings(reader)
         if not reader.Transfer(document):
@@ -200,10 +203,12 @@ def _location(shape: TopoDS_Shape) -> NDArray[np.float64]:
     return np.array([[transformation.Value(i, j) for j in range(1, 5)] for i in range(1, 4)])
 
 
-def _check_numbers(file: Path) -> None:
-    """Refuse a STEP file with a coordinate that is not a number, over which the kernel would not come to an end."""
-    if found := _STRANGE.search(_STRINGS.sub(b"''", file.read_bytes())):
+def _content(file: Path) -> bytes:
+    """A STEP file; one with a coordinate that is not a number the kernel would not come to an end over."""
+    data = file.read_bytes()
+    if found := _STRANGE.search(_STRINGS.sub(b"''", data)):
         raise ReadError(f"a number in the STEP file is {found[1].decode()}")
+    return data
 
 
 def leave_crossings(reader: STEPControl_Reader | STEPCAFControl_Reader) -> None:

@@ -15,6 +15,8 @@ from parts.base.readback import ReadBack, ReadError, ReadLoop
 if TYPE_CHECKING:
     from geometry.cams.contact.rolled import Outline
 
+# a file that is larger, or unpacks to more, is none of ours
+MOST_READ_BYTES = 1_000_000_000
 _NO_FACES = np.zeros((0, 3, 3))
 
 

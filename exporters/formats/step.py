@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -83,9 +84,14 @@ def _written(file: Path, document: TDocStd_Document, name: str) -> dict[str, int
     if not writer.Transfer(document, STEPControl_StepModelType.STEPControl_AsIs):
         raise GeometryError("the kernel cannot translate the solid to STEP")
     _fix_header(writer, name)
-    if writer.Write(str(file)) != IFSelect_RetDone:
-        raise OSError(f"the kernel cannot write {file}")
-    return _tidied(file)
+    stream = BytesIO()
+    if writer.WriteStream(stream) != IFSelect_RetDone:
+        raise GeometryError("the kernel cannot write the solid as STEP")
+    # we write it ourselves: the kernel takes no name that is not UTF-8, and does not say why a file cannot be written
+    data = _tidied(stream.getvalue())
+    file.write_bytes(data)
+    kinds = ("CYLINDRICAL_SURFACE", "SURFACE_OF_LINEAR_EXTRUSION", "PLANE", "MANIFOLD_SOLID_BREP")
+    return {kind: data.count(f"={kind}(".encode()) + data.count(f"= {kind}(".encode()) for kind in kinds}
 
 
 def _document() -> tuple[TDocStd_Document, XCAFDoc_ShapeTool]:
@@ -161,19 +167,14 @@ _REFERENCE = re.compile(rb"#(\d+)")
 _OCCURRENCE = re.compile(rb"(NEXT_ASSEMBLY_USAGE_OCCURRENCE\(')\d+('[^;]*;)")
 
 
-def _tidied(file: Path) -> dict[str, int]:
-    """Renumber the occurrence ids, which count on through the process and shift line ends, and count entities.
+def _tidied(data: bytes) -> bytes:
+    """Renumber the occurrence ids, which count on through the process and shift line ends.
 
     The colours at the end come in the order of the kernel's addresses, and are put in that of what they colour.
     """
-    data = file.read_bytes()
     numbers = iter(range(1, data.count(b"NEXT_ASSEMBLY_USAGE_OCCURRENCE(") + 1))
     fixed = _OCCURRENCE.sub(lambda m: m[1] + str(next(numbers)).encode() + re.sub(rb"\s*\n\s*", b"", m[2]), data)
-    fixed = _styles_in_order(fixed)
-    if fixed != data:
-        file.write_bytes(fixed)
-    kinds = ("CYLINDRICAL_SURFACE", "SURFACE_OF_LINEAR_EXTRUSION", "PLANE", "MANIFOLD_SOLID_BREP")
-    return {kind: fixed.count(f"={kind}(".encode()) + fixed.count(f"= {kind}(".encode()) for kind in kinds}
+    return _styles_in_order(fixed)
 
 
 def _styles_in_order(data: bytes) -> bytes:

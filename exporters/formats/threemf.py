@@ -8,6 +8,7 @@ import uuid
 import zipfile
 from collections.abc import Sequence
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -39,7 +40,7 @@ def write_3mf(file: Path, name: str, mesh: Mesh, colour: str | None) -> dict[str
     model = _model()
     item = _add_object(model, model.AddBaseMaterialGroup(), MeshPart(name, mesh, colour), _uuid(name, "object"))
     _add_item(model, item, _uuid(name, "item"))
-    _save(model, file, _uuid(name, "build"))
+    file.write_bytes(_package(model, _uuid(name, "build")))
     return {"triangles": len(mesh.triangles), "vertices": len(mesh.vertices)}
 
 
@@ -56,8 +57,8 @@ def write_3mf_assembly(
     objects = {p.name: _add_object(model, materials, p, _uuid(f"{name}/{p.name}", "object")) for p in parts}
     for occurrence, part, _ in occurrences:
         _add_item(model, objects[part], _uuid(f"{name}/{occurrence}", "item")).SetPartNumber(occurrence)
-    _save(model, file, _uuid(name, "build"))
-    _set_places(file, {occurrence: place for occurrence, _, place in occurrences})
+    package = _package(model, _uuid(name, "build"))
+    file.write_bytes(_with_places(package, {occurrence: place for occurrence, _, place in occurrences}))
     meshes = [p.mesh for p in parts]
     return {"triangles": sum(len(m.triangles) for m in meshes), "vertices": sum(len(m.vertices) for m in meshes)}
 
@@ -95,31 +96,34 @@ def _add_item(model: Model, item: MeshObject, identity: str) -> BuildItem:
     return build
 
 
-def _save(model: Model, file: Path, identity: str) -> None:
+def _package(model: Model, identity: str) -> bytes:
+    """The file's bytes; lib3mf's own writing of files ends the process where a disk is full."""
     model.SetBuildUUID(identity)
     writer = model.QueryWriter("3mf")
     writer.SetDecimalPrecision(_DECIMALS)
-    writer.WriteToFile(str(file))
+    return bytes(writer.WriteToBuffer())
 
 
-def _set_places(file: Path, places: dict[str, Placement3]) -> None:
-    """Put the places of the build items into a file with all their digits: lib3mf would write six of them."""
+def _with_places(data: bytes, places: dict[str, Placement3]) -> bytes:
+    """A package with the places of its build items in all their digits: lib3mf would write six of them."""
 
     def placed(found: re.Match[str]) -> str:
         # row vectors are multiplied: four rows of three, the move last
         numbers = " ".join(repr(x) for x in places[found[2]].matrix().T.ravel().tolist())
         return f'{found[1]} transform="{numbers}"/>'
 
-    with zipfile.ZipFile(file) as package:
+    with zipfile.ZipFile(BytesIO(data)) as package:
         content = {name: package.read(name) for name in package.namelist()}
     model = content[_MODEL].decode("utf-8")
     content[_MODEL] = re.sub(r'(<item [^>]*partnumber="([^"]*)"[^>]*?)\s*/>', placed, model).encode("utf-8")
-    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as package:
-        for name, data in content.items():
+    stream = BytesIO()
+    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as package:
+        for name, entry_data in content.items():
             # without a date of its own an entry gets the earliest one; the system is named as anywhere else
             entry = zipfile.ZipInfo(name)
             entry.create_system = 3
-            package.writestr(entry, data, zipfile.ZIP_DEFLATED)
+            package.writestr(entry, entry_data, zipfile.ZIP_DEFLATED)
+    return stream.getvalue()
 
 
 def _structs(kind: type[ctypes.Structure], rows: np.ndarray) -> ctypes.Array[ctypes.Structure]:

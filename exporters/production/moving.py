@@ -27,18 +27,16 @@ def staging_folder(folder: Path) -> Iterator[Path]:
     """A folder within ``folder`` that is gone afterwards; ``folder`` itself goes too if nothing came into it."""
     created = missing_folders(folder)
     staging = folder / f"{_STAGING}{os.getpid()}"
-    with ExitStack() as held:
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-            with alone_in(folder):
-                _remove_abandoned(folder)
-                staging.mkdir()
-                held.enter_context(_locked(staging))
-            yield staging
-        finally:
-            _settle(folder)
-            _remove(staging)
-            remove_empty(created)
+    with ExitStack() as done:
+        done.callback(remove_empty, created)
+        folder.mkdir(parents=True, exist_ok=True)
+        with alone_in(folder):
+            _remove_abandoned(folder)
+            staging.mkdir()
+            done.enter_context(_locked(staging))
+            done.callback(_remove, staging)
+            done.callback(_settle, folder)
+        yield staging
 
 
 @contextmanager

@@ -8,6 +8,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+from exporters.formats.readback import MOST_READ_BYTES
 from exporters.production.jobs import assembly_name
 from exporters.production.kept import failure_of
 from exporters.production.moving import is_half_moved
@@ -56,7 +57,10 @@ def recheck(file: Path) -> Recheck:
     if is_half_moved(file.parent):
         raise SceneError(str(file), "", None, "stopped_while_moving")
     if not file.is_file():
-        raise SceneError(str(file), "", None, "folder_of_files" if file.is_dir() else "no_such_file")
+        code = "folder_of_files" if file.is_dir() else "not_a_file_to_read" if file.exists() else "no_such_file"
+        raise SceneError(str(file), "", None, code)
+    if file.stat().st_size > MOST_READ_BYTES:
+        raise SceneError(str(file), "", None, "too_large_to_read_back", None, most=MOST_READ_BYTES)
     source = str(file.parent / NAME)
     if not (file.parent / NAME).is_file():
         raise SceneError(str(file), "", None, "no_report_beside", None, name=NAME)

@@ -15,6 +15,7 @@ from exporters import __version__
 from exporters.production.jobs import Written
 from exporters.production.plan import Plan
 from geometry.base.findings import Finding
+from parts.base.content import content
 from parts.base.part import Part
 from parts.base.texts import ENGLISH, languages, words
 from parts.scene.load import resolved
@@ -22,6 +23,8 @@ from parts.scene.placing import Instance
 from parts.texts.findings import finding_text
 
 NAME = "report.json"
+# of a longer one the end is missing
+_MOST_BYTES = 64_000_000
 
 
 def write_report(
@@ -84,17 +87,26 @@ def _left_behind(report: dict[str, Any], before: dict[str, Any] | None, folder: 
 
 
 def read_report(folder: Path) -> dict[str, Any] | None:
-    """The report that lies in a folder; None where there is none or it cannot be read."""
+    """The report that lies in a folder; None where there is none, or what lies there is none.
+
+    Raises
+    ------
+    OSError
+        It cannot be read: what it says of other files must not be lost.
+    """
     try:
-        report = json.loads((folder / NAME).read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError):
+        report = json.loads(content(folder / NAME, _MOST_BYTES).decode("utf-8"))
+    except (FileNotFoundError, NotADirectoryError, ValueError, RecursionError):
         return None
     return report if isinstance(report, dict) else None
 
 
 def report_language(file: Path) -> str:
     """The language of the scene that made a file, as far as its report can tell; English where it cannot."""
-    scene = (read_report(file.parent) or {}).get("scene", {})
+    try:
+        scene = (read_report(file.parent) or {}).get("scene", {})
+    except OSError:
+        return ENGLISH
     language = scene.get("scene", {}).get("language") if isinstance(scene, dict) else None
     return language if language in languages() else ENGLISH
 

@@ -41,6 +41,7 @@ REASONS = {
     "not_in_report": N_("not named in {name}; it knows: {known}"),
     "nothing_to_check": N_('nothing to check; add [[mates]] kind = "external_gear_pair"'),
     "nothing_to_measure": N_("hold no file of a single part to measure; add one"),
+    "not_a_file_to_read": N_("is a pipe or a device; name files"),
     "of_part": N_("{part}: {why}"),
     "one_disk_one_size": N_("one disk needs module {module} and {teeth} teeth for both wheels"),
     "same_file": N_("writes the same file as {other}; give one of them another name"),
@@ -53,6 +54,7 @@ REASONS = {
     "table_fits_no_paper": N_("its table fits no paper"),
     "tolerance_not_met": N_("cannot be met: a residual of {residual} stays after {steps} steps; make it larger"),
     "too_many_edges": N_("would need {edges} edges"),
+    "too_large_to_read_back": N_("is larger than {most} bytes, the most that is read back"),
     "unknown_format": N_("unknown format; formats: {known}"),
     "wall_too_thin_for_mesh": N_(
         "its chords cross a thin wall of {part}, too thin for the digits of a mesh file; "

@@ -25,6 +25,7 @@ REASONS = {
     "no_such_instance": N_("no such instance; instances: {known}"),
     "no_such_part": N_("no such part; parts: {known}"),
     "no_such_scene": N_("no such file or built-in scene; built-in: {known}"),
+    "not_a_file": N_("is a pipe or a device; give a scene file (.toml) of at most {most} bytes"),
     "not_a_name": N_("a name is made of letters, digits, _ and - (A to Z, at most 64)"),
     "not_a_path": N_("is not a path: {why}"),
     "not_for_r12": N_("R12 has no splines"),

@@ -7,6 +7,8 @@ import tomllib
 from pathlib import Path
 
 SCENE_FOLDER = Path(__file__).parents[1] / "scenes"
+# a scene that is larger than this is not one
+MOST_BYTES = 4_000_000
 
 
 def built_in_scenes() -> dict[str, Path]:

@@ -6,8 +6,9 @@ import re
 import tomllib
 from pathlib import Path
 
+from parts.base.content import content
 from parts.base.texts import ENGLISH, languages
-from parts.scene.files import built_in_scenes, text_of
+from parts.scene.files import MOST_BYTES, built_in_scenes, text_of
 
 
 def language_of(address: str) -> str:
@@ -15,7 +16,7 @@ def language_of(address: str) -> str:
     path = Path(address)
     try:
         path = built_in_scenes().get(address, path) if not path.is_file() else path
-        raw = path.read_bytes()[:4_000_000]
+        raw = content(path, MOST_BYTES)
     except (OSError, ValueError):
         return ENGLISH
     try:

@@ -11,6 +11,7 @@ import msgspec
 from msgspec import Meta, Struct
 
 from geometry.base.errors import GeometryError, Nearest, ParameterError
+from parts.base.content import NotAFileError, content
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError, meant
 from parts.base.registry import KINDS
@@ -19,15 +20,12 @@ from parts.base.texts import ENGLISH, languages
 from parts.keys.base import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.keys.sheet import CamSpeed, Intervals, MateNumber, RackStep, check_sheet_keys
 from parts.keys.title import TitleBlockKey
-from parts.scene.files import built_in_scenes, text_of
+from parts.scene.files import MOST_BYTES, built_in_scenes, text_of
 from parts.scene.formats import ASSEMBLY_FORMATS, Form, file_kind, tolerances_of
 from parts.scene.instances import DriveSpec, InstanceSpec, check_instance, drive_spec, instance_specs
 
 if TYPE_CHECKING:
     from parts.base.mate import Mating
-
-# a scene that is larger than this is not one
-_MAX_SCENE_BYTES = 4_000_000
 
 
 # the languages that have a catalogue
@@ -126,7 +124,9 @@ def load_scene(address: str) -> SceneFile:
         if address in built_in and not path.is_file():
             path = built_in[address]
         folder = not address or path.is_dir()
-        raw_bytes = b"" if folder else _content(path)
+        raw_bytes = b"" if folder else content(path, MOST_BYTES)
+    except NotAFileError:
+        raise SceneError(address, "", None, "not_a_file", None, most=MOST_BYTES) from None
     except FileNotFoundError:
         known = [*built_in, *([f"{address}.toml"] if Path(f"{address}.toml").is_file() else [])]
         raise SceneError(address, "", None, "no_such_scene", meant(address, known), known=list(built_in)) from None
@@ -142,15 +142,10 @@ def load_scene(address: str) -> SceneFile:
     return scene_from_toml(raw_bytes, str(path), name)
 
 
-def _content(path: Path) -> bytes:
-    with path.open("rb") as stream:
-        return stream.read(_MAX_SCENE_BYTES + 1)
-
-
 def scene_from_toml(raw_bytes: bytes, source: str, name: str) -> SceneFile:
     """Parse and validate a scene."""
-    if len(raw_bytes) > _MAX_SCENE_BYTES:
-        raise SceneError(source, "", None, "too_large_file", None, most=_MAX_SCENE_BYTES)
+    if len(raw_bytes) > MOST_BYTES:
+        raise SceneError(source, "", None, "too_large_file", None, most=MOST_BYTES)
     try:
         raw = tomllib.loads(text_of(raw_bytes))
     except UnicodeDecodeError as error:

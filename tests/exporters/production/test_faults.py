@@ -1,0 +1,163 @@
+"""A disk that is full, slow to say so, or gone at any call: one line, exit code 2, and nothing half-written."""
+
+from __future__ import annotations
+
+import builtins
+import io
+import os
+import random
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.exporters.making import part_keys, run, table, write_scene
+from tests.exporters.outside import Gear
+
+FULL = OSError(28, "No space left on device")
+FORMATS = ("dxf", "svg", "stl", "3mf", "sheet") + (("step",) if find_spec("OCP") else ())
+EXPORTS = [{"format": f} for f in FORMATS] + [{"format": f, "assembly": True} for f in FORMATS if f in ("3mf", "step")]
+EXPORTS += [{"format": "dxf", "purpose": "drawing"}]
+
+
+class Stream:
+    """A file whose writing may fail."""
+
+    def __init__(self, real: Any, step: Callable[[str], None]) -> None:
+        self.real, self.step = real, step
+
+    def write(self, data: Any) -> Any:
+        self.step("write")
+        return self.real.write(data)
+
+    def __enter__(self) -> Stream:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.real.close()
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.real, name)
+
+
+class Disk:
+    """Counts the calls of a kind, and fails at one of them."""
+
+    def __init__(self, patch: pytest.MonkeyPatch, kind: str = "", number: int = 0) -> None:
+        self.calls: dict[str, int] = {}
+        self.kind, self.number = kind, number
+        real_open = io.open
+
+        def opened(file: Any, mode: str = "r", *rest: Any, **more: Any) -> Any:
+            self.step("open")
+            stream = real_open(file, mode, *rest, **more)
+            return stream if mode.startswith("r") else Stream(stream, self.step)
+
+        patch.setattr(io, "open", opened)
+        patch.setattr(builtins, "open", opened)
+        for name in ("replace", "rename", "mkdir"):
+            patch.setattr(os, name, self.hooked(name, getattr(os, name)))
+
+    def hooked(self, name: str, real: Callable[..., Any]) -> Callable[..., Any]:
+        def call(*given: Any, **more: Any) -> Any:
+            self.step(name)
+            return real(*given, **more)
+
+        return call
+
+    def step(self, kind: str) -> None:
+        self.calls[kind] = self.calls.get(kind, 0) + 1
+        if kind == self.kind and self.calls[kind] == self.number:
+            raise FULL
+
+
+def scene_of(folder: Path, teeth: int) -> Path:
+    """A pair in all formats."""
+    parts = {"g": part_keys(Gear(2, teeth, bore=6)), "h": part_keys(Gear(2, 17))}
+    mate = table("[[mates]]", {"kind": "external_gear_pair", "first": "g", "second": "h"})
+    return write_scene(folder / "s.toml", parts, EXPORTS, mate)
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    """What lies in a folder, hidden things too."""
+    return {p.name: p.read_bytes() for p in folder.iterdir()}
+
+
+def test_any_call_may_fail(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """The n-th call of each kind, one build for some n of each: the old set stays as it was, to the byte."""
+    folder, build = tmp_path / "o" / "s", ("build", tmp_path / "s.toml", "--out", tmp_path / "o", "--no-verify")
+    scene_of(tmp_path, 12)
+    counted = {}
+    for asked in ((), ("--format", "svg", "--part", "g")):
+        with monkeypatch.context() as patch:
+            disk = Disk(patch)
+            assert run(*build, *asked) == 0
+        counted[asked] = disk.calls
+    before = contents(folder)
+    faults = [(kind, n, asked) for kind, calls in disk.calls.items() for n in range(1, calls + 1)]
+    # a folder that is there already need not be made
+    faults.remove(("mkdir", 1, asked))
+    assert {kind for kind, _, _ in faults} == {"open", "write", "replace", "rename", "mkdir"}
+    draw = random.Random(7)
+    faults += [(kind, draw.randint(1, counted[()][kind]), ()) for kind in ("open", "write")]
+    scene_of(tmp_path, 13)
+    for kind, number, asked in faults:
+        capsys.readouterr()
+        with monkeypatch.context() as patch:
+            Disk(patch, kind, number)
+            code = run(*build, *asked)
+        out, error = capsys.readouterr()
+        assert (code, out, error.count("\n")) == (2, "", 1), (kind, number, error)
+        assert "No space left" in error
+        assert contents(folder) == before, (kind, number)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of POSIX")
+@pytest.mark.parametrize("form", [f for f in FORMATS if f != "sheet"])
+def test_a_file_that_does_not_fit_on_the_disk(tmp_path: Path, form: str) -> None:
+    """The system itself refuses to write on, whoever writes: lib3mf ended the process by SIGABRT."""
+    import resource
+
+    def small_disk() -> None:
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (9000, 9000))
+
+    scene = write_scene(tmp_path / "s.toml", {"g": part_keys(Gear(2, 23, bore=8))}, [{"format": form}])
+    done = subprocess.run([sys.executable, "-m", "exporters", "build", str(scene), "--out", "o"], cwd=tmp_path,
+                          preexec_fn=small_disk, text=True, capture_output=True, timeout=60, check=False)  # fmt: skip
+    assert done.returncode == 2
+    assert done.stderr.startswith("higherpair: File too large")
+    assert done.stderr.count("\n") == 1
+    assert {p.name for p in tmp_path.iterdir()} == {"s.toml"}
+
+
+def test_memory_that_does_not_suffice_is_one_line(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    import exporters.formats.stl
+
+    def exhausted(*given: object) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr(exporters.formats.stl, "write_stl", exhausted)
+    assert run("build", scene_of(tmp_path, 12), "--out", tmp_path / "o", "--format", "stl") == 2
+    assert capsys.readouterr().err == (
+        "higherpair: the memory does not suffice; a larger tolerance or fewer parts need less\n"
+    )
+    assert not (tmp_path / "o").exists()
+
+
+@pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="names there are Unicode")
+def test_a_folder_whose_name_is_not_utf8(tmp_path: Path) -> None:
+    exports = [*({"format": f} for f in FORMATS if f in ("3mf", "step")), {"format": "dxf", "purpose": "drawing"}]
+    scene = write_scene(tmp_path / "s.toml", {"g": part_keys(Gear(2, 12))}, exports)
+    place = os.fsencode(tmp_path) + b"/o\xff"
+    assert run("build", scene, "--out", os.fsdecode(place)) == 0
+    files = [p for p in Path(os.fsdecode(place + b"/s")).iterdir() if p.suffix in (".3mf", ".step", ".dxf")]
+    assert len(files) == len(exports)
+    assert run("verify", *files) == 0
