@@ -25,6 +25,7 @@ class Asked:
     pin_diameter: float | None
     kerf: float | None
     measured_span: float | None
+    measured_size: float | None
 
     def share(self, sign: str) -> str:
         """What brings a transverse length of a formula into the normal section."""
@@ -94,8 +95,10 @@ def _chords(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
     else:
         page.notes.append(N_("the chord at the reference circle would lie beyond the tip"))
     if constant.height > 0:
-        page.add("constant_chord", constant.thickness, formulas[2], side.source)
-        page.add("constant_chord_height", constant.height, formulas[3], side.source)
+        # that of a ring is a derivation of ours
+        source = side.source if side is _OUTER else ""
+        page.add("constant_chord", constant.thickness, formulas[2], source)
+        page.add("constant_chord_height", constant.height, formulas[3], source)
     else:
         page.notes.append(N_("the constant chord would lie beyond the tip"))
 
@@ -207,6 +210,15 @@ def _pins(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
         cut = replace(gear, circumferential_thinning=thinner)
         page.add(f"{size}_after_kerf", measurement.over_pins(cut, pin, helix).length)
     page.add(f"{tool}_contact_diameter", found.contact_diameter)
+    if asked.measured_size is not None:
+        page.add(f"measured_{size}", asked.measured_size)
+        thinned = measurement.gear_with_size(gear, pin, asked.measured_size, helix).circumferential_thinning
+        odd = "" if even else " * cos(pi / (2 * {z}))"
+        polar = f"inv(arccos({{d_b}}{odd} / ({{M_m}} {side.back} {{D}})))"
+        formula = f"inv({{alpha_D}}) - {polar}" if side.out == "+" else f"{polar} - inv({{alpha_D}})"
+        own = " + {A}" if gear.circumferential_thinning else ""
+        formula = f"{{d}} * ({formula}){own}"
+        page.add("thinning_from_size", thinned, formula, ISO)
     if not (found.touches_flanks and found.stands_out):
         told = (
             N_("a ball of {diameter:.4g} mm does not touch the involutes or does not stand out; take the best one")

@@ -70,6 +70,13 @@ tip_form_diameter|d_Fa|d_Fa|mm|tip form diameter
 start_of_active_profile_diameter|d_Nf|d_Nf|mm|start of active profile diameter
 active_tip_diameter|d_Na|d_Na|mm|active tip diameter
 pitch|p|p_t|mm|pitch
+rack_pitch|p|p_t|mm|pitch of the rack
+rack_thickness|S|S|mm|tooth thickness on the datum line
+rack_space_width|e|e|mm|space width on the datum line
+rack_tip_thickness|S_a|S_a|mm|tooth thickness on the tip line
+rack_chord|S_ch|S_x|mm|tooth thickness on the datum line, across the tooth
+least_rack_pin|D_min|D_min|mm|least pin that touches the flanks
+greatest_rack_pin|D_max|D_max|mm|greatest pin that touches the flanks
 base_pitch|p_b|p_b|mm|base pitch
 working_pitch|p_w|p_w|mm|pitch on the working circle
 reference_thickness|S|S|mm|tooth thickness on the reference circle
@@ -134,6 +141,11 @@ over_pins_after_kerf|M_c|M_c|mm|size over pins of the part cut so
 measured_span|W_m|W_m|mm|span measured on the part
 normal_allowance|E|E_W|mm|lack of both flanks along their normal
 thinning_from_span|A_m|A_m|mm|thinning that the measured span tells, arc
+measured_over_pins|M_m|M_m|mm|size over pins measured on the part
+measured_over_balls|M_m|M_m|mm|size over balls measured on the part
+measured_between_pins|M_m|M_m|mm|size between pins measured on the part
+measured_between_balls|M_m|M_m|mm|size between balls measured on the part
+thinning_from_size|A_M|A_M|mm|thinning that the measured size tells, arc
 span_contact_diameter|d_W|d_W|mm|diameter where the faces touch
 best_pin_diameter|D_M|D_M|mm|pin that touches at d + 2 x m
 least_pin_diameter|D_min|D_min|mm|least pin that touches the involute

@@ -6,8 +6,8 @@ from parts.base.texts import N_
 
 # fmt: off
 REASONS = {
-    "above_nominal_span": N_("is more than the nominal one"),
-    "below_nominal_span": N_("is less than the nominal one"),
+    "above_nominal": N_("is more than the nominal one"),
+    "below_nominal": N_("is less than the nominal one"),
     "chamfer_misses_flank": N_("does not cut the flank"),
     "chamfers_overlap": N_("both chamfers of a tooth would overlap"),
     "classes_end_at_distance": N_("the classes end at {distance} mm of centre distance; give normal_backlash instead"),

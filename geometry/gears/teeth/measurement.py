@@ -264,9 +264,34 @@ def gear_with_span(gear: G, teeth: int, length: float, helix_angle: float = 0.0)
     full = span(nominal(gear), teeth, helix_angle).length
     lack = _sense(gear) * (full - length)
     if lack < 0:
-        code = "below_nominal_span" if isinstance(gear, RingGear) else "above_nominal_span"
+        code = "below_nominal" if isinstance(gear, RingGear) else "above_nominal"
         raise ParameterError("measured_span", length, code, limit(full, length))
     return replace(gear, circumferential_thinning=lack / normal_share(gear, helix_angle))
+
+
+def gear_with_size(gear: G, pin_diameter: float, length: float, helix_angle: float = 0.0) -> G:
+    """The gear thinned so that its size over pins or balls, of a ring between them, is ``length``, mm.
+
+    What is lacking shows in the space on the base circle: 2 r (eta - eta_0), both by the equation of ``over_pins``.
+
+    Raises
+    ------
+    ParameterError
+        The size is that of a thicker tooth, or so small that the pin would fall through.
+    """
+    ring, sense = isinstance(gear, RingGear), _sense(gear)
+    key, full = "measured_between_pins" if ring else "measured_over_pins", nominal(gear)
+    whole = over_pins(full, pin_diameter, helix_angle).length
+    if sense * length > sense * whole:
+        raise ParameterError(key, length, "below_nominal" if ring else "above_nominal", limit(whole, length))
+    odd = math.cos(math.pi / (2 * gear.number_of_teeth)) if gear.number_of_teeth % 2 else 1.0
+    centre = (length - sense * pin_diameter) / (2 * odd)
+    if centre < gear.base_radius:
+        least = 2 * odd * gear.base_radius + sense * pin_diameter
+        raise ParameterError(key, length, "pin_falls_through", limit(least, length))
+    polar = involute_function(math.acos(gear.base_radius / centre))
+    eta = pin_diameter / (2 * gear.base_radius * math.cos(_base_helix(gear, helix_angle))) - sense * polar
+    return replace(gear, circumferential_thinning=2 * gear.reference_radius * (eta - _space_half_angle(full)))
 
 
 def normal_share(gear: Measured, helix_angle: float = 0.0) -> float:

@@ -51,7 +51,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
     _pins(page, rack, keys, helix)
     page.section(N_("Chords"))
     chord, constant = rack_measurement.reference_chord(rack, helix), rack_measurement.constant_chord(rack, helix)
-    page.add("chordal_thickness", chord.thickness, "{S} * cos({beta})" if helix else "{S}", _ISO)
+    page.add("rack_chord", chord.thickness, "{S} * cos({beta})" if helix else "{S}", _ISO)
     page.add("chordal_height", chord.height, "{h_aR}", _ISO)
     page.add("constant_chord", constant.thickness, "{S_ch} * cos({alpha_n})**2", "GOST 16532-70")
     formula = "{h_ch} - {S_c} * tan({alpha_n}) / 2"
@@ -76,14 +76,14 @@ def _given(page: Sheet, rack: Rack, keys: RackKeys, helix: float) -> None:
 def _dimensions(page: Sheet, rack: Rack) -> None:
     """Pitch, heights and thicknesses."""
     page.section(N_("Pitch and tooth thickness"))
-    page.add("pitch", rack.pitch, "pi * {m}", _ISO)
+    page.add("rack_pitch", rack.pitch, "pi * {m}", _ISO)
     page.add("rack_length", rack.length, "{z} * {p}")
     page.add("rack_addendum", rack.addendum, "{h_a} * {m_n}", _ISO, symbol="h_a")
     page.add("rack_dedendum", rack.dedendum, "({h_a} + {c}) * {m_n}", _ISO)
     less = " - {A}" if rack.circumferential_thinning else ""
-    page.add("reference_thickness", rack.tooth_thickness, f"0.5 * {{p}}{less}", _ISO)
-    page.add("space_width", rack.pitch - rack.tooth_thickness, "{p} - {S}", _ISO)
-    page.add("tip_thickness", rack.tip_thickness, "{S} - 2 * {h_aR} * tan({alpha})", _ISO)
+    page.add("rack_thickness", rack.tooth_thickness, f"0.5 * {{p}}{less}", _ISO)
+    page.add("rack_space_width", rack.pitch - rack.tooth_thickness, "{p} - {S}", _ISO)
+    page.add("rack_tip_thickness", rack.tip_thickness, "{S} - 2 * {h_aR} * tan({alpha})", _ISO)
     page.add("rack_back_distance", rack.body_height + rack.dedendum)
 
 
@@ -94,8 +94,8 @@ def _pins(page: Sheet, rack: Rack, keys: RackKeys, helix: float) -> None:
     best = rack_measurement.pin_touching_at(rack, 0.0, helix)
     low, high = rack_measurement.pin_limits(rack, helix)
     page.add("pin_at_datum_line", best, f"{{e}}{share} / cos({{alpha_n}})", "KHK")
-    page.add("least_pin_diameter", low)
-    page.add("greatest_pin_diameter", high)
+    page.add("least_rack_pin", low)
+    page.add("greatest_rack_pin", high)
     pin = best if keys.pin_diameter is None else keys.pin_diameter
     found = rack_measurement.over_pin(rack, pin, helix)
     page.add("pin_diameter", pin)

@@ -33,6 +33,9 @@ class RingKeys(RingGearSpec, kw_only=True, tag=False, forbid_unknown_fields=True
     pin_diameter: Annotated[float, mm("pin or ball", above=0, most=10_000)] | None = None
     kerf: Annotated[float, mm("full width of a cut that was not corrected for", least=0, most=10)] | None = None
     measured_span: Annotated[float, mm("span measured on the part", above=0, most=100_000)] | None = None
+    measured_between_pins: (
+        Annotated[float, mm("size between pins or balls measured on the part", above=0, most=100_000)] | None
+    ) = None
     diameter: Annotated[float, mm("circle on which the tooth is measured", above=0, most=100_000)] | None = None
 
 
@@ -54,8 +57,9 @@ def sheet(table: dict[str, Any]) -> Sheet:
         _dimensions(page, ring, keys)
         _thicknesses(page, ring, keys.diameter)
         _limits(page, ring, keys)
-        spanned, pin = keys.spaces_spanned, keys.pin_diameter
-        measured_steps(page, ring, Asked(helix, keys.face_width, spanned, pin, keys.kerf, keys.measured_span))
+        measured = keys.measured_span, keys.measured_between_pins
+        asked = Asked(helix, keys.face_width, keys.spaces_spanned, keys.pin_diameter, keys.kerf, *measured)
+        measured_steps(page, ring, asked)
     except ParameterError as error:
         raise refusal(TOPIC, error, keys=keys) from error
     return page

@@ -32,6 +32,9 @@ class SpurKeys(SpurGearSpec, kw_only=True, tag=False, forbid_unknown_fields=True
     pin_diameter: Annotated[float, mm("pin or ball", above=0, most=10_000)] | None = None
     kerf: Annotated[float, mm("full width of a cut that was not corrected for", least=0, most=10)] | None = None
     measured_span: Annotated[float, mm("span measured on the part", above=0, most=100_000)] | None = None
+    measured_over_pins: (
+        Annotated[float, mm("size over pins or balls measured on the part", above=0, most=100_000)] | None
+    ) = None
     diameter: Annotated[float, mm("circle on which the tooth is measured", above=0, most=100_000)] | None = None
 
 
@@ -55,8 +58,9 @@ def sheet(table: dict[str, Any]) -> Sheet:
         dimensions(page, gear, helix)
         _thicknesses(page, gear, keys.diameter)
         _limits(page, gear, helix)
-        spanned, pin = keys.teeth_spanned, keys.pin_diameter
-        measured_steps(page, gear, Asked(helix, keys.face_width, spanned, pin, keys.kerf, keys.measured_span))
+        measured = keys.measured_span, keys.measured_over_pins
+        asked = Asked(helix, keys.face_width, keys.teeth_spanned, keys.pin_diameter, keys.kerf, *measured)
+        measured_steps(page, gear, asked)
         page.notes += [finding_message(f) for f in rack_findings(keys, gear)]
     except ParameterError as error:
         raise refusal(TOPIC, error, keys=keys) from error

@@ -23,6 +23,7 @@ from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.ring_made import settled_ring
 from geometry.gears.teeth.ring_tooth import ring_side
 from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.transverse import transverse_gear
 from geometry.gears.teeth.transverse_ring import transverse_ring
 from geometry.plane.profile import Label
 from tests import brute
@@ -65,6 +66,8 @@ def test_the_reports_of_a_wind_turbine(row: dict[str, Any]) -> None:
         assert m.over_pins(thin, row["pin"]).length == pytest.approx(allowed["between_pins"], abs=5.1e-4)
         assert m.reference_chord(thin).thickness == pytest.approx(allowed["chord"], abs=5.1e-4)
         told = m.gear_with_span(gear, row["spaces"], allowed["span"])
+        assert told.circumferential_thinning == pytest.approx(allowed["thinning"], abs=1.1e-3)
+        told = m.gear_with_size(gear, row["pin"], allowed["between_pins"])
         assert told.circumferential_thinning == pytest.approx(allowed["thinning"], abs=1.1e-3)
 
 
@@ -200,6 +203,27 @@ def test_the_limits_of_pins_are_where_the_flank_ends() -> None:
     with pytest.raises(ParameterError, match="pin_beyond_base_circle") as caught:
         m.over_pins(gear, 1.001 * high)
     assert works(caught.value) == pytest.approx(high, rel=1e-4)
+
+
+def test_a_measured_size_tells_the_thinning() -> None:
+    """Both parities, outside and inside, straight and helical, by either way of thinning."""
+    rng = random.Random(11)
+    for k in range(16):
+        beta, deeper = rng.choice((0.0, 20.0)), rng.random() < 0.5
+        helix, z = math.radians(beta), rng.randint(40, 90)
+        keys: dict[str, Any] = {"circumferential_thinning": rng.uniform(0.01, 0.2), "thinning_by_deeper_cut": deeper}
+        outer = transverse_gear(SpurGear(2.0, z, iso_53(), 0.2), helix)
+        whole: m.Measured = ring(z, 0.3, beta) if k % 2 else outer
+        pin, thin = m.best_pin_diameter(whole, helix), replace(whole, **keys)
+        told = m.gear_with_size(whole, pin, m.over_pins(thin, pin, helix).length, helix)
+        assert told.circumferential_thinning == pytest.approx(thin.circumferential_thinning, rel=1e-9)
+        sense = 1 if k % 2 else -1
+        with pytest.raises(ParameterError, match="_nominal") as caught:
+            m.gear_with_size(whole, pin, m.over_pins(whole, pin, helix).length - sense * 0.01, helix)
+        assert works(caught.value) == pytest.approx(m.over_pins(whole, pin, helix).length, rel=1e-5)
+    with pytest.raises(ParameterError, match="pin_falls_through") as caught:
+        m.gear_with_size(SpurGear(2.0, 20, iso_53()), 3.5, 40.0)
+    assert works(caught.value) > 40.0
 
 
 def test_a_broken_tip_is_no_flank() -> None:
