@@ -145,14 +145,23 @@ def _projected(points: Complex, curve: Curve, samples: Real, start: NDArrayInt, 
         return np.abs(points - curve.start - share * chord)
     low, high = curve.domain
     reach = (high - low) / (len(samples) - 1)
-    t = samples[start]
-    for _ in range(_THOROUGH_STEPS if newton else _QUICK_STEPS):
-        gap, first = curve.point(t) - points, curve.derivative(t)
+    t, before = samples[start], np.full(start.shape, math.nan)
+    rows = np.arange(len(t))
+    for left in reversed(range(_THOROUGH_STEPS if newton else _QUICK_STEPS)):
+        at, mine = t[rows], points[rows]
+        gap, first = curve.point(at) - mine, curve.derivative(at)
         square = (np.conj(first) * first).real
-        slope = square + (np.conj(gap) * curve.derivative(t, 2)).real if newton else square
+        slope = square + (np.conj(gap) * curve.derivative(at, 2)).real if newton else square
         with np.errstate(divide="ignore", invalid="ignore"):
             step = np.nan_to_num((np.conj(gap) * first).real / np.where(slope > 0, slope, square))
-        t = np.clip(t - np.clip(step, -reach, reach), low, high)
+        following = np.clip(at - np.clip(step, -reach, reach), low, high)
+        # a foot that stays, or goes to and fro by a rounding, is where it will be after all steps, or one before
+        swings = following == before[rows]
+        t[rows] = np.where(swings, at if left % 2 else following, following)
+        before[rows] = at
+        rows = rows[(following != at) & ~swings]
+        if not rows.size:
+            break
     ends = np.abs(curve.point(samples[[0, -1]])[:, None] - points).min(0)
     return np.minimum(np.abs(curve.point(t) - points), ends)
 
