@@ -179,6 +179,7 @@ def test_undercut_list() -> None:
     assert "z23" not in UNDERCUT
 
 
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("z", [3, 6, 8, 17, 23, 1000])
 @pytest.mark.parametrize("degrees", ["14.5", "20", "25", "30"])
 def test_undercut_limit_formula(z: int, degrees: str) -> None:

@@ -208,7 +208,7 @@ def test_the_bound_holds_and_is_at_most_twice_the_deviation(name: str, kind: tup
     assert fit.pieces == len(fit.spline.breaks) - 1
 
 
-@pytest.mark.sampled(20)
+@pytest.mark.sampled(10)
 @pytest.mark.parametrize("name", ["z 23, flank", "z 23, root_fillet", "z 8, undercut, root_fillet", "m 50, flank"])
 @KINDS
 @pytest.mark.parametrize("tolerance", LADDER)
@@ -252,6 +252,7 @@ def test_ends_are_the_curves(name: str, kind: tuple[int, int]) -> None:
             assert abs(turn) <= 1e-9
 
 
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("name", ["z 23, root_fillet", "z 8, undercut, flank", "m 50, z 1000, root_fillet"])
 @pytest.mark.parametrize("kind", [(3, 1), CUBIC, (5, 2), QUINTIC, (7, 2), SEPTIC])
 def test_continuity_at_every_interior_knot(name: str, kind: tuple[int, int]) -> None:
@@ -297,6 +298,7 @@ def test_poles_at_one_nanometre(kind: tuple[int, int], flank: int, fillet: int) 
     assert len(fitted("z 23, root_fillet", 1e-6, kind).spline.poles) <= fillet
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", ["z 23, flank", "z 23, root_fillet", "z 8, undercut, root_fillet", "z 17, flank"])
 @pytest.mark.parametrize("kind", [CUBIC, QUINTIC, SEPTIC])
 def test_near_the_least_number_of_poles(name: str, kind: tuple[int, int]) -> None:

@@ -120,6 +120,7 @@ def test_holes_at_one_place_are_refused_without_warnings(tmp_path: Path, capsys:
     assert "another hole" in told
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("kind", ["cam", "groove_cam", "barrel_cam", "wedge_cam"])
 def test_every_law_that_new_shows_makes_a_cam(kind: str) -> None:
     text = new_scene(kind)

@@ -48,6 +48,7 @@ def placed(text: str) -> tuple[Placing, dict]:
     return placing, scene_checks(placing, parts, scene.drives, "uk", contact=scene.checks.interference)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("keys", "key", "pattern"), [
     ('centrode = "oval"\naxis_ratio = 2.5\nmodule = 2.0\nnumber_of_teeth = 50', "axis_ratio",
      r"at most ([\d.]+) works"),

@@ -100,6 +100,7 @@ def swept_distance(cam: BarrelCam, points: np.ndarray, steps: int = 20_001) -> n
     return np.array(found)
 
 
+@pytest.mark.sampled(6)
 @CAMS
 @pytest.mark.parametrize("side", [UPPER, LOWER])
 def test_a_wall_is_the_envelope_of_the_roller(cam: BarrelCam, side: int) -> None:
@@ -218,7 +219,7 @@ def test_the_volume_of_a_groove_by_a_formula_of_its_own() -> None:
     assert math.pi * OUTER**2 * 50 - found.volume == pytest.approx(groove, rel=1e-9)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @CAMS
 def test_a_roller_that_is_too_large_undercuts_where_the_speed_says(cam: BarrelCam) -> None:
     """Where every edge's speed is positive no other position cuts a wall; else some does."""

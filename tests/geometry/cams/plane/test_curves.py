@@ -92,6 +92,7 @@ def exact_point(curve: CentreEnvelope | FaceEnvelope, t: Any) -> Any:
     return point + step * way
 
 
+@pytest.mark.sampled(6)
 @EVERY
 def test_points_and_derivatives_against_fifty_digits(name: str) -> None:
     curve = CURVES[name]
@@ -194,7 +195,7 @@ def whole_cams() -> dict[str, DiskCam]:
     }
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("name", "arcs"), [
     *((name, True) for name in whole_cams()), ("concave roller", False), ("oscillating flat", False), ("flat", False),
 ])  # fmt: skip
@@ -243,7 +244,7 @@ def test_profiles_are_counter_clockwise_and_dwell_on_arcs(name: str) -> None:
         assert np.all(bend > 0) or np.all(bend < 0)
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("grow", [-0.6, 0.6])
 @pytest.mark.parametrize("name", whole_cams())
 def test_grown_outlines_are_parallel(name: str, grow: float) -> None:

@@ -74,7 +74,7 @@ def brute_side_gaps(pair: ExternalPair, drive: float, second: float) -> list[flo
     return found
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("values", BESIDE_A_JUMP)
 def test_both_sides_against_dense_polylines(values: tuple[int, int, float, float, float]) -> None:
     pair = helical(*values)

@@ -217,7 +217,7 @@ def crosses(pair: InternalShiftPair, point: complex) -> bool:
     return any(not checks(pair, p.real, p.imag) for p in near)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("pair", "expected"), [
     (PAIR, {"undercut_first", "fillet_interference_second", "approach", "recess", "involute_interference",
             "active_flank_first", "tip_thickness_first", "contact_ratio", "tip_clearance_second", "equal_sliding",

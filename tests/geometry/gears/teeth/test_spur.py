@@ -66,7 +66,7 @@ def side_points(gear: SpurGear, count: int) -> np.ndarray:
     return np.concatenate([brute.dense(s.curve, count) for s in tooth_side(gear).segments])
 
 
-@pytest.mark.sampled(7)
+@pytest.mark.sampled(4)
 @EVERY
 def test_outline_against_fifty_digits(gear: SpurGear) -> None:
     """Root land, fillet, joint, flank, relief and tip: every point lies on the envelope's outline."""
