@@ -10,7 +10,6 @@ from pathlib import Path
 import ezdxf
 import numpy as np
 import pytest
-import trimesh
 
 from exporters.command.cli import main
 from parts.base import reasons, texts
@@ -138,6 +137,8 @@ def test_it_is_listed_and_shown(tmp_path: Path, capsys: pytest.CaptureFixture[st
 
 
 def test_every_format_is_built_verified_and_right(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    import trimesh
+
     code, text = told(capsys, "build", scene(tmp_path))
     assert code == 0, text
     folder = tmp_path / "out" / "plates"
