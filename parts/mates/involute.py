@@ -19,7 +19,7 @@ from parts.mates.thinning import shared_thinning
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
-    from geometry.gears.mesh.search import PairContact
+    from geometry.gears.mesh.search import MeshSearch, PairContact
     from geometry.gears.mesh.transmission_error import TransmissionError
     from geometry.gears.pairs.external import ExternalPair
     from geometry.gears.pairs.internal import InternalPair
@@ -70,6 +70,10 @@ class GearMating(Mating):
             "normal_backlash": self.normal_backlash,
         }
 
+    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+        """The second beyond the line of centres, a tooth of one in a space of the other."""
+        return centre + cmath.rect(self.distance, direction), self._middle(rotation, direction)
+
     def _turned(self, first: Pose, second: Pose, gear: SpurGear | RingGear) -> Standing:
         """Centre distance, and the second gear's turn off the middle of its backlash."""
         direction = cmath.phase(second[0] - first[0])
@@ -82,9 +86,20 @@ class GearMating(Mating):
         """Rotation of the second in the middle of the backlash."""
         raise NotImplementedError
 
+    def _mesh(self, phase_off: float, distance_off: float) -> MeshSearch:
+        """The mesh, the second that far (rad, or mm of a rack) and the distance that many mm off."""
+        raise NotImplementedError
+
+    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
+        """Verdict over one pitch of the first gear, or of the pinion."""
+        return self._mesh(phase_off, distance_off).contact(tolerance, self.face.overlap_ratio)
+
     def _errors(self, distance_off: float) -> tuple[TransmissionError, TransmissionError, float]:
         """Errors where the first turns counter-clockwise and clockwise; the second's arm on the line of action, mm."""
-        raise NotImplementedError
+        from geometry.gears.mesh.transmission_error import transmission_errors
+
+        found = transmission_errors(self._mesh(0.0, distance_off), self.face.overlap_ratio)
+        return *found, found[0].arm
 
     def transmission_error(self, distance_off: float) -> dict[str, Any]:
         """Peak to peak over a pitch, for each sense of the first's rotation; ``distance_off``: mm beyond the distance.
@@ -111,10 +126,6 @@ class ExternalMating(GearMating):
 
     pair: ExternalPair
 
-    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
-        """The second gear beyond the line of centres, a tooth in the first one's space."""
-        return centre + cmath.rect(self.distance, direction), self._middle(rotation, direction)
-
     def _middle(self, rotation: float, direction: float) -> float:
         return self.pair.second_rotation(rotation, direction)
 
@@ -122,21 +133,10 @@ class ExternalMating(GearMating):
         """Centre distance, and the second gear's turn off the middle of its backlash."""
         return self._turned(first, second, self.pair.second)
 
-    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
-        """Verdict over one pitch of the first gear."""
-        from geometry.gears.mesh.external import pair_contact
+    def _mesh(self, phase_off: float, distance_off: float) -> MeshSearch:
+        from geometry.gears.mesh.gears import GearMesh
 
-        overlap = self.face.overlap_ratio
-        return pair_contact(
-            self.pair, second_turn=phase_off, centre_shift=distance_off, tolerance=tolerance, overlap_ratio=overlap
-        )
-
-    def _errors(self, distance_off: float) -> tuple[TransmissionError, TransmissionError, float]:
-        from geometry.gears.mesh.external import pair_transmission
-
-        overlap = self.face.overlap_ratio
-        found = pair_transmission(self.pair, centre_shift=distance_off, overlap_ratio=overlap)
-        return *found, found[0].arm
+        return GearMesh(self.pair, phase_off, distance_off)
 
     def quantities(self) -> dict[str, Any]:
         """Practicum, lesson 3."""
@@ -157,10 +157,6 @@ class InternalMating(GearMating):
     pair: InternalPair
     ring_first: bool
 
-    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
-        """The second beside the first; the mesh lies on the pinion's side of the ring's axis."""
-        return centre + cmath.rect(self.distance, direction), self._middle(rotation, direction)
-
     def _middle(self, rotation: float, direction: float) -> float:
         if self.ring_first:
             return self.pair.pinion_rotation(rotation, direction)
@@ -170,26 +166,19 @@ class InternalMating(GearMating):
         """Centre distance, and the second one's turn off the middle of its backlash."""
         return self._turned(first, second, self.pair.pinion if self.ring_first else self.pair.ring)
 
-    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
-        """Verdict over one pitch of the pinion."""
-        from geometry.gears.mesh.internal import internal_contact
+    def _mesh(self, phase_off: float, distance_off: float) -> MeshSearch:
+        from geometry.gears.mesh.gears import GearMesh
 
         # a pinion that is ahead meets the flanks that a ring would meet that lags behind
         turn = -phase_off / self.pair.gear_ratio if self.ring_first else phase_off
-        overlap = self.face.overlap_ratio
-        return internal_contact(
-            self.pair, ring_turn=turn, centre_shift=distance_off, tolerance=tolerance, overlap_ratio=overlap
-        )
+        return GearMesh(self.pair, turn, distance_off)
 
     def _errors(self, distance_off: float) -> tuple[TransmissionError, TransmissionError, float]:
-        from geometry.gears.mesh.internal import internal_transmission
-
-        overlap = self.face.overlap_ratio
-        found = internal_transmission(self.pair, centre_shift=distance_off, overlap_ratio=overlap)
+        found = GearMating._errors(self, distance_off)
         if self.ring_first:
             # a ring that drives counter-clockwise pushes the flanks with which a pinion would drive clockwise
             return found[1], found[0], self.pair.pinion.base_radius
-        return *found, found[0].arm
+        return found
 
     def quantities(self) -> dict[str, Any]:
         """Working quantities and the margins of the internal conditions."""
@@ -229,21 +218,10 @@ class RackMating(GearMating):
         play = max(self.pair.normal_backlash, 0.0) / (2 * math.cos(self.pair.rack.rack.pressure_angle))
         return Standing(direction, place.real, math.remainder(off, self.pair.rack.pitch), play, slides=True)
 
-    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
-        """Verdict over one pitch of the gear."""
-        from geometry.gears.mesh.rack import rack_contact
+    def _mesh(self, phase_off: float, distance_off: float) -> MeshSearch:
+        from geometry.gears.mesh.rack import RackMesh
 
-        overlap = self.face.overlap_ratio
-        return rack_contact(
-            self.pair, rack_shift=phase_off, distance_shift=distance_off, tolerance=tolerance, overlap_ratio=overlap
-        )
-
-    def _errors(self, distance_off: float) -> tuple[TransmissionError, TransmissionError, float]:
-        from geometry.gears.mesh.rack import rack_transmission
-
-        overlap = self.face.overlap_ratio
-        found = rack_transmission(self.pair, distance_shift=distance_off, overlap_ratio=overlap)
-        return *found, found[0].arm
+        return RackMesh(self.pair, phase_off, distance_off)
 
     def findings(self) -> tuple[Finding, ...]:
         """Conditions of the pair that are not kept; a rack has the teeth that are in contact at once, and one more."""
@@ -286,6 +264,20 @@ class InvolutePair(MateKind[K, A, B], Generic[K, A, B, M]):
             The gears do not mesh, or not at ``working_centre_distance``.
         """
         raise NotImplementedError
+
+    def common(self, keys: K, first: End[A], second: End[B], pair: ExternalPair | InternalPair | RackPair) -> Any:
+        """What every mating has of the keys and of the pair."""
+        from parts.keys.helix import common_face
+
+        return {
+            "kind": self.name,
+            "first": keys.first,
+            "second": keys.second,
+            "direction_deg": keys.direction_deg,
+            "module": pair.module,
+            "normal_backlash": pair.normal_backlash * self.normal_share(first, second),
+            "face": common_face(first.keys, second.keys),
+        }
 
     def pressure_angle(self, first: End[A], second: End[B]) -> float:
         """Of both, in the section in which they are, rad."""
@@ -428,21 +420,14 @@ class ExternalGearPair(InvolutePair[ExternalGearPairSpec, "SpurGear", "SpurGear"
     ) -> ExternalMating:
         """Both gears at a distance, mm."""
         from geometry.gears.pairs.external import external_pair
-        from parts.keys.helix import common_face
 
         pair = external_pair(first.thing, second.thing, distance)
         return ExternalMating(
-            self.name,
-            keys.first,
-            keys.second,
-            direction_deg=keys.direction_deg,
+            **self.common(keys, first, second, pair),
             distance=pair.working_centre_distance,
-            module=pair.module,
             ratio=-1 / pair.gear_ratio,
             first_teeth=first.thing.number_of_teeth,
-            normal_backlash=pair.normal_backlash * self.normal_share(first, second),
             pair=pair,
-            face=common_face(first.keys, second.keys),
         )
 
     def tips(
@@ -501,24 +486,17 @@ class InternalGearPair(
     ) -> InternalMating:
         """Both gears at a distance, mm."""
         from geometry.gears.pairs.internal import internal_pair
-        from parts.keys.helix import common_face
 
         pinion, ring = _pinion_and_ring(first, second)
         pair, ring_first = internal_pair(pinion, ring, distance), ring is first.thing
         return InternalMating(
-            self.name,
-            keys.first,
-            keys.second,
-            direction_deg=keys.direction_deg,
+            **self.common(keys, first, second, pair),
             distance=pair.working_centre_distance,
-            module=pair.module,
             # both turn the same way
             ratio=pair.gear_ratio if ring_first else 1 / pair.gear_ratio,
             first_teeth=first.thing.number_of_teeth,
-            normal_backlash=pair.normal_backlash * self.normal_share(first, second),
             pair=pair,
             ring_first=ring_first,
-            face=common_face(first.keys, second.keys),
         )
 
     def blames_first(self, first: End[Any]) -> bool:
@@ -551,20 +529,13 @@ class RackGearPair(InvolutePair[RackPairSpec, "SpurGear", "Rack", RackMating]):
     def made(self, keys: RackPairSpec, first: End[SpurGear], second: End[Rack], distance: float | None) -> RackMating:
         """Both at a distance from axis to datum line, mm."""
         from geometry.gears.pairs.rack import rack_pair
-        from parts.keys.helix import common_face
 
         pair = rack_pair(first.thing, second.thing, distance)
         return RackMating(
-            self.name,
-            keys.first,
-            keys.second,
-            direction_deg=keys.direction_deg,
+            **self.common(keys, first, second, pair),
             distance=pair.distance,
-            module=pair.module,
             first_teeth=first.thing.number_of_teeth,
-            normal_backlash=pair.normal_backlash * self.normal_share(first, second),
             pair=pair,
-            face=common_face(first.keys, second.keys),
         )
 
 

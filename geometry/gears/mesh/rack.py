@@ -8,57 +8,10 @@ import numpy as np
 
 from geometry.base.placement import Placement2
 from geometry.curves.curve import Complex, Real
-from geometry.gears.mesh.search import CONTACT_TOLERANCE, MeshSearch, PairContact, gear_outline, searched
-from geometry.gears.mesh.transmission_error import TransmissionError, transmission_errors
+from geometry.gears.mesh.search import MeshSearch, gear_outline
 from geometry.gears.pairs.rack import RackPair, rack_flank_gaps
 from geometry.plane.distance import Boundary
 from geometry.plane.profile import Segment
-
-
-def rack_contact(
-    pair: RackPair,
-    *,
-    rack_shift: float = 0.0,
-    distance_shift: float = 0.0,
-    tolerance: float | None = None,
-    overlap_ratio: float = 0.0,
-) -> PairContact:
-    """The exact gap of gear and rack over one pitch; "first" is the gear, "second" the rack, taken without ends.
-
-    Parameters
-    ----------
-    rack_shift
-        mm that the rack stands to +y of the middle (``pair.rack_position``); +- normal backlash / (2 cos alpha) drives
-        it to the contact of one flank.
-    distance_shift
-        mm by which the distance is more than the pair's.
-    tolerance
-        mm; default 1e-8 module.
-    overlap_ratio
-        Of helical teeth whose section the pair is: drive angle that their face covers, in pitches.
-
-    Raises
-    ------
-    ParameterError
-        A part of the pair cannot be built.
-    """
-    allowed = CONTACT_TOLERANCE * pair.module if tolerance is None else tolerance
-    return searched(_RackMesh(pair, rack_shift, distance_shift), allowed, overlap_ratio)
-
-
-def rack_transmission(
-    pair: RackPair, *, distance_shift: float = 0.0, overlap_ratio: float = 0.0
-) -> tuple[TransmissionError, TransmissionError]:
-    """Transmission error of gear and rack; the gear drives: counter-clockwise, then clockwise.
-
-    ``distance_shift``: mm by which the distance is more than the pair's; ``overlap_ratio``: of helical teeth.
-
-    Raises
-    ------
-    ParameterError, ConvergenceError
-        A part of the pair cannot be built; its teeth do not reach each other.
-    """
-    return transmission_errors(_RackMesh(pair, 0.0, distance_shift), overlap_ratio)
 
 
 def _as_gear(segments: tuple[Segment, ...]) -> tuple[Segment, ...]:
@@ -67,11 +20,25 @@ def _as_gear(segments: tuple[Segment, ...]) -> tuple[Segment, ...]:
     return tuple(Segment(s.curve.mirrored().placed(half_turn), s.label) for s in reversed(segments))
 
 
-class _RackMesh(MeshSearch):
-    """The rack's datum line lies at +distance; its position is y of a tooth's centre line, mm."""
+class RackMesh(MeshSearch):
+    """The rack's datum line lies at +distance; its position is y of a tooth's centre line, mm. It has no ends.
 
-    def __init__(self, pair: RackPair, rack_shift: float, distance_shift: float) -> None:
-        self.pair, self.rack_shift = pair, rack_shift
+    Parameters
+    ----------
+    rack_shift
+        mm that the rack stands to +y of the middle (``pair.rack_position``); +- normal backlash / (2 cos alpha) drives
+        it to the contact of one flank.
+    distance_shift
+        mm by which the distance is more than the pair's.
+
+    Raises
+    ------
+    ParameterError
+        A part of the pair cannot be built.
+    """
+
+    def __init__(self, pair: RackPair, rack_shift: float = 0.0, distance_shift: float = 0.0) -> None:
+        self.pair = pair
         self.distance = pair.distance + distance_shift
         gear, rack = pair.sides
         segments = _as_gear(rack.segments)
@@ -83,6 +50,12 @@ class _RackMesh(MeshSearch):
             (pair.gear.root_radius, pair.gear.tip_radius),
             (pair.gear.pitch_angle, pair.rack.pitch),
             pair.gear.reference_radius,
+            pair.rack.pitch / 2 + rack_shift,
+            facing=0.0,
+            arm=math.cos(pair.rack.rack.pressure_angle),
+            closing=-1,
+            reach=1.0,
+            relative_turning=1.0,
         )
 
     def _reach(self) -> float:
@@ -100,50 +73,34 @@ class _RackMesh(MeshSearch):
         teeth = min(teeth, math.ceil(self._reach() / self.pitches[1] + 0.5))
         return teeth, teeth
 
-    def second_position(self, drive: Real) -> Real:
-        return self.pair.rack.pitch / 2 + self.rack_shift + self.rate * drive
-
-    def facing_copy(self, position: Real) -> Real:
-        return np.round(-position / self.pitches[1])
-
     def placing(self, position: Real, copy: Real) -> tuple[Complex, Complex]:
+        """The copy moved along the datum line, its teeth to -x."""
         shift = np.asarray(self.distance + 1j * (position + copy * self.pitches[1]), dtype=np.complex128)
         return np.full_like(shift, -1.0), shift
 
     def to_fixed(self, points: Complex, drive: Real) -> tuple[Complex, Complex]:
+        """Turned over and moved along."""
         moved = np.asarray(self.distance - points + 1j * self.second_position(drive))
         return moved, np.full_like(moved, 1j * self.rate)
 
-    @property
-    def relative_turning(self) -> float:
-        return 1.0
-
-    @property
-    def arm(self) -> float:
-        return math.cos(self.pair.rack.rack.pressure_angle)
-
-    @property
-    def closing(self) -> int:
-        return -1
-
-    @property
-    def reach(self) -> float:
-        return 1.0
-
     def to_second(self, points: Complex, drive: Real, turn: Real | float = 0.0) -> tuple[Complex, Complex]:
+        """Moved back and turned over."""
         turned = np.exp(1j * drive) * points
         return self.distance + 1j * (self.second_position(drive) + turn) - turned, 1j * self.rate - 1j * turned
 
     def second_folded(self, points: Complex, vectors: Complex) -> tuple[Complex, Complex]:
+        """Carried back by whole pitches and mirrored in a tooth's centre line."""
         points = points - 1j * self.pitches[1] * np.round(points.imag / self.pitches[1])
         upper = points.imag > 0
         return np.where(upper, np.conj(points), points), np.where(upper, np.conj(vectors), vectors)
 
     def corner_window(self, which: int, corners: Complex) -> tuple[Real, float]:
+        """Where a corner lies within the gear's tip circle."""
         reach = min(self._reach(), (self.second_teeth + 0.5) * self.pitches[1])
         if not which:
             return -np.angle(corners), reach / self.pair.gear.reference_radius
-        return (corners.imag - float(self.second_position(np.zeros(1))[0])) / self.rate, reach / self.rate
+        return (corners.imag - self.start) / self.rate, reach / self.rate
 
     def closed_form(self, drive: Real, shift: float = 0.0) -> Real:
+        """That of an involute and a straight flank."""
         return rack_flank_gaps(self.pair, drive, self.second_position(drive) + shift, self.distance)

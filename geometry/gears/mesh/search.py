@@ -26,6 +26,7 @@ from geometry.curves.curve import Complex, Real
 from geometry.gears.mesh.far_teeth import Measured, promising_places
 from geometry.gears.mesh.least_gap import Copies, Gaps, LeastGap
 from geometry.gears.pairs.face_overlap import is_bridged
+from geometry.gears.teeth.ring_tooth import RingSide
 from geometry.gears.teeth.tooth import ToothSide
 from geometry.plane.distance import Boundary, Flags, Indices, Verdict, folded, least_in_brackets
 from geometry.plane.profile import Label, Segment
@@ -87,38 +88,6 @@ class PairContact:
         return self.verdict is Verdict.CONTACT or (self.verdict is Verdict.CLEAR and self.worst.gap <= self.tolerance)
 
 
-def searched(mesh: MeshSearch, allowed: float, overlap_ratio: float = 0.0) -> PairContact:
-    """The exact gap of a mesh over one pitch of the first gear; ``allowed``: |gap| in mm that is contact.
-
-    ``overlap_ratio``: that of helical teeth, whose transverse section the mesh is: pitches that the face covers.
-    """
-    angles = mesh.drive_angles()
-    far = FarTeeth.unknown()
-    found = least_gaps(mesh, angles, far=far)
-    for _ in range(2):
-        if _decided(found.gap, allowed):
-            break
-        extra = _around_the_least(angles, found.gap.reshape(-1, 2).min(axis=1), mesh.pitches[0])
-        angles, found = _merged(angles, found, extra, least_gaps(mesh, extra, far=far))
-    sides = found.gap.reshape(-1, 2)
-    finite = np.isfinite(sides)
-    closed = mesh.closed_form(angles)
-    missed = (np.abs(closed) < _COMPARED * mesh.module) & (closed < sides - allowed)
-    gaps = sides.min(axis=1)
-    verdict = _verdict(sides, allowed) if finite.all() and not missed.any() else Verdict.UNDECIDED
-    if verdict is Verdict.CLEAR and overlap_ratio and _bridged(mesh, angles, sides, allowed, overlap_ratio):
-        verdict = Verdict.CONTACT
-    return PairContact(
-        verdict,
-        allowed,
-        tuple(angles.tolist()),
-        tuple(gaps.tolist()),
-        (tuple(sides[:, 0].tolist()), tuple(sides[:, 1].tolist())),
-        mesh.place(angles, found),
-        float(gaps.max()),
-    )
-
-
 def _bridged(mesh: MeshSearch, angles: Real, sides: Real, allowed: float, overlap_ratio: float) -> bool:
     """Whether one side of helical teeth is in contact somewhere along the face at every drive angle."""
 
@@ -144,7 +113,11 @@ class MeshSearch:
     """Both half-pitch outlines and the motion. Subclasses tell what the second body is.
 
     ``pitches``: the first gear's in rad, the second body's in the unit of its own motion (rad, or mm for a rack);
-    ``rate``: that motion over the first gear's rotation; ``radii``: root and tip radius of the first gear;
+    ``rate``: that motion over the first gear's rotation; ``start``: where it stands at drive angle 0; ``facing``: where
+    the line of centres is for it. ``radii``: root and tip radius of the first gear, mm. ``arm``: how far flanks that
+    touch move along their normal for one unit of the second body's motion, mm; ``closing``: sign of that motion that
+    closes the gap at the upper flanks of the first gear's teeth; ``reach``: mm that a point of the second body moves at
+    most for one unit; ``relative_turning``: how fast the bodies turn against each other, rad per rad of the first.
     ``first_teeth`` and ``second_teeth``: copies that are looked at on either side of the line of centres.
     """
 
@@ -156,11 +129,51 @@ class MeshSearch:
         radii: tuple[float, float],
         pitches: tuple[float, float],
         rate: float,
+        start: float,
+        facing: float,
+        arm: float,
+        closing: int,
+        reach: float,
+        relative_turning: float,
     ) -> None:
         self.outlines, self.first_segments, self.segments = outlines, *segments
         self.module, self.radii, self.pitches, self.rate = module, radii, pitches, rate
+        self.start, self.facing, self.arm, self.closing, self.reach = start, facing, arm, closing, reach
+        self.relative_turning = relative_turning
         self.half = LeastGap(outlines[0], pitches[0], self.segments, module)
         self.first_teeth, self.second_teeth = self.teeth_in_reach()
+
+    def contact(self, tolerance: float | None = None, overlap_ratio: float = 0.0) -> PairContact:
+        """The exact gap over one pitch of the first gear; ``tolerance``: |gap| in mm that is contact, 1e-8 module.
+
+        ``overlap_ratio``: that of helical teeth, whose transverse section the mesh is: pitches that the face covers.
+        """
+        allowed = CONTACT_TOLERANCE * self.module if tolerance is None else tolerance
+        angles = self.drive_angles()
+        far = FarTeeth.unknown()
+        found = least_gaps(self, angles, far=far)
+        for _ in range(2):
+            if _decided(found.gap, allowed):
+                break
+            extra = _around_the_least(angles, found.gap.reshape(-1, 2).min(axis=1), self.pitches[0])
+            angles, found = _merged(angles, found, extra, least_gaps(self, extra, far=far))
+        sides = found.gap.reshape(-1, 2)
+        finite = np.isfinite(sides)
+        closed = self.closed_form(angles)
+        missed = (np.abs(closed) < _COMPARED * self.module) & (closed < sides - allowed)
+        gaps = sides.min(axis=1)
+        verdict = _verdict(sides, allowed) if finite.all() and not missed.any() else Verdict.UNDECIDED
+        if verdict is Verdict.CLEAR and overlap_ratio and _bridged(self, angles, sides, allowed, overlap_ratio):
+            verdict = Verdict.CONTACT
+        return PairContact(
+            verdict,
+            allowed,
+            tuple(angles.tolist()),
+            tuple(gaps.tolist()),
+            (tuple(sides[:, 0].tolist()), tuple(sides[:, 1].tolist())),
+            self.place(angles, found),
+            float(gaps.max()),
+        )
 
     def teeth_in_reach(self) -> tuple[int, int]:
         """Teeth of both bodies on either side of the line of centres that are looked at."""
@@ -168,11 +181,11 @@ class MeshSearch:
 
     def second_position(self, drive: Real) -> Real:
         """The second body's rotation (rad) or displacement (mm) for each drive angle."""
-        raise NotImplementedError
+        return self.start + self.rate * drive
 
     def facing_copy(self, position: Real) -> Real:
         """Number of the second body's tooth or space that is nearest to the line of centres."""
-        raise NotImplementedError
+        return np.round((self.facing - position) / self.pitches[1])
 
     def placing(self, position: Real, copy: Real) -> tuple[Complex, Complex]:
         """Turn and shift that bring a copy of the half-pitch outline into the fixed frame."""
@@ -187,26 +200,6 @@ class MeshSearch:
 
         ``turn``: what the second body stands beyond ``second_position``, rad or mm.
         """
-        raise NotImplementedError
-
-    @property
-    def relative_turning(self) -> float:
-        """How fast the bodies turn against each other, rad per rad of the first gear's rotation."""
-        return abs(1 - self.rate)
-
-    @property
-    def arm(self) -> float:
-        """How far flanks that touch move along their normal for one unit of the second body's motion, mm."""
-        raise NotImplementedError
-
-    @property
-    def closing(self) -> int:
-        """Sign of the second body's motion that closes the gap at the upper flanks of the first gear's teeth."""
-        raise NotImplementedError
-
-    @property
-    def reach(self) -> float:
-        """mm that a point of the second body moves at most for one unit of its motion."""
         raise NotImplementedError
 
     def second_folded(self, points: Complex, vectors: Complex) -> tuple[Complex, Complex]:
@@ -451,9 +444,11 @@ def _round_flank_ends(segments: tuple[Segment, ...]) -> tuple[complex, ...]:
     return tuple(found)
 
 
-def gear_outline(side: ToothSide) -> Boundary:
-    """Half a pitch of a gear's outline; beyond its ends it goes on as its mirror image."""
-    return Boundary(tuple(s.curve for s in side.segments), end_normals=(cmath.exp(-0.5j * side.pitch_angle), 1 + 0j))
+def gear_outline(side: ToothSide | RingSide) -> Boundary:
+    """Half a pitch of a gear's outline or of a ring's hole; beyond its ends it goes on as its mirror image."""
+    ends = cmath.exp(-0.5j * side.pitch_angle), 1 + 0j
+    ends = (-ends[1], -ends[0]) if isinstance(side, RingSide) else ends
+    return Boundary(tuple(s.curve for s in side.segments), end_normals=ends)
 
 
 def _around_the_least(angles: Real, gap: Real, pitch: float) -> Real:

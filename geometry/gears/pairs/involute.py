@@ -258,6 +258,31 @@ class InvolutePair(Generic[G, S]):
         faced = direction + self.facing - (math.pi / z2 if self.sign > 0 else 0.0)
         return faced - (first_rotation - direction) * z1 / z2 + contact * self._half_play(self.second)
 
+    def flank_gaps(self, first_rotation: Real, second_rotation: Real, distance: float) -> Real:
+        """Closed form for the main flanks at a centre distance (mm), for rotations (n,) of both gears (rad): (n, 2) mm.
+
+        Columns: lower and upper flanks of the first gear's teeth, line of centres along +x, from a ring to its pinion.
+        The common normal touches both base circles: gap = a sin(alpha_w) - r_b1 f1 - r_b2 f2 with the roll angles f
+        (``contact.involute_gap``), signed for a ring. inf where no common normal meets two flanks.
+        """
+        one, two, sign = self.first.base_radius, self.second.base_radius, self.sign
+        base, result = abs(one + sign * two), np.full((len(first_rotation), 2), np.inf)
+        if not distance > base:
+            return result
+        angle = math.acos(base / distance)
+        length = distance * math.sin(angle)
+        own, (least, most) = _main_flank(self.first_side, one), _main_flank(self.second_side, two)
+        for column, sense in enumerate((1.0, -1.0)):
+            reached = one * (angle - sense * first_rotation + self.first.base_half_angle)
+            mate = two * (angle - sense * (second_rotation - self.facing) + self.second.base_half_angle)
+
+            def meets(at: Real, gap: Real) -> Flags:
+                roll = length - sign * (gap + at)
+                return (roll >= least) & (roll <= most)
+
+            result[:, column] = facing_gaps(sign * length - reached - sign * mate, reached, own, self.base_pitch, meets)
+        return result
+
     def _half_play(self, gear: Gear) -> float:
         """Half of the backlash as a rotation of one of the gears, rad."""
         return self.normal_backlash / (2 * gear.base_radius)
@@ -416,32 +441,6 @@ def angle_at(sums: Sums, distance: float) -> float:
     angle = inverse_involute(max(sums.involute - spare, 0.0)).value
     cure = limit(sums.distance(angle), distance, digits=_NEAREST_DIGITS)
     raise ParameterError("working_centre_distance", distance, "teeth_overlap", cure)
-
-
-def flank_gaps(pair: InvolutePair[G, S], first_rotation: Real, second_rotation: Real, distance: float) -> Real:
-    """Closed form for the main flanks at a centre distance (mm), for rotations (n,) of both gears (rad): (n, 2) mm.
-
-    Columns: lower and upper flanks of the first gear's teeth, line of centres along +x; from the ring to its pinion.
-    The common normal touches both base circles: gap = a sin(alpha_w) - r_b1 f1 - r_b2 f2 with the roll angles f
-    (``contact.involute_gap``), signed for a ring. inf where no common normal meets two flanks.
-    """
-    one, two, sign = pair.first.base_radius, pair.second.base_radius, pair.sign
-    base, result = abs(one + sign * two), np.full((len(first_rotation), 2), np.inf)
-    if not distance > base:
-        return result
-    angle = math.acos(base / distance)
-    length = distance * math.sin(angle)
-    own, (least, most) = _main_flank(pair.first_side, one), _main_flank(pair.second_side, two)
-    for column, sense in enumerate((1.0, -1.0)):
-        reached = one * (angle - sense * first_rotation + pair.first.base_half_angle)
-        mate = two * (angle - sense * (second_rotation - pair.facing) + pair.second.base_half_angle)
-
-        def meets(at: Real, gap: Real) -> Flags:
-            roll = length - sign * (gap + at)
-            return (roll >= least) & (roll <= most)
-
-        result[:, column] = facing_gaps(sign * length - reached - sign * mate, reached, own, pair.base_pitch, meets)
-    return result
 
 
 def facing_gaps(

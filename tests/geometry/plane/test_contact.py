@@ -22,7 +22,7 @@ from geometry.base.placement import Placement2
 from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line
 from geometry.curves.trochoid import Trochoid, TrochoidFillet
-from geometry.gears.mesh.external import pair_contact
+from geometry.gears.mesh.gears import GearMesh
 from geometry.gears.pairs.external import ExternalPair, external_pair
 from geometry.gears.teeth.basic_rack import TipRelief, iso_53
 from geometry.gears.teeth.spur import SpurGear
@@ -227,7 +227,7 @@ BRUTE = {
 def test_gap_curve_against_dense_polygons(name: str) -> None:
     """Distance where they are apart, deepest point of either outline inside the other where they are not."""
     pair, turn = BRUTE[name]
-    found = pair_contact(pair, second_turn=turn)
+    found = GearMesh(pair, second_turn=turn).contact()
     assert found.verdict is not Verdict.UNDECIDED
     for k in range(0, len(found.gaps), 6):
         drive = found.drive_angles[k]
@@ -248,7 +248,7 @@ def test_gap_curve_against_dense_polygons(name: str) -> None:
 def test_either_gear_may_be_the_first(name: str) -> None:
     """A corner that strikes is found whichever gear it belongs to: with the same place and nearly the same depth."""
     pair, _ = BRUTE[name]
-    one, two = pair_contact(pair), pair_contact(external_pair(pair.second, pair.first))
+    one, two = GearMesh(pair).contact(), GearMesh(external_pair(pair.second, pair.first)).contact()
     assert one.verdict is two.verdict
     assert one.worst.gap == pytest.approx(two.worst.gap, rel=1e-3, abs=1e-9)
     assert one.greatest_gap == pytest.approx(two.greatest_gap, rel=0.02, abs=1e-9)
@@ -278,7 +278,7 @@ def test_an_idler_meshes_with_both_its_mates() -> None:
     idler = SpurGear(2.0, 24, RACK, 0.1, 2 * min(tips))
     before, after = external_pair(sun, idler), external_pair(after_first := idler, wheel)
     assert before.second == after.first == after_first
-    assert pair_contact(before).verdict is pair_contact(after).verdict is Verdict.CONTACT
+    assert GearMesh(before).contact().verdict is GearMesh(after).contact().verdict is Verdict.CONTACT
     turn = 0.77
     second = before.second_rotation(turn, 0.2)
     third = after.second_rotation(second, 1.3)

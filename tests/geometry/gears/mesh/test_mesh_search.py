@@ -17,9 +17,8 @@ import shapely
 
 from geometry.base.errors import GeometryError
 from geometry.gears.mesh import search as mesh_search
-from geometry.gears.mesh.external import pair_contact
-from geometry.gears.mesh.internal import internal_contact
-from geometry.gears.mesh.rack import rack_contact
+from geometry.gears.mesh.gears import GearMesh
+from geometry.gears.mesh.rack import RackMesh
 from geometry.gears.mesh.search import PairContact
 from geometry.gears.pairs.external import ExternalPair, external_pair
 from geometry.gears.pairs.internal import InternalPair, internal_pair
@@ -78,7 +77,7 @@ def brute_side_gaps(pair: ExternalPair, drive: float, second: float) -> list[flo
 @pytest.mark.parametrize("values", BESIDE_A_JUMP)
 def test_both_sides_against_dense_polylines(values: tuple[int, int, float, float, float]) -> None:
     pair = helical(*values)
-    found = pair_contact(pair)
+    found = GearMesh(pair).contact()
     assert found.verdict is (Verdict.CONTACT if pair.effective_contact_ratio >= 1 else Verdict.CLEAR)
     for k in range(0, len(found.drive_angles), 5):
         drive = found.drive_angles[k]
@@ -104,7 +103,7 @@ def a_section(rng: random.Random) -> ExternalPair | None:
 
 
 def check_section(pair: ExternalPair) -> None:
-    found = pair_contact(pair, second_turn=pair.normal_backlash / 2 / pair.second.base_radius)
+    found = GearMesh(pair, second_turn=pair.normal_backlash / 2 / pair.second.base_radius).contact()
     assert found.verdict is not Verdict.UNDECIDED, pair
     struck = any(m.margin < 1e-3 for m in pair.margins() if m.name.startswith(("fillet", "active", "tip")))
     # flanks that only meet on their relief part from the ideal
@@ -131,7 +130,7 @@ def test_a_short_interruption_between_round_tips_is_seen(z1: int, z2: int, degre
     for rounding, verdict in ((low - 2e-3, Verdict.CONTACT), (high + 2e-3, Verdict.CLEAR)):
         pair = at(rounding)
         assert 0 < (pair.contact_ratio - 1) * (1 if verdict is Verdict.CONTACT else -1) < 0.02
-        assert pair_contact(pair).verdict is verdict
+        assert GearMesh(pair).contact().verdict is verdict
 
 
 def test_no_section_is_undecided() -> None:
@@ -164,13 +163,13 @@ def inside(z1: int, z2: int, x1: float = 0.0, x2: float = 0.0, degrees: float = 
 
 @pytest.mark.parametrize("values", [(20, 60, 0.0, 0.0, 30.0), (17, 80, 0.3, 0.3, 45.0), (25, 90, 0.0, 0.0, 60.0)])
 def test_helical_rings_and_racks_are_decided(values: tuple[int, int, float, float, float]) -> None:
-    found = internal_contact(inside(*values))
+    found = GearMesh(inside(*values)).contact()
     assert found.verdict in (Verdict.CONTACT, Verdict.CLEAR, Verdict.OVERLAP)
     helix = math.radians(values[4])
     gear = transverse_gear(SpurGear(1.0, values[0], iso_53(), values[2]), helix)
     pair = rack_pair(gear, Rack(1.0 / math.cos(helix), 12, transverse_rack(iso_53(), helix), 2.0))
     wanted = Verdict.CONTACT if pair.effective_contact_ratio >= 1 else Verdict.CLEAR
-    assert rack_contact(pair).verdict is wanted
+    assert RackMesh(pair).contact().verdict is wanted
 
 
 def differ(one: PairContact, two: PairContact) -> float:
@@ -188,17 +187,17 @@ MANY = {"20 in 28": inside(20, 28), "60 in 69": inside(60, 69), "100 in 108": in
 @pytest.mark.parametrize("turn", [0.0, 2e-4])
 def test_excluded_teeth_hold_nothing(name: str, turn: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """Every tooth measured gives the same gaps."""
-    found = internal_contact(MANY[name], ring_turn=turn)
+    found = GearMesh(MANY[name], second_turn=turn).contact()
     monkeypatch.setattr(mesh_search, "_MOST_NEAR", 1000)
-    assert differ(internal_contact(MANY[name], ring_turn=turn), found) < 1e-11
+    assert differ(GearMesh(MANY[name], second_turn=turn).contact(), found) < 1e-11
 
 
 def test_a_bound_that_promises_too_much_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     """Negative control: teeth that are said to stand still hide those that strike."""
-    found = internal_contact(MANY["tips strike"])
+    found = GearMesh(MANY["tips strike"]).contact()
     assert found.worst.gap < -0.04
     monkeypatch.setattr("geometry.gears.mesh.far_teeth._ROOM", 0.0)
-    assert internal_contact(MANY["tips strike"]).worst.gap > -1e-3
+    assert GearMesh(MANY["tips strike"]).contact().worst.gap > -1e-3
 
 
 def measured(check: Callable[[], PairContact], monkeypatch: pytest.MonkeyPatch) -> int:
@@ -216,11 +215,11 @@ def measured(check: Callable[[], PairContact], monkeypatch: pytest.MonkeyPatch) 
 
 
 def test_the_work_in_a_ring_does_not_grow_with_the_teeth_in_reach(monkeypatch: pytest.MonkeyPatch) -> None:
-    usual = measured(lambda: pair_contact(external_pair(SpurGear(1.0, 20, iso_53()), SpurGear(1.0, 40, iso_53()))),
-                     monkeypatch)  # fmt: skip
+    pair = external_pair(SpurGear(1.0, 20, iso_53()), SpurGear(1.0, 40, iso_53()))
+    usual = measured(lambda: GearMesh(pair).contact(), monkeypatch)
     # about a seventh of the pinion's teeth are within the ring's tip circle
     for teeth in (40, 100, 400, 1000):
-        assert measured(lambda z=teeth: internal_contact(inside(z, z + 9)), monkeypatch) < 5 * usual  # type: ignore[misc]
+        assert measured(lambda z=teeth: GearMesh(inside(z, z + 9)).contact(), monkeypatch) < 5 * usual  # type: ignore[misc]
 
 
 def test_a_search_without_jumps_misses_the_flanks(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -228,13 +227,13 @@ def test_a_search_without_jumps_misses_the_flanks(monkeypatch: pytest.MonkeyPatc
     pair = helical(*BESIDE_A_JUMP[0])
     monkeypatch.setattr(f"{PIECES}.has_peak", property(lambda p: np.zeros(len(p.row), bool)))
     monkeypatch.setattr(f"{PIECES}.hides_minimum", property(lambda p: np.zeros(len(p.row), bool)))
-    assert pair_contact(pair).verdict is Verdict.UNDECIDED
+    assert GearMesh(pair).contact().verdict is Verdict.UNDECIDED
 
 
 def test_a_thinned_section_leaves_half_of_its_backlash_on_either_side() -> None:
     pair = helical(12, 40, 45.0, 0.2, 0.0)
     thin = external_pair(*(replace(g, circumferential_thinning=0.1) for g in pair.gears))
-    found = pair_contact(thin)
+    found = GearMesh(thin).contact()
     assert found.verdict is Verdict.CLEAR
     for side in found.side_gaps:
         assert min(side) == pytest.approx(thin.normal_backlash / 2, abs=1e-11)

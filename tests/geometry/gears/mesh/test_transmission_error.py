@@ -11,10 +11,9 @@ import numpy as np
 import pytest
 import shapely
 
-from geometry.gears.mesh.external import pair_transmission
-from geometry.gears.mesh.internal import internal_transmission
-from geometry.gears.mesh.rack import rack_transmission
-from geometry.gears.mesh.transmission_error import TransmissionError
+from geometry.gears.mesh.gears import GearMesh
+from geometry.gears.mesh.rack import RackMesh
+from geometry.gears.mesh.transmission_error import TransmissionError, transmission_errors
 from geometry.gears.pairs.external import ExternalPair, external_pair
 from geometry.gears.pairs.internal import InternalPair, internal_pair
 from geometry.gears.pairs.rack import RackPair, rack_pair
@@ -49,9 +48,7 @@ def on_rack(teeth: int, **keys: Any) -> RackPair:
 
 def errors_of(pair: Any, **keys: Any) -> tuple[TransmissionError, TransmissionError]:
     """Both senses."""
-    if isinstance(pair, ExternalPair):
-        return pair_transmission(pair, **keys)
-    return internal_transmission(pair, **keys) if isinstance(pair, InternalPair) else rack_transmission(pair, **keys)
+    return transmission_errors((RackMesh if isinstance(pair, RackPair) else GearMesh)(pair, **keys))
 
 
 NOMINAL = {
@@ -75,8 +72,8 @@ def test_involutes_run_evenly(name: str) -> None:
 def test_involutes_run_evenly_at_any_centre_distance(shift: float) -> None:
     """As long as contact is not interrupted; apart so far that it is, they do not."""
     pair = external(20, 33)
-    assert max(e.peak_to_peak for e in pair_transmission(pair, centre_shift=shift)) < 1e-9
-    assert min(e.peak_to_peak for e in pair_transmission(pair, centre_shift=3.0)) > 0.05
+    assert max(e.peak_to_peak for e in transmission_errors(GearMesh(pair, distance_shift=shift))) < 1e-9
+    assert min(e.peak_to_peak for e in transmission_errors(GearMesh(pair, distance_shift=3.0))) > 0.05
 
 
 def test_relief_counts_from_where_the_contact_ratio_needs_it() -> None:
@@ -84,7 +81,7 @@ def test_relief_counts_from_where_the_contact_ratio_needs_it() -> None:
     for height, needed in ((0.3, False), (0.6, True), (0.9, True)):
         pair = external(20, 40, rack=iso_53(relief=TipRelief(0.02, height)))
         assert (pair.main_flank_contact_ratio < 1) == needed
-        for error in pair_transmission(pair):
+        for error in transmission_errors(GearMesh(pair)):
             if needed:
                 # never more than the relief of one tooth, 0.02 modules along the normal
                 assert 1e-4 < error.peak_to_peak < 0.04
@@ -184,7 +181,7 @@ BOTH = [(name, 1) for name in SPOILT] + [("short tips", -1)]
 @pytest.mark.parametrize(("name", "sense"), BOTH + [pytest.param(n, -1, marks=pytest.mark.heavy) for n in SPOILT])
 def test_errors_against_polylines_turned_until_they_touch(name: str, sense: int) -> None:
     pair, shift = SPOILT[name]
-    keys = {"centre_shift": shift} if shift else {}
+    keys = {"distance_shift": shift} if shift else {}
     error = errors_of(pair, **keys)[0 if sense > 0 else 1]
     assert error.peak_to_peak > 1e-3
     slow = Brute(pair, sense, shift)
@@ -199,7 +196,7 @@ def test_errors_against_polylines_turned_until_they_touch(name: str, sense: int)
 def test_a_rack_with_short_tips() -> None:
     pair = on_rack(17, given_tip_diameter=33.4)
     assert pair.contact_ratio < 1
-    one, two = rack_transmission(pair)
+    one, two = transmission_errors(RackMesh(pair))
     assert one.peak_to_peak > 1e-3
     assert one.peak_to_peak == pytest.approx(two.peak_to_peak, rel=1e-3)
     assert one.peak_to_peak_motion == pytest.approx(one.peak_to_peak / math.cos(ALPHA), rel=1e-14)
@@ -207,16 +204,16 @@ def test_a_rack_with_short_tips() -> None:
 
 def test_a_face_that_overlaps_by_a_pitch_evens_out() -> None:
     pair, _ = SPOILT["short tips"]
-    spurs, _ = pair_transmission(pair)
+    spurs, _ = transmission_errors(GearMesh(pair))
     last = spurs.peak_to_peak
     for overlap in (0.2, 0.5):
-        helical, _ = pair_transmission(pair, overlap_ratio=overlap)
+        helical, _ = transmission_errors(GearMesh(pair), overlap_ratio=overlap)
         assert helical.peak_to_peak <= last + 1e-9
         last = helical.peak_to_peak
-    assert pair_transmission(pair, overlap_ratio=1.0)[0].peak_to_peak == 0.0
+    assert transmission_errors(GearMesh(pair), overlap_ratio=1.0)[0].peak_to_peak == 0.0
     assert last < 1e-6
     # contact ratio 0.69 and an overlap of 0.31 and a little: some section is always on its main flanks
-    carried, _ = pair_transmission(pair, overlap_ratio=1.02 - pair.contact_ratio)
+    carried, _ = transmission_errors(GearMesh(pair), overlap_ratio=1.02 - pair.contact_ratio)
     assert carried.peak_to_peak < 3e-3 * spurs.peak_to_peak
 
 
@@ -234,5 +231,5 @@ def test_the_larger_obstacle_rules() -> None:
 def test_short_interruptions_are_found(distance: float, expected: float) -> None:
     """z 17 / 31, m 2: contact ratios from just above 1 down to 0.915; a user's own solution for corner contact."""
     pair = external_pair(SpurGear(2.0, 17, iso_53("A")), SpurGear(2.0, 31, iso_53("A")), distance)
-    for found in pair_transmission(pair):
+    for found in transmission_errors(GearMesh(pair)):
         assert found.peak_to_peak == pytest.approx(expected, rel=0.08, abs=1e-9)

@@ -15,7 +15,7 @@ import shapely
 
 from geometry.base.angles import involute_function
 from geometry.base.errors import ParameterError
-from geometry.gears.mesh.internal import internal_contact
+from geometry.gears.mesh.gears import GearMesh
 from geometry.gears.pairs.internal import InternalPair, internal_pair, shift_difference
 from geometry.gears.pairs.involute import Sums, signed
 from geometry.gears.teeth.basic_rack import BasicRack, iso_53
@@ -207,16 +207,16 @@ CONTACT_CASES = [(30, 60, 0.0, 0.0, 2.0), (25, 80, 0.2, 0.3, 1.0), (96, 144, 0.0
 def test_contact_without_backlash(z1: int, z2: int, x1: float, x2: float, module: float) -> None:
     pair = pair_of(z1, z2, x1, x2, module)
     assert pair.findings() == ()
-    found = internal_contact(pair)
+    found = GearMesh(pair).contact()
     assert found.verdict is Verdict.CONTACT
     assert np.abs(np.array(found.side_gaps)).max() <= 1e-8 * module
-    turned = internal_contact(pair, ring_turn=1e-6 * module / pair.ring.base_radius)
+    turned = GearMesh(pair, second_turn=1e-6 * module / pair.ring.base_radius).contact()
     assert turned.verdict is Verdict.OVERLAP
     assert turned.worst.gap == pytest.approx(-1e-6 * module, rel=1e-3)
     # a longer distance digs in, a shorter one opens: the other way round than outside
     step = 0.01 * module
-    assert internal_contact(pair, centre_shift=step).verdict is Verdict.OVERLAP
-    assert internal_contact(pair, centre_shift=-step).verdict is Verdict.CLEAR
+    assert GearMesh(pair, distance_shift=step).contact().verdict is Verdict.OVERLAP
+    assert GearMesh(pair, distance_shift=-step).contact().verdict is Verdict.CLEAR
 
 
 @pytest.mark.parametrize("deeper", [False, True])
@@ -228,21 +228,21 @@ def test_contact_with_backlash(deeper: bool) -> None:
     backlash = pair.normal_backlash
     assert backlash == pytest.approx(0.1 * math.cos(ALPHA), rel=1e-13)
     assert pair.circumferential_backlash == pytest.approx(backlash / math.cos(pair.working_pressure_angle), rel=1e-15)
-    middle = internal_contact(pair)
+    middle = GearMesh(pair).contact()
     assert middle.verdict is Verdict.CLEAR
     assert np.abs(np.array(middle.side_gaps) - backlash / 2).max() <= 2e-8
     for side in (1, -1):
         turn = side * backlash / (2 * gear.base_radius)
-        assert internal_contact(pair, ring_turn=turn).verdict is Verdict.CONTACT
+        assert GearMesh(pair, second_turn=turn).contact().verdict is Verdict.CONTACT
         more = side * (backlash / 2 + 2e-6) / gear.base_radius
-        assert internal_contact(pair, ring_turn=more).verdict is Verdict.OVERLAP
+        assert GearMesh(pair, second_turn=more).contact().verdict is Verdict.OVERLAP
 
 
 def test_backlash_from_a_distance_has_the_sign_of_rings() -> None:
     pair = pair_of(30, 60)
     nearer = internal_pair(pair.pinion, pair.ring, pair.working_centre_distance - 0.05)
     assert nearer.normal_backlash > 0
-    found = internal_contact(nearer)
+    found = GearMesh(nearer).contact()
     assert np.abs(np.array(found.side_gaps) - nearer.normal_backlash / 2).max() <= 1e-8
     with pytest.raises(ParameterError, match="teeth_overlap") as refusal:
         internal_pair(pair.pinion, pair.ring, pair.working_centre_distance + 0.05)
@@ -254,7 +254,7 @@ def test_gap_against_polygons() -> None:
     thin = SpurGear(2.0, 24, iso_53(), 0.1, circumferential_thinning=0.2)
     pair = internal_pair(thin, ring(60, 0.2, 2.0, circumferential_thinning=0.2))
     turn = 0.3 * pair.normal_backlash / (2 * pair.ring.base_radius)
-    found = internal_contact(pair, ring_turn=turn)
+    found = GearMesh(pair, second_turn=turn).contact()
     pinion, hole = polygons(pair, 30)
     for k in range(0, len(found.drive_angles), 25):
         drive = found.drive_angles[k]
@@ -267,14 +267,14 @@ def test_interference_is_found_as_overlap() -> None:
     """Negative controls: plain ring tips in a pinion's fillets; too near a pinion; its tips in the ring's fillets."""
     plain = internal_pair(SpurGear(1.0, 25, iso_53()), ring(80, plain_tip=True))
     assert {f.code for f in plain.findings()} == {"fillet_interference_pinion"}
-    assert internal_contact(plain).verdict is Verdict.OVERLAP
+    assert GearMesh(plain).contact().verdict is Verdict.OVERLAP
     near = deep_pair(33, 40)
     assert "trochoid_interference" in {f.code for f in near.findings()}
-    assert internal_contact(near).verdict is Verdict.OVERLAP
+    assert GearMesh(near).contact().verdict is Verdict.OVERLAP
     shallow = RingGear(1.0, 80, ALPHA, 100.0, PinionCutter(1.0, 20, ALPHA, tip_rounding=0.3), 0.0)
     high = internal_pair(SpurGear(1.0, 60, BasicRack(ALPHA, 1.2, 0.25, 0.2)), shallow)
     assert "fillet_interference_ring" in {f.code for f in high.findings()}
-    assert internal_contact(high).verdict is Verdict.OVERLAP
+    assert GearMesh(high).contact().verdict is Verdict.OVERLAP
 
 
 def test_a_tip_that_strikes_a_fillet_beside_the_flanks_is_found() -> None:
@@ -282,14 +282,14 @@ def test_a_tip_that_strikes_a_fillet_beside_the_flanks_is_found() -> None:
     pinion, gear = SpurGear(1.0, 35, iso_53(), 0.79), ring(106, 0.765)
     pair = internal_pair(pinion, gear)
     assert pair.findings() == ()
-    found = internal_contact(pair)
+    found = GearMesh(pair).contact()
     assert found.verdict is Verdict.OVERLAP
     assert Label.ROOT_FILLET in found.worst.labels
     tip, _ = pair.tip_diameters_at_clearance(0.2)
     assert tip < 2 * pinion.tip_radius
     free = internal_pair(replace(pinion, given_tip_diameter=tip), gear)
     assert free.tip_clearances[1] == pytest.approx(0.2, rel=1e-12)
-    assert internal_contact(free).verdict is Verdict.CONTACT
+    assert GearMesh(free).contact().verdict is Verdict.CONTACT
 
 
 def test_rotations_are_inverse_and_roll() -> None:
@@ -341,11 +341,13 @@ def check_random_pairs(count: int, seed: int) -> None:
         if pair is None:
             continue
         done += 1
-        found = internal_contact(pair)
+        found = GearMesh(pair).contact()
         assert found.verdict is Verdict.CONTACT, pair
         assert np.abs(np.array(found.side_gaps)).max() <= 1e-8, pair
         side = numbers.choice((1, -1))
-        assert internal_contact(pair, ring_turn=side * 1e-6 / pair.ring.base_radius).verdict is Verdict.OVERLAP, pair
+        assert GearMesh(pair, second_turn=side * 1e-6 / pair.ring.base_radius).contact().verdict is Verdict.OVERLAP, (
+            pair
+        )
 
 
 def test_random_legal_pairs() -> None:

@@ -18,10 +18,9 @@ import numpy as np
 import pytest
 
 from geometry.base.errors import GeometryError, ParameterError
-from geometry.gears.mesh import external as module_under_test
-from geometry.gears.mesh.external import PairContact, pair_contact
+from geometry.gears.mesh.gears import GearMesh
+from geometry.gears.mesh.search import PairContact
 from geometry.gears.pairs.external import ExternalPair, external_pair
-from geometry.gears.pairs.involute import flank_gaps
 from geometry.gears.teeth import limits
 from geometry.gears.teeth.basic_rack import BasicRack, iso_53
 from geometry.gears.teeth.spur import SpurGear
@@ -189,7 +188,7 @@ def test_refusals_name_what_works() -> None:
 @pytest.mark.parametrize("turn", [0.0, 0.3, -2.0])
 def test_the_practicum_pair_touches_all_through_a_pitch(turn: float) -> None:
     pair = practicum_pair()
-    found = pair_contact(pair)
+    found = GearMesh(pair).contact()
     assert found.verdict is Verdict.CONTACT
     assert gap_in_modules(found, pair) <= 1e-8
     assert found.tolerance == 1e-7
@@ -208,17 +207,17 @@ def test_a_spoilt_pair_is_caught(pair: ExternalPair) -> None:
     small, play = 1e-6 * pair.module, pair.normal_backlash / pair.second.base_radius
     for sense in (1, -1):
         contact_turn = -sense * play / 2
-        driven = pair_contact(pair, second_turn=contact_turn)
+        driven = GearMesh(pair, second_turn=contact_turn).contact()
         assert driven.verdict is Verdict.CONTACT
         assert max(map(abs, driven.gaps)) <= 1e-8 * pair.module
         for beyond, verdict in ((small, Verdict.OVERLAP), (-small, Verdict.OVERLAP if play == 0 else Verdict.CLEAR)):
             turn = contact_turn + sense * (play + beyond / pair.working_radii[1])
-            assert pair_contact(pair, second_turn=turn).verdict is verdict
-    pushed = pair_contact(pair, centre_shift=-small - pair.normal_backlash)
+            assert GearMesh(pair, second_turn=turn).contact().verdict is verdict
+    pushed = GearMesh(pair, distance_shift=-small - pair.normal_backlash).contact()
     assert pushed.verdict is Verdict.CLEAR if play else Verdict.OVERLAP
     if not play:
         assert -small < pushed.worst.gap < -0.4 * small
-    apart = pair_contact(pair, centre_shift=1e-4 * pair.module)
+    apart = GearMesh(pair, distance_shift=1e-4 * pair.module).contact()
     assert apart.verdict is Verdict.CLEAR
     assert not apart.touches
     assert apart.worst.gap >= 1e-4 * pair.module * 0.4
@@ -227,20 +226,20 @@ def test_a_spoilt_pair_is_caught(pair: ExternalPair) -> None:
 def test_backlash_leaves_half_of_it_on_either_side() -> None:
     pair = practicum_pair(circumferential_thinning=0.3)
     assert pair.normal_backlash == pytest.approx(0.6 * math.cos(math.radians(20)), rel=1e-14)
-    found = pair_contact(pair)
+    found = GearMesh(pair).contact()
     assert found.verdict is Verdict.CLEAR
     for side in found.side_gaps:
         assert side == pytest.approx([pair.normal_backlash / 2] * len(side), abs=1e-9)
-    closed = flank_gaps(pair, np.array(found.drive_angles), np.array([pair.second_rotation(a) for a in
+    closed = pair.flank_gaps(np.array(found.drive_angles), np.array([pair.second_rotation(a) for a in
                         found.drive_angles]), pair.working_centre_distance)  # fmt: skip
     assert np.min(closed, axis=0) == pytest.approx([pair.normal_backlash / 2] * 2, abs=1e-12)
     wide = external_pair(*practicum_pair().gears, 180.0)
-    assert pair_contact(wide).worst.gap == pytest.approx(wide.normal_backlash / 2, abs=1e-9)
+    assert GearMesh(wide).contact().worst.gap == pytest.approx(wide.normal_backlash / 2, abs=1e-9)
 
 
 def check_sound(pair: ExternalPair) -> None:
     """The formulas' limits and the exact gap say the same."""
-    found = pair_contact(pair)
+    found = GearMesh(pair).contact()
     broken = {f.code for f in pair.findings()}
     half = pair.normal_backlash / 2 / pair.module
     gaps = np.array(found.side_gaps) / pair.module - half
@@ -252,7 +251,7 @@ def check_sound(pair: ExternalPair) -> None:
     assert np.abs(gaps).max() <= 1e-8, (pair, found.worst)
     assert found.verdict is (Verdict.CLEAR if half else Verdict.CONTACT)
     if half:
-        driven = pair_contact(pair, second_turn=pair.normal_backlash / 2 / pair.second.base_radius)
+        driven = GearMesh(pair, second_turn=pair.normal_backlash / 2 / pair.second.base_radius).contact()
         assert driven.verdict is Verdict.CONTACT
 
 
@@ -295,7 +294,7 @@ def beyond_the_band(pair: ExternalPair) -> bool:
 
 @pytest.mark.parametrize("index", range(12))
 def test_fillet_interference_is_overlap_beyond_a_band(index: int) -> None:
-    found = pair_contact(interfering_pairs(5, 12)[index])
+    found = GearMesh(interfering_pairs(5, 12)[index]).contact()
     assert found.verdict is Verdict.OVERLAP
     assert {Label.ROOT_FILLET, Label.ROOT_LAND} & set(found.worst.labels)
 
@@ -313,7 +312,7 @@ def test_a_contact_ratio_just_below_one_interrupts_the_drive() -> None:
     for step, verdict in ((0.01, Verdict.CONTACT), (-0.01, Verdict.CLEAR)):
         pair = at(high + step)
         assert (pair.contact_ratio >= 1) == (verdict is Verdict.CONTACT)
-        found = pair_contact(pair)
+        found = GearMesh(pair).contact()
         assert found.verdict is verdict
         assert found.touches
         assert bool(pair.findings()) == (verdict is Verdict.CLEAR)
@@ -329,7 +328,7 @@ def points_measured(pair: ExternalPair, monkeypatch: pytest.MonkeyPatch) -> int:
 
     with monkeypatch.context() as patch:
         patch.setattr(contact.Boundary, "feet", counted)
-        assert pair_contact(pair).verdict is Verdict.CONTACT
+        assert GearMesh(pair).contact().verdict is Verdict.CONTACT
     return total[0]
 
 
@@ -348,7 +347,7 @@ def test_the_work_does_not_grow_with_the_teeth(monkeypatch: pytest.MonkeyPatch) 
 def test_other_pressure_angles_and_a_wheel_of_ten_thousand_teeth(angle_deg: float) -> None:
     rack = BasicRack(math.radians(angle_deg), 0.8, 0.3, 0.1)
     pair = external_pair(SpurGear(1.0, 60, rack, 0.1), SpurGear(1.0, 10_000, rack, 0.3))
-    found = pair_contact(pair)
+    found = GearMesh(pair).contact()
     assert not pair.findings()
     assert found.verdict is Verdict.CONTACT
     assert gap_in_modules(found, pair) <= 1e-9
@@ -356,16 +355,16 @@ def test_other_pressure_angles_and_a_wheel_of_ten_thousand_teeth(angle_deg: floa
 
 def test_a_search_that_misses_the_flanks_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
     pair = practicum_pair(circumferential_thinning=0.3)
-    monkeypatch.setattr(module_under_test, "flank_gaps", lambda _p, angles, *_: np.full((len(angles), 2), 0.1))
-    assert pair_contact(pair).verdict is Verdict.UNDECIDED
+    monkeypatch.setattr(ExternalPair, "flank_gaps", lambda _p, angles, *_: np.full((len(angles), 2), 0.1))
+    assert GearMesh(pair).contact().verdict is Verdict.UNDECIDED
 
 
 def test_a_number_that_is_not_finite_is_undecided() -> None:
-    assert pair_contact(practicum_pair(), second_turn=math.nan).verdict is Verdict.UNDECIDED
+    assert GearMesh(practicum_pair(), second_turn=math.nan).contact().verdict is Verdict.UNDECIDED
 
 
 @pytest.mark.parametrize("shift", [40.0, -3.0, -60.0])
 def test_far_away_and_far_inside(shift: float) -> None:
-    found = pair_contact(practicum_pair(), centre_shift=shift)
+    found = GearMesh(practicum_pair(), distance_shift=shift).contact()
     assert found.verdict is (Verdict.CLEAR if shift > 0 else Verdict.OVERLAP)
     assert (found.worst.gap > 0) == (shift > 0)

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from geometry.base.angles import involute_function
 from geometry.base.errors import GeometryError
 from geometry.curves.implicit import Box
-from geometry.gears.mesh.internal import internal_contact
+from geometry.gears.mesh.gears import GearMesh
 from geometry.gears.pairs.internal import InternalPair, internal_pair
 from geometry.gears.pairs.sliding import specific_sliding_internal
 from geometry.gears.shifts.external import BlockingContour, ContourLine
@@ -294,7 +294,7 @@ def contact_beside(pair: InternalShiftPair, name: str, most: int) -> int:
             if margin(inside.real, inside.imag) < 0:
                 inside, outside = outside, inside
             assert margin(inside.real, inside.imag) > 0 > margin(outside.real, outside.imag)
-            gaps = [internal_contact(built(pair, p.real, p.imag)) for p in (inside, outside)]
+            gaps = [GearMesh(built(pair, p.real, p.imag)).contact() for p in (inside, outside)]
             assert gaps[0].verdict is Verdict.CONTACT, (name, inside)
             # flanks part by the square of the distance, tips by the distance itself
             assert gaps[1].worst.gap < (-1e-5 if name == "trochoid_interference" else -2e-12), (name, outside)

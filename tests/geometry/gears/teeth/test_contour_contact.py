@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from geometry.gears.mesh.external import pair_contact
+from geometry.gears.mesh.gears import GearMesh
 from geometry.gears.pairs.external import ExternalPair, external_pair
 from geometry.gears.shifts.external import (
     ContourLine,
@@ -70,22 +70,22 @@ def compare(pair: ShiftPair, most: int) -> dict[str, int]:
         for k in usable[:: max(1, len(usable) // most)][:most]:
             inside, outside = (built(pair, p) for p in sides(pair, line, k))
             assert inside.effective_contact_ratio == pytest.approx(inside.contact_ratio, abs=1e-9)
-            touching = pair_contact(inside)
+            touching = GearMesh(inside).contact()
             assert touching.verdict is Verdict.CONTACT
             assert touching.worst.gap > -NOTHING
             # flank that is missing costs contact ratio; a fillet in its place is struck
             assert outside.effective_contact_ratio < outside.contact_ratio - 1e-7
             if kind == "fillet_interference":
                 # second order: with a flat margin the overlap may be less than a verdict's tolerance
-                assert pair_contact(outside).worst.gap < -NOTHING
+                assert GearMesh(outside).contact().worst.gap < -NOTHING
             seen[kind] = seen.get(kind, 0) + 1
     return seen
 
 
 def test_an_overlap_a_little_farther_out_has_the_verdict() -> None:
     pair = ShiftPair(13, 21, iso_53())
-    assert pair_contact(built(pair, 0.4 + 1.38j)).verdict is Verdict.CONTACT
-    assert pair_contact(built(pair, 0.0 + 1.45j)).verdict is Verdict.OVERLAP
+    assert GearMesh(built(pair, 0.4 + 1.38j)).contact().verdict is Verdict.CONTACT
+    assert GearMesh(built(pair, 0.0 + 1.45j)).contact().verdict is Verdict.OVERLAP
 
 
 def test_both_sides_of_the_interference_lines() -> None:

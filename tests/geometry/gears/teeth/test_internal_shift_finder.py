@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from geometry.gears.mesh.internal import internal_contact
+from geometry.gears.mesh.gears import GearMesh
 from geometry.gears.shifts.finder import for_sum, greatest_contact_ratio, least_sliding, least_wear, legal_shifts
 from geometry.gears.shifts.internal import InternalRequirements, least_margin, window
 from geometry.gears.shifts.internal_shifts import InternalShiftPair, internal_state
@@ -54,7 +54,7 @@ def test_proposals_have_contact_of_exact_outlines() -> None:
         assert found is not None
         made = built(pair, found.first, found.second)
         assert {f.code for f in made.findings()} <= {"radial_assembly"}
-        assert internal_contact(made).verdict is Verdict.CONTACT
+        assert GearMesh(made).contact().verdict is Verdict.CONTACT
 
 
 def test_a_centre_distance_gets_equal_sliding() -> None:
@@ -101,4 +101,4 @@ def test_random_proposals_have_contact_of_exact_outlines(seed: int) -> None:
         assert found.margin > -1e-9
         assert {f.code for f in made.findings()} <= {"radial_assembly"}
         assert ring_limits.makes(made.ring)
-        assert internal_contact(made).verdict is Verdict.CONTACT, pair
+        assert GearMesh(made).contact().verdict is Verdict.CONTACT, pair

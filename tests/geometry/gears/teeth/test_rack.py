@@ -12,7 +12,7 @@ import pytest
 import shapely
 
 from geometry.base.errors import OffsetError, ParameterError
-from geometry.gears.mesh.rack import rack_contact
+from geometry.gears.mesh.rack import RackMesh
 from geometry.gears.pairs.rack import RackPair, rack_pair
 from geometry.gears.teeth.basic_rack import BasicRack, iso_53
 from geometry.gears.teeth.limits import undercut
@@ -142,32 +142,32 @@ def test_quantities_by_hand() -> None:
 def test_contact_without_backlash(teeth: int, x: float, name: str) -> None:
     pair = pair_of(teeth, x, name=name)
     assert {f.code for f in pair.findings()} <= {"fillet_interference_gear", "fillet_interference_rack"}
-    found = rack_contact(pair)
+    found = RackMesh(pair).contact()
     assert found.verdict is Verdict.CONTACT
     assert np.abs(np.array(found.side_gaps)).max() <= 1e-8 * pair.module
     for side in (1, -1):
         shift = side * 1.1e-6 * pair.module
-        moved = rack_contact(pair, rack_shift=shift)
+        moved = RackMesh(pair, rack_shift=shift).contact()
         assert moved.verdict is Verdict.OVERLAP
         assert moved.worst.gap == pytest.approx(-1.1e-6 * pair.module * math.cos(ALPHA), rel=1e-2)
     step = 0.02 * pair.module
-    nearer = rack_contact(pair, distance_shift=-step).worst.gap
+    nearer = RackMesh(pair, distance_shift=-step).contact().worst.gap
     assert nearer <= -step * math.sin(ALPHA) * (1 - 1e-6)
     if name != "A":  # the rounding of rack A takes all of its clearance: tips strike the fillets first
         assert nearer == pytest.approx(-step * math.sin(ALPHA), rel=1e-6)
-    assert rack_contact(pair, distance_shift=step).verdict is Verdict.CLEAR
+    assert RackMesh(pair, distance_shift=step).contact().verdict is Verdict.CLEAR
 
 
 def test_contact_with_backlash() -> None:
     pair = pair_of(25, 0.1, thin=0.05)
     backlash = pair.normal_backlash
     assert backlash == pytest.approx(0.1 * math.cos(ALPHA), rel=1e-13)
-    found = rack_contact(pair)
+    found = RackMesh(pair).contact()
     assert np.abs(np.array(found.side_gaps) - backlash / 2).max() <= 1e-8
     slack = pair.rack_position(0.0, contact=1)
-    assert rack_contact(pair, rack_shift=slack).verdict is Verdict.CONTACT
-    assert rack_contact(pair, rack_shift=-slack).verdict is Verdict.CONTACT
-    assert rack_contact(pair, rack_shift=slack + 2e-6).verdict is Verdict.OVERLAP
+    assert RackMesh(pair, rack_shift=slack).contact().verdict is Verdict.CONTACT
+    assert RackMesh(pair, rack_shift=-slack).contact().verdict is Verdict.CONTACT
+    assert RackMesh(pair, rack_shift=slack + 2e-6).contact().verdict is Verdict.OVERLAP
     wider = rack_pair(pair.gear, pair.rack, pair.distance + 0.1)
     assert wider.normal_backlash == pytest.approx(backlash + 0.2 * math.sin(ALPHA), rel=1e-12)
     with pytest.raises(ParameterError, match="teeth_overlap") as caught:
@@ -180,7 +180,7 @@ def test_interference_is_found_as_overlap() -> None:
     gear = SpurGear(2.0, 9, BasicRack(ALPHA, 0.7, 0.1, 0.0), 0.25)
     pair = rack_pair(gear, rack(10, BasicRack(ALPHA, 1.0, 0.25, 0.2)))
     assert "fillet_interference_gear" in {f.code for f in pair.findings()}
-    assert rack_contact(pair).verdict is Verdict.OVERLAP
+    assert RackMesh(pair).contact().verdict is Verdict.OVERLAP
 
 
 @pytest.mark.parametrize("count", [10, pytest.param(2000, marks=pytest.mark.heavy)])
@@ -191,8 +191,8 @@ def test_random_legal_pairs(count: int) -> None:
         if brute.refusal(lambda p=pair: p.sides) is not None or undercut(pair.gear).margin < 0 or pair.findings():  # type: ignore[misc]
             continue
         done += 1
-        found = rack_contact(pair)
+        found = RackMesh(pair).contact()
         assert found.verdict is Verdict.CONTACT, pair
         assert np.abs(np.array(found.side_gaps)).max() <= 1e-8 * pair.module, pair
         shift = numbers.choice((1, -1)) * 1.1e-6 * pair.module
-        assert rack_contact(pair, rack_shift=shift).verdict is Verdict.OVERLAP, pair
+        assert RackMesh(pair, rack_shift=shift).contact().verdict is Verdict.OVERLAP, pair

@@ -11,7 +11,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from geometry.base.errors import ParameterError
-from geometry.gears.mesh.internal import internal_contact
+from geometry.gears.mesh.gears import GearMesh
 from geometry.gears.pairs.internal import internal_pair
 from geometry.gears.teeth import ring_limits
 from geometry.gears.teeth.cutter import PinionCutter, checked_cutter
@@ -138,11 +138,11 @@ def test_pairs_with_small_rings_touch_and_do_not_overlap(ring: int, pinion: int,
     hole = checked_ring(settled_ring(bare(ring, degrees)))
     gear = checked_gear(SpurGear(1.0, pinion, basic_rack_of("ISO 53 A", math.radians(degrees))))
     pair = internal_pair(gear, hole)
-    found = internal_contact(pair)
+    found = GearMesh(pair).contact()
     assert found.verdict.value == "contact"
     assert pair.effective_contact_ratio > 1
     # negative control: a tooth of the pinion shifted into the flank overlaps
-    assert internal_contact(pair, ring_turn=1e-4).verdict.value == "overlap"
+    assert GearMesh(pair, second_turn=1e-4).contact().verdict.value == "overlap"
 
 
 def test_lengths_scale_with_the_module() -> None:

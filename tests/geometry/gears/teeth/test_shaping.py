@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from geometry.base.angles import inverse_involute, involute_function
 from geometry.base.errors import ParameterError
-from geometry.gears.mesh.external import pair_contact
+from geometry.gears.mesh.gears import GearMesh
 from geometry.gears.pairs.external import external_pair
 from geometry.gears.teeth.basic_rack import TipRelief, iso_53
 from geometry.gears.teeth.cutter import PinionCutter
@@ -122,10 +122,10 @@ def test_offsets_lie_at_their_distance(offset: float) -> None:
 
 def test_contact_of_shaped_gears() -> None:
     pair = external_pair(shaped(23, 40), shaped(31, 40, 0.1))
-    found = pair_contact(pair)
+    found = GearMesh(pair).contact()
     assert found.verdict is Verdict.CONTACT
     assert np.abs(np.array(found.side_gaps)).max() <= 1e-8 * 2
-    assert pair_contact(pair, second_turn=1e-6).verdict is Verdict.OVERLAP
+    assert GearMesh(pair, second_turn=1e-6).contact().verdict is Verdict.OVERLAP
 
 
 def test_refusals() -> None:
