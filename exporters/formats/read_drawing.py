@@ -184,6 +184,7 @@ class ReadDrawing:
 
     curves: tuple[DrawnCurve, ...]
     has_arcs = False
+    is_flat = True
 
     def names(self) -> None:
         """The format has none."""

@@ -53,6 +53,7 @@ class ReadSolid:
     shape: TopoDS_Shape
     products: tuple[str, ...]
     has_arcs = False
+    is_flat = False
 
     def names(self) -> tuple[str, ...]:
         """The products."""

@@ -74,6 +74,7 @@ class ReadOutlines:
 
     loops: tuple[Loop, ...]
     has_arcs = True
+    is_flat = True
 
     def names(self) -> None:
         """The format has none."""
@@ -95,6 +96,7 @@ class ReadMesh:
     triangles: NDArray[np.int64]
     name: str | None = None
     has_arcs = False
+    is_flat = False
 
     def names(self) -> tuple[str, ...] | None:
         """The one name."""

@@ -43,6 +43,11 @@ class ReadBack(Protocol):
         """Whether its curves are lines and arcs, whose curvature jumps."""
         ...
 
+    @property
+    def is_flat(self) -> bool:
+        """Whether it holds outlines, and no solid."""
+        ...
+
     def names(self) -> tuple[str, ...] | None:
         """What its parts are called; None where the format has no names."""
         ...

@@ -63,10 +63,10 @@ class TurningProbe:
             lost = math.degrees(angle[np.isnan(error)][0])
             return Probed(failures=(f"{self._who}the follower finds no outline at cam angle {lost:.6g} degrees",))
         bound = lift_bound(cam, ANGLES, declared + _ROUNDING * float(np.abs(cam.contact(angle)).max()))
-        found = _measured(error, law, TURN / ANGLES, swings=cam.swings, round_about=True)
-        wrong = _failure(error, bound, lambda k: f"at cam angle {k * 360 / ANGLES:.6g} degrees", swings=cam.swings)
+        found = lift_errors(error, law, TURN / ANGLES, swings=cam.swings, round_about=True)
+        wrong = lift_failure(error, bound, lambda k: f"at cam angle {k * 360 / ANGLES:.6g} degrees", swings=cam.swings)
         failures = tuple(f"{self._who}{failure}" for failure in wrong)
-        return Probed(found, failures, _jumps(found, cam.swings) if file.has_arcs else ())
+        return Probed(found, failures, lift_jumps(found, swings=cam.swings) if file.has_arcs else ())
 
     @property
     def _who(self) -> str:
@@ -98,9 +98,9 @@ class SlidingProbe:
             text = f"the follower finds no edge at {travel[np.isnan(error)][0]:.6g} mm of travel"
             return Probed(failures=(text,))
         bound = travel_bound(cam, declared + _ROUNDING * float(np.abs(cam.centre(travel)).max()))
-        found = _measured(error, law, cam.motion.travel / ANGLES, swings=cam.swings, round_about=False)
-        failure = _failure(error, bound, lambda k: f"at {travel[k]:.6g} mm of travel", swings=cam.swings)
-        return Probed(found, failure, _jumps(found, cam.swings) if file.has_arcs else ())
+        found = lift_errors(error, law, cam.motion.travel / ANGLES, swings=cam.swings, round_about=False)
+        failure = lift_failure(error, bound, lambda k: f"at {travel[k]:.6g} mm of travel", swings=cam.swings)
+        return Probed(found, failure, lift_jumps(found, swings=cam.swings) if file.has_arcs else ())
 
 
 def outermost(loops: Sequence[ReadLoop]) -> ReadLoop:
@@ -118,7 +118,7 @@ def _nearest(loops: Sequence[ReadLoop], exact: Profile) -> ReadLoop:
     return loops[int(np.argmin([distance_to_profile(x, exact, trusted=np.inf).max() for x in rough]))]
 
 
-def _measured(error: Real, law: Real, step: float, *, swings: bool, round_about: bool) -> dict[str, float]:
+def lift_errors(error: Real, law: Real, step: float, *, swings: bool, round_about: bool) -> dict[str, float]:
     """Errors of S, S' and S'' (mm or rad) in mm or degrees, the jump and the peak of S''; ``step`` of the angle, rad,
     or of the travel, mm. Not ``round_about``: the ends of the travel have no neighbours.
     """
@@ -141,7 +141,7 @@ def _measured(error: Real, law: Real, step: float, *, swings: bool, round_about:
     }
 
 
-def _failure(error: Real, bound: Real, place: Callable[[int], str], *, swings: bool) -> tuple[str, ...]:
+def lift_failure(error: Real, bound: Real, place: Callable[[int], str], *, swings: bool) -> tuple[str, ...]:
     """What is wrong with a lift whose errors (mm or rad) exceed their bound somewhere."""
     excess = np.abs(error) - bound
     worst = int(np.argmax(excess))
@@ -151,7 +151,7 @@ def _failure(error: Real, bound: Real, place: Callable[[int], str], *, swings: b
     return (f"the follower's lift is wrong by {size} {place(worst)}, more than the outline's error allows",)
 
 
-def _jumps(found: dict[str, float], swings: bool) -> tuple[Finding, ...]:
+def lift_jumps(found: dict[str, float], *, swings: bool) -> tuple[Finding, ...]:
     suffix = "_deg" if swings else ""
     jump, peak = found[f"acceleration_jump{suffix}"], found[f"acceleration_peak{suffix}"]
     return (Finding("rolled_jumps", jump, peak),) if jump > _JUMP_SHARE * peak > 0 else ()

@@ -287,7 +287,7 @@ class BarrelCam:
 
     def foot(self, points: Real, near: Real, width: float) -> tuple[Real, Real]:
         """Distances of points (n, 3) as above, mm, and the cam angles of those places, by ones close by, rad."""
-        width += 0.1 * self.radius / (self.outer + self._fastest())
+        width += 0.1 * self.radius / (self.outer + self.fastest())
         away, _, at = self._refined(points, near, near - width, near + width)
         return away, at
 
@@ -296,7 +296,7 @@ class BarrelCam:
         found = [self._nearest(points[i : i + _CHUNK]) for i in range(0, len(points), _CHUNK)] or [(np.zeros(0),) * 2]
         return np.concatenate([d for d, _ in found]), np.concatenate([s for _, s in found])
 
-    def _fastest(self) -> float:
+    def fastest(self) -> float:
         """About the greatest speed of the roller, mm/rad."""
         return max(float(np.abs(self.place(np.linspace(*p.domain, 9), 1, p)[1]).max()) for p in self.motion.pieces)
 
@@ -305,7 +305,7 @@ class BarrelCam:
         polar, size = np.angle(plane), np.abs(plane)
         ends = [y + sense * 1.2 * self.radius for y, sense in zip(self.side_range(), (-1, 1), strict=True)]
         first, last = (np.arcsin(np.clip(y / size, -_SIDE, _SIDE)) for y in ends)
-        share = np.linspace(0, 1, math.ceil(np.clip(_PER_SLOPE * (1 + self._fastest() / self.inner), 12, 400)))
+        share = np.linspace(0, 1, math.ceil(np.clip(_PER_SLOPE * (1 + self.fastest() / self.inner), 12, 400)))
         samples = -polar + first + share[:, None] * (last - first)
         turned = plane * np.exp(1j * samples)
         away = np.abs(turned.imag + 1j * z - self.place(samples, 0)[0]) - self.radius_at(turned.real)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,9 +18,6 @@ from geometry.cams.motion.follower_motion import TURN
 from geometry.cams.plane.disk import DiskCam
 from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import signed_area
-
-if TYPE_CHECKING:
-    from geometry.cams.plane.wedge import WedgeCam
 
 Index = NDArray[np.int64]
 # parts that every edge is cut into: within one the cam angle grows or falls steadily
@@ -90,6 +87,19 @@ class Smooth:
 Edges = Rounds | Lines | Smooth
 
 
+class Stopped(Protocol):
+    """A follower that outlines stop: that of a disk, a plate, or the roller on an unrolled barrel."""
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether a face touches."""
+        ...
+
+    def stop(self, point: Complex, normal: Complex, offset: float) -> tuple[Real, Real]:
+        """Cam angle at which an outline's (p, n) touches the follower, and how high it stands then; NaN if never."""
+        ...
+
+
 @dataclass(frozen=True, slots=True)
 class Outline:
     """A closed outline, material on its left: its edges by family, and the place of each of them along it."""
@@ -142,9 +152,7 @@ def outline_of_polynomials(coefficients: Complex, *, clockwise: bool = False) ->
     return Outline((Smooth(coefficients),), np.arange(len(coefficients)))
 
 
-def rolled_lift(
-    cam: DiskCam | WedgeCam, outline: Outline, count: int, offset: float = 0.0, *, below: bool = True
-) -> Real:
+def rolled_lift(cam: Stopped, outline: Outline, count: int, offset: float = 0.0, *, below: bool = True) -> Real:
     """S at ``count`` equal cam angles from 0, mm or rad, of the cam's own follower on an outline in the cam's frame.
 
     ``offset``: the outline is the cam's moved out of the material by this much, mm, for a cutter's width: the follower
@@ -170,7 +178,7 @@ def _folded(angle: Real) -> Real:
     return angle - TURN * np.round(angle / TURN)
 
 
-def _crossings(cam: DiskCam | WedgeCam, family: Edges, step: float, offset: float) -> tuple[Index, Real, Real, Index]:
+def _crossings(cam: Stopped, family: Edges, step: float, offset: float) -> tuple[Index, Real, Real, Index]:
     """Which edges are touched at which angles of the grid: edge, its t from and to, number of the angle."""
     cells = _CELLS[type(family).__name__]
     t = np.broadcast_to(np.linspace(0, 1, cells + 1), (len(family), cells + 1))
@@ -187,7 +195,7 @@ def _crossings(cam: DiskCam | WedgeCam, family: Edges, step: float, offset: floa
     return edge[:, :-1].ravel()[cell], t[:, :-1].ravel()[cell], t[:, 1:].ravel()[cell], target
 
 
-def _solve(cam: DiskCam | WedgeCam, family: Edges, edge: Index, a: Real, b: Real, target: Real, offset: float) -> Real:
+def _solve(cam: Stopped, family: Edges, edge: Index, a: Real, b: Real, target: Real, offset: float) -> Real:
     """t at which each edge is touched at its angle, by the Illinois rule within [a, b]."""
 
     def miss(t: Real) -> Real:

@@ -347,7 +347,7 @@ class Barrel(Kind[BarrelCamSpec, "BarrelBody"]):
         return barrel_moments(solid)
 
     def probes(self, keys: BarrelCamSpec, thing: BarrelBody) -> tuple[Probe, ...]:
-        """The roller, put into the groove of every mesh."""
+        """The roller, put into the groove of every mesh and rolled along every flat outline."""
         from parts.cams.barrel_cam.probe import GrooveRoller
 
         roller = self.report(keys, thing).quantities["roller_diameter"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import random
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -12,18 +13,20 @@ import numpy as np
 import pytest
 
 from exporters.formats.read_stl import read_stl
-from exporters.formats.readback import ReadMesh
+from exporters.formats.readback import Loop, ReadMesh, ReadOutlines
 from exporters.formats.reading import READERS
 from exporters.formats.stl import write_stl
 from exporters.production.recheck import recheck
 from exporters.verification.faces import verify_faced_mesh
 from exporters.verification.judge import held, probed
 from exporters.verification.verdict import Verdict
-from geometry.cams.barrel.body import BarrelBody, Track
+from geometry.cams.barrel.body import BarrelBody, Plane, Track
 from geometry.cams.barrel.cam import LOWER, UPPER
+from geometry.cams.barrel.rolling import rolled_places, wall_height
 from geometry.cams.motion.follower_motion import TURN
+from geometry.plane.contour import edge_points
 from parts.base.refusal import SceneError
-from parts.cams.barrel_cam.probe import rolled_places
+from parts.cams.barrel_cam.probe import walls_of
 from parts.scene.formats import FILE_KINDS
 from parts.solids.mesh import Mesh, body_mesh, mesh_outlines
 from tests.exporters.making import read_report, run
@@ -122,7 +125,8 @@ def test_the_roller_in_the_groove_feels_the_walls() -> None:
     body, mesh, error = formed("groove")
     cam = body.cam
     axis = cam.place(np.arange(COUNT) * TURN / COUNT, 0)[0].imag
-    found, smaller = rolled_places(mesh.faces(), cam, (cam.radius, cam.radius - 0.5), COUNT)
+    walls = walls_of(mesh.faces(), body)
+    found, smaller = (rolled_places(cam.with_radius(r), walls, COUNT) for r in (cam.radius, cam.radius - 0.5))
     for side in (UPPER, LOWER):
         assert np.abs(found[side] - axis).max() < 1.5 * error
     # half a mm of play on each side in a dwell, more on slopes
@@ -133,9 +137,160 @@ def test_the_roller_in_the_groove_feels_the_walls() -> None:
     away = body.distance(next(f for f in body.faces() if isinstance(f, Track) and f.side == LOWER), mesh.vertices)
     vertices = mesh.vertices.copy()
     vertices[away < 1e-6, 2] += 0.3
-    lifted = rolled_places(ReadMesh(vertices, mesh.triangles).faces(), cam, (cam.radius,), COUNT)[0]
+    lifted = rolled_places(cam, walls_of(vertices[mesh.triangles], body), COUNT)
     assert np.abs(lifted[LOWER] - found[LOWER] - 0.3).max() < 1e-9
     assert np.array_equal(lifted[UPPER], found[UPPER])
+
+
+def steep(lift: float = 40.0, angle: float = 120.0, **other: object) -> dict[str, object]:
+    """A drum of 60 mm whose groove is steep: a roller of 4 mm lifted by 40 in 120 degrees has 60 of pressure angle."""
+    rest = {"move": "dwell", "angle_deg": 180.0 - angle}
+    moves = ({"move": move, "angle_deg": angle, "law": "sine"} for move in ("rise", "return_"))
+    keys = GROOVE | {"roller_diameter": 4.0, "lift": lift, "phases": [x for m in moves for x in (m, rest)]} | other
+    return {key: value for key, value in keys.items() if key != "lift" or "oscillating" not in other}
+
+
+def swinging(**table: float) -> dict[str, object]:
+    return {"swing_deg": 50.0, "oscillating": {"arm_length": 50.0, **table}}
+
+
+STEEP = {"as told": steep(), "mild": steep(20.0), "steeper": steep(angle=90.0), "play": steep(clearance=0.1),
+         "shallow": steep(groove_depth=3.0), "deep": steep(groove_depth=15.0),
+         "large roller": steep(roller_diameter=8.0),
+         "large drum": steep(80.0, outer_diameter=120.0), "swing": steep(**swinging()),
+         "swing away": steep(**swinging(pivot_offset=-45.0)), "steep swing": steep(angle=80.0, **swinging()),
+         "cone": steep(roller_form="conical"), "cone of its own": steep(roller_form="conical", cone_angle_deg=20.0),
+         "end": steep(form="end"), "hub as wide as the floor": steep(hub={"diameter": 43.0, "above": 3.0})}  # fmt: skip
+
+
+def sections(corners: np.ndarray, body: BarrelBody, angles: np.ndarray, depths: Sequence[float]) -> float:
+    """The greatest error of the roller's place by brute force: sections at each depth, points on all edges."""
+    cam, worst = body.cam, 0.0
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    turn, up = corners[..., 0] + 1j * corners[..., 1], normal[:, 2] / np.linalg.norm(normal, axis=1)
+    inside = (np.abs(turn).max(axis=1) < cam.outer + 1e-4) & (np.abs(turn).min(axis=1) > 0.99 * cam.inner)
+    inside &= (np.ptp(np.abs(turn), axis=1) > 1e-3) & (np.abs(up) > 1e-3)
+    for face in (f for f in body.faces() if isinstance(f, Plane)):
+        inside &= np.abs(corners[..., 2] - face.outer.z).max(axis=1) > 1e-4
+    turn, z, up = turn[inside], corners[inside][..., 2], up[inside]
+    for angle in angles:
+        place, fixed = complex(cam.place(angle, 0)[0]), turn * np.exp(1j * angle)
+        for x in depths:
+            radius = float(cam.radius_at(x))
+            if np.hypot(x, abs(place.real) + radius) > cam.outer:
+                continue
+            over = fixed.real - x
+            cut = (over.min(axis=1) < 0) & (over.max(axis=1) >= 0) & (fixed.real.min(axis=1) > 0)
+            ends = np.full((int(cut.sum()), 3), np.nan, dtype=complex)
+            for k, (i, j) in enumerate(((0, 1), (1, 2), (2, 0))):
+                a, b = over[cut][:, i], over[cut][:, j]
+                share = np.where((a < 0) != (b < 0), a / np.where(a == b, 1.0, a - b), np.nan)
+                p, q = (fixed[cut][:, n].imag + 1j * z[cut][:, n] for n in (i, j))
+                ends[:, k] = p + share * (q - p)
+            ends = np.array([row[~np.isnan(row)] for row in ends])
+            points = ends[:, :1] + (ends[:, 1:] - ends[:, :1]) * np.linspace(0, 1, 33) - place
+            room = np.sqrt(np.where(np.abs(points.real) < radius, radius**2 - points.real**2, np.nan))
+            for side in cam.sides:
+                mine = up[cut] * side < 0
+                worst = max(worst, abs(float(np.nanmax(room[mine] - side * points[mine].imag))))
+    return worst
+
+
+def probed_mesh(keys: dict[str, object], mesh: ReadMesh, error: float) -> Verdict:
+    return probed(mesh, part_of(keys), 0.0, error, Verdict({}, ()))
+
+
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize("name", STEEP)
+def test_steep_grooves_are_not_refused_and_spoiled_ones_are(name: str) -> None:
+    """Of any steepness; the error that is told holds at every depth and is near to the greatest one."""
+    keys = STEEP[name]
+    body = body_of(keys)
+    mesh, error = mesh_of(body)
+    good = probed_mesh(keys, mesh, error)
+    assert good.failures == ()
+    told, cam = good.measured["lift_error"], body.cam
+    at = wall_height(cam, walls_of(mesh.faces(), body), 0.0)
+    depths = [at.depth, *np.linspace(cam.inner, cam.outer, 9)[1:-1].tolist()]
+    truth = sections(mesh.faces(), body, at.angle + np.array([-0.3, -0.01, 0.0, 0.01, 2.0]), depths)
+    assert 0.9 * told < truth < told
+    # a wall a tenth of the roller too high, one corner in the middle of a wall too low
+    for side, way in ((LOWER, 0.4), (cam.sides[0], -0.4)):
+        wall = next(f for f in body.faces() if isinstance(f, Track) and f.side == side)
+        mine, vertices = np.flatnonzero(body.distance(wall, mesh.vertices) < 1e-6), mesh.vertices.copy()
+        vertices[mine if way > 0 else mine[len(mine) // 2], 2] += way
+        bad = probed_mesh(keys, ReadMesh(vertices, mesh.triangles), error)
+        assert "the roller's place is wrong by 0." in bad.failures[0]
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("seed", range(40))
+def test_the_error_that_is_told_holds_at_every_depth(seed: int) -> None:
+    rng = random.Random(1000 + seed)
+    while True:
+        keys = random_cam(rng)
+        with contextlib.suppress(SceneError):
+            body = body_of(keys)
+            break
+    outlines = mesh_outlines(body, 2e-3 * body.cam.outer, 0.0)
+    made, cam = body_mesh(body, outlines), body.cam
+    mesh = ReadMesh(made.vertices, made.triangles)
+    good = probed_mesh(keys, mesh, outlines[0].max_error)
+    assert good.failures == ()
+    angles = np.random.default_rng(seed).uniform(0, TURN, 40)
+    truth = sections(mesh.faces(), body, angles, np.linspace(cam.inner, cam.outer, 25)[1:-1].tolist())
+    assert truth <= good.measured["lift_error"]
+
+
+FLAT = {"end": "kerf = 0.2", "groove": "offset = -0.1", "swing": "offset = -0.1", "as told": "kerf = 0.2",
+        "steep swing": "kerf = 0.2", "cone": "offset = -0.1"}  # fmt: skip
+
+
+def rested(loop: Loop, body: BarrelBody, side: int, angles: np.ndarray) -> np.ndarray:
+    """How far an unrolled outline moves the roller off its place, by brute force: its points wound about the drum."""
+    cam = body.cam
+    share = np.linspace(0, 1, 600, endpoint=False)
+    sheet = edge_points(loop.vertices, np.roll(loop.vertices, -1), loop.bulges, share).ravel()
+    found = []
+    for angle in angles:
+        place, fixed = (
+            complex(cam.place(angle, 0)[0]),
+            cam.outer * np.exp(1j * (sheet.real / cam.outer - np.pi + angle)),
+        )
+        size, aside = cam.radius_at(fixed.real), fixed.imag - place.real
+        over = (np.abs(aside) < size) & (fixed.real > 0)
+        room = np.sqrt((size**2 - aside**2)[over]) - side * (sheet.imag[over] + body.length / 2 - place.imag)
+        found.append(room.max())
+    return np.array(found)
+
+
+@pytest.mark.parametrize("name", [n if n == "end" else pytest.param(n, marks=pytest.mark.heavy) for n in FLAT])
+def test_flat_files_are_rolled(name: str, tmp_path: Path) -> None:
+    """A roller on every unrolled outline read back: its error is told; another wall in its place is seen."""
+    keys = {k: v for k, v in (FORMS | STEEP)[name].items() if k not in ("hub", "bore")}
+    tail = f'tolerance = 0.02\ncurves = "lines"\n[[exports]]\nformat = "svg"\ntolerance = 0.02\n{FLAT[name]}\n'
+    (tmp_path / "s.toml").write_text(scene_text(keys, tail), encoding="utf-8")
+    assert run("build", tmp_path / "s.toml", "--out", tmp_path) == 0
+    files = {f["path"]: f for f in read_report(tmp_path / "s")["files"]}
+    assert len(files) == 2
+    for path, file in files.items():
+        # the sheet's own error, and what a steep edge makes of it
+        assert 0.4 * file["max_error"] < file["measured"]["lift_error"] < 4 * file["max_error"]
+        assert {"velocity_error", "acceleration_error"} <= file["measured"].keys()
+        assert recheck(tmp_path / "s" / path).verdict.failures == ()
+    body, part = body_of(keys), part_of(keys)
+    told, declared = (files["cam.dxf"]["measured"]["lift_error"], files["cam.dxf"]["max_error"])
+    found = READERS["dxf"](tmp_path / "s" / "cam.dxf")
+    loops = sorted(found.loops, key=lambda x: float(x.vertices.imag.mean()))
+    sides = sorted(body.cam.sides)
+    brute = [rested(x, body, side, np.radians(np.arange(0, 360, 6))) for side, x in zip(sides, loops, strict=True)]
+    assert 0.5 * told < np.abs(brute).max() < 1.01 * told
+    # an edge of another lift; one corner of it moved
+    last = loops[-1].vertices
+    for moved in (0.02 * last.imag, 0.2 * (np.arange(len(last)) == len(last) // 2)):
+        wrong = replace(loops[-1], vertices=last + 1j * moved)
+        verdict = probed(ReadOutlines((*loops[:-1], wrong)), part, 0.0, declared, Verdict({}, ()))
+        assert "the follower's lift is wrong by" in verdict.failures[0]
 
 
 CONICAL = {"clearance": 0.1, "roller_form": "conical"}
