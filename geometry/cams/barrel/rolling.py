@@ -21,9 +21,9 @@ from geometry.curves.curve import Complex, Real
 # Newton's steps within a bracket, and the cam angle at which they have settled, rad
 _STEPS, _SETTLED = 60, 1e-12
 # samples of a roller's way past a point, per unit of its slope; at least, at most; sines beside it; points at once
-_PER_SLOPE, _LEAST, _MOST, _SIDE, _CHUNK = 12, 12, 400, 0.999, 2048
+_PER_SLOPE, _LEAST, _MOST, _SIDE, _CHUNK = 12, 12, 400, 0.999, 4096
 # a bound of the heights is so near to one that was found, part of it; halvings of a triangle until then
-_NEAR, _ROUNDS = 0.02, 40
+_NEAR, _HALVINGS = 0.02, 40
 # steps to the cam angle at which an unrolled edge is touched
 _TOUCHES = 40
 
@@ -50,26 +50,28 @@ def wall_height(cam: BarrelCam, walls: dict[int, Real], slack: float) -> WallHei
     """
     bound, found, where = 0.0, -1.0, (0.0, 0.0, 1.0)
     for side, corners in walls.items():
-        for first in range(0, len(corners), _CHUNK):
-            some = corners[first : first + _CHUNK]
-            plane, z = some[..., 0] + 1j * some[..., 1], some[..., 2]
-            at = _sought(cam, side, plane.ravel(), z.ravel()).reshape(z.shape)
-            # beside the start of the turn, angles go on below 0
-            at = at - TURN * np.round((at - at[:, :1]) / TURN)
-            for _ in range(_ROUNDS):
-                height = held(cam, side, plane, z, at)[0]
-                worst = np.unravel_index(int(np.argmax(np.abs(height))), height.shape)
-                if abs(height[worst]) > found:
-                    found = abs(float(height[worst]))
-                    where = _contact(cam, complex(plane[worst]), float(at[worst]))
-                reach, apart = _bounds(cam, side, plane, z, at)
-                open_ = reach > found + max(_NEAR * found, slack)
-                bound = max(bound, float(reach[~open_].max(initial=0.0)))
-                if not open_.any():
-                    break
+        points, index = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
+        plane, z = points[:, 0] + 1j * points[:, 1], points[:, 2]
+        at = np.concatenate([np.zeros(0), *(_sought(cam, side, plane[k], z[k]) for k in _rows(len(z)))])
+        rows = index.reshape(corners.shape[:2])
+        plane, z, at = plane[rows], z[rows], at[rows]
+        # beside the start of the turn, angles go on below 0
+        at = at - TURN * np.round((at - at[:, :1]) / TURN)
+        # the last parts first: few of them wait at any time
+        parts = [(0, plane[k], z[k], at[k]) for k in _rows(len(z))]
+        while parts:
+            halved, plane, z, at = parts.pop()
+            height = held(cam, side, plane, z, at)[0]
+            worst = np.unravel_index(int(np.argmax(np.abs(height))), height.shape)
+            if abs(height[worst]) > found:
+                found = abs(float(height[worst]))
+                where = _contact(cam, complex(plane[worst]), float(at[worst]))
+            reach, apart = _bounds(cam, side, plane, z, at)
+            open_ = (reach > found + max(_NEAR * found, slack)) & (halved < _HALVINGS)
+            bound = max(bound, float(reach[~open_].max(initial=0.0)))
+            if open_.any():
                 plane, z, at = _halved(cam, side, plane[open_], z[open_], at[open_], apart[open_])
-            else:
-                bound = max(bound, float(reach.max(initial=0.0)))
+                parts += [(halved + 1, plane[k], z[k], at[k]) for k in _rows(len(z))]
     return WallHeight(max(bound, found), max(found, 0.0), *where)
 
 
@@ -80,6 +82,11 @@ def held(cam: BarrelCam, side: int, plane: Complex, z: Real, at: Real) -> tuple[
     met = (size >= np.abs(aside)) & (fixed.real > 0)
     root = np.sqrt(np.where(met, size**2 - aside**2, 0.0))
     return np.where(met, root - side * (z - place.imag), -np.inf), aside, size
+
+
+def _rows(count: int) -> list[slice]:
+    """Few at once of so many."""
+    return [slice(k, k + _CHUNK) for k in range(0, count, _CHUNK)]
 
 
 def _contact(cam: BarrelCam, plane: complex, at: float) -> tuple[float, float, float]:
