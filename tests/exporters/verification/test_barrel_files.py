@@ -200,7 +200,7 @@ def probed_mesh(keys: dict[str, object], mesh: ReadMesh, error: float) -> Verdic
     return probed(mesh, part_of(keys), 0.0, error, Verdict({}, ()))
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", STEEP)
 def test_steep_grooves_are_not_refused_and_spoiled_ones_are(name: str) -> None:
     """Of any steepness; the error that is told holds at every depth and is near to the greatest one."""
