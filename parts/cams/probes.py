@@ -152,6 +152,7 @@ def lift_failure(error: Real, bound: Real, place: Callable[[int], str], *, swing
 
 
 def lift_jumps(found: dict[str, float], *, swings: bool) -> tuple[Finding, ...]:
+    """The remark about jumps of S'' at joints, from ``lift_errors``; none where they are small."""
     suffix = "_deg" if swings else ""
     jump, peak = found[f"acceleration_jump{suffix}"], found[f"acceleration_peak{suffix}"]
     return (Finding("rolled_jumps", jump, peak),) if jump > _JUMP_SHARE * peak > 0 else ()
