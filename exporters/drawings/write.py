@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from html import escape
 from pathlib import Path
 
@@ -16,6 +17,11 @@ from parts.drawing.canvas import STYLES, Canvas, Run
 
 _MILLIMETRES = 4
 _FONT = "arial.ttf"
+# LibreCAD takes a style by its name for a font of its own, and knows line types by standard names only. Its unicode,
+# which every version has, holds Cyrillic; what it lacks the font after GOST 2.304 has
+_STYLE, _SYMBOLS_STYLE = "unicode", "lc_opengost-ar"
+_OF_UNICODE = re.compile(r"[\u0020-\u00ff\u0400-\u04ff\u2032\u2033]*")
+_LINE_TYPES = {2: "DASHED", 4: "CENTER"}
 # height of a capital as a part of an SVG font's size
 _CAPITAL = 0.72
 
@@ -34,19 +40,21 @@ def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
     from exporters.formats.dxf_file import fixed_metadata
     from exporters.formats.dxf_file import save as save_dxf
 
+    runs = [run for text in canvas.texts for run in text.runs]
     with fixed_metadata():
         drawing = ezdxf.new("R2010", setup=False, units=_MILLIMETRES)
     drawing.header["$LUNITS"] = 2
     drawing.header["$MEASUREMENT"] = 1
     drawing.header["$LTSCALE"] = 1.0
-    drawing.styles.add("SHEET", font=_FONT)
+    for name in dict.fromkeys(map(_style, runs)):
+        drawing.styles.add(name, font=_FONT)
     used = {"TEXT", *(s.layer for s in canvas.strokes)}
     for name, style in STYLES.items():
         if name not in used:
             continue
         kind = "CONTINUOUS"
         if style.dashes:
-            kind = f"HP_{len(style.dashes)}"
+            kind = _LINE_TYPES[len(style.dashes)]
             if kind not in drawing.linetypes:
                 signed = [d if i % 2 == 0 else -d for i, d in enumerate(style.dashes)]
                 drawing.linetypes.add(kind, [sum(style.dashes), *signed])
@@ -56,8 +64,8 @@ def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
     for stroke in canvas.strokes:
         kind = add_curve(space, stroke.curve, stroke.layer)
         counts[kind] = counts.get(kind, 0) + 1
-    for run in (r for t in canvas.texts for r in t.runs):
-        entity = space.add_text(run.text, height=run.height, dxfattribs={"layer": "TEXT", "style": "SHEET"})
+    for run in runs:
+        entity = space.add_text(run.text, height=run.height, dxfattribs={"layer": "TEXT", "style": _style(run)})
         left, right = (run.at.real, run.at.imag), (run.at.real + run.width, run.at.imag)
         entity.set_placement(left, right, align=TextEntityAlignment.FIT)
         counts["TEXT"] = counts.get("TEXT", 0) + 1
@@ -67,6 +75,10 @@ def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
     with fixed_metadata():
         save_dxf(drawing, file)
     return counts
+
+
+def _style(run: Run) -> str:
+    return _STYLE if _OF_UNICODE.fullmatch(run.text) else _SYMBOLS_STYLE
 
 
 def write_sheet_svg(file: Path, canvas: Canvas) -> dict[str, int]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from parts.base.texts import N_
+from parts.base.texts import N_, Message, message
 from parts.pages.page import Printed
 
 _COSINE = N_("the cosine of 27°55' was read: 0.8836 for 0.8915")
@@ -92,3 +92,20 @@ SAVVIN: dict[str, Printed] = {
         N_("eta_21' and x_A2' by (25), (26); two arctangents lose quadrants, so the acute angle is taken"),
     ),
 }
+
+
+# guidelines, table 2.2: H 32, rise of 90 degrees by linearly decreasing acceleration, flat follower
+_TABLE_2_2 = (
+    ("2/8", "S", "5.012", "5.000"),
+    ("5/8", "S + S''", "2.43", "2.42"),
+    ("7/8", "S + S''", "-27.73", "-27.74"),
+)
+
+
+def printed_for_rise(law: str, lift: float, angle_deg: float) -> list[Message]:
+    """What table 2.2 of the guidelines prints wrongly, a remark each; empty for any other rise."""
+    if (law, lift, angle_deg) != ("linearly_decreasing", 32.0, 90.0):
+        return []
+    text = N_("the guidelines' table 2.2 prints {quantity} = {printed} at k = {place} of the rise: right is {right}")
+    rows = (dict(zip(("place", "quantity", "printed", "right"), row, strict=True)) for row in _TABLE_2_2)
+    return [message(text, **row) for row in rows]

@@ -43,6 +43,7 @@ from parts.pages.cam_steps import (
     positions,
 )
 from parts.pages.inputs import PLACE, SceneKeys, checked, given, refusal
+from parts.pages.misprints import printed_for_rise
 from parts.pages.page import Sheet
 
 # the module of each kind's page; each has KEYS and page_of(table, keys of the cam that it is made of)
@@ -129,6 +130,10 @@ def disk_page(keys: CamKeys, cam: DiskCam) -> Sheet:
     page.data["phases"] = phases.data()
     page.tables.append(positions(cam, keys.step))
     finish(page, keys, cam, keys.least_transmission_angle_deg)
+    for phase in cam.motion.phases:
+        if phase.law is not None and cam.is_flat:
+            angle = round(math.degrees(phase.angle), 9)
+            page.notes += printed_for_rise(phase.law.name, phase.lift, angle)
     return page
 
 

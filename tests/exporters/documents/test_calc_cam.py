@@ -172,3 +172,15 @@ def test_speeds_are_those_of_the_sine_law() -> None:
     assert values["greatest_acceleration"] == pytest.approx(2 * math.pi * 38e-3 / time**2)
     assert "angular_speed" not in calculated("practicum_flat_cam")["values"]
     assert "об/хв" in calculate("cam", ["practicum_flat_cam", "speed_rpm=300"], "text", "uk")
+
+
+def test_misprints_of_table_2_2_are_told_where_its_rise_is() -> None:
+    """The values printed and right are those of the published set; of other rises nothing is said."""
+    page = calculate("cam", ["guidelines_cam"], "text", "en")
+    table = {c["id"].removeprefix("003.table2_2.k"): c for c in CASES if ".table2_2." in c["id"]}
+    wrong = [("2_8", "S_mm", "5.000"), ("5_8", "S_plus_S2_mm", "2.42"), ("7_8", "S_plus_S2_mm", "-27.74")]
+    for place, quantity, right in wrong:
+        assert float(right) == pytest.approx(table[place]["recomputed"][quantity], abs=0.006)
+        printed = f"{table[place]['printed'][quantity]:g}"
+        assert f"= {printed} at k = {place[0]}/8 of the rise: right is {right}" in page
+    assert "table 2.2" not in calculate("cam", ["practicum_flat_cam"], "text", "en")

@@ -107,6 +107,24 @@ def test_the_drawing_has_layers_line_types_and_true_splines(tmp_path: Path) -> N
     assert not drawing.audit().errors
 
 
+def test_librecad_finds_its_fonts_and_line_types_by_their_names(tmp_path: Path) -> None:
+    """LibreCAD 2.2 (rs_filterdxfrw.cpp): a style's name is a font of its own, any other line type is drawn solid.
+
+    Of its fonts unicode.lff has Cyrillic and no Greek, lc_opengost-ar.lff both and the sign of a number.
+    """
+    job = next(j for j in jobs_of("practicum_flat_cam", "uk") if j.path.endswith("dxf"))
+    job.write({}, tmp_path / job.path)
+    drawing = ezdxf.readfile(tmp_path / job.path)
+    texts = [(e.dxf.style, e.dxf.text) for e in drawing.modelspace().query("TEXT")]
+    assert {"unicode", "lc_opengost-ar"} == {style for style, _ in texts}
+    assert all(style == "lc_opengost-ar" for style, text in texts if set(text) & set("φγρωΔμ№"))
+    assert any(style == "unicode" and "кулачка" in text for style, text in texts)
+    assert {drawing.styles.get(style).dxf.font for style, _ in texts} == {"arial.ttf"}
+    kinds = {layer.dxf.linetype for layer in drawing.layers}
+    assert {"CENTER", "DASHED"} & kinds
+    assert {kind.upper() for kind in kinds} <= {"CENTER", "DASHED", "CONTINUOUS"}
+
+
 def test_the_same_bytes_every_time(tmp_path: Path) -> None:
     for job, again in zip(jobs_of("practicum_pair"), plan_build(scene_of("practicum_pair"), "p", [], ["sheet"]).sheets,
                           strict=True):  # fmt: skip
