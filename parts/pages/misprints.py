@@ -104,7 +104,7 @@ _TABLE_2_2 = (
 
 def printed_for_rise(law: str, lift: float, angle_deg: float) -> list[Message]:
     """What table 2.2 of the guidelines prints wrongly, a remark each; empty for any other rise."""
-    if (law, lift, angle_deg) != ("linearly_decreasing", 32.0, 90.0):
+    if (law, lift, angle_deg) != ("linearly decreasing acceleration", 32.0, 90.0):
         return []
     text = N_("the guidelines' table 2.2 prints {quantity} = {printed} at k = {place} of the rise: right is {right}")
     rows = (dict(zip(("place", "quantity", "printed", "right"), row, strict=True)) for row in _TABLE_2_2)
