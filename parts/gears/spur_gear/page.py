@@ -215,5 +215,6 @@ def greatest_shift(gear: SpurGear) -> float | None:
     low = min(low, high)
     high = max(low, high) + 1
     while spare(high) > 0 and high < 100:
-        high *= 2
+        # doubled, but for a shift below 0, which doubling would not raise
+        high += high if high > 0 else 1.0
     return bracketed_root(spare, low, high).value if spare(low) > 0 > spare(high) else None

@@ -488,3 +488,13 @@ def test_a_chord_beyond_the_tip_is_not_told() -> None:
     sheet = sheet_for("ring module=2 number_of_teeth=240 profile_shift_coefficient=1.5")
     assert not {s.name for s in sheet.steps()} & {"chordal_thickness", "constant_chord"}
     assert sum("beyond the tip" in words("en").say(note) for note in sheet.notes) == 2
+
+
+@pytest.mark.parametrize("x", [-1.0, -1.2])
+def test_the_greatest_shift_is_no_matter_of_the_gear_s_own(x: float) -> None:
+    """Searched from a shift of -1 on, it was never found: the search did not end."""
+    found = [
+        values_of(f"spur module=1 number_of_teeth=60 profile_shift_coefficient={own}")["values"] for own in (0.0, x)
+    ]
+    greatest = [values["greatest_shift_for_tip_thickness"] for values in found]
+    assert greatest[1] == pytest.approx(greatest[0], rel=1e-9)
