@@ -10,7 +10,8 @@ from xml.etree import ElementTree
 import numpy as np
 from numpy.typing import NDArray
 
-from exporters.formats.readback import MOST_READ_BYTES, Occurrence, Prototype, ReadAssembly, ReadMesh
+from exporters.formats.read_assembly import Occurrence, Prototype, ReadAssembly
+from exporters.formats.readback import MOST_READ_BYTES, ReadMesh
 from parts.base.readback import ReadError
 
 # numbers as text pack five to ten times; a small package may do as it likes

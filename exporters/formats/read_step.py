@@ -20,7 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exporters.formats.chains import nodes, smooth_loops
-from exporters.formats.readback import Occurrence, Prototype, ReadAssembly, SmoothLoop
+from exporters.formats.read_assembly import Occurrence, Prototype, ReadAssembly
+from exporters.formats.readback import SmoothLoop
 from geometry.curves.curve import Complex, Real
 from parts.base.readback import ReadError
 from parts.solids.kernel import faces_of, silent_kernel

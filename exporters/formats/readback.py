@@ -1,16 +1,16 @@
-"""What the readers of files give: outlines, meshes, and parts in their places; see parts/base/readback.py."""
+"""What the readers of files of one part give: outlines and meshes; see parts/base/readback.py."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import signed_area
-from parts.base.readback import ReadBack, ReadError, ReadLoop
+from parts.base.readback import ReadError, ReadLoop
 
 if TYPE_CHECKING:
     from geometry.cams.contact.rolled import Outline
@@ -142,28 +142,3 @@ class ReadMesh:
         # the diagonals of upright walls cut their chords in the middle
         upright = np.all(a[:, :2] == b[:, :2], axis=1)
         return np.asarray(places[upright] if upright.sum() >= 3 else places)
-
-
-class Prototype(NamedTuple):
-    """A part of an assembly file, with its colour, #rrggbb."""
-
-    name: str
-    part: ReadBack
-    colour: str | None
-
-
-class Occurrence(NamedTuple):
-    """A part in its place: the index of its prototype, and its placement as (3, 4): rotation and move, mm."""
-
-    name: str
-    prototype: int
-    place: NDArray[np.float64]
-
-
-@dataclass(frozen=True, slots=True)
-class ReadAssembly:
-    """What an assembly file holds."""
-
-    title: str
-    prototypes: list[Prototype]
-    occurrences: list[Occurrence]

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from parts.base.lazy import Registry
 
 if TYPE_CHECKING:
-    from exporters.formats.readback import ReadAssembly
+    from exporters.formats.read_assembly import ReadAssembly
     from parts.base.readback import ReadBack
 
 _HERE = "exporters.formats"

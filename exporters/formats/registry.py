@@ -24,7 +24,7 @@ from parts.scene.formats import FileKind, file_kind
 from parts.scene.load import ExportSpec
 
 if TYPE_CHECKING:
-    from exporters.formats.readback import ReadAssembly
+    from exporters.formats.read_assembly import ReadAssembly
     from geometry.approximation.outline import Outline
     from geometry.cams.barrel.body import BarrelBody
     from geometry.solids.body import Body

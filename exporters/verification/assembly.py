@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from exporters.formats.readback import ReadAssembly
+from exporters.formats.read_assembly import ReadAssembly
 from exporters.formats.reading import ASSEMBLY_READERS
 from exporters.verification.judge import held, probed
 from exporters.verification.verdict import Verdict

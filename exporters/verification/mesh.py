@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 from exporters.formats.readback import Loop, ReadMesh
 from exporters.verification.outlines import verify_loops
 from exporters.verification.topology import Triangles, chains, doubled_normals, topology_failures
-from exporters.verification.twisted import on_twisted_walls, verify_twisted
 from exporters.verification.verdict import Verdict
 from geometry.plane.measure import profile_area, profile_length
 from geometry.solids.body import Body, Wall
@@ -33,7 +32,7 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
     levels = np.array(body.levels())
     index = np.abs(mesh.vertices[:, 2, None] - levels).argmin(axis=1)
     off = np.abs(mesh.vertices[:, 2] - levels[index]) > _LEVEL * np.abs(levels).max()
-    if np.any(off & ~on_twisted_walls(body, mesh.vertices[:, 2])):
+    if np.any(off & ~_within_screws(body, mesh.vertices[:, 2])):
         return Verdict(measured, ("a vertex stands off every face",))
     heights = np.where(off, mesh.vertices[:, 2], levels[index])
     mesh = ReadMesh(np.column_stack([mesh.vertices[:, :2], heights]), mesh.triangles)
@@ -58,6 +57,8 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
     for wall in body.walls:
         if not body.is_screw(wall):
             continue
+        from exporters.verification.twisted import verify_twisted
+
         mine = upright & (low >= body.height(wall)[0]) & (high <= body.height(wall)[1])
         upright &= ~mine
         verdict = verify_twisted(mesh, mesh.triangles[mine], body, wall, declared, tolerance)
@@ -77,6 +78,16 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
         "least_triangle_area": float(np.linalg.norm(doubled_normals(corners), axis=1).min() / 2),
     }
     return Verdict(measured, tuple(dict.fromkeys(failures)))
+
+
+def _within_screws(body: Body, z: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Which heights lie between the ends of a screw surface."""
+    found = np.zeros(len(z), dtype=bool)
+    for wall in body.walls:
+        if body.is_screw(wall):
+            low, high = body.height(wall)
+            found |= (low < z) & (z < high)
+    return found
 
 
 def _stands(mesh: ReadMesh, triangles: Triangles) -> NDArray[np.bool_]:

@@ -7,7 +7,6 @@ the exact section: its distance within the plane of its height, which is never l
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exporters.formats.readback import ReadMesh
 from exporters.verification.topology import Triangles, chains
@@ -19,16 +18,6 @@ from geometry.solids.body import Body, Wall
 _PLACES = np.array([(1, 1, 0), (0, 1, 1), (1, 0, 1), (1, 1, 1), (4, 1, 1), (1, 4, 1), (1, 1, 4)], dtype=float)
 # meshes of more triangles are measured at fewer places of each
 _MANY = 60_000
-
-
-def on_twisted_walls(body: Body, z: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Which heights lie between the ends of a screw surface."""
-    found = np.zeros(len(z), dtype=bool)
-    for wall in body.walls:
-        if body.is_screw(wall):
-            low, high = body.height(wall)
-            found |= (low < z) & (z < high)
-    return found
 
 
 def verify_twisted(

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.approximation.chords import approximate_profile, approximate_together
-from geometry.approximation.twisted import approximate_twisted, rising_diagonals, slice_turns
 from geometry.base.errors import ThinWallError
 from geometry.curves.curve import Complex
 from geometry.plane.contour import Approximation, Contour
@@ -42,6 +41,8 @@ def mesh_outlines(body: Body, tolerance: float, least_edge: float) -> tuple[Appr
     for group in body.groups():
         profiles = [body.profiles[i] for i in group]
         if group[0] in twisted:
+            from geometry.approximation.twisted import approximate_twisted
+
             made[group[0]] = approximate_twisted(profiles[0], tolerance, least_edge)
         elif len(group) == 1:
             made[group[0]] = approximate_profile(profiles[0], tolerance, arcs=False, least_edge=least_edge)
@@ -55,7 +56,9 @@ def count_edges(body: Body, outlines: tuple[Approximation, ...]) -> int:
     total = sum(len(a.geometry) for a in outlines)
     if body.is_faced:
         return total
-    for wall in body.walls:
+    for wall in filter(body.twist, body.walls):
+        from geometry.approximation.twisted import slice_turns
+
         own = outlines[body.loops[wall.lower].profile]
         total += len(own.geometry) * (len(slice_turns(body.twist(wall), own.turn_step)) - 2)
     return total
@@ -149,6 +152,8 @@ def _assembled(body: Body, contours: list[Contour], steps: list[float], caps: _C
         points, (low, high), twist = plane[loop.profile], body.height(wall), body.twist(wall)
         turns, rising, below = np.zeros(2), None, starts[wall.lower]
         if twist:
+            from geometry.approximation.twisted import rising_diagonals, slice_turns
+
             turns = slice_turns(twist, steps[loop.profile])
             contour = contours[loop.profile]
             rising = np.tile(rising_diagonals(contour, float(turns[1])), contour.count)

@@ -338,6 +338,7 @@ def test_a_build_imports_nothing_in_vain(tmp_path: Path, formats: list[str], nev
 NOT_OF_A_GEAR = ("geometry.gears.teeth.cutter", "geometry.curves.cutter_fillet", "geometry.curves.elliptic_fillet",
                  "geometry.solids.keyways", "geometry.solids.windows", "geometry.gears.pairs", "geometry.gears.mesh",
                  "geometry.cams", "geometry.laws", "geometry.kinematics", "parts.mates", "parts.cams", "parts.pins",
+                 "geometry.approximation.twisted", "exporters.verification.twisted", "exporters.formats.read_assembly",
                  "exporters.production.kept", "exporters.production.preview_labels",
                  "exporters.production.check")  # fmt: skip
 

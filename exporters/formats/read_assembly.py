@@ -1,0 +1,36 @@
+"""What the readers of assembly files give: parts, and where each of them stands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from parts.base.readback import ReadBack
+
+
+class Prototype(NamedTuple):
+    """A part of an assembly file, with its colour, #rrggbb."""
+
+    name: str
+    part: ReadBack
+    colour: str | None
+
+
+class Occurrence(NamedTuple):
+    """A part in its place: the index of its prototype, and its placement as (3, 4): rotation and move, mm."""
+
+    name: str
+    prototype: int
+    place: NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class ReadAssembly:
+    """What an assembly file holds."""
+
+    title: str
+    prototypes: list[Prototype]
+    occurrences: list[Occurrence]
