@@ -66,6 +66,7 @@ SPOIL_STEP = {
 }  # fmt: skip
 
 
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize(
     ("kind", "spoil"), [("train_3mf", k) for k in SPOIL_3MF] + [("train_step", k) for k in SPOIL_STEP]
 )
