@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 import os
+
+# before numpy is loaded, here and in every worker and command that a test starts: threads of BLAS wait for each other
+# spinning, and splines take twice as long
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 from collections.abc import Hashable
 from typing import Any
 
