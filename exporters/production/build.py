@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
+
+import msgspec
 
 from exporters.formats.registry import Chords, Shape, number_rounding, shape_of
 from exporters.production.check_lines import has_bad_verdict
@@ -16,7 +18,14 @@ from exporters.production.plan import Plan
 from exporters.production.preview import outlines_of, part_preview, scene_preview
 from exporters.production.report import NAME, read_report, write_report
 from geometry.base.errors import ConvergenceError, Nearest, ParameterError, ThinWallError, rounded
+from geometry.plane.contour import Approximation
 from parts.base.refusal import SceneError, placed
+from parts.scene.formats import Form
+
+# the least that an export may have, mm
+_LEAST_TOLERANCE = 1e-7
+# of a tolerance, in search of one that works
+_MOST_HALVINGS = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,6 +127,8 @@ def _write(job: FileJob, made: Made, file: Path, source: str, *, verify: bool) -
     start = time.perf_counter()
     verdict = job.verify(file, max_error)
     seconds["verify"] = time.perf_counter() - start
+    if verdict.failures and (crossed := next((m for m in job.members if _is_crossed(m, made[m.shape_key])), None)):
+        raise _crossing(crossed, source)
     findings = (*findings, *verdict.findings)
     return Written(job, file, max_error, bound, entities, verdict.measured, findings, verdict.failures, seconds)
 
@@ -136,15 +147,45 @@ def _too_coarse(job: Job, source: str) -> SceneError:
     """The refusal of a tolerance whose chords cross a thin wall, with the nearest one that works, if any does."""
     from parts.solids.mesh import body_mesh, mesh_outlines
 
-    tolerance = job.tolerance
-    place, part = f"{job.place}.tolerance", job.part.id
-    finer = tolerance / 2
-    while finer >= 8 * number_rounding(job):
+    def crosses(finer: float) -> bool:
         try:
             body_mesh(job.body, mesh_outlines(job.body, finer - number_rounding(job), 64 * number_rounding(job)))
         except ThinWallError:
-            finer /= 2
-            continue
-        works = Nearest(rounded(finer, up=False, digits=9), "at_most")
-        return SceneError(source, place, tolerance, "chords_cross_wall", works, "mm", part=part)
-    return SceneError(source, place, tolerance, "wall_too_thin_for_mesh", None, part=part)
+            return True
+        return False
+
+    works = _finer(job, crosses)
+    code = "wall_too_thin_for_mesh" if works is None else "chords_cross_wall"
+    return SceneError(source, f"{job.place}.tolerance", job.tolerance, code, works, "mm", part=job.part.id)
+
+
+def _is_crossed(job: Job, made: Shape) -> bool:
+    """Whether a flat outline of arcs and lines crosses itself before it is written."""
+    from exporters.verification.outlines import is_crossed
+
+    if job.kind.form is not Form.ARCS:
+        return False
+    return any(is_crossed(one.geometry) for one in made if isinstance(one, Approximation))
+
+
+def _crossing(job: Job, source: str) -> SceneError:
+    """The refusal of a tolerance at which an outline crosses itself: a part of it is smaller than that."""
+
+    def crosses(finer: float) -> bool:
+        tried = replace(job, export=msgspec.structs.replace(job.export, tolerance=finer))
+        return _is_crossed(tried, shape_of(tried))
+
+    works = _finer(job, crosses)
+    place = f"{job.place}.tolerance"
+    return SceneError(source, place, job.tolerance, "outline_crosses_itself", works, "mm", part=job.part.id)
+
+
+def _finer(job: Job, fails: Callable[[float], bool]) -> Nearest | None:
+    """The first half, quarter ... of the tolerance that does not fail, mm."""
+    for halvings in range(1, _MOST_HALVINGS + 1):
+        finer = job.tolerance / 2**halvings
+        if finer < max(8 * number_rounding(job), _LEAST_TOLERANCE):
+            return None
+        if not fails(finer):
+            return Nearest(rounded(finer, up=False, digits=9), "at_most")
+    return None

@@ -12,7 +12,7 @@ import numpy as np
 from exporters.formats.readback import Loop
 from exporters.verification.verdict import Verdict, deviation_failures
 from geometry.curves.curve import Complex
-from geometry.plane.contour import edge_points, signed_area
+from geometry.plane.contour import Contour, edge_points, signed_area
 from geometry.plane.measure import distance_to_profile, profile_area
 from geometry.plane.profile import Profile
 
@@ -20,6 +20,8 @@ from geometry.plane.profile import Profile
 _POINTS = 10_000
 # points of a loop by which it is told from others
 _ROUGH = 16
+# points of an edge by which its shape is seen
+_SHAPE = 16
 
 
 def verify_loops(
@@ -96,6 +98,13 @@ def _check_loop(loop: Loop, profile: Profile, declared: float, known_simple: boo
     if not known_simple and not is_simple(points[:, :: max(1, (inner + 1) // 4)].ravel()):
         failures.append("a contour crosses itself")
     return deviation, failures
+
+
+def is_crossed(contour: Contour) -> bool:
+    """Whether a closed chain of lines and arcs crosses itself, seen by a few points of each."""
+    vertices, bulges = contour.expanded()
+    shares = np.linspace(0, 1, _SHAPE, endpoint=False)
+    return not is_simple(edge_points(vertices, np.roll(vertices, -1), bulges, shares).ravel())
 
 
 def is_simple(points: Complex) -> bool:

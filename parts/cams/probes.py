@@ -59,13 +59,21 @@ class TurningProbe:
         angle = np.arange(ANGLES) * (TURN / ANGLES)
         law = cam.motion.value(angle)
         error = rolled_lift(cam, outline, ANGLES, offset, below=self.below) - law
-        if np.any(np.isnan(error)):
-            lost = math.degrees(angle[np.isnan(error)][0])
-            return Probed(failures=(f"{self._who}the follower finds no outline at cam angle {lost:.6g} degrees",))
-        bound = lift_bound(cam, ANGLES, declared + _ROUNDING * float(np.abs(cam.contact(angle)).max()))
-        found = lift_errors(error, law, TURN / ANGLES, swings=cam.swings, round_about=True)
+        allowed = declared + _ROUNDING * float(np.abs(cam.contact(angle)).max())
+        bound = lift_bound(cam, ANGLES, allowed)
+        lost = np.isnan(error) & np.isfinite(bound)
+        if np.any(lost):
+            at = math.degrees(angle[lost][0])
+            return Probed(failures=(f"{self._who}the follower finds no outline at cam angle {at:.6g} degrees",))
+        loose = np.isinf(bound)
+        found = {} if np.any(loose) else lift_errors(error, law, TURN / ANGLES, swings=cam.swings, round_about=True)
+        error, bound = np.where(loose, 0.0, error), np.where(loose, 0.0, bound)
         wrong = lift_failure(error, bound, lambda k: f"at cam angle {k * 360 / ANGLES:.6g} degrees", swings=cam.swings)
         failures = tuple(f"{self._who}{failure}" for failure in wrong)
+        if np.any(loose):
+            # at a pressure angle of nearly 90 degrees an outline that is as good as it says does not hold a follower
+            slips = Finding("follower_may_slip", math.degrees(angle[loose][0]), allowed)
+            return Probed(failures=failures, findings=(slips,))
         return Probed(found, failures, lift_jumps(found, swings=cam.swings) if file.has_arcs else ())
 
     @property

@@ -44,6 +44,7 @@ REASONS = {
     "not_a_file_to_read": N_("is a pipe or a device; name files"),
     "of_part": N_("{part}: {why}"),
     "one_disk_one_size": N_("one disk needs module {module} and {teeth} teeth for both wheels"),
+    "outline_crosses_itself": N_("an outline of {part} has a part so small that it crosses itself at this tolerance"),
     "same_file": N_("writes the same file as {other}; give one of them another name"),
     "shows_external_gears": N_("shows external gears; add one or remove the export"),
     "shows_gear_pairs": N_("shows pairs of involute gears only; remove the export or change its purpose"),

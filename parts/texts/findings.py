@@ -129,6 +129,10 @@ FINDINGS: dict[str, Text] = {
         "lines, its peak is {limit:.3g}: a drawing DXF or STEP has splines; a smaller tolerance makes the "
         "jumps smaller"
     ),
+    "follower_may_slip": N_(
+        "from cam angle {value:.6g} degrees on the pressure angle is so near to 90 degrees that an outline good to "
+        "{limit:.3g} mm does not hold the follower: its lift is not measured"
+    ),
     "coarse_tolerance": N_(
         "tolerance {value:.4g} mm is more than 5 % of the module ({limit:.4g} mm): the teeth lose their shape"
     ),

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.cams.motion.follower_motion import TURN
+from geometry.cams.motion.guides import Oscillating
 from geometry.cams.plane.disk import DiskCam
 from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import signed_area
@@ -25,6 +26,8 @@ _CELLS = {"Rounds": 16, "Lines": 6, "Smooth": 8}
 _STEPS = 40
 # flatter bulges are lines: their sagitta is below a part in 2e9 of the chord
 _FLAT_BULGE = 1e-9
+# errors of an outline within which a guide's reach ends soon
+_NEAR_END = 10
 # angles this near to an edge's end, in steps of the grid, are its own
 _END = 1e-9
 
@@ -216,19 +219,28 @@ def _solve(cam: Stopped, family: Edges, edge: Index, a: Real, b: Real, target: R
 
 
 def lift_bound(cam: DiskCam, count: int, error: float) -> Real:
-    """How far S may be wrong where the outline is within ``error`` mm: error / cos nu and the second order.
+    """How far S may be wrong where the outline is within ``error`` mm: infinity where the follower may slip past it.
 
     dS cos nu = error + kappa (dS sin nu)^2 / 2 on a pitch curve of curvature kappa; of a swinging follower over the
-    arm of the contact. The worst of three neighbouring angles counts.
+    arm of the contact, whose own path is bent too. Near the end of a guide's reach that has no root: a follower whose
+    reach ends within the error is not held. The worst of three neighbouring angles counts.
     """
     angle = np.arange(count, dtype=np.float64) * (TURN / count)
     slope = np.abs(cam.pressure_angle(angle))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        bend = np.abs(1 / cam.pitch_curvature_radius(angle))
-    cosine = np.maximum(np.cos(slope), 1e-9)
-    first = error / cosine
-    bound = first + (0.0 if cam.is_flat else 1.0) * bend * (first * np.sin(slope)) ** 2 / cosine
     point = cam.contact(angle) if cam.is_flat else cam.reference_point(angle)
-    bound = bound / np.abs(cam.way(angle, point))
-    bound = cam.slackened(angle, bound)
+    way, radius = np.abs(cam.way(angle, point)), cam.pitch_curvature_radius(angle)
+    cosine = np.maximum(np.cos(slope), 1e-9)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        bend = np.zeros(count) if cam.is_flat else np.abs(1 / radius)
+    first = error / cosine
+    bound = first + bend * (first * np.sin(slope)) ** 2 / cosine
+    if isinstance(cam.mount, Oscillating):
+        height = np.abs(cam.reference_point(angle))
+        # of a face: its height d sin psi - f changes its slope, and so does the cam's, by its radius less that height
+        face = (height + abs(cam.mount.face_offset) + np.abs(radius - height)) / way**2
+        bend = bend + (face if cam.is_flat else 1 / way)
+    room, spare = cosine**2 - 2 * bend * error, cam.reach_margin(angle)
+    bound = np.fmax(bound, 2 * error / (cosine + np.sqrt(np.maximum(room, 0))))
+    loose = (spare <= error) | ((room <= 0) & (spare <= _NEAR_END * error))
+    bound = np.where(loose, np.inf, cam.slackened(angle, bound / way))
     return np.maximum(np.maximum(np.roll(bound, 1), np.roll(bound, -1)), bound)

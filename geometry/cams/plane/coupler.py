@@ -141,6 +141,10 @@ class LinkageCam(DiskCam):
         between = self.motion.value(at, 1) * self.way(at, point) - 1j * point
         return (between * np.conj(-1j * self.normal(at))).real
 
+    def reach_margin(self, angle: Real) -> Real:
+        """None is near: a linkage within 90 degrees has room."""
+        return np.full(np.shape(angle), np.inf)
+
     def slackened(self, angle: Real, bound: Real) -> Real:
         """A linear bound of the lift's error, made greater where the follower's rate falls within it."""
         normal, at = self.normal(angle), self.motion.value(angle)

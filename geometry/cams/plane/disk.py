@@ -194,6 +194,19 @@ class DiskCam:
             psi = 2 * np.arcsin(np.sqrt(half))
             return np.angle((d - arm * np.exp(-1j * mount.sense * psi)) / pitch), psi - mount.start_angle
 
+    def reach_margin(self, angle: Real) -> Real:
+        """How far the outline may move, mm, before the follower's guide ends and the follower slips past it."""
+        mount = self.mount
+        if isinstance(mount, Translating):
+            reach = np.full(np.shape(angle), np.inf) if self.is_flat else np.abs(self.reference_point(angle))
+            return reach - abs(mount.offset)
+        d, arm = mount.centre_distance, mount.arm_length
+        if self.is_flat:
+            height = mount.face(self._series(angle, 0))[0][0] + mount.face_offset
+            return d - np.abs(height)
+        reach = np.abs(self.reference_point(angle))
+        return np.minimum(reach - abs(d - arm), d + arm - reach)
+
     def slackened(self, angle: Real, bound: Real) -> Real:
         """A linear bound of the lift's error as it stands: the follower's rate does not change with S."""
         return bound

@@ -31,6 +31,8 @@ from geometry.laws.piece import LawPiece
 from geometry.plane.profile import Label, Profile, Segment
 
 _SAMPLES = 513
+# a crest whose radius of curvature is less than this part of the path's is a corner
+_SHARP = 1e-7
 # a step of the envelope below this part of its size is none
 _JOINT = 1e-12
 
@@ -250,7 +252,7 @@ def wedge_fault(cam: WedgeCam, grow: float = 0.0) -> tuple[str, float] | None:
         stretch = curve.stretch(t)
         lowest = int(np.argmin(stretch))
         near = np.linspace(t[max(lowest - 1, 0)], t[min(lowest + 1, len(t) - 1)], _SAMPLES)
-        if min(float(stretch[lowest]), float(curve.stretch(near).min())) <= 0:
+        if min(float(stretch[lowest]), float(curve.stretch(near).min())) <= _SHARP:
             return "crest", float(t[lowest])
         start = complex(curve.point(piece.start))
         # a valley opens a gap, which the follower's own arc fills; at a crest both sides step back and cross

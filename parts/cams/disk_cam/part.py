@@ -41,8 +41,10 @@ if TYPE_CHECKING:
     from parts.base.readback import Probe
 
 _MOST = 100_000.0
-# of a base circle that is just large enough
-_ROUNDING = 1e-9
+# of a base circle, by which it is larger than the one whose cam has a cusp: no file holds a radius of curvature of 0
+_SPARE = 1e-9
+# transmission angles, degrees, that are tried where one asks for a huge cam
+_EASIER = (89.9, 89.0, 85.0, 80.0, 60.0, 45.0, 30.0, 10.0, 1.0)
 # shares of a limit, and of the way to it, at which a size is tried that gives a whole cam
 _SMALLER = (0.9, 0.75, 0.5, 0.25, 0.1, 0.03)
 _FARTHER = (0.01, 0.1, 0.3, 1.0)
@@ -190,13 +192,22 @@ def _least_base(keys: CamSpec, motion: FollowerMotion) -> float:
     from geometry.cams.plane.synthesis import convex_roller_base_radius, flat_base_radius, roller_prime_radius
 
     angle, radius = keys.least_transmission_angle_deg, keys.follower_radius
+    spare = 1.0 if keys.least_curvature_radius else 1 + _SPARE
     if angle is None:
         raise ParameterError("base_circle_radius", None, "base_circle_missing")
     if keys.follower == "flat":
         if angle != 45:
             raise ParameterError("least_transmission_angle_deg", angle, "flat_angle_is_45", Nearest(45.0))
-        return max(flat_base_radius(motion, keys.least_curvature_radius).value, 1e-3 * motion.lift)
+        least = flat_base_radius(motion, keys.least_curvature_radius).value
+        return max(least * spare, 1e-3 * motion.lift)
     prime = roller_prime_radius(motion, keys.follower_offset, math.radians(90 - angle))
+    if prime > _MOST:
+
+        def fits(tried: float) -> bool:
+            return roller_prime_radius(motion, keys.follower_offset, math.radians(90 - tried)) <= _MOST
+
+        key, cure = "least_transmission_angle_deg", lambda: nearest(fits, angle, _EASIER)
+        raise ParameterError(key, angle, "prime_circle_too_large", cure, prime=prime, most=_MOST)
     base = prime - radius
     if not base > 0:
         most = limit(prime * 0.9999, radius) if prime > 0 else None
@@ -204,7 +215,7 @@ def _least_base(keys: CamSpec, motion: FollowerMotion) -> float:
     if keys.follower == "pointed":
         return base
     rho = keys.least_curvature_radius
-    return max(base, convex_roller_base_radius(motion, radius, rho, follower_offset=keys.follower_offset))
+    return max(base, spare * convex_roller_base_radius(motion, radius, rho, follower_offset=keys.follower_offset))
 
 
 def undercut(cam: DiskCam, key: str, value: float, lost: float, cure: Cure) -> UndercutError:
@@ -369,20 +380,20 @@ class Cam(DiskKind[CamSpec, "DiskCam"]):
             from geometry.cams.plane.synthesis import flat_base_radius
 
             least = flat_base_radius(cam.motion).value
-        lost, hollow = lost_to_undercut(cam), base is not None and base < least * (1 - _ROUNDING)
+        lost, hollow = lost_to_undercut(cam), base is not None and base < least * (1 + _SPARE)
         if lost is not None or hollow:
             if (refusal := by_impact(keys.phases, cam.motion, both=False)) is not None:
                 raise refusal
             base = base_radius(cam)
             if hollow and lost is None:
-                cure = limit(least, base)
+                cure = limit(least * (1 + _SPARE), base)
                 raise UndercutError("base_circle_radius", base, "undercut_hollow", cure, radius=base - least)
             assert lost is not None
 
             def works(value: float) -> bool:
                 return _fits(replace(keys, base_circle_radius=value))
 
-            found = limit(least, base) if hollow else lambda: nearest(works, base, larger_bases(base))
+            found = limit(least * (1 + _SPARE), base) if hollow else lambda: nearest(works, base, larger_bases(base))
             raise undercut(cam, "base_circle_radius", base, lost, found)
         check_face(keys, cam, plain=keys.follower in ("flat", "mushroom") and keys.oscillating is None)
         check_disk(keys, cam)
