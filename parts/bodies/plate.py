@@ -10,7 +10,7 @@ from msgspec import Meta, Struct, field
 
 from geometry.base.errors import ParameterError, limit
 from parts.base.kind import Kind, Others
-from parts.keys.base import MadeKeys, mm
+from parts.keys.base import LEAST_HOLE, MadeKeys, mm
 
 if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
@@ -25,7 +25,7 @@ class HoleAtTable(Struct, forbid_unknown_fields=True):
     """A round hole anywhere."""
 
     at: Annotated[tuple[_Place, _Place], mm("x, y of its centre")]
-    diameter: Annotated[float, mm("diameter of the hole", above=0, most=_MOST)]
+    diameter: Annotated[float, mm("diameter of the hole", least=LEAST_HOLE, most=_MOST)]
 
 
 class SlotTable(Struct, forbid_unknown_fields=True):
@@ -33,7 +33,7 @@ class SlotTable(Struct, forbid_unknown_fields=True):
 
     start: Annotated[tuple[_Place, _Place], mm("x, y of one end's centre")]
     end: Annotated[tuple[_Place, _Place], mm("x, y of the other end's centre")]
-    width: Annotated[float, mm("width of the slot", above=0, most=_MOST)]
+    width: Annotated[float, mm("width of the slot", least=LEAST_HOLE, most=_MOST)]
 
 
 HolesAt = Annotated[list[HoleAtTable], Meta(max_length=1000, examples=[[{"at": [0.0, 20.0], "diameter": 3.0}]])]

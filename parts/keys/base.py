@@ -29,6 +29,8 @@ def size(
 
 
 mm, degrees, in_modules = partial(size, "mm"), partial(size, "degrees"), partial(size, "modules")
+# a smaller hole vanishes among the digits of its place, mm
+LEAST_HOLE = 1e-6
 
 
 def start(value: object, *others: tuple[object, str]) -> Meta:

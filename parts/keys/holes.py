@@ -14,7 +14,7 @@ from geometry.base.nearest import nearest
 from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
 from parts.base.schema import replaced, value_at
-from parts.keys.base import BoreDiameter, MadeKeys, degrees, either, mm
+from parts.keys.base import LEAST_HOLE, BoreDiameter, MadeKeys, degrees, either, mm
 
 K = TypeVar("K", bound=Struct)
 _MOST = 100_000.0
@@ -124,7 +124,7 @@ class HolesTable(Struct, forbid_unknown_fields=True):
     """Round holes on a pitch circle (lightening holes, bolt circle), or a list of such tables."""
 
     count: Annotated[int, Meta(ge=1, le=1000, description="number of holes", examples=[5])]
-    diameter: Annotated[float, mm("diameter of each hole", above=0, most=_MOST, example=6.0)]
+    diameter: Annotated[float, mm("diameter of each hole", least=LEAST_HOLE, most=_MOST, example=6.0)]
     pitch_circle_diameter: PitchCircle
     start_deg: Direction = 0.0
 
