@@ -340,7 +340,8 @@ def test_wrong_input_gets_one_clear_line(
 
 
 def test_a_shift_table_cell_that_was_mended_is_flagged() -> None:
-    data = values_of("shift-choice first.number_of_teeth=17 second.number_of_teeth=33")
+    # the sheet that is there already
+    data = values_of(" ".join(next(words for words in SHEETS if words[0] == "shift-choice")))
     flagged = [s for s in data["steps"] if "misprint" in s]
     assert [s["value"] for s in flagged] == [0.487]
     assert "0.951 / 0.459" in flagged[0]["misprint"]

@@ -208,7 +208,7 @@ def test_the_bound_holds_and_is_at_most_twice_the_deviation(name: str, kind: tup
     assert fit.pieces == len(fit.spline.breaks) - 1
 
 
-@pytest.mark.sampled(10)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", ["z 23, flank", "z 23, root_fillet", "z 8, undercut, root_fillet", "m 50, flank"])
 @KINDS
 @pytest.mark.parametrize("tolerance", LADDER)
@@ -237,7 +237,7 @@ def test_the_worst_place_against_fifty_digits(name: str, kind: tuple[int, int]) 
     assert fit.max_error / 1.1 <= distance <= fit.max_error
 
 
-@pytest.mark.sampled(40)
+@pytest.mark.sampled(24)
 @EVERY
 @KINDS
 def test_ends_are_the_curves(name: str, kind: tuple[int, int]) -> None:

@@ -103,14 +103,13 @@ def test_gears_on_slender_ellipses_are_cut(e: float, teeth: int) -> None:
     assert ellipse - 2.5 * perimeter < area < ellipse + 2 * perimeter + 4 * math.pi
 
 
-@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("keys", "key"), [
     ({"eccentricity": 0.9999, "number_of_teeth": 400}, "eccentricity"),
     ({"eccentricity": 0.9995, "number_of_teeth": 2000}, "eccentricity"),
     ({"axis_ratio": 20.0, "number_of_teeth": 60}, "axis_ratio"),
-    ({"eccentricity": 0.9999, "number_of_teeth": 2000, "profile_shift_coefficient": 1.0, "basic_rack":
-      {"addendum_coefficient": 0.3, "tip_clearance_coefficient": 0.75, "tip_radius_coefficient": 0.0}},
-     "eccentricity"),
+    pytest.param({"eccentricity": 0.9999, "number_of_teeth": 2000, "profile_shift_coefficient": 1.0, "basic_rack":
+                  {"addendum_coefficient": 0.3, "tip_clearance_coefficient": 0.75, "tip_radius_coefficient": 0.0}},
+                 "eccentricity", marks=pytest.mark.heavy),
 ])  # fmt: skip
 def test_what_is_too_slender_names_the_nearest_that_works(keys: dict[str, Any], key: str) -> None:
     with pytest.raises(SceneError) as refusal:
