@@ -6,9 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exporters.formats.readback import Loop, ReadMesh
+from exporters.verification.chamfers import chamfer_deviation, on_chamfers, slice_points
 from exporters.verification.outlines import verify_loops
 from exporters.verification.topology import Triangles, chains, doubled_normals, topology_failures
-from exporters.verification.verdict import Verdict
+from exporters.verification.verdict import Verdict, deviation_failures
 from geometry.plane.measure import profile_area, profile_length
 from geometry.solids.body import Body, Wall
 from geometry.solids.mass import body_moments
@@ -32,7 +33,7 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
     levels = np.array(body.levels())
     index = np.abs(mesh.vertices[:, 2, None] - levels).argmin(axis=1)
     off = np.abs(mesh.vertices[:, 2] - levels[index]) > _LEVEL * np.abs(levels).max()
-    if np.any(off & ~_within_screws(body, mesh.vertices[:, 2])):
+    if np.any(off & ~_within_screws(body, mesh.vertices[:, 2]) & ~on_chamfers(body, mesh.vertices[:, 2])):
         return Verdict(measured, ("a vertex stands off every face",))
     heights = np.where(off, mesh.vertices[:, 2], levels[index])
     mesh = ReadMesh(np.column_stack([mesh.vertices[:, :2], heights]), mesh.triangles)
@@ -44,7 +45,9 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
     worst, edges = 0.0, [np.inf]
     border = 0.0
     for pair, walls in _walls_by_height(body).items():
-        mine = upright & (low == pair[0]) & (high == pair[1])
+        mine = upright & (low >= pair[0]) & (high <= pair[1])
+        if any(body.is_upright(w) for w in walls):
+            mine &= (low == pair[0]) & (high == pair[1])
         if body.has_screws() and all(body.is_upright(w) for w in walls):
             # a slice of a screw surface may stand between the same heights
             mine &= _stands(mesh, mesh.triangles)
@@ -141,18 +144,26 @@ def _verify_walls(
     declared: float,
     tolerance: float,
 ) -> list[tuple[Verdict, float]]:
-    """The outlines of the walls between two levels, each with its length; both ends of ruled walls are measured."""
+    """The outlines of the walls between two levels, each with its length; of chamfers every slice and between them."""
     z, places = mesh.vertices[:, 2], mesh.vertices[:, 0] + 1j * mesh.vertices[:, 1]
+    found = []
     if all(body.is_upright(w) for w in walls):
         if not np.all(_stands(mesh, triangles)):
             return [(Verdict({}, ("the walls do not stand upright between both faces",)), 0.0)]
-        ends = [pair[0]]
+        layers = [(pair[0], triangles)]
     else:
-        ends = list(pair)
-    found = []
-    for level in ends:
-        loops = [places[chain] for chain in chains(triangles, z == level, len(z))]
-        profiles = [body.loop_profile(w.lower if level == pair[0] else w.upper) for w in walls]
+        low, high = z[triangles].min(axis=1), z[triangles].max(axis=1)
+        slices = np.unique(z[triangles])
+        if tuple(slices[[0, -1]]) != pair or np.any(np.searchsorted(slices, high) - np.searchsorted(slices, low) != 1):
+            return [(Verdict({}, ("a chamfer does not run from slice to slice between its ends",)), 0.0)]
+        layers = [(level, triangles[low == level]) for level in slices[:-1].tolist()]
+        layers.append((pair[1], triangles[high == pair[1]]))
+        worst = chamfer_deviation(slice_points(mesh, triangles), body, declared)
+        failures = deviation_failures(worst, declared, tolerance, body.section_reach())
+        found.append((Verdict({"max_deviation": worst}, tuple(failures)), 0.0))
+    for level, layer in layers:
+        loops = [places[chain] for chain in chains(layer, z == level, len(z))]
+        profiles = [body.section(w, level) for w in walls]
         verdict = verify_loops(
             [Loop(v, np.zeros(len(v)), "") for v in loops],
             profiles,

@@ -40,10 +40,10 @@ def screw_deviation(samples: list[Points], body: Body, declared: float) -> float
     return float(best.max())
 
 
-def screw_samples(surface: BRepAdaptor_Surface) -> Points:
-    """Points of a spline surface between its ends, (n, 3)."""
+def screw_samples(surface: BRepAdaptor_Surface, across: int = _ACROSS) -> Points:
+    """Points of a spline surface between its ends, (n, 3); ``across``: at how many heights."""
     u = np.linspace(surface.FirstUParameter(), surface.LastUParameter(), _ALONG)
-    v = np.linspace(surface.FirstVParameter(), surface.LastVParameter(), _ACROSS)
+    v = np.linspace(surface.FirstVParameter(), surface.LastVParameter(), across)
     return _values(surface, [(a, b) for a in u.tolist() for b in v.tolist()])
 
 

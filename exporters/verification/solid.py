@@ -1,6 +1,6 @@
 """Read-back of STEP files: faces and edges evaluated by the kernel that reads them, never by our own splines.
 
-The volume is taken by Gauss's theorem from Green's integrals over the caps' edges and from the chamfers: the
+The volume is taken by Gauss's theorem from Green's integrals over the caps' edges and over the chamfers: the
 kernel's own quadrature is good to 1e-6 only.
 """
 
@@ -16,15 +16,17 @@ from numpy.typing import NDArray
 
 from exporters.formats.chains import chained
 from exporters.formats.read_step import ReadSolid
+from exporters.verification.chamfers import chamfer_deviation
 from exporters.verification.outlines import verify_samples
 from exporters.verification.screw import cylinder_samples, face_samples, has_helix, screw_deviation, screw_samples
+from exporters.verification.slanted import chamfer_samples, slanted_share
 from exporters.verification.verdict import Verdict, deviation_failures
 from geometry.curves.curve import Complex
 from geometry.curves.line_arc import Arc
 from geometry.plane.measure import distance_to_profile
 from geometry.plane.profile import Profile
 from geometry.solids.body import Body
-from geometry.solids.mass import body_moments, ruled_excess
+from geometry.solids.mass import body_moments
 from geometry.solids.screw import cut_twists
 from parts.base.readback import ReadError
 from parts.solids.kernel import count_solids, edges_of, faces_of
@@ -48,10 +50,12 @@ def verify_solid(found: ReadSolid, body: Body, declared: float, tolerance: float
     exact = body_moments(body).volume
     failures = _solid_failures(solid, body, faces.cylinders)
     reach = max(p.reach() for p in body.profiles)
-    if not abs(faces.volume - exact) <= (_VOLUME + 2 * declared / reach) * exact + _chamfer_play(body):
+    if not abs(faces.volume - exact) <= (_VOLUME + 2 * declared / reach) * exact:
         failures.append(f"volume {faces.volume:.12g} mm^3 instead of {exact:.12g} mm^3")
     worst, walls_found = _wall_deviation(faces, body, declared)
     failures += walls_found
+    if faces.chamfers:
+        worst = max(worst, chamfer_deviation(np.concatenate(faces.chamfers), body, declared))
     if body.has_screws():
         worst = max(worst, screw_deviation(faces.screws, body, declared))
     contours, expected = 0, _cap_profiles(body)
@@ -75,14 +79,6 @@ def verify_solid(found: ReadSolid, body: Body, declared: float, tolerance: float
         "max_deviation": worst,
     }
     return Verdict(measured, tuple(dict.fromkeys(failures)))
-
-
-def _chamfer_play(body: Body) -> float:
-    """How far the volume depends on which points of its edges a chamfer joins, mm^3: its curvature between them.
-
-    The edges are measured; the kernel rules between them by its own parameters.
-    """
-    return sum(abs(ruled_excess(body, wall)) for wall in body.walls if body.is_ruled(wall))
 
 
 def _cap_profiles(body: Body) -> dict[float, list[Profile]]:
@@ -131,7 +127,7 @@ def _solid_failures(solid: TopoDS_Shape, body: Body, cylinders: int) -> list[str
     if max(abs(box.CornerMin().Z() - levels[0]), abs(box.CornerMax().Z() - levels[-1])) > 1e-6:
         failures.append("the solid is not as thick as the part")
     arcs = sum(
-        _cylinders(body.loop_profile(w.lower), turned=body.is_screw(w)) for w in body.walls if not body.is_ruled(w)
+        _cylinders(body.loop_profile(w.lower), turned=body.is_screw(w)) for w in body.walls if not body.is_chamfer(w)
     )
     if cylinders != arcs:
         failures.append(f"{cylinders} cylinders instead of {arcs}")
@@ -147,12 +143,13 @@ def _cylinders(profile: Profile, *, turned: bool) -> int:
 
 @dataclass(slots=True)
 class _Faces:
-    """Samples of cap edges by height, of upright walls by the height of their middle and of screw surfaces (n, 3);
-    cylinders, volume.
+    """Samples of cap edges by height, of upright walls by the height of their middle, of chamfers and of screw
+    surfaces (n, 3); cylinders, volume.
     """
 
     caps: dict[float, list[Complex]] = field(default_factory=dict)
     walls: dict[float, list[Complex]] = field(default_factory=dict)
+    chamfers: list[NDArray[np.float64]] = field(default_factory=list)
     screws: list[NDArray[np.float64]] = field(default_factory=list)
     cylinders: int = 0
     volume: float = 0.0
@@ -185,9 +182,11 @@ def _measured_faces(solid: TopoDS_Shape, *, screws: bool, sheared: bool) -> _Fac
             z, samples = _wall_samples(surface)
             found.walls.setdefault(_level(found.walls, z), []).append(samples)
         else:
-            found.volume += _slanted_share(face, surface, flat=slope >= 0)
+            found.volume += slanted_share(face, surface)
             if screws:
                 found.screws.append(screw_samples(surface))
+            else:
+                found.chamfers.append(chamfer_samples(face, surface))
     return found
 
 
@@ -211,44 +210,6 @@ def _wall_samples(surface: BRepAdaptor_Surface) -> tuple[float, Complex]:
     if max(heights) - min(heights) > _LEVEL:
         raise ReadError("a wall does not stand upright between both faces")
     return heights[0], np.array([complex(p.X(), p.Y()) for p in places])
-
-
-def _slanted_share(face: TopoDS_Face, surface: BRepAdaptor_Surface, *, flat: bool) -> float:
-    """Integral of z over the projection of a chamfer's face, its share of the volume, mm^3."""
-    from OCP.gp import gp_Pnt, gp_Vec
-    from OCP.TopAbs import TopAbs_Orientation
-
-    if flat:
-        return _plane_share(face)
-    place, along, across = gp_Pnt(), gp_Vec(), gp_Vec()
-    nodes, weights = _gauss(8)
-    total = 0.0
-    low, high = surface.FirstVParameter(), surface.LastVParameter()
-    rows = [((low + high) / 2 + (high - low) / 2 * node, weight) for node, weight in zip(nodes, weights, strict=True)]
-    for a, b in pairwise(np.linspace(surface.FirstUParameter(), surface.LastUParameter(), 9).tolist()):
-        for node, weight in zip(nodes, weights, strict=True):
-            u = (a + b) / 2 + (b - a) / 2 * node
-            for v, other_weight in rows:
-                surface.D1(u, v, place, along, across)
-                lift = along.X() * across.Y() - along.Y() * across.X()
-                total += weight * other_weight * (b - a) / 4 * (high - low) * place.Z() * lift
-    return -total if face.Orientation() == TopAbs_Orientation.TopAbs_REVERSED else total
-
-
-def _plane_share(face: TopoDS_Face) -> float:
-    """The same for a plane face with straight edges: a fan of triangles."""
-    from OCP.BRep import BRep_Tool
-    from OCP.BRepTools import BRepTools, BRepTools_WireExplorer
-
-    corners, explorer = [], BRepTools_WireExplorer(BRepTools.OuterWire_s(face), face)
-    while explorer.More():
-        p = BRep_Tool.Pnt_s(explorer.CurrentVertex())
-        corners.append((p.X(), p.Y(), p.Z()))
-        explorer.Next()
-    points = np.array(corners)
-    a, b = points[1:-1] - points[0], points[2:] - points[0]
-    mean = (points[0, 2] + points[1:-1, 2] + points[2:, 2]) / 3
-    return float(np.sum((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2 * mean))
 
 
 def _face_edges(face: TopoDS_Face) -> tuple[list[Complex], float]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -12,7 +13,7 @@ from geometry.approximation.splines import SplineFit, fit_spline
 from geometry.base.placement import Placement2
 from geometry.curves.bounds import Bound
 from geometry.curves.bspline import BSpline
-from geometry.curves.curve import Curve
+from geometry.curves.curve import Complex, Curve
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Profile
 
@@ -21,26 +22,44 @@ CadCurve = Arc | Line | BSpline
 
 @dataclass(frozen=True, slots=True)
 class Outline:
-    """One period of finished curves, placed ``count`` times, and the bound of its error, mm."""
+    """One period of finished curves, placed ``count`` times, and the bound of its error, mm.
+
+    ``faces``: of the end of a chamfer, the poles (curve's, over the depth) of the face from the whole boundary to each
+    curve; a line's and an arc's are those of its ends.
+    """
 
     period: tuple[CadCurve, ...]
     count: int
     max_error: float
     bound: Bound
     clockwise: bool = False
+    faces: tuple[Complex, ...] = ()
+
+    @property
+    def is_circle(self) -> bool:
+        """Whether it is one full circle."""
+        arcs = [c for c in self.period if isinstance(c, Arc)]
+        return self.count == 1 and len(arcs) == len(self.period) and len({(a.centre, a.radius) for a in arcs}) == 1
+
+    def chamfer_faces(self) -> Iterator[Complex]:
+        """The poles of all faces in order of travel."""
+        for turn in self._turns():
+            yield from (poles * cmath.exp(1j * turn) for poles in self.faces)
+
+    def _turns(self) -> list[float]:
+        pitch = (-2 if self.clockwise else 2) * math.pi / self.count
+        return [pitch * k for k in range(self.count)]
 
     def curves(self) -> Iterator[CadCurve]:
         """All curves in order of travel; a full circle about the origin is one arc."""
-        arcs = [c for c in self.period if isinstance(c, Arc)]
-        if self.count == 1 and len(arcs) == len(self.period) and len({(a.centre, a.radius) for a in arcs}) == 1:
-            sense = math.copysign(2 * math.pi, arcs[0].sweep)
-            yield Arc(arcs[0].centre, arcs[0].radius, arcs[0].start_angle, sense)
+        first = self.period[0]
+        if self.is_circle and isinstance(first, Arc):
+            yield Arc(first.centre, first.radius, first.start_angle, math.copysign(2 * math.pi, first.sweep))
             return
-        pitch = (-2 if self.clockwise else 2) * math.pi / self.count
-        for k in range(self.count):
-            placement = Placement2(pitch * k)
+        for turn in self._turns():
+            placement = Placement2(turn)
             for curve in self.period:
-                yield curve if k == 0 else curve.placed(placement)
+                yield curve.placed(placement) if turn else curve
 
 
 def spline_outline(

@@ -191,6 +191,23 @@ def _alike(curve: Curve, like: SplineFit, tolerance: float) -> SplineFit | None:
     return SplineFit(draft.spline, error, bound, model.spans, draft) if error <= tolerance else None
 
 
+def spline_on_knots(curve: Curve, model: BSpline, poles: Complex, shares: Real, tolerance: float) -> BSpline:
+    """The spline of a curve on the simple knots of another one, from ``poles`` that are nearly right.
+
+    It is bettered until its samples keep ``tolerance`` mm, or no more. ``shares`` of the curve's domain: feet of the
+    samples ``samples_of(model)``, rising.
+    """
+    layout = _layout(model.degree, model.degree - 1, model.breaks)
+    low, high = curve.domain
+    at = (low + (high - low) * shares).reshape(layout.x.shape)
+    return _relaxed(curve, layout, poles, at, _AIM * tolerance, _ALIKE_WEIGHTS).spline
+
+
+def samples_of(model: BSpline) -> Real:
+    """The parameters at which a spline of simple knots is held against its curve."""
+    return _layout(model.degree, model.degree - 1, model.breaks).x.ravel()
+
+
 def _excess(draft: _Draft, tolerance: float) -> float:
     """Factor by which the spans of a draft have to grow: its error falls like spans^-(degree + 1)."""
     return (draft.error / tolerance) ** (1 / (draft.layout.degree + 1)) if math.isfinite(draft.error) else 2.0

@@ -6,7 +6,7 @@ and caps bounded by loops. Meshes, B-reps, read-back and mass integrals all go t
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import ClassVar, Literal
@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from geometry.base.placement import Placement2
 from geometry.curves.curve import Complex, Real
+from geometry.plane.measure import profile_area
 from geometry.plane.profile import Profile, Region
 
 # height, mm, turn, rad, and shift, mm, of a section
@@ -62,12 +63,13 @@ class Wall:
     """The wall between two loops (indices): upright where both have one profile in one placement.
 
     One profile with two turns makes a screw surface: its section at any height is the profile, turned in proportion to
-    the height; one with two shifts is sheared. Two profiles make a ruled wall, which joins points of equal share of
-    matching segments; its profiles have equal segments, and neither is moved.
+    the height; one with two shifts is sheared. Two profiles make a chamfer, and neither is moved: ``section(z)`` is the
+    exact profile at a height from the lower to the upper loop, mm, segment for segment that of both.
     """
 
     lower: int
     upper: int
+    section: Callable[[float], Profile] | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,15 +97,31 @@ class Body:
 
     def is_upright(self, wall: Wall) -> bool:
         """Whether a wall stands upright on one profile."""
-        return not self.is_ruled(wall) and self.twist(wall) == 0 and self.shear(wall) == 0
+        return not self.is_chamfer(wall) and self.twist(wall) == 0 and self.shear(wall) == 0
 
     def is_screw(self, wall: Wall) -> bool:
         """Whether a wall has one profile that turns or moves along its height."""
-        return not self.is_ruled(wall) and not self.is_upright(wall)
+        return not self.is_chamfer(wall) and not self.is_upright(wall)
 
-    def is_ruled(self, wall: Wall) -> bool:
-        """Whether a wall is ruled between two profiles."""
+    def is_chamfer(self, wall: Wall) -> bool:
+        """Whether a wall runs from one profile to another."""
         return self.loops[wall.lower].profile != self.loops[wall.upper].profile
+
+    def chamfers(self) -> Iterator[tuple[Wall, int, int]]:
+        """The chamfers, each with its loop of the whole boundary and that of its end, which has less material."""
+        for wall in self.walls:
+            if self.is_chamfer(wall):
+                ends = wall.lower, wall.upper
+                upwards = profile_area(self.loop_profile(wall.lower)) > profile_area(self.loop_profile(wall.upper))
+                yield (wall, *(ends if upwards else ends[::-1]))
+
+    def section_at(self, wall: Wall, whole: int, end: int, share: float) -> Profile:
+        """The section of a chamfer at a share of its depth between its loops."""
+        return self.section(wall, (1 - share) * self.loops[whole].z + share * self.loops[end].z)
+
+    def section(self, wall: Wall, z: float) -> Profile:
+        """The exact section of an upright wall or a chamfer at a height within it, mm."""
+        return self.loop_profile(wall.lower) if wall.section is None else wall.section(z)
 
     def twist(self, wall: Wall) -> float:
         """Angle by which a wall turns from its lower to its upper loop, rad."""
@@ -127,11 +145,11 @@ class Body:
         for wall in self.walls:
             low, high = self.height(wall)
             moved = abs(self.twist(wall)) * self.loop_profile(wall.lower).reach() + abs(self.shear(wall))
-            found.append(0.0 if self.is_ruled(wall) else moved / (high - low))
+            found.append(0.0 if self.is_chamfer(wall) else moved / (high - low))
         return max(found)
 
     def turn_at(self, wall: Wall, z: ArrayLike) -> Real:
-        """Turn of a wall's section at heights z, rad; a ruled wall is not turned."""
+        """Turn of a wall's section at heights z, rad; a chamfer is not turned."""
         return self.loops[wall.lower].turn + self._share(wall, z) * self.twist(wall)
 
     def shift_at(self, wall: Wall, z: ArrayLike) -> Complex:
@@ -165,7 +183,7 @@ class Body:
         return max(self.section_reach(), *(abs(loop.z) for loop in self.loops))
 
     def groups(self) -> Iterator[tuple[int, ...]]:
-        """Profiles that ruled walls join, each group once; their approximations need equal vertices."""
+        """Profiles that chamfers join, each group once; their approximations need equal vertices."""
         leader = list(range(len(self.profiles)))
         for wall in self.walls:
             a, b = sorted((leader[self.loops[wall.lower].profile], leader[self.loops[wall.upper].profile]))
@@ -190,9 +208,9 @@ class BodyBuilder:
             self.profiles.append(profile)
         return self.loops.setdefault(Loop(place, z, turn, shift), len(self.loops))
 
-    def wall(self, lower: int, upper: int) -> None:
-        """A wall between two loops."""
-        self.walls.append(Wall(lower, upper))
+    def wall(self, lower: int, upper: int, section: Callable[[float], Profile] | None = None) -> None:
+        """A wall between two loops; a chamfer has its ``section``."""
+        self.walls.append(Wall(lower, upper, section))
 
     def run(self, profile: Profile, stations: Sequence[Station]) -> tuple[int, int]:
         """Walls of one profile through heights, turns and shifts; returns the loops at both ends."""

@@ -8,14 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.curves.curve import Complex, Real
-from geometry.plane.measure import gauss_rule, profile_area
+from geometry.plane.measure import gauss_rule
 from geometry.plane.profile import Profile
 from geometry.solids.body import Body, Wall
 
 _GAUSS_POINTS = 20
 _GAUSS_PANELS = 4
-# sections of a ruled wall are polynomials of degree 4 in z, times z^2: four nodes integrate degree 7 exactly
+# an upright wall's integrals are polynomials of degree 2 in z
 _HEIGHT_POINTS = 4
+# sections of a chamfer are smooth in z
+_CHAMFER_POINTS = 8
 # turned sections vary like cosines of twice the turn
 _TURNED_POINTS = 20
 
@@ -46,15 +48,15 @@ def body_moments(body: Body) -> Moments:
 def _wall_share(body: Body, wall: Wall) -> Real:
     """Integrals of 1, x, y, z, xx, yy, xy, zz, xz, yz over what a wall carries, (10,)."""
     low, high = body.height(wall)
-    lower, upper = body.loop_profile(wall.lower), body.loop_profile(wall.upper)
-    one_section = None if body.is_ruled(wall) else section_moments(lower)
+    lower, chamfer = body.loop_profile(wall.lower), body.is_chamfer(wall)
+    one_section = None if chamfer else section_moments(lower)
     # the moments of three periods or more do not feel a turn
-    moved = one_section is not None and (lower.count < 3 or body.shear(wall) != 0)
-    nodes, weights = gauss_rule(_TURNED_POINTS if moved else _HEIGHT_POINTS)
+    moved = not chamfer and (lower.count < 3 or body.shear(wall) != 0)
+    nodes, weights = gauss_rule(_CHAMFER_POINTS if chamfer else _TURNED_POINTS if moved else _HEIGHT_POINTS)
     share = np.zeros(10)
     for node, weight in zip(nodes.tolist(), weights.tolist(), strict=True):
         z = (low + high) / 2 + (high - low) / 2 * node
-        section = one_section if one_section is not None else section_moments(lower, upper, (node + 1) / 2)
+        section = one_section if one_section is not None else section_moments(body.section(wall, z))
         if moved:
             section = _moved(section, float(body.turn_at(wall, z)), complex(body.shift_at(wall, z)))
         a, x, y, xx, yy, xy = section.tolist()
@@ -73,30 +75,17 @@ def _moved(section: Real, angle: float, shift: complex) -> Real:
     return np.array([a, first.real, first.imag, (polar + second.real) / 2, (polar - second.real) / 2, second.imag / 2])
 
 
-def ruled_excess(body: Body, wall: Wall) -> float:
-    """Volume of a ruled wall's share above that of the trapezium of its end sections, mm^3."""
-    low, high = body.height(wall)
-    ends = profile_area(body.loop_profile(wall.lower)) + profile_area(body.loop_profile(wall.upper))
-    return float(_wall_share(body, wall)[0]) - (high - low) * ends / 2
-
-
-def section_moments(lower: Profile, upper: Profile | None = None, share: float = 0.0) -> Real:
-    """Integrals of 1, x, y, x^2, y^2, xy inside a profile, (6,); counter-clockwise positive.
-
-    With ``upper``: inside the profile that lies ``share`` of the way from ``lower`` to it.
-    """
-    p, d, weights = _nodes(lower)
-    if upper is not None:
-        others, other_slopes, _ = _nodes(upper)
-        p, d = p + share * (others - p), d + share * (other_slopes - d)
+def section_moments(profile: Profile) -> Real:
+    """Integrals of 1, x, y, x^2, y^2, xy inside a profile, (6,); counter-clockwise positive."""
+    p, d, weights = _nodes(profile)
     # divergence of (x f, y f) for f homogeneous of degree n is (n + 2) f
-    if lower.count > 2:
+    if profile.count > 2:
         # three periods or more: the centre lies on the axis, both second moments are equal
         cross = (np.conj(p) * d).imag * weights
-        polar = lower.count * float(np.sum(np.abs(p) ** 2 * cross)) / 4
-        return np.array([lower.count * cross.sum() / 2, 0, 0, polar / 2, polar / 2, 0])
-    turn = np.exp(1j * lower.pitch_angle * np.arange(lower.count))[:, None]
-    p, cross = (turn * p).ravel(), np.tile((np.conj(p) * d).imag * weights, lower.count)
+        polar = profile.count * float(np.sum(np.abs(p) ** 2 * cross)) / 4
+        return np.array([profile.count * cross.sum() / 2, 0, 0, polar / 2, polar / 2, 0])
+    turn = np.exp(1j * profile.pitch_angle * np.arange(profile.count))[:, None]
+    p, cross = (turn * p).ravel(), np.tile((np.conj(p) * d).imag * weights, profile.count)
     x, y = p.real, p.imag
     return np.array(
         [

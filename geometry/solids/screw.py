@@ -100,7 +100,7 @@ def cut_twists(body: Body) -> Body:
     """The body with its screw surfaces cut into ones that turn by less than some two radians."""
     loops, walls = list(body.loops), []
     for wall in body.walls:
-        twist = 0.0 if body.is_ruled(wall) else body.twist(wall)
+        twist = 0.0 if body.is_chamfer(wall) else body.twist(wall)
         count = max(1, math.ceil(abs(twist) / _MOST_TURN))
         (low, high), first = body.height(wall), body.loops[wall.lower]
         below = wall.lower
@@ -109,5 +109,5 @@ def cut_twists(body: Body) -> Body:
             loops.append(Loop(first.profile, z, first.turn + twist * k / count, first.shift))
             walls.append(Wall(below, len(loops) - 1))
             below = len(loops) - 1
-        walls.append(Wall(below, wall.upper))
+        walls.append(replace(wall, lower=below))
     return replace(body, loops=tuple(loops), walls=tuple(walls))

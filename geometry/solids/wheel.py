@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
+from functools import lru_cache, partial
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -26,6 +26,8 @@ _KEPT_SHARE = 0.1
 _LEAST_STEP = 0.05
 # lower steps and chamfers are none, mm
 _LEAST_HEIGHT = 1e-3
+# depths of a chamfer that differ by rounding only have one section, mm
+_DEPTH_DIGITS = 12
 
 
 @dataclass(frozen=True, slots=True)
@@ -240,8 +242,18 @@ class _Wheel:
             inset = stations[0][1] if cuts[1] == cuts[0] else _inset(profile, self.offset, cuts[1], "above", who)
             stations.append((heights[1], inset))
         loops = list(dict.fromkeys(self.made.loop(p, z) for z, p in stations))
-        for lower, upper in pairwise(loops):
-            self.made.wall(lower, upper)
+        at = lru_cache(maxsize=None)(partial(profile, self.offset))
+
+        def below(z: float) -> Profile:
+            return at(round(heights[0] + cuts[0] - z, _DEPTH_DIGITS))
+
+        def above(z: float) -> Profile:
+            return at(round(z - heights[1] + cuts[1], _DEPTH_DIGITS))
+
+        last = len(loops) - 2
+        for index, (lower, upper) in enumerate(pairwise(loops)):
+            chamfer = below if index == 0 and cuts[0] > 0 else above if index == last and cuts[1] > 0 else None
+            self.made.wall(lower, upper, chamfer)
         return loops[0], loops[-1]
 
 

@@ -7,15 +7,19 @@ modules of OCP that are needed are imported, and only here and in exporters/form
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
+from geometry.approximation.chamfered import Sections, chamfered_outlines, pieces_needed
 from geometry.approximation.outline import Outline, spline_outline
 from geometry.base.errors import GeometryError
 from geometry.base.placement import Placement2
 from geometry.plane.measure import profile_area
 from geometry.solids.body import Body, Cap, Wall
+from geometry.solids.chamfer import cut_chamfers
 from geometry.solids.screw import cut_twists, turn_error, with_turn_error
-from parts.solids.brep_curves import closed_wire
+from parts.solids.brep_chamfer import chamfer_faces
+from parts.solids.brep_curves import closed_edges, wire_of
 from parts.solids.brep_screw import ScrewFaces
 from parts.solids.kernel import faces_of
 
@@ -31,14 +35,45 @@ def body_outlines(body: Body, tolerance: float) -> tuple[Outline, ...]:
         from geometry.cams.barrel.splines import barrel_splines
 
         return (barrel_splines(body.cam, tolerance),)
-    twisted = body.twisted_profiles()
-    made = []
+    body = _cut(body)
+    twisted, made = body.twisted_profiles(), _chamfered_outlines(body, tolerance)
     for index, profile in enumerate(body.profiles):
+        if index in made:
+            continue
         turned = index in twisted
         own = tolerance - 2 * turn_error(profile.reach()) if turned else tolerance
         outline = spline_outline(profile, own, degree=_DEGREE, continuity=_DEGREE - 1, turned=turned)
-        made.append(with_turn_error(outline, profile.reach()) if turned else outline)
-    return tuple(made)
+        made[index] = with_turn_error(outline, profile.reach()) if turned else outline
+    return tuple(made[i] for i in range(len(body.profiles)))
+
+
+def _chamfered_outlines(body: Body, tolerance: float) -> dict[int, Outline]:
+    """The outlines of profiles that chamfers join, each whole one with its ends."""
+    # the pieces of a chamfer by the profiles where they begin and end
+    pieces: dict[int, dict[int, Sections]] = {}
+    for wall, whole, end in body.chamfers():
+        own = partial(body.section_at, wall, whole, end)
+        pieces.setdefault(body.loops[whole].profile, {}).setdefault(body.loops[end].profile, own)
+    ends = {end for found in pieces.values() for end in found}
+    made: dict[int, Outline] = {}
+    for index in sorted(pieces.keys() - ends):
+        indices, chamfers = [index], []
+        for end, sections in pieces[index].items():
+            chamfers.append([sections])
+            indices.append(end)
+            while indices[-1] in pieces:
+                ((end, sections),) = pieces[indices[-1]].items()
+                chamfers[-1].append(sections)
+                indices.append(end)
+        outlines = chamfered_outlines(body.profiles[index], chamfers, tolerance, degree=_DEGREE)
+        made |= dict(zip(indices, outlines, strict=True))
+    return made
+
+
+def _cut(body: Body) -> Body:
+    """The body with pieces of chamfers and of screw surfaces that one face each can follow."""
+    body = cut_chamfers(body, lambda *chamfer: pieces_needed(partial(body.section_at, *chamfer)))
+    return cut_twists(body)
 
 
 def body_solid(body: Body, outlines: Sequence[Outline]) -> Any:
@@ -61,19 +96,26 @@ def body_solid(body: Body, outlines: Sequence[Outline]) -> Any:
         from parts.solids.barrel_brep import barrel_solid
 
         return barrel_solid(body, outlines[0])
-    body = cut_twists(body)
+    body = _cut(body)
     wires: dict[int, Any] = {}
+    edges: dict[int, list[Any]] = {}
     screws = ScrewFaces(body, outlines, wires)
     builder, shell = BRep_Builder(), TopoDS_Shell()
     builder.MakeShell(shell)
-    # upright walls first: chamfers take their edges
-    for wall in sorted(body.walls, key=body.is_ruled):
+    for wall in body.walls:
         if body.is_screw(wall) and body.twist(wall):
             faces = screws.faces(wall)
+        elif body.is_chamfer(wall):
+            continue
         else:
-            faces = (_ruled_faces if body.is_ruled(wall) else _upright_faces)(body, wall, outlines, wires)
+            faces = _upright_faces(body, wall, outlines, wires, edges)
         for face in faces:
             builder.Add(shell, face)
+    # chamfers take the edges of upright walls
+    for wall, whole, end in body.chamfers():
+        for face in chamfer_faces(body, wall, (whole, end), outlines, edges):
+            builder.Add(shell, face)
+    wires |= {loop: wire_of(made) for loop, made in edges.items()}
     for cap in body.caps:
         builder.Add(shell, _cap_face(body, cap, wires))
     shell.Closed(True)
@@ -87,37 +129,25 @@ def body_solid(body: Body, outlines: Sequence[Outline]) -> Any:
     return result
 
 
-def _upright_faces(body: Body, wall: Wall, outlines: Sequence[Outline], wires: dict[int, Any]) -> list[Any]:
-    """Faces of a wall swept upwards or slantwise; its two wires are kept for caps and chamfers."""
+def _upright_faces(
+    body: Body, wall: Wall, outlines: Sequence[Outline], wires: dict[int, Any], edges: dict[int, list[Any]]
+) -> list[Any]:
+    """Faces of a wall swept upwards or slantwise; its two wires are kept for caps, their edges for chamfers."""
     from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
     from OCP.gp import gp_Vec
     from OCP.TopoDS import TopoDS
 
     low, high = body.height(wall)
     place, shear = body.loops[wall.lower], body.shear(wall)
-    if wall.lower not in wires:
+    if wall.lower not in edges:
         curves = outlines[place.profile].curves()
         moved = place.placement != Placement2()
-        wires[wall.lower] = closed_wire([c.placed(place.placement) if moved else c for c in curves], low)
-    prism = BRepPrimAPI_MakePrism(wires[wall.lower], gp_Vec(shear.real, shear.imag, high - low))
+        edges[wall.lower] = closed_edges([c.placed(place.placement) if moved else c for c in curves], low)[0]
+    prism = BRepPrimAPI_MakePrism(wire_of(edges[wall.lower]), gp_Vec(shear.real, shear.imag, high - low))
     if not prism.IsDone():
         raise GeometryError("the kernel makes no wall of this outline")
-    wires[wall.upper] = TopoDS.Wire_s(prism.LastShape())
+    edges[wall.upper] = [TopoDS.Edge_s(prism.LastShape(edge)) for edge in edges[wall.lower]]
     return list(faces_of(prism.Shape()))
-
-
-def _ruled_faces(body: Body, wall: Wall, outlines: Sequence[Outline], wires: dict[int, Any]) -> list[Any]:
-    """Faces of a chamfer, ruled between matching edges of its two wires."""
-    from OCP.BRepFill import BRepFill_Generator
-
-    generator = BRepFill_Generator()
-    for loop in (wall.lower, wall.upper):
-        if loop not in wires:
-            place = body.loops[loop]
-            wires[loop] = closed_wire(list(outlines[place.profile].curves()), place.z)
-        generator.AddWire(wires[loop])
-    generator.Perform()
-    return list(faces_of(generator.Shell()))
 
 
 def _cap_face(body: Body, cap: Cap, wires: dict[int, Any]) -> Any:

@@ -16,6 +16,7 @@ from geometry.approximation.outline import CadCurve, Outline
 from geometry.base.errors import GeometryError
 from geometry.base.placement import Placement2
 from geometry.curves.bspline import BSpline
+from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc
 from geometry.solids.body import Body, Wall
 from geometry.solids.screw import heights, surface_poles, turn_spans, turn_spline
@@ -54,7 +55,7 @@ class ScrewFaces:
                 faces.append(_cylinder_face(curve, twist, (low, high), around))
             else:
                 assert isinstance(curve, BSpline)
-                faces.append(_spline_face(curve, turn, rise, around))
+                faces.append(spline_face(curve, turn, surface_poles(curve, turn), rise, around))
         return faces
 
     def _end(self, loop: int) -> tuple[list[CadCurve], list[Any], list[Any]]:
@@ -78,13 +79,16 @@ def _edge(curve: Any, start: Any, end: Any, domain: tuple[float, float]) -> Any:
     return made.Edge()
 
 
-def _spline_face(section: BSpline, turn: BSpline, rise: Any, around: tuple[Any, ...]) -> Any:
-    """The face of a tensor product between its section at both ends and two helices."""
+def spline_face(section: BSpline, turn: BSpline, grid: Complex, rise: Real, around: tuple[Any, ...]) -> Any:
+    """The face of a tensor product between its section at both ends and two edges along ``turn``.
+
+    ``grid``: poles (u, v) in the plane on the knots of both; ``rise``: heights (v,) of the poles, mm. ``around``:
+    lower, right, upper and left edge.
+    """
     from OCP.Geom import Geom_BSplineSurface
     from OCP.gp import gp_Pnt
     from OCP.TColgp import TColgp_Array2OfPnt
 
-    grid = surface_poles(section, turn)
     poles = TColgp_Array2OfPnt(1, grid.shape[0], 1, grid.shape[1])
     for i, row in enumerate(grid.tolist()):
         for j, pole in enumerate(row):
@@ -93,7 +97,7 @@ def _spline_face(section: BSpline, turn: BSpline, rise: Any, around: tuple[Any, 
     surface = Geom_BSplineSurface(poles, u_knots, v_knots, u_counts, v_counts, section.degree, turn.degree)
     (a, b), (c, d) = section.domain, turn.domain
     paths = [((a, c), (b, c), (a, b)), ((b, c), (b, d), (c, d)), ((a, d), (b, d), (a, b)), ((a, c), (a, d), (c, d))]
-    return _face(surface, around, paths, turns_left=True)
+    return bounded_face(surface, around, [straight_path(*p) for p in paths], turns_left=True)
 
 
 def _cylinder_face(arc: Arc, twist: float, height: tuple[float, float], around: tuple[Any, ...]) -> Any:
@@ -112,14 +116,11 @@ def _cylinder_face(arc: Arc, twist: float, height: tuple[float, float], around: 
         ((a + twist, rise), (b + twist, rise), along),
         ((a, 0.0), (a + twist, rise), (0.0, 1.0)),
     ]
-    return _face(surface, around, paths, turns_left=arc.sweep > 0)
+    return bounded_face(surface, around, [straight_path(*p) for p in paths], turns_left=arc.sweep > 0)
 
 
-_Path = tuple[tuple[float, float], tuple[float, float], tuple[float, float]]
-
-
-def _face(surface: Any, around: tuple[Any, ...], paths: list[_Path], *, turns_left: bool) -> Any:
-    """A face within four edges: lower, right, upper and left one, each with its straight path in the parameters."""
+def bounded_face(surface: Any, around: tuple[Any, ...], paths: list[Any], *, turns_left: bool) -> Any:
+    """A face within four edges: lower, right, upper and left one, each with its path in the parameters."""
     from OCP.BRep import BRep_Builder
     from OCP.TopoDS import TopoDS_Face, TopoDS_Wire
 
@@ -127,7 +128,7 @@ def _face(surface: Any, around: tuple[Any, ...], paths: list[_Path], *, turns_le
     builder.MakeFace(face, surface, CONFUSION)
     builder.MakeWire(wire)
     for index, (edge, path) in enumerate(zip(around, paths, strict=True)):
-        builder.UpdateEdge(edge, straight_path(*path), face, CONFUSION)
+        builder.UpdateEdge(edge, path, face, CONFUSION)
         builder.Add(wire, edge if index < 2 else edge.Reversed())
     wire.Closed(True)
     builder.Add(face, wire if turns_left else wire.Reversed())

@@ -13,9 +13,11 @@ from numpy.typing import NDArray
 
 from geometry.approximation.chords import approximate_profile, approximate_together
 from geometry.base.errors import ThinWallError
+from geometry.curves.bounds import Bound
 from geometry.curves.curve import Complex
 from geometry.plane.contour import Approximation, Contour
 from geometry.solids.body import Body, Cap
+from geometry.solids.chamfer import chamfer_bow, chamfer_slices, cut_chamfers
 from parts.solids.caps import Triangles, aligned_bore, begun_at, cap_triangles, is_round, start_in_space
 
 
@@ -36,6 +38,7 @@ def mesh_outlines(body: Body, tolerance: float, least_edge: float) -> tuple[Appr
         from parts.solids.barrel_mesh import barrel_mesh
 
         return (barrel_mesh(body, tolerance),)
+    body = _sliced(body, tolerance)
     made: dict[int, Approximation] = {}
     twisted = body.twisted_profiles()
     for group in body.groups():
@@ -47,8 +50,23 @@ def mesh_outlines(body: Body, tolerance: float, least_edge: float) -> tuple[Appr
         elif len(group) == 1:
             made[group[0]] = approximate_profile(profiles[0], tolerance, arcs=False, least_edge=least_edge)
         else:
-            made |= dict(zip(group, approximate_together(profiles, tolerance, least_edge), strict=True))
+            made |= dict(zip(group, _chamfered(body, group, tolerance, least_edge), strict=True))
     return tuple(made[i] for i in range(len(body.profiles)))
+
+
+def _sliced(body: Body, tolerance: float) -> Body:
+    """The body with its chamfers cut into slices that plane triangles follow: all alike, so that slices are level."""
+    most = max((chamfer_slices(body, *chamfer, tolerance) for chamfer in body.chamfers()), default=1)
+    return cut_chamfers(body, lambda *_: most)
+
+
+def _chamfered(body: Body, group: tuple[int, ...], tolerance: float, least_edge: float) -> tuple[Approximation, ...]:
+    """Matching chords of profiles that chamfers join; the bound holds for what lies between them too."""
+    profiles = [body.profiles[i] for i in group]
+    bow = max(chamfer_bow(body, *chamfer) for chamfer in body.chamfers() if body.loops[chamfer[1]].profile in group)
+    made = approximate_together(profiles, tolerance - bow, least_edge)
+    bound: Bound = "sampled" if bow > 0 else made[0].bound
+    return tuple(replace(a, max_error=a.max_error + bow, bound=bound, tolerance=tolerance) for a in made)
 
 
 def count_edges(body: Body, outlines: tuple[Approximation, ...]) -> int:
@@ -56,6 +74,7 @@ def count_edges(body: Body, outlines: tuple[Approximation, ...]) -> int:
     total = sum(len(a.geometry) for a in outlines)
     if body.is_faced:
         return total
+    body = _sliced(body, outlines[0].tolerance)
     for wall in filter(body.twist, body.walls):
         from geometry.approximation.twisted import slice_turns
 
@@ -74,6 +93,7 @@ def body_mesh(body: Body, outlines: tuple[Approximation, ...]) -> Mesh:
     """
     if body.is_faced:
         return Mesh(outlines[0].vertices, outlines[0].geometry)
+    body = _sliced(body, outlines[0].tolerance)
     contours = _begun_in_spaces(body, [a.geometry for a in outlines])
     try:
         caps = _cap_triangles(body, contours)

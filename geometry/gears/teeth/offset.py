@@ -28,7 +28,7 @@ from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Profile, Region, Segment, joint_turn
 
 _SAMPLES = 65
-# share of a tip rounding's radius that is left at the edge of a deep face chamfer
+# share of a tip rounding's radius that is left at the edge of the deepest face chamfer
 _KEPT_ROUNDING = 0.25
 
 
@@ -45,14 +45,16 @@ def gear_region(gear: SpurGear, offset: float = 0.0) -> OffsetRegion:
     return OffsetRegion(Region(side.profile(), gear.holes.profiles(offset)), offset, side.findings)
 
 
-def chamfered_outline(gear: SpurGear, depth: float) -> Profile:
-    """The outline moved ``depth`` > 0 mm into the material, segment for segment: the edge of a face chamfer.
+def chamfered_outline(gear: SpurGear, inset: float, depth: float, deepest: float) -> Profile:
+    """The outline moved ``inset`` mm into the material, and then ``depth`` mm for a face chamfer, segment for segment.
 
-    A rounded tip corner keeps a part of its radius, where a parallel one would vanish.
+    A tip rounding shrinks by the depth, as a parallel one does; where the ``deepest`` chamfer would leave less than
+    a quarter of its radius, it shrinks evenly to that quarter, so that its face does not end in a point.
     """
-    curves = SideCurves.of(gear).shrunk(depth)
-    curves = replace(curves, tip_rounding=max(curves.tip_rounding, _KEPT_ROUNDING * gear.tip_rounding))
-    return assemble_side(curves, gear.pitch_angle).profile()
+    curves = SideCurves.of(gear).shrunk(inset)
+    shrinking = min(1.0, (1 - _KEPT_ROUNDING) * curves.tip_rounding / deepest)
+    rounding = curves.tip_rounding - shrinking * depth
+    return assemble_side(replace(curves.shrunk(depth), tip_rounding=rounding), gear.pitch_angle).profile()
 
 
 def offset_side(gear: SpurGear, offset: float) -> ToothSide:

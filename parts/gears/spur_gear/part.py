@@ -178,10 +178,14 @@ class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
         """The wheel with its web, hub and chamfers."""
         section = lru_cache(maxsize=8)(partial(gear_region, thing))
 
-        def outline(moved: float, depth: float) -> Profile:
-            return section(moved).region.outer if depth == 0 else chamfered_outline(thing, depth - moved)
-
         shape = replace(_shape_of(keys), twist=helix_of(keys).twist(thing.reference_radius))
+        deepest = max(shape.chamfer_below, shape.chamfer_above)
+
+        def outline(moved: float, depth: float) -> Profile:
+            if depth == 0:
+                return section(moved).region.outer
+            return chamfered_outline(thing, -moved, depth, max(deepest, depth))
+
         return wheel_body(shape, wheel_sections(outline, thing.root_radius, thing.holes), offset)
 
     def is_plate(self, keys: SpurGearSpec, thing: SpurGear) -> bool:

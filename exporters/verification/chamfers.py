@@ -1,0 +1,79 @@
+"""Chamfers in files: points against the exact sections at their own heights.
+
+A point's distance is taken within the plane of its height, which is never less than that from the surface.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exporters.formats.readback import ReadMesh
+from exporters.verification.topology import Triangles
+from geometry.plane.measure import distance_to_profile
+from geometry.solids.body import Body
+
+Points = NDArray[np.float64]
+
+# heights of samples that differ by rounding only have one section, mm
+_LEVEL_DIGITS = 9
+# heights between two slices of a mesh, and places across each triangle there, that are measured
+_UP, _ACROSS = (0.25, 0.5, 0.75), (0.0, 0.5)
+
+
+def chamfer_deviation(points: Points, body: Body, declared: float) -> float:
+    """Greatest distance of points from the chamfers of a body, each within the plane of its height, mm.
+
+    Infinite where a point stands at no height of a chamfer.
+    """
+    heights = np.round(points[:, 2], _LEVEL_DIGITS)
+    best = np.full(len(points), np.inf)
+    places, slack = points[:, 0] + 1j * points[:, 1], 10.0**-_LEVEL_DIGITS
+    for z in np.unique(heights).tolist():
+        mine = np.flatnonzero(heights == z)
+        sections = []
+        for wall, _, _ in body.chamfers():
+            low, high = body.height(wall)
+            if low - 100 * slack <= z <= high + 100 * slack:
+                sections.append(body.section(wall, float(np.clip(z, low, high))))
+        if not sections:
+            return math.inf
+        near = np.zeros(len(mine), dtype=np.int64)
+        if len(sections) > 1:
+            near = np.argmin([distance_to_profile(places[mine], s, trusted=math.inf) for s in sections], axis=0)
+        for index, section in enumerate(sections):
+            own = mine[near == index]
+            if own.size:
+                best[own] = distance_to_profile(places[own], section, trusted=declared)
+    return float(best.max())
+
+
+def slice_points(mesh: ReadMesh, triangles: Triangles) -> Points:
+    """Points (n, 3) within triangles between slices, at a few heights each."""
+    corners = mesh.vertices[triangles]
+    heights = corners[:, :, 2]
+    # the corner that stands alone on its slice, and the two others
+    alone = np.argmax(np.abs(heights - np.median(heights, axis=1, keepdims=True)), axis=1)
+    order = (alone[:, None] + np.arange(3)) % 3
+    tip, first, second = np.moveaxis(np.take_along_axis(corners, order[:, :, None], axis=1), 1, 0)
+    low, high = heights.min(axis=1), heights.max(axis=1)
+    found = []
+    for up in _UP:
+        z = low + up * (high - low)
+        share = ((z - tip[:, 2]) / (first[:, 2] - tip[:, 2]))[:, None]
+        for across in _ACROSS:
+            points = tip + share * ((1 - across) * first + across * second - tip)
+            points[:, 2] = z
+            found.append(points)
+    return np.concatenate(found)
+
+
+def on_chamfers(body: Body, z: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Which heights lie between the ends of a chamfer."""
+    found = np.zeros(len(z), dtype=bool)
+    for wall, _, _ in body.chamfers():
+        low, high = body.height(wall)
+        found |= (low < z) & (z < high)
+    return found
