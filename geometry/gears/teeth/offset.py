@@ -18,7 +18,7 @@ from geometry.base.errors import GeometryError, OffsetError
 from geometry.base.findings import Finding
 from geometry.base.roots import bracketed_root
 from geometry.base.tolerance import TOLERANCES
-from geometry.curves.curve import Curve, end_point, start_point
+from geometry.curves.curve import Curve, Reversed, end_point, start_point
 from geometry.curves.fillet import Fillet
 from geometry.curves.intersect import first_above
 from geometry.curves.line_arc import Arc
@@ -54,7 +54,15 @@ def chamfered_outline(gear: SpurGear, inset: float, depth: float, deepest: float
     curves = SideCurves.of(gear).shrunk(inset)
     shrinking = min(1.0, (1 - _KEPT_ROUNDING) * curves.tip_rounding / deepest)
     rounding = curves.tip_rounding - shrinking * depth
-    return assemble_side(replace(curves.shrunk(depth), tip_rounding=rounding), gear.pitch_angle).profile()
+    made = assemble_side(replace(curves.shrunk(depth), tip_rounding=rounding), gear.pitch_angle).profile()
+    if shrinking == 1.0 or rounding == 0.0:
+        return made
+    # the centre of its arc moves with the depth: its face is no cone, and curves of any kind are followed by splines
+    period = (
+        Segment(Reversed(s.curve.reversed()), s.label) if isinstance(s.curve, Arc) and s.label is Label.TIP_BREAK else s
+        for s in made.period
+    )
+    return Profile(tuple(period), made.count)
 
 
 def offset_side(gear: SpurGear, offset: float) -> ToothSide:

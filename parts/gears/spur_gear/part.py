@@ -182,7 +182,7 @@ class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
         deepest = max(shape.chamfer_below, shape.chamfer_above)
 
         def outline(moved: float, depth: float) -> Profile:
-            if depth == 0:
+            if depth == 0 and (moved > 0 or deepest == 0):
                 return section(moved).region.outer
             return chamfered_outline(thing, -moved, depth, max(deepest, depth))
 
