@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -63,3 +64,9 @@ def inverse_involute(value: float) -> Root:
         high *= 1.5
     root = bracketed_root(lambda t: _roll_minus_polar(t) - value, low * (1 - 1e-12), high)
     return Root(math.atan(root.value), root.residual, root.iterations, root.bracket)
+
+
+@lru_cache(maxsize=1 << 14)
+def angle_of_involute(value: float) -> float:
+    """``inverse_involute`` for many calls with few values: one root serves all pairs of one sum of shifts."""
+    return inverse_involute(value).value

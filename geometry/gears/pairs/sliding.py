@@ -1,7 +1,8 @@
-"""Sliding of an external pair along its line of action: specific sliding, approach and recess, speeds.
+"""Sliding of a pair along its line of action: specific sliding, approach and recess, speeds.
 
 The first gear drives. Distances are measured along the line of action in the transverse section, mm; the line runs
-from the first gear's base circle (0) to the second's (``line_length``). Source: ISO 21771; practicum, figure 3.11.
+from the first gear's base circle (0) to the second's (``line_length``), which a ring has on the other side of the first
+(``sign`` -1). Source: ISO 21771; practicum, figure 3.11.
 """
 
 from __future__ import annotations
@@ -10,6 +11,8 @@ import math
 from dataclasses import dataclass
 
 from geometry.gears.pairs.external import ExternalPair
+from geometry.gears.pairs.internal import InternalPair
+from geometry.gears.pairs.involute import tangent_length
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +24,7 @@ class ActiveLine:
     end: float
     pole: float
     gear_ratio: float
+    sign: int = 1
 
     @property
     def length(self) -> float:
@@ -39,7 +43,7 @@ class ActiveLine:
 
     def specific_sliding(self, position: float) -> tuple[float, float]:
         """zeta of the first and of the second flank in contact there: 1 - v_t2 / v_t1 and 1 - v_t1 / v_t2."""
-        return specific_sliding(position, self.line_length, self.gear_ratio)
+        return specific_sliding(position, self.line_length, self.gear_ratio, self.sign)
 
     @property
     def root_sliding(self) -> tuple[float, float]:
@@ -53,36 +57,25 @@ class ActiveLine:
 
     def speed_factors(self, first_working_radius: float) -> tuple[float, float]:
         """K_g = v_g / v_t at A and at E: sliding speed as a part of the speed of the working circles."""
-        per_mm = (1 + 1 / self.gear_ratio) / first_working_radius
+        per_mm = (1 + self.sign / self.gear_ratio) / first_working_radius
         return self.approach * per_mm, self.recess * per_mm
 
 
-def active_line(pair: ExternalPair) -> ActiveLine:
+def active_line(pair: ExternalPair | InternalPair) -> ActiveLine:
     """The active part of the line of action, between the ends of the active profiles."""
-    low, high = pair.active_profile_radii[0]
     base = pair.first.base_radius
+    low, high = (tangent_length(r, base) for r in pair.active_profile_radii[0])
     length = pair.working_centre_distance * math.sin(pair.working_pressure_angle)
     pole = base * math.tan(pair.working_pressure_angle)
-    return ActiveLine(length, _along(low, base), _along(high, base), pole, pair.gear_ratio)
+    return ActiveLine(length, low, high, pole, pair.gear_ratio, pair.sign)
 
 
-def specific_sliding(position: float, line_length: float, gear_ratio: float) -> tuple[float, float]:
-    """zeta_1 = 1 - (L - g) / (u g), zeta_2 = 1 - u g / (L - g); -inf where a flank is touched on its base circle."""
-    other = line_length - position
+def specific_sliding(position: float, line_length: float, gear_ratio: float, sign: int = 1) -> tuple[float, float]:
+    """zeta_1 = 1 - (L - g) / (u g), zeta_2 = 1 - u g / (L - g); -inf where a flank is touched on its base circle.
+
+    ``sign`` -1: of a pinion (1) in a ring (2), with g + L for L - g.
+    """
+    other = line_length - sign * position
     first = 1 - other / (gear_ratio * position) if position > 0 else -math.inf
     second = 1 - gear_ratio * position / other if other > 0 else -math.inf
     return first, second
-
-
-def specific_sliding_internal(position: float, line_length: float, gear_ratio: float) -> tuple[float, float]:
-    """The same for a pinion (1) in a ring (2), ``position`` from the pinion's base circle, mm.
-
-    zeta_1 = 1 - (g + L) / (u g), zeta_2 = 1 - u g / (g + L), with u = z_2 / z_1 and L = a_w sin(alpha_w).
-    """
-    other = position + line_length
-    first = 1 - other / (gear_ratio * position) if position > 0 else -math.inf
-    return first, 1 - gear_ratio * position / other
-
-
-def _along(radius: float, base: float) -> float:
-    return math.sqrt(max((radius - base) * (radius + base), 0.0))

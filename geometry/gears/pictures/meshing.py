@@ -20,6 +20,7 @@ from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.pairs.external import ExternalPair
 from geometry.gears.pairs.internal import InternalPair
+from geometry.gears.pairs.involute import tangent_length
 from geometry.gears.pairs.rack import RackPair
 from geometry.gears.teeth.ring_tooth import RingSide
 from geometry.gears.teeth.tooth import ToothSide
@@ -107,92 +108,49 @@ def meshing_picture(pair: Pair) -> MeshingPicture:
     ParameterError
         The flanks do not reach each other: there is no contact to draw.
     """
-    if isinstance(pair, ExternalPair):
-        picture = _external(pair)
-    else:
-        picture = _internal(pair) if isinstance(pair, InternalPair) else _rack(pair)
+    picture = _rack(pair) if isinstance(pair, RackPair) else _gears(pair)
     if not picture.end > picture.start:
         raise ParameterError("mate", picture.end - picture.start, "flanks_do_not_reach")
     return picture
 
 
-def _external(pair: ExternalPair) -> MeshingPicture:
-    angle, a_w = pair.working_pressure_angle, pair.working_centre_distance
-    one, two = (g.base_radius for g in pair.gears)
-    theta, line = math.pi / 2 - angle, a_w * math.sin(angle)
-    low, high = (_along(r, one) for r in pair.active_profile_radii[0])
-    pole, axis = one * math.tan(angle), 1j * a_w
-    spokes = cmath.exp(1j * theta), -cmath.exp(1j * theta)
-    betas = pair.first.base_half_angle, pair.second.base_half_angle
+def _gears(pair: ExternalPair | InternalPair) -> MeshingPicture:
+    angle, a_w, sign = pair.working_pressure_angle, pair.working_centre_distance, pair.sign
+    one, two = pair.first.base_radius, pair.second.base_radius
+    theta, line, axis = math.pi / 2 - angle, a_w * math.sin(angle), sign * 1j * a_w
+    ends, betas = pair.active_profile_radii, (pair.first.base_half_angle, pair.second.base_half_angle)
+    if isinstance(pair, InternalPair):
+        low, high = (tangent_length(r, two) - line for r in ends[1])
+        low, tooth = max(low, 0.0), _ring_tooth(pair.second_side)
+    else:
+        low, high = (tangent_length(r, one) for r in ends[0])
+        tooth = _external_tooth(pair.second_side)
+    pole, spoke = one * math.tan(angle), cmath.exp(1j * theta)
 
     def first(s: float) -> Placement2:
         return Placement2(theta - betas[0] + s / one)
 
     def second(s: float) -> Placement2:
-        return Placement2(theta + math.pi - betas[1] + (line - s) / two, axis)
-
-    bodies = []
-    for index, (gear, place) in enumerate(zip(pair.gears, (first, second), strict=True)):
-        radii = dict(
-            zip(CIRCLES, (gear.tip_radius, pair.working_radii[index], gear.reference_radius, gear.base_radius,
-                          gear.root_radius), strict=True)
-        )  # fmt: skip
-        ends = pair.active_profile_radii[index]
-        side = pair.sides[index]
-        bodies.append(
-            Body(
-                (0j, axis)[index],
-                radii,
-                Placement2(gear.pitch_angle),
-                *_external_tooth(side),
-                _active(side, ends),
-                place,
-            )
-        )
-    back = (pair.working_radii[1], two)
-    shown = pole if low <= pole <= high else (low + high) / 2
-    pitch = Arc(axis, back[0], -math.pi / 2 + (pole - shown) / back[1], pair.second.pitch_angle)
-    arc = Arc(0j, pair.working_radii[0], math.pi / 2 + (low - pole) / one, (high - low) / one)
-    points = one * spokes[0], axis + two * spokes[1]
-    return MeshingPicture(
-        "external", (bodies[0], bodies[1]), angle, points, 1j * spokes[0], low, high, pole, arc, pitch,
-        pair.working_pitch, pair.base_pitch, pair.effective_contact_ratio,
-    )  # fmt: skip
-
-
-def _internal(pair: InternalPair) -> MeshingPicture:
-    angle, a_w = pair.working_pressure_angle, pair.working_centre_distance
-    one, two = pair.pinion.base_radius, pair.ring.base_radius
-    theta, line, axis = math.pi / 2 - angle, a_w * math.sin(angle), -1j * a_w
-    low, high = (_along(r, two) - line for r in pair.active_profile_radii[1])
-    low, pole = max(low, 0.0), one * math.tan(angle)
-    betas = pair.pinion.base_half_angle, pair.ring.base_half_angle
-
-    def first(s: float) -> Placement2:
-        return Placement2(theta - betas[0] + s / one)
-
-    def second(s: float) -> Placement2:
-        return Placement2(theta - betas[1] + (s + line) / two, axis)
+        return Placement2(theta + pair.facing - betas[1] + (line - sign * s) / two, axis)
 
     radii = [
         dict(zip(CIRCLES, (g.tip_radius, w, g.reference_radius, g.base_radius, g.root_radius), strict=True))
-        for g, w in ((pair.pinion, pair.working_radii[0]), (pair.ring, pair.working_radii[1]))
+        for g, w in ((pair.first, pair.working_radii[0]), (pair.second, pair.working_radii[1]))
     ]
-    ends = pair.active_profile_radii
     bodies = (
-        Body(0j, radii[0], Placement2(pair.pinion.pitch_angle), *_external_tooth(pair.sides[0]),
-             _active(pair.sides[0], ends[0]), first),
-        Body(axis, radii[1], Placement2(pair.ring.pitch_angle), *_ring_tooth(pair.sides[1]),
-             _active(pair.sides[1], ends[1]), second),
+        Body(0j, radii[0], Placement2(pair.first.pitch_angle), *_external_tooth(pair.first_side),
+             _active(pair.first_side, ends[0]), first),
+        Body(axis, radii[1], Placement2(pair.second.pitch_angle), *tooth, _active(pair.second_side, ends[1]), second),
     )  # fmt: skip
     shown = pole if low <= pole <= high else (low + high) / 2
-    turned = math.pi / 2 + (shown - pole) / two
-    pitch = Arc(axis, pair.working_radii[1], turned - pair.ring.pitch_angle, pair.ring.pitch_angle)
+    # a ring's pitch ends where another's begins
+    begun = -sign * math.pi / 2 + sign * (pole - shown) / two
+    begun = begun if sign > 0 else begun - pair.second.pitch_angle
+    pitch = Arc(axis, pair.working_radii[1], begun, pair.second.pitch_angle)
     arc = Arc(0j, pair.working_radii[0], math.pi / 2 + (low - pole) / one, (high - low) / one)
-    spoke = cmath.exp(1j * theta)
     return MeshingPicture(
-        "internal", bodies, angle, (one * spoke, axis + two * spoke), 1j * spoke, low, high, pole, arc, pitch,
-        pair.working_pitch, pair.base_pitch, pair.effective_contact_ratio,
+        "external" if sign > 0 else "internal", bodies, angle, (one * spoke, axis - sign * two * spoke), 1j * spoke,
+        low, high, pole, arc, pitch, pair.working_pitch, pair.base_pitch, pair.effective_contact_ratio,
     )  # fmt: skip
 
 
@@ -284,7 +242,3 @@ def _between(line: Curve, low: float, high: float) -> Curve:
     start, end = (complex(line.point(t)) for t in (0.0, 1.0))
     places = sorted((x - start.real) / (end.real - start.real) for x in (low, high))
     return line.trimmed(*places)
-
-
-def _along(radius: float, base: float) -> float:
-    return math.sqrt(max((radius - base) * (radius + base), 0.0))

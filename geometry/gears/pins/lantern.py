@@ -21,9 +21,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from geometry.base.errors import CuspError, GeometryError, OffsetError, ParameterError, PointedTipError, limit
+from geometry.base.errors import CuspError, OffsetError, ParameterError, PointedTipError, limit
 from geometry.base.findings import Finding
-from geometry.base.nearest import last_that_holds, nearest
+from geometry.base.nearest import nearest
 from geometry.base.placement import Placement2
 from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Complex, Real, end_point, start_point
@@ -31,7 +31,7 @@ from geometry.curves.cycloid import EpicycloidParallel
 from geometry.curves.line_arc import Arc
 from geometry.gears.teeth.offset import grown_side
 from geometry.gears.teeth.tooth import ToothSide
-from geometry.plane.offset_region import OffsetRegion
+from geometry.plane.offset_region import OffsetRegion, moved_teeth
 from geometry.plane.profile import Label, Region, Segment
 from geometry.solids.hub_holes import HubHoles
 
@@ -296,16 +296,7 @@ def lantern_region(gear: LanternGear, offset: float = 0.0) -> OffsetRegion:
     OffsetError
         Names the nearest offset that works.
     """
-    if not math.isfinite(offset):
-        raise OffsetError(offset, "not_finite", 0.0)
-    try:
-        return _region(gear, offset)
-    except GeometryError as refusal:
-        if offset == 0:
-            raise
-        code = "closes_tooth_spaces" if offset > 0 else "leaves_no_tooth"
-        works = last_that_holds(partial(_region, gear), offset)
-        raise OffsetError(offset, refusal.reason if isinstance(refusal, OffsetError) else code, works) from refusal
+    return moved_teeth(partial(_region, gear), offset)
 
 
 def _region(gear: LanternGear, offset: float) -> OffsetRegion:

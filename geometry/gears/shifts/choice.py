@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import math
-
-from geometry.base.angles import involute_function
-from geometry.base.errors import ParameterError, limit
+from geometry.gears.pairs.involute import Sums
 from geometry.gears.shifts.external import Requirements, ShiftPair
 from geometry.gears.shifts.finder import for_sum
 from geometry.gears.teeth.spur import SpurGear
@@ -19,13 +16,7 @@ def shift_sum_for_distance(first: SpurGear, second: SpurGear, working_centre_dis
     ParameterError
         The distance is not beyond the sum of the base radii: no working angle exists.
     """
-    base = first.base_radius + second.base_radius
-    if not working_centre_distance >= base:
-        least = limit(base, working_centre_distance, digits=6)
-        raise ParameterError("working_centre_distance", working_centre_distance, "no_working_angle", least)
-    alpha = first.rack.pressure_angle
-    gain = involute_function(math.acos(base / working_centre_distance)) - involute_function(alpha)
-    return (first.number_of_teeth + second.number_of_teeth) * gain / (2 * math.tan(alpha))
+    return Sums.of(first, second).shift_at(working_centre_distance)
 
 
 def shifts_for_distance(

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from geometry.base.angles import inverse_involute, involute_function
+from geometry.base.angles import angle_of_involute, involute_function
 from geometry.base.errors import ConvergenceError
 from geometry.curves.implicit import Box, level_lines
 from geometry.gears.teeth.basic_rack import BasicRack
@@ -84,7 +84,7 @@ def state_of(pair: ShiftPair, x1: float, x2: float) -> PairState:
     if not involute >= 0:
         nans = (_NAN, _NAN)
         return PairState(involute, _NAN, _NAN, _NAN, _NAN, nans, nans, nans, _NAN, _NAN)
-    angle = _working_angle(involute)
+    angle = angle_of_involute(involute)
     distance = teeth / 2 * cosine / math.cos(angle)
     shortening = x1 + x2 - (distance - teeth / 2)
     cut = max(shortening, 0.0) if pair.shortened_tips else 0.0
@@ -108,12 +108,6 @@ def state_of(pair: ShiftPair, x1: float, x2: float) -> PairState:
         (tips[0] + tips[1] - line) / (math.pi * cosine),
         shortening,
     )
-
-
-@lru_cache(maxsize=1 << 14)
-def _working_angle(involute: float) -> float:
-    """One root serves all pairs of one sum of shifts."""
-    return inverse_involute(involute).value
 
 
 @lru_cache(maxsize=1 << 14)

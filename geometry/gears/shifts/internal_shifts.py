@@ -11,8 +11,9 @@ import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from geometry.base.angles import inverse_involute, involute_function
+from geometry.base.angles import angle_of_involute, involute_function
 from geometry.base.errors import ConvergenceError, ParameterError
+from geometry.gears.pairs.sliding import specific_sliding
 from geometry.gears.teeth.basic_rack import BasicRack
 from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.internal_mesh import InternalMesh
@@ -121,9 +122,8 @@ class InternalState:
 
     def root_sliding(self, gear_ratio: float) -> tuple[float, float]:
         """zeta_f1 at the start and zeta_f2 at the end of the active line; -inf where a base circle is reached."""
-        low, high, line = self.start, self.end, self.line
-        first = 1 - (low + line) / (gear_ratio * low) if low > 0 else -math.inf
-        return first, 1 - gear_ratio * high / (high + line)
+        starts, ends = (specific_sliding(at, self.line, gear_ratio, -1) for at in (self.start, self.end))
+        return starts[0], ends[1]
 
 
 @lru_cache(maxsize=1 << 14)
@@ -199,19 +199,13 @@ def internal_state(pair: InternalShiftPair, x1: float, x2: float) -> InternalSta
     involute = involute_function(alpha) + 2 * (x2 - x1) * math.tan(alpha) / difference
     if not involute >= 0:
         return InternalState(involute, one, two, _NAN, _NAN, _NAN, _NAN, _NAN, _NAN, _NAN)
-    angle = _working_angle(involute)
+    angle = angle_of_involute(involute)
     distance = difference / 2 * math.cos(alpha) / math.cos(angle)
     line = distance * math.sin(angle)
     start, end = two.tip_tangent - line, one.tip_tangent
     pole = pair.first_teeth / 2 * math.cos(alpha) * math.tan(angle)
     ratio = (end - start) / (math.pi * math.cos(alpha))
     return InternalState(involute, one, two, angle, distance, line, pole, start, end, ratio)
-
-
-@lru_cache(maxsize=1 << 14)
-def _working_angle(involute: float) -> float:
-    """One root serves all pairs of one x2 - x1."""
-    return inverse_involute(involute).value
 
 
 @lru_cache(maxsize=1 << 14)

@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from geometry.base.angles import involute_function, roll_minus_polar
+from geometry.base.angles import inverse_involute, involute_function, roll_minus_polar
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.roots import bracketed_root
 from geometry.base.tolerance import TOLERANCES
@@ -22,6 +22,23 @@ CUTTER_ADDENDUM = 1.25
 MOST_CUTTER_TEETH = 10_000
 # modules; the corner that shaper cutters commonly have where the tooth has room for it
 CUTTER_ROUNDING = 0.2
+
+
+def cutting_angle(alpha: float, shift: float, teeth: int, own_shift: float) -> float:
+    """alpha_w0 of a cut without backlash, rad: inv(alpha_w0) = inv(alpha) + 2 x tan(alpha) / z.
+
+    ``shift`` and ``teeth``: sums of the gear's and the cutter's, of a ring differences; ``own_shift``: the gear's.
+
+    Raises
+    ------
+    ParameterError
+        No such angle exists; names the least shift that has one.
+    """
+    value = involute_function(alpha) + 2 * shift * math.tan(alpha) / teeth
+    if value < 0:
+        least = limit(own_shift - value * teeth / (2 * math.tan(alpha)), own_shift)
+        raise ParameterError("profile_shift_coefficient", own_shift, "no_working_angle_with_cutter", least)
+    return inverse_involute(value).value
 
 
 @dataclass(frozen=True)

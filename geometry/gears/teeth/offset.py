@@ -16,16 +16,18 @@ import numpy as np
 
 from geometry.base.errors import GeometryError, OffsetError
 from geometry.base.findings import Finding
+from geometry.base.nearest import last_that_holds
 from geometry.base.roots import bracketed_root
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Curve, Reversed, end_point, start_point
 from geometry.curves.fillet import Fillet
 from geometry.curves.intersect import first_above
 from geometry.curves.line_arc import Arc
+from geometry.gears.teeth.moved_segments import corner_arc, kept_from
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import SideCurves, ToothSide, assemble_side, tooth_side
 from geometry.plane.offset_region import OffsetRegion
-from geometry.plane.profile import Label, Profile, Region, Segment, joint_turn
+from geometry.plane.profile import Label, Profile, Region, Segment
 
 _SAMPLES = 65
 # share of a tip rounding's radius that is left at the edge of the deepest face chamfer
@@ -75,7 +77,7 @@ def offset_side(gear: SpurGear, offset: float) -> ToothSide:
         return _moved_side(gear, offset)
     except GeometryError as refusal:
         tooth_side(gear)
-        limit = _largest_offset(gear, offset)
+        limit = last_that_holds(lambda moved: (_moved_side(gear, moved), gear.holes.profiles(moved)), offset)
         word = "closes_tooth_spaces" if offset > 0 else "leaves_no_tooth"
         raise OffsetError(offset, refusal.reason if isinstance(refusal, OffsetError) else word, limit) from refusal
 
@@ -86,20 +88,6 @@ def _moved_side(gear: SpurGear, offset: float) -> ToothSide:
             raise OffsetError(offset, "leaves_no_rim", 0.0)
         return assemble_side(SideCurves.of(gear).shrunk(-offset), gear.pitch_angle, blunt=True)
     return grown_side(tooth_side(gear), offset)
-
-
-def _largest_offset(gear: SpurGear, refused: float) -> float:
-    """The offset nearest to a refused one that works, by bisection, to a millionth of it."""
-    works, fails = 0.0, refused
-    for _ in range(24):
-        middle = (works + fails) / 2
-        try:
-            _moved_side(gear, middle)
-            gear.holes.profiles(middle)
-            works = middle
-        except GeometryError:
-            fails = middle
-    return works
 
 
 def grown_side(side: ToothSide, distance: float) -> ToothSide:
@@ -123,10 +111,7 @@ def _with_corner_arcs(segments: tuple[Segment, ...], distance: float) -> list[Se
     """Every segment moved outwards, an arc about each convex corner, the tip closed on the centre line."""
     moved: list[Segment] = []
     for index, segment in enumerate(segments):
-        if index and (turn := joint_turn(segments[index - 1].curve, segment.curve)) > TOLERANCES.smooth_angle:
-            arriving = complex(segments[index - 1].curve.tangent(segments[index - 1].curve.domain[1]))
-            centre = start_point(segment.curve)
-            moved.append(Segment(Arc(centre, distance, cmath.phase(arriving) - math.pi / 2, turn), Label.CORNER))
+        moved += corner_arc(segments[index - 1].curve, segment.curve, distance) if index else []
         moved.append(Segment(_grown(segment.curve, distance), segment.label))
     last = segments[-1].curve
     if segments[-1].label is not Label.TIP_LAND:
@@ -198,9 +183,4 @@ def _above_centre_line(
 def _from_first_above(pieces: list[Segment], height: Callable[[complex], float]) -> list[Segment] | None:
     """The pieces from the first point at which ``height`` becomes positive."""
     found = first_above([p.curve for p in pieces], height)
-    if found is None:
-        return None
-    index, at = found
-    curve, label = pieces[index].curve, pieces[index].label
-    rest = pieces[index + 1 :]
-    return [Segment(curve.trimmed(at, curve.domain[1]), label), *rest] if at < curve.domain[1] else rest
+    return None if found is None else kept_from(pieces, found)

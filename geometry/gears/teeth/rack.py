@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import pairwise
 
-from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError, PointedTipError, limit
+from geometry.base.errors import Nearest, OffsetError, ParameterError, PointedTipError, limit
 from geometry.base.findings import Finding
 from geometry.base.placement import Placement2
 from geometry.base.tolerance import TOLERANCES
@@ -24,7 +24,7 @@ from geometry.gears.teeth.limits import check_dimensions
 from geometry.gears.teeth.rack_fillet import root_fillet
 from geometry.gears.teeth.rack_holes import RackHoles
 from geometry.gears.teeth.transverse import transverse_rack
-from geometry.plane.offset_region import OffsetRegion
+from geometry.plane.offset_region import OffsetRegion, moved_teeth
 from geometry.plane.profile import Label, Profile, Region, Segment
 
 # share of a length at which a tip would vanish
@@ -258,25 +258,7 @@ def rack_region(rack: Rack, offset: float = 0.0) -> OffsetRegion:
         The rack cannot exist, or the offset closes the spaces or leaves no tooth or body; the nearest that works is
         named.
     """
-    if not math.isfinite(offset):
-        raise OffsetError(offset, "not_finite", 0.0)
-    try:
-        return _region(rack, offset)
-    except GeometryError as refusal:
-        if offset == 0:
-            raise
-        _region(rack, 0.0)
-        works, fails = 0.0, offset
-        for _ in range(24):
-            middle = (works + fails) / 2
-            try:
-                _region(rack, middle)
-                works = middle
-            except GeometryError:
-                fails = middle
-        word = "closes_tooth_spaces" if offset > 0 else "leaves_no_tooth"
-        reason = refusal.reason if isinstance(refusal, OffsetError) else word
-        raise OffsetError(offset, reason, works) from refusal
+    return moved_teeth(partial(_region, rack), offset)
 
 
 def _region(rack: Rack, offset: float) -> OffsetRegion:

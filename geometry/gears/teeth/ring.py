@@ -10,11 +10,11 @@ import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from geometry.base.angles import inverse_involute, involute_function
-from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.angles import involute_function
+from geometry.base.errors import Nearest, ParameterError
 from geometry.curves.cutter_fillet import CutterFillet
 from geometry.curves.involute import Involute
-from geometry.gears.teeth.cutter import PinionCutter
+from geometry.gears.teeth.cutter import PinionCutter, cutting_angle
 from geometry.solids.hub_holes import HubHoles
 
 
@@ -135,12 +135,7 @@ class RingGear:
             most = Nearest(self.number_of_teeth - 1, "at_most")
             raise ParameterError("cutter.number_of_teeth", cutter.number_of_teeth, "not_below_ring_teeth", most)
         shift = self.generating_shift_coefficient - cutter.profile_shift_coefficient
-        value = involute_function(alpha) + 2 * shift * math.tan(alpha) / difference
-        if value < 0:
-            least = self.profile_shift_coefficient - value * difference / (2 * math.tan(alpha))
-            x = self.profile_shift_coefficient
-            raise ParameterError("profile_shift_coefficient", x, "no_working_angle_with_cutter", limit(least, x))
-        return inverse_involute(value).value
+        return cutting_angle(alpha, shift, difference, self.profile_shift_coefficient)
 
     @cached_property
     def generating_distance(self) -> float:

@@ -9,10 +9,11 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
-from geometry.base.errors import CuspError, GeometryError, OffsetError
+from geometry.base.errors import CuspError, OffsetError
 from geometry.base.findings import Finding
 from geometry.base.roots import bracketed_root
 from geometry.base.tolerance import TOLERANCES
@@ -20,11 +21,12 @@ from geometry.curves.curve import Curve, Reversed, end_point, start_point
 from geometry.curves.cutter_fillet import CutterFillet
 from geometry.curves.intersect import first_above
 from geometry.curves.line_arc import Arc
+from geometry.gears.teeth.moved_segments import corner_arc, kept_from
 from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.ring_limits import rim_walls
 from geometry.gears.teeth.ring_tooth import RingCurves, RingSide, assemble_ring_side, ring_side
-from geometry.plane.offset_region import OffsetRegion
-from geometry.plane.profile import Label, Region, Segment, circle, joint_turn
+from geometry.plane.offset_region import OffsetRegion, moved_teeth
+from geometry.plane.profile import Label, Region, Segment, circle
 
 _SAMPLES = 65
 
@@ -38,17 +40,7 @@ def ring_region(gear: RingGear, offset: float = 0.0) -> OffsetRegion:
         The ring cannot exist, or the offset closes the spaces or leaves no tooth or rim; the nearest offset that
         works is named.
     """
-    if not math.isfinite(offset):
-        raise OffsetError(offset, "not_finite", 0.0)
-    try:
-        return _section(gear, offset)
-    except GeometryError as refusal:
-        if offset == 0:
-            raise
-        _section(gear, 0.0)
-        word = "closes_tooth_spaces" if offset > 0 else "leaves_no_tooth"
-        reason = refusal.reason if isinstance(refusal, OffsetError) else word
-        raise OffsetError(offset, reason, _largest_offset(gear, offset)) from refusal
+    return moved_teeth(partial(_section, gear), offset)
 
 
 def _section(gear: RingGear, offset: float) -> OffsetRegion:
@@ -71,19 +63,6 @@ def _moved_side(gear: RingGear, offset: float) -> RingSide:
     return grown_ring_side(ring_side(gear), offset)
 
 
-def _largest_offset(gear: RingGear, refused: float) -> float:
-    """The offset nearest to a refused one that works, by bisection, to a millionth of it."""
-    works, fails = 0.0, refused
-    for _ in range(24):
-        middle = (works + fails) / 2
-        try:
-            _section(gear, middle)
-            works = middle
-        except GeometryError:
-            fails = middle
-    return works
-
-
 def grown_ring_side(side: RingSide, distance: float) -> RingSide:
     """A side moved ``distance`` mm out of the material."""
     findings = list(side.findings)
@@ -104,10 +83,7 @@ def _with_corner_arcs(segments: tuple[Segment, ...], distance: float, pitch: flo
     """Every segment moved out of the material, an arc about each convex corner, the tooth closed on its centre line."""
     moved: list[Segment] = []
     for index, segment in enumerate(segments):
-        if index and (turn := joint_turn(segments[index - 1].curve, segment.curve)) > TOLERANCES.smooth_angle:
-            arriving = complex(segments[index - 1].curve.tangent(segments[index - 1].curve.domain[1]))
-            centre = start_point(segment.curve)
-            moved.append(Segment(Arc(centre, distance, cmath.phase(arriving) - math.pi / 2, turn), Label.CORNER))
+        moved += corner_arc(segments[index - 1].curve, segment.curve, distance) if index else []
         moved += _grown(segment, distance)
     last = segments[-1].curve
     if segments[-1].label is not Label.TIP_LAND:
@@ -161,18 +137,11 @@ def _joined_to_root(pieces: list[Segment], radius: float) -> tuple[list[Segment]
     found = first_above([p.curve for p in pieces], lambda point: radius - abs(point))
     if found is None:
         raise OffsetError(radius, "closes_tooth_spaces", 0.0)
-    kept = _from(pieces, found)
+    kept = kept_from(pieces, found)
     angle = cmath.phase(start_point(kept[0].curve))
     if angle >= -TOLERANCES.relative_length:
         return kept, None
     return kept, Segment(Arc(0j, radius, 0.0, angle), Label.ROOT_LAND)
-
-
-def _from(pieces: list[Segment], found: tuple[int, float]) -> list[Segment]:
-    index, at = found
-    curve, label = pieces[index].curve, pieces[index].label
-    rest = pieces[index + 1 :]
-    return [Segment(curve.trimmed(at, curve.domain[1]), label), *rest] if at < curve.domain[1] else rest
 
 
 def _below_centre_line(pieces: list[Segment], bottom: float, findings: list[Finding]) -> list[Segment]:
@@ -183,7 +152,7 @@ def _below_centre_line(pieces: list[Segment], bottom: float, findings: list[Find
     found = first_above([p.curve for p in pieces], lambda point: -point.imag)
     if found is None or found[0] == len(pieces) - 1:
         raise OffsetError(bottom, "closes_tooth_spaces", 0.0)
-    kept = _from(pieces, found)
+    kept = kept_from(pieces, found)
     findings.append(Finding("space_shallowed", abs(start_point(kept[0].curve)), bottom))
     return kept
 

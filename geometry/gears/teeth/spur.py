@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from geometry.base.angles import inverse_involute, involute_function
-from geometry.base.errors import ParameterError, limit
+from geometry.base.angles import involute_function
 from geometry.curves.involute import Involute
 from geometry.curves.trochoid import TrochoidFillet
 from geometry.gears.teeth.basic_rack import BasicRack
@@ -79,14 +78,11 @@ class SpurGear:
         alpha = self.rack.pressure_angle
         if self.cutter is None:
             return alpha
+        from geometry.gears.teeth.cutter import cutting_angle
+
         shift = self.generating_shift_coefficient + self.cutter.profile_shift_coefficient
         teeth = self.number_of_teeth + self.cutter.number_of_teeth
-        value = involute_function(alpha) + 2 * shift * math.tan(alpha) / teeth
-        if value < 0:
-            least = self.profile_shift_coefficient - value * teeth / (2 * math.tan(alpha))
-            x = self.profile_shift_coefficient
-            raise ParameterError("profile_shift_coefficient", x, "no_working_angle_with_cutter", limit(least, x))
-        return inverse_involute(value).value
+        return cutting_angle(alpha, shift, teeth, self.profile_shift_coefficient)
 
     @property
     def generating_distance(self) -> float:

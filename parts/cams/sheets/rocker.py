@@ -73,16 +73,20 @@ def name_rocker(labels: Labeller, picture: CamPicture, paper: Paper, least: comp
     to, say = paper.point, picture.say
     kept = say(picture.least_curvature_radius).rstrip("0").rstrip(",.") or "0"
     labels.name(f"ρ_{{min}} = {kept}", to(least), SMALL_TEXT, prefer=1 + 0j)
+    name_numbers(labels, picture, [to(contact) for _, contact in faces(picture)], to(least))
+
+
+def name_numbers(labels: Labeller, picture: CamPicture, places: list[complex], centre: complex) -> None:
+    """The numbers of the positions at their places on paper, away from a centre; those of one place together."""
     found: list[tuple[list[int], complex]] = []
-    for position, (_, contact) in zip(picture.positions, faces(picture), strict=True):
-        place = to(contact)
+    for position, place in zip(picture.positions, places, strict=True):
         near = next((numbers for numbers, other in found if abs(other - place) < 0.7), None)
         if near is None:
             found.append(([position.number], place))
         else:
             near.append(position.number)
     for numbers, place in found:
-        labels.name(", ".join(map(str, numbers)), place, SMALL_TEXT, prefer=place - to(least))
+        labels.name(", ".join(map(str, numbers)), place, SMALL_TEXT, prefer=place - centre)
 
 
 def faces_box(picture: CamPicture) -> Box:

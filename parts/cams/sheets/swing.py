@@ -18,7 +18,7 @@ from geometry.cams.plane.synthesis import oscillating_axis
 from geometry.curves.line_arc import Arc
 from parts.cams.sheets.diagrams import Drawn
 from parts.cams.sheets.picture import CamPicture
-from parts.cams.sheets.rocker import draw_faces, faces_box, name_rocker, rocker_region
+from parts.cams.sheets.rocker import draw_faces, faces_box, name_numbers, name_rocker, rocker_region
 from parts.drawing.canvas import SMALL_TEXT, Box, Canvas, Paper
 from parts.drawing.labels import Labeller
 
@@ -207,13 +207,4 @@ def name_swing(labels: Labeller, picture: CamPicture, swing: Swing, paper: Paper
         symbol = "γ_{min}" if picture.asked else "γ"
         text = f"{symbol} = {say(math.degrees(picture.gamma)).rstrip('0').rstrip(',.')}°"
         labels.name(text, to(swing.least + 0.25 * (swing.lowest - swing.least)), prefer=1 + 0j)
-    found: list[tuple[list[int], complex]] = []
-    for position, (foot, _) in zip(picture.positions, _arms(picture), strict=True):
-        place = to(foot)
-        near = next((numbers for numbers, other in found if abs(other - place) < 0.7), None)
-        if near is None:
-            found.append(([position.number], place))
-        else:
-            near.append(position.number)
-    for numbers, place in found:
-        labels.name(", ".join(map(str, numbers)), place, SMALL_TEXT, prefer=place - to(swing.pivot))
+    name_numbers(labels, picture, [to(foot) for foot, _ in _arms(picture)], to(swing.pivot))

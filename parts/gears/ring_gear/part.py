@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from msgspec import Meta, Struct
 
 from parts.base.kind import Kind, Others, Report
+from parts.gears.quantities import circles, tooth_quantities
 from parts.keys.base import degrees, either, in_modules, mm
 from parts.keys.cutter import CutterTable, cutter_of
 from parts.keys.helix import (
     ToothedKeys,
     checked_teeth,
     helix_of,
-    helix_quantities,
     section_finding,
     told_in_keys,
 )
@@ -197,23 +197,10 @@ class RingGearKind(Kind[RingGearSpec, "RingGear"]):
         """Diameters and thicknesses, the cutter, what is poor."""
         from geometry.gears.teeth.ring_limits import findings, root_form_diameter, tip_thickness
 
-        circles = {
-            "tip_diameter": 2 * thing.tip_radius,
-            "reference_diameter": 2 * thing.reference_radius,
-            "base_diameter": 2 * thing.base_radius,
-            "root_form_diameter": root_form_diameter(thing),
-            "root_diameter": 2 * thing.root_radius,
-        }
-        quantities = {
-            "pitch": math.pi * thing.module,
-            "tooth_thickness": thing.reference_thickness,
-            "tip_tooth_thickness": tip_thickness(thing),
-            **helix_quantities(keys, thing.reference_radius),
-            **_cutter_quantities(keys, thing),
-        }
+        quantities = {**tooth_quantities(keys, thing, tip_thickness(thing)), **_cutter_quantities(keys, thing)}
         tip = tip_finding(thing, keys.module)
         found = (*(() if tip is None else (tip,)), *findings(thing))
-        return Report(found, circles, quantities, section_finding(keys))
+        return Report(found, circles(thing, root_form_diameter(thing)), quantities, section_finding(keys))
 
 
 RING_GEAR = RingGearKind()

@@ -30,13 +30,13 @@ from geometry.solids.wheel import WheelShape, wheel_body, wheel_sections
 from parts.base.kind import Kind, Others, Report
 from parts.base.schema import replaced
 from parts.base.texts import N_
+from parts.gears.quantities import circles, tooth_quantities
 from parts.keys.base import BoreDiameter, either, in_modules, mm
 from parts.keys.cutter import CutterTable, PressureAngle, RackName, cutter_of
 from parts.keys.helix import (
     ToothedKeys,
     checked_teeth,
     helix_of,
-    helix_quantities,
     section_finding,
     told_in_keys,
 )
@@ -194,20 +194,9 @@ class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
 
     def report(self, keys: SpurGearSpec, thing: SpurGear) -> Report:
         """Diameters and thicknesses, what is poor."""
-        circles = {
-            "tip_diameter": 2 * thing.tip_radius,
-            "reference_diameter": 2 * thing.reference_radius,
-            "base_diameter": 2 * thing.base_radius,
-            "root_form_diameter": root_form_diameter(thing),
-            "root_diameter": 2 * thing.root_radius,
-        }
-        quantities = {
-            "pitch": math.pi * thing.module,
-            "tooth_thickness": thing.reference_thickness,
-            "tip_tooth_thickness": tip_thickness(thing),
-            **helix_quantities(keys, thing.reference_radius),
-        }
-        return Report((*rack_findings(keys, thing), *findings(thing)), circles, quantities, section_finding(keys))
+        found = (*rack_findings(keys, thing), *findings(thing))
+        quantities = tooth_quantities(keys, thing, tip_thickness(thing))
+        return Report(found, circles(thing, root_form_diameter(thing)), quantities, section_finding(keys))
 
 
 SPUR_GEAR = SpurGearKind()

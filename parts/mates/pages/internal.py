@@ -11,7 +11,7 @@ from msgspec import Struct
 from geometry.base.angles import involute_function
 from geometry.base.errors import Nearest, ParameterError
 from geometry.gears.pairs.internal import InternalPair, shift_difference
-from geometry.gears.pairs.sliding import specific_sliding_internal
+from geometry.gears.pairs.sliding import active_line
 from geometry.gears.teeth import limits, ring_limits
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.transverse_ring import transverse_ring
@@ -302,18 +302,13 @@ def _internal_contact(page: Sheet, pair: InternalPair, helical: Helical) -> None
     page.both("active_tip_diameter", (2 * active[0][1], 2 * active[1][0]), "", ISO)
     page.both("tip_form_diameter", (2 * tips[0], 2 * tips[1]), "", ISO)
     page.section(N_("Line of action and sliding"))
-    line = pair.working_centre_distance * math.sin(pair.working_pressure_angle)
-    page.add("line_of_action_length", line, "{a_w} * sin({alpha_w})", "practicum, fig. 3.5")
-    base = pair.pinion.base_radius
-    low, high = (math.sqrt(max(r * r - base * base, 0.0)) for r in active[0])
-    pole = base * math.tan(pair.working_pressure_angle)
-    page.add("active_line_length", high - low, "", "practicum, fig. 3.11")
-    page.add("approach_length", pole - low, "", "ISO 21771")
-    page.add("recess_length", high - pole, "{g} - {g_f}", "ISO 21771")
-    starts = specific_sliding_internal(low, line, pair.gear_ratio)
-    ends = specific_sliding_internal(high, line, pair.gear_ratio)
-    page.both("root_sliding", (starts[0], ends[1]), "", ISO)
-    page.both("tip_sliding", (ends[0], starts[1]), "", ISO)
+    line = active_line(pair)
+    page.add("line_of_action_length", line.line_length, "{a_w} * sin({alpha_w})", "practicum, fig. 3.5")
+    page.add("active_line_length", line.length, "", "practicum, fig. 3.11")
+    page.add("approach_length", line.approach, "", "ISO 21771")
+    page.add("recess_length", line.recess, "{g} - {g_f}", "ISO 21771")
+    page.both("root_sliding", line.root_sliding, "", ISO)
+    page.both("tip_sliding", line.tip_sliding, "", ISO)
     backlash_steps(page, pair, pair.circumferential_backlash, helical)
 
 

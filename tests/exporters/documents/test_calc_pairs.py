@@ -9,7 +9,7 @@ import pytest
 
 from exporters.documents.render import FORMATS, render
 from exporters.documents.topics import calculate
-from geometry.gears.pairs.sliding import specific_sliding_internal
+from geometry.gears.pairs.sliding import specific_sliding
 from parts.base.refusal import SceneError
 from parts.base.texts import words
 from parts.scene.load import load_scene, make_parts
@@ -99,12 +99,12 @@ def test_sliding_vanishes_at_the_pole_and_is_that_of_speeds() -> None:
     pair = mating.pair
     line = pair.working_centre_distance * 0.3420201433256687
     pole = pair.pinion.base_radius * 0.36397023426620236
-    assert specific_sliding_internal(pole, line, pair.gear_ratio) == pytest.approx((0, 0), abs=1e-12)
+    assert specific_sliding(pole, line, pair.gear_ratio, -1) == pytest.approx((0, 0), abs=1e-12)
     # speeds of both flanks along themselves: omega times the distance from their base circles
     for s in (pole - 5, pole + 5):
         one, two = s, (s + line) / pair.gear_ratio
         wanted = (1 - two / one, 1 - one / two)
-        assert specific_sliding_internal(s, line, pair.gear_ratio) == pytest.approx(wanted, rel=1e-12)
+        assert specific_sliding(s, line, pair.gear_ratio, -1) == pytest.approx(wanted, rel=1e-12)
 
 
 @pytest.mark.parametrize(

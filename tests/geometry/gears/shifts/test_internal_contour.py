@@ -15,7 +15,7 @@ from geometry.base.errors import GeometryError
 from geometry.curves.implicit import Box
 from geometry.gears.mesh.gears import GearMesh
 from geometry.gears.pairs.internal import InternalPair, internal_pair
-from geometry.gears.pairs.sliding import specific_sliding_internal
+from geometry.gears.pairs.sliding import specific_sliding
 from geometry.gears.shifts.external import BlockingContour, ContourLine
 from geometry.gears.shifts.finder import greatest_contact_ratio, least_wear
 from geometry.gears.shifts.internal import (
@@ -90,8 +90,8 @@ def checks(pair: InternalShiftPair, x1: float, x2: float) -> dict[str, float]:
     (low, high), line = made.mesh.base_radii, made.working_centre_distance * math.sin(made.working_pressure_angle)
     tip, ring_tip = made.tip_form_radii
     start, end = math.sqrt(max(ring_tip**2 - high**2, 0)) - line, math.sqrt(tip**2 - low**2)
-    feet = (specific_sliding_internal(start, line, made.gear_ratio)[0],
-            specific_sliding_internal(end, line, made.gear_ratio)[1])  # fmt: skip
+    feet = (specific_sliding(start, line, made.gear_ratio, -1)[0],
+            specific_sliding(end, line, made.gear_ratio, -1)[1])  # fmt: skip
     return found | {"approach": pole - start, "recess": end - pole, "equal_sliding": feet[1] - feet[0]}
 
 
