@@ -11,9 +11,17 @@ from xml.etree import ElementTree
 import numpy as np
 
 from parts.base.readback import ReadError
+from parts.drawing.canvas import STYLES
 from parts.drawing.readback import PER_CURVE, ReadSheet, ReadText
 
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+_KNOWN = {
+    "svg": {"width", "height", "viewBox", "version"},
+    "g": {"id", "style"},
+    "path": {"d"},
+    "text": {"x", "y", "style", "textLength", "lengthAdjust"},
+}
+_GROUND = {"width": "100%", "height": "100%", "style": "fill:#ffffff"}
 _SVG = "{http://www.w3.org/2000/svg}"
 
 
@@ -29,13 +37,19 @@ def read_sheet(file: Path) -> ReadSheet:
 
 
 def _read_dxf(file: Path) -> ReadSheet:
-    from exporters.formats.read_drawing import DrawnArc, DrawnLine, drawn, opened
+    from exporters.formats.read_drawing import DrawnArc, DrawnLine, drawn, look_of, opened
 
     document = opened(file, audit=False)
-    for entity in document.modelspace():
-        if entity.dxf.layer not in document.layers:
-            raise ReadError(f"layer {entity.dxf.layer} is not in the layer table")
     curves, words = drawn(document, "sheet")
+    for name in {entity.layer for entity in (*curves, *words)}:
+        style = STYLES.get(name)
+        if style is None:
+            raise ReadError(f"layer {name} does not belong on a sheet")
+        colour, line = look_of(document, name)
+        lengths = [abs(tag.value) for tag in document.linetypes.get(line).pattern_tags.tags if tag.code == 49]
+        weight = document.layers.get(name).dxf.lineweight
+        if (colour, lengths, weight) != (style.aci, list(style.dashes), round(100 * style.width)):
+            raise ReadError(f"layer {name} looks otherwise than it should")
     sheet, share = ReadSheet(), np.linspace(0, 1, PER_CURVE)
     for curve in curves:
         match curve:
@@ -53,26 +67,57 @@ def _read_dxf(file: Path) -> ReadSheet:
 
 
 def _read_svg(file: Path) -> ReadSheet:
+    from exporters.formats.read_svg import root_of
+
     try:
-        root = ElementTree.parse(file).getroot()
+        root = root_of(file)
     except (ElementTree.ParseError, OSError) as error:
         raise ReadError(f"is not an SVG file: {error}") from error
+    _check_known(root)
     sizes = root.get("viewBox", "").split()
     if len(sizes) != 4 or root.get("width") != f"{sizes[2]}mm" or root.get("height") != f"{sizes[3]}mm":
         raise ReadError("has no size in mm that its view box agrees with")
     height, sheet = float(sizes[3]), ReadSheet()
     for group in root.findall(f"{_SVG}g"):
         layer = group.get("id", "")
+        if group.get("style", "") != _look(layer):
+            raise ReadError(f"layer {layer} looks otherwise than it should")
         for path in group.findall(f"{_SVG}path"):
             _read_path(sheet, layer, path.get("d", ""), height)
         for text in group.findall(f"{_SVG}text"):
             at = complex(float(text.get("x", "nan")), height - float(text.get("y", "nan")))
-            size = re.search(r"font-size:([\d.]+)px", text.get("style", ""))
+            size = re.fullmatch(r"font-size:([\d.]+)px", text.get("style", ""))
             if size is None:
                 raise ReadError("has words without a size")
             capital = float(size[1]) * 0.72
             sheet.texts.append(ReadText(text.text or "", at, float(text.get("textLength", "nan")), capital))
     return sheet
+
+
+def _check_known(root: ElementTree.Element) -> None:
+    """A ground of white, then groups of paths and words, none of which says how it looks: its group does."""
+    ground, *groups = [*root] or [root]
+    if ground.tag != f"{_SVG}rect" or dict(ground.attrib) != _GROUND:
+        raise ReadError("has no ground of white")
+    if any(group.tag != f"{_SVG}g" for group in groups):
+        raise ReadError("holds something beside its layers")
+    for element in (root, *(e for group in groups for e in group.iter())):
+        tag = element.tag.removeprefix(_SVG)
+        if tag not in _KNOWN or (tag == "g") != (element in groups) or (tag in ("path", "text") and len(element)):
+            raise ReadError(f"holds <{tag}> where a sheet does not")
+        if strange := set(element.keys()) - _KNOWN[tag]:
+            raise ReadError(f"has a <{tag}> with {strange.pop()}, which may hide or move it")
+
+
+def _look(layer: str) -> str:
+    """How the group of a layer must look."""
+    style = STYLES.get(layer)
+    if style is None:
+        raise ReadError(f"layer {layer} does not belong on a sheet")
+    if layer == "TEXT":
+        return f"font-family:Arial,Liberation Sans,sans-serif;fill:{style.colour}"
+    dashes = f";stroke-dasharray:{' '.join(f'{d:g}' for d in style.dashes)}" if style.dashes else ""
+    return f"fill:none;stroke:{style.colour};stroke-width:{style.width}{dashes}"
 
 
 def _read_path(sheet: ReadSheet, layer: str, data: str, height: float) -> None:

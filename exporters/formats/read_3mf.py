@@ -19,6 +19,28 @@ _DENSEST, _SMALL = 30, 4_000_000
 _CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
 
 
+_UUID = "{http://schemas.microsoft.com/3dmanufacturing/production/2015/06}UUID"
+_LANGUAGE = "{http://www.w3.org/XML/1998/namespace}lang"
+# what stands in a file of ours, and the values that say no more than their absence; all else may hide, move or colour
+_KNOWN: dict[str, dict[str, tuple[str, ...]]] = {
+    "model": {"unit": (), _LANGUAGE: (), "requiredextensions": ("",), "recommendedextensions": ()},
+    "metadata": {"name": (), "preserve": (), "type": ()},
+    "resources": {},
+    "basematerials": {"id": ()},
+    "base": {"name": (), "displaycolor": ()},
+    "object": {"id": (), "name": (), "type": ("model",), "pid": (), "pindex": (), _UUID: ()},
+    "mesh": {},
+    "vertices": {},
+    "vertex": {"x": (), "y": (), "z": ()},
+    "triangles": {},
+    "triangle": {"v1": (), "v2": (), "v3": ()},
+    "build": {_UUID: ()},
+    "item": {"objectid": (), "transform": (), "partnumber": (), "printable": ("1", "true"), _UUID: ()},
+}
+_MODEL, _STARTS, _TYPES = "3D/3dmodel.model", "_rels/.rels", "[Content_Types].xml"
+_START = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
+
+
 def read_3mf(file: Path) -> ReadMesh:
     """The single object of a 3MF package, built once where it stands."""
     root = _model(file)
@@ -27,17 +49,14 @@ def read_3mf(file: Path) -> ReadMesh:
         raise ReadError("the 3MF does not hold one object, built once")
     if items[0].get("transform") is not None:
         raise ReadError("the part of the 3MF has been moved out of its frame")
-    return _mesh(objects[0])
+    return _mesh(objects[0], _base_colour(objects[0], _bases(root)))
 
 
 def read_3mf_assembly(file: Path) -> ReadAssembly:
     """Every object and build item of a 3MF package; components of components are refused."""
     root = _model(file)
     title = next((m.text or "" for m in root.findall(f"{_CORE}metadata") if m.get("name") == "Title"), "")
-    bases = {
-        group.get("id"): [base.get("displaycolor", "")[:7].lower() for base in group.iter(f"{_CORE}base")]
-        for group in root.iter(f"{_CORE}basematerials")
-    }
+    bases = _bases(root)
     prototypes: list[Prototype] = []
     index: dict[str | None, int] = {}
     for item in root.iter(f"{_CORE}object"):
@@ -52,6 +71,17 @@ def read_3mf_assembly(file: Path) -> ReadAssembly:
         place = _transform(item)
         occurrences.append(Occurrence(item.get("partnumber", ""), index[item.get("objectid")], place))
     return ReadAssembly(title, prototypes, occurrences)
+
+
+def _bases(root: ElementTree.Element) -> dict[str | None, list[str]]:
+    """The colours, #rrggbb, of each group of materials."""
+    shades = [base.get("displaycolor", "").lower() for base in root.iter(f"{_CORE}base")]
+    if any(shade[7:] not in ("", "ff") for shade in shades):
+        raise ReadError("a material of the 3MF can be seen through")
+    return {
+        group.get("id"): [base.get("displaycolor", "")[:7].lower() for base in group.iter(f"{_CORE}base")]
+        for group in root.iter(f"{_CORE}basematerials")
+    }
 
 
 def _base_colour(item: ElementTree.Element, bases: dict[str | None, list[str]]) -> str | None:
@@ -84,19 +114,43 @@ def _model(file: Path) -> ElementTree.Element:
                 )
             if package.testzip() is not None:
                 raise ReadError("the 3MF package is damaged")
-            root = ElementTree.fromstring(package.read("3D/3dmodel.model"))
+            names = [name.lower() for name in package.namelist()]
+            if len(set(names)) < len(names):
+                raise ReadError("the 3MF package holds a part twice")
+            if _TYPES not in package.namelist():
+                raise ReadError(f"the 3MF package has no {_TYPES}")
+            relations = ElementTree.fromstring(package.read(_STARTS))
+            starts = [r.get("Target") for r in relations if r.get("Type") == _START]
+            if starts != [f"/{_MODEL}"]:
+                raise ReadError(f"the 3MF package begins with {starts} instead of its model")
+            root = ElementTree.fromstring(package.read(_MODEL))
     except (zipfile.BadZipFile, KeyError, ElementTree.ParseError, OSError, EOFError, zlib.error) as error:
         raise ReadError(f"not a readable 3MF: {error}") from error
     if root.get("unit") != "millimeter":
         raise ReadError("the 3MF is not in mm")
+    _check_known(root)
     return root
+
+
+def _check_known(root: ElementTree.Element) -> None:
+    """All that stands in the model is known, and says that the part is one to be made, as it is."""
+    for element in root.iter():
+        tag = element.tag.removeprefix(_CORE)
+        known = _KNOWN.get(tag)
+        if known is None:
+            raise ReadError(f"the 3MF holds <{tag}>, which is not read here")
+        for name, value in element.items():
+            if name not in known:
+                raise ReadError(f"a <{tag}> of the 3MF has {name}, which is not read here")
+            if (allowed := known[name]) and value not in allowed:
+                raise ReadError(f'a <{tag}> of the 3MF has {name} = "{value}"')
 
 
 def _most_inside(file: Path) -> int:
     return min(MOST_READ_BYTES, max(_SMALL, _DENSEST * file.stat().st_size))
 
 
-def _mesh(item: ElementTree.Element) -> ReadMesh:
+def _mesh(item: ElementTree.Element, colour: str | None = None) -> ReadMesh:
     """The mesh of an object."""
     try:
         corners = [[float(v.get(k, "")) for k in "xyz"] for v in item.iter(f"{_CORE}vertex")]
@@ -106,4 +160,4 @@ def _mesh(item: ElementTree.Element) -> ReadMesh:
     vertices, triangles = np.array(corners).reshape(-1, 3), np.array(rows, dtype=np.int64).reshape(-1, 3)
     if not len(triangles) or triangles.min() < 0 or triangles.max() >= len(vertices):
         raise ReadError("a 3MF triangle names a vertex that is not there")
-    return ReadMesh(vertices, triangles, item.get("name", ""))
+    return ReadMesh(vertices, triangles, item.get("name", ""), colour)

@@ -21,12 +21,20 @@ from parts.base.readback import ReadError
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
-    from ezdxf.entities import Arc, Circle, Line, Spline, Text
+    from ezdxf.entities import Arc, Circle, DXFGraphic, Line, Spline, Text
     from ezdxf.math import BSpline, Vec3
 
 _LAYER = "OUTLINE"
 _MILLIMETRES = 4
 _PER_CURVE = 25
+# what an entity may say of its looks: no more than its absence
+_PLAIN = {
+    "invisible": 0, "color": 256, "linetype": "BYLAYER", "lineweight": -1, "ltscale": 1.0, "thickness": 0.0,
+    "extrusion": (0.0, 0.0, 1.0), "paperspace": 0, "true_color": None, "color_name": None, "transparency": None,
+    "rotation": 0.0, "oblique": 0.0, "text_generation_flag": 0,
+}  # fmt: skip
+# colour and line type of the layer of a drawing
+_LOOK = (7, "CONTINUOUS")
 # arcs from here on get ten times as many samples, and are smooth for so long, degrees
 _LONG, _SPAN = 90.0, 5.0
 
@@ -131,6 +139,8 @@ def _circle(entity: Circle) -> DrawnArc:
 
 
 def _spline(entity: Spline) -> DrawnSpline:
+    if any(point[2] for point in entity.control_points):
+        raise ReadError(f"a SPLINE on layer {entity.dxf.layer} is lifted out of its plane")
     return DrawnSpline(entity.dxf.layer, entity.construction_tool())
 
 
@@ -153,8 +163,11 @@ def drawn(document: Drawing, what: str = "drawing") -> tuple[list[DrawnCurve], l
     from ezdxf.entities import Text
 
     curves, words = [], []
+    for name in {entity.dxf.layer for entity in document.modelspace()}:
+        _check_layer(document, name)
     for entity in document.modelspace():
         kind = entity.dxftype()
+        _check_plain(entity)
         if kind in _CURVES:
             curves.append(_CURVES[kind](entity))
         elif isinstance(entity, Text) and what == "sheet":
@@ -162,6 +175,27 @@ def drawn(document: Drawing, what: str = "drawing") -> tuple[list[DrawnCurve], l
         else:
             raise ReadError(f"a {kind} stands in the {what}; only lines, arcs, circles and splines belong there")
     return curves, words
+
+
+def _check_plain(entity: DXFGraphic) -> None:
+    """Nothing hides an entity, lifts or thickens it, or gives it another look than its layer's."""
+    for name, value in entity.dxfattribs().items():
+        if name in _PLAIN and value != _PLAIN[name]:
+            raise ReadError(f"a {entity.dxftype()} on layer {entity.dxf.layer} has {name} = {value}")
+        if getattr(value, "z", 0.0) and name not in _PLAIN:
+            raise ReadError(f"a {entity.dxftype()} on layer {entity.dxf.layer} is lifted out of its plane")
+
+
+def _check_layer(document: Drawing, name: str) -> None:
+    """A layer is seen and plotted."""
+    if name not in document.layers:
+        raise ReadError(f"layer {name} is not in the layer table")
+    layer = document.layers.get(name)
+    for is_so, what in ((layer.is_off(), "off"), (layer.is_frozen(), "frozen"), (not layer.dxf.plot, "not plotted")):
+        if is_so:
+            raise ReadError(f"layer {name} is {what}")
+    if layer.dxf.hasattr("true_color"):
+        raise ReadError(f"layer {name} has a colour beside its own")
 
 
 def opened(file: Path, *, audit: bool = True) -> Drawing:
@@ -185,6 +219,7 @@ class ReadDrawing:
     curves: tuple[DrawnCurve, ...]
     has_arcs = False
     is_flat = True
+    colour = None
 
     def names(self) -> None:
         """The format has none."""
@@ -217,4 +252,13 @@ def read_drawing(file: Path) -> ReadDrawing:
     for entity in document.modelspace():
         if entity.dxf.layer.upper() != _LAYER:
             raise ReadError(f"a {entity.dxftype()} stands on layer {entity.dxf.layer} instead of {_LAYER}")
-    return ReadDrawing(tuple(drawn(document)[0]))
+    curves = tuple(drawn(document)[0])
+    if curves and look_of(document, _LAYER) != _LOOK:
+        raise ReadError(f"layer {_LAYER} looks otherwise than it should")
+    return ReadDrawing(curves)
+
+
+def look_of(document: Drawing, name: str) -> tuple[int, str]:
+    """The colour and the line type of a layer."""
+    layer = document.layers.get(name)
+    return layer.color, layer.dxf.linetype.upper()

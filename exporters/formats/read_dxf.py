@@ -20,6 +20,16 @@ _MILLIMETRES = "4"
 # groups that point at a handle, and those that are one
 _POINTERS = (*range(320, 370), *range(390, 400))
 _HANDLE, _DIMSTYLE_HANDLE = 5, 105
+_OWNER, _ON_LAYER, _EXTENDED = 330, 8, 1000
+# bits of a layer's flags: frozen, frozen in new viewports
+_FROZEN = 1 | 2
+# by its colour a laser program knows what to do along a contour
+_COLOURS = {"ENGRAVE": 5, "CUT_INNER": 3, "CUT_OUTER": 1}
+# groups of a polyline that give its shape and structure; others must say no more than their absence
+_SHAPE = {0, 5, 8, 10, 20, 42, 66, 70, 90, 91, 100, 102, 210, 220, 230, 330, 360}
+_PLAIN_NUMBERS = {30: 0.0, 38: 0.0, 39: 0.0, 40: 0.0, 41: 0.0, 43: 0.0, 48: 1.0, 60: 0.0, 62: 256.0, 67: 0.0,
+                  71: 0.0, 72: 0.0, 73: 0.0, 74: 0.0, 75: 0.0, 370: -1.0}  # fmt: skip
+_PLAIN_WORDS = {6: {"BYLAYER"}, 410: {"MODEL"}}
 _EXTRUSION = (210, 220, 230)
 
 
@@ -67,7 +77,7 @@ def read_dxf(file: Path) -> ReadOutlines:
         if header.get("$ACADVER", "AC1009") > "AC1009" and header.get("$INSUNITS") != _MILLIMETRES:
             raise ReadError("the DXF is not in mm ($INSUNITS is not 4)")
         _check_handles(sections, int(header.get("$HANDSEED", "0"), 16))
-        loops = tuple(_loops(sections["ENTITIES"]))
+        loops = tuple(_loops(sections["ENTITIES"], _model_space(sections)))
         layers = _layers(sections)
     except (ValueError, LookupError, OSError) as error:
         if isinstance(error, ReadError):
@@ -112,8 +122,34 @@ def _header(sections: dict[str, Pairs]) -> dict[str, str]:
 
 
 def _layers(sections: dict[str, Pairs]) -> set[str]:
-    tables = sections["TABLES"]
-    return {record.first(2) for record in tables.records() if record.values[0] == "LAYER"}
+    """The layers; those of a laser must be seen and plotted, in the colour by which it knows what to do."""
+    found: set[str] = set()
+    for record in sections["TABLES"].records():
+        name = record.first(2)
+        if record.values[0] != "LAYER":
+            continue
+        if name.upper() in {known.upper() for known in found}:
+            raise ReadError(f"the DXF has two layers {name}")
+        found.add(name)
+        if name.upper() not in _COLOURS:
+            continue
+        if int(record.first(70, "0")) & _FROZEN:
+            raise ReadError(f"layer {name} is frozen")
+        if int(record.first(62, "7")) < 0:
+            raise ReadError(f"layer {name} is off")
+        if record.first(290, "1") == "0":
+            raise ReadError(f"layer {name} is not plotted")
+        if int(record.first(62, "7")) != _COLOURS[name.upper()] or len(record.numbers(420)):
+            raise ReadError(f"layer {name} has another colour than {_COLOURS[name.upper()]}")
+        if record.first(6, "Continuous").upper() != "CONTINUOUS":
+            raise ReadError(f"layer {name} is not drawn through")
+    return found
+
+
+def _model_space(sections: dict[str, Pairs]) -> str:
+    """The handle of what owns the entities of the model; empty in a DXF without such records."""
+    records = [r for r in sections["TABLES"].records() if r.values[0] == "BLOCK_RECORD"]
+    return next((r.first(_HANDLE) for r in records if r.first(2).upper() == "*MODEL_SPACE"), "")
 
 
 def _check_handles(sections: dict[str, Pairs], seed: int) -> None:
@@ -141,8 +177,8 @@ def _check_handles(sections: dict[str, Pairs], seed: int) -> None:
         raise ReadError("the DXF has a handle that its header ($HANDSEED) calls free")
 
 
-def _loops(entities: Pairs) -> Iterator[Loop]:
-    """The closed polylines, old style or new."""
+def _loops(entities: Pairs, space: str) -> Iterator[Loop]:
+    """The closed polylines, old style or new, of the model, whose handle is ``space``."""
     starts = entities.starts()
     heads = [i for i in starts.tolist() if entities.values[i] not in ("VERTEX", "SEQEND")]
     for start, end in zip(heads, [*heads[1:], len(entities.values)], strict=True):
@@ -150,7 +186,26 @@ def _loops(entities: Pairs) -> Iterator[Loop]:
         kind, layer = entity.values[0], entity.first(8)
         if kind not in ("LWPOLYLINE", "POLYLINE"):
             raise ReadError(f"a {kind} stands on layer {layer}; only closed polylines belong there")
+        if space and entity.first(_OWNER, space) != space:
+            raise ReadError(f"a {kind} on layer {layer} does not stand in the model")
+        _check_plain(entity, kind, layer)
         yield _loop(entity, kind, layer)
+
+
+def _check_plain(entity: Pairs, kind: str, layer: str) -> None:
+    """Nothing hides an entity, lifts or broadens it, or gives it another look than its layer's."""
+    for code in np.unique(entity.codes).tolist():
+        if code in _SHAPE or code >= _EXTENDED:
+            continue
+        values = {entity.values[i].upper() for i in np.flatnonzero(entity.codes == code)}
+        if code in _PLAIN_NUMBERS:
+            strange = {v for v in values if float(v) != _PLAIN_NUMBERS[code]}
+        else:
+            strange = values - _PLAIN_WORDS.get(code, set())
+        if strange:
+            raise ReadError(f"a {kind} on layer {layer} has {strange.pop()} for group {code}")
+    if len({name.upper() for code, name in zip(entity.codes, entity.values, strict=True) if code == _ON_LAYER}) > 1:
+        raise ReadError(f"a {kind} on layer {layer} has vertices on another one")
 
 
 def _loop(entity: Pairs, kind: str, layer: str) -> Loop:

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from exporters.formats.chains import nodes, smooth_loops
 from exporters.formats.read_assembly import Occurrence, Prototype, ReadAssembly
 from exporters.formats.readback import SmoothLoop
+from exporters.formats.step_senses import face_senses
 from geometry.curves.curve import Complex, Real
 from parts.base.readback import ReadError
 from parts.solids.kernel import faces_of, silent_kernel
@@ -41,6 +42,13 @@ _STRINGS = re.compile(rb"'[^']*'")
 # what C's reader of numbers takes for one, and exponents beyond any length
 _STRANGE = re.compile(rb"[(,]\s*([-+]?(?:nan|inf)[a-z]*|[-+]?[\d.]+e\+?0*[1-9]\d\d+)", re.IGNORECASE)
 _PRODUCT = re.compile(r"=\s*PRODUCT\s*\(\s*'((?:[^']|'')*)'")
+_SHADE = re.compile(r"=\s*COLOUR_RGB\s*\(\s*'[^']*'\s*,([-+\d.E,\s]+)\)")
+_NAMED_SHADE = re.compile(r"=\s*DRAUGHTING_PRE_DEFINED_COLOUR\s*\(\s*'(\w+)'")
+_NAMED_SHADES = {
+    "red": "#ff0000", "green": "#00ff00", "blue": "#0000ff", "yellow": "#ffff00", "magenta": "#ff00ff",
+    "cyan": "#00ffff", "black": "#000000", "white": "#ffffff",
+}  # fmt: skip
+_HIDDEN = re.compile(rb"=\s*\(?\s*(\w*INVISIBILITY|SURFACE_STYLE_TRANSPARENT)\s*\(")
 # walls stand upright, and knots lie apart, by this, mm
 _UPRIGHT = 1e-9
 # a cylinder is one smooth span for so long, rad
@@ -49,10 +57,11 @@ _SPAN = math.radians(5)
 
 @dataclass(frozen=True, slots=True)
 class ReadSolid:
-    """A solid as the kernel has read it, and the names of the products in its file."""
+    """A solid as the kernel has read it, the names of the products in its file, and its colour, where it has one."""
 
     shape: TopoDS_Shape
     products: tuple[str, ...]
+    colour: str | None = None
     has_arcs = False
     is_flat = False
 
@@ -104,7 +113,7 @@ def read_step(file: Path) -> ReadSolid:
     from OCP.IFSelect import IFSelect_RetDone
     from OCP.STEPControl import STEPControl_Reader
 
-    data = _content(file)
+    data, senses = _content(file)
     with silent_kernel():
         reader = STEPControl_Reader()
         if reader.ReadStream(_STREAM, BytesIO(data)) != IFSelect_RetDone:
@@ -112,8 +121,16 @@ def read_step(file: Path) -> ReadSolid:
         leave_crossings(reader)
         reader.TransferRoots()
         shape = reader.OneShape()
+    _check_senses(senses, [shape])
     text = data.decode("utf-8", errors="replace")
-    return ReadSolid(shape, tuple(name.replace("''", "'") for name in _PRODUCT.findall(text)))
+    return ReadSolid(shape, tuple(name.replace("''", "'") for name in _PRODUCT.findall(text)), _colour(text))
+
+
+def _colour(text: str) -> str | None:
+    """The one colour of a file; None where it has none or several."""
+    found = {f"#{''.join(f'{round(255 * float(x)):02x}' for x in shade.split(','))}" for shade in _SHADE.findall(text)}
+    found |= {_NAMED_SHADES.get(name, "") for name in _NAMED_SHADE.findall(text)}
+    return found.pop() if len(found) == 1 else None
 
 
 def read_step_assembly(file: Path) -> ReadAssembly:
@@ -125,7 +142,7 @@ def read_step_assembly(file: Path) -> ReadAssembly:
     from OCP.TDocStd import TDocStd_Document
     from OCP.XCAFDoc import XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 
-    data = _content(file)
+    data, senses = _content(file)
     with silent_kernel():
         reader = STEPCAFControl_Reader()
         reader.SetNameMode(True)
@@ -145,8 +162,21 @@ def read_step_assembly(file: Path) -> ReadAssembly:
         if not XCAFDoc_ShapeTool.IsAssembly_s(root):
             single = _prototype(root, colours)
             place = _location(XCAFDoc_ShapeTool.GetShape_s(root))
-            return ReadAssembly(single.name, [single], [Occurrence(single.name, 0, place)])
-        return _components(root, colours)
+            read = ReadAssembly(single.name, [single], [Occurrence(single.name, 0, place)])
+        else:
+            read = _components(root, colours)
+        _check_senses(senses, [p.part.shape for p in read.prototypes if isinstance(p.part, ReadSolid)])
+        return read
+
+
+def _check_senses(told: list[tuple[bool, ...]], shapes: list[TopoDS_Shape]) -> None:
+    """The kernel's faces, which it has turned where it must, are those of the file's text, in its order."""
+    from OCP.TopAbs import TopAbs_Orientation
+
+    forward = TopAbs_Orientation.TopAbs_FORWARD
+    found = [tuple(face.Orientation() == forward for face in faces_of(shape)) for shape in shapes]
+    if sorted(told) != sorted(found):
+        raise ReadError("a face of the STEP file is turned inside out")
 
 
 def _components(root: TDF_Label, colours: XCAFDoc_ColorTool) -> ReadAssembly:
@@ -205,12 +235,18 @@ def _location(shape: TopoDS_Shape) -> NDArray[np.float64]:
     return np.array([[transformation.Value(i, j) for j in range(1, 5)] for i in range(1, 4)])
 
 
-def _content(file: Path) -> bytes:
-    """A STEP file; one with a coordinate that is not a number the kernel would not come to an end over."""
+def _content(file: Path) -> tuple[bytes, list[tuple[bool, ...]]]:
+    """A STEP file and the senses of its faces.
+
+    Over a coordinate that is not a number the kernel would not come to an end.
+    """
     data = file.read_bytes()
-    if found := _STRANGE.search(_STRINGS.sub(b"''", data)):
+    wordless = _STRINGS.sub(b"''", data)
+    if found := _STRANGE.search(wordless):
         raise ReadError(f"a number in the STEP file is {found[1].decode()}")
-    return data
+    if hidden := _HIDDEN.search(wordless):
+        raise ReadError(f"the STEP file holds {hidden[1].decode()}: something in it is not seen")
+    return data, face_senses(wordless)
 
 
 def leave_crossings(reader: STEPControl_Reader | STEPCAFControl_Reader) -> None:

@@ -16,10 +16,14 @@ def read_stl(file: Path) -> ReadMesh:
     data = file.read_bytes()
     if len(data) < 84:
         raise ReadError("too short for a binary STL")
+    if data[:80].lstrip().lower().startswith(b"solid"):
+        raise ReadError('the STL begins with "solid", by which programs know an STL of text')
     count = int.from_bytes(data[80:84], "little")
     if len(data) != 84 + 50 * count or count == 0:
         raise ReadError(f"{len(data)} bytes do not hold the {count} triangles that the STL announces")
     rows = np.frombuffer(data, dtype=np.uint8, offset=84).reshape(count, 50)
+    if np.any(rows[:, 48:]):
+        raise ReadError("an STL triangle has an attribute, which programs take for a colour")
     corners = rows[:, 12:48].copy().view("<f4").reshape(-1, 3)
     if not np.all(np.isfinite(corners)):
         raise ReadError("an STL coordinate is not a number")

@@ -5,12 +5,25 @@ from __future__ import annotations
 import math
 import re
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from exporters.formats.readback import Loop, ReadOutlines
 from parts.base.readback import ReadError
 
+if TYPE_CHECKING:
+    from xml.etree.ElementTree import Element
+
+# the attributes of each element, and what its style may say; all else may hide, move or colour an outline
+_KNOWN = {
+    "svg": {"width", "height", "viewBox", "version"},
+    "path": {"d", "id", "style"},
+    "circle": {"cx", "cy", "r", "id", "style"},
+}
+_STYLE = re.compile(r"fill:none;stroke:(#[0-9a-f]{6});stroke-width:(\d*\.?\d+)")
+_LAYERS = {"#0000ff": "ENGRAVE", "#00ff00": "CUT_INNER", "#ff0000": "CUT_OUTER"}
+_SVG = "{http://www.w3.org/2000/svg}"
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _COMMAND = rf"([MLAZ])((?:[\s,]*{_NUMBER})*)"
 
@@ -20,7 +33,7 @@ def read_svg(file: Path) -> ReadOutlines:
     from xml.etree import ElementTree
 
     try:
-        root = ElementTree.parse(file).getroot()
+        root = root_of(file)
         width, height = (_millimetres(root.get(key, "")) for key in ("width", "height"))
         box = [float(x) for x in root.get("viewBox", "").split()]
     except (ElementTree.ParseError, ValueError, OSError) as error:
@@ -29,22 +42,44 @@ def read_svg(file: Path) -> ReadOutlines:
         raise ReadError("one unit of the SVG's view box is not one mm")
     loops = []
     for element in root.iter():
-        tag = element.tag.rsplit("}", 1)[-1]
-        if moved := {"transform", "class"} & set(element.keys()):
-            raise ReadError(f"an SVG {tag} has a {moved.pop()}, which laser programs pass over")
+        tag = element.tag.removeprefix(_SVG)
+        if tag not in _KNOWN or (tag == "svg") != (element is root):
+            raise ReadError(f"an element <{tag}> stands among the outlines")
+        if strange := set(element.keys()) - _KNOWN[tag]:
+            raise ReadError(f"an SVG {tag} has a {strange.pop()}, which may hide or move it")
         try:
             if tag == "path":
-                loops.append(_svg_path(element.get("d", ""), element.get("id", "")))
+                loops.append(_svg_path(element.get("d", ""), _layer(element)))
             elif tag == "circle":
                 x, y, r = (float(element.get(k, "nan")) for k in ("cx", "cy", "r"))
                 ends = np.array([complex(x + r, -y), complex(x - r, -y)])
-                loops.append(Loop(ends, np.ones(2), element.get("id", "")))
-            elif tag != "svg":
-                raise ReadError(f"an element <{tag}> stands among the outlines")
+                loops.append(Loop(ends, np.ones(2), _layer(element)))
         except ValueError as error:
             raise ReadError(f"broken {tag}: {error}") from error
     middle = complex(width / 2, -height / 2)
     return ReadOutlines(tuple(Loop(loop.vertices - middle, loop.bulges, loop.layer) for loop in loops))
+
+
+def root_of(file: Path) -> Element:
+    """The root of an SVG that says itself how it looks."""
+    from xml.etree import ElementTree
+
+    data = file.read_bytes()
+    if found := re.search(rb"<!DOCTYPE|<\?(?!xml )[^?]*", data):
+        raise ReadError(f"the SVG holds {found[0].decode(errors='replace')}, which may change how it looks")
+    return ElementTree.fromstring(data)
+
+
+def _layer(element: Element) -> str:
+    """What is done along an outline, as its colour tells a laser program; its id must not tell otherwise."""
+    style, name = re.sub(r"\s|;\s*$", "", element.get("style", "").lower()), element.get("id", "").upper()
+    shown = _STYLE.fullmatch(style)
+    if shown is None or shown[1] not in _LAYERS or not float(shown[2]) > 0:
+        raise ReadError(f'an outline of the SVG has the style "{style}"')
+    layer = _LAYERS[shown[1]]
+    if name and name != layer:
+        raise ReadError(f"an outline of the SVG is named {name}, but coloured as {layer}")
+    return layer
 
 
 def _millimetres(text: str) -> float:

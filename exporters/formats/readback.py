@@ -75,6 +75,7 @@ class ReadOutlines:
     loops: tuple[Loop, ...]
     has_arcs = True
     is_flat = True
+    colour = None
 
     def names(self) -> None:
         """The format has none."""
@@ -90,11 +91,12 @@ class ReadOutlines:
 
 @dataclass(frozen=True, slots=True)
 class ReadMesh:
-    """Distinct vertices (n, 3) and triangles (k, 3); ``name``: what the part is called, where the format has names."""
+    """Distinct vertices (n, 3) and triangles (k, 3); ``name``, ``colour`` (#rrggbb): where a format has such."""
 
     vertices: NDArray[np.float64]
     triangles: NDArray[np.int64]
     name: str | None = None
+    colour: str | None = None
     has_arcs = False
     is_flat = False
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from exporters.formats.read_assembly import ReadAssembly
 from exporters.formats.reading import ASSEMBLY_READERS
-from exporters.verification.judge import held, probed
+from exporters.verification.judge import held, probed, same_shade
 from exporters.verification.verdict import Verdict
 from parts.base.part import Part
 from parts.base.readback import ReadBack, ReadError
@@ -20,8 +20,6 @@ from parts.scene.placing import Instance
 
 # a place is kept to this, mm, and to the digits of a file's numbers as a part of its distance
 _PLACE, _DIGITS = 1e-9, 1e-13
-# the kernel keeps a colour as float32
-_SHADE = 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +82,7 @@ def _verdict(found: ReadAssembly, expected: ExpectedAssembly, check: Callable[[R
             continue
         verdict = check(shape, expected.parts[name])
         failures += [f"{name}: {failure}" for failure in verdict.failures]
-        if not _same_shade(colour, expected.parts[name].colour):
+        if not same_shade(colour, expected.parts[name].colour):
             failures.append(f"{name} is coloured {colour} instead of {expected.parts[name].colour}")
         deviation = verdict.measured.get("max_deviation", float("inf"))
         measured["max_deviation"] = max(measured.get("max_deviation", 0.0), deviation)
@@ -106,13 +104,3 @@ def _displacement(placed: NDArray[np.float64], place: NDArray[np.float64], reach
     """How far a point of the part may be off its place at most, mm."""
     off = placed - place
     return float(np.linalg.norm(off[:, 3]) + np.linalg.norm(off[:, :3], 2) * reach)
-
-
-def _same_shade(found: str | None, expected: str | None) -> bool:
-    """Whether a colour is the one asked for; a part that asks for none may have any."""
-    if expected is None:
-        return True
-    if found is None:
-        return False
-    channels = [[int(text[i : i + 2], 16) for i in (1, 3, 5)] for text in (found, expected)]
-    return all(abs(a - b) <= _SHADE for a, b in zip(*channels, strict=True))

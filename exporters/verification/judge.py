@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from geometry.plane.profile import Region
     from geometry.solids.body import Body
 
+# the kernel keeps a colour as float32
+_SHADE = 1
 Exact: TypeAlias = "Region | Body | BarrelBody"
 
 
@@ -46,6 +48,8 @@ def verify_part(
     try:
         found = READERS[kind.name](file)
         verdict = held(found, kind, exact, declared, tolerance, part.id)
+        if found.names() is not None and not same_shade(found.colour, part.colour):
+            raise ReadError(f"{part.id} is coloured {found.colour} instead of {part.colour}")
     except (ReadError, OSError) as error:
         return Verdict({}, (str(error),))
     if also is not None and not verdict.failures:
@@ -79,6 +83,16 @@ def held(
     if name is not None and (names := found.names()) is not None and names != (name,):
         raise ReadError(f"the file names its parts {', '.join(names) or 'nothing'} instead of {name}")
     return _HELD[kind.form](found, exact, declared, tolerance)
+
+
+def same_shade(found: str | None, expected: str | None) -> bool:
+    """Whether a colour is the one asked for; a part that asks for none may have any."""
+    if expected is None:
+        return True
+    if found is None:
+        return False
+    channels = [[int(text[i : i + 2], 16) for i in (1, 3, 5)] for text in (found, expected)]
+    return all(abs(a - b) <= _SHADE for a, b in zip(*channels, strict=True))
 
 
 def _outlines(found: ReadOutlines, region: Region, declared: float, tolerance: float) -> Verdict:

@@ -6,6 +6,7 @@ Measured densely and between the writer's own nodes: chains of lines and arcs ed
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 
@@ -18,6 +19,8 @@ from geometry.plane.profile import Profile
 
 # how many points of a file are measured: all edges get at least 3 between their ends
 _POINTS = 10_000
+# what is cut out before it is engraved or pierced falls or moves
+_ORDER = ("ENGRAVE", "CUT_INNER", "CUT_OUTER")
 # points of a loop by which it is told from others
 _ROUGH = 16
 # points of an edge by which its shape is seen
@@ -36,7 +39,9 @@ def verify_loops(
     """Closed loops against exact profiles; ``layers``: where each profile's loop must stand (empty: anywhere)."""
     if len(loops) != len(profiles):
         return Verdict({"contours": len(loops)}, (f"{len(loops)} contours instead of {len(profiles)}",))
-    failures: list[str] = []
+    order = [loop.layer.upper() for loop in loops if loop.layer.upper() in _ORDER]
+    later = [b for a, b in pairwise(order) if _ORDER.index(b) < _ORDER.index(a)]
+    failures = [f"a contour on {later[0]} comes after one that lets it fall"] if later else []
     worst, shortest = 0.0, float("inf")
     unmatched = list(loops)
     for profile, layer in zip(profiles, layers, strict=True):

@@ -48,6 +48,11 @@ class ReadBack(Protocol):
         """Whether it holds outlines, and no solid."""
         ...
 
+    @property
+    def colour(self) -> str | None:
+        """The colour of its part, #rrggbb; None where it has none."""
+        ...
+
     def names(self) -> tuple[str, ...] | None:
         """What its parts are called; None where the format has no names."""
         ...
