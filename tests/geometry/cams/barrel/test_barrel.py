@@ -267,7 +267,7 @@ def test_developed_edges_and_their_derivatives(cam: BarrelCam) -> None:
             before = partial(edge.derivative, order=order)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @CAMS
 def test_bounds_of_developed_edges_hold(cam: BarrelCam) -> None:
     """Against derivatives at many places of each interval; short ones are near the truth."""

@@ -50,6 +50,7 @@ def least_by_bisection(rho: float, sense: str) -> float:
     return high
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("sense", ["against", "with"])
 def test_the_diagram_tells_the_least_base_circle(sense: str) -> None:
     canvas = plan_build(scene(sense=sense), "t", [], []).sheets[0].canvas
