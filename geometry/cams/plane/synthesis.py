@@ -19,7 +19,7 @@ from geometry.base.errors import ConvergenceError, ParameterError
 from geometry.base.roots import bracketed_root
 from geometry.cams.motion.follower_motion import FollowerMotion, PhaseKind
 from geometry.cams.plane.disk import DiskCam, FollowerKind, translating_cam
-from geometry.curves.curve import Real
+from geometry.curves.curve import Complex, Real
 from geometry.laws.piece import LawPiece, sign_changes
 
 # of a base circle, before the search gives up
@@ -114,17 +114,9 @@ def axis_region(motion: FollowerMotion, rise_limit: float, return_limit: float |
     ParameterError
         A limit not above 0 and below 90 degrees, or a motion that never rises.
     """
-    limits = [("rise_limit", rise_limit, PhaseKind.RISE)]
-    if return_limit is not None:
-        limits.append(("return_limit", return_limit, PhaseKind.RETURN))
     lines = []
-    for name, limit, kind in limits:
-        if not 0 < limit < math.pi / 2:
-            raise ParameterError(name, limit, "not_within", low=0.0, high=math.pi / 2)
+    for pieces, limit in _limited(motion, rise_limit, return_limit):
         cot = 1 / math.tan(limit)
-        pieces = motion.moving_pieces(kind)
-        if not pieces:
-            raise ParameterError("motion", 0, "no_such_phase", move=str(kind.value))
         for steepness in (cot, -cot):
 
             def height(piece: LawPiece, t: Real, steepness: float = steepness) -> Real:
@@ -135,6 +127,23 @@ def axis_region(motion: FollowerMotion, rise_limit: float, return_limit: float |
 
             lines.append((greatest_of(pieces, height, slope).value, steepness))
     return AxisRegion(tuple(lines))
+
+
+def _limited(
+    motion: FollowerMotion, rise_limit: float, return_limit: float | None
+) -> list[tuple[list[LawPiece], float]]:
+    """Rises and, where they have a limit, returns, each with the greatest |nu| there, rad."""
+    limits = [("rise_limit", rise_limit, PhaseKind.RISE)]
+    if return_limit is not None:
+        limits.append(("return_limit", return_limit, PhaseKind.RETURN))
+    found = []
+    for name, limit, kind in limits:
+        if not 0 < limit < math.pi / 2:
+            raise ParameterError(name, limit, "not_within", low=0.0, high=math.pi / 2)
+        if not (pieces := motion.moving_pieces(kind)):
+            raise ParameterError("motion", 0, "no_such_phase", move=str(kind.value))
+        found.append((pieces, limit))
+    return found
 
 
 def roller_prime_radius(
@@ -250,16 +259,11 @@ def oscillating_axis(
     Raises
     ------
     ParameterError
-        A limit not above 0 and below 90 degrees.
+        See ``axis_region``.
     ConvergenceError
         The half-planes have no common point.
     """
-    pieces = [(motion.moving_pieces(PhaseKind.RISE), rise_limit)]
-    if return_limit is not None:
-        pieces.append((motion.moving_pieces(PhaseKind.RETURN), return_limit))
-    for name, (_, limit) in zip(("rise_limit", "return_limit"), pieces, strict=False):
-        if not 0 < limit < math.pi / 2:
-            raise ParameterError(name, limit, "not_within", low=0.0, high=math.pi / 2)
+    pieces = _limited(motion, rise_limit, return_limit)
     home = complex(arm_length, 0.0)
     planes: list[tuple[complex, float]] = []
     axis = home
@@ -276,6 +280,54 @@ def oscillating_axis(
     raise ConvergenceError("axis of the oscillating follower", worst[2], _MOST_CUTS)
 
 
+def oscillating_start_angles(
+    motion: FollowerMotion,
+    arm_length: float,
+    centre_distance: float,
+    sense: int,
+    rise_limit: float,
+    return_limit: float | None = None,
+) -> tuple[float, float]:
+    """Least and greatest psi_0 (rad) for which |nu| stays within the limits (rad) at a centre distance, mm.
+
+    With A = arccos(L (1 + sense psi') cos(limit) / d) the half-planes of ``oscillating_axis`` cut the circle of the
+    axis about the pivot to |A - limit| <= psi_0 + S <= pi - |pi - A - limit| at each cam angle. The prime circle grows
+    with psi_0. No psi_0 serves where the least one is above the greatest: inf where the pivot is too near at all.
+
+    Raises
+    ------
+    ParameterError
+        See ``axis_region``.
+    """
+    low, high = 0.0, math.pi
+    for pieces, limit in _limited(motion, rise_limit, return_limit):
+        share = arm_length * math.cos(limit) / centre_distance
+
+        def cosine(piece: LawPiece, t: Real, share: float = share) -> Real:
+            return share * (1 + sense * piece.value(t, 1))
+
+        rates = np.concatenate([cosine(p, p.extremes(1)) for p in pieces])
+        if not np.abs(rates).max() <= 1:
+            return math.inf, high
+
+        def greatest(a: int, b: int, pieces: list[LawPiece] = pieces, share: float = share) -> float:
+            """Of a A + b S."""
+
+            def angle(piece: LawPiece, t: Real) -> Real:
+                return a * np.arccos(np.clip(cosine(piece, t, share), -1, 1)) + b * piece.value(t)
+
+            def slope(piece: LawPiece, t: Real) -> Real:
+                # times the sine of A, which is never below 0
+                sine = np.sqrt(np.clip(1 - cosine(piece, t, share) ** 2, 0, 1))
+                return b * piece.value(t, 1) * sine - a * share * sense * piece.value(t, 2)
+
+            return greatest_of(pieces, angle, slope).value
+
+        low = max(low, greatest(1, -1) - limit, greatest(-1, -1) + limit)
+        high = min(high, limit - greatest(-1, 1), 2 * math.pi - limit - greatest(1, 1))
+    return low, high
+
+
 def _deepest(
     pieces: list[LawPiece], arm: float, sense: int, limit: float, side: float, axis: complex
 ) -> tuple[complex, float, float]:
@@ -284,20 +336,24 @@ def _deepest(
     The axis is seen from the pivot, with the arm's lowest position along +x.
     """
 
-    def plane(s: Real, rate: Real) -> tuple[Real, Real]:
-        along, across = np.exp(-1j * s), 1j * np.exp(-1j * s)
-        normal = math.tan(limit) * across + side * along
-        return normal * math.cos(limit), side * arm * (1 + sense * rate) * math.cos(limit)
+    def normal(piece: LawPiece, t: Real) -> Complex:
+        along = np.exp(-1j * piece.value(t))
+        return (math.tan(limit) * 1j * along + side * along) * math.cos(limit)
+
+    def level(piece: LawPiece, t: Real) -> Real:
+        return side * arm * (1 + sense * piece.value(t, 1)) * math.cos(limit)
 
     def depth(piece: LawPiece, t: Real) -> Real:
-        normal, level = plane(piece.value(t), piece.value(t, 1))
-        return level - (np.conj(normal) * axis).real
+        return level(piece, t) - (np.conj(normal(piece, t)) * axis).real
 
-    found = greatest_of(pieces, depth)
+    def slope(piece: LawPiece, t: Real) -> Real:
+        bend = side * arm * sense * math.cos(limit) * piece.value(t, 2)
+        return bend + piece.value(t, 1) * (np.conj(normal(piece, t)) * axis).imag
+
+    found = greatest_of(pieces, depth, slope)
     at = np.asarray(found.angle)
     piece = next(p for p in pieces if p.start <= found.angle <= p.end)
-    normal, level = plane(piece.value(at), piece.value(at, 1))
-    return complex(normal), float(level), found.value
+    return complex(normal(piece, at)), float(level(piece, at)), found.value
 
 
 def _nearest(home: complex, planes: list[tuple[complex, float]]) -> complex:

@@ -17,6 +17,7 @@ from geometry.cams.plane.synthesis import (
     greatest_pressure_angle,
     least_convex_radius,
     oscillating_axis,
+    oscillating_start_angles,
     roller_prime_radius,
     roller_radius_rules,
 )
@@ -94,6 +95,44 @@ def test_the_smallest_oscillating_cam(sense: int, returning: float | None) -> No
         assert broken
         worse += 1
     assert worse > 8
+
+
+def steepest(start: float, arm: float, distance: float, sense: int, kind: PhaseKind | None = None) -> float:
+    """Greatest pressure angle by drawing: the normal of points of the pitch curve against the way of the arm's end."""
+    worst, step = 0.0, 1e-6
+    for piece in SWING.moving_pieces(kind):
+        t = np.linspace(piece.start + 2 * step, piece.end - 2 * step, 2001)
+        end = [distance - arm * np.exp(-1j * sense * (start + SWING.value(t + k * step))) for k in (-1, 0, 1)]
+        path = end[2] * np.exp(-1j * (t + step)) - end[0] * np.exp(-1j * (t - step))
+        slope = np.angle(path * np.exp(1j * t) / (1j * (end[1] - distance)))
+        worst = max(worst, float(np.abs(np.abs(np.abs(slope) - np.pi / 2)).max()))
+    return worst
+
+
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize("returning", [None, 40.0])
+@pytest.mark.parametrize("distance", [60.0, 81.0, 120.0])
+def test_the_least_prime_circle_at_a_distance(sense: int, returning: float | None, distance: float) -> None:
+    """Every psi_0 between both ends keeps the limit, none beside them does: against angles taken from drawn points."""
+    limit = None if returning is None else D(returning)
+    low, high = oscillating_start_angles(SWING, 80.0, distance, sense, D(40), limit)
+    kind = PhaseKind.RISE if returning is None else None
+
+    def keeps(start: float) -> bool:
+        return steepest(start, 80.0, distance, sense, kind) <= D(40)
+
+    searched = [x for x in np.linspace(0.002, math.pi - D(20) - 0.002, 40).tolist() if keeps(x)]
+    assert bool(searched) == (low < high)
+    if searched:
+        assert [keeps(low + x) for x in (-1e-5, 1e-5)] == [False, True]
+        assert [keeps(high + x) for x in (-1e-5, 1e-5)] == [True, False]
+        assert low <= searched[0] <= searched[-1] <= high
+
+
+def test_a_pivot_too_near_has_no_cam() -> None:
+    assert oscillating_start_angles(SWING, 80.0, 61.0, 1, D(40))[0] == math.inf
+    assert oscillating_axis(SWING, 80.0, 1, D(40), D(40)).centre_distance > 61.0
 
 
 def test_convex_radius_of_rollers() -> None:
