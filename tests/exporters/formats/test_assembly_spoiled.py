@@ -5,11 +5,20 @@ from __future__ import annotations
 import re
 import zipfile
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from tests.exporters.making import run
+from exporters.production.recheck import recheck
+from exporters.verification.assembly import expected_of, verify_assembly
+from parts.base.readback import Probe, Probed, ReadBack
+from parts.scene.formats import file_kind
+from parts.scene.load import make_parts, scene_from_toml
+from parts.scene.placing import place
+from tests.exporters.making import read_report, run
+from tests.exporters.train import TRAIN
 
 
 def in_model(change: Callable[[str], str]) -> Callable[[Path], None]:
@@ -48,7 +57,8 @@ SPOIL_3MF = {
                    "sun is planet"),
     "name": (in_model(lambda t: t.replace('name="planet" type', 'name="plant" type')), '"plant" does not belong'),
     "title": (in_model(lambda t: t.replace(">train<", ">tram<")), '"tram"'),
-    "colour": (in_model(lambda t: t.replace("#C08040FF", "#C08840FF")), "coloured"),
+    "colour": (in_model(lambda t: t.replace("#C08040FF", "#C08240FF")), "coloured"),
+    "no colour": (in_model(lambda t: re.sub(r' pid="\d+" pindex="\d+"', "", t)), "coloured"),
     "unit": (in_model(lambda t: t.replace('"millimeter"', '"inch"')), "not in mm"),
     "vertex": (in_model(lambda t: re.sub(r'<vertex x="(\d+)\.', r'<vertex x="\g<1>1.', t, count=1)), ""),
     "cut short": (lambda file: file.write_bytes(file.read_bytes()[:-200]), "not a readable 3MF"),
@@ -127,3 +137,50 @@ def test_a_file_of_one_part_must_have_its_name(
         in_model(lambda t: t.replace('name="sun" type', 'name="son" type'))(file)
     assert run("verify", file) == 1
     assert "son" in capsys.readouterr().out
+
+
+def test_an_assembly_is_measured_at_its_worst_part_and_its_worst_place(train_3mf: Path, tmp_path: Path) -> None:
+    """Its deviation is the greatest of the part files beside it; a place is off by what its text was changed by."""
+    measured = {entry["part"]: entry["measured"] for entry in read_report(train_3mf.parent)["files"]}
+    whole = measured.pop(None)
+    assert (whole["parts"], whole["instances"]) == (2, 4)
+    assert whole["max_deviation"] == pytest.approx(max(m["max_deviation"] for m in measured.values()), rel=1e-9)
+    assert whole["max_deviation"] > 1e-4
+    (tmp_path / "report.json").write_bytes((train_3mf.parent / "report.json").read_bytes())
+    file = tmp_path / train_3mf.name
+    # the first and the last of all instances: less than their last digits count for, and more
+    for old, new, off in ((" -2.0 0.25", " -2.0 0.2500000004", 4e-10), (" 60.0 1.0", " 60.0 1.000000003", 3e-9)):
+        file.write_bytes(train_3mf.read_bytes())
+        in_model(lambda text, old=old, new=new: text.replace(old, new))(file)
+        found = recheck(file).verdict
+        assert found.measured["max_displacement"] == pytest.approx(off, rel=1e-3)
+        assert bool(found.failures) is (off > 1e-9)
+
+
+class Fits:
+    """A probe that finds a gap and refuses it."""
+
+    name, needs_whole = "pin", False
+
+    def run(self, found: ReadBack, offset: float, declared: float) -> Probed:
+        return Probed({"gap": 0.25}, ("it does not fit",))
+
+
+def test_what_the_probes_of_its_parts_say_counts_for_an_assembly(train_3mf: Path) -> None:
+    scene = scene_from_toml(TRAIN.encode(), "train.toml", "train")
+    parts, matings = make_parts(scene, "train.toml")
+    stand = place(scene.instances, scene.drives, parts, matings, "train.toml").instances
+    planet = parts["planet"]
+
+    class Asking(type(planet.made_by)):  # type: ignore[misc]
+        def probes(self, keys: Any, thing: Any) -> tuple[Probe, ...]:
+            return (Fits(),)
+
+    asked = parts | {"planet": replace(planet, made_by=Asking())}
+    kind = file_kind("3mf", None)
+    good, found = (
+        verify_assembly(train_3mf, kind, expected_of("train", p, 0.0, stand), 0.1, 0.1) for p in (parts, asked)
+    )
+    assert not good.failures
+    assert found.failures == ("planet: it does not fit",)
+    assert found.measured == good.measured | {"planet.pin_gap": 0.25}

@@ -218,3 +218,73 @@ def test_a_cycloidal_homework_table(degrees: float, s: float, v: float, a: float
     law = NAMED_LAWS["sine"]()
     found = [20 * float(law.value(degrees / 60, order)) / 60**order for order in range(3)]
     assert found == pytest.approx([s, v, a], abs=6e-7)
+
+
+def refusal_of(*stretches: Stretch) -> ParameterError:
+    with pytest.raises(ParameterError) as caught:
+        law_of_diagram("bad", stretches)
+    return caught.value
+
+
+def test_a_diagram_that_does_not_close_is_told_in_numbers() -> None:
+    """Half of the width above the axis at 1, half below it at 1.01; a part of 1e-8 too much is seen, 1e-11 is not."""
+    told = refusal_of(constant(1, 1), constant(1, -1.01))
+    assert (told.name, told.code) == ("diagram", "diagram_not_closed")
+    assert told.value == pytest.approx(0.5 - 0.505)
+    assert told.numbers == pytest.approx({"above": 0.5, "below": 0.505, "factor": 1 / 1.01})
+    assert refusal_of(constant(1, 1), constant(1, -1 - 1e-8)).code == "diagram_not_closed"
+    law_of_diagram("rounded", [constant(1, 1), constant(1, -1 - 1e-11)])
+
+
+@pytest.mark.parametrize(("stretches", "key", "code"), [
+    ([constant(1, 1), constant(1, 2)], "diagram", "diagram_on_one_side"),
+    ([constant(1, -1)], "diagram", "diagram_on_one_side"),
+    ([constant(1, 0), linear(1, 0, 0)], "diagram", "diagram_on_axis"),
+    ([constant(1, -1), constant(1, 1)], "diagram", "diagram_lifts_nothing"),
+    ([constant(0, 1), constant(1, -1)], "diagram.item 1.width", "not_above_zero"),
+    ([constant(1, 1), constant(math.inf, -1)], "diagram.item 2.width", "not_above_zero"),
+])  # fmt: skip
+def test_a_diagram_is_refused_for_its_own_reason(stretches: list[Stretch], key: str, code: str) -> None:
+    told = refusal_of(*stretches)
+    assert (told.name, told.code) == (key, code)
+
+
+def test_limits_of_segments() -> None:
+    """Spans of a sine from pi/8 on, ramps that meet; what is beyond names its own key."""
+    assert sine(1, 1, 0, math.pi / 8).waves
+    with pytest.raises(ParameterError) as caught:
+        sine(1, 1, 0, 0.99 * math.pi / 8)
+    assert caught.value.numbers["least"] == pytest.approx(math.pi / 8)
+    assert [s.width for s in trapezoid(1, 2, 0.25, 0.75)] == [0.25, 0.75]
+    for first, second, label in (([], [constant(1, 1)], "first"), ([constant(1, 1)], [constant(1, 0)], "second")):
+        with pytest.raises(ParameterError) as caught:
+            law_of_halves("bad", first or [constant(1, 0)], second)
+        assert caught.value.name == f"{label}_half"
+
+
+def test_a_trapezoid_of_unequal_ramps_by_the_areas_of_its_figures() -> None:
+    """Up over 1/5 of the width, level, down over 2/5: 3 (1/10 + 2/5 + 1/5); mirrored below, it lifts as it must."""
+    figure = trapezoid(2.0, 3.0, 0.2, 0.4)
+    assert [s.width for s in figure] == pytest.approx([0.4, 0.8, 0.8])
+    law = law_of_diagram("any", [*figure, constant(2.1, -2.0)])
+    # the velocity at the change of sign is the area so far over the lift in the diagram's own units
+    own, speed = 0.0, 0.0
+    for width, first, last in ((0.4, 0.0, 3.0), (0.8, 3.0, 3.0), (0.8, 3.0, 0.0), (2.1, -2.0, -2.0)):
+        own += speed * width + (2 * first + last) * width**2 / 6
+        speed += (first + last) / 2 * width
+    assert speed == pytest.approx(0, abs=1e-12)
+    assert float(law.value(2.0 / 4.1, 1)) == pytest.approx(4.2 * 4.1 / own, rel=1e-12)
+
+
+def test_a_table_may_begin_anywhere_and_a_law_ends_at_1() -> None:
+    places, ordinates = [0.0, 1.0, 2.0, 4.0, 5.0], [1.0, 0.5, 0.0, -0.4, -1.0]
+    one, two = (
+        law_of_diagram(
+            "table", [*tabulated(3.0, [x + start for x in places], ordinates), constant(1, -1)], balance=True
+        )
+        for start in (0.0, 7.0)
+    )
+    assert np.allclose(one.value(U, 2), two.value(U, 2), atol=1e-12)
+    # ten tenths are less than 1 in binary fractions
+    tenths = law_of_diagram("tenths", [constant(0.1, 1.0 if k < 5 else -1.0) for k in range(10)])
+    assert tenths.pieces[-1].end == 1.0

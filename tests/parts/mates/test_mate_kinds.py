@@ -225,9 +225,10 @@ def test_a_ring_is_blamed_for_what_is_the_ring_s() -> None:
 
 def test_a_rack_that_is_shorter_than_its_mesh_says_so() -> None:
     mate = {"kind": "rack_pair", "first": "a", "second": "b"}
-    for teeth, codes in ((1, {"short_rack"}), (8, set())):
+    # contact ratio 1.7: two teeth are in contact at once
+    for teeth, numbers in ((2, [(2.0, 3.0)]), (3, [])):
         _, matings, _ = scene({"a": WHEEL, "b": {**RACK, "number_of_teeth": teeth}}, mate)
-        assert {f.code for f in matings[0].findings()} & {"short_rack"} == codes
+        assert [(f.value, f.limit) for f in matings[0].findings() if f.code == "short_rack"] == numbers
 
 
 def test_herringbones_need_one_width() -> None:
@@ -235,3 +236,85 @@ def test_herringbones_need_one_width() -> None:
     mate = {"kind": "external_gear_pair", "first": "a", "second": "b"}
     with pytest.raises(SceneError, match="face_width"):
         scene({"a": {**double, "face_width": 10.0}, "b": {**double, "hand": "left", "face_width": 20.0}}, mate)
+
+
+THIN = {"circumferential_thinning": 0.05}
+
+
+@pytest.mark.parametrize("pitches", [0, -2])
+def test_a_rack_may_stand_anywhere_in_its_play(pitches: int) -> None:
+    """Thinned teeth of 0.1 mm together leave the rack 0.05 mm along its way to either side, pitch after pitch."""
+    parts = {"wheel": SUN | THIN, "rack": RACK | THIN}
+    mate = {"kind": "rack_pair", "first": "wheel", "second": "rack", "direction_deg": -90.0}
+    _, _, stand = scene(parts, mate)
+    middle, turned = stand.instances[1].centre, math.degrees(stand.instances[1].rotation)
+    for share in (0.99, -0.99, 1.01, -1.01):
+        # the rack's way is the line of centres, turned by a quarter
+        at = middle + 0.05 * share + pitches * 2 * math.pi
+        by_hand = {"wheel": {"at": [0, 0, 0]}, "rack": {"at": [at.real, at.imag, 0], "rotation_deg": turned}}
+        _, _, placed = scene(parts, mate, instances=by_hand)
+        found = {c.code: c for c in placed.mates[0].conditions}
+        assert found["centre_distance"].met
+        assert found["rack_phase"].met is (abs(share) < 1)
+        assert found["rack_phase"].value == pytest.approx(0.05 * share, abs=1e-9)
+        assert found["rack_phase"].tolerance == pytest.approx(0.05, abs=2e-5)
+
+
+@pytest.mark.parametrize(
+    ("kind", "first", "second", "radius", "nearer"),
+    [
+        # a wheel that turns on brings its teeth, on this side of its axis, down upon the first's: on its upper flanks
+        ("external_gear_pair", SUN, WHEEL | {"profile_shift_coefficient": 0.0}, 31.0, 1),
+        ("internal_gear_pair", SUN, RING, 60.0, 0),
+        # the pinion itself turns on
+        ("internal_gear_pair", RING, SUN, 20.0, 1),
+        ("rack_pair", SUN, RACK, None, 0),
+    ],
+)
+def test_a_second_that_stands_off_the_middle_is_nearer_to_one_flank(
+    kind: str, first: dict[str, Any], second: dict[str, Any], radius: float | None, nearer: int
+) -> None:
+    """Off by half of its play, along the reference circle 0.025 of 0.05 mm: flanks are as far apart by cos(alpha)."""
+    _, (mating,), _ = scene({"a": first | THIN, "b": second | THIN}, {"kind": kind, "first": "a", "second": "b"})
+    for sense in (1, -1):
+        sides = mating.contact(sense * 0.025 / (radius or 1.0), 0.0, None).side_gaps
+        gaps = [min(sides[nearer]), min(sides[1 - nearer])][::sense]
+        # the corner of a standard rack reaches a little below where the thinned gear's flank begins
+        assert gaps == pytest.approx([0.025 * math.cos(math.radians(20)), 0.075 * math.cos(math.radians(20))], abs=6e-4)
+
+
+HELIX = math.tan(math.radians(25.0)) / (19.0 / math.cos(math.radians(25.0)))
+
+
+def by_hand(height: float, turned: float, **keys: Any) -> dict[str, Any]:
+    """Conditions of two helical gears placed as their mate has them, the second that far up, the first turned, rad."""
+    parts = {"a": HELICAL | keys, "b": HELICAL | {"number_of_teeth": 33, "hand": "left"} | keys}
+    mate = {"kind": "external_gear_pair", "first": "a", "second": "b"}
+    _, _, stand = scene(parts, mate)
+    there = stand.instances[1]
+    instances = {
+        "a": {"at": [0, 0, 0], "rotation_deg": math.degrees(turned)},
+        "b": {"at": [there.centre.real, 0, height], "rotation_deg": math.degrees(there.rotation)},
+    }
+    _, _, placed = scene(parts, mate, instances=instances)
+    (found,) = placed.mates
+    return {c.code: c for c in found.conditions} | {"face": found.mating.face}
+
+
+@pytest.mark.parametrize("height", [4.0, -4.0, 10.0, 11.0])
+def test_helical_gears_at_different_heights_meet_where_the_lead_has_turned_them(height: float) -> None:
+    """A right-hand gear's section turns on with its height; the mate sees the one that is at its lower face."""
+    met = by_hand(height, -height * HELIX)
+    assert met["phase"].met
+    assert not by_hand(height, height * HELIX)["phase"].met
+    width = max(10.0 - abs(height), 0.0)
+    assert met["common_face_width"].value == pytest.approx(10.0 - abs(height))
+    assert met["common_face_width"].met is (width > 0)
+    assert met["face"].width == pytest.approx(width)
+    assert met["face"].overlap_ratio == pytest.approx(width * math.sin(math.radians(25.0)) / (2 * math.pi), abs=1e-12)
+
+
+def test_the_points_of_herringbones_stand_at_one_height() -> None:
+    for height, met in ((0.0, True), (1.0, False), (-1.0, False)):
+        found = by_hand(height, 0.0, double_helical=True, face_width=20.0)["herringbone_height"]
+        assert (found.met, found.value) == (met, height)

@@ -154,6 +154,34 @@ def test_followers_placed_by_hand_are_held_against_their_travel(kind: str, side:
         assert has_bad_verdict(by_hand(*off)), off
 
 
+@pytest.mark.parametrize("side", ["trailing", "leading"])
+def test_an_arm_that_is_turned_by_hand_rises_by_its_own_turn(side: str) -> None:
+    """Its pivot stays: a thousandth of a radian lifts or lowers an end of 80 mm by 0.08 mm, seen along its way."""
+    pivot = made(scene_text("mushroom", side, 28.0))[0].instances[1]
+    for turn in (1e-3, -1e-3):
+        at = f"at = [{pivot.at[0]!r}, {pivot.at[1]!r}, 0.0]\nrotation_deg = {math.degrees(pivot.rotation + turn)!r}"
+        conditions = {c.code: c for c in made(scene_text("mushroom", side, 28.0, at))[0].mates[0].conditions}
+        # a pivot at -x has the end on its right: it rises as the arm turns counter-clockwise
+        rises = turn > 0 if side == "leading" else turn < 0
+        assert conditions["centre_distance"].met
+        assert conditions["rack_phase"].value == pytest.approx(0.08 if rises else -0.08, rel=1e-9)
+
+
+def test_a_stem_that_leans_is_off_its_place() -> None:
+    stem = made(scene_text("pointed", None, 28.0))[0].instances[1]
+    for lean, met in ((0.0, True), (0.01, False)):
+        at = f"at = [{stem.at[0]!r}, {stem.at[1]!r}, 0.0]\nrotation_deg = {math.degrees(stem.rotation) + lean!r}"
+        conditions = made(scene_text("pointed", None, 28.0, at))[0].mates[0].conditions
+        assert all(c.met for c in conditions) is met
+
+
+def test_a_motion_that_falls_first_is_told_whole() -> None:
+    text = scene_text("pointed", "trailing").replace("swing_deg = 10.0", "swing_deg = 4.0")
+    text = text.replace('"rise"', '"up"').replace('"return_"', '"rise"').replace('"up"', '"return_"')
+    found = made(text)[2].quantities()
+    assert (found["travel"], found["unit"]) == (pytest.approx(4.0), "deg")
+
+
 def test_solids_of_plate_and_stem_above_it_do_not_meet() -> None:
     stem = 'kind = "follower"\nend = "roller"\nstem_width = 14.0\nstem_length = 60.0\npin_diameter = 4.0'
     text = scene_text("roller", None, 20.0).replace('kind = "roller"\ndiameter = 12.0', stem)
@@ -194,6 +222,9 @@ def test_a_told_plate_diameter_works() -> None:
     with pytest.raises(SceneError) as caught:
         made(text)
     told = str(caught.value).split("at least ")[1].split(" mm")[0]
+    # the contact runs out by r sin(atan S'); a modified sine is steepest by 4 pi / (pi + 4)
+    slope = 4 * math.pi / (math.pi + 4) * 12 / 70
+    assert float(told) == pytest.approx(2 * 20.0 * math.sin(math.atan(slope)), rel=1e-5)
     _, _, mating = made(text.replace("plate_diameter = 9.0", f"plate_diameter = {told}"))
     assert mating.contact(0.0, 0.0, None).verdict is Verdict.CONTACT
 

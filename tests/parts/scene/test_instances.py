@@ -134,6 +134,16 @@ def test_what_nothing_places_stands_in_a_row_and_touches_nothing() -> None:
     assert stand.close == ()
 
 
+def test_a_row_leaves_5_mm_between_the_reaches_of_its_groups() -> None:
+    """Tip radii 22, 27, 32, 42 and 14; a pair to the left of the origin, a train c - d the other way round, e alone."""
+    text = ABC + GEAR.format("d", 2, 40, 0) + GEAR.format("e", 2, 12, 0)
+    _, stand = placed(
+        text + MATE.format("a", "b") + "direction_deg = 180\n" + MATE.format("c", "d") + "direction_deg = 180\n"
+    )
+    first = 22 + 5 + 42 + 70
+    assert [i.at[0] for i in stand.instances] == pytest.approx([0, -45, first, first - 70, first + 32 + 5 + 14])
+
+
 def test_placed_instances_are_only_checked() -> None:
     """m 2, z 20 / 25 without shift: 45 mm apart, and a tooth of the first looks at a space of the second."""
     good = AB + instance("b", "at = [0, 45, 0]\nrotation_deg = {}") + MATE.format("a", "b")
@@ -149,8 +159,9 @@ def test_placed_instances_are_only_checked() -> None:
     assert [c.code for c in stand.mates[0].conditions if not c.met] == ["phase"]
     _, stand = placed(good.format(right).replace("45", "45.001"))
     assert [c.code for c in stand.mates[0].conditions if not c.met] == ["centre_distance"]
-    _, stand = placed(good.format(right).replace("45, 0]", "45, 11]"))
-    assert [c.code for c in stand.mates[0].conditions if not c.met] == ["common_face_width"]
+    for height in ("10", "11", "-10"):
+        _, stand = placed(good.format(right).replace("45, 0]", f"45, {height}]"))
+        assert [c.code for c in stand.mates[0].conditions if not c.met] == ["common_face_width"]
 
 
 @pytest.mark.parametrize(("turned", "code", "word"), [(0.0, 0, "CONTACT"), (0.02, 1, "BROKEN"), (-7.2, 0, "CONTACT")])
@@ -213,6 +224,10 @@ def test_gears_that_run_into_each_other_without_a_mate_are_noticed(
     assert stand.close == ()
     _, stand = placed(AB + instance("b", "at = [10, 0, 9.9]") + instance("a", "at = [0, 0, 0]"))
     assert len(stand.close) == 1
+    # tip radii 22 and 27: nearer than both together, and not one within what may be the other's bore
+    for apart, told in ((49.0, 0), (48.9999, 1), (5.001, 1), (4.999, 0)):
+        _, stand = placed(AB + instance("b", f"at = [0, {apart}, 0]") + instance("a", "at = [0, 0, 0]"))
+        assert len(stand.close) == told, apart
 
 
 def test_a_drive_turns_its_whole_train_and_no_other() -> None:

@@ -12,10 +12,12 @@ import pytest
 
 from exporters.formats.read_dxf import read_dxf
 from exporters.production.recheck import recheck
+from geometry.base.errors import OffsetError
 from geometry.cams.contact.rolled import rolled_lift
-from geometry.cams.plane.wedge import Swinging, WedgeCam
+from geometry.cams.plane.wedge import Swinging, Upright, WedgeCam, WedgeMotion, wedge_profile
 from geometry.curves.line_arc import Arc
 from geometry.kinematics.motion import GivenMotion, Sliding
+from geometry.laws.piece import LawPiece
 from geometry.plane.envelope import Pair
 from geometry.plane.measure import distance_to_profile
 from parts.base.part import Part
@@ -230,3 +232,133 @@ def test_impacts_are_told() -> None:
     found = {f.code: f for f in parts_of({"cam": soft})["cam"].findings}
     assert found["wedge_soft_impact"].value == pytest.approx(20 * math.pi**2 / 2 / 60**2)
     assert not parts_of({"cam": ROLLER | {"lift": 10.0}})["cam"].findings
+
+
+def made_of(keys: Keys) -> tuple[Part, WedgeCam]:
+    part = parts_of({"cam": keys})["cam"]
+    assert part.thing is not None
+    return part, part.thing
+
+
+def drawn(part: Part, offset: float) -> np.ndarray:
+    outline = part.section(offset).region.outer
+    return np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 200)) for s in outline.segments()])
+
+
+@pytest.mark.parametrize("name", ["steep", "large roller", "jump", "holes meet"])
+def test_every_fault_of_a_profile_has_its_own_code(name: str) -> None:
+    keys, blamed, code = WRONG[name]
+    refusal = refused({"cam": keys})
+    assert (refusal.key, refusal.code) == (f"parts.cam.{blamed}", code)
+
+
+@pytest.mark.parametrize("offset", [-0.3, 0.0, 0.2])
+@pytest.mark.parametrize("name", ["roller", "trailing", "leading"])
+def test_a_plate_reaches_as_far_as_its_runs(name: str, offset: float) -> None:
+    """12 mm before the follower's start and 8 mm after its end, where an arm has carried it along x."""
+    part, _ = made_of(CAMS[name] | {"run_in": 12.0, "run_out": 8.0, "phases": PHASES[:1]})
+    carried = 0.0
+    if name != "roller":
+        start = math.asin((15.0 + 7.0 - 50.0) / 80.0)
+        carried = 80.0 * (math.cos(start) - math.cos(start + math.radians(14.0)))
+        carried *= 1 if name == "trailing" else -1
+    points = drawn(part, offset)
+    assert points.real.min() == pytest.approx(-12.0 - offset, abs=1e-9)
+    assert points.real.max() == pytest.approx(60.0 + carried + 8.0 + offset, abs=1e-9)
+    assert points.imag.min() == pytest.approx(-offset, abs=1e-12)
+
+
+def test_corners_are_no_rounder_than_the_plate_is_high() -> None:
+    _, cam = wedge("roller")
+    assert wedge_profile(cam, (10.0, 10.0), 7.49)
+    with pytest.raises(OffsetError):
+        wedge_profile(cam, (10.0, 10.0), 7.51)
+
+
+def test_the_vertex_function_is_the_rate_of_the_curvature() -> None:
+    """kappa' = vertex / |z'|^5, by differences."""
+    for name in ("roller", "trailing"):
+        _, cam = wedge(name)
+        curve = cam.curve(cam.motion.pieces[0], 0.0, 60.0)
+        t, step = np.linspace(1.0, 59.0, 59), 1e-4
+        slope = (curve.pitch_curvature(t + step) - curve.pitch_curvature(t - step)) / (2 * step)
+        speed = np.abs(cam.rate(t))
+        assert np.allclose(curve.vertex_function(t) / speed**5, slope, atol=1e-9)
+
+
+@pytest.mark.parametrize("name", CAMS)
+def test_an_edge_stops_the_follower_where_it_was_made_for(name: str) -> None:
+    """Points of the profile moved by an offset: the travel, half a turn for all of it, and the motion there."""
+    _, cam = wedge(name)
+    travel = np.linspace(1.0, cam.motion.travel - 1.0, 23)
+    normal = 1j * cam.rate(travel)
+    normal /= np.abs(normal)
+    for offset in (-0.3, 0.0, 0.2):
+        angle, lift = cam.stop(cam.centre(travel) - (cam.radius - offset) * normal, normal, offset)
+        assert np.allclose(angle, math.pi * travel / cam.motion.travel, atol=1e-12)
+        assert np.allclose(lift, cam.motion.value(travel), atol=1e-12)
+
+
+def test_the_sharpest_crest_is_that_of_the_law() -> None:
+    """y'' / (1 + y'^2)^(3/2) of S = 20 (35 u^4 - 84 u^5 + 70 u^6 - 20 u^7), u = t/60, by a search of its own."""
+    from scipy.optimize import minimize_scalar
+
+    law = 20 * np.polynomial.Polynomial([0, 0, 0, 0, 35, -84, 70, -20])
+    first, second = law.deriv(1), law.deriv(2)
+
+    def bend(u: float) -> float:
+        return float(second(u) / 60**2 / (1 + (first(u) / 60) ** 2) ** 1.5)
+
+    keys = ROLLER | {"phases": PHASES[:1]}
+    crest = -1 / minimize_scalar(bend, bounds=(0.5, 1.0), method="bounded", options={"xatol": 1e-9}).fun
+    assert parts_of({"cam": keys})["cam"].quantities["least_curvature_radius"] == pytest.approx(crest - 7, rel=1e-9)
+    parts_of({"cam": keys | {"follower_radius": crest * (1 - 1e-6)}})
+    assert refused({"cam": keys | {"follower_radius": crest * (1 + 1e-6)}}).code == "crest_undercut"
+
+
+def test_a_straight_slope_has_no_crest() -> None:
+    part, _ = made_of(CAMS["pointed"] | {"lift": 10.0, "phases": JUMP[:1]})
+    assert "least_curvature_radius" not in part.quantities
+    assert [(f.code, f.value) for f in part.findings] == [("wedge_rigid_impact", pytest.approx(1 / 6))]
+
+
+@pytest.mark.parametrize("grow", [-0.5, 0.0, 0.5])
+def test_the_follower_itself_rounds_a_valley_where_its_velocity_jumps(grow: float) -> None:
+    """A parabola that starts with the slope 1/3 and ends level: every point of the edge is as far from the path."""
+    cam = WedgeCam(WedgeMotion((LawPiece(0.0, 60.0, (0.0, 10.0, 10.0)),)), Upright(25.0), 7.0)
+    outline = wedge_profile(cam, (10.0, 10.0), 0.0, grow)
+    points = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 60)) for s in outline.segments()])
+    upper = points[(points.imag > 12) & (points.real > -9) & (points.real < 69)]
+    x = np.linspace(-15.0, 75.0, 9001)
+    u = np.clip(x / 60, 0, 1)
+    path = x + 1j * (25 + 10 * (2 * u - u * u))
+    away = np.abs(upper[:, None] - path).min(axis=1)
+    assert away == pytest.approx(7.0 - grow, abs=3e-6)
+
+
+def test_a_steep_slope_is_told_from_30_degrees_on() -> None:
+    """The greatest slope of the 4-5-6-7 polynomial is 35/16 of its mean one."""
+    for degrees in (29.9, 30.1):
+        lift = 60.0 * 16 / 35 * math.tan(math.radians(degrees))
+        part, _ = made_of(ROLLER | {"lift": lift, "phases": PHASES[:1]})
+        told = [(f.value, f.limit) for f in part.findings if f.code == "steep_pressure_angle"]
+        assert told == ([(pytest.approx(30.1, abs=1e-6), 30.0)] if degrees > 30 else [])
+
+
+def test_holes_shrink_with_the_offset_and_leave_each_other_a_wall() -> None:
+    holes = [{"diameter": 5.0, "x": x, "y": 8.0} for x in (0.0, 6.0)]
+    part, _ = made_of(ROLLER | {"holes": holes})
+    for offset in (-0.3, 0.2):
+        for hole, at in zip(part.section(offset).region.holes, (8j, 6 + 8j), strict=True):
+            points = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 9)) for s in hole.segments()])
+            assert np.abs(points - at) == pytest.approx(2.5 - offset, abs=1e-12)
+    with pytest.raises(OffsetError) as closed:
+        part.section(2.5)
+    assert closed.value.nearest_offset == pytest.approx(2.5, rel=1e-5)
+    part.section(closed.value.nearest_offset)
+    told = refused({"cam": ROLLER | {"holes": [holes[0], holes[1] | {"diameter": 7.5}]}})
+    assert told.code == "hole_reaches_edge"
+    # 6 mm from axis to axis less the other's radius
+    assert told.nearest is not None
+    assert told.nearest.value == pytest.approx(2 * (6.0 - 2.5), rel=0.02)
+    assert told.nearest.value < 7.0
