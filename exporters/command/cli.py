@@ -284,7 +284,12 @@ def _parser(told: Words) -> argparse.ArgumentParser:
         metavar=told.term("command line", "SCENE | KEY=VALUE"),
         help=told.text("a scene, or keys as in scenes"),
     )
-    calc.add_argument("--format", default="text", metavar="F", help=told.text("text, md, html or json (default: text)"))
+    calc.add_argument(
+        "--format",
+        default="text",
+        metavar="F",
+        help=told.text("text, md, html, json, or the tables alone as csv (default: text)"),
+    )
     calc.set_defaults(run=_calc)
     new = command("new", told.text("print a commented scene to start from; of a mate its table, to add to one"), page)
     new.add_argument(

@@ -1,4 +1,4 @@
-"""A calculation as text for a terminal, Markdown, a page of HTML, or JSON with all digits."""
+"""A calculation as text for a terminal, Markdown, a page of HTML, JSON with all digits, or its tables as CSV."""
 
 from __future__ import annotations
 
@@ -10,18 +10,20 @@ from typing import Any
 from parts.base.texts import N_, Words, words
 from parts.pages.page import Section, Sheet, Step, formula_text, number, numbers_text
 from parts.pages.symbols import symbol_text
-from parts.pages.tables import html_table, markdown_table, plain_table, table_data
+from parts.pages.tables import csv_table, html_table, markdown_table, plain_table, table_data
 from parts.pages.text import equation, printed_text, result_text, source_text, step_name
 
 _GEARS = {1: "first", 2: "second"}
-FORMATS = ("text", "md", "html", "json")
+# what speaks a language, and what is numbers alone
+SPOKEN = ("text", "md", "html", "json")
+FORMATS = (*SPOKEN, "csv")
 # the heads of a page's columns
 _HEADS = (N_("quantity"), N_("formula and numbers"), N_("result"), N_("source"))
 
 
 def render(sheet: Sheet, form: str, language: str) -> str:
     """The calculation in one of ``FORMATS`` and a language, ending in a line feed."""
-    return {"text": _text, "md": _markdown, "html": _html, "json": _json}[form](sheet, words(language))
+    return {"text": _text, "md": _markdown, "html": _html, "json": _json, "csv": _csv}[form](sheet, words(language))
 
 
 def _text(sheet: Sheet, told: Words) -> str:
@@ -137,6 +139,11 @@ def _json(sheet: Sheet, told: Words) -> str:
     data = {"topic": sheet.topic, "values": values, "steps": steps, "notes": notes, **sheet.data}
     data |= {table.name: table_data(table) for table in sheet.tables}
     return json.dumps(data, ensure_ascii=False, indent=1, allow_nan=False) + "\n"
+
+
+def _csv(sheet: Sheet, told: Words) -> str:
+    """The tables one after another, an empty line between them; the same in every language."""
+    return "\n".join(map(csv_table, sheet.tables))
 
 
 def _keep(values: dict[str, Any], step: Step) -> None:

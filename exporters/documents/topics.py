@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from exporters.documents.render import FORMATS, render
+from geometry.base.errors import Nearest
 from parts.base.refusal import SceneError, meant
 from parts.base.registry import KINDS
 from parts.base.texts import Words, languages
@@ -51,6 +52,8 @@ def calculate(topic: str, words: Sequence[str], form: str, language: str | None)
     language = language or spoken
     if sheet.picture_file is not None and sheet.picture is not None:
         _write_picture(sheet.picture, Path(sheet.picture_file), told(language))
+    if form == "csv" and not sheet.tables:
+        raise SceneError(PLACE, "--format", form, "no_tables", Nearest("json"))
     return render(sheet, form, language)
 
 

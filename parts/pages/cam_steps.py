@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
 import numpy as np
 from msgspec import Meta
 
+from geometry.base.errors import Nearest, ParameterError
 from geometry.cams.motion.follower_motion import TURN, FollowerMotion, Phase, PhaseKind
 from geometry.cams.plane.disk import DiskCam
 from geometry.cams.plane.graphical import INTERVALS, LEAST_INTERVALS, MOST_INTERVALS
+from geometry.cams.plane.synthesis import least_hollow_radius
 from geometry.curves.curve import Complex, Real
 from geometry.laws.piece import LawPiece
 from parts.base.texts import N_, Message, Text, filled, message
@@ -56,6 +58,15 @@ Intervals = Annotated[
 DEFAULT_INTERVALS = INTERVALS
 Drawing = Annotated[
     Literal["smooth", "chords"], Meta(description="S' of the graphical method: a smooth curve or a broken line")
+]
+Cutter = Annotated[
+    float,
+    Meta(
+        gt=0,
+        le=1000,
+        description="of a cutter on the profile: adds its centres to csv and json; judged by the curvature alone",
+        extra={"unit": "mm"},
+    ),
 ]
 Speed = Annotated[float, Meta(gt=0, le=1e6, description="of the cam: adds velocities", extra={"unit": "rpm"})]
 
@@ -183,15 +194,27 @@ def with_left_sides(at: Real, jumps: Sequence[float]) -> tuple[Real, Real]:
 
 
 def motion_columns(
-    values: Sequence[Real], argument: Real, *, swings: bool, slides: bool = False
+    values: Sequence[Real], argument: Real, *, swings: bool, slides: bool = False, speed: float | None = None
 ) -> tuple[list[Real], list[tuple[str, str]]]:
-    """The columns phi, S, S', S'' and their heads; ``argument`` in degrees, or mm of a plate that ``slides``."""
+    """The columns phi, S, S', S'' and their heads; ``argument`` in degrees, or mm of a plate that ``slides``.
+
+    A ``speed``, rad/s (mm/s of a plate), adds the follower's velocity and acceleration.
+    """
     scale, u = (180 / math.pi, "deg") if swings else (1.0, "mm")
     units = (f"{u}/rad", f"{u}/rad2")
     if slides:
         units = ("deg/mm", "deg/mm2") if swings else ("", "1/mm")
     heads = [("s", "mm") if slides else ("phi", "deg"), ("S", u), ("S'", units[0]), ("S''", units[1])]
-    return [argument, *(v * scale for v in values)], heads
+    columns = [argument, *(v * scale for v in values)]
+    if speed is not None:
+        columns += [values[1] * speed, values[2] * speed**2 / (1 if swings else 1000)]
+        heads += [("omega", "rad/s"), ("epsilon", "rad/s2")] if swings else [("v", "mm/s"), ("a", "m/s2")]
+    return columns, heads
+
+
+def angular_speed(speed_rpm: float | None) -> float | None:
+    """rad/s of a cam whose speed is given."""
+    return None if speed_rpm is None else math.pi * speed_rpm / 30
 
 
 def table_of(name: str, title: Text, columns: Sequence[Real], heads: Sequence[tuple[str, str]]) -> Table:
@@ -208,25 +231,58 @@ def positions(
     *,
     beyond: float | None = None,
     turn: float = 0.0,
+    speed_rpm: float | None = None,
+    cutter_diameter: float | None = None,
 ) -> Table:
     """phi, S, S', S'', pressure angle, radius of curvature, profile: at every step and where a phase begins.
 
     ``beyond``: mm from the roller's centre to the wall beyond it, whose table is then made; ``turn``: rad by which a
-    disk is turned on its shaft; ``whose``: wall or disk.
+    disk is turned on its shaft; ``whose``: wall or disk. A speed adds the follower's velocity and acceleration. Only
+    data have the profile's polar radius and angle, the pitch curve, and the centre of a cutter on the cam's profile.
     """
     degrees, angle = cam_angles(cam.motion, step)
-    columns, heads = motion_columns([cam.motion.value(angle, k) for k in range(3)], degrees, swings=cam_swings(cam))
+    motion = [cam.motion.value(angle, k) for k in range(3)]
+    columns, heads = motion_columns(motion, degrees, swings=cam_swings(cam), speed=angular_speed(speed_rpm))
     slope = np.degrees(cam.pressure_angle(angle))
     if beyond is None:
         profile, bend = cam.profile_point(angle), cam.curvature_radius(angle)
     else:
         profile, bend = outer_points(cam, angle, beyond), -(cam.pitch_curvature_radius(angle) + beyond)
-    profile = profile * np.exp(1j * turn)
+    turned = np.exp(1j * turn)
+    profile = profile * turned
+    columns += [slope, bend, profile.real, profile.imag]
     heads += [("nu", "deg"), ("rho", "mm"), ("x", "mm"), ("y", "mm")]
+    shown = len(heads)
+    columns += [np.abs(profile), np.degrees(np.angle(profile)) % 360]
+    heads += [("r", "mm"), ("theta", "deg")]
+    if cam.radius:
+        columns += _coordinates(outer_points(cam, angle, 0.0) * turned)
+        heads += [("x_p", "mm"), ("y_p", "mm")]
+    if cutter_diameter is not None:
+        columns += _coordinates(cutter_centres(cam, angle, cutter_diameter) * turned)
+        heads += [("x_c", "mm"), ("y_c", "mm")]
     title = message("Positions: cam angle, motion, pressure angle, radius of curvature, profile")
     if whose:
         title = message("{title} ({whose})", title=title, whose=message(whose))
-    return table_of(name, title, [*columns, slope, bend, profile.real, profile.imag], heads)
+    return replace(table_of(name, title, columns, heads), shown=shown)
+
+
+def _coordinates(points: Complex) -> list[Real]:
+    return [points.real, points.imag]
+
+
+def cutter_centres(cam: DiskCam, angle: Real, cutter_diameter: float) -> Complex:
+    """Centres of a cutter that touches the cam's profile from outside, in the cam's frame, mm.
+
+    Raises
+    ------
+    ParameterError
+        The cutter is rounder than the profile where that is hollow.
+    """
+    most = 2 * (least_hollow_radius(cam).value + cam.radius)
+    if cutter_diameter > most:
+        raise ParameterError("cutter_diameter", cutter_diameter, "cutter_above_hollow", Nearest(most), most=most)
+    return np.asarray((cam.contact(angle) + cutter_diameter / 2 * cam.normal(angle)) * np.exp(-1j * angle))
 
 
 def outer_points(cam: DiskCam, angle: Real, beyond: float) -> Complex:

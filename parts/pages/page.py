@@ -85,12 +85,13 @@ class Section:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """Rows of numbers under heads (symbol, unit), by ``name`` in json."""
+    """Rows of numbers under heads (symbol, unit), by ``name`` in json; pages print the first ``shown`` columns."""
 
     name: str
     title: Text
     heads: tuple[tuple[str, str], ...]
     rows: tuple[tuple[float, ...], ...]
+    shown: int | None = None
 
 
 @dataclass(slots=True)

@@ -13,7 +13,12 @@ _DIGITS = 4
 
 
 def _heads(table: Table, words: Words) -> list[str]:
-    return [", ".join(filter(None, (symbol, unit_text(unit, words)))) for symbol, unit in table.heads]
+    shown = table.heads[: table.shown]
+    return [", ".join(filter(None, (symbol, unit_text(unit, words)))) for symbol, unit in shown]
+
+
+def _rows(table: Table) -> list[list[str]]:
+    return [[_cell(x) for x in row[: table.shown]] for row in table.rows]
 
 
 def _cell(value: float) -> str:
@@ -25,8 +30,8 @@ def _cell(value: float) -> str:
 
 def plain_table(table: Table, words: Words) -> list[str]:
     """Lines of a table for a terminal, columns flush right."""
-    rows = [_heads(table, words), *([_cell(x) for x in row] for row in table.rows)]
-    widths = [max(len(row[k]) for row in rows) for k in range(len(table.heads))]
+    rows = [_heads(table, words), *_rows(table)]
+    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
     lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in rows]
     title = words.say(table.title)
     return [title, "-" * len(title), *lines]
@@ -35,14 +40,14 @@ def plain_table(table: Table, words: Words) -> list[str]:
 def markdown_table(table: Table, words: Words) -> list[str]:
     """Lines of a table in Markdown."""
     heads = [head.replace("_", r"\_") for head in _heads(table, words)]
-    rows = [heads, ["---:"] * len(heads), *([_cell(x) for x in row] for row in table.rows)]
+    rows = [heads, ["---:"] * len(heads), *_rows(table)]
     return [f"## {words.say(table.title)}", "", *(f"| {' | '.join(row)} |" for row in rows)]
 
 
 def html_table(table: Table, words: Words) -> str:
     """A table of a page."""
     head = "".join(f"<th>{html.escape(h)}</th>" for h in _heads(table, words))
-    rows = ["".join(f"<td>{_cell(x)}</td>" for x in row) for row in table.rows]
+    rows = ["".join(f"<td>{cell}</td>" for cell in row) for row in _rows(table)]
     body = "\n".join(f"<tr>{row}</tr>" for row in (head, *rows))
     return f"<h2>{html.escape(words.say(table.title))}</h2>\n<table>\n{body}\n</table>"
 
@@ -53,3 +58,11 @@ def table_data(table: Table) -> list[dict[str, Any]]:
         {symbol: value if math.isfinite(value) else None for (symbol, _), value in zip(table.heads, row, strict=True)}
         for row in table.rows
     ]
+
+
+def csv_table(table: Table) -> str:
+    """All columns and digits as lines of CSV: heads "symbol (unit)", decimal points, infinity as inf."""
+    heads = [f"{symbol} ({unit})" if unit else symbol for symbol, unit in table.heads]
+    # an added zero takes the sign off a zero
+    lines = [heads, *([repr(value + 0.0) for value in row] for row in table.rows)]
+    return "".join(f"{','.join(line)}\n" for line in lines)

@@ -31,6 +31,7 @@ REASONS = {
     "conditions_without_ends": N_("(0, 0, 0) and (1, 0, 1) must be among them"),
     "contact_over_edge": N_("the contact runs over the plate's edge"),
     "crest_undercut": N_("undercuts the crest at {travel} mm of travel"),
+    "cutter_above_hollow": N_("the cutter is rounder than the profile where that is hollow: at most {most} mm"),
     "cuts_into_stem": N_("cuts into the stem"),
     "dead_point_near": N_("a dead point or a pressure angle of 90 degrees is too near"),
     "diagram_lifts_nothing": N_("lifts nothing: put the segments above the axis first"),

@@ -17,6 +17,7 @@ REASONS = {
     "no_gear_pair": N_('has no pair of gears; add [[mates]] kind = "external_gear_pair"'),
     "no_such_folder": N_("there is no such folder"),
     "no_such_pair": N_("the scene has no such pair"),
+    "no_tables": N_("this calculation has no tables"),
     "no_whole_modules": N_("must be a whole number of modules, at least 3"),
     "none_of_kind": N_("the scene has no {kind}; name another one, or type its keys"),
     "one_scene_only": N_("one scene is enough; {other} is given already"),

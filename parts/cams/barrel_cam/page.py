@@ -21,6 +21,7 @@ from parts.pages.cam_steps import (
     Phases,
     Speed,
     Step,
+    angular_speed,
     cam_angles,
     coefficient_steps,
     impact_notes,
@@ -61,7 +62,7 @@ def sheet(kind: str, table: dict[str, Any]) -> Sheet:
     coefficient_steps(page, phases)
     _sizes(page, keys, body)
     page.data["phases"] = phases.data()
-    page.tables += [_positions(cam, keys.step, swings=swings), *_walls(cam, keys.step)]
+    page.tables += [_positions(cam, keys.step, keys.speed_rpm, swings=swings), *_walls(cam, keys.step)]
     if keys.speed_rpm is not None:
         speed_section(page, cam.motion, keys.speed_rpm, slides=not swings)
     impact_notes(page, cam.motion)
@@ -96,10 +97,11 @@ def _sizes(page: Sheet, keys: BarrelKeys, body: BarrelBody) -> None:
     page.add("largest_roller_diameter", BARREL_CAM.report(keys, body).quantities["largest_roller_diameter"])
 
 
-def _positions(cam: BarrelCam, step: float, *, swings: bool) -> Table:
+def _positions(cam: BarrelCam, step: float, speed_rpm: float | None, *, swings: bool) -> Table:
     """phi, S, S', S'', the greater pressure angle of the walls at the floor, the roller's axis y, z."""
     degrees, angle = cam_angles(cam.motion, step)
-    columns, heads = motion_columns([cam.motion.value(angle, k) for k in range(3)], degrees, swings=swings)
+    motion = [cam.motion.value(angle, k) for k in range(3)]
+    columns, heads = motion_columns(motion, degrees, swings=swings, speed=angular_speed(speed_rpm))
     slope = np.max([_by_piece(cam, angle, lambda p, t, s=side: cam.pressure_angle(t, cam.inner, p, s))
                     for side in cam.sides], axis=0)  # fmt: skip
     place = np.asarray(cam.place(angle, 0)[0])

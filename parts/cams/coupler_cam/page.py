@@ -81,7 +81,7 @@ def sheet(kind: str, table: dict[str, Any]) -> Sheet:
     _sizes(page, keys, cam)
     position_steps(page, position_at(cam, _chosen(keys, cam)))
     page.data["phases"] = phases.data()
-    page.tables.append(positions(cam, keys.step))
+    page.tables.append(positions(cam, keys.step, speed_rpm=keys.speed_rpm))
     page.tables.append(linkage_table(cam, keys.step))
     graphical_section(page, cam, None, keys.intervals, keys.drawing)
     if keys.speed_rpm is not None:

@@ -31,6 +31,7 @@ from parts.pages.cam_steps import (
     LESSON_4,
     LESSON_5,
     TOPIC,
+    Cutter,
     Drawing,
     Intervals,
     Phases,
@@ -65,6 +66,7 @@ class CamKeys(CamSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     intervals: Intervals = DEFAULT_INTERVALS
     drawing: Drawing = "smooth"
     speed_rpm: Speed | None = None
+    cutter_diameter: Cutter | None = None
 
 
 def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
@@ -128,7 +130,7 @@ def disk_page(keys: CamKeys, cam: DiskCam) -> Sheet:
     coefficient_steps(page, phases)
     sizes(page, keys, cam)
     page.data["phases"] = phases.data()
-    page.tables.append(positions(cam, keys.step))
+    page.tables.append(positions(cam, keys.step, speed_rpm=keys.speed_rpm, cutter_diameter=keys.cutter_diameter))
     finish(page, keys, cam, keys.least_transmission_angle_deg)
     for phase in cam.motion.phases:
         if phase.law is not None and cam.is_flat:

@@ -52,10 +52,10 @@ def sheet(kind: str, table: dict[str, Any]) -> Sheet:
     coefficient_steps(page, phases)
     _sizes(page, keys, disk)
     page.data["phases"] = phases.data()
-    page.tables.append(positions(cam, keys.step, whose=N_("inner wall")))
+    page.tables.append(positions(cam, keys.step, whose=N_("inner wall"), speed_rpm=keys.speed_rpm))
     beyond = cam.radius + disk.clearance
     outer = N_("outer wall")
-    page.tables.append(positions(cam, keys.step, "positions_outer", outer, beyond=beyond))
+    page.tables.append(positions(cam, keys.step, "positions_outer", outer, beyond=beyond, speed_rpm=keys.speed_rpm))
     # the drawing's least radius is that of the rise alone
     finish(page, keys, cam, None)
     page.notes.append(_SIGN)

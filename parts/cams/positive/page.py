@@ -21,7 +21,7 @@ from parts.pages.inputs import PLACE, checked, refusal
 from parts.pages.page import Sheet
 
 # keys of the page, not of either part
-_PAGE = ("step", "intervals", "drawing", "speed_rpm")
+_PAGE = ("step", "intervals", "drawing", "speed_rpm", "cutter_diameter")
 
 
 class ConjugateKeys(ConjugateCamSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
@@ -51,17 +51,21 @@ def sheet(kind: str, table: dict[str, Any]) -> Sheet:
     except ParameterError as error:
         # of another name than the cam's own
         raise refusal(TOPIC, error) from error
-    page = disk_page(first, cam)
+    try:
+        page = disk_page(first, cam)
+        if isinstance(found, SecondCam):
+            _second(page, found, first)
+    except ParameterError as error:
+        raise refusal(TOPIC, error, keys=first) from error
     if isinstance(found, SecondCam):
         page.title = N_("Conjugate cams")
-        _second(page, found, first.step)
     else:
         page.title = N_("Cam of constant breadth")
         _yoke(page, found, first.step)
     return page
 
 
-def _second(page: Sheet, second: SecondCam, step: float) -> None:
+def _second(page: Sheet, second: SecondCam, keys: CamKeys) -> None:
     cam = second.cam
     page.section(N_("Second disk"))
     between = between_rollers(second.first, second.pair)
@@ -74,7 +78,16 @@ def _second(page: Sheet, second: SecondCam, step: float) -> None:
     page.add("second_pressure_angle_deg", math.degrees(greatest_pressure_angle(cam).value))
     page.add("second_curvature_radius", least_convex_radius(cam).value)
     whose = N_("second disk, as it sits on the shaft")
-    page.tables.insert(1, positions(cam, step, "positions_second", whose, turn=second.pair.turn))
+    second_table = positions(
+        cam,
+        keys.step,
+        "positions_second",
+        whose,
+        turn=second.pair.turn,
+        speed_rpm=keys.speed_rpm,
+        cutter_diameter=keys.cutter_diameter,
+    )
+    page.tables.insert(1, second_table)
     page.notes.append(N_("S of the second disk is that of its own roller: it sinks where the first one rises"))
 
 

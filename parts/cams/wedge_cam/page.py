@@ -70,7 +70,7 @@ def sheet(kind: str, table: dict[str, Any]) -> Sheet:
     coefficient_steps(page, phases)
     _sizes(page, cam)
     page.data["phases"] = phases.data()
-    page.tables.append(_positions(cam, step, swings=swings))
+    page.tables.append(_positions(cam, step, keys.plate_velocity, swings=swings))
     if keys.plate_velocity is not None:
         _velocities(page, cam, keys.plate_velocity, swings=swings)
     page.notes += [finding_message(f) for f in wedge_findings(keys, cam)]
@@ -125,12 +125,13 @@ def _pressure(cam: WedgeCam, piece: LawPiece, t: Real) -> Real:
     return np.asarray(-np.angle(way / normal))
 
 
-def _positions(cam: WedgeCam, step: float, *, swings: bool) -> Table:
+def _positions(cam: WedgeCam, step: float, velocity: float | None, *, swings: bool) -> Table:
     """s, S, S', S'', pressure angle, radius of curvature, profile in the plate's frame; the last row is the end."""
     travel = cam.motion.travel
     inner = [joint.angle for joint in cam.motion.impacts() if joint.angle > 0]
     told, at = with_left_sides(np.append(grid(cam.motion.pieces, step, travel), travel), inner)
-    columns, heads = motion_columns([cam.motion.value(at, k) for k in range(3)], told, swings=swings, slides=True)
+    motion = [cam.motion.value(at, k) for k in range(3)]
+    columns, heads = motion_columns(motion, told, swings=swings, slides=True, speed=velocity)
     normal = 1j * cam.rate(at)
     profile = cam.centre(at) - cam.radius * normal / np.abs(normal)
     with np.errstate(divide="ignore"):

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from exporters.documents.render import FORMATS, render
+from exporters.documents.render import SPOKEN, render
 from exporters.documents.topics import TOPICS, calculate, sheet_of
 from geometry.base.angles import inverse_involute, involute_function
 from parts.base.refusal import SceneError
@@ -170,7 +170,7 @@ def test_headings_notes_and_misprints_speak_both_languages(asked: tuple[str, ...
 @pytest.mark.parametrize("language", ["en", "uk"])
 def test_every_format_of_every_topic(topic: str, language: str) -> None:
     sheet = sheet_for(" ".join(next(w for w in SHEETS if w[0] == topic)))
-    made = {form: render(sheet, form, language) for form in FORMATS}
+    made = {form: render(sheet, form, language) for form in SPOKEN}
     assert all(text.endswith("\n") for text in made.values())
     title = words(language).say(sheet.title)
     assert made["text"].startswith(title)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from exporters.documents.render import FORMATS, render
+from exporters.documents.render import SPOKEN, render
 from exporters.documents.topics import calculate, sheet_of
 from tests.exporters.command.test_cli import complaint
 
@@ -217,7 +217,7 @@ def test_pressure_angles_of_a_barrel_at_the_outside_are_the_textbooks() -> None:
                                    ("barrel_cam", "part=end"), SWINGING_WEDGE, SWINGING_BARREL], ids=str)  # fmt: skip
 def test_every_kind_speaks_both_languages_in_every_format(words: tuple[str, ...]) -> None:
     page, _ = sheet_of("cam", words)
-    for form in (f for f in FORMATS if f != "json"):
+    for form in (f for f in SPOKEN if f != "json"):
         assert "Положення" in render(page, form, "uk")
         assert "Positions" in render(page, form, "en")
 

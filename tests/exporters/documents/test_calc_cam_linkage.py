@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from exporters.documents.render import FORMATS, render
+from exporters.documents.render import SPOKEN, render
 from exporters.documents.topics import calculate, sheet_of
 from geometry.kinematics.linkage import Linkage, RockerDrive, RockerGuide, SliderDrive, SliderGuide
 from parts.base.texts import words
@@ -260,7 +260,7 @@ def test_a_follower_at_rest_has_a_pressure_angle_without_a_velocity() -> None:
 @pytest.mark.parametrize("name", WORDS)
 def test_both_languages_in_every_format(name: str) -> None:
     page = page_of(name, "speed_rpm=60")
-    for form in (f for f in FORMATS if f != "json"):
+    for form in (f for f in SPOKEN if f != "json"):
         uk, en = render(page, form, "uk"), render(page, form, "en")
         assert "Положення" in uk
         assert "кут шатуна" in uk

@@ -15,7 +15,7 @@ import shapely
 
 from exporters.documents import topics
 from exporters.documents.contour_dxf import SCALE, write_contour_dxf
-from exporters.documents.render import FORMATS, render
+from exporters.documents.render import SPOKEN, render
 from exporters.documents.topics import calculate
 from geometry.base.errors import Nearest
 from geometry.curves.implicit import Box
@@ -93,7 +93,7 @@ def test_choices_are_those_of_built_pairs() -> None:
 
 @pytest.mark.parametrize("language", ["en", "uk"])
 def test_every_form_and_language(language: str) -> None:
-    for form in FORMATS:
+    for form in SPOKEN:
         assert len(render(sheet_for(WORDS), form, language)) > 1000
     page = sheet_for(WORDS)
     for text in (page.title, *(section.title for section in page.sections), *page.notes):

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from exporters.documents.render import FORMATS, render
+from exporters.documents.render import SPOKEN, render
 from exporters.documents.topics import calculate
 from geometry.gears.pairs.sliding import specific_sliding
 from parts.base.refusal import SceneError
@@ -59,7 +59,7 @@ def test_every_printed_formula_gives_its_value(words: str) -> None:
 @pytest.mark.parametrize("language", ["en", "uk"])
 @pytest.mark.parametrize("words", ["gear-pair thesis_internal_pair", "gear-pair rack_and_pinion"])
 def test_every_form_and_language(words: str, language: str) -> None:
-    for form in FORMATS:
+    for form in SPOKEN:
         assert len(render(sheet_for(words), form, language)) > 1000
 
 

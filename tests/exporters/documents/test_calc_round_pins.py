@@ -10,7 +10,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from exporters.documents.render import FORMATS, render
+from exporters.documents.render import SPOKEN, render
 from exporters.documents.topics import calculate, sheet_of
 from parts.base.texts import words
 from tests.exporters.command.test_cli import complaint
@@ -53,7 +53,7 @@ def test_every_printed_formula_gives_its_value(words: tuple[str, ...]) -> None:
 @pytest.mark.parametrize("topic", ["cycloidal", "lantern", "noncircular"])
 def test_both_languages_in_every_format(topic: str) -> None:
     page, _ = sheet_of(topic, next(w for w in SHEETS if w[0] == topic)[1:])
-    for form in FORMATS:
+    for form in SPOKEN:
         one, two = (render(page, form, language) for language in ("en", "uk"))
         assert one != two
         if form != "json":
