@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 
 import numpy as np
 
 from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.laws.diagram import constant as level
 from geometry.laws.diagram import (
-    constant,
     half_cosine,
     law_of_diagram,
     linear,
@@ -23,6 +24,9 @@ from geometry.laws.splines import hermite_coefficients
 
 _MOST_DEGREE = 31
 _USUAL_RAMP = Nearest(0.125)
+_SCCA = "sine-constant-cosine acceleration"
+# shares that are none but for rounding
+_ROUNDING = 1e-12
 
 
 def constant_velocity() -> Law:
@@ -32,7 +36,7 @@ def constant_velocity() -> Law:
 
 def constant_acceleration() -> Law:
     """Parabolas; acceleration +-4."""
-    return law_of_diagram("constant acceleration", [constant(0.5, 1.0), constant(0.5, -1.0)])
+    return law_of_diagram("constant acceleration", [level(0.5, 1.0), level(0.5, -1.0)])
 
 
 def linearly_decreasing() -> Law:
@@ -46,7 +50,7 @@ def cosine() -> Law:
 
 
 def sine() -> Law:
-    """Cycloidal: s = u - sin(2 pi u)/(2 pi)."""
+    """Cycloidal, the inclined sine of VDI 2143 (Bestehorn): s = u - sin(2 pi u)/(2 pi)."""
     wave = Wave(-1 / (2 * math.pi), 2 * math.pi, 0.0)
     return Law("sine acceleration", (LawPiece(0.0, 1.0, (0.0, 1.0), (wave,)),))
 
@@ -80,15 +84,7 @@ def modified_trapezoid(ramp: float = 0.125) -> Law:
     """
     if not 0 < ramp < 0.25:
         raise ParameterError("ramp", ramp, "not_within", _USUAL_RAMP, low=0.0, high=0.25)
-    level = 0.5 - 2 * ramp
-    stretches = [
-        quarter_sine(ramp, 1),
-        constant(level, 1),
-        half_cosine(2 * ramp, 1, -1),
-        constant(level, -1),
-        quarter_cosine(ramp, -1),
-    ]
-    return law_of_diagram("modified trapezoid", stretches)
+    return sine_constant_cosine(2 * ramp, 1 - 4 * ramp, 2 * ramp, name="modified trapezoid")
 
 
 def modified_sine(ramp: float = 0.125) -> Law:
@@ -101,8 +97,44 @@ def modified_sine(ramp: float = 0.125) -> Law:
     """
     if not 0 < ramp < 0.5:
         raise ParameterError("ramp", ramp, "not_within", _USUAL_RAMP, low=0.0, high=0.5)
-    stretches = [quarter_sine(ramp, 1), half_cosine(1 - 2 * ramp, 1, -1), quarter_cosine(ramp, -1)]
-    return law_of_diagram("modified sine", stretches)
+    return sine_constant_cosine(2 * ramp, 0.0, 1 - 2 * ramp, name="modified sine")
+
+
+def modified_sine_cv(share: float) -> Law:
+    """The modified sine with this share of the phase at constant velocity in its middle (MSC, MCV).
+
+    Raises
+    ------
+    ParameterError
+        ``share`` not from 0 to below 1.
+    """
+    moved = (1 - share) / 4
+    return sine_constant_cosine(moved, 0.0, 3 * moved, name=f"modified sine CV {100 * share:.0f}")
+
+
+def sine_constant_cosine(sine: float, constant: float, cosine: float, *, name: str = _SCCA) -> Law:
+    """The SCCA family: shares of the phase, half of each up and half of it down; the rest is at constant velocity.
+
+    A quarter sine up, a level, a quarter cosine down, none, and the same mirrored: R. L. Norton, Cam Design and
+    Manufacturing Handbook, 3.
+
+    Raises
+    ------
+    ParameterError
+        Shares below 0, all of them 0, or more than the phase together.
+    """
+    shares = [sine, constant, cosine]
+    rest = 1 - sine - constant - cosine
+    if not min(shares) >= 0 or not sum(shares) > 0 or not rest >= -_ROUNDING:
+        raise ParameterError("sine_constant_cosine", shares, "shares_not_of_phase")
+    up = [(sine / 2, quarter_sine(sine / 2, 1)), (constant / 2, level(constant / 2, 1))]
+    if rest > _ROUNDING:
+        down = quarter_sine(cosine / 2, -1)
+        middle = [(cosine / 2, quarter_cosine(cosine / 2, 1)), (rest, level(rest, 0)), (cosine / 2, down)]
+    else:
+        middle = [(cosine, half_cosine(cosine, 1, -1))]
+    end = [(constant / 2, level(constant / 2, -1)), (sine / 2, quarter_cosine(sine / 2, -1))]
+    return law_of_diagram(name, [stretch for share, stretch in (*up, *middle, *end) if share > _ROUNDING])
 
 
 def polynomial_345() -> Law:
@@ -192,6 +224,9 @@ NAMED_LAWS: dict[str, Callable[[], Law]] = {
     "triangle": triangle,
     "modified_trapezoid": modified_trapezoid,
     "modified_sine": modified_sine,
+    "modified_sine_cv20": partial(modified_sine_cv, 0.2),
+    "modified_sine_cv33": partial(modified_sine_cv, 1 / 3),
+    "modified_sine_cv50": partial(modified_sine_cv, 0.5),
     "polynomial_345": polynomial_345,
     "polynomial_4567": polynomial_4567,
     "gutman_13": gutman_13,

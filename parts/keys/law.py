@@ -24,6 +24,9 @@ LawName = Literal[
     "triangle",
     "modified_trapezoid",
     "modified_sine",
+    "modified_sine_cv20",
+    "modified_sine_cv33",
+    "modified_sine_cv50",
     "polynomial_345",
     "polynomial_4567",
     "gutman_13",
@@ -106,7 +109,7 @@ StretchTable = (
 
 
 class LawTable(Struct, forbid_unknown_fields=True):
-    """A law of one's own; one of diagram, first_half with second_half, conditions, poles, name."""
+    """A law of one's own: diagram, first_half with second_half, conditions, poles, sine_constant_cosine or name."""
 
     diagram: (
         Annotated[list[StretchTable], Meta(min_length=1, max_length=200, description="its acceleration, in any scale")]
@@ -143,6 +146,13 @@ class LawTable(Struct, forbid_unknown_fields=True):
     knots: (
         Annotated[list[float], Meta(max_length=56, description="inner knots, 0 to 1; default: equal spans")] | None
     ) = None
+    sine_constant_cosine: (
+        Annotated[
+            tuple[float, float, float],
+            Meta(description="SCCA: shares of the phase, 0 to 1; the rest of it is at constant velocity"),
+        ]
+        | None
+    ) = None
     name: LawName | None = None
     ramp: (
         Annotated[float, Meta(ge=0, lt=0.5, description="trapezoid, modified ones: share of each ramp, usual 0.125")]
@@ -157,6 +167,7 @@ _KINDS = {
     "first_half": ("second_half", "first_share"),
     "conditions": (),
     "poles": ("degree", "knots"),
+    "sine_constant_cosine": (),
     "name": ("ramp",),
 }
 
@@ -193,6 +204,13 @@ _EXAMPLES: tuple[tuple[dict[str, object], str], ...] = (
         N_("polynomial by conditions [u, order, value of that derivative]"),
     ),
     ({"poles": [*[0.0] * 4, *[1.0] * 4], "degree": 5}, N_("B-spline by its poles")),
+    (
+        {"sine_constant_cosine": [0.25, 0.5, 0.25]},
+        N_(
+            "SCCA by its shares; modified_trapezoid, modified_sine, modified_sine_cv20 … cv50, cosine and sine (the "
+            "inclined sine of VDI 2143) are of this family"
+        ),
+    ),
     ({"name": "modified_trapezoid", "ramp": 0.125, "reverse": False}, N_("named law with ramps of one's own")),
 )
 
@@ -237,7 +255,7 @@ def law_of(law: LawName | LawTable | None, place: str) -> Law:
 def _made(kind: str, law: LawTable) -> Law:
     """The law of a table of one kind."""
     from geometry.laws import diagram
-    from geometry.laws.named import polynomial_law
+    from geometry.laws.named import polynomial_law, sine_constant_cosine
     from geometry.laws.splines import bspline_law
 
     if kind == "diagram":
@@ -251,6 +269,8 @@ def _made(kind: str, law: LawTable) -> Law:
         return polynomial_law(law.conditions or [])
     if kind == "poles":
         return bspline_law(law.poles or [], degree=law.degree, knots=law.knots)
+    if law.sine_constant_cosine is not None:
+        return sine_constant_cosine(*law.sine_constant_cosine)
     return _ramped(law)
 
 

@@ -35,6 +35,8 @@ _LAWS = (
     N_("triangular acceleration"),
     N_("modified trapezoid"),
     N_("modified sine"),
+    N_("modified sine CV {degree}"),
+    N_("sine-constant-cosine acceleration"),
     N_("3-4-5 polynomial"),
     N_("4-5-6-7 polynomial"),
     N_("Gutman 1-3"),

@@ -151,6 +151,7 @@ REASONS = {
     "runs_with_plate": N_("the follower runs along with the plate at {travel} mm of travel"),
     "second_half_missing": N_("is missing; it has segments like those of first_half"),
     "several_laws": N_("has {given}; only one of {names} may stand there"),
+    "shares_not_of_phase": N_("write three shares of the phase: none below 0, together above 0 and at most 1"),
     "shorter_than_half_width": N_("must be longer than half its width"),
     "slot_meets_pin": N_("meets a pin"),
     "stem_has_no_arm": N_("a translating follower has none"),

@@ -101,6 +101,20 @@ def test_positions_hold_the_textbooks_contact_point() -> None:
         assert row["rho"] == pytest.approx(base + row["S"] + row["S''"], abs=1e-9)
 
 
+def test_laws_of_the_scca_family_by_name_and_by_their_shares(capsys: pytest.CaptureFixture[str]) -> None:
+    """MSC 50: ramps of 1/16 of the phase, falls of 3/16, half of it at constant velocity."""
+    cam = ("follower=roller", "follower_radius=5", "base_circle_radius=40", "lift=20")
+    moves = 'phases=[{{move="rise",angle_deg=180,law={0}}},{{move="return_",angle_deg=180,law={0}}}]'
+    named = calculated(*cam, moves.format('"modified_sine_cv50"'))
+    typed = calculated(*cam, moves.format("{sine_constant_cosine=[0.125,0,0.375]}"))
+    assert named["positions"] == typed["positions"]
+    assert [named["values"][f"{k}_coefficient"] for k in ("velocity", "acceleration")] \
+        == pytest.approx([1.2752581729, 8.0126834148], abs=1e-9)  # fmt: skip
+    told = complaint(capsys, "calc", "cam", *cam, moves.format("{sine_constant_cosine=[0.5,0.5,0.5]}"))
+    assert "law.sine_constant_cosine" in told
+    assert "three shares" in told
+
+
 def test_both_languages_hold_the_table() -> None:
     for form in ("text", "md", "html"):
         assert "Положення" in calculate("cam", ["guidelines_cam"], form, None)

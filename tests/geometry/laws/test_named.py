@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from fractions import Fraction
 from typing import Any
 
 import mpmath
@@ -21,6 +22,7 @@ from geometry.laws.named import (
     polynomial_345,
     polynomial_4567,
     polynomial_law,
+    sine_constant_cosine,
     trapezoidal,
 )
 from geometry.laws.piece import LawPiece, Wave
@@ -29,6 +31,14 @@ from tests.sampling import examples
 MP: Any = mpmath.mp.clone()
 MP.dps = 50
 PI = math.pi
+
+
+def of_modified_sine(ramp: float) -> tuple[float, float, float]:
+    """Ramps of this share and falls of three of them: C_a as machine builders' libraries print it, areas, slope."""
+    peak = PI**2 / (8 * ramp * ((8 - 6 * PI) * ramp + PI))
+    return 8 * ramp / PI * peak, peak, PI / (2 * ramp) * peak
+
+
 # peak velocity, acceleration and finite jerk of unit laws: closed forms, checked by hand against the diagrams
 PEAKS: dict[str, tuple[float, float, float]] = {
     "constant_acceleration": (2, 4, 0),
@@ -42,11 +52,13 @@ PEAKS: dict[str, tuple[float, float, float]] = {
     "polynomial_345": (15 / 8, 10 / math.sqrt(3), 60),
     "polynomial_4567": (35 / 16, 84 * math.sqrt(5) / 25, 105 / 2),
     "gutman_13": (2, 2 * PI * math.sqrt(2 / 3), 6 * PI**2),
+    **{f"modified_sine_cv{round(100 * share)}": of_modified_sine((1 - share) / 8) for share in (0.2, 1 / 3, 0.5)},
 }
 # continuity of each law with a dwell on both sides: the highest derivative that does not jump
 CONTINUITY = {
     "constant_velocity": 0, "constant_acceleration": 1, "linearly_decreasing": 1, "cosine": 1, "sine": 2,
     "trapezoid": 2, "triangle": 2, "modified_trapezoid": 2, "modified_sine": 2, "polynomial_345": 2,
+    "modified_sine_cv20": 2, "modified_sine_cv33": 2, "modified_sine_cv50": 2,
     "polynomial_4567": 3, "gutman_13": 2,
 }  # fmt: skip
 
@@ -62,6 +74,69 @@ def test_peaks_equal_the_closed_forms(name: str) -> None:
         found, at = law.peak(order)
         assert found == pytest.approx(expected, rel=1e-12, abs=1e-12)
         assert 0 <= at <= 1
+
+
+# C_v, C_a as printed: the first three are Norton's, the others MechDesigner's (its segment parameters of SCCA);
+# the last digit is cut off here and rounded there
+PRINTED = {
+    "modified_trapezoid": (2.0, 4.888),
+    "modified_sine": (1.760, 5.528),
+    "sine": (2.0, 6.283),
+    "modified_sine_cv20": (1.528, 5.999),
+    "modified_sine_cv33": (1.404, 6.616),
+}
+SCCA: dict[str, tuple[Any, Any, Any]] = {
+    "modified_trapezoid": ("1/4", "1/2", "1/4"),
+    "modified_sine": ("1/4", 0, "3/4"),
+    "sine": ("1/2", 0, "1/2"),
+    "cosine": (0, 0, 1),
+    "constant_acceleration": (0, 1, 0),
+    "modified_sine_cv20": ("1/5", 0, "3/5"),
+    "modified_sine_cv33": ("1/6", 0, "1/2"),
+    "modified_sine_cv50": ("1/8", 0, "3/8"),
+}
+
+
+@pytest.mark.parametrize("name", PRINTED)
+def test_coefficients_as_printed(name: str) -> None:
+    assert [NAMED_LAWS[name]().peak(order)[0] for order in (1, 2)] == pytest.approx(PRINTED[name], abs=1e-3)
+
+
+def scca_oracle(a: Any, b: Any, c: Any, u: Any) -> tuple[Any, Any, Any]:
+    """s, s', s'' at u by quadrature of the acceleration of shares a, b, c, scaled to the lift."""
+    ends = [a / 2, (a + b) / 2, (a + b + c) / 2]
+    cuts = sorted({MP.mpf(0), *ends, *(1 - x for x in ends), MP.mpf("0.5"), MP.mpf(1)})
+
+    def bend(x: Any) -> Any:
+        if x > 0.5:
+            return -bend(1 - x)
+        if x < ends[0]:
+            return MP.sin(MP.pi * x / a)
+        return 1 if x < ends[1] else MP.cos(MP.pi * (x - ends[1]) / c) if x < ends[2] else MP.mpf(0)
+
+    def until(end: Any, weight: Callable[[Any], Any]) -> Any:
+        return MP.quad(lambda x: weight(x) * bend(x), [x for x in cuts if x < end] + [end])
+
+    lift = until(MP.mpf(1), lambda x: 1 - x)
+    return until(u, lambda x: u - x) / lift, until(u, lambda x: 1) / lift, bend(u) / lift
+
+
+@pytest.mark.parametrize("shares", [*SCCA.values(), ("3/10", "1/5", "1/10"), (0, "1/5", "1/5"), ("1/5", "1/5", 0)])
+def test_sine_constant_cosine_is_its_integrated_acceleration(shares: tuple[Any, Any, Any]) -> None:
+    a, b, c = (MP.mpf(Fraction(x).numerator) / Fraction(x).denominator for x in shares)
+    laws = [sine_constant_cosine(float(a), float(b), float(c))]
+    laws += [NAMED_LAWS[name]() for name, own in SCCA.items() if own == shares]
+    with MP.workdps(20):
+        for u in (0.03, 0.21, 0.47, 0.62, 0.98):
+            expected = [float(x) for x in scca_oracle(a, b, c, MP.mpf(u))]
+            for law in laws:
+                assert [float(law.value(u, k)) for k in range(3)] == pytest.approx(expected, rel=1e-13, abs=1e-14)
+
+
+@pytest.mark.parametrize("shares", [(0, 0, 0), (-0.1, 0.5, 0.5), (0.5, 0.5, 0.5), (math.nan, 0, 0.5)])
+def test_shares_that_are_none_are_refused(shares: tuple[float, float, float]) -> None:
+    with pytest.raises(ParameterError):
+        sine_constant_cosine(*shares)
 
 
 def test_jerk_of_the_modified_sine_at_its_crossover() -> None:
