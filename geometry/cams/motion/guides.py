@@ -118,3 +118,10 @@ def oscillating_start_angle(
     # law of cosines, half-angle form: no digits are lost where the arm is nearly along the line of centres
     half = math.sqrt((prime_radius - low) * (prime_radius + low) / (4 * centre_distance * arm_length))
     return 2 * math.asin(min(1.0, half))
+
+
+def oscillating_prime_radius(start_angle: float, centre_distance: float, arm_length: float) -> float:
+    """The prime circle on which the follower's centre stands at psi_0 (rad), mm: ``oscillating_start_angle`` back."""
+    return math.hypot(
+        centre_distance - arm_length, 2 * math.sqrt(centre_distance * arm_length) * math.sin(start_angle / 2)
+    )

@@ -18,6 +18,7 @@ import numpy as np
 from geometry.base.errors import ConvergenceError, ParameterError
 from geometry.base.roots import bracketed_root
 from geometry.cams.motion.follower_motion import FollowerMotion, PhaseKind
+from geometry.cams.motion.guides import oscillating_prime_radius
 from geometry.cams.plane.disk import DiskCam, FollowerKind, translating_cam
 from geometry.curves.curve import Complex, Real
 from geometry.laws.piece import LawPiece, sign_changes
@@ -27,6 +28,8 @@ _DOUBLINGS = 40
 _SAMPLES = 257
 _REFINEMENTS = 8
 _MOST_CUTS = 60
+# of the arm, by which a half-plane may be broken: more than what `_nearest` lets pass as rounding
+_BROKEN = 1e-11
 
 
 @dataclass(frozen=True, slots=True)
@@ -227,6 +230,20 @@ def convex_roller_base_radius(
     raise ConvergenceError("base radius for the curvature", excess(high), _DOUBLINGS)
 
 
+def convex_rocker_base_radius(cam_at: Callable[[float], DiskCam], least: float, most: float, rho: float) -> float:
+    """Least base circle from ``least`` on, mm, on which ``cam_at`` keeps a convex radius of curvature of ``rho``.
+
+    ``least`` itself where it is kept there, or not even at ``most``.
+    """
+
+    def excess(base: float) -> float:
+        return least_convex_radius(cam_at(base)).value - rho
+
+    if excess(least) >= 0 or not excess(most) > 0:
+        return least
+    return bracketed_root(excess, least, most).value
+
+
 def roller_radius_rules(cam: DiskCam) -> dict[str, float]:
     """What the usual rules allow for a roller, mm: below the least pitch radius, 0.8 (0.7) of it, 0.4 of R_b."""
     pitch = least_convex_radius(cam).value + cam.radius
@@ -272,9 +289,12 @@ def oscillating_axis(
             _deepest(group, arm_length, sense, limit, side, axis) for group, limit in pieces for side in (1.0, -1.0)
         ]
         worst = max(cuts, key=lambda c: c[2])
-        if worst[2] <= 1e-13 * arm_length:
+        if worst[2] <= _BROKEN * arm_length:
             distance = abs(axis)
-            return OscillatingAxis(distance, float(np.angle(axis)), abs(axis - home))
+            # corners of nearly parallel lines have lost digits: the angle is found anew
+            low, high = oscillating_start_angles(motion, arm_length, distance, sense, rise_limit, return_limit)
+            start = low if low < high else float(np.angle(axis))
+            return OscillatingAxis(distance, start, oscillating_prime_radius(start, distance, arm_length))
         planes += [(n, b) for n, b, depth in cuts if depth > 0]
         axis = _nearest(home, planes)
     raise ConvergenceError("axis of the oscillating follower", worst[2], _MOST_CUTS)

@@ -10,15 +10,17 @@ import math
 from contextlib import suppress
 from typing import Any
 
-from geometry.base.errors import GeometryError, ParameterError
+from geometry.base.errors import ConvergenceError, GeometryError, ParameterError
 from geometry.cams.motion.follower_motion import PhaseKind
-from geometry.cams.motion.guides import Oscillating, Translating
+from geometry.cams.motion.guides import Oscillating, Translating, oscillating_prime_radius
 from geometry.cams.plane.disk import DiskCam
 from geometry.cams.plane.rocker import rocker_base
 from geometry.cams.plane.synthesis import (
     flat_base_radius,
     greatest_pressure_angle,
     least_convex_radius,
+    oscillating_axis,
+    oscillating_start_angles,
     roller_prime_radius,
 )
 from parts.base.refusal import REMOVED, SceneError, meant
@@ -169,8 +171,11 @@ def sizes(page: Sheet, keys: CamKeys, cam: DiskCam) -> None:
         elif asked is not None:
             least = roller_prime_radius(cam.motion, keys.follower_offset, math.radians(90 - asked))
             page.add("least_prime_circle_radius", least, "", LESSON_5)
-    if isinstance(cam.mount, Oscillating) and cam.is_flat:
-        _rocker(page, keys, cam, cam.mount)
+    if isinstance(cam.mount, Oscillating):
+        if cam.is_flat:
+            _rocker(page, keys, cam, cam.mount)
+        elif asked is not None:
+            rocker_sizes(page, cam, cam.mount, asked)
     if keys.least_curvature_radius:
         page.add("curvature_reserve", keys.least_curvature_radius)
     base = base_radius(cam)
@@ -202,3 +207,17 @@ def _rocker(page: Sheet, keys: CamKeys, cam: DiskCam, mount: Oscillating) -> Non
             cam.motion, mount.centre_distance, mount.sense, mount.face_offset, keys.least_curvature_radius
         )
         page.add("least_prime_circle_radius", least.prime_radius)
+
+
+def rocker_sizes(page: Sheet, cam: DiskCam, mount: Oscillating, transmission_angle_deg: float) -> None:
+    """The least prime circle of a swinging roller at its pivot's distance and at the best one, by gamma both ways."""
+    steep, arm = math.radians(90 - transmission_angle_deg), mount.arm_length
+    page.add("centre_distance", mount.centre_distance)
+    for limit, name in ((None, "least_rise_radius"), (steep, "least_prime_circle_radius")):
+        low, high = oscillating_start_angles(cam.motion, arm, mount.centre_distance, mount.sense, steep, limit)
+        if low <= high:
+            page.add(name, oscillating_prime_radius(low, mount.centre_distance, arm), "", LESSON_4)
+    with suppress(ConvergenceError):
+        best = oscillating_axis(cam.motion, arm, mount.sense, steep, steep)
+        page.add("best_centre_distance", best.centre_distance)
+        page.add("smallest_prime_circle_radius", best.prime_radius)

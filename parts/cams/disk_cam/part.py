@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+import operator
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING, Annotated, Literal, Protocol, TypeVar
 
 from msgspec import Meta, Struct
 from msgspec.structs import replace
 
-from geometry.base.errors import Cure, Nearest, ParameterError, UndercutError, limit
+from geometry.base.errors import ConvergenceError, Cure, Nearest, ParameterError, UndercutError, limit
 from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
 from geometry.plane.profile import Profile
@@ -38,6 +40,7 @@ from parts.keys.law import with_own_laws
 if TYPE_CHECKING:
     from geometry.cams.motion.follower_motion import FollowerMotion
     from geometry.cams.plane.disk import DiskCam
+    from geometry.cams.plane.synthesis import OscillatingAxis
     from parts.base.readback import Probe
 
 _MOST = 100_000.0
@@ -53,12 +56,28 @@ _FARTHER = (0.01, 0.1, 0.3, 1.0)
 class OscillatingTable(Struct, forbid_unknown_fields=True):
     """A follower that swings about a pivot on +x."""
 
-    centre_distance: Annotated[float, mm("from the cam's axis to the pivot", above=0, most=_MOST, example=90.0)]
+    centre_distance: (
+        Annotated[
+            float,
+            mm(
+                "from the cam's axis to the pivot; default: of the smallest cam by least_transmission_angle_deg",
+                above=0,
+                most=_MOST,
+                example=90.0,
+            ),
+        ]
+        | None
+    ) = None
     arm_length: Annotated[float, mm("from the pivot to the roller's centre; not for flat", least=0, most=_MOST)] = 0.0
     sense: Annotated[
         Literal["against", "with"], Meta(description="how the follower rises: against or with the cam's turning")
     ] = "against"
     face_offset: Annotated[float, mm("flat face nearer to the axis than the pivot", least=-_MOST, most=_MOST)] = 0.0
+
+    @property
+    def turning(self) -> int:
+        """+1: against the cam, -1: with it, while the follower rises."""
+        return 1 if self.sense == "against" else -1
 
 
 class CamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="cam"):
@@ -116,7 +135,7 @@ def base_radius(cam: DiskCam) -> float:
 
 def cam_of(keys: CamSpec) -> DiskCam:
     """The cam of the keys, not yet checked for undercut; refusals speak in the scene's keys."""
-    from geometry.cams.plane.disk import FollowerKind, oscillating_cam, translating_cam
+    from geometry.cams.plane.disk import FollowerKind, translating_cam
 
     swing, base = keys.oscillating, keys.base_circle_radius
     check_stroke(keys, swing is not None, tabled=keys.motion_table is not None)
@@ -127,25 +146,34 @@ def cam_of(keys: CamSpec) -> DiskCam:
             return translating_cam(
                 motion, kind, base, radius=keys.follower_radius, follower_offset=keys.follower_offset
             )
-        if base is None:
-            raise ParameterError("base_circle_radius", None, "base_circle_missing_of_arm")
         if keys.follower_offset:
             raise ParameterError("follower_offset", keys.follower_offset, "arm_has_no_offset", Nearest(0.0))
         if swing.face_offset and keys.follower != "flat":
             raise ParameterError("face_offset", swing.face_offset, "for_flat_only", Nearest(0.0))
-        return oscillating_cam(
-            motion,
-            kind,
-            base,
-            centre_distance=swing.centre_distance,
-            arm_length=swing.arm_length,
-            radius=keys.follower_radius,
-            sense=1 if swing.sense == "against" else -1,
-            face_offset=swing.face_offset,
-        )
+        if base is None:
+            return _least_rocker(keys, swing, motion)
+        if swing.centre_distance is None:
+            raise ParameterError("centre_distance", None, "distance_missing")
+        return _rocker(keys, swing, motion, swing.centre_distance, base)
     except ParameterError as refusal:
         name, factor = _IN_KEYS[swing is not None].get(refusal.name, (refusal.name, None))
         raise _fitted(keys, refusal.renamed(name, factor)) from refusal
+
+
+def _rocker(keys: CamSpec, swing: OscillatingTable, motion: FollowerMotion, distance: float, base: float) -> DiskCam:
+    """The cam of a swinging follower by its two sizes, mm."""
+    from geometry.cams.plane.disk import FollowerKind, oscillating_cam
+
+    return oscillating_cam(
+        motion,
+        FollowerKind(keys.follower),
+        base,
+        centre_distance=distance,
+        arm_length=swing.arm_length,
+        radius=keys.follower_radius,
+        sense=swing.turning,
+        face_offset=swing.face_offset,
+    )
 
 
 # parameters of the mathematics as keys of a follower that slides and of one that swings, and their units
@@ -200,22 +228,82 @@ def _least_base(keys: CamSpec, motion: FollowerMotion) -> float:
             raise ParameterError("least_transmission_angle_deg", angle, "flat_angle_is_45", Nearest(45.0))
         least = flat_base_radius(motion, keys.least_curvature_radius).value
         return max(least * spare, 1e-3 * motion.lift)
-    prime = roller_prime_radius(motion, keys.follower_offset, math.radians(90 - angle))
-    if prime > _MOST:
 
-        def fits(tried: float) -> bool:
-            return roller_prime_radius(motion, keys.follower_offset, math.radians(90 - tried)) <= _MOST
+    def prime_of(tried: float) -> float:
+        return roller_prime_radius(motion, keys.follower_offset, math.radians(90 - tried))
 
-        key, cure = "least_transmission_angle_deg", lambda: nearest(fits, angle, _EASIER)
-        raise ParameterError(key, angle, "prime_circle_too_large", cure, prime=prime, most=_MOST)
-    base = prime - radius
-    if not base > 0:
-        most = limit(prime * 0.9999, radius) if prime > 0 else None
-        raise ParameterError("follower_radius", radius, "fills_prime_circle", most, prime=prime)
+    base = _base_within(keys, prime_of(angle), prime_of, angle)
     if keys.follower == "pointed":
         return base
     rho = keys.least_curvature_radius
     return max(base, spare * convex_roller_base_radius(motion, radius, rho, follower_offset=keys.follower_offset))
+
+
+def _base_within(keys: CamSpec, prime: float, prime_of: Callable[[float], float], angle: float) -> float:
+    """The base circle in a prime circle; refused where it is too large for a file, or no larger than the roller."""
+    radius = keys.follower_radius
+    if prime > _MOST:
+        key, cure = "least_transmission_angle_deg", lambda: nearest(lambda x: prime_of(x) <= _MOST, angle, _EASIER)
+        raise ParameterError(key, angle, "prime_circle_too_large", cure, prime=prime, most=_MOST)
+    if not prime - radius > 0:
+        most = limit(prime * 0.9999, radius) if prime > 0 else None
+        raise ParameterError("follower_radius", radius, "fills_prime_circle", most, prime=prime)
+    return prime - radius
+
+
+def _least_rocker(keys: CamSpec, swing: OscillatingTable, motion: FollowerMotion) -> DiskCam:
+    """The smallest cam whose transmission angle is kept both ways: at the pivot's distance, or at the best one."""
+    from geometry.cams.motion.guides import oscillating_prime_radius
+    from geometry.cams.plane.synthesis import convex_rocker_base_radius, oscillating_axis, oscillating_start_angles
+
+    angle, arm, distance = keys.least_transmission_angle_deg, swing.arm_length, swing.centre_distance
+    if keys.follower == "flat":
+        raise ParameterError("base_circle_radius", None, "base_circle_missing_of_arm")
+    if angle is None:
+        raise ParameterError("base_circle_radius", None, "base_circle_missing")
+    if not arm > 0:
+        raise ParameterError("arm_length", arm, "not_above_zero")
+
+    def best(tried: float) -> OscillatingAxis:
+        steep = math.radians(90 - tried)
+        return oscillating_axis(motion, arm, swing.turning, steep, steep)
+
+    def ends(away: float) -> tuple[float, float]:
+        steep = math.radians(90 - angle)
+        return oscillating_start_angles(motion, arm, away, swing.turning, steep, steep)
+
+    if distance is None:
+        try:
+            found = best(angle)
+        except ConvergenceError as error:
+
+            def keeps(tried: float) -> bool:
+                return best(tried).prime_radius <= _MOST
+
+            key, cure = "least_transmission_angle_deg", lambda: nearest(keeps, angle, _EASIER)
+            raise ParameterError(key, angle, "no_axis_keeps_angle", cure) from error
+        distance, start = found.centre_distance, found.start_angle
+        end = max(start, ends(distance)[1])
+    else:
+        start, end = ends(distance)
+        if not start < end:
+
+            def cured() -> Nearest | None:
+                # the distance of the smallest cam serves, where any does
+                with suppress(ConvergenceError):
+                    far = best(angle).centre_distance
+                    return nearest(lambda x: operator.lt(*ends(x)), distance, [far * 1.000001, far * 1.01, far * 1.5])
+                return None
+
+            raise ParameterError("centre_distance", distance, "pivot_keeps_no_angle", cured)
+    prime, most = (oscillating_prime_radius(psi, distance, arm) for psi in (start, end))
+    base = _base_within(keys, prime, lambda tried: best(tried).prime_radius, angle)
+    if keys.follower != "pointed":
+        rho = keys.least_curvature_radius
+        most = min(most, _MOST) - keys.follower_radius
+        least = convex_rocker_base_radius(lambda x: _rocker(keys, swing, motion, distance, x), base, most, rho)
+        base = least if rho or least == base else least * (1 + _SPARE)
+    return _rocker(keys, swing, motion, distance, base)
 
 
 def undercut(cam: DiskCam, key: str, value: float, lost: float, cure: Cure) -> UndercutError:

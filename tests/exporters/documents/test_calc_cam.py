@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from exporters.documents.topics import calculate
@@ -57,6 +59,41 @@ def test_lesson_5(case: dict[str, Any], offset: float, side: str) -> None:
     assert values["least_prime_circle_radius"] == pytest.approx(expected[f"r0_offset_{side}_mm"], rel=1e-12)
     assert values["initial_height"] == pytest.approx(expected[f"s0_offset_{side}_mm"], rel=1e-12)
     assert values["transmission_angle_reached_deg"] == pytest.approx(60, abs=1e-9)
+
+
+def rocker_angles(rows: list[dict[str, float]], distance: float, prime: float, sense: int) -> np.ndarray:
+    """tan nu = (L (1 + sense psi') - d cos psi) / (d sin psi) of an arm of 80 mm, by the table's S and S'."""
+    turn, rate = (np.radians([row[name] for row in rows]) for name in ("S", "S'"))
+    psi = math.acos((distance**2 + 80**2 - prime**2) / (160 * distance)) + turn
+    return np.degrees(np.arctan((80 * (1 + sense * rate) - distance * np.cos(psi)) / (distance * np.sin(psi))))
+
+
+@pytest.mark.parametrize(("sense", "distance"), [("against", 100.0), ("with", 86.0), ("with", None)])
+def test_the_least_rocker(sense: str, distance: float | None) -> None:
+    """Lesson 4, question 13, of a roller: brute force over circles, and over distances where none is given."""
+    sign, steep = 1 if sense == "against" else -1, 40.0
+    away = [] if distance is None else [f"oscillating.centre_distance={distance}"]
+    data = calculated("follower=roller", "follower_radius=5", "swing_deg=20", "oscillating.arm_length=80", *away,
+                      f"oscillating.sense={sense}", phases(130, 50, 130, "modified_sine"), "step=0.5",
+                      "least_transmission_angle_deg=50")  # fmt: skip
+    values, rows = data["values"], data["positions"]
+    found, prime = values["centre_distance"], values["least_prime_circle_radius"]
+    assert values["least_base_circle_radius"] == pytest.approx(prime - 5, rel=1e-12)
+
+    def keeps(d: float, circle: float, what: list[dict[str, float]] = rows) -> bool:
+        return bool(np.abs(rocker_angles(what, d, circle, sign)).max() <= steep + 1e-3)
+
+    assert keeps(found, prime)
+    circles = np.arange(abs(found - 80) + 0.05, 80, 0.05)
+    assert next(r for r in circles if keeps(found, r)) == pytest.approx(prime, abs=0.06)
+    rise = [row for row in rows if row["phi"] <= 130]
+    assert next(r for r in circles if keeps(found, r, rise)) == pytest.approx(values["least_rise_radius"], abs=0.06)
+    assert max(values["pressure_angle_rise_deg"], values["pressure_angle_return_deg"]) == pytest.approx(steep, abs=1e-6)
+    best, smallest = values["best_centre_distance"], values["smallest_prime_circle_radius"]
+    assert keeps(best, smallest)
+    assert not any(keeps(d, smallest - 0.05) for d in np.arange(81 - smallest, 79 + smallest, 0.05))
+    if distance is None:
+        assert (found, prime) == (best, pytest.approx(smallest, rel=1e-12))
 
 
 @pytest.mark.parametrize("case", [c for c in CASES if "table2_2.k" in c["id"]], ids=lambda c: c["id"])

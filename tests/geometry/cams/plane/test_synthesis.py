@@ -130,6 +130,21 @@ def test_the_least_prime_circle_at_a_distance(sense: int, returning: float | Non
         assert low <= searched[0] <= searched[-1] <= high
 
 
+@pytest.mark.sampled(4)
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize("limit", [11.0, 15.0, 30.0, 45.0, 60.0, 80.0])
+@pytest.mark.parametrize("returns", [True, False])
+def test_the_best_distance_is_the_best(sense: int, limit: float, returns: bool) -> None:
+    """At limits where corners of nearly parallel lines ended the search before, too."""
+    back = D(limit) if returns else None
+    best = oscillating_axis(SWING, 80.0, sense, D(limit), back)
+    for share in [*np.linspace(0.6, 1.6, 16), 1 - 1e-6, 1 + 1e-6]:
+        away = best.centre_distance * float(share)
+        low, high = oscillating_start_angles(SWING, 80.0, away, sense, D(limit), back)
+        if low < high:
+            assert abs(80 - away * np.exp(1j * low)) >= best.prime_radius * (1 - 1e-9)
+
+
 def test_a_pivot_too_near_has_no_cam() -> None:
     assert oscillating_start_angles(SWING, 80.0, 61.0, 1, D(40))[0] == math.inf
     assert oscillating_axis(SWING, 80.0, 1, D(40), D(40)).centre_distance > 61.0

@@ -224,6 +224,11 @@ def without(key: str) -> dict[str, Any]:
     return {k: v for k, v in ROLLER.items() if k != key}
 
 
+def without_base(name: str) -> dict[str, Any]:
+    return {k: v for k, v in CAMS[name].items() if k != "base_circle_radius"}
+
+
+BARE, AT_50 = without_base("oscillating roller"), {"least_transmission_angle_deg": 50.0}
 LEVEL = {"shape": "constant", "width": 1.0, "ordinate": 1.0}
 # keys, the key that is blamed, why
 WRONG: dict[str, tuple[dict[str, Any], str, str]] = {
@@ -271,8 +276,17 @@ WRONG: dict[str, tuple[dict[str, Any], str, str]] = {
                            "arm_has_no_offset"),
     "short arm": (CAMS["oscillating roller"] | {"oscillating": SWING | {"arm_length": 30.0}},
                   "base_circle_radius", "arm_does_not_reach"),
-    "rocker without base": ({k: v for k, v in CAMS["oscillating roller"].items() if k != "base_circle_radius"},
-                            "base_circle_radius", "base_circle_missing_of_arm"),
+    "rocker without base": (BARE, "base_circle_radius", "base_circle_missing"),
+    "flat rocker without base": (without_base("oscillating flat"), "base_circle_radius", "base_circle_missing_of_arm"),
+    "rocker without pivot": (CAMS["oscillating roller"] | {"oscillating": {"arm_length": 80.0}},
+                             "oscillating.centre_distance", "distance_missing"),
+    "rocker without arm": (BARE | AT_50 | {"oscillating": {"centre_distance": 90.0}}, "oscillating.arm_length",
+                           "not_above_zero"),
+    "pivot too near": (BARE | AT_50 | {"oscillating": {"centre_distance": 62.0, "arm_length": 80.0}},
+                       "oscillating.centre_distance", "pivot_keeps_no_angle"),
+    "angle that no axis keeps": (BARE | {"oscillating": {"arm_length": 80.0}, "least_transmission_angle_deg": 88.0},
+                                 "least_transmission_angle_deg", "no_axis_keeps_angle"),
+    "roller of a small rocker": (BARE | AT_50 | {"follower_radius": 70.0}, "follower_radius", "fills_prime_circle"),
     "wild swing": (CAMS["oscillating roller"] | {"swing_deg": 170.0}, "swing_deg", "swings_beyond_centres"),
     "fast flat rocker": (CAMS["oscillating flat"] | {"swing_deg": 75.0}, "swing_deg", "flat_outruns_cam"),
     "impact": (ROLLER | {"phases": [PHASES[0] | {"law": "constant_velocity"}, *PHASES[1:]]}, "phases.item 1.law",
@@ -286,7 +300,8 @@ WRONG: dict[str, tuple[dict[str, Any], str, str]] = {
 }  # fmt: skip
 # no one value of the blamed key is enough, or it is the user's to choose
 NOT_CURED = {"no motion", "no lift", "never back", "open diagram", "no roller", "no base circle",
-             "rocker without base"}  # fmt: skip
+             "rocker without base", "flat rocker without base", "rocker without pivot",
+             "rocker without arm"}  # fmt: skip
 
 
 @pytest.mark.sampled(20)
