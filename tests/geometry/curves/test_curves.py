@@ -14,7 +14,7 @@ from geometry.base.errors import CuspError
 from geometry.base.placement import Placement2
 from geometry.curves.curve import Curve, OffsetCurve, Reversed
 from geometry.curves.cutter_fillet import CutterFillet
-from geometry.curves.ellipse import EllipticArc
+from geometry.curves.ellipse import EllipticArc, ellipse_angle
 from geometry.curves.elliptic_fillet import EllipticFillet
 from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line
@@ -284,3 +284,28 @@ def test_radius_and_normals_of_a_cutter_fillet(fillet: CutterFillet) -> None:
     assert np.max(np.abs(along.real)) <= 1e-12 * size
     lengths = np.array([fillet.normal_length(float(t)) for t in u])
     assert np.allclose(np.abs(along.imag), np.abs(lengths), rtol=0, atol=1e-12 * size)
+
+
+@pytest.mark.parametrize("stretch", [1.4, 0.6])
+def test_laws_of_elliptic_arcs(stretch: float) -> None:
+    """Wide and flat ones: bounds, motions, trims; mirrored they are the image in the x axis, run the other way."""
+    curve = EllipticArc(Arc(0.2 - 0.1j, 0.76, -1.2, 3.0), stretch, Placement2(0.3, 2 - 1j))
+    for order in (1, 2, 3, 4):
+        # it passes both of its axes
+        largest = np.abs(curve.derivative(np.linspace(*curve.domain, 4001), order)).max()
+        assert largest * (1 - 1e-13) <= curve.derivative_bound(order, *curve.domain) <= largest * (1 + 1e-6)
+    laws.check_reversal(curve)
+    laws.check_placement(curve, Placement2(-1.1, 3 + 0.5j))
+    laws.check_trimming(curve, 0.2, 0.8)
+    twin = curve.mirrored()
+    assert twin.point(np.linspace(*twin.domain, 9)) == pytest.approx(
+        np.conj(curve.point(np.linspace(*curve.domain, 9)))[::-1], abs=1e-14
+    )
+
+
+@pytest.mark.parametrize("stretch", [1.4, 0.6])
+def test_the_angle_of_a_normal_is_square_to_the_tangent_there(stretch: float) -> None:
+    curve = EllipticArc(Arc(0j, 2.0, 0.0, 1.6), stretch, Placement2())
+    for normal in (0.0, 0.3, 0.7, 1.2, 1.5):
+        tangent = complex(curve.tangent(ellipse_angle(normal, stretch)))
+        assert (tangent * np.exp(-1j * normal)) == pytest.approx(1j, abs=1e-14)

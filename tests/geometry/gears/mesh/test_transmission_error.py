@@ -225,6 +225,26 @@ def test_the_larger_obstacle_rules() -> None:
     assert min(wide.errors) == pytest.approx(-2.0)
 
 
+@pytest.mark.parametrize("overlap", [0.07, 0.31, 0.8])
+def test_a_face_is_ruled_by_its_section_that_is_farthest_ahead(overlap: float) -> None:
+    """Against the greatest of a fine row of sections of the same broken line, wherever the face begins."""
+    rng = np.random.default_rng(round(100 * overlap))
+    pitch, angles, errors = 0.4, np.sort(rng.uniform(0, 0.4, 9)), rng.uniform(-3, 2, 9)
+    wide = TransmissionError(1, tuple(angles), tuple(errors), 30.0, pitch).over_face(overlap)
+    found, along = np.array(wide.drive_angles), overlap * pitch * np.linspace(0, 1, 2001)
+
+    def ahead(starts: np.ndarray) -> np.ndarray:
+        return np.interp(starts[:, None] + along, angles, errors, period=pitch).max(axis=1)
+
+    # the way from one section of the row to the next, at the steepest
+    near = np.abs(np.diff(np.append(errors, errors[0])) / np.diff(np.append(angles, angles[0] + pitch))).max()
+    near *= overlap * pitch / 2000
+    assert wide.errors == pytest.approx(ahead(found), abs=near)
+    row = ahead(np.linspace(0, pitch, 2001))
+    assert (max(wide.errors), min(wide.errors)) == pytest.approx((row.max(), row.min()), abs=near + 1e-2)
+    assert (wide.arm, wide.pitch, wide.sense) == (30.0, pitch, 1)
+
+
 @pytest.mark.parametrize(
     ("distance", "expected"), [(49.2, 0.0), (49.31, 1.45e-5), (49.33, 7.8e-5), (49.36, 2.67e-4), (49.5, 2.55e-3)]
 )

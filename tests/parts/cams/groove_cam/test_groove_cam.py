@@ -265,3 +265,60 @@ def test_the_least_base_circle_serves_both_ways() -> None:
     both = [quantities[f"pressure_angle_{way}_deg"] for way in ("rise", "return")]
     assert max(both) == pytest.approx(30.0, abs=1e-6)
     assert min(both) < 30.0
+
+
+# the farthest of the groove: the roller's centre at a height of sqrt(43^2 - 5^2) + 20 mm, 5 mm aside, and its play
+OUTERMOST = math.hypot(5.0, math.sqrt(43.0**2 - 25.0) + 20.0) + 8.1
+HOLES = {"holes": {"count": 3, "diameter": 8.0, "pitch_circle_diameter": 40.0}}
+
+
+@pytest.mark.parametrize(("more", "code", "edge"), [
+    ({"bore_diameter": 30.0}, "groove_closed", (2 * 8.0 + 0.1) / 2),
+    ({"outer_diameter": 2 * (OUTERMOST + 2.0)}, "no_rim", -1.0),
+    # between the groove, 35 mm from the axis, and the holes, which reach 24 mm
+    ({"outer_diameter": 220.0, "bore_diameter": 0.0} | HOLES, "no_wall_inside_groove", -5.5),
+])  # fmt: skip
+def test_an_offset_ends_where_a_wall_or_the_groove_does(more: Keys, code: str, edge: float) -> None:
+    part = parts_of({"cam": GROOVE | more})["cam"]
+    with pytest.raises(OffsetError) as caught:
+        part.section(edge * (1 + 1e-3))
+    assert caught.value.code == code
+    assert caught.value.nearest_offset == pytest.approx(edge, rel=1e-5)
+    assert part.section(caught.value.nearest_offset).region.marks
+
+
+def test_a_default_rim_is_half_the_groove_wide_in_whole_millimetres() -> None:
+    part = parts_of({"cam": GROOVE})["cam"]
+    assert part.circles["outer_diameter"] == math.ceil(2 * (OUTERMOST + 16.1 / 2))
+
+
+def test_the_places_that_an_offset_trims_are_counted() -> None:
+    """Corners of both walls, told by the jumps of their tangents."""
+    part = parts_of({"cam": GROOVE | {"phases": STEEP, "outer_diameter": 220.0}})["cam"]
+    for offset in (-5.0, -7.0, -10.0):
+        section, corners = part.section(offset), 0
+        for wall in section.region.marks:
+            curves = [s.curve for s in wall.segments()]
+            for before, after in zip(curves, curves[1:] + curves[:1], strict=True):
+                bend = complex(after.tangent(after.domain[0])) / complex(before.tangent(before.domain[1]))
+                corners += abs(np.angle(bend)) > 1e-3
+        assert [f.value for f in section.findings] == ([float(corners)] if corners else [])
+        assert bool(corners) is (offset < -6)
+
+
+def test_what_is_told_of_a_groove_by_hand() -> None:
+    """A cosine's jump H pi^2 / 2 phi^2 at the end of its rise, the greater one; play beyond 2 % of the roller."""
+    cosines = [p | ({"law": "cosine"} if "law" in p else {}) for p in PHASES]
+    (soft,) = (f for f in parts_of({"cam": GROOVE | {"phases": cosines}})["cam"].findings if f.code == "soft_impact")
+    assert (soft.value, soft.limit) == pytest.approx((20 * math.pi**2 / 2 / math.radians(120) ** 2, 120.0))
+    for play, told in ((0.319, []), (0.321, [(0.321, pytest.approx(0.32))]), (0.0, [(0.0, pytest.approx(0.32))])):
+        found = parts_of({"cam": GROOVE | {"roller_clearance": play}})["cam"].findings
+        assert [(f.value, f.limit) for f in found if f.code == "roller_play"] == told
+
+
+def test_a_groove_leaves_a_floor() -> None:
+    parts_of({"cam": GROOVE | {"face_width": 10.0, "groove_depth": 9.94}})
+    told = refused({"cam": GROOVE | {"face_width": 10.0, "groove_depth": 9.96}})
+    assert told.code == "groove_goes_through"
+    assert told.nearest is not None
+    assert told.nearest.value == pytest.approx(9.95)
