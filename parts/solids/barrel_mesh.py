@@ -171,12 +171,13 @@ def _wall_bound(cam: BarrelCam, points: Real, angles: Real, tolerance: float) ->
 
 
 def _chord_error(cam: BarrelCam, walls: dict[int, Real]) -> float:
-    """How far triangles between rings leave the cylinders: over the widest step of the polar angle."""
+    """How far triangles between rings leave the cylinders: over the widest step of the polar angle.
+
+    As ``zipped`` orders them, a triangle's third corner is at most half the widest step from the middle of its step.
+    """
     worst = 0.0
     for row, radius in ((0, cam.inner), (-1, cam.outer)):
-        steps = [float(_steps(points[row, :, 0] + 1j * points[row, :, 1]).max()) for points in walls.values()]
-        # a triangle between two rings of the floor may reach over half a step more on either side
-        wide = max(steps) if row == -1 or not cam.is_groove else 1.5 * max(steps)
+        wide = max(float(_steps(points[row, :, 0] + 1j * points[row, :, 1]).max()) for points in walls.values())
         worst = max(worst, 2 * radius * math.sin(wide / 4) ** 2)
     return worst
 

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from geometry.cams.barrel.body import BarrelBody
-from geometry.cams.barrel.cam import LOWER, UPPER, BarrelCam
+from geometry.cams.barrel.cam import LOWER, UPPER, AxialGuide, BarrelCam
 from geometry.cams.barrel.triangles import triangle_bound
+from geometry.plane.profile import Label, circle
 from parts.solids.barrel_mesh import barrel_mesh
-from tests.geometry.cams.barrel.test_barrel import AXIAL, CAMS, CONES, SWINGING
+from tests.geometry.cams.barrel.test_barrel import AXIAL, CAMS, CONES, SWINGING, motion
 
 TOLERANCE = 0.05
 RNG = np.random.default_rng(5)
@@ -76,3 +77,23 @@ def test_meshes_are_certified(cam: BarrelCam) -> None:
     made = barrel_mesh(BarrelBody(cam, 50.0, web=0.0), TOLERANCE)
     assert made.bound == "certified"
     assert made.max_error <= TOLERANCE
+
+
+@pytest.mark.parametrize("bore", [None, 20.0])
+def test_the_declared_error_is_the_truth_where_cylinders_rule(bore: float | None) -> None:
+    """A nearly level groove: how near to the axis any edge of a triangle on a cylinder, or on the bore, comes."""
+    hole = None if bore is None else circle(bore, Label.HOLE, hole=True)
+    cam = BarrelCam(motion(1.0), AxialGuide(20.0), 5.0, 35.0, 33.0)
+    made = barrel_mesh(BarrelBody(cam, 60.0, web=0.0, bore=hole), TOLERANCE)
+    points = made.vertices[made.geometry]
+    away, middle = np.hypot(points[..., 0], points[..., 1]), (points + np.roll(points, 1, axis=1)) / 2
+    worst = {}
+    for radius in (bore or 35.0, 33.0, 35.0):
+        on = np.all(np.abs(away - radius) < 1e-9, axis=1)
+        assert on.any()
+        worst[radius] = radius - np.hypot(middle[on, :, 0], middle[on, :, 1]).min()
+    assert made.max_error == pytest.approx(max(worst.values()), rel=1e-9)
+
+
+def test_a_mesh_whose_walls_are_not_proven_says_so() -> None:
+    assert barrel_mesh(BarrelBody(AXIAL.with_radius(0.05), 50.0, web=0.0), TOLERANCE).bound == "sampled"

@@ -14,7 +14,8 @@ from exporters.formats.read_dxf import read_dxf
 from exporters.production.recheck import recheck
 from geometry.base.errors import OffsetError
 from geometry.cams.contact.rolled import rolled_lift
-from geometry.cams.plane.wedge import Swinging, Upright, WedgeCam, WedgeMotion, wedge_profile
+from geometry.cams.plane.disk import FollowerKind
+from geometry.cams.plane.wedge import Swinging, Upright, WedgeCam, WedgeMotion, wedge_fault, wedge_profile
 from geometry.curves.line_arc import Arc
 from geometry.kinematics.motion import GivenMotion, Sliding
 from geometry.laws.piece import LawPiece
@@ -273,6 +274,26 @@ def test_corners_are_no_rounder_than_the_plate_is_high() -> None:
     assert wedge_profile(cam, (10.0, 10.0), 7.49)
     with pytest.raises(OffsetError):
         wedge_profile(cam, (10.0, 10.0), 7.51)
+
+
+def test_the_lowest_place_between_the_ends_must_stand_above_the_lower_edge() -> None:
+    for depth, whole in ((7.0, True), (9.0, False)):
+        fall = (LawPiece(0.0, 30.0, (0.0, 0.0, -depth, -depth)), LawPiece(30.0, 60.0, (-depth, -depth, 0.0, 0.0)))
+        cam = WedgeCam(WedgeMotion(fall), Upright(8.0))
+        if whole:
+            wedge_profile(cam, (10.0, 10.0))
+        else:
+            with pytest.raises(OffsetError):
+                wedge_profile(cam, (10.0, 10.0))
+
+
+def test_an_arm_may_run_with_the_plate_and_no_faster() -> None:
+    """x = t + L cos(psi), psi' = w: the end stands still where L w sin(psi) = 1, here at its last 30 degrees."""
+    for share, fault in ((0.999, None), (1.001, ("steep", 20.0))):
+        swing = share / 40.0 * 20.0
+        mount = Swinging(-80.0 + 60.0j, 80.0, math.radians(30.0) - swing, -1)
+        cam = WedgeCam(WedgeMotion((LawPiece(0.0, 20.0, (0.0, swing)),)), mount, kind=FollowerKind.POINTED)
+        assert wedge_fault(cam) == fault
 
 
 def test_the_vertex_function_is_the_rate_of_the_curvature() -> None:
