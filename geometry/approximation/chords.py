@@ -68,8 +68,8 @@ def approximate_profile(profile: Profile, tolerance: float, *, arcs: bool, least
     error = max(p.max_error for p in pieces)
     bound: Bound = "certified" if all(p.certified for p in pieces) else "sampled"
     if least_edge > 0:
-        lone = np.concatenate([np.full(len(p.bulges), len(p.bulges) == 1) for p in pieces])
-        contour, merged_error = merge_short_edges(contour, lone, profile, tolerance, least_edge)
+        edges = np.array([len(p.bulges) for p in pieces])
+        contour, merged_error = merge_short_edges(contour, edges, profile, tolerance, least_edge)
         error = max(error, merged_error)
         bound = "sampled" if merged_error > 0 else bound
     return Approximation(contour, error, bound if error > 0 else "exact", tolerance)

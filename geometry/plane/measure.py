@@ -73,10 +73,22 @@ def distance_to_profile(points: Complex, profile: Profile, *, trusted: float = 0
     A quick pass projects each point on the curves beside its nearest coarse sample; it can only be too large,
     so what it finds above ``trusted`` mm is measured again on every curve with fine samples.
     """
-    result = _quick_distance(points, profile)
+    turns = (0,) if profile.count == 1 else (-1, 0, 1)
+    near = np.exp([-1j * profile.pitch_angle * k for k in turns])
+    return _distance(_folded(points, profile), [s.curve for s in profile.period], near, trusted)
+
+
+def distance_to_chain(points: Complex, curves: Sequence[Curve], *, trusted: float = 0.0) -> Real:
+    """The same of curves one behind the other, mm: a part of a profile whose other parts are farther away."""
+    return _distance(points, curves, np.ones(1, dtype=complex), trusted)
+
+
+def _distance(points: Complex, curves: Sequence[Curve], turns: Complex, trusted: float) -> Real:
+    """Quick, then thorough where it matters: there the points are turned to the periods beside theirs too."""
+    result = _quick_distance(points, curves)
     doubtful = np.flatnonzero(result > trusted)
     if doubtful.size:
-        result[doubtful] = _thorough_distance(points[doubtful], profile)
+        result[doubtful] = _thorough_distance(points[doubtful], curves, turns)
     return result
 
 
@@ -94,12 +106,10 @@ def distance_to_curves(points: Complex, curves: Sequence[Curve]) -> Real:
     return np.min([distance_to_curve(points, curve) for curve in curves], axis=0)
 
 
-def _quick_distance(points: Complex, profile: Profile) -> Real:
-    curves = [s.curve for s in profile.period]
+def _quick_distance(points: Complex, curves: Sequence[Curve]) -> Real:
     parameters = [np.linspace(*c.domain, _COARSE_SAMPLES) for c in curves]
     samples = np.concatenate([c.point(t) for c, t in zip(curves, parameters, strict=True)])
-    folded = _folded(points, profile)
-    nearest = _nearest_index(folded, samples)
+    nearest = _nearest_index(points, samples)
     best = np.full(points.shape, np.inf)
     for index, curve in enumerate(curves):
         # a nearest sample at a joint speaks for the curves on both sides of it
@@ -108,20 +118,20 @@ def _quick_distance(points: Complex, profile: Profile) -> Real:
         mine = np.flatnonzero(ring <= last - first)
         if mine.size:
             start = np.clip(nearest[mine] - first - 1, 0, _COARSE_SAMPLES - 1)
-            found = _projected(folded[mine], curve, parameters[index], start, newton=False)
+            found = _projected(points[mine], curve, parameters[index], start, newton=False)
             best[mine] = np.minimum(best[mine], found)
     return best
 
 
-def _thorough_distance(points: Complex, profile: Profile) -> Real:
-    folded, best = _folded(points, profile), np.full(points.shape, np.inf)
-    for segment in profile.period:
-        t = np.linspace(*segment.curve.domain, _FINE_SAMPLES)
-        samples = segment.curve.point(t)
-        for shift in (0,) if profile.count == 1 else (-1, 0, 1):
-            near = folded * np.exp(-1j * profile.pitch_angle * shift)
+def _thorough_distance(points: Complex, curves: Sequence[Curve], turns: Complex) -> Real:
+    best = np.full(points.shape, np.inf)
+    for curve in curves:
+        t = np.linspace(*curve.domain, _FINE_SAMPLES)
+        samples = curve.point(t)
+        for turn in turns:
+            near = points * turn
             start = _nearest_index(near, samples)
-            best = np.minimum(best, _projected(near, segment.curve, t, start, newton=True))
+            best = np.minimum(best, _projected(near, curve, t, start, newton=True))
     return best
 
 

@@ -2,48 +2,98 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
 from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Contour, edge_points
-from geometry.plane.measure import distance_to_profile
+from geometry.plane.measure import distance_to_chain, distance_to_profile
 from geometry.plane.profile import Profile
 
 _SHARES = np.linspace(0, 1, 65)
 # what 65 samples of a smooth error may miss of its peak
 _SAMPLING = 1.01
+Indices = NDArray[np.intp]
 
 
 def merge_short_edges(
-    contour: Contour, lone: NDArray[np.bool_], profile: Profile, tolerance: float, least_edge: float
+    contour: Contour, edges: Indices, profile: Profile, tolerance: float, least_edge: float
 ) -> tuple[Contour, float]:
     """The contour without the short edges that can go, and the error of the edges that changed (0: none did).
 
     A short edge gives way to its middle point; its neighbours are bent to end there. The change stays only
-    where all remains within the tolerance; the error is sampled, both ways. Only ``lone`` edges, which stand
-    for a whole curve, are tried: curves of several edges have about the least number already.
+    where all remains within the tolerance; the error is sampled, both ways. ``edges``: how many stand for each curve
+    of the period; only an edge that stands for a whole curve is tried: curves of several have about the least number.
     """
     worst = 0.0
-    lone = lone.copy()
-    while len(contour) > 4:
-        lengths = np.abs(contour.period_ends() - contour.vertices)
+    chain = _Chain(contour, np.repeat(np.arange(len(edges)), edges), profile)
+    lone = edges[chain.owners] == 1
+    aside: Real | None = None
+    while len(chain.contour) > 4:
+        lengths = np.abs(chain.contour.period_ends() - chain.contour.vertices)
         lengths[~lone] = np.inf
         shortest = int(np.argmin(lengths))
         if lengths[shortest] >= least_edge:
             break
-        candidate, error = _without_edge(contour, shortest, profile, tolerance)
+        candidate, beside, error = _without_edge(chain, shortest, tolerance)
         if error <= tolerance:
-            contour, worst = candidate, max(worst, error)
-            gone = (shortest + 1) % len(lone)
-            lone = np.delete(lone, gone)
-            shortest -= gone < shortest
+            # what it leaves aside changes for the curves beside it only
+            aside = chain.left_aside(range(len(edges))) if aside is None else aside
+            changed = aside.copy()
+            changed[np.array(beside) % len(edges)] = candidate.left_aside(beside)
+            error = _SAMPLING * max(error, float(changed.max()))
+            if error <= tolerance:
+                chain, aside, worst = candidate, changed, max(worst, error)
+                gone = (shortest + 1) % len(lone)
+                lone = np.delete(lone, gone)
+                shortest -= gone < shortest
         lone[shortest] = False
-    return contour, worst
+    return chain.contour, worst
 
 
-def _without_edge(contour: Contour, index: int, profile: Profile, tolerance: float) -> tuple[Contour, float]:
-    """The contour with edge ``index`` collapsed to its middle, and the error of both edges beside it."""
+@dataclass(frozen=True, slots=True)
+class _Chain:
+    """A contour, the curve of the profile's period that each edge stands for, and the profile.
+
+    Edges and curves are numbered on beyond the period, where they are turned by its pitch, and before it.
+    """
+
+    contour: Contour
+    owners: Indices
+    profile: Profile
+
+    def left_aside(self, curves: range) -> Real:
+        """Greatest distance of some exact curves from the contour, sampled, mm: what a merged corner leaves aside."""
+        return np.array([self._aside(number) for number in curves])
+
+    def _aside(self, number: int) -> float:
+        count = len(self.profile.period)
+        index = number % count
+        curve = self.profile.period[index].curve
+        samples = curve.point(np.linspace(*curve.domain, len(_SHARES)))
+        # the edges of this curve and of those beside it, and one more where they have none left
+        owners = np.concatenate([self.owners - count, self.owners, self.owners + count])
+        first, last = np.searchsorted(owners, (index - 1, index + 2)) - len(self.owners)
+        k = np.arange(first - 1, last + 1)
+        turn = np.exp(1j * self.contour.pitch_angle * (k // len(self.owners)))
+        k = k % len(self.owners)
+        starts, ends = self.contour.vertices[k] * turn, self.contour.period_ends()[k] * turn
+        return float(_distance_to_edges(samples, starts, ends, self.contour.bulges[k]).min(axis=0).max())
+
+    def distance(self, points: Complex, curves: range, tolerance: float) -> float:
+        """Greatest distance of points beside some curves from the profile, mm."""
+        if self.profile.count > 1:
+            return float(distance_to_profile(points, self.profile, trusted=tolerance).max())
+        period = self.profile.period
+        near = range(curves.start - 1, min(curves.stop + 1, curves.start - 1 + len(period)))
+        return float(distance_to_chain(points, [period[k % len(period)].curve for k in near], trusted=tolerance).max())
+
+
+def _without_edge(chain: _Chain, index: int, tolerance: float) -> tuple[_Chain, range, float]:
+    """The chain with edge ``index`` collapsed to its middle, the curves beside it, and the error of both its edges."""
+    contour = chain.contour
     n = len(contour.vertices)
     turn = np.exp(1j * contour.pitch_angle)
     starts, ends, bulges = contour.vertices, contour.period_ends(), contour.bulges
@@ -59,43 +109,35 @@ def _without_edge(contour: Contour, index: int, profile: Profile, tolerance: flo
     second_end = ends[after] * turn if index == n - 1 else ends[after]
     new_bulges[index] = _bulge_like(old_after, middle, second_end)
     keep = np.arange(n) != after
-    changed = Contour(vertices[keep], new_bulges[keep], contour.count, contour.clockwise)
+    owners, count = chain.owners.copy(), len(chain.profile.period)
+    first, last = owners[before] - count * (index == 0), owners[after] + count * (index == n - 1)
+    owners[index] = last
+    changed = _Chain(
+        Contour(vertices[keep], new_bulges[keep], contour.count, contour.clockwise), owners[keep], chain.profile
+    )
     points = edge_points(
         np.array([first_start, middle]),
         np.array([middle, second_end]),
         np.array([new_bulges[before], new_bulges[index]]),
         _SHARES,
     )
-    error = float(distance_to_profile(points.ravel(), profile, trusted=tolerance).max())
-    if error <= tolerance:
-        error = max(error, _left_aside(changed, profile))
-    return changed, _SAMPLING * error
+    beside = range(first, last + 1)
+    return changed, beside, chain.distance(points.ravel(), beside, tolerance)
 
 
-def _left_aside(contour: Contour, profile: Profile) -> float:
-    """Greatest distance of the exact profile from a contour, sampled, mm: what a merged corner leaves aside."""
-    samples = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, len(_SHARES))) for s in profile.period])
-    turn = np.exp(1j * contour.pitch_angle)
-    shifts = (1.0,) if contour.count == 1 else (1 / turn, 1.0, turn)
-    best = np.full(len(samples), np.inf)
-    for shift in shifts:
-        starts, ends = contour.vertices * shift, contour.period_ends() * shift
-        for start, end, bulge in zip(starts, ends, contour.bulges, strict=True):
-            best = np.minimum(best, _distance_to_edge(samples, start, end, float(bulge)))
-    return float(best.max())
-
-
-def _distance_to_edge(points: Complex, start: complex, end: complex, bulge: float) -> Real:
-    """Distance of points from one line or arc, mm."""
-    if bulge == 0:
-        chord = end - start
-        share = np.clip(((points - start) * np.conj(chord)).real / abs(chord) ** 2, 0, 1)
-        return np.abs(points - start - share * chord)
-    centre = (start + end) / 2 + 1j * (end - start) * (1 - bulge**2) / (4 * bulge)
-    swept = np.angle((points - centre) / (start - centre)) * np.sign(bulge)
-    radial = np.abs(np.abs(points - centre) - abs(start - centre))
-    ends = np.minimum(np.abs(points - start), np.abs(points - end))
-    return np.where((swept % (2 * np.pi)) <= 4 * np.arctan(abs(bulge)), radial, ends)
+def _distance_to_edges(points: Complex, starts: Complex, ends: Complex, bulges: Real) -> Real:
+    """Distances (edges, points) of points from lines and arcs, mm."""
+    start, end, bulge = starts[:, None], ends[:, None], bulges[:, None]
+    chord = end - start
+    share = np.clip(((points - start) * np.conj(chord)).real / np.abs(chord) ** 2, 0, 1)
+    straight = np.abs(points - start - share * chord)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        centre = (start + end) / 2 + 1j * chord * (1 - bulge**2) / (4 * bulge)
+        swept = np.angle((points - centre) / (start - centre)) * np.sign(bulge)
+        radial = np.abs(np.abs(points - centre) - np.abs(start - centre))
+    tips = np.minimum(np.abs(points - start), np.abs(points - end))
+    bent = np.where((swept % (2 * np.pi)) <= 4 * np.arctan(np.abs(bulge)), radial, tips)
+    return np.where(bulge == 0, straight, bent)
 
 
 def _bulge_like(edge: tuple[complex, complex, float], start: complex, end: complex) -> float:
