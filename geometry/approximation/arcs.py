@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -18,6 +19,10 @@ from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Complex, Curve, Real
 
 _DENSITY_SAMPLES = 257
+_MOST_ARCS = 4096
+# nodes of a curve with knots; trends of this share of an arc's length are seen; arcs beyond twice the estimate
+_LEAST_NODES, _NODES_A_KNOT, _MOST_NODES = 33, 8, 1025
+_SEEN, _SPARE_ARCS = 0.5, 6
 _LEAST_SAMPLES, _MOST_SAMPLES = 33, 4097
 # how much of the tolerance, or of the error found, the bound of what lies between samples may use
 _MARGIN_SHARE = 0.03
@@ -57,15 +62,90 @@ class _Candidate:
         return ArcSpline(self.parameters, self.points, self.bulges, error, certified)
 
 
-def arc_spline(curve: Curve, tolerance: float, *, limit: int = 4096) -> ArcSpline:
-    """G1 arcs within ``tolerance`` mm of a curve of one-signed curvature, near the least number.
+def arc_spline(curve: Curve, tolerance: float, *, limit: int = _MOST_ARCS) -> ArcSpline:
+    """G1 arcs within ``tolerance`` mm of a curve of one-signed curvature, or with knots, near the least number.
 
     Raises
     ------
     ConvergenceError
         More than ``limit`` arcs would be needed.
     """
-    nodes, coordinate, total = _density(curve)
+    if curve.knots.size:
+        return _across_knots(curve, tolerance)
+    return _fitted(curve, tolerance, _density(curve), limit)
+
+
+def _across_knots(curve: Curve, tolerance: float) -> ArcSpline:
+    """Arcs that do not heed the knots: broken where the curvature turns as far as the tolerance sees.
+
+    Where arcs need more joints than a smooth curve of that shape, both halves are fitted for themselves, at last the
+    parts between the knots.
+    """
+    nodes, coordinate, total, turns = _seen_density(curve, tolerance)
+    found = []
+    for a, b in pairwise([0, *turns, len(nodes) - 1]):
+        stretch = curve.trimmed(float(nodes[a]), float(nodes[b]))
+        share = coordinate[b] - coordinate[a]
+        density = nodes[a : b + 1], (coordinate[a : b + 1] - coordinate[a]) / share, total * share
+        try:
+            limit = 2 * math.ceil(density[2] / tolerance ** (1 / 3)) + _SPARE_ARCS
+            found.append(_fitted(stretch, tolerance, density, limit))
+        except ConvergenceError:
+            knots = stretch.knots
+            if knots.size <= 1:
+                found += [arc_spline(part, tolerance) for part in stretch.parts()]
+                continue
+            middle = float(knots[len(knots) // 2])
+            for low, high in pairwise((stretch.domain[0], middle, stretch.domain[1])):
+                found.append(arc_spline(stretch.trimmed(low, high), tolerance))
+    last = found[-1]
+    return ArcSpline(
+        np.concatenate([*(x.parameters[:-1] for x in found), last.parameters[-1:]]),
+        np.concatenate([*(x.points[:-1] for x in found), last.points[-1:]]),
+        np.concatenate([x.bulges for x in found]),
+        max(x.max_error for x in found),
+        all(x.certified for x in found),
+    )
+
+
+def _seen_density(curve: Curve, tolerance: float) -> tuple[Real, Real, float, list[int]]:
+    """What ``_density`` gives, from differences over some rows, and the nodes at which the curvature's trend turns.
+
+    A trend counts where an arc as long as it would leave the tolerance: the rest is the roughness of a table.
+    """
+    count = min(_MOST_NODES, max(_LEAST_NODES, _NODES_A_KNOT * curve.knots.size))
+    t = np.linspace(*curve.domain, count)
+    step, p = t[1] - t[0], curve.point(t)
+    first, third = (p[2:-1] - p[1:-2]) / step, np.diff(p, 3) / step**3
+    second = (p[3:] - p[2:-1] - p[1:-2] + p[:-3]) / (2 * step**2)
+    speed, cross = np.abs(first), (np.conj(first) * second).imag
+    change = (np.conj(first) * third).imag / speed**3 - 3 * cross * (np.conj(first) * second).real / speed**5
+    # of each step between nodes; the first and the last have no differences of their own
+    change, speed = np.pad(change, 1, mode="edge"), np.pad(speed, 1, mode="edge")
+    rate = np.abs(change / speed / 125) ** (1 / 3) * speed
+    lengths = (rate + 1e-6 * (rate.max() + np.finfo(float).tiny) + 1e-12 * speed) * step
+    coordinate = np.concatenate([[0.0], np.cumsum(lengths)])
+    turns = _trends(np.sign(change) * lengths, _SEEN * tolerance ** (1 / 3))
+    return t, coordinate / coordinate[-1], float(coordinate[-1]), turns
+
+
+def _trends(signed: Real, least: float) -> list[int]:
+    """Where runs of one sign end, those shorter than ``least`` being taken into the longer ones beside them."""
+    ends = np.append(np.flatnonzero(np.diff(np.sign(signed))) + 1, len(signed)).tolist()
+    sizes = np.abs(np.add.reduceat(signed, [0, *ends[:-1]])).tolist()
+    while len(sizes) > 1:
+        k = min(range(len(sizes)), key=sizes.__getitem__)
+        if sizes[k] >= least:
+            break
+        # what lies on both sides goes on over it
+        low, high = max(k - 1, 0), min(k + 1, len(sizes) - 1)
+        whole = abs(sum(size for j, size in enumerate(sizes[low : high + 1], low) if j != k) - sizes[k])
+        ends[low : high + 1], sizes[low : high + 1] = [ends[high]], [whole]
+    return ends[:-1]
+
+
+def _fitted(curve: Curve, tolerance: float, density: tuple[Real, Real, float], limit: int) -> ArcSpline:
+    nodes, coordinate, total = density
     count = max(1, math.ceil(total / tolerance ** (1 / 3) * 0.9 + 0.4))
     while count <= limit:
         found = _candidate(curve, count, nodes, coordinate, tolerance)

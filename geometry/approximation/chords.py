@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from geometry.approximation.arcs import arc_spline
+from geometry.approximation.arcs import arc_error, arc_spline
 from geometry.base.errors import ConvergenceError
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.bounds import Bound
@@ -21,9 +21,11 @@ from geometry.curves.curve import Complex, Curve, Real
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.contour import Approximation, Contour
 from geometry.plane.merge import merge_short_edges
-from geometry.plane.profile import Profile
+from geometry.plane.profile import Profile, Segment
 
-_DENSITY_SAMPLES = 129
+_DENSITY_SAMPLES, _SAMPLES_A_KNOT = 129, 4
+# a tolerance, part of the longest chord, at which the error of chords across knots is sampled
+_CHORD_SHARE = 1e-3
 _MAX_CHORDS = 1_000_000
 
 
@@ -52,7 +54,7 @@ def approximate_profile(profile: Profile, tolerance: float, *, arcs: bool, least
     ConvergenceError
         The tolerance is so small that more pieces than a file can carry would be needed.
     """
-    make = _arc_piece if arcs else _chord_piece
+    make, profile = _arc_piece if arcs else _chord_piece, _joined(profile)
     done: dict[Curve, Piece] = {}
     for curve in (s.curve for s in profile.period):
         # both sides of a tooth are mirror images: one is computed
@@ -73,6 +75,18 @@ def approximate_profile(profile: Profile, tolerance: float, *, arcs: bool, least
         error = max(error, merged_error)
         bound = "sampled" if merged_error > 0 else bound
     return Approximation(contour, error, bound if error > 0 else "exact", tolerance)
+
+
+def _joined(profile: Profile) -> Profile:
+    """The profile with what is one spline in one segment."""
+    period: list[Segment] = []
+    for segment in profile.period:
+        whole = period[-1].curve.joined(segment.curve) if period else None
+        if whole is None:
+            period.append(segment)
+        else:
+            period[-1] = Segment(whole, segment.label)
+    return replace(profile, period=tuple(period)) if len(period) < len(profile.period) else profile
 
 
 def approximate_together(
@@ -184,7 +198,7 @@ def chords_of(curve: Curve, count: int) -> tuple[Real, float]:
 
 def _chord_density(curve: Curve) -> tuple[Real, Real]:
     """Samples, and the integral of sqrt(|kappa|) ds, in which chords of equal error have equal length."""
-    nodes = np.linspace(*curve.domain, _DENSITY_SAMPLES)
+    nodes = np.linspace(*curve.domain, _DENSITY_SAMPLES + _SAMPLES_A_KNOT * curve.knots.size)
     speed, curvature = np.abs(curve.derivative(nodes)), np.abs(curve.curvature(nodes))
     with np.errstate(invalid="ignore"):
         rate = np.sqrt(curvature * speed) * np.sqrt(speed)
@@ -213,10 +227,13 @@ def _arc_chords(arc: Arc, tolerance: float) -> tuple[Real, float, bool]:
 def chord_error(curve: Curve, t: Real) -> float:
     """Greatest distance between a curve of one-signed curvature and its chords: exact up to rounding.
 
-    The distance from the chord is greatest where the tangent is parallel to it: bisection on all chords at once.
+    The distance from the chord is greatest where the tangent is parallel to it: bisection on all chords at once. Of a
+    curve with knots, which may turn often, a bound: arcs without a bulge.
     """
     points = curve.point(t)
     chord = points[1:] - points[:-1]
+    if curve.knots.size:
+        return arc_error(curve, t, points, np.zeros(len(chord)), _CHORD_SHARE * float(np.abs(chord).max()))[0]
     direction = chord / np.abs(chord)
     low, high = t[:-1].copy(), t[1:].copy()
     sign = np.sign((np.conj(direction) * curve.tangent(low)).imag)

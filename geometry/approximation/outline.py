@@ -74,7 +74,7 @@ def spline_outline(
     alike: dict[object, SplineFit] = {}
     period: list[CadCurve] = []
     worst, certified = 0.0, True
-    for curve in (s.curve for s in profile.period):
+    for curve in (part for s in profile.period for part in s.curve.parts()):
         if isinstance(curve, Line) and turned:
             period.append(BSpline(1, np.array([0.0, 0.0, 1.0, 1.0]), np.array([curve.start, curve.end])))
             continue

@@ -46,16 +46,23 @@ def _top(order: int) -> int:
 def _bounds(curve: BoundedSpan, top: int, edges: tuple[float, ...]) -> Real:
     """On each part: the value at its middle plus half the part times the bound of the next derivative."""
     a, width = np.array(edges[:-1])[:, None], np.diff(np.array(edges))[:, None]
-    low = a + width * (np.arange(_PARTS) / _PARTS)
-    high = np.append(low[:, 1:], a + width, axis=1)
-    middle = curve.series(((low + high) / 2).ravel(), top)
-    rest = curve.series_bound(top + 1, low.ravel(), high.ravel())
-    half = np.repeat(width.ravel() / (2 * _PARTS), _PARTS)
+    low = (a + width * (np.arange(_PARTS) / _PARTS)).ravel()
+    high = np.append(low.reshape(len(a), _PARTS)[:, 1:], a + width, axis=1).ravel()
+    half, first = np.repeat(width.ravel() / (2 * _PARTS), _PARTS), np.arange(0, low.size, _PARTS)
+    knots = curve.knots[(curve.knots > edges[0]) & (curve.knots < edges[-1])]
+    if knots.size:
+        # a part ends where its formula does
+        starts = low[first]
+        low = np.union1d(low, knots)
+        high = np.append(low[1:], edges[-1])
+        half, first = (high - low) / 2, np.searchsorted(low, starts)
+    middle = curve.series((low + high) / 2, top)
+    rest = curve.series_bound(top + 1, low, high)
     result = np.empty((top + 1, len(a)))
     for k in range(top + 1):
         # the factor covers the roundings of both terms
         parts = np.abs(middle[k]) + half * (k + 1) * rest[k + 1]
-        most = parts.reshape(len(a), _PARTS).max(axis=1) * FACTORIALS[k] * (1 + 1e-12)
+        most = np.maximum.reduceat(parts, first) * FACTORIALS[k] * (1 + 1e-12)
         result[k] = np.where(np.isfinite(most), most, np.inf)
     result.flags.writeable = False
     return result

@@ -23,6 +23,7 @@ Complex = NDArray[np.complex128]
 Real = NDArray[np.float64]
 
 _CUSP_SAMPLES = 257
+_NO_KNOTS: Real = np.zeros(0)
 
 
 class Curve:
@@ -70,6 +71,19 @@ class Curve:
         """
         found = [[self.derivative_bound(k, a, b) for a, b in pairwise(edges.tolist())] for k in orders]
         return np.array([[np.inf if x is None else x for x in row] for row in found])
+
+    @property
+    def knots(self) -> Real:
+        """Rising parameters within the domain at which one formula gives way to the next: the curve is C2 there."""
+        return _NO_KNOTS
+
+    def joined(self, after: Curve) -> Curve | None:
+        """This curve and one that goes on from it, as one; None where they are not of one formula or spline."""
+        return None
+
+    def parts(self) -> tuple[Curve, ...]:
+        """The curve cut at its knots, and there so that the curvature of each part keeps its sign and its trend."""
+        return (self,)
 
     def offset(self, distance: float) -> Curve:
         """Parallel curve, ``distance`` mm to the left. Raises CuspError where it would turn back."""
@@ -153,6 +167,17 @@ class Reversed(Curve):
 
     def derivative_bounds(self, edges: Real, orders: Sequence[int]) -> Real:
         return self.original.derivative_bounds(-edges[::-1], orders)[:, ::-1]
+
+    @property
+    def knots(self) -> Real:
+        return -self.original.knots[::-1]
+
+    def joined(self, after: Curve) -> Curve | None:
+        whole = after.original.joined(self.original) if isinstance(after, Reversed) else None
+        return None if whole is None else Reversed(whole)
+
+    def parts(self) -> tuple[Curve, ...]:
+        return tuple(Reversed(x) for x in reversed(self.original.parts()))
 
     def offset(self, distance: float) -> Curve:
         try:

@@ -71,7 +71,7 @@ class LawPiece:
             blocks = [self._values(part, orders) for part in np.array_split(flat, -(-flat.size // _BLOCK))]
             return [np.concatenate(parts).reshape(np.shape(t)) for parts in zip(*blocks, strict=True)]
         # where t stands from the start and from the end, each to full digits
-        local, rest = _powers((flat - self.start) / width, n), _powers((self.end - flat) / width, n)
+        local, rest = powers((flat - self.start) / width, n), powers((self.end - flat) / width, n)
         result = []
         for order in orders:
             weights = _weights(self.coefficients, width, order)
@@ -79,7 +79,7 @@ class LawPiece:
             total = np.add.reduce(weights * local[: m + 1] * rest[m::-1], axis=0)
             for wave in self.waves:
                 angle = wave.frequency * (flat - self.start) + wave.phase
-                total = total + wave.amplitude * wave.frequency**order * _sine_derivative(angle, order)
+                total = total + wave.amplitude * wave.frequency**order * sine_derivative(angle, order)
             result.append(total.reshape(np.shape(t)))
         return result
 
@@ -97,7 +97,7 @@ class LawPiece:
             total = np.asarray(sum(terms))
             for wave in self.waves:
                 at = wave.frequency * (middle - self.start) + wave.phase
-                most = np.abs(_sine_derivative(at, k)) + abs(wave.frequency) * half
+                most = np.abs(sine_derivative(at, k)) + abs(wave.frequency) * half
                 total = total + abs(wave.amplitude) * abs(wave.frequency) ** k * np.minimum(most, 1.0)
             result.append(total * (1 + 1e-12))
         return result
@@ -138,13 +138,13 @@ def _extremes(piece: LawPiece, order: int) -> Real:
     return found
 
 
-def _sine_derivative(angle: Real, order: int) -> Real:
+def sine_derivative(angle: Real, order: int) -> Real:
     """sin^(order)(angle) without adding to the angle, which would round."""
     kind = order % 4
     return (np.sin, np.cos, lambda x: -np.sin(x), lambda x: -np.cos(x))[kind](angle)
 
 
-def _powers(x: Real, most: int) -> Real:
+def powers(x: Real, most: int) -> Real:
     """x^0 to x^most, (most + 1, n)."""
     result = np.empty((most + 1, len(x)))
     result[0] = 1.0

@@ -54,26 +54,47 @@ def _slopes(h: Real, d: Real, periodic: bool) -> Real:
     n = len(h) + 1
     if n == 2:
         return np.array([d[0], d[0]])
-    matrix, right = np.zeros((n, n)), np.zeros(n)
-    for i in range(1, n - 1):
-        matrix[i, i - 1 : i + 2] = h[i], 2 * (h[i - 1] + h[i]), h[i - 1]
-        right[i] = 3 * (h[i] * d[i - 1] + h[i - 1] * d[i])
+    # of node i: below[i] m[i - 1] + main[i] m[i] + above[i] m[i + 1] = right[i]
+    below, main, above, right = (np.zeros(n) for _ in range(4))
+    below[1:-1], main[1:-1], above[1:-1] = h[1:], 2 * (h[:-1] + h[1:]), h[:-1]
+    right[1:-1] = 3 * (h[1:] * d[:-1] + h[:-1] * d[1:])
     if periodic:
-        matrix[0, 0], matrix[0, n - 1] = 1.0, -1.0
-        matrix[-1, [0, 1, n - 2]] += h[-1] * 2, h[-1], h[0]
-        matrix[-1, n - 1] += 2 * h[0]
-        right[-1] = 3 * (h[-1] * d[0] + h[0] * d[-1])
-    elif n == 3:
+        # node 0 stands between the last interval and the first; the last node is node 0
+        below[0], main[0], above[0] = h[0], 2 * (h[-1] + h[0]), h[-1]
+        right[0] = 3 * (h[0] * d[-1] + h[-1] * d[0])
+        # the corners of the matrix as a product u v^T, by Sherman and Morrison
+        corner, share = below[0], above[-2] / main[0]
+        main[-2] += share * corner
+        main[0] *= 2
+        other = np.zeros(n - 1)
+        other[0], other[-1] = -main[0] / 2, above[-2]
+        found, unit = (_tridiagonal(below[:-1], main[:-1], above[:-1], x) for x in (right[:-1], other))
+        ratio = -2 * corner / main[0]
+        slopes = found - (found[0] + ratio * found[-1]) / (1 + unit[0] + ratio * unit[-1]) * unit
+        return np.append(slopes, slopes[0])
+    if n == 3:
         # a parabola through three points
-        matrix[0, :2], right[0] = (1, 1), 2 * d[0]
-        matrix[2, 1:], right[2] = (1, 1), 2 * d[1]
+        main[0], above[0], right[0] = 1, 1, 2 * d[0]
+        below[2], main[2], right[2] = 1, 1, 2 * d[1]
     else:
         # equal third derivatives in the first two and in the last two intervals
-        for row, (a, b), (da, db), order in ((0, h[:2], d[:2], 1), (n - 1, h[:-3:-1], d[:-3:-1], -1)):
-            columns = [row, row + order]
-            matrix[row, columns] = b, a + b
+        for row, (a, b), (da, db), beside in ((0, h[:2], d[:2], above), (n - 1, h[:-3:-1], d[:-3:-1], below)):
+            main[row], beside[row] = b, a + b
             right[row] = ((a + 2 * (a + b)) * b * da + a * a * db) / (a + b)
-    return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
+    return _tridiagonal(below, main, above, right)
+
+
+def _tridiagonal(below: Real, main: Real, above: Real, right: Real) -> Real:
+    """The solution by elimination without exchanges: the rows of splines are dominant."""
+    lower, upper, pivots, values = below.tolist(), above.tolist(), main.tolist(), right.tolist()
+    for i in range(1, len(values)):
+        factor = lower[i] / pivots[i - 1]
+        pivots[i] -= factor * upper[i - 1]
+        values[i] -= factor * values[i - 1]
+    values[-1] /= pivots[-1]
+    for i in range(len(values) - 2, -1, -1):
+        values[i] = (values[i] - upper[i] * values[i + 1]) / pivots[i]
+    return np.array(values)
 
 
 def hermite_coefficients(left: Sequence[float], right: Sequence[float], width: float) -> tuple[float, ...]:

@@ -25,7 +25,8 @@ def profile_area(profile: Profile) -> float:
     """Signed area inside a closed profile, mm^2, by Green's theorem (counter-clockwise positive).
 
     A profile of one period is measured about its own first point, so that a small hole far from the axis loses no
-    digits. Gauss quadrature of 20 points on 4 panels a segment: exact to rounding for these analytic integrands.
+    digits. Gauss quadrature of 20 points on 4 panels a segment, or between its knots: exact to rounding for these
+    analytic integrands.
     """
     total = 0.0
     pole = start_point(profile.period[0].curve) if profile.count == 1 else 0j
@@ -48,7 +49,9 @@ def profile_length(profile: Profile) -> float:
 def _quadrature(curve: Curve) -> tuple[Real, Real]:
     """Nodes and weights over a curve's domain."""
     x, weights = gauss_rule(_GAUSS_POINTS)
-    edges = np.linspace(*curve.domain, _GAUSS_PANELS + 1)
+    knots = curve.knots
+    low, high = curve.domain
+    edges = np.array([low, *knots, high]) if knots.size else np.linspace(low, high, _GAUSS_PANELS + 1)
     half = np.diff(edges)[:, None] / 2
     return (edges[:-1, None] + edges[1:, None]) / 2 + half * x, weights * half
 

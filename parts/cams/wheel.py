@@ -54,7 +54,7 @@ def inner_radius(cam: DiskCam) -> float:
     """The largest circle about the axis inside the cam, mm: that of the lowest follower."""
     import numpy as np
 
-    angles = np.concatenate([p.extremes(0) for p in cam.motion.pieces])
+    angles = cam.motion.stack.extremes(0)[1]
     # both sides of every joint are the same in S
     return float(np.abs(cam.reference_point(angles)).min()) - cam.radius
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import lru_cache
 
@@ -15,6 +15,7 @@ from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.laws.law import Law, piecewise_value
 from geometry.laws.piece import LawPiece, Real
 from geometry.laws.splines import cubic_pieces
+from geometry.laws.stack import Indices, PieceStack
 
 TURN = 2 * math.pi
 # phases typed in degrees close to this many rad; smaller gaps are spread over the last phase
@@ -120,11 +121,32 @@ class FollowerMotion(PieceMotion):
 
     pieces: tuple[LawPiece, ...]
     phases: tuple[Phase, ...] = ()
+    # made when it is asked for
+    stacks: list[PieceStack] = field(default_factory=list, init=False, compare=False, repr=False)
+
+    @property
+    def stack(self) -> PieceStack:
+        """The pieces as arrays."""
+        if not self.stacks:
+            self.stacks.append(PieceStack(self.pieces))
+        return self.stacks[0]
+
+    @property
+    def tabled(self) -> bool:
+        """Whether the pieces are the rows of one spline, C2 at every joint."""
+        return not self.phases and len(self.pieces) > 1
 
     def value(self, way: ArrayLike, order: int = 0) -> Real:
         """S (order 0) or its derivative over the cam angle (rad), any angle; at a joint the value from the right."""
         folded = np.mod(np.asarray(way, dtype=float), TURN)
-        return piecewise_value(self.pieces, folded, order)
+        if len(self.pieces) == 1:
+            return self.pieces[0].value(folded, order)
+        return self.stack.at(self.stack.index(folded), folded, order)
+
+    def extremes(self, order: int = 0) -> tuple[float, float]:
+        """Least and greatest S^(order) (finite parts)."""
+        values = self.stack.at(*self.stack.extremes(order), order)
+        return float(values.min()), float(values.max())
 
     @property
     def lift(self) -> float:
@@ -134,12 +156,15 @@ class FollowerMotion(PieceMotion):
 
     def moving_pieces(self, kind: PhaseKind | None = None) -> list[LawPiece]:
         """Pieces that are no dwell; those of rises or returns only where ``kind`` says so (by the sign of S')."""
-        moving = [p for p in self.pieces if not p.is_constant]
+        return [self.pieces[k] for k in self.moving(kind).tolist()]
+
+    def moving(self, kind: PhaseKind | None = None) -> Indices:
+        """The numbers of these pieces."""
+        moving = np.array([k for k, p in enumerate(self.pieces) if not p.is_constant], dtype=np.intp)
         if kind is None:
             return moving
-        sign = 1.0 if kind is PhaseKind.RISE else -1.0
-        rates = [sign * p.value(np.linspace(*p.domain, 33), 1) for p in moving]
-        return [p for p, rate in zip(moving, rates, strict=True) if rate.max() > _JUMP * np.abs(rate).max()]
+        rates = self.stack.at(*self.stack.rows(33), 1)[moving] * (1.0 if kind is PhaseKind.RISE else -1.0)
+        return moving[rates.max(axis=1) > _JUMP * np.abs(rates).max(axis=1)]
 
     def negated(self) -> FollowerMotion:
         """-S: what the counter-follower of a conjugate cam does."""
@@ -149,24 +174,28 @@ class FollowerMotion(PieceMotion):
 
 @lru_cache(maxsize=16)
 def _joints(pieces: tuple[LawPiece, ...]) -> tuple[Joint, ...]:
-    # the peaks inside too: laws whose ends are 0 but for rounding have no scale there
-    scales = [max(float(np.abs(p.value(p.extremes(order), order)).max()) for p in pieces) for order in range(4)]
-    found = []
-    for index, after in enumerate(pieces):
-        before = pieces[index - 1]
-        length = min(before.end - before.start, after.end - after.start)
-        lefts, rights = (p.values(np.array([at]), 3) for p, at in ((before, before.end), (after, after.start)))
-        jumps, continuity, whole = [], -1, True
-        for order in range(4):
-            left, right = float(lefts[order][0]), float(rights[order][0])
-            # a rounding of S is one of S^(order) over so short a piece
-            rounding = 1e-15 * scales[0] / length**order
-            jump = right - left if abs(right - left) > _JUMP * scales[order] + rounding else 0.0
-            whole = whole and jump == 0
-            continuity = order if whole else continuity
-            jumps.append(jump)
-        found.append(Joint(after.start, (jumps[0], jumps[1], jumps[2], jumps[3]), continuity))
-    return tuple(found)
+    stack = PieceStack(pieces)
+    every = np.arange(len(pieces))
+    before = every - 1
+    widths = np.array([p.end - p.start for p in pieces])
+    length = np.minimum(widths[before], widths)
+    jumps, whole, continuity = [], np.ones(len(pieces), dtype=bool), np.full(len(pieces), -1)
+    size = 0.0
+    for order in range(4):
+        # the peaks inside too: laws whose ends are 0 but for rounding have no scale there
+        scale = np.abs(stack.at(*stack.extremes(order), order)).max()
+        left, right = stack.at(before, stack.ends[before], order), stack.at(every, stack.starts, order)
+        # a rounding of S is one of S^(order) over so short a piece
+        size = scale if order == 0 else size
+        rounding = 1e-15 * size / length**order
+        jump = np.where(np.abs(right - left) > _JUMP * scale + rounding, right - left, 0.0)
+        whole &= jump == 0
+        continuity[whole] = order
+        jumps.append(jump.tolist())
+    return tuple(
+        Joint(start, (a, b, c, d), level)
+        for start, a, b, c, d, level in zip(stack.starts.tolist(), *jumps, continuity.tolist(), strict=True)
+    )
 
 
 def follower_motion(phases: Sequence[Phase]) -> FollowerMotion:

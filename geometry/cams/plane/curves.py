@@ -8,6 +8,7 @@ Derivation: DERIVATIONS.md, section 8.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
@@ -28,7 +29,12 @@ from geometry.base.series import (
     unit_majorant,
 )
 from geometry.curves.bounds import BoundedSpan
-from geometry.curves.curve import Complex, Real, first_turning
+from geometry.curves.curve import Complex, Curve, Real, first_turning
+from geometry.laws.piece import sign_changes
+from geometry.laws.stack import PieceStack
+
+_SPLIT_SAMPLES = 129
+_LEAST_SHARE = 1e-4
 
 
 class Guided(Protocol):
@@ -71,8 +77,54 @@ def bound_series(lift: Lift, order: int, a: Real, b: Real) -> Series:
     return [x / FACTORIALS[k] for k, x in enumerate(lift.bounds(order, a, b))]
 
 
+class CamSpan(BoundedSpan):
+    """A cam's curve over the cam angle, over one piece of the motion or over rows of a table."""
+
+    __slots__ = ()
+    lift: Lift
+
+    def vertex_function(self, t: ArrayLike) -> Real:
+        """Changes its sign where the curvature is greatest or least."""
+        raise NotImplementedError
+
+    @property
+    def knots(self) -> Real:
+        if not isinstance(self.lift, PieceStack):
+            return super().knots
+        return self.lift.knots[(self.lift.knots > self.start) & (self.lift.knots < self.end)]
+
+    def joined(self, after: Curve) -> Curve | None:
+        spline = isinstance(self.lift, PieceStack) and isinstance(after, CamSpan)
+        whole = replace(self, end=after.domain[1]) if spline else None
+        return whole if whole is not None and replace(whole, start=self.end) == after else None
+
+    def parts(self) -> tuple[Curve, ...]:
+        if not isinstance(self.lift, PieceStack):
+            return (self,)
+        rows = [self.trimmed(a, b) for a, b in pairwise([self.start, *self.knots.tolist(), self.end])]
+        return tuple(row.trimmed(a, b) for row in rows for a, b in pairwise(row.quiet_edges()))
+
+    def quiet_edges(self) -> list[float]:
+        """Ends, inflections and vertices: between them the curvature keeps its sign and its trend.
+
+        Arcs and chords need the first (geometry/approximation/chords.py), and few arcs the second: DERIVATIONS.md,
+        section 4.
+        """
+        t = np.linspace(*self.domain, _SPLIT_SAMPLES)
+        found = [sign_changes(self.vertex_function, t)]
+        if isinstance(self, CentreEnvelope):
+            found.append(sign_changes(self.pitch_curvature, t))
+        least = _LEAST_SHARE * (self.end - self.start)
+        edges = [self.start]
+        for at in np.sort(np.concatenate(found)).tolist():
+            # two splits beside each other are one; an inflection is also where a curve that starts straight begins
+            if at - edges[-1] > least and self.end - at > least:
+                edges.append(at)
+        return [*edges, self.end]
+
+
 @dataclass(frozen=True, slots=True)
-class CentreEnvelope(BoundedSpan):
+class CentreEnvelope(CamSpan):
     """Path of a follower's centre or point in the cam's frame over the cam angle t, or a parallel of it.
 
     c(t) = exp(-i t) (z + i d w/|w|), z = e + i (s_0 + S) or d - L exp(-i sense psi), w = z' - i z, d = ``distance``
@@ -166,7 +218,7 @@ class CentreEnvelope(BoundedSpan):
 
 
 @dataclass(frozen=True, slots=True)
-class FaceEnvelope(BoundedSpan):
+class FaceEnvelope(CamSpan):
     """Envelope of a flat face in the cam's frame, over the cam angle t.
 
     The face stands ``distance`` + h(t) from the axis, its normal N = exp(i phi) points away from it. The contact is

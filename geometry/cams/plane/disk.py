@@ -78,6 +78,12 @@ class DiskCam:
             return FaceEnvelope(piece, self.mount, piece.start, piece.end, grow)
         return CentreEnvelope(piece, self.mount, piece.start, piece.end, grow - self.radius)
 
+    def table_curve(self, start: float, end: float, grow: float = 0.0) -> CentreEnvelope | FaceEnvelope:
+        """The same over any rows of a motion that is a table."""
+        if self.is_flat:
+            return FaceEnvelope(self.motion.stack, self.mount, start, end, grow)
+        return CentreEnvelope(self.motion.stack, self.mount, start, end, grow - self.radius)
+
     def _series(self, angle: Real, order: int) -> Series:
         return [self.motion.value(angle, k) / FACTORIALS[k] for k in range(order + 1)]
 

@@ -20,20 +20,21 @@ from geometry.cams.motion.follower_motion import FollowerMotion
 from geometry.cams.plane.synthesis import OscillatingAxis, greatest_of
 from geometry.curves.curve import Complex, Real
 from geometry.laws.piece import LawPiece
+from geometry.laws.stack import Indices
 
 # the line of centres stays this much (rad) less than square to the face: beyond, the push's arm changes its sign
 _SQUARE = 1e-6
 
 
-def curvature_terms(piece: LawPiece, t: Real, sense: int) -> tuple[Real, Real]:
-    """A and B of rho = d (A sin psi + B cos psi) - f."""
-    w = 1 + sense * piece.value(t, 1)
-    return (2 * w - 1) / w**2, piece.value(t, 2) / w**3
+def curvature_terms(rate: Real, bend: Real, sense: int) -> tuple[Real, Real]:
+    """A and B of rho = d (A sin psi + B cos psi) - f, from psi' and psi''."""
+    w = 1 + sense * rate
+    return (2 * w - 1) / w**2, bend / w**3
 
 
 def rocker_planes(piece: LawPiece, t: Real, sense: int, level: float) -> tuple[Complex, Real]:
     """Half-planes Re(conj(n) axis) >= b of the axis from the pivot, unit normals; ``level``: rho_min + f, mm."""
-    a, b = curvature_terms(piece, t, sense)
+    a, b = curvature_terms(piece.value(t, 1), piece.value(t, 2), sense)
     normal = (b + 1j * a) * np.exp(-1j * piece.value(t))
     size = np.abs(normal)
     return normal / size, level / size
@@ -54,26 +55,26 @@ def rocker_base(
         The pivot stands too near, or what one cam angle asks for another one forbids.
     """
     _check_turning(motion, sense)
-    level, pieces = least_radius + face_offset, list(motion.pieces)
+    level, stack = least_radius + face_offset, motion.stack
 
-    def short(piece: LawPiece, t: Real) -> Real:
-        return level / np.hypot(*curvature_terms(piece, t, sense))
+    def terms(k: Indices, t: Real) -> tuple[Real, Real]:
+        return curvature_terms(stack.at(k, t, 1), stack.at(k, t, 2), sense)
 
-    needed = greatest_of(pieces, short).value
+    needed = greatest_of(stack, lambda k, t: level / np.hypot(*terms(k, t))).value
     if not needed <= centre_distance:
         raise ConvergenceError("axis of the flat rocker: its pivot stands too near for a convex cam", needed, 1)
 
-    def end(piece: LawPiece, t: Real, side: int) -> Real:
-        a, b = curvature_terms(piece, t, sense)
+    def end(k: Indices, t: Real, side: int) -> Real:
+        a, b = terms(k, t)
         room = np.arccos(np.clip(level / (centre_distance * np.hypot(a, b)), -1.0, 1.0))
-        return side * (np.arctan2(a, b) - piece.value(t)) - room
+        return side * (np.arctan2(a, b) - stack.at(k, t)) - room
 
     low, highest = motion.extremes()
     least = max(
-        greatest_of(pieces, lambda p, t: end(p, t, 1)).value,
+        greatest_of(stack, lambda k, t: end(k, t, 1)).value,
         math.asin(min(1.0, max(face_offset, 0.0) / centre_distance)) - min(low, 0.0),
     )
-    most = min(-greatest_of(pieces, lambda p, t: end(p, t, -1)).value, math.pi / 2 - _SQUARE - highest)
+    most = min(-greatest_of(stack, lambda k, t: end(k, t, -1)).value, math.pi / 2 - _SQUARE - highest)
     if not least <= most:
         raise ConvergenceError("axis of the flat rocker: no cam is convex at this distance", least - most, 1)
     return OscillatingAxis(centre_distance, least, centre_distance * math.sin(least) - face_offset)

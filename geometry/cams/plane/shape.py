@@ -10,16 +10,18 @@ import numpy as np
 
 from geometry.base.errors import UndercutError
 from geometry.base.tolerance import TOLERANCES
+from geometry.cams.motion.follower_motion import TURN
 from geometry.cams.plane.curves import CentreEnvelope, FaceEnvelope
 from geometry.cams.plane.disk import DiskCam
 from geometry.cams.plane.undercut import Gap, kept_arcs
 from geometry.curves.curve import Curve, Reversed, end_point, start_point
 from geometry.curves.line_arc import Arc, Line
-from geometry.laws.piece import LawPiece, sign_changes
+from geometry.laws.piece import LawPiece
 from geometry.plane.profile import Label, Profile, Segment
 
-_SPLIT_SAMPLES = 129
-_LEAST_SHARE = 1e-4
+# rows of a table in one segment: those who sample a segment see each row
+_BLOCK_ROWS = 32
+_SLIVER = 1e-12
 CamCurve = CentreEnvelope | FaceEnvelope
 
 
@@ -49,6 +51,9 @@ def cam_shape(cam: DiskCam, grow: float = 0.0) -> CamShape:
     kept = kept_arcs(cam, grow)
     chain: list[Segment] = []
     for start, end in kept.arcs:
+        if cam.motion.tabled:
+            chain += _table_segments(cam, start, end, grow)
+            continue
         run: list[Segment] = []
         for piece in _pieces_between(cam, start, end):
             fresh = _segments(cam, piece, grow)
@@ -90,7 +95,7 @@ def _pieces_between(cam: DiskCam, start: float, end: float) -> list[LawPiece | _
         for piece in cam.motion.pieces:
             low, high = max(start, piece.start + shift), min(end, piece.end + shift)
             # a sliver of rounding is no piece
-            if high - low > 1e-12:
+            if high - low > _SLIVER:
                 found.append((piece, low - shift, high - shift))
     return [_Cut(piece, low, high) if (low, high) != piece.domain else piece for piece, low, high in found]
 
@@ -121,26 +126,17 @@ def _segments(cam: DiskCam, piece: LawPiece | _Cut, grow: float) -> list[Segment
         return [Segment(Arc(0j, abs(first), cmath.phase(first), piece.start - piece.end), Label.DWELL)]
     if isinstance(piece, _Cut):
         curve = curve.trimmed(piece.start, piece.end)
-    return [Segment(curve.trimmed(a, b), Label.CAM) for a, b in pairwise(quiet_edges(curve))]
+    return [Segment(curve.trimmed(a, b), Label.CAM) for a, b in pairwise(curve.quiet_edges())]
 
 
-def quiet_edges(curve: CamCurve) -> list[float]:
-    """Ends, inflections and vertices of a curve: between them the curvature keeps its sign and its trend.
-
-    Arcs and chords need the first (geometry/approximation/chords.py), and few arcs the second: DERIVATIONS.md,
-    section 4.
-    """
-    t = np.linspace(*curve.domain, _SPLIT_SAMPLES)
-    found = [sign_changes(curve.vertex_function, t)]
-    if isinstance(curve, CentreEnvelope):
-        found.append(sign_changes(curve.pitch_curvature, t))
-    least = _LEAST_SHARE * (curve.end - curve.start)
-    edges = [curve.start]
-    for at in np.sort(np.concatenate(found)).tolist():
-        # two splits beside each other are one; an inflection is also where a curve that starts straight begins
-        if at - edges[-1] > least and curve.end - at > least:
-            edges.append(at)
-    return [*edges, curve.end]
+def _table_segments(cam: DiskCam, start: float, end: float, grow: float) -> list[Segment]:
+    """The exact curve over rows of a table, some in a segment; ``end`` may lie beyond one turn."""
+    inner, found = cam.motion.stack.starts[::_BLOCK_ROWS], []
+    for low, high in ((start, min(end, TURN)), (0.0, end - TURN)):
+        # a sliver of rounding is no segment
+        cuts = [low, *inner[(inner > low + _SLIVER) & (inner < high - _SLIVER)].tolist(), high]
+        found += [Segment(cam.table_curve(a, b, grow), Label.CAM) for a, b in pairwise(cuts) if b - a > _SLIVER]
+    return found
 
 
 def _filling(cam: DiskCam, grow: float, before: Curve, after: Curve, angle: float) -> list[Segment]:

@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import lru_cache
 
 import numpy as np
 
@@ -21,12 +20,13 @@ from geometry.cams.motion.follower_motion import FollowerMotion, PhaseKind
 from geometry.cams.motion.guides import oscillating_prime_radius
 from geometry.cams.plane.disk import DiskCam, FollowerKind, translating_cam
 from geometry.curves.curve import Complex, Real
-from geometry.laws.piece import LawPiece, sign_changes
+from geometry.laws.stack import Indices, PieceFunction, PieceStack
 
 # of a base circle, before the search gives up
 _DOUBLINGS = 40
 _SAMPLES = 257
-_REFINEMENTS = 8
+_LEAST_SAMPLES, _MOST_ARGUMENTS = 9, 32_768
+_REFINEMENTS, _MOST_ZOOMED = 8, 16
 _MOST_CUTS = 60
 # of the arm, by which a half-plane may be broken: more than what `_nearest` lets pass as rounding
 _BROKEN = 1e-11
@@ -40,27 +40,41 @@ class Extreme:
     angle: float
 
 
-PieceFunction = Callable[[LawPiece, Real], Real]
+def greatest_of(
+    stack: PieceStack, function: PieceFunction, slope: PieceFunction | None = None, pieces: Indices | None = None
+) -> Extreme:
+    """Greatest value of a function of each piece: at its ends, where its slope changes sign, or by zooming in.
 
-
-def greatest_of(pieces: list[LawPiece], function: PieceFunction, slope: PieceFunction | None = None) -> Extreme:
-    """Greatest value of a function of each piece: at its ends, where its slope changes sign, or by zooming in."""
-    best = Extreme(-math.inf, 0.0)
-    for piece in pieces:
-        t = np.linspace(*piece.domain, _SAMPLES)
-        if slope is not None:
-            inner = sign_changes(partial(slope, piece), t)
-            t = np.concatenate([[piece.start], inner, [piece.end]])
-        else:
-            for _ in range(_REFINEMENTS):
-                values = function(piece, t)
-                at = int(np.argmax(values))
-                t = np.linspace(t[max(at - 1, 0)], t[min(at + 1, len(t) - 1)], _SAMPLES)
-        values = function(piece, t)
-        at = int(np.argmax(values))
-        if values[at] > best.value:
-            best = Extreme(float(values[at]), float(t[at]))
-    return best
+    ``pieces``: the numbers of those that count (None: all). The few in which the greatest samples stand are zoomed in.
+    """
+    chosen = np.arange(len(stack.starts)) if pieces is None else pieces
+    if not chosen.size:
+        return Extreme(-math.inf, 0.0)
+    samples = max(_LEAST_SAMPLES, min(_SAMPLES, _MOST_ARGUMENTS // len(chosen)))
+    if slope is not None:
+        ends, (found, roots) = np.arange(len(stack.starts)), stack.sign_changes(slope, samples)
+        index = np.concatenate([ends, found, ends])
+        t = np.concatenate([stack.starts, roots, stack.ends])
+        ranks = np.lexsort((t, index))
+        ranks = ranks[np.isin(index[ranks], chosen)]
+        index, t = index[ranks], t[ranks]
+        values = function(index, t)
+        best = int(np.argmax(values))
+        return Extreme(float(values[best]), float(t[best]))
+    every, places = stack.rows(samples)
+    index, t = every[chosen], places[chosen]
+    for left in reversed(range(_REFINEMENTS + 1)):
+        values = function(index, t)
+        if left == _REFINEMENTS:
+            zoomed = np.sort(np.argsort(-values.max(axis=1), kind="stable")[:_MOST_ZOOMED])
+            index, t, values = index[zoomed], t[zoomed], values[zoomed]
+        rows, at = np.arange(len(t)), values.argmax(axis=1)
+        if left:
+            low, high = t[rows, np.maximum(at - 1, 0)], t[rows, np.minimum(at + 1, t.shape[1] - 1)]
+            t = np.linspace(low, high, _SAMPLES, axis=-1)
+            index = np.broadcast_to(index[:, :1], t.shape)
+    best = int(np.argmax(values[rows, at]))
+    return Extreme(float(values[best, at[best]]), float(t[best, at[best]]))
 
 
 def flat_base_radius(motion: FollowerMotion, least_curvature_radius: float = 0.0) -> Extreme:
@@ -69,9 +83,9 @@ def flat_base_radius(motion: FollowerMotion, least_curvature_radius: float = 0.0
     With rho_min = 0 it is the practicum's r_0 by the tangent at 45 degrees; never below 0.
     """
     found = greatest_of(
-        list(motion.pieces),
-        lambda p, t: -(p.value(t) + p.value(t, 2)),
-        lambda p, t: p.value(t, 1) + p.value(t, 3),
+        motion.stack,
+        lambda k, t: -(motion.stack.at(k, t) + motion.stack.at(k, t, 2)),
+        lambda k, t: motion.stack.at(k, t, 1) + motion.stack.at(k, t, 3),
     )
     return Extreme(max(0.0, least_curvature_radius + found.value), found.angle)
 
@@ -117,25 +131,23 @@ def axis_region(motion: FollowerMotion, rise_limit: float, return_limit: float |
     ParameterError
         A limit not above 0 and below 90 degrees, or a motion that never rises.
     """
-    lines = []
+    lines, stack = [], motion.stack
     for pieces, limit in _limited(motion, rise_limit, return_limit):
         cot = 1 / math.tan(limit)
         for steepness in (cot, -cot):
 
-            def height(piece: LawPiece, t: Real, steepness: float = steepness) -> Real:
-                return steepness * piece.value(t, 1) - piece.value(t)
+            def height(k: Indices, t: Real, steepness: float = steepness) -> Real:
+                return steepness * stack.at(k, t, 1) - stack.at(k, t)
 
-            def slope(piece: LawPiece, t: Real, steepness: float = steepness) -> Real:
-                return steepness * piece.value(t, 2) - piece.value(t, 1)
+            def slope(k: Indices, t: Real, steepness: float = steepness) -> Real:
+                return steepness * stack.at(k, t, 2) - stack.at(k, t, 1)
 
-            lines.append((greatest_of(pieces, height, slope).value, steepness))
+            lines.append((greatest_of(stack, height, slope, pieces).value, steepness))
     return AxisRegion(tuple(lines))
 
 
-def _limited(
-    motion: FollowerMotion, rise_limit: float, return_limit: float | None
-) -> list[tuple[list[LawPiece], float]]:
-    """Rises and, where they have a limit, returns, each with the greatest |nu| there, rad."""
+def _limited(motion: FollowerMotion, rise_limit: float, return_limit: float | None) -> list[tuple[Indices, float]]:
+    """The pieces of rises and, where they have a limit, of returns, each with the greatest |nu| there, rad."""
     limits = [("rise_limit", rise_limit, PhaseKind.RISE)]
     if return_limit is not None:
         limits.append(("return_limit", return_limit, PhaseKind.RETURN))
@@ -143,7 +155,7 @@ def _limited(
     for name, limit, kind in limits:
         if not 0 < limit < math.pi / 2:
             raise ParameterError(name, limit, "not_within", low=0.0, high=math.pi / 2)
-        if not (pieces := motion.moving_pieces(kind)):
+        if not (pieces := motion.moving(kind)).size:
             raise ParameterError("motion", 0, "no_such_phase", move=str(kind.value))
         found.append((pieces, limit))
     return found
@@ -165,13 +177,17 @@ def roller_prime_radius(
 @lru_cache(maxsize=16)
 def greatest_pressure_angle(cam: DiskCam, kind: PhaseKind | None = None) -> Extreme:
     """The greatest |nu| (rad) on rises, on returns or anywhere, and its cam angle."""
-    pieces = cam.motion.moving_pieces(kind)
+    stack = cam.motion.stack
 
-    def size(piece: LawPiece, t: Real) -> Real:
-        # angles at the piece's end belong to the next one
-        return np.abs(cam.pressure_angle(np.minimum(t, np.nextafter(piece.end, 0))))
+    def size(k: Indices, t: Real) -> Real:
+        return np.abs(cam.pressure_angle(_before_end(stack, k, t)))
 
-    return greatest_of(pieces, size)
+    return greatest_of(stack, size, pieces=cam.motion.moving(kind))
+
+
+def _before_end(stack: PieceStack, k: Indices, t: Real) -> Real:
+    """Cam angles within the pieces: one at a piece's end belongs to the next."""
+    return np.minimum(t, np.nextafter(stack.ends[k], 0))
 
 
 @lru_cache(maxsize=16)
@@ -181,12 +197,12 @@ def least_convex_radius(cam: DiskCam) -> Extreme:
     At or below 0 it is undercut; for the path of a roller's centre add the roller's radius.
     """
 
-    def bending(piece: LawPiece, t: Real) -> Real:
-        radius = cam.curvature_radius(np.minimum(t, np.nextafter(piece.end, 0))) + cam.radius
+    def bending(k: Indices, t: Real) -> Real:
+        radius = cam.curvature_radius(_before_end(cam.motion.stack, k, t)) + cam.radius
         # the curvature is smooth where the radius jumps through infinity; a flat's radius is smooth itself
         return -radius if cam.is_flat else 1 / radius
 
-    found = greatest_of(list(cam.motion.pieces), bending)
+    found = greatest_of(cam.motion.stack, bending)
     value = -found.value if cam.is_flat else (1 / found.value - cam.radius if found.value > 0 else math.inf)
     return Extreme(value, found.angle)
 
@@ -197,10 +213,10 @@ def least_hollow_radius(cam: DiskCam) -> Extreme:
     The outer wall of a groove is whole where the roller, with its play, is smaller.
     """
 
-    def hollow(piece: LawPiece, t: Real) -> Real:
-        return -1 / cam.pitch_curvature_radius(np.minimum(t, np.nextafter(piece.end, 0)))
+    def hollow(k: Indices, t: Real) -> Real:
+        return -1 / cam.pitch_curvature_radius(_before_end(cam.motion.stack, k, t))
 
-    found = greatest_of(list(cam.motion.pieces), hollow)
+    found = greatest_of(cam.motion.stack, hollow)
     return Extreme(1 / found.value if found.value > 0 else math.inf, found.angle)
 
 
@@ -286,7 +302,9 @@ def oscillating_axis(
     axis = home
     for _ in range(_MOST_CUTS):
         cuts = [
-            _deepest(group, arm_length, sense, limit, side, axis) for group, limit in pieces for side in (1.0, -1.0)
+            _deepest(motion.stack, group, arm_length, sense, limit, side, axis)
+            for group, limit in pieces
+            for side in (1.0, -1.0)
         ]
         worst = max(cuts, key=lambda c: c[2])
         if worst[2] <= _BROKEN * arm_length:
@@ -319,29 +337,30 @@ def oscillating_start_angles(
     ParameterError
         See ``axis_region``.
     """
-    low, high = 0.0, math.pi
+    low, high, stack = 0.0, math.pi, motion.stack
     for pieces, limit in _limited(motion, rise_limit, return_limit):
         share = arm_length * math.cos(limit) / centre_distance
 
-        def cosine(piece: LawPiece, t: Real, share: float = share) -> Real:
-            return share * (1 + sense * piece.value(t, 1))
+        def cosine(k: Indices, t: Real, share: float = share) -> Real:
+            return share * (1 + sense * stack.at(k, t, 1))
 
-        rates = np.concatenate([cosine(p, p.extremes(1)) for p in pieces])
-        if not np.abs(rates).max() <= 1:
+        index, t = stack.extremes(1)
+        mine = np.isin(index, pieces)
+        if not np.abs(cosine(index[mine], t[mine])).max() <= 1:
             return math.inf, high
 
-        def greatest(a: int, b: int, pieces: list[LawPiece] = pieces, share: float = share) -> float:
+        def greatest(a: int, b: int, pieces: Indices = pieces, share: float = share) -> float:
             """Of a A + b S."""
 
-            def angle(piece: LawPiece, t: Real) -> Real:
-                return a * np.arccos(np.clip(cosine(piece, t, share), -1, 1)) + b * piece.value(t)
+            def angle(k: Indices, t: Real) -> Real:
+                return a * np.arccos(np.clip(cosine(k, t, share), -1, 1)) + b * stack.at(k, t)
 
-            def slope(piece: LawPiece, t: Real) -> Real:
+            def slope(k: Indices, t: Real) -> Real:
                 # times the sine of A, which is never below 0
-                sine = np.sqrt(np.clip(1 - cosine(piece, t, share) ** 2, 0, 1))
-                return b * piece.value(t, 1) * sine - a * share * sense * piece.value(t, 2)
+                sine = np.sqrt(np.clip(1 - cosine(k, t, share) ** 2, 0, 1))
+                return b * stack.at(k, t, 1) * sine - a * share * sense * stack.at(k, t, 2)
 
-            return greatest_of(pieces, angle, slope).value
+            return greatest_of(stack, angle, slope, pieces).value
 
         low = max(low, greatest(1, -1) - limit, greatest(-1, -1) + limit)
         high = min(high, limit - greatest(-1, 1), 2 * math.pi - limit - greatest(1, 1))
@@ -349,31 +368,31 @@ def oscillating_start_angles(
 
 
 def _deepest(
-    pieces: list[LawPiece], arm: float, sense: int, limit: float, side: float, axis: complex
+    stack: PieceStack, pieces: Indices, arm: float, sense: int, limit: float, side: float, axis: complex
 ) -> tuple[complex, float, float]:
     """The half-plane Re(conj(n) axis) >= b that is broken most, and by how much, mm.
 
     The axis is seen from the pivot, with the arm's lowest position along +x.
     """
 
-    def normal(piece: LawPiece, t: Real) -> Complex:
-        along = np.exp(-1j * piece.value(t))
+    def normal(k: Indices, t: Real) -> Complex:
+        along = np.exp(-1j * stack.at(k, t))
         return (math.tan(limit) * 1j * along + side * along) * math.cos(limit)
 
-    def level(piece: LawPiece, t: Real) -> Real:
-        return side * arm * (1 + sense * piece.value(t, 1)) * math.cos(limit)
+    def level(k: Indices, t: Real) -> Real:
+        return side * arm * (1 + sense * stack.at(k, t, 1)) * math.cos(limit)
 
-    def depth(piece: LawPiece, t: Real) -> Real:
-        return level(piece, t) - (np.conj(normal(piece, t)) * axis).real
+    def depth(k: Indices, t: Real) -> Real:
+        return level(k, t) - (np.conj(normal(k, t)) * axis).real
 
-    def slope(piece: LawPiece, t: Real) -> Real:
-        bend = side * arm * sense * math.cos(limit) * piece.value(t, 2)
-        return bend + piece.value(t, 1) * (np.conj(normal(piece, t)) * axis).imag
+    def slope(k: Indices, t: Real) -> Real:
+        bend = side * arm * sense * math.cos(limit) * stack.at(k, t, 2)
+        return bend + stack.at(k, t, 1) * (np.conj(normal(k, t)) * axis).imag
 
-    found = greatest_of(pieces, depth, slope)
+    found = greatest_of(stack, depth, slope, pieces)
     at = np.asarray(found.angle)
-    piece = next(p for p in pieces if p.start <= found.angle <= p.end)
-    return complex(normal(piece, at)), float(level(piece, at)), found.value
+    k = np.asarray(next(k for k in pieces if stack.starts[k] <= found.angle <= stack.ends[k]))
+    return complex(normal(k, at)), float(level(k, at)), found.value
 
 
 def _nearest(home: complex, planes: list[tuple[complex, float]]) -> complex:

@@ -29,6 +29,8 @@ from geometry.laws.piece import sign_changes
 # samples a piece of the motion: of the quick test, and of the sweep that finds what is lost
 _QUICK_SAMPLES = 129
 _SWEEP_SAMPLES = 361
+# on each row of a table at least, and on all of them together as on so many phases
+_LEAST_ON_ROW, _PHASES = 4, 8
 _NEWTON_STEPS = 40
 # shares of a piece's length from its ends at which small loops are looked for
 _CROWD = 10.0 ** -np.linspace(1, 12, 89)
@@ -59,15 +61,24 @@ class Kept:
 
 def is_whole(cam: DiskCam, grow: float = 0.0) -> bool:
     """Whether the quick test proves (to its sampling) that nothing is undercut."""
-    for piece in cam.motion.pieces:
-        curve = cam.curve(piece, grow)
-        t = np.linspace(*piece.domain, _QUICK_SAMPLES)
+    for curve, t in _curves(cam, grow, _QUICK_SAMPLES):
         if least_stretch(curve, t) <= 0:
             return False
         point, rate = curve.point(t), curve.derivative(t)
         if not np.all((np.conj(point) * rate).imag < 0):
             return False
-    return not _has_lost_corner(cam, grow)
+    return cam.motion.tabled or not _has_lost_corner(cam, grow)
+
+
+def _curves(cam: DiskCam, grow: float, samples: int) -> list[tuple[CentreEnvelope | FaceEnvelope, Real]]:
+    """The envelope over each piece of the motion with even samples; over a table in one, with some on each row."""
+    if not cam.motion.tabled:
+        curves = [cam.curve(piece, grow) for piece in cam.motion.pieces]
+        return [(curve, np.linspace(*curve.domain, samples)) for curve in curves]
+    stack = cam.motion.stack
+    each = max(_LEAST_ON_ROW, -(-_PHASES * samples // len(stack.starts)))
+    t = np.append(stack.rows(each + 1)[1][:, :-1].ravel(), TURN)
+    return [(cam.table_curve(0.0, TURN, grow), t)]
 
 
 def least_stretch(curve: CentreEnvelope | FaceEnvelope, t: Real) -> float:
@@ -155,12 +166,16 @@ def _samples(cam: DiskCam, grow: float) -> tuple[Real, np.ndarray, Complex]:
     Even steps, and crowds where a small loop may hide: at the ends of the pieces and about every cusp.
     """
     angles, index, points = [], [], []
+    if cam.motion.tabled:
+        ((curve, even),) = _curves(cam, grow, _SWEEP_SAMPLES // 3)
+        t = distinct(np.clip(np.concatenate([even, *_about_cusps(curve, even)]), 0.0, TURN))
+        return t, cam.motion.stack.index(t), curve.point(t)
     for k, piece in enumerate(cam.motion.pieces):
         curve = cam.curve(piece, grow)
         length = piece.end - piece.start
         near = length * _CROWD
         even = np.linspace(*piece.domain, 9 if piece.is_constant else _SWEEP_SAMPLES)
-        cusps = [] if piece.is_constant else _about_cusps(curve)
+        cusps = [] if piece.is_constant else _about_cusps(curve, np.linspace(*curve.domain, _QUICK_SAMPLES))
         t = distinct(np.clip(np.concatenate([even, piece.start + near, piece.end - near, *cusps]), *piece.domain))
         angles.append(t)
         index.append(np.full(len(t), k))
@@ -168,10 +183,9 @@ def _samples(cam: DiskCam, grow: float) -> tuple[Real, np.ndarray, Complex]:
     return np.concatenate(angles), np.concatenate(index), np.concatenate(points)
 
 
-def _about_cusps(curve: CentreEnvelope | FaceEnvelope) -> list[Real]:
+def _about_cusps(curve: CentreEnvelope | FaceEnvelope, t: Real) -> list[Real]:
     """Crowded samples about each pair of cusps: a loop reaches a few times their distance beyond them."""
     forward = _forward(curve)
-    t = np.linspace(*curve.domain, _QUICK_SAMPLES)
     values = forward(t)
     lowest = int(np.argmin(values))
     near = np.linspace(t[max(lowest - 1, 0)], t[min(lowest + 1, len(t) - 1)], _QUICK_SAMPLES)

@@ -90,7 +90,7 @@ def path_reach(cam: DiskCam) -> float:
     """Greatest distance of the roller's centre from the axis, mm; it stands where S is extreme."""
     import numpy as np
 
-    angles = np.concatenate([p.extremes(0) for p in cam.motion.pieces])
+    angles = cam.motion.stack.extremes(0)[1]
     return float(np.abs(cam.reference_point(angles)).max())
 
 

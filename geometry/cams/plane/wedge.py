@@ -24,7 +24,6 @@ from geometry.base.series import Series, derived, exponential
 from geometry.cams.motion.follower_motion import Phase, PieceMotion
 from geometry.cams.plane.curves import CentreEnvelope, Lift, bound_series, lift_series
 from geometry.cams.plane.disk import FollowerKind
-from geometry.cams.plane.shape import quiet_edges
 from geometry.curves.curve import Complex, Curve, Real, Reversed, end_point, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.laws.piece import LawPiece
@@ -353,5 +352,5 @@ def _top(cam: WedgeCam, runs: tuple[float, float], grow: float) -> list[Curve]:
         if piece.is_constant:
             made.append(Line(complex(curve.point(piece.start)), complex(curve.point(piece.end))))
             continue
-        made += [curve.trimmed(a, b) for a, b in pairwise(quiet_edges(curve))]
+        made += [curve.trimmed(a, b) for a, b in pairwise(curve.quiet_edges())]
     return made

@@ -47,7 +47,7 @@ def reach_of(picture: CamPicture, scale: float) -> Reach:
     """What the construction needs at a scale, model mm; ``whole`` without the numbers."""
     cam = picture.cam
     base = base_radius(cam)
-    angles = np.concatenate([p.extremes(0) for p in cam.motion.pieces] + [np.linspace(0, _TURN, 181)])
+    angles = np.concatenate([cam.motion.stack.extremes(0)[1], np.linspace(0, _TURN, 181)])
     far = float(np.abs(cam.reference_point(angles)).max())
     rays = far + (cam.radius if cam.kind is FollowerKind.ROLLER else 0.0) + _BEYOND / scale
     whole, mount = rays, cam.mount

@@ -1,0 +1,137 @@
+"""Cams of a motion table: as few arcs as the law's cam has, and within their declared error of SciPy's spline."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import ezdxf
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+from scipy.spatial import cKDTree
+
+from exporters.command.cli import main
+from geometry.cams.motion.follower_motion import dwell, follower_motion, return_, rise
+from geometry.laws.named import polynomial_345, sine
+
+LIFT, OFFSET, RADIUS = 20.0, 5.0, 8.0
+# base circle of each follower, mm
+BASES = {"roller": 35.0, "flat": 46.0}
+PHASES = """lift = 20.0
+phases = [{ move = "rise", angle_deg = 120.0, law = "sine" }, { move = "dwell", angle_deg = 40.0 },
+          { move = "return_", angle_deg = 130.0, law = "polynomial_345" }, { move = "dwell", angle_deg = 70.0 }]
+"""
+MOTION = follower_motion(
+    [rise(math.radians(120), LIFT, sine()), dwell(math.radians(40)),
+     return_(math.radians(130), LIFT, polynomial_345()), dwell(math.radians(70))]
+)  # fmt: skip
+
+
+def table(rows: int, digits: int) -> list[tuple[float, float]]:
+    angles = [360 * k / rows for k in range(rows)]
+    return [(a, round(float(MOTION.value(math.radians(a))), digits)) for a in angles]
+
+
+def built(folder: Path, follower: str, motion: str, tolerance: float, form: str = "dxf") -> tuple[Path, float]:
+    """The file of a cam and its declared error."""
+    round_keys = f"follower_radius = {RADIUS}\nfollower_offset = {OFFSET}\n" if follower == "roller" else ""
+    head = f'[parts.cam]\nkind = "cam"\nfollower = "{follower}"\nbase_circle_radius = {BASES[follower]}\n'
+    scene = folder / "s.toml"
+    scene.write_text(head + round_keys + motion + f'[[exports]]\nformat = "{form}"\ntolerance = {tolerance}\n')
+    assert main(["build", str(scene), "--out", str(folder)]) == 0
+    (told,) = json.loads((folder / "s" / "report.json").read_text())["files"]
+    return folder / "s" / "cam.dxf", float(told["max_error"])
+
+
+def of_rows(rows: list[tuple[float, float]]) -> str:
+    return "motion_table = [" + ", ".join(f"[{a!r}, {s!r}]" for a, s in rows) + "]\n"
+
+
+def drawn(file: Path) -> tuple[NDArray[np.complex128], int]:
+    """Dense points of the largest outline of a DXF, and its number of edges."""
+    loops = [list(x.get_points("xyb")) for x in ezdxf.readfile(file).modelspace().query("LWPOLYLINE")]
+    loop = max(loops, key=lambda p: max(abs(complex(x, y)) for x, y, _ in p))
+    points = np.array([complex(x, y) for x, y, _ in loop])
+    quarter = np.arctan([b for _, _, b in loop])[:, None]
+    share = np.linspace(0, 1, 400, endpoint=False)
+    with np.errstate(invalid="ignore"):
+        along = np.where(quarter == 0, share, np.sin(2 * quarter * share) / np.sin(2 * quarter))
+    chords = (np.roll(points, -1) - points)[:, None]
+    return (points[:, None] + chords * along * np.exp(-2j * quarter * (1 - share))).ravel(), len(loop)
+
+
+def exact(follower: str, rows: list[tuple[float, float]], count: int) -> NDArray[np.complex128]:
+    """The cam of SciPy's periodic cubic spline, point by point."""
+    angle = np.append(np.radians([a for a, _ in rows]), 2 * np.pi)
+    spline = CubicSpline(angle, [*(s for _, s in rows), rows[0][1]], bc_type="periodic")
+    t = np.linspace(0, 2 * np.pi, count)
+    s, rate = spline(t), spline(t, 1)
+    if follower == "flat":
+        return np.asarray(np.exp(-1j * t) * (rate + 1j * (BASES["flat"] + s)))
+    height = math.sqrt((BASES["roller"] + RADIUS) ** 2 - OFFSET**2)
+    centre = OFFSET + 1j * (height + s)
+    way = 1j * rate - 1j * centre
+    return np.asarray(np.exp(-1j * t) * (centre - RADIUS * 1j * way / np.abs(way)))
+
+
+def farthest(points: NDArray[np.complex128], line: NDArray[np.complex128]) -> float:
+    """Greatest distance of points from a dense polyline: to the two edges beside the nearest corner."""
+    tree = cKDTree(np.stack([line.real, line.imag], axis=1))
+    near = tree.query(np.stack([points.real, points.imag], axis=1))[1]
+    best = np.full(len(points), np.inf)
+    for shift in (-1, 0):
+        a, b = line[(near + shift) % len(line)], line[(near + shift + 1) % len(line)]
+        with np.errstate(invalid="ignore", divide="ignore"):
+            share = np.nan_to_num(np.clip(((points - a) * np.conj(b - a)).real / np.abs(b - a) ** 2, 0, 1))
+        best = np.minimum(best, np.abs(points - a - share * (b - a)))
+    return float(best.max())
+
+
+@pytest.mark.parametrize(
+    ("follower", "rows", "digits", "tolerance"),
+    [("roller", 24, 12, 0.005), ("flat", 360, 12, 0.005), ("roller", 360, 3, 0.005), ("roller", 2000, 4, 0.005),
+     ("flat", 180, 4, 0.0005)],
+)  # fmt: skip
+def test_arcs_run_over_the_rows_of_a_table(
+    tmp_path: Path, follower: str, rows: int, digits: int, tolerance: float
+) -> None:
+    """Two arcs a row were written; now about as many as for the law, within the error they declare, both ways."""
+    lifts = table(rows, digits)
+    file, declared = built(tmp_path, follower, of_rows(lifts), tolerance)
+    points, edges = drawn(file)
+    curve = exact(follower, lifts, 200_001)
+    assert declared <= tolerance
+    # the polylines' own steps are below 2e-9 mm off
+    assert farthest(points, curve) <= declared + 1e-8
+    assert farthest(curve[::7], points) <= declared + 1e-6
+    (tmp_path / "law").mkdir()
+    _, of_law = drawn(built(tmp_path / "law", follower, PHASES, tolerance)[0])
+    assert edges <= 1.6 * of_law + 16
+
+
+def test_chords_run_over_the_rows_too(tmp_path: Path) -> None:
+    """A file of lines has as many as the tolerance asks, not one a row."""
+    lifts = table(720, 5)
+    file, declared = built(tmp_path, "roller", of_rows(lifts), 0.05, 'dxf"\ncurves = "lines')
+    loops = [[complex(x, y) for x, y in p.get_points("xy")] for p in ezdxf.readfile(file).modelspace()]
+    corners = np.array(max(loops, key=lambda p: max(map(abs, p))))
+    assert len(corners) < 200
+    points = (corners[:, None] + (np.roll(corners, -1) - corners)[:, None] * np.linspace(0, 1, 99)).ravel()
+    assert farthest(points, exact("roller", lifts, 100_001)) <= declared + 1e-7
+
+
+def test_an_undercut_table_is_told_and_its_cure_works(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """A sweep of all rows against all rows took minutes."""
+    rows = table(360, 12)
+    scene = tmp_path / "s.toml"
+    text = f'[parts.cam]\nkind = "cam"\nfollower = "mushroom"\nfollower_radius = 70.0\n{of_rows(rows)}'
+    scene.write_text(text + 'base_circle_radius = 3.0\n[[exports]]\nformat = "svg"\n')
+    assert main(["build", str(scene), "--out", str(tmp_path)]) == 2
+    words = capsys.readouterr().err
+    assert "undercut" in words
+    least = float(words.split("at least ")[1].split()[0])
+    scene.write_text(text + f'base_circle_radius = {1.5 * least}\n[[exports]]\nformat = "svg"\n')
+    assert main(["build", str(scene), "--out", str(tmp_path)]) == 0
