@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -338,15 +339,15 @@ def oscillating_start_angles(
         See ``axis_region``.
     """
     low, high, stack = 0.0, math.pi, motion.stack
+    spots, places = stack.extremes(1)
     for pieces, limit in _limited(motion, rise_limit, return_limit):
         share = arm_length * math.cos(limit) / centre_distance
 
         def cosine(k: Indices, t: Real, share: float = share) -> Real:
             return share * (1 + sense * stack.at(k, t, 1))
 
-        index, t = stack.extremes(1)
-        mine = np.isin(index, pieces)
-        if not np.abs(cosine(index[mine], t[mine])).max() <= 1:
+        mine = np.isin(spots, pieces)
+        if not np.abs(cosine(spots[mine], places[mine])).max() <= 1:
             return math.inf, high
 
         def greatest(a: int, b: int, pieces: Indices = pieces, share: float = share) -> float:
