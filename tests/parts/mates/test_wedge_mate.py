@@ -175,6 +175,15 @@ def test_a_stem_that_leans_is_off_its_place() -> None:
         assert all(c.met for c in conditions) is met
 
 
+@pytest.mark.parametrize(("height", "width"), [(4.0, 6.0), (-4.0, 6.0), (10.0, 0.0), (-11.0, -1.0)])
+def test_a_follower_at_another_height_must_share_the_face(height: float, width: float) -> None:
+    """Both are 10 mm high; one that a mate lifts beside the plate touches nothing."""
+    found = checks_of(scene_text("roller", None, 20.0) + f"height = {height}\n")["mates"][0]
+    (condition,) = found["conditions"]
+    assert (condition["code"], condition["value"]) == ("common_face_width", width)
+    assert condition["met"] is ("verdict" in found) is (width > 0)
+
+
 def test_a_motion_that_falls_first_is_told_whole() -> None:
     text = scene_text("pointed", "trailing").replace("swing_deg = 10.0", "swing_deg = 4.0")
     text = text.replace('"rise"', '"up"').replace('"return_"', '"rise"').replace('"up"', '"return_"')

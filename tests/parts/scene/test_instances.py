@@ -176,7 +176,7 @@ def test_a_broken_condition_fails_the_command(
     assert main(["check", str(scene)]) == code
     out = capsys.readouterr().out
     assert word in out
-    assert ("rotation_deg = 172.8" in out) == (code == 1)
+    assert ("rotation_deg = 172.8 " in out) == (code == 1)
 
 
 def test_play_is_room_for_the_phase() -> None:
