@@ -15,7 +15,7 @@ from parts.drawing.expected import Expected
 from parts.scene.load import ExportSpec, SceneFile
 
 # by these steps sections of the calculation are known that no sheet shows
-_PAGE_ALONE = {"position_deg", "savvin_a"}
+_PAGE_ALONE = {"position_deg", "savvin_a", "largest_roller_radius"}
 # the kinds of parts that the sheet draws
 _DRAWN = [str(kind.__struct_config__.tag) for kind in (CamSpec, LinkageCamSpec)]
 

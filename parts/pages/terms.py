@@ -230,6 +230,8 @@ least_cam_radius|R_min|R_min|mm|least radius of the cam
 follower_radius|r|r|mm|radius of the roller or mushroom
 initial_height|s_0|s_0|mm|initial height of the follower
 least_curvature_radius|rho_min|ρ_min|mm|least convex radius of curvature
+least_pitch_radius|rho_p|ρ_p|mm|least convex radius of the pitch curve
+largest_roller_radius|r_lim|r_гр|mm|largest roller radius by the pitch curve, with a reserve
 least_plate_diameter|D_pl|D_т|mm|least diameter of the plate
 speed_rpm|n_rpm|n|rpm|speed of the cam
 angular_speed|omega|ω|rad/s|angular speed of the cam

@@ -39,6 +39,7 @@ QUANTITIES: dict[str, str] = {
     "pressure_angle_rise_deg": N_("greatest pressure angle, rise, deg"),
     "pressure_angle_return_deg": N_("greatest pressure angle, return, deg"),
     "least_curvature_radius": N_("least convex radius rho, mm"),
+    "largest_roller_radius": N_("largest roller radius by the pitch curve, mm"),
     "face_from": N_("face contact from, mm"),
     "least_plate_diameter": N_("least plate diameter, mm"),
     "face_to": N_("face contact to, mm"),

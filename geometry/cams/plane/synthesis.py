@@ -261,16 +261,9 @@ def convex_rocker_base_radius(cam_at: Callable[[float], DiskCam], least: float, 
     return bracketed_root(excess, least, most).value
 
 
-def roller_radius_rules(cam: DiskCam) -> dict[str, float]:
-    """What the usual rules allow for a roller, mm: below the least pitch radius, 0.8 (0.7) of it, 0.4 of R_b."""
-    pitch = least_convex_radius(cam).value + cam.radius
-    base = float(abs(cam.reference_point(0.0))) - cam.radius
-    return {
-        "undercut": pitch,
-        "share_0.8_of_curvature": 0.8 * pitch,
-        "share_0.7_of_curvature": 0.7 * pitch,
-        "share_0.4_of_base_circle": 0.4 * base,
-    }
+def least_pitch_radius(cam: DiskCam) -> float:
+    """Least radius of curvature of the path of a roller's centre where it is convex, mm: a larger roller undercuts."""
+    return least_convex_radius(cam).value + cam.radius
 
 
 @dataclass(frozen=True, slots=True)

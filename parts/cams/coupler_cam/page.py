@@ -16,6 +16,7 @@ from parts.base.texts import N_, message
 from parts.cams.coupler_cam.part import LINKAGE_CAM, LinkageCamSpec, linkage_findings
 from parts.cams.coupler_cam.position_page import position_at, position_steps
 from parts.cams.disk_cam.graphical_page import graphical_section
+from parts.cams.disk_cam.page import roller_section
 from parts.cams.disk_cam.speed_page import speed_section
 from parts.cams.wheel import inner_radius
 from parts.keys.base import degrees
@@ -79,6 +80,7 @@ def sheet(kind: str, table: dict[str, Any]) -> Sheet:
     _linkage(page, keys, cam)
     coefficient_steps(page, phases)
     _sizes(page, keys, cam)
+    roller_section(page, cam, keys.least_curvature_radius)
     position_steps(page, position_at(cam, _chosen(keys, cam)))
     page.data["phases"] = phases.data()
     page.tables.append(positions(cam, keys.step, speed_rpm=keys.speed_rpm))

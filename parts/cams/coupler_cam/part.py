@@ -17,7 +17,14 @@ from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
 from parts.base.kind import Others, Report
 from parts.base.schema import replaced
-from parts.cams.disk_cam.part import DiskKind, cam_circles, check_face, undercut
+from parts.cams.disk_cam.part import (
+    USUAL_ROLLER_SHARE,
+    DiskKind,
+    cam_circles,
+    check_face,
+    largest_roller_radius,
+    undercut,
+)
 from parts.cams.wheel import DiskKeys, check_disk
 from parts.keys.base import degrees, mm, start
 from parts.keys.cam import Follower, Phases, check_stroke, motion_of, stroke_key, turn
@@ -31,7 +38,6 @@ _MOST = 100_000.0
 # usual limits, degrees: the pressure angle of a follower that turns, and the transmission angle of a linkage
 _USUAL_PRESSURE_ANGLE, _USUAL_TRANSMISSION_ANGLE = 45.0, 40.0
 # rollers are kept below this share of the least convex radius of the pitch curve
-_USUAL_ROLLER_SHARE = 0.8
 
 
 class LinkageCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="linkage_cam"):
@@ -213,7 +219,7 @@ def _check_part(keys: LinkageCamSpec, cam: LinkageCam) -> None:
     check_disk(keys, cam)
 
 
-def _quantities(cam: LinkageCam) -> dict[str, float]:
+def _quantities(keys: LinkageCamSpec, cam: LinkageCam) -> dict[str, float]:
     """Named results: sizes in mm, angles in degrees."""
     from geometry.cams.motion.follower_motion import PhaseKind
     from geometry.cams.plane.synthesis import greatest_pressure_angle, least_convex_radius
@@ -229,6 +235,8 @@ def _quantities(cam: LinkageCam) -> dict[str, float]:
     if cam.radius > 0:
         found["contact_pressure_angle_deg"] = math.degrees(cam.greatest(cam.contact_pressure_angle))
     found["least_curvature_radius"] = least_convex_radius(cam).value
+    if cam.kind == "roller":
+        found["largest_roller_radius"] = largest_roller_radius(cam, keys.least_curvature_radius)
     found["coupler_swing_deg"] = math.degrees(cam.member_swing("coupler"))
     found["least_transmission_angle_deg"] = math.degrees(cam.mount.linkage.transmission_angle())
     if cam.kind != "roller":
@@ -256,8 +264,8 @@ def linkage_findings(keys: LinkageCamSpec, cam: LinkageCam) -> tuple[Finding, ..
     if transmission < _USUAL_TRANSMISSION_ANGLE:
         found.append(Finding("small_transmission_angle", transmission, _USUAL_TRANSMISSION_ANGLE))
     convex = least_convex_radius(cam).value
-    if cam.kind == "roller" and cam.radius > _USUAL_ROLLER_SHARE * (convex + cam.radius):
-        found.append(Finding("large_roller", cam.radius, _USUAL_ROLLER_SHARE * (convex + cam.radius)))
+    if cam.kind == "roller" and cam.radius > USUAL_ROLLER_SHARE * (convex + cam.radius):
+        found.append(Finding("large_roller", cam.radius, USUAL_ROLLER_SHARE * (convex + cam.radius)))
     if convex < keys.least_curvature_radius * (1 - 1e-6):
         found.append(Finding("linkage_curvature_radius", convex, keys.least_curvature_radius))
     return tuple(found)
@@ -288,7 +296,7 @@ class CouplerCam(DiskKind[LinkageCamSpec, "LinkageCam"]):
 
     def report(self, keys: LinkageCamSpec, thing: LinkageCam) -> Report:
         """Impacts, pressure and transmission angles, curvature."""
-        return Report(linkage_findings(keys, thing), cam_circles(thing), _quantities(thing))
+        return Report(linkage_findings(keys, thing), cam_circles(thing), _quantities(keys, thing))
 
 
 LINKAGE_CAM = CouplerCam()

@@ -19,6 +19,7 @@ from geometry.cams.plane.synthesis import (
     flat_base_radius,
     greatest_pressure_angle,
     least_convex_radius,
+    least_pitch_radius,
     oscillating_axis,
     oscillating_start_angles,
     roller_prime_radius,
@@ -26,7 +27,7 @@ from geometry.cams.plane.synthesis import (
 from parts.base.refusal import REMOVED, SceneError, meant
 from parts.base.texts import N_
 from parts.cams.disk_cam.graphical_page import graphical_section
-from parts.cams.disk_cam.part import CAM, CamSpec, base_radius
+from parts.cams.disk_cam.part import CAM, USUAL_ROLLER_SHARE, CamSpec, base_radius, largest_roller_radius
 from parts.cams.disk_cam.speed_page import speed_section
 from parts.pages.cam_steps import (
     DEFAULT_INTERVALS,
@@ -131,6 +132,7 @@ def disk_page(keys: CamKeys, cam: DiskCam) -> Sheet:
     characteristics(page, keys, cam)
     coefficient_steps(page, phases)
     sizes(page, keys, cam)
+    roller_section(page, cam, keys.least_curvature_radius)
     page.data["phases"] = phases.data()
     page.tables.append(positions(cam, keys.step, speed_rpm=keys.speed_rpm, cutter_diameter=keys.cutter_diameter))
     finish(page, keys, cam, keys.least_transmission_angle_deg)
@@ -186,6 +188,19 @@ def sizes(page: Sheet, keys: CamKeys, cam: DiskCam) -> None:
     page.add("least_curvature_radius", least_convex_radius(cam).value)
     if isinstance(cam.mount, Translating) and cam.kind in ("flat", "mushroom"):
         page.add("least_plate_diameter", cam.least_plate_diameter())
+
+
+def roller_section(page: Sheet, cam: DiskCam, least_curvature_radius: float) -> None:
+    """The largest roller that the pitch curve allows: of two reserves the one that counts."""
+    if cam.kind != "roller":
+        return
+    most, pitch = largest_roller_radius(cam, least_curvature_radius), least_pitch_radius(cam)
+    page.section(N_("Roller"))
+    page.add("least_pitch_radius", pitch)
+    if not most:
+        return
+    usual = most == USUAL_ROLLER_SHARE * pitch
+    page.add("largest_roller_radius", most, f"{USUAL_ROLLER_SHARE} * {{rho_p}}" if usual else "{rho_p} - {rho}")
 
 
 def reached(page: Sheet, cam: DiskCam) -> None:

@@ -387,9 +387,20 @@ class DiskKind(Turned[K, T]):
 # usual limits of the pressure angle: translating 30, swinging 45 degrees (practicum: 30 to 35, 40 to 50)
 _USUAL_PRESSURE_ANGLE = {False: 30.0, True: 45.0}
 # rollers are kept below this share of the least convex radius of the pitch curve
-_USUAL_ROLLER_SHARE = 0.8
+USUAL_ROLLER_SHARE = 0.8
 # cam angles at which the greatest radius is looked for: off by a part in a million
 _SAMPLES = 3601
+
+
+def largest_roller_radius(cam: DiskCam, least_curvature_radius: float) -> float:
+    """The largest roller for the pitch curve, mm: by the usual share, and so that the cam keeps a convex radius.
+
+    0 where no roller leaves that radius.
+    """
+    from geometry.cams.plane.synthesis import least_pitch_radius
+
+    pitch = least_pitch_radius(cam)
+    return max(0.0, min(USUAL_ROLLER_SHARE * pitch, pitch - least_curvature_radius))
 
 
 def cam_quantities(spec: CamSpec, cam: DiskCam) -> dict[str, float]:
@@ -412,6 +423,8 @@ def cam_quantities(spec: CamSpec, cam: DiskCam) -> dict[str, float]:
             name = f"pressure_angle_{'rise' if kind is PhaseKind.RISE else 'return'}_deg"
             found[name] = math.degrees(greatest_pressure_angle(cam, kind).value)
     found["least_curvature_radius"] = least_convex_radius(cam).value
+    if cam.kind == "roller":
+        found["largest_roller_radius"] = largest_roller_radius(cam, spec.least_curvature_radius)
     if cam.kind in ("flat", "mushroom"):
         found["face_from"], found["face_to"] = cam.face_reach()
         if spec.oscillating is None:
@@ -435,8 +448,8 @@ def cam_findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
     if steepest > _USUAL_PRESSURE_ANGLE[swings] + 1e-9:
         found.append(Finding("steep_pressure_angle", steepest, _USUAL_PRESSURE_ANGLE[swings]))
     pitch = least_convex_radius(cam).value + cam.radius
-    if cam.kind == "roller" and cam.radius > _USUAL_ROLLER_SHARE * pitch:
-        found.append(Finding("large_roller", cam.radius, _USUAL_ROLLER_SHARE * pitch))
+    if cam.kind == "roller" and cam.radius > USUAL_ROLLER_SHARE * pitch:
+        found.append(Finding("large_roller", cam.radius, USUAL_ROLLER_SHARE * pitch))
     if spec.oscillating is None and cam.is_flat and spec.follower_offset != 0:
         found.append(Finding("flat_offset", spec.follower_offset, cam.least_plate_diameter()))
     if swings and (within := _greatest_radius(cam) - cam.swing.centre_distance) > 0:

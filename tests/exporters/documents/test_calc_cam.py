@@ -96,6 +96,28 @@ def test_the_least_rocker(sense: str, distance: float | None) -> None:
         assert (found, prime) == (best, pytest.approx(smallest, rel=1e-12))
 
 
+@pytest.mark.parametrize(("reserve", "mount"), [
+    (0.0, ("lift=20", "follower_offset=6")), (9.0, ("lift=20",)), (60.0, ("lift=20",)),
+    (0.0, ("swing_deg=20", "oscillating.arm_length=80", "oscillating.centre_distance=90")),
+])  # fmt: skip
+def test_the_largest_roller_of_a_pitch_curve(reserve: float, mount: tuple[str, ...]) -> None:
+    """By circles through three neighbouring points of the pitch curve, which a pointed follower draws."""
+    keys = (*mount, phases(110, 40, 100, "sine"), f"least_curvature_radius={reserve}", "step=0.1")
+    values = calculated("follower=roller", "follower_radius=3", "base_circle_radius=27", *keys)["values"]
+    rows = calculated("follower=pointed", "base_circle_radius=30", *keys)["positions"]
+    z = np.array([complex(row["x"], row["y"]) for row in rows])
+    before, after = np.diff(z, append=z[0])[:-1], np.diff(z)
+    before, after = after[:-1], after[1:]
+    # clockwise curves are convex where they turn right
+    turn = -np.angle(after / before) / np.abs(z[2:] - z[:-2]) * 2
+    pitch = 1 / turn[np.abs(z[2:] - z[:-2]) > 1e-6].max()
+    assert values["least_pitch_radius"] == pytest.approx(pitch, rel=2e-3)
+    allowed = min(0.8 * pitch, pitch - reserve)
+    assert ("largest_roller_radius" in values) == (allowed > 0)
+    if allowed > 0:
+        assert values["largest_roller_radius"] == pytest.approx(allowed, rel=4e-3)
+
+
 @pytest.mark.parametrize("case", [c for c in CASES if "table2_2.k" in c["id"]], ids=lambda c: c["id"])
 def test_table_2_2(case: dict[str, Any]) -> None:
     data = calculated("guidelines_cam", "step=11.25")

@@ -16,10 +16,10 @@ from geometry.cams.plane.synthesis import (
     flat_base_radius,
     greatest_pressure_angle,
     least_convex_radius,
+    least_pitch_radius,
     oscillating_axis,
     oscillating_start_angles,
     roller_prime_radius,
-    roller_radius_rules,
 )
 from geometry.cams.plane.undercut import is_whole
 from geometry.laws.named import NAMED_LAWS, modified_sine, modified_trapezoid, polynomial_345, sine
@@ -157,10 +157,7 @@ def test_convex_radius_of_rollers() -> None:
     angle = np.linspace(0, 2 * math.pi, 7201)
     radii = cam.curvature_radius(angle)
     assert float(radii[radii + 6 > 0].min()) == pytest.approx(9.0, rel=1e-5)
-    rules = roller_radius_rules(cam)
-    assert rules["undercut"] == pytest.approx(15.0, rel=1e-9)
-    assert rules["share_0.8_of_curvature"] == pytest.approx(12.0, rel=1e-9)
-    assert rules["share_0.4_of_base_circle"] == pytest.approx(0.4 * base, rel=1e-12)
+    assert least_pitch_radius(cam) == pytest.approx(15.0, rel=1e-9)
     assert convex_roller_base_radius(LIFT, 6.0, 0.0, follower_offset=20.0) >= 14.0
 
 
