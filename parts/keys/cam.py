@@ -10,7 +10,7 @@ from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError
 from parts.keys.base import degrees, mm, start
-from parts.keys.law import LawName, LawTable, law_of
+from parts.keys.law import LawName, LawTable, PhaseLaw, law_of
 
 if TYPE_CHECKING:
     from geometry.cams.motion.follower_motion import FollowerMotion, Phase
@@ -29,7 +29,7 @@ class PhaseTable(Struct, forbid_unknown_fields=True):
 
     move: Annotated[Literal["rise", "dwell", "return_"], Meta(description="what the follower does")]
     angle_deg: Annotated[float, degrees("cam angle of the phase", above=0, most=360)]
-    law: LawName | LawTable | None = None
+    law: PhaseLaw | LawTable | None = None
     share: Annotated[float, Meta(gt=0, le=1, description="of the lift, in this phase")] = 1.0
 
 
@@ -78,7 +78,7 @@ class MovingPhase(Protocol):
     """A phase over an angle or a way."""
 
     move: Literal["rise", "dwell", "return_"]
-    law: LawName | LawTable | None
+    law: PhaseLaw | LawTable | None
     share: float
 
 
@@ -96,6 +96,7 @@ def motion_of(keys: Moved, swings: bool) -> FollowerMotion:
         Both or neither of phases and table, or a motion that cannot be.
     """
     from geometry.cams.motion.follower_motion import dwell, follower_motion, motion_of_table, return_, rise
+    from geometry.cams.motion.joins import with_joins
 
     key, unit = stroke_key(swings)
     lift: float = getattr(keys, key)
@@ -126,7 +127,7 @@ def motion_of(keys: Moved, swings: bool) -> FollowerMotion:
         made.append((rise if phase.move == "rise" else return_)(angle, phase.share * lift, law))
     _check_whole_turn(phases)
     _check_return(phases)
-    return follower_motion(made)
+    return follower_motion(with_joins(made, closed=True))
 
 
 def check_stroke(keys: Stroke, swings: bool, *, tabled: bool, table: str = "oscillating") -> None:

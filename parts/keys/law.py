@@ -31,6 +31,8 @@ LawName = Literal[
     "polynomial_4567",
     "gutman_13",
 ]
+# a phase of a motion may leave its law to its neighbours
+PhaseLaw = Literal[LawName, "join"]
 Width = Annotated[float, Meta(gt=0, le=1e6, description="width, any scale")]
 Ordinate = Annotated[float, Meta(ge=-1e6, le=1e6, description="ordinate, any scale; below the axis negative")]
 Share = Annotated[float, Meta(ge=0, le=1, description="share of the width")]
@@ -207,7 +209,7 @@ _EXAMPLES: tuple[tuple[dict[str, object], str], ...] = (
     (
         {"sine_constant_cosine": [0.25, 0.5, 0.25]},
         N_(
-            "SCCA by its shares; modified_trapezoid, modified_sine, modified_sine_cv20 … cv50, cosine and sine (the "
+            "SCCA by its shares; modified_trapezoid, modified_sine, modified_sine_cv20 to _cv50, cosine and sine (the "
             "inclined sine of VDI 2143) are of this family"
         ),
     ),
@@ -216,11 +218,21 @@ _EXAMPLES: tuple[tuple[dict[str, object], str], ...] = (
 
 
 def with_own_laws(phases: list[dict[str, object]]) -> Meta:
-    """Phases to start from, and these with laws of one's own in the first of them."""
-    return start(phases, *(([{**phases[0], "law": law}, *phases[1:]], meant) for law, meant in _EXAMPLES))
+    """Phases to start from, these with a first one in parts that join, and with laws of one's own in it."""
+    size = "travel" if "travel" in phases[0] else "angle_deg"
+    parts = [
+        {**phases[0], size: share * float(str(phases[0][size])), "law": law, "share": share}
+        for law, share in (("join", 0.25), ("constant_velocity", 0.5), ("join", 0.25))
+    ]
+    meant = N_("join takes velocity and acceleration of the phases beside it (VDI 2143)")
+    return start(
+        phases,
+        ([*parts, *phases[1:]], meant),
+        *(([{**phases[0], "law": law}, *phases[1:]], meant) for law, meant in _EXAMPLES),
+    )
 
 
-def law_of(law: LawName | LawTable | None, place: str) -> Law:
+def law_of(law: PhaseLaw | LawTable | None, place: str) -> Law:
     """The law of a phase, refusals under ``place``.
 
     Raises
@@ -228,10 +240,13 @@ def law_of(law: LawName | LawTable | None, place: str) -> Law:
     ParameterError
         No law, none or several kinds of law in one table, or a law that cannot be.
     """
+    from geometry.cams.motion.joins import JOIN
     from geometry.laws.named import NAMED_LAWS
 
     if law is None:
-        raise ParameterError(place, None, "law_missing", Nearest("sine"), names=[*NAMED_LAWS])
+        raise ParameterError(place, None, "law_missing", Nearest("sine"), names=[*NAMED_LAWS, "join"])
+    if law == "join":
+        return JOIN
     if isinstance(law, str):
         return NAMED_LAWS[law]()
     kinds = [kind for kind in _KINDS if getattr(law, kind) is not None]

@@ -31,7 +31,9 @@ _PHASES_COUNTED = {PhaseKind.RISE: N_("rise {number}"), PhaseKind.RETURN: N_("re
 _HINDRANCES = {
     "table": N_("no graphical method: a motion table has no acceleration diagram of phases"),
     "rests": N_("no graphical method: the follower rests all the turn"),
-    "rigid": N_("no graphical method: {law} has a rigid impact: its acceleration diagram is infinite there"),
+    "rigid": N_(
+        "no graphical method: {law} does not begin at rest or its velocity jumps: a drawing integrates from rest"
+    ),
 }
 
 

@@ -18,7 +18,7 @@ from geometry.solids.body import plate
 from parts.base.kind import Kind, Others, Report
 from parts.keys.base import LEAST_HOLE, MadeKeys, mm, start
 from parts.keys.cam import Swing, check_dwell, check_stroke, rough_law, stroke_key
-from parts.keys.law import LawName, LawTable, law_of, with_own_laws
+from parts.keys.law import LawTable, PhaseLaw, law_of, with_own_laws
 
 if TYPE_CHECKING:
     from geometry.cams.motion.follower_motion import Phase
@@ -48,7 +48,7 @@ class WedgePhaseTable(Struct, forbid_unknown_fields=True):
 
     move: Annotated[Literal["rise", "dwell", "return_"], Meta(description="what the follower does")]
     travel: Annotated[float, mm("way of the plate in this phase", above=0, most=_MOST)]
-    law: LawName | LawTable | None = None
+    law: PhaseLaw | LawTable | None = None
     share: Annotated[float, Meta(gt=0, le=1, description="of the lift, in this phase")] = 1.0
 
 
@@ -167,9 +167,10 @@ def wedge_phases(keys: WedgeCamSpec, lift: float) -> list[Phase]:
     Raises
     ------
     ParameterError
-        A dwell with a law or a share.
+        A dwell with a law or a share, or two phases side by side that join.
     """
     from geometry.cams.motion.follower_motion import Phase
+    from geometry.cams.motion.joins import with_joins
 
     made = []
     for index, phase in enumerate(keys.phases):
@@ -180,7 +181,7 @@ def wedge_phases(keys: WedgeCamSpec, lift: float) -> list[Phase]:
             continue
         change = phase.share * lift if phase.move == "rise" else -phase.share * lift
         made.append(Phase(phase.travel, change, law_of(phase.law, f"{place}.law")))
-    return made
+    return with_joins(made, closed=False)
 
 
 def _mount(keys: WedgeCamSpec, motion: WedgeMotion) -> Upright | Swinging:

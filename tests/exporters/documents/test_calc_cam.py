@@ -21,6 +21,7 @@ LAWS = {
     "linearly decreasing acceleration": "linearly_decreasing",
     "3-4-5 polynomial": "polynomial_345",
 }
+JOINED = (("join", 0.25), ("constant_velocity", 0.5), ("join", 0.25))
 
 
 def phases(rise: float, far: float, back: float, law: str) -> str:
@@ -149,7 +150,6 @@ def test_an_impact_has_a_row_for_each_of_its_sides() -> None:
 def test_positions_hold_the_textbooks_contact_point() -> None:
     """Flat face: contact at S' beside the axis and R_b + S above it, turned back by the cam angle."""
     import cmath
-    import math
 
     data = calculated("practicum_flat_cam", "step=7")
     base = data["values"]["least_base_circle_radius"]
@@ -172,6 +172,43 @@ def test_laws_of_the_scca_family_by_name_and_by_their_shares(capsys: pytest.Capt
     told = complaint(capsys, "calc", "cam", *cam, moves.format("{sine_constant_cosine=[0.5,0.5,0.5]}"))
     assert "law.sine_constant_cosine" in told
     assert "three shares" in told
+
+
+def test_a_phase_joins_the_motion_of_its_neighbours(capsys: pytest.CaptureFixture[str]) -> None:
+    """VDI 2143, rest to motion: 2 z^3 - z^4 where the velocity at the end is twice the mean one; motion to motion."""
+    cam = ("follower=roller", "follower_radius=5", "base_circle_radius=40", "lift=20", "step=1")
+    phase = '{{move="{}",angle_deg={},law="{}",share={}}}'.format
+    moves = [
+        *(phase("rise", 30, law, share) for law, share in JOINED),
+        phase("return_", 60, "sine", 0.25),
+        phase("return_", 30, "join", 0.1),
+        phase("return_", 60, "constant_velocity", 0.45),
+        phase("return_", 45, "join", 0.2),
+        '{move="dwell",angle_deg=75}',
+    ]
+    data = calculated(*cam, f"phases=[{','.join(moves)}]")
+    rows = {row["phi"]: row for row in data["positions"]}
+    assert not [note for note in data["notes"] if "impact" in note]
+    assert any("does not begin at rest" in note for note in data["notes"])
+    for phi in range(31):
+        z = phi / 30
+        assert rows[phi]["S"] == pytest.approx(5 * (2 * z**3 - z**4), abs=1e-13)
+        assert rows[90 - phi]["S"] == pytest.approx(20 - 5 * (2 * z**3 - z**4), abs=1e-13)
+    fast = -9 / math.radians(60)
+    assert [rows[180][k] for k in ("S", "S'", "S''")] == pytest.approx([13, fast, 0], abs=1e-12)
+    assert rows[285]["S"] == pytest.approx(0, abs=1e-13)
+    # the cam's whole motion by the table alone: S is the sum of its S', by Simpson's rule over two rows
+    for phi in range(0, 358, 2):
+        mean = (rows[phi]["S'"] + 4 * rows[phi + 1]["S'"] + rows[phi + 2]["S'"]) / 6
+        assert rows[phi + 2]["S"] - rows[phi]["S"] == pytest.approx(mean * math.radians(2), abs=2e-6)
+    wedge = ("kind=wedge_cam", "follower=roller", "follower_radius=2", "lift=8", "base_height=15", "step=10")
+    way = '{{move="rise",travel={},law="{}",share={}}}'.format
+    data = calculated(*wedge, f"phases=[{','.join(way(20, law, share) for law, share in JOINED)}]")
+    assert [row["S"] for row in data["positions"]] == pytest.approx([0, 0.375, 2, 4, 6, 7.625, 8], abs=1e-13)
+    beside = [phase("rise", 90, "join", 0.5), phase("rise", 90, "join", 0.5), phase("return_", 180, "sine", 1)]
+    told = complaint(capsys, "calc", "cam", *cam, f"phases=[{','.join(beside)}]")
+    assert 'phases.item 1.law = "join"' in told
+    assert "joins too" in told
 
 
 def test_both_languages_hold_the_table() -> None:
@@ -230,7 +267,7 @@ def test_the_graphical_method_stands_beside_the_exact_motion() -> None:
 def test_a_law_with_a_rigid_impact_has_no_graphical_method() -> None:
     data = calculated("follower=pointed", "lift=10", phases(120, 30, 120, "constant_velocity"), "base_circle_radius=60")
     assert "graphical" not in data
-    assert any("rigid impact: its acceleration diagram is infinite" in note for note in data["notes"])
+    assert any("does not begin at rest or its velocity jumps" in note for note in data["notes"])
 
 
 def test_speeds_are_those_of_the_sine_law() -> None:

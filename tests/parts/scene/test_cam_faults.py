@@ -125,7 +125,8 @@ def test_holes_at_one_place_are_refused_without_warnings(tmp_path: Path, capsys:
 def test_every_law_that_new_shows_makes_a_cam(kind: str) -> None:
     text = new_scene(kind)
     shown = re.findall(r"^# (phases = .*?)  # \.\.\. or this", text, re.MULTILINE)
-    assert len({re.search(r"law = \{ (\w+)", line).group(1) for line in shown}) == 6  # type: ignore[union-attr]
+    assert len({found for line in shown for found in re.findall(r"law = \{ (\w+)", line)}) == 6
+    assert any('law = "join"' in line for line in shown)
     for line in shown:
         used = re.sub(r"^phases = .*$", line.replace("\\", r"\\"), text, flags=re.MULTILINE)
         parts, _ = make_parts(scene_from_toml(used.encode(), "scene", "scene"), "scene")
