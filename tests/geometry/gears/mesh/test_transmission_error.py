@@ -194,9 +194,11 @@ def test_errors_against_polylines_turned_until_they_touch(name: str, sense: int)
 
 
 def test_a_rack_with_short_tips() -> None:
-    pair = on_rack(17, given_tip_diameter=33.4)
+    pair = on_rack(17, given_tip_diameter=33.4, **THIN)
     assert pair.contact_ratio < 1
     one, two = transmission_errors(RackMesh(pair))
+    # where main flanks meet the rack is where they would have it, whatever its play; corners only hold it back
+    assert max(one.errors) == pytest.approx(0, abs=1e-8)
     assert one.peak_to_peak > 1e-3
     assert one.peak_to_peak == pytest.approx(two.peak_to_peak, rel=1e-3)
     assert one.peak_to_peak_motion == pytest.approx(one.peak_to_peak / math.cos(ALPHA), rel=1e-14)
