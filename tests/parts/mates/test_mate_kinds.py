@@ -318,3 +318,11 @@ def test_the_points_of_herringbones_stand_at_one_height() -> None:
     for height, met in ((0.0, True), (1.0, False), (-1.0, False)):
         found = by_hand(height, 0.0, double_helical=True, face_width=20.0)["herringbone_height"]
         assert (found.met, found.value) == (met, height)
+
+
+def test_a_rack_that_is_drawn_away_gains_twice_the_way_by_sine() -> None:
+    """Both flanks stand at 20 degrees: 0.3 mm more than r = 20 mm."""
+    mate = {"kind": "rack_pair", "first": "a", "second": "b", "working_centre_distance": 20.3}
+    _, (mating,), _ = scene({"a": SUN, "b": RACK}, mate)
+    assert mating.normal_backlash == pytest.approx(0.6 * math.sin(math.radians(20)), rel=1e-9)
+    assert mating.contact(0.0, 0.0, None).worst.gap == pytest.approx(0.3 * math.sin(math.radians(20)), abs=1e-9)

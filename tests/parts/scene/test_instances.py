@@ -157,8 +157,9 @@ def test_placed_instances_are_only_checked() -> None:
     }  # fmt: skip
     _, stand = placed(good.format(right + 1e-3))
     assert [c.code for c in stand.mates[0].conditions if not c.met] == ["phase"]
-    _, stand = placed(good.format(right).replace("45", "45.001"))
-    assert [c.code for c in stand.mates[0].conditions if not c.met] == ["centre_distance"]
+    for distance in ("45.001", "44.999"):
+        _, stand = placed(good.format(right).replace("45", distance))
+        assert [c.code for c in stand.mates[0].conditions if not c.met] == ["centre_distance"]
     for height in ("10", "11", "-10"):
         _, stand = placed(good.format(right).replace("45, 0]", f"45, {height}]"))
         assert [c.code for c in stand.mates[0].conditions if not c.met] == ["common_face_width"]

@@ -373,6 +373,8 @@ def test_holes_shrink_with_the_offset_and_leave_each_other_a_wall() -> None:
         for hole, at in zip(part.section(offset).region.holes, (8j, 6 + 8j), strict=True):
             points = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 9)) for s in hole.segments()])
             assert np.abs(points - at) == pytest.approx(2.5 - offset, abs=1e-12)
+    # 125 mm of travel and runs of 10: near either end
+    parts_of({"cam": ROLLER | {"holes": [{"diameter": 5.0, "x": x, "y": 8.0} for x in (-6.0, 131.0)]}})
     with pytest.raises(OffsetError) as closed:
         part.section(2.5)
     assert closed.value.nearest_offset == pytest.approx(2.5, rel=1e-5)
