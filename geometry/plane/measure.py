@@ -49,11 +49,15 @@ def profile_length(profile: Profile) -> float:
 def _quadrature(curve: Curve) -> tuple[Real, Real]:
     """Nodes and weights over a curve's domain."""
     x, weights = gauss_rule(_GAUSS_POINTS)
-    knots = curve.knots
-    low, high = curve.domain
-    edges = np.array([low, *knots, high]) if knots.size else np.linspace(low, high, _GAUSS_PANELS + 1)
+    edges = panel_edges(curve, _GAUSS_PANELS)
     half = np.diff(edges)[:, None] / 2
     return (edges[:-1, None] + edges[1:, None]) / 2 + half * x, weights * half
+
+
+def panel_edges(curve: Curve, count: int) -> Real:
+    """Parameters between which a curve is one smooth formula: its knots, or so many equal panels."""
+    low, high = curve.domain
+    return np.array([low, *curve.knots, high]) if curve.knots.size else np.linspace(low, high, count + 1)
 
 
 @lru_cache(maxsize=4)
@@ -91,7 +95,7 @@ def _distance(points: Complex, curves: Sequence[Curve], turns: Complex, trusted:
     result = _quick_distance(points, curves)
     doubtful = np.flatnonzero(result > trusted)
     if doubtful.size:
-        result[doubtful] = _thorough_distance(points[doubtful], curves, turns)
+        result[doubtful] = _thorough_distance(points[doubtful], curves, turns, result[doubtful])
     return result
 
 
@@ -126,15 +130,22 @@ def _quick_distance(points: Complex, curves: Sequence[Curve]) -> Real:
     return best
 
 
-def _thorough_distance(points: Complex, curves: Sequence[Curve], turns: Complex) -> Real:
+def _thorough_distance(points: Complex, curves: Sequence[Curve], turns: Complex, most: Real) -> Real:
+    """On every curve that may be nearer than ``most``, what is known already."""
     best = np.full(points.shape, np.inf)
     for curve in curves:
         t = np.linspace(*curve.domain, _FINE_SAMPLES)
         samples = curve.point(t)
+        # a disc that holds the curve, with room for what it bulges between its samples
+        middle = (samples[0] + samples[-1]) / 2
+        reach = float(np.abs(samples - middle).max() + np.abs(np.diff(samples)).max())
         for turn in turns:
             near = points * turn
-            start = _nearest_index(near, samples)
-            best = np.minimum(best, _projected(near, curve, t, start, newton=True))
+            mine = np.flatnonzero(np.abs(near - middle) - reach <= most)
+            if mine.size:
+                near = near[mine]
+                found = _projected(near, curve, t, _nearest_index(near, samples), newton=True)
+                best[mine] = np.minimum(best[mine], found)
     return best
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.curves.curve import Complex, Real
-from geometry.plane.measure import gauss_rule
+from geometry.plane.measure import gauss_rule, panel_edges
 from geometry.plane.profile import Profile
 from geometry.solids.body import Body, Wall
 
@@ -102,13 +102,15 @@ def section_moments(profile: Profile) -> Real:
 def _nodes(profile: Profile) -> tuple[Complex, Complex, Real]:
     """Quadrature points of one period, derivatives by the share of each segment, and weights."""
     x, w = gauss_rule(_GAUSS_POINTS)
-    edges = np.linspace(0, 1, _GAUSS_PANELS + 1)
-    shares = ((edges[:-1, None] + edges[1:, None]) / 2 + np.diff(edges)[:, None] / 2 * x).ravel()
-    weights = (np.diff(edges)[:, None] / 2 * w).ravel()
-    points, slopes = [], []
+    points, slopes, weights = [], [], []
     for segment in profile.period:
         low, high = segment.curve.domain
-        t = low + (high - low) * shares
+        edges = np.linspace(0, 1, _GAUSS_PANELS + 1)
+        if segment.curve.knots.size:
+            edges = (panel_edges(segment.curve, _GAUSS_PANELS) - low) / (high - low)
+        half = np.diff(edges)[:, None] / 2
+        t = low + (high - low) * ((edges[:-1, None] + edges[1:, None]) / 2 + half * x).ravel()
         points.append(segment.curve.point(t))
         slopes.append(segment.curve.derivative(t) * (high - low))
-    return np.concatenate(points), np.concatenate(slopes), np.tile(weights, len(points))
+        weights.append((half * w).ravel())
+    return np.concatenate(points), np.concatenate(slopes), np.concatenate(weights)
