@@ -12,7 +12,6 @@ import numpy as np
 
 from geometry.base.errors import GeometryError
 from geometry.cams.motion.diagrams import ArmCurve
-from geometry.cams.motion.follower_motion import PhaseKind
 from geometry.cams.motion.guides import Oscillating
 from geometry.cams.plane.synthesis import oscillating_axis
 from geometry.curves.line_arc import Arc
@@ -22,7 +21,7 @@ from parts.cams.sheets.rocker import draw_faces, faces_box, name_numbers, name_r
 from parts.drawing.canvas import SMALL_TEXT, Box, Canvas, Paper
 from parts.drawing.labels import Labeller
 
-# half-planes of the region's border on each piece of a rise
+# half-planes of the region's border on each piece that moves
 _PLANES = 181
 _HATCH, _HATCH_STEP = 4.0, 2.5
 
@@ -31,7 +30,7 @@ _HATCH, _HATCH_STEP = 4.0, 2.5
 class Swing:
     """Model mm, the cam's axis at 0 and the pivot on +x; ``least``: the axis of the smallest cam, with its r_0.
 
-    ``planes``: (point, normal) of half-planes in which the axis may stand, all of the rises (of a flat follower, whose
+    ``planes``: (point, normal) of half-planes in which the axis may stand, rises and returns (of a flat follower, whose
     cam must be convex, all of the turn); ``lowest`` roller centre, or foot of ``least`` on the lowest face.
     """
 
@@ -57,7 +56,7 @@ def swing_of(picture: CamPicture) -> Swing | None:
         return None
     limit = math.pi / 2 - picture.gamma
     try:
-        best = oscillating_axis(cam.motion, mount.arm_length, mount.sense, limit)
+        best = oscillating_axis(cam.motion, mount.arm_length, mount.sense, limit, limit)
     except GeometryError:
         return None
     pivot, lowest = complex(mount.centre_distance, 0.0), complex(cam.reference_point(0.0))
@@ -68,7 +67,7 @@ def swing_of(picture: CamPicture) -> Swing | None:
         return pivot + direction * (point if mount.sense > 0 else point.conjugate())
 
     planes = []
-    for piece in cam.motion.moving_pieces(PhaseKind.RISE):
+    for piece in cam.motion.moving_pieces():
         t = np.linspace(*piece.domain, _PLANES)
         for s, rate in zip(piece.value(t).tolist(), piece.value(t, 1).tolist(), strict=True):
             along = cmath.exp(-1j * s)
@@ -197,9 +196,9 @@ def name_swing(labels: Labeller, picture: CamPicture, swing: Swing, paper: Paper
     if not picture.cam.is_flat:
         labels.name("B_{0}", to(swing.lowest), SMALL_TEXT, prefer=1 - 1j)
     labels.name("O_{1}", to(swing.least), prefer=-1 - 1j)
-    labels.name(
-        f"r_{{0}} = {say(swing.least_radius)}", to((swing.lowest + swing.least) / 2), SMALL_TEXT, prefer=-1 + 0j
-    )
+    # the smallest cam of a roller's arm stands at a distance of its own
+    radius = f"{'r_{0}' if picture.cam.is_flat else 'r_{0d}'} = {say(swing.least_radius)}"
+    labels.name(radius, to((swing.lowest + swing.least) / 2), SMALL_TEXT, prefer=-1 + 0j)
     if picture.cam.is_flat:
         name_rocker(labels, picture, paper, swing.least)
         return

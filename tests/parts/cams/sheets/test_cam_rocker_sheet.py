@@ -84,3 +84,32 @@ def test_the_cams_own_axis_stands_in_the_region_only_where_it_keeps_the_radius()
         assert swing is not None
         slack = min(((0j - foot) * normal.conjugate()).real for foot, normal in swing.planes)
         assert (slack > 0) is inside
+
+
+def test_a_rollers_diagram_tells_the_smallest_cam_of_its_table() -> None:
+    """Of a return that is steeper than the rise: kept both ways, where the diagram looked at the rise alone before."""
+    text = PART.format(base=40.0, rho=0.0, sense="with").replace("face_offset = 8.0", "arm_length = 80.0")
+    for old, new in (('"flat"', '"roller"\nfollower_radius = 5.0\nleast_transmission_angle_deg = 55.0'),
+                     ('"return_", angle_deg = 120.0', '"return_", angle_deg = 60.0'),
+                     ('"dwell", angle_deg = 120.0', '"dwell", angle_deg = 180.0')):  # fmt: skip
+        text = text.replace(old, new)
+    made = scene_from_toml(text.encode(), "t", "t")
+    texts = {t.text for t in plan_build(made, "t", [], []).sheets[0].canvas.texts}
+    # the least circle about the lowest roller centre that meets an axis at which tan nu is small enough all the turn
+    motion = CAM.thing(made.parts["cam"], {}).motion
+    angle = np.concatenate([np.linspace(p.start, p.end - 1e-9, 201) for p in motion.moving_pieces()])
+    turn, rate = motion.value(angle), motion.value(angle, 1)
+
+    def some(radius: float) -> bool:
+        axes = 80 + radius * np.exp(1j * np.linspace(1e-3, math.pi, 361))
+        psi = np.angle(axes)[:, None] + turn
+        away = np.abs(axes)[:, None]
+        slope = np.abs(80 * (1 - rate) - away * np.cos(psi)) / (away * np.sin(psi))
+        return bool((slope.max(axis=1) <= math.tan(math.radians(35.0))).any())
+
+    low, high = 1.0, 80.0
+    for _ in range(24):
+        middle = (low + high) / 2
+        low, high = (low, middle) if some(middle) else (middle, high)
+    (told,) = (float(t.removeprefix("r0d = ")) for t in texts if t.startswith("r0d = "))
+    assert told == pytest.approx(high, rel=1e-3)
