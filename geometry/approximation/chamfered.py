@@ -14,7 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from geometry.approximation.outline import CadCurve, Outline, spline_outline
+from geometry.approximation.outline import CadCurve, Outline, parted, spline_outline
 from geometry.approximation.splines import samples_of, spline_on_knots
 from geometry.base.errors import ConvergenceError
 from geometry.curves.bounds import Bound
@@ -91,7 +91,7 @@ def _between(degree: int) -> Real:
 
 def _curves(sections: Sections, shares: Real) -> list[list[Curve]]:
     """The curves (segments, shares) of a chamfer's sections."""
-    rows = [[s.curve for s in sections(share).period] for share in shares.tolist()]
+    rows = [[s.curve for s in parted(sections(share)).period] for share in shares.tolist()]
     return [list(curves) for curves in zip(*rows, strict=True)]
 
 
@@ -152,7 +152,7 @@ def _end_of(whole: Profile, outline: Outline, sections: Sections, tolerance: flo
     period: list[CadCurve] = []
     faces, worst = [], outline.max_error
     certified = True
-    for base, segment, own, others in zip(outline.period, whole.period, nodes, tests, strict=True):
+    for base, segment, own, others in zip(outline.period, parted(whole).period, nodes, tests, strict=True):
         if isinstance(base, BSpline):
             rows, error, proven = _spline_rows(base, segment.curve, own, others, tolerance)
             period.append(BSpline(base.degree, base.knots, rows[-1]))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from geometry.curves.bounds import Bound
 from geometry.curves.bspline import BSpline
 from geometry.curves.curve import Complex, Curve
 from geometry.curves.line_arc import Arc, Line
-from geometry.plane.profile import Profile
+from geometry.plane.profile import Profile, Segment
 
 CadCurve = Arc | Line | BSpline
 
@@ -62,6 +62,13 @@ class Outline:
                 yield curve.placed(placement) if turn else curve
 
 
+def parted(profile: Profile) -> Profile:
+    """The profile cut at the knots of its curves: a spline stands for each part."""
+    if not any(s.curve.knots.size for s in profile.period):
+        return profile
+    return replace(profile, period=tuple(Segment(part, s.label) for s in profile.period for part in s.curve.parts()))
+
+
 def spline_outline(
     profile: Profile, tolerance: float, *, degree: int, continuity: int, turned: bool = False
 ) -> Outline:
@@ -74,7 +81,7 @@ def spline_outline(
     alike: dict[object, SplineFit] = {}
     period: list[CadCurve] = []
     worst, certified = 0.0, True
-    for curve in (part for s in profile.period for part in s.curve.parts()):
+    for curve in (s.curve for s in parted(profile).period):
         if isinstance(curve, Line) and turned:
             period.append(BSpline(1, np.array([0.0, 0.0, 1.0, 1.0]), np.array([curve.start, curve.end])))
             continue

@@ -209,6 +209,13 @@ class Carried(Curve):
     def domain(self) -> tuple[float, float]:
         return self.base.domain
 
+    @property
+    def knots(self) -> Real:
+        return self.base.knots
+
+    def parts(self) -> tuple[Curve, ...]:
+        return tuple(Carried(x, self.placement) for x in self.base.parts())
+
     def point(self, t: ArrayLike) -> Complex:
         return self.placement.apply(self.base.point(t))
 
@@ -247,6 +254,13 @@ class Mirrored(Curve):
     def domain(self) -> tuple[float, float]:
         low, high = self.base.domain
         return -high, -low
+
+    @property
+    def knots(self) -> Real:
+        return -self.base.knots[::-1]
+
+    def parts(self) -> tuple[Curve, ...]:
+        return tuple(Mirrored(x) for x in reversed(self.base.parts()))
 
     def point(self, t: ArrayLike) -> Complex:
         return np.conj(self.base.point(-np.asarray(t, dtype=float)))

@@ -67,7 +67,9 @@ def test_a_fault_is_noticed() -> None:
 
 
 # codes that are put together: a beginning or an end that others complete
-COMPOSED = re.compile(r"chamfer_(higher_than|leaves_nothing_of)_|_nearly$|^(within|reaches|cutter|space|not_that_of|no_working_angle_with)_")
+COMPOSED = re.compile(
+    r"chamfer_(higher_than|leaves_nothing_of)_|_nearly$|^(within|reaches|cutter|space|not_that_of|no_working_angle_with)_"
+)
 
 
 def test_every_sentence_has_its_code() -> None:

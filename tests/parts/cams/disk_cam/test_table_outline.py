@@ -142,4 +142,10 @@ def test_splines_and_solids_of_a_table(tmp_path: Path, form: str) -> None:
     """Splines end at the rows, areas and volumes are added up row by row: 6e-5 of the volume was off otherwise."""
     if form == "step":
         pytest.importorskip("OCP")
-    built(tmp_path, "roller", of_rows(table(24, 3)), 0.01 if form == "stl" else 1e-6, form)
+    built(
+        tmp_path,
+        "roller",
+        "face_chamfer = 0.3\n" * (form == "step") + of_rows(table(24, 3)),
+        0.01 if form == "stl" else 1e-6,
+        form,
+    )
