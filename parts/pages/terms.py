@@ -221,7 +221,7 @@ transmission_angle_reached_deg|gamma_r|γ|deg|transmission angle reached, rise
 pressure_angle_rise_deg|nu_r|ν_від|deg|greatest pressure angle, rise
 pressure_angle_return_deg|nu_b|ν_наб|deg|greatest pressure angle, return
 least_prime_circle_radius|r_0|r_0|mm|least prime circle radius by the condition
-least_rise_radius|r_0r|r_0від|mm|least prime circle radius by the condition on the rise alone
+least_rise_radius|r_0r|r_від|mm|least prime circle radius by the condition on the rise alone
 best_centre_distance|d_0|d_0|mm|centre distance of the smallest cam of this arm
 smallest_prime_circle_radius|r_0d|r_0d|mm|prime circle radius of that cam
 curvature_reserve|rho|ρ|mm|least convex radius of curvature asked
