@@ -274,7 +274,7 @@ def _parser(told: Words) -> argparse.ArgumentParser:
         metavar=told.term("command line", "TOPIC"),
         help=told.text(
             "{topics} or {last}",
-            topics="spur, tmm42, gear-pair, shift-choice, cam, cycloidal, lantern",
+            topics="spur, ring, rack, tmm42, gear-pair, shift-choice, cam, cycloidal, lantern",
             last="noncircular",
         ),
     )
@@ -310,6 +310,8 @@ def _build(options: argparse.Namespace) -> int:
         return plan_build(_scene(address, options), address, options.part, options.format)
 
     plans, refused = _each(options, planned)
+    if refused:
+        return WRONG_INPUT
     _refuse_one_folder(plans)
     if any(file.export.format == "step" for p in plans for file in p.files):
         _split(options, [options.out / p.scene.name for p in plans])
@@ -318,7 +320,7 @@ def _build(options: argparse.Namespace) -> int:
         from exporters.production.report import read_report
 
         _print_json(options.scenes, [read_report(options.out / p.scene.name) for p in plans])
-    return FAILED if not all(made) else WRONG_INPUT if refused else DONE
+    return DONE if all(made) else FAILED
 
 
 def _built(plan: Plan, options: argparse.Namespace) -> bool:
@@ -513,7 +515,7 @@ def _page(text: str, options: argparse.Namespace) -> None:
         from exporters.production.moving import write_whole
         from parts.base.refusal import SceneError
 
-        if options.command == "new" and options.out.exists():
+        if options.out.exists() or options.out.is_symlink():
             raise SceneError(str(options.out), "", None, "file_exists")
         write_whole(options.out, text)
 

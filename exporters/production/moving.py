@@ -201,5 +201,8 @@ def write_whole(file: Path, text: str) -> None:
     try:
         beside.write_text(text, encoding="utf-8", newline="\n")
         os.replace(beside, file)
+    except OSError as error:
+        raise type(error)(error.errno, error.strerror, str(file)) from error
     finally:
-        beside.unlink(missing_ok=True)
+        with suppress(OSError):
+            beside.unlink(missing_ok=True)

@@ -67,7 +67,11 @@ class Part:
     @property
     def findings(self) -> tuple[Finding, ...]:
         """Remarks."""
-        return self.report.findings
+        if self.material is None or self.density is not None:
+            return self.report.findings
+        from geometry.base.findings import Finding
+
+        return (*self.report.findings, Finding("unknown_material", 0.0, 0.0))
 
     @property
     def flat_findings(self) -> tuple[Finding, ...]:

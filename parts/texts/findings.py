@@ -93,6 +93,10 @@ FINDINGS: dict[str, Text] = {
     "rigid_impact": N_("rigid impact: velocity jumps by {value:.4g} per rad at cam angle {limit:.4g} deg"),
     "soft_impact": N_("soft impact: acceleration jumps by {value:.4g} per rad^2 at cam angle {limit:.4g} deg"),
     "steep_pressure_angle": N_("pressure angle {value:.2f} deg on the rise, usual is at most {limit:.0f} deg"),
+    "transmission_angle_not_kept": N_(
+        "the transmission angle falls to {value:.4g} deg, {limit:.4g} deg are asked for: the base circle is given"
+    ),
+    "unknown_material": N_("the material is none whose density is known: no mass; give the density, g/cm^3"),
     "steep_return_pressure_angle": N_(
         "pressure angle {value:.2f} deg on the return, which the cam drives too; usual is at most {limit:.0f} deg"
     ),

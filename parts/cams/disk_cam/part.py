@@ -46,6 +46,8 @@ if TYPE_CHECKING:
 _MOST = 100_000.0
 # of a base circle, by which it is larger than the one whose cam has a cusp: no file holds a radius of curvature of 0
 _SPARE = 1e-9
+# an angle that is less short of the one asked for is kept: bases are rounded up
+_KEPT_DEG = 1e-6
 # transmission angles, degrees, that are tried where one asks for a huge cam
 _EASIER = (89.9, 89.0, 85.0, 80.0, 60.0, 45.0, 30.0, 10.0, 1.0)
 # shares of a limit, and of the way to it, at which a size is tried that gives a whole cam
@@ -447,6 +449,12 @@ def cam_findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
     steepest = math.degrees(greatest_pressure_angle(cam, PhaseKind.RISE).value)
     if steepest > _USUAL_PRESSURE_ANGLE[swings] + 1e-9:
         found.append(Finding("steep_pressure_angle", steepest, _USUAL_PRESSURE_ANGLE[swings]))
+    asked = spec.least_transmission_angle_deg
+    if asked is not None and not cam.is_flat:
+        # a swinging follower's is kept both ways, a sliding one's on the rise
+        back = math.degrees(greatest_pressure_angle(cam, PhaseKind.RETURN).value) if swings else 0.0
+        if (kept := 90 - max(steepest, back)) < asked - _KEPT_DEG:
+            found.append(Finding("transmission_angle_not_kept", kept, asked))
     pitch = least_convex_radius(cam).value + cam.radius
     if cam.kind == "roller" and cam.radius > USUAL_ROLLER_SHARE * pitch:
         found.append(Finding("large_roller", cam.radius, USUAL_ROLLER_SHARE * pitch))
@@ -454,8 +462,8 @@ def cam_findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
         found.append(Finding("flat_offset", spec.follower_offset, cam.least_plate_diameter()))
     if swings and (within := _greatest_radius(cam) - cam.swing.centre_distance) > 0:
         found.append(Finding("pivot_within_cam", within, cam.swing.centre_distance))
-    if pitch - cam.radius < (asked := spec.least_curvature_radius) * (1 - 1e-6):
-        found.append(Finding("curvature_radius_not_kept", pitch - cam.radius, asked))
+    if pitch - cam.radius < (least := spec.least_curvature_radius) * (1 - 1e-6):
+        found.append(Finding("curvature_radius_not_kept", pitch - cam.radius, least))
     return tuple(found)
 
 

@@ -13,6 +13,7 @@ import jsonschema
 import pytest
 
 from exporters.command.cli import main
+from exporters.documents.topics import TOPICS
 from parts.base.registry import KINDS
 from parts.mates.registry import MATES
 from parts.scene.files import SCENE_FOLDER, built_in_scenes
@@ -70,13 +71,28 @@ def test_new_prints_a_built_in_scene(capsys: pytest.CaptureFixture[str]) -> None
         assert (said(capsys, "new", name) == text) is (name not in KINDS)
 
 
-def test_new_never_writes_over_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    file = tmp_path / "mine.toml"
+@pytest.mark.parametrize("command", [("new", "spur_gear"), ("schema",), ("calc", "gear-pair", "practicum_pair")])
+def test_no_page_is_written_over_a_file(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], command: tuple[str, ...]
+) -> None:
+    """Nor through a link, or into a device."""
+    file, link = tmp_path / "mine.toml", tmp_path / "link.md"
     file.write_text("mine", encoding="utf-8")
-    assert run("new", "spur_gear", "--out", file) == 2
-    assert "mine.toml" in capsys.readouterr().err
+    link.symlink_to(tmp_path / "nothing")
+    for place in (file, link, Path(os.devnull)):
+        assert run(*command, "--out", place) == 2
+        assert "exists already" in capsys.readouterr().err
     assert file.read_text(encoding="utf-8") == "mine"
-    assert [p.name for p in tmp_path.iterdir()] == ["mine.toml"]
+    assert link.is_symlink()
+    missing = tmp_path / "none" / "a.toml"
+    assert run(*command, "--out", missing) == 2
+    assert f"{missing}: No such file" in capsys.readouterr().err
+    assert {p.name for p in tmp_path.iterdir()} == {"mine.toml", "link.md"}
+
+
+def test_the_help_names_every_topic(capsys: pytest.CaptureFixture[str]) -> None:
+    shown = said(capsys, "calc", "--help")
+    assert all(topic in shown for topic in TOPICS)
 
 
 @pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
@@ -133,11 +149,11 @@ def test_several_scenes_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[st
     made = [tmp_path / "one.toml", tmp_path / "two.toml"]
     found = json.loads(said(capsys, "build", *made, "--out", tmp_path / "o", "--json"))
     assert [report["scene"]["name"] for report in found] == ["one", "two"]
-    # one that is refused does not keep the others from being made
+    # wrong input makes nothing, whichever scene it is in
     (tmp_path / "one.toml").write_text("[parts.g]\nkind = 3", encoding="utf-8")
     assert run("build", *made, "--out", tmp_path / "p") == 2
     assert capsys.readouterr().err.count("\n") == 1
-    assert (tmp_path / "p/two/g.svg").exists()
+    assert not (tmp_path / "p").exists()
     (tmp_path / "x").mkdir()
     twin = write_scene(tmp_path / "x/TWO.toml", {"g": GEAR}, [{"format": "svg"}])
     assert run("build", made[1], twin, "--out", tmp_path / "q") == 2

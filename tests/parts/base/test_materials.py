@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from parts.base.materials import density_of, mass_properties
 from parts.scene.load import make_parts, scene_from_dict
+from tests.exporters.making import part_keys, read_report, run, write_scene
+from tests.exporters.outside import Gear
 
 
 @pytest.mark.parametrize(
@@ -44,3 +48,12 @@ def test_a_density_of_one_s_own_goes_first() -> None:
     raw = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 23, "material": "PLA", "density": 1.1}
     part = make_parts(scene_from_dict({"parts": {"g": raw}}, "test", "test"), "test")[0]["g"]
     assert part.density == 1.1
+
+
+@pytest.mark.parametrize(("keys", "told"), [({}, False), ({"material": "PLA"}, False), ({"material": "plywod"}, True),
+                                            ({"material": "plywod", "density": 0.6}, False)])  # fmt: skip
+def test_a_material_without_a_density_is_told(keys: dict[str, object], told: bool, tmp_path: Path) -> None:
+    scene = write_scene(tmp_path / "s.toml", {"g": part_keys(Gear(2, 23)) | keys}, [{"format": "svg"}])
+    assert run("build", scene, "--out", tmp_path, "--no-verify") == 0
+    found = read_report(tmp_path / "s")["parts"]["g"]["findings"]
+    assert ("unknown_material" in [f["code"] for f in found]) is told

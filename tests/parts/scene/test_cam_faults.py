@@ -18,6 +18,7 @@ from geometry.laws.named import NAMED_LAWS
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_toml
 from parts.texts.findings import finding_text
+from tests.exporters.making import read_report, run, write_scene
 
 _CAM = """
 [parts.gear]
@@ -233,3 +234,22 @@ def test_a_flat_arms_outline_is_its_bar_and_its_boss(face: float, sense: str) ->
     # where the boss does not stand out, the bar ends square behind it
     square = box(-8.0, min(near, far, 0.0), 0.0, max(near, far, 0.0))
     assert made.difference(boss.union(bar).union(square)).area < 2e-3
+
+
+@pytest.mark.parametrize(("base", "kept"), [(2.0, False), (40.0, True)])
+def test_a_transmission_angle_that_a_given_base_does_not_keep_is_told(tmp_path: Path, base: float, kept: bool) -> None:
+    """By tan nu = S'/(S + s_0) of a sine law, densely."""
+    lift, rise = 20.0, np.pi / 2
+    moves = [("rise", 90.0, "sine"), ("dwell", 60.0, None), ("return_", 150.0, "sine"), ("dwell", 60.0, None)]
+    phases = [{"move": m, "angle_deg": a} | ({"law": law} if law else {}) for m, a, law in moves]
+    cam = {"kind": "cam", "follower": "roller", "follower_radius": 5.0, "lift": lift, "base_circle_radius": base,
+           "least_transmission_angle_deg": 60.0, "bore_diameter": 1.0, "phases": phases}  # fmt: skip
+    scene = write_scene(tmp_path / "s.toml", {"c": cam}, [{"format": "svg"}])
+    assert run("build", scene, "--out", tmp_path, "--no-verify") == 0
+    told = [f for f in read_report(tmp_path / "s")["parts"]["c"]["findings"] if f["code"].startswith("transmission")]
+    z = np.linspace(0, 1, 200_001)
+    way = lift * (z - np.sin(2 * np.pi * z) / (2 * np.pi))
+    slope = lift * (1 - np.cos(2 * np.pi * z)) / rise
+    least = 90 - np.degrees(np.arctan(slope / (base + 5.0 + way))).max()
+    assert kept is bool(least >= 60)
+    assert [f["value"] for f in told] == ([] if kept else [pytest.approx(least, abs=1e-6)])
