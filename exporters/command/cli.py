@@ -494,9 +494,10 @@ def _new(options: argparse.Namespace) -> int:
     from parts.scene.files import built_in_scenes
 
     _check_language(options)
-    scenes = {address: file for name, file in built_in_scenes().items() for address in (name, file.name)}
-    known = [*KINDS, *MATES, *scenes]
-    if options.kind not in known:
+    built_in = built_in_scenes()
+    scenes = {address: file for name, file in built_in.items() for address in (name, file.name)}
+    if options.kind not in {*KINDS, *MATES, *scenes}:
+        known = list(dict.fromkeys([*KINDS, *MATES, *built_in]))
         raise SceneError("new", "KIND", options.kind, "unknown_kind", meant(options.kind, known), known=known)
     # a scene that has the name of a kind is asked for with its ending
     if options.kind not in (*KINDS, *MATES):

@@ -92,7 +92,9 @@ def verify_table(results: list[Recheck], told: Words) -> None:
         measured = "-" if deviation is None else f"{deviation:.3g}"
         state = told.text(_STATES["bad" if r.verdict.failures else "good"])
         same = told.text("as reported") if r.same_bytes else told.text("changed")
-        rows.append([str(r.file), measured, f"{r.declared:.3g}", f"{r.tolerance:g}", same, state])
+        # a preview has neither: it is compared byte by byte
+        declared, tolerance = (f"{r.declared:.3g}", f"{r.tolerance:g}") if r.tolerance else ("-", "-")
+        rows.append([str(r.file), measured, declared, tolerance, same, state])
         remarks += [told.text("FAILED: {why}", why=f"{r.file}: {failure}") for failure in r.verdict.failures]
     _show("", header, rows, remarks)
 

@@ -196,6 +196,8 @@ def _check_layer(document: Drawing, name: str) -> None:
             raise ReadError(f"layer {name} is {what}")
     if layer.dxf.hasattr("true_color"):
         raise ReadError(f"layer {name} has a colour beside its own")
+    if layer.transparency:
+        raise ReadError(f"layer {name} is transparent")
 
 
 def opened(file: Path, *, audit: bool = True) -> Drawing:

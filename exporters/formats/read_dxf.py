@@ -141,6 +141,8 @@ def _layers(sections: dict[str, Pairs]) -> set[str]:
             raise ReadError(f"layer {name} is not plotted")
         if int(record.first(62, "7")) != _COLOURS[name.upper()] or len(record.numbers(420)):
             raise ReadError(f"layer {name} has another colour than {_COLOURS[name.upper()]}")
+        if "AcCmTransparency" in record.values:
+            raise ReadError(f"layer {name} is transparent")
         if record.first(6, "Continuous").upper() != "CONTINUOUS":
             raise ReadError(f"layer {name} is not drawn through")
     return found

@@ -23,14 +23,16 @@ FINDINGS: dict[str, Text] = {
         "the offset flanks meet at radius {value:.4f} mm: the space ends above its root at {limit:.4f} mm"
     ),
     "fillet_interference_first": N_(
-        "the mate's tip reaches the fillet of the first gear: {value:.4f} mm, the involute begins at {limit:.4f} mm"
+        "the mate's tip reaches the fillet of the first gear: "
+        "{value:.4f} mm, the involute begins at {limit:.4f} mm on the line of action"
     ),
     "active_flank_cut_away_first": N_(
         "undercut has taken active flank of the first gear: {value:.4f} mm is asked, {limit:.4f} mm is there"
     ),
     "tip_clearance_first": N_("the mate's tip strikes the root of the first gear: clearance {value:.4f} mm"),
     "fillet_interference_second": N_(
-        "the mate's tip reaches the fillet of the second gear: {value:.4f} mm, the involute begins at {limit:.4f} mm"
+        "the mate's tip reaches the fillet of the second gear: "
+        "{value:.4f} mm, the involute begins at {limit:.4f} mm on the line of action"
     ),
     "active_flank_cut_away_second": N_(
         "undercut has taken active flank of the second gear: {value:.4f} mm is asked, {limit:.4f} mm is there"
@@ -44,23 +46,28 @@ FINDINGS: dict[str, Text] = {
     "total_contact_ratio": N_("total contact ratio {value:.4f} is below {limit:.1f}: the drive is interrupted"),
     "normal_backlash": N_("the flanks overlap: normal backlash {value:.6f} mm"),
     "fillet_interference_pinion": N_(
-        "the mate's tip reaches the fillet of the pinion: {value:.4f} mm, the involute ends at {limit:.4f} mm"
+        "the mate's tip reaches the fillet of the pinion: "
+        "{value:.4f} mm, the involute ends at {limit:.4f} mm on the line of action"
     ),
     "tip_clearance_pinion": N_("the mate's tip strikes the root of the pinion: clearance {value:.4f} mm"),
     "fillet_interference_ring": N_(
-        "the mate's tip reaches the fillet of the ring: {value:.4f} mm, the involute ends at {limit:.4f} mm"
+        "the mate's tip reaches the fillet of the ring: "
+        "{value:.4f} mm, the involute ends at {limit:.4f} mm on the line of action"
     ),
     "tip_clearance_ring": N_("the mate's tip strikes the root of the ring: clearance {value:.4f} mm"),
     "fillet_interference_gear": N_(
-        "the mate's tip reaches the fillet of the gear: {value:.4f} mm, the involute ends at {limit:.4f} mm"
+        "the mate's tip reaches the fillet of the gear: "
+        "{value:.4f} mm, the involute ends at {limit:.4f} mm on the line of action"
     ),
     "tip_clearance_gear": N_("the mate's tip strikes the root of the gear: clearance {value:.4f} mm"),
     "fillet_interference_rack": N_(
-        "the mate's tip reaches the fillet of the rack: {value:.4f} mm, the involute ends at {limit:.4f} mm"
+        "the mate's tip reaches the fillet of the rack: "
+        "{value:.4f} mm, the involute ends at {limit:.4f} mm on the line of action"
     ),
     "tip_clearance_rack": N_("the mate's tip strikes the root of the rack: clearance {value:.4f} mm"),
     "involute_interference": N_(
-        "involute interference: the ring's flank begins at {value:.4f} mm, the pinion's involute at {limit:.4f} mm"
+        "involute interference: "
+        "the ring's flank begins at {value:.4f} mm, the pinion's involute at {limit:.4f} mm on the line of action"
     ),
     "trochoid_interference": N_(
         "the tips of pinion and ring strike each other on their way out: {value:.4f} mm of arc, {limit:.4f} mm needed"

@@ -161,6 +161,7 @@ LASER: dict[str, Spoil] = {
 SPOILT: dict[str, dict[str, Spoil]] = {
     "g.new.dxf": LASER | {
         "plot": layer(lambda y: y.dxf.set("plot", 0)),
+        "see-through layer": layer(lambda y: setattr(y, "transparency", 1.0)),
         "true layer colour": swap("  2\nCUT_OUTER\n 70\n0\n", "  2\nCUT_OUTER\n 70\n0\n420\n65280\n"),
         "invisible": attribute("invisible", 1, 0),
         "true colour": swap("CUT_OUTER\n100\nAcDbPolyline", "CUT_OUTER\n420\n65280\n100\nAcDbPolyline"),
@@ -181,6 +182,7 @@ SPOILT: dict[str, dict[str, Spoil]] = {
         "frozen": layer(lambda y: y.freeze(), "OUTLINE"),
         "plot": layer(lambda y: y.dxf.set("plot", 0), "OUTLINE"),
         "layer colour": layer(lambda y: setattr(y, "color", 3), "OUTLINE"),
+        "see-through layer": layer(lambda y: setattr(y, "transparency", 1.0), "OUTLINE"),
         "invisible": attribute("invisible", 1),
         "colour": attribute("color", 5),
         "thickness": attribute("thickness", 3.0),
