@@ -296,6 +296,7 @@ def test_flat_files_are_rolled(name: str, tmp_path: Path) -> None:
 CONICAL = {"clearance": 0.1, "roller_form": "conical"}
 
 
+@pytest.mark.heavy
 def test_files_of_a_swinging_follower_with_a_conical_roller(tmp_path: Path) -> None:
     scene = tmp_path / "s.toml"
     tail = ('tolerance = 0.01\n[[exports]]\nformat = "stl"\ntolerance = 0.05\n'
