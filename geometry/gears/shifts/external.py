@@ -8,7 +8,7 @@ distance is that of zero backlash, practicum (3.3), (3.4). Sources: ISO 21771; p
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -145,6 +145,15 @@ class Condition:
     margin: Callable[[float, float], float]
 
 
+def above(name: str, levels: Sequence[float], value: Callable[[float, float], float]) -> list[Condition]:
+    """A condition for every level that a value is to keep above."""
+
+    def kept(level: float) -> Condition:
+        return Condition(name, level, lambda x1, x2: value(x1, x2) - level)
+
+    return [kept(level) for level in levels]
+
+
 def conditions(pair: ShiftPair) -> dict[str, Condition]:
     """All conditions of the contour by name and level, like ``tip_thickness_first 0.25``.
 
@@ -156,29 +165,17 @@ def conditions(pair: ShiftPair) -> dict[str, Condition]:
     def state(x1: float, x2: float) -> PairState:
         return state_of(pair, x1, x2)
 
-    found = [Condition("working_angle", None, lambda x1, x2: state(x1, x2).involute)]
-    for i, who in enumerate(("first", "second")):
+    def of_gear(i: int, who: str) -> list[Condition]:
         least = least_shift(pair, i)
-        found += [
-            Condition(f"undercut_{who}", None, lambda x1, x2, i=i, least=least: (x1, x2)[i] - least),  # type: ignore[misc]
-            Condition(
-                f"active_flank_{who}",
-                None,
-                lambda x1, x2, i=i: active_flank(pair, x1, x2, i).margin,  # type: ignore[misc]
-            ),
+        return [
+            Condition(f"undercut_{who}", None, lambda x1, x2: (x1, x2)[i] - least),
+            Condition(f"active_flank_{who}", None, lambda x1, x2: active_flank(pair, x1, x2, i).margin),
+            *above(f"tip_thickness_{who}", TIP_THICKNESSES, lambda x1, x2: state(x1, x2).tip_thicknesses[i]),
         ]
-        found += [
-            Condition(
-                f"tip_thickness_{who}",
-                level,
-                lambda x1, x2, i=i, level=level: state(x1, x2).tip_thicknesses[i] - level,  # type: ignore[misc]
-            )
-            for level in TIP_THICKNESSES
-        ]
-    found += [
-        Condition("contact_ratio", level, lambda x1, x2, level=level: state(x1, x2).contact_ratio - level)  # type: ignore[misc]
-        for level in CONTACT_RATIOS
-    ]
+
+    found = [Condition("working_angle", None, lambda x1, x2: state(x1, x2).involute)]
+    found += [*of_gear(0, "first"), *of_gear(1, "second")]
+    found += above("contact_ratio", CONTACT_RATIOS, lambda x1, x2: state(x1, x2).contact_ratio)
     found += [
         Condition("approach", None, lambda x1, x2: state(x1, x2).pole - state(x1, x2).starts[0]),
         Condition("recess", None, lambda x1, x2: state(x1, x2).tips[0] - state(x1, x2).pole),

@@ -22,6 +22,7 @@ from geometry.gears.shifts.external import (
     Condition,
     ContourLine,
     Requirements,
+    above,
     contour_lines,
 )
 from geometry.gears.shifts.internal_shifts import (
@@ -69,6 +70,12 @@ def _always(pair: InternalShiftPair) -> dict[str, _Sides]:
     def state(x1: float, x2: float) -> InternalState:
         return internal_state(pair, x1, x2)
 
+    def cutting(k: int) -> _Sides:
+        return lambda x1, x2: (cutting_margins(pair, x2)[k], 0.0)
+
+    def running(k: int) -> _Sides:
+        return lambda x1, x2: (interferences(pair, x1, x2)[k], 0.0)
+
     least = least_pinion_shift(pair)
     sides: dict[str, _Sides] = {
         "working_angle": lambda x1, x2: (state(x1, x2).involute, 0.0),
@@ -83,12 +90,10 @@ def _always(pair: InternalShiftPair) -> dict[str, _Sides]:
         sides["cutter_reach_first"] = lambda x1, x2: (state(x1, x2).pinion.reach, state(x1, x2).end)
     if isinstance(pair.root, PinionCutter):
         sides["cutter_working_angle"] = lambda x1, x2: (state(x1, x2).ring.cut_involute, 0.0)
-        for k, name in enumerate(CUTTING):
-            sides[f"cutter_{name}"] = lambda x1, x2, k=k: (cutting_margins(pair, x2)[k], 0.0)  # type: ignore[misc]
+        sides |= {f"cutter_{name}": cutting(k) for k, name in enumerate(CUTTING)}
     else:
         sides["rounded_root"] = lambda x1, x2: (state(x1, x2).ring.room, 0.0)
-    for k, name in enumerate(CUTTING):
-        sides[name] = lambda x1, x2, k=k: (interferences(pair, x1, x2)[k], 0.0)  # type: ignore[misc]
+    sides |= {name: running(k) for k, name in enumerate(CUTTING)}
     sides["active_flank_first"] = lambda x1, x2: (state(x1, x2).start, pinion_form(pair, x1))
     return sides
 
@@ -129,17 +134,14 @@ def conditions(pair: InternalShiftPair) -> dict[str, Condition]:
     pinion, ``rounded_root`` that of a ring's rounding in its space. ``approach`` and ``recess`` keep the pole inside
     the active line.
     """
+
+    def compared(name: str, sides: _Sides) -> Condition:
+        return Condition(name, None, lambda x1, x2: _difference(sides(x1, x2)))
+
     checks = _checks(pair)
-    found = [
-        Condition(name, None, lambda x1, x2, sides=sides: _difference(sides(x1, x2)))  # type: ignore[misc]
-        for name, sides in checks.always.items()
-    ]
+    found = [compared(name, sides) for name, sides in checks.always.items()]
     for name, value in checks.levelled.items():
-        kind = next(k for k in _LEVELS if name.startswith(k))
-        found += [
-            Condition(name, level, lambda x1, x2, value=value, level=level: value(x1, x2) - level)  # type: ignore[misc]
-            for level in _LEVELS[kind]
-        ]
+        found += above(name, next(levels for kind, levels in _LEVELS.items() if name.startswith(kind)), value)
     found.append(Condition("equal_sliding", None, lambda x1, x2: equal_sliding(pair, x1, x2)))
     return {c.name if c.level is None else f"{c.name} {c.level:g}": c for c in found}
 
