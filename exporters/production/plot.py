@@ -7,7 +7,10 @@ from pathlib import Path
 
 Series = tuple[str, list[float], list[float]]
 
-_WIDTH, _HEIGHT, _LEFT, _BOTTOM, _TOP, _KEY = 720.0, 420.0, 70.0, 50.0, 30.0, 190.0
+# the field of the curves ends at _RIGHT, the key stands beside it
+_HEIGHT, _LEFT, _BOTTOM, _TOP, _RIGHT = 434.0, 70.0, 50.0, 44.0, 530.0
+# of text of 12 px: more than the mean width of a letter in common fonts, and from line to line of the key
+_LETTER, _LINE = 8.0, 16.0
 _COLOURS = ("#c03020", "#2060c0", "#209050", "#a06000", "#8030a0", "#008090", "#606060", "#d06090")
 
 
@@ -17,9 +20,12 @@ def write_loglog(file: Path, title: str, x_name: str, y_name: str, series: list[
     kept = [(name, points) for name, points in kept if points]
     points = [p for _, row in kept for p in row]
     x_axis, y_axis = _decades([p[0] for p in points]), _decades([p[1] for p in points])
+    names = [name for name, _ in kept]
+    width = max(_RIGHT + 28 + _LETTER * max(map(len, names)), _LEFT + _LETTER * len(title))
+    height = max(_HEIGHT, _TOP + _LINE * (len(names) + 1))
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{_WIDTH:g}" height="{_HEIGHT:g}">',
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:g}" height="{height:g}">',
         '<rect width="100%" height="100%" style="fill:#ffffff"/>',
         _text(_LEFT, 18, title),
         _text(_LEFT, _HEIGHT - 10, x_name),
@@ -28,11 +34,11 @@ def write_loglog(file: Path, title: str, x_name: str, y_name: str, series: list[
     lines += _grid(x_axis, y_axis)
     for index, (name, row) in enumerate(kept):
         colour = _COLOURS[index % len(_COLOURS)]
-        places = [(_at(p[0], x_axis, _LEFT, _WIDTH - _KEY), _at(p[1], y_axis, _HEIGHT - _BOTTOM, _TOP)) for p in row]
+        places = [(_at(p[0], x_axis, _LEFT, _RIGHT), _at(p[1], y_axis, _HEIGHT - _BOTTOM, _TOP)) for p in row]
         path = " ".join(f"{x:.2f},{y:.2f}" for x, y in places)
         lines.append(f'<polyline points="{path}" style="fill:none;stroke:{colour};stroke-width:1.5"/>')
         lines += [f'<circle cx="{x:.2f}" cy="{y:.2f}" r="3" style="fill:{colour}"/>' for x, y in places]
-        lines.append(_text(_WIDTH - _KEY + 14, _TOP + 16 * (index + 1), name, colour))
+        lines.append(_text(_RIGHT + 14, _TOP + _LINE * (index + 1), name, colour))
     file.write_text("\n".join([*lines, "</svg>", ""]), encoding="utf-8", newline="\n")
 
 
@@ -54,12 +60,12 @@ def _grid(x_axis: tuple[int, int], y_axis: tuple[int, int]) -> list[str]:
     style = "stroke:#c8ccd0;stroke-width:0.7"
     lines = []
     for decade in range(x_axis[0], x_axis[1] + 1):
-        x = _at(10.0**decade, x_axis, _LEFT, _WIDTH - _KEY)
+        x = _at(10.0**decade, x_axis, _LEFT, _RIGHT)
         lines.append(f'<line x1="{x:.2f}" y1="{_TOP:g}" x2="{x:.2f}" y2="{_HEIGHT - _BOTTOM:g}" style="{style}"/>')
         lines.append(_text(x - 12, _HEIGHT - _BOTTOM + 16, f"1e{decade}"))
     for decade in range(y_axis[0], y_axis[1] + 1):
         y = _at(10.0**decade, y_axis, _HEIGHT - _BOTTOM, _TOP)
-        lines.append(f'<line x1="{_LEFT:g}" y1="{y:.2f}" x2="{_WIDTH - _KEY:g}" y2="{y:.2f}" style="{style}"/>')
+        lines.append(f'<line x1="{_LEFT:g}" y1="{y:.2f}" x2="{_RIGHT:g}" y2="{y:.2f}" style="{style}"/>')
         lines.append(_text(_LEFT - 42, y + 4, f"1e{decade}"))
     return lines
 
