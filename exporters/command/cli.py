@@ -385,13 +385,14 @@ def _check(options: argparse.Namespace) -> int:
     from exporters.production.check import scene_checks
     from exporters.production.check_lines import check_lines, has_bad_verdict
     from parts.base.refusal import SceneError
-    from parts.scene.load import make_parts
+    from parts.scene.load import in_keys_of_file, make_parts
     from parts.scene.placing import place
 
     def checked(address: str) -> tuple[dict[str, Any], SceneFile]:
         scene = _scene(address, options)
-        parts, matings = make_parts(scene, address)
-        placing = place(scene.instances, scene.drives, parts, matings, address)
+        with in_keys_of_file(scene.origins):
+            parts, matings = make_parts(scene, address)
+            placing = place(scene.instances, scene.drives, parts, matings, address)
         if len(placing.instances) < 2:
             raise SceneError(address, "mates", None, "nothing_to_check")
         asked, language = scene.checks.transmission_error, scene.scene.language

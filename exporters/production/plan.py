@@ -18,7 +18,7 @@ from parts.base.schema import unit_of
 from parts.base.texts import N_, Message, Text, filled, message
 from parts.keys.wheel import as_typed
 from parts.scene.formats import FORMATS, Form, file_kind
-from parts.scene.load import ExportSpec, SceneFile, default_export, make_parts
+from parts.scene.load import ExportSpec, SceneFile, default_export, in_keys_of_file, make_parts
 from parts.scene.placing import Placing, place
 
 if TYPE_CHECKING:
@@ -62,6 +62,11 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
     SceneError
         An unknown part or format, two exports into one file, or an outline that does not survive its offset.
     """
+    with in_keys_of_file(scene.origins):
+        return _planned(scene, source, only_parts, only_formats)
+
+
+def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats: list[str]) -> Plan:
     for name in only_parts:
         if name not in scene.parts:
             known = list(scene.parts)

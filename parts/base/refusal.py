@@ -34,6 +34,10 @@ class SceneError(ValueError):
         """Another value that works, or how to find it."""
         self._cure = cure
 
+    def at(self, key: str) -> SceneError:
+        """The same refusal of another key."""
+        return SceneError(self.source, key, self.value, self.code, lambda: self.nearest, self.unit, **self.numbers)
+
     @property
     def remedy(self) -> str:
         """What is wrong and what would work, in English."""

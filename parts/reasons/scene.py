@@ -5,6 +5,10 @@ from __future__ import annotations
 from parts.base.texts import N_
 
 REASONS = {
+    "about_needs_at": N_("without `at` mates say where each of them stands"),
+    "groups_differ": N_("are not as many as those of {first}, which are {count}"),
+    "is_a_member": N_("{group} has one of this id already; rename one of them"),
+    "only_of_a_count": N_("only with `count`, which makes several of it"),
     "a_folder": N_("is a folder; give a scene file (.toml) or one of: {known}"),
     "device_name": N_("is a name that Windows keeps for a device"),
     "driven_already": N_("the drive of {other} turns it already; remove one of them"),

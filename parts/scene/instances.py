@@ -1,17 +1,28 @@
-"""Tables ``[instances.ID]`` and ``[[drives]]`` of a scene: their keys, and every refusal of them."""
+"""Tables ``[instances.ID]`` and ``[[drives]]`` of a scene: their keys, and every refusal of them.
+
+A table with a ``count`` is a group: so many instances ID_1, ID_2 ... about one axis. What names a group is said of each
+member, a step further from one to the next.
+"""
 
 from __future__ import annotations
 
+import cmath
+import math
 import re
-from typing import Annotated, Any
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
 
-import msgspec
 from msgspec import Meta, Struct
+from msgspec.structs import replace
 
 from geometry.base.errors import Nearest
-from parts.base.refusal import SceneError, meant
+from parts.base.refusal import REMOVED, SceneError, meant
 from parts.base.schema import converted
 from parts.keys.base import IDENTIFIER, degrees, mm
+
+if TYPE_CHECKING:
+    from parts.base.mate import MateKeys
 
 _Coordinate = Annotated[float, mm("a coordinate of the place", least=-1_000_000, most=1_000_000)]
 
@@ -33,6 +44,35 @@ class InstanceSpec(Struct, forbid_unknown_fields=True):
     ) = None
 
 
+class InstanceTable(InstanceSpec, forbid_unknown_fields=True):
+    """Keys of ``[instances.ID]`` as they stand in a file: one instance, or several."""
+
+    count: Annotated[int, Meta(ge=1, le=1000, description="so many of it: ID_1, ID_2 ...", examples=[3])] | None = None
+    about: (
+        Annotated[
+            list[_Coordinate],
+            Meta(min_length=2, max_length=2, description="of a count: [x, y] of the axis that they stand about, in mm"),
+        ]
+        | None
+    ) = None
+    step_deg: (
+        Annotated[float, degrees("of a count: from each to the next; default: 360 / count", least=-360, most=360)]
+        | None
+    ) = None
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """Equal instances about an axis: their ids, and the angle (degrees) from each to the next."""
+
+    members: tuple[str, ...]
+    step_deg: float
+
+    def angle(self, index: int) -> float:
+        """How far a member is turned from the first, degrees."""
+        return index * self.step_deg
+
+
 class DriveSpec(Struct, forbid_unknown_fields=True):
     """Keys of ``[[drives]]``."""
 
@@ -43,38 +83,120 @@ class DriveSpec(Struct, forbid_unknown_fields=True):
     ] = 1.0
 
 
-def instance_specs(raw: dict[str, Any], parts: dict[str, Struct], source: str) -> dict[str, InstanceSpec]:
-    """Every instance of a scene, part by part; a part that no table names has one instance of its own id.
+def instance_specs(
+    raw: dict[str, Any], parts: dict[str, Struct], source: str
+) -> tuple[dict[str, InstanceSpec], dict[str, Group]]:
+    """Every instance of a scene, part by part, and the groups; a part that no table names has one of its own id.
 
     Raises
     ------
     SceneError
         With the key, its value and what is allowed.
     """
-    given = {key: _instance_spec(key, table, parts, source) for key, table in raw.items()}
+    given: dict[str, InstanceSpec] = {}
+    groups: dict[str, Group] = {}
+    for key, table in raw.items():
+        spec = _instance_table(key, table, parts, source)
+        made = {key: _one(spec, 0.0)}
+        if spec.count is not None:
+            group = _group(key, spec, spec.count)
+            groups[key] = group
+            made = {member: _one(spec, group.angle(k)) for k, member in enumerate(group.members)}
+        for member in made:
+            _check_id(member, spec, parts, source, f"instances.{key}")
+            if member in given or (member in raw and member != key):
+                raise SceneError(source, f"instances.{member}", None, "is_a_member", None, group=f"instances.{key}")
+        given |= made
     specs: dict[str, InstanceSpec] = {}
     for part in parts:
         own = {key: spec for key, spec in given.items() if spec.part == part}
         specs |= own or {part: InstanceSpec(part)}
-    return specs
+    return specs, groups
 
 
-def _instance_spec(key: str, table: object, parts: dict[str, Struct], source: str) -> InstanceSpec:
+def _instance_table(key: str, table: object, parts: dict[str, Struct], source: str) -> InstanceTable:
+    """One table, with the part that stands there."""
     place = f"instances.{key}"
     if not re.fullmatch(IDENTIFIER, key):
         raise SceneError(source, place, None, "not_a_name", Nearest("instance_1"))
-    if not isinstance(table, dict):
-        raise SceneError(source, place, table, "not_a_table", None, key=place)
-    spec = converted(table, InstanceSpec, source, place)
+    spec: InstanceTable = converted(table, InstanceTable, source, place)
+    for name in ("about", "step_deg") if spec.count is None else ():
+        if (value := getattr(spec, name)) is not None:
+            raise SceneError(source, f"{place}.{name}", value, "only_of_a_count", REMOVED)
+    if spec.about is not None and spec.at is None:
+        # where each stands is for its mates to say
+        raise SceneError(source, f"{place}.about", spec.about, "about_needs_at", REMOVED)
     if spec.part is None:
         if key not in parts:
             raise SceneError(source, f"{place}.part", None, "which_part", None, known=list(parts))
-        return msgspec.structs.replace(spec, part=key)
+        return replace(spec, part=key)
     if spec.part not in parts:
         raise SceneError(source, f"{place}.part", spec.part, "no_such_part", meant(spec.part, parts), known=list(parts))
+    return spec
+
+
+def _check_id(key: str, spec: InstanceSpec, parts: dict[str, Struct], source: str, place: str) -> None:
+    if not re.fullmatch(IDENTIFIER, key):
+        raise SceneError(source, place, None, "not_a_name", Nearest("instance"))
     if key in parts and spec.part != key:
         raise SceneError(source, f"{place}.part", spec.part, "itself_a_part", Nearest(key), id=key)
-    return spec
+
+
+def _group(key: str, spec: InstanceTable, count: int) -> Group:
+    step = 360 / count if spec.step_deg is None else spec.step_deg
+    return Group(tuple(f"{key}_{number}" for number in range(1, count + 1)), step)
+
+
+def _one(spec: InstanceTable, angle: float) -> InstanceSpec:
+    """One member, turned about the axis by so many degrees."""
+    if spec.at is None or not angle:
+        return InstanceSpec(spec.part, spec.at, spec.rotation_deg)
+    axis = complex(*(spec.about or (0.0, 0.0)))
+    moved = axis + (complex(*spec.at[:2]) - axis) * cmath.rect(1.0, math.radians(angle))
+    return InstanceSpec(spec.part, [moved.real, moved.imag, spec.at[2]], (spec.rotation_deg or 0.0) + angle)
+
+
+def members(mate: MateKeys, groups: Mapping[str, Group], source: str, place: str) -> Iterator[MateKeys]:
+    """A mate as it is, or for each member of the group that it names: directions and seats go on with the members.
+
+    Raises
+    ------
+    SceneError
+        Two groups of different size.
+    """
+    one, two = groups.get(mate.first), groups.get(mate.second)
+    group = two or one
+    if group is None:
+        yield mate
+        return
+    if one is not None and two is not None and len(one.members) != len(two.members):
+        told = {"first": mate.first, "count": len(one.members)}
+        raise SceneError(source, f"{place}.second", mate.second, "groups_differ", None, "", **told)
+    for index, member in enumerate(group.members):
+        ends = {"first": mate.first if one is None else one.members[index], "second": mate.second}
+        ends["second"] = mate.second if two is None else member
+        yield replace(mate, **ends, **({} if one and two else _further(mate, index, group, placed=two is not None)))
+
+
+def _further(mate: MateKeys, index: int, group: Group, *, placed: bool) -> dict[str, Any]:
+    """What a mate says of a member, so many steps on; ``placed``: the members are its seconds."""
+
+    def said(key: str) -> Any:
+        return getattr(mate, key)
+
+    keys, angle = mate.__struct_fields__, group.angle(index)
+    found: dict[str, Any] = {}
+    if "number" in keys:
+        found["number"] = said("number") + index
+    if "direction_deg" in keys and angle:
+        found["direction_deg"] = math.remainder(said("direction_deg") + angle, 360)
+    if "rotation_deg" in keys and angle and placed:
+        found["rotation_deg"] = said("rotation_deg") + angle
+    if "offset" in keys and angle and placed:
+        x, y, z = said("offset")
+        moved = complex(x, y) * cmath.rect(1.0, math.radians(angle))
+        found["offset"] = (moved.real, moved.imag, z)
+    return found
 
 
 def drive_spec(table: object, instances: dict[str, InstanceSpec], source: str, place: str) -> DriveSpec:

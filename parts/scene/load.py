@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 import tomllib
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -22,10 +24,18 @@ from parts.keys.sheet import CamSpeed, Intervals, MateNumber, RackStep, check_sh
 from parts.keys.title import TitleBlockKey
 from parts.scene.files import MOST_BYTES, built_in_scenes, text_of
 from parts.scene.formats import ASSEMBLY_FORMATS, Form, file_kind, tolerances_of
-from parts.scene.instances import DriveSpec, InstanceSpec, check_instance, drive_spec, instance_specs
+from parts.scene.instances import (
+    DriveSpec,
+    Group,
+    InstanceSpec,
+    check_instance,
+    drive_spec,
+    instance_specs,
+    members,
+)
 
 if TYPE_CHECKING:
-    from parts.base.mate import Mating
+    from parts.base.mate import MateKeys, Mating
 
 
 # the languages that have a catalogue
@@ -98,7 +108,10 @@ class ChecksSpec(Struct, forbid_unknown_fields=True):
 
 
 class SceneFile(Struct, forbid_unknown_fields=True):
-    """A scene as resolved: what ``report.json`` keeps and ``verify`` builds again."""
+    """A scene as resolved: what ``report.json`` keeps and ``verify`` builds again.
+
+    ``origins``: for places that the file does not have, since a group was told out, those that it has.
+    """
 
     name: str
     scene: SceneInfo
@@ -108,6 +121,34 @@ class SceneFile(Struct, forbid_unknown_fields=True):
     mates: list[Any] = []
     drives: list[DriveSpec] = []
     checks: ChecksSpec = msgspec.field(default_factory=ChecksSpec)
+    origins: dict[str, str] = {}
+
+
+@contextmanager
+def in_keys_of_file(origins: Mapping[str, str]) -> Iterator[None]:
+    """Refusals of what was told out are told at the place that the file has."""
+    try:
+        yield
+    except SceneError as refusal:
+        raise refusal.at(_in_file(refusal.key, origins)) from refusal
+
+
+def _in_file(key: str, origins: Mapping[str, str]) -> str:
+    """A key where the file has it; of two, the one of a part, where that has come from somewhere."""
+    first, _, rest = key.partition(": ")
+    for told in (rest, first):
+        head = next((h for h in _heads(told) if h in origins), "")
+        if head:
+            there = origins[head] + told.removeprefix(head)
+            return there if told is rest or not rest else f"{there}: {rest}"
+    return key
+
+
+def _heads(key: str) -> Iterator[str]:
+    """A key, and all that it belongs to, the nearest first."""
+    while key:
+        yield key
+        key = key.rpartition(".")[0]
 
 
 def load_scene(address: str) -> SceneFile:
@@ -180,16 +221,23 @@ def scene_from_dict(raw: dict[str, Any], source: str, name: str) -> SceneFile:
     exports = [
         _export_spec(table, parts, source, f"exports[{i + 1}]") for i, table in enumerate(raw.get("exports", []))
     ]
-    instances = instance_specs(raw.get("instances", {}), parts, source)
-    mates = [_mate_spec(t, instances, parts, source, f"mates[{i + 1}]") for i, t in enumerate(raw.get("mates", []))]
+    instances, groups = instance_specs(raw.get("instances", {}), parts, source)
+    mates: list[MateKeys] = []
+    origins: dict[str, str] = {}
+    for number, table in enumerate(raw.get("mates", []), 1):
+        place = f"mates[{number}]"
+        for mate in members(_mate_spec(table, instances, groups, source, place), groups, source, place):
+            mates.append(mate)
+            if len(mates) != number:
+                origins[f"mates[{len(mates)}]"] = place
     drives = [drive_spec(t, instances, source, f"drives[{i + 1}]") for i, t in enumerate(raw.get("drives", []))]
     checks = converted(raw.get("checks", {}), ChecksSpec, source, "checks")
-    return SceneFile(name, info, parts, exports, instances, mates, drives, checks)
+    return SceneFile(name, info, parts, exports, instances, mates, drives, checks, origins)
 
 
 def _mate_spec(
-    table: object, instances: dict[str, InstanceSpec], parts: dict[str, Struct], source: str, place: str
-) -> Struct:
+    table: object, instances: dict[str, InstanceSpec], groups: Mapping[str, Group], source: str, place: str
+) -> MateKeys:
     from parts.mates.registry import MATES
 
     if not isinstance(table, dict):
@@ -198,9 +246,10 @@ def _mate_spec(
     if not isinstance(kind, str) or kind not in MATES:
         code = "missing_kind" if kind is None else "unknown_mate"
         raise SceneError(source, f"{place}.kind", kind, code, meant(kind, MATES), known=list(MATES))
-    mate = converted(table, MATES[kind].keys, source, place)
+    mate: MateKeys = converted(table, MATES[kind].keys, source, place)
     for key in ("first", "second"):
-        check_instance(getattr(mate, key), instances, source, f"{place}.{key}")
+        if getattr(mate, key) not in groups:
+            check_instance(getattr(mate, key), instances, source, f"{place}.{key}")
     if mate.first == mate.second:
         raise SceneError(source, f"{place}.second", mate.second, "mate_in_itself")
     return mate
@@ -293,8 +342,10 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
 
 
 def resolved(scene: SceneFile) -> dict[str, Any]:
-    """The scene as plain data with every default filled in."""
-    return msgspec.to_builtins(scene)
+    """The scene as plain data with every default filled in and every group told out."""
+    data: dict[str, Any] = msgspec.to_builtins(scene)
+    del data["origins"]
+    return data
 
 
 def scene_from_resolved(data: dict[str, Any], source: str) -> SceneFile:

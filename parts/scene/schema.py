@@ -10,7 +10,7 @@ from msgspec import NODEFAULT, Meta
 
 from parts.base.registry import KINDS
 from parts.mates.registry import MATES
-from parts.scene.instances import DriveSpec, InstanceSpec
+from parts.scene.instances import DriveSpec, InstanceTable
 from parts.scene.load import ChecksSpec, ExportSpec, SceneInfo
 
 
@@ -22,7 +22,7 @@ def scene_schema() -> str:
     tables: list[tuple[str, Any, Any]] = [
         ("scene", SceneInfo, msgspec.field(default_factory=SceneInfo)),
         ("parts", Annotated[dict[str, part], Meta(min_length=1)], NODEFAULT),
-        ("instances", dict[str, InstanceSpec], {}),
+        ("instances", dict[str, InstanceTable], {}),
         ("mates", list[mate], []),
         ("drives", list[DriveSpec], []),
         ("checks", ChecksSpec, msgspec.field(default_factory=ChecksSpec)),
