@@ -25,6 +25,8 @@ HEAVY = {"ezdxf", "shapely", "rich", "trimesh", "manifold3d", "cadquery", "OCP",
 HEAVY_AT_TOP = {"exporters/formats/dxf_file.py": {"ezdxf"}, "exporters/formats/drawing_dxf.py": {"ezdxf"}}
 # nothing else may be needed to install and run
 LIGHT = {"numpy", "msgspec"}
+# what every record is made of; a dataclass costs fifty times as much when it is imported
+RECORDS = "geometry/base/record.py"
 
 
 @dataclass(frozen=True)
@@ -71,7 +73,9 @@ def faults(place: str, source: str) -> list[str]:
             found.append(f"{where}: imports run geometry <- parts <- exporters")
         elif top == "tests":
             found.append(f"{where}: nobody imports tests")
-        elif room == "geometry" and top in NOT_IN_GEOMETRY:
+        elif top == "dataclasses":
+            found.append(f"{where}: records are those of {RECORDS}")
+        elif room == "geometry" and top in NOT_IN_GEOMETRY and (place, top) != (RECORDS, "msgspec"):
             found.append(f"{where}: geometry is mathematics only")
         elif item.at_top and top in HEAVY - HEAVY_AT_TOP.get(place, set()):
             found.append(f"{where}: heavy; import it in the function that needs it")
@@ -109,6 +113,8 @@ def test_every_room_is_looked_at() -> None:
     ("geometry/new.py", "from pathlib import Path"),
     ("geometry/new.py", "def f():\n    import shapely"),
     ("geometry/new.py", "import math, json"),
+    ("geometry/new.py", "from dataclasses import dataclass"),
+    ("exporters/new.py", "def f():\n    from dataclasses import replace"),
     ("exporters/command/new.py", "import ezdxf"),
     ("exporters/command/new.py", "try:\n    import shapely\nexcept ImportError:\n    shapely = None"),
     ("exporters/command/new.py", "class A:\n    from rich.table import Table"),

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.base.record import Record
 from parts.base.readback import ReadBack
 
 
@@ -27,8 +27,7 @@ class Occurrence(NamedTuple):
     place: NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True)
-class ReadAssembly:
+class ReadAssembly(Record):
     """What an assembly file holds."""
 
     title: str

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +15,7 @@ import numpy as np
 from exporters.formats.chains import chained, nodes, smooth_loops
 from exporters.formats.readback import SmoothLoop
 from geometry.base.distinct import distinct
+from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from parts.base.readback import ReadError
 
@@ -39,8 +39,7 @@ _LOOK = (7, "CONTINUOUS")
 _LONG, _SPAN = 90.0, 5.0
 
 
-@dataclass(frozen=True, slots=True)
-class DrawnLine:
+class DrawnLine(Record):
     """A straight line, mm."""
 
     layer: str
@@ -56,8 +55,7 @@ class DrawnLine:
         return np.asarray([self.start + share * (self.end - self.start)], dtype=np.complex128)
 
 
-@dataclass(frozen=True, slots=True)
-class DrawnArc:
+class DrawnArc(Record):
     """An arc that turns left from one angle to another, degrees; a circle from 0 to 360."""
 
     layer: str
@@ -85,8 +83,7 @@ class DrawnArc:
         return np.asarray(self.centre + self.radius * np.exp(1j * np.radians(angle)), dtype=np.complex128)
 
 
-@dataclass(frozen=True, slots=True)
-class DrawnSpline:
+class DrawnSpline(Record):
     """A spline with ezdxf's own evaluation."""
 
     layer: str
@@ -107,8 +104,7 @@ class DrawnSpline:
         return np.array([complex(p.x, p.y) for p in self.tool.points(places)])
 
 
-@dataclass(frozen=True, slots=True)
-class DrawnText:
+class DrawnText(Record):
     """Words fitted between two points; height of capitals, mm."""
 
     layer: str
@@ -214,8 +210,7 @@ def opened(file: Path, *, audit: bool = True) -> Drawing:
     return document
 
 
-@dataclass(frozen=True, slots=True)
-class ReadDrawing:
+class ReadDrawing(Record):
     """A drawing of true curves on one layer."""
 
     curves: tuple[DrawnCurve, ...]

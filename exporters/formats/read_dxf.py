@@ -6,7 +6,6 @@ Shares no code with the writer, nor with ezdxf, whose import takes longer than m
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 
@@ -14,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exporters.formats.readback import Loop, ReadOutlines
+from geometry.base.record import Record
 from parts.base.readback import ReadError
 
 _MILLIMETRES = "4"
@@ -33,8 +33,7 @@ _PLAIN_WORDS = {6: {"BYLAYER"}, 410: {"MODEL"}}
 _EXTRUSION = (210, 220, 230)
 
 
-@dataclass(frozen=True, slots=True)
-class Pairs:
+class Pairs(Record):
     """Group codes (n,) and the values that stand with them."""
 
     codes: NDArray[np.int64]

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
@@ -23,6 +22,7 @@ from exporters.formats.chains import nodes, smooth_loops
 from exporters.formats.read_assembly import Occurrence, Prototype, ReadAssembly
 from exporters.formats.readback import SmoothLoop
 from exporters.formats.step_senses import face_senses
+from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from parts.base.readback import ReadError
 from parts.solids.kernel import faces_of, silent_kernel
@@ -55,8 +55,7 @@ _UPRIGHT = 1e-9
 _SPAN = math.radians(5)
 
 
-@dataclass(frozen=True, slots=True)
-class ReadSolid:
+class ReadSolid(Record):
     """A solid as the kernel has read it, the names of the products in its file, and its colour, where it has one."""
 
     shape: TopoDS_Shape

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import signed_area
 from parts.base.readback import ReadError, ReadLoop
@@ -20,8 +20,7 @@ MOST_READ_BYTES = 1_000_000_000
 _NO_FACES = np.zeros((0, 3, 3))
 
 
-@dataclass(frozen=True, slots=True)
-class Loop:
+class Loop(Record):
     """A closed chain as found in a file: vertices (n,), bulges (n,), the layer or id it stood on."""
 
     vertices: Complex
@@ -45,8 +44,7 @@ class Loop:
         return outline_of_loop(self.vertices * turn, self.bulges, clockwise=clockwise)
 
 
-@dataclass(frozen=True, slots=True)
-class SmoothLoop:
+class SmoothLoop(Record):
     """A closed chain of polynomials, ``coefficients`` (n, degree + 1) of rising powers of t from 0 to 1."""
 
     coefficients: Complex
@@ -68,8 +66,7 @@ class SmoothLoop:
         return outline_of_polynomials(self.coefficients * turn, clockwise=clockwise)
 
 
-@dataclass(frozen=True, slots=True)
-class ReadOutlines:
+class ReadOutlines(Record):
     """A flat file of lines and arcs."""
 
     loops: tuple[Loop, ...]
@@ -89,8 +86,7 @@ class ReadOutlines:
         return _NO_FACES
 
 
-@dataclass(frozen=True, slots=True)
-class ReadMesh:
+class ReadMesh(Record):
     """Distinct vertices (n, 3) and triangles (k, 3); ``name``, ``colour`` (#rrggbb): where a format has such."""
 
     vertices: NDArray[np.float64]

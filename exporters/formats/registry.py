@@ -7,7 +7,6 @@ their kind is written; readers (exporters/formats/reading.py) when one is read.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
@@ -15,6 +14,7 @@ from exporters.formats.reading import ASSEMBLY_READERS, READERS
 from geometry.approximation.chords import approximate_profile
 from geometry.base.errors import Nearest, ParameterError, limit, rounded
 from geometry.base.placement import Placement3
+from geometry.base.record import Record
 from geometry.base.tolerance import LEAST_SEGMENT_MM
 from geometry.plane.contour import Approximation
 from geometry.plane.offset_region import OffsetRegion
@@ -49,8 +49,7 @@ _DXF_ROUNDING = 2e-15
 _STEP_ROUNDING = 1e-12
 
 
-@dataclass(frozen=True, slots=True)
-class Content:
+class Content(Record):
     """What a writer gets: one part as an export wants it, and the exact section that its file must match."""
 
     part: Part
@@ -81,8 +80,7 @@ class Content:
 S = TypeVar("S")
 
 
-@dataclass(frozen=True, slots=True)
-class FileFormat(Generic[S]):
+class FileFormat(Record, Generic[S]):
     """A row; ``rounding``: how far the rounding of a file's numbers may move an outline, mm.
 
     ``shape``: the boundaries, approximated within a tolerance of which the rounding has taken its share already.

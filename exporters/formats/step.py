@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from geometry.base.errors import GeometryError
 from geometry.base.placement import Placement3
+from geometry.base.record import Record
 from parts.solids.kernel import silent_kernel
 
 if TYPE_CHECKING:
@@ -32,8 +32,7 @@ _SETTINGS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class StepPart:
+class StepPart(Record):
     """A named solid (TopoDS_Solid) with its colour, like "#c08040"."""
 
     name: str

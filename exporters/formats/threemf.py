@@ -7,7 +7,6 @@ import re
 import uuid
 import zipfile
 from collections.abc import Sequence
-from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geometry.base.placement import Placement3
+from geometry.base.record import Record
 from parts.solids.mesh import Mesh
 
 if TYPE_CHECKING:
@@ -26,8 +26,7 @@ _MODEL = "3D/3dmodel.model"
 DEFAULT_COLOUR = "#b8c4d0"
 
 
-@dataclass(frozen=True, slots=True)
-class MeshPart:
+class MeshPart(Record):
     """A named mesh with its colour, like "#c08040"."""
 
     name: str

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +17,7 @@ from exporters.production.plan import Plan
 from exporters.production.preview import outlines_of, part_preview, scene_preview
 from exporters.production.report import NAME, read_report, write_report
 from geometry.base.errors import ConvergenceError, Nearest, ParameterError, ThinWallError, rounded
+from geometry.base.record import Record, replace
 from geometry.plane.contour import Approximation
 from parts.base.refusal import SceneError, placed
 from parts.scene.formats import Form
@@ -28,8 +28,7 @@ _LEAST_TOLERANCE = 1e-7
 _MOST_HALVINGS = 8
 
 
-@dataclass(frozen=True, slots=True)
-class Built:
+class Built(Record):
     """What was written and found; ``left_behind``: files of earlier builds that this one does not make."""
 
     written: tuple[Written, ...]

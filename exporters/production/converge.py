@@ -7,7 +7,6 @@ import math
 import statistics
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +20,7 @@ from geometry.approximation.arcs import arc_spline_of
 from geometry.approximation.chords import chords_of
 from geometry.approximation.splines import spline_of_spans
 from geometry.base.errors import ConvergenceError, ParameterError
+from geometry.base.record import Record, replace
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc, Line
 
@@ -34,8 +34,7 @@ LEAST_PIECES, _MOST_PIECES, _FLOORS = 16, 1024, 100.0
 _ROUNDING = 4e-15
 
 
-@dataclass(frozen=True, slots=True)
-class Rung:
+class Rung(Record):
     """One file at one tolerance: what was declared, what was measured, and what it cost."""
 
     file: str
@@ -49,8 +48,7 @@ class Rung:
     spread: float
 
 
-@dataclass(frozen=True, slots=True)
-class Order:
+class Order(Record):
     """Observed order of a method on one exact curve: error ~ pieces^-order; None where one rung or none stands above
     the rounding floor.
     """

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, cast
 
@@ -13,6 +12,7 @@ import numpy as np
 
 from exporters.formats.registry import BOUNDS, REGISTRY, Chords, Content, Shape, declared_error
 from geometry.base.findings import Finding
+from geometry.base.record import Record, field
 from geometry.base.tolerance import LEAST_SEGMENT_MM
 from parts.scene.formats import Form
 from parts.scene.load import ExportSpec
@@ -78,8 +78,7 @@ class FileJob(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True)
-class Written:
+class Written(Record):
     """A file that was written and read back, with what was measured on it."""
 
     job: FileJob
@@ -93,7 +92,6 @@ class Written:
     seconds: dict[str, float] = field(default_factory=dict)
 
 
-@dataclass(frozen=True, slots=True)
 class Job(Content):
     """One part in one file, and where the scene asks for it."""
 
@@ -171,8 +169,7 @@ def _short_edges(chords: Chords) -> int:
     return sum(int(np.count_nonzero(x < LEAST_SEGMENT_MM)) * c.count for x, c in zip(lengths, contours, strict=True))
 
 
-@dataclass(frozen=True, slots=True)
-class AssemblyJob:
+class AssemblyJob(Record):
     """All instances of some parts in one file; ``members`` are the jobs of its parts, whose own paths are not used."""
 
     name: str

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from geometry.base.record import Record
 from parts.base.texts import N_, words
 
 _FITS = N_("{path} in the folder is of an earlier build of this same scene; it was not replaced")
@@ -41,8 +41,7 @@ def kept_lines(report: dict[str, Any] | None, language: str) -> list[str]:
     return lines
 
 
-@dataclass(frozen=True, slots=True)
-class Failure:
+class Failure(Record):
     """Why the last build of a file failed; ``fits``: what lies in its place is of the same scene."""
 
     why: str

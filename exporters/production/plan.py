@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
@@ -10,6 +9,7 @@ from msgspec.structs import replace
 
 from exporters.production.jobs import AssemblyJob, FileJob, Job, assembly_name
 from geometry.base.errors import GeometryError, OffsetError, ParameterError
+from geometry.base.record import Record
 from geometry.plane.offset_region import OffsetRegion
 from parts.base.part import Part
 from parts.base.reasons import reason
@@ -26,8 +26,7 @@ if TYPE_CHECKING:
     from parts.base.mate import Mating
 
 
-@dataclass(frozen=True, slots=True)
-class LeftOut:
+class LeftOut(Record):
     """What a build does not make, and why; ``as_asked``: the command itself left it out."""
 
     what: str
@@ -35,8 +34,7 @@ class LeftOut:
     as_asked: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Plan:
+class Plan(Record):
     """The files of a build, the parts they need, where these stand, and what was left out and why."""
 
     source: str

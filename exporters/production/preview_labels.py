@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+from geometry.base.record import Record
 
 # width of a letter and room about a word, part of the letters' height; places tried above and below, and to each side
 _LETTER, _ROOM, _RINGS = 0.62, 0.15, 24
 
 
-@dataclass(frozen=True, slots=True)
-class Label:
+class Label(Record):
     """A word whose middle stands at (x, y), y downwards to its foot; ``size``: height of its letters."""
 
     text: str

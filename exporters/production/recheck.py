@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -16,14 +15,14 @@ from exporters.production.report import NAME, read_report
 from exporters.verification.judge import verify_part
 from exporters.verification.verdict import Verdict
 from geometry.base.errors import GeometryError
+from geometry.base.record import Record
 from parts.base.refusal import SceneError
 from parts.scene.formats import FileKind, Form, file_kind
 from parts.scene.load import SceneFile, make_parts, scene_from_resolved
 from parts.scene.placing import place
 
 
-@dataclass(frozen=True, slots=True)
-class Recheck:
+class Recheck(Record):
     """The verdict on one file; ``same_bytes``: it is the very file that was reported."""
 
     file: Path

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ from exporters.production.jobs import Made
 from exporters.verification.verdict import Verdict
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
+from geometry.base.record import Record
 from geometry.gears.pictures.meshing import MeshingPicture, meshing_picture
 from geometry.gears.teeth.limits import practicum_undercut
 from geometry.gears.teeth.transverse import overlap_ratio
@@ -37,8 +37,7 @@ RACK_STEP, _MOST_STEP, _LEAST_STEP = 4.5, 1 / 6, 1 / 60
 ENDINGS = ("dxf", "svg")
 
 
-@dataclass(frozen=True)
-class SheetJob:
+class SheetJob(Record):
     """One file of a sheet; ``members`` are the jobs of parts in it: none."""
 
     export: ExportSpec

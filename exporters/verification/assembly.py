@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +12,7 @@ from exporters.formats.read_assembly import ReadAssembly
 from exporters.formats.reading import ASSEMBLY_READERS
 from exporters.verification.judge import held, probed, same_shade
 from exporters.verification.verdict import Verdict
+from geometry.base.record import Record
 from parts.base.part import Part
 from parts.base.readback import ReadBack, ReadError
 from parts.scene.formats import FileKind
@@ -22,8 +22,7 @@ from parts.scene.placing import Instance
 _PLACE, _DIGITS = 1e-9, 1e-13
 
 
-@dataclass(frozen=True, slots=True)
-class ExpectedAssembly:
+class ExpectedAssembly(Record):
     """What an assembly file must hold: its title, parts by name, and for each occurrence its part and (3, 4) place.
 
     The boundaries of the parts are moved ``offset`` mm out of the material.

@@ -6,13 +6,13 @@ A check that fails names what was found.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from exporters.formats.reading import READERS
 from exporters.verification.verdict import Verdict
 from geometry.base.findings import Finding
+from geometry.base.record import replace
 from parts.base.part import Part
 from parts.base.readback import Probe, ReadBack, ReadError
 from parts.scene.formats import FileKind, Form

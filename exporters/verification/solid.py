@@ -6,7 +6,6 @@ kernel's own quadrature is good to 1e-6 only.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from functools import cache
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -21,6 +20,7 @@ from exporters.verification.outlines import verify_samples
 from exporters.verification.screw import cylinder_samples, face_samples, has_helix, screw_deviation, screw_samples
 from exporters.verification.slanted import chamfer_samples, slanted_share
 from exporters.verification.verdict import Verdict, deviation_failures
+from geometry.base.record import Draft, field
 from geometry.curves.curve import Complex
 from geometry.curves.line_arc import Arc
 from geometry.plane.measure import distance_to_profile
@@ -141,8 +141,7 @@ def _cylinders(profile: Profile, *, turned: bool) -> int:
     return 1 if whole else len(arcs) * profile.count
 
 
-@dataclass(slots=True)
-class _Faces:
+class _Faces(Draft):
     """Samples of cap edges by height, of upright walls by the height of their middle, of chamfers and of screw
     surfaces (n, 3); cylinders, volume.
     """

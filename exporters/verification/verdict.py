@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from geometry.base.findings import Finding
+from geometry.base.record import Record
 
 # rounding of the measurement itself, as a part of the section's size
 _ROUNDING = 1e-13
 
 
-@dataclass(frozen=True, slots=True)
-class Verdict:
+class Verdict(Record):
     """What was measured on a file, and what is wrong with it (nothing: it is good); ``findings``: worth a remark."""
 
     measured: dict[str, float]

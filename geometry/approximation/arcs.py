@@ -8,12 +8,12 @@ biarcs that share every tangent leave kappa' h^3 / 40. Derivation: DERIVATIONS.m
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
 from geometry.base.errors import ConvergenceError
+from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Complex, Curve, Real
@@ -37,8 +37,7 @@ _ENOUGH = 1e-3 * TOLERANCES.smooth_angle
 _FIRST_SHARES = (0.4, 0.5, 0.6, 0.45, 0.55, 0.36)
 
 
-@dataclass(frozen=True, slots=True)
-class ArcSpline:
+class ArcSpline(Record):
     """Joints (n + 1,) on the curve, bulge of each arc (n,), and the proven bound of the deviation, mm."""
 
     parameters: Real
@@ -48,8 +47,7 @@ class ArcSpline:
     certified: bool
 
 
-@dataclass(frozen=True, slots=True)
-class _Candidate:
+class _Candidate(Record):
     """A spline whose error is only sampled, mm: what is not within a tolerance needs no proof."""
 
     parameters: Real

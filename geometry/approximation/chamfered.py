@@ -10,13 +10,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from geometry.approximation.outline import CadCurve, Outline, parted, spline_outline
 from geometry.approximation.splines import samples_of, spline_on_knots
 from geometry.base.errors import ConvergenceError
+from geometry.base.record import replace
 from geometry.curves.bounds import Bound
 from geometry.curves.bspline import BSpline, basis, distance_bound, feet
 from geometry.curves.curve import Complex, Curve, Real, end_point, start_point

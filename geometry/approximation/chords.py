@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 
 import numpy as np
 
 from geometry.approximation.arcs import arc_error, arc_spline
 from geometry.base.errors import ConvergenceError
+from geometry.base.record import Record, replace
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.bounds import Bound
 from geometry.curves.curve import Complex, Curve, Real
@@ -29,8 +29,7 @@ _CHORD_SHARE = 1e-3
 _MAX_CHORDS = 1_000_000
 
 
-@dataclass(frozen=True, slots=True)
-class Piece:
+class Piece(Record):
     """Points (n + 1,) and bulges (n,) of one approximated segment."""
 
     points: Complex

@@ -5,12 +5,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 
 import numpy as np
 
 from geometry.approximation.splines import SplineFit, fit_spline
 from geometry.base.placement import Placement2
+from geometry.base.record import Record, replace
 from geometry.curves.bounds import Bound
 from geometry.curves.bspline import BSpline
 from geometry.curves.curve import Complex, Curve
@@ -20,8 +20,7 @@ from geometry.plane.profile import Profile, Segment
 CadCurve = Arc | Line | BSpline
 
 
-@dataclass(frozen=True, slots=True)
-class Outline:
+class Outline(Record):
     """One period of finished curves, placed ``count`` times, and the bound of its error, mm.
 
     ``faces``: of the end of a chamfer, the poles (curve's, over the depth) of the face from the whole boundary to each

@@ -12,11 +12,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
 from geometry.base.errors import ConvergenceError, CuspError, ParameterError
+from geometry.base.record import Record
 from geometry.curves.bounds import Bound
 from geometry.curves.bspline import BSpline, Index, basis, distance_bound, feet
 from geometry.curves.curve import Complex, Curve, Real, end_point, start_point
@@ -53,8 +53,7 @@ ParameterMap = Callable[[Real], Real]
 Ends = tuple[complex, complex, complex, complex]
 
 
-@dataclass(frozen=True, slots=True)
-class SplineFit:
+class SplineFit(Record):
     """A spline of a curve, the bound of their distance both ways (mm), how it was found, and the knot spans."""
 
     spline: BSpline
@@ -64,8 +63,7 @@ class SplineFit:
     draft: _Draft | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class _Layout:
+class _Layout(Record):
     """Knots, and samples x (spans, samples) with their basis values (.., degree + 1) and poles at work (spans, ..)."""
 
     degree: int
@@ -88,8 +86,7 @@ class _Layout:
         return np.convolve(self.knots[1:-1], np.ones(self.degree) / self.degree, "valid")
 
 
-@dataclass(frozen=True, slots=True)
-class _Draft:
+class _Draft(Record):
     """Poles, the samples' feet, the greatest sampled error of each span and of all; inf where it runs backwards.
 
     ``span``: the curve's domain.

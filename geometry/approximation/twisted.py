@@ -10,13 +10,13 @@ height. The exact section's height over its chord lies between 0 and the chord's
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geometry.approximation.chords import chord_parameters, chords_of
 from geometry.base.errors import ConvergenceError
+from geometry.base.record import Draft
 from geometry.curves.curve import Complex, Curve, Real
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.contour import Approximation, Contour
@@ -29,8 +29,7 @@ _LEAST_SLICING, _SLICINGS, _FINER = 0.93, 14, 0.85
 _MOST_CHORDS, _MOST_SHRINKS = 4096, 40
 
 
-@dataclass(slots=True)
-class _Chords:
+class _Chords(Draft):
     """Chords of one curve by their number: parameters, points, error, and the side to which it bends."""
 
     curve: Curve

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Literal, Self
+
+from geometry.base.record import Record
 
 
 class GeometryError(Exception):
@@ -15,8 +16,7 @@ class GeometryError(Exception):
 Side = Literal["at_most", "at_least", "exactly", "meant"]
 
 
-@dataclass(frozen=True, slots=True)
-class Nearest:
+class Nearest(Record):
     """The value of a refused parameter nearest to the given one that works; None: it works when left out.
 
     ``side``: an upper limit (``at_most``), a lower one (``at_least``), a value of its own, or the word that was

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from geometry.base.record import Record
 
 
-@dataclass(frozen=True, slots=True)
-class Finding:
+class Finding(Record):
     """A remark with a stable code; ``value`` is what was found, ``limit`` what it is held against.
 
     The words for each code stand with the reports, in every language of the project.

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 
 from geometry.base.errors import GeometryError, Nearest, limit
+from geometry.base.record import Record
 
 # trials of one search, those of the ends included: 2^-40 of the way is below what is printed
 MOST_TRIALS = 40
@@ -60,8 +60,7 @@ def _told_apart(size: float, digits: int) -> float:
     return 0.1 * 10.0 ** -max(digits, 3 - math.floor(math.log10(size))) if size > 0 else 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class Suspect:
+class Suspect(Record):
     """A parameter that may be to blame: its value, one that takes it out of play, and whether a value of it works."""
 
     name: str

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.base.record import Record
+
 Points = TypeVar("Points", complex, NDArray[np.complex128])
 Vector = tuple[float, float, float]
 
 
-@dataclass(frozen=True, slots=True)
-class Placement2:
+class Placement2(Record):
     """Turn by ``angle`` (rad, counter-clockwise) about the origin, then move by ``translation`` (mm)."""
 
     angle: float = 0.0
@@ -38,8 +38,7 @@ class Placement2:
         return Placement2(-self.angle, self.translation.conjugate())
 
 
-@dataclass(frozen=True, slots=True)
-class Placement3:
+class Placement3(Record):
     """Turn by the rotation whose rows are ``rotation``, then move by ``translation`` (mm)."""
 
     rotation: tuple[Vector, Vector, Vector] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))

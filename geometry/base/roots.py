@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geometry.base.errors import ConvergenceError
+from geometry.base.record import Record
 from geometry.base.tolerance import TOLERANCES
 
 Real = NDArray[np.float64]
@@ -18,8 +18,7 @@ Real = NDArray[np.float64]
 _MOST_STEPS = 120
 
 
-@dataclass(frozen=True, slots=True)
-class Root:
+class Root(Record):
     """A root with the evidence for it: the last bracket holds a change of sign."""
 
     value: float

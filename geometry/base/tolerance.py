@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from geometry.base.record import Record
 
 
-@dataclass(frozen=True, slots=True)
-class Tolerances:
+class Tolerances(Record):
     """Numerical thresholds; lengths in mm, angles in rad, ``relative_*`` without unit."""
 
     # two segment ends are one point: a few hundred roundings of the largest coordinate

@@ -12,7 +12,6 @@ Where a curve knows no such bounds, twice what E is off its Hermite cubic at the
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from geometry.base.distinct import distinct
 from geometry.base.errors import ParameterError
 from geometry.base.placement import Placement2
+from geometry.base.record import Record
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.bounds import Bound
 from geometry.curves.curve import Complex, Curve, Real
@@ -37,8 +37,7 @@ _MOST_CELLS = 200_000
 _FOOT_STEPS = 3
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class BSpline:
+class BSpline(Record, eq=False):
     """Clamped plane B-spline: ``degree``, full knot vector (n + degree + 1,), poles (n,) as x + iy, mm.
 
     The parameter has no unit. Source: de Boor, A Practical Guide to Splines, chapter X.
@@ -158,8 +157,7 @@ def feet(curve: Curve, points: Complex, guess: Real, steps: int = _FOOT_STEPS) -
     return t
 
 
-@dataclass(frozen=True, slots=True)
-class _Ends:
+class _Ends(Record):
     """Both ends of each cell, (2, cells): spline parameter, foot, its rate, E and E'."""
 
     x: Real

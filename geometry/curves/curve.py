@@ -7,17 +7,20 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Callable, Sequence
-from dataclasses import Field, dataclass, replace
 from itertools import pairwise
-from typing import Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from geometry.base.errors import CuspError
 from geometry.base.placement import Placement2
+from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.base.series import FACTORIALS, Series, conjugate, power, product
+
+if TYPE_CHECKING:
+    from dataclasses import Field
 
 Complex = NDArray[np.complex128]
 Real = NDArray[np.float64]
@@ -107,7 +110,7 @@ class Curve:
 
 
 class Span(Curve):
-    """A frozen dataclass with ``start`` and ``end``: the ends of the stretch of its formula that it shows."""
+    """A record with ``start`` and ``end``: the ends of the stretch of its formula that it shows."""
 
     __slots__ = ()
     __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
@@ -139,8 +142,7 @@ class SeriesSpan(Span):
         return FACTORIALS[order] * self.series(t, order)[order]
 
 
-@dataclass(frozen=True, slots=True)
-class Reversed(Curve):
+class Reversed(Curve, Record):
     """A curve travelled backwards: parameter t runs as -t of the original."""
 
     original: Curve
@@ -198,8 +200,7 @@ class Reversed(Curve):
         return Reversed(self.original.mirrored())
 
 
-@dataclass(frozen=True, slots=True)
-class Carried(Curve):
+class Carried(Curve, Record):
     """``base`` turned and moved by ``placement``; parameter, speed and curvature are its own."""
 
     base: Curve
@@ -244,8 +245,7 @@ class Carried(Curve):
         return Carried(self.base.mirrored(), self.placement.mirrored())
 
 
-@dataclass(frozen=True, slots=True)
-class Mirrored(Curve):
+class Mirrored(Curve, Record):
     """Mirror image of ``base`` in the x axis, travelled the other way: parameter t runs as -t of the base."""
 
     base: Curve
@@ -291,8 +291,7 @@ class Mirrored(Curve):
         return self.base
 
 
-@dataclass(frozen=True, slots=True)
-class OffsetCurve(Curve):
+class OffsetCurve(Curve, Record):
     """c(t) + d n(t), d mm to the left of ``base``, whose derivatives must reach one order further.
 
     No bound is proven for a general parallel curve.

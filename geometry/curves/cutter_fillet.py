@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
 from geometry.base.series import FACTORIALS, Series, exponential, majorant_power, power, product
 from geometry.curves.curve import Complex, Real
@@ -16,8 +16,7 @@ from geometry.curves.fillet import Fillet
 _CUSP_SAMPLES = 257
 
 
-@dataclass(frozen=True, slots=True)
-class CutterFillet(Fillet):
+class CutterFillet(Fillet, Record):
     """Envelope of a circle carried on a circle about a cutter's axis while cutter and work roll.
 
     e(u) = centre + exp(i (angle + k th)) (R + (w + s rho) exp(-i u)), in the work's frame, with the signed radius r of

@@ -10,13 +10,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.errors import CuspError
 from geometry.base.placement import Placement2
+from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.base.series import FACTORIALS, Series, conjugate, power, product, sharpened
 from geometry.curves.bounds import BoundedSpan
@@ -31,8 +31,7 @@ _GRADE = 4.0
 _TURN = 2 * math.pi
 
 
-@dataclass(frozen=True, slots=True)
-class ShortTrochoid(BoundedSpan):
+class ShortTrochoid(BoundedSpan, Record):
     """The parallel, ``distance`` mm to the left (inwards), of A e^{is} - B e^{ims} turned by ``angle`` rad.
 
     A = ``radius``, B = ``arm`` in mm, m = ``order`` > 1, 0 < m B < A. Its parameter is s, rad.
@@ -212,8 +211,7 @@ def greatest_shortening(radius: float, order: float, pin_radius: float) -> float
     return math.sqrt(max(0.0, 1 - share**2 * (order + 1) ** 3 / (27 * (order - 1))))
 
 
-@dataclass(frozen=True, slots=True)
-class EpicycloidParallel(Span):
+class EpicycloidParallel(Span, Record):
     """The parallel, ``distance`` mm to the left, of the epicycloid a e^{iu} - b e^{imu}, a = m b, turned by ``angle``.
 
     b = ``arm``, mm: the rolling circle; u = 0 is a cusp, from which the branch runs outwards along ``angle``. Being

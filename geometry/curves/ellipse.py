@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.placement import Placement2
+from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex, Curve
 from geometry.curves.line_arc import Arc
 
 
-@dataclass(frozen=True, slots=True)
-class EllipticArc(Curve):
+class EllipticArc(Curve, Record):
     """``arc`` stretched by ``stretch`` along y, then carried by ``placement``; t is the arc's own angle, rad."""
 
     arc: Arc

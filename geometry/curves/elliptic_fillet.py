@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
 from geometry.base.series import FACTORIALS, Series, derived, exponential, power, product
 from geometry.curves.curve import Complex, Real
@@ -16,8 +16,7 @@ from geometry.curves.fillet import Fillet
 _CUSP_SAMPLES = 257
 
 
-@dataclass(frozen=True, slots=True)
-class EllipticFillet(Fillet):
+class EllipticFillet(Fillet, Record):
     """Envelope of a rack's elliptic tip rounding in the gear's frame.
 
     The rack's rounding is an ellipse of semi-axes ``semi_axis`` (along its depth) and ``semi_axis`` x ``stretch``,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Self
 
 import numpy as np
@@ -10,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from geometry.base.errors import CuspError
 from geometry.base.placement import Placement2
+from geometry.base.record import replace
 from geometry.curves.curve import Real, Span
 
 

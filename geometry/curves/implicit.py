@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
 
+from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
 
 Field = Callable[[float, float], float]
 Edge = tuple[int, int, int]
 
 
-@dataclass(frozen=True, slots=True)
-class Box:
+class Box(Record):
     """A rectangle of the plane and the number of grid cells along each side."""
 
     left: float

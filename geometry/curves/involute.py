@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,11 +10,11 @@ from numpy.typing import ArrayLike
 from geometry.base.angles import roll_minus_polar
 from geometry.base.errors import CuspError
 from geometry.base.placement import Placement2
+from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex, Curve, Real, check_interval
 
 
-@dataclass(frozen=True, slots=True)
-class Involute(Curve):
+class Involute(Curve, Record):
     """c(f) = centre + r_b exp(i (t0 + f)) (1 - i f); f is the roll angle, rad.
 
     f > 0 is the branch that turns left on its way out (the lower flank of a tooth on +x), f < 0 its

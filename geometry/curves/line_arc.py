@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import cmath
-from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.errors import CuspError
 from geometry.base.placement import Placement2
+from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex, Curve, Real, check_interval
 
 
-@dataclass(frozen=True, slots=True)
-class Line(Curve):
+class Line(Curve, Record):
     """Straight line from ``start`` to ``end``; t runs from 0 to 1."""
 
     start: complex
@@ -61,8 +60,7 @@ class Line(Curve):
         return Line(self.end.conjugate(), self.start.conjugate())
 
 
-@dataclass(frozen=True, slots=True)
-class Arc(Curve):
+class Arc(Curve, Record):
     """Circular arc; t is the swept angle, 0 to abs(sweep), rad; sweep > 0 turns left."""
 
     centre: complex

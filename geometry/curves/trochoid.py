@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.curves.fillet import Fillet, TurnedSpan
 
 _BINOMIALS = ((1,), (1, 1), (1, 2, 1), (1, 3, 3, 1), (1, 4, 6, 4, 1))
 
 
-@dataclass(frozen=True, slots=True)
-class Trochoid(TurnedSpan):
+class Trochoid(TurnedSpan, Record):
     """Path of a point of a rolling rack, ``depth`` inside the pitch line, in the gear's frame.
 
     c(s) = centre + exp(i (angle - s/r)) (r - depth + i s); s is the position of the point along the
@@ -49,8 +48,7 @@ class Trochoid(TurnedSpan):
         return rate ** (order - 1) * math.hypot(order - 1 + rate * self.depth, rate * reach)
 
 
-@dataclass(frozen=True, slots=True)
-class TrochoidFillet(Fillet):
+class TrochoidFillet(Fillet, Record):
     """Envelope of a rack's rounded tip in the gear's frame: the root fillet.
 
     e(u) = centre + exp(i (angle - q tan u)) (r - D + i D tan u - rho exp(-i u)), q = D/r.

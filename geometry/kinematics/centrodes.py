@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.errors import ParameterError, limit
+from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
 from geometry.base.series import FACTORIALS, Series, majorant_power, power, quotient, sharpened
 from geometry.curves.curve import Complex, Real
@@ -43,8 +43,7 @@ def _cosine(angle: Real, order: int, times: int) -> Series:
     return [times**k * np.cos(times * angle + k * math.pi / 2) / math.factorial(k) for k in range(order + 1)]
 
 
-@dataclass(frozen=True, slots=True)
-class FocalEllipse:
+class FocalEllipse(Record):
     """Ellipse about a focus, r = a (1 - e^2)/(1 - e cos phi), from its long radius; rolls on its equal at A = 2a."""
 
     semi_axis: float
@@ -63,8 +62,7 @@ class FocalEllipse:
         return 2 * _stretched(half, ratio)
 
 
-@dataclass(frozen=True, slots=True)
-class Oval:
+class Oval(Record):
     """Two-lobed oval r = 2ab/((a + b) - (a - b) cos 2 phi), from its long radius a; rolls on its equal at A = a + b."""
 
     long_radius: float
@@ -89,8 +87,7 @@ def _stretched(angle: Real, ratio: float) -> Real:
     return turns + np.arctan2(ratio * np.sin(rest), np.cos(rest))
 
 
-@dataclass(frozen=True, slots=True)
-class LobedEllipse:
+class LobedEllipse(Record):
     """r = p/(1 - e cos n phi), n lobes: the focal ellipse (n = 1) and the oval (n = 2) in one; rolls on its equal.
 
     The centre distance of two equal ones is 2 p/(1 - e^2). Convex where e (n^2 - 1) <= 1.
@@ -120,8 +117,7 @@ class LobedEllipse:
         return [self.parameter * x for x in majorant_power(least, rest, -1.0)]
 
 
-@dataclass(frozen=True, slots=True)
-class FourierRatio:
+class FourierRatio(Record):
     """Ratio d phi_2 / d phi_1 = mean (1 + sum a_k cos k n phi + b_k sin k n phi), k from 1, n ``lobes``."""
 
     mean: float
@@ -153,8 +149,7 @@ class FourierRatio:
         return found
 
 
-@dataclass(frozen=True, slots=True)
-class RatioCentrode:
+class RatioCentrode(Record):
     """The centrode of a ratio function d phi_2 / d phi_1 > 0, given as a Taylor series: r = A i/(1 + i)."""
 
     ratio: Callable[[Real, int], Series]
@@ -179,8 +174,7 @@ class RatioCentrode:
         return found
 
 
-@dataclass(frozen=True, slots=True)
-class CentrodePair:
+class CentrodePair(Record):
     """A centrode and its mate at a centre distance; the first turns about 0, the second about +A."""
 
     first: PolarCentrode

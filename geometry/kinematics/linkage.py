@@ -10,11 +10,11 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 import numpy as np
 
+from geometry.base.record import Record, replace
 from geometry.base.series import (
     About,
     Series,
@@ -93,8 +93,7 @@ class Guide(Protocol):
         """Between which lengths a coupler closes all the way, mm; the first is not below the second where none does."""
 
 
-@dataclass(frozen=True, slots=True)
-class RockerDrive:
+class RockerDrive(Record):
     """A = pivot + length exp(i (start_angle + sense S)), S in rad; ``sense`` +1: counter-clockwise as S grows."""
 
     pivot: complex
@@ -130,8 +129,7 @@ class RockerDrive:
         return middle + self.length * least, middle + self.length * most
 
 
-@dataclass(frozen=True, slots=True)
-class SliderDrive:
+class SliderDrive(Record):
     """A = start + S exp(i direction), S in mm."""
 
     start: complex
@@ -159,8 +157,7 @@ class SliderDrive:
         return min(ends), max(ends)
 
 
-@dataclass(frozen=True, slots=True)
-class RockerGuide:
+class RockerGuide(Record):
     """B on a circle of ``length`` about ``pivot``; ``side`` +1: to the left of the line from A to the pivot.
 
     With q = pivot - A, b the coupler and c the rocker:
@@ -227,8 +224,7 @@ class RockerGuide:
         return max(far - self.length, self.length - near, 0.0), self.length + near
 
 
-@dataclass(frozen=True, slots=True)
-class SliderGuide:
+class SliderGuide(Record):
     """B on a line through ``point``; ``side`` +1: ahead of A's foot in ``direction`` (rad), -1: behind it.
 
     With h the distance of A to the left of the line: exp(i theta) = exp(i direction) (side sqrt(b^2 - h^2) - i h) / b.
@@ -278,8 +274,7 @@ class SliderGuide:
         return max(abs(h) for h in drive.heights(self.point, self.direction, low, high)), math.inf
 
 
-@dataclass(frozen=True, slots=True)
-class Linkage:
+class Linkage(Record):
     """Driven joint A, coupler AB of ``coupler_length`` b (mm) and what guides joint B; the frame is the cam's, fixed.
 
     The coupler's frame has its origin in A and its x axis towards B. ``room``: what ``closed`` proves of the motion.

@@ -6,11 +6,11 @@ The common parameter t is time or the drive's angle (Savvin's "common parameter"
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
+from geometry.base.record import Record
 from geometry.base.series import Series, exponential, product
 from geometry.curves.curve import Real
 
@@ -29,8 +29,7 @@ def _constant(value: complex | float, t: Real, order: int) -> Series:
     return [value + zero, *([zero] * order)]
 
 
-@dataclass(frozen=True, slots=True)
-class Rotation:
+class Rotation(Record):
     """Turning about a fixed ``centre`` at a constant ``rate`` (rad per unit of t) from ``start``."""
 
     rate: float = 1.0
@@ -46,8 +45,7 @@ class Rotation:
         return _constant(self.centre, t, order), angle
 
 
-@dataclass(frozen=True, slots=True)
-class Sliding:
+class Sliding(Record):
     """Uniform translation: the origin at ``start`` + ``velocity`` t, the frame turned by ``angle``."""
 
     velocity: complex
@@ -63,8 +61,7 @@ class Sliding:
         return origin, _constant(self.angle, t, order)
 
 
-@dataclass(frozen=True, slots=True)
-class GivenMotion:
+class GivenMotion(Record):
     """Any motion, from a function (t, order) that returns its two series."""
 
     function: Callable[[Real, int], Pose]

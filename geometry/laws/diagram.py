@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from geometry.base.errors import ParameterError
+from geometry.base.record import Record
 from geometry.laws.law import Law
 from geometry.laws.piece import LawPiece, Wave
 
@@ -22,8 +22,7 @@ _CLOSING = 1e-9
 _LEAST_SPAN = math.pi / 8
 
 
-@dataclass(frozen=True, slots=True)
-class Stretch:
+class Stretch(Record):
     """A segment of an acceleration diagram: its width and, over v = 0 to 1, Bernstein coefficients and waves."""
 
     width: float

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 
+from geometry.base.record import Record
 from geometry.laws.piece import LawPiece, Real
 
 
-@dataclass(frozen=True, slots=True)
-class Law:
+class Law(Record):
     """Pieces that follow each other from u = 0 to 1, with s(0) = 0 and s(1) = 1.
 
     A follower's S over a phase of angle phi and lift H is H s(u), u = k of the tables (share of the phase); its

@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_roots
 
 Real = NDArray[np.float64]
@@ -24,8 +24,7 @@ _EXTREME_SAMPLES = 65
 _BLOCK = 2048
 
 
-@dataclass(frozen=True, slots=True)
-class Wave:
+class Wave(Record):
     """amplitude sin(frequency (t - start of the piece) + phase); frequency in rad per unit of t."""
 
     amplitude: float
@@ -33,8 +32,7 @@ class Wave:
     phase: float
 
 
-@dataclass(frozen=True, slots=True)
-class LawPiece:
+class LawPiece(Record):
     """s(t) on [start, end]: Bernstein coefficients over that interval, and waves; exact derivatives of every order.
 
     Units are the owner's: a normalised law runs from 0 to 1 in both, a follower's motion in rad of cam angle and mm

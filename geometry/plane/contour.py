@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
+from geometry.base.record import Record
 from geometry.curves.bounds import Bound
 from geometry.curves.curve import Complex, Real
 
 
-@dataclass(frozen=True, slots=True)
-class Contour:
+class Contour(Record):
     """One period of a closed chain of lines (bulge 0) and arcs; edge i starts at vertex i.
 
     The last edge ends at the first vertex of the next period, which is turned by ``pitch_angle``.
@@ -41,8 +40,7 @@ class Contour:
         return len(self.vertices) * self.count
 
 
-@dataclass(frozen=True, slots=True)
-class Approximation:
+class Approximation(Record):
     """An approximated boundary with the bound of its deviation from the exact one, mm.
 
     ``turn_step``: how far a twisted wall over it may turn from slice to slice, rad; the bound holds on that wall too.

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
 from itertools import pairwise
@@ -18,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.base.record import Record
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Complex, Curve, Real, Reversed
 from geometry.curves.involute import Involute
@@ -53,8 +53,7 @@ class Feet(NamedTuple):
     normal: Complex
 
 
-@dataclass(frozen=True)
-class Boundary:
+class Boundary(Record, dict=True):
     """A chain of curves with the material on its left, open or closed.
 
     ``end_normals`` are the outward normals at the two ends of an open chain, where it goes on by symmetry beyond

@@ -13,12 +13,11 @@ both sides of a roller.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.errors import ParameterError
+from geometry.base.record import Record
 from geometry.base.series import FACTORIALS, Series, composed, conjugate, derived, exponential, product
 from geometry.curves.curve import Complex, Curve, Real, SeriesSpan, curvature_from_derivatives
 from geometry.kinematics.motion import PlaneMotion, relative_pose
@@ -29,16 +28,14 @@ _BISECTIONS, _NEWTON_STEPS = 60, 12
 _CUSP_SAMPLES = 513
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Branch:
+class Branch(Record, eq=False):
     """One continuous root tau(t) of the contact condition: nodes from which it is refined."""
 
     t: Real
     tau: Real
 
 
-@dataclass(frozen=True, slots=True)
-class Contacts:
+class Contacts(Record):
     """Contact at many parameters: points in the frames of both bodies and in the fixed one, mm, and what happens there.
 
     ``pressure_angle``: acute, between the common normal and the follower's absolute velocity at the contact, rad
@@ -55,8 +52,7 @@ class Contacts:
     curvature_2: Real
 
 
-@dataclass(frozen=True, slots=True)
-class Pair:
+class Pair(Record):
     """Body 1 (the cam), body 2 (the follower) and the follower's profile in its own frame."""
 
     first: PlaneMotion
@@ -186,8 +182,7 @@ class Pair:
         return [a + b for a, b in zip(place, body, strict=True)]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class EnvelopeCurve(SeriesSpan):
+class EnvelopeCurve(SeriesSpan, Record, eq=False):
     """One branch of an envelope in the frame of body 1, over the common parameter t; exact up to Newton's last digits.
 
     The order of a derivative must be one below what the profile knows. Parallel curves are those of

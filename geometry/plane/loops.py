@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from geometry.base.record import Record
 from geometry.curves.curve import Complex, Curve
 from geometry.plane.envelope import EnvelopeCurve
 from geometry.plane.measure import distance_to_curve
@@ -15,8 +14,7 @@ _NEWTON_STEPS = 30
 _GAP_SAMPLES = 129
 
 
-@dataclass(frozen=True, slots=True)
-class Crossing:
+class Crossing(Record):
     """Both parameters, the smaller first, and the point in which a curve crosses itself, mm."""
 
     first: float
@@ -72,8 +70,7 @@ def _refined(curve: Curve, guess: tuple[float, float], size: float) -> Crossing 
     return Crossing(a, b, (point + other) / 2)
 
 
-@dataclass(frozen=True, slots=True)
-class CutLoop:
+class CutLoop(Record):
     """A loop that was cut off an envelope: its ends in t, its corner, and how far the follower parts from it, mm.
 
     ``clearance``: the greatest distance, along the normal, of the follower's profile from the corner on which it

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Contour, edge_points
 from geometry.plane.measure import distance_to_chain, distance_to_profile
@@ -53,8 +52,7 @@ def merge_short_edges(
     return chain.contour, worst
 
 
-@dataclass(frozen=True, slots=True)
-class _Chain:
+class _Chain(Record):
     """A contour, the curve of the profile's period that each edge stands for, and the profile.
 
     Edges and curves are numbered on beyond the period, where they are turned by its pitch, and before it.

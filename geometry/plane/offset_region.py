@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from geometry.base.errors import GeometryError, OffsetError
 from geometry.base.findings import Finding
 from geometry.base.nearest import last_that_holds
+from geometry.base.record import Record
 from geometry.plane.profile import Region
 
 
-@dataclass(frozen=True, slots=True)
-class OffsetRegion:
+class OffsetRegion(Record):
     """The section of a part, every boundary moved outwards by ``offset`` mm, and what was noticed."""
 
     region: Region

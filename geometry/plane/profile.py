@@ -5,13 +5,13 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
 
 from geometry.base.errors import DisconnectedProfileError
 from geometry.base.placement import Placement2
+from geometry.base.record import Record
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Curve, end_point, start_point
 from geometry.curves.line_arc import Arc
@@ -41,16 +41,14 @@ class Label(StrEnum):
     PIN = "pin"
 
 
-@dataclass(frozen=True, slots=True)
-class Segment:
+class Segment(Record):
     """One exact curve with its meaning."""
 
     curve: Curve
     label: Label
 
 
-@dataclass(frozen=True, slots=True)
-class Profile:
+class Profile(Record):
     """A closed chain: the segments of one period, repeated ``count`` times about the origin.
 
     Period k is period 0 turned by 2 pi k / count, the other way round where ``clockwise`` (a toothed hole). The joins
@@ -98,8 +96,7 @@ class Profile:
         return max(abs(start_point(s.curve)) for s in self.period)
 
 
-@dataclass(frozen=True, slots=True)
-class Region:
+class Region(Record):
     """Material of a plane section: outer boundary counter-clockwise, holes clockwise (material on the left).
 
     ``marks``: boundaries that do not go through, like the walls of a groove with a floor; engraved, not cut.

@@ -7,7 +7,6 @@ and caps bounded by loops. Meshes, B-reps, read-back and mass integrals all go t
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import ClassVar, Literal
 
@@ -15,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.placement import Placement2
+from geometry.base.record import Draft, Record, field
 from geometry.curves.curve import Complex, Real
 from geometry.plane.measure import profile_area
 from geometry.plane.profile import Profile, Region
@@ -23,8 +23,7 @@ from geometry.plane.profile import Profile, Region
 Station = tuple[float, float, complex]
 
 
-@dataclass(frozen=True, slots=True)
-class Twist:
+class Twist(Record):
     """How a toothed wall moves along the axis: it turns by ``rate`` rad/mm and is sheared by ``slope`` mm/mm.
 
     Right-hand screws turn positively. ``double``: back from the middle of the height on.
@@ -43,8 +42,7 @@ class Twist:
         return (low, 0.0, 0j), middle, (high, 0.0, 0j)
 
 
-@dataclass(frozen=True, slots=True)
-class Loop:
+class Loop(Record):
     """A closed profile (index into ``Body.profiles``) at height z, turned by ``turn`` rad, moved by ``shift``; mm."""
 
     profile: int
@@ -58,8 +56,7 @@ class Loop:
         return Placement2(self.turn, self.shift)
 
 
-@dataclass(frozen=True, slots=True)
-class Wall:
+class Wall(Record):
     """The wall between two loops (indices): upright where both have one profile in one placement.
 
     One profile with two turns makes a screw surface: its section at any height is the profile, turned in proportion to
@@ -69,11 +66,10 @@ class Wall:
 
     lower: int
     upper: int
-    section: Callable[[float], Profile] | None = field(default=None, compare=False)
+    section: Callable[[float], Profile] | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Cap:
+class Cap(Record):
     """A plane face looking up or down: its outer loop and its holes (indices)."""
 
     outer: int
@@ -81,8 +77,7 @@ class Cap:
     up: bool
 
 
-@dataclass(frozen=True, slots=True)
-class Body:
+class Body(Record):
     """A solid. Every profile runs with the material of its wall on the left; loops are distinct."""
 
     profiles: tuple[Profile, ...]
@@ -192,8 +187,7 @@ class Body:
             yield tuple(i for i, x in enumerate(leader) if x == first)
 
 
-@dataclass(slots=True)
-class BodyBuilder:
+class BodyBuilder(Draft):
     """Collects the walls and caps of a body; equal profiles and equal loops are kept once."""
 
     profiles: list[Profile] = field(default_factory=list)

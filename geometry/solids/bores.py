@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass, replace
 from typing import Protocol
 
 from geometry.base.errors import Nearest, OffsetError, ParameterError
 from geometry.base.placement import Placement2
+from geometry.base.record import Record, replace
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import end_point, start_point
 from geometry.curves.line_arc import Arc, Line
@@ -65,8 +65,7 @@ def refuse_no_size(name: str, value: float) -> None:
         raise ParameterError(name, value, "not_finite_above_zero")
 
 
-@dataclass(frozen=True, slots=True)
-class RoundBore:
+class RoundBore(Record):
     """A circle; mm."""
 
     diameter: float
@@ -95,8 +94,7 @@ class RoundBore:
         return RoundBore(self.diameter + 2 * depth)
 
 
-@dataclass(frozen=True, slots=True)
-class KeywayBore:
+class KeywayBore(Record):
     """A round bore with one keyway or two opposite ones; mm, rad.
 
     ``depth`` is t2: the bottom stands diameter + t2 from the opposite side of the bore. ``angle``: direction of the
@@ -191,8 +189,7 @@ class KeywayBore:
         return [*side, *across, *(Segment(s.curve.mirrored(), s.label) for s in reversed(side))]
 
 
-@dataclass(frozen=True, slots=True)
-class FlatBore:
+class FlatBore(Record):
     """A round bore with one flat (D) or two opposite ones (double D); mm, rad.
 
     ``flat_distance``: from the axis to a flat. ``angle``: direction from the axis to the first flat.
@@ -254,8 +251,7 @@ class FlatBore:
         ]
 
 
-@dataclass(frozen=True, slots=True)
-class PolygonBore:
+class PolygonBore(Record):
     """A regular polygon, as a hexagon (6 sides) or square (4); mm, rad.
 
     ``angle``: direction from the axis to the middle of the first side.

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
+from geometry.base.record import replace
 from geometry.curves.curve import Complex
 from geometry.plane.measure import distance_to_profile
 from geometry.plane.profile import Profile

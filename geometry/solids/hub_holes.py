@@ -6,13 +6,13 @@ import cmath
 import itertools
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geometry.base.errors import OffsetError, ParameterError
+from geometry.base.record import Record, replace
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc
 from geometry.plane.measure import distance_to_profile
@@ -48,8 +48,7 @@ class Wall(NamedTuple):
         return ParameterError(self.key, self.value, f"{self.code}_nearly", **self.numbers, least=least)
 
 
-@dataclass(frozen=True, slots=True)
-class HubHoles:
+class HubHoles(Record):
     """Holes of a wheel; a bore about the axis, groups of round holes, and spokes."""
 
     bore: Bore | None = None

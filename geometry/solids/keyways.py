@@ -8,13 +8,11 @@ twin GB/T 1095-1979 (all rows with the range of the corner radius, the first of 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from geometry.base.errors import ParameterError, limit
+from geometry.base.record import Record
 
 
-@dataclass(frozen=True, slots=True)
-class KeywayRow:
+class KeywayRow(Record):
     """One row, mm: shaft diameter above ``over`` up to ``to``, key b x h, keyway depths in shaft and hub.
 
     The corner radius at the keyway's bottom lies between ``least_radius`` and ``most_radius``.

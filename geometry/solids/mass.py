@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.plane.measure import gauss_rule, panel_edges
 from geometry.plane.profile import Profile
@@ -22,8 +21,7 @@ _CHAMFER_POINTS = 8
 _TURNED_POINTS = 20
 
 
-@dataclass(frozen=True, slots=True)
-class Moments:
+class Moments(Record):
     """Integrals over a body of unit density.
 
     ``volume`` mm^3; ``centre`` (3,) mm; ``inertia`` (3, 3) about the origin's axes, mm^5: the tensor

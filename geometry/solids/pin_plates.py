@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from geometry.base.errors import OffsetError
+from geometry.base.record import Record
 from geometry.plane.profile import Label, Profile, Region, circle
 from geometry.solids.body import Body, BodyBuilder, plate
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.windows import RoundHoles
 
 
-@dataclass(frozen=True, slots=True)
-class PinPlate:
+class PinPlate(Record):
     """A round plate with ``pins`` (their circle and size as of holes) and ``holes`` about its axis; mm.
 
     ``solid``: the pins are of one piece with it; a flat section shows their holes all the same, ``seat_clearance``
@@ -121,8 +120,7 @@ def pin_reach(plate_: PinPlate) -> tuple[float, float]:
     return half - size, half + size
 
 
-@dataclass(frozen=True, slots=True)
-class RoundDisc:
+class RoundDisc(Record):
     """A round disc about ``eccentricity`` on +x with holes about the origin; mm."""
 
     radius: float

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 
 from geometry.base.errors import CuspError, OffsetError
 from geometry.base.placement import Placement2
+from geometry.base.record import Record, replace
 from geometry.curves.curve import Curve, end_point
 from geometry.curves.line_arc import Arc
 from geometry.plane.profile import Label, Profile, Region, Segment, circle, joint_turn
@@ -18,8 +18,7 @@ from geometry.solids.hub_holes import HubHoles
 from geometry.solids.windows import RoundHoles
 
 
-@dataclass(frozen=True, slots=True)
-class SeatCircle:
+class SeatCircle(Record):
     """A round hole of ``inner_radius`` mm with ``count`` round pins or seats of ``seat_radius``, mm, on a circle.
 
     ``fixed``: the pins belong to the material and stand into the hole; else they are seats cut into it. The first
@@ -124,8 +123,7 @@ def _corner(before: Curve, after: Curve, offset: float) -> Arc:
     return Arc(end_point(before), abs(offset), start, joint_turn(before, after))
 
 
-@dataclass(frozen=True, slots=True)
-class PinRing:
+class PinRing(Record):
     """A ring with its pins, lengths in mm; ``inner_radius`` 0: a plate without a bore. ``holes``: those in its rim."""
 
     number_of_pins: int

@@ -9,12 +9,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 
 import numpy as np
 
 from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError, limit
 from geometry.base.nearest import last_that_holds
+from geometry.base.record import Record, replace
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Complex, end_point, start_point
 from geometry.curves.line_arc import Arc, Line, arc_between
@@ -29,8 +29,7 @@ _LEAST_ROUNDING = 1e-9
 _LEAST_HOLE = 1e-3
 
 
-@dataclass(frozen=True, slots=True)
-class PlateHole:
+class PlateHole(Record):
     """A round hole at ``centre``, mm."""
 
     centre: complex
@@ -43,8 +42,7 @@ class PlateHole:
         return circle(self.diameter / 2 - offset, Label.HOLE, hole=True, centre=self.centre)
 
 
-@dataclass(frozen=True, slots=True)
-class PlateSlot:
+class PlateSlot(Record):
     """A slot with round ends about the centres ``start`` and ``end``, mm."""
 
     start: complex
@@ -67,8 +65,7 @@ class PlateSlot:
         return Profile(tuple(Segment(e, Label.HOLE) for e in edges))
 
 
-@dataclass(frozen=True, slots=True)
-class PlateOutline:
+class PlateOutline(Record):
     """A counter-clockwise outline of lines and arcs, and holes in it."""
 
     edges: tuple[Edge, ...]

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
 from geometry.approximation.outline import Outline
+from geometry.base.record import replace
 from geometry.curves.bounds import Bound
 from geometry.curves.bspline import BSpline, basis
 from geometry.curves.curve import Complex, Real

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import lru_cache, partial
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from geometry.base.errors import GeometryError, OffsetError, ParameterError, limit
 from geometry.base.nearest import nearest
+from geometry.base.record import Record
 from geometry.base.tolerance import LEAST_SEGMENT_MM
 from geometry.curves.curve import Curve, end_point, start_point
 from geometry.plane.profile import Label, Profile, Region, circle
@@ -30,8 +30,7 @@ _LEAST_HEIGHT = 1e-3
 _DEPTH_DIGITS = 12
 
 
-@dataclass(frozen=True, slots=True)
-class Web:
+class Web(Record):
     """The thin disk between rim and hub: axial thickness, inner diameter of the rim, mm.
 
     ``shift``: how far its middle stands above the middle of the face width.
@@ -42,8 +41,7 @@ class Web:
     shift: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class Hub:
+class Hub(Record):
     """The hub: its diameter, and how far it stands out below and above the faces of the rim, mm."""
 
     diameter: float
@@ -51,8 +49,7 @@ class Hub:
     above: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class WheelShape:
+class WheelShape(Record):
     """What turns the section of a wheel into a solid, lengths in mm; lower face of the rim at z = 0.
 
     ``chamfer_below``, ``chamfer_above``: axial and radial height of the 45 degree chamfer along every edge of
@@ -76,8 +73,7 @@ class WheelShape:
 Boundary = Callable[[float, float], Profile]
 
 
-@dataclass(frozen=True, slots=True)
-class WheelSections:
+class WheelSections(Record):
     """The boundaries of a wheel's section. A cut keeps sharp corners, so that chamfer faces meet in edges."""
 
     outline: Boundary

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass, replace
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.placement import Placement2
+from geometry.base.record import Record, replace
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Label, Profile, Segment, circle
 from geometry.solids.bores import refuse_no_size, widened_corner, within
 
 
-@dataclass(frozen=True, slots=True)
-class RoundHoles:
+class RoundHoles(Record):
     """``count`` equal round holes on a pitch circle, the first at ``start`` rad; mm. A bolt circle is the same."""
 
     count: int
@@ -52,8 +51,7 @@ class RoundHoles:
         return tuple(circle(radius, Label.HOLE, hole=True, centre=centre) for centre in self.centres())
 
 
-@dataclass(frozen=True, slots=True)
-class Spokes:
+class Spokes(Record):
     """``count`` straight spokes of ``width`` between a hub ring and a rim, the first along ``start`` rad; mm.
 
     A window is bounded by both circles and the sides of two spokes, its four corners rounded.

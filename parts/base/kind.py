@@ -6,12 +6,12 @@ A kind is an instance of a subclass, registered by one entry of ``parts/base/reg
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from msgspec import Struct
 
 from geometry.base.errors import GeometryError, Nearest, ParameterError
+from geometry.base.record import Record, field
 from parts.base.refusal import SceneError, placed
 from parts.base.schema import tried, unit_of
 from parts.base.texts import Text
@@ -29,8 +29,7 @@ T = TypeVar("T")
 Others = Mapping[str, Struct]
 
 
-@dataclass(frozen=True, slots=True)
-class Report:
+class Report(Record):
     """What a part says of itself: remarks, named diameters (mm) and all other named results.
 
     ``flat_findings``: remarks on each flat outline of the part.

@@ -6,11 +6,11 @@ A kind is an instance of a subclass, registered by one entry of ``parts/mates/re
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Generic, TypeVar
 
 from msgspec import Meta, Struct
 
+from geometry.base.record import Record
 from geometry.gears.pairs.common_face import STRAIGHT, CommonFace
 from parts.base.texts import Text
 
@@ -36,8 +36,7 @@ B = TypeVar("B")
 Pose = tuple[complex, float]
 
 
-@dataclass(frozen=True, slots=True)
-class Standing:
+class Standing(Record):
     """How two placed instances stand to each other against what their mate asks for.
 
     The phase is ``phase_off`` from the middle of the backlash, ``play`` is half of it; both in rad at the arm (mm) of a
@@ -56,8 +55,7 @@ class Standing:
         return allowed / self.arm
 
 
-@dataclass(frozen=True, slots=True)
-class End(Generic[A]):
+class End(Record, Generic[A]):
     """One of the two parts that a mate joins: its keys in the scene and its exact thing."""
 
     keys: Struct
@@ -69,8 +67,15 @@ class End(Generic[A]):
         return str(self.keys.__struct_config__.tag)
 
 
-@dataclass(frozen=True, slots=True)
-class Mating:
+class Joined(Record):
+    """Which mate it is, and the two instances, the ``second`` placed by the ``first``."""
+
+    kind: str
+    first: str
+    second: str
+
+
+class Mating(Joined, kw_only=True):
     """Two instances, the ``second`` placed by the ``first``; what most mates answer stands here.
 
     ``direction_deg``: from the first to the second as the scene has it. ``height``: of the second's lower face above
@@ -81,10 +86,6 @@ class Mating:
     gears, ``face``: what both have in common along their axes.
     """
 
-    kind: str
-    first: str
-    second: str
-    _: KW_ONLY
     direction_deg: float = 0.0
     height: float = 0.0
     distance: float = 0.0

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
 
+from geometry.base.record import Record
 from parts.base.materials import density_of
 
 if TYPE_CHECKING:
@@ -21,8 +21,7 @@ if TYPE_CHECKING:
     from parts.base.readback import Probe
 
 
-@dataclass(frozen=True)
-class Part:
+class Part(Record, dict=True):
     """A part with one flat section for plane formats and one solid, lower face of its rim at z = 0.
 
     ``keys``: as the scene has them, ``thing``: what the kind has made of them and the scene's mates have left of it.

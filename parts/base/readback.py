@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
 from geometry.base.findings import Finding
+from geometry.base.record import Record, field
 from geometry.curves.curve import Complex, Real
 
 if TYPE_CHECKING:
@@ -66,8 +66,7 @@ class ReadBack(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True)
-class Probed:
+class Probed(Record):
     """What a probe has measured, what it finds wrong, and what is worth a remark."""
 
     measured: dict[str, float] = field(default_factory=dict)

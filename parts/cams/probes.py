@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geometry.base.findings import Finding
+from geometry.base.record import Record
 from geometry.cams.contact.rolled import lift_bound, rolled_lift
 from geometry.cams.motion.follower_motion import TURN
 from geometry.curves.curve import Real
@@ -34,8 +34,7 @@ _ROUNDING = 1e-12
 _ROUGH = 16
 
 
-@dataclass(frozen=True, slots=True)
-class TurningProbe:
+class TurningProbe(Record):
     """A follower rolled over a cam that turns; ``height``: where a solid is cut, mm.
 
     ``profile(offset)``: the exact wall, moved out of the material, next to which its loop lies; without one it is the
@@ -86,8 +85,7 @@ def wall_probe(wall: CamWall, *, alone: bool) -> TurningProbe:
     return TurningProbe(wall.cam, wall.height, wall.profile, wall.turn, wall.below, "" if alone else wall.name)
 
 
-@dataclass(frozen=True, slots=True)
-class SlidingProbe:
+class SlidingProbe(Record):
     """A follower on a plate that slides; ``height``: where a solid is cut, mm."""
 
     cam: WedgeCam

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from geometry.approximation.outline import CadCurve
 from geometry.approximation.splines import fit_spline
+from geometry.base.record import Draft, Record, field, replace
 from geometry.curves.bspline import BSpline
 from geometry.curves.curve import Complex, Curve
 from geometry.curves.line_arc import Arc, Line
@@ -32,8 +32,7 @@ _SUBSCRIPT, _DROP = 0.7, 0.3
 _NARROW, _WIDE = set("iljtfrIі.,:;'|()[]! °"), set("mwMWшщжюмфШЩЖЮМФ@—")
 
 
-@dataclass(frozen=True, slots=True)
-class Style:
+class Style(Record):
     """How a layer looks: width of its lines (mm), dashes and gaps (mm; empty: solid), DXF colour index, SVG colour."""
 
     width: float
@@ -90,16 +89,14 @@ STYLES: dict[str, Style] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Stroke:
+class Stroke(Record):
     """A curve on a layer."""
 
     layer: str
     curve: CadCurve
 
 
-@dataclass(frozen=True, slots=True)
-class Run:
+class Run(Record):
     """A piece of text in one line and height: left end of its base line, height of a capital and length, mm."""
 
     text: str
@@ -108,8 +105,7 @@ class Run:
     width: float
 
 
-@dataclass(frozen=True, slots=True)
-class Box:
+class Box(Record):
     """An upright rectangle, mm."""
 
     left: float
@@ -137,8 +133,7 @@ class Box:
         return int(np.count_nonzero(inside & (points.imag > self.low) & (points.imag < self.high)))
 
 
-@dataclass(frozen=True, slots=True)
-class Text:
+class Text(Record):
     """A line of text; ``_{…}`` lowers what stands in the braces."""
 
     text: str
@@ -188,8 +183,7 @@ def _letter_width(letter: str) -> float:
     return 1.15 if letter in _WIDE else 1.02 if letter.isupper() else 0.8
 
 
-@dataclass(slots=True)
-class Canvas:
+class Canvas(Draft):
     """A sheet that grows: paper size (mm) with its name, strokes and texts; ``max_error`` of its splines, mm.
 
     ``band``: height kept free above the frame's lower side, mm, for a title block.
@@ -271,8 +265,7 @@ def draw(canvas: Canvas, layer: str, curves: Sequence[CadCurve], paper: Paper) -
     canvas.strokes += [Stroke(layer, paper.scaled(curve)) for curve in curves]
 
 
-@dataclass(frozen=True, slots=True)
-class Paper:
+class Paper(Record):
     """Where the model's plane lies on the paper: enlarged ``scale`` times, its origin at ``origin``."""
 
     scale: float

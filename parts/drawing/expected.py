@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Protocol
 
+from geometry.base.record import Record, field
 from geometry.curves.curve import Curve
 from parts.drawing.canvas import Canvas, Paper
 from parts.drawing.readback import ReadSheet
@@ -18,8 +18,7 @@ class Measures(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True)
-class Circle:
+class Circle(Record):
     """A circle that must be there; without a centre a horizontal line at the height ``radius``; mm on paper."""
 
     layer: str
@@ -27,8 +26,7 @@ class Circle:
     radius: float
 
 
-@dataclass(frozen=True, slots=True)
-class Meshing:
+class Meshing(Record):
     """What must be measured off a picture of meshing, mm on paper.
 
     ``tangents``: centres and radii of the circles that the line of action touches; ``base_pitch`` is measured off the
@@ -43,8 +41,7 @@ class Meshing:
     contact_ratio: float
 
 
-@dataclass(frozen=True, slots=True)
-class Expected:
+class Expected(Record):
     """All that a sheet must hold; ``curves`` are the exact ones of each layer in model mm, which ``paper`` places."""
 
     canvas: Canvas

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 import numpy as np
 
+from geometry.base.record import Draft, Record, field
 from geometry.curves.curve import Complex
 
 # samples of each curve, or of each smooth span of it
 PER_CURVE = 13
 
 
-@dataclass(frozen=True, slots=True)
-class ReadLine:
+class ReadLine(Record):
     """A straight line, mm."""
 
     layer: str
@@ -21,8 +19,7 @@ class ReadLine:
     end: complex
 
 
-@dataclass(frozen=True, slots=True)
-class ReadArc:
+class ReadArc(Record):
     """An arc or circle: centre, radius, mm; swept angle, rad, positive."""
 
     layer: str
@@ -31,8 +28,7 @@ class ReadArc:
     sweep: float
 
 
-@dataclass(frozen=True, slots=True)
-class ReadText:
+class ReadText(Record):
     """Words: left end of the base line, length and height of capitals, mm."""
 
     text: str
@@ -41,8 +37,7 @@ class ReadText:
     height: float
 
 
-@dataclass(slots=True)
-class ReadSheet:
+class ReadSheet(Draft):
     """All that a file holds; ``samples`` has points of every line, arc and spline, by layer, one array a curve."""
 
     lines: list[ReadLine] = field(default_factory=list)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from geometry.base.record import Record
 from parts.drawing.canvas import TEXT_HEIGHT, Box, Canvas
 
 # columns and rows, mm
@@ -12,8 +11,7 @@ ROW = 7.0
 _INDENT = 1.5
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
+class Row(Record):
     """A row; a heading has a name alone; ``sample`` is a layer whose line stands in place of a symbol."""
 
     name: str

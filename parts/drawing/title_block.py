@@ -5,8 +5,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from geometry.base.record import Record
 from parts.base.texts import Text, in_context, words
 from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, text_width
 from parts.keys.title import TitleBlockTable
@@ -47,8 +46,7 @@ _INDENT = 0.8
 _LARGE, _MIDDLE = 7.0, 5.0
 
 
-@dataclass(frozen=True, slots=True)
-class TitleBlock:
+class TitleBlock(Record):
     """What stands in the block; ``people`` by role (``drawn``, ``checked``, …); empty where it is left to a pen."""
 
     name: str

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
+from geometry.base.record import Record
 from geometry.curves.curve import Curve
 from geometry.gears.pictures.meshing import Body, MeshingPicture
 from parts.drawing.canvas import FRAME, FRAME_LEFT, PAPERS, SCALES, Box, Canvas, Paper
@@ -20,8 +20,7 @@ _LEAST_MODULE = 12.0
 _TITLE, GAP = 14.0, 6.0
 
 
-@dataclass(frozen=True, slots=True)
-class View:
+class View(Record):
     """The part of the plane that is drawn (model mm), where it lies on paper, and what of the axes it holds."""
 
     window: Box

@@ -33,8 +33,7 @@ def cutter_of(table: CutterTable, module: float, pressure_angle: float) -> Pinio
     ParameterError
         Its tooth cannot exist; names the key of the table and what would work.
     """
-    from dataclasses import replace
-
+    from geometry.base.record import replace
     from geometry.gears.teeth.cutter import PinionCutter, checked_cutter, full_round
 
     cutter = PinionCutter(

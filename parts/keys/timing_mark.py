@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Struct
 
 from geometry.base.errors import ParameterError, limit
 from geometry.base.nearest import nearest
+from geometry.base.record import replace
 from geometry.solids.hub_holes import HubHoles, encloses, least_wall
 from geometry.solids.windows import RoundHoles
 from parts.keys.base import LEAST_HOLE, mm

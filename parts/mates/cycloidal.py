@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Meta
@@ -48,7 +47,6 @@ class OutputPinsSpec(MateKeys, tag="output_pins", kw_only=True):
     height: Annotated[float, height("plate above the disc; default: it carries the disc on its face")] | None = None
 
 
-@dataclass(frozen=True, slots=True)
 class CycloidalMating(Mating):
     """A disc in its ring. The pins turn nothing on: the eccentric does."""
 
@@ -113,7 +111,6 @@ class CycloidalMating(Mating):
         }
 
 
-@dataclass(frozen=True, slots=True)
 class BearingMating(Mating):
     """A disc on its eccentric."""
 
@@ -143,7 +140,6 @@ class BearingMating(Mating):
         return {"eccentricity": self.distance, "bearing_play": self.bore_diameter - 2 * self.module}
 
 
-@dataclass(frozen=True, slots=True)
 class OutputMating(Mating):
     """The pins of a plate in the holes of a disc: each touches its hole in the direction of the eccentric."""
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Meta
@@ -49,7 +48,6 @@ class PinSeatSpec(MateKeys, tag="pin_seat", kw_only=True):
     height: Height = 0.0
 
 
-@dataclass(frozen=True, slots=True)
 class FixedMating(Mating):
     """One instance fixed to another; whether their solids run into each other is for the solids to tell."""
 
@@ -74,7 +72,6 @@ class FixedMating(Mating):
         }
 
 
-@dataclass(frozen=True, slots=True)
 class CoaxialMating(Mating):
     """Two instances on one axis; the solids tell whether they run into each other."""
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Meta
@@ -37,7 +36,6 @@ class CamFollowerSpec(MateKeys, tag="cam_follower", kw_only=True):
     height: Annotated[float, height("how far the follower's lower face stands above the cam's", 10_000)] = 0.0
 
 
-@dataclass(frozen=True, slots=True)
 class CamFollowerMating(Mating):
     """A disk cam and its follower, or the roller of it; in a groove it stands at the inner wall."""
 
@@ -85,7 +83,6 @@ class CamFollowerMating(Mating):
         return {"travel": travel, "unit": "deg" if self.cam.swings else "mm", **play}
 
 
-@dataclass(frozen=True, slots=True)
 class LinkageFollowerMating(CamFollowerMating):
     """A cam and its follower on a coupler; the stem's frame stands at coupler_point, +y along its direction."""
 

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Any, Generic, TypeVar
 
 from geometry.base.errors import ConvergenceError, GeometryError, Nearest, ParameterError
 from geometry.base.nearest import nearest
+from geometry.base.record import replace
 from parts.base.mate import End, MateKind, Mating, Pose, Standing
 from parts.keys.base import mm
 from parts.keys.mate import InvolutePairKeys
@@ -51,7 +51,6 @@ class RackPairSpec(InvolutePairKeys, tag="rack_pair", kw_only=True):
     ) = None
 
 
-@dataclass(frozen=True, slots=True)
 class GearMating(Mating):
     """Two involute gears in mesh, as they are built at last."""
 
@@ -120,7 +119,6 @@ class GearMating(Mating):
         return {"line_of_action": error.peak_to_peak, "second_arcsec": math.degrees(motion) * 3600}
 
 
-@dataclass(frozen=True, slots=True)
 class ExternalMating(GearMating):
     """Two external gears."""
 
@@ -150,7 +148,6 @@ class ExternalMating(GearMating):
         }
 
 
-@dataclass(frozen=True, slots=True)
 class InternalMating(GearMating):
     """A pinion in a ring; ``ring_first``: the ring is the placed one. The pair itself has the ring at its origin."""
 
@@ -192,7 +189,6 @@ class InternalMating(GearMating):
         }
 
 
-@dataclass(frozen=True, slots=True)
 class RackMating(GearMating):
     """A gear and a rack; the rack's teeth look at the gear's axis."""
 

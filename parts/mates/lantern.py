@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from geometry.base.errors import Nearest, ParameterError, limit
@@ -26,7 +25,6 @@ class LanternPairSpec(MateKeys, tag="lantern_pair", kw_only=True):
     height: Annotated[float, height("gear above the lantern's lower face; default: midway on the pins")] | None = None
 
 
-@dataclass(frozen=True, slots=True)
 class LanternMating(Mating):
     """A lantern and its gear."""
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from msgspec import Meta
@@ -35,7 +34,6 @@ class LinkageMemberSpec(MateKeys, tag="linkage_member", kw_only=True):
     height: Annotated[float, height("its lower face above the cam's", 10_000)] = 0.0
 
 
-@dataclass(frozen=True, slots=True)
 class LinkageMemberMating(Mating):
     """A cam and a member of its linkage; whether solids run into each other is for the solids to tell."""
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Any
 
 from geometry.base.errors import Nearest, ParameterError
+from geometry.base.record import replace
 from parts.base.mate import End, MateKind, Mating, Pose, Standing
 from parts.keys.base import mm
 from parts.keys.mate import GearPairKeys
@@ -32,7 +32,6 @@ class NoncircularGearPairSpec(GearPairKeys, tag="noncircular_gear_pair", kw_only
     ) = None
 
 
-@dataclass(frozen=True, slots=True)
 class NoncircularMating(Mating):
     """A driver and its mate in either order, or two equal drivers."""
 

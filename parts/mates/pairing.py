@@ -6,9 +6,9 @@ Both happen before any region is built: the shortest tip and the largest thinnin
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
+from geometry.base.record import replace
 from parts.base.mate import End, MateKeys, Mating
 from parts.mates.registry import MATES
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Meta
@@ -41,7 +40,6 @@ class CamYokeSpec(MateKeys, tag="cam_yoke", kw_only=True):
     height: _Height = 0.0
 
 
-@dataclass(frozen=True, slots=True)
 class ConjugateMating(Mating):
     """Both disks turn together; the contact is that of both rollers of their follower."""
 
@@ -74,7 +72,6 @@ class ConjugateMating(Mating):
         return {"between_rollers": math.degrees(found) if swings else found, "unit": "deg" if swings else "mm"}
 
 
-@dataclass(frozen=True, slots=True)
 class YokeMating(Mating):
     """A cam and the yoke that touches it from both sides."""
 

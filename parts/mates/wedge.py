@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Meta
@@ -31,7 +30,6 @@ class WedgeFollowerSpec(MateKeys, tag="wedge_follower", kw_only=True):
     height: Annotated[float, height("how far the follower's lower face stands above the plate's", 10_000)] = 0.0
 
 
-@dataclass(frozen=True, slots=True)
 class WedgeMating(Mating):
     """A sliding plate and its follower, or the roller of it, at a travel of the plate, mm."""
 

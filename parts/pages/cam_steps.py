@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
 import numpy as np
 from msgspec import Meta
 
 from geometry.base.errors import Nearest, ParameterError
+from geometry.base.record import Record, replace
 from geometry.cams.motion.follower_motion import TURN, FollowerMotion, Phase, PhaseKind
 from geometry.cams.plane.disk import DiskCam
 from geometry.cams.plane.graphical import INTERVALS, LEAST_INTERVALS, MOST_INTERVALS
@@ -73,8 +73,7 @@ Cutter = Annotated[
 Speed = Annotated[float, Meta(gt=0, le=1e6, description="of the cam: adds velocities", extra={"unit": "rpm"})]
 
 
-@dataclass(frozen=True, slots=True)
-class Phases:
+class Phases(Record):
     """The phases of a motion with its lift, mm (rad where it ``swings``), over the cam's angle or a plate's travel."""
 
     phases: tuple[Phase, ...]

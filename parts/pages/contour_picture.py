@@ -5,9 +5,9 @@ from __future__ import annotations
 import html
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 
+from geometry.base.record import Record
 from geometry.curves.implicit import Box
 from geometry.gears.shifts.external import BlockingContour, ContourLine
 from geometry.gears.shifts.finder import AnyShiftPair, least_margin
@@ -23,8 +23,7 @@ _GRID = "stroke:#dde2e6;stroke-width:0.7"
 Mark = tuple[Text, tuple[float, float]]
 
 
-@dataclass(frozen=True, slots=True)
-class ContourPicture:
+class ContourPicture(Record):
     """A blocking contour with the choices that are marked in it."""
 
     contour: BlockingContour
@@ -48,8 +47,7 @@ class ContourPicture:
         }
 
 
-@dataclass(frozen=True, slots=True)
-class _Style:
+class _Style(Record):
     """Colour and dashes of a line, its name."""
 
     colour: str

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
 
 from geometry.base.errors import ParameterError
+from geometry.base.record import Record, replace
 from geometry.gears.teeth import measurement
 from geometry.gears.teeth.measurement import SPAN_CONTACT, Measured, Span
 from geometry.gears.teeth.ring import RingGear
@@ -15,8 +15,7 @@ from parts.pages.page import Sheet
 ISO = "ISO 21771"
 
 
-@dataclass(frozen=True, slots=True)
-class Asked:
+class Asked(Record):
     """What a page is asked to measure: helix angle in rad, lengths in mm; ``spanned`` teeth, of a ring spaces."""
 
     helix: float
@@ -32,8 +31,7 @@ class Asked:
         return f" {sign} cos({{beta_b}})" if self.helix else ""
 
 
-@dataclass(frozen=True, slots=True)
-class _Side:
+class _Side(Record):
     """How teeth are told that point outwards, or inwards: names of terms, titles, pieces of formulas.
 
     ``arc``: key of what fills a span at the base circle, the tooth or a ring's space; ``out`` and ``back``: the signs

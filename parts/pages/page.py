@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
+from geometry.base.record import Draft, Record, field, replace
 from parts.base.texts import NC_, Text, Words
 from parts.pages.symbols import symbol_text
 from parts.pages.terms import TERMS
@@ -39,16 +39,14 @@ _DECIMALS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Printed:
+class Printed(Record):
     """What the source prints where it is wrong, a number or formula, and why it is wrong."""
 
     text: str
     why: Text
 
 
-@dataclass(frozen=True, slots=True)
-class Known:
+class Known(Record):
     """What a placeholder stands for."""
 
     symbol: str
@@ -56,8 +54,7 @@ class Known:
     unit: str
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
+class Step(Record):
     """One line of a calculation; ``gear`` is 0 (neither), 1 or 2; ``inputs`` is what its formula's keys stood for.
 
     ``of``: which of several steps of the same name it is.
@@ -75,16 +72,14 @@ class Step:
     of: Text = ""
 
 
-@dataclass(slots=True)
-class Section:
+class Section(Draft):
     """Steps under a heading."""
 
     title: Text
     steps: list[Step] = field(default_factory=list)
 
 
-@dataclass(frozen=True, slots=True)
-class Table:
+class Table(Record):
     """Rows of numbers under heads (symbol, unit), by ``name`` in json; pages print the first ``shown`` columns."""
 
     name: str
@@ -94,8 +89,7 @@ class Table:
     shown: int | None = None
 
 
-@dataclass(slots=True)
-class Sheet:
+class Sheet(Draft):
     """A calculation that grows step by step; ``notes`` are remarks."""
 
     topic: str

@@ -5,11 +5,10 @@ A term is known by its DESIGN name; ``key`` stands for it in formulas, with 1 or
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from geometry.base.record import Record
 
 
-@dataclass(frozen=True, slots=True)
-class Term:
+class Term(Record):
     """A quantity: its key in formulas, its printed symbol, its unit, its name."""
 
     key: str

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
@@ -12,6 +11,7 @@ from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, OffsetError, ParameterError
 from geometry.base.nearest import nearest
+from geometry.base.record import replace
 from geometry.solids.hub_holes import HubHoles, least_wall
 from geometry.solids.wheel import WheelShape, wheel_body, wheel_sections
 from geometry.solids.windows import RoundHoles

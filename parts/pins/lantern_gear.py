@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta
 
+from geometry.base.record import replace
 from geometry.solids.wheel import WheelShape, wheel_body, wheel_sections
 from parts.base.kind import Kind, Others, Report
 from parts.keys.base import mm

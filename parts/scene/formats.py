@@ -5,8 +5,9 @@ How they are written and read stands in exporters/formats/registry.py, a row eac
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
+
+from geometry.base.record import Record
 
 
 class Form(Enum):
@@ -19,8 +20,7 @@ class Form(Enum):
     SHEET = "a drawing on paper, with words"
 
 
-@dataclass(frozen=True, slots=True)
-class FileKind:
+class FileKind(Record):
     """One kind of file; ``format``: its word in scenes, and its ending.
 
     ``tolerances``: the purposes, the default first, each with the tolerance (mm) of an export that names none.

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from geometry.base.errors import GeometryError
+from geometry.base.record import Record
 from parts.base.part import Part
 from parts.scene.placing import Instance, Placing
 
@@ -22,8 +22,7 @@ _INSET = 2e-4
 _SHARE = 0.5
 
 
-@dataclass(frozen=True, slots=True)
-class SolidOverlap:
+class SolidOverlap(Record):
     """Two instances whose solids have this volume (mm^3) in common, as they stand; None: a wall too thin to tell."""
 
     first: str

@@ -8,10 +8,10 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from geometry.base.placement import Placement3, Vector
+from geometry.base.record import Record, replace
 from geometry.base.tolerance import PLACED_MM, TOLERANCES
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError
@@ -24,8 +24,7 @@ if TYPE_CHECKING:
 _GAP = 5.0
 
 
-@dataclass(frozen=True, slots=True)
-class Instance:
+class Instance(Record):
     """A part at its place: the part's frame turned by ``rotation`` (rad) about z, then moved to ``at`` (mm).
 
     ``placed_by``: "at" (the scene says where), "mate", "origin" (the first of all), or "row" (laid out beside).
@@ -48,8 +47,7 @@ class Instance:
         return Placement3.about_z(math.remainder(self.rotation, 2 * math.pi), self.at)
 
 
-@dataclass(frozen=True, slots=True)
-class Condition:
+class Condition(Record):
     """What two placed instances must satisfy: ``value`` within ``tolerance`` of ``required``.
 
     ``code`` with unit: "centre_distance" mm, "phase" (rotation of the second) degrees, "common_face_width" mm
@@ -63,8 +61,7 @@ class Condition:
     met: bool
 
 
-@dataclass(frozen=True, slots=True)
-class PlacedMate:
+class PlacedMate(Record):
     """A mate between two instances that stand; one that ``only_checks`` found both placed, and has conditions.
 
     ``second_turn`` (rad) and ``centre_shift`` (mm) tell how far such a mate is off the exact pair.
@@ -84,8 +81,7 @@ class PlacedMate:
         return cmath.phase(self.second.centre - self.first.centre)
 
 
-@dataclass(frozen=True, slots=True)
-class Closeness:
+class Closeness(Record):
     """Two instances that no mate joins, nearer than their tip circles allow: they may touch as they turn."""
 
     first: str
@@ -94,8 +90,7 @@ class Closeness:
     tip_sum: float
 
 
-@dataclass(frozen=True, slots=True)
-class Placing:
+class Placing(Record):
     """Where everything stands. ``turns``: for each drive, how often it turns each instance of its train."""
 
     instances: tuple[Instance, ...]

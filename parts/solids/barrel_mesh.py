@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geometry.approximation.chords import approximate_profile
 from geometry.base.errors import ConvergenceError
+from geometry.base.record import Record
 from geometry.cams.barrel.body import BarrelBody, BoreWall, Cylinder, Plane, Ring, Track
 from geometry.cams.barrel.cam import BarrelCam
 from geometry.cams.barrel.triangles import triangle_bound
@@ -35,8 +35,7 @@ _PLACES = np.array(
 SHARES = _PLACES / _PLACES.sum(axis=1, keepdims=True)
 
 
-@dataclass(frozen=True, slots=True)
-class BarrelMesh:
+class BarrelMesh(Record):
     """Vertices (n, 3), mm, triangles (k, 3), and how far they leave the exact solid, like an Approximation."""
 
     vertices: NDArray[np.float64]
@@ -45,8 +44,7 @@ class BarrelMesh:
     bound: Bound = "sampled"
 
 
-@dataclass(frozen=True, slots=True)
-class Grid:
+class Grid(Record):
     """Nodes of the walls: cam angles and the pieces that they belong to, and radii across a wall, mm."""
 
     angles: Real

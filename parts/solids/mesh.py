@@ -6,13 +6,12 @@ closed by construction. parts/solids/brep.py is the other half.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
 import numpy as np
 from numpy.typing import NDArray
 
 from geometry.approximation.chords import approximate_profile, approximate_together
 from geometry.base.errors import ThinWallError
+from geometry.base.record import Record, replace
 from geometry.curves.bounds import Bound
 from geometry.curves.curve import Complex
 from geometry.plane.contour import Approximation, Contour
@@ -21,8 +20,7 @@ from geometry.solids.chamfer import chamfer_bow, chamfer_slices, cut_chamfers
 from parts.solids.caps import Triangles, aligned_bore, begun_at, cap_triangles, is_round, start_in_space
 
 
-@dataclass(frozen=True, slots=True)
-class Mesh:
+class Mesh(Record):
     """Vertices (n, 3) float, mm; triangles (k, 3) int, counter-clockwise seen from outside."""
 
     vertices: NDArray[np.float64]

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
@@ -18,6 +17,7 @@ from msgspec import Meta
 from geometry.base.errors import ParameterError, limit
 from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
+from geometry.base.record import Record
 from geometry.plane.offset_region import OffsetRegion
 from geometry.solids.body import Body, plate
 from geometry.solids.plate import PlateHole, PlateOutline, rounded
@@ -50,8 +50,7 @@ class PolygonPlateKeys(MadeKeys, forbid_unknown_fields=True, tag_field="kind", t
     pin_diameter: Annotated[float, mm(N_("diameter of the pin"), above=0, most=10_000), Meta(examples=[8.0])]
 
 
-@dataclass(frozen=True, slots=True)
-class PolygonPlate:
+class PolygonPlate(Record):
     """Its exact outline; a side is met at right angles by +x."""
 
     sides: int
@@ -72,8 +71,7 @@ class PolygonPlate:
         return PlateOutline(rounded(corners), (PlateHole(0j, self.pin_diameter),))
 
 
-@dataclass(frozen=True, slots=True)
-class PinFits:
+class PinFits(Record):
     """The pin goes into the hole of every file, as far as the file may be off."""
 
     diameter: float
@@ -164,7 +162,6 @@ class PolygonStackKeys(AboveKeys, tag="polygon_stack", kw_only=True):
     """A polygon on top of another one, side over side."""
 
 
-@dataclass(frozen=True, slots=True)
 class StackMating(Mating):
     """Both on one axis; the second stands by whole sides."""
 

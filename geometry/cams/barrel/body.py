@@ -6,11 +6,11 @@ read-back and mass integrals go through this description, like those of other pa
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar, Literal
 
 import numpy as np
 
+from geometry.base.record import Record
 from geometry.cams.barrel.cam import LOWER, UPPER, BarrelCam
 from geometry.curves.curve import Complex, Real
 from geometry.laws.piece import LawPiece
@@ -25,8 +25,7 @@ _MOST_PANELS, _MOST_ACROSS, _SETTLED = 96, 48, 1e-12
 _NEAR = 0.05
 
 
-@dataclass(frozen=True, slots=True)
-class Ring:
+class Ring(Record):
     """A closed ring about the axis: a circle of ``radius`` at ``z``, or (``side`` not 0) a wall's edge there; mm."""
 
     radius: float
@@ -34,8 +33,7 @@ class Ring:
     side: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Cylinder:
+class Cylinder(Record):
     """The part of a cylinder about the axis between two rings; ``outward``: its material lies inside."""
 
     lower: Ring
@@ -53,8 +51,7 @@ class Cylinder:
         return np.abs(np.hypot(points[:, 0], points[:, 1]) - self.lower.radius)
 
 
-@dataclass(frozen=True, slots=True)
-class Plane:
+class Plane(Record):
     """A face across the axis within a circle; what is cut out of it: a circle, or the bore's profile."""
 
     outer: Ring
@@ -73,8 +70,7 @@ class Plane:
         return np.abs(points[:, 2] - self.outer.z)
 
 
-@dataclass(frozen=True, slots=True)
-class Track:
+class Track(Record):
     """A wall between the cylinders: +1 above the roller, -1 below it."""
 
     side: int
@@ -102,8 +98,7 @@ class Track:
         return found
 
 
-@dataclass(frozen=True, slots=True)
-class BoreWall:
+class BoreWall(Record):
     """The upright wall of the bore's profile between two heights, mm."""
 
     profile: Profile
@@ -126,8 +121,7 @@ class BoreWall:
 Face = Cylinder | Plane | Track | BoreWall
 
 
-@dataclass(frozen=True, slots=True)
-class BarrelBody:
+class BarrelBody(Record):
     """A cylindrical cam as a solid, z from 0 to ``length`` mm without its hub.
 
     ``hub``: its radius, and how far it stands out below and above; ``web``: thickness of the bottom of an end cam,

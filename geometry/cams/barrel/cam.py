@@ -13,11 +13,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from geometry.base.record import Record, replace
 from geometry.base.series import FACTORIALS, Series, conjugate, derived, exponential, power, product, quotient
 from geometry.cams.motion.follower_motion import TURN, FollowerMotion, PhaseKind
 from geometry.curves.curve import Complex, Real
@@ -37,8 +37,7 @@ _PER_SLOPE, _SIDE, _CHUNK = 12, 0.999, 4096
 LEAST_SPEED = 0.05
 
 
-@dataclass(frozen=True, slots=True)
-class AxialGuide:
+class AxialGuide(Record):
     """The roller moves along the cam's axis: z = ``start_height`` + S, mm."""
 
     start_height: float
@@ -52,8 +51,7 @@ class AxialGuide:
         return AxialGuide(self.start_height + height)
 
 
-@dataclass(frozen=True, slots=True)
-class SwingGuide:
+class SwingGuide(Record):
     """The roller sits on an arm of ``arm_length`` L; its pivot is parallel to it at y = d, z = ``pivot_height``, mm.
 
     psi = ``start_angle`` + S (rad) is the arm's angle above the plane across the cam's axis. d > 0: the cam's surface
@@ -80,8 +78,7 @@ class SwingGuide:
 Guide = AxialGuide | SwingGuide
 
 
-@dataclass(frozen=True, slots=True)
-class BarrelCam:
+class BarrelCam(Record):
     """A follower's motion, its guide, and the cylinder that makes the walls; lengths in mm.
 
     ``radius``: of the roller with half of its clearance; ``outer`` and ``inner``: the cylinders between which the

@@ -9,7 +9,6 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
 
@@ -18,6 +17,7 @@ from numpy.typing import ArrayLike
 
 from geometry.base.errors import CuspError, GeometryError, OffsetError
 from geometry.base.nearest import last_that_holds
+from geometry.base.record import Record, replace
 from geometry.base.series import FACTORIALS, Series, conjugate, derived, power, product, unit_majorant
 from geometry.cams.barrel.bounds import edge_bounds
 from geometry.cams.barrel.cam import LOWER, UPPER, BarrelCam
@@ -42,8 +42,7 @@ _LEAST_SHARE = 1e-4
 _REFINEMENTS = 4
 
 
-@dataclass(frozen=True, slots=True)
-class DevelopedEdge(BoundedSpan):
+class DevelopedEdge(BoundedSpan, Record):
     """A wall's edge on the outer cylinder, unrolled, over the cam angle t: R (polar angle + pi) + i (z - middle).
 
     With growing cam angle it runs to the left. ``distance``: of a parallel of it, mm to its left.

@@ -10,10 +10,10 @@ Derivation: DERIVATIONS.md.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
+from geometry.base.record import Record
 from geometry.cams.barrel.cam import BarrelCam
 from geometry.cams.motion.follower_motion import TURN
 from geometry.curves.curve import Complex, Real
@@ -28,8 +28,7 @@ _NEAR, _HALVINGS = 0.02, 40
 _TOUCHES = 40
 
 
-@dataclass(frozen=True, slots=True)
-class WallHeight:
+class WallHeight(Record):
     """How far walls stand off their exact ones along the cam's axis, mm, at most: ``bound``; ``found`` at one point.
 
     There the roller touches at the cam angle ``angle`` (rad), ``depth`` mm along its axis, and the wall's normal has
@@ -227,8 +226,7 @@ def _on_edges(aside: Real, size: Real, height: Real) -> Real:
     return np.where(low <= high, np.sqrt(np.maximum(0.0, q)) + h + share * dh, -np.inf)
 
 
-@dataclass(frozen=True, slots=True)
-class UnrolledWall:
+class UnrolledWall(Record):
     """A wall's edge on the unrolled outer cylinder, x = R (polar angle + pi), y from ``middle`` mm on."""
 
     cam: BarrelCam

@@ -6,13 +6,13 @@ the inner to the outer cylinder: the walls are analytic there. Poles interpolate
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
 
 import numpy as np
 
 from geometry.base.errors import ConvergenceError
+from geometry.base.record import Record, replace
 from geometry.cams.barrel.cam import BarrelCam
 from geometry.cams.motion.follower_motion import TURN
 from geometry.curves.bounds import Bound
@@ -36,8 +36,7 @@ _MOST_DWELL = 2.1
 _ROUNDING = 3e-15
 
 
-@dataclass(frozen=True, slots=True)
-class Stretch:
+class Stretch(Record):
     """Cam angles ``start`` to ``end`` (rad) of one piece of the motion.
 
     ``rests``: the roller stands still at the start. ``turns``: how often the cam has gone round since the first one.
@@ -50,8 +49,7 @@ class Stretch:
     turns: int = 0
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class WallSpline:
+class WallSpline(Record, eq=False):
     """A tensor product over cam angle and share: knots both ways, poles (n, m, 3) mm.
 
     ``edges``: poles (2, n, 2) of the polar angle (rad) and the height (mm) along the inner and the outer cylinder.
@@ -71,8 +69,7 @@ class WallSpline:
         return _DEGREE
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class BarrelSplines:
+class BarrelSplines(Record, eq=False):
     """All walls as splines, in the order of the motion's stretches, side by side, and the worst error, mm."""
 
     walls: dict[int, tuple[WallSpline, ...]]

@@ -10,9 +10,9 @@ from __future__ import annotations
 import cmath
 import itertools
 import math
-from dataclasses import dataclass
 
 from geometry.base.errors import ParameterError, limit
+from geometry.base.record import Record
 from geometry.base.tolerance import TOLERANCES
 from geometry.cams.plane.disk import FollowerKind
 from geometry.curves.curve import end_point, start_point
@@ -23,8 +23,7 @@ from geometry.solids.plate import Edge, PlateOutline, belt, rounded, tangent_poi
 _BOSS_IN_BAR = 0.9
 
 
-@dataclass(frozen=True, slots=True)
-class FollowerEnd:
+class FollowerEnd(Record):
     """What of a follower touches the cam; lengths in mm.
 
     ``radius`` of the roller or mushroom; ``reach``: to both sides of the reference point (a stem's plate), or from the

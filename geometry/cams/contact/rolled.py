@@ -8,12 +8,12 @@ touched and how high the follower stands then; the highest stop holds the follow
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.base.record import Record
 from geometry.cams.motion.follower_motion import TURN
 from geometry.cams.motion.guides import Oscillating
 from geometry.cams.plane.disk import DiskCam
@@ -32,8 +32,7 @@ _NEAR_END = 10
 _END = 1e-9
 
 
-@dataclass(frozen=True, slots=True)
-class Rounds:
+class Rounds(Record):
     """Arcs p = centre + radius n, n = exp(i (first + sweep t)); concave: radius < 0; a corner: radius 0."""
 
     centre: Complex
@@ -51,8 +50,7 @@ class Rounds:
         return self.centre[edge] + self.radius[edge] * normal, normal
 
 
-@dataclass(frozen=True, slots=True)
-class Lines:
+class Lines(Record):
     """Straight edges."""
 
     start: Complex
@@ -68,8 +66,7 @@ class Lines:
         return self.start[edge] + t * way, -1j * way / np.abs(way)
 
 
-@dataclass(frozen=True, slots=True)
-class Smooth:
+class Smooth(Record):
     """Polynomial edges, ``coefficients`` (n, degree + 1) of rising powers of t from 0 to 1."""
 
     coefficients: Complex
@@ -103,8 +100,7 @@ class Stopped(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True)
-class Outline:
+class Outline(Record):
     """A closed outline, material on its left: its edges by family, and the place of each of them along it."""
 
     edges: tuple[Edges, ...]

@@ -6,12 +6,12 @@ Practicum, lessons 4 and 5: figures 4.8 and 5.4 (S'', S', S over phi), 4.9 and 5
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.errors import ConvergenceError
+from geometry.base.record import Record
 from geometry.base.series import FACTORIALS, Series, derived, exponential, product
 from geometry.curves.bspline import BSpline
 from geometry.curves.curve import Complex, Curve, Real, Span, curvature_from_derivatives
@@ -48,8 +48,7 @@ class DrawnCurve(Span):
             return curvature_from_derivatives(self.derivative(t), self.derivative(t, 2))
 
 
-@dataclass(frozen=True, slots=True)
-class MotionCurve(DrawnCurve):
+class MotionCurve(DrawnCurve, Record):
     """x = ``along`` t + ``across`` S^(p)(t), y = ``up`` S^(q)(t), moved to ``origin``; t the cam angle, rad.
 
     ``along`` in mm of paper per rad, ``across`` and ``up`` in mm of paper per unit of the derivative; ``orders``
@@ -87,8 +86,7 @@ class MotionCurve(DrawnCurve):
         return float(np.hypot(along + abs(self.across) * bounds[order + p], abs(self.up) * bounds[order + q]).max())
 
 
-@dataclass(frozen=True, slots=True)
-class ArmCurve(DrawnCurve):
+class ArmCurve(DrawnCurve, Record):
     """L (1 + sense psi'(t)) exp(i (direction - sense S(t))) from the pivot at ``origin``, enlarged ``scale`` times.
 
     Of an oscillating roller, psi' being S'; ``direction`` of the lowest arm, rad. At the pressure angle nu the axis

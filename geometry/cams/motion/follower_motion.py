@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from enum import StrEnum
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.record import Record
 from geometry.laws.law import Law, piecewise_value
 from geometry.laws.piece import LawPiece, Real
 from geometry.laws.splines import cubic_pieces
@@ -32,8 +32,7 @@ class PhaseKind(StrEnum):
     DWELL = "dwell"
 
 
-@dataclass(frozen=True, slots=True)
-class Phase:
+class Phase(Record):
     """Cam angle (rad), change of lift (mm, or rad of an oscillating follower; negative: return), and its law."""
 
     angle: float
@@ -63,8 +62,7 @@ def return_(angle: float, lift: float, law: Law) -> Phase:
     return Phase(angle, -abs(lift), law)
 
 
-@dataclass(frozen=True, slots=True)
-class Joint:
+class Joint(Record):
     """What happens at one cam angle between two pieces: the jumps of S, S', S'', S''' (right minus left).
 
     ``continuity`` is the order up to which all derivatives go on (at most 3); 0 is a rigid impact, 1 a soft one.
@@ -112,8 +110,7 @@ class PieceMotion:
         return [j for j in self.joints() if j.impact]
 
 
-@dataclass(frozen=True, slots=True)
-class FollowerMotion(PieceMotion):
+class FollowerMotion(PieceMotion, Record, dict=True):
     """S over the cam angle: analytic pieces from 0 to 2 pi, and the phases they came from (none for a table).
 
     S is counted from the lowest position that the phases begin with; the cam turns counter-clockwise.
@@ -121,15 +118,11 @@ class FollowerMotion(PieceMotion):
 
     pieces: tuple[LawPiece, ...]
     phases: tuple[Phase, ...] = ()
-    # made when it is asked for
-    stacks: list[PieceStack] = field(default_factory=list, init=False, compare=False, repr=False)
 
-    @property
+    @cached_property
     def stack(self) -> PieceStack:
         """The pieces as arrays."""
-        if not self.stacks:
-            self.stacks.append(PieceStack(self.pieces))
-        return self.stacks[0]
+        return PieceStack(self.pieces)
 
     @property
     def tabled(self) -> bool:

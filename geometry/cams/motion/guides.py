@@ -7,16 +7,15 @@ S^(k)/k! over the cam angle, k = 0, 1, 2 ...
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from geometry.base.errors import ParameterError, limit
+from geometry.base.record import Record
 from geometry.base.series import About, Series, derived, exponential
 from geometry.curves.curve import Complex
 from geometry.laws.piece import Real
 
 
-@dataclass(frozen=True, slots=True)
-class Translating:
+class Translating(Record):
     """Line of motion +y at x = ``offset`` (e, mm); ``start_height`` is the height s_0 at S = 0, mm.
 
     The height is that of the roller's centre, of the point, or of the flat face. e > 0 lowers the pressure angle of
@@ -48,8 +47,7 @@ class Translating:
         return 1j * rate + 0 * point
 
 
-@dataclass(frozen=True, slots=True)
-class Oscillating:
+class Oscillating(Record):
     """Pivot at +x, ``centre_distance`` d from the axis; psi = ``start_angle`` + S (rad) from the line of centres.
 
     ``sense`` +1: the follower stands above the line of centres and turns against the cam while it rises; -1: it

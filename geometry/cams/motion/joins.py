@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from geometry.base.errors import Nearest, ParameterError
+from geometry.base.record import replace
 from geometry.cams.motion.follower_motion import Phase
 from geometry.laws.law import Law
 from geometry.laws.named import polynomial_law

@@ -10,12 +10,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.errors import ParameterError
+from geometry.base.record import Record
 from geometry.base.series import About, Series, conjugate, derived, product, quotient, sharpened
 from geometry.cams.motion.follower_motion import FollowerMotion
 from geometry.cams.plane.disk import DiskCam, FollowerKind, check_radius
@@ -40,8 +40,7 @@ class LinkageError(ParameterError):
     """A linkage that cannot carry its follower all the way; another member may be to blame than the one named."""
 
 
-@dataclass(frozen=True, slots=True)
-class CouplerMount:
+class CouplerMount(Record):
     """A follower on a coupler: ``point`` of its centre, tip or face in the coupler's frame, mm.
 
     ``direction``: of the stem, or of a flat face's normal, away from the cam, from the coupler's x axis, rad.
@@ -98,7 +97,6 @@ class CouplerMount:
         return rate * (joint[1] + (turn[1] / turn[0]) * (point - joint[0]))
 
 
-@dataclass(frozen=True, slots=True)
 class LinkageCam(DiskCam):
     """A disk cam whose follower is carried by a coupler; S drives the linkage, in mm of a slider or rad of a rocker."""
 

@@ -7,7 +7,6 @@ Derivation: DERIVATIONS.md, section 8.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Protocol
 
@@ -15,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.errors import CuspError
+from geometry.base.record import Record, replace
 from geometry.base.series import (
     FACTORIALS,
     About,
@@ -123,8 +123,7 @@ class CamSpan(BoundedSpan):
         return [*edges, self.end]
 
 
-@dataclass(frozen=True, slots=True)
-class CentreEnvelope(CamSpan):
+class CentreEnvelope(CamSpan, Record):
     """Path of a follower's centre or point in the cam's frame over the cam angle t, or a parallel of it.
 
     c(t) = exp(-i t) (z + i d w/|w|), z = e + i (s_0 + S) or d - L exp(-i sense psi), w = z' - i z, d = ``distance``
@@ -217,8 +216,7 @@ class CentreEnvelope(CamSpan):
         return moved
 
 
-@dataclass(frozen=True, slots=True)
-class FaceEnvelope(CamSpan):
+class FaceEnvelope(CamSpan, Record):
     """Envelope of a flat face in the cam's frame, over the cam angle t.
 
     The face stands ``distance`` + h(t) from the axis, its normal N = exp(i phi) points away from it. The contact is

@@ -8,13 +8,13 @@ against.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.record import Record
 from geometry.base.series import FACTORIALS, Series
 from geometry.cams.motion.follower_motion import TURN, FollowerMotion
 from geometry.cams.motion.guides import Mount, Oscillating, Translating, oscillating_start_angle
@@ -32,8 +32,7 @@ class FollowerKind(StrEnum):
     FLAT = "flat"
 
 
-@dataclass(frozen=True, slots=True)
-class DiskCam:
+class DiskCam(Record):
     """A follower's motion, its guide and its shape; ``radius`` of the roller or mushroom, 0 of a point, mm.
 
     All methods take cam angles (rad) of any shape and are vectorised; at a joint the value from the right.

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.plane.measure import distance_to_profile
 from geometry.plane.profile import Profile
@@ -15,8 +15,7 @@ from geometry.plane.profile import Profile
 _SAMPLES, _STEPS, _CHUNK = 65, 40, 2048
 
 
-@dataclass(frozen=True)
-class Fence:
+class Fence(Record, dict=True):
     """A closed outline of one period, and points along it."""
 
     profile: Profile

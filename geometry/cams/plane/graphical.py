@@ -13,12 +13,12 @@ and tangents" of the lessons' section 1.1. With ``chords`` the broken line itsel
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
 
 from geometry.base.errors import ParameterError, limit
+from geometry.base.record import Record
 from geometry.cams.motion.follower_motion import FollowerMotion, PhaseKind
 from geometry.cams.motion.guides import Translating
 from geometry.cams.plane.disk import DiskCam
@@ -41,8 +41,7 @@ class Drawing(StrEnum):
     CHORDS = "chords"
 
 
-@dataclass(frozen=True, slots=True)
-class GraphicalPhase:
+class GraphicalPhase(Record):
     """A rise or return as it comes out on paper; every array over the n intervals or their n + 1 ends.
 
     ``first``: number of its first position; ``angles`` rad; ``middles``: ordinates of S'' at the middles, mm/rad^2, and
@@ -67,8 +66,7 @@ class GraphicalPhase:
         return float(self.rate[-1])
 
 
-@dataclass(frozen=True, slots=True)
-class GraphicalMotion:
+class GraphicalMotion(Record):
     """All moving phases of a cam by the graphical method, and the exact motion they stand for."""
 
     motion: FollowerMotion
@@ -160,8 +158,7 @@ def graphical_motion(
     return GraphicalMotion(motion, tuple(found), intervals)
 
 
-@dataclass(frozen=True, slots=True)
-class _Drawn:
+class _Drawn(Record):
     """A phase of stroke 1 and length 1."""
 
     middles: Real

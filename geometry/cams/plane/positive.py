@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.record import Record
 from geometry.cams.motion.follower_motion import TURN, FollowerMotion
 from geometry.cams.motion.guides import Oscillating, Translating
 from geometry.cams.plane.disk import DiskCam, FollowerKind
@@ -18,8 +18,7 @@ _BREADTH = 1e-9
 _BREADTH_SAMPLES = 2049
 
 
-@dataclass(frozen=True, slots=True)
-class Groove:
+class Groove(Record):
     """Both walls of a groove, each a counter-clockwise outline in the cam's frame, and its width, mm."""
 
     inner: CamShape
@@ -48,8 +47,7 @@ def groove(cam: DiskCam, clearance: float = 0.0) -> Groove:
     return Groove(cam_shape(cam), cam_shape(cam, width), width)
 
 
-@dataclass(frozen=True, slots=True)
-class Conjugate:
+class Conjugate(Record):
     """The second cam of a pair, as a disk cam of its own, and the angle by which it is turned on the shaft, rad.
 
     Its profile lies in the first cam's frame when it is turned by ``turn`` about the axis.

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import cmath
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
 from geometry.base.errors import UndercutError
+from geometry.base.record import Record
 from geometry.base.tolerance import TOLERANCES
 from geometry.cams.motion.follower_motion import TURN
 from geometry.cams.plane.curves import CentreEnvelope, FaceEnvelope
@@ -25,8 +25,7 @@ _SLIVER = 1e-12
 CamCurve = CentreEnvelope | FaceEnvelope
 
 
-@dataclass(frozen=True, slots=True)
-class CamShape:
+class CamShape(Record):
     """The exact outline of a cam, counter-clockwise, and what undercut took from the follower's motion."""
 
     profile: Profile
@@ -100,8 +99,7 @@ def _pieces_between(cam: DiskCam, start: float, end: float) -> list[LawPiece | _
     return [_Cut(piece, low, high) if (low, high) != piece.domain else piece for piece, low, high in found]
 
 
-@dataclass(frozen=True, slots=True)
-class _Cut:
+class _Cut(Record):
     """A part of a piece of a motion."""
 
     piece: LawPiece

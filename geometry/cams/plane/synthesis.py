@@ -10,12 +10,12 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
 from geometry.base.errors import ConvergenceError, ParameterError
+from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
 from geometry.cams.motion.follower_motion import FollowerMotion, PhaseKind
 from geometry.cams.motion.guides import oscillating_prime_radius
@@ -33,8 +33,7 @@ _MOST_CUTS = 60
 _BROKEN = 1e-11
 
 
-@dataclass(frozen=True, slots=True)
-class Extreme:
+class Extreme(Record):
     """A greatest or least value and the cam angle (rad) at which it stands."""
 
     value: float
@@ -91,8 +90,7 @@ def flat_base_radius(motion: FollowerMotion, least_curvature_radius: float = 0.0
     return Extreme(max(0.0, least_curvature_radius + found.value), found.angle)
 
 
-@dataclass(frozen=True, slots=True)
-class AxisRegion:
+class AxisRegion(Record):
     """Where the cam's axis may stand under a translating roller: s_0 >= a - e c for every (a, c) in ``lines``.
 
     The half-lines touch the diagram S(S') and are inclined by the pressure angles; (e, s_0) is the axis' place
@@ -266,8 +264,7 @@ def least_pitch_radius(cam: DiskCam) -> float:
     return least_convex_radius(cam).value + cam.radius
 
 
-@dataclass(frozen=True, slots=True)
-class OscillatingAxis:
+class OscillatingAxis(Record):
     """Where the smallest cam of an oscillating roller has its axis: from the pivot, and the circle that follows."""
 
     centre_distance: float

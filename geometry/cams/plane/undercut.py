@@ -12,13 +12,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
 from geometry.base.distinct import distinct
 from geometry.base.errors import UndercutError
+from geometry.base.record import Record
 from geometry.cams.motion.follower_motion import TURN
 from geometry.cams.plane.curves import CentreEnvelope, FaceEnvelope
 from geometry.cams.plane.disk import DiskCam
@@ -38,8 +38,7 @@ _CROWD = 10.0 ** -np.linspace(1, 12, 89)
 _REACH = 1e-9
 
 
-@dataclass(frozen=True, slots=True)
-class Gap:
+class Gap(Record):
     """Cam angles between which the follower rides on a corner instead of its own profile, and what that costs.
 
     ``end`` may lie beyond one turn; ``corner`` in the cam's frame, mm; ``lost_lift`` in the unit of the lift.
@@ -51,8 +50,7 @@ class Gap:
     lost_lift: float
 
 
-@dataclass(frozen=True, slots=True)
-class Kept:
+class Kept(Record):
     """Arcs of cam angle whose envelope remains, in order, and the gaps between them (none: the cam is whole)."""
 
     arcs: tuple[tuple[float, float], ...]

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 
 from geometry.base.errors import GeometryError
+from geometry.base.record import Record, replace
 from geometry.cams.plane.disk import DiskCam
 from geometry.cams.plane.shape import cam_shape
 from geometry.cams.plane.undercut import lost_to_undercut
@@ -15,8 +15,7 @@ from geometry.plane.profile import Profile, Segment
 from geometry.solids.body import Body, BodyBuilder, Cap
 
 
-@dataclass(frozen=True, slots=True)
-class CamWall:
+class CamWall(Record):
     """One wall that a roller runs on, of a part with several, or of one that is turned on its shaft.
 
     ``cam``: the motion with the roller that touches this wall while it follows it. ``below``: the wall holds the

@@ -12,7 +12,6 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -20,6 +19,7 @@ from numpy.typing import ArrayLike
 
 from geometry.base.errors import OffsetError, ParameterError
 from geometry.base.nearest import last_that_holds
+from geometry.base.record import Record
 from geometry.base.series import Series, derived, exponential
 from geometry.cams.motion.follower_motion import Phase, PieceMotion
 from geometry.cams.plane.curves import CentreEnvelope, Lift, bound_series, lift_series
@@ -36,8 +36,7 @@ _SHARP = 1e-7
 _JOINT = 1e-12
 
 
-@dataclass(frozen=True, slots=True)
-class Upright:
+class Upright(Record):
     """A follower that slides along +y at x = 0; its centre stands at ``start_height`` mm at S = 0."""
 
     start_height: float
@@ -60,8 +59,7 @@ class Upright:
         return centre.real, centre.imag - self.start_height
 
 
-@dataclass(frozen=True, slots=True)
-class Swinging:
+class Swinging(Record):
     """An arm about a pivot in the fixed frame, mm; its end stands at x = 0 where S = 0, S in rad rises it.
 
     ``side`` +1: the pivot stands at +x, so that the plate's friction pulls the arm; -1: at -x.
@@ -96,7 +94,6 @@ class Swinging:
         return at, psi - self.start_angle
 
 
-@dataclass(frozen=True, slots=True)
 class SlideEnvelope(CentreEnvelope):
     """The path of a follower's centre in the sliding plate's frame over the travel t, mm, or a parallel of it."""
 
@@ -133,8 +130,7 @@ class SlideEnvelope(CentreEnvelope):
         return sense * first / np.abs(first)
 
 
-@dataclass(frozen=True, slots=True)
-class WedgeMotion(PieceMotion):
+class WedgeMotion(PieceMotion, Record):
     """S over the travel t from 0 to the whole travel, mm: analytic pieces one behind the other."""
 
     pieces: tuple[LawPiece, ...]
@@ -171,8 +167,7 @@ def wedge_motion(phases: Sequence[Phase]) -> WedgeMotion:
     return WedgeMotion(tuple(pieces))
 
 
-@dataclass(frozen=True, slots=True)
-class WedgeCam:
+class WedgeCam(Record):
     """The motion, how the follower is guided, its radius, mm (0 of a point), and its shape.
 
     ``runs``: straight ends of the plate before and after the profile, ``corner``: rounding of its corners, mm.

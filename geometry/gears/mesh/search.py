@@ -16,12 +16,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
+from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.gears.mesh.far_teeth import Measured, promising_places
 from geometry.gears.mesh.least_gap import Copies, Gaps, LeastGap
@@ -47,8 +47,7 @@ _NEAR_TEETH, _MOST_NEAR = 2, 4
 _ROUGH = 5e-4
 
 
-@dataclass(frozen=True, slots=True)
-class ContactPlace:
+class ContactPlace(Record):
     """Where the gap is ``gap`` mm: at the first gear's rotation ``drive_angle`` (rad), at ``point`` (mm).
 
     The point lies on the second gear, or on the first where its corner is the nearest; origin at the first
@@ -61,8 +60,7 @@ class ContactPlace:
     labels: tuple[Label, Label]
 
 
-@dataclass(frozen=True, slots=True)
-class PairContact:
+class PairContact(Record):
     """What a mesh cycle showed; lengths in mm, angles in rad.
 
     OVERLAP: a gap below -tolerance at some drive angle. CONTACT: no overlap, and on one side of the teeth at least
@@ -303,8 +301,7 @@ def _slack(mesh: MeshSearch, offset: Real) -> float:
     return float(np.ptp(offset)) * mesh.reach
 
 
-@dataclass(frozen=True, slots=True)
-class _Second:
+class _Second(Record):
     """The second body's teeth at the drive angles, measured on the first gear's outline."""
 
     mesh: MeshSearch
@@ -370,8 +367,7 @@ class _Second:
         return np.abs(rate - 1j * centre) + self.mesh.relative_turning * float(np.abs(points - middle).max())
 
 
-@dataclass(frozen=True, slots=True)
-class _Corners:
+class _Corners(Record):
     """The first gear's convex corners at the drive angles, measured on the second body's outline."""
 
     mesh: MeshSearch

@@ -9,12 +9,12 @@ quasi-static error of perfect gears.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geometry.base.errors import ConvergenceError
+from geometry.base.record import Record, replace
 from geometry.curves.curve import Real
 from geometry.gears.mesh.least_gap import ACCURACY
 from geometry.gears.mesh.search import least_gaps
@@ -32,8 +32,7 @@ _CLOSER, _ROUNDS, _GAINED, _NOTHING = 16, 5, 2e-4, 1e-9
 _FINE = 4096
 
 
-@dataclass(frozen=True, slots=True)
-class TransmissionError:
+class TransmissionError(Record):
     """The error over one pitch of the first gear while it drives in one sense.
 
     ``sense``: +1 where the first gear turns counter-clockwise. ``drive_angles`` (n,) rad; ``errors`` (n,) mm along the

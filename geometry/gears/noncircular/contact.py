@@ -8,10 +8,10 @@ minima between samples are bracketed as for circular gears (geometry/plane/dista
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
+from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.gears.mesh.search import CONTACT_TOLERANCE, ContactPlace, PairContact
 from geometry.gears.noncircular.pair import NoncircularPair
@@ -51,8 +51,7 @@ def noncircular_contact(
     return _concluded(pair, arcs, found, allowed)
 
 
-@dataclass(frozen=True)
-class _Gaps:
+class _Gaps(Record):
     """Least gap at each position and tooth side (n, 2), where, in the fixed frame, and on which curves."""
 
     gap: Real
@@ -88,8 +87,7 @@ def _concluded(pair: NoncircularPair, arcs: Real, found: _Gaps, allowed: float) 
     return PairContact(verdict, allowed, tuple(drive.tolist()), tuple(gaps.tolist()), sides, place, float(gaps.max()))
 
 
-@dataclass(frozen=True)
-class _Lanes:
+class _Lanes(Record):
     """Pieces of the second outline at positions: position, side, curve, turn and shift into the first body's frame;
     candidates (n, k) of the first outline's curves with the turns that bring them there, -1 where there is none."""
 

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.errors import CuspError
+from geometry.base.record import Record, replace
 from geometry.base.series import FACTORIALS, Series, composed, derived, product
 from geometry.curves.bounds import BoundedSpan
 from geometry.curves.curve import Complex, Real, first_turning
@@ -25,7 +25,7 @@ _SAMPLES, _FAR = 33, 0.05
 
 
 class RolledCurve(BoundedSpan):
-    """What the curves have in common; each is a frozen dataclass with ``start`` and ``end``."""
+    """What the curves have in common; each is a record with ``start`` and ``end``."""
 
     __slots__ = ()
 
@@ -73,8 +73,7 @@ class RolledCurve(BoundedSpan):
         return after
 
 
-@dataclass(frozen=True, slots=True)
-class RolledFlank(RolledCurve):
+class RolledFlank(RolledCurve, Record):
     """What a straight rack flank cuts: c(s) + (x - s) cos(a) exp(i a) T(s), s the arc length.
 
     ``crossing``: x, where the flank crosses the pitch line, mm; ``angle``: a, rad, the pressure angle of a lower
@@ -139,8 +138,7 @@ class RolledFlank(RolledCurve):
         return replace(self, crossing=self.crossing - self._sense * distance / math.cos(self.angle))
 
 
-@dataclass(frozen=True, slots=True)
-class RolledFillet(RolledCurve):
+class RolledFillet(RolledCurve, Record):
     """What a rack's rounded tip cuts: c(s) + i (D - i D tan u + rho exp(-i u)) T(s) at s = x - D tan u.
 
     ``u`` is the angle of the contact normal on the rounding, rad, 0 at the rack's tip line, positive on the rack's
@@ -216,8 +214,7 @@ class RolledFillet(RolledCurve):
         return replace(self, tip_radius=self.tip_radius + distance)
 
 
-@dataclass(frozen=True, slots=True)
-class RolledLand(RolledCurve):
+class RolledLand(RolledCurve, Record):
     """A parallel of the centrode ``height`` mm outside it: c(s) - i h T(s); the tip, and what the rack's tip leaves."""
 
     line: PitchLine

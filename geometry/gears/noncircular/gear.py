@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from geometry.base.errors import ParameterError, PointedTipError, UndercutError
+from geometry.base.record import Record, field, replace
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Complex, Curve, Real
 from geometry.gears.noncircular.curves import RolledFillet, RolledFlank, RolledLand
@@ -30,15 +30,14 @@ _SHAPE_SAMPLES = 1025
 _STEPS = 60
 
 
-@dataclass(frozen=True)
-class NoncircularGear:
+class NoncircularGear(Record, dict=True):
     """A gear on a closed centrode, its rack and the shift of the rack's datum line.
 
     ``first_tooth`` in pitches from the centrode's angle 0; ``circumferential_thinning`` is an arc of the centrode, mm,
     cut by a wider rack tooth. ``pairing``: the pair that it belongs to.
     """
 
-    line: PitchLine = field(repr=False)
+    line: PitchLine
     number_of_teeth: int
     rack: BasicRack
     first_tooth: float = 0.0

@@ -8,20 +8,19 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.findings import Finding
+from geometry.base.record import Record
 from geometry.curves.curve import Real
 from geometry.gears.noncircular.gear import NoncircularGear
 
 _RATIO_SAMPLES = 2049
 
 
-@dataclass(frozen=True)
-class NoncircularPair:
+class NoncircularPair(Record):
     """Two gears in mesh, in either order; the first one's frame, its axis, is the origin."""
 
     first: NoncircularGear

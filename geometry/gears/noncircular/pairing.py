@@ -6,10 +6,10 @@ The perimeters are z_1 and z_2 pitches. A mate of another size closes where the 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
 from functools import cached_property
 
 from geometry.base.errors import Nearest, ParameterError
+from geometry.base.record import Record, replace
 from geometry.gears.noncircular.pitch_line import DriverShape, MateShape, PitchLine
 from geometry.kinematics.centrodes import FourierRatio, LobedEllipse, RatioCentrode, closing_distance
 
@@ -18,8 +18,7 @@ Centrode = LobedEllipse | RatioCentrode
 _ALIKE = 1e-9
 
 
-@dataclass(frozen=True)
-class Pairing:
+class Pairing(Record, dict=True):
     """The driver's centrode, the numbers of teeth of driver and mate, and their centre distance, mm."""
 
     centrode: Centrode

@@ -8,7 +8,6 @@ polynomials, good to rounding; higher derivatives are exact Taylor arithmetic at
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol
 
@@ -16,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from geometry.base.errors import ConvergenceError
+from geometry.base.record import Record
 from geometry.base.series import (
     Series,
     composed,
@@ -58,8 +58,7 @@ class PolarShape(Protocol):
         """Bounds of the moduli of both on each interval."""
 
 
-@dataclass(frozen=True, slots=True)
-class DriverShape:
+class DriverShape(Record):
     """The first centrode in its own frame: the driver turns counter-clockwise, so it stands at the angle -phi_1."""
 
     centrode: BoundedCentrode
@@ -81,8 +80,7 @@ class DriverShape:
         return self.centrode.series_bound(order, -b, -a), [one, *([0.0 * one] * order)]
 
 
-@dataclass(frozen=True, slots=True)
-class MateShape:
+class MateShape(Record):
     """The centrode that rolls on the first one at a centre distance: R = A - r, Theta' = r/(A - r), over phi_1.
 
     Its frame has the contact of phi_1 = 0 on +x. ``period``: phi_1 of one turn of the mate.
@@ -112,16 +110,14 @@ class MateShape:
         return rest, turned
 
 
-@dataclass(frozen=True, slots=True)
-class _Table:
+class _Table(Record):
     """Panels in arc length with Chebyshev coefficients (panels, 7, 16) of the columns named above."""
 
     edges: Real
     values: Real
 
 
-@dataclass(frozen=True, eq=False)
-class PitchLine:
+class PitchLine(Record, eq=False, dict=True):
     """A closed centrode over its arc length s, mm, counter-clockwise from its angle 0; periodic in s.
 
     ``lobes``: it is the same after each 1/lobes of a turn. ``mirrored``: it is its own mirror image in the x axis.

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from geometry.base.findings import Finding
+from geometry.base.record import Record
 from geometry.gears.teeth.helix import Helix
 
 if TYPE_CHECKING:
@@ -17,8 +17,7 @@ _SPUR = Helix()
 _ROUNDING = 1e-9
 
 
-@dataclass(frozen=True, slots=True)
-class CommonFace:
+class CommonFace(Record):
     """Face width that both mates have at one height, mm, and the first one's helix; straight teeth overlap by 0."""
 
     helix: Helix = _SPUR

@@ -5,17 +5,16 @@ Symbols are those of ISO 21771; equation numbers those of the practicum, lesson 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from functools import cached_property
 
+from geometry.base.record import replace
 from geometry.gears.pairs.involute import InvolutePair, angle_at, common_sums, working_angle
 from geometry.gears.teeth.limits import undercut
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import ToothSide, tooth_side
 
 
-@dataclass(frozen=True)
-class ExternalPair(InvolutePair[SpurGear, ToothSide]):
+class ExternalPair(InvolutePair[SpurGear, ToothSide], dict=True):
     """Two external spur gears in mesh; made by ``external_pair``. Both carry their shortened tips."""
 
     tip_shortening_coefficient: float

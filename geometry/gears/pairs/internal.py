@@ -7,7 +7,6 @@ its axis, so that everything follows from x2 - x1. Source: GOST 19274, KHK, Elem
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import cached_property
 
 from geometry.base.errors import Nearest, ParameterError
@@ -19,8 +18,7 @@ from geometry.gears.teeth.ring_tooth import RingSide, ring_side
 from geometry.gears.teeth.spur import SpurGear
 
 
-@dataclass(frozen=True)
-class InternalPair(InvolutePair[RingGear, RingSide]):
+class InternalPair(InvolutePair[RingGear, RingSide], dict=True):
     """A pinion in mesh with a ring; made by ``internal_pair``."""
 
     roles = ("pinion", "ring")

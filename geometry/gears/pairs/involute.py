@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar, Generic, NamedTuple, TypeVar
 
@@ -21,6 +20,7 @@ import numpy as np
 from geometry.base.angles import inverse_involute, involute_function
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.findings import Finding
+from geometry.base.record import Record
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Curve, Real, end_point, start_point
 from geometry.gears.teeth.limits import Margin, not_kept
@@ -70,8 +70,7 @@ def pressure_angle(gear: Gear) -> float:
     return gear.pressure_angle if isinstance(gear, RingGear) else gear.rack.pressure_angle
 
 
-@dataclass(frozen=True)
-class InvolutePair(Generic[G, S]):
+class InvolutePair(Record, Generic[G, S], dict=True):
     """Two gears in mesh at a centre distance; lengths in mm, angles in rad, coefficients in modules.
 
     Results for both gears are tuples (first, second).
@@ -338,8 +337,7 @@ class InvolutePair(Generic[G, S]):
         return sign * (line - tips[1]), line - sign * tips[0]
 
 
-@dataclass(frozen=True, slots=True)
-class Sums:
+class Sums(Record):
     """What a mesh follows from: sums over both gears of signed teeth, shifts and base radii; and thinning, mm."""
 
     teeth: int

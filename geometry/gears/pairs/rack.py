@@ -7,13 +7,13 @@ its teeth pointing to -x. The pitch circle is always the reference circle. Symbo
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from geometry.base.errors import ParameterError, limit
 from geometry.base.findings import Finding
+from geometry.base.record import Record
 from geometry.curves.curve import Real, end_point, start_point
 from geometry.gears.pairs.involute import facing_gaps, flank_radii, refuse_other_rack
 from geometry.gears.teeth.limits import Margin, not_kept
@@ -24,8 +24,7 @@ from geometry.plane.distance import Flags
 from geometry.plane.profile import Label
 
 
-@dataclass(frozen=True)
-class RackPair:
+class RackPair(Record, dict=True):
     """A gear in mesh with a rack; made by ``rack_pair``. Lengths in mm, angles in rad."""
 
     gear: SpurGear

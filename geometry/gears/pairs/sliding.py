@@ -8,15 +8,14 @@ from the first gear's base circle (0) to the second's (``line_length``), which a
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
+from geometry.base.record import Record
 from geometry.gears.pairs.external import ExternalPair
 from geometry.gears.pairs.internal import InternalPair
 from geometry.gears.pairs.involute import tangent_length
 
 
-@dataclass(frozen=True, slots=True)
-class ActiveLine:
+class ActiveLine(Record):
     """Where contact begins (``start``, A) and ends (``end``, E) and where the pitch point lies (``pole``, P), mm."""
 
     line_length: float

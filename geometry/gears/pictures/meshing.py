@@ -10,11 +10,11 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 from geometry.base.errors import ParameterError
 from geometry.base.placement import Placement2
+from geometry.base.record import Record
 from geometry.curves.curve import Curve, Reversed
 from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line
@@ -32,8 +32,7 @@ Curves = tuple[Any, ...]
 CIRCLES = ("tip", "working", "reference", "base", "root")
 
 
-@dataclass(frozen=True, slots=True)
-class Body:
+class Body(Record):
     """One of both bodies, its curves in its own frame, mm.
 
     ``radii`` of its circles by name; of a rack the heights of its lines above the first axis. ``tooth`` is the tooth
@@ -68,8 +67,7 @@ class Body:
         return [c.placed(self.place(s)) for c in self.active]
 
 
-@dataclass(frozen=True, slots=True)
-class MeshingPicture:
+class MeshingPicture(Record):
     """Bodies, points and arcs of the picture, mm, rad; ``tangent_points`` N1 and N2 (None: a rack has none).
 
     ``start`` and ``end`` of contact and the ``pole`` are places s on the line of action, whose direction of travel is

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import cmath
-from dataclasses import dataclass
 
 from geometry.base.errors import ParameterError, limit
+from geometry.base.record import Record
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Curve, end_point, start_point
 from geometry.curves.intersect import crossing_circle
@@ -13,8 +13,7 @@ from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import tooth_side
 
 
-@dataclass(frozen=True, slots=True)
-class ProfileReadings:
+class ProfileReadings(Record):
     """Tooth and space on one circle, arcs in mm."""
 
     radius: float

@@ -7,12 +7,12 @@ drive angle: a pin's gap is the signed distance of its centre from the exact out
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
 from geometry.base.placement import Placement2
+from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.gears.mesh.search import ContactPlace, PairContact
 from geometry.gears.pins.cycloidal import CycloidalDisc
@@ -47,8 +47,7 @@ class PinMotion(Protocol):
         """Frame of the line of centres (origin: the axis of the pins) from that of the body."""
 
 
-@dataclass(frozen=True, slots=True)
-class DiscMotion:
+class DiscMotion(Record):
     """A fixed pin seen from a cycloidal disc. The phase is the eccentric's angle less the pin's.
 
     ``turn`` (rad) and ``shift`` (mm): how far the disc is turned and its eccentricity off the exact ones.

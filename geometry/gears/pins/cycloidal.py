@@ -11,7 +11,6 @@ Frame: lobe 1 is centred on +x.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
 from typing import Any
@@ -21,6 +20,7 @@ import numpy as np
 from geometry.base.errors import Nearest, OffsetError, ParameterError, UndercutError, limit
 from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
+from geometry.base.record import Record, replace
 from geometry.curves.cycloid import ShortTrochoid, greatest_shortening, least_convex_radius
 from geometry.gears.teeth.tooth import ToothSide
 from geometry.plane.offset_region import OffsetRegion
@@ -41,8 +41,7 @@ _SHARPEST = 0.01
 _SHARP = 0.1
 
 
-@dataclass(frozen=True, slots=True)
-class CycloidalDisc:
+class CycloidalDisc(Record):
     """A disc of ``number_of_lobes`` lobes that rolls inside number_of_lobes + 1 pins; lengths in mm.
 
     ``pin_clearance`` moves the outline into the disc along its normals; ``pin_circle_shift`` is what the radius of the

@@ -14,7 +14,6 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from typing import Any
 
@@ -25,6 +24,7 @@ from geometry.base.errors import CuspError, OffsetError, ParameterError, Pointed
 from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
 from geometry.base.placement import Placement2
+from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Complex, Real, end_point, start_point
 from geometry.curves.cycloid import EpicycloidParallel
@@ -46,8 +46,7 @@ _LEAST_FLANK = 0.01
 _LEAST_NECK = 0.005
 
 
-@dataclass(frozen=True, slots=True)
-class LanternGear:
+class LanternGear(Record):
     """A gear of ``number_of_teeth`` for a lantern of ``number_of_pins`` pins; lengths in mm.
 
     ``pin_clearance`` is the gap between a flank and its pin along the normal, ``root_clearance`` what the root arc's
@@ -134,8 +133,7 @@ class LanternGear:
         return -2 * self.tip_radius * cmath.phase(complex(self.flank().point(limits_of(self).tip)))
 
 
-@dataclass(frozen=True, slots=True)
-class FlankLimits:
+class FlankLimits(Record):
     """Where a flank begins (at the root arc), ends (at the tip) and would be pointed: u in rad, and radii in mm."""
 
     start: float
@@ -312,8 +310,7 @@ def lantern_findings(gear: LanternGear) -> tuple[Finding, ...]:
     return (Finding("contact_ratio", ratio, 1.0),) if ratio < 1 else ()
 
 
-@dataclass(frozen=True, slots=True)
-class LanternMotion:
+class LanternMotion(Record):
     """A pin of the lantern seen from the gear. The phase is the pin's angle from the line of centres.
 
     ``turn`` (rad) and ``shift`` (mm): how far the gear is turned and the centre distance off the exact ones.

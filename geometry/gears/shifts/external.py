@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from geometry.base.angles import angle_of_involute, involute_function
 from geometry.base.errors import ConvergenceError
+from geometry.base.record import Record
 from geometry.curves.implicit import Box, level_lines
 from geometry.gears.teeth.basic_rack import BasicRack
 from geometry.gears.teeth.joints import fillet_flank_joint
@@ -29,8 +29,7 @@ CONTACT_RATIOS = (1.0, 1.1, 1.2)
 _NAN = math.nan
 
 
-@dataclass(frozen=True, slots=True)
-class ShiftPair:
+class ShiftPair(Record):
     """Two numbers of teeth and one rack, for any shifts."""
 
     first_teeth: int
@@ -49,8 +48,7 @@ class ShiftPair:
         return self.first_teeth, self.second_teeth
 
 
-@dataclass(frozen=True, slots=True)
-class PairState:
+class PairState(Record):
     """A pair at shifts x1, x2; lengths in modules, along the line of action from the first base circle.
 
     ``involute`` is inv(alpha_w); where it is negative all others are nan. ``starts`` is where the mate's tip touches,
@@ -136,8 +134,7 @@ def active_flank(pair: ShiftPair, x1: float, x2: float, index: int) -> Margin:
     return Margin(f"active_flank_{('first', 'second')[index]}", start, form, start - form)
 
 
-@dataclass(frozen=True, slots=True)
-class Condition:
+class Condition(Record):
     """A condition: its name, the level where it has one, and its margin at x1, x2 (>= 0 where it is kept)."""
 
     name: str
@@ -202,8 +199,7 @@ def least_shift(pair: ShiftPair, index: int) -> float:
     return least_shift_without_undercut(SpurGear(1.0, pair.teeth[index], pair.rack))
 
 
-@dataclass(frozen=True, slots=True)
-class Requirements:
+class Requirements(Record):
     """What a choice of shifts must keep: tip thickness in modules, contact ratio, undercut at all or only unseen.
 
     The defaults are those of practicum 1, below (1.3).
@@ -252,8 +248,7 @@ def least_margin(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> f
     return least
 
 
-@dataclass(frozen=True, slots=True)
-class ContourLine:
+class ContourLine(Record):
     """One line of the contour: its condition, and points x1 + i x2."""
 
     name: str
@@ -261,8 +256,7 @@ class ContourLine:
     points: tuple[complex, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class BlockingContour:
+class BlockingContour(Record):
     """All lines inside a box, and the borders of the region that keeps the requirements."""
 
     pair: ShiftPair | InternalShiftPair

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
 
 from geometry.base.errors import ParameterError
+from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
 from geometry.curves.implicit import Box
 from geometry.gears.shifts import external as blocking_contour
@@ -33,8 +33,7 @@ _ROUNDING = 1e-9
 _GOLDEN = (math.sqrt(5) - 1) / 2
 
 
-@dataclass(frozen=True, slots=True)
-class Proposal:
+class Proposal(Record):
     """Shifts, and what they give: contact ratio, specific sliding at both feet, the least margin of all."""
 
     first: float

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
 
 from geometry.base.angles import involute_function
+from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.curves.implicit import Box, level_lines
 from geometry.gears.shifts.external import (
@@ -52,7 +52,6 @@ _OF_PINION = frozenset({"undercut_first", "tip_thickness_first", "cutter_working
 _OF_RING = frozenset({"tip_above_base", "tip_thickness_second", "rounded_root", "cutter_working_angle"})
 
 
-@dataclass(frozen=True, slots=True)
 class InternalRequirements(Requirements):
     """What a choice of shifts must keep: those of an external pair, bottom clearance in modules, radial assembly.
 
@@ -113,8 +112,7 @@ def _levelled(pair: InternalShiftPair) -> dict[str, Callable[[float, float], flo
     }
 
 
-@dataclass(frozen=True, slots=True)
-class _Checks:
+class _Checks(Record):
     """All checks of a pair, made once."""
 
     always: dict[str, _Sides]
@@ -197,8 +195,7 @@ def least_margin(pair: InternalShiftPair, wish: InternalRequirements, x1: float,
     return least
 
 
-@dataclass(frozen=True, slots=True)
-class Window:
+class Window(Record):
     """Where legal shifts lie: a box around them, and the range of x2 - x1 and how finely to look at it."""
 
     box: Box

@@ -8,11 +8,11 @@ GOST 19274 or 0. Source: GOST 19274, KHK, ISO 21771.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from geometry.base.angles import angle_of_involute, involute_function
 from geometry.base.errors import ConvergenceError, ParameterError
+from geometry.base.record import Record, replace
 from geometry.gears.pairs.sliding import specific_sliding
 from geometry.gears.teeth.basic_rack import BasicRack
 from geometry.gears.teeth.cutter import PinionCutter
@@ -28,8 +28,7 @@ _NAN = math.nan
 CUTTING = ("involute_interference", "trochoid_interference", "radial_assembly")
 
 
-@dataclass(frozen=True, slots=True)
-class InternalShiftPair:
+class InternalShiftPair(Record):
     """Numbers of teeth, the pinion's rack or cutter, the ring's cutter or rounded root (module 1), for any shifts.
 
     ``least_tip_diameter``: the ring's tip is no deeper than that, modules, as ``RingGear`` has it.
@@ -69,8 +68,7 @@ class InternalShiftPair:
         return replace(gear, least_tip_diameter=self.least_tip_diameter) if self.least_tip_diameter else gear
 
 
-@dataclass(frozen=True, slots=True)
-class GearNumbers:
+class GearNumbers(Record):
     """What one gear alone says, modules: tip and root radius, length along the line of action to its tip, thickness.
 
     ``reach``: where the cutter's flank ends, on the ring from its base circle; of a shaped pinion how far its cutter's
@@ -87,8 +85,7 @@ class GearNumbers:
     room: float = math.inf
 
 
-@dataclass(frozen=True, slots=True)
-class InternalState:
+class InternalState(Record):
     """A pair at two shifts; lengths in modules, along the line of action from the pinion's base circle.
 
     ``involute`` is inv(alpha_w); where it is negative all that follows is nan. The active line runs from ``start`` (the

@@ -9,10 +9,10 @@ neighbours fix the split. ``DOUBTED`` cells stand as printed.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from functools import cache
 
 from geometry.base.errors import Nearest, ParameterError
+from geometry.base.record import Record
 
 # table А.1: Delta y from z1 = 10 on, for 2 >= u > 1
 _TABLE_A = """
@@ -72,8 +72,7 @@ _GUIDELINES = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Mended:
+class Mended(Record):
     """A broken cell of tables В.1 (x1, x2) or Г.1 (x2 alone): what is printed and what stands here."""
 
     table: str
@@ -97,8 +96,7 @@ MENDED = (
 DOUBTED = (("В.1", 15, 30), ("В.1", 17, 31), ("В.1", 18, 18), ("Г.1", 13, 50), ("Г.1", 13, 60))
 
 
-@dataclass(frozen=True, slots=True)
-class TableShift:
+class TableShift(Record):
     """x1 and x2 of a table; ``tip_shortening`` is its Delta y, None where it has none.
 
     ``table`` names it; ``mended`` is the printed cell that was put right, if it was; ``between`` the z2 of the two

@@ -7,17 +7,16 @@ below its datum line; its tip corner is rounded, which leaves the root fillet.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.record import Record
 
 # (addendum, tip clearance, tip radius) of ISO 53:1998 and GOST 13755-2015, all at 20 degrees
 ISO_53 = {"A": (1.0, 0.25, 0.38), "B": (1.0, 0.25, 0.30), "C": (1.0, 0.25, 0.25), "D": (1.0, 0.40, 0.39)}
 ISO_53_ANGLE = math.radians(20.0)
 
 
-@dataclass(frozen=True, slots=True)
-class TipRelief:
+class TipRelief(Record):
     """Flanking of the basic rack: its last ``height`` modules below the tip line fall back by ``depth``.
 
     ``depth`` is measured along the normal of the main flank at the tip line. Practicum, figure 1.4:
@@ -28,8 +27,7 @@ class TipRelief:
     height: float = 0.45
 
 
-@dataclass(frozen=True, slots=True)
-class BasicRack:
+class BasicRack(Record):
     """A cutting rack: pressure angle in rad, the rest in modules.
 
     ``stretch``: how much longer the tip rounding is along the pitch line than along the depth, ``tip_radius``; 1 is the

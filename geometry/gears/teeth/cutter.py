@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass, replace
 from functools import cached_property
 
 from geometry.base.angles import inverse_involute, involute_function, roll_minus_polar
 from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import end_point
@@ -41,8 +41,7 @@ def cutting_angle(alpha: float, shift: float, teeth: int, own_shift: float) -> f
     return inverse_involute(value).value
 
 
-@dataclass(frozen=True)
-class PinionCutter:
+class PinionCutter(Record, dict=True):
     """Pinion cutter; module in mm, pressure angle in rad, the rest in modules.
 
     Frame: axis at the origin, tooth 1 centred on +x. The tip circle is r_0 + (addendum + x_0) m; each tip corner is an

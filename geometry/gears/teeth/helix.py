@@ -7,10 +7,10 @@ A right-hand tooth turns counter-clockwise about z as it rises: its screw is rig
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 from geometry.base.errors import Nearest
+from geometry.base.record import Record
 
 if TYPE_CHECKING:
     from geometry.solids.body import Twist
@@ -20,8 +20,7 @@ Hand = Literal["right", "left"]
 _SAME_ANGLE = 1e-9
 
 
-@dataclass(frozen=True, slots=True)
-class Helix:
+class Helix(Record):
     """``angle`` on the reference cylinder, rad, 0 for spur gears; ``hand``: of the lower half where ``double``."""
 
     angle: float = 0.0

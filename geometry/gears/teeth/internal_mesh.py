@@ -7,15 +7,14 @@ conditions of KHK and of the Elements of Metric Gear Technology, here each with 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from geometry.base.angles import involute_function, roll_minus_polar
+from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
 from geometry.gears.teeth.limits import Margin
 
 
-@dataclass(frozen=True, slots=True)
-class InternalMesh:
+class InternalMesh(Record):
     """Pinion (1) or cutter inside a ring (2): teeth, base and tip radii, axis distance (mm), working angle (rad).
 
     The flanks touch, so that backlash does not enter: a mesh with backlash is no worse.

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import replace
 from typing import TYPE_CHECKING, TypeAlias
 
+from geometry.base.record import replace
 from geometry.base.roots import bracketed_root
 from geometry.curves.intersect import crossing_circle
 from geometry.curves.involute import Involute

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from geometry.base.errors import GeometryError, Nearest, ParameterError, UndercutError, limit
 from geometry.base.findings import Finding
 from geometry.base.nearest import Suspect, blamed, nearest
+from geometry.base.record import Record, replace
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import start_point
 from geometry.gears.teeth.joints import pointed_radius
@@ -31,8 +31,7 @@ LEAST_TIP_THICKNESS = 0.3
 PRACTICUM_LEAST_TEETH = 17
 
 
-@dataclass(frozen=True, slots=True)
-class Margin:
+class Margin(Record):
     """How far a gear is from a limit; ``margin`` >= 0 where the limit is kept."""
 
     name: str

@@ -10,11 +10,11 @@ Sources: ISO 21771; GOST 16532-70 (span, pins, chords); exact, no table of const
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
 from typing import TypeVar
 
 from geometry.base.angles import inverse_involute, involute_function, roll_minus_polar
 from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.curves.curve import end_point, start_point
 from geometry.gears.teeth.ring import RingGear
@@ -31,8 +31,7 @@ G = TypeVar("G", bound=SpurGear | RingGear)
 SPAN_CONTACT = (1.2, 0.018)
 
 
-@dataclass(frozen=True, slots=True)
-class Span:
+class Span(Record):
     """W_k over ``teeth`` teeth, of a ring over as many spaces, mm, and where the faces touch: ``contact_diameter``, mm.
 
     ``touches_flanks``: both faces lie on the involute between its form circle and its tip.
@@ -48,8 +47,7 @@ class Span:
     secure_face_width: float
 
 
-@dataclass(frozen=True, slots=True)
-class OverPins:
+class OverPins(Record):
     """M over two pins or balls, of a ring between them, mm; ``touches_flanks`` as in ``Span``.
 
     ``stands_out``: the pins reach beyond the tip circle and do not sit on the root circle.
@@ -63,8 +61,7 @@ class OverPins:
     stands_out: bool
 
 
-@dataclass(frozen=True, slots=True)
-class Chord:
+class Chord(Record):
     """Chordal thickness and the height from the tip at which it is measured, mm."""
 
     thickness: float

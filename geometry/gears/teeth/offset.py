@@ -10,13 +10,13 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 
 from geometry.base.errors import GeometryError, OffsetError
 from geometry.base.findings import Finding
 from geometry.base.nearest import last_that_holds
+from geometry.base.record import replace
 from geometry.base.roots import bracketed_root
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Curve, Reversed, end_point, start_point

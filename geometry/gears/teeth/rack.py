@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import pairwise
 
 from geometry.base.errors import Nearest, OffsetError, ParameterError, PointedTipError, limit
 from geometry.base.findings import Finding
 from geometry.base.placement import Placement2
+from geometry.base.record import Record, replace
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import end_point, start_point
 from geometry.curves.intersect import first_above
@@ -31,8 +31,7 @@ from geometry.plane.profile import Label, Profile, Region, Segment
 _INSIDE = 1 - 1e-9
 
 
-@dataclass(frozen=True)
-class Rack:
+class Rack(Record, dict=True):
     """Straight rack that meshes with gears of the same basic rack; lengths in mm.
 
     The tooth reaches addendum m above the datum line and dedendum m below it; its root fillets are the basic rack's tip
@@ -90,8 +89,7 @@ class Rack:
         return rack_side(self)
 
 
-@dataclass(frozen=True, slots=True)
-class RackSide:
+class RackSide(Record):
     """Half a pitch in the mesh frame, from the tooth's centre line (y = 0) down to the space's (y = -p/2).
 
     Material on the left. The upper half is the mirror image in the x axis.
@@ -101,8 +99,7 @@ class RackSide:
     findings: tuple[Finding, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class _Numbers:
+class _Numbers(Record):
     """One half tooth: tip height, root depth, half thickness on the datum line, fillet, tip corner, mm; angle, rad."""
 
     height: float
@@ -158,8 +155,7 @@ def rack_side(rack: Rack, offset: float = 0.0) -> RackSide:
     return RackSide(tuple(segments), tuple(findings))
 
 
-@dataclass(frozen=True, slots=True)
-class _Tip:
+class _Tip(Record):
     """Corners of the tip from the centre line to the flank, directions of the lines between, rounding radius."""
 
     corners: tuple[complex, ...]

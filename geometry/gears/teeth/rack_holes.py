@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from geometry.base.errors import Nearest, OffsetError, ParameterError, limit
+from geometry.base.record import Record
 from geometry.plane.profile import Label, Profile, circle
 
 # mm; holes that keep less to anything are those of a mistaken keyboard
 _STEP = 1e-4
 
 
-@dataclass(frozen=True, slots=True)
-class RackHoles:
+class RackHoles(Record):
     """``count`` equal holes, ``spacing`` mm apart about the middle, centres ``depth`` mm below the root line."""
 
     count: int

@@ -8,8 +8,8 @@ Source: a pin between two lines; the chords are those of a gear of infinitely ma
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
+from geometry.base.record import Record
 from geometry.curves.curve import end_point, start_point
 from geometry.gears.teeth.measurement import Chord
 from geometry.gears.teeth.rack import Rack
@@ -17,8 +17,7 @@ from geometry.gears.teeth.transverse import normal_angle
 from geometry.plane.profile import Label
 
 
-@dataclass(frozen=True, slots=True)
-class OverPin:
+class OverPin(Record):
     """M from the rack's back to the top of a pin, mm, and where the pin touches, above the datum line, mm.
 
     ``touches_flanks``: between fillet and tip; ``stands_out``: above the tips, off the root line.

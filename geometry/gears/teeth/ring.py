@@ -7,19 +7,18 @@ the axis (GOST 19274, KHK; ISO 21771, with its negative tooth number, has it the
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
 from functools import cached_property
 
 from geometry.base.angles import involute_function
 from geometry.base.errors import Nearest, ParameterError
+from geometry.base.record import Record, replace
 from geometry.curves.cutter_fillet import CutterFillet
 from geometry.curves.involute import Involute
 from geometry.gears.teeth.cutter import PinionCutter, cutting_angle
 from geometry.solids.hub_holes import HubHoles
 
 
-@dataclass(frozen=True, slots=True)
-class RoundedRoot:
+class RoundedRoot(Record):
     """A root that no cutter made: an arc tangent to flank and root circle, in modules; None is the full round.
 
     For laser, wire and print. The root circle is r_2 + (dedendum + x_2) m.
@@ -32,8 +31,7 @@ class RoundedRoot:
 _NO_HOLES = HubHoles()
 
 
-@dataclass(frozen=True)
-class RingGear:
+class RingGear(Record, dict=True):
     """Internal spur gear; lengths in mm, coefficients in modules, angles in rad.
 
     The default tip diameter is that of GOST 19274, d_2 - 2 (h_a - x_2 - k_2) m, whose k_2 = 0.25 - 0.125 x_2 (0 from

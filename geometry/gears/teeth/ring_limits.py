@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 from typing import Any
 
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.findings import Finding
 from geometry.base.nearest import Suspect, blamed, nearest
+from geometry.base.record import replace
 from geometry.gears.teeth.basic_rack import ISO_53_ANGLE
 from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.limits import (

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
 from functools import lru_cache
 
 from geometry.base.errors import GeometryError, ParameterError
+from geometry.base.record import replace
 from geometry.base.roots import bracketed_root
 from geometry.base.tolerance import TOLERANCES
 from geometry.gears.teeth.cutter import PinionCutter, checked_cutter

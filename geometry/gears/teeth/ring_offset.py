@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
 from geometry.base.errors import CuspError, OffsetError
 from geometry.base.findings import Finding
+from geometry.base.record import replace
 from geometry.base.roots import bracketed_root
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Curve, Reversed, end_point, start_point

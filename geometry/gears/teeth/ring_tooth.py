@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass, replace
 
 from geometry.base.errors import ParameterError, PointedTipError, limit
 from geometry.base.findings import Finding
+from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Reversed, end_point
@@ -24,8 +24,7 @@ from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.plane.profile import Label, Profile, Segment
 
 
-@dataclass(frozen=True, slots=True)
-class RingSide:
+class RingSide(Record):
     """Segments of the lower side of space 1, space centre to tooth centre, clockwise, and what was noticed."""
 
     segments: tuple[Segment, ...]
@@ -46,8 +45,7 @@ class RingSide:
         return Profile(tuple(period), round(2 * math.pi / self.pitch_angle), clockwise=True)
 
 
-@dataclass(frozen=True, slots=True)
-class RingCurves:
+class RingCurves(Record):
     """The curves of one side before they are trimmed; ``land`` is the (negative) angle of the root land."""
 
     land: float

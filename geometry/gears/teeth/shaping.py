@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.record import replace
 from geometry.base.roots import bracketed_root
 from geometry.gears.teeth.joints import joint_roll
 from geometry.gears.teeth.spur import SpurGear

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from geometry.base.angles import involute_function
+from geometry.base.record import Record, replace
 from geometry.curves.involute import Involute
 from geometry.curves.trochoid import TrochoidFillet
 from geometry.gears.teeth.basic_rack import BasicRack
@@ -22,8 +22,7 @@ if TYPE_CHECKING:
 _NO_HOLES = HubHoles()
 
 
-@dataclass(frozen=True)
-class SpurGear:
+class SpurGear(Record, dict=True):
     """External spur gear; lengths in mm, coefficients in modules, angles in rad.
 
     ``circumferential_thinning`` thins each tooth at the reference circle: cut by a wider rack tooth (root

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from geometry.base.errors import ParameterError, PointedTipError, UndercutError, limit
 from geometry.base.findings import Finding
+from geometry.base.record import Record, replace
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Curve, end_point, start_point
 from geometry.curves.intersect import crossing_line, height_over_line
@@ -30,8 +30,7 @@ from geometry.gears.teeth.spur import SpurGear
 from geometry.plane.profile import Label, Profile, Segment
 
 
-@dataclass(frozen=True, slots=True)
-class ToothSide:
+class ToothSide(Record):
     """Segments of the lower tooth side, space centre to tooth centre, and what was noticed."""
 
     segments: tuple[Segment, ...]
@@ -59,8 +58,7 @@ class FlankPiece(NamedTuple):
     label: Label
 
 
-@dataclass(frozen=True, slots=True)
-class SideCurves:
+class SideCurves(Record):
     """The generating curves of one tooth side before they are trimmed; a uniformly shrunk tooth has its own."""
 
     fillet: GearFillet

@@ -7,10 +7,10 @@ depends on radii, thicknesses and the line of action is therefore the spur gear'
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from geometry.base.errors import Nearest, ParameterError
+from geometry.base.record import replace
 from geometry.gears.teeth.basic_rack import BasicRack, TipRelief
 from geometry.gears.teeth.spur import SpurGear
 

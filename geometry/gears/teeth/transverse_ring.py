@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
+from geometry.base.record import replace
 from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.transverse import transverse_angle, transverse_cutter

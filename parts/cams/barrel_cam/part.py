@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace as changed
@@ -11,6 +10,7 @@ from msgspec.structs import replace as changed
 from geometry.base.errors import Nearest, OffsetError, ParameterError, UndercutError, limit, rounded
 from geometry.base.findings import Finding
 from geometry.base.nearest import last_that_holds, nearest
+from geometry.base.record import replace
 from geometry.plane.offset_region import OffsetRegion
 from geometry.solids.hub_holes import HubHoles, least_wall
 from parts.base.kind import Kind, Others, Report

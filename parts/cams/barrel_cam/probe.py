@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
+from geometry.base.record import Record
 from geometry.cams.barrel.body import BarrelBody, Plane
 from geometry.cams.barrel.cam import LOWER, UPPER, BarrelCam
 from geometry.cams.barrel.rolling import UnrolledWall, rolled_places, wall_height
@@ -30,8 +30,7 @@ _BEND, _ROUNDING = 1.1, 1e-9
 _SLACK = 0.02
 
 
-@dataclass(frozen=True, slots=True)
-class GrooveRoller:
+class GrooveRoller(Record):
     """The roller in the groove of a cylindrical cam, ``body(offset)``; its diameter, mm."""
 
     body: Callable[[float], BarrelBody]

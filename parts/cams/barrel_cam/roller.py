@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from geometry.base.errors import ParameterError, limit
+from geometry.base.record import replace
 from parts.keys.barrel import BarrelCamSpec
 
 if TYPE_CHECKING:

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Meta
@@ -15,6 +14,7 @@ from msgspec import Meta
 from geometry.base.errors import Nearest, ParameterError, UndercutError
 from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
+from geometry.base.record import Record
 from parts.base.kind import Others, Report
 from parts.base.schema import replaced
 from parts.cams.disk_cam.part import (
@@ -97,8 +97,7 @@ _ASKED: Mapping[str, Sequence[str]] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Asked:
+class Asked(Record):
     """A key that may be to blame: its name and value, and values that are tried in its place."""
 
     name: str

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
+from geometry.base.record import Record
 from geometry.base.series import derived, quotient
 from geometry.cams.plane.coupler import LinkageCam
 from geometry.kinematics.linkage import RockerDrive, RockerGuide, SliderDrive, SliderGuide
@@ -26,8 +26,7 @@ _BETWEEN = "{alpha_2} - {alpha_1}"
 Names = tuple[str, str]
 
 
-@dataclass(frozen=True, slots=True)
-class Position:
+class Position(Record):
     """A cam at one cam angle (rad): S and points with derivatives over the cam angle, complex, fixed frame, mm."""
 
     cam: LinkageCam

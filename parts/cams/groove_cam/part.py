@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec.structs import fields, replace
@@ -11,6 +10,7 @@ from msgspec.structs import fields, replace
 from geometry.base.errors import GeometryError, OffsetError, ParameterError, UndercutError, limit
 from geometry.base.findings import Finding
 from geometry.base.nearest import last_that_holds, nearest
+from geometry.base.record import Record
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Profile, Region, circle
 from geometry.solids.hub_holes import HubHoles
@@ -85,8 +85,7 @@ class GrooveCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag=
     ) = None
 
 
-@dataclass(frozen=True, slots=True)
-class GrooveDisk:
+class GrooveDisk(Record):
     """A groove cam that exists: roller and motion, play, depth of the groove, the disk about it, its holes, mm."""
 
     cam: DiskCam

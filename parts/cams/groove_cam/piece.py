@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from msgspec import Meta
 
 from geometry.base.errors import OffsetError
+from geometry.base.record import Record
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Region, circle
 from geometry.solids.body import plate
@@ -42,8 +42,7 @@ class GroovePieceSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind"
     ) = None
 
 
-@dataclass(frozen=True, slots=True)
-class GroovePiece:
+class GroovePiece(Record):
     """The groove cam of a plate, and the plate's thickness, mm."""
 
     disk: GrooveDisk

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta
@@ -12,6 +11,7 @@ from msgspec.structs import replace
 from geometry.base.errors import Nearest, ParameterError, UndercutError, limit, rounded
 from geometry.base.nearest import nearest
 from geometry.base.placement import Placement2
+from geometry.base.record import Record
 from geometry.plane.profile import Profile
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape, check_wheel
@@ -80,8 +80,7 @@ class ConjugateCamSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind
     face_chamfer: FaceChamfer | FaceChamferTable = 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class SecondCam:
+class SecondCam(Record):
     """A second cam that exists: how it is turned on the shaft, the first cam and its keys, its body and holes."""
 
     pair: Conjugate

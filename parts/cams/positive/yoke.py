@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta
 
 from geometry.base.errors import OffsetError, ParameterError, limit
+from geometry.base.record import Record
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Profile, Region, circle
 from geometry.solids.body import plate
@@ -47,8 +47,7 @@ class YokeFrameSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", 
     ) = None
 
 
-@dataclass(frozen=True, slots=True)
-class YokeFrame:
+class YokeFrame(Record):
     """A frame that exists: breadth between faces or roller centres with the play, and its place at cam angle 0, mm.
 
     ``middle``: height of the frame's middle over the cam's axis at cam angle 0; ``half_width`` of the window.

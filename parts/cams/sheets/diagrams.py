@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
 
+from geometry.base.record import Draft, field
 from geometry.cams.motion.diagrams import diagram, hermite_spline
 from geometry.cams.motion.follower_motion import FollowerMotion
 from geometry.curves.curve import Curve
@@ -30,8 +30,7 @@ _MOST_DIGITS = 400
 Exact = list[tuple[str, complex, complex]]
 
 
-@dataclass(slots=True)
-class Drawn:
+class Drawn(Draft):
     """What was drawn and must be read back: exact curves of each layer on paper, straight lines, arcs."""
 
     curves: dict[str, list[Curve]] = field(default_factory=dict)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
+from geometry.base.record import Record
 from geometry.cams.motion.diagrams import joint_diagram
 from geometry.cams.motion.follower_motion import PhaseKind
 from geometry.cams.motion.guides import Translating
@@ -25,8 +25,7 @@ _ONE = 0.7
 _MARK = 0.7
 
 
-@dataclass(frozen=True, slots=True)
-class Joint:
+class Joint(Record):
     """The joint diagram in model mm: abscissa S^(order); S_0 is 0, the axis of the cam stands below it.
 
     ``borders``: lines y = slope x - a as (a, slope) below which the axis may stand; ``least``: O'_1, the nearest

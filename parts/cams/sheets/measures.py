@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
+from geometry.base.record import Record
 from geometry.curves.curve import Complex, Curve, Real
 from parts.drawing.canvas import Paper
 from parts.drawing.readback import ReadLine, ReadSheet
@@ -16,8 +16,7 @@ _SECTIONS = 64
 _GOLDEN = (math.sqrt(5) - 1) / 2
 
 
-@dataclass(frozen=True, slots=True)
-class CamMeasures:
+class CamMeasures(Record):
     """What must be measured off a cam's sheet.
 
     ``curves``: exact curves of each layer and ``lines`` (layer, both ends) on paper, mm; ``lift_scale`` and ``lift``:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from geometry.base.errors import ParameterError
+from geometry.base.record import Record
 from geometry.cams.motion.follower_motion import PhaseKind
 from geometry.cams.motion.guides import Translating
 from geometry.cams.plane.disk import DiskCam
@@ -22,8 +22,7 @@ _STEPS = (1.0, 2.0, 2.5, 4.0, 5.0)
 _ROUNDING = 1e-9
 
 
-@dataclass(frozen=True, slots=True)
-class Position:
+class Position(Record):
     """A numbered position of the follower: its number, the cam angle (rad), whether a phase ends or begins there."""
 
     number: int
@@ -31,8 +30,7 @@ class Position:
     is_joint: bool
 
 
-@dataclass(frozen=True, slots=True)
-class CamPicture:
+class CamPicture(Record):
     """A cam and all that its sheet marks; ``gamma``: transmission angle of the tangents, rad, None of a flat swing.
 
     ``asked``: whether gamma is the scene's; otherwise it is the one that the cam reaches.
@@ -123,8 +121,7 @@ def standard_scale(needed: float) -> float:
     return 10.0 * power
 
 
-@dataclass(frozen=True, slots=True)
-class Scales:
+class Scales(Record):
     """Scales of the diagrams by (4.1) to (4.4): rad, and mm (degrees), per rad^k, of one mm of paper.
 
     The pole distances follow: H_1 = mu_S / (mu_S' mu_phi), H_2 = mu_S' / (mu_S'' mu_phi), mm of paper.

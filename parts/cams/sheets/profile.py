@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass, replace
 
 import numpy as np
 
+from geometry.base.record import Record, replace
 from geometry.cams.motion.guides import Oscillating, Translating
 from geometry.cams.plane.disk import FollowerKind
 from geometry.cams.plane.shape import cam_shape, whole_profile
@@ -30,8 +30,7 @@ _FACE_HALF = math.radians(25)
 _TURN = 2 * math.pi
 
 
-@dataclass(frozen=True, slots=True)
-class Reach:
+class Reach(Record):
     """Radii of the construction, mm: base circle, that of S = 0, of the highest follower, where the lines of motion
     end, and of all that is drawn.
     """

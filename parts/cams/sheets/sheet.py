@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from geometry.base.errors import Nearest, ParameterError
+from geometry.base.record import Record
 from geometry.cams.plane.graphical import LEAST_INTERVALS
 from parts.cams.sheets.diagrams import LEFT, RIGHT, Drawn, draw_diagrams, heights_of
 from parts.cams.sheets.joint import Joint, draw_joint, joint_of, joint_paper, joint_window, name_joint
@@ -34,8 +33,7 @@ _AROUND = 2 * FRAME + _TITLE + _MARGIN + INSCRIPTION[1]
 _LEAST_JOINT = 95.0
 
 
-@dataclass(frozen=True, slots=True)
-class _Layout:
+class _Layout(Record):
     """A sheet's paper and the areas on it, mm."""
 
     canvas: Canvas

@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
 from geometry.base.errors import GeometryError
+from geometry.base.record import Record
 from geometry.cams.motion.diagrams import ArmCurve
 from geometry.cams.motion.guides import Oscillating
 from geometry.cams.plane.synthesis import oscillating_axis
@@ -26,8 +26,7 @@ _PLANES = 181
 _HATCH, _HATCH_STEP = 4.0, 2.5
 
 
-@dataclass(frozen=True, slots=True)
-class Swing:
+class Swing(Record):
     """Model mm, the cam's axis at 0 and the pivot on +x; ``least``: the axis of the smallest cam, with its r_0.
 
     ``planes``: (point, normal) of half-planes in which the axis may stand, rises and returns (of a flat follower, whose

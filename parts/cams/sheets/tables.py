@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
 
+from geometry.base.record import Record
 from geometry.cams.plane.coupler import LinkageCam
 from parts.base.texts import words
 from parts.cams.sheets.picture import CamPicture, Scales
@@ -24,8 +24,7 @@ _PHASES = {"rise_angle_deg", "return_angle_deg"}
 _LEFT_OUT = {"lift_of_phase", "swing_of_phase_deg", "graphical_intervals"}
 
 
-@dataclass(frozen=True, slots=True)
-class Grid:
+class Grid(Record):
     """Columns (mm) and rows of cells; a row of one cell is a heading; ``samples``: layers whose line a row shows."""
 
     columns: tuple[float, ...]

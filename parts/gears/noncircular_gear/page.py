@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import Any
 
 import msgspec
 import numpy as np
 
 from geometry.base.errors import GeometryError, ParameterError
+from geometry.base.record import replace
 from geometry.gears.noncircular.gear import NoncircularGear
 from geometry.gears.noncircular.pair import NoncircularPair
 from geometry.gears.noncircular.pairing import Pairing

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import Annotated, Any
 
 from geometry.base.errors import ParameterError
+from geometry.base.record import replace
 from geometry.gears.teeth import rack_measurement
 from geometry.gears.teeth.rack import Rack
 from parts.base.refusal import REMOVED, SceneError

@@ -94,9 +94,8 @@ def checked_ring_gear(keys: RingGearSpec) -> RingGear:
     ParameterError
         The ring cannot exist or its cutter cannot make it; names the key and the nearest value that works.
     """
-    from dataclasses import replace
-
     from geometry.base.errors import ParameterError
+    from geometry.base.record import replace
     from geometry.gears.teeth.ring_limits import check_rim, checked_ring
 
     normal, section = _ring_of(keys), settled_section(keys)
@@ -128,7 +127,7 @@ def settled_section(keys: RingGearSpec) -> RingGear:
 
 def _with_rim(keys: RingGearSpec, gear: RingGear) -> RingGear:
     """The ring with the outside that follows from root and holes, where nobody gave one."""
-    from dataclasses import replace
+    from geometry.base.record import replace
 
     if keys.outer_diameter is not None:
         return gear

@@ -7,12 +7,12 @@ the paper disk are given; the zero wheel and the shifted wheel follow.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import Annotated, Any
 
 from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.record import replace
 from geometry.gears.pictures.readings import ProfileReadings, profile_readings
 from geometry.gears.teeth import limits, measurement
 from geometry.gears.teeth.limits import LEAST_TIP_THICKNESS, checked_gear, practicum_undercut

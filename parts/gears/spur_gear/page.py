@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import Annotated, Any
 
 from msgspec import Meta
 
 from geometry.base.errors import ParameterError
+from geometry.base.record import replace
 from geometry.gears.teeth import limits, measurement
 from geometry.gears.teeth.limits import LEAST_TIP_THICKNESS
 from geometry.gears.teeth.spur import SpurGear

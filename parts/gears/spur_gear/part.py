@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Annotated, Literal, Protocol
 
@@ -13,6 +12,7 @@ from msgspec import Meta, Struct
 from geometry.base.errors import GeometryError, Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
+from geometry.base.record import replace
 from geometry.gears.teeth.basic_rack import (
     ISO_53,
     ISO_53_ANGLE,

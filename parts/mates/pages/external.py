@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct
 
 from geometry.base.angles import involute_function
 from geometry.base.errors import Nearest, ParameterError, rounded
+from geometry.base.record import Record, replace
 from geometry.gears.pairs.common_face import CommonFace
 from geometry.gears.pairs.external import ExternalPair, external_pair
 from geometry.gears.pairs.side_clearance import guaranteed_normal_backlash, normal_from_circumferential, thinning_for
@@ -59,8 +59,7 @@ class PairKeys(Struct, forbid_unknown_fields=True):
     measured_working_pitch: Annotated[float, mm("p_w measured off the same drawing", above=0, most=1e6)] | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Asked:
+class Asked(Record):
     """The pair of a calculation in its transverse section, its normal gears, and how its data came about."""
 
     pair: ExternalPair

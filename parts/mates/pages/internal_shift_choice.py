@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError, at_least, at_most
+from geometry.base.record import Record, replace
 from geometry.gears.pairs.internal import shift_difference
 from geometry.gears.shifts.finder import (
     Proposal,
@@ -81,8 +81,7 @@ class InternalShiftKeys(Struct, forbid_unknown_fields=True):
     picture: Annotated[str, Meta(description="SVG or DXF file of the contour to write")] | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Choice:
+class Choice(Record):
     """Shifts with the rule that gave them; ``pair``: whose numbers are told."""
 
     name: Message

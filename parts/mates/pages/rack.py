@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Any
 
+from geometry.base.record import Record
 from geometry.gears.pairs.common_face import CommonFace
 from geometry.gears.pairs.rack import RackPair
 from geometry.gears.teeth import limits, measurement
@@ -20,8 +20,7 @@ from parts.texts.findings import finding_of
 ISO = ("ISO 21771", "ISO 21771")
 
 
-@dataclass(frozen=True, slots=True)
-class Helical:
+class Helical(Record):
     """What a pair of transverse sections does not know of itself: its first gear in normal data, and the face."""
 
     normal: SpurGear

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Annotated, Any
 
 from msgspec import Meta, Struct
 
 from geometry.base.errors import ParameterError, at_most
+from geometry.base.record import Record
 from geometry.gears.shifts import tables as shift_tables
 from geometry.gears.shifts.choice import shift_sum_for_distance
 from geometry.gears.shifts.external import (
@@ -62,8 +62,7 @@ class ShiftChoiceKeys(Struct, forbid_unknown_fields=True):
     picture: Annotated[str, Meta(description="SVG or DXF file of the contour to write")] | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Choice:
+class Choice(Record):
     """Shifts of one rule: its name, the source, and a misprint that was mended."""
 
     name: Message

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass, replace
 
+from geometry.base.record import Record, replace
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.pictures.meshing import CIRCLES, Body, MeshingPicture
 from parts.drawing.canvas import (
@@ -35,8 +35,7 @@ SYMBOLS = {"tip": "a", "working": "w", "reference": "", "base": "b", "root": "f"
 Ends = list[tuple[str, tuple[complex, complex]]]
 
 
-@dataclass(frozen=True, slots=True)
-class Facts:
+class Facts(Record):
     """What stands beside the picture: its title and the rows of its table."""
 
     title: str

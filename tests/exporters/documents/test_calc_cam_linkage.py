@@ -6,7 +6,6 @@ import json
 import math
 import re
 from collections.abc import Callable
-from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -15,6 +14,7 @@ import pytest
 
 from exporters.documents.render import SPOKEN, render
 from exporters.documents.topics import calculate, sheet_of
+from geometry.base.record import replace
 from geometry.kinematics.linkage import Linkage, RockerDrive, RockerGuide, SliderDrive, SliderGuide
 from parts.base.texts import words
 from parts.pages.page import Known, Sheet, Step

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import html
 import re
-from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -18,6 +17,7 @@ from exporters.documents.contour_dxf import SCALE, write_contour_dxf
 from exporters.documents.render import SPOKEN, render
 from exporters.documents.topics import calculate
 from geometry.base.errors import Nearest
+from geometry.base.record import replace
 from geometry.curves.implicit import Box
 from geometry.gears.pairs.internal import internal_pair
 from geometry.gears.shifts.finder import for_sum

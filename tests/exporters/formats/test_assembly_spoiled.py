@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import zipfile
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ import pytest
 
 from exporters.production.recheck import recheck
 from exporters.verification.assembly import expected_of, verify_assembly
+from geometry.base.record import replace
 from parts.base.part import Part
 from parts.base.readback import Probe, Probed, ReadBack
 from parts.scene.formats import file_kind

@@ -34,12 +34,13 @@ def started(folder: Path, *moments: str, out: str = "new/out", hang_up: str = "S
     What a hang-up does is set, for tests that run under nohup would hand on that it does nothing.
     """
     scene = write_scene(folder / "s.toml", {"g": part_keys(Gear(2, 23))}, [{"format": "step"}])
-    writer = ("import ctypes, dataclasses, os, signal, sys\nfrom exporters.command import cli\n"
+    writer = ("import ctypes, os, signal, sys\nfrom exporters.command import cli\n"
+              "from geometry.base.record import replace\n"
               "from exporters.formats.registry import REGISTRY\n"
               "def write(job, made, file):\n    file.write_text('half')\n")  # fmt: skip
     writer += "".join(f"    {moment}\n" for moment in ("(file.parent / 'begun').touch()", *moments))
     writer += f"    return {{}}\nsignal.signal(signal.SIGHUP, signal.{hang_up})\n"
-    row = "REGISTRY['step'] = dataclasses.replace(REGISTRY['step'], write=write)"
+    row = "REGISTRY['step'] = replace(REGISTRY['step'], write=write)"
     code = f"{writer}{row}\nsys.exit(cli.main())\n"
     return subprocess.Popen([sys.executable, "-c", code, "build", str(scene), "--out", out, "--no-verify"], cwd=folder,
                             text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # fmt: skip
@@ -116,11 +117,11 @@ def test_the_work_does_not_outlive_its_command(tmp_path: Path) -> None:
 def test_a_caller_in_python_keeps_its_process(tmp_path: Path) -> None:
     """Only a command of its own splits: a program or a test that calls ``main`` gets its answer itself."""
     scene = write_scene(tmp_path / "s.toml", {"g": part_keys(Gear(2, 23))}, [{"format": "step"}])
-    code = ("import os, sys, dataclasses\nfrom exporters.command import cli\n"
+    code = ("import os, sys\nfrom exporters.command import cli\nfrom geometry.base.record import replace\n"
             "from exporters.formats.registry import REGISTRY\n"
             "def write(job, made, file):\n"
             "    return {'pid': int(file.write_text(str(os.getpid())) and os.getpid())}\n"
-            "REGISTRY['step'] = dataclasses.replace(REGISTRY['step'], write=write)\n"
+            "REGISTRY['step'] = replace(REGISTRY['step'], write=write)\n"
             "cli.main(sys.argv[1:])\nprint('caller', os.getpid())")  # fmt: skip
     done = subprocess.run([sys.executable, "-c", code, "build", str(scene), "--out", "o", "--no-verify"], cwd=tmp_path,
                           text=True, capture_output=True, timeout=60, check=True)  # fmt: skip

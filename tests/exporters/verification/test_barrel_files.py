@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import random
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -20,6 +19,7 @@ from exporters.production.recheck import recheck
 from exporters.verification.faces import verify_faced_mesh
 from exporters.verification.judge import held, probed
 from exporters.verification.verdict import Verdict
+from geometry.base.record import replace
 from geometry.cams.barrel.body import BarrelBody, Plane, Track
 from geometry.cams.barrel.cam import LOWER, UPPER
 from geometry.cams.barrel.rolling import rolled_places, wall_height

@@ -7,7 +7,6 @@ along the exact outline's own points, as it stands from the height at which the 
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +18,7 @@ from exporters.formats.registry import REGISTRY, declared_error, shape_of
 from exporters.production.plan import plan_build
 from exporters.verification.judge import verify_file
 from exporters.verification.mesh import verify_mesh
+from geometry.base.record import replace
 from geometry.plane.profile import Region
 from parts.scene.formats import FILE_KINDS
 from parts.scene.load import scene_from_dict

@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib.util
 import json
 import math
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +14,7 @@ import pytest
 from exporters.command.cli import main
 from exporters.formats.readback import ReadMesh
 from exporters.verification.mesh import verify_mesh
+from geometry.base.record import replace
 from geometry.solids.body import Body
 from parts.base.refusal import SceneError
 from parts.scene.load import load_scene, make_parts, scene_from_dict

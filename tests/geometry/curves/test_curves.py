@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 
 import numpy as np
@@ -12,6 +11,7 @@ from hypothesis import strategies as st
 
 from geometry.base.errors import CuspError
 from geometry.base.placement import Placement2
+from geometry.base.record import replace
 from geometry.curves.curve import Curve, OffsetCurve, Reversed
 from geometry.curves.cutter_fillet import CutterFillet
 from geometry.curves.ellipse import EllipticArc, ellipse_angle
@@ -254,7 +254,7 @@ def test_fillet_cusp_is_the_first_root_of_its_speed() -> None:
 @given(cutter_fillets(), numbers(-0.9, 2.0))
 def test_offset_of_a_cutter_fillet_keeps_the_family(fillet: CutterFillet, share: float) -> None:
     distance = share * fillet.tip_radius
-    moved = dataclasses.replace(fillet, tip_radius=fillet.tip_radius + distance)
+    moved = replace(fillet, tip_radius=fillet.tip_radius + distance)
     if moved.cusp() is None:
         assert fillet.offset(distance) == moved
         laws.check_offset_distance(fillet, distance)

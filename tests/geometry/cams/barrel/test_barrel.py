@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 from typing import Any
@@ -15,6 +14,7 @@ import pytest
 from geometry.approximation.chords import approximate_profile
 from geometry.approximation.outline import spline_outline
 from geometry.base.errors import OffsetError
+from geometry.base.record import replace
 from geometry.cams.barrel.body import BarrelBody, barrel_moments
 from geometry.cams.barrel.cam import LOWER, UPPER, AxialGuide, BarrelCam, Guide, SwingGuide
 from geometry.cams.barrel.development import DevelopedEdge, development

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from geometry.approximation.chords import approximate_profile
+from geometry.base.record import replace
 from geometry.cams.barrel.bounds import edge_bounds
 from geometry.cams.barrel.cam import LOWER, UPPER, AxialGuide, BarrelCam, SwingGuide
 from geometry.cams.barrel.development import DevelopedEdge, development

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from geometry.base.record import replace
 from geometry.cams.barrel.body import BarrelBody
 from geometry.cams.barrel.cam import LOWER, UPPER, AxialGuide, BarrelCam
 from geometry.cams.barrel.triangles import triangle_bound

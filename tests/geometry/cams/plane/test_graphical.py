@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 import math
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from geometry.base.errors import ParameterError
+from geometry.base.record import replace
 from geometry.cams.motion.follower_motion import FollowerMotion, dwell, follower_motion, motion_of_table, return_, rise
 from geometry.cams.plane.disk import DiskCam, FollowerKind, oscillating_cam, translating_cam
 from geometry.cams.plane.graphical import (

@@ -9,13 +9,13 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 import pytest
 import shapely
 
 from geometry.base.errors import GeometryError
+from geometry.base.record import replace
 from geometry.gears.mesh import search as mesh_search
 from geometry.gears.mesh.gears import GearMesh
 from geometry.gears.mesh.rack import RackMesh

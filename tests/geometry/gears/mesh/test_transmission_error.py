@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 import shapely
 
+from geometry.base.record import replace
 from geometry.gears.mesh.gears import GearMesh
 from geometry.gears.mesh.rack import RackMesh
 from geometry.gears.mesh.transmission_error import TransmissionError, transmission_errors

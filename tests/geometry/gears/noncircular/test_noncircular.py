@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import mpmath
 import numpy as np
 import pytest
 
 from geometry.base.errors import CuspError, OffsetError, ParameterError, PointedTipError
+from geometry.base.record import replace
 from geometry.curves.curve import Curve
 from geometry.gears.noncircular.gear import NoncircularGear, cut_outline
 from geometry.gears.noncircular.offset import moved_outline, noncircular_region

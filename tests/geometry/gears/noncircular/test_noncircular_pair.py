@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from geometry.base.record import replace
 from geometry.gears.noncircular.contact import noncircular_contact
 from geometry.gears.noncircular.gear import NoncircularGear
 from geometry.gears.noncircular.pair import NoncircularPair

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 import random
-from dataclasses import replace
 from pathlib import Path
 
 import mpmath
@@ -15,6 +14,7 @@ import shapely
 
 from geometry.base.angles import involute_function
 from geometry.base.errors import ParameterError
+from geometry.base.record import replace
 from geometry.gears.mesh.gears import GearMesh
 from geometry.gears.pairs.internal import InternalPair, internal_pair, shift_difference
 from geometry.gears.pairs.involute import Sums, signed

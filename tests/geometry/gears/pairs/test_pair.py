@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 import random
-from dataclasses import replace
 from functools import cache
 
 import mpmath
@@ -18,6 +17,7 @@ import numpy as np
 import pytest
 
 from geometry.base.errors import GeometryError, ParameterError
+from geometry.base.record import replace
 from geometry.gears.mesh.gears import GearMesh
 from geometry.gears.mesh.search import PairContact
 from geometry.gears.pairs.external import ExternalPair, external_pair

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -11,6 +10,7 @@ import pytest
 import shapely
 
 from geometry.base.errors import ParameterError
+from geometry.base.record import replace
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.pictures.generating import inside_disk, rack_contours, rack_positions, rack_tooth
 from geometry.gears.teeth.basic_rack import TipRelief, iso_53

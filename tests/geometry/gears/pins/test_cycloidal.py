@@ -5,7 +5,6 @@ from __future__ import annotations
 import cmath
 import json
 import math
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +16,7 @@ from hypothesis import strategies as st
 from geometry.approximation.chords import approximate_profile
 from geometry.approximation.outline import spline_outline
 from geometry.base.errors import GeometryError, OffsetError, ParameterError, UndercutError
+from geometry.base.record import replace
 from geometry.gears.pins.contact import DiscMotion, half_outline, lost_motion, pin_contact, pin_gaps, pins_in_contact
 from geometry.gears.pins.cycloidal import CycloidalDisc, checked_disc, disc_findings, disc_region
 from geometry.plane.distance import Boundary, Verdict, folded

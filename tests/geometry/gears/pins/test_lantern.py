@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geometry.base.errors import OffsetError, ParameterError, PointedTipError
+from geometry.base.record import replace
 from geometry.gears.pins.contact import pin_contact
 from geometry.gears.pins.lantern import (
     LanternGear,

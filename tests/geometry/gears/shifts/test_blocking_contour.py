@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 import random
-from dataclasses import replace
 from itertools import pairwise
 
 import pytest
 
 from geometry.base.errors import GeometryError
+from geometry.base.record import replace
 from geometry.curves.implicit import Box, level_lines
 from geometry.gears.pairs.external import ExternalPair, external_pair
 from geometry.gears.pairs.sliding import active_line

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import random
-from dataclasses import replace
 
 import pytest
 from hypothesis import HealthCheck, assume, given
@@ -12,6 +11,7 @@ from hypothesis import strategies as st
 
 from geometry.base.angles import involute_function
 from geometry.base.errors import GeometryError
+from geometry.base.record import replace
 from geometry.curves.implicit import Box
 from geometry.gears.mesh.gears import GearMesh
 from geometry.gears.pairs.internal import InternalPair, internal_pair

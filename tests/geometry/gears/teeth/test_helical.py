@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from itertools import product
 
 import numpy as np
 import pytest
 
 from geometry.approximation.twisted import approximate_twisted
+from geometry.base.record import replace
 from geometry.gears.teeth.basic_rack import TipRelief, iso_53
 from geometry.gears.teeth.helix import Helix, mesh_fault
 from geometry.gears.teeth.offset import gear_region

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import random
-from dataclasses import replace
 
 import pytest
 
+from geometry.base.record import replace
 from geometry.gears.mesh.gears import GearMesh
 from geometry.gears.shifts.finder import for_sum, greatest_contact_ratio, least_sliding, least_wear, legal_shifts
 from geometry.gears.shifts.internal import InternalRequirements, least_margin, window

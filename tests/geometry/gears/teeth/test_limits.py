@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -13,6 +12,7 @@ from hypothesis import strategies as st
 
 from geometry.base.angles import involute_function
 from geometry.base.errors import GeometryError, ParameterError, PointedTipError
+from geometry.base.record import replace
 from geometry.gears.teeth import limits
 from geometry.gears.teeth.basic_rack import (
     ISO_53,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +10,7 @@ import shapely
 from hypothesis import given
 
 from geometry.base.errors import GeometryError, OffsetError, ParameterError
+from geometry.base.record import replace
 from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line
 from geometry.curves.trochoid import TrochoidFillet

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import random
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -12,6 +11,7 @@ import pytest
 import shapely
 
 from geometry.base.errors import OffsetError, ParameterError
+from geometry.base.record import replace
 from geometry.gears.mesh.rack import RackMesh
 from geometry.gears.pairs.rack import RackPair, rack_pair
 from geometry.gears.teeth.basic_rack import BasicRack, iso_53

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,6 +11,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from geometry.base.errors import GeometryError, OffsetError, ParameterError, PointedTipError
+from geometry.base.record import replace
 from geometry.gears.teeth import ring_limits
 from geometry.gears.teeth.cutter import PinionCutter, checked_cutter, full_round
 from geometry.gears.teeth.internal_mesh import InternalMesh

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +10,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from geometry.base.errors import ParameterError
+from geometry.base.record import replace
 from geometry.gears.mesh.gears import GearMesh
 from geometry.gears.pairs.internal import internal_pair
 from geometry.gears.teeth import ring_limits

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 import random
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ import numpy as np
 import pytest
 
 from geometry.base.errors import ParameterError
+from geometry.base.record import replace
 from geometry.base.roots import bracketed_root
 from geometry.gears.teeth import measurement as m
 from geometry.gears.teeth import rack_measurement

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,6 +11,7 @@ from hypothesis import strategies as st
 
 from geometry.base.angles import inverse_involute, involute_function
 from geometry.base.errors import ParameterError
+from geometry.base.record import replace
 from geometry.gears.mesh.gears import GearMesh
 from geometry.gears.pairs.external import external_pair
 from geometry.gears.teeth.basic_rack import TipRelief, iso_53

@@ -5,13 +5,14 @@ from __future__ import annotations
 import itertools
 import math
 import random
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
 import shapely
 
 from geometry.base.errors import GeometryError, ParameterError
+from geometry.base.record import replace
 from geometry.gears.teeth.basic_rack import ISO_53, BasicRack, iso_53
 from geometry.gears.teeth.limits import checked_gear
 from geometry.gears.teeth.spur import SpurGear
