@@ -25,6 +25,7 @@ from msgspec import Meta, Struct
 from msgspec.structs import fields
 
 import parts
+from geometry.base.record import Draft, Record
 from parts.base.registry import KINDS
 from parts.base.schema import phrase_of
 from parts.base.texts import DOMAIN, LOCALE
@@ -101,13 +102,14 @@ def _kept_in_data() -> Iterator[str]:
 
 
 def _structs() -> list[type[Struct]]:
-    """All tables of keys, in the order of their names."""
+    """All tables of keys, in the order of their names; records are none."""
     found: dict[str, type[Struct]] = {}
     for module in pkgutil.walk_packages(parts.__path__, "parts."):
         if ".solids" in module.name:
             continue
         for _, thing in inspect.getmembers(import_module(module.name), inspect.isclass):
-            if issubclass(thing, Struct) and thing.__module__.startswith("parts."):
+            is_table = issubclass(thing, Struct) and not issubclass(thing, Record | Draft)
+            if is_table and thing.__module__.startswith("parts."):
                 found[f"{thing.__module__}.{thing.__qualname__}"] = thing
     return [found[name] for name in sorted(found)]
 
