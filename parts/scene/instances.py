@@ -10,13 +10,13 @@ import cmath
 import math
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Meta, Struct
 from msgspec.structs import replace
 
 from geometry.base.errors import Nearest
+from geometry.base.record import Record
 from parts.base.refusal import REMOVED, SceneError, meant
 from parts.base.schema import converted
 from parts.keys.base import IDENTIFIER, degrees, mm
@@ -61,8 +61,7 @@ class InstanceTable(InstanceSpec, forbid_unknown_fields=True):
     ) = None
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
+class Group(Record):
     """Equal instances about an axis: their ids, and the angle (degrees) from each to the next."""
 
     members: tuple[str, ...]
