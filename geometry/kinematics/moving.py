@@ -1,0 +1,242 @@
+"""A mechanism in motion: where every link stands, as Taylor series in the parameter t of its drives.
+
+::
+
+    reducer = moving(james, (Drive("1"),))              # t: turns of link 1
+    place, angle = reducer.pose("2", np.array([0.0, 0.3]), 2)
+    reducer.motion("2")                                 # a PlaneMotion: it carries a follower, or cuts a profile
+
+Turns add up as fractions and are reduced modulo a turn before they become radians: no ratio is too large.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from graphlib import CycleError, TopologicalSorter
+from typing import NamedTuple
+
+import numpy as np
+
+from geometry.base.errors import ParameterError
+from geometry.base.series import Series, exponential, product
+from geometry.curves.curve import Real
+from geometry.kinematics.mechanism import FRAME, Fixed, Group, Mechanism, Prismatic, Revolute, Tree, Z, tree, turns
+from geometry.kinematics.motion import GivenMotion, PlaneMotion, Pose
+
+# rad or mm of one turn, or of one unit of travel
+_TURN, _TRAVEL = 2 * math.pi, math.pi
+
+
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """``start`` + ``rate`` t turns of a link, or travel of a slide in units of pi mm; or the ``law`` that it follows.
+
+    The law gives the Taylor series of the angle (rad) or of the travel (mm) over t, from (t, order).
+    """
+
+    link: str
+    rate: Fraction = Fraction(1)
+    start: Fraction = Fraction(0)
+    law: Callable[[Real, int], Series] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class _Course:
+    """A turn or a travel over t: an exact line, and shares (rad or mm) of drives with laws and of groups' links."""
+
+    start: Fraction = Fraction(0)
+    rate: Fraction = Fraction(0)
+    shares: tuple[tuple[str, float], ...] = ()
+
+
+class _Body(NamedTuple):
+    """Origin of a link's frame, its turn since the start, and exp(i turn)."""
+
+    origin: Series
+    turn: Series
+    unit: Series
+
+
+@dataclass(frozen=True, slots=True)
+class Moving:
+    """A mechanism with its drives, made by ``moving``. ``starts``: origin and angle of each link's frame."""
+
+    stands: Tree
+    drives: Mapping[str, Drive]
+    courses: Mapping[str, _Course]
+    starts: Mapping[str, tuple[complex, float]]
+    needs: Mapping[str, tuple[str, ...]]
+
+    def pose(self, link: str, t: Real, order: int) -> Pose:
+        """Origin (complex, mm) and angle (rad) of a link's frame: coefficients 0 to ``order`` over t, shaped as t.
+
+        The turn since the start is within half a turn either way. A link on a tilted axis has none: KeyError.
+        """
+        return self.poses(t, order, (link,))[link]
+
+    def motion(self, link: str) -> PlaneMotion:
+        """The same as a motion of its own."""
+        return GivenMotion(lambda t, order: self.pose(link, t, order))
+
+    def poses(self, t: Real, order: int, links: Iterable[str] | None = None) -> dict[str, Pose]:
+        """The poses of these links, or of all that move in the plane."""
+        t = np.asarray(t, dtype=float)
+        wanted = [name for name in self.starts if name != FRAME] if links is None else list(links)
+        still = [0.0 * t] * (order + 1)
+        bodies = {FRAME: _Body([x + 0j for x in still], still, [1 + 0j + still[0], *(x + 0j for x in still[1:])])}
+        inputs = {name: drive.law(t, order) for name, drive in self.drives.items() if drive.law}
+        for name in self._all_needed(wanted):
+            joint = self.stands.supports[name]
+            if isinstance(joint, Group):
+                on = [self._pose(other, bodies[other]) for other in joint.on]
+                origin, angle = joint.poses(on)[joint.links.index(name)]
+                inputs[name] = [angle[0] - self.starts[name][1], *angle[1:]]
+                bodies[name] = _Body(origin, inputs[name], exponential([1j * x for x in inputs[name]]))
+            else:
+                bodies[name] = self._moved(name, joint, bodies[joint.on], (t, order), inputs)
+        return {name: self._pose(name, bodies[name]) for name in wanted}
+
+    def turn(self, link: str, t: float | Fraction) -> float:
+        """How far a link has turned at one t, rad within half a turn either way; a slide's travel, mm.
+
+        Rounded once where all drives are lines, and whatever stands between them.
+        """
+        body = self.stands.body(link)
+        at = np.asarray(float(t))
+        inputs = {name: drive.law(at, 0) for name, drive in self.drives.items() if drive.law}
+        course = self.courses[body]
+        for name, _ in course.shares:
+            if name not in inputs:
+                inputs[name] = [self.pose(name, at, 0)[1][0] - self.starts[name][1]]
+        slides = isinstance(self.stands.supports.get(body), Prismatic)
+        way = _line(course, [t], slides=slides)[0]
+        return float(way + sum(share * inputs[name][0] for name, share in course.shares))
+
+    def _pose(self, link: str, body: _Body) -> Pose:
+        return body.origin, [self.starts[link][1] + body.turn[0], *body.turn[1:]]
+
+    def _moved(
+        self, name: str, joint: Fixed | Revolute | Prismatic, on: _Body, at: tuple[Real, int], inputs: dict[str, Series]
+    ) -> _Body:
+        """A link on another one: the vectors of the start, turned."""
+        own, below = self.starts[name][0], self.starts[joint.on][0]
+        if isinstance(joint, Revolute):
+            turn = self._series(name, *at, inputs)
+            unit = exponential([1j * x for x in turn])
+            arm, rest = joint.at - below, own - joint.at
+            origin = [o + arm * u + rest * v for o, u, v in zip(on.origin, on.unit, unit, strict=True)]
+            return _Body(origin, turn, unit)
+        arm = own - below
+        origin = [o + arm * u for o, u in zip(on.origin, on.unit, strict=True)]
+        if isinstance(joint, Prismatic):
+            way = product([joint.direction * x for x in self._series(name, *at, inputs)], on.unit)
+            origin = [o + w for o, w in zip(origin, way, strict=True)]
+        return _Body(origin, on.turn, on.unit)
+
+    def _series(self, name: str, t: Real, order: int, inputs: dict[str, Series]) -> Series:
+        """A link's own turn (rad) or travel (mm)."""
+        course = self.courses[name]
+        slides = isinstance(self.stands.supports[name], Prismatic)
+        way = np.reshape(_line(course, t.ravel().tolist(), slides=slides), t.shape)
+        rate = float(course.rate) * (_TRAVEL if slides else _TURN)
+        series = [way, *(rate + 0.0 * t if k == 1 else 0.0 * t for k in range(1, order + 1))]
+        for other, share in course.shares:
+            series = [x + share * y for x, y in zip(series, inputs[other], strict=True)]
+        return series
+
+    def _all_needed(self, wanted: list[str]) -> list[str]:
+        """What must be known for these links, each after what it needs itself."""
+        found = dict.fromkeys(wanted)
+        for name in (queue := list(found)):
+            more = [other for other in self.needs[name] if other not in found]
+            found.update(dict.fromkeys(more))
+            queue.extend(more)
+        return [name for name in self.needs if name in found]
+
+
+def moving(mechanism: Mechanism, drives: Iterable[Drive]) -> Moving:
+    """A mechanism moved by drives; what they leave free stands still against the frame.
+
+    Raises
+    ------
+    ParameterError
+        A joint does not fit, drives or held links contradict each other, or a law hangs on itself.
+    """
+    by_link = {drive.link: drive for drive in drives}
+    found = turns(mechanism, by_link)
+    stands = tree(mechanism)
+
+    def unit(link: str) -> float:
+        return _TRAVEL if isinstance(stands.supports[stands.body(link)], Prismatic) else _TURN
+
+    courses = {name: _Course() for name in stands.order}
+    for name in stands.quantities():
+        start = rate = Fraction()
+        shares = []
+        for other, share in found.shares.get(name, {}).items():
+            drive = by_link.get(other)
+            if drive is None or drive.law is not None:
+                shares.append((other, float(share) * unit(name) / unit(other)))
+            else:
+                start, rate = start + share * drive.start, rate + share * drive.rate
+        courses[name] = _Course(start, rate, tuple(shares))
+    planar = [name for name in stands.order if _in_plane(name, stands)]
+    needs = {name: _needs(name, stands, courses) for name in planar}
+    try:
+        order = [name for name in TopologicalSorter(needs).static_order() if name != FRAME]
+    except CycleError as error:
+        raise ParameterError("joints", error.args[1][0], "moves_itself") from None
+    starts = _starts([name for name in stands.order if name in needs], stands)
+    return Moving(stands, by_link, courses, starts, {name: needs[name] for name in order})
+
+
+def _needs(name: str, stands: Tree, courses: Mapping[str, _Course]) -> tuple[str, ...]:
+    joint = stands.supports[name]
+    on = list(joint.on) if isinstance(joint, Group) else [joint.on]
+    groups = [other for other, _ in courses[name].shares if isinstance(stands.supports[other], Group)]
+    return tuple(other for other in (*on, *groups) if other != FRAME)
+
+
+def _in_plane(link: str, stands: Tree) -> bool:
+    while link != FRAME:
+        joint = stands.supports[link]
+        if isinstance(joint, Group):
+            return all(_in_plane(name, stands) for name in joint.on)
+        if isinstance(joint, Revolute) and joint.axis != Z:
+            return False
+        link = joint.on
+    return True
+
+
+def _starts(order: list[str], stands: Tree) -> dict[str, tuple[complex, float]]:
+    """Origin and angle of each frame at the start: as given, on the link's axis, or where its group has it."""
+    starts: dict[str, tuple[complex, float]] = {FRAME: (0j, 0.0)}
+    zero = np.zeros(())
+    for name in order:
+        joint = stands.supports[name]
+        if isinstance(joint, Group):
+            on = [([starts[other][0] + zero], [starts[other][1] + zero]) for other in joint.on]
+            origin, angle = joint.poses(on)[joint.links.index(name)]
+            starts[name] = complex(origin[0]), float(angle[0])
+        else:
+            starts[name] = stands.mechanism.starts.get(name, (joint.at if isinstance(joint, Revolute) else 0j, 0.0))
+    return starts
+
+
+def _line(course: _Course, t: Iterable[float | Fraction], *, slides: bool) -> list[float]:
+    """start + rate t in rad, reduced exactly to half a turn either way; of a slide in mm, as it is."""
+    whole = math.lcm(course.start.denominator, course.rate.denominator)
+    start, rate = int(course.start * whole), int(course.rate * whole)
+    found = []
+    for value in t:
+        above, below = value.as_integer_ratio()
+        up, down = start * below + rate * above, whole * below
+        if slides:
+            found.append(up / down * _TRAVEL)
+            continue
+        up %= down
+        found.append((up - down if 2 * up > down else up) / down * _TURN)
+    return found

@@ -1,0 +1,237 @@
+"""Mechanisms in motion: against 50-digit differentiation, exact turns, instant centres and closed loops of levers."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import subprocess
+import sys
+from fractions import Fraction
+from typing import Any
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+from geometry.base.errors import ParameterError
+from geometry.base.series import Series
+from geometry.curves.curve import Real
+from geometry.kinematics.groups import dyad, prescribed
+from geometry.kinematics.linkage import RockerGuide, SliderGuide
+from geometry.kinematics.mechanism import FRAME, Fixed, Joint, Mechanism, Prismatic, Revolute, Rolling
+from geometry.kinematics.motion import GivenMotion, Pose, Rotation, instant_centre
+from geometry.kinematics.moving import Drive, moving
+
+# z1 = 40, z2 = 40, z3 = 120 of seed 001, example 7 with the satellite that fits, in m 2
+JAMES = Mechanism(
+    (
+        Revolute("1"),
+        Revolute("H"),
+        Revolute("2", on="H", at=80),
+        Revolute("3"),
+        Rolling("external", "1", "2", (40, 40), on="H"),
+        Rolling("internal", "2", "3", (40, 120), on="H"),
+    ),
+    held=("3",),
+)
+
+
+def series(function: Any, t: float, order: int) -> list[complex]:
+    """Taylor coefficients at 50 digits."""
+    with mp.workdps(50):
+        return [complex(x) for x in mp.taylor(function, mp.mpf(t), order)]
+
+
+def close(found: Series, wanted: list[complex], relative: float = 1e-12) -> bool:
+    size = max(abs(x) for x in wanted)
+    return all(abs(complex(x) - y) <= relative * max(abs(y), 1e-3 * size) for x, y in zip(found, wanted, strict=True))
+
+
+def test_a_chain_of_200_links() -> None:
+    """Each link on the end of the one before it, every third driven by gears from its neighbour, all bent at first."""
+    joints: list[Joint] = []
+    drives: list[Drive] = []
+    rates: list[Fraction] = []
+    ends = [complex(k, (k % 5) * 0.3) for k in range(201)]
+    for k in range(200):
+        joints.append(Revolute(f"{k}", on=f"{k - 1}" if k else FRAME, at=ends[k]))
+        if k % 3 == 2:
+            # a wheel on the axis of link k, fixed to link k - 2, would turn it: here against the link below
+            joints += [Revolute(f"w{k}", on=f"{k - 1}", at=ends[k] + 1)]
+            joints += [Rolling("external", f"w{k}", f"{k}", (17, 20 + k), on=f"{k - 1}")]
+            drives.append(Drive(f"w{k}", Fraction(k, 7)))
+            below = rates[-1]
+            rates.append(below - (Fraction(k, 7) - below) * Fraction(17, 20 + k))
+        else:
+            rates.append(Fraction((-1) ** k * (k + 1), 13))
+            drives.append(Drive(f"{k}", rates[-1]))
+    chain = moving(Mechanism(tuple(joints)), drives)
+
+    def end(t: Any) -> Any:
+        turned = [mp.expjpi(2 * mp.mpf(rate.numerator) / rate.denominator * t) for rate in rates]
+        return sum(
+            u * mp.mpmathify(b - a) for u, a, b in zip(turned, ends[:-1], ends[1:], strict=False) if u is not turned[-1]
+        )
+
+    for t in (0.0, 0.37, 11.25):
+        place, angle = chain.pose("199", np.array(t), 2)
+        assert close(place, series(end, t, 2))
+        exact = rates[-1] * Fraction(t) % 1
+        assert math.remainder(float(angle[0]) - 2 * math.pi * float(exact), 2 * math.pi) == pytest.approx(0, abs=1e-15)
+        assert float(angle[1]) == pytest.approx(2 * math.pi * float(rates[-1]), rel=1e-15)
+
+
+def test_a_train_of_1e12_stands_within_1e_12_of_a_pitch() -> None:
+    joints: list[Joint] = [Revolute("0")]
+    for k in range(1, 13):
+        joints += [Revolute(f"{k}"), Rolling("internal", f"{k - 1}", f"{k}", (200, 20))]
+    train = moving(Mechanism(tuple(joints)), (Drive("0"),))
+    for t in (0.1, 1 / 3, math.pi, 123456.789):
+        exact = Fraction(t) * 10**12 % 1
+        exact -= exact > Fraction(1, 2)
+        found = float(train.pose("12", np.array(t), 1)[1][0])
+        assert abs(found / (2 * math.pi) - exact) < 1e-12 / 20
+        assert train.turn("12", t) == found
+    assert train.turn("12", Fraction(1, 3)) == pytest.approx(2 * math.pi / 3, rel=1e-15)
+
+
+def test_satellites_go_round_with_their_carrier() -> None:
+    """Its centre turns with the carrier, it rolls on the ring: the instant centre is the pitch point (seed 001, 4)."""
+    reducer = moving(JAMES, (Drive("1"),))
+    t = np.linspace(-3, 3, 25)
+    place, angle = reducer.pose("2", t, 2)
+    carrier = 2 * math.pi * t / 4
+    assert np.allclose(place[0], 80 * np.exp(1j * carrier), atol=1e-12)
+    assert np.allclose(place[1], 80 * np.exp(1j * carrier) * 1j * math.pi / 2, atol=1e-11)
+    assert np.allclose(np.exp(1j * angle[0]), np.exp(-2j * carrier), atol=1e-14)
+    fixed, moves = instant_centre(reducer.motion("3"), reducer.motion("2"), t)
+    assert np.allclose(fixed, 120 * np.exp(1j * carrier), atol=1e-11)
+    assert np.allclose(abs(moves), 40, atol=1e-11)
+    sun, _ = instant_centre(reducer.motion("1"), reducer.motion("2"), t)
+    assert np.allclose(abs(sun), 40, atol=1e-11)
+
+
+def test_two_drives_and_a_law() -> None:
+    """A differential: what two drives give adds up, the second by a law that no line tells."""
+
+    def law(t: Real, order: int) -> Series:
+        return [np.sin(t), np.cos(t), -np.sin(t) / 2][: order + 1]
+
+    both = moving(Mechanism(JAMES.joints), (Drive("1", Fraction(2), Fraction(1, 4)), Drive("3", law=law)))
+    place, angle = both.pose("H", np.array(0.3), 2)
+    # w_H = (z1 w1 + z3 w3) / (z1 + z3)
+    wanted = [(2 * math.pi * (0.25 + 2 * 0.3) + 3 * math.sin(0.3)) / 4, (4 * math.pi + 3 * math.cos(0.3)) / 4]
+    assert [float(x) for x in angle] == pytest.approx([*wanted, -3 * math.sin(0.3) / 8])
+    assert both.turn("H", 0.3) == pytest.approx(wanted[0])
+    assert [complex(x) for x in place] == [0, 0, 0]
+
+
+def test_a_rack_travels_and_carries() -> None:
+    wheel = Rolling("rack", "1", "rack", (20, 1), module=Fraction(5, 2))
+    rack = Prismatic("rack", direction=cmath.rect(1, 0.3))
+    moved = moving(
+        Mechanism((Revolute("1"), rack, wheel, Fixed("pen", on="rack")), starts={"pen": (3j, 0.1)}), (Drive("1"),)
+    )
+    place, angle = moved.pose("pen", np.array(2.5), 1)
+    assert complex(place[0]) == pytest.approx(3j + cmath.rect(2.5 * math.pi * 2.5 * 20, 0.3), rel=1e-14)
+    assert (float(angle[0]), float(angle[1])) == (0.1, 0.0)
+    assert moved.turn("rack", 2.5) == pytest.approx(2.5 * math.pi * 50, rel=1e-15)
+
+
+A, B, C, D = 0j, 100 + 20j, 40.0, 70.0
+
+
+def crank_and(group: Any, *more: Joint) -> Any:
+    return moving(Mechanism((Revolute("crank", at=A), group, *more)), (Drive("crank"),))
+
+
+def rocker_angle(t: Any) -> Any:
+    """Freudenstein by circles that cut, at 50 digits: the rocker's angle of a four-bar 30, 95, 70."""
+    joint = 30 * mp.expjpi(2 * t)
+    way = mp.mpmathify(B) - joint
+    far = abs(way)
+    along = (far**2 + 95**2 - 70**2) / (2 * far)
+    point = joint + way / far * (along + 1j * mp.sqrt(95**2 - along**2))
+    return point - mp.mpmathify(B)
+
+
+def test_a_dyad_is_a_group() -> None:
+    """A four-bar, and a wheel train driven by its rocker; velocities and accelerations by 50 digits."""
+    group = dyad(("coupler", "rocker"), ("crank", 30), (FRAME, RockerGuide(B, D)), 95.0)
+    wheel = (Revolute("wheel", at=B + 60), Rolling("external", "rocker", "wheel", (30, 15)))
+    bar = crank_and(group, *wheel)
+    for t in (0.05, 0.4, 0.77):
+        place, angle = bar.pose("coupler", np.array(t), 2)
+        end = [p + 95 * u for p, u in zip(place, unit(angle), strict=True)]
+        assert close(end, series(lambda x: mp.mpmathify(B) + rocker_angle(x), t, 2))
+        angles = bar.pose("rocker", np.array(t), 2)[1]
+        assert close(angles, series(lambda x: mp.arg(rocker_angle(x)), t, 2))
+        start = float(bar.pose("rocker", np.array(0.0), 0)[1][0])
+        turned = bar.pose("wheel", np.array(t), 2)[1]
+        assert [float(x) for x in turned] == pytest.approx(
+            [-2 * (float(angles[0]) - start), -2 * float(angles[1]), -2 * float(angles[2])]
+        )
+
+
+def unit(angle: Series) -> Series:
+    from geometry.base.series import exponential
+
+    return exponential([1j * x for x in angle])
+
+
+def test_a_dyad_on_moving_links() -> None:
+    """A slider that runs on a turning bar (Whitworth's guide): B stays on the bar, AB keeps its length."""
+    bar = Revolute("bar", at=B)
+    group = dyad(("coupler", "slider"), ("crank", 30), ("bar", SliderGuide(5j, 0.2)), 150.0)
+    moved = moving(Mechanism((Revolute("crank"), bar, group)), (Drive("crank"), Drive("bar", Fraction(-1, 3))))
+    t = np.linspace(0, 1, 40)
+    joint, angle = moved.pose("coupler", t, 2)
+    slider, slides = moved.pose("slider", t, 2)
+    rail, turned = moved.pose("bar", t, 2)
+    assert np.allclose(joint[0], 30 * np.exp(2j * math.pi * t), atol=1e-12)
+    assert np.allclose(slider[0], joint[0] + 150 * np.exp(1j * angle[0]), atol=1e-11)
+    assert np.allclose(
+        ((slider[0] - rail[0]) * np.exp(-1j * turned[0]) - 5j) * np.exp(-0.2j), _real_part(slider, rail, turned)
+    )
+    assert np.allclose(slides[0], turned[0] + 0.2)
+
+
+def _real_part(slider: Series, rail: Series, turned: Series) -> Real:
+    return (((slider[0] - rail[0]) * np.exp(-1j * turned[0]) - 5j) * np.exp(-0.2j)).real
+
+
+def lift(angle: Real, order: int) -> Pose:
+    """S = 5 (1 - cos phi) along +y."""
+    rise = [40 + 5 * (1 - np.cos(angle)), 5 * np.sin(angle), 5 * np.cos(angle) / 2][: order + 1]
+    return [1j * x for x in rise], [0.0 * angle for _ in range(order + 1)]
+
+
+def test_a_cam_on_a_carrier_lifts_its_follower() -> None:
+    """The law hangs on the cam's turn against its carrier, and the follower rides on the carrier."""
+    cam = (*JAMES.joints, prescribed("follower", "2", GivenMotion(lift), on="H"))
+    moved = moving(Mechanism(cam, JAMES.held), (Drive("1"),))
+    t = 0.7
+    place, angle = moved.pose("follower", np.array(t), 2)
+
+    def wanted(x: Any) -> Any:
+        cam_turn = 2 * mp.pi * x * (mp.mpf(-1) / 2 - mp.mpf(1) / 4)
+        return mp.expjpi(2 * x / 4) * 1j * (40 + 5 * (1 - mp.cos(cam_turn)))
+
+    assert close(place, series(wanted, t, 2))
+    assert float(angle[1]) == pytest.approx(math.pi / 2)
+
+
+def test_what_moves_itself_is_refused() -> None:
+    law = prescribed("follower", "wheel", Rotation(2.0))
+    train = (Revolute("wheel"), Rolling("external", "follower", "wheel", (20, 20)), law)
+    with pytest.raises(ParameterError, match="moves_itself"):
+        moving(Mechanism(train), ())
+
+
+def test_nothing_heavy_is_imported() -> None:
+    code = (
+        "import sys, geometry.kinematics.groups, geometry.kinematics.moving;"
+        "print([m for m in ('scipy', 'OCP', 'matplotlib', 'ezdxf') if m in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
