@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence, Set
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Generic, TypeVar
+
+from geometry.base.record import Record
 
 K = TypeVar("K", bound=Hashable)
 # the sum of coefficient times quantity is 0; no coefficient is 0
 Row = dict[K, Fraction]
 
 
-@dataclass(frozen=True, slots=True)
-class Eliminated(Generic[K]):
+class Eliminated(Record, Generic[K]):
     """``solved``: each pivot's row as pivot = sum over what is no pivot, in the order in which they were found.
 
     ``left``: of each row that follows from those before it, by its index, what it says of the known quantities.

@@ -25,11 +25,11 @@ keeps rational. ``geometry/kinematics/moving.py`` moves such a mechanism.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING, Literal
 
 from geometry.base.errors import ParameterError
+from geometry.base.record import Record, field
 from geometry.base.tolerance import PLACED_MM
 from geometry.kinematics.elimination import Row, eliminated, follows_from
 
@@ -45,16 +45,14 @@ Kind = Literal["external", "internal", "bevel", "worm", "rack"]
 _SENSES: Mapping[str, int] = {"external": -1, "internal": 1, "bevel": 1, "worm": 1, "rack": 1}
 
 
-@dataclass(frozen=True, slots=True)
-class Fixed:
+class Fixed(Record):
     """A link that is one body with another."""
 
     link: str
     on: str = FRAME
 
 
-@dataclass(frozen=True, slots=True)
-class Revolute:
+class Revolute(Record):
     """A link that turns about an axis through ``at`` (mm, at the height ``z``) which stands on another link."""
 
     link: str
@@ -64,8 +62,7 @@ class Revolute:
     axis: Vector = Z
 
 
-@dataclass(frozen=True, slots=True)
-class Prismatic:
+class Prismatic(Record):
     """A link that slides on another one along a unit ``direction``."""
 
     link: str
@@ -73,8 +70,7 @@ class Prismatic:
     direction: complex = 1 + 0j
 
 
-@dataclass(frozen=True, slots=True)
-class Rolling:
+class Rolling(Record):
     """Two toothed links without slip; ``on``: the link that carries both axes.
 
     ``teeth``: those of the first (of a worm its starts) and of the second. ``sense``: +1 where both turn the same way,
@@ -97,8 +93,7 @@ class Rolling:
         return sense * (self.module * self.teeth[0] if self.kind == "rack" else Fraction(*self.teeth))
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
+class Group(Record):
     """Links whose poses follow from those of the links ``on`` which they stand: of mobility 0 (Assur).
 
     ``poses`` gives the links' poses in the order of ``links`` from the others' in that of ``on``. ``pairs``: numbers of
@@ -115,8 +110,7 @@ Support = Fixed | Revolute | Prismatic
 Joint = Support | Rolling | Group
 
 
-@dataclass(frozen=True, slots=True)
-class Mechanism:
+class Mechanism(Record):
     """Joints, and the links that are ``held``; ``starts``: origin (mm) and angle (rad) of a link's frame at the start.
 
     A frame that is not given stands on its link's axis, its x axis along +x.
@@ -127,24 +121,21 @@ class Mechanism:
     starts: Mapping[str, tuple[complex, float]] = field(default_factory=dict)
 
 
-@dataclass(frozen=True, slots=True)
-class Equation:
+class Equation(Record):
     """What ``source`` asks of the links' turns (travels): the sum of the terms is 0. A held link is its own source."""
 
     source: Rolling | str
     terms: Row[str]
 
 
-@dataclass(frozen=True, slots=True)
-class Redundant:
+class Redundant(Record):
     """A constraint that follows from others."""
 
     source: Rolling | str
     follows_from: tuple[Rolling | str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Mobility:
+class Mobility(Record):
     """n moving links, p5 lower and p4 higher pairs as the seeds count them: what is held is the frame, what is fixed
     together one link, equal satellites in parallel are one. ``degrees``: unknowns less the rank, exactly.
     """
@@ -161,8 +152,7 @@ class Mobility:
         return 3 * self.links - 2 * self.lower_pairs - self.higher_pairs
 
 
-@dataclass(frozen=True, slots=True)
-class Turns:
+class Turns(Record):
     """Turns (travels) of every link by those of the inputs: drives, and links of groups.
 
     ``free``: links that the inputs do not determine.
@@ -197,8 +187,7 @@ class Turns:
         return one / two
 
 
-@dataclass(frozen=True, slots=True)
-class Tree:
+class Tree(Record):
     """How links stand on each other, told in a list in which each comes after what it stands on."""
 
     mechanism: Mechanism

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from graphlib import CycleError, TopologicalSorter
 from typing import NamedTuple
@@ -21,6 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geometry.base.errors import ParameterError
+from geometry.base.record import Record
 from geometry.base.series import Series, exponential, product
 from geometry.curves.curve import Real
 from geometry.kinematics.mechanism import FRAME, Fixed, Group, Mechanism, Prismatic, Revolute, Tree, Z, tree, turns
@@ -30,8 +30,7 @@ from geometry.kinematics.motion import GivenMotion, PlaneMotion, Pose
 _TURN, _TRAVEL = 2 * math.pi, math.pi
 
 
-@dataclass(frozen=True, slots=True)
-class Drive:
+class Drive(Record):
     """``start`` + ``rate`` t turns of a link, or travel of a slide in units of pi mm; or the ``law`` that it follows.
 
     The law gives the Taylor series of the angle (rad) or of the travel (mm) over t, from (t, order).
@@ -43,8 +42,7 @@ class Drive:
     law: Callable[[Real, int], Series] | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class _Course:
+class _Course(Record):
     """A turn or a travel over t: an exact line, and shares (rad or mm) of drives with laws and of groups' links."""
 
     start: Fraction = Fraction(0)
@@ -60,8 +58,7 @@ class _Body(NamedTuple):
     unit: Series
 
 
-@dataclass(frozen=True, slots=True)
-class Moving:
+class Moving(Record):
     """A mechanism with its drives, made by ``moving``. ``starts``: origin and angle of each link's frame."""
 
     stands: Tree

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import random
 from collections.abc import Sequence
-from dataclasses import replace
 from fractions import Fraction
 
 import pytest
 
 from geometry.base.errors import ParameterError
+from geometry.base.record import replace
 from geometry.kinematics.mechanism import (
     FRAME,
     Fixed,
@@ -75,7 +75,9 @@ class Train:
     """A random train of stages in a row, with what it must answer: ratio of input to output, mobility."""
 
     def __init__(self, dice: random.Random) -> None:
-        self.dice, self.joints, self.held = dice, [Revolute("s0")], []  # type: list[Joint], list[str]
+        self.dice = dice
+        self.joints: list[Joint] = [Revolute("s0")]
+        self.held: list[str] = []
         self.ratio, self.mobility, self.last = Fraction(1), 1, "s0"
         self.stages = dice.randint(1, 6)
         for number in range(1, self.stages + 1):
