@@ -452,3 +452,23 @@ centre_velocity_angle_deg|gamma_0|γ_0|deg|direction of the velocity of O_2
 position_pressure_angle_deg|nu_0|ν_0|deg|pressure angle at the centre O_2
 position_curvature_radius|rho_1|ρ|mm|radius of curvature of the cam, convex above 0
 """)
+add_terms("""
+wanted_ratio|u|u||wanted ratio
+ratio_tolerance_percent|du|δu|%|how far the ratio may be off
+number_of_satellites|n|n||number of satellites
+least_teeth|z_min|z_min||least number of teeth
+most_teeth|z_max|z_max||greatest number of teeth
+sets_found|N_s|N_s||sets found
+carried_ratio|p|u_13^H||ratio with the carrier held
+planetary_ratio|u|u||ratio of the planetary set
+exact_ratio|u_exact|u||the same, exactly
+greatest_common_divisor|g|g||greatest common divisor of the teeth of both rims
+satellite_places|N|N||places for one and the same satellite
+least_satellite_angle_deg|theta_s|θ_s|deg|least angle between satellites
+rim_tip_diameter|d_a|d_a|mm|tip diameter of the larger rim
+neighbour_distance|l_s|l_s|mm|distance between axes of neighbours
+most_satellites|n_max|n_max||most satellites that fit
+ring_tip_addendum|h_a3|h_a3||ring tips inside its reference circle, in modules
+satellite_gap|g_s|g_s|mm|gap between tips of neighbours
+set_diameter|D|D|mm|what the whole set takes across
+""")

@@ -19,6 +19,7 @@ _SOURCES = (
     NC_("source", "table"),
     NC_("source", "fig"),
     NC_("source", "lesson"),
+    NC_("source", "trains"),
 )
 
 

@@ -84,5 +84,19 @@ REASONS = {
     "too_many_positions": N_("asks for more positions than a sheet can show"),
     "tooth_pointed": N_("the tooth is pointed at a diameter of {diameter} mm"),
     "turns_fillets_back": N_("turns the elliptic fillets back"),
+    "above_most_teeth": N_("is above most_teeth"),
+    "driver_is_held": N_("is held: what is held drives nothing"),
+    "no_planetary_set": N_("no set within these limits has that ratio"),
+    "one_rim_one_module": N_("satellites with one rim have one module"),
+    "ratio_not_zero": N_("no ratio is 0: give it as driver to driven, below 0 where they turn in opposite ways"),
+    "ring_not_above_rim": N_("the ring of {ring} teeth must have more than its satellite, {rim}"),
+    "satellites_collide": N_("the tips of neighbours would overlap"),
+    "satellites_not_assembled": N_(
+        "{places} places are no multiple of that: teeth {teeth} take so many, "
+        'or spacing = "unequal" at {spacing} degrees'
+    ),
+    "too_few_places": N_("there are {places} places for one and the same satellite"),
+    "transmits_nothing": N_("wheels 1 and 3 turn alike: the carrier transmits nothing"),
+    "wheels_of_scheme": N_("this scheme has {wheels} wheels, in the order z1, z2, (z2',) z3"),
 }
 # fmt: on

@@ -6,6 +6,7 @@ from parts.base.texts import N_
 
 REASONS = {
     "choose_a_part": N_("there are several: {known}; add part=ID"),
+    "either_of": N_("is given beside {other}: one of both is enough"),
     "first_cam_under_it": N_(
         "give the first cam's keys under it, as of.follower=roller of.lift=20, or name a scene with the part"
     ),
@@ -13,6 +14,7 @@ REASONS = {
     "give_it_or": N_("is missing: give it or {other}"),
     "given_twice": N_("is given twice: once is enough"),
     "has_a_value": N_("{key} has a value already; remove one of them"),
+    "keys_not_a_scene": N_("takes keys, no scene: ratio=… or teeth=[…]"),
     "needs_other": N_("needs {other} too"),
     "no_gear_pair": N_('has no pair of gears; add [[mates]] kind = "external_gear_pair"'),
     "no_such_folder": N_("there is no such folder"),

@@ -1,0 +1,245 @@
+"""The shifts that bring both meshes of a planetary set to one centre distance, and what keeps them from working.
+
+Conditions are those of the blocking contours of external and internal pairs; rings are judged with a rounded root, so
+that no cutter decides. Lengths in mm, shifts in modules of their own mesh.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+
+from geometry.base.angles import involute_function
+from geometry.gears.planetary.sets import PlanetarySet, sine_of
+from geometry.gears.shifts import external, internal
+from geometry.gears.shifts.external import PairState, Requirements, ShiftPair
+from geometry.gears.shifts.internal import InternalRequirements
+from geometry.gears.shifts.internal_shifts import InternalShiftPair, InternalState, interferences, internal_state
+from geometry.gears.teeth.basic_rack import BasicRack
+from geometry.gears.teeth.limits import Margin
+from geometry.gears.teeth.ring import RoundedRoot
+
+# modules: how far the distance is moved and the rims are shifted, in which steps
+_FARTHEST, _MOST_SHIFT, _STEP = 1.5, 1.0, 0.05
+# of a margin of 0, what rounding leaves
+_ROUNDING = 1e-9
+
+
+@dataclass(frozen=True)
+class RimMesh:
+    """One mesh of a set: a rim of the satellite with its central wheel, a ring where it is internal."""
+
+    central: int
+    rim: int
+    internal: bool
+    module: float
+    rack: BasicRack
+
+    @property
+    def span(self) -> int:
+        """Sum or difference of the teeth: twice the reference distance in modules."""
+        return self.central - self.rim if self.internal else self.central + self.rim
+
+    @cached_property
+    def _pair(self) -> ShiftPair | InternalShiftPair:
+        if self.internal:
+            return InternalShiftPair(self.rim, self.central, self.rack, RoundedRoot())
+        return ShiftPair(self.rim, self.central, self.rack)
+
+    def shift_total(self, distance: float) -> float | None:
+        """x_central + x_rim of an external mesh, x_central - x_rim of an internal one; None: below the base circles."""
+        alpha = self.rack.pressure_angle
+        cosine = self.module * self.span * math.cos(alpha) / (2 * distance)
+        if cosine > 1:
+            return None
+        turned = involute_function(math.acos(cosine)) - involute_function(alpha)
+        return turned * self.span / (2 * math.tan(alpha))
+
+    def central_shift(self, distance: float, rim_shift: float) -> float | None:
+        """The central wheel's shift for a distance, mm, and the rim's shift."""
+        total = self.shift_total(distance)
+        if total is None:
+            return None
+        return total + rim_shift if self.internal else total - rim_shift
+
+    def state(self, rim_shift: float, central_shift: float) -> PairState | InternalState:
+        """The pair, rim first, in modules."""
+        if isinstance(self._pair, InternalShiftPair):
+            return internal_state(self._pair, rim_shift, central_shift)
+        return external.state_of(self._pair, rim_shift, central_shift)
+
+    def margins(self, wish: Requirements, rim_shift: float, central_shift: float) -> tuple[Margin, ...]:
+        """Every condition: the rim is the first, the central wheel the second."""
+        if isinstance(self._pair, InternalShiftPair):
+            return internal.margins(self._pair, _of_ring(wish), rim_shift, central_shift)
+        return external.margins(self._pair, wish, rim_shift, central_shift)
+
+    def least_margin(self, wish: Requirements, rim_shift: float, central_shift: float) -> float:
+        """The least margin of all conditions."""
+        if isinstance(self._pair, InternalShiftPair):
+            return internal.least_margin(self._pair, _of_ring(wish), rim_shift, central_shift)
+        return external.least_margin(self._pair, wish, rim_shift, central_shift)
+
+    def tips(self, rim_shift: float, central_shift: float) -> tuple[float, float]:
+        """Radii, mm, that the rim's and the central wheel's teeth reach outwards: a ring's root, else tips."""
+        state = self.state(rim_shift, central_shift)
+        if isinstance(state, InternalState):
+            return self.module * state.pinion.tip_radius, self.module * state.ring.root_radius
+        height = self.rack.addendum - max(state.tip_shortening, 0.0)
+        rim, central = self.rim / 2 + height + rim_shift, self.central / 2 + height + central_shift
+        return self.module * rim, self.module * central
+
+    @cached_property
+    def least_rim_shift(self) -> float:
+        """x_min of the rim, cut by the rack, rounded up to four digits."""
+        sine = math.sin(self.rack.pressure_angle)
+        return math.ceil((self.rack.form_dedendum - self.rim * sine**2 / 2) * 1e4) / 1e4
+
+    def clearing_shift(self) -> float | None:
+        """The least equal shift of rim and ring, in hundredths, that clears the ring's tips of the rim's involutes."""
+        pair = InternalShiftPair(self.rim, self.central, self.rack, RoundedRoot())
+        tried = (k / 100 for k in range(200))
+        return next((x for x in tried if min(interferences(pair, x, x)[:2]) >= -_ROUNDING), None)
+
+    @property
+    def allowed_ring_addendum(self) -> float:
+        """The most that an unshifted ring's teeth may stand inwards without involute interference, modules."""
+        alpha, ring = self.rack.pressure_angle, self.central / 2
+        return ring - math.hypot(ring * math.cos(alpha), self.span / 2 * math.sin(alpha))
+
+
+def _of_ring(wish: Requirements) -> InternalRequirements:
+    return InternalRequirements(wish.tip_thickness, wish.contact_ratio, wish.allow_undercut, wish.pole_inside)
+
+
+@dataclass(frozen=True)
+class Fit:
+    """Both meshes at one distance, mm; ``shifts`` of z1, z2, z2', z3; ``gap`` between satellites' tips, mm."""
+
+    meshes: tuple[RimMesh, RimMesh]
+    distance: float
+    shifts: tuple[float, float, float, float]
+    gap: float
+    least_gap: float
+    wish: Requirements
+
+    def states(self) -> tuple[PairState | InternalState, PairState | InternalState]:
+        """Both pairs, rim first."""
+        x1, x2, x2p, x3 = self.shifts
+        one, two = self.meshes
+        return one.state(x2, x1), two.state(x2p, x3)
+
+    def broken(self) -> tuple[tuple[Margin, ...], tuple[Margin, ...]]:
+        """The conditions that each mesh does not keep, and with the first the neighbours' gap."""
+        x1, x2, x2p, x3 = self.shifts
+        one, two = self.meshes
+        first = one.margins(self.wish, x2, x1), two.margins(self.wish, x2p, x3)
+        kept = tuple(tuple(m for m in found if not m.margin >= -_ROUNDING) for found in first)
+        if not self.gap >= self.least_gap - _ROUNDING:
+            near = Margin("neighbours", self.gap, self.least_gap, self.gap - self.least_gap)
+            return (*kept[0], near), kept[1]
+        return kept[0], kept[1]
+
+    @property
+    def diameter(self) -> float:
+        """What the set takes, mm: rings' root circles, and the circle that the satellites' tips reach."""
+        x1, x2, x2p, x3 = self.shifts
+        (rim1, first), (rim2, second) = self.meshes[0].tips(x2, x1), self.meshes[1].tips(x2p, x3)
+        return 2 * max(self.distance + rim1, self.distance + rim2, first, second)
+
+
+@dataclass(frozen=True)
+class Fitting:
+    """How a set is fitted: the rack, what its meshes keep, the distance that is wanted, if any, mm.
+
+    ``apart``: the least angle between two satellites, parts of a turn, None where there is one only; their tips keep
+    ``least_gap``, mm.
+    """
+
+    rack: BasicRack
+    wish: Requirements
+    apart: Fraction | None
+    least_gap: float = 0.0
+    distance: float | None = None
+
+    def fit(self, teeth: PlanetarySet) -> Fit | None:
+        """The fit with the least change of distance, then of shifts, that keeps everything; None: there is none."""
+        meshes = self._meshes(teeth)
+        return next((fit for a in self._distances(teeth) if (fit := self._at(teeth, meshes, a)) is not None), None)
+
+    def plain(self, teeth: PlanetarySet, distance: float | None = None) -> Fit:
+        """The fit at the distance that needs least, rims not shifted, whether it works or not."""
+        meshes = self._meshes(teeth)
+        a = next(self._distances(teeth)) if distance is None else distance
+        one, two = (mesh.central_shift(a, 0.0) for mesh in meshes)
+        nan = math.nan
+        return self._made(meshes, a, (nan if one is None else one, 0.0, 0.0, nan if two is None else two), teeth)
+
+    def _meshes(self, teeth: PlanetarySet) -> tuple[RimMesh, RimMesh]:
+        z1, z2, z2p, z3 = teeth.teeth
+        (one, two), (m1, m2) = teeth.scheme.internal, map(float, teeth.modules)
+        return RimMesh(z1, z2, one, m1, self.rack), RimMesh(z3, z2p, two, m2, self.rack)
+
+    def _distances(self, teeth: PlanetarySet) -> Iterator[float]:
+        """From between both reference distances outwards, mm."""
+        if self.distance is not None:
+            yield self.distance
+            return
+        middle, step = float(sum(teeth.distances)) / 2, _STEP * float(max(teeth.modules))
+        yield middle
+        for k in range(1, round(_FARTHEST / _STEP) + 1):
+            yield middle + k * step
+            yield middle - k * step
+
+    def _at(self, teeth: PlanetarySet, meshes: tuple[RimMesh, RimMesh], distance: float) -> Fit | None:
+        if any(mesh.shift_total(distance) is None for mesh in meshes):
+            return None
+        if not teeth.scheme.double:
+            good = (x for x in self._rim_shifts(meshes[0]) if all(self._keeps(m, distance, x, teeth) for m in meshes))
+            x = next(good, None)
+            return None if x is None else self._with(meshes, distance, (x, x), teeth)
+        found = [next((x for x in self._rim_shifts(m) if self._keeps(m, distance, x, teeth)), None) for m in meshes]
+        return None if None in found else self._with(meshes, distance, (found[0] or 0.0, found[1] or 0.0), teeth)
+
+    def _rim_shifts(self, mesh: RimMesh) -> list[float]:
+        """The shifts of a rim that are tried, the least first; that at which it is no longer undercut among them."""
+        least = -_MOST_SHIFT if self.wish.allow_undercut else mesh.least_rim_shift
+        steps = range(1, round(_MOST_SHIFT / _STEP) + 1)
+        tried = [0.0, *(sign * round(k * _STEP, 10) for k in steps for sign in (1, -1)), mesh.least_rim_shift]
+        return sorted((x for x in tried if least <= x <= _MOST_SHIFT), key=lambda x: (abs(x), x))
+
+    def _keeps(self, mesh: RimMesh, distance: float, rim_shift: float, teeth: PlanetarySet) -> bool:
+        central = mesh.central_shift(distance, rim_shift)
+        assert central is not None
+        if abs(central) > 2 * _MOST_SHIFT or mesh.least_margin(self.wish, rim_shift, central) < -_ROUNDING:
+            return False
+        tip, _ = mesh.tips(rim_shift, central)
+        return _gap(distance, tip, self.apart) >= self.least_gap - _ROUNDING
+
+    def _with(
+        self, meshes: tuple[RimMesh, RimMesh], distance: float, rims: tuple[float, float], teeth: PlanetarySet
+    ) -> Fit:
+        one, two = (mesh.central_shift(distance, x) for mesh, x in zip(meshes, rims, strict=True))
+        assert one is not None
+        assert two is not None
+        return self._made(meshes, distance, (one, rims[0], rims[1], two), teeth)
+
+    def _made(
+        self,
+        meshes: tuple[RimMesh, RimMesh],
+        distance: float,
+        shifts: tuple[float, float, float, float],
+        teeth: PlanetarySet,
+    ) -> Fit:
+        x1, x2, x2p, x3 = shifts
+        fit = Fit(meshes, distance, shifts, 0.0, self.least_gap, self.wish)
+        tip = max(meshes[0].tips(x2, x1)[0], meshes[1].tips(x2p, x3)[0])
+        return replace(fit, gap=_gap(distance, tip, self.apart))
+
+
+def _gap(distance: float, tip: float, apart: Fraction | None) -> float:
+    """Between the tips of neighbours, mm; inf of one satellite alone."""
+    return math.inf if apart is None else 2 * (distance * float(sine_of(apart)) - tip)

@@ -1,0 +1,549 @@
+"""``higherpair calc planetary``: sets of teeth for a wanted ratio, or one given set: conditions, shifts, clocking."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from fractions import Fraction
+from typing import Annotated, Any, Literal
+
+from msgspec import Meta, Struct
+
+from geometry.base.errors import Nearest, ParameterError
+from geometry.gears.planetary.fitting import Fit, Fitting, RimMesh
+from geometry.gears.planetary.sets import (
+    LINKS,
+    SCHEMES,
+    Link,
+    PlanetarySet,
+    Search,
+    found_sets,
+    ratio_of,
+    sine_of,
+)
+from geometry.gears.shifts.external import Requirements
+from parts.base.refusal import SceneError
+from parts.base.texts import N_, Message, Text, listed, message
+from parts.gears.spur_gear.part import RackTable, basic_rack_of
+from parts.keys.base import degrees, in_modules, mm
+from parts.mates.pages.internal_shift_choice import RACKS, unknown_rack
+from parts.pages.inputs import SceneKeys, checked, refusal
+from parts.pages.page import Sheet, Table
+
+TOPIC = "planetary"
+SchemeName = Literal["james", "one_external_one_internal", "two_internal", "david"]
+Place = Literal["first", "second", "carrier"]
+_TITLES = {
+    "james": N_("Planetary set of James: external and internal mesh, satellites with one rim"),
+    "one_external_one_internal": N_("Planetary set: external and internal mesh, satellites with two rims"),
+    "two_internal": N_("Planetary set: two internal meshes, satellites with two rims"),
+    "david": N_("Planetary set of David: two external meshes, satellites with two rims"),
+}
+# how formulas call the links
+_LETTERS: dict[Link, str] = {"first": "1", "second": "3", "carrier": "H"}
+_WHEELS = ("1", "2", "2'", "3")
+_KEYS = ("z_1", "z_2", "z_2p", "z_3")
+# GOST 9563-60, both rows, mm
+_MODULES = (1, 1.125, 1.25, 1.375, 1.5, 1.75, 2, 2.25, 2.5, 2.75, 3, 3.5, 4, 4.5, 5, 5.5, 6, 7, 8, 9, 10)
+_PAIRS_TOLD = 4
+_MOST_TEETH_OFF = 3
+# columns of the table that sets with one rim do without
+_SECOND_RIM = (2, 12)
+# by how much teeth are changed for a set that can be assembled
+_NEARBY = 4
+
+
+# what a mesh may not keep
+_FAULTS = {
+    "working_angle": N_("no working pressure angle"),
+    "undercut": N_("undercut"),
+    "active_flank": N_("fillet interference"),
+    "tip_thickness": N_("thin tip"),
+    "contact_ratio": N_("small contact ratio"),
+    "involute_interference": N_("involute interference"),
+    "trochoid_interference": N_("tip (trochoid) interference"),
+    "tip_above_base": N_("ring tips within the base circle"),
+    "fillet_interference": N_("fillet interference"),
+    "tip_clearance": N_("small bottom clearance"),
+    "rounded_root": N_("the rounding fills the space"),
+    "neighbours": N_("the tips of neighbours overlap"),
+}
+
+
+class PlanetaryKeys(Struct, forbid_unknown_fields=True):
+    """Keys of the topic."""
+
+    scheme: Annotated[SchemeName, Meta(description="scheme of the practicum's figure 2.1")] = "james"
+    ratio: Annotated[float, Meta(ge=-1e9, le=1e9, description="wanted ratio, driver to driven")] | None = None
+    ratio_tolerance_percent: Annotated[float, Meta(ge=0, le=50, description="how far the ratio may be off")] = 0.5
+    teeth: (
+        Annotated[
+            list[Annotated[int, Meta(ge=3, le=100_000)]],
+            Meta(description="a set to judge: z1, z2, z3, or z1, z2, z2', z3"),
+        ]
+        | None
+    ) = None
+    satellites: Annotated[int, Meta(ge=1, le=10_000, description="number of satellites")] = 3
+    driver: Annotated[Place, Meta(description="the driving link: wheel 1, wheel 3 or the carrier")] = "first"
+    held: Annotated[Place, Meta(description="the held link: wheel 1, wheel 3 or the carrier")] = "second"
+    spacing: Annotated[
+        Literal["equal", "unequal"], Meta(description="satellites equally spaced, or as equally as alike ones can be")
+    ] = "equal"
+    identical: Annotated[bool, Meta(description="both rims of all satellites are clocked alike")] = True
+    module: Annotated[float, mm("module of the mesh 1-2", least=0.01, most=1000)] = 1.0
+    second_module: Annotated[float, mm("module of the mesh 2'-3", least=0.01, most=1000)] | None = None
+    least_teeth: Annotated[int, Meta(ge=3, le=1000, description="least number of teeth of any wheel")] = 11
+    most_teeth: Annotated[int, Meta(ge=3, le=1000, description="greatest number of teeth of any wheel")] = 150
+    largest_diameter: Annotated[float, mm("what the whole set may take across", above=0)] | None = None
+    teeth_off: Annotated[
+        int, Meta(ge=0, le=_MOST_TEETH_OFF, description="teeth that coaxiality may be off, made up by shifts")
+    ] = 1
+    least_gap: Annotated[float, mm("gap to keep between satellites' tips", least=0, most=10_000)] = 0.0
+    working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
+    pressure_angle_deg: Annotated[float, degrees("pressure angle", least=5, most=45)] = 20.0
+    basic_rack: str | RackTable = "ISO 53 A"
+    least_contact_ratio: Annotated[float, Meta(ge=0.5, le=3, description="contact ratio to keep")] = 1.1
+    least_tip_thickness: Annotated[float, in_modules("tip thickness to keep", least=0, most=1)] = 0.25
+    rows: Annotated[int, Meta(ge=1, le=1000, description="how many of the sets found are shown")] = 20
+
+
+def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
+    """Sets are sought by keys only."""
+    raise SceneError(source, "TOPIC", TOPIC, "keys_not_a_scene")
+
+
+def sheet(table: dict[str, Any]) -> Sheet:
+    """The sets found, or the one that is given, and all about the first of them."""
+    keys: PlanetaryKeys = checked(table, PlanetaryKeys, TOPIC)
+    if isinstance(keys.basic_rack, str) and keys.basic_rack not in RACKS:
+        raise unknown_rack(keys.basic_rack)
+    try:
+        return _Page(keys).made()
+    except ParameterError as error:
+        raise refusal(TOPIC, error, keys=keys) from error
+
+
+def _fault(name: str) -> Text:
+    """A condition that is not kept, in words: the rim is the first of a mesh."""
+    condition, _, who = name.rpartition("_")
+    if who not in ("first", "second"):
+        return _FAULTS[name]
+    owner = N_("{fault} of the satellite") if who == "first" else N_("{fault} of the central wheel")
+    return message(owner, fault=Message(_FAULTS[condition]))
+
+
+def _exact(value: float) -> Fraction:
+    """The decimal number that was typed."""
+    return Fraction(str(value))
+
+
+class _Page:
+    """The sheet of one wish."""
+
+    def __init__(self, keys: PlanetaryKeys) -> None:
+        self.keys, self.scheme = keys, SCHEMES[keys.scheme]
+        if keys.driver == keys.held:
+            other: Link = next(link for link in LINKS if link != keys.held)
+            raise ParameterError("driver", keys.driver, "driver_is_held", Nearest(other))
+        self.driver: Link = keys.driver
+        self.driven: Link = next(link for link in LINKS if link not in (keys.driver, keys.held))
+        if keys.second_module is not None and not self.scheme.double:
+            raise ParameterError("second_module", keys.second_module, "one_rim_one_module", Nearest(None))
+        self.modules = _exact(keys.module), _exact(keys.second_module or keys.module)
+        rack = basic_rack_of(keys.basic_rack, math.radians(keys.pressure_angle_deg))  # type: ignore[arg-type]
+        wish = Requirements(keys.least_tip_thickness, keys.least_contact_ratio)
+        apart = Fraction(1, keys.satellites) if keys.satellites > 1 else None
+        self.fitting = Fitting(rack, wish, apart, keys.least_gap, keys.working_centre_distance)
+        self.sheet = Sheet(TOPIC, _TITLES[keys.scheme])
+
+    def made(self) -> Sheet:
+        """The whole sheet."""
+        keys = self.keys
+        if (keys.teeth is None) == (keys.ratio is None):
+            name, value = ("ratio", None) if keys.ratio is None else ("ratio", keys.ratio)
+            raise ParameterError(name, value, "give_it_or" if value is None else "either_of", other="teeth")
+        if keys.teeth is not None:
+            one = self._given(keys.teeth)
+            equal = tuple(Fraction(k, keys.satellites) for k in range(keys.satellites))
+            places = self._assembled(one) if self._coaxial_enough(one) else equal
+            self._set(one, self._fitted(one), places, N_("The set"))
+            return self.sheet
+        page = self.sheet
+        page.section(N_("Wanted"))
+        page.add("wanted_ratio", keys.ratio or 0.0, symbol=self._symbol)
+        page.add("ratio_tolerance_percent", keys.ratio_tolerance_percent)
+        page.add("number_of_satellites", keys.satellites)
+        page.add("least_teeth", keys.least_teeth)
+        page.add("most_teeth", keys.most_teeth)
+        sets = self._sought()
+        page.add("sets_found", len(sets))
+        fits = [(one, self._fitted(one)) for one in sets[: keys.rows]]
+        page.tables.append(self._table(fits))
+        best, fit = next(((one, fit) for one, fit in fits if fit is not None), fits[0])
+        places = tuple(Fraction(k, keys.satellites) for k in range(keys.satellites))
+        self._set(best, fit, places, N_("The smallest set that works"))
+        if any(fit is None for _, fit in fits):
+            page.notes.append(
+                N_("a set without shifts in the table: none keep least_tip_thickness, least_contact_ratio, no undercut")
+            )
+        return page
+
+    @property
+    def _symbol(self) -> str:
+        """u_1H^3: from the driver to the driven link, the held one above."""
+        return f"u_{_LETTERS[self.driver]}{_LETTERS[self.driven]}^{_LETTERS[self.keys.held]}"
+
+    def _sought(self) -> list[PlanetarySet]:
+        keys = self.keys
+        assert keys.ratio is not None
+        if keys.ratio == 0:
+            raise ParameterError("ratio", keys.ratio, "ratio_not_zero")
+        if keys.least_teeth > keys.most_teeth:
+            raise ParameterError(
+                "least_teeth", keys.least_teeth, "above_most_teeth", Nearest(keys.most_teeth, "at_most")
+            )
+        ratio = _exact(keys.ratio)
+        wish = Search(
+            self.scheme,
+            (ratio, ratio),
+            self.driver,
+            self.driven,
+            keys.satellites,
+            (keys.least_teeth, keys.most_teeth),
+            keys.teeth_off,
+            self.modules,
+            _exact(keys.least_gap),
+            None if keys.largest_diameter is None else _exact(keys.largest_diameter),
+            keys.identical,
+        )
+
+        def within(percent: Fraction) -> list[PlanetarySet]:
+            room = abs(ratio) * percent / 100
+            return found_sets(replace(wish, ratios=(ratio - room, ratio + room)))
+
+        def cure() -> Nearest | None:
+            """The ratio nearest to the wanted one that has sets."""
+            sets = next((sets for percent in (1, 3, 10, 40, 99) if (sets := within(Fraction(percent)))), [])
+            ratios = [r for one in sets if (r := ratio_of(one.carried_ratio, self.driver, self.driven)) is not None]
+            return Nearest(float(min(ratios, key=lambda r: abs(r - ratio)))) if ratios else None
+
+        sets = within(_exact(keys.ratio_tolerance_percent))
+        if not sets:
+            raise ParameterError("ratio", keys.ratio, "no_planetary_set", cure)
+        return sets
+
+    def _given(self, teeth: list[int]) -> PlanetarySet:
+        """The set that was typed."""
+        wanted = 4 if self.scheme.double else 3
+        if len(teeth) != wanted:
+            raise ParameterError("teeth", teeth, "wheels_of_scheme", wheels=wanted)
+        z1, z2, *rest = teeth
+        one = PlanetarySet(self.scheme, (z1, z2, rest[0] if self.scheme.double else z2, rest[-1]), self.modules)
+        for span, ring, rim in zip(one.spans, (z1, one.teeth[3]), one.teeth[1:3], strict=True):
+            if span <= 0:
+                raise ParameterError("teeth", teeth, "ring_not_above_rim", ring=ring, rim=rim)
+        if not ratio_of(one.carried_ratio, self.driver, self.driven):
+            raise ParameterError("teeth", teeth, "transmits_nothing")
+        return one
+
+    def _assembled(self, one: PlanetarySet) -> tuple[Fraction, ...]:
+        """Where the satellites of a given set stand; refused where they do not fit."""
+        keys, n = self.keys, self.keys.satellites
+        equal = tuple(Fraction(k, n) for k in range(n))
+        alike = one.spacing(n)
+        free = self.scheme.double and not keys.identical
+        places = alike if keys.spacing == "unequal" and alike is not None else equal
+        apart, gap = _least(places), _exact(keys.least_gap)
+        if apart is not None and not one.fits(apart, gap):
+            any_number = free or keys.spacing == "unequal"
+            fitting = (k for k in range(one.most_satellites(gap), 0, -1) if any_number or one.places % k == 0)
+            raise ParameterError("satellites", n, "satellites_collide", Nearest(next(fitting), "at_most"))
+        if keys.spacing == "equal" and not free and alike != equal:
+            raise ParameterError(
+                "satellites", n, "satellites_not_assembled", lambda: self._other_number(one),
+                places=one.places, teeth=self._other_teeth(one), spacing=_degrees(alike),
+            )  # fmt: skip
+        if keys.spacing == "unequal" and alike is None:
+            raise ParameterError("satellites", n, "too_few_places", Nearest(one.places, "at_most"), places=one.places)
+        self.fitting = replace(self.fitting, apart=apart)
+        return places
+
+    def _other_number(self, one: PlanetarySet) -> Nearest:
+        """The number of satellites nearest to the wanted one that fits."""
+        n, most = self.keys.satellites, one.most_satellites(_exact(self.keys.least_gap))
+        fitting = [k for k in range(1, most + 1) if one.places % k == 0]
+        return Nearest(min(fitting, key=lambda k: (abs(k - n), -k)))
+
+    def _other_teeth(self, one: PlanetarySet) -> str:
+        """The teeth nearby, coaxial without shifts, that take so many satellites, by ratio, then by change."""
+        n, ratio = self.keys.satellites, one.carried_ratio
+        apart = Fraction(1, n)
+        found = []
+        changes = range(-_NEARBY, _NEARBY + 1)
+        for z1 in (one.teeth[0] + k for k in changes):
+            for z2 in (one.teeth[1] + k for k in changes):
+                for z2p in [one.teeth[2] + k for k in changes] if self.scheme.double else [z2]:
+                    if min(z1, z2, z2p) < 3:
+                        continue
+                    other = self._coaxial(z1, z2, z2p)
+                    if other is None or other.places % n or other.spans[0] <= 0 or not other.fits(apart):
+                        continue
+                    change = sum(abs(a - b) for a, b in zip(other.teeth, one.teeth, strict=True))
+                    found.append((abs(other.carried_ratio - ratio), change, other))
+        if not found:
+            return "-"
+        return self._name(min(found, key=lambda item: item[:2])[2])
+
+    def _coaxial(self, z1: int, z2: int, z2p: int) -> PlanetarySet | None:
+        """The set whose z3 makes it coaxial without shifts."""
+        span = self.modules[0] * (z1 - z2 if self.scheme.internal[0] else z1 + z2) / self.modules[1]
+        z3 = span + z2p if self.scheme.internal[1] else span - z2p
+        return (
+            PlanetarySet(self.scheme, (z1, z2, z2p, int(z3)), self.modules) if z3.denominator == 1 and z3 >= 3 else None
+        )
+
+    def _name(self, one: PlanetarySet) -> str:
+        z1, z2, z2p, z3 = one.teeth
+        return f"{z1}/{z2}-{z2p}/{z3}" if self.scheme.double else f"{z1}/{z2}/{z3}"
+
+    def _coaxial_enough(self, one: PlanetarySet) -> bool:
+        """Whether shifts may make up for what the distances differ by."""
+        d1, d2 = one.distances
+        off = self.keys.teeth_off if self.keys.teeth is None else _MOST_TEETH_OFF
+        return 2 * abs(d1 - d2) <= off * max(self.modules)
+
+    def _fitted(self, one: PlanetarySet) -> Fit | None:
+        return self.fitting.fit(one) if self._coaxial_enough(one) else None
+
+    def _table(self, fits: list[tuple[PlanetarySet, Fit | None]]) -> Table:
+        """The sets in their order, with the shifts that make them work."""
+        double = self.scheme.double
+        rows = []
+        for one, fit in fits:
+            ratio = ratio_of(one.carried_ratio, self.driver, self.driven)
+            assert ratio is not None
+            assert self.keys.ratio is not None
+            off = float(100 * (ratio / _exact(self.keys.ratio) - 1))
+            nan = math.nan
+            shifts = (nan,) * 4 if fit is None else fit.shifts
+            sizes = (float(one.diameter), nan, nan) if fit is None else (fit.diameter, fit.distance, fit.gap)
+            most = float(one.most_satellites(_exact(self.keys.least_gap)))
+            columns = [*map(float, one.teeth), float(ratio), off, *sizes, most, *shifts]
+            rows.append(tuple(c for k, c in enumerate(columns) if double or k not in _SECOND_RIM))
+        teeth = [(f"z_{wheel}", "") for wheel in _WHEELS]
+        sizes_of = [("D", "mm"), ("a_w", "mm"), ("g_s", "mm"), ("n_max", "")]
+        heads = [*teeth, (self._symbol, ""), ("δu", "%"), *sizes_of, *((f"x_{wheel}", "") for wheel in _WHEELS)]
+        kept = tuple(h for k, h in enumerate(heads) if double or k not in _SECOND_RIM)
+        title = N_("Sets, the smallest first: ratio, size, distance, gap of neighbours, most satellites, shifts")
+        return Table("sets", title, kept, tuple(rows))
+
+    def _set(self, one: PlanetarySet, fit: Fit | None, places: tuple[Fraction, ...], title: str) -> None:
+        """All about one set."""
+        page = self.sheet
+        page.section(message("{title}: {teeth}", title=Message(title), teeth=self._name(one)))
+        for key, wheel, z in zip(_KEYS, _WHEELS, one.teeth, strict=True):
+            if self.scheme.double or wheel != "2'":
+                page.add("number_of_teeth", z, symbol=f"z_{wheel}", key=key, of=message("wheel {wheel}", wheel=wheel))
+        self._ratio(one)
+        self._conditions(one, places)
+        if fit is None:
+            self._not_fitted(one)
+        else:
+            self._fit(one, fit)
+        self._satellites(one, places)
+        page.data["set"] = {
+            "teeth": list(one.teeth),
+            "ratio": str(ratio_of(one.carried_ratio, self.driver, self.driven)),
+            "places": one.places,
+            "satellites_at": [str(p) for p in places],
+            "works": fit is not None,
+        }
+
+    @property
+    def _second_rim(self) -> str:
+        return "z_2p" if self.scheme.double else "z_2"
+
+    def _ratio(self, one: PlanetarySet) -> None:
+        page = self.sheet
+        first, second = ("" if internal else "-" for internal in self.scheme.internal)
+        formula = f"({first}{{z_2}} / {{z_1}}) * ({second}{{z_3}} / {{{self._second_rim}}})"
+        page.add("carried_ratio", float(one.carried_ratio), formula, "practicum (2.3)", key="p")
+        ratio = ratio_of(one.carried_ratio, self.driver, self.driven)
+        assert ratio is not None
+        pair = {self.driver, self.driven}
+        formula = "{p}" if "carrier" not in pair else "1 - {p}" if "first" in pair else "1 - 1 / {p}"
+        if (self.driver == "carrier") or (self.driver, self.driven) == ("second", "first"):
+            formula = f"1 / {formula}" if formula == "{p}" else f"1 / ({formula})"
+        page.add("planetary_ratio", float(ratio), formula, "practicum (2.5)", symbol=self._symbol, key="u")
+        page.add("exact_ratio", str(ratio), symbol=self._symbol, key="u_exact")
+
+    def _conditions(self, one: PlanetarySet, places: tuple[Fraction, ...]) -> None:
+        """Coaxiality, assembly and neighbours, by the teeth."""
+        page, keys = self.sheet, self.keys
+        page.section(N_("Conditions, by the teeth"))
+        page.add("module", keys.module, of=message("mesh {wheels}", wheels="1-2") if self.scheme.double else "")
+        if self.scheme.double:
+            page.add(
+                "module", float(self.modules[1]), key="m_2", symbol="m'", of=message("mesh {wheels}", wheels="2'-3")
+            )
+        module = "{m_2}" if self.scheme.double else "{m}"
+        one_sign, two_sign = ("-" if internal else "+" for internal in self.scheme.internal)
+        d1, d2 = map(float, one.distances)
+        of = message("mesh {wheels}", wheels="1-2")
+        formula = f"{{m}} * ({{z_1}} {one_sign} {{z_2}}) / 2"
+        page.add("reference_centre_distance", d1, formula, "trains (3)", symbol="a_12", key="a_12", of=of)
+        rim = "2'" if self.scheme.double else "2"
+        of = message("mesh {wheels}", wheels=f"{rim}-3")
+        formula = f"{module} * ({{z_3}} {two_sign} {{{self._second_rim}}}) / 2"
+        page.add("reference_centre_distance", d2, formula, "trains (3)", symbol=f"a_{rim}3", key="a_23", of=of)
+        if self.scheme.double:
+            page.add("greatest_common_divisor", math.gcd(*one.teeth[1:3]), symbol="g", key="g")
+            sign = "-" if self.scheme.alike else "+"
+            formula = f"abs({{z_1}} * {{z_2p}} {sign} {{z_2}} * {{z_3}}) / {{g}}"
+        else:
+            formula = "{z_1} + {z_3}"
+        page.add("satellite_places", one.places, formula)
+        page.add("number_of_satellites", keys.satellites)
+        if (apart := _least(places)) is None:
+            return
+        page.add("least_satellite_angle_deg", 360 * float(apart))
+        page.add("rim_tip_diameter", float(one.rim_reach))
+        chord = float(2 * one.distances[0] * sine_of(apart))
+        page.add("neighbour_distance", chord, "2 * {a_12} * sin({theta_s} / 2)")
+        page.add("most_satellites", one.most_satellites(_exact(keys.least_gap)))
+
+    def _fit(self, one: PlanetarySet, fit: Fit) -> None:
+        """Distance, shifts and what they give."""
+        page, x = self.sheet, fit.shifts
+        page.section(N_("Shifts for one centre distance"))
+        page.add("working_centre_distance", fit.distance)
+        for k, wheel in enumerate(_WHEELS):
+            if self.scheme.double or wheel != "2'":
+                shift = 0.0 if abs(x[k]) < 1e-12 else x[k]
+                of = message("wheel {wheel}", wheel=wheel)
+                page.add("profile_shift_coefficient", shift, symbol=f"x_{wheel}", key=f"x_{_KEYS[k][2:]}", of=of)
+        rim = "2'" if self.scheme.double else "2"
+        for wheels, mesh, state in zip(("1-2", f"{rim}-3"), fit.meshes, fit.states(), strict=True):
+            of = message("mesh {wheels}", wheels=wheels)
+            page.add("working_pressure_angle_deg", math.degrees(state.working_pressure_angle), of=of)
+            page.add("contact_ratio", state.contact_ratio, "", "practicum (3.20)", of=of)
+            if mesh.internal:
+                page.add("ring_tip_addendum", mesh.central / 2 - state.ring.tip_radius, of=of)  # type: ignore[union-attr]
+        if math.isfinite(fit.gap):
+            page.add("satellite_gap", fit.gap)
+        page.add("set_diameter", fit.diameter)
+        plain = self._plain(one)
+        for wheels, mesh, broken in plain:
+            self._interference(wheels, mesh, broken)
+
+    def _plain(self, one: PlanetarySet) -> list[tuple[str, RimMesh, list[str]]]:
+        """Each mesh without shifts of the rims, with the names of what it breaks."""
+        plain, rim = self.fitting.plain(one), "2'" if self.scheme.double else "2"
+        meshes = zip(("1-2", f"{rim}-3"), plain.meshes, plain.broken(), strict=True)
+        return [(wheels, mesh, [m.name for m in broken]) for wheels, mesh, broken in meshes]
+
+    def _interference(self, wheels: str, mesh: RimMesh, broken: list[str]) -> None:
+        """What an unshifted ring and its satellite break, the verdict by exact contact, and the shift that cures it."""
+        if not mesh.internal or not {"involute_interference", "trochoid_interference"} & set(broken):
+            return
+        addendum = mesh.central / 2 - mesh.state(0.0, 0.0).ring.tip_radius  # type: ignore[union-attr]
+        name = next(n for n in broken if n in ("involute_interference", "trochoid_interference"))
+        told: list[Text] = [
+            message(
+                "mesh {wheels} without shifts: {what}: the ring's addendum is {addendum:.4g}, at most {allowed:.4g} is "
+                "clear of whole involutes",
+                wheels=wheels, what=_fault(name), addendum=addendum, allowed=mesh.allowed_ring_addendum,
+            )
+        ]  # fmt: skip
+        # a search for sets is not to wait for a search for contact
+        verdict = _exact_verdict(mesh, self.keys) if self.keys.teeth is not None else None
+        if verdict is not None:
+            told.append(
+                message("mesh {wheels} without shifts, teeth as cut, by exact contact: {verdict}",
+                        wheels=wheels, verdict=verdict)
+            )  # fmt: skip
+        shift = mesh.clearing_shift()
+        if shift is not None:
+            told.append(
+                message("mesh {wheels}: x = {shift:.2f} of both wheels removes the interference",
+                        wheels=wheels, shift=shift)
+            )  # fmt: skip
+        self.sheet.notes += told
+
+    def _not_fitted(self, one: PlanetarySet) -> None:
+        """Why no shifts were found, and what else may work."""
+        page = self.sheet
+        if not self._coaxial_enough(one):
+            s1, s2 = one.spans
+            if self.scheme.double:
+                text = N_("not coaxial in these modules: {first} teeth against {second}; m'/m = {share} would be")
+                page.notes.append(message(text, first=s1, second=s2, share=str(Fraction(s1, s2))))
+                pairs = [(a, b) for a in _MODULES for b in _MODULES if _exact(a) * s1 == _exact(b) * s2]
+                if pairs:
+                    shown = ", ".join(f"{a:g} / {b:g}" for a, b in pairs[:_PAIRS_TOLD])
+                    page.notes.append(message("coaxial in modules m / m' of {pairs}", pairs=shown))
+            else:
+                text = N_("not coaxial: z_1 + 2 z_2 = {first}, z_3 = {second}; z_2 = {fits:g} fits")
+                fits = (one.teeth[3] - one.teeth[0]) / 2
+                page.notes.append(message(text, first=one.teeth[0] + 2 * one.teeth[1], second=one.teeth[3], fits=fits))
+            return
+        page.notes.append(
+            N_("no shifts keep everything: less least_contact_ratio or least_tip_thickness, or other teeth may work")
+        )
+        for wheels, mesh, broken in self._plain(one):
+            if broken:
+                told = listed([_fault(name) for name in broken])
+                page.notes.append(
+                    message("mesh {wheels} without shifts of the rims: {names}", wheels=wheels, names=told)
+                )
+            self._interference(wheels, mesh, broken)
+        unseen = replace(self.fitting, wish=replace(self.fitting.wish, allow_undercut=True)).fit(one)
+        if unseen is not None:
+            shown = ", ".join(f"{x:.4f}" for k, x in enumerate(unseen.shifts) if self.scheme.double or k != 2)
+            text = N_("with undercut below the active flank: a_w = {distance:.4f} mm, shifts {shifts}")
+            page.notes.append(message(text, distance=unseen.distance, shifts=shown))
+
+    def _satellites(self, one: PlanetarySet, places: tuple[Fraction, ...]) -> None:
+        """Where satellites stand that are not alike or not equally spaced."""
+        n = len(places)
+        clocking = one.clocking(n) if self.keys.spacing == "equal" and self.scheme.double else (Fraction(0),) * n
+        equal = places == tuple(Fraction(k, n) for k in range(n))
+        if equal and not any(clocking):
+            if self.scheme.double and n > 1:
+                self.sheet.notes.append(N_("all satellites are alike: both rims clocked in one and the same way"))
+            return
+        heads = (("k", ""), ("θ", "deg"), ("γ", "deg"))
+        rows = tuple(
+            (k + 1.0, 360 * float(p), 360 * float(c)) for k, (p, c) in enumerate(zip(places, clocking, strict=True))
+        )
+        title = N_("Satellites: place on the carrier; rim 2' against rim 2, beyond that of the first satellite")
+        self.sheet.tables.append(Table("satellites", title, heads, rows))
+        if any(clocking):
+            self.sheet.data["clocking"] = [str(c) for c in clocking]
+            self.sheet.notes.append(N_("the satellites are not alike: each has its own clocking of both rims"))
+
+
+def _exact_verdict(mesh: RimMesh, keys: PlanetaryKeys) -> str | None:
+    """The verdict of exact contact of an unshifted rim in its ring as a build makes both; None: it cannot be built."""
+    from geometry.gears.mesh.gears import GearMesh
+    from geometry.gears.pairs.internal import internal_pair
+    from geometry.gears.teeth.spur import SpurGear
+    from parts.gears.ring_gear.part import RingGearSpec, settled_section
+
+    try:
+        ring = RingGearSpec(module=1.0, number_of_teeth=mesh.central, pressure_angle_deg=keys.pressure_angle_deg)
+        pair = internal_pair(SpurGear(1.0, mesh.rim, mesh.rack), settled_section(ring))
+        return GearMesh(pair).contact().verdict.name
+    except ParameterError:
+        return None
+
+
+def _least(places: tuple[Fraction, ...]) -> Fraction | None:
+    """The least angle between neighbours, parts of a turn; None of one satellite."""
+    if len(places) == 1:
+        return None
+    return min((b - a) % 1 for a, b in zip(places, (*places[1:], places[0]), strict=True))
+
+
+def _degrees(places: tuple[Fraction, ...] | None) -> str:
+    return "-" if places is None else ", ".join(f"{360 * float(p):.6g}" for p in places)
