@@ -123,11 +123,11 @@ def sheet(table: dict[str, Any]) -> Sheet:
         raise refusal(TOPIC, error, keys=keys) from error
 
 
-def _fault(name: str) -> Text:
+def _fault(name: str) -> Message:
     """A condition that is not kept, in words: the rim is the first of a mesh."""
     condition, _, who = name.rpartition("_")
     if who not in ("first", "second"):
-        return _FAULTS[name]
+        return Message(_FAULTS[name])
     owner = N_("{fault} of the satellite") if who == "first" else N_("{fault} of the central wheel")
     return message(owner, fault=Message(_FAULTS[condition]))
 
