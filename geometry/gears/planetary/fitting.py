@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
 from geometry.base.angles import involute_function
+from geometry.base.record import Record, replace
 from geometry.gears.planetary.sets import PlanetarySet, sine_of
 from geometry.gears.shifts import external, internal
 from geometry.gears.shifts.external import PairState, Requirements, ShiftPair
@@ -28,8 +28,7 @@ _FARTHEST, _MOST_SHIFT, _STEP = 1.5, 1.0, 0.05
 _ROUNDING = 1e-9
 
 
-@dataclass(frozen=True)
-class RimMesh:
+class RimMesh(Record, dict=True):
     """One mesh of a set: a rim of the satellite with its central wheel, a ring where it is internal."""
 
     central: int
@@ -115,8 +114,7 @@ def _of_ring(wish: Requirements) -> InternalRequirements:
     return InternalRequirements(wish.tip_thickness, wish.contact_ratio, wish.allow_undercut, wish.pole_inside)
 
 
-@dataclass(frozen=True)
-class Fit:
+class Fit(Record):
     """Both meshes at one distance, mm; ``shifts`` of z1, z2, z2', z3; ``gap`` between satellites' tips, mm."""
 
     meshes: tuple[RimMesh, RimMesh]
@@ -151,8 +149,7 @@ class Fit:
         return 2 * max(self.distance + rim1, self.distance + rim2, first, second)
 
 
-@dataclass(frozen=True)
-class Fitting:
+class Fitting(Record):
     """How a set is fitted: the rack, what its meshes keep, the distance that is wanted, if any, mm.
 
     ``apart``: the least angle between two satellites, parts of a turn, None where there is one only; their tips keep

@@ -8,13 +8,14 @@ irrational unless n is 1, 2 or 6: no bound is met exactly there.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from geometry.base.record import Record
 
 Link = Literal["first", "second", "carrier"]
 LINKS: tuple[Link, ...] = ("first", "second", "carrier")
@@ -67,8 +68,7 @@ def sine_of(turn: Fraction) -> Fraction:
     return exact if exact is not None else Fraction(math.sin(math.pi * turn))
 
 
-@dataclass(frozen=True)
-class PlanetarySet:
+class PlanetarySet(Record, dict=True):
     """Teeth z1, z2, z2', z3 of a scheme and the modules, mm, of the meshes 1-2 and 2'-3."""
 
     scheme: Scheme
@@ -156,8 +156,7 @@ class PlanetarySet:
         return max(reach, *(m * (z + 2 * (ROOT if internal else TIP)) for internal, m, z in wheels))
 
 
-@dataclass(frozen=True, slots=True)
-class Search:
+class Search(Record):
     """What sets are sought: the ratio's range (bounds included), who drives whom, and the limits.
 
     ``teeth_off``: how many teeth coaxiality may be off, to be made up by shifts; ``gap`` between satellites' tips and

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from fractions import Fraction
 from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError
+from geometry.base.record import replace
 from geometry.gears.planetary.fitting import Fit, Fitting, RimMesh
 from geometry.gears.planetary.sets import (
     LINKS,
