@@ -92,6 +92,10 @@ KINDS: Index[Kind[Any, Any]] = Index(
             "Oscillating follower: its pivot is the origin, the arm runs along +x",
         ),
         "roller": ("parts.cams.follower:ROLLER", "Roller of a cam follower"),
+        "carrier_plate": (
+            "parts.bodies.carrier:CARRIER_PLATE",
+            "Plate of a carrier: a hub with an arm for the pin of each satellite, the first on +x, or a round plate",
+        ),
         "plate": (
             "parts.bodies.plate:PLATE",
             "Rectangular plate with rounded corners, holes and slots: a frame, a guide, a cover",

@@ -11,11 +11,12 @@ from msgspec import Meta, Struct, field
 from geometry.base.errors import ParameterError, limit
 from parts.base.kind import Kind, Others
 from parts.keys.base import LEAST_HOLE, MadeKeys, mm
+from parts.keys.engraving import Depth, Marks, check_depth, marked
 
 if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.body import Body
-    from geometry.solids.plate import Edge, PlateOutline
+    from geometry.solids.plate import Edge, PlateOutline, PlateSlot
 
 _MOST = 100_000.0
 _Place = Annotated[float, mm("a coordinate", least=-_MOST, most=_MOST)]
@@ -36,6 +37,12 @@ class SlotTable(Struct, forbid_unknown_fields=True):
     width: Annotated[float, mm("width of the slot", least=LEAST_HOLE, most=_MOST)]
 
 
+class EngravedTable(SlotTable, forbid_unknown_fields=True):
+    """A slot that does not go through: a mark, a pointer."""
+
+    depth: Depth = 0.4
+
+
 HolesAt = Annotated[list[HoleAtTable], Meta(max_length=1000, examples=[[{"at": [0.0, 20.0], "diameter": 3.0}]])]
 Slots = Annotated[
     list[SlotTable],
@@ -48,6 +55,14 @@ class FlatKeys(MadeKeys, kw_only=True):
 
     holes: HolesAt = field(default_factory=list)
     slots: Slots = field(default_factory=list)
+    engraved: Annotated[
+        list[EngravedTable],
+        Meta(
+            max_length=1000,
+            description="slots in the upper face, not cut",
+            examples=[[{"start": [20.0, 0.0], "end": [28.0, 0.0], "width": 1.0}]],
+        ),
+    ] = field(default_factory=list)
 
 
 class PlateSpec(FlatKeys, forbid_unknown_fields=True, tag_field="kind", tag="plate"):
@@ -63,22 +78,37 @@ def checked_outline(
     edges: tuple[Edge, ...], keys: FlatKeys, own: Sequence[tuple[str, complex, float]] = ()
 ) -> PlateOutline:
     """Edges with the holes and slots of a part's keys, checked one after the other; ``own``: key, centre, diameter."""
-    from geometry.solids.plate import PlateHole, PlateOutline, PlateSlot
+    from geometry.solids.plate import PlateHole, PlateOutline
 
     holes = (*(PlateHole(at, d) for _, at, d in own), *(PlateHole(complex(*h.at), h.diameter) for h in keys.holes))
-    slots = tuple(PlateSlot(complex(*s.start), complex(*s.end), s.width) for s in keys.slots)
-    for number, slot in enumerate(slots, 1):
-        if slot.start == slot.end:
-            raise ParameterError(f"slots.item {number}.end", list(keys.slots[number - 1].end), "slot_ends_at_start")
-    outline = PlateOutline(edges, (*holes, *slots))
     names = [key for key, _, _ in own]
     names += [f"holes.item {i + 1}.diameter" for i in range(len(keys.holes))]
-    outline.check_holes([*names, *(f"slots.item {i + 1}.width" for i in range(len(slots)))])
-    return outline
+    slots, marks = (_slots(key, getattr(keys, key), names) for key in ("slots", "engraved"))
+    PlateOutline(edges, (*holes, *slots, *marks)).check_holes(names)
+    for number, mark in enumerate(keys.engraved, 1):
+        check_depth(f"engraved.item {number}", mark.depth, keys.face_width)
+    return PlateOutline(edges, (*holes, *slots))
+
+
+def _slots(key: str, tables: Sequence[SlotTable], names: list[str]) -> tuple[PlateSlot, ...]:
+    """Slots between two places; ``names`` gets the key of each one's size."""
+    from geometry.solids.plate import PlateSlot
+
+    for number, table in enumerate(tables, 1):
+        if table.start == table.end:
+            raise ParameterError(f"{key}.item {number}.end", list(table.end), "slot_ends_at_start")
+        names.append(f"{key}.item {number}.width")
+    return tuple(PlateSlot(complex(*t.start), complex(*t.end), t.width) for t in tables)
 
 
 K = TypeVar("K", bound=FlatKeys)
 T = TypeVar("T")
+
+
+def _marks(keys: FlatKeys) -> Marks:
+    """What is engraved."""
+    slots = _slots("engraved", keys.engraved, [])
+    return [(slot.profile(0.0), table.depth) for slot, table in zip(slots, keys.engraved, strict=True)]
 
 
 class Extruded(Kind[K, T]):
@@ -89,14 +119,16 @@ class Extruded(Kind[K, T]):
         raise NotImplementedError
 
     def section(self, keys: K, thing: T, offset: float) -> OffsetRegion:
-        """The outline moved."""
-        return self.flat(thing).region(offset)
+        """The outline moved, and what is engraved in it."""
+        return marked(self.flat(thing).region(offset), _marks(keys))
 
     def solid(self, keys: K, thing: T, offset: float) -> Body:
-        """The outline, extruded."""
+        """The outline, extruded and engraved."""
         from geometry.solids.body import plate
+        from geometry.solids.engraving import engraved
 
-        return plate(self.flat(thing).region(offset).region, 0.0, keys.face_width)
+        body = plate(self.flat(thing).region(offset).region, 0.0, keys.face_width)
+        return engraved(body, _marks(keys), keys.face_width)
 
 
 class Flat(Extruded[K, "PlateOutline"]):

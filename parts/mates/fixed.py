@@ -126,7 +126,7 @@ class PinSeat(MateKind[PinSeatSpec, "PinRing | PinPlate", "RoundDisc"]):
     """A loose pin in its seat."""
 
     name, keys = "pin_seat", PinSeatSpec
-    joins = tuple((holder, "pin") for holder in ("pin_ring", "output_plate", "lantern_wheel"))
+    joins = tuple((holder, "pin") for holder in ("pin_ring", "output_plate", "lantern_wheel", "carrier_plate"))
 
     def mating(self, keys: PinSeatSpec, first: End[PinRing | PinPlate], second: End[RoundDisc]) -> FixedMating:
         """There is such a seat for a loose pin of this diameter."""

@@ -11,6 +11,7 @@ from parts.base.kind import Kind, Others, Report
 from parts.gears.quantities import circles, tooth_quantities
 from parts.keys.base import degrees, either, in_modules, mm
 from parts.keys.cutter import CutterTable, cutter_of
+from parts.keys.engraving import Marks, ToothMarkTable, marked, tooth_mark
 from parts.keys.helix import (
     ToothedKeys,
     checked_teeth,
@@ -83,6 +84,7 @@ class RingGearSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_fi
         | None
     ) = None
     holes: RimHolesTable | list[RimHolesTable] | None = None
+    tooth_mark: ToothMarkTable | None = None
 
 
 @told_in_keys
@@ -105,9 +107,20 @@ def checked_ring_gear(keys: RingGearSpec) -> RingGear:
         return True
 
     try:
-        return _with_rim(keys, checked_ring(section, normal, checked_teeth(keys).angle))
+        gear = _with_rim(keys, checked_ring(section, normal, checked_teeth(keys).angle))
     except ParameterError as refusal:
         raise with_remedy(refusal, keys, keeps_rim) from refusal
+    _marks(keys, gear)
+    return gear
+
+
+def _marks(keys: RingGearSpec, gear: RingGear) -> Marks:
+    """What is engraved in the rim, where a hole does not stand on +x too."""
+    outer = gear.outer_radius
+    for group in gear.holes.round_holes:
+        if any(abs(c.imag) < group.diameter and c.real > 0 for c in group.centres()):
+            outer = min(outer, (group.pitch_circle_diameter - group.diameter) / 2)
+    return tooth_mark(keys.tooth_mark, gear.number_of_teeth, (gear.root_radius, outer), keys.face_width, inside=True)
 
 
 @told_in_keys
@@ -183,14 +196,16 @@ class RingGearKind(Kind[RingGearSpec, "RingGear"]):
         """The exact section, moved."""
         from geometry.gears.teeth.ring_offset import ring_region
 
-        return ring_region(thing, offset)
+        return marked(ring_region(thing, offset), _marks(keys, thing))
 
     def solid(self, keys: RingGearSpec, thing: RingGear, offset: float) -> Body:
         """The section, extruded along the helix."""
         from geometry.solids.body import plate
+        from geometry.solids.engraving import engraved
 
         region, twist = self.section(keys, thing, offset).region, helix_of(keys).twist(thing.reference_radius)
-        return plate(region, 0.0, keys.face_width, twist, toothed=region.holes[0])
+        body = plate(region, 0.0, keys.face_width, twist, toothed=region.holes[0])
+        return engraved(body, _marks(keys, thing), keys.face_width)
 
     def report(self, keys: RingGearSpec, thing: RingGear) -> Report:
         """Diameters and thicknesses, the cutter, what is poor."""

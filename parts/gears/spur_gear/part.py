@@ -26,6 +26,7 @@ from geometry.gears.teeth.limits import checked_gear, exists, findings, root_for
 from geometry.gears.teeth.offset import chamfered_outline, gear_region
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import transverse_gear
+from geometry.solids.engraving import engraved
 from geometry.solids.wheel import WheelShape, wheel_body, wheel_sections
 from parts.base.kind import Kind, Others, Report
 from parts.base.schema import replaced
@@ -33,6 +34,7 @@ from parts.base.texts import N_
 from parts.gears.quantities import circles, tooth_quantities
 from parts.keys.base import BoreDiameter, either, in_modules, mm
 from parts.keys.cutter import CutterTable, PressureAngle, RackName, cutter_of
+from parts.keys.engraving import Marks, ToothMarkTable, marked, tooth_mark
 from parts.keys.helix import (
     ToothedKeys,
     checked_teeth,
@@ -97,6 +99,7 @@ class SpurGearSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_fi
     web: WebTable | None = None
     hub: HubTable | None = None
     face_chamfer: FaceChamfer | FaceChamferTable = 0.0
+    tooth_mark: ToothMarkTable | None = None
 
 
 @told_in_keys
@@ -120,7 +123,17 @@ def checked_spur_gear(keys: SpurGearSpec) -> SpurGear:
         checked_wheel(keys, 2 * gear.root_radius, gear.holes)
     except ParameterError as refusal:
         raise with_remedy(_whole(keys, refusal), keys, holes_fit) from refusal
+    _marks(keys, gear)
     return gear
+
+
+def _marks(keys: SpurGearSpec, gear: SpurGear) -> Marks:
+    """What is engraved between the root circle and all that is within it."""
+    shape = _shape_of(keys)
+    hub = 0.0 if shape.hub is None else shape.hub.diameter / 2
+    inner = max(gear.holes.reach, hub, 0.0 if shape.web is None else shape.web.rim_diameter / 2)
+    room = inner + shape.chamfer_above, gear.root_radius - shape.chamfer_above
+    return tooth_mark(keys.tooth_mark, gear.number_of_teeth, room, keys.face_width)
 
 
 def _whole(keys: SpurGearSpec, refusal: ParameterError) -> ParameterError:
@@ -172,7 +185,7 @@ class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
 
     def section(self, keys: SpurGearSpec, thing: SpurGear, offset: float) -> OffsetRegion:
         """The exact section, moved."""
-        return gear_region(thing, offset)
+        return marked(gear_region(thing, offset), _marks(keys, thing))
 
     def solid(self, keys: SpurGearSpec, thing: SpurGear, offset: float) -> Body:
         """The wheel with its web, hub and chamfers."""
@@ -186,7 +199,8 @@ class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
                 return section(moved).region.outer
             return chamfered_outline(thing, -moved, depth, max(deepest, depth))
 
-        return wheel_body(shape, wheel_sections(outline, thing.root_radius, thing.holes), offset)
+        body = wheel_body(shape, wheel_sections(outline, thing.root_radius, thing.holes), offset)
+        return engraved(body, _marks(keys, thing), keys.face_width)
 
     def is_plate(self, keys: SpurGearSpec, thing: SpurGear) -> bool:
         """Whether there is nothing but the section."""

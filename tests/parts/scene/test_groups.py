@@ -37,7 +37,8 @@ def test_members_stand_about_their_axis() -> None:
     made = scene({"planet": {"count": 5, "at": [13.0, 4.0, 2.0], "about": [3.0, 4.0], "rotation_deg": 7.0}}).instances
     for k in range(5):
         at = made[f"planet_{k + 1}"].at
-        assert at is not None and at[2] == 2.0
+        assert at is not None
+        assert at[2] == 2.0
         assert abs(complex(*at[:2]) - (3 + 4j) - cmath.rect(10.0, k * 2 * math.pi / 5)) < 1e-14
         assert made[f"planet_{k + 1}"].rotation_deg == 7.0 + 72.0 * k
     stepped = scene({"planet": {"count": 2, "at": [1.0, 0.0, 0.0], "step_deg": 90.0}}).instances
@@ -54,7 +55,8 @@ def test_mates_go_on_with_the_members() -> None:
     assert [(m.first, m.second, m.offset) for m in mates[4:8]] == [
         (f"planet_{k}", f"pin_{k}", (1.0, 0.0, 2.0)) for k in (1, 2, 3, 4)
     ]
-    assert mates[9].offset == pytest.approx((0.0, 1.0, 2.0)) and mates[9].rotation_deg == 95.0
+    assert mates[9].offset == pytest.approx((0.0, 1.0, 2.0))
+    assert mates[9].rotation_deg == 95.0
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,154 @@
+"""The part kind ``carrier_plate``: one of the two plates between which satellites stand on pins."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Annotated
+
+from msgspec import Meta, Struct
+
+from geometry.base.errors import Nearest, ParameterError
+from geometry.base.record import Record
+from parts.base.kind import Others, Report
+from parts.bodies.plate import Extruded, FlatKeys, checked_outline
+from parts.keys.base import BoreDiameter, mm
+from parts.keys.holes import Direction
+from parts.keys.pins import MOST, PinCircle, PinDiameter, least_of
+
+if TYPE_CHECKING:
+    from geometry.solids.arms import ArmEnd
+    from geometry.solids.plate import Edge, PlateOutline
+
+# of a hole's diameter: the round end about it; beyond the least hub on which the arms stand beside each other
+_BOSS, _HUB = 2.4, 1.05
+
+
+class PinHolesTable(Struct, forbid_unknown_fields=True):
+    """Holes on a circle, each in the round end of an arm of its own: of spacers between both plates."""
+
+    count: Annotated[int, Meta(ge=1, le=200, description="number of holes", examples=[3])]
+    pitch_circle_diameter: Annotated[PinCircle, Meta(examples=[60.0])]
+    diameter: Annotated[PinDiameter, Meta(examples=[3.0])]
+    boss_diameter: (
+        Annotated[float, mm("of the arm's round end; default: 2.4 holes", above=0, most=MOST, example=8.0)] | None
+    ) = None
+    start_deg: Direction = 0.0
+
+
+class CarrierPlateSpec(FlatKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="carrier_plate"):
+    """Keys of ``carrier_plate``."""
+
+    number_of_pins: Annotated[int, Meta(ge=1, le=200, description="number of satellites", examples=[3])]
+    pin_circle_diameter: Annotated[PinCircle, Meta(examples=[80.0])]
+    pin_diameter: Annotated[PinDiameter, Meta(examples=[6.0])]
+    directions_deg: (
+        Annotated[
+            list[Direction],
+            Meta(min_length=1, max_length=200, description="of each pin; default: equally spaced, the first on +x"),
+        ]
+        | None
+    ) = None
+    seat_clearance: Annotated[float, mm("radius of a hole beyond the pin's", least=-10, most=100)] = 0.0
+    boss_diameter: (
+        Annotated[float, mm("of each arm's round end; default: 2.4 pins", above=0, most=MOST, example=15.0)] | None
+    ) = None
+    hub_diameter: (
+        Annotated[float, mm("of the middle; default: as the arms want it", above=0, most=MOST, example=40.0)] | None
+    ) = None
+    outer_diameter: (
+        Annotated[float, mm("a round plate in place of arms", above=0, most=2 * MOST, example=100.0)] | None
+    ) = None
+    bore_diameter: BoreDiameter = 0.0
+    spacers: PinHolesTable | None = None
+
+
+class CarrierPlate(Record):
+    """A plate's outline, and the seats of its pins; mm."""
+
+    outline: PlateOutline
+    centres: tuple[complex, ...]
+    pin_radius: float
+    takes_loose_pins = True
+
+    def pin_centres(self) -> list[complex]:
+        """Where the pins stand, mm."""
+        return list(self.centres)
+
+
+class CarrierPlateKind(Extruded[CarrierPlateSpec, CarrierPlate]):
+    """A plate of a carrier."""
+
+    name, keys = "carrier_plate", CarrierPlateSpec
+
+    def thing(self, keys: CarrierPlateSpec, others: Others) -> CarrierPlate:
+        """The plate, checked: arms beside each other, holes that keep their walls."""
+        pins = [_end(a, keys.pin_circle_diameter, keys.pin_diameter, keys.boss_diameter) for a in _directions(keys)]
+        own, arms = [("pin_diameter", keys.pin_diameter + 2 * keys.seat_clearance, pin) for pin in pins], list(pins)
+        if (table := keys.spacers) is not None:
+            turns = (table.start_deg + 360 * k / table.count for k in range(table.count))
+            more = [_end(a, table.pitch_circle_diameter, table.diameter, table.boss_diameter) for a in turns]
+            own += [("spacers.diameter", table.diameter, spacer) for spacer in more]
+            arms += more
+        holes = [(key, end.centre, diameter) for key, diameter, end in own]
+        if keys.bore_diameter > 0:
+            holes.insert(0, ("bore_diameter", 0j, keys.bore_diameter))
+        outline = checked_outline(_edges(keys, arms), keys, holes)
+        return CarrierPlate(outline, tuple(pin.centre for pin in pins), keys.pin_diameter / 2)
+
+    def flat(self, thing: CarrierPlate) -> PlateOutline:
+        """Its outline."""
+        return thing.outline
+
+    def report(self, keys: CarrierPlateSpec, thing: CarrierPlate) -> Report:
+        """Its pins."""
+        return Report(
+            circles={"pin_circle_diameter": keys.pin_circle_diameter},
+            quantities={"number_of_pins": float(keys.number_of_pins), "pin_diameter": keys.pin_diameter},
+        )
+
+
+CARRIER_PLATE = CarrierPlateKind()
+
+
+def _directions(keys: CarrierPlateSpec) -> list[float]:
+    """Of the pins, degrees."""
+    count = keys.number_of_pins
+    if keys.directions_deg is None:
+        return [360 * k / count for k in range(count)]
+    if len(keys.directions_deg) != count:
+        raise ParameterError("directions_deg", keys.directions_deg, "not_one_a_pin", pins=count)
+    return keys.directions_deg
+
+
+def _end(angle: float, circle: float, diameter: float, boss: float | None) -> ArmEnd:
+    from geometry.solids.arms import ArmEnd
+
+    return ArmEnd(math.radians(angle % 360), circle / 2, (_BOSS * diameter if boss is None else boss) / 2)
+
+
+def _edges(keys: CarrierPlateSpec, arms: list[ArmEnd]) -> tuple[Edge, ...]:
+    """A hub with arms; round where it is asked for, or where the hub has room for all of their ends."""
+    from geometry.curves.line_arc import Arc
+    from geometry.solids.arms import armed_outline, least_hub
+
+    arms.sort(key=lambda arm: arm.angle)
+    needed = least_hub(arms)
+    if keys.outer_diameter is not None:
+        if keys.hub_diameter is not None:
+            raise ParameterError("hub_diameter", keys.hub_diameter, "is_round_already", Nearest(None))
+        hub = keys.outer_diameter / 2
+    elif keys.hub_diameter is not None:
+        hub = keys.hub_diameter / 2
+        if hub < needed:
+            raise ParameterError("hub_diameter", keys.hub_diameter, "arms_meet", least_of(2 * needed, 2 * hub))
+    else:
+        hub = max(_HUB * needed, keys.bore_diameter / 2 + keys.pin_diameter)
+        if any(hub >= arm.distance for arm in arms):
+            hub = max(arm.distance + arm.radius for arm in arms)
+    reaching = [arm for arm in arms if arm.distance + arm.radius > hub * (1 + 1e-9)]
+    if keys.outer_diameter is not None or not reaching:
+        return (Arc(0j, hub, 0.0, math.pi), Arc(0j, hub, math.pi, math.pi))
+    short = next((arm for arm in reaching if hub >= arm.distance), None)
+    if short is not None:
+        raise ParameterError("hub_diameter", keys.hub_diameter, "hub_reaches_pins", circle=2 * short.distance)
+    return armed_outline(hub, reaching)
