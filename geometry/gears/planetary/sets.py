@@ -76,6 +76,12 @@ class PlanetarySet(Record, dict=True):
     modules: tuple[Fraction, Fraction] = (Fraction(1), Fraction(1))
 
     @property
+    def name(self) -> str:
+        """Its teeth, as they are told: z1/z2/z3, or z1/z2-z2'/z3."""
+        z1, z2, z2p, z3 = self.teeth
+        return f"{z1}/{z2}-{z2p}/{z3}" if self.scheme.double else f"{z1}/{z2}/{z3}"
+
+    @property
     def carried_ratio(self) -> Fraction:
         """w1 / w3 where the carrier is held: z2 z3 / (z1 z2'), negative where one mesh is external."""
         z1, z2, z2p, z3 = self.teeth

@@ -10,6 +10,7 @@ from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import replace
+from geometry.gears.planetary.assembly import Satellites, given_set, least_angle
 from geometry.gears.planetary.fitting import Fit, Fitting, RimMesh
 from geometry.gears.planetary.sets import (
     LINKS,
@@ -49,8 +50,6 @@ _PAIRS_TOLD = 4
 _MOST_TEETH_OFF = 3
 # columns of the table that sets with one rim do without
 _SECOND_RIM = (2, 12)
-# by how much teeth are changed for a set that can be assembled
-_NEARBY = 4
 
 
 # what a mesh may not keep
@@ -234,77 +233,17 @@ class _Page:
 
     def _given(self, teeth: list[int]) -> PlanetarySet:
         """The set that was typed."""
-        wanted = 4 if self.scheme.double else 3
-        if len(teeth) != wanted:
-            raise ParameterError("teeth", teeth, "wheels_of_scheme", wheels=wanted)
-        z1, z2, *rest = teeth
-        one = PlanetarySet(self.scheme, (z1, z2, rest[0] if self.scheme.double else z2, rest[-1]), self.modules)
-        for span, ring, rim in zip(one.spans, (z1, one.teeth[3]), one.teeth[1:3], strict=True):
-            if span <= 0:
-                raise ParameterError("teeth", teeth, "ring_not_above_rim", ring=ring, rim=rim)
+        one = given_set(self.scheme, teeth, self.modules)
         if not ratio_of(one.carried_ratio, self.driver, self.driven):
             raise ParameterError("teeth", teeth, "transmits_nothing")
         return one
 
     def _assembled(self, one: PlanetarySet) -> tuple[Fraction, ...]:
         """Where the satellites of a given set stand; refused where they do not fit."""
-        keys, n = self.keys, self.keys.satellites
-        equal = tuple(Fraction(k, n) for k in range(n))
-        alike = one.spacing(n)
-        free = self.scheme.double and not keys.identical
-        places = alike if keys.spacing == "unequal" and alike is not None else equal
-        apart, gap = _least(places), _exact(keys.least_gap)
-        if apart is not None and not one.fits(apart, gap):
-            any_number = free or keys.spacing == "unequal"
-            fitting = (k for k in range(one.most_satellites(gap), 0, -1) if any_number or one.places % k == 0)
-            raise ParameterError("satellites", n, "satellites_collide", Nearest(next(fitting), "at_most"))
-        if keys.spacing == "equal" and not free and alike != equal:
-            raise ParameterError(
-                "satellites", n, "satellites_not_assembled", lambda: self._other_number(one),
-                places=one.places, teeth=self._other_teeth(one), spacing=_degrees(alike),
-            )  # fmt: skip
-        if keys.spacing == "unequal" and alike is None:
-            raise ParameterError("satellites", n, "too_few_places", Nearest(one.places, "at_most"), places=one.places)
-        self.fitting = replace(self.fitting, apart=apart)
+        wish = Satellites(self.keys.satellites, self.keys.spacing, self.keys.identical, _exact(self.keys.least_gap))
+        places = wish.places(one)
+        self.fitting = replace(self.fitting, apart=least_angle(places))
         return places
-
-    def _other_number(self, one: PlanetarySet) -> Nearest:
-        """The number of satellites nearest to the wanted one that fits."""
-        n, most = self.keys.satellites, one.most_satellites(_exact(self.keys.least_gap))
-        fitting = [k for k in range(1, most + 1) if one.places % k == 0]
-        return Nearest(min(fitting, key=lambda k: (abs(k - n), -k)))
-
-    def _other_teeth(self, one: PlanetarySet) -> str:
-        """The teeth nearby, coaxial without shifts, that take so many satellites, by ratio, then by change."""
-        n, ratio = self.keys.satellites, one.carried_ratio
-        apart = Fraction(1, n)
-        found = []
-        changes = range(-_NEARBY, _NEARBY + 1)
-        for z1 in (one.teeth[0] + k for k in changes):
-            for z2 in (one.teeth[1] + k for k in changes):
-                for z2p in [one.teeth[2] + k for k in changes] if self.scheme.double else [z2]:
-                    if min(z1, z2, z2p) < 3:
-                        continue
-                    other = self._coaxial(z1, z2, z2p)
-                    if other is None or other.places % n or other.spans[0] <= 0 or not other.fits(apart):
-                        continue
-                    change = sum(abs(a - b) for a, b in zip(other.teeth, one.teeth, strict=True))
-                    found.append((abs(other.carried_ratio - ratio), change, other))
-        if not found:
-            return "-"
-        return self._name(min(found, key=lambda item: item[:2])[2])
-
-    def _coaxial(self, z1: int, z2: int, z2p: int) -> PlanetarySet | None:
-        """The set whose z3 makes it coaxial without shifts."""
-        span = self.modules[0] * (z1 - z2 if self.scheme.internal[0] else z1 + z2) / self.modules[1]
-        z3 = span + z2p if self.scheme.internal[1] else span - z2p
-        return (
-            PlanetarySet(self.scheme, (z1, z2, z2p, int(z3)), self.modules) if z3.denominator == 1 and z3 >= 3 else None
-        )
-
-    def _name(self, one: PlanetarySet) -> str:
-        z1, z2, z2p, z3 = one.teeth
-        return f"{z1}/{z2}-{z2p}/{z3}" if self.scheme.double else f"{z1}/{z2}/{z3}"
 
     def _coaxial_enough(self, one: PlanetarySet) -> bool:
         """Whether shifts may make up for what the distances differ by."""
@@ -340,7 +279,7 @@ class _Page:
     def _set(self, one: PlanetarySet, fit: Fit | None, places: tuple[Fraction, ...], title: str) -> None:
         """All about one set."""
         page = self.sheet
-        page.section(message("{title}: {teeth}", title=Message(title), teeth=self._name(one)))
+        page.section(message("{title}: {teeth}", title=Message(title), teeth=one.name))
         for key, wheel, z in zip(_KEYS, _WHEELS, one.teeth, strict=True):
             if self.scheme.double or wheel != "2'":
                 page.add("number_of_teeth", z, symbol=f"z_{wheel}", key=key, of=message("wheel {wheel}", wheel=wheel))
@@ -404,7 +343,7 @@ class _Page:
             formula = "{z_1} + {z_3}"
         page.add("satellite_places", one.places, formula)
         page.add("number_of_satellites", keys.satellites)
-        if (apart := _least(places)) is None:
+        if (apart := least_angle(places)) is None:
             return
         page.add("least_satellite_angle_deg", 360 * float(apart))
         page.add("rim_tip_diameter", float(one.rim_reach))
@@ -536,14 +475,3 @@ def _exact_verdict(mesh: RimMesh, keys: PlanetaryKeys) -> str | None:
         return GearMesh(pair).contact().verdict.name
     except ParameterError:
         return None
-
-
-def _least(places: tuple[Fraction, ...]) -> Fraction | None:
-    """The least angle between neighbours, parts of a turn; None of one satellite."""
-    if len(places) == 1:
-        return None
-    return min((b - a) % 1 for a, b in zip(places, (*places[1:], places[0]), strict=True))
-
-
-def _degrees(places: tuple[Fraction, ...] | None) -> str:
-    return "-" if places is None else ", ".join(f"{360 * float(p):.6g}" for p in places)
