@@ -10,8 +10,8 @@ from parts.base.readback import ReadError
 
 # samples of each span of a spline: polynomials up to this degree less one come back exactly
 _SAMPLES = 8
-# ends of neighbouring curves in one file meet this well: mm, and a part of its size (files carry 15 digits)
-_JOINT, _DIGITS = 1e-9, 1e-11
+# ends of neighbouring curves in one file meet this well: mm (8 decimals), and a part of its size (15 digits)
+_JOINT, _DIGITS = 2e-8, 1e-11
 # the same of smooth spans, part of the outline's size
 _SMOOTH_JOINT = 1e-9
 

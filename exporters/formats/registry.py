@@ -29,10 +29,12 @@ if TYPE_CHECKING:
     from geometry.cams.barrel.body import BarrelBody
     from geometry.solids.body import Body
     from parts.base.readback import ReadBack
+    from parts.solids.faces import Curves as SolidCurves
+    from parts.solids.step_text import StepPart
 
 Chords: TypeAlias = tuple[Approximation, ...]
 Curves: TypeAlias = "tuple[Outline, ...]"
-Shape: TypeAlias = "Chords | Curves"
+Shape: TypeAlias = "Chords | Curves | SolidCurves"
 # from the strongest to the weakest
 BOUNDS = ("exact", "certified", "sampled")
 # name, name of the part, place of each instance
@@ -45,7 +47,7 @@ _FLOAT32 = 2.0**-24 * 1.5
 _SVG_ROUNDING = 2e-9
 # DXF coordinates are written with 16 digits
 _DXF_ROUNDING = 2e-15
-# the kernel writes 15 digits and turns every curve once more when it reads them
+# STEP's directions and radii have 15 digits
 _STEP_ROUNDING = 1e-12
 
 
@@ -164,11 +166,11 @@ def _check_count(content: Content, edges: int, order: int) -> None:
         raise ParameterError("tolerance", content.tolerance, "too_many_edges", works, edges=edges)
 
 
-def _kernel_curves(content: Content, tolerance: float) -> Curves:
+def _solid_curves(content: Content, tolerance: float) -> SolidCurves:
     """Splines of the solid's profiles."""
-    from parts.solids.brep import body_outlines
+    from parts.solids.faces import solid_curves
 
-    return body_outlines(content.body, tolerance)
+    return solid_curves(content.body, tolerance)
 
 
 def _flat_reach(content: Content) -> float:
@@ -180,8 +182,11 @@ def _mesh_rounding(content: Content) -> float:
     return _FLOAT32 * (body.section_reach() + body.steepness() * max(map(abs, body.levels())))
 
 
-def _kernel_rounding(content: Content) -> float:
-    return _STEP_ROUNDING * content.body.section_reach()
+def _step_rounding(content: Content) -> float:
+    from parts.solids.step_text import decimals
+
+    # a coordinate is moved by half of its last decimal, all three by less than one
+    return 10.0 ** -decimals(content.tolerance) + _STEP_ROUNDING * content.body.section_reach()
 
 
 def _write_laser_dxf(content: Content, made: Chords, file: Path) -> dict[str, int]:
@@ -226,21 +231,28 @@ def _write_3mf_assembly(
     return write_3mf_assembly(file, title, meshes, places)
 
 
-def _write_step(content: Content, made: Curves, file: Path) -> dict[str, int]:
-    from exporters.formats.step import write_step
-    from parts.solids.brep import body_solid
+def _step_part(content: Content, made: SolidCurves) -> StepPart:
+    from parts.solids.faces import solid_faces
+    from parts.solids.step_text import StepPart
 
-    return write_step(file, content.part.id, body_solid(content.body, made), content.part.colour)
+    return StepPart(content.part.id, solid_faces(content.body, made), content.part.colour)
+
+
+def _write_step(content: Content, made: SolidCurves, file: Path) -> dict[str, int]:
+    from exporters.formats.step import write_step
+    from parts.solids.step_text import decimals
+
+    return write_step(file, _step_part(content, made), decimals(content.tolerance))
 
 
 def _write_step_assembly(
-    title: str, contents: Sequence[Content], made: dict[str, Curves], places: Places, file: Path
+    title: str, contents: Sequence[Content], made: dict[str, SolidCurves], places: Places, file: Path
 ) -> dict[str, int]:
-    from exporters.formats.step import StepPart, write_step_assembly
-    from parts.solids.brep import body_solid
+    from exporters.formats.step import write_step_assembly
+    from parts.solids.step_text import decimals
 
-    solids = [StepPart(c.part.id, body_solid(c.body, made[c.part.id]), c.part.colour) for c in contents]
-    return write_step_assembly(file, title, solids, places)
+    solids = [_step_part(c, made[c.part.id]) for c in contents]
+    return write_step_assembly(file, title, solids, places, max(decimals(c.tolerance) for c in contents))
 
 
 REGISTRY: dict[str, FileFormat[Any]] = {
@@ -252,6 +264,6 @@ REGISTRY: dict[str, FileFormat[Any]] = {
         FileFormat("stl", _mesh_rounding, _chords, _write_stl),
         # its float32 numbers are written as text, which rounds them once more
         FileFormat("3mf", lambda c: 2 * _mesh_rounding(c), _chords, _write_3mf, _write_3mf_assembly),
-        FileFormat("step", _kernel_rounding, _kernel_curves, _write_step, _write_step_assembly),
+        FileFormat("step", _step_rounding, _solid_curves, _write_step, _write_step_assembly),
     )
 }

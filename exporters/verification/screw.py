@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 Points = NDArray[np.float64]
 
 _ALONG, _ACROSS, _PER_EDGE = 13, 9, 25
-# a cylinder's axis meets that of the part this well, mm and rad
-_AXIS = 1e-9
+# a cylinder's axis meets that of the part, and heights in a file (8 decimals) a wall's ends, this well, mm and rad
+_AXIS = 2e-8
 
 
 def screw_deviation(samples: list[Points], body: Body, declared: float) -> float:

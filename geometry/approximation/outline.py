@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Iterator
 
@@ -13,7 +12,7 @@ from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace
 from geometry.curves.bounds import Bound
 from geometry.curves.bspline import BSpline
-from geometry.curves.curve import Complex, Curve
+from geometry.curves.curve import Complex, Curve, Real
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Profile, Segment
 
@@ -40,25 +39,19 @@ class Outline(Record):
         arcs = [c for c in self.period if isinstance(c, Arc)]
         return self.count == 1 and len(arcs) == len(self.period) and len({(a.centre, a.radius) for a in arcs}) == 1
 
-    def chamfer_faces(self) -> Iterator[Complex]:
-        """The poles of all faces in order of travel."""
-        for turn in self._turns():
-            yield from (poles * cmath.exp(1j * turn) for poles in self.faces)
-
-    def _turns(self) -> list[float]:
+    def places(self) -> tuple[tuple[CadCurve, ...], Real]:
+        """The curves of one period and the angles, rad, of its places (count,); a full circle is one arc."""
+        period, first = self.period, self.period[0]
+        if self.is_circle and isinstance(first, Arc):
+            period = (replace(first, sweep=math.copysign(2 * math.pi, first.sweep)),)
         pitch = (-2 if self.clockwise else 2) * math.pi / self.count
-        return [pitch * k for k in range(self.count)]
+        return period, pitch * np.arange(self.count, dtype=float)
 
     def curves(self) -> Iterator[CadCurve]:
-        """All curves in order of travel; a full circle about the origin is one arc."""
-        first = self.period[0]
-        if self.is_circle and isinstance(first, Arc):
-            yield Arc(first.centre, first.radius, first.start_angle, math.copysign(2 * math.pi, first.sweep))
-            return
-        for turn in self._turns():
-            placement = Placement2(turn)
-            for curve in self.period:
-                yield curve.placed(placement) if turn else curve
+        """All curves in order of travel; a full circle is one arc."""
+        period, turns = self.places()
+        for turn in turns.tolist():
+            yield from (curve.placed(Placement2(turn)) if turn else curve for curve in period)
 
 
 def parted(profile: Profile) -> Profile:

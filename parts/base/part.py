@@ -125,8 +125,11 @@ class Part(Record, dict=True):
         except ImportError as error:
             text = 'to_cadquery needs cadquery: pip install "cadquery" in place of cadquery-ocp-novtk'
             raise ImportError(text) from error
-        from parts.solids.brep import body_outlines, body_solid
+        from parts.solids.faces import solid_curves, solid_faces
+        from parts.solids.kernel import kernel_solid
+        from parts.solids.step_text import StepPart, decimals, part_text
 
         body = self.body(offset)
-        solid = cadquery.Solid(body_solid(body, body_outlines(body, tolerance)))
+        part = StepPart(self.id, solid_faces(body, solid_curves(body, tolerance)), self.colour)
+        solid = cadquery.Solid(kernel_solid(part_text(part, decimals(tolerance))))
         return cadquery.Workplane("XY").newObject([solid])

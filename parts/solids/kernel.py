@@ -1,9 +1,10 @@
-"""What writing, reading and measuring with the CAD kernel have in common."""
+"""What reading and measuring with the CAD kernel have in common."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from io import BytesIO
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -43,9 +44,22 @@ def _explored(shape: TopoDS_Shape, kind: TopAbs_ShapeEnum) -> Iterator[TopoDS_Sh
         explorer.Next()
 
 
+def kernel_solid(text: str) -> TopoDS_Shape:
+    """The one solid of a STEP file's text."""
+    from OCP.STEPControl import STEPControl_Reader
+    from OCP.TopAbs import TopAbs_ShapeEnum
+
+    with silent_kernel():
+        reader = STEPControl_Reader()
+        reader.ReadStream("part.step", BytesIO(text.encode("ascii")))
+        reader.TransferRoots()
+        (solid,) = _explored(reader.OneShape(), TopAbs_ShapeEnum.TopAbs_SOLID)
+    return solid
+
+
 @contextmanager
 def silent_kernel() -> Iterator[None]:
-    """The kernel prints a statistic at every write; its printers are taken away while it works."""
+    """The kernel prints what it thinks of a file; its printers are taken away while it works."""
     from OCP.Message import Message
 
     messenger = Message.DefaultMessenger_s()

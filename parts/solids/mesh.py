@@ -1,7 +1,7 @@
 """The only builder of solids, mesh half: exact bodies become closed triangle meshes straight from numpy.
 
 Every loop of a body is approximated once; the walls and caps that meet in it share its vertices, so the mesh is
-closed by construction. parts/solids/brep.py is the other half.
+closed by construction. parts/solids/faces.py is the other half.
 """
 
 from __future__ import annotations

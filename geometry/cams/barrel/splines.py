@@ -1,4 +1,4 @@
-"""The walls of a cylindrical cam as B-spline surfaces with finished poles, and their edges on both cylinders.
+"""The walls of a cylindrical cam as B-spline surfaces with finished poles.
 
 One surface for each piece of the motion, cut where the roller rests, over the cam angle and the share of the way from
 the inner to the outer cylinder: the walls are analytic there. Poles interpolate the exact wall at Greville's places.
@@ -11,14 +11,15 @@ from itertools import pairwise
 
 import numpy as np
 
+from geometry.approximation.outline import Outline, spline_outline
 from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record, replace
 from geometry.cams.barrel.cam import BarrelCam
-from geometry.cams.motion.follower_motion import TURN
 from geometry.curves.bounds import Bound
 from geometry.curves.bspline import basis
 from geometry.curves.curve import Real
 from geometry.laws.piece import LawPiece, sign_changes
+from geometry.plane.profile import Profile
 
 _DEGREE = 7
 # the kernel joins curves and surfaces within 1e-7 mm: up to a tolerance of 1e-6 mm edges are kept well below that
@@ -50,17 +51,13 @@ class Stretch(Record):
 
 
 class WallSpline(Record, eq=False):
-    """A tensor product over cam angle and share: knots both ways, poles (n, m, 3) mm.
-
-    ``edges``: poles (2, n, 2) of the polar angle (rad) and the height (mm) along the inner and the outer cylinder.
-    """
+    """A tensor product over cam angle and share: knots both ways, poles (n, m, 3) mm."""
 
     side: int
     stretch: Stretch
     along: Real
     across: Real
     poles: Real
-    edges: Real
     max_error: float
 
     @property
@@ -70,14 +67,15 @@ class WallSpline(Record, eq=False):
 
 
 class BarrelSplines(Record, eq=False):
-    """All walls as splines, in the order of the motion's stretches, side by side, and the worst error, mm."""
+    """All walls as splines, in the order of the motion's stretches, side by side, the bore, and the worst error, mm."""
 
     walls: dict[int, tuple[WallSpline, ...]]
+    bore: Outline | None
     max_error: float
     bound: Bound = "sampled"
 
 
-def barrel_splines(cam: BarrelCam, tolerance: float) -> BarrelSplines:
+def barrel_splines(cam: BarrelCam, tolerance: float, bore: Profile | None = None) -> BarrelSplines:
     """Splines within ``tolerance`` mm of the walls, and within what the kernel calls one point of the cylinders.
 
     Raises
@@ -88,7 +86,9 @@ def barrel_splines(cam: BarrelCam, tolerance: float) -> BarrelSplines:
     target = max(min(tolerance, max(_TARGET, _SHARE * tolerance)) / _MARGIN, 4 * _ROUNDING * cam.outer)
     found = stretches(cam)
     walls = {side: tuple(_fitted(cam, side, stretch, target) for stretch in found) for side in cam.sides}
-    return BarrelSplines(walls, _MARGIN * max(w.max_error for found in walls.values() for w in found))
+    hole = None if bore is None else spline_outline(bore, tolerance, degree=_DEGREE, continuity=_DEGREE - 1)
+    worst = _MARGIN * max(w.max_error for found in walls.values() for w in found)
+    return BarrelSplines(walls, hole, worst if hole is None else max(worst, hole.max_error))
 
 
 def stretches(cam: BarrelCam) -> list[Stretch]:
@@ -151,16 +151,9 @@ def _interpolated(cam: BarrelCam, side: int, stretch: Stretch, breaks: Real, v_k
     half = np.linalg.solve(along, points.reshape(len(u), -1)).reshape(points.shape)
     poles = np.linalg.solve(crosswise, half.transpose(1, 0, 2).reshape(len(v), -1)).reshape(len(v), len(u), 3)
     poles = poles.transpose(1, 0, 2)
-    edges = np.array([np.linalg.solve(along, _polar(cam, side, stretch, r, u)) for r in (cam.inner, cam.outer)])
-    made = WallSpline(side, stretch, u_knots, v_knots, poles, edges, 0.0)
+    made = WallSpline(side, stretch, u_knots, v_knots, poles, 0.0)
     errors = _errors(cam, made, breaks)
     return replace(made, max_error=float(errors.max())), errors
-
-
-def _polar(cam: BarrelCam, side: int, stretch: Stretch, radius: float, angle: Real) -> Real:
-    """Polar angle (not folded) and height of an edge, (n, 2)."""
-    polar, height = cam.edge_series(stretch.piece, side, radius, angle, 0)
-    return np.stack([polar[0] - TURN * stretch.turns, height[0]], axis=1)
 
 
 def _knots(breaks: Real) -> Real:
@@ -183,7 +176,7 @@ def _matrix(knots: Real, t: Real) -> Real:
 
 
 def _errors(cam: BarrelCam, spline: WallSpline, breaks: Real) -> Real:
-    """Greatest errors of each span: of samples from the wall, of its ends from their paths on the cylinders."""
+    """Greatest errors of each span: of samples from the wall, of its rims from both cylinders."""
     share = np.linspace(0, 1, _SAMPLES)
     u = (breaks[:-1, None] + np.diff(breaks)[:, None] * share).ravel()
     v = np.linspace(0, 1, 4 * (len(spline.across) - 2 * _DEGREE - 1) + 5)
@@ -191,8 +184,6 @@ def _errors(cam: BarrelCam, spline: WallSpline, breaks: Real) -> Real:
     points = np.einsum("ui,vj,ijc->uvc", along, _matrix(spline.across, v), spline.poles)
     away = cam.distance(points.reshape(-1, 3), np.repeat(u, len(v)))
     worst = np.abs(away).reshape(len(u), len(v)).max(axis=1)
-    for row, radius, poles in ((0, cam.inner, spline.edges[0]), (-1, cam.outer, spline.edges[1])):
-        polar, height = (along @ poles).T
-        path = np.stack([radius * np.cos(polar), radius * np.sin(polar), height], axis=1)
-        worst = np.maximum(worst, np.linalg.norm(points[:, row] - path, axis=1))
+    for row, radius in ((0, cam.inner), (-1, cam.outer)):
+        worst = np.maximum(worst, np.abs(np.hypot(points[:, row, 0], points[:, row, 1]) - radius))
     return np.asarray(worst.reshape(-1, _SAMPLES).max(axis=1))

@@ -1,0 +1,130 @@
+"""The faces of a body from the finished curves of its profiles: neighbours share their edges, so the shell is closed.
+
+Arcs become true circles (so tip, root and bore are cylinders), splines keep their poles and knots, and what stands on
+every tooth is one bundle of faces.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+
+from geometry.approximation.chamfered import Sections, chamfered_outlines, pieces_needed
+from geometry.approximation.outline import Outline, spline_outline
+from geometry.curves.bspline import BSpline
+from geometry.curves.curve import Complex
+from geometry.plane.measure import profile_area
+from geometry.solids.body import Body, Cap, Wall
+from geometry.solids.chamfer import cut_chamfers
+from geometry.solids.faces import Loop, Solid
+from geometry.solids.rings import Ring, RingBuilder, spatial
+from geometry.solids.screw import cut_twists, heights, turn_error, turn_spans, turn_spline, with_turn_error
+
+# files pay by the pole
+_DEGREE = 7
+
+
+def body_outlines(body: Body, tolerance: float) -> tuple[Outline, ...]:
+    """Every profile of a body as finished curves within ``tolerance`` mm, on screw surfaces over them too."""
+    body = _cut(body)
+    twisted, made = body.twisted_profiles(), _chamfered_outlines(body, tolerance)
+    for index, profile in enumerate(body.profiles):
+        if index in made:
+            continue
+        turned = index in twisted
+        own = tolerance - 2 * turn_error(profile.reach()) if turned else tolerance
+        outline = spline_outline(profile, own, degree=_DEGREE, continuity=_DEGREE - 1, turned=turned)
+        made[index] = with_turn_error(outline, profile.reach()) if turned else outline
+    return tuple(made[i] for i in range(len(body.profiles)))
+
+
+def _chamfered_outlines(body: Body, tolerance: float) -> dict[int, Outline]:
+    """The outlines of profiles that chamfers join, each whole one with its ends."""
+    # the pieces of a chamfer by the profiles where they begin and end
+    pieces: dict[int, dict[int, Sections]] = {}
+    for wall, whole, end in body.chamfers():
+        own = partial(body.section_at, wall, whole, end)
+        pieces.setdefault(body.loops[whole].profile, {}).setdefault(body.loops[end].profile, own)
+    ends = {end for found in pieces.values() for end in found}
+    made: dict[int, Outline] = {}
+    for index in sorted(pieces.keys() - ends):
+        indices, chamfers = [index], []
+        for end, sections in pieces[index].items():
+            chamfers.append([sections])
+            indices.append(end)
+            while indices[-1] in pieces:
+                ((end, sections),) = pieces[indices[-1]].items()
+                chamfers[-1].append(sections)
+                indices.append(end)
+        outlines = chamfered_outlines(body.profiles[index], chamfers, tolerance, degree=_DEGREE)
+        made |= dict(zip(indices, outlines, strict=True))
+    return made
+
+
+def _cut(body: Body) -> Body:
+    """The body with pieces of chamfers and of screw surfaces that one face each can follow."""
+    body = cut_chamfers(body, lambda *chamfer: pieces_needed(partial(body.section_at, *chamfer)))
+    return cut_twists(body)
+
+
+def body_solid(body: Body, outlines: Sequence[Outline]) -> Solid:
+    """The faces of a body over the finished curves of its profiles."""
+    made = _Maker(_cut(body), outlines)
+    for wall in made.body.walls:
+        made.wall(wall)
+    for cap in made.body.caps:
+        made.face(cap)
+    return made.solid()
+
+
+class _Maker(RingBuilder):
+    """Rings, walls and caps of one body."""
+
+    def __init__(self, body: Body, outlines: Sequence[Outline]) -> None:
+        super().__init__()
+        self.body, self.outlines = body, outlines
+        self.known: dict[int, Ring] = {}
+
+    def at(self, loop: int) -> Ring:
+        """The ring of a loop, made once."""
+        if loop not in self.known:
+            place = self.body.loops[loop]
+            self.known[loop] = self.ring(self.outlines[place.profile], place.z, place.turn, place.shift)
+        return self.known[loop]
+
+    def wall(self, wall: Wall) -> None:
+        """The faces of a wall between its two rings."""
+        body, height = self.body, self.body.height(wall)
+        lower, upper = self.at(wall.lower), self.at(wall.upper)
+        if body.is_chamfer(wall):
+            grids = self._chamfer_poles(wall, lower, upper)
+            degree = grids[0].shape[1] - 1
+            along = BSpline(degree, np.repeat([0.0, 1.0], degree + 1), np.zeros(degree + 1, complex))
+            self.ruled(lower, upper, height, along, np.linspace(*height, degree + 1), grids)
+        elif twist := body.twist(wall):
+            turn = turn_spline(twist, turn_spans(twist, body.loop_profile(wall.lower).reach()))
+            starts = (c.poles if isinstance(c, BSpline) else np.array([c.point(c.domain[0])]) for c in lower.curves)
+            self.ruled(lower, upper, height, turn, heights(turn, *height), [s[:, None] * turn.poles for s in starts])
+        else:
+            self.swept(lower, upper, spatial(np.array([body.shear(wall)]), height[1] - height[0]))
+
+    def _chamfer_poles(self, wall: Wall, lower: Ring, upper: Ring) -> list[Complex]:
+        """The poles of each face of a chamfer from its lower to its upper ring."""
+        ends = [self.outlines[self.body.loops[loop].profile] for loop in (wall.lower, wall.upper)]
+        if ends[0].is_circle:
+            return [np.array([[complex(ring.curves[0].point(0.0)) for ring in (lower, upper)]])]
+        # the end of a chamfer has its faces' poles, from the whole boundary on
+        if next(whole for own, whole, _ in self.body.chamfers() if own is wall) == wall.upper:
+            return [grid[:, ::-1] for grid in ends[0].faces]
+        return list(ends[1].faces)
+
+    def face(self, cap: Cap) -> None:
+        """A plane face within its rings."""
+        loops = [self._around(cap.outer, cap.up), *(self._around(hole, not cap.up) for hole in cap.holes)]
+        self.cap(self.body.loops[cap.outer].z, loops, up=cap.up)
+
+    def _around(self, loop: int, left: bool) -> Loop:
+        """A ring as a loop that turns left, or right, as seen from above."""
+        return self.at(loop).loop(forwards=(profile_area(self.body.loop_profile(loop)) > 0) == left)

@@ -1,0 +1,194 @@
+"""Closed rings of edges over finished curves, and what is swept, capped and ruled between them.
+
+A ring is one period of curves in all its places: each curve is one bundle of edges.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from geometry.approximation.outline import CadCurve, Outline
+from geometry.base.record import Record, replace
+from geometry.curves.bspline import BSpline
+from geometry.curves.curve import Complex, Real
+from geometry.curves.line_arc import Arc
+from geometry.solids.faces import (
+    Circular,
+    Cone,
+    Cylinder,
+    Extrusion,
+    Faces,
+    Frame,
+    Index,
+    Loop,
+    Plane,
+    SolidBuilder,
+    Spline,
+    SplineSurface,
+    Straight,
+    Surface,
+)  # fmt: skip
+
+UP, AHEAD = np.array([[0.0, 0.0, 1.0]]), np.array([[1.0, 0.0, 0.0]])
+
+
+class Ring(Record, eq=False):
+    """The edges of a closed boundary across the axis: its curves, and a bundle for each, a row for each of ``turns``.
+
+    ``points``: those of the curves' poles, of lines and arcs their ends; ``starts``: vertices.
+    """
+
+    curves: tuple[CadCurve, ...]
+    turns: Complex
+    starts: tuple[Index, ...]
+    points: tuple[Index, ...]
+    shapes: tuple[Straight | Circular | Spline, ...]
+    edges: tuple[Index, ...]
+
+    def loop(self, *, forwards: bool) -> Loop:
+        """The ring as the loop of one face."""
+        edges = np.stack(self.edges, axis=1).reshape(1, -1)
+        return edges if forwards else edges[:, ::-1], np.full(edges.shape[1], forwards)
+
+
+class RingBuilder(SolidBuilder):
+    """Builds rings, and the faces between two of one period."""
+
+    def ring(self, outline: Outline, z: float, turn: float = 0.0, shift: complex = 0j) -> Ring:
+        """The ring of an outline at height z mm, turned (rad) and moved (mm)."""
+        curves, angles = outline.places()
+        turns = np.exp(1j * (angles + turn))
+        corners = [self.add_points(turns * complex(c.point(c.domain[0])) + shift, z) for c in curves]
+        starts = [self.add_vertices(points) for points in corners]
+        shapes: list[Straight | Circular | Spline] = []
+        points, edges = [], []
+        for i, curve in enumerate(curves):
+            inner = np.zeros((len(turns), 0), dtype=np.intp)
+            if isinstance(curve, BSpline):
+                inner = self.add_points(turns[:, None] * curve.poles[1:-1] + shift, z)
+            points.append(np.concatenate([corners[i][:, None], inner, following(corners, i)[:, None]], axis=1))
+            if isinstance(curve, Arc):
+                centres = turns * curve.centre + shift
+                origin = self.add_points(centres[:1] if curve.centre == 0 else centres, z)
+                shapes.append(Circular(Frame(origin, math.copysign(1, curve.sweep) * UP, AHEAD), curve.radius))
+            elif isinstance(curve, BSpline) and inner.size:
+                shapes.append(Spline(curve.degree, curve.knots, points[i]))
+            else:
+                shapes.append(Straight(spatial(turns * _way(curve), 0.0)))
+            edges.append(self.add_edges(starts[i], following(starts, i), shapes[i]))
+        return Ring(curves, turns, tuple(starts), tuple(points), tuple(shapes), tuple(edges))
+
+    def cap(self, z: float, loops: Sequence[Loop], *, up: bool) -> None:
+        """A plane face at height z mm."""
+        origin = self.add_points(np.zeros(1, complex), z)
+        self.faces.append(Faces(Plane(Frame(origin, UP, AHEAD)), tuple(loops), up))
+
+    def swept(self, lower: Ring, upper: Ring, way: Real) -> None:
+        """Faces swept along a direction (1, 3)."""
+        corners = [self.add_edges(*ends, Straight(way)) for ends in zip(lower.starts, upper.starts, strict=True)]
+        for i, shape in enumerate(lower.shapes):
+            if isinstance(shape, Straight):
+                self._between(lower, upper, corners, i, _plane(lower, i, way))
+            elif isinstance(shape, Circular) and way[0, 2] == 1:
+                self._cylinder(lower, upper, corners, i, shape)
+            else:
+                self._between(lower, upper, corners, i, Extrusion(lower.edges[i], way))
+
+    def ruled(
+        self,
+        lower: Ring,
+        upper: Ring,
+        height: tuple[float, float],
+        along: BSpline,
+        rise: Real,
+        grids: Sequence[Complex],
+    ) -> None:
+        """Faces between rings of which one may be turned or narrower: poles over each curve (u, v) in the plane.
+
+        ``rise``: their heights (v,), mm; ``along``: a spline on their knots v. Planes over lines, cylinders and cones
+        over arcs (whose grids are those of their ends), splines over all else.
+        """
+        corners, points = self._corners(lower, upper, along, rise, [grid[0] for grid in grids])
+        for i, (grid, shape) in enumerate(zip(grids, lower.shapes, strict=True)):
+            curve, other = lower.curves[i], upper.shapes[i]
+            if isinstance(shape, Circular) and isinstance(other, Circular):
+                self._cylinder(lower, upper, corners, i, shape, other.radius - shape.radius, height)
+            elif isinstance(curve, BSpline):
+                surface = self._tensor(lower, upper, points, i, along, rise, grid)
+                self._between(lower, upper, corners, i, surface)
+            else:
+                slant = spatial(lower.turns * complex(grid[0, -1] - grid[0, 0]), height[1] - height[0])
+                self._between(lower, upper, corners, i, _plane(lower, i, slant))
+
+    def _between(
+        self, lower: Ring, upper: Ring, corners: Sequence[Index], i: int, surface: Surface, *, along: bool = True
+    ) -> None:
+        """The faces over curve i between two rings and the edges from corner to corner."""
+        around = lower.edges[i], following(corners, i), upper.edges[i], corners[i]
+        loop = np.stack(around, axis=1), np.array([True, True, False, False])
+        self.faces.append(Faces(surface, (loop,), along))
+
+    def _cylinder(
+        self, lower: Ring, upper: Ring, corners: Sequence[Index], i: int, shape: Circular,
+        widening: float = 0.0, height: tuple[float, float] = (0.0, 1.0),
+    ) -> None:  # fmt: skip
+        """The cylinders over arcs, or the cones to wider or narrower ones, whose axes run to where they are wider."""
+        surface: Surface = Cylinder(replace(shape.frame, axis=UP), shape.radius)
+        if widening:
+            narrow, up = (shape, UP) if widening > 0 else (upper.shapes[i], -UP)
+            assert isinstance(narrow, Circular)
+            slant = math.atan2(abs(widening), height[1] - height[0])
+            surface = Cone(replace(narrow.frame, axis=up), narrow.radius, slant)
+        curve = lower.curves[i]
+        self._between(lower, upper, corners, i, surface, along=isinstance(curve, Arc) and curve.sweep > 0)
+
+    def _corners(
+        self, lower: Ring, upper: Ring, along: BSpline, rise: Real, rows: Sequence[Complex]
+    ) -> tuple[list[Index], list[Index]]:
+        """The edges from corner to corner with poles ``rows`` at heights ``rise``, and the points of these poles."""
+        corners, points = [], []
+        for i, row in enumerate(rows):
+            inner = self.add_points(lower.turns[:, None] * row[1:-1], rise[1:-1])
+            points.append(np.concatenate([lower.points[i][:, :1], inner, upper.points[i][:, :1]], axis=1))
+            straight = Straight(spatial(lower.turns * complex(row[-1] - row[0]), rise[-1] - rise[0]))
+            shape = Spline(along.degree, along.knots, points[i]) if inner.size else straight
+            corners.append(self.add_edges(lower.starts[i], upper.starts[i], shape))
+        return corners, points
+
+    def _tensor(
+        self, lower: Ring, upper: Ring, corners: Sequence[Index], i: int, along: BSpline, rise: Real, grid: Complex
+    ) -> SplineSurface:
+        """Splines over curve i; at their rims they have the poles of the edges there."""
+        section = lower.curves[i]
+        assert isinstance(section, BSpline)
+        poles = np.empty((len(lower.turns), *grid.shape), dtype=np.intp)
+        poles[:, 1:-1, 1:-1] = self.add_points(lower.turns[:, None, None] * grid[1:-1, 1:-1], rise[1:-1])
+        poles[:, 0], poles[:, -1] = corners[i], following(corners, i)
+        poles[:, :, 0], poles[:, :, -1] = lower.points[i], upper.points[i]
+        return SplineSurface((section.degree, along.degree), section.knots, along.knots, poles)
+
+
+def following(rows: Sequence[Index], i: int) -> Index:
+    """Of rows by curve that of the curve after curve i: after the last one comes the first of the next place."""
+    return rows[i + 1] if i + 1 < len(rows) else np.roll(rows[0], -1, axis=0)
+
+
+def spatial(plane: Complex, rise: float) -> Real:
+    """Directions (n, 3) of steps in the plane with a rise, mm."""
+    steps = np.stack([plane.real, plane.imag, np.full(len(plane), rise)], axis=1)
+    return np.asarray(steps / np.linalg.norm(steps, axis=1)[:, None])
+
+
+def _way(curve: CadCurve) -> complex:
+    """From its start to its end, mm."""
+    return complex(curve.point(curve.domain[1]) - curve.point(curve.domain[0]))
+
+
+def _plane(lower: Ring, i: int, slant: Real) -> Plane:
+    """The planes over a ring's lines along slants (n or 1, 3)."""
+    way = spatial(lower.turns * _way(lower.curves[i]), 0.0)
+    normal = np.cross(way, slant)
+    return Plane(Frame(lower.points[i][:, 0], normal / np.linalg.norm(normal, axis=1)[:, None], way))

@@ -1,0 +1,335 @@
+"""STEP AP214 in mm as text, without a CAD kernel: faces between shared edges, names, colours, places of instances.
+
+Entities and their forms are those that OCCT 7.9 writes, and no others. Coordinates have as many decimals as the
+tolerance needs. What stands on every tooth is one template of text, filled in for each place.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import count, groupby
+
+import numpy as np
+
+from geometry.base.distinct import distinct
+from geometry.base.placement import Placement3
+from geometry.base.record import Record
+from geometry.curves.curve import Real
+from geometry.solids.faces import (
+    Circular,
+    Cone,
+    Cylinder,
+    Extrusion,
+    Faces,
+    Frame,
+    Index,
+    Plane,
+    Solid,
+    Sphere,
+    Spline,
+    SplineSurface,
+    Straight,
+    Torus,
+)  # fmt: skip
+
+_HEAD = """ISO-10303-21;
+HEADER;
+FILE_DESCRIPTION((''),'2;1');
+FILE_NAME('{name}','2000-01-01T00:00:00',(''),(''),'higherpair','higherpair','');
+FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));
+ENDSEC;
+DATA;
+"""
+_TAIL = "ENDSEC;\nEND-ISO-10303-21;\n"
+# coordinates are rounded to this part of the tolerance or finer, and to 8 decimals at least
+_SHARE, _LEAST_DECIMALS = 0.01, 8
+# references on one line
+_PER_LINE = 16
+# name, name of the part, place of each instance
+Occurrence = tuple[str, str, Placement3]
+
+
+class StepPart(Record):
+    """A named solid with its colour, like "#c08040"."""
+
+    name: str
+    solid: Solid
+    colour: str | None
+
+
+def decimals(tolerance: float) -> int:
+    """Decimals of the coordinates of a file within a tolerance, mm."""
+    return max(_LEAST_DECIMALS, math.ceil(-math.log10(_SHARE * tolerance)))
+
+
+def part_text(part: StepPart, digits: int) -> str:
+    """The file of one named solid, its coordinates with ``digits`` decimals."""
+    text = _Text(digits)
+    text.part(part)
+    return text.whole(part.name)
+
+
+def assembly_text(name: str, parts: Sequence[StepPart], occurrences: Sequence[Occurrence], digits: int) -> str:
+    """The file of one product per part and an occurrence of it for each of ``occurrences``."""
+    text = _Text(digits)
+    text.assembly(name, parts, occurrences)
+    return text.whole(name)
+
+
+class _Text:
+    """The entities of a file, numbered as they come; small ones that are alike are written once."""
+
+    def __init__(self, digits: int) -> None:
+        self.digits = digits
+        self.lines: list[str] = []
+        self.numbers = count(1)
+        self.known: dict[str, int] = {}
+        self.application = self.add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')")
+        self.add(
+            f"APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000,#{self.application})"
+        )
+
+    def whole(self, name: str) -> str:
+        """The file, all of it ASCII."""
+        return "".join([_HEAD.replace("{name}", string(f"{name}.step")), *self.lines, _TAIL])
+
+    def add(self, text: str) -> int:
+        """A new entity."""
+        number = next(self.numbers)
+        self.lines.append(f"#{number}={text};\n")
+        return number
+
+    def once(self, text: str) -> int:
+        """An entity that may be shared."""
+        if text not in self.known:
+            self.known[text] = self.add(text)
+        return self.known[text]
+
+    def many(self, template: str, *columns: Iterable[object]) -> Index:
+        """An entity for each row of columns, filled into a template."""
+        rows = list(zip(*columns, strict=True))
+        first = next(self.numbers)
+        self.numbers = count(first + len(rows))
+        line = f"#%d={template};\n"
+        self.lines.append("".join([line % (number, *row) for number, row in enumerate(rows, first)]))
+        return np.arange(first, first + len(rows))
+
+    def direction(self, way: Sequence[float]) -> int:
+        """A direction, to 15 digits."""
+        return self.once(f"DIRECTION('',({','.join(real(x) for x in way)}))")
+
+    def point(self, place: Sequence[float]) -> int:
+        """A point of its own, to 15 digits."""
+        return self.once(f"CARTESIAN_POINT('',({','.join(real(x) for x in place)}))")
+
+    def place(self, origin: int, axis: Sequence[float], zero: Sequence[float]) -> int:
+        """A frame at a point."""
+        return self.once(f"AXIS2_PLACEMENT_3D('',#{origin},#{self.direction(axis)},#{self.direction(zero)})")
+
+    def part(self, part: StepPart) -> tuple[int, int]:
+        """A product with its solid and colour: its definition and its representation."""
+        return self._product(part.name, "ADVANCED_BREP_SHAPE_REPRESENTATION", [self._solid(part)])
+
+    def assembly(self, name: str, parts: Sequence[StepPart], occurrences: Sequence[Occurrence]) -> None:
+        """A product of occurrences of others."""
+        made = {part.name: self.part(part) for part in parts}
+        home = self._home()
+        places = []
+        for _, _, scene_from_part in occurrences:
+            matrix = scene_from_part.matrix()
+            origin = self.point(matrix[:, 3].tolist())
+            # each has its own: readers look it up by its number
+            axis, zero = self.direction(matrix[:, 2].tolist()), self.direction(matrix[:, 0].tolist())
+            places.append(self.add(f"AXIS2_PLACEMENT_3D('',#{origin},#{axis},#{zero})"))
+        definition, shape = self._product(name, "SHAPE_REPRESENTATION", places)
+        for number, ((occurrence, part, _), place) in enumerate(zip(occurrences, places, strict=True), 1):
+            own, own_shape = made[part]
+            used = self.add(
+                f"NEXT_ASSEMBLY_USAGE_OCCURRENCE('{number}','{string(occurrence)}','',#{definition},#{own},$)"
+            )
+            moved = self.add(f"ITEM_DEFINED_TRANSFORMATION('','',#{home},#{place})")
+            relation = self.add(
+                f"(REPRESENTATION_RELATIONSHIP('','',#{own_shape},#{shape})"
+                f"REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(#{moved})SHAPE_REPRESENTATION_RELATIONSHIP())"
+            )
+            placed = self.add(f"PRODUCT_DEFINITION_SHAPE('Placement','Placement of an item',#{used})")
+            self.add(f"CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(#{relation},#{placed})")
+
+    def _home(self) -> int:
+        return self.place(self.point((0.0, 0.0, 0.0)), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
+
+    def _product(self, name: str, kind: str, items: Sequence[int]) -> tuple[int, int]:
+        """A product and its shape of items: the numbers of definition and representation."""
+        scope = self.once(f"PRODUCT_CONTEXT('',#{self.application},'mechanical')")
+        stage = self.once(f"PRODUCT_DEFINITION_CONTEXT('part definition',#{self.application},'design')")
+        product = self.add(f"PRODUCT('{string(name)}','{string(name)}','',(#{scope}))")
+        self.add(f"PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,(#{product}))")
+        formation = self.add(f"PRODUCT_DEFINITION_FORMATION('','',#{product})")
+        definition = self.add(f"PRODUCT_DEFINITION('design','',#{formation},#{stage})")
+        whole = self.add(f"PRODUCT_DEFINITION_SHAPE('','',#{definition})")
+        shape = self.add(f"{kind}('',({_list([self._home(), *items])}),#{self._context()})")
+        self.add(f"SHAPE_DEFINITION_REPRESENTATION(#{whole},#{shape})")
+        return definition, shape
+
+    def _context(self) -> int:
+        """Millimetres and radians, and points that are one within 1e-7 mm."""
+        length = self.once("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))")
+        angle = self.once("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))")
+        solid_angle = self.once("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())")
+        precision = self.once(
+            f"UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-07),#{length},"
+            "'distance_accuracy_value','confusion accuracy')"
+        )
+        return self.once(
+            f"(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#{precision}))"
+            f"GLOBAL_UNIT_ASSIGNED_CONTEXT((#{length},#{angle},#{solid_angle}))"
+            "REPRESENTATION_CONTEXT('Context #1','3D Context with UNIT and UNCERTAINTY'))"
+        )
+
+    def _solid(self, part: StepPart) -> int:
+        faces = _Shell(self, part.solid).faces()
+        shell = self.add(f"CLOSED_SHELL('',({_list(faces)}))")
+        solid = self.add(f"MANIFOLD_SOLID_BREP('',#{shell})")
+        if part.colour is not None:
+            self._colour(solid, part.colour)
+        return solid
+
+    def _colour(self, solid: int, colour: str) -> None:
+        shade = ",".join(real(round(int(colour[i : i + 2], 16) / 255, 12)) for i in (1, 3, 5))
+        rgb = self.once(f"COLOUR_RGB('',{shade})")
+        fill = self.once(f"FILL_AREA_STYLE_COLOUR('',#{rgb})")
+        filled = self.once(f"FILL_AREA_STYLE('',(#{fill}))")
+        area = self.once(f"SURFACE_STYLE_FILL_AREA(#{filled})")
+        sides = self.once(f"SURFACE_SIDE_STYLE('',(#{area}))")
+        side = self.once(f"SURFACE_STYLE_USAGE(.BOTH.,#{sides})")
+        font = self.once("DRAUGHTING_PRE_DEFINED_CURVE_FONT('continuous')")
+        line = self.once(f"CURVE_STYLE('',#{font},POSITIVE_LENGTH_MEASURE(0.1),#{rgb})")
+        style = self.once(f"PRESENTATION_STYLE_ASSIGNMENT((#{side},#{line}))")
+        item = self.add(f"STYLED_ITEM('color',(#{style}),#{solid})")
+        self.add(f"MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',(#{item}),#{self._context()})")
+
+
+class _Shell:
+    """The points, edges and faces of one solid as entities."""
+
+    def __init__(self, text: _Text, solid: Solid) -> None:
+        self.text = text
+        places = (np.round(solid.points, text.digits) + 0.0).ravel().tolist()
+        written = [f"%.{text.digits}f" % x for x in places]
+        numbers = [x.rstrip("0") for x in written]
+        self.points = text.many("CARTESIAN_POINT('',(%s,%s,%s))", numbers[::3], numbers[1::3], numbers[2::3])
+        self.vertices = text.many("VERTEX_POINT('',#%d)", self.points[solid.vertices].tolist())
+        self.solid = solid
+        curves, edges = [], []
+        for bundle in solid.edges:
+            own = np.broadcast_to(self._curves(bundle.curve, bundle.start), bundle.start.shape)
+            ends = self.vertices[bundle.start].tolist(), self.vertices[bundle.end].tolist()
+            curves.append(own)
+            edges.append(text.many("EDGE_CURVE('',#%d,#%d,#%d,.T.)", *ends, own.tolist()))
+        self.curves, self.edges = np.concatenate(curves), np.concatenate(edges)
+
+    def _curves(self, curve: Straight | Circular | Spline, starts: Index) -> Index:
+        """Curves of a bundle of edges, one for each or one for all."""
+        text = self.text
+        if isinstance(curve, Straight):
+            ways = np.array([text.once(f"VECTOR('',#{text.direction(way)},1.)") for way in curve.direction.tolist()])
+            origins = self.points[self.solid.vertices[starts]]
+            return text.many("LINE('',#%d,#%d)", origins.tolist(), np.broadcast_to(ways, origins.shape).tolist())
+        if isinstance(curve, Circular):
+            return np.array([text.once(f"CIRCLE('',#{p},{real(curve.radius)})") for p in self._frames(curve.frame)])
+        poles = self.points[curve.poles]
+        listed = ",".join(["#%d"] * poles.shape[1])
+        knots, times = _knots(curve.knots)
+        return text.many(
+            f"B_SPLINE_CURVE_WITH_KNOTS('',{curve.degree},({listed}),.UNSPECIFIED.,.F.,.F.,({times}),({knots}),"
+            ".UNSPECIFIED.)",
+            *poles.T.tolist(),
+        )
+
+    def _frames(self, frame: Frame) -> Iterator[int]:
+        rows = np.broadcast_arrays(frame.origin[:, None], frame.axis, frame.zero)
+        origins = self.points[rows[0][:, 0]].tolist()
+        for origin, axis, zero in zip(origins, rows[1].tolist(), rows[2].tolist(), strict=True):
+            yield self.text.place(origin, axis, zero)
+
+    def faces(self) -> list[int]:
+        """All faces."""
+        return [number for faces in self.solid.faces for number in self._faces(faces)]
+
+    def _faces(self, faces: Faces) -> list[int]:
+        text = self.text
+        bounds: list[list[int]] = []
+        for edges, senses in faces.loops:
+            words = np.array(["F", "T"])[np.broadcast_to(senses, edges.shape).ravel().astype(int)]
+            uses = text.many("ORIENTED_EDGE('',*,*,#%d,.%s.)", self.edges[edges].ravel().tolist(), words.tolist())
+            used = uses.reshape(edges.shape)
+            loops = text.many(f"EDGE_LOOP('',({_list(['%d'] * edges.shape[1])}))", *used.T.tolist())
+            bounds.append(text.many("FACE_BOUND('',#%d,.T.)", loops.tolist()).tolist())
+        surfaces = np.broadcast_to(self._surfaces(faces), len(bounds[0])).tolist()
+        listed = ",".join(["#%d"] * len(bounds))
+        sense = "FT"[faces.along]
+        return text.many(f"ADVANCED_FACE('',({listed}),#%d,.{sense}.)", *[*bounds, surfaces]).tolist()
+
+    def _surfaces(self, faces: Faces) -> Index:
+        """The surfaces of a bundle of faces, one for each or one for all."""
+        text, surface = self.text, faces.surface
+        if isinstance(surface, Extrusion):
+            vector = text.once(f"VECTOR('',#{text.direction(surface.direction[0].tolist())},1.)")
+            return text.many(f"SURFACE_OF_LINEAR_EXTRUSION('',#%d,#{vector})", self.curves[surface.edges].tolist())
+        if isinstance(surface, SplineSurface):
+            poles = self.points[surface.poles]
+            row = "(" + ",".join(["#%d"] * poles.shape[2]) + ")"
+            (u, u_times), (v, v_times) = _knots(surface.u_knots), _knots(surface.v_knots)
+            degrees, rows = ",".join(map(str, surface.degrees)), ",\n".join([row] * poles.shape[1])
+            return text.many(
+                f"B_SPLINE_SURFACE_WITH_KNOTS('',{degrees},({rows}),.UNSPECIFIED.,"
+                f".F.,.F.,.F.,({u_times}),({v_times}),({u}),({v}),.UNSPECIFIED.)",
+                *poles.reshape(len(poles), -1).T.tolist(),
+            )
+        if isinstance(surface, Plane):
+            word = "PLANE('',#{place})"
+        elif isinstance(surface, Cylinder):
+            word = f"CYLINDRICAL_SURFACE('',#{{place}},{real(surface.radius)})"
+        elif isinstance(surface, Cone):
+            word = f"CONICAL_SURFACE('',#{{place}},{real(surface.radius)},{real(surface.slant)})"
+        elif isinstance(surface, Torus):
+            word = f"TOROIDAL_SURFACE('',#{{place}},{real(surface.radius)},{real(surface.tube)})"
+        else:
+            assert isinstance(surface, Sphere)
+            word = f"SPHERICAL_SURFACE('',#{{place}},{real(surface.radius)})"
+        return np.array([text.once(word.replace("{place}", str(p))) for p in self._frames(surface.frame)])
+
+
+def real(value: float) -> str:
+    """A number as Part 21 has it, to 15 digits, the shortest that has them."""
+    text = f"{value + 0.0:.15g}".upper()
+    mantissa, e, exponent = text.partition("E")
+    return f"{mantissa if '.' in mantissa else mantissa + '.'}{e}{exponent}"
+
+
+def string(text: str) -> str:
+    """Words as Part 21 has them: what is not ASCII in hexadecimal, quotes and backslashes doubled."""
+    found = []
+    for is_plain, letters in groupby(text, lambda c: " " <= c <= "~"):
+        run = "".join(letters)
+        if is_plain:
+            found.append(run.replace("\\", "\\\\").replace("'", "''"))
+        elif max(map(ord, run)) < 0x10000:
+            found.append("\\X2\\" + "".join(f"{ord(c):04X}" for c in run) + "\\X0\\")
+        else:
+            found.append("\\X4\\" + "".join(f"{ord(c):08X}" for c in run) + "\\X0\\")
+    return "".join(found)
+
+
+def _list(items: Sequence[object]) -> str:
+    """References, a few on each line."""
+    lines = [",".join(f"#{x}" for x in items[k : k + _PER_LINE]) for k in range(0, len(items), _PER_LINE)]
+    return ",\n".join(lines)
+
+
+def _knots(knots: Real) -> tuple[str, str]:
+    """The different knots, and how often each stands there."""
+    found = distinct(knots)
+    times = (knots[None, :] == found[:, None]).sum(axis=1)
+    return ",".join(real(x) for x in found.tolist()), ",".join(map(str, times.tolist()))
