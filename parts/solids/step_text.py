@@ -244,7 +244,7 @@ class _Shell:
         return text.many(
             f"B_SPLINE_CURVE_WITH_KNOTS('',{curve.degree},({listed}),.UNSPECIFIED.,.F.,.F.,({times}),({knots}),"
             ".UNSPECIFIED.)",
-            *poles.T.tolist(),
+            *_columns(poles),
         )
 
     def _frames(self, frame: Frame) -> Iterator[int]:
@@ -263,8 +263,8 @@ class _Shell:
         for edges, senses in faces.loops:
             words = np.array(["F", "T"])[np.broadcast_to(senses, edges.shape).ravel().astype(int)]
             uses = text.many("ORIENTED_EDGE('',*,*,#%d,.%s.)", self.edges[edges].ravel().tolist(), words.tolist())
-            used = uses.reshape(edges.shape)
-            loops = text.many(f"EDGE_LOOP('',({_list(['%d'] * edges.shape[1])}))", *used.T.tolist())
+            listed = _list(["%d"] * edges.shape[1])
+            loops = text.many(f"EDGE_LOOP('',({listed}))", *_columns(uses.reshape(edges.shape)))
             bounds.append(text.many("FACE_BOUND('',#%d,.T.)", loops.tolist()).tolist())
         surfaces = np.broadcast_to(self._surfaces(faces), len(bounds[0])).tolist()
         listed = ",".join(["#%d"] * len(bounds))
@@ -285,7 +285,7 @@ class _Shell:
             return text.many(
                 f"B_SPLINE_SURFACE_WITH_KNOTS('',{degrees},({rows}),.UNSPECIFIED.,"
                 f".F.,.F.,.F.,({u_times}),({v_times}),({u}),({v}),.UNSPECIFIED.)",
-                *poles.reshape(len(poles), -1).T.tolist(),
+                *_columns(poles.reshape(len(poles), -1)),
             )
         if isinstance(surface, Plane):
             word = "PLANE('',#{place})"
@@ -326,6 +326,10 @@ def _list(items: Sequence[object]) -> str:
     """References, a few on each line."""
     lines = [",".join(f"#{x}" for x in items[k : k + _PER_LINE]) for k in range(0, len(items), _PER_LINE)]
     return ",\n".join(lines)
+
+
+def _columns(table: Index) -> list[list[int]]:
+    return [column.tolist() for column in table.T]
 
 
 def _knots(knots: Real) -> tuple[str, str]:

@@ -13,12 +13,15 @@ import pytest
 
 from exporters.command.cli import main
 from exporters.formats.readback import ReadMesh
+from exporters.formats.step import write_step
 from exporters.verification.mesh import verify_mesh
 from geometry.base.record import replace
 from geometry.solids.body import Body
 from parts.base.refusal import SceneError
 from parts.scene.load import load_scene, make_parts, scene_from_dict
+from parts.solids.faces import solid_curves, solid_faces
 from parts.solids.mesh import body_mesh, mesh_outlines
+from parts.solids.step_text import StepPart
 from tests.oracles.rack_sweep import RackTool
 from tests.oracles.space_rack import space_penetration
 
@@ -168,20 +171,21 @@ def test_long_step_files_pass_their_read_back(tmp_path: Path, name: str) -> None
 
 
 @needs_kernel
-def test_the_wrong_screw_is_seen_in_step() -> None:
+def test_the_wrong_screw_is_seen_in_step(tmp_path: Path) -> None:
     """The solid of another hand, of a slightly other angle, of a single helix: none passes for the part."""
-    from exporters.formats.read_step import ReadSolid
+    from exporters.formats.read_step import read_step
     from exporters.verification.solid import verify_solid
-    from parts.solids.brep import body_outlines, body_solid
 
     keys = {**GEAR, "number_of_teeth": 8, "bore_diameter": 4.0}
     body = body_of(keys)
-    solid = body_solid(body, body_outlines(body, 1e-6))
-    assert not verify_solid(ReadSolid(solid, ()), body, 1e-6, 1e-6).failures
+    file = tmp_path / "gear.step"
+    write_step(file, StepPart("gear", solid_faces(body, solid_curves(body, 9e-7)), None), 8)
+    solid = read_step(file)
+    assert not verify_solid(solid, body, 1e-6, 1e-6).failures
     for other in ({"hand": "left"}, {"double_helical": True}):
-        assert verify_solid(ReadSolid(solid, ()), body_of(keys | other), 1e-6, 1e-6).failures
+        assert verify_solid(solid, body_of(keys | other), 1e-6, 1e-6).failures
     slightly = replace(body, loops=tuple(replace(loop, turn=loop.turn * (1 + 1e-6)) for loop in body.loops))
-    assert any("deviates" in f for f in verify_solid(ReadSolid(solid, ()), slightly, 1e-6, 1e-6).failures)
+    assert any("deviates" in f for f in verify_solid(solid, slightly, 1e-6, 1e-6).failures)
 
 
 def read(body: Body, tolerance: float = 0.02) -> tuple[ReadMesh, float]:
