@@ -85,7 +85,11 @@ def barrel_splines(cam: BarrelCam, tolerance: float, bore: Profile | None = None
     """
     target = max(min(tolerance, max(_TARGET, _SHARE * tolerance)) / _MARGIN, 4 * _ROUNDING * cam.outer)
     found = stretches(cam)
-    walls = {side: tuple(_fitted(cam, side, stretch, target) for stretch in found) for side in cam.sides}
+    walls = {}
+    for side in cam.sides:
+        # one knot vector across: neighbours share the edge between them
+        across = max((_across(cam, side, stretch, target) for stretch in found), key=len)
+        walls[side] = tuple(_fitted(cam, side, stretch, across, target) for stretch in found)
     hole = None if bore is None else spline_outline(bore, tolerance, degree=_DEGREE, continuity=_DEGREE - 1)
     worst = _MARGIN * max(w.max_error for found in walls.values() for w in found)
     return BarrelSplines(walls, hole, worst if hole is None else max(worst, hole.max_error))
@@ -112,9 +116,8 @@ def stretches(cam: BarrelCam) -> list[Stretch]:
     return [*found[first:], *(replace(stretch, turns=1) for stretch in found[:first])]
 
 
-def _fitted(cam: BarrelCam, side: int, stretch: Stretch, target: float) -> WallSpline:
+def _fitted(cam: BarrelCam, side: int, stretch: Stretch, across: Real, target: float) -> WallSpline:
     """The spline on knots that are halved where its error is above the target."""
-    across = _across(cam, side, stretch, target)
     breaks = np.array([stretch.start, stretch.end])
     for _ in range(_ROUNDS):
         made, errors = _interpolated(cam, side, stretch, breaks, across)

@@ -69,7 +69,7 @@ def test_a_wall_that_crosses_another_is_seen_by_the_kernel_and_by_us(
     splines = re.findall(r"B_SPLINE_CURVE_WITH_KNOTS\('',7,\((.*?)\)", text, re.DOTALL)
     for number in (3, 4):
         pole = splines[flank].split(",")[number].strip()
-        line = re.search(rf"{pole} = CARTESIAN_POINT\('',\(([-+.E\d]+),([-+.E\d]+)", text)
+        line = re.search(rf"{pole}=CARTESIAN_POINT\('',\(([-+.E\d]+),([-+.E\d]+)", text)
         assert line is not None
         # the middle of a flank swings across the tooth
         away = complex(float(line[1]), float(line[2])) * np.exp(1j * turn)

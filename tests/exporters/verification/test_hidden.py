@@ -58,7 +58,7 @@ def flip(pattern: str, number: int) -> Spoil:
     """One of the senses of STEP entities of a kind turned."""
 
     def change(before: str) -> str:
-        found = list(re.finditer(rf"= {pattern}\([^;]*,\.([TF])\.\);", before))
+        found = list(re.finditer(rf"={pattern}\([^;]*,\.([TF])\.\);", before))
         place = found[number * (len(found) - 1) // 4]
         return before[: place.start(1)] + ("F" if place[1] == "T" else "T") + before[place.end(1) :]
 
