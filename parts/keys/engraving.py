@@ -51,11 +51,11 @@ def tooth_mark(
     ParameterError
         The digits are too high for the room, or the slots too deep.
     """
+    if table is None:
+        return ()
     from geometry.solids.engraving import digits, half_size
     from geometry.solids.plate import PlateSlot
 
-    if table is None:
-        return ()
     check_depth("tooth_mark", table.depth, thickness)
     low, high = room
     wide, clear = high - low, _CLEAR * (high - low)

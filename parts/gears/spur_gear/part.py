@@ -26,7 +26,6 @@ from geometry.gears.teeth.limits import checked_gear, exists, findings, root_for
 from geometry.gears.teeth.offset import chamfered_outline, gear_region
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import transverse_gear
-from geometry.solids.engraving import engraved
 from geometry.solids.wheel import WheelShape, wheel_body, wheel_sections
 from parts.base.kind import Kind, Others, Report
 from parts.base.schema import replaced
@@ -189,6 +188,8 @@ class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
 
     def solid(self, keys: SpurGearSpec, thing: SpurGear, offset: float) -> Body:
         """The wheel with its web, hub and chamfers."""
+        from geometry.solids.engraving import engraved
+
         section = lru_cache(maxsize=8)(partial(gear_region, thing))
 
         shape = replace(_shape_of(keys), twist=helix_of(keys).twist(thing.reference_radius))
