@@ -1,0 +1,1 @@
+"""Cylindrical worms, the wheels that they envelop, and the strength of both."""
