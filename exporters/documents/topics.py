@@ -28,6 +28,7 @@ TOPICS = {
     "tmm42": "parts.gears.spur_gear.device_page",
     "gear-pair": "parts.mates.pages.external",
     "shift-choice": "parts.mates.pages.shift_choice",
+    "worm": "parts.gears.worm.page",
     "planetary": "parts.mates.pages.planetary",
     "cam": "parts.cams.disk_cam.page",
     "cycloidal": "parts.pins.cycloidal_page",

@@ -7,9 +7,13 @@ at 40 digits.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 from parts.base.texts import N_, Message, message
 from parts.pages.page import Printed
+
+if TYPE_CHECKING:
+    from geometry.gears.worms.worm import Worm
 
 _COSINE = N_("the cosine of 27°55' was read: 0.8836 for 0.8915")
 _FOLLOWS = N_("follows from the wrong centre distance")
@@ -71,6 +75,34 @@ _THESIS: dict[tuple[str, int], Printed] = {
 def printed_for_internal(teeth: tuple[int, int], module: float) -> Mapping[tuple[str, int], Printed]:
     """What the thesis prints wrongly for its internal pair; empty for any other."""
     return _THESIS if (teeth, module) == ((96, 144), 3.0) else {}
+
+
+# thesis, section 2.2: both worm drives m 5, q 10, one start, by the teeth of the wheel
+_COSINE_LEFT_OUT = N_("the factor cos gamma of the formula was not used")
+_WORMS: dict[int, Mapping[tuple[str, int], Printed]] = {
+    128: {
+        ("thesis_least_module", 0): Printed("4.09", _COSINE_LEFT_OUT),
+        ("thesis_contact_stress", 0): Printed("142.7", N_("its own numbers give 182.70 MPa, more than allowed")),
+    },
+    106: {
+        ("thesis_least_module", 0): Printed("4.10", _COSINE_LEFT_OUT),
+        ("thesis_contact_stress", 0): Printed("148.3", N_("its own numbers give 200.77 MPa, more than allowed")),
+    },
+}
+_WORM_FORMULAS: Mapping[tuple[str, int], Printed] = {
+    ("contact_stress", 0): Printed(
+        "2 · 170 …", N_("half the width raises the stress by the root of 2, not by 2; 26 of 45 mm are not one half")
+    ),
+    ("worm_pitch_diameter", 0): Printed("q (m + 2x)", N_("(q + 2x) m; the same at x = 0")),
+    ("worm_radial_force", 0): Printed("51", N_("the radial force belongs to the large force, along the worm")),
+    ("worm_form", 0): Printed("ZT", N_("a base diameter is printed, which only ZI has")),
+}
+
+
+def printed_for_worm(worm: Worm, teeth: int, shift: float) -> Mapping[tuple[str, int], Printed]:
+    """What the thesis prints wrongly for its two worm drives; empty for any other."""
+    same = (worm.module, worm.diameter_quotient, worm.number_of_starts, shift) == (5.0, 10.0, 1, 0.0)
+    return {**_WORMS[teeth], **_WORM_FORMULAS} if same and teeth in _WORMS else {}
 
 
 _INFINITE = N_("multiplied by the relative turning: divided by it F and R are infinite where both links turn alike")

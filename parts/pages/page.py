@@ -36,6 +36,9 @@ _DECIMALS = {
     "m/s2": 4,
     "rad/s2": 3,
     "1/mm": 6,
+    "N": 3,
+    "N*m": 4,
+    "MPa": 4,
 }
 
 
@@ -201,7 +204,7 @@ def numbers_text(step: Step, words: Words) -> str:
 
 def pretty(text: str, words: Words) -> str:
     """An expression as printed: products as dots, powers raised, functions as the language writes them."""
-    text = text.replace(" * ", "·").replace(" / ", "/").replace("sqrt(", "√(")
+    text = text.replace(" * ", "·").replace(" / ", "/").replace("sqrt(", "√(").replace("cbrt(", "∛(")
     # one argument needs no brackets: cos α; the power of a function stands behind its name: cos² α
     simple = r"([^()\s/·]+|\([^()\s/·]+\))"
     text = re.sub(rf"\b(cos|sin|tan|inv)\({simple}\)\*\*([23])", lambda m: f"{m[1]}{_SUPERSCRIPTS[m[3]]} {m[2]}", text)
@@ -233,6 +236,9 @@ _UNITS = {
     "rad/s2": NC_("unit", "rad/s²"),
     "mm/s": NC_("unit", "mm/s"),
     "m/s2": NC_("unit", "m/s²"),
+    "N": NC_("unit", "N"),
+    "N*m": NC_("unit", "N·m"),
+    "MPa": NC_("unit", "MPa"),
 }
 # functions that languages write in their own way
 _FUNCTIONS = (NC_("function", "tan"), NC_("function", "arctan"))

@@ -472,3 +472,63 @@ ring_tip_addendum|h_a3|h_a3||ring tips inside its reference circle, in modules
 satellite_gap|g_s|g_s|mm|gap between tips of neighbours
 set_diameter|D|D|mm|what the whole set takes across
 """)
+# worm drives, GOST 18498 and GOST 19650
+add_terms("""
+axial_module|m|m|mm|axial module
+diameter_quotient|q|q||diameter quotient of the worm
+number_of_starts|z1|z_1||number of starts of the worm
+worm_wheel_teeth|z2|z_2||number of teeth of the wheel
+worm_form|form|Z||form of the worm
+worm_pressure_angle_deg|alpha|α|deg|pressure angle of the worm
+worm_fillet_coefficient|rho_f|ρ_f*||fillet at the worm's root, in modules
+worm_ratio|u|u||gear ratio
+worm_centre_distance|a_w|a_w|mm|centre distance
+worm_reference_diameter|d1|d_1|mm|reference diameter of the worm
+wheel_reference_diameter|d2|d_2|mm|reference diameter of the wheel
+worm_pitch_diameter|d_w1|d_w1|mm|pitch diameter of the worm
+lead_angle_deg|gamma|γ|deg|lead angle
+pitch_lead_angle_deg|gamma_w|γ_w|deg|lead angle on the pitch cylinder
+base_lead_angle_deg|gamma_b|γ_b|deg|base lead angle
+worm_base_diameter|d_b|d_b|mm|base diameter of the worm
+lead|p_z|p_z|mm|lead of the thread
+thread_height|h1|h_1|mm|height of the thread
+thread_addendum|h_a1|h_a1|mm|addendum of the thread
+worm_tip_diameter|d_a1|d_a1|mm|tip diameter of the worm
+worm_root_diameter|d_f1|d_f1|mm|root diameter of the worm
+worm_fillet_radius|rho_f1|ρ_f1|mm|fillet radius at the worm's root
+throat_diameter|d_a2|d_a2|mm|tip diameter of the wheel in its mid plane
+wheel_root_diameter|d_f2|d_f2|mm|root diameter of the wheel in its mid plane
+most_outer_diameter|d_ae2|d_ae2|mm|greatest outer diameter of the wheel
+least_worm_length|b1_min|b_1min|mm|least threaded length of the worm
+most_face_width|b2_max|b_2max|mm|greatest width of the wheel's rim
+axial_pressure_angle_deg|alpha_x|α_x|deg|pressure angle in the axial section
+axial_thickness|s_x|s_x|mm|axial thickness of the thread
+normal_thickness|s_n|s_n|mm|thickness of the thread across its helix
+thread_tip_thickness|s_a|s_xa|mm|axial thickness of the thread at its tip
+worm_length_used|b1_used|b_1u|mm|length of the worm that the wheel touches
+worm_length|b1|b_1|mm|threaded length of the worm
+worm_torque|T1|T_1|N*m|torque on the worm
+wheel_torque|T2|T_2|N*m|torque on the wheel
+friction_coefficient|f|f||coefficient of friction
+friction_angle_deg|rho_v|ρ'|deg|angle of friction
+worm_efficiency|eta|η||efficiency, the worm drives
+back_driving_efficiency|eta_b|η_2||efficiency, the wheel drives
+worm_axial_force|F_a1|F_a1|N|axial force on the worm, along the wheel
+worm_tangential_force|F_t1|F_t1|N|force along the worm's circle
+worm_radial_force|F_r|F_r|N|radial force
+width_share|psi|ψ_b||width of the rim in parts of the full one
+form_factor|Y_F|Y_F2||form factor of the wheel's teeth
+width_factor|K_b|K_β||factor of load along the teeth
+speed_factor|K_v|K_v||factor of dynamic load
+tensile_strength|sigma_b|σ_b|MPa|tensile strength of the rim
+bending_life_factor|K_FL|K_FL||factor of life in bending
+contact_life_factor|K_HL|K_HL||factor of life in contact
+allowed_bending_stress|sigma_FP|σ_FP2|MPa|allowed bending stress
+thesis_least_module|m_0|m|mm|module by the thesis's formula for half the width
+least_module|m_min|m_min|mm|least module by bending
+allowed_contact_stress|sigma_HP|σ_HP2|MPa|allowed contact stress
+thesis_contact_stress|sigma_H0|σ_H|MPa|contact stress by the thesis's formula for half the width
+contact_stress|sigma_H|σ_H|MPa|contact stress
+least_rim_width|b2_min|b_2min|mm|least width of the rim by contact
+rim_width|b2|b_2|mm|width of the wheel's rim
+""")

@@ -191,7 +191,7 @@ class GroundFlank(Flank):
 
         return bracketed_roots(beyond, low, high, beyond(low), beyond(high))
 
-    def _half_width(self) -> float:
+    def half_width(self) -> float:
         """Half width of the wheel at its mean diameter that leaves the asked thickness, mm."""
         reference = np.array([self.screw.radius])
 
@@ -201,7 +201,7 @@ class GroundFlank(Flank):
         return bracketed_root(beyond, 0.0, 2 * self.screw.half_space).value
 
     def _contact(self, radius: ArrayLike) -> tuple[Real, Real]:
-        width = self._half_width()
+        width = self.half_width()
         r = np.asarray(radius, float)
         _, half, slope = self._touch(self._distances(np.atleast_1d(r).ravel(), width), width)
         return half.reshape(r.shape), slope.reshape(r.shape)

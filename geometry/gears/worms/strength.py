@@ -42,7 +42,7 @@ def contact_stress(drive: WormDrive, load: Load, share: float) -> float:
 
 
 def efficiency(drive: WormDrive, friction: float, *, back: bool = False) -> float:
-    """Share of the power that leaves the mesh, ``friction`` rho' in rad; ``back``: the wheel drives, 0 where it cannot."""
+    """Share of the power that leaves the mesh, ``friction`` rho' in rad; 0 if the wheel drives ``back`` and cannot."""
     gamma = drive.pitch_lead_angle
     if back:
         return max(math.tan(gamma - friction) / math.tan(gamma), 0.0)

@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.errors import ParameterError, limit
 from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
 from geometry.gears.worms.flank import FORMS, Flank, Screw
@@ -114,9 +114,12 @@ class Worm(Record):
             The root lies under the axis, or the thread is pointed below its tip.
         """
         if self.root_radius <= 0:
-            least = 2 * (self.addendum_coefficient + self.tip_clearance_coefficient)
+            least = 2.001 * (self.addendum_coefficient + self.tip_clearance_coefficient)
             raise ParameterError(
-                "diameter_quotient", self.diameter_quotient, "worm_root_under_axis", Nearest(least, "at_least")
+                "diameter_quotient",
+                self.diameter_quotient,
+                "worm_root_under_axis",
+                limit(least, self.diameter_quotient),
             )
         if self.form_radius >= self.reference_radius:
             raise ParameterError("number_of_starts", self.number_of_starts, "worm_flank_above_reference")
@@ -124,7 +127,10 @@ class Worm(Record):
             sharp = self._pointed_radius()
             most = (sharp - self.reference_radius) / self.module
             raise ParameterError(
-                "addendum_coefficient", self.addendum_coefficient, "worm_pointed", limit(most, self.addendum_coefficient)
+                "addendum_coefficient",
+                self.addendum_coefficient,
+                "worm_pointed",
+                limit(most, self.addendum_coefficient),
             )
         return self
 

@@ -25,6 +25,7 @@ from tests.exporters.making import run
 PUBLISHED = Path(__file__).parents[2] / "published"
 PRACTICUM = json.loads((PUBLISHED / "practicum_calculations.json").read_text(encoding="utf-8"))["cases"]
 RINGS = json.loads((PUBLISHED / "ring_measurement.json").read_text(encoding="utf-8"))
+THESIS_WORM = ("module=5", "face_width=26", "worm_length=120", "torque=3.5")
 PAIR = ("module=3", "first.number_of_teeth=12", "second.number_of_teeth=60")
 # regressions that broke others: branch switches at 20 and 25 degrees, steep helix with shift, many teeth, undercut
 SHEETS = [
@@ -67,6 +68,10 @@ SHEETS = [
     ("gear-pair", "module=2", "first.number_of_teeth=150", "second.number_of_teeth=8", "tip_chamfer=0.1"),
     ("shift-choice", "first.number_of_teeth=17", "second.number_of_teeth=33", "module=2",
      "working_centre_distance=51.5"),
+    ("worm", *THESIS_WORM, "number_of_teeth=128", "form_factor=1.26"),
+    ("worm", *THESIS_WORM, "number_of_teeth=106", "form_factor=1.27"),
+    ("worm", "module=2", "number_of_starts=4", "number_of_teeth=40", "diameter_quotient=8", "form=ZK1", "face_width=12",
+     "profile_shift_coefficient=0.5", "torque=2", "form_factor=1.5", "friction_coefficient=0.08", "worm_length=20"),
     ("cam", "practicum_flat_cam"),
     ("cam", "guidelines_cam", "step=2.5"),
     ("cam", "practicum_roller_cam"),
@@ -119,7 +124,7 @@ def evaluated(step: Step, spoilt: float = 0.0) -> float:
     """A printed formula worked out with all digits; angles go in as radians. ``spoilt`` changes its first input."""
     names = {
         "cos": math.cos, "sin": math.sin, "tan": math.tan, "arccos": math.acos, "arctan": math.atan,
-        "sqrt": math.sqrt, "abs": abs, "pi": math.pi, "inv": involute_function,
+        "sqrt": math.sqrt, "cbrt": math.cbrt, "abs": abs, "pi": math.pi, "inv": involute_function,
         "arcinv": lambda v: inverse_involute(v).value,
     }  # fmt: skip
 
@@ -499,3 +504,39 @@ def test_the_greatest_shift_is_no_matter_of_the_gear_s_own(x: float) -> None:
     ]
     greatest = [values["greatest_shift_for_tip_thickness"] for values in found]
     assert greatest[1] == pytest.approx(greatest[0], rel=1e-9)
+
+
+# the JSON's name of each printed quantity of the thesis's worm drives
+WORM_NAMES = {
+    "T2_Nm": "wheel_torque", "m_mm": "thesis_least_module", "sigma_FP2_MPa": "allowed_bending_stress",
+    "sigma_HP2_MPa": "allowed_contact_stress", "sigma_H_MPa": "thesis_contact_stress",
+    "sigma_H_width_26_of_45_MPa": "contact_stress", "a_w_mm": "worm_centre_distance",
+    "d1_mm": "worm_reference_diameter", "d2_mm": "wheel_reference_diameter", "d_w1_mm": "worm_pitch_diameter",
+    "gamma_deg": "lead_angle_deg", "gamma_w_deg": "pitch_lead_angle_deg", "h1_mm": "thread_height",
+    "h_a1_mm": "thread_addendum", "d_a1_mm": "worm_tip_diameter", "d_a2_mm": "throat_diameter",
+    "d_ae2_mm": "most_outer_diameter", "rho_f1_mm": "worm_fillet_radius", "b1_min_mm": "least_worm_length",
+    "b2_max_mm": "most_face_width", "gamma_b_deg": "base_lead_angle_deg", "d_b_mm": "worm_base_diameter",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("drive", ["wormI.", "wormII."])
+def test_every_number_of_the_thesis_worm_drives(drive: str) -> None:
+    cases = json.loads((PUBLISHED / "worm_drives.json").read_text(encoding="utf-8"))["cases"]
+    words = next(w for w in SHEETS if w[0] == "worm" and f"number_of_teeth={128 if drive == 'wormI.' else 106}" in w)
+    data, seen = values_of(" ".join(words)), set()
+    misprinted = {step["name"] for step in data["steps"] if "misprint" in step}
+    for case in (c for c in cases if drive in c["id"]):
+        for key, value in case["recomputed"].items():
+            if name := WORM_NAMES.get(key):
+                assert data["values"][name] == pytest.approx(value, rel=1e-12), (case["id"], key)
+                seen.add(key)
+        if case["verdict"] == "misprint":
+            assert {WORM_NAMES[k] for k in case["printed_text"]} <= misprinted, case["id"]
+    assert seen == set(WORM_NAMES)
+
+
+def test_a_worm_drive_that_locks_itself_says_so() -> None:
+    words = "worm module=5 number_of_teeth=40 torque=3 form_factor=1.5 friction_coefficient=0.12"
+    assert values_of(words)["values"]["back_driving_efficiency"] == 0.0
+    assert "self-locking" in calculate("worm", words.split()[1:], "text", "en")
+    assert "самогальмівна" in calculate("worm", words.split()[1:], "text", "uk")

@@ -1,0 +1,228 @@
+"""``higherpair calc worm``: a worm drive by GOST 19650, its exact sections, and its strength as the thesis has it."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, Literal
+
+from msgspec import Meta, Struct
+
+from geometry.base.errors import ParameterError
+from geometry.gears.worms import strength
+from geometry.gears.worms.drive import WormDrive
+from geometry.gears.worms.flank import InvoluteFlank
+from geometry.gears.worms.worm import Worm
+from parts.base.refusal import SceneError
+from parts.base.texts import N_, message
+from parts.keys.base import degrees, in_modules, mm, size
+from parts.pages.inputs import SceneKeys, checked, refusal
+from parts.pages.misprints import printed_for_worm
+from parts.pages.page import Sheet
+
+TOPIC = "worm"
+_GOST, _THESIS = "GOST 19650", "thesis, 2.2"
+_Factor = Annotated[float, Meta(gt=0, le=100, description="factor of the load")]
+_Life = Annotated[float, Meta(gt=0, le=10, description="factor of life")]
+
+
+class WormKeys(Struct, kw_only=True, forbid_unknown_fields=True):
+    """Keys of a worm drive and of what it carries."""
+
+    module: Annotated[float, mm("axial module of the worm", above=0, most=1000)]
+    number_of_teeth: Annotated[int, Meta(ge=8, le=10_000, description="teeth of the wheel, z2")]
+    number_of_starts: Annotated[int, Meta(ge=1, le=50, description="starts of the worm, z1")] = 1
+    diameter_quotient: Annotated[float, Meta(gt=0, le=1000, description="q = d1 / m")] = 10.0
+    profile_shift_coefficient: Annotated[float, in_modules("profile shift of the wheel", least=-3, most=3)] = 0.0
+    form: Annotated[Literal["ZA", "ZI", "ZN1", "ZN2", "ZK1"], Meta(description="form of the flanks, GOST 18498")] = "ZI"
+    pressure_angle_deg: Annotated[
+        float,
+        degrees("in the axial section (ZA), in the normal one, or of the grinding wheel (ZK1)", above=0, below=60),
+    ] = 20.0
+    hand: Annotated[Literal["right", "left"], Meta(description="hand of the worm")] = "right"
+    addendum_coefficient: Annotated[float, in_modules("addendum of the worm", above=0, most=5)] = 1.0
+    tip_clearance_coefficient: Annotated[float, in_modules("tip clearance", least=0, most=2)] = 0.2
+    fillet_coefficient: Annotated[float, in_modules("fillet at the worm's root", least=0, most=2)] = 0.2
+    grinding_wheel_diameter: Annotated[float, mm("mean diameter of the grinding wheel of ZK1", above=0, most=1e6)] = (
+        300.0
+    )
+    worm_length: Annotated[float, mm("threaded length b1", above=0, most=100_000)] | None = None
+    face_width: Annotated[float, mm("width b2 of the wheel's rim", above=0, most=100_000)] | None = None
+    torque: Annotated[float, size("N*m", "torque T1 on the worm", above=0, most=1e9)] | None = None
+    friction_coefficient: Annotated[
+        float, Meta(ge=0, le=1, description="friction of the flanks; without it no losses")
+    ] = 0.0
+    form_factor: Annotated[float, Meta(gt=0, le=10, description="form factor Y_F2 of the wheel's teeth")] | None = None
+    width_factor: _Factor = 1.5
+    speed_factor: _Factor = 1.1
+    tensile_strength: Annotated[float, size("MPa", "tensile strength of the wheel's rim", above=0, most=10_000)] = 200.0
+    bending_life_factor: _Life = 1.0
+    contact_life_factor: _Life = 1.0
+
+
+def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
+    """No scene has a worm yet."""
+    raise SceneError(source, "parts", None, "none_of_kind", None, known=[], kind=TOPIC)
+
+
+def sheet(table: dict[str, Any]) -> Sheet:
+    """The calculation of one worm drive."""
+    keys: WormKeys = checked(table, WormKeys, TOPIC)
+    if keys.torque is not None and keys.form_factor is None:
+        raise SceneError("calc", f"{TOPIC}.form_factor", None, "worm_form_factor_missing")
+    try:
+        worm = Worm(
+            keys.module,
+            keys.number_of_starts,
+            keys.diameter_quotient,
+            keys.form,
+            math.radians(keys.pressure_angle_deg),
+            keys.hand,
+            keys.addendum_coefficient,
+            keys.tip_clearance_coefficient,
+            keys.fillet_coefficient,
+            keys.grinding_wheel_diameter,
+        ).checked()
+    except ParameterError as error:
+        raise refusal(TOPIC, error, keys=keys) from error
+    drive = WormDrive(worm, keys.number_of_teeth, keys.profile_shift_coefficient)
+    page = Sheet(TOPIC, N_("Worm drive"))
+    page.printed = printed_for_worm(worm, drive.number_of_teeth, drive.profile_shift_coefficient)
+    _given(page, keys)
+    _dimensions(page, drive)
+    _sections(page, drive, keys)
+    if keys.torque is not None:
+        _strength(page, drive, keys)
+    return page
+
+
+def _given(page: Sheet, keys: WormKeys) -> None:
+    page.section(N_("Given"))
+    page.add("axial_module", keys.module)
+    page.add("diameter_quotient", keys.diameter_quotient)
+    page.add("number_of_starts", keys.number_of_starts)
+    page.add("worm_wheel_teeth", keys.number_of_teeth)
+    page.add("profile_shift_coefficient", keys.profile_shift_coefficient)
+    page.add("worm_form", keys.form)
+    page.add("worm_pressure_angle_deg", keys.pressure_angle_deg)
+    page.add("addendum_coefficient", keys.addendum_coefficient)
+    page.add("tip_clearance_coefficient", keys.tip_clearance_coefficient)
+    page.add("worm_fillet_coefficient", keys.fillet_coefficient)
+
+
+def _dimensions(page: Sheet, drive: WormDrive) -> None:
+    worm = drive.worm
+    page.section(N_("Dimensions of worm and wheel"))
+    page.add("worm_ratio", drive.ratio, "{z2} / {z1}", _GOST)
+    page.add("worm_centre_distance", drive.centre_distance, "0.5 * ({z2} + {q} + 2 * {x}) * {m}", _GOST)
+    page.add("worm_reference_diameter", 2 * worm.reference_radius, "{q} * {m}", _GOST)
+    page.add("wheel_reference_diameter", 2 * drive.reference_radius, "{z2} * {m}", _GOST)
+    page.add("worm_pitch_diameter", 2 * drive.pitch_radius_of_worm, "({q} + 2 * {x}) * {m}", _GOST)
+    page.add("lead_angle_deg", math.degrees(worm.lead_angle), "arctan({z1} / {q})", _GOST)
+    formula = "arctan({z1} * {m} / {d_w1})"
+    page.add("pitch_lead_angle_deg", math.degrees(drive.pitch_lead_angle), formula, _GOST)
+    flank = worm.flank
+    if isinstance(flank, InvoluteFlank):
+        formula = "arccos(cos({alpha}) * cos({gamma}))"
+        page.add("base_lead_angle_deg", math.degrees(flank.base_lead_angle), formula, _GOST)
+        page.add("worm_base_diameter", 2 * flank.least_radius, "{z1} * {m} / tan({gamma_b})", _GOST)
+    page.add("lead", worm.lead, "pi * {m} * {z1}", _GOST)
+    page.add("thread_height", worm.tip_radius - worm.root_radius, "(2 * {h_a} + {c}) * {m}", _GOST)
+    page.add("thread_addendum", worm.tip_radius - worm.reference_radius, "{h_a} * {m}", _GOST)
+    page.add("worm_tip_diameter", 2 * worm.tip_radius, "{d1} + 2 * {h_a1}", _GOST)
+    page.add("worm_root_diameter", 2 * worm.root_radius, "{d_a1} - 2 * {h1}", _GOST)
+    page.add("worm_fillet_radius", worm.fillet_coefficient * worm.module, "{rho_f} * {m}", _GOST)
+    page.add("throat_diameter", 2 * drive.tip_radius, "{d2} + 2 * ({h_a} + {x}) * {m}", _GOST)
+    page.add("wheel_root_diameter", 2 * drive.root_radius, "{d_a2} - 2 * {h1}", _GOST)
+    page.add("most_outer_diameter", drive.most_outer_diameter, "{d_a2} + 6 * {m} / ({z1} + 2)", _GOST)
+    first, second = (11, 0.06) if worm.number_of_starts <= 2 else (12.5, 0.09)
+    formula = f"({first} + {second} * {{z2}}) * {{m}}" if drive.profile_shift_coefficient == 0 else ""
+    page.add("least_worm_length", drive.least_worm_length, formula, _GOST)
+    share = 0.75 if worm.number_of_starts <= 3 else 0.67
+    page.add("most_face_width", drive.most_face_width, f"{share} * {{d_a1}}", _GOST)
+
+
+def _sections(page: Sheet, drive: WormDrive, keys: WormKeys) -> None:
+    """What follows from the exact surfaces."""
+    worm = drive.worm
+    page.section(N_("Exact sections"))
+    page.add("axial_pressure_angle_deg", math.degrees(worm.axial_pressure_angle), "")
+    page.add("axial_thickness", 2 * worm.screw.half_thickness, "pi * {m} / 2")
+    page.add("normal_thickness", 2 * worm.screw.half_thickness * math.cos(worm.lead_angle), "{s_x} * cos({gamma})")
+    page.add("thread_tip_thickness", worm.tip_thickness, "")
+    if keys.face_width is not None:
+        used = drive.worm_length_used(keys.face_width)
+        if used is None:
+            page.notes.append(N_("the wheel's corners do not touch the worm: its rim is wider than the mesh"))
+        else:
+            page.add("worm_length_used", used, "")
+    if keys.worm_length is not None:
+        page.add("worm_length", keys.worm_length)
+        if keys.worm_length < (least := drive.least_worm_length):
+            page.notes.append(message(N_("the worm is shorter than {limit:.5g} mm"), limit=least))
+    if keys.face_width is not None:
+        page.add("rim_width", keys.face_width)
+        if keys.face_width > (most := drive.most_face_width):
+            page.notes.append(message(N_("the wheel's rim is wider than {limit:.5g} mm"), limit=most))
+
+
+def _strength(page: Sheet, drive: WormDrive, keys: WormKeys) -> None:
+    """Torque, forces, losses, bending and contact; beside what the thesis prints."""
+    worm = drive.worm
+    assert keys.torque is not None
+    assert keys.form_factor is not None
+    page.section(N_("Torques and losses"))
+    page.add("worm_torque", keys.torque)
+    losses = ""
+    worth = 1.0
+    friction = math.atan(keys.friction_coefficient / math.cos(worm.pressure_angle))
+    if keys.friction_coefficient:
+        page.add("friction_coefficient", keys.friction_coefficient)
+        page.add("friction_angle_deg", math.degrees(friction), "arctan({f} / cos({alpha}))")
+        worth = strength.efficiency(drive, friction)
+        page.add("worm_efficiency", worth, "tan({gamma_w}) / tan({gamma_w} + {rho_v})")
+        page.add("back_driving_efficiency", strength.efficiency(drive, friction, back=True), "")
+        losses = " * {eta}"
+        if friction >= drive.pitch_lead_angle:
+            page.notes.append(N_("the drive is self-locking: the wheel cannot turn the worm"))
+    torque = keys.torque * drive.ratio * worth
+    page.add("wheel_torque", torque, "{T1} * {u}" + losses, _THESIS)
+    along = 2e3 * torque / (2 * drive.reference_radius)
+    page.add("worm_axial_force", along, "2000 * {T2} / {d2}")
+    page.add("worm_tangential_force", 2e3 * keys.torque / (2 * worm.reference_radius), "2000 * {T1} / {d1}", _THESIS)
+    page.add("worm_radial_force", along * math.tan(worm.axial_pressure_angle), "{F_a1} * tan({alpha_x})")
+    load = strength.Load(1e3 * torque, keys.form_factor, keys.width_factor, keys.speed_factor)
+    page.section(N_("Bending of the wheel's teeth"))
+    width = drive.most_face_width if keys.face_width is None else keys.face_width
+    share = min(width / drive.most_face_width, 1.0)
+    page.add("width_share", share, "{b2} / {b2_max}" if keys.face_width and share < 1 else "")
+    for name, value in (
+        ("form_factor", keys.form_factor),
+        ("width_factor", keys.width_factor),
+        ("speed_factor", keys.speed_factor),
+        ("tensile_strength", keys.tensile_strength),
+        ("bending_life_factor", keys.bending_life_factor),
+    ):
+        page.add(name, value)
+    bending = 0.16 * keys.tensile_strength * keys.bending_life_factor
+    page.add("allowed_bending_stress", bending, "0.16 * {sigma_b} * {K_FL}", _THESIS)
+    acting = "{Y_F} * {K_b} * {K_v} * cos({gamma}) * 1000 * {T2} / ({q} * {z2} * {sigma_FP})"
+    is_thesis = bool(page.printed)
+    if is_thesis:
+        printed = strength.least_module(drive, load, bending, 0.5)
+        page.add("thesis_least_module", printed, f"cbrt(3 * {acting})", _THESIS)
+    page.add("least_module", strength.least_module(drive, load, bending, share), f"cbrt(1.5 / {{psi}} * {acting})")
+    page.section(N_("Contact of the flanks"))
+    page.add("contact_life_factor", keys.contact_life_factor)
+    contact = 0.75 * keys.tensile_strength * keys.contact_life_factor
+    page.add("allowed_contact_stress", contact, "0.75 * {sigma_b} * {K_HL}", _THESIS)
+    root = "170 * {q} / {z2} * sqrt((({z2} / {q} + 1) / {a_w})**3 * {K_b} * {K_v} * 1000 * {T2})"
+    if is_thesis:
+        page.add("thesis_contact_stress", 2 * strength.contact_stress(drive, load, 1.0), f"2 * {root}", _THESIS)
+    stress = strength.contact_stress(drive, load, share)
+    page.add("contact_stress", stress, f"{root} / sqrt({{psi}})")
+    least = drive.most_face_width * (strength.contact_stress(drive, load, 1.0) / contact) ** 2
+    page.add("least_rim_width", least, "{b2_max} * {psi} * ({sigma_H} / {sigma_HP})**2")
+    if strength.least_module(drive, load, bending, share) > worm.module:
+        page.notes.append(N_("the module is less than bending asks for"))
+    if stress > contact:
+        page.notes.append(N_("the contact stress is more than allowed"))

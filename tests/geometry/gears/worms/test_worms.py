@@ -1,0 +1,181 @@
+"""Worm flanks by what defines each form, wheels by brute-force hobbing, and the numbers of the thesis's drives."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from geometry.base.errors import ParameterError
+from geometry.base.record import replace
+from geometry.gears.worms.drive import WormDrive
+from geometry.gears.worms.flank import FORMS
+from geometry.gears.worms.worm import Worm
+from tests.sampling import examples
+
+THESIS = WormDrive(Worm(5.0, 1, 10.0), 128)
+RADII = np.linspace(19.0, 30.0, 23)
+
+
+@st.composite
+def worms(draw: st.DrawFn) -> Worm:
+    """Worms of every form whose threads are not pointed."""
+    starts = draw(st.integers(1, 6))
+    quotient = draw(st.floats(max(6.0, 1.5 * starts), 30.0))
+    worm = Worm(
+        draw(st.floats(0.5, 10.0)),
+        starts,
+        quotient,
+        draw(st.sampled_from(sorted(FORMS))),
+        math.radians(draw(st.floats(14.0, 25.0))),
+        draw(st.sampled_from(["right", "left"])),
+        thinning=draw(st.floats(0.0, 0.1)),
+    )
+    return worm.checked()
+
+
+@given(worms())
+@examples(60)
+def test_drop_is_zero_on_the_reference_and_slope_is_its_derivative(worm: Worm) -> None:
+    flank, step = worm.flank, 1e-5 * worm.module
+    radius = np.linspace(max(worm.form_radius * 1.01, worm.root_radius), worm.tip_radius, 7)
+    assert abs(float(flank.drop(worm.reference_radius))) < 1e-12 * worm.module
+    by_difference = (flank.drop(radius + step) - flank.drop(radius - step)) / (2 * step)
+    assert flank.slope(radius) == pytest.approx(by_difference, rel=1e-6, abs=1e-7)
+
+
+def test_za_is_straight_in_the_axial_section_and_its_wheel_an_involute_gear() -> None:
+    worm = Worm(5.0, 2, 9.0, "ZA", math.radians(20))
+    drive = WormDrive(worm, 40, 0.3)
+    radius = np.linspace(worm.root_radius, worm.tip_radius, 30)
+    assert worm.axial_pressure_angle == pytest.approx(math.radians(20), abs=1e-14)
+    point, _ = drive.section(radius)
+    base = drive.reference_radius * math.cos(math.radians(20))
+    roll = np.sqrt((np.abs(point) / base) ** 2 - 1)
+    turned = np.angle(-point) + (roll - np.arctan(roll))
+    assert np.ptp(turned) < 1e-12
+
+
+@pytest.mark.parametrize("starts", [1, 4])
+def test_zi_is_an_involute_helical_gear(starts: int) -> None:
+    worm = Worm(5.0, starts, 10.0)
+    gamma = math.atan(starts / 10.0)
+    base = starts * 5.0 / 2 / math.tan(math.acos(math.cos(math.radians(20)) * math.cos(gamma)))
+    radius = np.linspace(base * 1.0001, worm.tip_radius, 40)
+    roll = np.sqrt((radius / base) ** 2 - 1)
+    # from the base circle on, a taut thread unwinds
+    involute = base * (1 - 1j * roll) * np.exp(1j * roll)
+    half = worm.transverse_half_angle(radius)
+    assert np.ptp(half + np.angle(involute)) < 1e-12
+    assert np.abs(involute) == pytest.approx(radius, rel=1e-14)
+
+
+@pytest.mark.parametrize("form", ["ZN1", "ZN2"])
+def test_zn_is_straight_in_the_normal_plane_of_thread_or_space(form: str) -> None:
+    worm = Worm(5.0, 3, 9.0, form)
+    gamma, p = worm.lead_angle, worm.parameter
+    middle = 0.0 if form == "ZN1" else worm.screw.half_thickness + worm.screw.half_space
+    found = []
+    for radius in np.linspace(worm.root_radius, worm.tip_radius, 9):
+        # where the helix of that radius on the upper flank pierces the plane through the middle
+        start = float(worm.half_thickness(radius)) - middle
+        low, high = -1.5, 1.5
+
+        def beyond(turn: float, r: float = radius, z: float = start) -> float:
+            return r * math.sin(turn) * math.cos(gamma) + (z + p * turn) * math.sin(gamma)
+
+        for _ in range(80):
+            mid = (low + high) / 2
+            low, high = (low, mid) if beyond(low) * beyond(mid) <= 0 else (mid, high)
+        y, z = radius * math.sin(low), start + p * low
+        found.append((radius * math.cos(low), z * math.cos(gamma) - y * math.sin(gamma)))
+    x, across = np.array(found).T
+    lean = np.diff(across) / np.diff(x)
+    assert np.ptp(lean) < 1e-11
+    assert lean[0] == pytest.approx(-math.tan(math.radians(20)), abs=1e-11)
+
+
+def test_zk1_is_what_a_conical_wheel_leaves() -> None:
+    worm = Worm(5.0, 4, 10.0, "ZK1", wheel_diameter=120.0)
+    gamma, p, mean = worm.lead_angle, worm.parameter, 60.0
+    lean, centre = math.tan(math.radians(20)), worm.reference_radius + 60.0
+    distance, phi = np.meshgrid(np.linspace(mean - 7, mean + 7, 1201), np.linspace(-0.4, 0.4, 2401))
+    width = worm.flank.half_width() + (mean - distance) * lean
+    x = centre - distance * np.cos(phi)
+    y = distance * np.sin(phi) * math.cos(gamma) - width * math.sin(gamma)
+    z = distance * np.sin(phi) * math.sin(gamma) + width * math.cos(gamma)
+    radius, half = np.hypot(x, y), z - p * np.arctan2(y, x)
+    for r in (19.5, 22.0, 25.0, 29.0):
+        ring = np.abs(radius - r) < 0.006
+        swept = half[ring].max()
+        expected = worm.screw.half_space + float(worm.flank.drop(r))
+        assert swept == pytest.approx(expected, abs=0.006)
+        assert swept <= expected + 0.006 * float(worm.flank.slope(r)) + 1e-9
+
+
+def test_zk1_of_a_huge_wheel_is_zi() -> None:
+    ground, involute = (Worm(5.0, 2, 10.0, form, wheel_diameter=1e8) for form in ("ZK1", "ZI"))
+    assert ground.flank.drop(RADII) == pytest.approx(involute.flank.drop(RADII), abs=1e-6)
+
+
+def test_the_thesis_drive_on_exact_surfaces() -> None:
+    assert math.degrees(THESIS.worm.axial_pressure_angle) == pytest.approx(20.0918, abs=5e-5)
+    assert 2 * THESIS.worm.flank.least_radius == pytest.approx(13.185358988164113, rel=1e-12)
+    assert THESIS.tip_radius_at(13.0) == pytest.approx(329.80, abs=5e-3)
+    assert _tooth(THESIS, 325.0, 0.0) == pytest.approx(4.087, abs=5e-4)
+    assert _tooth(THESIS, 329.80, 13.0) == pytest.approx(3.351, abs=5e-4)
+    corners = sorted(abs(THESIS.tip_contact(13.0, upper=u) or 0.0) for u in (True, False))
+    assert corners == pytest.approx([24.9, 35.99], abs=0.02)
+    assert THESIS.worm_length_used(26.0) == pytest.approx(72.0, abs=0.05)
+
+
+def _tooth(drive: WormDrive, radius: float, distance: float) -> float:
+    """Thickness of the wheel's tooth along an arc, mm."""
+    worm = drive.worm
+    r = np.linspace(max(worm.form_radius, distance * 1.0001), worm.tip_radius, 100_001)
+    angles = []
+    for upper in (True, False):
+        point, _ = drive.section(r, distance, upper=upper)
+        angles.append(np.interp(-radius, -np.abs(point), np.angle(-point)))
+    space = abs(angles[1] - angles[0])
+    return radius * (2 * math.pi / drive.number_of_teeth - space)
+
+
+@pytest.mark.parametrize("form", sorted(FORMS))
+@pytest.mark.parametrize("distance", [-9.0, 0.0, 9.0])
+def test_the_wheel_touches_its_worm_and_nothing_more(form: str, distance: float) -> None:
+    drive = WormDrive(Worm(5.0, 2, 10.0, form, hand="left"), 40, 0.2)
+    worm, pitch = drive.worm, drive.reference_radius
+    r = np.linspace(worm.root_radius + 1.2, worm.tip_radius, 6)
+    # the worm's own section, finely, and where it slides
+    radii = np.linspace(worm.root_radius, worm.tip_radius, 4001)
+    x = np.sqrt(radii**2 - distance**2) - drive.centre_distance
+    z = worm.axial(radii, distance)[0]
+    for flank, slid in zip(*drive.section(r, distance), strict=True):
+        gaps = []
+        for way in slid + np.linspace(-3.0, 3.0, 601):
+            # the wheel's point in the plane of the section, the wheel turned along with the sliding worm
+            there = flank * np.exp(-1j * way / pitch)
+            gaps.append(there.imag - np.interp(there.real, x, z + way, left=-np.inf, right=-np.inf))
+        assert min(gaps) == pytest.approx(0.0, abs=1e-6)
+        moved = (flank - 1e-4j) * np.exp(-1j * slid / pitch)
+        assert moved.imag - np.interp(moved.real, x, z + slid) < -5e-5
+
+
+@pytest.mark.parametrize(
+    ("worm", "key"),
+    [
+        (Worm(5.0, 1, 2.0), "diameter_quotient"),
+        (replace(THESIS.worm, addendum_coefficient=3.0), "addendum_coefficient"),
+    ],
+)
+def test_worms_that_cannot_exist_are_refused_with_what_works(worm: Worm, key: str) -> None:
+    with pytest.raises(ParameterError) as caught:
+        worm.checked()
+    assert caught.value.name == key
+    offered = caught.value.nearest
+    assert offered is not None
+    replace(worm, **{key: offered.value}).checked()
