@@ -38,8 +38,8 @@ def verify_sheet(file: Path, expected: Expected, tolerance: float) -> Verdict:
     _check_curves(sheet, expected, allowed, measured, failures)
     if expected.meshing is not None:
         _check_meshing(sheet, expected.meshing, allowed, measured, failures)
-    if expected.cam is not None:
-        expected.cam.check(sheet, allowed, measured, failures)
+    if expected.measures is not None:
+        expected.measures.check(sheet, allowed, measured, failures)
     _check_words(sheet, expected.canvas, measured, failures)
     _check_frame(sheet, expected.canvas.frame.grown(allowed), failures)
     return Verdict(measured, tuple(failures))

@@ -6,6 +6,7 @@ SVG states its length. Sizes and line types follow GOST 2.303 and 2.304.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 
@@ -13,6 +14,7 @@ import numpy as np
 
 from geometry.approximation.outline import CadCurve
 from geometry.approximation.splines import fit_spline
+from geometry.base.errors import ParameterError
 from geometry.base.record import Draft, Record, field, replace
 from geometry.curves.bspline import BSpline
 from geometry.curves.curve import Complex, Curve
@@ -27,6 +29,8 @@ FRAME_LEFT, FRAME = 20.0, 5.0
 # scales that a drawing may have; GOST 2.302
 SCALES = (100, 50, 40, 20, 10, 5, 4, 2.5, 2, 1, 1 / 2, 1 / 2.5, 1 / 4, 1 / 5, 1 / 10, 1 / 15, 1 / 20, 1 / 25, 1 / 40,
           1 / 50, 1 / 75, 1 / 100, 1 / 200, 1 / 400, 1 / 500, 1 / 800, 1 / 1000)  # fmt: skip
+# steps of the scales of diagrams; GOST 2.319 leaves them to the drawer, who takes round ones
+_STEPS, _ROUNDING = (1.0, 2.0, 2.5, 4.0, 5.0), 1e-9
 _SUBSCRIPT, _DROP = 0.7, 0.3
 # widths of letters as parts of the height of a capital
 _NARROW, _WIDE = set("iljtfrIі.,:;'|()[]! °"), set("mwMWшщжюмфШЩЖЮМФ@—")
@@ -68,6 +72,9 @@ STYLES: dict[str, Style] = {
     "ORDINATE": Style(0.13, (), 8, "#a0a0a0"),
     "AXIS": Style(0.35, (), 7, "#000000"),
     "PHASE": Style(0.25, _DASH_DOT, 8, "#606060"),
+    "SCHEME": Style(0.7, (), 7, "#000000"),
+    "VELOCITY": Style(0.6, (), 5, "#2040c0"),
+    "ANGULAR_VELOCITY": Style(0.6, (), 1, "#c00000"),
     "DIAGRAM_BEND": Style(0.6, (), 1, "#c00000"),
     "DIAGRAM_RATE": Style(0.6, (), 3, "#007020"),
     "DIAGRAM_LIFT": Style(0.6, (), 5, "#2040c0"),
@@ -282,6 +289,17 @@ class Paper(Record):
         if isinstance(curve, Arc):
             return replace(curve, centre=self.origin + self.scale * curve.centre, radius=self.scale * curve.radius)
         return replace(curve, poles=self.origin + self.scale * curve.poles)
+
+
+def standard_scale(needed: float) -> float:
+    """The least of 1, 2, 2.5, 4, 5 times a power of ten that is not below ``needed`` (units per mm of paper)."""
+    if not (needed > 0 and math.isfinite(needed)):
+        raise ParameterError("scale", needed, "not_finite_above_zero")
+    power = 10.0 ** math.floor(math.log10(needed))
+    for factor in (*_STEPS, 10.0):
+        if factor * power >= needed * (1 - _ROUNDING):
+            return float(f"{factor * power:.6g}")
+    return 10.0 * power
 
 
 def scale_text(scale: float, language: str) -> str:

@@ -49,4 +49,4 @@ class Expected(Record):
     circles: tuple[Circle, ...]
     curves: dict[str, list[Curve]] = field(default_factory=dict)
     meshing: Meshing | None = None
-    cam: Measures | None = None
+    measures: Measures | None = None

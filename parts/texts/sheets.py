@@ -79,6 +79,12 @@ SHEETS: dict[str, Text] = {
     "scale_velocity": N_("scale of the velocity"),
     "scale_acceleration": N_("scale of the acceleration"),
     "scale_joint": N_("scale of the joint diagram"),
+    "train": N_("Kinematic scheme, plans of velocities and of angular velocities"),
+    "train_ratio": N_("ratio of angular velocities"),
+    "held": N_("held link"),
+    "scheme_scale": N_("scale of the scheme's heights"),
+    "velocity_scale": N_("velocities at 1 rad/s of the driver, mm/s in 1 mm"),
+    "angular_scale": N_("angular velocities, rad/s in 1 mm"),
     "scale_profile": N_("scale of the profile"),
 }
 

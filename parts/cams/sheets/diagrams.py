@@ -13,8 +13,8 @@ from geometry.cams.motion.follower_motion import FollowerMotion
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc, Line
 from parts.base.texts import words
-from parts.cams.sheets.picture import CamPicture, Scales, standard_scale, thinned
-from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Stroke, text_width
+from parts.cams.sheets.picture import CamPicture, Scales, thinned
+from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Stroke, standard_scale, text_width
 from parts.pages.page import unit_text
 from parts.texts.sheets import sheet_words
 

@@ -6,20 +6,16 @@ import math
 
 import numpy as np
 
-from geometry.base.errors import ParameterError
 from geometry.base.record import Record
 from geometry.cams.motion.follower_motion import PhaseKind
 from geometry.cams.motion.guides import Translating
 from geometry.cams.plane.disk import DiskCam
 from geometry.cams.plane.graphical import GraphicalMotion, graphical_fault, graphical_motion
 from geometry.cams.plane.synthesis import greatest_pressure_angle
-from parts.drawing.canvas import decimal
+from parts.drawing.canvas import decimal, standard_scale
 
 # parts of a turn, in intervals of a phase, where a table of points gives no phases
 TURN_SHARE = 3
-# steps of the scales of diagrams; GOST 2.319 leaves them to the drawer, who takes round ones
-_STEPS = (1.0, 2.0, 2.5, 4.0, 5.0)
-_ROUNDING = 1e-9
 
 
 class Position(Record):
@@ -108,17 +104,6 @@ def _positions(cam: DiskCam, intervals: int) -> tuple[Position, ...]:
             found.append(Position(len(found), at + (end - at) * k / count, k == 0))
         at = end
     return tuple(found)
-
-
-def standard_scale(needed: float) -> float:
-    """The least of 1, 2, 2.5, 4, 5 times a power of ten that is not below ``needed`` (units per mm of paper)."""
-    if not (needed > 0 and math.isfinite(needed)):
-        raise ParameterError("scale", needed, "not_finite_above_zero")
-    power = 10.0 ** math.floor(math.log10(needed))
-    for factor in (*_STEPS, 10.0):
-        if factor * power >= needed * (1 - _ROUNDING):
-            return float(f"{factor * power:.6g}")
-    return 10.0 * power
 
 
 class Scales(Record):

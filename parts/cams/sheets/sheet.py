@@ -92,7 +92,7 @@ def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, tolerance: flo
     elif swing is not None and joint_place is not None:
         name_swing(Labeller(canvas, layout.joint), picture, swing, joint_place)
     measures = _measures(picture, scales, joint, joint_place, drawn)
-    return Expected(canvas, paper, tuple(circles), curves, cam=measures)
+    return Expected(canvas, paper, tuple(circles), curves, measures=measures)
 
 
 def _measures(

@@ -19,7 +19,7 @@ from exporters.production.plan import plan_build
 from exporters.production.sheets import SheetJob
 from geometry.base.errors import Nearest
 from parts.base.refusal import SceneError
-from parts.cams.sheets.picture import standard_scale
+from parts.drawing.canvas import standard_scale
 from parts.scene.load import SceneFile, load_scene, scene_from_dict
 from tests.exporters.making import run
 
