@@ -45,7 +45,7 @@ def solid_overlaps(placing: Placing, parts: dict[str, Part]) -> tuple[SolidOverl
             if frozenset((one.id, two.id)) in contact or not _meet(boxes[one.id], boxes[two.id]):
                 continue
             try:
-                volume = _common_volume([_placed(i, parts, solids) for i in (one, two)])
+                volume = common_volume([_placed(i, parts, solids) for i in (one, two)])
             except GeometryError:
                 found.append(SolidOverlap(one.id, two.id, None))
                 continue
@@ -69,13 +69,13 @@ def _meet(one: tuple[complex, float, float, float], two: tuple[complex, float, f
 def _placed(instance: Instance, parts: dict[str, Part], solids: dict[str, Any]) -> Any:
     """The solid of an instance in its place; one mesh a part."""
     if instance.part not in solids:
-        solids[instance.part] = _inner_solid(parts[instance.part])
+        solids[instance.part] = inner_solid(parts[instance.part])
     x, y, z = instance.at
     turned = solids[instance.part].rotate([0.0, 0.0, math.degrees(math.remainder(instance.rotation, 2 * math.pi))])
     return turned.translate([x, y, z])
 
 
-def _inner_solid(part: Part) -> Any:
+def inner_solid(part: Part) -> Any:
     """A mesh inside the part's solid, as manifold3d has it; finer where its walls are thin."""
     import manifold3d
 
@@ -94,7 +94,7 @@ def _inner_solid(part: Part) -> Any:
     raise GeometryError(f"no mesh lies within {part.id}")
 
 
-def _common_volume(pair: Sequence[Any]) -> float:
+def common_volume(pair: Sequence[Any]) -> float:
     """Volume in common, mm^3; slivers of a billionth of the lesser solid are rounding."""
     common = pair[0] ^ pair[1]
     least = 1e-9 * min(solid.volume() for solid in pair)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
 
+from geometry.base.record import Draft, field
 from parts.drawing.canvas import Canvas
 from parts.mates.sheets.train import Train
 
@@ -23,8 +23,7 @@ def scheme_width(train: Train) -> float:
     return _LEFT_DISC + _COLUMN * max(r.level for r in train.rims) + _DISC + _END * (1 + min(nested, 3))
 
 
-@dataclass(slots=True)
-class Scheme:
+class Scheme(Draft):
     """A scheme that is being drawn: ``y`` gives the height on paper of a height of the train, ``left`` its edge, mm."""
 
     canvas: Canvas
@@ -49,7 +48,8 @@ class Scheme:
             mine = [k for k, link in enumerate(train.links) if (link.axis, link.carrier) == (axis, carrier)]
             if carrier is None:
                 self._shafts(axis, [(k, discs[k]) for k in mine if discs[k]])
-            for k in mine if carrier is not None else []:
+                continue
+            for k in mine:
                 self._line(min(discs[k]) - _HALF, axis, self._arm_at(carrier) + _HALF, axis)
 
     def _column(self, level: int) -> float:

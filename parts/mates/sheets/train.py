@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 
+from geometry.base.record import Record
 
-@dataclass(frozen=True, slots=True)
-class Link:
+
+class Link(Record):
     """A rigid body: how often it turns for one turn of the driver, and the height of its axis in the side view, mm.
 
     ``carrier``: the link that carries its axis, by number; None: the frame.
@@ -19,8 +19,7 @@ class Link:
     carrier: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Rim:
+class Rim(Record):
     """A toothed rim of a link, at a ``level`` along the axes; ``internal``: its teeth point inwards."""
 
     name: str
@@ -30,8 +29,7 @@ class Rim:
     internal: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Train:
+class Train(Record):
     """Links, rims, and the ``meshes`` of rims by number. Satellites that do the same stand here once."""
 
     links: tuple[Link, ...]

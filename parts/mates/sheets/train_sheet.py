@@ -30,7 +30,8 @@ def train_sheet(title: str, train: Train, told: list[str], language: str, band: 
     canvas.box("FRAME", canvas.frame)
     content, right = canvas.content, canvas.frame.right - width
     heading = f"{sheet_words(language, 'train')}: {title}"
-    canvas.write(heading, complex(content.left + _GAP, content.high - 9.0), 5.0, content.right - content.left - 2 * _GAP)
+    most = content.right - content.left - 2 * _GAP
+    canvas.write(heading, complex(content.left + _GAP, content.high - 9.0), 5.0, most)
     low, high = content.low + _GAP + 6.0, content.high - _TITLE - 8.0
     scale, base = _heights(train, low, high)
     scheme = Scheme(canvas, train, lambda h: base + scale * h, content.left + _GAP)
@@ -82,8 +83,7 @@ def _transfer(canvas: Canvas, train: Train, scheme: Scheme, line: float) -> None
 def _rows(train: Train, told: list[str], language: str) -> list[Row]:
     teeth = sheet_words(language, "number_of_teeth")
     rows = [
-        Row(f"{part}: {teeth}", f"z_{{{rim.name}}}", str(rim.teeth))
-        for part, rim in zip(told, train.rims, strict=True)
+        Row(f"{part}: {teeth}", f"z_{{{rim.name}}}", str(rim.teeth)) for part, rim in zip(told, train.rims, strict=True)
     ]
     driver = train.links[train.driver]
     for link in train.links:
@@ -91,7 +91,8 @@ def _rows(train: Train, told: list[str], language: str) -> list[Row]:
             continue
         name = f"u_{{{driver.name}{link.name}}}"
         if link.rate:
-            rows.append(Row(sheet_words(language, "train_ratio"), name, decimal(f"{float(1 / link.rate):.7g}", language)))
+            ratio = decimal(f"{float(1 / link.rate):.7g}", language)
+            rows.append(Row(sheet_words(language, "train_ratio"), name, ratio))
         else:
             rows.append(Row(sheet_words(language, "held"), link.name))
     return rows

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
+from geometry.base.record import Record
 from parts.drawing.canvas import Box, Canvas, standard_scale
 from parts.drawing.labels import Labeller
 from parts.drawing.readback import ReadLine, ReadSheet
@@ -15,8 +15,7 @@ _LEAST = 1e-9
 _ARROW = 2.5
 
 
-@dataclass(frozen=True, slots=True)
-class Plans:
+class Plans(Record):
     """Both plans on paper: where the pole lines run and the scales; lengths in mm on paper.
 
     ``velocity``: mm/s of a point for 1 mm where the driver turns with 1 rad/s; ``angular``: 1/s for 1 mm. ``pole`` is
@@ -117,8 +116,7 @@ def _vector(canvas: Canvas, start: complex, end: complex) -> None:
             canvas.line("DIMENSION", end, end - back * (1 + side))
 
 
-@dataclass(frozen=True, slots=True)
-class PlanMeasures:
+class PlanMeasures(Record):
     """What must be measured off both plans: slopes against the driver's, and lengths on the line of velocities."""
 
     plans: Plans

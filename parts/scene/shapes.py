@@ -1,0 +1,92 @@
+"""What stands for a part where solids are held against each other: circles, symmetry, and a mesh where it is wanted."""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geometry.curves.curve import Complex
+from geometry.curves.line_arc import Arc
+from geometry.plane.profile import Profile
+from geometry.solids.body import Body
+from parts.base.part import Part
+from parts.scene.interference import common_volume, inner_solid
+
+if TYPE_CHECKING:
+    from geometry.cams.barrel.body import BarrelBody
+
+# what is one length, mm; what radii may lie beyond samples, or chords, as a part of them
+_SAME, _DIGITS, _MARGIN = 1e-7, 7, 1e-3
+_TURN = 2 * math.pi
+
+
+class Shape:
+    """What stands for a part: its reach and free bore (mm), levels, walls that are not round; its solid when asked for.
+
+    ``walls``: how often each looks alike in a turn, and the radii (mm) between which it lies.
+    """
+
+    def __init__(self, part: Part) -> None:
+        self.part, body = part, part.body(0.0)
+        self.low, self.high = body.levels()[0], body.levels()[-1]
+        self.reach, self.walls = _outline(body)
+
+    def count(self, near: float, far: float) -> int:
+        """How often it looks alike in a turn between two radii, mm; 0: it is round."""
+        return math.gcd(*(n for n, low, high in self.walls if low < far and high > near))
+
+    @cached_property
+    def solid(self) -> Any:
+        """A mesh inside it; GeometryError where a wall is too thin for one."""
+        return inner_solid(self.part)
+
+    @cached_property
+    def bore(self) -> float:
+        """Radius about the axis that is free of it, mm; a chord lies a little nearer than its ends."""
+        import manifold3d
+
+        vertices = np.asarray(self.solid.to_mesh().vert_properties)
+        radius = float(np.hypot(vertices[:, 0], vertices[:, 1]).min()) * (1 - _MARGIN)
+        if radius <= _SAME:
+            return 0.0
+        core = manifold3d.Manifold.cylinder(self.high - self.low + 2.0, radius, radius, 64)
+        return 0.0 if common_volume((self.solid, core.translate([0.0, 0.0, self.low - 1.0]))) else radius
+
+
+def _outline(body: Body | BarrelBody) -> tuple[float, tuple[tuple[int, float, float], ...]]:
+    """Reach of a body, mm, and its walls; one that no plane outline sweeps has none that repeats."""
+    if body.is_faced or any(loop.shift for loop in body.loops):
+        reach = body.section_reach() * (1 + _MARGIN)
+        return reach, ((1, 0.0, reach),)
+    alike: dict[tuple[int, float, float, object], list[complex]] = {}
+    reach = 0.0
+    for profile in body.profiles:
+        points = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 65)) for s in profile.period])
+        middle, form, (near, far) = _form(profile, points)
+        reach = max(reach, far * (1 + _MARGIN))
+        if far - near > _SAME:
+            alike.setdefault((profile.count, near * (1 - _MARGIN), far * (1 + _MARGIN), form), []).append(middle)
+    found = []
+    for (count, near, far, _), middles in alike.items():
+        # a row of equal ones about the axis
+        directions = np.sort(np.angle(middles) % _TURN)
+        gaps = np.diff([*directions, directions[0] + _TURN])
+        even = count == 1 and float(np.abs(gaps - _TURN / len(middles)).max()) <= _SAME
+        found.append((len(middles) if even else count, near, far))
+    return reach, tuple(found)
+
+
+def _form(profile: Profile, points: Complex) -> tuple[complex, object, tuple[float, float]]:
+    """The middle of an outline, what it has in common with those that are turned about the axis, its radii, mm."""
+    arcs = [s.curve for s in profile.period if isinstance(s.curve, Arc)]
+    if len(arcs) == len(profile.period) and all(abs(a.centre - arcs[0].centre) <= _SAME for a in arcs):
+        centre, radius = arcs[0].centre, arcs[0].radius
+        ends = round(abs(abs(centre) - radius), _DIGITS), round(abs(centre) + radius, _DIGITS)
+        return centre, round(radius, _DIGITS), ends
+    middle, radii = complex(points.mean()), np.abs(points)
+    turned = points * (abs(middle) / middle if middle else 1.0)
+    ends = round(float(radii.min()), _DIGITS), round(float(radii.max()), _DIGITS)
+    return middle, tuple(np.round(turned, _DIGITS - 1).tolist()), ends
