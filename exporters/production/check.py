@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from msgspec.structs import asdict
 
 from geometry.base.tolerance import PLACED_MM
 from parts.base.mate import Mating
@@ -14,9 +16,6 @@ from parts.scene.instances import DriveSpec
 from parts.scene.placing import Closeness, Condition, PlacedMate, Placing
 from parts.texts.checks import condition_message
 from parts.texts.findings import finding_text
-
-if TYPE_CHECKING:
-    from parts.scene.interference import SolidOverlap
 
 # mates that run no gears in each other: of these transmission error is not asked
 _WITHOUT_TEETH = ("fixed", "coaxial", "pin_seat", "eccentric_bearing")
@@ -49,11 +48,7 @@ def scene_checks(
     if placing.close:
         checks["neighbours"] = [_neighbours(c, language) for c in placing.close]
     if contact and len(placing.instances) > 1:
-        from parts.scene.interference import solid_overlaps
-
-        overlaps = solid_overlaps(placing, parts)
-        if overlaps:
-            checks["solids"] = [_overlap(o, language) for o in overlaps]
+        checks |= _solids(placing, parts, drives, language)
     if placing.turns:
         checks["drives"] = [
             {"instance": d.instance, "turns": d.turns, "train": train}
@@ -165,10 +160,46 @@ def _neighbours(close: Closeness, language: str) -> dict[str, Any]:
     }
 
 
-def _overlap(found: SolidOverlap, language: str) -> dict[str, Any]:
+def _solids(placing: Placing, parts: dict[str, Part], drives: Sequence[DriveSpec], language: str) -> dict[str, Any]:
+    """Solids as they stand, then on the way that the drives move them."""
+    from parts.scene.interference import solid_overlaps
+
+    overlaps = solid_overlaps(placing, parts)
+    solids = [_overlap(o.first, o.second, o.volume, language) for o in overlaps]
+    checks: dict[str, Any] = {}
+    if placing.turns:
+        from parts.scene.moving_solids import motion_found
+        from parts.scene.relative_path import course_of
+
+        course, known = course_of(placing), {frozenset((o.first, o.second)) for o in overlaps}
+        found = motion_found(placing, parts, course, known)
+        whole = 360.0 * drives[0].turns
+        solids += [
+            _overlap(x.first, x.second, x.volume, language, drives[0].instance, whole * x.time) for x in found.struck
+        ]
+        checks["motion"] = {
+            "pairs": found.pairs,
+            "tested": found.tested,
+            "poses": found.poses,
+            "one_pose": [i.id for i in placing.instances if i.id in course.unknown],
+            "uncovered": [asdict(x) for x in found.uncovered],
+        }
+    return {"solids": solids, **checks} if solids else checks
+
+
+def _overlap(
+    first: str, second: str, volume: float | None, language: str, drive: str = "", turn: float | None = None
+) -> dict[str, Any]:
+    """Two solids in each other; ``turn``: where a drive has turned so far, degrees."""
     verdict, told = "overlap", N_("{first} and {second} run into each other: {value:.4g} mm^3 in common as they stand")
-    if found.volume is None:
+    if volume is None:
         verdict = "undecided"
         told = N_("{first} and {second}: a wall is too thin to tell whether the solids run into each other; thicken it")
-    text = words(language).text(told, first=found.first, second=found.second, value=found.volume)
-    return {"first": found.first, "second": found.second, "volume": found.volume, "verdict": verdict, "text": text}
+    elif turn is not None:
+        told = N_(
+            "{first} and {second} run into each other: {value:.4g} mm^3 in common where {drive} has turned by "
+            "{turn:.6g} deg"
+        )
+    text = words(language).text(told, first=first, second=second, value=volume, drive=drive, turn=turn)
+    found = {"first": first, "second": second, "volume": volume, "verdict": verdict, "text": text}
+    return found if turn is None or volume is None else {**found, "drive_turn_deg": turn}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from parts.base.texts import N_, Message, Words, filled, words
+from parts.base.texts import N_, Message, Words, counted, filled, message, words
 from parts.texts.checks import GEAR_PAIR, MATES, VERDICTS
 
 _SENSES = {"clockwise": N_("clockwise"), "counter_clockwise": N_("counter-clockwise")}
@@ -37,9 +37,42 @@ def check_lines(checks: dict[str, Any], language: str) -> list[str]:
         lines.append(told.text("note: {text}", text=close["text"]))
     for found in checks.get("solids", []):
         lines.append(f"{told.text(VERDICTS[found['verdict']])}: {found['text']}")
+    if "motion" in checks:
+        lines += _motion(checks["motion"], told)
     for drive in checks.get("drives", []):
         train = ", ".join(f"{name} {turns:.6g}" for name, turns in drive["train"].items())
         lines.append(told.text("drive {instance}: {train} turns", instance=drive["instance"], train=train))
+    return lines
+
+
+def _motion(motion: dict[str, Any], told: Words) -> list[str]:
+    """How far the solids were held against each other on their way, and where they were not."""
+    lines = []
+    if motion["poses"]:
+        # the rest repeat these, or circles keep them apart
+        pairs = counted("{pairs} pair", "{pairs} pairs", by="pairs", pairs=motion["pairs"])
+        poses = counted("{poses} pose", "{poses} poses", by="poses", poses=motion["poses"])
+        lines.append(
+            told.say(
+                message("solids in motion: {pairs} over the period of each, {poses} held", pairs=pairs, poses=poses)
+            )
+        )
+    for found in motion["uncovered"]:
+        if found["share"] < 1:
+            lines.append(
+                told.text(
+                    "note: {first} and {second} were held over {share:.3g} of their period; between poses up to "
+                    "{depth:.3g} mm may be missed",
+                    **found,
+                )
+            )
+        else:
+            lines.append(
+                told.text("note: {first} and {second}: between poses up to {depth:.3g} mm may be missed", **found)
+            )
+    if motion["one_pose"]:
+        names = ", ".join(motion["one_pose"])
+        lines.append(told.text("note: held against the rest as they stand alone, not in motion: {names}", names=names))
     return lines
 
 

@@ -18,8 +18,10 @@ from parts.base.part import Part
 from parts.scene.placing import Instance, Placing
 
 # boundaries go this far into the material, as a part of the solid's size, and the mesh half of it
-_INSET = 2e-4
+INSET = 2e-4
 _SHARE = 0.5
+# of the lesser solid: less in common is rounding
+SLIVER = 1e-9
 
 
 class SolidOverlap(Record):
@@ -81,7 +83,7 @@ def inner_solid(part: Part) -> Any:
 
     from parts.solids.mesh import body_mesh, mesh_outlines
 
-    inset = _INSET * max(p.reach() for p in part.body(0.0).profiles)
+    inset = INSET * max(p.reach() for p in part.body(0.0).profiles)
     for _ in range(8):
         try:
             body = part.body(-inset)
@@ -95,7 +97,7 @@ def inner_solid(part: Part) -> Any:
 
 
 def common_volume(pair: Sequence[Any]) -> float:
-    """Volume in common, mm^3; slivers of a billionth of the lesser solid are rounding."""
+    """Volume in common, mm^3; slivers are none."""
     common = pair[0] ^ pair[1]
-    least = 1e-9 * min(solid.volume() for solid in pair)
+    least = SLIVER * min(solid.volume() for solid in pair)
     return float(common.volume()) if common.volume() > least else 0.0

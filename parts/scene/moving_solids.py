@@ -6,26 +6,30 @@ a pose with a gap the pair is clear as long as the path is shorter than the gap,
 
 from __future__ import annotations
 
+import cmath
 import math
+from heapq import heapify, heappop, heappush
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
 from geometry.base.errors import GeometryError
 from geometry.base.record import Draft, Record, field, replace
+from geometry.curves.curve import Real
 from parts.base.part import Part
-from parts.scene.interference import common_volume
+from parts.scene.interference import INSET, SLIVER, common_volume
 from parts.scene.placing import Instance, Placing
 from parts.scene.relative_path import Course, Path, path_of
 from parts.scene.shapes import Shape
 
 # poses of one pair at most; of one whose teeth the plane contact has decided; more in the search about the worst
 MOST_POSES, _MATED_POSES, _SEARCH = 720, 48, 12
-# how far solids are sought of each other, as a part of their size
-_SOUGHT = 0.02
-# what may go unsaid, mm; digits of a height in what two pairs have in common
-_SAME, _DIGITS = 1e-7, 7
+# the first way along a path in larger steps; how far solids are sought of each other, as a part of their size
+_FIRST, _SOUGHT = 3, 0.02
+# distances that are tried, each the half of the one before
+_GAPS = 12
+# of a height in what two pairs have in common
+_DIGITS = 7
 
 
 class Struck(Record):
@@ -51,14 +55,12 @@ class Uncovered(Record):
 
 
 class MotionFound(Draft):
-    """What the motion of a scene shows; ``pairs`` move on each other, ``tested`` of them differ, in so many ``poses``.
-
-    ``one_pose``: pairs that were held as they stand alone.
+    """What the motion of a scene shows; ``pairs`` move on each other, ``tested`` in ``poses`` are those that differ and
+    that circles do not keep apart.
     """
 
     struck: list[Struck] = field(default_factory=list)
     uncovered: list[Uncovered] = field(default_factory=list)
-    one_pose: list[tuple[str, str]] = field(default_factory=list)
     pairs: int = 0
     tested: int = 0
     poses: int = 0
@@ -76,10 +78,10 @@ def motion_found(placing: Placing, parts: dict[str, Part], course: Course, known
     for index, one in enumerate(placing.instances):
         for two in placing.instances[index + 1 :]:
             ends = frozenset((one.id, two.id))
-            if not ends & (course.rates.keys() | course.unknown) or ends in known or (ends in mated and ends <= plates):
+            if ends & course.unknown or not ends & course.rates.keys() or ends in known:
                 continue
-            if ends & course.unknown:
-                found.one_pose.append((one.id, two.id))
+            # teeth of plates are left to their contact
+            if ends in mated and ends <= plates:
                 continue
             found.pairs += 1
             try:
@@ -104,16 +106,16 @@ def _hold(
     if shapes[0].high <= shapes[1].low + lift or shapes[1].high + lift <= shapes[0].low:
         return
     path = path_of(pair, shapes, course)
-    if path is None or _apart(path, shapes):
+    if path is None or (free := _free(path, shapes)).min() > 0:
         return
     key = None if path.key is None else (one.part, two.part, round(lift, _DIGITS), *path.key)
     if key is not None and key in clear:
         uncovered = clear[key]
     else:
-        search = _Search(shapes, path, lift, _MATED_POSES if is_mated else MOST_POSES)
+        search = _Search(shapes, path, free, lift, _MATED_POSES if is_mated else MOST_POSES)
         struck, uncovered = search.run(one.id, two.id)
         found.tested += 1
-        found.poses += len(search.held)
+        found.poses += search.poses
         if struck is not None:
             found.struck.append(struck)
         elif key is not None:
@@ -123,77 +125,107 @@ def _hold(
         found.uncovered.append(replace(uncovered, first=one.id, second=two.id))
 
 
-def _apart(path: Path, shapes: tuple[Shape, Shape]) -> bool:
-    """Whether circles about the axes tell already that the pair never meets; the outer ones ask for no solid."""
+def _free(path: Path, shapes: tuple[Shape, Shape]) -> Real:
+    """What circles about both axes leave between the solids, mm, at the times of a path; bores are asked for last."""
     one, two = shapes
-    distance = np.abs(path.places)
-    return bool(
-        distance.min() > one.reach + two.reach
-        or distance.max() < one.bore - two.reach
-        or distance.max() < two.bore - one.reach
-    )
+    outside: Real = path.distances - one.reach - two.reach
+    wider = (one, two) if one.reach > two.reach else (two, one)
+    if outside.min() > 0 or path.distances.min() + wider[1].reach > wider[0].reach:
+        return outside
+    return np.maximum(outside, wider[0].bore - wider[1].reach - path.distances)
 
 
 class _Search:
-    """Poses of one pair, chosen as it is searched."""
+    """Poses of one pair, chosen as it is searched; places on its path go by the path's length, mm."""
 
-    def __init__(self, shapes: tuple[Shape, Shape], path: Path, lift: float, most: int) -> None:
-        self.shapes, self.path, self.lift = shapes, path, lift
-        self.whole = float(path.length[-1])
-        self.step = self.whole / most
-        self.sought = min(2 * self.step, _SOUGHT * min(s.reach for s in shapes))
+    def __init__(self, shapes: tuple[Shape, Shape], path: Path, free: Real, lift: float, most: int) -> None:
+        self.shapes, self.path, self.free, self.lift, self.most = shapes, path, free, lift, most
         one, two = shapes
-        distance = np.abs(path.places)
-        inside = np.maximum(one.bore - two.reach, two.bore - one.reach) - distance
-        self.far = np.maximum(distance - one.reach - two.reach, inside)
-        self.held: set[int] = set()
+        self.whole = float(path.length[-1])
+        self.step = _FIRST * self.whole / most
+        self.sought = min(2 * self.step, _SOUGHT * min(one.reach, two.reach))
+        self.fine = INSET * max(one.reach, two.reach)
+        self.first, self.second = one.slabs or (), two.slabs or ()
+        self.meet = self._slabs if self.first and self.second else self._meshes
+        self.gaps = [self.fine * 2.0**k for k in range(_GAPS, -1, -1)]
+        self.sliver = SLIVER * min(one.solid.volume(), two.solid.volume())
+        self.poses = 0
+        # greatest common volume, mm^3, and where
+        self.worst = (0.0, 0.0)
 
     def run(self, first: str, second: str) -> tuple[Struck | None, Uncovered | None]:
-        """Along the path; then about its worst place."""
-        held: list[tuple[int, float]] = []
-        length = self.path.length
-        at, depth, last = 0, 0.0, len(self.path.times) - 1
-        worst = (0.0, 0)
-        while True:
-            gap = float(self.far[at])
-            if gap <= self.step:
-                gap = max(gap, self._gap(at))
-            if gap <= 0:
-                worst = max(worst, (self._volume(at), at))
-            held.append((at, gap))
-            if at == last:
-                break
-            reached = int(np.searchsorted(length, length[at] + max(gap, self.step), side="right")) - 1
-            at = min(max(reached, at + 1), last)
-        for (a, before), (b, after) in pairwise(held):
-            depth = max(depth, (float(length[b] - length[a]) - max(before, 0.0) - max(after, 0.0)) / 2)
-        near = worst[1] if worst[0] else min(held, key=lambda item: item[1])[0]
-        if worst[0] or depth > 0:
-            worst = max(worst, self._about(near))
-        struck = Struck(first, second, worst[0], float(self.path.times[worst[1]])) if worst[0] else None
-        told = struck is None and (depth > _SAME or self.path.share < 1)
-        return struck, Uncovered(first, second, depth, self.path.share, len(self.held)) if told else None
+        """Along the path, then where most of it was passed over, at last about its worst place."""
+        held = [(0.0, self._gap(0.0))]
+        while held[-1][0] < self.whole:
+            at = min(held[-1][0] + max(held[-1][1], self.step), self.whole)
+            held.append((at, self._gap(at)))
+        open_ones = [(-_hidden(a, b), a, b) for a, b in pairwise(held)]
+        heapify(open_ones)
+        while self.worst[0] == 0 and self.poses < self.most and -open_ones[0][0] > self.fine:
+            _, one, two = heappop(open_ones)
+            at = (one[0] + two[0]) / 2
+            middle = (at, self._gap(at))
+            heappush(open_ones, (-_hidden(one, middle), one, middle))
+            heappush(open_ones, (-_hidden(middle, two), middle, two))
+        if self.worst[0]:
+            self._about()
+            time = float(np.interp(self.worst[1], self.path.length, self.path.times))
+            return Struck(first, second, self.worst[0], time), None
+        depth = max(-open_ones[0][0], 0.0)
+        if depth <= self.fine and self.path.share == 1:
+            return None, None
+        return None, Uncovered(first, second, depth, self.path.share, self.poses)
 
-    def _about(self, near: int) -> tuple[float, int]:
-        """The greatest common volume about a pose: the interval of neighbours is halved towards it."""
-        reach = max(1, int(np.searchsorted(self.path.length, self.path.length[near] + self.step)) - near)
-        best = (self._volume(near), near)
+    def _about(self) -> None:
+        """The greatest common volume: steps about the worst pose are halved towards it."""
+        reach = self.step / 2
         for _ in range(_SEARCH // 2):
-            for at in (best[1] - reach, best[1] + reach):
-                if 0 <= at < len(self.path.times):
-                    best = max(best, (self._volume(at), at))
-            reach = max(1, reach // 2)
-        return best
+            for at in (self.worst[1] - reach, self.worst[1] + reach):
+                self.poses += 1
+                self.worst = max(self.worst, (self.meet(*self._pose(at % self.whole))[1], at % self.whole))
+            reach /= 2
 
-    def _second(self, at: int) -> Any:
-        self.held.add(at)
-        place, turn = complex(self.path.places[at]), math.remainder(float(self.path.turns[at]), 2 * math.pi)
-        turned = self.shapes[1].solid.rotate([0.0, 0.0, math.degrees(turn)])
-        return turned.translate([place.real, place.imag, self.lift])
+    def _pose(self, at: float) -> tuple[complex, float]:
+        place, turn = self.path.seen(np.array([np.interp(at, self.path.length, self.path.times)]))
+        return complex(place[0]), math.remainder(float(turn[0]), 2 * math.pi)
 
-    def _gap(self, at: int) -> float:
-        """Distance of the solids, mm, as far as it is worth knowing."""
-        return float(self.shapes[0].solid.min_gap(self._second(at), self.sought))
+    def _gap(self, at: float) -> float:
+        """Distance of the solids, mm, as far as it is worth knowing; what they have in common is noted."""
+        far = float(np.interp(at, self.path.length, self.free))
+        if far > self.step:
+            return far
+        self.poses += 1
+        gap, volume = self.meet(*self._pose(at))
+        self.worst = max(self.worst, (volume, at))
+        return gap
 
-    def _volume(self, at: int) -> float:
-        return common_volume((self.shapes[0].solid, self._second(at)))
+    def _slabs(self, place: complex, turn: float) -> tuple[float, float]:
+        """What upright slabs keep apart at least, mm, and their common volume, mm^3, the second in its place."""
+        import shapely
+
+        way = cmath.rect(1.0, turn)
+        axes = np.array([[way.real, way.imag], [-way.imag, way.real]])
+        moved = [shapely.transform(s.section, lambda xy: xy @ axes + (place.real, place.imag)) for s in self.second]
+        gap, volume = 2 * self.gaps[0], 0.0
+        for one in self.first:
+            for two, section in zip(self.second, moved, strict=True):
+                height = min(one.high, two.high + self.lift) - max(one.low, two.low + self.lift)
+                if height <= 0:
+                    continue
+                # quicker than the distance itself
+                gap = next((g for g in self.gaps if g <= gap and not shapely.dwithin(one.section, section, g)), 0.0)
+                if gap == 0 and shapely.intersects(one.section, section):
+                    volume += height * float(shapely.area(shapely.intersection(one.section, section)))
+        return gap, volume if volume > self.sliver else 0.0
+
+    def _meshes(self, place: complex, turn: float) -> tuple[float, float]:
+        """The same of any solids; their distance as far as it is sought."""
+        one, two = self.shapes
+        moved = two.solid.rotate([0.0, 0.0, math.degrees(turn)]).translate([place.real, place.imag, self.lift])
+        gap = float(one.solid.min_gap(moved, self.sought))
+        return gap, common_volume((one.solid, moved)) if gap <= 0 else 0.0
+
+
+def _hidden(one: tuple[float, float], two: tuple[float, float]) -> float:
+    """How deep (mm) a pair may be in each other between two places on its path with their gaps."""
+    return (two[0] - one[0] - one[1] - two[1]) / 2

@@ -34,12 +34,15 @@ class Course(Record):
 
 
 class Path(Record):
-    """The second as seen from the first at times t; ``length``: how far any of its points has moved since, at most."""
+    """The second as seen from the first, ``seen`` at any times; ``length``: how far any of its points has gone at most.
 
+    ``times`` and ``length`` (mm) belong together; ``distances`` (mm) are those of the axes at these times.
+    """
+
+    seen: Callable[[Real], tuple[Complex, Real]]
     times: Real
-    places: Complex
-    turns: Real
     length: Real
+    distances: Real
     share: float
     key: tuple[object, ...] | None
 
@@ -76,7 +79,7 @@ def path_of(pair: tuple[Instance, Instance], shapes: tuple[Shape, Shape], course
     )
     # an arc is longer than its chord
     length = np.concatenate([[0.0], np.cumsum(steps)]) * (1 + 2.0 / _PER_CYCLE)
-    return Path(times, places, turned, length, share, key)
+    return Path(lambda t: _seen(course, pair, t), times, length, np.abs(places), share, key)
 
 
 def _chains(course: Course, pair: tuple[Instance, Instance]) -> tuple[tuple[Fraction, ...], tuple[Fraction, ...]]:

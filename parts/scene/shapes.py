@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from geometry.base.record import Record
 from geometry.curves.curve import Complex
 from geometry.curves.line_arc import Arc
 from geometry.plane.profile import Profile
@@ -21,6 +23,14 @@ if TYPE_CHECKING:
 # what is one length, mm; what radii may lie beyond samples, or chords, as a part of them
 _SAME, _DIGITS, _MARGIN = 1e-7, 7, 1e-3
 _TURN = 2 * math.pi
+
+
+class Slab(Record):
+    """A section (a polygon of shapely) between two levels, mm."""
+
+    low: float
+    high: float
+    section: Any
 
 
 class Shape:
@@ -42,6 +52,25 @@ class Shape:
     def solid(self) -> Any:
         """A mesh inside it; GeometryError where a wall is too thin for one."""
         return inner_solid(self.part)
+
+    @cached_property
+    def slabs(self) -> tuple[Slab, ...] | None:
+        """The solid as upright slabs; None of one with screws, chamfers or curved faces."""
+        import shapely
+
+        body = self.part.body(0.0)
+        if body.is_faced or not all(body.is_upright(wall) for wall in body.walls):
+            return None
+        found = []
+        for low, high in pairwise(body.levels()):
+            loops = [np.asarray(points) for points in self.solid.slice((low + high) / 2).to_polygons()]
+            rings = [shapely.Polygon(points) for points in loops]
+            turns = [shapely.is_ccw(ring.exterior) for ring in rings]
+            walls, holes = ([r for r, left in zip(rings, turns, strict=True) if left == side] for side in (True, False))
+            section = shapely.difference(shapely.union_all(walls), shapely.union_all(holes))
+            shapely.prepare(section)
+            found.append(Slab(low, high, section))
+        return tuple(found)
 
     @cached_property
     def bore(self) -> float:

@@ -1,0 +1,146 @@
+"""What runs into each other on the way: found where polygons of GEOS, turned step by step, find it; repeats once."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from shapely import affinity
+
+from geometry.approximation.chords import approximate_profile
+from parts.scene.load import make_parts, scene_from_dict
+from tests.exporters.making import run, table
+
+DWELL = {"move": "dwell", "angle_deg": 60.0}
+CAM = {
+    "kind": "cam", "follower": "flat", "lift": 18.0, "base_circle_radius": 28.0, "face_width": 3.0,
+    "bore_diameter": 6.0, "phases": [{"move": "rise", "angle_deg": 120.0, "law": "polynomial_345"}, DWELL,
+               {"move": "return_", "angle_deg": 120.0, "law": "sine"}, DWELL],
+}  # fmt: skip
+POST = {"kind": "pin", "diameter": 6.0, "length": 3.0}
+DRIVE = [{"instance": "cam"}]
+
+
+def check(folder: Path, raw: dict[str, Any], capsys: pytest.CaptureFixture[str]) -> tuple[int, dict[str, Any]]:
+    """Exit code and findings of ``higherpair check``."""
+    text = "".join(
+        table(f"[{name}.{key}]", keys) for name in ("parts", "instances") for key, keys in raw.get(name, {}).items()
+    )
+    text += "".join(table(f"[[{name}]]", row) for name in ("mates", "drives") for row in raw.get(name, ()))
+    file = folder / "scene.toml"
+    file.write_text(text, encoding="utf-8")
+    code = run("check", str(file), "--json")
+    return code, json.loads(capsys.readouterr().out)
+
+
+def polygon(part: dict[str, Any]) -> Any:
+    made = make_parts(scene_from_dict({"parts": {"a": part}}, "t", "t"), "t")[0]["a"]
+    points, _ = approximate_profile(made.section(0.0).region.outer, 0.001, arcs=False).geometry.expanded()
+    return shapely.Polygon(np.column_stack([points.real, points.imag]))
+
+
+def deepest(one: Any, two: Any, places: tuple[complex, complex], rates: tuple[float, float], whole: int) -> float:
+    """The greatest common area over many turns, by GEOS."""
+    found = 0.0
+    for t in np.linspace(0, whole, 240 * whole + 1):
+        moved = [
+            affinity.translate(affinity.rotate(p, 360 * t * w, origin=(0, 0)), at.real, at.imag)
+            for p, at, w in zip((one, two), places, rates, strict=True)
+        ]
+        found = max(found, moved[0].intersection(moved[1]).area)
+    return found
+
+
+@pytest.mark.parametrize(("x", "strikes"), [(48.5, True), (48.9, True), (49.05, False), (60.0, False)])
+def test_a_post_in_the_way_of_a_cam_is_found_though_the_first_pose_is_clear(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], x: float, strikes: bool
+) -> None:
+    """The cam reaches 28 + 18 mm, the post 3 mm: they meet below 49 mm."""
+    placed = {"cam": {"at": [0, 0, 0]}, "post": {"at": [x, 0, 0]}}
+    raw = {"parts": {"cam": CAM, "post": POST}, "instances": placed}
+    assert check(tmp_path, raw, capsys) == (0, {})
+    code, found = check(tmp_path, {**raw, "drives": DRIVE}, capsys)
+    assert code == int(strikes)
+    assert len(found.get("solids", [])) == int(strikes)
+    assert found["motion"]["poses"] <= 720 + 12
+    if strikes:
+        area = deepest(polygon(CAM), shapely.Point(0, 0).buffer(3.0, 256), (0j, complex(x)), (1.0, 0.0), 1)
+        # what lies inside both for certain
+        assert found["solids"][0]["volume"] == pytest.approx(3 * area, rel=0.1, abs=0.1)
+        assert 0 < found["solids"][0]["drive_turn_deg"] < 360
+
+
+def geared_cams(a: float) -> dict[str, Any]:
+    """Two cams on shafts that wheels of 20 and 30 teeth join below them."""
+    cam = {**CAM, "lift": 16.0}
+    wheels = {
+        name: {"kind": "spur_gear", "module": a / 25, "number_of_teeth": z, "face_width": 5}
+        for name, z in (("w1", 20), ("w2", 30))
+    }
+    mates = [{"kind": "external_gear_pair", "first": "w1", "second": "w2"}]
+    mates += [{"kind": "fixed", "first": w, "second": c, "offset": [0, 0, 6]} for w, c in (("w1", "c1"), ("w2", "c2"))]
+    return {"parts": {**wheels, "c1": cam, "c2": cam}, "mates": mates, "drives": [{"instance": "w1"}]}
+
+
+def test_two_cams_on_geared_shafts_are_held_over_their_common_period(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """They start clear and meet first in the second turn: the common period is three turns of the first."""
+    code, found = check(tmp_path, geared_cams(84.0), capsys)
+    cam = polygon({**CAM, "lift": 16.0})
+    other = affinity.rotate(cam, found["mates"][0]["second_rotation_deg"], origin=(0, 0))
+    area = deepest(cam, other, (0j, 84 + 0j), (1.0, -2 / 3), 3)
+    assert code == 1
+    (solid,) = found["solids"]
+    assert solid["volume"] == pytest.approx(3 * area, rel=0.01)
+    assert solid["drive_turn_deg"] > 360
+
+
+def test_what_lies_between_poses_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Circles of 44 mm, 88 mm apart: the cams only just touch, and no number of poses shows that they do not."""
+    code, found = check(tmp_path, geared_cams(88.0), capsys)
+    assert code == 0
+    assert found["motion"]["poses"] <= 720
+    (told,) = found["motion"]["uncovered"]
+    assert (told["first"], told["second"], told["share"]) == ("c1", "c2", 1.0)
+    assert 0 < told["depth"] < 1
+
+
+def test_what_repeats_is_tested_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Three wheels run past one in the middle without touching it, geared below; then one is a degree off."""
+    gear = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 30, "face_width": 5}
+    wide = {"kind": "spur_gear", "module": 6.0, "number_of_teeth": 10, "face_width": 5, "circumferential_thinning": 2.0}
+    names = {k: {"part": part} for part, k in (("gear", "sun"), ("wide", "middle"))}
+
+    def found(turns: tuple[float, ...]) -> dict[str, Any]:
+        mates = [{"kind": "fixed", "first": "sun", "second": "middle", "offset": [0, 0, 8]}]
+        instances = dict(names)
+        for k, turn in enumerate(turns):
+            instances |= {f"planet_{k}": {"part": "gear"}, f"wide_{k}": {"part": "wide"}}
+            mates += [
+                {"kind": "external_gear_pair", "first": "sun", "second": f"planet_{k}", "direction_deg": 110.0 * k},
+                {
+                    "kind": "fixed",
+                    "first": f"planet_{k}",
+                    "second": f"wide_{k}",
+                    "offset": [0, 0, 8],
+                    "rotation_deg": turn,
+                },
+            ]
+        raw = {
+            "parts": {"gear": gear, "wide": wide},
+            "instances": instances,
+            "mates": mates,
+            "drives": [{"instance": "sun"}],
+        }
+        code, checks = check(tmp_path, raw, capsys)
+        assert code == 0
+        return checks["motion"]
+
+    alike, odd = found((24.0, 24.0, 24.0)), found((24.0, 25.0, 24.0))
+    assert (alike["tested"], odd["tested"]) == (1, 2)
+    assert alike["poses"] < odd["poses"] <= 2 * 733
