@@ -6,7 +6,8 @@ import argparse
 import os
 import signal
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from itertools import pairwise
 from pathlib import Path
 from types import FrameType
@@ -252,6 +253,24 @@ def _parser(told: Words) -> argparse.ArgumentParser:
     )
     build.add_argument("--no-verify", action="store_true", help=told.text("do not read the files back"))
     build.set_defaults(run=_build)
+    catalogue = command("catalogue", told.text("build a scene for every choice of keys' values"), quiet)
+    catalogue.add_argument("scene", metavar=told.term("command line", "SCENE"), help=scene)
+    catalogue.add_argument(
+        "--vary",
+        action="append",
+        required=True,
+        metavar=told.term("command line", "PART.KEY=VALUES"),
+        help=told.text("values 1,2,5 or a range 8:200 or 0.5:2:0.25, ends included (may be repeated)"),
+    )
+    who = catalogue.add_mutually_exclusive_group()
+    who.add_argument("--jobs", type=int, default=1, metavar="N", help=told.text("processes (default: 1)"))
+    who.add_argument(
+        "--dask",
+        metavar=told.term("command line", "ADDRESS"),
+        help=told.text("a Dask cluster that works on the same disk, like tcp://host:8786"),
+    )
+    catalogue.add_argument("--out", default="out", type=Path, help=out)
+    catalogue.set_defaults(run=_catalogue)
     check = command("check", told.text("contact and interference of the pairs of a scene"), as_json, quiet)
     check.add_argument("scenes", nargs="+", metavar=told.term("command line", "SCENE"), help=scenes)
     check.set_defaults(run=_check)
@@ -330,21 +349,52 @@ def _built(plan: Plan, options: argparse.Namespace) -> bool:
 
     folder = options.out / plan.scene.name
     partial, verify = bool(options.part or options.format), not options.no_verify
-    if sys.stdout.isatty() and not (options.quiet or options.json):
-        from rich.progress import Progress
-
-        with Progress(transient=True) as bar:
-            task = bar.add_task(plan.scene.name, total=len(plan.files))
-
-            def advance(path: str) -> None:
-                bar.update(task, advance=1, description=path)
-
-            built = build(plan, folder, verify=verify, partial=partial, progress=advance)
-    else:
-        built = build(plan, folder, verify=verify, partial=partial)
+    with _progress(options, plan.scene.name, len(plan.files)) as advance:
+        built = build(plan, folder, verify=verify, partial=partial, progress=advance)
     if not options.json and not (options.quiet and built.well):
         build_table(plan, folder, built)
     return built.well
+
+
+@contextmanager
+def _progress(options: argparse.Namespace, name: str, total: int) -> Iterator[Callable[[str], None]]:
+    """A bar on a terminal that wants one; what moves it on by one step, and says which."""
+    if not sys.stdout.isatty() or options.quiet or options.json:
+        yield lambda step: None
+        return
+    from rich.progress import Progress
+
+    with Progress(transient=True) as bar:
+        task = bar.add_task(name, total=total)
+        yield lambda step: bar.update(task, advance=1, description=step)
+
+
+def _catalogue(options: argparse.Namespace) -> int:
+    from collections import Counter
+    from math import prod
+
+    from exporters.production.catalogue import FAILED as BAD
+    from exporters.production.catalogue import OK, REFUSED, catalogue, workers
+    from parts.scene.variants import axes_of
+
+    scene = _scene(options.scene, options)
+    axes = axes_of(options.vary, scene)
+    folder, total = options.out / scene.name, prod(len(axis.values) for axis in axes)
+    with workers(options.jobs, options.dask) as executor, _progress(options, scene.name, total) as advance:
+        entries = catalogue(scene, options.scene, axes, folder, executor, advance)
+    verdicts = Counter(entry["verdict"] for entry in entries)
+    if verdicts[BAD] or not options.quiet:
+        told = words(scene.scene.language)
+        print(
+            told.text(
+                "{file}: {ok} ok, {refused} refused, {failed} failed",
+                file=folder / "catalogue.csv",
+                ok=verdicts[OK],
+                refused=verdicts[REFUSED],
+                failed=verdicts[BAD],
+            )
+        )
+    return FAILED if verdicts[BAD] else DONE
 
 
 def _refuse_one_folder(plans: Sequence[Plan]) -> None:

@@ -57,12 +57,13 @@ def table_of(pairs: Sequence[str]) -> dict[str, Any]:
                 raise SceneError(PLACE, key, text, "has_a_value", None, key=part)
         if name in owner:
             raise SceneError(PLACE, key, text, "given_twice")
-        owner[name] = _value(text.strip())
+        owner[name] = toml_value(text.strip())
     refuse_infinite(table, PLACE, "")
     return table
 
 
-def _value(text: str) -> Any:
+def toml_value(text: str) -> Any:
+    """A value as TOML has it; what is none is plain text."""
     try:
         parsed = tomllib.loads(f"v = {text}")
     except (tomllib.TOMLDecodeError, RecursionError):

@@ -58,6 +58,16 @@ REASONS = {
     "unknown_mate": N_("unknown kind of mate; known: {known}"),
     "unknown_table": N_("unknown table; known: {known}"),
     "unreadable": N_("cannot be read: {why}"),
+    "needs_cluster": N_('needs Dask: pip install "higherpair[cluster]"'),
+    "no_cluster": N_("no cluster answers there: {why}"),
+    "no_range": N_(
+        "a range is FIRST:LAST or FIRST:LAST:STEP, FIRST to LAST by a STEP above 0, of at most {most} values"
+    ),
+    "no_variation": N_("write PART.KEY=1,2,5 or PART.KEY=8:200 or PART.KEY=0.5:2:0.25"),
+    "too_many_variants": N_("makes {count} variants; at most {most}"),
+    "worker_lost": N_(
+        "a worker was ended from outside, mostly for want of memory; what is finished is kept: start again"
+    ),
     "which_part": N_("is missing: which part stands here? parts: {known}"),
     "wrong_purpose": N_("{format} is for {known}"),
 }

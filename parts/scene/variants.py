@@ -1,0 +1,136 @@
+"""Variants of a scene: the product of the values that keys of its parts are to take."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import tomllib
+from collections.abc import Iterator, Sequence
+from copy import deepcopy
+from decimal import Decimal
+from itertools import product
+from math import prod
+from typing import Any
+
+from geometry.base.record import Record
+from parts.base.refusal import SceneError, meant
+from parts.pages.inputs import toml_value
+from parts.scene.load import SceneFile, resolved, scene_from_resolved
+
+# where refusals of the command line stand
+PLACE = "--vary"
+MOST_VARIANTS = 100_000
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_RANGE = re.compile(rf"\s*({_NUMBER}):({_NUMBER})(?::({_NUMBER}))?\s*\Z", re.ASCII)
+# letters of a folder's name before it is cut
+_MOST_LETTERS = 120
+
+
+class Axis(Record):
+    """A key of a part, ``part.key``, and the values that it takes."""
+
+    key: str
+    values: tuple[Any, ...]
+
+
+class Variant(Record):
+    """One choice of values by key, its name as a folder, and its scene as reports keep it, not validated."""
+
+    name: str
+    values: dict[str, Any]
+    scene: dict[str, Any]
+
+
+def axes_of(asked: Sequence[str], scene: SceneFile) -> list[Axis]:
+    """``part.key=1,2,5`` and ``part.key=8:200`` or ``=0.5:2:0.25``, ends included, as axes.
+
+    Raises
+    ------
+    SceneError
+        With the key and the value: no such part or key, no range, a value or a key twice, too many variants.
+    """
+    found: list[Axis] = []
+    for word in asked:
+        key, sign, text = (s.strip() for s in word.partition("="))
+        part, _, rest = key.partition(".")
+        if not sign or not rest or not text:
+            raise SceneError(PLACE, word, None, "no_variation")
+        if part not in scene.parts:
+            raise SceneError(PLACE, key, text, "no_such_part", meant(part, scene.parts), known=list(scene.parts))
+        if any(axis.key == key for axis in found):
+            raise SceneError(PLACE, key, text, "given_twice")
+        axis = Axis(key, tuple(_values(key, text)))
+        names = [_name(key, value).lower() for value in axis.values]
+        for i, value in enumerate(axis.values):
+            if value in axis.values[:i] or names[i] in names[:i]:
+                raise SceneError(PLACE, key, value, "listed_twice")
+        _check_key(axis, scene)
+        found.append(axis)
+    if (count := prod(len(axis.values) for axis in found)) > MOST_VARIANTS:
+        raise SceneError(PLACE, " ".join(asked), None, "too_many_variants", count=count, most=MOST_VARIANTS)
+    return found
+
+
+def variants(scene: SceneFile, axes: Sequence[Axis]) -> Iterator[Variant]:
+    """Every choice, the last axis the fastest."""
+    kept = resolved(scene)
+    for choice in product(*(axis.values for axis in axes)):
+        values = {axis.key: value for axis, value in zip(axes, choice, strict=True)}
+        yield Variant(",".join(_name(key, value) for key, value in values.items()), values, _with(kept, values))
+
+
+def _values(key: str, text: str) -> Iterator[Any]:
+    """The values of a list of values and ranges."""
+    try:
+        yield from tomllib.loads(f"v = [{text}]")["v"]
+        return
+    except (tomllib.TOMLDecodeError, RecursionError):
+        pass
+    for piece in text.split(","):
+        if not piece.strip():
+            raise SceneError(PLACE, key, text, "no_variation")
+        if match := _RANGE.match(piece):
+            yield from _range(key, piece, [m for m in match.groups() if m is not None])
+        else:
+            yield toml_value(piece.strip())
+
+
+def _range(key: str, text: str, ends: Sequence[str]) -> list[Any]:
+    """From, to, and the step or 1, in decimal digits: 0.1 ten times is 1."""
+    first, last, step = (Decimal(e) for e in (*ends, "1")[:3])
+    if step <= 0 or last < first or not (last - first) / step < MOST_VARIANTS:
+        raise SceneError(PLACE, key, text.strip(), "no_range", most=MOST_VARIANTS)
+    number = int if all(re.fullmatch(r"[+-]?\d+", e) for e in ends) else float
+    return [number(first + k * step) for k in range(int((last - first) / step) + 1)]
+
+
+def _check_key(axis: Axis, scene: SceneFile) -> None:
+    """Refuse a key that the part has not, whatever its value; what a value does is the variant's."""
+    try:
+        scene_from_resolved(_with(resolved(scene), {axis.key: axis.values[0]}), PLACE)
+    except SceneError as error:
+        if error.code in ("unknown_key", "not_a_table"):
+            raise
+
+
+def _with(scene: dict[str, Any], values: dict[str, Any]) -> dict[str, Any]:
+    """A copy of a resolved scene with other values."""
+    made = deepcopy(scene)
+    for key, value in values.items():
+        table = made["parts"]
+        *path, name = key.split(".")
+        for step in path:
+            if table.get(step) is None:
+                table[step] = {}
+            elif not isinstance(table[step], dict):
+                raise SceneError(PLACE, key, value, "unknown_key", known=list(table))
+            table = table[step]
+        table[name] = value
+    return made
+
+
+def _name(key: str, value: object) -> str:
+    """``key=value`` as a part of a folder's name; with a hash where letters had to go."""
+    told = f"{key}={value}"
+    clean = re.sub(r"[^A-Za-z0-9.+=_-]", "_", told)[:_MOST_LETTERS]
+    return clean if clean == told else f"{clean}-{hashlib.sha256(told.encode()).hexdigest()[:8]}"
