@@ -20,7 +20,8 @@ MAY_IMPORT = {"geometry": {"geometry"}, "parts": {"geometry", "parts"}, "exporte
 # mathematics only: no files, no file format, no words for users
 NOT_IN_GEOMETRY = {"os", "pathlib", "io", "sys", "shutil", "tempfile", "json", "tomllib", "ezdxf", "shapely", "msgspec",
                    "rich", "argparse", "trimesh", "manifold3d", "cadquery", "OCP", "lib3mf", "scipy"}  # fmt: skip
-HEAVY = {"ezdxf", "shapely", "rich", "trimesh", "manifold3d", "cadquery", "OCP", "lib3mf", "scipy", "matplotlib"}
+HEAVY = {"ezdxf", "shapely", "rich", "trimesh", "manifold3d", "cadquery", "OCP", "lib3mf", "scipy", "matplotlib",
+         "distributed"}  # fmt: skip
 # a writer is itself imported only where its format is written
 HEAVY_AT_TOP = {"exporters/formats/dxf_file.py": {"ezdxf"}, "exporters/formats/drawing_dxf.py": {"ezdxf"}}
 # nothing else may be needed to install and run
