@@ -435,6 +435,7 @@ def _check(options: argparse.Namespace) -> int:
     from exporters.production.check import scene_checks
     from exporters.production.check_lines import check_lines, has_bad_verdict
     from parts.base.refusal import SceneError
+    from parts.scene.checks import check_solids
     from parts.scene.load import in_keys_of_file, make_parts
     from parts.scene.placing import place
 
@@ -443,8 +444,9 @@ def _check(options: argparse.Namespace) -> int:
         with in_keys_of_file(scene.origins):
             parts, matings = make_parts(scene, address)
             placing = place(scene.instances, scene.drives, parts, matings, address)
-        if len(placing.instances) < 2:
-            raise SceneError(address, "mates", None, "nothing_to_check")
+            if len(placing.instances) < 2:
+                raise SceneError(address, "mates", None, "nothing_to_check")
+            check_solids(parts, address)
         asked, language = scene.checks.transmission_error, scene.scene.language
         return scene_checks(placing, parts, scene.drives, language, contact=True, transmission=asked), scene
 

@@ -14,9 +14,7 @@ from geometry.plane.offset_region import OffsetRegion
 from parts.base.part import Part
 from parts.base.reasons import reason
 from parts.base.refusal import SceneError, meant, placed
-from parts.base.schema import unit_of
 from parts.base.texts import N_, Message, Text, filled, message
-from parts.keys.wheel import as_typed
 from parts.scene.formats import FORMATS, Form, file_kind
 from parts.scene.load import ExportSpec, SceneFile, default_export, in_keys_of_file, make_parts
 from parts.scene.placing import Placing, place
@@ -74,6 +72,10 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
             raise SceneError(source, "--format", name, "unknown_format", meant(name, FORMATS), known=list(FORMATS))
     parts, matings = make_parts(scene, source)
     placing = place(scene.instances, scene.drives, parts, matings, source)
+    if scene.checks.interference and len(placing.instances) > 1:
+        from parts.scene.checks import check_solids
+
+        check_solids(parts, source)
     exports = _wanted_exports(scene, source, only_formats)
     left_out = [
         LeftOut(f"exports[{i + 1}]", message("format {format} was not asked for", format=e.format), as_asked=True)
@@ -108,7 +110,7 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
             _take(path, where, taken, source)
             job = Job(parts[part_id], export, _section(parts[part_id], export, source, where), path, where)
             if job.kind.is_solid:
-                _check_body(job, scene, source)
+                _check_body(job, source)
             made.append(job)
         if not export.assembly:
             jobs += made
@@ -168,16 +170,16 @@ def _without_kernel(
     return [(w, e) for w, e in exports if w not in places], [LeftOut(where, why) for where in places]
 
 
-def _check_body(job: Job, scene: SceneFile, source: str) -> None:
+def _check_body(job: Job, source: str) -> None:
     """Refuse a solid that does not exist, in the key that asks for it."""
     try:
         _ = job.body
     except ParameterError as refusal:
-        keys = scene.parts[job.part.id]
-        error = as_typed(keys, refusal)
-        if error.name == "offset":
-            raise placed(source, job.place, error, "mm") from error
-        raise placed(source, f"parts.{job.part.id}", error, unit_of(type(keys), error.name)) from error
+        if refusal.name == "offset":
+            raise placed(source, job.place, refusal, "mm") from refusal
+        from parts.scene.checks import solid_refused
+
+        raise solid_refused(job.part, refusal, source) from refusal
 
 
 def _wanted_exports(scene: SceneFile, source: str, only_formats: list[str]) -> list[tuple[str, ExportSpec]]:

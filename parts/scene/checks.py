@@ -10,10 +10,12 @@ from msgspec import Struct
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.nearest import nearest
 from parts.base.mate import End, MateKeys, MateKind, Mating
+from parts.base.part import Part
 from parts.base.refusal import SceneError, placed
 from parts.base.registry import KINDS
 from parts.base.schema import tried, unit_of
 from parts.base.texts import message
+from parts.keys.wheel import as_typed
 from parts.mates.pairing import mated
 from parts.mates.registry import MATES
 
@@ -108,3 +110,24 @@ def _check_kinds(
     if other := next((m.name for m in MATES.values() if m.joins and found in m.joins), None):
         code, told["other"] = "mate_joins_other", other
     raise SceneError(source, f"{place}.{key}", getattr(mate, key), code, **told)
+
+
+def check_solids(parts: Mapping[str, Part], source: str) -> None:
+    """Refuse solids that do not exist, before they are held against each other.
+
+    Raises
+    ------
+    SceneError
+        In the key of the part.
+    """
+    for part in parts.values():
+        try:
+            part.body(0.0)
+        except ParameterError as refusal:
+            raise solid_refused(part, refusal, source) from refusal
+
+
+def solid_refused(part: Part, refusal: ParameterError, source: str) -> SceneError:
+    """The refusal of a part's solid in the key that asks for it."""
+    error = as_typed(part.keys, refusal)
+    return placed(source, f"parts.{part.id}", error, unit_of(type(part.keys), error.name))
