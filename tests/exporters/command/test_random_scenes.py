@@ -72,7 +72,7 @@ def test_a_solid_that_only_the_check_asks_for_is_refused_in_its_key(command: str
     # random_scene("n1.1150"): both commands ended in a traceback
     scene = tmp_path / "scene.toml"
     scene.write_text(
-        '[parts.pin]\nkind = "pin"\ndiameter = 8.0\n[parts.wheel]\nkind = "spur_gear"\nmodule = 2.0\n'
+        '[parts.pin]\nkind = "pin"\ndiameter = 8.0\nlength = 9.0\n[parts.wheel]\nkind = "spur_gear"\nmodule = 2.0\n'
         "number_of_teeth = 23\nface_width = 8.0\nbore_diameter = 8.0\nhub = { diameter = 18.0 }\n"
         "web = { thickness = 3.0, rim_diameter = 36.0, shift = -2.336 }\nface_chamfer = { below = 0.3 }\n"
         '[[exports]]\nformat = "dxf"\n[checks]\ninterference = true\n',
