@@ -133,12 +133,12 @@ def basis(degree: int, knots: Real, t: Real) -> tuple[Index, Real]:
     Cox's and de Boor's recursion, written so that the values at the ends of the domain are exactly 0 and 1.
     """
     span = span_index(degree, knots, t)
+    # the knots about each parameter's span, fetched once
+    near = [knots[span + offset] for offset in range(1 - degree, degree + 1)]
+    beyond = [t - low for low in near[:degree]]
     values = [np.ones_like(t)]
     for k in range(1, degree + 1):
-        share = []
-        for j in range(k):
-            low = knots[span - k + 1 + j]
-            share.append((t - low) / (knots[span + 1 + j] - low))
+        share = [beyond[degree - k + j] / (near[degree + j] - near[degree - k + j]) for j in range(k)]
         inner = [share[j - 1] * values[j - 1] + (1 - share[j]) * values[j] for j in range(1, k)]
         values = [(1 - share[0]) * values[0], *inner, share[-1] * values[-1]]
     return span - degree, np.stack(values, axis=-1)
