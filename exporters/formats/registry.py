@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from geometry.solids.body import Body
     from parts.base.readback import ReadBack
     from parts.solids.faces import Curves as SolidCurves
-    from parts.solids.step_text import StepPart
+    from parts.solids.step_text import StepForm, StepPart
 
 Chords: TypeAlias = tuple[Approximation, ...]
 Curves: TypeAlias = "tuple[Outline, ...]"
@@ -235,24 +235,31 @@ def _step_part(content: Content, made: SolidCurves) -> StepPart:
     from parts.solids.faces import solid_faces
     from parts.solids.step_text import StepPart
 
-    return StepPart(content.part.id, solid_faces(content.body, made), content.part.colour)
+    part, body = content.part, content.body
+    volume = part.made_by.moments(body).volume
+    return StepPart(part.id, solid_faces(body, made), part.colour, part.material, part.density, volume)
+
+
+def _step_form(content: Content) -> StepForm:
+    from parts.solids.step_text import StepForm, decimals
+
+    export = content.export
+    return StepForm(decimals(content.tolerance), export.shared, export.author, export.organisation)
 
 
 def _write_step(content: Content, made: SolidCurves, file: Path) -> dict[str, int]:
     from exporters.formats.step import write_step
-    from parts.solids.step_text import decimals
 
-    return write_step(file, _step_part(content, made), decimals(content.tolerance))
+    return write_step(file, _step_part(content, made), _step_form(content))
 
 
 def _write_step_assembly(
     title: str, contents: Sequence[Content], made: dict[str, SolidCurves], places: Places, file: Path
 ) -> dict[str, int]:
     from exporters.formats.step import write_step_assembly
-    from parts.solids.step_text import decimals
 
     solids = [_step_part(c, made[c.part.id]) for c in contents]
-    return write_step_assembly(file, title, solids, places, max(decimals(c.tolerance) for c in contents))
+    return write_step_assembly(file, title, solids, places, _step_form(contents[0]))
 
 
 REGISTRY: dict[str, FileFormat[Any]] = {

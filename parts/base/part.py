@@ -127,9 +127,9 @@ class Part(Record, dict=True):
             raise ImportError(text) from error
         from parts.solids.faces import solid_curves, solid_faces
         from parts.solids.kernel import kernel_solid
-        from parts.solids.step_text import StepPart, decimals, part_text
+        from parts.solids.step_text import StepForm, StepPart, decimals, part_text
 
         body = self.body(offset)
-        part = StepPart(self.id, solid_faces(body, solid_curves(body, tolerance)), self.colour)
-        solid = cadquery.Solid(kernel_solid(part_text(part, decimals(tolerance))))
+        part = StepPart(self.id, solid_faces(body, solid_curves(body, tolerance)))
+        solid = cadquery.Solid(kernel_solid(part_text(part, StepForm(decimals(tolerance)))))
         return cadquery.Workplane("XY").newObject([solid])

@@ -16,7 +16,7 @@ class Form(Enum):
     ARCS = "lines and arcs"
     SPLINES = "curves of a drawing"
     TRIANGLES = "a mesh, with coordinates as float32"
-    FACES = "faces of the CAD kernel"
+    FACES = "faces between shared edges"
     SHEET = "a drawing on paper, with words"
 
 

@@ -91,6 +91,11 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
         | None
     ) = None
     assembly: Annotated[bool, Meta(description="step, 3mf: one file of all instances in their places")] = False
+    author: Annotated[str, Meta(max_length=200, description="step: the author, for its header")] = ""
+    organisation: Annotated[str, Meta(max_length=200, description="step: school, group or firm, for its header")] = ""
+    shared: Annotated[
+        bool, Meta(description="step: surfaces that are alike stand there once; false: one for each face")
+    ] = True
     rack_step: RackStep | None = None
     intervals: Intervals | None = None
     speed_rpm: CamSpeed | None = None
@@ -285,6 +290,9 @@ def _export_spec(table: object, parts: dict[str, Struct], source: str, place: st
         raise SceneError(source, f"{place}.kerf", spec.kerf, "kerf_and_offset", REMOVED)
     if spec.format != "dxf" and spec.dxf_version != "R2000":
         refuse("dxf_version", "only_for_format", formats='"dxf"', format=spec.format)
+    for key, default in (("author", ""), ("organisation", ""), ("shared", True)):
+        if spec.format != "step" and getattr(spec, key) != default:
+            refuse(key, "only_for_format", formats='"step"', format=spec.format)
     if spec.assembly and spec.format not in ASSEMBLY_FORMATS:
         refuse("assembly", "only_for_format", formats=[f'"{f}"' for f in ASSEMBLY_FORMATS], format=spec.format)
     purposes = tolerances_of(spec.format)

@@ -36,7 +36,7 @@ from geometry.solids.faces import (
 _HEAD = """ISO-10303-21;
 HEADER;
 FILE_DESCRIPTION((''),'2;1');
-FILE_NAME('{name}','2000-01-01T00:00:00',(''),(''),'higherpair','higherpair','');
+FILE_NAME('%s','2000-01-01T00:00:00',('%s'),('%s'),'higherpair','higherpair','');
 FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));
 ENDSEC;
 DATA;
@@ -50,12 +50,24 @@ _PER_LINE = 16
 Occurrence = tuple[str, str, Placement3]
 
 
-class StepPart(Record):
-    """A named solid with its colour, like "#c08040"."""
+class StepPart(Record, eq=False):
+    """A named solid with its colour, like "#c08040", its material, density, g/cm^3, and volume, mm^3."""
 
     name: str
     solid: Solid
-    colour: str | None
+    colour: str | None = None
+    material: str | None = None
+    density: float | None = None
+    volume: float | None = None
+
+
+class StepForm(Record):
+    """How a file is written: ``digits``: decimals of coordinates; ``shared``: faces that are alike have one surface."""
+
+    digits: int = _LEAST_DECIMALS
+    shared: bool = True
+    author: str = ""
+    organisation: str = ""
 
 
 def decimals(tolerance: float) -> int:
@@ -63,16 +75,16 @@ def decimals(tolerance: float) -> int:
     return max(_LEAST_DECIMALS, math.ceil(-math.log10(_SHARE * tolerance)))
 
 
-def part_text(part: StepPart, digits: int) -> str:
-    """The file of one named solid, its coordinates with ``digits`` decimals."""
-    text = _Text(digits)
+def part_text(part: StepPart, form: StepForm) -> str:
+    """The file of one named solid."""
+    text = _Text(form)
     text.part(part)
     return text.whole(part.name)
 
 
-def assembly_text(name: str, parts: Sequence[StepPart], occurrences: Sequence[Occurrence], digits: int) -> str:
+def assembly_text(name: str, parts: Sequence[StepPart], occurrences: Sequence[Occurrence], form: StepForm) -> str:
     """The file of one product per part and an occurrence of it for each of ``occurrences``."""
-    text = _Text(digits)
+    text = _Text(form)
     text.assembly(name, parts, occurrences)
     return text.whole(name)
 
@@ -80,11 +92,13 @@ def assembly_text(name: str, parts: Sequence[StepPart], occurrences: Sequence[Oc
 class _Text:
     """The entities of a file, numbered as they come; small ones that are alike are written once."""
 
-    def __init__(self, digits: int) -> None:
-        self.digits = digits
+    def __init__(self, form: StepForm) -> None:
+        self.form = form
         self.lines: list[str] = []
         self.numbers = count(1)
         self.known: dict[str, int] = {}
+        # the shape of each product definition
+        self.wholes: dict[int, int] = {}
         self.application = self.add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')")
         self.add(
             f"APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000,#{self.application})"
@@ -92,7 +106,8 @@ class _Text:
 
     def whole(self, name: str) -> str:
         """The file, all of it ASCII."""
-        return "".join([_HEAD.replace("{name}", string(f"{name}.step")), *self.lines, _TAIL])
+        words = (string(word) for word in (f"{name}.step", self.form.author, self.form.organisation))
+        return "".join([_HEAD % tuple(words), *self.lines, _TAIL])
 
     def add(self, text: str) -> int:
         """A new entity."""
@@ -129,7 +144,32 @@ class _Text:
 
     def part(self, part: StepPart) -> tuple[int, int]:
         """A product with its solid and colour: its definition and its representation."""
-        return self._product(part.name, "ADVANCED_BREP_SHAPE_REPRESENTATION", [self._solid(part)])
+        definition, shape = self._product(part.name, "ADVANCED_BREP_SHAPE_REPRESENTATION", [self._solid(part)])
+        if part.material is not None:
+            words = f"DESCRIPTIVE_REPRESENTATION_ITEM('{string(part.material)}','{string(part.material)}')"
+            self._property(definition, "material property", "material name", self.add(words))
+        if part.density is not None:
+            unit = self._derived((self.once("(MASS_UNIT()NAMED_UNIT(*)SI_UNIT($,.GRAM.))"), 1),
+                                 (self.once("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.CENTI.,.METRE.))"), -3))  # fmt: skip
+            value = f"MEASURE_REPRESENTATION_ITEM('g/cm3',POSITIVE_RATIO_MEASURE({real(part.density)}),#{unit})"
+            self._property(definition, "material property", "density", self.add(value))
+        if part.volume is not None:
+            unit = self._derived((self.once("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))"), 3))
+            value = f"MEASURE_REPRESENTATION_ITEM('volume measure',VOLUME_MEASURE({real(part.volume)}),#{unit})"
+            whole = self.wholes[definition]
+            self._property(whole, "geometric validation property", "volume", self.add(value))
+        return definition, shape
+
+    def _property(self, of: int, kind: str, name: str, item: int) -> None:
+        """A property of a product, or of its shape."""
+        found = self.add(f"PROPERTY_DEFINITION('{kind}','{name}',#{of})")
+        value = self.add(f"REPRESENTATION('{name}',(#{item}),#{self._context()})")
+        self.add(f"PROPERTY_DEFINITION_REPRESENTATION(#{found},#{value})")
+
+    def _derived(self, *powers: tuple[int, int]) -> int:
+        """A product of units, each to a power."""
+        elements = [self.once(f"DERIVED_UNIT_ELEMENT(#{unit},{power}.)") for unit, power in powers]
+        return self.once(f"DERIVED_UNIT(({_list(elements)}))")
 
     def assembly(self, name: str, parts: Sequence[StepPart], occurrences: Sequence[Occurrence]) -> None:
         """A product of occurrences of others."""
@@ -167,7 +207,7 @@ class _Text:
         self.add(f"PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,(#{product}))")
         formation = self.add(f"PRODUCT_DEFINITION_FORMATION('','',#{product})")
         definition = self.add(f"PRODUCT_DEFINITION('design','',#{formation},#{stage})")
-        whole = self.add(f"PRODUCT_DEFINITION_SHAPE('','',#{definition})")
+        whole = self.wholes[definition] = self.add(f"PRODUCT_DEFINITION_SHAPE('','',#{definition})")
         shape = self.add(f"{kind}('',({_list([self._home(), *items])}),#{self._context()})")
         self.add(f"SHAPE_DEFINITION_REPRESENTATION(#{whole},#{shape})")
         return definition, shape
@@ -215,8 +255,8 @@ class _Shell:
 
     def __init__(self, text: _Text, solid: Solid) -> None:
         self.text = text
-        places = (np.round(solid.points, text.digits) + 0.0).ravel().tolist()
-        written = [f"%.{text.digits}f" % x for x in places]
+        places = (np.round(solid.points, text.form.digits) + 0.0).ravel().tolist()
+        written = [f"%.{text.form.digits}f" % x for x in places]
         numbers = [x.rstrip("0") for x in written]
         self.points = text.many("CARTESIAN_POINT('',(%s,%s,%s))", numbers[::3], numbers[1::3], numbers[2::3])
         self.vertices = text.many("VERTEX_POINT('',#%d)", self.points[solid.vertices].tolist())
@@ -266,13 +306,13 @@ class _Shell:
             listed = _list(["%d"] * edges.shape[1])
             loops = text.many(f"EDGE_LOOP('',({listed}))", *_columns(uses.reshape(edges.shape)))
             bounds.append(text.many("FACE_BOUND('',#%d,.T.)", loops.tolist()).tolist())
-        surfaces = np.broadcast_to(self._surfaces(faces), len(bounds[0])).tolist()
+        surfaces = self._surfaces(faces, len(bounds[0])).tolist()
         listed = ",".join(["#%d"] * len(bounds))
         sense = "FT"[faces.along]
         return text.many(f"ADVANCED_FACE('',({listed}),#%d,.{sense}.)", *[*bounds, surfaces]).tolist()
 
-    def _surfaces(self, faces: Faces) -> Index:
-        """The surfaces of a bundle of faces, one for each or one for all."""
+    def _surfaces(self, faces: Faces, size: int) -> Index:
+        """The surfaces of a bundle of faces (size,)."""
         text, surface = self.text, faces.surface
         if isinstance(surface, Extrusion):
             vector = text.once(f"VECTOR('',#{text.direction(surface.direction[0].tolist())},1.)")
@@ -298,7 +338,10 @@ class _Shell:
         else:
             assert isinstance(surface, Sphere)
             word = f"SPHERICAL_SURFACE('',#{{place}},{real(surface.radius)})"
-        return np.array([text.once(word.replace("{place}", str(p))) for p in self._frames(surface.frame)])
+        words = [word.replace("{place}", str(place)) for place in self._frames(surface.frame)]
+        if text.form.shared:
+            return np.broadcast_to([text.once(w) for w in words], size)
+        return np.array([text.add(w) for w in (words * size)[:size]])
 
 
 def real(value: float) -> str:

@@ -112,7 +112,7 @@ def test_copies_of_a_solid_are_no_instances(train_step: Path, tmp_path: Path) ->
     from exporters.production.recheck import recheck
     from geometry.base.placement import Placement3
     from parts.solids.faces import solid_curves, solid_faces
-    from parts.solids.step_text import StepPart
+    from parts.solids.step_text import StepForm, StepPart
 
     found, made = read_step_assembly(train_step), train()[0]
     bodies = {name: made[name].body(0.0) for name, *_ in found.prototypes}
@@ -124,7 +124,7 @@ def test_copies_of_a_solid_are_no_instances(train_step: Path, tmp_path: Path) ->
         rotation = tuple(tuple(row) for row in matrix[:, :3].tolist())
         part = "copy" if name == "free" else found.prototypes[index][0]
         rows.append((name, part, Placement3(rotation, tuple(matrix[:, 3].tolist()))))  # type: ignore[arg-type]
-    write_step_assembly(tmp_path / "train.step", "train", parts, rows, 8)
+    write_step_assembly(tmp_path / "train.step", "train", parts, rows, StepForm())
     text = (tmp_path / "train.step").read_text(encoding="ascii").replace("'copy','copy'", "'planet','planet'")
     (tmp_path / "train.step").write_text(text, encoding="ascii")
     (tmp_path / "report.json").write_bytes((train_step.parent / "report.json").read_bytes())

@@ -32,7 +32,7 @@ from parts.cams.barrel_cam.probe import walls_of
 from parts.scene.formats import FILE_KINDS
 from parts.solids.faces import solid_curves, solid_faces
 from parts.solids.mesh import Mesh, body_mesh, mesh_outlines
-from parts.solids.step_text import StepPart
+from parts.solids.step_text import StepForm, StepPart
 from tests.exporters.making import read_report, run
 from tests.parts.cams.barrel_cam.test_barrel_cam import CONE, END, GROOVE, SWING, body_of, part_of
 from tests.parts.cams.disk_cam.test_cam import scene_text
@@ -338,7 +338,7 @@ def measured_length(folder: Path) -> float:
 def written_step(file: Path, body: BarrelBody) -> float:
     """Write a cam within 1e-6 mm; what its splines are off, mm."""
     curves = solid_curves(body, 1e-6)
-    write_step(file, StepPart("cam", solid_faces(body, curves), None), 8)
+    write_step(file, StepPart("cam", solid_faces(body, curves), None), StepForm())
     return max(c.max_error for c in curves)
 
 

@@ -21,7 +21,7 @@ from parts.base.refusal import SceneError
 from parts.scene.load import load_scene, make_parts, scene_from_dict
 from parts.solids.faces import solid_curves, solid_faces
 from parts.solids.mesh import body_mesh, mesh_outlines
-from parts.solids.step_text import StepPart
+from parts.solids.step_text import StepForm, StepPart
 from tests.oracles.rack_sweep import RackTool
 from tests.oracles.space_rack import space_penetration
 
@@ -179,7 +179,7 @@ def test_the_wrong_screw_is_seen_in_step(tmp_path: Path) -> None:
     keys = {**GEAR, "number_of_teeth": 8, "bore_diameter": 4.0}
     body = body_of(keys)
     file = tmp_path / "gear.step"
-    write_step(file, StepPart("gear", solid_faces(body, solid_curves(body, 9e-7)), None), 8)
+    write_step(file, StepPart("gear", solid_faces(body, solid_curves(body, 9e-7)), None), StepForm())
     solid = read_step(file)
     assert not verify_solid(solid, body, 1e-6, 1e-6).failures
     for other in ({"hand": "left"}, {"double_helical": True}):

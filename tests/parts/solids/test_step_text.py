@@ -22,7 +22,7 @@ from parts.base.part import Part
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
 from parts.solids.faces import solid_curves, solid_faces
-from parts.solids.step_text import StepPart, assembly_text, part_text, real, string
+from parts.solids.step_text import StepForm, StepPart, assembly_text, part_text, real, string
 from tests.parts.cams.barrel_cam.test_barrel_cam import CONE, END, GROOVE
 from tests.sampling import examples
 
@@ -69,7 +69,7 @@ def made(name: str) -> tuple[Part, Solid, str]:
     part = part_of(KINDS[name][0])
     body = part.body(0.0)
     solid = solid_faces(body, solid_curves(body, 9e-7))
-    return part, solid, part_text(StepPart("p", solid, None), 8)
+    return part, solid, part_text(StepPart("p", solid, None), StepForm())
 
 
 def check_closed(solid: Solid) -> None:
@@ -172,7 +172,7 @@ def test_random_gears_are_closed(teeth: int, module: float, shift: float, helix:
 def test_files_are_small(keys: dict[str, Any], most: int) -> None:
     body = part_of(keys).body(0.0)
     solid = solid_faces(body, solid_curves(body, 9.9e-7))
-    assert len(part_text(StepPart("p", solid, "#c08040"), 8)) <= most
+    assert len(part_text(StepPart("p", solid, "#c08040"), StepForm())) <= most
 
 
 @pytest.mark.heavy
@@ -181,7 +181,7 @@ def test_a_file_of_ten_thousand_teeth_is_ten_times_that_of_a_thousand() -> None:
     sizes = {}
     for teeth in (200, 1000, 10_000):
         body = part_of({**GEAR, "number_of_teeth": teeth}).body(0.0)
-        text = part_text(StepPart("p", solid_faces(body, solid_curves(body, 9.9e-7)), None), 8)
+        text = part_text(StepPart("p", solid_faces(body, solid_curves(body, 9.9e-7)), None), StepForm())
         assert text.count("=ADVANCED_FACE(") == 6 * teeth + 3
         sizes[teeth] = len(text)
     assert sizes[200] <= 1_800_000
@@ -205,6 +205,53 @@ def test_words_are_ascii(words: str, written: str) -> None:
 
 
 @needs_kernel
+def test_material_density_and_volume_come_back(tmp_path: Path) -> None:
+    from OCP.STEPCAFControl import STEPCAFControl_Reader
+    from OCP.TCollection import TCollection_ExtendedString
+    from OCP.TDF import TDF_LabelSequence
+    from OCP.TDocStd import TDocStd_Document
+    from OCP.XCAFDoc import XCAFDoc_DocumentTool, XCAFDoc_Material, XCAFDoc_MaterialTool, XCAFDoc_Volume
+
+    part = StepPart("p", made("plain")[1], None, "сталь 45", 7.85, 1234.5678901)
+    file = tmp_path / "p.step"
+    file.write_text(part_text(part, StepForm(author="Ім'я", organisation="КПІ")), encoding="ascii")
+    # the kernel's header has no names that are not ASCII: the file is asked itself
+    assert "('\\X2\\04060" in file.read_text()
+    assert "('\\X2\\041A041F0406\\X0\\')" in file.read_text()
+    reader, document = STEPCAFControl_Reader(), TDocStd_Document(TCollection_ExtendedString("XmlOcaf"))
+    reader.SetMatMode(True)
+    reader.SetPropsMode(True)
+    reader.ReadFile(str(file))
+    assert reader.Transfer(document)
+    found = TDF_LabelSequence()
+    XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).GetFreeShapes(found)
+    volume = XCAFDoc_Volume()
+    assert found.Value(1).FindAttribute(XCAFDoc_Volume.GetID_s(), volume)
+    assert volume.Get() == pytest.approx(1234.5678901, rel=1e-14)
+    # g/mm^3
+    assert XCAFDoc_MaterialTool.GetDensityForShape_s(found.Value(1)) == pytest.approx(7.85e-3)
+    materials, material = TDF_LabelSequence(), XCAFDoc_Material()
+    XCAFDoc_DocumentTool.MaterialTool_s(document.Main()).GetMaterialLabels(materials)
+    assert materials.Value(1).FindAttribute(XCAFDoc_Material.GetID_s(), material)
+    assert material.GetName().ToCString() == "сталь 45"
+
+
+def test_every_face_may_have_its_own_surface() -> None:
+    text = part_text(StepPart("p", made("plain")[1]), StepForm(shared=False))
+    surfaces = re.findall(r"=ADVANCED_FACE\('',\([^)]*\),#(\d+),", text)
+    assert len(set(surfaces)) == len(surfaces) == 9 * 6 + 3
+    assert made("plain")[2].count("=CYLINDRICAL_SURFACE(") == 3
+
+
+@pytest.mark.parametrize("key", [{"author": "me"}, {"organisation": "us"}, {"shared": False}])
+def test_keys_of_step_are_for_step_alone(key: dict[str, object]) -> None:
+    scene = {"parts": {"p": SMALL}, "exports": [{"format": "step", **key}]}
+    assert scene_from_dict(scene, "test", "test").exports
+    with pytest.raises(SceneError, match=f"{next(iter(key))}.*only for format"):
+        scene_from_dict({"parts": {"p": SMALL}, "exports": [{"format": "stl", **key}]}, "test", "test")
+
+
+@needs_kernel
 def test_names_colours_and_places_come_back(tmp_path: Path) -> None:
     """By the kernel's own document: Cyrillic names, one product in two places."""
     from exporters.formats.read_step import read_step_assembly
@@ -213,8 +260,8 @@ def test_names_colours_and_places_come_back(tmp_path: Path) -> None:
     parts = [StepPart("колесо", solid, "#c08040"), StepPart("pin's", made("end")[1], "#4f8fc0")]
     turned = Placement3.about_z(0.3, (1.0, 2.0, -3.0))
     rows = [("left", "колесо", Placement3()), ("праве", "колесо", turned), ("pin", "pin's", turned)]
-    text = assembly_text("пара", parts, rows, 8)
-    assert text == assembly_text("пара", parts, rows, 8)
+    text = assembly_text("пара", parts, rows, StepForm())
+    assert text == assembly_text("пара", parts, rows, StepForm())
     assert text.isascii()
     assert text.count("MANIFOLD_SOLID_BREP(") == 2
     file = tmp_path / "pair.step"
