@@ -9,7 +9,7 @@ from typing import Any
 from msgspec.structs import asdict
 
 from geometry.base.tolerance import PLACED_MM
-from parts.base.mate import Mating
+from parts.base.mate import Mating, Toothed, Touching
 from parts.base.part import Part
 from parts.base.texts import N_, words
 from parts.scene.instances import DriveSpec
@@ -18,7 +18,7 @@ from parts.texts.checks import condition_message
 from parts.texts.findings import finding_text
 
 # mates that run no gears in each other: of these transmission error is not asked
-_WITHOUT_TEETH = ("fixed", "coaxial", "pin_seat", "eccentric_bearing")
+_WITHOUT_TEETH = ("fixed", "coaxial", "carried", "pin_seat", "eccentric_bearing")
 
 
 def scene_checks(
@@ -42,17 +42,17 @@ def scene_checks(
                 _add_transmission(found, mate)
         for found, mate in zip(checks["mates"], placing.mates, strict=True):
             turns = [abs(train[mate.first.id]) for train in placing.turns if mate.first.id in train]
-            if turns:
+            if turns and isinstance(mate.mating, Touching):
                 # contact is held against a whole pitch, whatever part of it the drive runs through
                 found["driven_pitches"] = turns[0] * mate.mating.first_teeth
     if placing.close:
         checks["neighbours"] = [_neighbours(c, language) for c in placing.close]
     if contact and len(placing.instances) > 1:
         checks |= _solids(placing, parts, drives, language)
-    if placing.turns:
+    if placing.train is not None:
         checks["drives"] = [
-            {"instance": d.instance, "turns": d.turns, "train": train}
-            for d, train in zip(drives, placing.turns, strict=True)
+            {"instance": d.instance, "turns": d.turns, "train": train, **({"travel": slid} if slid else {})}
+            for d, train, slid in zip(drives, placing.turns, placing.train.slid, strict=True)
         ]
     return checks
 
@@ -114,7 +114,8 @@ def _mate(mate: PlacedMate, language: str, *, contact: bool) -> dict[str, Any]:
     if not contact:
         found = pair_quantities(mate.mating)
     elif mate.only_checks:
-        allowed = max(PLACED_MM, 1e-8 * mate.mating.module)
+        module = mate.mating.module if isinstance(mate.mating, Touching) else 0.0
+        allowed = max(PLACED_MM, 1e-8 * module)
         found = check_pair(
             mate.mating, language, second_turn=mate.second_turn, centre_shift=mate.centre_shift, tolerance=allowed
         )
@@ -129,7 +130,7 @@ def _mate(mate: PlacedMate, language: str, *, contact: bool) -> dict[str, Any]:
 
 def _add_transmission(found: dict[str, Any], mate: PlacedMate) -> None:
     """The transmission error of gears in mesh: nothing where the conditions are broken."""
-    if mate.mating.pair is None:
+    if not (isinstance(mate.mating, Toothed) and mate.mating.pair):
         if mate.mating.kind not in _WITHOUT_TEETH:
             found["transmission_error"] = None
         return
@@ -167,7 +168,7 @@ def _solids(placing: Placing, parts: dict[str, Part], drives: Sequence[DriveSpec
     overlaps = solid_overlaps(placing, parts)
     solids = [_overlap(o.first, o.second, o.volume, language) for o in overlaps]
     checks: dict[str, Any] = {}
-    if placing.turns:
+    if placing.train is not None:
         from parts.scene.moving_solids import motion_found
         from parts.scene.relative_path import course_of
 

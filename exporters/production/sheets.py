@@ -16,7 +16,7 @@ from geometry.base.record import Record
 from geometry.gears.pictures.meshing import MeshingPicture, meshing_picture
 from geometry.gears.teeth.limits import practicum_undercut
 from geometry.gears.teeth.transverse import overlap_ratio
-from parts.base.mate import Mating
+from parts.base.mate import Mating, Toothed
 from parts.base.refusal import SceneError, placed
 from parts.base.schema import unit_of
 from parts.cams.coupler_cam.part import LinkageCamSpec
@@ -104,20 +104,21 @@ def sheet_jobs(scene: SceneFile, matings: list[Mating], export: ExportSpec, wher
         for number, (_, drawn) in enumerate(made, 1):
             _add_title_block(drawn, scene, export, number, len(made))
         return [SheetJob(export, x, f"{name}.{part}.{ending}", where) for part, x in made for ending in ENDINGS]
-    if all(m.pair is None for m in matings):
+    gears = {n: m for n, m in enumerate(matings, 1) if isinstance(m, Toothed) and m.pair is not None}
+    if not gears:
         has_cam = any(isinstance(spec, CamSpec | LinkageCamSpec) for spec in scene.parts.values())
         code = "shows_gear_pairs" if matings or has_cam else "shows_gear_pairs_of_mates"
         raise SceneError(source, f"{where}.purpose", export.purpose, code, Nearest("cam") if has_cam else None)
-    if export.mate is not None and not (1 <= export.mate <= len(matings) and matings[export.mate - 1].pair is not None):
-        given, pairs = export.mate, [number for number, mating in enumerate(matings, 1) if mating.pair is not None]
-        works = Nearest(min(pairs, key=lambda number: abs(number - given)))
+    if export.mate is not None and export.mate not in gears:
+        given = export.mate
+        works = Nearest(min(gears, key=lambda number: abs(number - given)))
         if 1 <= given <= len(matings):
             kind = matings[given - 1].kind
             raise SceneError(source, f"{where}.mate", given, "mate_of_no_gears", works, kind=kind)
         raise SceneError(source, f"{where}.mate", given, "no_such_mate", works)
     jobs = []
-    for index, mating in enumerate(matings, 1):
-        if export.mate not in (None, index) or mating.pair is None:
+    for index, mating in gears.items():
+        if export.mate not in (None, index):
             continue
         try:
             expected = _meshing(mating, scene, float(export.tolerance or 0.0), _band(export))
@@ -188,7 +189,7 @@ def _most_shifted(ids: list[str], gears: list[Any]) -> str:
     return max(zip(ids, gears, strict=True), key=lambda pair: abs(pair[1].profile_shift_coefficient))[0]
 
 
-def _meshing(mating: Mating, scene: SceneFile, tolerance: float, band: float) -> Expected:
+def _meshing(mating: Toothed, scene: SceneFile, tolerance: float, band: float) -> Expected:
     pair: Any = mating.pair
     picture, language = meshing_picture(pair), scene.scene.language
     specs = [scene.parts[str(scene.instances[name].part)] for name in (mating.first, mating.second)]
@@ -220,7 +221,7 @@ def _meshing(mating: Mating, scene: SceneFile, tolerance: float, band: float) ->
     return Expected(canvas, paper, tuple(circles), teeth, meshing)
 
 
-def _facts(mating: Mating, picture: MeshingPicture, language: str, specs: list[Any]) -> Facts:
+def _facts(mating: Toothed, picture: MeshingPicture, language: str, specs: list[Any]) -> Facts:
     """Title and table of the sheet; of helical parts (``specs``) the normal data too."""
     pair: Any = mating.pair
 

@@ -6,7 +6,7 @@
     place, angle = reducer.pose("2", np.array([0.0, 0.3]), 2)
     reducer.motion("2")                                 # a PlaneMotion: it carries a follower, or cuts a profile
 
-Turns add up as fractions and are reduced modulo a turn before they become radians: no ratio is too large.
+Turns add up as fractions, and whole turns are dropped before they become radians: no ratio is too large.
 """
 
 from __future__ import annotations
@@ -20,10 +20,22 @@ from typing import NamedTuple
 import numpy as np
 
 from geometry.base.errors import ParameterError
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.base.series import Series, exponential, product
 from geometry.curves.curve import Real
-from geometry.kinematics.mechanism import FRAME, Fixed, Group, Mechanism, Prismatic, Revolute, Tree, Z, tree, turns
+from geometry.kinematics.mechanism import (
+    FRAME,
+    Fixed,
+    Group,
+    Mechanism,
+    Prismatic,
+    Revolute,
+    Tree,
+    Turns,
+    Z,
+    tree,
+    turns,
+)
 from geometry.kinematics.motion import GivenMotion, PlaneMotion, Pose
 
 # rad or mm of one turn, or of one unit of travel
@@ -62,10 +74,16 @@ class Moving(Record):
     """A mechanism with its drives, made by ``moving``. ``starts``: origin and angle of each link's frame."""
 
     stands: Tree
+    turns: Turns
     drives: Mapping[str, Drive]
     courses: Mapping[str, _Course]
     starts: Mapping[str, tuple[complex, float]]
     needs: Mapping[str, tuple[str, ...]]
+
+    def driven(self, drives: Iterable[Drive]) -> Moving:
+        """The same mechanism, its drives' lines or laws exchanged for others of the same links."""
+        by_link = {drive.link: drive for drive in drives}
+        return replace(self, drives=by_link, courses=_courses(self.turns, self.stands, by_link))
 
     def pose(self, link: str, t: Real, order: int) -> Pose:
         """Origin (complex, mm) and angle (rad) of a link's frame: coefficients 0 to ``order`` over t, shaped as t.
@@ -109,7 +127,8 @@ class Moving(Record):
             if name not in inputs:
                 inputs[name] = [self.pose(name, at, 0)[1][0] - self.starts[name][1]]
         slides = isinstance(self.stands.supports.get(body), Prismatic)
-        way = _line(course, [t], slides=slides)[0]
+        own = course.start + course.rate * Fraction(t)
+        way = float(own) * _TRAVEL if slides else float(_reduced(own)) * _TURN
         return float(way + sum(share * inputs[name][0] for name, share in course.shares))
 
     def _pose(self, link: str, body: _Body) -> Pose:
@@ -137,7 +156,7 @@ class Moving(Record):
         """A link's own turn (rad) or travel (mm)."""
         course = self.courses[name]
         slides = isinstance(self.stands.supports[name], Prismatic)
-        way = np.reshape(_line(course, t.ravel().tolist(), slides=slides), t.shape)
+        way = _line(course, t, slides=slides)
         rate = float(course.rate) * (_TRAVEL if slides else _TURN)
         series = [way, *(rate + 0.0 * t if k == 1 else 0.0 * t for k in range(1, order + 1))]
         for other, share in course.shares:
@@ -165,7 +184,18 @@ def moving(mechanism: Mechanism, drives: Iterable[Drive]) -> Moving:
     by_link = {drive.link: drive for drive in drives}
     found = turns(mechanism, by_link)
     stands = tree(mechanism)
+    courses = _courses(found, stands, by_link)
+    planar = [name for name in stands.order if _in_plane(name, stands)]
+    needs = {name: _needs(name, stands, courses) for name in planar}
+    try:
+        order = [name for name in TopologicalSorter(needs).static_order() if name != FRAME]
+    except CycleError as error:
+        raise ParameterError("joints", error.args[1][0], "moves_itself") from None
+    starts = _starts([name for name in stands.order if name in needs], stands)
+    return Moving(stands, found, by_link, courses, starts, {name: needs[name] for name in order})
 
+
+def _courses(found: Turns, stands: Tree, drives: Mapping[str, Drive]) -> dict[str, _Course]:
     def unit(link: str) -> float:
         return _TRAVEL if isinstance(stands.supports[stands.body(link)], Prismatic) else _TURN
 
@@ -174,20 +204,13 @@ def moving(mechanism: Mechanism, drives: Iterable[Drive]) -> Moving:
         start = rate = Fraction()
         shares = []
         for other, share in found.shares.get(name, {}).items():
-            drive = by_link.get(other)
+            drive = drives.get(other)
             if drive is None or drive.law is not None:
                 shares.append((other, float(share) * unit(name) / unit(other)))
             else:
                 start, rate = start + share * drive.start, rate + share * drive.rate
         courses[name] = _Course(start, rate, tuple(shares))
-    planar = [name for name in stands.order if _in_plane(name, stands)]
-    needs = {name: _needs(name, stands, courses) for name in planar}
-    try:
-        order = [name for name in TopologicalSorter(needs).static_order() if name != FRAME]
-    except CycleError as error:
-        raise ParameterError("joints", error.args[1][0], "moves_itself") from None
-    starts = _starts([name for name in stands.order if name in needs], stands)
-    return Moving(stands, by_link, courses, starts, {name: needs[name] for name in order})
+    return courses
 
 
 def _needs(name: str, stands: Tree, courses: Mapping[str, _Course]) -> tuple[str, ...]:
@@ -223,17 +246,32 @@ def _starts(order: list[str], stands: Tree) -> dict[str, tuple[complex, float]]:
     return starts
 
 
-def _line(course: _Course, t: Iterable[float | Fraction], *, slides: bool) -> list[float]:
-    """start + rate t in rad, reduced exactly to half a turn either way; of a slide in mm, as it is."""
-    whole = math.lcm(course.start.denominator, course.rate.denominator)
-    start, rate = int(course.start * whole), int(course.rate * whole)
-    found = []
-    for value in t:
-        above, below = value.as_integer_ratio()
-        up, down = start * below + rate * above, whole * below
-        if slides:
-            found.append(up / down * _TRAVEL)
-            continue
-        up %= down
-        found.append((up - down if 2 * up > down else up) / down * _TURN)
-    return found
+def _line(course: _Course, t: Real, *, slides: bool) -> Real:
+    """start + rate t in rad, reduced to half a turn either way; of a slide in mm, as it is."""
+    rate = float(course.rate)
+    if slides:
+        return np.asarray((float(course.start) + rate * t) * _TRAVEL)
+    # whole turns are dropped from the product's two parts (Dekker), and from what the rate is beyond a float
+    turns = rate * t
+    rest = _beyond(rate, t, turns) + float(course.rate - Fraction(rate)) * t
+    found = (turns - np.rint(turns)) + (rest - np.rint(rest)) + float(_reduced(course.start))
+    return np.asarray((found - np.rint(found)) * _TURN)
+
+
+def _beyond(one: float, two: Real, product: Real) -> Real:
+    """What a rounded product leaves out, exactly."""
+    (a, b), (c, d) = _halves(np.asarray(one)), _halves(two)
+    return np.asarray(((a * c - product) + a * d + b * c) + b * d)
+
+
+def _halves(value: Real) -> tuple[Real, Real]:
+    """A double as the sum of two of 26 bits (Veltkamp)."""
+    big = 134217729.0 * value
+    high = big - (big - value)
+    return high, value - high
+
+
+def _reduced(turns: Fraction) -> Fraction:
+    """Within half a turn either way."""
+    rest = turns % 1
+    return rest - 1 if rest > Fraction(1, 2) else rest

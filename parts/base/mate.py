@@ -5,6 +5,7 @@ A kind is an instance of a subclass, registered by one entry of ``parts/mates/re
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any, Generic, TypeVar
 
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from geometry.gears.pairs.external import ExternalPair
     from geometry.gears.pairs.internal import InternalPair
     from geometry.gears.pairs.rack import RackPair
+    from geometry.kinematics.mechanism import Joint
 
 
 class MateKeys(Struct, forbid_unknown_fields=True, tag_field="kind", kw_only=True):
@@ -79,30 +81,39 @@ class Mating(Joined, kw_only=True):
     """Two instances, the ``second`` placed by the ``first``; what most mates answer stands here.
 
     ``direction_deg``: from the first to the second as the scene has it. ``height``: of the second's lower face above
-    the first's, mm. ``distance``: between the axes, or from the axis to a rack's datum line, mm. ``module``: the length
-    that tolerances go by, mm. ``ratio``: turns of the second for one of the first, negative where they turn against
-    each other; None: it carries no turns on. ``normal_backlash``: j_bn, mm. ``has_contact``: ``contact`` decides how
-    the outlines of two plates stand to each other; else their solids do. ``pair``: the calculated pair of involute
-    gears, ``face``: what both have in common along their axes.
+    the first's, mm. ``distance``: between the axes, or from the axis to a rack's datum line, mm.
     """
 
     direction_deg: float = 0.0
     height: float = 0.0
     distance: float = 0.0
-    module: float = 1.0
-    ratio: float | None = None
-    first_teeth: int = 1
-    normal_backlash: float = 0.0
-    has_contact: bool = True
-    pair: ExternalPair | InternalPair | RackPair | None = None
-    face: CommonFace = STRAIGHT
+    # whether ``contact`` decides how the outlines of two plates stand to each other; else their solids do
+    has_contact = False
+    # whether the second stands wherever the first puts it: a follower on its cam
+    follows = False
+    # whether the ratio of its joints is only that of whole turns
+    uneven = False
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """How both move: joints of the kinematic layer between instances, their places left to the scene."""
+        return ()
+
+    @property
+    def holds(self) -> tuple[str, ...]:
+        """Instances that stand still by this mate."""
+        return ()
+
+    def followed(self, start: Pose, now: Pose) -> Pose:
+        """Where a second that ``follows`` stands when the first has moved from its start."""
+        return self.second_pose(*now, math.radians(self.direction_deg))
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """Axis (mm) and rotation (rad) of the second where the first stands so."""
         raise NotImplementedError
 
-    def standing(self, first: Pose, second: Pose) -> Standing:
-        """How two placed instances stand to each other."""
+    def standing(self, first: Pose, second: Pose) -> Standing | None:
+        """How two placed instances stand to each other; None: the mate asks nothing of it."""
         raise NotImplementedError
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact | None:
@@ -120,6 +131,25 @@ class Mating(Joined, kw_only=True):
     def quantities(self) -> dict[str, Any]:
         """What the calculation says, for reports."""
         return {}
+
+
+class Touching(Mating, kw_only=True):
+    """Two instances that touch. ``module``: the length that tolerances go by, mm. ``normal_backlash``: j_bn, mm.
+
+    ``first_teeth``: in how many steps a turn of the first comes again.
+    """
+
+    module: float = 1.0
+    normal_backlash: float = 0.0
+    has_contact: bool = True
+    first_teeth: int = 1
+
+
+class Toothed(Touching, kw_only=True):
+    """Two toothed parts. ``pair``: the calculated pair of involute gears, ``face``: what both have in common."""
+
+    pair: ExternalPair | InternalPair | RackPair | None = None
+    face: CommonFace = STRAIGHT
 
 
 class MateKind(Generic[K, A, B]):

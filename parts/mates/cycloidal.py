@@ -10,13 +10,14 @@ from msgspec import Meta
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
-from parts.base.mate import End, MateKeys, MateKind, Mating, Pose, Standing
+from parts.base.mate import End, MateKeys, MateKind, Pose, Standing, Touching
 from parts.keys.mate import AboveKeys, Height, direction, height
 from parts.mates.sizes import same_size, turn_off
 
 if TYPE_CHECKING:
     from geometry.gears.mesh.search import ContactPlace, PairContact
     from geometry.gears.pins.cycloidal import CycloidalDisc
+    from geometry.kinematics.mechanism import Joint
     from geometry.solids.pin_plates import PinPlate, RoundDisc
     from geometry.solids.pin_ring import PinRing
     from geometry.solids.windows import RoundHoles
@@ -47,12 +48,25 @@ class OutputPinsSpec(MateKeys, tag="output_pins", kw_only=True):
     height: Annotated[float, height("plate above the disc; default: it carries the disc on its face")] | None = None
 
 
-class CycloidalMating(Mating):
-    """A disc in its ring. The pins turn nothing on: the eccentric does."""
+class CycloidalMating(Touching):
+    """A disc in its ring, which is held. The pins turn nothing on: the eccentric does."""
 
     ring: PinRing
     disc: CycloidalDisc
     turned_lobes: int
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """The disc rolls within the pins, carried by the eccentric."""
+        from geometry.kinematics.mechanism import Rolling
+
+        teeth = self.disc.number_of_pins, self.disc.number_of_lobes
+        return (Rolling("internal", self.first, self.second, teeth),)
+
+    @property
+    def holds(self) -> tuple[str, ...]:
+        """The ring."""
+        return (self.first,)
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """The disc's centre towards the eccentric, a valley at the pin that it points to."""
@@ -111,11 +125,18 @@ class CycloidalMating(Mating):
         }
 
 
-class BearingMating(Mating):
+class BearingMating(Touching):
     """A disc on its eccentric."""
 
     disc: CycloidalDisc
     bore_diameter: float
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """The disc turns about the eccentric's middle."""
+        from geometry.kinematics.mechanism import Revolute
+
+        return (Revolute(self.second, on=self.first),)
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """The disc about the eccentric's middle, turned as in a ring whose first pin is on +x."""
@@ -140,11 +161,18 @@ class BearingMating(Mating):
         return {"eccentricity": self.distance, "bearing_play": self.bore_diameter - 2 * self.module}
 
 
-class OutputMating(Mating):
+class OutputMating(Touching):
     """The pins of a plate in the holes of a disc: each touches its hole in the direction of the eccentric."""
 
     output: RoundHoles
     plate: PinPlate
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """Parallel cranks: both turn alike, wherever the eccentric stands."""
+        from geometry.kinematics.mechanism import Rolling
+
+        return (Rolling("internal", self.first, self.second, (1, 1)),)
 
     @property
     def gap(self) -> float:
@@ -245,8 +273,6 @@ class EccentricBearing(MateKind[EccentricBearingSpec, "RoundDisc", "CycloidalDis
             height=keys.height,
             distance=eccentric.eccentricity,
             module=eccentric.radius,
-            # with the ring held
-            ratio=-1 / disc.number_of_lobes,
             disc=disc,
             bore_diameter=bore.diameter,
         )
@@ -275,7 +301,6 @@ class OutputPins(MateKind[OutputPinsSpec, "CycloidalDisc", "PinPlate"]):
             height=-plate.thickness if keys.height is None else keys.height,
             distance=disc.eccentricity,
             module=plate.pin_radius,
-            ratio=1.0,
             # loose pins are other instances
             has_contact=plate.solid,
             output=disc.output,

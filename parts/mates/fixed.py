@@ -15,6 +15,7 @@ from parts.keys.mate import AboveKeys, Height
 from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
+    from geometry.kinematics.mechanism import Joint
     from geometry.solids.pin_plates import PinPlate, RoundDisc
     from geometry.solids.pin_ring import PinRing
 
@@ -41,6 +42,20 @@ class CoaxialSpec(AboveKeys, tag="coaxial", kw_only=True):
     rotation_deg: _Turn = 0.0
 
 
+class CarriedSpec(MateKeys, tag="carried", kw_only=True):
+    """Keys of ``carried``."""
+
+    first: Annotated[str, Meta(description="the carrier: an instance that is already placed")]
+    second: Annotated[str, Meta(description="instance whose axis goes round with it, free to turn")]
+    offset: (
+        Annotated[
+            tuple[_Shift, _Shift, _Shift],
+            mm("x, y, z of the axis in the carrier's frame; default: where other mates have put it"),
+        ]
+        | None
+    ) = None
+
+
 class PinSeatSpec(MateKeys, tag="pin_seat", kw_only=True):
     """Keys of ``pin_seat``."""
 
@@ -53,6 +68,13 @@ class FixedMating(Mating):
 
     offset: complex
     rotation: float = 0.0
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """One body."""
+        from geometry.kinematics.mechanism import Fixed
+
+        return (Fixed(self.second, on=self.first),)
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """Carried along by the first; it has no direction of its own."""
@@ -77,6 +99,13 @@ class CoaxialMating(Mating):
 
     rotation: float
 
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """The second turns about the axis of the first, and goes where that goes."""
+        from geometry.kinematics.mechanism import Revolute
+
+        return (Revolute(self.second, on=self.first),)
+
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """On the axis of the first."""
         return centre, rotation + self.rotation
@@ -84,6 +113,32 @@ class CoaxialMating(Mating):
     def standing(self, first: Pose, second: Pose) -> Standing:
         """How far the axes are apart; the second is free to turn."""
         return Standing(0.0, abs(second[0] - first[0]), 0.0, 0.0)
+
+
+class CarriedMating(Mating):
+    """A link whose axis stands on another one, free to turn: a satellite on its carrier."""
+
+    offset: complex | None
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """The second turns about its axis, and goes where the first goes."""
+        from geometry.kinematics.mechanism import Revolute
+
+        return (Revolute(self.second, on=self.first),)
+
+    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+        """About its place on the carrier, turned with it as it is placed."""
+        if self.offset is None:
+            raise ParameterError("offset", None, "place_on_carrier", None)
+        return centre + self.offset * cmath.rect(1.0, rotation), rotation
+
+    def standing(self, first: Pose, second: Pose) -> Standing | None:
+        """How far the axis is from its place, mm (added to the distance); wherever it stands where none is told."""
+        if self.offset is None:
+            return None
+        centre, _ = self.second_pose(*first, 0.0)
+        return Standing(cmath.phase(self.offset), self.distance + abs(second[0] - centre), 0.0, 0.0)
 
 
 class Fixed(MateKind[FixedSpec, Any, Any]):
@@ -104,8 +159,6 @@ def _fixed(name: str, keys: MateKeys, offset: complex, height: float, rotation: 
         keys.second,
         height=height,
         distance=abs(offset),
-        ratio=1.0,
-        has_contact=False,
         offset=offset,
         rotation=rotation,
     )
@@ -119,7 +172,25 @@ class Coaxial(MateKind[CoaxialSpec, Any, Any]):
     def mating(self, keys: CoaxialSpec, first: End[Any], second: End[Any]) -> CoaxialMating:
         """Whatever the parts are."""
         turn = math.radians(keys.rotation_deg)
-        return CoaxialMating(self.name, keys.first, keys.second, height=keys.height, has_contact=False, rotation=turn)
+        return CoaxialMating(self.name, keys.first, keys.second, height=keys.height, rotation=turn)
+
+
+class Carried(MateKind[CarriedSpec, Any, Any]):
+    """Anything on anything, free to turn."""
+
+    name, keys = "carried", CarriedSpec
+
+    def mating(self, keys: CarriedSpec, first: End[Any], second: End[Any]) -> CarriedMating:
+        """Whatever the parts are."""
+        offset = None if keys.offset is None else complex(*keys.offset[:2])
+        return CarriedMating(
+            self.name,
+            keys.first,
+            keys.second,
+            height=0.0 if keys.offset is None else keys.offset[2],
+            distance=0.0 if offset is None else abs(offset),
+            offset=offset,
+        )
 
 
 class PinSeat(MateKind[PinSeatSpec, "PinRing | PinPlate", "RoundDisc"]):
@@ -140,4 +211,4 @@ class PinSeat(MateKind[PinSeatSpec, "PinRing | PinPlate", "RoundDisc"]):
         return _fixed(self.name, keys, centres[keys.number - 1], keys.height)
 
 
-FIXED, COAXIAL, PIN_SEAT = Fixed(), Coaxial(), PinSeat()
+FIXED, COAXIAL, CARRIED, PIN_SEAT = Fixed(), Coaxial(), Carried(), PinSeat()

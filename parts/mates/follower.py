@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from msgspec import Meta
 
 from geometry.base.errors import Nearest, ParameterError, limit
-from parts.base.mate import End, MateKeys, MateKind, Mating, Pose, Standing
+from parts.base.mate import End, MateKeys, MateKind, Pose, Standing, Touching
 from parts.keys.mate import direction, height
 from parts.mates.sizes import same_as_cam
 
@@ -36,12 +36,14 @@ class CamFollowerSpec(MateKeys, tag="cam_follower", kw_only=True):
     height: Annotated[float, height("how far the follower's lower face stands above the cam's", 10_000)] = 0.0
 
 
-class CamFollowerMating(Mating):
+class CamFollowerMating(Touching):
     """A disk cam and its follower, or the roller of it; in a groove it stands at the inner wall."""
 
     cam: DiskCam
     end: FollowerEnd
     groove: GrooveDisk | None = None
+
+    follows = True
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """The follower where the cam, turned by ``rotation``, has lifted it."""

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Generic, TypeVar
 from geometry.base.errors import ConvergenceError, GeometryError, Nearest, ParameterError
 from geometry.base.nearest import nearest
 from geometry.base.record import replace
-from parts.base.mate import End, MateKind, Mating, Pose, Standing
+from parts.base.mate import End, MateKind, Pose, Standing, Toothed
 from parts.keys.base import mm
 from parts.keys.mate import InvolutePairKeys
 from parts.mates.thinning import shared_thinning
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from geometry.gears.teeth.rack import Rack
     from geometry.gears.teeth.ring import RingGear
     from geometry.gears.teeth.spur import SpurGear
+    from geometry.kinematics.mechanism import Joint
 
     Gear = SpurGear | RingGear
 
@@ -51,7 +52,7 @@ class RackPairSpec(InvolutePairKeys, tag="rack_pair", kw_only=True):
     ) = None
 
 
-class GearMating(Mating):
+class GearMating(Toothed):
     """Two involute gears in mesh, as they are built at last."""
 
     pair: ExternalPair | InternalPair | RackPair
@@ -114,7 +115,7 @@ class GearMating(Mating):
 
     def _peaks(self, error: TransmissionError, arm: float) -> dict[str, float]:
         motion = error.peak_to_peak / arm
-        if self.ratio is None:
+        if isinstance(self, RackMating):
             return {"line_of_action": error.peak_to_peak, "second_travel": motion}
         return {"line_of_action": error.peak_to_peak, "second_arcsec": math.degrees(motion) * 3600}
 
@@ -123,6 +124,14 @@ class ExternalMating(GearMating):
     """Two external gears."""
 
     pair: ExternalPair
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """Against each other."""
+        from geometry.kinematics.mechanism import Rolling
+
+        teeth = self.pair.first.number_of_teeth, self.pair.second.number_of_teeth
+        return (Rolling("external", self.first, self.second, teeth),)
 
     def _middle(self, rotation: float, direction: float) -> float:
         return self.pair.second_rotation(rotation, direction)
@@ -153,6 +162,14 @@ class InternalMating(GearMating):
 
     pair: InternalPair
     ring_first: bool
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """Both turn the same way."""
+        from geometry.kinematics.mechanism import Rolling
+
+        teeth = self.pair.pinion.number_of_teeth, self.pair.ring.number_of_teeth
+        return (Rolling("internal", self.first, self.second, teeth[::-1] if self.ring_first else teeth),)
 
     def _middle(self, rotation: float, direction: float) -> float:
         if self.ring_first:
@@ -193,6 +210,16 @@ class RackMating(GearMating):
     """A gear and a rack; the rack's teeth look at the gear's axis."""
 
     pair: RackPair
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """The rack slides along its own x axis; pi times this module is its pitch along it."""
+        from fractions import Fraction
+
+        from geometry.kinematics.mechanism import Prismatic, Rolling
+
+        rolling = Rolling("rack", self.first, self.second, (self.first_teeth, 1), module=Fraction(str(self.module)))
+        return Prismatic(self.second), rolling
 
     @property
     def _middle_space(self) -> float:
@@ -342,7 +369,7 @@ class InvolutePair(MateKind[K, A, B], Generic[K, A, B, M]):
         self._reaching(keys, first, second)
         return None, None
 
-    def mating(self, keys: K, first: End[A], second: End[B]) -> Mating:
+    def mating(self, keys: K, first: End[A], second: End[B]) -> M:
         """At the distance that the keys give."""
         return self.made(keys, first, second, keys.working_centre_distance)
 
@@ -421,7 +448,6 @@ class ExternalGearPair(InvolutePair[ExternalGearPairSpec, "SpurGear", "SpurGear"
         return ExternalMating(
             **self.common(keys, first, second, pair),
             distance=pair.working_centre_distance,
-            ratio=-1 / pair.gear_ratio,
             first_teeth=first.thing.number_of_teeth,
             pair=pair,
         )
@@ -488,8 +514,6 @@ class InternalGearPair(
         return InternalMating(
             **self.common(keys, first, second, pair),
             distance=pair.working_centre_distance,
-            # both turn the same way
-            ratio=pair.gear_ratio if ring_first else 1 / pair.gear_ratio,
             first_teeth=first.thing.number_of_teeth,
             pair=pair,
             ring_first=ring_first,

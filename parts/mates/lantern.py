@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING, Annotated, Any
 
 from geometry.base.errors import Nearest, ParameterError, limit
-from parts.base.mate import End, MateKeys, MateKind, Mating, Pose, Standing
+from parts.base.mate import End, MateKeys, MateKind, Pose, Standing, Toothed
 from parts.keys.mate import Direction, height
 from parts.mates.sizes import same_size, turn_off
 
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from geometry.base.findings import Finding
     from geometry.gears.mesh.search import PairContact
     from geometry.gears.pins.lantern import LanternGear
+    from geometry.kinematics.mechanism import Joint
     from geometry.solids.pin_plates import PinPlate
 
 
@@ -25,11 +26,23 @@ class LanternPairSpec(MateKeys, tag="lantern_pair", kw_only=True):
     height: Annotated[float, height("gear above the lantern's lower face; default: midway on the pins")] | None = None
 
 
-class LanternMating(Mating):
+class LanternMating(Toothed):
     """A lantern and its gear."""
 
-    ratio: float
     gear: LanternGear
+
+    @property
+    def ratio(self) -> float:
+        """Turns of the gear for one of the lantern."""
+        return -self.gear.number_of_pins / self.gear.number_of_teeth
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """Pins are teeth."""
+        from geometry.kinematics.mechanism import Rolling
+
+        teeth = self.gear.number_of_pins, self.gear.number_of_teeth
+        return (Rolling("external", self.first, self.second, teeth),)
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """The gear beyond the line of centres; where a pin stands on it, a space does."""
@@ -102,7 +115,6 @@ class LanternPair(MateKind[LanternPairSpec, "PinPlate", "LanternGear"]):
             height=height,
             distance=gear.centre_distance,
             module=gear.pin_diameter / 2,
-            ratio=-gear.number_of_pins / gear.number_of_teeth,
             first_teeth=gear.number_of_pins,
             # on both sides together
             normal_backlash=2 * gear.pin_clearance,

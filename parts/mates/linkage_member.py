@@ -39,6 +39,10 @@ class LinkageMemberMating(Mating):
 
     member: Member
     cam: LinkageCam
+    # the length by which turns are held, mm
+    arm: float
+
+    follows = True
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """The member where the cam, turned by ``rotation``, has moved it."""
@@ -51,7 +55,7 @@ class LinkageMemberMating(Mating):
         direction = math.radians(self.direction_deg)
         place, turned = self.second_pose(*first, direction)
         off = math.remainder(second[1] - turned, _TURN)
-        return Standing(direction, self.distance + abs(second[0] - place), off, 0.0, self.module)
+        return Standing(direction, self.distance + abs(second[0] - place), off, 0.0, self.arm)
 
     def quantities(self) -> dict[str, Any]:
         """By how much it turns over a turn of the cam."""
@@ -85,8 +89,7 @@ class LinkageMember(MateKind[LinkageMemberSpec, "LinkageCam", Any]):
             height=keys.height,
             distance=abs(_pose(cam, keys.member, 0.0)[0]),
             # the distance of the lowest reference point from the axis
-            module=float(abs(cam.reference_point(0.0))),
-            has_contact=False,
+            arm=float(abs(cam.reference_point(0.0))),
             member=keys.member,
             cam=cam,
         )

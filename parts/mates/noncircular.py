@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import replace
-from parts.base.mate import End, MateKind, Mating, Pose, Standing
+from parts.base.mate import End, MateKind, Pose, Standing, Toothed
 from parts.keys.base import mm
 from parts.keys.mate import GearPairKeys
 from parts.mates.thinning import shared_thinning
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from geometry.gears.noncircular.gear import NoncircularGear
     from geometry.gears.noncircular.pair import NoncircularPair
     from geometry.gears.noncircular.pairing import Pairing
+    from geometry.kinematics.mechanism import Joint
 
 
 class NoncircularGearPairSpec(GearPairKeys, tag="noncircular_gear_pair", kw_only=True):
@@ -32,10 +33,20 @@ class NoncircularGearPairSpec(GearPairKeys, tag="noncircular_gear_pair", kw_only
     ) = None
 
 
-class NoncircularMating(Mating):
+class NoncircularMating(Toothed):
     """A driver and its mate in either order, or two equal drivers."""
 
     gears: NoncircularPair
+
+    uneven = True
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """Of whole turns: the mean of a ratio that changes."""
+        from geometry.kinematics.mechanism import Rolling
+
+        teeth = self.gears.first.number_of_teeth, self.gears.second.number_of_teeth
+        return (Rolling("external", self.first, self.second, teeth),)
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """The second gear beyond the line of centres, its centrode on that of the first."""
@@ -112,8 +123,6 @@ class NoncircularGearPair(MateKind[NoncircularGearPairSpec, "NoncircularGear", "
             direction_deg=keys.direction_deg,
             distance=gears.centre_distance,
             module=gears.first.module,
-            # of whole turns: the mean of a ratio that changes
-            ratio=-gears.first.number_of_teeth / gears.second.number_of_teeth,
             first_teeth=gears.first.number_of_teeth,
             normal_backlash=gears.normal_backlash,
             gears=gears,

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 from msgspec import Meta
 
 from geometry.base.errors import ParameterError
-from parts.base.mate import End, MateKeys, MateKind, Mating, Pose, Standing
+from parts.base.mate import End, MateKeys, MateKind, Pose, Standing, Touching
 from parts.keys.mate import direction, height
 
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
     from geometry.gears.mesh.search import PairContact
+    from geometry.kinematics.mechanism import Joint
     from parts.cams.positive.conjugate import SecondCam
     from parts.cams.positive.yoke import YokeFrame
 
@@ -40,11 +41,18 @@ class CamYokeSpec(MateKeys, tag="cam_yoke", kw_only=True):
     height: _Height = 0.0
 
 
-class ConjugateMating(Mating):
+class ConjugateMating(Touching):
     """Both disks turn together; the contact is that of both rollers of their follower."""
 
     cam: DiskCam
     other: SecondCam
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """One shaft."""
+        from geometry.kinematics.mechanism import Fixed
+
+        return (Fixed(self.second, on=self.first),)
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """On the same axis, turned alike: the profile is drawn as it sits on the shaft."""
@@ -72,11 +80,13 @@ class ConjugateMating(Mating):
         return {"between_rollers": math.degrees(found) if swings else found, "unit": "deg" if swings else "mm"}
 
 
-class YokeMating(Mating):
+class YokeMating(Touching):
     """A cam and the yoke that touches it from both sides."""
 
     cam: DiskCam
     frame: YokeFrame
+
+    follows = True
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """The frame is drawn about the axis as it stands at cam angle 0; S lifts it."""
@@ -127,7 +137,6 @@ class ConjugateCams(MateKind[ConjugateCamsSpec, "DiskCam", "SecondCam"]):
             keys.second,
             height=keys.height,
             module=_lowest(cam),
-            ratio=1.0,
             has_contact=False,
             cam=cam,
             other=other,

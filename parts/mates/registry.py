@@ -45,6 +45,10 @@ MATES: Index[MateKind[Any, Any, Any]] = Index(
             "The second instance stands still on the first: ``offset`` and ``rotation_deg`` in the first one's frame",
         ),
         "coaxial": ("parts.mates.fixed:COAXIAL", "The second instance on the axis of the first, free to turn"),
+        "carried": (
+            "parts.mates.fixed:CARRIED",
+            "The axis of the second stands on the first and goes round with it: a satellite on its carrier",
+        ),
         "cycloidal_pair": (
             "parts.mates.cycloidal:CYCLOIDAL_PAIR",
             "A cycloidal disc (second) in its pin ring (first): eccentric distance and phase",

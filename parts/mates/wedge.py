@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 from msgspec import Meta
 
 from geometry.base.errors import ParameterError, limit
-from parts.base.mate import End, MateKeys, MateKind, Mating, Pose, Standing
+from geometry.base.record import replace
+from parts.base.mate import End, MateKeys, MateKind, Pose, Standing, Touching
 from parts.keys.base import mm
 from parts.keys.mate import height
 from parts.mates.follower import FOLLOWERS, check_end, check_mount, check_plate, check_sense, touches
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from geometry.cams.contact.outlines import FollowerEnd
     from geometry.cams.plane.wedge import WedgeCam
     from geometry.gears.mesh.search import PairContact
+    from geometry.kinematics.mechanism import Joint
 
 
 class WedgeFollowerSpec(MateKeys, tag="wedge_follower", kw_only=True):
@@ -30,12 +32,27 @@ class WedgeFollowerSpec(MateKeys, tag="wedge_follower", kw_only=True):
     height: Annotated[float, height("how far the follower's lower face stands above the plate's", 10_000)] = 0.0
 
 
-class WedgeMating(Mating):
+class WedgeMating(Touching):
     """A sliding plate and its follower, or the roller of it, at a travel of the plate, mm."""
 
     cam: WedgeCam
     end: FollowerEnd
     travel: float
+
+    follows = True
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """The plate slides along its own x axis."""
+        from geometry.kinematics.mechanism import Prismatic
+
+        return (Prismatic(self.first),)
+
+    def followed(self, start: Pose, now: Pose) -> Pose:
+        """Where the follower stands on a plate that has slid to -x: over the same place."""
+        way = ((start[0] - now[0]) * cmath.rect(1.0, -start[1])).real
+        centre, turned = replace(self, travel=self.travel + way).second_pose(*start, 0.0)
+        return centre, turned
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """The follower where the plate at its travel has lifted it; it has no direction but the plate's."""

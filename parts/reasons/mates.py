@@ -22,6 +22,9 @@ REASONS = {
     "mate_joins_other": N_('is a {found}; {mate} joins {joins}; kind = "{other}" joins these two'),
     "member_is_a_slider": N_("this member is a slider; a plate can be one, an arm cannot"),
     "no_output_holes": N_("has no output_holes; give the disc that table"),
+    "mesh_parts": N_(
+        "no instance carries its axis and that of {first}; join a satellite to its carrier by a mate of kind carried"
+    ),
     "not_between_the_plates": N_("does not go between the plates of the lantern"),
     "not_of_its_mate": N_("must fit its mate"),
     "not_of_the_eccentric": N_("must be that of the eccentric"),
@@ -42,6 +45,7 @@ REASONS = {
         "as with {teeth} teeth"
     ),
     "other_centrode_shape": N_("the centrodes differ in shape (axis_ratio or eccentricity)"),
+    "place_on_carrier": N_("is missing: where on the carrier? Or put the mate after those that place it"),
     "plate_slides_less": N_("the plate slides less"),
     "shortened_tips_keep_no_involute": N_("the tips that the pair shortens keep no involute"),
     "teeth_do_not_reach": N_("the teeth do not reach each other"),

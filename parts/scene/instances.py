@@ -42,6 +42,7 @@ class InstanceSpec(Struct, forbid_unknown_fields=True):
         ]
         | None
     ) = None
+    held: Annotated[bool, Meta(description="stands still, as the frame does: a ring that is screwed on")] | None = None
 
 
 class InstanceTable(InstanceSpec, forbid_unknown_fields=True):
@@ -80,6 +81,10 @@ class DriveSpec(Struct, forbid_unknown_fields=True):
         float,
         Meta(ge=-10_000, le=10_000, description="how far it is turned, counter-clockwise", extra={"unit": "turns"}),
     ] = 1.0
+    travel: (
+        Annotated[float, mm("of a slide instead of turns: how far it travels along its x axis", least=-1e6, most=1e6)]
+        | None
+    ) = None
 
 
 def instance_specs(
@@ -149,10 +154,10 @@ def _group(key: str, spec: InstanceTable, count: int) -> Group:
 def _one(spec: InstanceTable, angle: float) -> InstanceSpec:
     """One member, turned about the axis by so many degrees."""
     if spec.at is None or not angle:
-        return InstanceSpec(spec.part, spec.at, spec.rotation_deg)
+        return InstanceSpec(spec.part, spec.at, spec.rotation_deg, spec.held)
     axis = complex(*(spec.about or (0.0, 0.0)))
     moved = axis + (complex(*spec.at[:2]) - axis) * cmath.rect(1.0, math.radians(angle))
-    return InstanceSpec(spec.part, [moved.real, moved.imag, spec.at[2]], (spec.rotation_deg or 0.0) + angle)
+    return InstanceSpec(spec.part, [moved.real, moved.imag, spec.at[2]], (spec.rotation_deg or 0.0) + angle, spec.held)
 
 
 def members(mate: MateKeys, groups: Mapping[str, Group], source: str, place: str) -> Iterator[MateKeys]:
@@ -191,7 +196,7 @@ def _further(mate: MateKeys, index: int, group: Group, *, placed: bool) -> dict[
         found["direction_deg"] = math.remainder(said("direction_deg") + angle, 360)
     if "rotation_deg" in keys and angle and placed:
         found["rotation_deg"] = said("rotation_deg") + angle
-    if "offset" in keys and angle and placed:
+    if "offset" in keys and said("offset") is not None and angle and placed:
         x, y, z = said("offset")
         moved = complex(x, y) * cmath.rect(1.0, math.radians(angle))
         found["offset"] = (moved.real, moved.imag, z)
@@ -208,6 +213,8 @@ def drive_spec(table: object, instances: dict[str, InstanceSpec], source: str, p
     """
     drive = converted(table, DriveSpec, source, place)
     check_instance(drive.instance, instances, source, f"{place}.instance")
+    if drive.travel == 0:
+        raise SceneError(source, f"{place}.travel", drive.travel, "travels_nowhere")
     if drive.turns == 0:
         raise SceneError(source, f"{place}.turns", drive.turns, "turns_nothing")
     return drive

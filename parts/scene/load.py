@@ -349,10 +349,17 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
     return parts, matings
 
 
+# keys of instances and drives that are told where they are given
+_SELDOM = ("held", "travel")
+
+
 def resolved(scene: SceneFile) -> dict[str, Any]:
     """The scene as plain data with every default filled in and every group told out."""
     data: dict[str, Any] = msgspec.to_builtins(scene)
     del data["origins"]
+    for spec in (*data["instances"].values(), *data["drives"]):
+        for key in [key for key in _SELDOM if spec.get(key, 0) is None]:
+            del spec[key]
     return data
 
 

@@ -7,18 +7,24 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
+from geometry.base.errors import ParameterError
 from geometry.base.placement import Placement3, Vector
 from geometry.base.record import Record, replace
 from geometry.base.tolerance import PLACED_MM, TOLERANCES
+from geometry.gears.pairs.common_face import STRAIGHT
+from parts.base.mate import Toothed
 from parts.base.part import Part
-from parts.base.refusal import REMOVED, SceneError
+from parts.base.refusal import REMOVED, SceneError, placed
 from parts.scene.instances import DriveSpec, InstanceSpec
 
 if TYPE_CHECKING:
-    from parts.base.mate import Mating
+    from fractions import Fraction
+
+    from parts.base.mate import Mating, Pose
+    from parts.scene.train import Train
 
 # between things that no mate and no ``at`` places, mm
 _GAP = 5.0
@@ -91,12 +97,24 @@ class Closeness(Record):
 
 
 class Placing(Record):
-    """Where everything stands. ``turns``: for each drive, how often it turns each instance of its train."""
+    """Where everything stands, and the train that the drives move."""
 
     instances: tuple[Instance, ...]
     mates: tuple[PlacedMate, ...] = ()
     close: tuple[Closeness, ...] = ()
-    turns: tuple[dict[str, float], ...] = ()
+    train: Train | None = None
+
+    @property
+    def turns(self) -> tuple[dict[str, float], ...]:
+        """For each drive, how often it turns each instance of its train."""
+        return self.train.turned if self.train else ()
+
+    def at(self, values: Sequence[float | Fraction]) -> tuple[Instance, ...]:
+        """The instances when each drive has run that far: turns, or mm of a slide."""
+        if self.train is None or not any(values):
+            return self.instances
+        poses = self.train.poses(values)
+        return tuple(_moved(instance, *poses[instance.id]) for instance in self.instances)
 
     @property
     def needs_check(self) -> bool:
@@ -125,7 +143,21 @@ def place(
     mates = tuple(_closed(replace(m, first=stand[m.mating.first], second=stand[m.mating.second])) for m in mates)
     mates = _with_faces_and_speeds(mates, parts)
     instances = tuple(stand[i] for i in specs)
-    return Placing(instances, mates, _close_ones(instances, mates, parts), _turns(drives, matings, source))
+    train = None
+    if drives:
+        from parts.scene.train import driven_train
+
+        held = [key for key, spec in specs.items() if spec.held is True]
+        train = driven_train(_poses(instances), matings, drives, held, source)
+    return Placing(instances, mates, _close_ones(instances, mates, parts), train)
+
+
+def _poses(instances: Iterable[Instance]) -> dict[str, Pose]:
+    return {instance.id: (instance.centre, instance.rotation) for instance in instances}
+
+
+def _moved(instance: Instance, centre: complex, rotation: float) -> Instance:
+    return replace(instance, at=(centre.real, centre.imag, instance.at[2]), rotation=rotation)
 
 
 class _Placed:
@@ -154,7 +186,10 @@ class _Placed:
             place, given = f"instances.{second}.rotation_deg", self.specs[second].rotation_deg
             raise SceneError(self.source, place, given, "turned_into_mesh", REMOVED, mate=f"mates[{index + 1}]")
         direction = math.radians(mating.direction_deg)
-        centre, turned = mating.second_pose(here.centre, here.rotation, direction)
+        try:
+            centre, turned = mating.second_pose(here.centre, here.rotation, direction)
+        except ParameterError as refusal:
+            raise placed(self.source, f"mates[{index + 1}]", refusal) from refusal
         at = (centre.real, centre.imag, here.at[2] + mating.height)
         self.stand[second] = Instance(second, str(self.specs[second].part), at, turned, "mate")
         for group in self.free:
@@ -166,7 +201,9 @@ class _Placed:
         """Place the first of a mate that nothing has placed: the very first at the origin, a new train in the row."""
         first, place = mating.first, f"mates[{index + 1}].first"
         if index:
-            train = _train(first, self.matings)
+            from parts.scene.train import hanging_together
+
+            train = hanging_together(first, self.matings)
             later = next((i for i, m in enumerate(self.matings) if i > index and m.second == first), None)
             if later is not None:
                 raise SceneError(self.source, place, first, "placed_later", None, mate=f"mates[{later + 1}]")
@@ -216,33 +253,17 @@ def _reach(part: Part) -> float:
     return part.section(0.0).region.outer.reach()
 
 
-def _train(start: str, matings: Sequence[Mating]) -> dict[str, float]:
-    """Turns of every instance joined to ``start`` by mates, for one turn of ``start``; the first way found counts."""
-    found, queue = {start: 1.0}, [start]
-    while queue:
-        here = queue.pop(0)
-        for mating in matings:
-            if mating.ratio is None:
-                # a rack moves straight: it carries no turns on
-                continue
-            for one, two, ratio in (
-                (mating.first, mating.second, mating.ratio),
-                (mating.second, mating.first, 1 / mating.ratio),
-            ):
-                if one == here and two not in found:
-                    found[two] = found[here] * ratio
-                    queue.append(two)
-    return found
-
-
 def _closed(mate: PlacedMate) -> PlacedMate:
     """A mate between two instances that stood before it: centre distance and phase, with the numbers."""
     if not mate.only_checks:
         return mate
-    first, second = mate.first, mate.second
-    # helical teeth are compared at one height: that of the second's lower face
-    turned = first.rotation + mate.mating.face.turn(mate.mating.first_teeth, second.at[2] - first.at[2])
+    first, second, turned = mate.first, mate.second, mate.first.rotation
+    if isinstance(mate.mating, Toothed):
+        # helical teeth are compared at one height: that of the second's lower face
+        turned += mate.mating.face.turn(mate.mating.first_teeth, second.at[2] - first.at[2])
     found = mate.mating.standing((first.centre, turned), (second.centre, second.rotation))
+    if found is None:
+        return mate
     required, shift = mate.mating.distance, found.distance - mate.mating.distance
     # numbers that large cannot be known better
     allowed = PLACED_MM + TOLERANCES.relative_join * (abs(mate.first.centre) + abs(mate.second.centre))
@@ -261,23 +282,30 @@ def _with_faces_and_speeds(mates: tuple[PlacedMate, ...], parts: dict[str, Part]
     done = []
     for index, mate in enumerate(mates):
         more: list[Condition] = []
-        if mate.only_checks or (mate.mating.has_contact and mate.mating.height):
+        if mate.conditions or (mate.mating.has_contact and mate.mating.height):
             more.append(_height(mate, parts))
         if mate.only_checks:
-            face = mate.mating.face
-            if face.helix.angle:
+            face = mate.mating.face if isinstance(mate.mating, Toothed) else STRAIGHT
+            if isinstance(mate.mating, Toothed) and face.helix.angle:
                 width = max(_common_width(mate.first, mate.second, parts), 0.0)
                 mate = replace(mate, mating=replace(mate.mating, face=replace(face, width=width)))
             if face.helix.double:
                 height = mate.second.at[2] - mate.first.at[2]
                 more.append(Condition("herringbone_height", height, 0.0, PLACED_MM, abs(height) <= PLACED_MM))
-            before = _train(mate.mating.first, [m.mating for m in mates[:index]])
-            ratio, other = mate.mating.ratio, before.get(mate.mating.second)
-            if other is not None and ratio is not None:
+            if ratios := _ratios(index, mates):
+                other, ratio = ratios
                 allowed = 1e3 * TOLERANCES.relative_rounding * max(abs(ratio), abs(other))
                 more.append(Condition("train", other, ratio, allowed, abs(other - ratio) <= allowed))
         done.append(replace(mate, conditions=(*mate.conditions, *more)))
     return tuple(done)
+
+
+def _ratios(index: int, mates: tuple[PlacedMate, ...]) -> tuple[float, float] | None:
+    """Turns of a mate's second for one of its first by the mates before it, and by itself."""
+    from parts.scene.train import ratio_before
+
+    stand = _poses(instance for mate in mates[: index + 1] for instance in (mate.first, mate.second))
+    return ratio_before(stand, [mate.mating for mate in mates[:index]], mates[index].mating)
 
 
 def _height(mate: PlacedMate, parts: dict[str, Part]) -> Condition:
@@ -313,30 +341,3 @@ def _close_ones(
             if abs(tips[0] - tips[1]) < distance < sum(tips) - slack:
                 found.append(Closeness(one.id, two.id, distance, sum(tips)))
     return tuple(found)
-
-
-def _check_held(
-    drives: Sequence[DriveSpec], trains: list[dict[str, float]], matings: list[Mating], source: str
-) -> None:
-    """The ring of a cycloidal pair is held: neither its disc nor a drive may carry it along."""
-    for index, mating in enumerate(matings, 1):
-        if mating.kind != "cycloidal_pair":
-            continue
-        ring, disc = mating.first, mating.second
-        if disc in _train(ring, matings):
-            raise SceneError(source, f"mates[{index}].first", ring, "held_ring_is_joined", None, disc=disc)
-        for number, (drive, train) in enumerate(zip(drives, trains, strict=True), 1):
-            if ring in train:
-                place, told = f"drives[{number}].instance", {"ring": ring, "disc": disc}
-                raise SceneError(source, place, drive.instance, "drives_held_ring", None, "", **told)
-
-
-def _turns(drives: Sequence[DriveSpec], matings: list[Mating], source: str) -> tuple[dict[str, float], ...]:
-    trains = [_train(d.instance, matings) for d in drives]
-    _check_held(drives, trains, matings, source)
-    for index, drive in enumerate(drives):
-        for earlier, train in zip(drives[:index], trains, strict=False):
-            if drive.instance in train:
-                place, other = f"drives[{index + 1}].instance", earlier.instance
-                raise SceneError(source, place, drive.instance, "driven_already", None, other=other)
-    return tuple({k: d.turns * v for k, v in train.items()} for d, train in zip(drives, trains, strict=True))

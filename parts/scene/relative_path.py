@@ -145,27 +145,9 @@ def _common(periods: Sequence[Fraction]) -> Fraction:
     return Fraction(math.lcm(*(p.numerator for p in periods)), math.gcd(*(p.denominator for p in periods)))
 
 
-# mates whose second does not merely turn about its axis as the first does
-_OTHERWISE = ("cam_follower", "linkage_member", "wedge_follower", "cam_yoke", "rack_pair", "cycloidal_pair",
-              "eccentric_bearing", "output_pins", "noncircular_gear_pair", "pin_seat", "fixed")  # fmt: skip
-
-
 def course_of(placing: Placing) -> Course:
-    """How the drives of a scene turn what stands on fixed axes; t is the share of what they are asked for."""
-    stand = {i.id: i for i in placing.instances}
-    turns = {name: Fraction(value).limit_denominator(10**9) for train in placing.turns for name, value in train.items()}
-    unknown: set[str] = set()
-    for _ in placing.mates:
-        for mate in placing.mates:
-            one, two = mate.first.id, mate.second.id
-            moves = one in turns or one in unknown
-            if moves and mate.mating.kind in _OTHERWISE and abs(mate.first.centre - mate.second.centre) > _SAME:
-                unknown.add(two)
-            elif unknown & {one, two} and mate.mating.kind != "coaxial":
-                unknown |= {one, two}
-
-    def pose(name: str, times: Real) -> tuple[Complex, Real]:
-        here, rate = stand[name], float(turns.get(name, 0))
-        return np.full(len(times), here.centre), here.rotation + _TURN * rate * times
-
-    return Course(pose, {k: (v,) for k, v in turns.items() if v and k not in unknown}, frozenset(unknown))
+    """How the drives of a scene move it; t is the share of what they are asked for."""
+    assert placing.train is not None
+    chains = {i.id: placing.train.rates(i.id) for i in placing.instances}
+    rates = {key: chain for key, chain in chains.items() if chain and any(chain)}
+    return Course(placing.train.along, rates, frozenset(key for key, chain in chains.items() if chain is None))

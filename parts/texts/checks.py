@@ -32,6 +32,7 @@ MATES: dict[str, Text] = {
         by="output_pins",
     ),
     "coaxial": N_("{first} - {second}: on one axis"),
+    "carried": N_("{second}: its axis goes round on {first}"),
     "pin_seat": N_("seated in {first}: {second}"),
     "lantern_pair": N_(
         "lantern pair {first} - {second}: a_w = {working_centre_distance:.5f} mm, ratio {gear_ratio:.6g}, "

@@ -165,13 +165,15 @@ class PolygonStackKeys(AboveKeys, tag="polygon_stack", kw_only=True):
 class StackMating(Mating):
     """Both on one axis; the second stands by whole sides."""
 
+    sides: int
+
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """On the axis of the first, turned alike."""
         return centre, rotation
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """How far the second is off the axis, mm, and off the side below, rad."""
-        step = 2 * math.pi / self.first_teeth
+        step = 2 * math.pi / self.sides
         return Standing(0.0, abs(second[0] - first[0]), math.remainder(second[1] - first[1], step), 0.0)
 
 
@@ -189,9 +191,7 @@ class PolygonStack(MateKind[PolygonStackKeys, PolygonPlate, PolygonPlate]):
         if below.sides != above.sides:
             cure = limit(below.sides, above.sides)
             raise ParameterError("sides", above.sides, "stack_of_other_sides", cure)
-        return StackMating(
-            self.name, keys.first, keys.second, height=keys.height, first_teeth=below.sides, has_contact=False
-        )
+        return StackMating(self.name, keys.first, keys.second, height=keys.height, sides=below.sides)
 
 
 POLYGON_STACK = PolygonStack()

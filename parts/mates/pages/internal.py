@@ -130,7 +130,8 @@ def _internal_pair(keys: InternalKeys, given_shift: bool) -> InternalPair:
         "first": End(keys.first, pinion),
         "second": End(ring_keys, checked_ring_gear(ring_keys)),
     }
-    pair: Any = mated(ends, [mate], _SAME)[1][0].pair
+    mating: Any = mated(ends, [mate], _SAME)[1][0]
+    pair: InternalPair = mating.pair
     return pair
 
 
@@ -169,11 +170,11 @@ def rack_sheet(table: dict[str, Any]) -> Sheet:
             "first": End(keys.first, checked_spur_gear(keys.first)),
             "second": End(keys.second, checked_rack_part(keys.second)),
         }
-        pair: Any = mated(ends, [mate], _SAME)[1][0].pair
-        page = rack_page(pair, TOPIC, _helical(keys))
+        mating: Any = mated(ends, [mate], _SAME)[1][0]
+        page = rack_page(mating.pair, TOPIC, _helical(keys))
     except ParameterError as error:
         raise _refused(error, keys) from error
-    for index, found in ((1, rack_findings(keys.first, pair.gear)), (2, rounding_finding(keys.second))):
+    for index, found in ((1, rack_findings(keys.first, mating.pair.gear)), (2, rounding_finding(keys.second))):
         page.notes += [finding_of(index, f) for f in found]
     return page
 

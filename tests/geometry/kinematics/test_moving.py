@@ -91,7 +91,7 @@ def test_a_train_of_1e12_stands_within_1e_12_of_a_pitch() -> None:
         exact -= exact > Fraction(1, 2)
         found = float(train.pose("12", np.array(t), 1)[1][0])
         assert abs(found / (2 * math.pi) - exact) < 1e-12 / 20
-        assert train.turn("12", t) == found
+        assert train.turn("12", t) == pytest.approx(found, abs=1e-14)
     assert train.turn("12", Fraction(1, 3)) == pytest.approx(2 * math.pi / 3, rel=1e-15)
 
 

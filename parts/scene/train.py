@@ -1,0 +1,335 @@
+"""What moves in a scene: its mates as joints of the kinematic layer, and where its drives then put every instance."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from fractions import Fraction
+
+import numpy as np
+
+from geometry.base.errors import ParameterError
+from geometry.base.record import Record, replace
+from geometry.base.series import Series
+from geometry.base.tolerance import PLACED_MM
+from geometry.curves.curve import Complex, Real
+from geometry.kinematics.mechanism import (
+    FRAME,
+    Fixed,
+    Group,
+    Joint,
+    Mechanism,
+    Prismatic,
+    Revolute,
+    Rolling,
+    Tree,
+    tree,
+    turns,
+)
+from geometry.kinematics.moving import Drive, Moving, moving
+from parts.base.mate import Mating, Pose
+from parts.base.refusal import SceneError
+from parts.scene.instances import DriveSpec
+
+# where instances stand: centre (mm) and rotation (rad)
+Stand = Mapping[str, Pose]
+
+
+class Train(Record):
+    """What drives move; at t = 1 they have run as far as the scene asks.
+
+    ``turned``: of each drive the turns it gives to each instance, ``slid``: the travel, mm. ``uneven``: what turns so
+    often, but not evenly.
+    """
+
+    moving: Moving
+    drives: tuple[str, ...]
+    turned: tuple[dict[str, float], ...]
+    slid: tuple[dict[str, float], ...]
+    uneven: frozenset[str]
+
+    def poses(self, values: Sequence[float | Fraction]) -> dict[str, Pose]:
+        """Where all instances stand when each drive has run that far: turns, or mm of a slide."""
+        lines = [
+            Drive(key, Fraction(0), exact(value, slides(self.moving.stands, key)))
+            for key, value in zip(self.drives, values, strict=True)
+        ]
+        found = self.moving.driven(lines).poses(np.zeros(()), 0)
+        return {key: (complex(at[0]), float(angle[0])) for key, (at, angle) in found.items()}
+
+    def along(self, key: str, t: Real) -> tuple[Complex, Real]:
+        """Centres (mm) and rotations (rad) of an instance at many t."""
+        at, angle = self.moving.pose(key, t, 0)
+        return np.asarray(at[0]), np.asarray(angle[0])
+
+    def rates(self, key: str) -> tuple[Fraction, ...] | None:
+        """Turns of an instance, then of what carries it, from the nearest on, for one t.
+
+        What a cam moves does not turn, and its cam carries it; None of what slides on and on, or turns unevenly.
+        """
+        if key in self.uneven:
+            return None
+        found: list[Fraction] = []
+        while key != FRAME:
+            joint = self.moving.stands.supports[key]
+            if isinstance(joint, Group):
+                found.append(Fraction())
+                key = joint.on[0]
+                continue
+            rate = self.moving.courses[key].rate
+            if isinstance(joint, Prismatic) and rate:
+                return None
+            if isinstance(joint, Revolute):
+                found.append(rate)
+            key = joint.on
+        return tuple(found)
+
+
+def exact(value: float | Fraction, travels: bool) -> Fraction:
+    """Turns exactly as they were written; travel (mm) in units of pi mm, as the layer has it."""
+    return Fraction(value) / Fraction(math.pi) if travels else Fraction(str(value))
+
+
+def slides(stands: Tree, key: str) -> bool:
+    """Whether an instance travels instead of turning."""
+    return isinstance(stands.supports.get(stands.body(key)), Prismatic)
+
+
+def _run(drive: DriveSpec, travels: bool, place: str, source: str) -> Fraction:
+    if travels and drive.travel is None:
+        raise SceneError(source, f"{place}.turns", drive.turns, "drive_slides")
+    if not travels and drive.travel is not None:
+        raise SceneError(source, f"{place}.travel", drive.travel, "drive_turns")
+    return exact(drive.turns if drive.travel is None else drive.travel, travels)
+
+
+class Bodies:
+    """Which instances are one body, by what mates fix together; one of them leads it."""
+
+    def __init__(self, keys: Iterable[str], matings: Sequence[Mating]) -> None:
+        self._leader = {key: key for key in keys}
+        follows = {mating.second for mating in matings if mating.follows}
+        for mating in matings:
+            for joint in mating.joints:
+                if isinstance(joint, Fixed):
+                    one, two = self.of(joint.on), self.of(joint.link)
+                    # what stands where a cam puts it leads those that are fixed to it
+                    one, two = (two, one) if two in follows else (one, two)
+                    self._leader[two] = one
+
+    def of(self, key: str) -> str:
+        """The leader of its body."""
+        while self._leader[key] != key:
+            key = self._leader[key]
+        return key
+
+
+def scene_mechanism(stand: Stand, matings: Sequence[Mating], held: Iterable[str] = ()) -> Mechanism:
+    """The mechanism of instances as they stand.
+
+    An instance that no mate carries turns about its own axis on the frame; of several that are one body that is the
+    axis of the first that meshes. A mesh is carried by the instance on which both of its axes stand.
+
+    Raises
+    ------
+    ParameterError
+        An instance stands on two others, or the axes of a mesh part: named ``mates[k].KEY``.
+    """
+    bodies = Bodies(stand, matings)
+    axes: dict[str, complex] = {}
+    carriers: dict[str, list[tuple[str, int]]] = {}
+    joints: dict[str, Joint] = {}
+    for index, mating in enumerate(matings):
+        body = bodies.of(mating.second)
+        for joint in mating.joints:
+            if isinstance(joint, Rolling):
+                for key in (joint.first, joint.second):
+                    axes.setdefault(bodies.of(key), stand[key][0])
+            elif isinstance(joint, Prismatic):
+                slide = bodies.of(joint.link)
+                joints.setdefault(slide, Prismatic(slide, direction=cmath.rect(1.0, stand[joint.link][1])))
+            elif isinstance(joint, Revolute) and bodies.of(joint.on) != body:
+                carriers.setdefault(body, []).append((bodies.of(joint.on), index))
+        if mating.follows and bodies.of(mating.first) != body:
+            joints.setdefault(body, _following(mating, stand, body))
+    # an axis that a mate puts somewhere is there
+    axes |= {key: stand[matings[found[0][1]].second][0] for key, found in carriers.items()}
+    axes = {key: at for key, (at, _) in stand.items()} | axes
+
+    led = set(joints)
+
+    def carrier(on: str, at: complex) -> str:
+        """What carries an axis at a place: what stands on one's own axis does not go round with one."""
+        while on not in led and on != FRAME and abs(axes[on] - at) <= PLACED_MM:
+            on = carriers[on][0][0] if on in carriers else FRAME
+        return on
+
+    for key in stand:
+        body = bodies.of(key)
+        if body != key:
+            joints[key] = Fixed(key, on=body)
+        elif key not in joints:
+            found = [(carrier(on, axes[key]), index) for on, index in carriers.get(key, ())]
+            joints[key] = Revolute(key, on=found[0][0] if found else FRAME, at=axes[key])
+            for on, index in found[1:]:
+                if on != found[0][0]:
+                    told = f"mates[{index + 1}].first"
+                    raise ParameterError(told, matings[index].first, "stands_on_two", None, on=[found[0][0]])
+    holds = {key: None for mating in matings for key in mating.holds}
+    base = Mechanism(tuple(joints.values()), tuple(holds | dict.fromkeys(held)), dict(stand))
+    stands = tree(base)
+    meshes: list[Rolling] = []
+    for index, mating in enumerate(matings):
+        for joint in mating.joints:
+            if isinstance(joint, Rolling):
+                shared = stands.common_carrier(joint.first, joint.second)
+                if shared is None:
+                    told = f"mates[{index + 1}].second"
+                    raise ParameterError(told, joint.second, "mesh_parts", None, first=joint.first)
+                # a ring that its mate holds turns nothing but what an eccentric carries
+                if not (mating.holds and shared == FRAME):
+                    meshes.append(replace(joint, on=shared))
+    return replace(base, joints=(*base.joints, *meshes))
+
+
+def _following(mating: Mating, stand: Stand, body: str) -> Group:
+    """The body of a mate's second, which stands wherever the first puts it."""
+    start, (own, leads) = stand[mating.first], (stand[mating.second], stand[body])
+    arm, lean = (leads[0] - own[0]) * cmath.rect(1.0, -own[1]), leads[1] - own[1]
+
+    def poses(given: list[tuple[Series, Series]]) -> list[tuple[Series, Series]]:
+        ((origin, angle),) = given
+        at, turned = np.vectorize(lambda z, a: mating.followed(start, (complex(z), float(a))), [complex, float])(
+            origin[0], angle[0]
+        )
+        # how fast it goes is the cam's matter
+        unknown = [np.full(np.shape(at), np.nan)] * (len(angle) - 1)
+        return [([at + arm * np.exp(1j * turned), *unknown], [turned + lean, *unknown])]
+
+    return Group((body,), (mating.first,), poses, (1, 1))
+
+
+def driven_train(
+    stand: Stand, matings: Sequence[Mating], drives: Sequence[DriveSpec], held: Sequence[str], source: str
+) -> Train:
+    """What the drives of a scene move.
+
+    Raises
+    ------
+    SceneError
+        A drive contradicts another one or what is held, or leaves free what it drives.
+    """
+    keys = tuple(drive.instance for drive in drives)
+    for number, key in enumerate(keys):
+        if key in keys[:number]:
+            raise SceneError(source, f"drives[{number + 1}].instance", key, "driven_already", other=key)
+    try:
+        mechanism = scene_mechanism(stand, matings, held)
+        joined = _joined(mechanism, matings)
+        _check_rings(matings, joined, source)
+        stands = tree(mechanism)
+        runs = [
+            _run(drive, slides(stands, drive.instance), f"drives[{n}]", source) for n, drive in enumerate(drives, 1)
+        ]
+        moved = moving(mechanism, [Drive(key, run) for key, run in zip(keys, runs, strict=True)])
+    except ParameterError as refusal:
+        raise _refused(refusal, keys, matings, source) from refusal
+    meshing = {
+        moved.stands.body(key) for j in mechanism.joints if isinstance(j, Rolling) for key in (j.first, j.second)
+    }
+    turned, slid = [], []
+    for number, drive in enumerate(drives, 1):
+        reached = _reached(drive.instance, joined)
+        if free := [key for key in reached if key in moved.turns.free and moved.stands.body(key) in meshing]:
+            raise SceneError(source, f"drives[{number}].instance", drive.instance, "leaves_free", free=free)
+        shares = {key: moved.turns.shares.get(key, {}).get(drive.instance) for key in reached}
+        run = {key: share * runs[number - 1] for key, share in shares.items() if share}
+        turned.append({key: float(value) for key, value in run.items() if not slides(stands, key)})
+        slid.append({key: float(value) * math.pi for key, value in run.items() if slides(stands, key)})
+    return Train(moved, keys, tuple(turned), tuple(slid), _uneven(keys, joined, matings))
+
+
+def _uneven(drives: Sequence[str], joined: Sequence[tuple[str, str]], matings: Sequence[Mating]) -> frozenset[str]:
+    """What lies beyond noncircular gears, seen from the drives."""
+    found: set[str] = set()
+    for mating in matings:
+        if mating.uneven:
+            ends = (mating.first, mating.second)
+            sides = [_reached(end, [pair for pair in joined if pair != ends]) for end in ends]
+            found |= set(sides[0] if set(drives) & set(sides[1]) else sides[1])
+    return frozenset(found)
+
+
+def ratio_before(stand: Stand, matings: Sequence[Mating], mating: Mating) -> tuple[float, float] | None:
+    """Turns of a mate's second for one of its first by the mates before it, and by itself; None where they are free."""
+    joint = next((j for j in mating.joints if isinstance(j, Fixed | Rolling)), None)
+    if joint is None or mating.holds:
+        return None
+    try:
+        found = turns(scene_mechanism(stand, matings), (mating.first,)).shares.get(mating.second)
+        closed = scene_mechanism(stand, [*matings, mating]).joints[-1]
+    except ParameterError:
+        # what cannot move is the drives' matter
+        return None
+    own = joint.ratio if isinstance(joint, Rolling) else Fraction(1)
+    # seen from a carrier that turns too, only what turns alike has the ratio of its teeth
+    turns_too = isinstance(closed, Rolling) and (closed.on != FRAME and own != 1)
+    if not found or turns_too or (isinstance(joint, Rolling) and joint.kind == "rack"):
+        return None
+    return float(found[mating.first]), float(own)
+
+
+def hanging_together(start: str, matings: Sequence[Mating]) -> list[str]:
+    """What turns with an instance, before any of them is placed."""
+    return _reached(start, [(m.first, m.second) for m in matings if not m.holds and any(map(_turns, m.joints))])
+
+
+def _turns(joint: Joint) -> bool:
+    return isinstance(joint, Fixed) or (isinstance(joint, Rolling) and joint.kind != "rack")
+
+
+def _joined(mechanism: Mechanism, matings: Sequence[Mating]) -> list[tuple[str, str]]:
+    """Which two instances each mate makes to move together; an axis alone does not."""
+    stands = tree(mechanism)
+    found = []
+    for mating in matings:
+        one, two = stands.supports[stands.body(mating.second)], stands.body(mating.first)
+        carried = isinstance(one, Revolute) and one.on == two and any(isinstance(j, Revolute) for j in mating.joints)
+        if carried or (not mating.holds and any(isinstance(j, Fixed | Rolling) for j in mating.joints)):
+            found.append((mating.first, mating.second))
+    return found
+
+
+def _reached(start: str, joined: Sequence[tuple[str, str]]) -> list[str]:
+    """What hangs together with an instance, nearest first."""
+    found = [start]
+    for here in found:
+        for pair in joined:
+            if here in pair:
+                found += [key for key in pair if key not in found]
+    return found
+
+
+def _check_rings(matings: Sequence[Mating], joined: Sequence[tuple[str, str]], source: str) -> None:
+    """A ring that its mate holds must not be joined to what turns in it."""
+    for index, mating in enumerate(matings, 1):
+        for ring in mating.holds:
+            if mating.second in _reached(ring, joined):
+                raise SceneError(source, f"mates[{index}].first", ring, "held_ring_is_joined", disc=mating.second)
+
+
+def _refused(refusal: ParameterError, keys: Sequence[str], matings: Sequence[Mating], source: str) -> SceneError:
+    """A refusal of the mechanism in the keys of the scene."""
+    if refusal.code != "contradicts":
+        place = refusal.name if refusal.name.startswith("mates[") else "mates"
+        return SceneError(source, place, refusal.value, refusal.code, None, "", **refusal.numbers)
+    key = str(refusal.value)
+    place, by = f"drives[{keys.index(key) + 1}].instance", refusal.numbers["by"]
+    assert isinstance(by, list)
+    for ring, disc in [(ring, mating.second) for mating in matings for ring in mating.holds]:
+        if ring in by:
+            return SceneError(source, place, key, "drives_held_ring", ring=ring, disc=disc)
+    if others := [other for other in by if other in keys]:
+        return SceneError(source, place, key, "driven_already", other=others[0])
+    return SceneError(source, place, key, "cannot_turn", by=by)
