@@ -330,6 +330,6 @@ def _refused(refusal: ParameterError, keys: Sequence[str], matings: Sequence[Mat
     for ring, disc in [(ring, mating.second) for mating in matings for ring in mating.holds]:
         if ring in by:
             return SceneError(source, place, key, "drives_held_ring", ring=ring, disc=disc)
-    if others := [other for other in by if other in keys]:
+    if others := [other for other in by if other in keys and other != key]:
         return SceneError(source, place, key, "driven_already", other=others[0])
     return SceneError(source, place, key, "cannot_turn", by=by)
