@@ -141,3 +141,30 @@ def printed_for_rise(law: str, lift: float, angle_deg: float) -> list[Message]:
     text = N_("the guidelines' table 2.2 prints {quantity} = {printed} at k = {place} of the rise: right is {right}")
     rows = (dict(zip(("place", "quantity", "printed", "right"), row, strict=True)) for row in _TABLE_2_2)
     return [message(text, **row) for row in rows]
+
+
+_EXAMPLE_1 = N_("coaxial only with two internal meshes, so both signs are plus; the product is the same")
+_EXAMPLE_3 = N_("the sun meshes the satellite outside, the satellite the ring inside; the product is the same")
+_LOST_SIGN = N_("the sign is lost: 120/(-0.8) = -150")
+# lesson 2 of the practicum and the guide on trains, by the numbers of teeth: what is misprinted, by its symbol
+_TRAINS: dict[tuple[int, ...], Mapping[str, Printed]] = {
+    (88, 48, 4, 44, 25, 17, 100): {"u_14^H": Printed("(-48/88)·(-44/4)", _EXAMPLE_1)},
+    (13, 52, 15, 33, 11, 45): {
+        "u_36^H": Printed("6", N_("(33/15)·(45/11) = 9; the 6 is that of example 1")),
+        "u_1H": Printed("20", N_("-4·(1 - 9) = 32")),
+    },
+    (25, 100, 20, 30, 80): {"u_35^H": Printed("(30/20)·(-80/30)", _EXAMPLE_3)},
+    (40, 30, 20, 60): {
+        "u_13^H": Printed("9/5", N_("30·60/(40·20) = 9/4; 9/5 is that of z_1 = 50, which is coaxial")),
+        "u_1H^3": Printed("-0.8", N_("that of z_1 = 50, which is coaxial")),
+        "ω_H": Printed("150", _LOST_SIGN),
+        "ω_2": Printed("600", _LOST_SIGN),
+    },
+    (50, 30, 20, 60): {"ω_H": Printed("150", _LOST_SIGN), "ω_2": Printed("600", _LOST_SIGN)},
+    (40, 20, 120): {"ω_2": Printed("-150", N_("follows from z_2 = 20, which does not reach the ring; 40 gives -60"))},
+}
+
+
+def printed_for_train(teeth: tuple[int, ...]) -> Mapping[str, Printed]:
+    """What the sources print wrongly for a train of these teeth, in their order, by the symbol; empty for any other."""
+    return _TRAINS.get(teeth, {})

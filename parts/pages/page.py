@@ -39,6 +39,7 @@ _DECIMALS = {
     "N": 3,
     "N*m": 4,
     "MPa": 4,
+    "W": 4,
 }
 
 
@@ -83,13 +84,17 @@ class Section(Draft):
 
 
 class Table(Record):
-    """Rows of numbers under heads (symbol, unit), by ``name`` in json; pages print the first ``shown`` columns."""
+    """Rows of numbers under heads (symbol, unit), by ``name`` in json; pages print the first ``shown`` columns.
+
+    ``labels``: what stands before the numbers of each row, in the first columns.
+    """
 
     name: str
     title: Text
     heads: tuple[tuple[str, str], ...]
     rows: tuple[tuple[float, ...], ...]
     shown: int | None = None
+    labels: tuple[tuple[str, ...], ...] = ()
 
 
 class Sheet(Draft):
@@ -239,6 +244,7 @@ _UNITS = {
     "N": NC_("unit", "N"),
     "N*m": NC_("unit", "N·m"),
     "MPa": NC_("unit", "MPa"),
+    "W": NC_("unit", "W"),
 }
 # functions that languages write in their own way
 _FUNCTIONS = (NC_("function", "tan"), NC_("function", "arctan"))

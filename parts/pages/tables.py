@@ -14,11 +14,18 @@ _DIGITS = 4
 
 def _heads(table: Table, words: Words) -> list[str]:
     shown = table.heads[: table.shown]
-    return [", ".join(filter(None, (symbol, unit_text(unit, words)))) for symbol, unit in shown]
+    return [", ".join(filter(None, (words.text(symbol), unit_text(unit, words)))) for symbol, unit in shown]
 
 
-def _rows(table: Table) -> list[list[str]]:
-    return [[_cell(x) for x in row[: table.shown]] for row in table.rows]
+def _rows(table: Table, words: Words) -> list[list[str]]:
+    return [
+        [*map(words.text, labels), *map(_cell, row)][: table.shown]
+        for labels, row in zip(_labels(table), table.rows, strict=True)
+    ]
+
+
+def _labels(table: Table) -> tuple[tuple[str, ...], ...]:
+    return table.labels or ((),) * len(table.rows)
 
 
 def _cell(value: float) -> str:
@@ -30,7 +37,7 @@ def _cell(value: float) -> str:
 
 def plain_table(table: Table, words: Words) -> list[str]:
     """Lines of a table for a terminal, columns flush right."""
-    rows = [_heads(table, words), *_rows(table)]
+    rows = [_heads(table, words), *_rows(table, words)]
     widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
     lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in rows]
     title = words.say(table.title)
@@ -40,29 +47,29 @@ def plain_table(table: Table, words: Words) -> list[str]:
 def markdown_table(table: Table, words: Words) -> list[str]:
     """Lines of a table in Markdown."""
     heads = [head.replace("_", r"\_") for head in _heads(table, words)]
-    rows = [heads, ["---:"] * len(heads), *_rows(table)]
+    rows = [heads, ["---:"] * len(heads), *_rows(table, words)]
     return [f"## {words.say(table.title)}", "", *(f"| {' | '.join(row)} |" for row in rows)]
 
 
 def html_table(table: Table, words: Words) -> str:
     """A table of a page."""
     head = "".join(f"<th>{html.escape(h)}</th>" for h in _heads(table, words))
-    rows = ["".join(f"<td>{cell}</td>" for cell in row) for row in _rows(table)]
+    rows = ["".join(f"<td>{cell}</td>" for cell in row) for row in _rows(table, words)]
     body = "\n".join(f"<tr>{row}</tr>" for row in (head, *rows))
     return f"<h2>{html.escape(words.say(table.title))}</h2>\n<table>\n{body}\n</table>"
 
 
 def table_data(table: Table) -> list[dict[str, Any]]:
     """All digits: one object for each row; infinity is null."""
-    return [
-        {symbol: value if math.isfinite(value) else None for (symbol, _), value in zip(table.heads, row, strict=True)}
-        for row in table.rows
-    ]
+    names = [symbol for symbol, _ in table.heads]
+    numbers = ([value if math.isfinite(value) else None for value in row] for row in table.rows)
+    return [dict(zip(names, [*labels, *row], strict=True)) for labels, row in zip(_labels(table), numbers, strict=True)]
 
 
 def csv_table(table: Table) -> str:
     """All columns and digits as lines of CSV: heads "symbol (unit)", decimal points, infinity as inf."""
     heads = [f"{symbol} ({unit})" if unit else symbol for symbol, unit in table.heads]
     # an added zero takes the sign off a zero
-    lines = [heads, *([repr(value + 0.0) for value in row] for row in table.rows)]
+    rows = zip(_labels(table), table.rows, strict=True)
+    lines = [heads, *([*labels, *(repr(value + 0.0) for value in row)] for labels, row in rows)]
     return "".join(f"{','.join(line)}\n" for line in lines)

@@ -532,3 +532,23 @@ contact_stress|sigma_H|σ_H|MPa|contact stress
 least_rim_width|b2_min|b_2min|mm|least width of the rim by contact
 rim_width|b2|b_2|mm|width of the wheel's rim
 """)
+add_terms("""
+number_of_stages|k|k||number of stages
+moving_links|n|n||moving links
+lower_pairs|p_5|p_5||lower kinematic pairs (bearing and shaft)
+higher_pairs|p_4|p_4||higher kinematic pairs (meshes)
+degree_of_freedom|W|W||degree of freedom
+exact_degree_of_freedom|W_r|W_r||degree of freedom by the rank of all equations
+mesh_ratio|u_m|u||ratio of the pair
+stage_ratio|u_s|u||ratio of the stage
+row_ratio|u_r|u||the same by the outer wheels: those between are idlers
+total_ratio|u_whole|u||ratio of the whole mechanism
+angular_velocity|omega|ω|rad/s|angular velocity
+mesh_efficiency|eta_z|η_z||efficiency of a mesh
+efficiency|eta|η||efficiency of the whole
+torque|T|T|N*m|torque from outside
+power_in|P|P|W|power put in
+circulation|c_P|c_P||greatest power of a mesh by that put in
+turns_of_driven|n|n||turns of the driven link for one turn of the driver
+turns_counted|n_counted|n||turns of it that were counted
+""")

@@ -18,6 +18,7 @@ from geometry.gears.planetary.sets import (
     Link,
     PlanetarySet,
     Search,
+    coaxial_modules,
     found_sets,
     ratio_of,
     sine_of,
@@ -44,8 +45,6 @@ _TITLES = {
 _LETTERS: dict[Link, str] = {"first": "1", "second": "3", "carrier": "H"}
 _WHEELS = ("1", "2", "2'", "3")
 _KEYS = ("z_1", "z_2", "z_2p", "z_3")
-# GOST 9563-60, both rows, mm
-_MODULES = (1, 1.125, 1.25, 1.375, 1.5, 1.75, 2, 2.25, 2.5, 2.75, 3, 3.5, 4, 4.5, 5, 5.5, 6, 7, 8, 9, 10)
 _PAIRS_TOLD = 4
 _MOST_TEETH_OFF = 3
 # columns of the table that sets with one rim do without
@@ -417,9 +416,8 @@ class _Page:
             if self.scheme.double:
                 text = N_("not coaxial in these modules: {first} teeth against {second}; m'/m = {share} would be")
                 page.notes.append(message(text, first=s1, second=s2, share=str(Fraction(s1, s2))))
-                pairs = [(a, b) for a in _MODULES for b in _MODULES if _exact(a) * s1 == _exact(b) * s2]
-                if pairs:
-                    shown = ", ".join(f"{a:g} / {b:g}" for a, b in pairs[:_PAIRS_TOLD])
+                if pairs := coaxial_modules(s1, s2):
+                    shown = ", ".join(f"{float(a):g} / {float(b):g}" for a, b in pairs[:_PAIRS_TOLD])
                     page.notes.append(message("coaxial in modules m / m' of {pairs}", pairs=shown))
             else:
                 text = N_("not coaxial: z_1 + 2 z_2 = {first}, z_3 = {second}; z_2 = {fits:g} fits")

@@ -57,6 +57,8 @@ SHEETS = [
     ("tmm42", "module=10", "reference_diameter=100"),
     ("tmm42", "module=5", "number_of_teeth=20"),
     ("tmm42", "practicum_pair", "part=wheel"),
+    ("train", "case=practicum_1"),
+    ("planetary", "scheme=david", "teeth=[50,30,20,60]", "satellites=4"),
     ("gear-pair", "practicum_pair"),
     ("gear-pair", *PAIR),
     ("gear-pair", *PAIR, "helix_angle_deg=30", "working_centre_distance=125", "second.profile_shift_coefficient=0"),
@@ -141,7 +143,7 @@ def evaluated(step: Step, spoilt: float = 0.0) -> float:
 def test_every_printed_formula_gives_its_value(words: tuple[str, ...]) -> None:
     sheet = sheet_for(" ".join(words))
     checked = [step for step in sheet.steps() if step.formula]
-    assert len(checked) >= (4 if words[0] == "cam" else 8)
+    assert len(checked) >= (4 if words[0] in ("cam", "planetary") else 8)
     for step in checked:
         assert evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), (step.name, step.formula)
 
