@@ -163,7 +163,7 @@ def _neighbours(close: Closeness, language: str) -> dict[str, Any]:
 
 def _solids(placing: Placing, parts: dict[str, Part], drives: Sequence[DriveSpec], language: str) -> dict[str, Any]:
     """Solids as they stand, then on the way that the drives move them."""
-    from parts.scene.interference import solid_overlaps
+    from parts.scene.interference import has_solid_pairs, solid_overlaps
 
     overlaps = solid_overlaps(placing, parts)
     solids = [_overlap(o.first, o.second, o.volume, language) for o in overlaps]
@@ -172,35 +172,43 @@ def _solids(placing: Placing, parts: dict[str, Part], drives: Sequence[DriveSpec
         from parts.scene.moving_solids import motion_found
         from parts.scene.relative_path import course_of
 
-        course, known = course_of(placing), {frozenset((o.first, o.second)) for o in overlaps}
+        known = {frozenset((o.first, o.second)) for o in overlaps}
+        course = course_of(placing.train, [i.id for i in placing.instances])
         found = motion_found(placing, parts, course, known)
-        whole = 360.0 * drives[0].turns
-        solids += [
-            _overlap(x.first, x.second, x.volume, language, drives[0].instance, whole * x.time) for x in found.struck
-        ]
+        solids += [_overlap(x.first, x.second, x.volume, language, drives[0], x.time) for x in found.struck]
         checks["motion"] = {
             "pairs": found.pairs,
             "tested": found.tested,
             "poses": found.poses,
-            "one_pose": [i.id for i in placing.instances if i.id in course.unknown],
             "uncovered": [asdict(x) for x in found.uncovered],
         }
+    elif has_solid_pairs(placing, parts):
+        checks["motion"] = {"one_pose": True}
     return {"solids": solids, **checks} if solids else checks
 
 
 def _overlap(
-    first: str, second: str, volume: float | None, language: str, drive: str = "", turn: float | None = None
+    first: str, second: str, volume: float | None, language: str, drive: DriveSpec | None = None, share: float = 0.0
 ) -> dict[str, Any]:
-    """Two solids in each other; ``turn``: where a drive has turned so far, degrees."""
+    """Two solids in each other, as they stand or where a drive has run a share of what it is asked for."""
     verdict, told = "overlap", N_("{first} and {second} run into each other: {value:.4g} mm^3 in common as they stand")
+    found: dict[str, Any] = {"first": first, "second": second, "volume": volume}
+    way = 0.0
     if volume is None:
         verdict = "undecided"
         told = N_("{first} and {second}: a wall is too thin to tell whether the solids run into each other; thicken it")
-    elif turn is not None:
+    elif drive is not None and drive.travel is not None:
+        way = found["drive_travel"] = share * drive.travel
+        told = N_(
+            "{first} and {second} run into each other: {value:.4g} mm^3 in common where {drive} has travelled "
+            "{way:.6g} mm"
+        )
+    elif drive is not None:
+        way = found["drive_turn_deg"] = 360.0 * share * drive.turns
         told = N_(
             "{first} and {second} run into each other: {value:.4g} mm^3 in common where {drive} has turned by "
-            "{turn:.6g} deg"
+            "{way:.6g} deg"
         )
-    text = words(language).text(told, first=first, second=second, value=volume, drive=drive, turn=turn)
-    found = {"first": first, "second": second, "volume": volume, "verdict": verdict, "text": text}
-    return found if turn is None or volume is None else {**found, "drive_turn_deg": turn}
+    name = None if drive is None else drive.instance
+    text = words(language).text(told, first=first, second=second, value=volume, drive=name, way=way)
+    return {**found, "verdict": verdict, "text": text}

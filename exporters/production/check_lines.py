@@ -47,6 +47,8 @@ def check_lines(checks: dict[str, Any], language: str) -> list[str]:
 
 def _motion(motion: dict[str, Any], told: Words) -> list[str]:
     """How far the solids were held against each other on their way, and where they were not."""
+    if "one_pose" in motion:
+        return [told.text("note: no drive moves this scene: its solids were held as they stand alone")]
     lines = []
     if motion["poses"]:
         # the rest repeat these, or circles keep them apart
@@ -57,22 +59,20 @@ def _motion(motion: dict[str, Any], told: Words) -> list[str]:
                 message("solids in motion: {pairs} over the period of each, {poses} held", pairs=pairs, poses=poses)
             )
         )
-    for found in motion["uncovered"]:
-        if found["share"] < 1:
-            lines.append(
-                told.text(
-                    "note: {first} and {second} were held over {share:.3g} of their period; between poses up to "
-                    "{depth:.3g} mm may be missed",
-                    **found,
+    for found in (x for x in motion["uncovered"] if x["share"] < 1):
+        lines.append(told.text("note: {first} and {second} were held over {share:.3g} of their period", **found))
+    if motion["uncovered"]:
+        worst = max(motion["uncovered"], key=lambda x: x["depth"])
+        pairs = counted("{pairs} pair", "{pairs} pairs", by="pairs", pairs=len(motion["uncovered"]))
+        lines.append(
+            told.say(
+                message(
+                    "note: between poses {first} and {second} may be up to {depth:.3g} mm in each other, the most of "
+                    "{pairs}",
+                    **{**worst, "pairs": pairs},
                 )
             )
-        else:
-            lines.append(
-                told.text("note: {first} and {second}: between poses up to {depth:.3g} mm may be missed", **found)
-            )
-    if motion["one_pose"]:
-        names = ", ".join(motion["one_pose"])
-        lines.append(told.text("note: held against the rest as they stand alone, not in motion: {names}", names=names))
+        )
     return lines
 
 

@@ -34,11 +34,7 @@ class SolidOverlap(Record):
 
 def solid_overlaps(placing: Placing, parts: dict[str, Part]) -> tuple[SolidOverlap, ...]:
     """Every two instances that run into each other for certain; teeth of plates in a mate are left to their contact."""
-    contact = {
-        frozenset((m.first.id, m.second.id))
-        for m in placing.mates
-        if m.mating.has_contact and parts[m.first.part].is_plate and parts[m.second.part].is_plate
-    }
+    contact = _by_contact(placing, parts)
     solids: dict[str, Any] = {}
     boxes = {i.id: _box(i, parts[i.part]) for i in placing.instances}
     found = []
@@ -54,6 +50,21 @@ def solid_overlaps(placing: Placing, parts: dict[str, Part]) -> tuple[SolidOverl
             if volume > 0:
                 found.append(SolidOverlap(one.id, two.id, volume))
     return tuple(found)
+
+
+def has_solid_pairs(placing: Placing, parts: dict[str, Part]) -> bool:
+    """Whether there are pairs that are left to their solids."""
+    count = len(placing.instances)
+    return len(_by_contact(placing, parts)) < count * (count - 1) // 2
+
+
+def _by_contact(placing: Placing, parts: dict[str, Part]) -> set[frozenset[str]]:
+    """Pairs of plates that their mate holds against each other exactly."""
+    return {
+        frozenset((m.first.id, m.second.id))
+        for m in placing.mates
+        if m.mating.has_contact and parts[m.first.part].is_plate and parts[m.second.part].is_plate
+    }
 
 
 def _box(instance: Instance, part: Part) -> tuple[complex, float, float, float]:

@@ -10,6 +10,7 @@ import cmath
 import math
 from heapq import heapify, heappop, heappush
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -26,8 +27,6 @@ from parts.scene.shapes import Shape
 MOST_POSES, _MATED_POSES, _SEARCH = 720, 48, 12
 # the first way along a path in larger steps; how far solids are sought of each other, as a part of their size
 _FIRST, _SOUGHT = 3, 0.02
-# distances that are tried, each the half of the one before
-_GAPS = 12
 # of a height in what two pairs have in common
 _DIGITS = 7
 
@@ -74,11 +73,11 @@ def motion_found(placing: Placing, parts: dict[str, Part], course: Course, known
     shapes = {name: Shape(parts[name]) for name in dict.fromkeys(i.part for i in placing.instances)}
     plates = {i.id for i in placing.instances if parts[i.part].is_plate}
     mated = {frozenset((m.first.id, m.second.id)) for m in placing.mates if m.mating.has_contact}
-    found, clear = MotionFound(), dict[tuple[object, ...], Uncovered | None]()
+    found, clear = MotionFound(), dict[tuple[str, str, float], list[tuple[Path, Uncovered | None]]]()
     for index, one in enumerate(placing.instances):
         for two in placing.instances[index + 1 :]:
             ends = frozenset((one.id, two.id))
-            if ends & course.unknown or not ends & course.rates.keys() or ends in known:
+            if not ends & course.rates.keys() or ends in known:
                 continue
             # teeth of plates are left to their contact
             if ends in mated and ends <= plates:
@@ -93,7 +92,7 @@ def motion_found(placing: Placing, parts: dict[str, Part], course: Course, known
 
 def _hold(
     found: MotionFound,
-    clear: dict[tuple[object, ...], Uncovered | None],
+    clear: dict[tuple[str, str, float], list[tuple[Path, Uncovered | None]]],
     pair: tuple[Instance, Instance],
     shapes: tuple[Shape, Shape],
     course: Course,
@@ -108,9 +107,10 @@ def _hold(
     path = path_of(pair, shapes, course)
     if path is None or (free := _free(path, shapes)).min() > 0:
         return
-    key = None if path.key is None else (one.part, two.part, round(lift, _DIGITS), *path.key)
-    if key is not None and key in clear:
-        uncovered = clear[key]
+    held = clear.setdefault((one.part, two.part, round(lift, _DIGITS)), [])
+    for earlier, uncovered in held:
+        if path.is_like(earlier):
+            break
     else:
         search = _Search(shapes, path, free, lift, _MATED_POSES if is_mated else MOST_POSES)
         struck, uncovered = search.run(one.id, two.id)
@@ -118,8 +118,8 @@ def _hold(
         found.poses += search.poses
         if struck is not None:
             found.struck.append(struck)
-        elif key is not None:
-            clear[key] = uncovered
+            return
+        held.append((path, uncovered))
     # of a mate the plane contact covers what lies between poses
     if uncovered is not None and not is_mated:
         found.uncovered.append(replace(uncovered, first=one.id, second=two.id))
@@ -147,7 +147,7 @@ class _Search:
         self.fine = INSET * max(one.reach, two.reach)
         self.first, self.second = one.slabs or (), two.slabs or ()
         self.meet = self._slabs if self.first and self.second else self._meshes
-        self.gaps = [self.fine * 2.0**k for k in range(_GAPS, -1, -1)]
+        self.last = self.fine
         self.sliver = SLIVER * min(one.solid.volume(), two.solid.volume())
         self.poses = 0
         # greatest common volume, mm^3, and where
@@ -206,17 +206,31 @@ class _Search:
         way = cmath.rect(1.0, turn)
         axes = np.array([[way.real, way.imag], [-way.imag, way.real]])
         moved = [shapely.transform(s.section, lambda xy: xy @ axes + (place.real, place.imag)) for s in self.second]
-        gap, volume = 2 * self.gaps[0], 0.0
+        gap, volume = math.inf, 0.0
         for one in self.first:
             for two, section in zip(self.second, moved, strict=True):
                 height = min(one.high, two.high + self.lift) - max(one.low, two.low + self.lift)
                 if height <= 0:
                     continue
-                # quicker than the distance itself
-                gap = next((g for g in self.gaps if g <= gap and not shapely.dwithin(one.section, section, g)), 0.0)
+                gap = min(gap, self._clearance(one.section, section))
                 if gap == 0 and shapely.intersects(one.section, section):
                     volume += height * float(shapely.area(shapely.intersection(one.section, section)))
         return gap, volume if volume > self.sliver else 0.0
+
+    def _clearance(self, one: Any, two: Any) -> float:
+        """What two sections keep apart at least, mm: by powers of two about the last one, quicker than the distance."""
+        import shapely
+
+        def near(gap: float) -> bool:
+            return bool(shapely.dwithin(one, two, gap))
+
+        if near(self.last):
+            while self.last > self.fine and near(self.last):
+                self.last /= 2
+            return 0.0 if near(self.last) else self.last
+        while self.last < self.whole and not near(2 * self.last):
+            self.last *= 2
+        return self.last
 
     def _meshes(self, place: complex, turn: float) -> tuple[float, float]:
         """The same of any solids; their distance as far as it is sought."""

@@ -3,48 +3,81 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 
 import numpy as np
 
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
-from parts.scene.placing import Instance, Placing
+from parts.scene.placing import Instance
 from parts.scene.shapes import Shape
+from parts.scene.train import Train
 
 # samples of a path for each cycle of its fastest rate; cycles at most, of which the rest is told
 _PER_CYCLE, _MOST_CYCLES = 720, 400
-# what is one place, mm; one angle, rad; one rate, turns; digits of a phase, a part of a period
-_SAME, _SAME_ANGLE, _SAME_RATE, _DIGITS = 1e-7, 1e-9, 1e-6, 7
-_TURN = 2 * math.pi
+# what is one place, mm; one angle, rad; one pose, mm or share of a turn
+_SAME, _SAME_ANGLE, _ALIKE = 1e-7, 1e-9, 1e-6
+# times that are tried where two pairs may stand alike, and how often each is made better
+_TRIED, _HALVINGS = 8, 40
 _SPREAD = np.arange(1, 34) * (math.sqrt(5) - 1) / 2 % 1.0
 
 
 class Course(Record):
-    """How a scene's drives move it; t is the share of what they are asked for.
+    """How a scene's drives move it together; t is the share of what they are asked for.
 
     ``pose``: axes (mm) and angles (rad) of an instance at many t. ``rates``: of each instance that moves its turns for
-    one t, then those of whatever carries it, from the nearest one. ``unknown``: what moves in ways that are not known.
+    one t, then those of whatever carries it, from the nearest one. ``once``: what slides or turns unevenly, which is
+    followed on the way that is asked for alone.
     """
 
     pose: Callable[[str, Real], tuple[Complex, Real]]
     rates: Mapping[str, tuple[Fraction, ...]]
-    unknown: frozenset[str] = frozenset()
+    once: frozenset[str] = frozenset()
+
+
+def course_of(train: Train, instances: Iterable[str]) -> Course:
+    """The course of a scene's train."""
+    told = {key: train.rates(key) for key in instances}
+    most = Fraction(math.ceil(max([1.0, *(abs(x) for turned in train.turned for x in turned.values())])))
+    rates = {key: (most,) if chain is None else chain for key, chain in told.items()}
+    once = frozenset(key for key, chain in told.items() if chain is None)
+    return Course(train.along, {key: chain for key, chain in rates.items() if any(chain)}, once)
 
 
 class Path(Record):
     """The second as seen from the first, ``seen`` at any times; ``length``: how far any of its points has gone at most.
 
-    ``times`` and ``length`` (mm) belong together; ``distances`` (mm) are those of the axes at these times.
+    ``times`` and ``length`` (mm) belong together; ``distances`` (mm) are those of the axes at these times, ``stands``
+    what is alike (n, 3) where the pair stands alike. ``share`` of the ``period`` is looked at.
     """
 
     seen: Callable[[Real], tuple[Complex, Real]]
+    counts: tuple[int, int]
+    period: Fraction
+    share: float
     times: Real
     length: Real
     distances: Real
-    share: float
-    key: tuple[object, ...] | None
+    stands: Complex
+
+    def is_like(self, other: Path) -> bool:
+        """Whether this pair passes through the same poses as another one of the same parts, at some other time."""
+        if (self.period, self.counts) != (other.period, other.counts) or self.share < 1:
+            return False
+        probe = np.concatenate([[0.0], float(self.period) * _SPREAD])
+        wanted = _stands(*self.seen(probe), self.counts)
+        off = np.abs(other.stands - wanted[0]).max(axis=1)
+        # the nearest times of all, then nearer
+        for start in other.times[np.argsort(off)[:_TRIED]]:
+            step, late = float(other.times[1]), float(start)
+            for _ in range(_HALVINGS):
+                tried = late + step * np.array([-1.0, -0.5, 0.0, 0.5, 1.0])
+                late = float(tried[np.abs(_stands(*other.seen(tried), self.counts) - wanted[0]).max(axis=1).argmin()])
+                step /= 2
+            if float(np.abs(_stands(*other.seen(probe + late), self.counts) - wanted).max()) <= _ALIKE:
+                return True
+        return False
 
 
 def path_of(pair: tuple[Instance, Instance], shapes: tuple[Shape, Shape], course: Course) -> Path | None:
@@ -53,10 +86,9 @@ def path_of(pair: tuple[Instance, Instance], shapes: tuple[Shape, Shape], course
     rates = {x - one[0] for x in (*one, *two)} - {Fraction(0)}
     if not rates:
         return None
-    whole = float(_common([1 / abs(rate) for rate in rates]))
     fastest = float(max(map(abs, rates)))
-    # spread over the whole, so that no dwell is taken for rest; the second is near the first
-    probe = np.concatenate([[0.0, 1e-3 / fastest], min(whole, _MOST_CYCLES / fastest) * _SPREAD])
+    # spread over the whole, so that no dwell is taken for rest
+    probe = min(float(_common(rates)), _MOST_CYCLES / fastest) * np.concatenate([[0.0], _SPREAD])
     places, turns = _seen(course, pair, probe)
     still = float(np.abs(places - places[0]).max()) <= _SAME
     coaxial = float(np.abs(places).max()) <= _SAME
@@ -65,7 +97,8 @@ def path_of(pair: tuple[Instance, Instance], shapes: tuple[Shape, Shape], course
         return None
     if coaxial and not all(counts):
         return None
-    period, key = _period(places, turns, probe, (one, two), counts, rates, coaxial=coaxial)
+    once = bool({i.id for i in pair} & course.once)
+    period = Fraction(1) if once else _period(places, probe, (one, two), counts, rates)
     cycles = max(float(period) * fastest, 1e-9)
     share = min(1.0, _MOST_CYCLES / cycles)
     times = np.linspace(0.0, float(period) * share, int(_PER_CYCLE * max(1.0, cycles * share)) + 1)
@@ -79,7 +112,8 @@ def path_of(pair: tuple[Instance, Instance], shapes: tuple[Shape, Shape], course
     )
     # an arc is longer than its chord
     length = np.concatenate([[0.0], np.cumsum(steps)]) * (1 + 2.0 / _PER_CYCLE)
-    return Path(lambda t: _seen(course, pair, t), times, length, np.abs(places), share, key)
+    stands = _stands(places, turned, counts)
+    return Path(lambda t: _seen(course, pair, t), counts, period, share, times, length, np.abs(places), stands)
 
 
 def _chains(course: Course, pair: tuple[Instance, Instance]) -> tuple[tuple[Fraction, ...], tuple[Fraction, ...]]:
@@ -95,42 +129,39 @@ def _seen(course: Course, pair: tuple[Instance, Instance], times: Real) -> tuple
     return np.asarray((other - place) * np.exp(-1j * angle)), np.asarray(turn - angle)
 
 
+def _stands(places: Complex, turns: Real, counts: tuple[int, int]) -> Complex:
+    """Numbers that are equal where a pair stands alike: the distance, the line of centres in the first, and the second
+    against that line, each modulo the symmetry of its part; of coaxial ones the turn alone.
+    """
+    distance = np.abs(places)
+    line = np.where(distance > _SAME, places / np.maximum(distance, _SAME), 1.0)
+    own = line ** counts[0] if counts[0] else np.ones_like(line)
+    other = (np.exp(1j * turns) / line) ** counts[1] if counts[1] else np.ones_like(line)
+    if distance.max() <= _SAME:
+        other = np.exp(1j * turns * math.lcm(*counts))
+    return np.stack([distance + 0j, own, other], axis=-1)
+
+
 def _period(
     places: Complex,
-    turns: Real,
     probe: Real,
     chains: tuple[tuple[Fraction, ...], tuple[Fraction, ...]],
     counts: tuple[int, int],
     rates: set[Fraction],
-    *,
-    coaxial: bool,
-) -> tuple[Fraction, tuple[object, ...] | None]:
-    """The turns t after which a pair stands alike, and what else stands so at some time.
-
-    Of a pair a fixed distance apart the direction of the line of centres in the first, and the second's turn against
-    it, each count modulo the symmetry of the part: two numbers that grow evenly, so a line on a torus.
-    """
+) -> Fraction:
+    """After how long a pair stands alike: the second's axis goes round at the rates of what carries either."""
     own, other = chains[0][0], chains[1][0]
-    if coaxial:
-        alike = math.lcm(*counts)
-        phase = float(turns[0]) / _TURN * alike
-        return 1 / abs((other - own) * alike), ("coaxial", round(phase % 1.0, _DIGITS) % 1.0)
-    distance = np.abs(places)
-    direction = np.unwrap(np.angle(places))
-    slope = float(direction[1] - direction[0]) / _TURN / float(probe[1])
-    along = next((x - own for x in {*chains[0], *chains[1]} if abs(float(x - own) - slope) <= _SAME_RATE), None)
-    if float(np.ptp(distance)) > _SAME or along is None:
-        # everything it is made of repeats
-        return _common([1 / abs(rate) for rate in rates]), None
-    # what is round has no phase
-    pace = along * counts[0], (other - own - along) * counts[1]
-    phases = float(direction[0]) / _TURN * counts[0], float(turns[0] - direction[0]) / _TURN * counts[1]
-    if not any(pace):
-        return 1 / max(map(abs, rates)), None
-    period = _common([1 / abs(p) for p in pace if p])
-    loops = [int(p * period) for p in pace]
-    line = (loops[1] * phases[0] - loops[0] * phases[1]) % 1.0
-    return period, (round(float(distance[0]), _DIGITS), *loops, round(line, _DIGITS) % 1.0)
+    carriers = sorted({*chains[0][1:], *chains[1][1:]})
+    waves = np.exp(2j * math.pi * np.outer(probe, [float(x - own) for x in carriers]))
+    arms, *_ = np.linalg.lstsq(waves, places, rcond=None)
+    if float(np.abs(waves @ arms - places).max()) > _SAME:
+        # a law is in it: what it is made of repeats
+        return _common(rates)
+    around = [x for x, arm in zip(carriers, arms, strict=True) if abs(arm) > _SAME]
+    if not around:
+        return _common({(other - own) * math.lcm(*counts)})
+    found = {x - around[0] for x in around} | {counts[0] * (around[0] - own), counts[1] * (other - around[0])}
+    return _common(found)
 
 
 def _counts(distances: Real, shapes: tuple[Shape, Shape]) -> tuple[int, int]:
@@ -140,14 +171,9 @@ def _counts(distances: Real, shapes: tuple[Shape, Shape]) -> tuple[int, int]:
     return one.count(near - two.reach, far + two.reach), two.count(near - one.reach, far + one.reach)
 
 
-def _common(periods: Sequence[Fraction]) -> Fraction:
-    """The least common multiple."""
+def _common(rates: Iterable[Fraction]) -> Fraction:
+    """The time after which all rates have made whole turns; 1 where nothing turns."""
+    periods = [1 / abs(rate) for rate in rates if rate]
+    if not periods:
+        return Fraction(1)
     return Fraction(math.lcm(*(p.numerator for p in periods)), math.gcd(*(p.denominator for p in periods)))
-
-
-def course_of(placing: Placing) -> Course:
-    """How the drives of a scene move it; t is the share of what they are asked for."""
-    assert placing.train is not None
-    chains = {i.id: placing.train.rates(i.id) for i in placing.instances}
-    rates = {key: chain for key, chain in chains.items() if chain and any(chain)}
-    return Course(placing.train.along, rates, frozenset(key for key, chain in chains.items() if chain is None))

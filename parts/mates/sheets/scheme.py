@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from geometry.base.record import Draft, field
 from parts.drawing.canvas import Canvas
-from parts.mates.sheets.train import Train
+from parts.mates.sheets.train_picture import TrainPicture
 
 # between columns of wheels, from a wheel to the arm beside it, to a ring's disc on either side; mm on paper
 _COLUMN, _ARM, _DISC, _LEFT_DISC = 38.0, 22.0, 28.0, 9.0
@@ -17,7 +17,7 @@ _END, _HALF, _PLAY, _SLEEVE = 12.0, 2.5, 1.4, 2.0
 _CROSS, _HATCH = 1.2, 1.6
 
 
-def scheme_width(train: Train) -> float:
+def scheme_width(train: TrainPicture) -> float:
     """What a scheme takes of the paper's width, mm."""
     nested = sum(link.carrier is None for link in train.links)
     return _LEFT_DISC + _COLUMN * max(r.level for r in train.rims) + _DISC + _END * (1 + min(nested, 3))
@@ -27,7 +27,7 @@ class Scheme(Draft):
     """A scheme that is being drawn: ``y`` gives the height on paper of a height of the train, ``left`` its edge, mm."""
 
     canvas: Canvas
-    train: Train
+    train: TrainPicture
     y: Callable[[float], float]
     left: float
     # where each rim and each carrier may be named

@@ -7,7 +7,7 @@ from parts.drawing.expected import Expected
 from parts.drawing.labels import Labeller
 from parts.drawing.table import Row, draw_table, table_size
 from parts.mates.sheets.scheme import Scheme, scheme_width
-from parts.mates.sheets.train import Train
+from parts.mates.sheets.train_picture import TrainPicture
 from parts.mates.sheets.velocities import PlanMeasures, draw_plans, name_plans, plans_of
 from parts.texts.sheets import sheet_words
 
@@ -17,7 +17,7 @@ _PLAN, _ANGLES = 85.0, 80.0
 _COLUMNS = (82.0, 14.0, 24.0)
 
 
-def train_sheet(title: str, train: Train, told: list[str], language: str, band: float = 0.0) -> Expected:
+def train_sheet(title: str, train: TrainPicture, told: list[str], language: str, band: float = 0.0) -> Expected:
     """The sheet; ``told``: the part of each rim; ``band``: height that a title block takes, mm."""
     rows = _rows(train, told, language)
     # two scales come below
@@ -62,7 +62,7 @@ def _fits(name: str, width: float, height: float, band: float, scheme: float) ->
     return height + _ANGLES <= room and wide - FRAME_LEFT - FRAME - width - scheme - 4 * _GAP >= _PLAN
 
 
-def _heights(train: Train, low: float, high: float) -> tuple[float, float]:
+def _heights(train: TrainPicture, low: float, high: float) -> tuple[float, float]:
     """The scale of the heights, and where on paper the height 0 lies, mm."""
     ends = [train.links[r.link].axis + s * train.radius(k) for k, r in enumerate(train.rims) for s in (1, -1)]
     # rings have a back, and a frame about it
@@ -71,7 +71,7 @@ def _heights(train: Train, low: float, high: float) -> tuple[float, float]:
     return scale, (low + high) / 2 - scale * (max(ends) + min(ends)) / 2
 
 
-def _transfer(canvas: Canvas, train: Train, scheme: Scheme, line: float) -> None:
+def _transfer(canvas: Canvas, train: TrainPicture, scheme: Scheme, line: float) -> None:
     """Thin lines that carry the heights of axes and pitch points over to the pole line."""
     heights = {h for link in range(len(train.links)) for h in train.heights(link)}
     for height in sorted(heights):
@@ -80,7 +80,7 @@ def _transfer(canvas: Canvas, train: Train, scheme: Scheme, line: float) -> None
         canvas.line(layer, complex(scheme.left, y), complex(line, y))
 
 
-def _rows(train: Train, told: list[str], language: str) -> list[Row]:
+def _rows(train: TrainPicture, told: list[str], language: str) -> list[Row]:
     teeth = sheet_words(language, "number_of_teeth")
     rows = [
         Row(f"{part}: {teeth}", f"z_{{{rim.name}}}", str(rim.teeth)) for part, rim in zip(told, train.rims, strict=True)

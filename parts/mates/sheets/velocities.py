@@ -8,7 +8,7 @@ from geometry.base.record import Record
 from parts.drawing.canvas import Box, Canvas, standard_scale
 from parts.drawing.labels import Labeller
 from parts.drawing.readback import ReadLine, ReadSheet
-from parts.mates.sheets.train import Train
+from parts.mates.sheets.train_picture import TrainPicture
 
 # a link that turns less than this share of the fastest is a point on the pole line, which no divider measures
 _LEAST = 1e-9
@@ -22,7 +22,7 @@ class Plans(Record):
     O_1, ``foot`` its foot on the line of angular velocities.
     """
 
-    train: Train
+    train: TrainPicture
     y: Callable[[float], float]
     line: float
     velocity: float
@@ -51,7 +51,7 @@ class Plans(Record):
         ]
 
 
-def plans_of(train: Train, y: Callable[[float], float], scale: float, plan: Box, angles: Box) -> Plans:
+def plans_of(train: TrainPicture, y: Callable[[float], float], scale: float, plan: Box, angles: Box) -> Plans:
     """The plans of a train in the areas that they have on paper; ``scale``: of the heights."""
     speeds = [train.velocity(k, h) for k in range(len(train.links)) for h in train.heights(k)]
     low, high = min(*speeds, 0.0), max(*speeds, 0.0)

@@ -29,7 +29,7 @@ class Rim(Record):
     internal: bool = False
 
 
-class Train(Record):
+class TrainPicture(Record):
     """Links, rims, and the ``meshes`` of rims by number. Satellites that do the same stand here once."""
 
     links: tuple[Link, ...]
