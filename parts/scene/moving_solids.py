@@ -108,18 +108,19 @@ def _hold(
     if path is None or (free := _free(path, shapes)).min() > 0:
         return
     held = clear.setdefault((one.part, two.part, round(lift, _DIGITS)), [])
-    for earlier, uncovered in held:
-        if path.is_like(earlier):
-            break
-    else:
+    alike = next((item for item in held if path.is_like(item[0])), None)
+    if alike is None:
         search = _Search(shapes, path, free, lift, _MATED_POSES if is_mated else MOST_POSES)
         struck, uncovered = search.run(one.id, two.id)
         found.tested += 1
         found.poses += search.poses
         if struck is not None:
+            # where another one strikes is found for itself
             found.struck.append(struck)
             return
-        held.append((path, uncovered))
+        alike = path, uncovered
+        held.append(alike)
+    uncovered = alike[1]
     # of a mate the plane contact covers what lies between poses
     if uncovered is not None and not is_mated:
         found.uncovered.append(replace(uncovered, first=one.id, second=two.id))
