@@ -31,6 +31,7 @@ from parts.base.schema import phrase_of
 from parts.base.texts import DOMAIN, LOCALE
 from parts.mates.registry import MATES
 from parts.pages.terms import TERMS
+from parts.recipes.registry import RECIPES
 
 HOUSE = Path(parts.__file__).parents[1]
 _PACKAGES = (HOUSE / "parts", HOUSE / "exporters")
@@ -92,7 +93,7 @@ def _called(call: ast.Call) -> str:
 
 def _kept_in_data() -> Iterator[str]:
     """Kinds, terms, keys and tables of scenes and calculations: they need no mark."""
-    yield from (*KINDS.phrases.values(), *MATES.phrases.values())
+    yield from (*KINDS.phrases.values(), *MATES.phrases.values(), *RECIPES.phrases.values())
     yield from (term.name for term in TERMS.values())
     for kind in _structs():
         if not (told := phrase_of(kind)).startswith("Keys of"):

@@ -6,7 +6,7 @@ import argparse
 import os
 import signal
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
 from itertools import pairwise
 from pathlib import Path
@@ -316,6 +316,8 @@ def _parser(told: Words) -> argparse.ArgumentParser:
         metavar=told.term("command line", "KIND"),
         help=told.text("a kind of part or mate or a built-in scene, see `{command}`", command="higherpair list"),
     )
+    plain = told.text("print the plain scene that an assembly, or a scene with one, becomes")
+    new.add_argument("--expand", action="store_true", help=plain)
     new.set_defaults(run=_new)
     schema = command("schema", told.text("print the JSON Schema of scenes, by which an editor completes keys"), page)
     schema.set_defaults(run=_schema)
@@ -517,21 +519,26 @@ def _converge(options: argparse.Namespace) -> int:
 def _list(options: argparse.Namespace) -> int:
     from parts.base.registry import KINDS
     from parts.mates.registry import MATES
+    from parts.recipes.registry import RECIPES
     from parts.scene.files import built_in_scenes, title_of
 
     _check_language(options)
     told = words(_language(options))
     kinds = {kind: told.text(phrase) for kind, phrase in KINDS.phrases.items()}
     mates = {kind: told.text(phrase) for kind, phrase in MATES.phrases.items()}
+    assemblies = {kind: told.text(phrase) for kind, phrase in RECIPES.phrases.items()}
     scenes = {name: title_of(file) for name, file in built_in_scenes().items()}
     if options.json:
-        _print_json([""], [{"parts": kinds, "mates": mates, "scenes": scenes}])
+        _print_json([""], [{"parts": kinds, "mates": mates, "assemblies": assemblies, "scenes": scenes}])
         return DONE
     print(told.text("kinds of parts (higherpair new KIND):"))
     for kind, meaning in kinds.items():
         print(f"  {kind:<22} {meaning}.")
     print(told.text("kinds of mates between instances (higherpair new KIND prints a table to add to a scene):"))
     for kind, meaning in mates.items():
+        print(f"  {kind:<22} {meaning}.")
+    print(told.text("assemblies, which become parts and mates (higherpair new KIND, --expand shows them):"))
+    for kind, meaning in assemblies.items():
         print(f"  {kind:<22} {meaning}.")
     print(told.text("built-in scenes (higherpair build NAME; higherpair new NAME.toml prints one to change):"))
     for name, title in scenes.items():
@@ -540,24 +547,26 @@ def _list(options: argparse.Namespace) -> int:
 
 
 def _new(options: argparse.Namespace) -> int:
-    from exporters.command.new import new_mate, new_scene
+    from exporters.command.new import new_assembly, new_mate, new_scene, plain_scene
     from parts.base.refusal import SceneError, meant
     from parts.base.registry import KINDS
     from parts.mates.registry import MATES
+    from parts.recipes.registry import RECIPES
     from parts.scene.files import built_in_scenes
 
     _check_language(options)
     built_in = built_in_scenes()
     scenes = {address: file for name, file in built_in.items() for address in (name, file.name)}
-    if options.kind not in {*KINDS, *MATES, *scenes}:
-        known = list(dict.fromkeys([*KINDS, *MATES, *built_in]))
-        raise SceneError("new", "KIND", options.kind, "unknown_kind", meant(options.kind, known), known=known)
+    makers: list[tuple[Collection[str], Callable[[str, str], str]]]
+    makers = [(KINDS, new_scene), (MATES, new_mate), (RECIPES, new_assembly)]
     # a scene that has the name of a kind is asked for with its ending
-    if options.kind not in (*KINDS, *MATES):
-        _page(scenes[options.kind].read_text(encoding="utf-8"), options)
-        return DONE
-    make = new_mate if options.kind in MATES else new_scene
-    _page(make(options.kind, _language(options)), options)
+    text = next((make(options.kind, _language(options)) for kinds, make in makers if options.kind in kinds), None)
+    if text is None:
+        if options.kind not in scenes:
+            known = list(dict.fromkeys([*(kind for kinds, _ in makers for kind in kinds), *built_in]))
+            raise SceneError("new", "KIND", options.kind, "unknown_kind", meant(options.kind, known), known=known)
+        text = scenes[options.kind].read_text(encoding="utf-8")
+    _page(plain_scene(text, options.kind) if options.expand else text, options)
     return DONE
 
 

@@ -5,6 +5,7 @@ All that it shows of a kind stands in the kind's keys: what they mean, their def
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from types import UnionType
 from typing import Annotated, Any, Union, get_args, get_origin
@@ -17,12 +18,16 @@ from parts.base.schema import described, own_first, phrase_of
 from parts.base.texts import ENGLISH, N_, Words, words
 from parts.keys.sheet import SHEET_KEYS
 from parts.mates.registry import MATES
+from parts.recipes.registry import RECIPES
 from parts.scene.load import ExportSpec, SceneInfo
+from parts.scene.recipes import told_out
 
 # parts of the scene: of the kind that is shown, the one that it is made from, any other one
 _OWN, _SOURCE, _OTHER = "gear", "source", "wheel"
 _SCHEMA = "higherpair.schema.json"
 _SCHEMA_COMMAND = f"higherpair schema --out {_SCHEMA}"
+# tables of a plain scene, as they are printed
+_TABLES = ("scene", "parts", "instances", "mates", "drives", "exports", "checks")
 _COMMENTS = {
     "sheet": N_("picture of meshing of every pair, DXF and SVG"),
     "one_pair": N_("only of this one"),
@@ -76,13 +81,7 @@ def new_scene(kind: str, language: str = ENGLISH) -> str:
         note = told.text("the cam that the part below belongs to")
         owner = [f"# {note}", f"[parts.{_SOURCE}]", *(f"{key} = {_toml(v)}" for key, v in made_from.items()), ""]
     lines = [
-        # the directive by which an editor finds the schema, see Taplo
-        f"#:schema {_SCHEMA}",
-        f"# {told.text('A scene of higherpair: build it with  higherpair build THIS_FILE.toml')}",
-        f"# {told.text('Lines that begin with # show defaults or examples; remove the # to set them.')}",
-        f"# {told.text('Lengths in mm, angles in degrees.')}",
-        f"# {told.text('An editor of TOML completes the keys after  {command}', command=_SCHEMA_COMMAND)}",
-        "",
+        *_head(told),
         "[scene]",
         *_keys(fields(SceneInfo), told),
         "",
@@ -104,6 +103,19 @@ def new_scene(kind: str, language: str = ENGLISH) -> str:
     return "\n".join(lines) + "\n"
 
 
+def _head(told: Words) -> list[str]:
+    """What a scene to start from says first."""
+    return [
+        # the directive by which an editor finds the schema, see Taplo
+        f"#:schema {_SCHEMA}",
+        f"# {told.text('A scene of higherpair: build it with  higherpair build THIS_FILE.toml')}",
+        f"# {told.text('Lines that begin with # show defaults or examples; remove the # to set them.')}",
+        f"# {told.text('Lengths in mm, angles in degrees.')}",
+        f"# {told.text('An editor of TOML completes the keys after  {command}', command=_SCHEMA_COMMAND)}",
+        "",
+    ]
+
+
 def new_mate(kind: str, language: str = ENGLISH) -> str:
     """The table of a kind of mate, to be put into a scene."""
     told, mate = words(language), MATES[kind]
@@ -120,6 +132,46 @@ def new_mate(kind: str, language: str = ENGLISH) -> str:
         *_keys(fields(mate.keys), told, {"first": _OWN, "second": _OTHER}),
     ]
     return "\n".join(lines) + "\n"
+
+
+def new_assembly(kind: str, language: str = ENGLISH) -> str:
+    """The text of a scene with one assembly of a kind."""
+    told, expand = words(language), f"higherpair new {kind} --expand"
+    lines = [
+        *_head(told),
+        "[scene]",
+        *_keys(fields(SceneInfo), told),
+        "",
+        f"# {told.text(RECIPES.phrases[kind])}.",
+        f"# {told.text('It becomes parts, instances and mates; see {command}', command=expand)}",
+        "[[assemblies]]",
+        f'kind = "{kind}"',
+        *_keys(own_first(RECIPES[kind].keys), told),
+        "",
+        "[[exports]]",
+        'format = "step"',
+        f"assembly = true                            # {told.text(_COMMENTS['names'])}",
+        "",
+        "[checks]",
+        f"interference = true                        # {told.text(_COMMENTS['contact'])}",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def plain_scene(text: str, source: str) -> str:
+    """The text of a scene, its assemblies told out as parts, instances, mates and drives."""
+    raw, _ = told_out({"assemblies": [], **tomllib.loads(text)}, source)
+    lines: list[str] = []
+    for name in _TABLES:
+        table = raw.get(name, {})
+        if name in ("parts", "instances"):
+            for key, own in table.items():
+                lines += ["", f"[{name}.{key}]", *(f"{k} = {_toml(v)}" for k, v in own.items())]
+        else:
+            head = f"[[{name}]]" if isinstance(table, list) else f"[{name}]"
+            for own in table if isinstance(table, list) else [table]:
+                lines += ["", head, *(f"{k} = {_toml(v)}" for k, v in own.items())]
+    return "\n".join(lines[1:]) + "\n"
 
 
 def _keys(keys: Iterable[FieldInfo], told: Words, names: Mapping[str, str] | None = None) -> Iterator[str]:

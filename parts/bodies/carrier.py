@@ -44,7 +44,12 @@ class CarrierPlateSpec(FlatKeys, forbid_unknown_fields=True, kw_only=True, tag_f
     directions_deg: (
         Annotated[
             list[Direction],
-            Meta(min_length=1, max_length=200, description="of each pin; default: equally spaced, the first on +x"),
+            Meta(
+                min_length=1,
+                max_length=200,
+                description="of each pin; default: equally spaced, the first on +x",
+                examples=[[0.0, 117.0, 243.0]],
+            ),
         ]
         | None
     ) = None

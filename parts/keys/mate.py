@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated
 
 from msgspec import Meta
@@ -9,7 +10,7 @@ from msgspec import Meta
 from parts.base.mate import MateKeys
 from parts.keys.base import degrees, mm
 
-_FAR = 1e6
+_FAR, _TURN = 1e6, 360.0
 Direction = Annotated[float, degrees("direction of the line of centres", least=-360, most=360)]
 Distance = Annotated[
     float, mm("centre distance; default: that of the shifts, without backlash", above=0, most=_FAR, example=60.5)
@@ -19,6 +20,12 @@ Distance = Annotated[
 def direction(text: str) -> Meta:
     """A direction with another meaning."""
     return degrees(text, least=-360, most=360)
+
+
+def further(direction_deg: float, angle: float) -> float:
+    """A direction so many degrees on, within the range of the key; turned back by whole turns only beyond that."""
+    found = direction_deg + angle
+    return found if abs(found) <= _TURN else math.fmod(found, _TURN)
 
 
 def height(text: str, most: float = _FAR) -> Meta:

@@ -86,8 +86,14 @@ REASONS = {
     "turns_fillets_back": N_("turns the elliptic fillets back"),
     "above_most_teeth": N_("is above most_teeth"),
     "driver_is_held": N_("is held: what is held drives nothing"),
+    "frame_needs_ring_and_sun": N_("a frame holds the ring of a set with a ring and a sun"),
     "no_planetary_set": N_("no set within these limits has that ratio"),
+    "no_shifts_fit": N_(
+        "no shifts up to 1 bring both meshes, which want {first} and {second} mm, to one distance with all conditions "
+        "kept; see `higherpair calc planetary`, or give shifts"
+    ),
     "one_rim_one_module": N_("satellites with one rim have one module"),
+    "one_shift_a_wheel": N_("is one for each of {wheels} wheels"),
     "ratio_not_zero": N_("no ratio is 0: give it as driver to driven, below 0 where they turn in opposite ways"),
     "ring_not_above_rim": N_("the ring of {ring} teeth must have more than its satellite, {rim}"),
     "satellites_collide": N_("the tips of neighbours would overlap"),
@@ -95,6 +101,8 @@ REASONS = {
         "{places} places are no multiple of that: teeth {teeth} take so many, "
         'or spacing = "unequal" at {spacing} degrees'
     ),
+    "shifts_leave_no_angle": N_("leave a mesh without a working pressure angle"),
+    "shifts_not_coaxial": N_("put both meshes at {first} and {second} mm: give working_centre_distance, or others"),
     "too_few_places": N_("there are {places} places for one and the same satellite"),
     "transmits_nothing": N_("wheels 1 and 3 turn alike: the carrier transmits nothing"),
     "worm_flank_above_reference": N_("the flanks begin above the reference cylinder; take fewer starts or more q"),

@@ -10,6 +10,7 @@ REASONS = {
     "is_a_member": N_("{group} has one of this id already; rename one of them"),
     "only_of_a_count": N_("only with `count`, which makes several of it"),
     "a_folder": N_("is a folder; give a scene file (.toml) or one of: {known}"),
+    "assemblies_share": N_("another assembly has a part {part} already; give each a name of its own"),
     "cannot_turn": N_("cannot turn: {by} hold it"),
     "device_name": N_("is a name that Windows keeps for a device"),
     "driven_already": N_("the drive of {other} turns it already; remove one of them"),

@@ -188,12 +188,14 @@ def _further(mate: MateKeys, index: int, group: Group, *, placed: bool) -> dict[
     def said(key: str) -> Any:
         return getattr(mate, key)
 
+    from parts.keys.mate import further
+
     keys, angle = mate.__struct_fields__, group.angle(index)
     found: dict[str, Any] = {}
     if "number" in keys:
         found["number"] = said("number") + index
     if "direction_deg" in keys and angle:
-        found["direction_deg"] = math.remainder(said("direction_deg") + angle, 360)
+        found["direction_deg"] = further(said("direction_deg"), angle)
     if "rotation_deg" in keys and angle and placed:
         found["rotation_deg"] = said("rotation_deg") + angle
     if "offset" in keys and said("offset") is not None and angle and placed:

@@ -206,17 +206,33 @@ def scene_from_toml(raw_bytes: bytes, source: str, name: str) -> SceneFile:
 
 
 def scene_from_dict(raw: dict[str, Any], source: str, name: str) -> SceneFile:
-    """Validate the tables of a scene."""
+    """Validate the tables of a scene, its assemblies told out."""
     refuse_infinite(raw, source, "")
+    _check_tables(raw, source)
+    origins: dict[str, str] = {}
+    if "assemblies" in raw:
+        from parts.scene.recipes import told_out
+
+        raw, origins = told_out(raw, source)
+    with in_keys_of_file(origins):
+        return _scene_of(raw, source, name, origins)
+
+
+def _check_tables(raw: dict[str, Any], source: str) -> None:
+    """Only tables that a scene has, each of its form."""
     tables: dict[str, type] = {key: dict for key in ("scene", "parts", "instances", "checks")}
-    tables |= {key: list for key in ("mates", "drives", "exports")}
+    tables |= {key: list for key in ("assemblies", "mates", "drives", "exports")}
     for key, value in raw.items():
         if key not in tables:
             raise SceneError(source, key, None, "unknown_table", meant(key, tables), known=list(tables))
         if not isinstance(value, tables[key]):
             raise SceneError(source, key, value, "not_a_list" if tables[key] is list else "not_a_table", None, key=key)
-    if not raw.get("parts"):
+    if not (raw.get("parts") or raw.get("assemblies")):
         raise SceneError(source, "parts", None, "no_parts")
+
+
+def _scene_of(raw: dict[str, Any], source: str, name: str, origins: dict[str, str]) -> SceneFile:
+    """The scene of plain tables; ``origins`` gets the places of what groups are told out into."""
     info = converted(raw.get("scene", {}), SceneInfo, source, "scene")
     parts = {key: _part_spec(key, table, source) for key, table in raw["parts"].items()}
     for key in parts:
@@ -228,13 +244,14 @@ def scene_from_dict(raw: dict[str, Any], source: str, name: str) -> SceneFile:
     ]
     instances, groups = instance_specs(raw.get("instances", {}), parts, source)
     mates: list[MateKeys] = []
-    origins: dict[str, str] = {}
+    places: dict[str, str] = {}
     for number, table in enumerate(raw.get("mates", []), 1):
         place = f"mates[{number}]"
         for mate in members(_mate_spec(table, instances, groups, source, place), groups, source, place):
             mates.append(mate)
             if len(mates) != number:
-                origins[f"mates[{len(mates)}]"] = place
+                places[f"mates[{len(mates)}]"] = origins.get(place, place)
+    origins |= places
     drives = [drive_spec(t, instances, source, f"drives[{i + 1}]") for i, t in enumerate(raw.get("drives", []))]
     checks = converted(raw.get("checks", {}), ChecksSpec, source, "checks")
     return SceneFile(name, info, parts, exports, instances, mates, drives, checks, origins)

@@ -6,10 +6,11 @@ import json
 from typing import Annotated, Any, Union
 
 import msgspec
-from msgspec import NODEFAULT, Meta
+from msgspec import Meta
 
 from parts.base.registry import KINDS
 from parts.mates.registry import MATES
+from parts.recipes.registry import RECIPES
 from parts.scene.instances import DriveSpec, InstanceTable
 from parts.scene.load import ChecksSpec, ExportSpec, SceneInfo
 
@@ -19,9 +20,11 @@ def scene_schema() -> str:
     # a type made while we run, which mypy cannot follow
     part: Any = Union[tuple(kind.keys for kind in KINDS.values())]  # noqa: UP007
     mate: Any = Union[tuple(kind.keys for kind in MATES.values())]  # noqa: UP007
+    recipe: Any = Union[tuple(kind.keys for kind in RECIPES.values())]  # noqa: UP007
     tables: list[tuple[str, Any, Any]] = [
         ("scene", SceneInfo, msgspec.field(default_factory=SceneInfo)),
-        ("parts", Annotated[dict[str, part], Meta(min_length=1)], NODEFAULT),
+        ("parts", Annotated[dict[str, part], Meta(min_length=1)], {}),
+        ("assemblies", list[recipe], []),
         ("instances", dict[str, InstanceTable], {}),
         ("mates", list[mate], []),
         ("drives", list[DriveSpec], []),
@@ -30,4 +33,8 @@ def scene_schema() -> str:
     ]
     scene = msgspec.defstruct("Scene", tables, forbid_unknown_fields=True, kw_only=True)
     schema = msgspec.json.schema(scene)
+    # what an assembly makes may be changed by keys alone
+    keys = schema["$defs"]["Scene"]["properties"]["parts"]
+    keys["additionalProperties"] = {"anyOf": [keys["additionalProperties"], {"not": {"required": ["kind"]}}]}
+    schema["$defs"]["Scene"]["anyOf"] = [{"required": ["parts"]}, {"required": ["assemblies"]}]
     return json.dumps({"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}, indent=1) + "\n"

@@ -60,6 +60,10 @@ DAILY = {
     "linkage_cam": "svg", "oval_gears": "dxf", "practicum_flat_cam": "stl", "practicum_pair": "dxf",
     "practicum_roller_cam": "stl", "print_cam_set": "stl", "print_gear": "stl", "rack_and_pinion": "sheet",
     "thesis_internal_pair": "dxf", "tmm42": "svg", "wedge_cam": "stl", "yoke_cam": "svg",
+    "james": "dxf", "david": "dxf", "one_external_one_internal": "dxf", "two_internal": "dxf", "differential": "dxf",
+    "practicum_example_1": "dxf", "practicum_example_2": "dxf", "practicum_example_3": "dxf", "ferguson": "dxf",
+    "compound_two_stage": "3mf", "james_laser": "svg", "james_print": "stl", "practicum_example_3_laser": "svg",
+    "practicum_example_3_print": "stl",
 }  # fmt: skip
 
 

@@ -16,6 +16,7 @@ from exporters.command.cli import main
 from exporters.documents.topics import TOPICS
 from parts.base.registry import KINDS
 from parts.mates.registry import MATES
+from parts.recipes.registry import RECIPES
 from parts.scene.files import SCENE_FOLDER, built_in_scenes
 from tests.exporters.making import part_keys, run, write_scene
 from tests.exporters.outside import Gear
@@ -42,10 +43,16 @@ def test_the_schema_takes_every_built_in_scene_and_every_new_one_and_no_wrong_on
     judge = validator()
     for file in built_in_scenes().values():
         assert not list(judge.iter_errors(tomllib.loads(file.read_text(encoding="utf-8")))), file
-    for kind in KINDS:
+    for kind in (*KINDS, *RECIPES):
         assert not list(judge.iter_errors(tomllib.loads(said(capsys, "new", kind)))), kind
     wrong = [GEAR | {"modul": 1}, GEAR | {"number_of_teeth": 2}, {"kind": "spur_gaer"}]
-    for spoiled in ({"parts": {}}, {"parts": {"g": GEAR}, "export": []}, *({"parts": {"g": keys}} for keys in wrong)):
+    for spoiled in (
+        {"parts": {}},
+        {"scene": {}},
+        {"assemblies": [{"kind": "planetary_set"}]},
+        {"parts": {"g": GEAR}, "export": []},
+        *({"parts": {"g": keys}} for keys in wrong),
+    ):
         assert list(judge.iter_errors(spoiled)), spoiled
     assert not list(judge.iter_errors({"parts": {"g": GEAR}}))
 

@@ -51,7 +51,7 @@ def test_mates_go_on_with_the_members() -> None:
     fixed = {"kind": "fixed", "first": "planet", "second": "pin", "offset": [1.0, 0.0, 2.0]}
     about = {"kind": "fixed", "first": "sun", "second": "pin", "offset": [1.0, 0.0, 2.0], "rotation_deg": 5.0}
     mates = scene(group, mesh, fixed, about).mates
-    assert [m.direction_deg for m in mates[:4]] == [30.0, 120.0, -150.0, -60.0]
+    assert [m.direction_deg for m in mates[:4]] == [30.0, 120.0, 210.0, 300.0]
     assert [(m.first, m.second, m.offset) for m in mates[4:8]] == [
         (f"planet_{k}", f"pin_{k}", (1.0, 0.0, 2.0)) for k in (1, 2, 3, 4)
     ]

@@ -1,0 +1,410 @@
+"""The assembly ``planetary_set``: both meshes of a planetary set, its satellites on a carrier, and what holds them.
+
+Wheels 1 and 3 are central, 2 and 2' the rims of a satellite, as in ``calc planetary``. A wheel's plane is its lower
+face; the first wheel that is placed stands at height 0.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Annotated, Literal
+
+from msgspec import Meta
+
+from geometry.base.angles import inverse_involute, involute_function
+from geometry.base.errors import Nearest, ParameterError
+from geometry.base.record import Record
+from geometry.base.tolerance import PLACED_MM
+from geometry.gears.planetary.assembly import Satellites, given_set, least_angle
+from geometry.gears.planetary.fitting import Fitting
+from geometry.gears.planetary.sets import SCHEMES, PlanetarySet
+from geometry.gears.shifts.external import Requirements
+from geometry.gears.teeth.basic_rack import ISO_53_ANGLE, iso_53
+from parts.keys.base import Material, degrees, mm
+from parts.keys.mate import further
+from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
+
+# what meshes keep where their shifts are chosen: tip thickness, modules, and contact ratio
+_WISH = Requirements(0.25, 1.1)
+# wheels of each scheme in the order z1, z2, z2', z3
+_WHEELS = {
+    "james": ("sun", "satellite", "satellite", "ring"),
+    "one_external_one_internal": ("sun", "satellite", "second_satellite", "ring"),
+    "two_internal": ("ring", "satellite", "second_satellite", "second_ring"),
+    "david": ("sun", "satellite", "second_satellite", "second_sun"),
+}
+_COLOURS = {
+    "sun": "#d9a066", "ring": "#9fb0c0", "satellite": "#4f8fc0", "second_satellite": "#70a0d0", "carrier": "#b5c7a3",
+    "second_sun": "#c08040", "second_ring": "#8c96a0", "pin": "#d0d4d8", "base": "#ece8df", "crank": "#d98880",
+}  # fmt: skip
+# mm: a ring's rim beyond its teeth where screws go through it, the screws, the base beyond the ring, a crank's handle
+_RIM, _SCREW, _MARGIN, _HANDLE = 14.0, 4.0, 12.0, 25.0
+
+
+class PlanetarySetKeys(RecipeKeys, kw_only=True, tag="planetary_set"):
+    """Keys of ``planetary_set``."""
+
+    scheme: Annotated[
+        Literal["james", "one_external_one_internal", "two_internal", "david"],
+        Meta(description="scheme of the practicum's figure 2.1, as in calc planetary"),
+    ] = "james"
+    teeth: Annotated[
+        list[Annotated[int, Meta(ge=3, le=10_000)]],
+        Meta(description="z1, z2, z3, or with two rims z1, z2, z2', z3", examples=[[24, 24, 72]]),
+    ]
+    satellites: Annotated[int, Meta(ge=1, le=1000, description="number of satellites")] = 3
+    spacing: Annotated[
+        Literal["equal", "unequal"], Meta(description="satellites equally spaced, or as equally as alike ones can be")
+    ] = "equal"
+    identical: Annotated[bool, Meta(description="both rims of all satellites are clocked alike")] = True
+    module: Annotated[float, mm("module of the mesh 1-2", least=0.01, most=1000)] = 2.0
+    second_module: Annotated[float, mm("module of the mesh 2'-3", least=0.01, most=1000, example=2.0)] | None = None
+    working_centre_distance: (
+        Annotated[float, mm("centre distance of both meshes; default: as the teeth want it", above=0, most=100_000,
+                            example=48.0)]
+        | None
+    ) = None  # fmt: skip
+    shifts: (
+        Annotated[
+            list[Annotated[float, Meta(ge=-10, le=10)]],
+            Meta(description="shift of each wheel as in teeth; default: least that work", examples=[[0.0, 0.0, 0.0]]),
+        ]
+        | None
+    ) = None
+    normal_backlash: Annotated[float, mm("normal backlash of both meshes", least=0, most=100, example=0.1)] | None = (
+        None
+    )
+    direction_deg: Annotated[float, degrees("direction of the first satellite", least=-360, most=360)] = 0.0
+    face_width: Annotated[float, mm("face width of every wheel", least=0.1, most=10_000)] = 10.0
+    plate_thickness: Annotated[float, mm("thickness of carrier, frame and crank", least=0.1, most=10_000)] = 4.0
+    axial_gap: Annotated[float, mm("between planes of wheels and plates", least=0, most=1000)] = 0.5
+    pin_diameter: Annotated[float, mm("of the satellites' pins", above=0, most=10_000)] = 6.0
+    shaft_diameter: Annotated[float, mm("of the suns' shaft", above=0, most=10_000)] = 8.0
+    clearance: Annotated[float, mm("of bores that turn on a pin or a shaft beyond it", least=0, most=100)] = 0.0
+    frame: Annotated[
+        bool, Meta(description="with shaft and crank, and a base under the ring, which stands on feet; marks engraved")
+    ] = False
+    material: Material | None = None
+
+
+class _Wheel(Record):
+    """One wheel: its id, its place in ``teeth``, teeth, module (mm), shift, whether a ring, its lower face (mm)."""
+
+    id: str
+    item: int
+    teeth: int
+    module: float
+    shift: float
+    is_ring: bool
+    height: float
+
+
+class _Set(Record):
+    """What the tables are made of: the wheels 1, 2, 2', 3, the centre distance (mm), where satellites stand (turns)."""
+
+    keys: PlanetarySetKeys
+    wheels: tuple[_Wheel, _Wheel, _Wheel, _Wheel]
+    distance: float
+    places: tuple[Fraction, ...]
+
+    @property
+    def equal(self) -> bool:
+        """Whether they are equally spaced."""
+        return self.keys.spacing == "equal"
+
+    @property
+    def low(self) -> float:
+        """Lower face of all wheels, mm."""
+        return min(w.height for w in self.wheels)
+
+    @property
+    def high(self) -> float:
+        """Upper face of all wheels, mm."""
+        return max(w.height for w in self.wheels) + self.keys.face_width
+
+    @property
+    def chain(self) -> tuple[_Wheel, _Wheel, _Wheel, _Wheel]:
+        """The wheels in the order in which they are placed: a ring before a sun."""
+        first, last = self.wheels[0], self.wheels[3]
+        return self.wheels[::-1] if last.is_ring and not first.is_ring else self.wheels
+
+
+class PlanetarySetRecipe(Recipe[PlanetarySetKeys]):
+    """Wheels, carrier, pins, and with a frame what a model needs to be turned and counted."""
+
+    name, keys = "planetary_set", PlanetarySetKeys
+
+    def expanded(self, keys: PlanetarySetKeys) -> Expansion:
+        """The tables of one set."""
+        made = _settled(keys)
+        found = Expansion()
+        for wheel in dict.fromkeys(made.wheels):
+            found.parts[wheel.id] = _wheel_part(made, wheel)
+            path, item = f"parts.{wheel.id}", f"item {wheel.item}"
+            found.origins[f"{path}.number_of_teeth"] = f"teeth.{item}"
+            found.origins[f"{path}.module"] = "module"
+            found.origins[f"{path}.face_width"] = "face_width"
+            if keys.shifts is not None:
+                found.origins[f"{path}.profile_shift_coefficient"] = f"shifts.{item}"
+        _add_meshes(made, found)
+        _add_carrier(made, found)
+        if keys.frame:
+            _add_frame(made, found)
+        return found
+
+
+PLANETARY_SET = PlanetarySetRecipe()
+
+
+def _settled(keys: PlanetarySetKeys) -> _Set:
+    """Teeth that are assembled, shifts that meet at one distance."""
+    scheme = SCHEMES[keys.scheme]
+    if keys.second_module is not None and not scheme.double:
+        raise ParameterError("second_module", keys.second_module, "one_rim_one_module")
+    modules = keys.module, keys.second_module or keys.module
+    one = given_set(scheme, keys.teeth, (Fraction(str(modules[0])), Fraction(str(modules[1]))))
+    if one.carried_ratio == 1:
+        raise ParameterError("teeth", keys.teeth, "transmits_nothing")
+    places = Satellites(keys.satellites, keys.spacing, keys.identical).places(one)
+    distance, shifts = _given_shifts(keys, one) if keys.shifts is not None else _fitted(keys, one, places)
+    step = keys.face_width + keys.axial_gap
+    heights = (0.0, 0.0, step, step) if scheme.double else (0.0, 0.0, 0.0, 0.0)
+    items = (1, 2, 3, 4) if scheme.double else (1, 2, 2, 3)
+    rings = scheme.internal[0], False, False, scheme.internal[1]
+    columns = zip(_WHEELS[keys.scheme], items, one.teeth, (modules[0],) * 2 + (modules[1],) * 2, shifts, rings, heights,
+                  strict=True)  # fmt: skip
+    first, rim, second_rim, last = (_Wheel(*column) for column in columns)
+    return _Set(keys, (first, rim, second_rim, last), distance, places)
+
+
+def _fitted(
+    keys: PlanetarySetKeys, one: PlanetarySet, places: tuple[Fraction, ...]
+) -> tuple[float, tuple[float, float, float, float]]:
+    """Distance and shifts as ``calc planetary`` chooses them."""
+    fitting = Fitting(iso_53("A"), _WISH, least_angle(places), 0.0, keys.working_centre_distance)
+    fit = fitting.fit(one)
+    if fit is None:
+        one_distance, other = (float(d) for d in one.distances)
+        raise ParameterError("teeth", keys.teeth, "no_shifts_fit", first=one_distance, second=other)
+    return fit.distance, fit.shifts
+
+
+def _given_shifts(keys: PlanetarySetKeys, one: PlanetarySet) -> tuple[float, tuple[float, float, float, float]]:
+    """Shifts that the scene gives, held against one distance."""
+    given = keys.shifts or []
+    if len(given) != len(keys.teeth):
+        raise ParameterError("shifts", given, "one_shift_a_wheel", wheels=len(keys.teeth))
+    x1, x2, *rest = given
+    shifts = (x1, x2, rest[0] if one.scheme.double else x2, rest[-1])
+    found = []
+    for span, module, total in zip(one.spans, one.modules, _totals(one, shifts), strict=True):
+        value = involute_function(ISO_53_ANGLE) + 2 * math.tan(ISO_53_ANGLE) * total / span
+        if value < 0:
+            raise ParameterError("shifts", given, "shifts_leave_no_angle")
+        working = inverse_involute(value).value
+        found.append(float(module) * span * math.cos(ISO_53_ANGLE) / (2 * math.cos(working)))
+    if keys.working_centre_distance is not None:
+        return keys.working_centre_distance, shifts
+    if abs(found[0] - found[1]) > PLACED_MM:
+        raise ParameterError("shifts", given, "shifts_not_coaxial", first=found[0], second=found[1])
+    return found[0], shifts
+
+
+def _totals(one: PlanetarySet, shifts: tuple[float, float, float, float]) -> tuple[float, float]:
+    """Sums of the shifts of both meshes, or differences where one is internal."""
+    x1, x2, x2p, x3 = shifts
+    inside1, inside2 = one.scheme.internal
+    return x1 - x2 if inside1 else x1 + x2, x3 - x2p if inside2 else x3 + x2p
+
+
+def _wheel_part(made: _Set, wheel: _Wheel) -> Table:
+    keys = made.keys
+    table: Table = {
+        "kind": "ring_gear" if wheel.is_ring else "spur_gear",
+        "module": wheel.module,
+        "number_of_teeth": wheel.teeth,
+        "profile_shift_coefficient": wheel.shift,
+        "face_width": keys.face_width,
+    }
+    if wheel.is_ring and keys.frame:
+        table |= {"outer_diameter": 2 * _rim(wheel)[1], "holes": {"count": 4, "diameter": _SCREW, "start_deg": 45.0,
+                  "pitch_circle_diameter": 2 * _rim(wheel)[0]}}  # fmt: skip
+    elif not wheel.is_ring:
+        turns = wheel in made.wheels[1:3]
+        table["bore_diameter"] = keys.pin_diameter + keys.clearance if turns else keys.shaft_diameter
+    if keys.frame:
+        table["tooth_mark"] = {}
+    return table | _looks(made, wheel.id)
+
+
+def _looks(made: _Set, part: str) -> Table:
+    colour = {"colour": _COLOURS[part]}
+    return colour if made.keys.material is None else {"material": made.keys.material, **colour}
+
+
+def _rim(ring: _Wheel) -> tuple[float, float]:
+    """Radii of the circle of screws in a ring's rim and of its outside, mm, half millimetres."""
+    root = math.ceil(2 * ring.module * (ring.teeth / 2 + 1.25 + ring.shift)) / 2
+    return root + _RIM / 2 + 1, root + _RIM + 1
+
+
+def _stand(made: _Set, found: Expansion, group: str, part: str) -> None:
+    """One instance of a part for each satellite."""
+    if made.equal:
+        found.instances[group] = {"part": part, "count": len(made.places)}
+    else:
+        found.instances |= {f"{group}_{k}": {"part": part} for k, _ in enumerate(made.places, 1)}
+
+
+def _join(made: _Set, found: Expansion, mate: Table, groups: tuple[str, ...], turns: Sequence[float] = ()) -> None:
+    """A mate with ends that are groups: one for all, or one for each; ``turns``: rotation of each second, degrees."""
+    if made.equal and not any(turns):
+        found.mates.append(mate)
+        return
+    for k, place in enumerate(made.places, 1):
+        own = {key: f"{value}_{k}" if value in groups else value for key, value in mate.items()}
+        if "direction_deg" in mate:
+            own["direction_deg"] = further(mate["direction_deg"], 360 * float(place))
+        if "number" in mate:
+            own["number"] = k
+        if turns:
+            own["rotation_deg"] = turns[k - 1]
+        found.mates.append(own)
+
+
+def _mesh(made: _Set, first: _Wheel, second: _Wheel, direction: float) -> Table:
+    keys, kind = made.keys, "internal" if first.is_ring or second.is_ring else "external"
+    table: Table = {"kind": f"{kind}_gear_pair", "first": first.id, "second": second.id, "direction_deg": direction}
+    if keys.working_centre_distance is not None:
+        table["working_centre_distance"] = keys.working_centre_distance
+    if keys.normal_backlash is not None:
+        table["normal_backlash"] = keys.normal_backlash
+    return table
+
+
+def _add_meshes(made: _Set, found: Expansion) -> None:
+    """The satellites in mesh with the first wheel, their other rims fixed to them, and the other wheel in mesh."""
+    keys = made.keys
+    one, rim, other_rim, other = made.chain
+    rims = tuple(dict.fromkeys((rim.id, other_rim.id)))
+    for group in rims:
+        _stand(made, found, group, group)
+    _join(made, found, _mesh(made, one, rim, keys.direction_deg), rims)
+    if rim.id != other_rim.id:
+        height = other_rim.height - rim.height
+        fixed = {"kind": "fixed", "first": rim.id, "second": other_rim.id, "offset": [0.0, 0.0, height]}
+        _join(made, found, fixed, rims, _clocking(made))
+        if keys.axial_gap > 0:
+            length, bore = keys.axial_gap, keys.pin_diameter + keys.clearance
+            found.parts["spacer"] = {"kind": "pin", "diameter": 1.4 * bore, "length": length, "bore_diameter": bore}
+            _stand(made, found, "spacer", "spacer")
+            between = keys.face_width if height > 0 else -length
+            spaced = {"kind": "fixed", "first": rim.id, "second": "spacer", "offset": [0.0, 0.0, between]}
+            _join(made, found, spaced, (rim.id, "spacer"))
+    _join(made, found, _mesh(made, other_rim, other, math.remainder(keys.direction_deg + 180, 360)), rims)
+
+
+def _clocking(made: _Set) -> list[float]:
+    """By how much the other rim of each satellite is turned against its first, degrees, from the first satellite on.
+
+    The mate puts rim r of a satellite at theta (1 +- z_c / z_r) beyond that of the first, as if it had rolled there on
+    wheel c: + on an external one. Both rims are so where they mesh; a whole tooth of the other rim makes no difference.
+    """
+    one, rim, other_rim, other = made.chain
+    own, wanted = (Fraction(-w.teeth if w.is_ring else w.teeth, r.teeth) for w, r in ((one, rim), (other, other_rim)))
+    pitch = Fraction(1, other_rim.teeth)
+    start = made.keys.direction_deg
+    turns = []
+    for place in made.places:
+        # a direction is turned back by a whole turn where it leaves its range
+        back = round((further(start, 360 * float(place)) - start) / 360 - float(place))
+        turns.append((place + back) * (wanted - own) % pitch)
+    return [360 * float(turn - pitch if turn > pitch / 2 else turn) for turn in turns]
+
+
+def _add_carrier(made: _Set, found: Expansion) -> None:
+    """Two plates below and above all wheels, and the pins between them on which the satellites turn."""
+    keys, first = made.keys, made.chain[0]
+    thick, gap = keys.plate_thickness, keys.axial_gap
+    bottom, inside = made.low - gap - thick, made.high - made.low + 2 * gap
+    found.parts["carrier"] = {
+        "kind": "carrier_plate",
+        "number_of_pins": len(made.places),
+        "pin_circle_diameter": 2 * made.distance,
+        "pin_diameter": keys.pin_diameter,
+        "bore_diameter": keys.shaft_diameter + keys.clearance,
+        "face_width": thick,
+    } | _looks(made, "carrier")
+    if not made.equal:
+        found.parts["carrier"]["directions_deg"] = [360 * float(p) for p in made.places]
+    if keys.frame:
+        mark = {"start": [0.5 * made.distance, 0.0], "end": [0.75 * made.distance, 0.0], "width": 1.0}
+        found.parts["carrier"]["engraved"] = [mark]
+    found.parts["pin"] = {"kind": "pin", "diameter": keys.pin_diameter, "length": inside + 2 * thick,
+                          "colour": _COLOURS["pin"]}  # fmt: skip
+    found.instances["carrier"] = {"part": "carrier"}
+    found.instances["upper_carrier"] = {"part": "carrier"}
+    _stand(made, found, "pin", "pin")
+    found.mates += [
+        {"kind": "coaxial", "first": first.id, "second": "carrier", "height": bottom - first.height,
+         "rotation_deg": keys.direction_deg},
+        {"kind": "fixed", "first": "carrier", "second": "upper_carrier", "offset": [0.0, 0.0, thick + inside]},
+    ]  # fmt: skip
+    _join(made, found, {"kind": "pin_seat", "first": "carrier", "second": "pin", "number": 1}, ("pin",))
+    rim = made.chain[1]
+    turning = {"kind": "coaxial", "first": "pin", "second": rim.id, "height": rim.height - bottom}
+    _join(made, found, turning, ("pin", rim.id))
+    found.origins |= {
+        "parts.pin.diameter": "pin_diameter",
+        "parts.carrier.pin_diameter": "pin_diameter",
+        "parts.carrier.bore_diameter": "shaft_diameter",
+        "parts.carrier.face_width": "plate_thickness",
+    }
+    for wheel in made.wheels:
+        if not wheel.is_ring:
+            key = "pin_diameter" if wheel in made.wheels[1:3] else "shaft_diameter"
+            found.origins[f"parts.{wheel.id}.bore_diameter"] = key
+
+
+def _add_frame(made: _Set, found: Expansion) -> None:
+    """A base on which the ring stands on feet, and the sun's shaft with a crank; a pointer on the base."""
+    keys = made.keys
+    ring, *_, sun = made.chain
+    if not ring.is_ring or sun.is_ring:
+        raise ParameterError("frame", keys.frame, "frame_needs_ring_and_sun", Nearest(False))
+    thick, gap = keys.plate_thickness, keys.axial_gap
+    screws, outside = _rim(ring)
+    floor, top = made.low - 2 * gap - thick, made.high + 2 * gap + thick
+    half, arm = outside + _MARGIN, round(max(0.8 * made.distance, 3 * keys.shaft_diameter), 1)
+    feet = [cmath.rect(screws, math.radians(45 + 90 * k)) for k in range(4)]
+    holes = [{"at": [0.0, 0.0], "diameter": keys.shaft_diameter + keys.clearance}]
+    holes += [{"at": [round(p.real, 6), round(p.imag, 6)], "diameter": _SCREW} for p in feet]
+    found.parts |= {
+        "base": {
+            "kind": "plate", "width": 2 * half, "height": 2 * half, "corner_radius": _MARGIN, "face_width": thick,
+            "holes": holes,
+            "engraved": [{"start": [outside + 2, 0.0], "end": [half - 2, 0.0], "width": 1.5}],
+        } | _looks(made, "base"),
+        "foot": {"kind": "pin", "diameter": 2.5 * _SCREW, "bore_diameter": _SCREW, "length": ring.height - floor,
+                 "colour": _COLOURS["pin"]},
+        "shaft": {"kind": "pin", "diameter": keys.shaft_diameter, "length": top - floor + 2 * thick,
+                  "colour": _COLOURS["pin"]},
+        "crank": {
+            "kind": "follower_arm", "end": "roller", "arm_length": arm, "width": 2 * keys.pin_diameter,
+            "boss_diameter": 2 * keys.shaft_diameter, "pivot_diameter": keys.shaft_diameter,
+            "pin_diameter": keys.pin_diameter, "face_width": thick,
+        } | _looks(made, "crank"),
+        "handle": {"kind": "pin", "diameter": keys.pin_diameter, "length": thick + _HANDLE, "colour": _COLOURS["pin"]},
+    }  # fmt: skip
+    found.instances["foot"] = {"part": "foot", "count": 4}
+    foot = [feet[0].real, feet[0].imag, floor - ring.height]
+    found.mates += [
+        {"kind": "fixed", "first": ring.id, "second": "foot", "offset": foot},
+        {"kind": "fixed", "first": ring.id, "second": "base", "offset": [0.0, 0.0, floor - thick - ring.height]},
+        {"kind": "fixed", "first": sun.id, "second": "shaft", "offset": [0.0, 0.0, floor - thick - sun.height]},
+        {"kind": "fixed", "first": "shaft", "second": "crank", "offset": [0.0, 0.0, top - floor + thick]},
+        {"kind": "fixed", "first": "crank", "second": "handle", "offset": [arm, 0.0, 0.0]},
+    ]

@@ -1,0 +1,60 @@
+"""What a kind of assembly has to say: its keys, and the plain tables of a scene that they become.
+
+A recipe is an instance of a subclass, registered by one entry of ``parts/recipes/registry.py``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, Generic, TypeVar
+
+from msgspec import Meta, Struct
+
+from geometry.base.record import Draft, field
+from parts.base.texts import Text
+from parts.keys.base import IDENTIFIER
+
+Table = dict[str, Any]
+
+
+class RecipeKeys(Struct, forbid_unknown_fields=True, tag_field="kind", kw_only=True):
+    """Keys of every assembly."""
+
+    name: (
+        Annotated[
+            str,
+            Meta(pattern=IDENTIFIER, description="begins the ids of all its parts, as in a_sun", examples=["a"]),
+        ]
+        | None
+    ) = None
+
+
+class Expansion(Draft):
+    """Tables as a scene file has them; ``origins``: for places in them (``parts.sun.module``), the recipe's key."""
+
+    parts: dict[str, Table] = field(default_factory=dict)
+    instances: dict[str, Table] = field(default_factory=dict)
+    mates: list[Table] = field(default_factory=list)
+    drives: list[Table] = field(default_factory=list)
+    origins: dict[str, str] = field(default_factory=dict)
+
+
+K = TypeVar("K", bound=RecipeKeys)
+
+
+class Recipe(Generic[K]):
+    """A kind of assembly. ``K``: its keys (a msgspec struct, tagged with its name)."""
+
+    name: str
+    keys: type[K]
+    reasons: Mapping[str, Text] = {}
+
+    def expanded(self, keys: K) -> Expansion:
+        """The plain tables, their ids without the assembly's name.
+
+        Raises
+        ------
+        ParameterError
+            There is no such assembly; names the recipe's key.
+        """
+        raise NotImplementedError

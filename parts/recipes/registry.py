@@ -1,0 +1,19 @@
+"""The kinds of assemblies, one entry each: where the recipe is found, and what it makes in a phrase."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from parts.base.lazy import Index
+
+if TYPE_CHECKING:
+    from parts.recipes.recipe import Recipe
+
+RECIPES: Index[Recipe[Any]] = Index(
+    {
+        "planetary_set": (
+            "parts.recipes.planetary_set:PLANETARY_SET",
+            "Planetary set: central wheels, satellites with one rim or two on a carrier, with a frame and a crank",
+        ),
+    }
+)

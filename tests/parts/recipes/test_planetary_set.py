@@ -1,0 +1,170 @@
+"""Planetary sets told out of a few keys: phases by polygons, refusals at the recipe's keys, scenes in contact."""
+
+from __future__ import annotations
+
+import json
+import math
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from shapely import affinity
+
+from exporters.command.cli import main
+from exporters.command.new import plain_scene
+from geometry.approximation.chords import approximate_profile
+from parts.base.refusal import SceneError
+from parts.scene.files import built_in_scenes
+from parts.scene.load import SceneFile, in_keys_of_file, load_scene, make_parts, resolved, scene_from_dict
+from parts.scene.placing import place
+
+SETS = (
+    "james", "david", "one_external_one_internal", "two_internal", "differential", "ferguson", "compound_two_stage",
+    "practicum_example_1", "practicum_example_2", "practicum_example_3", "james_laser", "james_print",
+    "practicum_example_3_laser", "practicum_example_3_print",
+)  # fmt: skip
+
+
+DAVID = {"scheme": "david"}
+
+
+def scene(**keys: Any) -> SceneFile:
+    return scene_from_dict({"assemblies": [{"kind": "planetary_set", **keys}]}, "t", "t")
+
+
+def told(raw: dict[str, Any]) -> SceneError:
+    """The refusal of a scene, as the command tells it."""
+
+    def made() -> None:
+        found = scene_from_dict(raw, "t", "t")
+        with in_keys_of_file(found.origins):
+            make_parts(found, "t")
+
+    with pytest.raises(SceneError) as refusal:
+        made()
+    return refusal.value
+
+
+def refusal(**keys: Any) -> SceneError:
+    return told({"assemblies": [{"kind": "planetary_set", **keys}]})
+
+
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize("name", SETS)
+def test_every_set_is_in_contact_in_phase_and_runs_into_nothing(name: str, capsys: Any) -> None:
+    assert main(["check", "--json", name]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert "solids" not in found
+    meshes = [m for m in found["mates"] if "gear_pair" in m["kind"]]
+    assert {m["verdict"] for m in meshes} == ({"clear"} if name.endswith(("laser", "print")) else {"contact"})
+    assert all(c["met"] for m in found["mates"] for c in m.get("conditions", ()))
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"teeth": [21, 15, 51], "satellites": 4, "direction_deg": 200.0},
+        {"scheme": "david", "teeth": [25, 26, 25, 24], "satellites": 3, "identical": False, "direction_deg": 300.0},
+    ],
+)
+def test_teeth_of_satellites_stand_in_spaces(keys: dict[str, Any]) -> None:
+    """By polygons of the placed sections: no overlap, and a hundredth of a tooth more makes one."""
+    made = scene(module=2.0, **keys)
+    parts, matings = make_parts(made, "t")
+    stand = {i.id: i for i in place(made.instances, made.drives, parts, matings, "t").instances}
+
+    def polygon(key: str, turn: float = 0.0) -> shapely.Polygon:
+        part = parts[stand[key].part]
+        outline = part.section(0.0).region
+        toothed = outline.holes[0] if part.kind == "ring_gear" else outline.outer
+        points, _ = approximate_profile(toothed, 1e-4, arcs=False).geometry.expanded()
+        shape = shapely.Polygon(np.stack([points.real, points.imag], axis=1))
+        turned = affinity.rotate(shape, stand[key].rotation + turn, origin=(0, 0), use_radians=True)
+        return affinity.translate(turned, *stand[key].at[:2])
+
+    def common(first: str, second: str, turn: float) -> float:
+        one, two = polygon(first), polygon(second, turn)
+        ring = parts[stand[first].part].kind == "ring_gear"
+        return float(two.difference(one).area if ring else one.intersection(two).area)
+
+    for mate in (m for m in made.mates if "gear_pair" in m.__struct_config__.tag):
+        ends = sorted((mate.first, mate.second), key=lambda key: parts[stand[key].part].kind)
+        step = 2 * math.pi / parts[stand[ends[1]].part].keys.number_of_teeth / 100
+        assert common(*ends, 0.0) < 0.02
+        assert common(*ends, step) > 0.03
+
+
+def test_ferguson_has_three_different_satellites() -> None:
+    """101 and 100 teeth are turned to each other by thirds of what one tooth of each makes: 1/10100 of a turn."""
+    made = load_scene("ferguson")
+    fixed = [m for m in made.mates if m.__struct_config__.tag == "fixed" and m.second.startswith("second_satellite")]
+    unit = 360 / (101 * 100)
+    turned = [m.rotation_deg / unit % 1.0 for m in fixed]
+    assert turned == pytest.approx([0.0, 1 / 3, 2 / 3], abs=1e-9) or turned == pytest.approx(
+        [0.0, 2 / 3, 1 / 3], abs=1e-9
+    )
+    shifts = {
+        key: made.parts[key].profile_shift_coefficient for key in made.parts if hasattr(made.parts[key], "module")
+    }
+    assert shifts["sun"] + shifts["satellite"] == pytest.approx(-0.4904, abs=5e-5)
+    assert shifts["second_sun"] + shifts["second_satellite"] == pytest.approx(0.5093, abs=5e-5)
+
+
+@pytest.mark.parametrize(
+    ("keys", "key", "code"),
+    [
+        ({"teeth": [40, 40, 120]}, "satellites", "satellites_not_assembled"),
+        ({"teeth": [24, 24, 72], "satellites": 50}, "satellites", "satellites_collide"),
+        ({"teeth": [24, 24]}, "teeth", "wheels_of_scheme"),
+        ({"teeth": [2, 24, 72]}, "teeth.item 1", "not_allowed"),
+        ({"teeth": [24, 24, 20]}, "teeth", "ring_not_above_rim"),
+        ({"teeth": [24, 24, 82], "satellites": 2}, "teeth", "no_shifts_fit"),
+        ({"teeth": [24, 24, 72], "shifts": [0.1, 0.1, 0.5]}, "shifts", "shifts_not_coaxial"),
+        ({"teeth": [24, 24, 72], "shifts": [0.1, 0.1]}, "shifts", "one_shift_a_wheel"),
+        ({"teeth": [24, 24, 72], "second_module": 3.0}, "second_module", "one_rim_one_module"),
+        ({"scheme": "david", "teeth": [20, 20, 20, 20]}, "teeth", "transmits_nothing"),
+        ({**DAVID, "teeth": [50, 30, 20, 60], "satellites": 2, "frame": True}, "frame", "frame_needs_ring_and_sun"),
+        ({"teeth": [24, 24, 72], "shaft_diameter": 60.0}, "shaft_diameter", "reaches_root_circle"),
+        ({"teeth": [24, 24, 72], "pin_diameter": 60.0}, "pin_diameter", "reaches_root_circle"),
+    ],
+)  # fmt: skip
+def test_a_refusal_names_the_key_of_the_recipe(keys: dict[str, Any], key: str, code: str) -> None:
+    found = refusal(**keys)
+    assert (found.key, found.code) == (f"assemblies[1].{key}", code)
+
+
+def test_the_most_satellites_that_fit_are_named() -> None:
+    """Ferguson with 50: tips of neighbours keep apart up to pi / asin of tip diameter over twice the distance."""
+    keys = {"scheme": "david", "teeth": [100, 101, 100, 99], "identical": False, "working_centre_distance": 200.0}
+    most = math.floor(math.pi / math.asin(2 * (101 + 2) / 2 / (100 + 101)))
+    for found, number in ((refusal(satellites=50, **keys), most), (refusal(teeth=[24, 24, 72], satellites=50), 4)):
+        assert found.nearest is not None
+        assert (found.nearest.side, found.nearest.value) == ("at_most", number)
+
+
+def test_a_key_of_a_part_that_the_recipe_made_is_told_with_the_assembly() -> None:
+    made = {"assemblies": [{"kind": "planetary_set", "teeth": [24, 24, 72], "face_width": 4.0}]}
+    assert told(made | {"parts": {"sun": {"tip_diameter": 20.0}}}).key == "parts.sun.tip_diameter"
+    assert told(made | {"parts": {"pin": {"length": 0.0}}}).key == "parts.pin.length"
+    assert told(made | {"parts": {"sun": {"module": 3.0}}}).key == "parts.sun.module"
+
+
+@pytest.mark.parametrize("name", ["compound_two_stage", "practicum_example_1", "ferguson"])
+def test_the_expanded_scene_is_the_same_scene(name: str) -> None:
+    text = built_in_scenes()[name].read_text("utf-8")
+    plain = tomllib.loads(plain_scene(text, name))
+    assert "assemblies" not in plain
+    assert resolved(scene_from_dict(plain, "t", name)) == resolved(load_scene(name))
+
+
+def test_new_prints_a_set_that_builds(tmp_path: Path, capsys: Any) -> None:
+    assert main(["new", "planetary_set", "--out", str(tmp_path / "a.toml")]) == 0
+    assert main(["new", "planetary_set", "--expand", "--out", str(tmp_path / "b.toml")]) == 0
+    for file in ("a.toml", "b.toml"):
+        assert main(["check", "-q", str(tmp_path / file)]) == 0
+    assert resolved(load_scene(str(tmp_path / "a.toml"))) | {"name": ""} == resolved(
+        load_scene(str(tmp_path / "b.toml"))
+    ) | {"name": ""}
