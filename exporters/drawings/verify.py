@@ -10,6 +10,7 @@ import numpy as np
 
 from exporters.drawings.read import read_sheet
 from exporters.verification.verdict import Verdict
+from geometry.base.tolerance import DRAWN_ROUNDING
 from geometry.plane.measure import distance_to_curves
 from parts.base.readback import ReadError
 from parts.drawing.canvas import Box, Canvas
@@ -18,8 +19,6 @@ from parts.drawing.readback import ReadSheet, ReadText
 
 # share of the paper's size that numbers of a file may be off
 _ROUNDING = 1e-11
-# SVG coordinates have 9 digits, mm
-_SVG_ROUNDING = 5e-9
 
 
 def verify_sheet(file: Path, expected: Expected, tolerance: float) -> Verdict:
@@ -29,9 +28,8 @@ def verify_sheet(file: Path, expected: Expected, tolerance: float) -> Verdict:
     except ReadError as error:
         return Verdict({}, (str(error),))
     size = max(expected.canvas.width, expected.canvas.height)
-    rounding = _SVG_ROUNDING if file.suffix == ".svg" else 0.0
     reach = max([size, *(c.radius for c in expected.circles)])
-    allowed = tolerance + rounding + _ROUNDING * reach
+    allowed = tolerance + 2 * DRAWN_ROUNDING + _ROUNDING * reach
     measured: dict[str, float] = {}
     failures: list[str] = []
     _check_circles(sheet, expected, allowed, measured, failures)

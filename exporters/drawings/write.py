@@ -11,6 +11,7 @@ import numpy as np
 
 from exporters.formats.svg import number, save
 from geometry.approximation.outline import CadCurve
+from geometry.base.tolerance import DRAWN_DECIMALS
 from geometry.curves.bspline import BSpline
 from geometry.curves.line_arc import Arc, Line
 from parts.drawing.canvas import STYLES, Canvas, Run
@@ -36,7 +37,7 @@ def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
     import ezdxf
     from ezdxf.enums import TextEntityAlignment
 
-    from exporters.formats.drawing_dxf import add_curve
+    from exporters.formats.drawing_dxf import add_curve, place_of
     from exporters.formats.dxf_file import fixed_metadata
     from exporters.formats.dxf_file import save as save_dxf
 
@@ -65,8 +66,10 @@ def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
         kind = add_curve(space, stroke.curve, stroke.layer)
         counts[kind] = counts.get(kind, 0) + 1
     for run in runs:
-        entity = space.add_text(run.text, height=run.height, dxfattribs={"layer": "TEXT", "style": _style(run)})
-        left, right = (run.at.real, run.at.imag), (run.at.real + run.width, run.at.imag)
+        entity = space.add_text(
+            run.text, height=round(run.height, DRAWN_DECIMALS), dxfattribs={"layer": "TEXT", "style": _style(run)}
+        )
+        left, right = place_of(run.at), place_of(run.at + run.width)
         entity.set_placement(left, right, align=TextEntityAlignment.FIT)
         counts["TEXT"] = counts.get("TEXT", 0) + 1
     # all stands within the frame; ezdxf takes a corner at 0, 0 for none

@@ -5,32 +5,25 @@ from __future__ import annotations
 import numpy as np
 
 from exporters.formats.readback import SmoothLoop
+from geometry.base.tolerance import DRAWN_ROUNDING
 from geometry.curves.curve import Complex, Real
 from parts.base.readback import ReadError
 
 # samples of each span of a spline: polynomials up to this degree less one come back exactly
 _SAMPLES = 8
-# ends of neighbouring curves in one file meet this well: mm (8 decimals), and a part of its size (15 digits)
-_JOINT, _DIGITS = 2e-8, 1e-11
-# the same of smooth spans, part of the outline's size
-_SMOOTH_JOINT = 1e-9
+# ends of neighbouring curves in one file meet this well: mm, and a part of its size (files carry 15 digits)
+_JOINT, _DIGITS = 2 * DRAWN_ROUNDING, 1e-9
 
 
 def chained(pieces: list[Complex]) -> list[Complex]:
     """Sampled curves (each from its first to its last point) chained by their ends into closed loops."""
-    if not pieces:
-        return []
-    joint = _JOINT + _DIGITS * max(float(np.abs(piece).max()) for piece in pieces)
-    return [np.concatenate([piece[:-1] for piece in chain]) for chain in _chains(pieces, joint)]
+    return [np.concatenate([piece[:-1] for piece in chain]) for chain in _chains(pieces)]
 
 
 def smooth_loops(spans: list[Complex]) -> tuple[SmoothLoop, ...]:
     """Smooth spans, sampled at ``nodes()`` each, as closed loops of polynomials."""
-    joint = _SMOOTH_JOINT * max((float(np.abs(span).max()) for span in spans), default=0.0)
     powers = np.vander(nodes(), increasing=True)
-    return tuple(
-        SmoothLoop(np.asarray(np.linalg.solve(powers, np.array(chain).T).T)) for chain in _chains(spans, joint)
-    )
+    return tuple(SmoothLoop(np.asarray(np.linalg.solve(powers, np.array(chain).T).T)) for chain in _chains(spans))
 
 
 def nodes() -> Real:
@@ -38,16 +31,17 @@ def nodes() -> Real:
     return np.asarray((1 - np.cos(np.linspace(0, np.pi, _SAMPLES))) / 2)
 
 
-def _chains(pieces: list[Complex], joint: float) -> list[list[Complex]]:
+def _chains(pieces: list[Complex]) -> list[list[Complex]]:
     """Pieces turned and put one behind the other, in closed chains.
 
     Raises
     ------
     ReadError
-        An end lies within ``joint`` mm of no other.
+        An end lies by no other.
     """
     if not pieces:
         return []
+    joint = _JOINT + _DIGITS * max(float(np.abs(piece).max()) for piece in pieces)
     ends = np.array([[piece[0], piece[-1]] for piece in pieces]).ravel()
     order = np.argsort(ends.real)
     places = ends.real[order]

@@ -10,6 +10,7 @@ import numpy as np
 
 from exporters.formats.dxf_file import fixed_metadata, save
 from geometry.approximation.outline import CadCurve, Outline
+from geometry.base.tolerance import DRAWN_DECIMALS
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.contour import edge_box
 
@@ -55,21 +56,24 @@ def add_curve(space, curve: CadCurve, layer: str) -> str:
     """One curve on a layer as the DXF entity that it is; returns that entity's name."""
     attributes = {"layer": layer}
     if isinstance(curve, Line):
-        space.add_line(_xy(curve.start), _xy(curve.end), dxfattribs=attributes)
+        space.add_line(place_of(curve.start), place_of(curve.end), dxfattribs=attributes)
         return "LINE"
     if isinstance(curve, Arc):
         if abs(curve.sweep) >= 2 * math.pi:
-            space.add_circle(_xy(curve.centre), curve.radius, dxfattribs=attributes)
+            space.add_circle(place_of(curve.centre), round(curve.radius, DRAWN_DECIMALS), dxfattribs=attributes)
             return "CIRCLE"
         # DXF arcs always turn left
-        low, high = sorted((curve.start_angle, curve.start_angle + curve.sweep))
-        space.add_arc(_xy(curve.centre), curve.radius, math.degrees(low), math.degrees(high), dxfattribs=attributes)
+        ends = sorted((curve.start_angle, curve.start_angle + curve.sweep))
+        radius, more = round(curve.radius, DRAWN_DECIMALS), max(0, math.ceil(math.log10(curve.radius)) - 1)
+        low, high = (round(math.degrees(end), DRAWN_DECIMALS + more) for end in ends)
+        space.add_arc(place_of(curve.centre), radius, low, high, dxfattribs=attributes)
         return "ARC"
     spline = space.add_spline(dxfattribs=attributes, degree=curve.degree)
-    spline.control_points = [(*_xy(p), 0.0) for p in curve.poles.tolist()]
+    spline.control_points = [(*place_of(p), 0.0) for p in curve.poles.tolist()]
     spline.knots = curve.knots.tolist()
     return "SPLINE"
 
 
-def _xy(point: complex) -> tuple[float, float]:
-    return point.real, point.imag
+def place_of(point: complex) -> tuple[float, float]:
+    """A point as a drawing holds it."""
+    return round(point.real, DRAWN_DECIMALS) + 0.0, round(point.imag, DRAWN_DECIMALS) + 0.0

@@ -21,6 +21,8 @@ VERSIONS = ("R2000", "R12")
 _MODEL_SPACE, _LAYERS, _PLOT_STYLE = "17", "1", "13"
 # layers that every drawing has: 0 and Defpoints
 _OWN_LAYERS = 2
+# of the box about everything, mm
+_EXTENT_DECIMALS = 12
 SLOTS = ("<<left>>", "<<low>>", "<<right>>", "<<high>>", "<<seed>>", "<<layer count>>", "<<layers>>", "<<entities>>")
 
 
@@ -45,7 +47,7 @@ def laser_dxf(layers: tuple[str, ...], boundaries: tuple[Approximation, ...], *,
     boxes = [edge_box(v, np.roll(v, -1), b) for v, b in (a.geometry.expanded() for a in boundaries)]
     left, low = min(a.real for a, _ in boxes), min(a.imag for a, _ in boxes)
     right, high = max(b.real for _, b in boxes), max(b.imag for _, b in boxes)
-    extents = (repr(left), repr(low), repr(right), repr(high))
+    extents = (repr(round(edge, _EXTENT_DECIMALS)) for edge in (left, low, right, high))
     texts = (*extents, next(handles), str(_OWN_LAYERS + len(names)), "".join(rows), "".join(drawn))
     for slot, text in zip(SLOTS, texts, strict=True):
         frame = frame.replace(slot, text)

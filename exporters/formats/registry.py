@@ -14,8 +14,8 @@ from exporters.formats.reading import ASSEMBLY_READERS, READERS
 from geometry.approximation.chords import approximate_profile
 from geometry.base.errors import Nearest, ParameterError, limit, rounded
 from geometry.base.placement import Placement3
-from geometry.base.record import Record
-from geometry.base.tolerance import LEAST_SEGMENT_MM
+from geometry.base.record import Record, replace
+from geometry.base.tolerance import DRAWN_ROUNDING, LEAST_SEGMENT_MM, written_decimals
 from geometry.plane.contour import Approximation
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Region
@@ -41,12 +41,13 @@ BOUNDS = ("exact", "certified", "sampled")
 Places = Sequence[tuple[str, str, Placement3]]
 # more edges than any receiving program opens; one file of them is some 300 MB
 _MOST_EDGES = 4_000_000
-# a float32 coordinate is good to 2^-24 of its size, both of them together to sqrt(2) of that
-_FLOAT32 = 2.0**-24 * 1.5
-# SVG coordinates are written to 1e-9 mm; radii too, which moves an arc's crown by less
-_SVG_ROUNDING = 2e-9
-# DXF coordinates are written with 16 digits
-_DXF_ROUNDING = 2e-15
+# a float32 coordinate is good to 2^-24 of its size, both of them together to sqrt(2) of that; the rest is for the grid
+# on which vertices stand before
+_FLOAT32 = 2.0**-24 * 1.6
+# by how much an outline moves, in last decimals: by vertices and bulges 1.25, by SVG's radii and quartered ends 1.6
+_ROUNDINGS = 3.0
+# coordinates have 16 digits at most
+_DIGITS = 2e-15
 # STEP's directions and radii have 15 digits
 _STEP_ROUNDING = 1e-12
 
@@ -67,6 +68,11 @@ class Content(Record):
     def kind(self) -> FileKind:
         """The kind of file."""
         return file_kind(self.export.format, self.export.purpose)
+
+    @property
+    def decimals(self) -> int:
+        """Decimals of the numbers of a flat file, mm."""
+        return written_decimals(self.tolerance)
 
     @property
     def body(self) -> Body:
@@ -136,7 +142,7 @@ def _arcs(content: Content, tolerance: float) -> Chords:
         for p in content.section.region.profiles()
     )
     _check_count(content, sum(len(a.geometry) for a in made), 3 if arcs else 2)
-    return made
+    return tuple(replace(a, geometry=a.geometry.written(content.decimals)) for a in made)
 
 
 def _splines(content: Content, tolerance: float) -> Curves:
@@ -173,8 +179,12 @@ def _solid_curves(content: Content, tolerance: float) -> SolidCurves:
     return solid_curves(content.body, tolerance)
 
 
-def _flat_reach(content: Content) -> float:
-    return content.section.region.outer.reach()
+def _flat_rounding(content: Content) -> float:
+    return _ROUNDINGS * 10.0**-content.decimals + _DIGITS * content.section.region.outer.reach()
+
+
+def _drawing_rounding(content: Content) -> float:
+    return DRAWN_ROUNDING + _DIGITS * content.section.region.outer.reach()
 
 
 def _mesh_rounding(content: Content) -> float:
@@ -265,9 +275,9 @@ def _write_step_assembly(
 REGISTRY: dict[str, FileFormat[Any]] = {
     row.name: row
     for row in (
-        FileFormat("dxf", lambda c: _DXF_ROUNDING * _flat_reach(c), _arcs, _write_laser_dxf),
-        FileFormat("drawing", lambda c: _DXF_ROUNDING * _flat_reach(c), _splines, _write_drawing_dxf),
-        FileFormat("svg", lambda c: _SVG_ROUNDING, _arcs, _write_svg),
+        FileFormat("dxf", _flat_rounding, _arcs, _write_laser_dxf),
+        FileFormat("drawing", _drawing_rounding, _splines, _write_drawing_dxf),
+        FileFormat("svg", _flat_rounding, _arcs, _write_svg),
         FileFormat("stl", _mesh_rounding, _chords, _write_stl),
         # its float32 numbers are written as text, which rounds them once more
         FileFormat("3mf", lambda c: 2 * _mesh_rounding(c), _chords, _write_3mf, _write_3mf_assembly),

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import numpy as np
 
+from geometry.base.tolerance import DRAWN_DECIMALS
 from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Approximation, Contour, edge_points
 
 STROKES = {"ENGRAVE": "#0000ff", "CUT_INNER": "#00ff00", "CUT_OUTER": "#ff0000"}
-# exporters/formats/job.py states what this rounding may do to an outline
-_DIGITS = 9
+# of outlines that are pictures alone
+_PICTURE_DECIMALS = 6
 _MARGIN = 2.0
 # arcs of more than 100 degrees
 _LONG_BULGE = float(np.tan(np.radians(25)))
@@ -19,11 +21,11 @@ _LONG_BULGE = float(np.tan(np.radians(25)))
 
 def write_laser_svg(file: Path, layers: tuple[str, ...], boundaries: tuple[Approximation, ...]) -> dict[str, int]:
     """Write outlines at their true size; one user unit is one mm. No transform, no class, no style sheet."""
-    reach = max(float(np.abs(b.geometry.vertices).max()) for b in boundaries)
-    lines = [head(reach + _MARGIN)]
+    middle = round(max(float(np.abs(b.geometry.vertices).max()) for b in boundaries), _PICTURE_DECIMALS) + _MARGIN
+    lines = [head(middle)]
     for layer, boundary in zip(layers, boundaries, strict=True):
         style = f"fill:none;stroke:{STROKES[layer]};stroke-width:0.1"
-        lines.append(_shape(boundary.geometry, f'id="{layer.lower()}" style="{style}"', reach + _MARGIN))
+        lines.append(_shape(boundary.geometry, f'id="{layer.lower()}" style="{style}"', middle))
     save(file, lines)
     return {"shapes": len(boundaries), "vertices": sum(len(b.geometry) for b in boundaries)}
 
@@ -40,25 +42,26 @@ def head(middle: float, extra_width: float = 0.0, extra_height: float = 0.0) -> 
 def _shape(contour: Contour, attributes: str, middle: float) -> str:
     """A contour as a path, or as a circle where it is one."""
     if len(contour) == 2 and np.allclose(np.abs(contour.bulges), 1, rtol=1e-12):
-        centre, radius = contour.vertices.mean(), abs(contour.vertices[0] - contour.vertices[1]) / 2
-        x, y = number(middle + centre.real), number(middle - centre.imag)
-        return f'<circle cx="{x}" cy="{y}" r="{number(radius)}" {attributes}/>'
+        ends, decimals = contour.expanded()[0], contour.decimals or _PICTURE_DECIMALS
+        centre, radius = ends.mean(), abs(ends[0] - ends[1]) / 2
+        x, y, r = (number(v, decimals) for v in (middle + centre.real, middle - centre.imag, radius))
+        return f'<circle cx="{x}" cy="{y}" r="{r}" {attributes}/>'
     return f'<path d="{path_data(contour, middle)}" {attributes}/>'
 
 
 def path_data(contour: Contour, middle: float) -> str:
     """Absolute M, L and A commands; y runs down in SVG, so a left turn has sweep flag 0."""
     vertices, bulges = _quartered(*contour.expanded())
-    ends = np.roll(vertices, -1)
+    ends, decimals = np.roll(vertices, -1), contour.decimals or _PICTURE_DECIMALS
     xs, ys = (middle + ends.real).tolist(), (middle - ends.imag).tolist()
-    radii = _radii(vertices, ends, bulges).tolist()
-    parts = [f"M{number(middle + vertices[0].real)},{number(middle - vertices[0].imag)}"]
-    for x, y, bulge, radius in zip(xs, ys, bulges.tolist(), radii, strict=True):
+    parts = [f"M{number(xs[-1], decimals)},{number(ys[-1], decimals)}"]
+    for x, y, bulge, chord in zip(xs, ys, bulges.tolist(), np.abs(ends - vertices).tolist(), strict=True):
+        to = f"{number(x, decimals)},{number(y, decimals)}"
         if bulge == 0:
-            parts.append(f"L{number(x)},{number(y)}")
+            parts.append(f"L{to}")
         else:
-            r = number(radius)
-            parts.append(f"A{r},{r} 0 {int(abs(bulge) > 1)} {int(bulge < 0)} {number(x)},{number(y)}")
+            r = _radius(chord, abs(bulge), decimals)
+            parts.append(f"A{r},{r} 0 {int(abs(bulge) > 1)} {int(bulge < 0)} {to}")
     return " ".join(parts) + " Z"
 
 
@@ -77,15 +80,18 @@ def _quartered(vertices: Complex, bulges: Real) -> tuple[Complex, Real]:
     return np.concatenate(places), np.concatenate(heights)
 
 
-def _radii(starts: Complex, ends: Complex, bulges: Real) -> Real:
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.abs(ends - starts) * (1 + bulges**2) / (4 * np.abs(bulges))
+def _radius(chord: float, bulge: float, decimals: int) -> str:
+    """The radius of an arc of up to 100 degrees as text; the flatter the arc, the fewer digits hold its crown."""
+    radius, crown = chord * (1 + bulge**2) / (4 * bulge), chord * bulge / 2
+    # a radius on the middle between two numbers goes up on any machine
+    return number(round(radius * (1 + 1e-13), decimals - math.floor(math.log10(radius / crown))), decimals)
 
 
-def number(value: float) -> str:
+def number(value: float, decimals: int = DRAWN_DECIMALS) -> str:
     """A coordinate as text."""
-    text = f"{value:.{_DIGITS}f}".rstrip("0").rstrip(".")
-    return "0" if text in ("-0", "") else text
+    text = f"{value:.{decimals}f}"
+    text = text.rstrip("0").rstrip(".") if decimals else text
+    return "0" if text == "-0" else text
 
 
 def save(file: Path, lines: list[str]) -> None:

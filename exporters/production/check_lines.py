@@ -7,6 +7,8 @@ from typing import Any
 from parts.base.texts import N_, Message, Words, counted, filled, message, words
 from parts.texts.checks import GEAR_PAIR, MATES, VERDICTS
 
+# gaps below this are rounding, mm
+_ROUNDING = 1e-9
 _SENSES = {"clockwise": N_("clockwise"), "counter_clockwise": N_("counter-clockwise")}
 
 
@@ -18,7 +20,8 @@ def check_lines(checks: dict[str, Any], language: str) -> list[str]:
         if "total_contact_ratio" in mate:
             text += told.text(", total {total:.4f}", total=mate["total_contact_ratio"])
         if "verdict" in mate:
-            text += f": {told.text(VERDICTS[mate['verdict']])}, {told.text('least gap {gap:.2g} mm', gap=mate['gap'])}"
+            gap = told.text("least gap {gap:.2g} mm", gap=_seen(mate["gap"]))
+            text += f": {told.text(VERDICTS[mate['verdict']])}, {gap}"
             if mate["verdict"] == "clear" and mate["gap"] <= mate["tolerance"]:
                 text += f"; {told.text('the teeth part on their way')}"
         if "walls" in mate:
@@ -74,6 +77,11 @@ def _motion(motion: dict[str, Any], told: Words) -> list[str]:
             )
         )
     return lines
+
+
+def _seen(gap: float) -> float:
+    """A gap, mm; 0 where it is nothing but rounding."""
+    return gap if abs(gap) > _ROUNDING else 0.0
 
 
 def _without_repeats(mates: list[dict[str, Any]]) -> list[dict[str, Any]]:

@@ -13,6 +13,7 @@ from exporters.verification.verdict import Verdict
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.record import Record
+from geometry.base.tolerance import DRAWN_ROUNDING
 from geometry.gears.pictures.meshing import MeshingPicture, meshing_picture
 from geometry.gears.teeth.limits import practicum_undercut
 from geometry.gears.teeth.transverse import overlap_ratio
@@ -80,8 +81,7 @@ class SheetJob(Record):
 
     def declared(self, made: Made) -> tuple[float, str]:
         """Bound of its splines, mm on paper, and what kind of bound that is."""
-        rounding = 2e-9 if self.path.endswith(".svg") else 2e-15 * max(self.canvas.width, self.canvas.height)
-        return self.canvas.max_error + rounding, "sampled" if self.canvas.sampled else "certified"
+        return self.canvas.max_error + DRAWN_ROUNDING, "sampled" if self.canvas.sampled else "certified"
 
 
 def sheet_jobs(scene: SceneFile, matings: list[Mating], export: ExportSpec, where: str, source: str) -> list[SheetJob]:

@@ -34,6 +34,9 @@ _END_SHARE = math.sqrt(0.5)
 # the inner arcs are stretched and shrunk in turn by up to this part until the last tangent is met, this well
 _STRETCHES = (0.8, -0.8)
 _ENOUGH = 1e-3 * TOLERANCES.smooth_angle
+# a difference below this part of its terms is rounding; the grid on which lengths are summed
+_LOST, _SUM_GRID = 1e-10, 2.0**24
+_STRETCH_BITS = (10, 16, 22, 28, 32, 36, 40)
 _FIRST_SHARES = (0.4, 0.5, 0.6, 0.45, 0.55, 0.36)
 
 
@@ -122,9 +125,8 @@ def _seen_density(curve: Curve, tolerance: float) -> tuple[Real, Real, float, li
     change, speed = np.pad(change, 1, mode="edge"), np.pad(speed, 1, mode="edge")
     rate = np.abs(change / speed / 125) ** (1 / 3) * speed
     lengths = (rate + 1e-6 * (rate.max() + np.finfo(float).tiny) + 1e-12 * speed) * step
-    coordinate = np.concatenate([[0.0], np.cumsum(lengths)])
     turns = _trends(np.sign(change) * lengths, _SEEN * tolerance ** (1 / 3))
-    return t, coordinate / coordinate[-1], float(coordinate[-1]), turns
+    return t, *summed(lengths), turns
 
 
 def _trends(signed: Real, least: float) -> list[int]:
@@ -183,15 +185,21 @@ def _density(curve: Curve) -> tuple[Real, Real, float]:
     speed, cross = np.abs(first), (np.conj(first) * second).imag
     with np.errstate(all="ignore"):
         change = (np.conj(first) * third).imag / speed**3 - 3 * cross * (np.conj(first) * second).real / speed**5
-    with np.errstate(all="ignore"):
+        # a difference that is nothing but rounding would have a cube root that is more
+        change[np.abs(change) < _LOST * (np.abs(third) / speed**2 + 3 * np.abs(second) ** 2 / speed**3)] = 0.0
         rate = np.abs(change / speed / 125) ** (1 / 3) * speed
     # at a cusp the rate is 0/0; its limit is that of its neighbours
     known = np.isfinite(rate)
     rate = np.interp(t, t[known], rate[known]) if known.any() else np.zeros_like(t)
     # a floor keeps the coordinate strictly increasing where the curve is an arc
     rate += 1e-6 * (rate.max() + np.finfo(float).tiny) + 1e-12 * speed
-    coordinate = np.concatenate([[0.0], np.cumsum((rate[1:] + rate[:-1]) / 2 * np.diff(t))])
-    return t, coordinate / coordinate[-1], float(coordinate[-1])
+    return t, *summed((rate[1:] + rate[:-1]) / 2 * np.diff(t))
+
+
+def summed(lengths: Real) -> tuple[Real, float]:
+    """Steps (n,) summed from 0 to 1 (n + 1,), and the whole; on so coarse a grid that no machine's rounding is seen."""
+    whole = np.concatenate([[0.0], np.cumsum(lengths)])
+    return np.round(whole / whole[-1] * _SUM_GRID) / _SUM_GRID, float(whole[-1])
 
 
 def _candidate(curve: Curve, count: int, nodes: Real, coordinate: Real, tolerance: float) -> _Candidate | None:
@@ -243,7 +251,10 @@ def _with_first_share(curve: Curve, count: int, nodes: Real, coordinate: Real, f
         far = next((end for end in _STRETCHES if count > 1 and mismatch(end) * middle < 0), None)
         if far is None:
             return None
-        stretch = bracketed_root(mismatch, min(far, 0.0), max(far, 0.0), enough=_ENOUGH).value
+        exact = bracketed_root(mismatch, min(far, 0.0), max(far, 0.0), enough=_ENOUGH / 8).value
+        # the shortest number that is good enough: joints are then the same whatever a machine rounds
+        shorter = (round(exact * 2**bits) / 2**bits for bits in _STRETCH_BITS)
+        stretch = next((short for short in shorter if abs(mismatch(short)) <= _ENOUGH), exact)
     t = joints(stretch)
     points, bulges, _ = _arcs_through(curve, t, headings)
     error = float(np.max(_sampled_distance(curve, t, points, bulges, _LEAST_SAMPLES)))

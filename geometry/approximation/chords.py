@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from geometry.approximation.arcs import arc_error, arc_spline
+from geometry.approximation.arcs import arc_error, arc_spline, summed
 from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record, replace
 from geometry.base.tolerance import TOLERANCES
@@ -178,8 +178,8 @@ def chord_parameters(curve: Curve, tolerance: float) -> tuple[Real, float, bool]
         return np.array(curve.domain), 0.0, True
     if isinstance(curve, Arc):
         return _arc_chords(curve, tolerance)
-    nodes, coordinate = _chord_density(curve)
-    count = max(1, math.ceil(coordinate[-1] / math.sqrt(8 * tolerance)))
+    nodes, coordinate, total = _chord_density(curve)
+    count = max(1, math.ceil(total / math.sqrt(8 * tolerance)))
     while count <= _MAX_CHORDS:
         t = _equal_steps(curve, nodes, coordinate, count)
         error = chord_error(curve, t)
@@ -191,12 +191,12 @@ def chord_parameters(curve: Curve, tolerance: float) -> tuple[Real, float, bool]
 
 def chords_of(curve: Curve, count: int) -> tuple[Real, float]:
     """Parameters of a given number of chords of near equal error, and that error, mm."""
-    t = _equal_steps(curve, *_chord_density(curve), count)
+    t = _equal_steps(curve, *_chord_density(curve)[:2], count)
     return t, chord_error(curve, t)
 
 
-def _chord_density(curve: Curve) -> tuple[Real, Real]:
-    """Samples, and the integral of sqrt(|kappa|) ds, in which chords of equal error have equal length."""
+def _chord_density(curve: Curve) -> tuple[Real, Real, float]:
+    """Samples, shares of the integral of sqrt(|kappa|) ds, in which chords of equal error have equal length, and it."""
     nodes = np.linspace(*curve.domain, _DENSITY_SAMPLES + _SAMPLES_A_KNOT * curve.knots.size)
     speed, curvature = np.abs(curve.derivative(nodes)), np.abs(curve.curvature(nodes))
     with np.errstate(invalid="ignore"):
@@ -204,11 +204,11 @@ def _chord_density(curve: Curve) -> tuple[Real, Real]:
     rate = np.where(np.isfinite(rate), rate, 0.0)
     # a floor keeps the coordinate strictly increasing where the curve is straight or has a cusp
     rate += 1e-6 * rate.max() + 1e-12 * np.sqrt(speed.max())
-    return nodes, np.concatenate([[0.0], np.cumsum((rate[1:] + rate[:-1]) / 2 * np.diff(nodes))])
+    return nodes, *summed((rate[1:] + rate[:-1]) / 2 * np.diff(nodes))
 
 
 def _equal_steps(curve: Curve, nodes: Real, coordinate: Real, count: int) -> Real:
-    t = np.interp(np.linspace(0, coordinate[-1], count + 1), coordinate, nodes)
+    t = np.interp(np.linspace(0, 1, count + 1), coordinate, nodes)
     t[0], t[-1] = curve.domain
     return t
 

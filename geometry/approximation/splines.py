@@ -11,12 +11,12 @@ End points, end tangents and the continuity at the knots are exact for any numbe
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from geometry.base.errors import ConvergenceError, CuspError, ParameterError
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.curves.bounds import Bound
 from geometry.curves.bspline import BSpline, Index, basis, distance_bound, feet
 from geometry.curves.curve import Complex, Curve, Real, end_point, start_point
@@ -34,6 +34,8 @@ _ALIKE_WEIGHTS = (0.01, *(0.001,) * 4)
 # later rounds are taken where the error is this near the tolerance
 _WORTH_SLIDING = 30.0
 _KNOT_ROUNDS = 2
+# shifted knots stand on a grid of so many binary digits more than there are spans
+_KNOT_BITS = 6
 # knots are shifted where the error is this near the tolerance, and no span counts as having less error than that share
 _WORTH_SHIFTING, _LEAST_SHARE = 2.0, 1e-3
 # spans with which the first parameter is chosen, and caution in the estimate of the spans that are needed
@@ -44,6 +46,10 @@ _FEW_SPANS = 4
 # a failed proof leaves to the samples
 _AIM, _LEAST_GOAL = 0.95, 0.6
 _MOST_TRIES = 24
+# poles are rounded to 1/1024 to 1/512 of the tolerance, end legs of so many steps and more too
+_GRID_BITS, _LEAST_ROUNDED = 10, 16
+# how often a correction is solved for, each time with what is left
+_SOLUTIONS = 3
 # least length of an end leg of the control polygon, in distances from the origin: its direction is then good to
 # some 6e-10 rad; a curve that starts in a cusp (an involute on its base circle) would have none
 _LEAST_END_LEG = 2.5e-7
@@ -141,6 +147,7 @@ def fit_spline(
         if (spans, goal) != made:
             draft, made = _fitted(curve, parameter, spans, degree, continuity, _AIM * goal), (spans, goal)
         if draft.error <= goal:
+            draft = _rounded(draft, tolerance)
             error, bound = _bound(curve, draft)
             if error <= tolerance:
                 return SplineFit(draft.spline, error, bound, spans, draft)
@@ -184,8 +191,24 @@ def _alike(curve: Curve, like: SplineFit, tolerance: float) -> SplineFit | None:
     draft = _relaxed(curve, layout, poles, t, _AIM * tolerance, _ALIKE_WEIGHTS)
     if draft.error > tolerance:
         return None
+    draft = _rounded(draft, tolerance)
     error, bound = _bound(curve, draft)
     return SplineFit(draft.spline, error, bound, model.spans, draft) if error <= tolerance else None
+
+
+def _rounded(draft: _Draft, tolerance: float) -> _Draft:
+    """The draft with its poles on a grid of a thousandth of the tolerance, far above what machines round differently.
+
+    Ends stay, and the lengths of the end legs are rounded in place of their poles.
+    """
+    grid = 2.0 ** (math.frexp(tolerance)[1] - _GRID_BITS)
+    poles, (start, *_, end) = np.round(draft.poles / grid) * grid, draft.poles.tolist()
+    for place, corner in ((1, start), (-2, end)):
+        leg = draft.poles[place] - corner
+        length = round(abs(leg) / grid) * grid
+        poles[place] = corner + leg * (length / abs(leg) if length > _LEAST_ROUNDED * grid else 1.0)
+    poles[0], poles[-1] = start, end
+    return replace(draft, poles=poles)
 
 
 def spline_on_knots(curve: Curve, model: BSpline, poles: Complex, shares: Real, tolerance: float) -> BSpline:
@@ -300,6 +323,11 @@ def _shifted(draft: _Draft) -> Real:
     share = np.maximum(draft.errors, _LEAST_SHARE * draft.errors.max()) ** power
     whole = np.concatenate([[0.0], np.cumsum(share)])
     shifted = np.interp(np.linspace(0, whole[-1], len(breaks)), whole, breaks)
+    # even places: what errors have lost to rounding moves no knot
+    grid = 2.0 ** (_KNOT_BITS + len(breaks).bit_length())
+    even = np.round(shifted * grid) / grid
+    if np.all(np.diff(even) > 0):
+        shifted = even
     shifted[0], shifted[-1] = breaks[0], breaks[-1]
     return shifted
 
@@ -368,20 +396,33 @@ def _correction(curve: Curve, ends: Ends, layout: _Layout, poles: Complex, t: Re
     known = np.concatenate([residual.imag, weight * residual.real], axis=1)
     n = layout.count
     columns = np.concatenate([layout.index, n + layout.index], axis=1)
-    matrix, right = np.zeros((2 * n, 2 * n)), np.zeros(2 * n)
+    matrix = np.zeros((2 * n, 2 * n))
     np.add.at(matrix, (columns[:, :, None], columns[:, None, :]), rows.transpose(0, 2, 1) @ rows)
-    np.add.at(right, columns, np.einsum("jqk,jq->jk", rows, known))
     # the end legs' directions become unknowns in place of the real parts of their poles
     _, _, leave, arrive = ends
-    for pole, way in ((1, leave), (n - 2, arrive)):
-        for line in (matrix, matrix.T, right):
-            line[pole] = way.real * line[pole] + way.imag * line[n + pole]
+    ways = ((1, leave), (n - 2, arrive))
+    for line in (matrix, matrix.T):
+        _along(line, n, ways)
     kept = np.concatenate([np.arange(1, n - 1), np.arange(n + 2, 2 * n - 2)])
     reduced = matrix[np.ix_(kept, kept)]
     reduced[np.diag_indices_from(reduced)] += 1e-15 * np.trace(reduced) / len(reduced)
-    solved = np.zeros(2 * n)
-    solved[kept] = np.linalg.solve(reduced, right[kept])
-    change = solved[:n] + 1j * solved[n:]
-    change[1] *= leave
-    change[n - 2] *= arrive
+    inverse, change = np.linalg.inv(reduced), np.zeros(n, dtype=complex)
+    # what the squared matrix has rounded away is found from the residuals of its rows: the same poles on any machine
+    for _ in range(_SOLUTIONS):
+        right = np.zeros(2 * n)
+        moved = np.concatenate([change.real, change.imag])[columns]
+        np.add.at(right, columns, np.einsum("jqk,jq->jk", rows, known - np.einsum("jqk,jk->jq", rows, moved)))
+        _along(right, n, ways)
+        solved = np.zeros(2 * n)
+        solved[kept] = inverse @ right[kept]
+        step = solved[:n] + 1j * solved[n:]
+        step[1] *= leave
+        step[n - 2] *= arrive
+        change += step
     return change
+
+
+def _along(line: Real, n: int, ways: Sequence[tuple[int, complex]]) -> None:
+    """The rows of the real parts of poles become those of their ways along directions."""
+    for pole, way in ways:
+        line[pole] = way.real * line[pole] + way.imag * line[n + pole]

@@ -150,7 +150,8 @@ def rising_diagonals(contour: Contour, step: float) -> NDArray[np.bool_]:
     points = np.concatenate([[before], contour.vertices, [closing], [after * np.exp(1j * contour.pitch_angle)]])
     edges = np.diff(points)
     turns = np.angle(edges[1:] * np.conj(edges[:-1]))
-    convex = turns[:-1] + turns[1:] >= 0
+    # between chords of a line rounding turns either way
+    convex = turns[:-1] + turns[1:] >= -1e-9
     return np.asarray(convex != (step > 0))
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from geometry.base.record import Record
 
 
@@ -27,3 +29,20 @@ LEAST_SEGMENT_MM = 0.02
 
 # Places and angles that people type have five decimals: parts that a scene puts together by hand fit this well, mm.
 PLACED_MM = 1e-5
+
+# Decimals of curves in drawings, mm: what meets still does so better than kernels ask (1e-7), and what machines round
+# differently is far less. A curve moves by so much: both ends, and a radius.
+DRAWN_DECIMALS = 8
+DRAWN_ROUNDING = 2e-8
+
+# Decimals of numbers in files, of which a tolerance may ask for more or be content with less.
+_LEAST_DECIMALS, _MOST_DECIMALS = 6, 12
+
+
+def written_decimals(tolerance: float) -> int:
+    """Decimals of the coordinates of a file, mm: a step of 1e-5 to 1e-4 of its tolerance.
+
+    So far above what machines round differently that they write the same.
+    """
+    exponent = math.floor(math.log10(tolerance) + 1e-9)
+    return min(max(4 - exponent, _LEAST_DECIMALS), _MOST_DECIMALS)

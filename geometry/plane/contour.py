@@ -6,21 +6,25 @@ import math
 
 import numpy as np
 
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.curves.bounds import Bound
 from geometry.curves.curve import Complex, Real
+
+_MOST_DECIMALS = 15
 
 
 class Contour(Record):
     """One period of a closed chain of lines (bulge 0) and arcs; edge i starts at vertex i.
 
     The last edge ends at the first vertex of the next period, which is turned by ``pitch_angle``.
+    ``decimals``: those of the expanded vertices, mm.
     """
 
     vertices: Complex
     bulges: Real
     count: int = 1
     clockwise: bool = False
+    decimals: int | None = None
 
     @property
     def pitch_angle(self) -> float:
@@ -30,7 +34,21 @@ class Contour(Record):
     def expanded(self) -> tuple[Complex, Real]:
         """Vertices (n,) and bulges (n,) of the whole contour, period after period."""
         turns = np.exp(1j * self.pitch_angle * np.arange(self.count))
-        return (turns[:, None] * self.vertices).ravel(), np.tile(self.bulges, self.count)
+        vertices = (turns[:, None] * self.vertices).ravel()
+        if self.decimals is not None:
+            # adding zero leaves no -0.0
+            vertices = np.round(vertices, self.decimals) + 0.0
+        return vertices, np.tile(self.bulges, self.count)
+
+    def written(self, decimals: int) -> Contour:
+        """The contour with vertices of so many decimals, and each bulge with as many as keep its crown so well.
+
+        An outline is moved by 1.25 times the last decimal at most: arcs of up to half a turn by that of their ends,
+        and their crowns by a quarter.
+        """
+        sizes = np.ceil(np.log10(np.abs(self.period_ends() - self.vertices)) - 1e-9).astype(int)
+        scale = np.array([10.0**k for k in range(_MOST_DECIMALS + 1)])[np.clip(decimals + sizes, 0, _MOST_DECIMALS)]
+        return replace(self, bulges=np.round(self.bulges * scale) / scale + 0.0, decimals=decimals)
 
     def period_ends(self) -> Complex:
         """End vertex of each edge of the first period."""

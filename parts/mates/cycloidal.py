@@ -121,7 +121,8 @@ class CycloidalMating(Touching):
             "shortening_coefficient": self.disc.shortening,
             "least_path_radius": self.disc.least_path_radius,
             "pins_in_contact": pins_in_contact(side, motion),
-            "lost_motion_deg": math.degrees(lost_motion(side, motion)),
+            # angles below that are rounding
+            "lost_motion_deg": round(math.degrees(lost_motion(side, motion)), 12) + 0.0,
         }
 
 

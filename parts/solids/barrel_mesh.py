@@ -7,6 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.approximation.arcs import summed
 from geometry.approximation.chords import approximate_profile
 from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record
@@ -21,7 +22,7 @@ from parts.solids.caps import cap_triangles
 
 Triangles = NDArray[np.int64]
 
-_SAMPLES, _RADII = 129, 5
+_SAMPLES, _RADII, _FLOOR = 129, 5, 1e-2
 # what is added where a proof is too far from the samples, and what they leave to the proof
 _MARGIN, _LEAST_MARGIN = 1.15, 1.02
 # shares of the tolerance: along the groove, and across its walls
@@ -114,12 +115,13 @@ def _grid(cam: BarrelCam, along: float, across: float) -> Grid:
             sag = np.maximum(sag, (radii[:, None] * turn**2).max(axis=0))
             across_second = np.gradient(np.gradient(points, radii, axis=0), radii, axis=0)
             bend = max(bend, float(np.abs((across_second * normal).sum(axis=-1)).max()))
-        rate = np.sqrt(sag / (8 * along))
-        whole = np.concatenate([[0.0], np.cumsum((rate[1:] + rate[:-1]) / 2 * np.diff(t))])
-        count = max(2, math.ceil(whole[-1]))
+        # a floor, in chords: in a dwell all else is rounding
+        rate = np.sqrt(sag / (8 * along)) + _FLOOR / (t[-1] - t[0])
+        shares, whole = summed((rate[1:] + rate[:-1]) / 2 * np.diff(t))
+        count = max(2, math.ceil(whole))
         if count > _MOST_NODES:
             raise ConvergenceError("mesh for the tolerance", along, count)
-        angles.append(np.interp(np.linspace(0, whole[-1], count, endpoint=False), whole, t))
+        angles.append(np.interp(np.linspace(0, 1, count, endpoint=False), shares, t))
         counts.append(count)
     levels = max(1, math.ceil((cam.outer - cam.inner) * math.sqrt(bend / (8 * across))))
     return Grid(np.concatenate(angles), cam.motion.pieces, tuple(counts), np.linspace(cam.inner, cam.outer, levels + 1))
@@ -295,7 +297,8 @@ def zipped(lower: Triangles, upper: Triangles, low: Complex, high: Complex) -> T
     )
     # the step whose middle comes first is taken first
     keys = np.concatenate([(first[1:] + first[:-1]) / 2, (second[1:] + second[:-1]) / 2])
-    order = np.argsort(keys, kind="stable")
+    # rounded: the same angles are a tie on any machine
+    order = np.argsort(np.round(keys, 11), kind="stable")
     is_low = order < n
     i = np.concatenate([[0], np.cumsum(is_low)])[:-1]
     j = np.concatenate([[0], np.cumsum(~is_low)])[:-1]

@@ -13,10 +13,13 @@ from numpy.typing import NDArray
 
 from geometry.base.distinct import distinct
 from geometry.base.errors import ThinWallError
+from geometry.base.record import replace
 from geometry.curves.curve import Complex
 from geometry.plane.contour import Contour
 
 Triangles = NDArray[np.int64]
+# decimals of angles (rad) and heights (mm) that are compared
+_ANGLE_DIGITS, _HEIGHT_DIGITS = 11, 10
 
 
 def cap_triangles(outer: Contour, holes: Sequence[Contour]) -> tuple[Triangles, Complex]:
@@ -154,7 +157,7 @@ def begun_at(contour: Contour, index: int) -> Contour:
     """The same contour, its period begun at another vertex."""
     turn = np.exp(1j * contour.pitch_angle)
     vertices = np.concatenate([contour.vertices[index:], contour.vertices[:index] * turn])
-    return Contour(vertices, np.roll(contour.bulges, -index), contour.count, contour.clockwise)
+    return replace(contour, vertices=vertices, bulges=np.roll(contour.bulges, -index))
 
 
 def _last_of_tooth(outline: Contour) -> int:
@@ -185,7 +188,7 @@ def _ladder(polygon: Complex) -> Triangles:
     """Both sides of a polygon zipped upwards from the ends of its closing edge, always the lower one next."""
     low, high = 0, len(polygon) - 1
     base = polygon[-1] - polygon[0]
-    x = (polygon * np.conj(-1j * base / abs(base))).real
+    x = np.round((polygon * np.conj(-1j * base / abs(base))).real, _HEIGHT_DIGITS)
     triangles = []
     while high - low > 1:
         if x[low + 1] <= x[high - 1]:
@@ -246,7 +249,8 @@ def _annulus(points: Complex, outer: Triangles, inner: Triangles) -> Triangles:
 def _middle_angles(ring: Complex) -> NDArray[np.float64]:
     """Increasing angles of the middles of a ring's edges, the ring starting near angle 0."""
     start = np.mod(np.angle(ring), 2 * np.pi)
-    return (start + np.append(start[1:], start[0] + 2 * np.pi)) / 2
+    # rounded: corners that stand one behind the other are a tie on any machine
+    return np.round((start + np.append(start[1:], start[0] + 2 * np.pi)) / 2, _ANGLE_DIGITS)
 
 
 def _cross(points: Complex, triangles: Triangles) -> NDArray[np.float64]:

@@ -6,6 +6,8 @@ closed by construction. parts/solids/faces.py is the other half.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,6 +20,8 @@ from geometry.plane.contour import Approximation, Contour
 from geometry.solids.body import Body, Cap
 from geometry.solids.chamfer import chamfer_bow, chamfer_slices, cut_chamfers
 from parts.solids.caps import Triangles, aligned_bore, begun_at, cap_triangles, is_round, start_in_space
+
+_GRID_DIGITS = 8
 
 
 class Mesh(Record):
@@ -90,9 +94,10 @@ def body_mesh(body: Body, outlines: tuple[Approximation, ...]) -> Mesh:
         The chords touch or cross at this tolerance.
     """
     if body.is_faced:
-        return Mesh(outlines[0].vertices, outlines[0].geometry)
-    body = _sliced(body, outlines[0].tolerance)
-    contours = _begun_in_spaces(body, [a.geometry for a in outlines])
+        return Mesh(np.round(outlines[0].vertices, _decimals(body)) + 0.0, outlines[0].geometry)
+    body, decimals = _sliced(body, outlines[0].tolerance), _decimals(body)
+    # on a grid before any triangle is chosen: what machines round differently chooses none
+    contours = _begun_in_spaces(body, [replace(a.geometry, decimals=decimals) for a in outlines])
     try:
         caps = _cap_triangles(body, contours)
     except ThinWallError:
@@ -187,7 +192,12 @@ def _assembled(body: Body, contours: list[Contour], steps: list[float], caps: _C
         index.append(added(middle + body.loops[cap.outer].shift, body.loops[cap.outer].z) + np.arange(len(middle)))
         face = np.concatenate(index)[found]
         triangles.append(face if cap.up else face[:, ::-1])
-    return Mesh(np.concatenate(pieces), np.concatenate(triangles))
+    return Mesh(np.round(np.concatenate(pieces), _decimals(body)) + 0.0, np.concatenate(triangles))
+
+
+def _decimals(body: Body) -> int:
+    """Decimals of a mesh's vertices: a step of 1e-8 of the section or less, which a float32 does not hold."""
+    return _GRID_DIGITS - math.floor(math.log10(body.section_reach()) + 1e-9)
 
 
 def _wall_triangles(count: int, lower: int, upper: int, rising: NDArray[np.bool_] | None = None) -> Triangles:
