@@ -111,7 +111,7 @@ def test_rollers_and_linkages_stand_where_forty_digit_poses_are_turned_to(roller
         for start, end, length in ((91 + 26j, joint, 58), (joint, far, 43), (far, 62 + 124j, 68)):
             ends = [complex(p * MP.expj(-t)) * paper.scale + off for p in map(MP.mpc, (start, end))]
             assert abs(ends[1] - ends[0]) == pytest.approx(length * paper.scale)
-            assert any(abs(a - ends[0]) + abs(b - ends[1]) < 1e-8 for a, b in found), (number, length)
+            assert any(abs(a - ends[0]) + abs(b - ends[1]) < 3e-8 for a, b in found), (number, length)
     assert not any(abs(a - b) < 1e-6 for a, b in found)
     circles = sorted(e.dxf.radius / paper.scale for e in space.query('CIRCLE[layer=="CIRCLE_PIVOT"]'))
     assert circles == pytest.approx([abs(91 + 26j), abs(62 + 124j)])
@@ -187,7 +187,7 @@ def test_a_slider_is_drawn_on_its_line(tmp_path: Path) -> None:
     job.write({}, file)
     lines = [(complex(*e.dxf.start.vec2), complex(*e.dxf.end.vec2))
              for e in ezdxf.readfile(file).modelspace().query('LINE[layer=="FOLLOWER"]')]  # fmt: skip
-    guides = [b - a for a, b in lines if abs(abs(b - a) - 28) < 1e-9]
+    guides = [b - a for a, b in lines if abs(abs(b - a) - 28) < 2e-8]
     assert len(guides) == 8
     turned = [D(x) for x in (0.0, 97.5, 180.0, 277.5)]
     wanted = [cmath.exp(1j * (D(way) - t)) for t in turned for way in (70, 10)]
