@@ -1,4 +1,4 @@
-"""``python -m tests.same_bytes [SCENE ...]``: the hash of every file of built-in scenes, STEP left out, a line each.
+"""``python -m tests.same_bytes [SCENE ...]``: the hash of every file of built-in scenes, a line each.
 
 Two machines, two versions of numpy or two kernels of its BLAS print the same; ``.ci/lowest`` compares.
 """
@@ -8,7 +8,6 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import io
-import re
 import sys
 import tempfile
 from pathlib import Path
@@ -20,17 +19,12 @@ SCENES = Path(parts.__file__).parent / "scenes"
 
 
 def hashes(names: list[str], folder: Path) -> dict[str, str]:
-    """The hash of each file by its path, of scenes built in an empty folder; reports, which tell versions, left out."""
-    for name in names:
-        blocks = re.split(r"(?m)^(?=\[)", (SCENES / f"{name}.toml").read_text("utf-8"))
-        kept = [b for b in blocks if not re.match(r'\[\[exports\]\]\s+format = "step"', b)]
-        scene = folder / f"{name}.toml"
-        scene.write_text("".join(kept), "utf-8")
-        with contextlib.redirect_stdout(io.StringIO()):
-            status = main(["build", str(scene), "--out", str(folder), "--no-verify", "-q"])
-        if status:
-            raise SystemExit(f"{name}: exit code {status}")
-    files = sorted(f for f in folder.rglob("*") if f.is_file() and f.suffix not in (".json", ".toml"))
+    """The hash of each file by its path, of scenes built in an empty folder; reports tell versions and are left out."""
+    with contextlib.redirect_stdout(io.StringIO()):
+        status = main(["build", *names, "--out", str(folder), "--no-verify", "-q"])
+    if status:
+        raise SystemExit(f"exit code {status}")
+    files = sorted(f for f in folder.rglob("*") if f.is_file() and f.suffix != ".json")
     return {f.relative_to(folder).as_posix(): hashlib.sha256(f.read_bytes()).hexdigest() for f in files}
 
 

@@ -33,7 +33,7 @@ def elsewhere(names: list[str], machine: dict[str, str]) -> dict[str, str]:
 
 
 def test_an_old_processor_writes_the_same_files(tmp_path: Path) -> None:
-    """Splines, arcs, meshes and the sheet of a cam: by BLAS alone 4 of these files differed, with numpy's kernels 12."""
+    """Splines, arcs, meshes and the sheet of a cam: 19 of these files differed."""
     scenes = ["practicum_roller_cam", "print_gear"]
     assert elsewhere(scenes, OLD) == hashes(scenes, tmp_path)
 
