@@ -8,16 +8,32 @@ import os
 # spinning, and splines take twice as long
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+import random
+import sys
 from collections.abc import Hashable
 from typing import Any
 
 import pytest
-from hypothesis import is_hypothesis_test, settings
+from hypothesis import core, is_hypothesis_test, settings
 
 from tests.sampling import chosen, take_all_examples
 
-settings.register_profile("reproducible", derandomize=True, deadline=None)
-settings.load_profile("reproducible")
+# collected by pytest as hooks of this file
+from tests.skips import pytest_runtest_logreport, pytest_sessionfinish, pytest_terminal_summary  # noqa: F401
+
+# examples are the same in every run; HYPOTHESIS_SEED=random draws others, HYPOTHESIS_SEED=NUMBER those of a run again
+if os.environ.get("HYPOTHESIS_SEED") == "random":
+    os.environ["HYPOTHESIS_SEED"] = str(random.SystemRandom().randrange(2**32))
+if _SEED := os.environ.get("HYPOTHESIS_SEED", ""):
+    core.global_force_seed = int(_SEED)
+settings.register_profile("ours", derandomize=not _SEED, deadline=None)
+settings.load_profile("ours")
+
+
+def pytest_sessionstart() -> None:
+    """Tells the seed of fresh examples, once."""
+    if _SEED and "PYTEST_XDIST_WORKER" not in os.environ:
+        print(f"the same examples again: HYPOTHESIS_SEED={_SEED}", file=sys.stderr)
 
 
 def pytest_configure(config: pytest.Config) -> None:

@@ -12,6 +12,7 @@ import sys
 from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
+from types import FrameType
 from typing import Any
 
 import pytest
@@ -88,8 +89,11 @@ def contents(folder: Path) -> dict[str, bytes]:
     return {p.name: p.read_bytes() for p in folder.iterdir()}
 
 
-def test_any_call_may_fail(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    """The n-th call of each kind, one build for some n of each: the old set stays as it was, to the byte."""
+@pytest.mark.parametrize("every", [False, pytest.param(True, marks=pytest.mark.heavy)], ids=["some", "every"])
+def test_any_call_may_fail(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], every: bool
+) -> None:
+    """The n-th call of each kind, one build for some n of each or for all: the old set stays as it was, to the byte."""
     folder, build = tmp_path / "o" / "s", ("build", tmp_path / "s.toml", "--out", tmp_path / "o", "--no-verify")
     scene_of(tmp_path, 12)
     counted = {}
@@ -104,7 +108,11 @@ def test_any_call_may_fail(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caps
     faults.remove(("mkdir", 1, asked))
     assert {kind for kind, _, _ in faults} == {"open", "write", "replace", "rename", "mkdir"}
     draw = random.Random(7)
-    faults += [(kind, draw.randint(1, counted[()][kind]), ()) for kind in ("open", "write")]
+    if every:
+        whole = counted[()].items()
+        faults += [(kind, n, ()) for kind, calls in whole if kind != "mkdir" for n in range(1, calls + 1)]
+    else:
+        faults += [(kind, draw.randint(1, counted[()][kind]), ()) for kind in ("open", "write")]
     scene_of(tmp_path, 13)
     for kind, number, asked in faults:
         capsys.readouterr()
@@ -134,6 +142,52 @@ def test_a_file_that_does_not_fit_on_the_disk(tmp_path: Path, form: str) -> None
     assert done.stderr.startswith("higherpair: File too large")
     assert done.stderr.count("\n") == 1
     assert {p.name for p in tmp_path.iterdir()} == {"s.toml"}
+
+
+class Memory:
+    """Counts the calls of the product's functions from the first one of production on; memory ends at one of them."""
+
+    def __init__(self, number: int = 0) -> None:
+        self.calls, self.number = 0, number
+
+    def __call__(self, frame: FrameType, event: str, given: object) -> None:
+        home = frame.f_globals.get("__package__") or ""
+        if event == "call" and home.startswith(("exporters", "parts", "geometry")):
+            self.calls += bool(self.calls) or home == "exporters.production"
+            if 0 < self.calls == self.number:
+                sys.setprofile(None)
+                raise MemoryError
+
+
+@pytest.mark.parametrize("builds", [8, pytest.param(400, marks=pytest.mark.heavy)])
+def test_memory_may_end_in_any_function(tmp_path: Path, capsys: pytest.CaptureFixture[str], builds: int) -> None:
+    """At a call drawn by chance, once all modules are loaded: one line, and the old set to the byte, or a new one."""
+    asked = ("build", tmp_path / "s.toml", "--out", tmp_path / "o", "--no-verify", "--format", "svg", "--part", "g")
+    scene_of(tmp_path, 12)
+    assert run(*asked) == 0
+
+    def run_with(memory: Memory) -> int:
+        sys.setprofile(memory)
+        try:
+            return run(*asked)
+        finally:
+            sys.setprofile(None)
+
+    counted = Memory()
+    assert run_with(counted) == 0
+    before, draw = contents(tmp_path / "o" / "s"), random.Random(7)
+    # what is cached makes later builds shorter
+    for number in sorted(draw.sample(range(1, 9 * counted.calls // 10), builds)):
+        capsys.readouterr()
+        code = run_with(Memory(number))
+        out, error = capsys.readouterr()
+        assert (code, out, error.count("\n")) == (2, "", 1), (number, error)
+        assert "the memory does not suffice" in error
+        # what fails once all is in place leaves the new set, whole
+        left = contents(tmp_path / "o" / "s")
+        assert left == before or (
+            left.keys() == before.keys() and run("verify", tmp_path / "o" / "s" / "g.svg") == 0
+        ), number
 
 
 def test_memory_that_does_not_suffice_is_one_line(
