@@ -27,7 +27,7 @@ from geometry.curves.curve import Complex, Curve, Real
 Index = NDArray[np.intp]
 
 # cells of the proof: at least this many to begin with, and per knot span
-_LEAST_CELLS, _CELLS_PER_SPAN = 24, 4
+_LEAST_CELLS, _CELLS_PER_SPAN = 128, 24
 # intervals of the curve on which its derivative bounds are asked for
 _LEAST_PARTS = 8
 # a cell is halved while its bound exceeds the greatest sampled distance by more than this share
