@@ -266,10 +266,12 @@ def _write_step(content: Content, made: SolidCurves, file: Path) -> dict[str, in
 def _write_step_assembly(
     title: str, contents: Sequence[Content], made: dict[str, SolidCurves], places: Places, file: Path
 ) -> dict[str, int]:
-    from exporters.formats.step import write_step_assembly
+    from exporters.formats.step import write_step
+    from parts.solids.step_text import StepGroup
 
-    solids = [_step_part(c, made[c.part.id]) for c in contents]
-    return write_step_assembly(file, title, solids, places, _step_form(contents[0]))
+    solids = {c.part.id: _step_part(c, made[c.part.id]) for c in contents}
+    members = tuple((name, solids[part], place) for name, part, place in places)
+    return write_step(file, StepGroup(title, members), _step_form(contents[0]))
 
 
 REGISTRY: dict[str, FileFormat[Any]] = {

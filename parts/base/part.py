@@ -126,10 +126,10 @@ class Part(Record, dict=True):
             text = 'to_cadquery needs cadquery: pip install "cadquery" in place of cadquery-ocp-novtk'
             raise ImportError(text) from error
         from parts.solids.faces import solid_curves, solid_faces
-        from parts.solids.kernel import kernel_solid
-        from parts.solids.step_text import StepForm, StepPart, decimals, part_text
+        from parts.solids.kernel import solids_of
+        from parts.solids.step_text import StepForm, StepPart, decimals, step_text
 
         body = self.body(offset)
         part = StepPart(self.id, solid_faces(body, solid_curves(body, tolerance)))
-        solid = cadquery.Solid(kernel_solid(part_text(part, StepForm(decimals(tolerance)))))
-        return cadquery.Workplane("XY").newObject([solid])
+        (solid,) = solids_of(step_text(part, StepForm(decimals(tolerance))))
+        return cadquery.Workplane("XY").newObject([cadquery.Solid(solid)])

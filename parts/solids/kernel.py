@@ -44,8 +44,8 @@ def _explored(shape: TopoDS_Shape, kind: TopAbs_ShapeEnum) -> Iterator[TopoDS_Sh
         explorer.Next()
 
 
-def kernel_solid(text: str) -> TopoDS_Shape:
-    """The one solid of a STEP file's text."""
+def solids_of(text: str) -> list[TopoDS_Shape]:
+    """The solids of a STEP file's text, each in its place."""
     from OCP.STEPControl import STEPControl_Reader
     from OCP.TopAbs import TopAbs_ShapeEnum
 
@@ -53,8 +53,7 @@ def kernel_solid(text: str) -> TopoDS_Shape:
         reader = STEPControl_Reader()
         reader.ReadStream("part.step", BytesIO(text.encode("ascii")))
         reader.TransferRoots()
-        (solid,) = _explored(reader.OneShape(), TopAbs_ShapeEnum.TopAbs_SOLID)
-    return solid
+        return list(_explored(reader.OneShape(), TopAbs_ShapeEnum.TopAbs_SOLID))
 
 
 @contextmanager

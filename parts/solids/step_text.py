@@ -46,8 +46,6 @@ _TAIL = "ENDSEC;\nEND-ISO-10303-21;\n"
 _SHARE, _LEAST_DECIMALS = 0.01, 8
 # references on one line
 _PER_LINE = 16
-# name, name of the part, place of each instance
-Occurrence = tuple[str, str, Placement3]
 
 
 class StepPart(Record, eq=False):
@@ -75,18 +73,18 @@ def decimals(tolerance: float) -> int:
     return max(_LEAST_DECIMALS, math.ceil(-math.log10(_SHARE * tolerance)))
 
 
-def part_text(part: StepPart, form: StepForm) -> str:
-    """The file of one named solid."""
-    text = _Text(form)
-    text.part(part)
-    return text.whole(part.name)
+class StepGroup(Record, eq=False):
+    """A named assembly: name, product and place of each occurrence; a product that comes twice is written once."""
+
+    name: str
+    members: tuple[tuple[str, StepPart | StepGroup, Placement3], ...]
 
 
-def assembly_text(name: str, parts: Sequence[StepPart], occurrences: Sequence[Occurrence], form: StepForm) -> str:
-    """The file of one product per part and an occurrence of it for each of ``occurrences``."""
+def step_text(product: StepPart | StepGroup, form: StepForm) -> str:
+    """The file of a solid or of an assembly."""
     text = _Text(form)
-    text.assembly(name, parts, occurrences)
-    return text.whole(name)
+    text.product(product)
+    return text.whole(product.name)
 
 
 class _Text:
@@ -97,6 +95,8 @@ class _Text:
         self.lines: list[str] = []
         self.numbers = count(1)
         self.known: dict[str, int] = {}
+        self.products: dict[int, tuple[int, int]] = {}
+        self.occurrences = count(1)
         # the shape of each product definition
         self.wholes: dict[int, int] = {}
         self.application = self.add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')")
@@ -142,9 +142,16 @@ class _Text:
         """A frame at a point."""
         return self.once(f"AXIS2_PLACEMENT_3D('',#{origin},#{self.direction(axis)},#{self.direction(zero)})")
 
-    def part(self, part: StepPart) -> tuple[int, int]:
-        """A product with its solid and colour: its definition and its representation."""
-        definition, shape = self._product(part.name, "ADVANCED_BREP_SHAPE_REPRESENTATION", [self._solid(part)])
+    def product(self, product: StepPart | StepGroup) -> tuple[int, int]:
+        """Definition and representation of a product, made once."""
+        if id(product) not in self.products:
+            own = self._group(product) if isinstance(product, StepGroup) else self._part(product)
+            self.products[id(product)] = own
+        return self.products[id(product)]
+
+    def _part(self, part: StepPart) -> tuple[int, int]:
+        """A product with its solid, colour and properties."""
+        definition, shape = self._named(part.name, "ADVANCED_BREP_SHAPE_REPRESENTATION", [self._solid(part)])
         if part.material is not None:
             words = f"DESCRIPTIVE_REPRESENTATION_ITEM('{string(part.material)}','{string(part.material)}')"
             self._property(definition, "material property", "material name", self.add(words))
@@ -171,35 +178,33 @@ class _Text:
         elements = [self.once(f"DERIVED_UNIT_ELEMENT(#{unit},{power}.)") for unit, power in powers]
         return self.once(f"DERIVED_UNIT(({_list(elements)}))")
 
-    def assembly(self, name: str, parts: Sequence[StepPart], occurrences: Sequence[Occurrence]) -> None:
+    def _group(self, group: StepGroup) -> tuple[int, int]:
         """A product of occurrences of others."""
-        made = {part.name: self.part(part) for part in parts}
-        home = self._home()
+        made = [self.product(product) for _, product, _ in group.members]
         places = []
-        for _, _, scene_from_part in occurrences:
-            matrix = scene_from_part.matrix()
+        for _, _, group_from_member in group.members:
+            matrix = group_from_member.matrix()
             origin = self.point(matrix[:, 3].tolist())
             # each has its own: readers look it up by its number
             axis, zero = self.direction(matrix[:, 2].tolist()), self.direction(matrix[:, 0].tolist())
             places.append(self.add(f"AXIS2_PLACEMENT_3D('',#{origin},#{axis},#{zero})"))
-        definition, shape = self._product(name, "SHAPE_REPRESENTATION", places)
-        for number, ((occurrence, part, _), place) in enumerate(zip(occurrences, places, strict=True), 1):
-            own, own_shape = made[part]
-            used = self.add(
-                f"NEXT_ASSEMBLY_USAGE_OCCURRENCE('{number}','{string(occurrence)}','',#{definition},#{own},$)"
-            )
-            moved = self.add(f"ITEM_DEFINED_TRANSFORMATION('','',#{home},#{place})")
+        definition, shape = self._named(group.name, "SHAPE_REPRESENTATION", places)
+        for (name, _, _), (own, own_shape), place in zip(group.members, made, places, strict=True):
+            number = next(self.occurrences)
+            used = self.add(f"NEXT_ASSEMBLY_USAGE_OCCURRENCE('{number}','{string(name)}','',#{definition},#{own},$)")
+            moved = self.add(f"ITEM_DEFINED_TRANSFORMATION('','',#{self._home()},#{place})")
             relation = self.add(
                 f"(REPRESENTATION_RELATIONSHIP('','',#{own_shape},#{shape})"
                 f"REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(#{moved})SHAPE_REPRESENTATION_RELATIONSHIP())"
             )
             placed = self.add(f"PRODUCT_DEFINITION_SHAPE('Placement','Placement of an item',#{used})")
             self.add(f"CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(#{relation},#{placed})")
+        return definition, shape
 
     def _home(self) -> int:
         return self.place(self.point((0.0, 0.0, 0.0)), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
 
-    def _product(self, name: str, kind: str, items: Sequence[int]) -> tuple[int, int]:
+    def _named(self, name: str, kind: str, items: Sequence[int]) -> tuple[int, int]:
         """A product and its shape of items: the numbers of definition and representation."""
         scope = self.once(f"PRODUCT_CONTEXT('',#{self.application},'mechanical')")
         stage = self.once(f"PRODUCT_DEFINITION_CONTEXT('part definition',#{self.application},'design')")

@@ -108,23 +108,23 @@ def test_a_spoiled_step_is_caught(
 def test_copies_of_a_solid_are_no_instances(train_step: Path, tmp_path: Path) -> None:
     """An occurrence whose product is a copy: the same picture, but not one part in two places."""
     from exporters.formats.read_step import read_step_assembly
-    from exporters.formats.step import write_step_assembly
+    from exporters.formats.step import write_step
     from exporters.production.recheck import recheck
     from geometry.base.placement import Placement3
     from parts.solids.faces import solid_curves, solid_faces
-    from parts.solids.step_text import StepForm, StepPart
+    from parts.solids.step_text import StepForm, StepGroup, StepPart
 
     found, made = read_step_assembly(train_step), train()[0]
     bodies = {name: made[name].body(0.0) for name, *_ in found.prototypes}
     solids = {name: solid_faces(body, solid_curves(body, 9e-7)) for name, body in bodies.items()}
-    parts = [StepPart(n, s, "#c08040") for n, s in solids.items()]
-    parts.append(StepPart("copy", solids["planet"], None))
+    parts = {n: StepPart(n, s, "#c08040") for n, s in solids.items()}
+    parts["copy"] = StepPart("copy", solids["planet"])
     rows = []
     for name, index, matrix in found.occurrences:
         rotation = tuple(tuple(row) for row in matrix[:, :3].tolist())
         part = "copy" if name == "free" else found.prototypes[index][0]
-        rows.append((name, part, Placement3(rotation, tuple(matrix[:, 3].tolist()))))  # type: ignore[arg-type]
-    write_step_assembly(tmp_path / "train.step", "train", parts, rows, StepForm())
+        rows.append((name, parts[part], Placement3(rotation, tuple(matrix[:, 3].tolist()))))  # type: ignore[arg-type]
+    write_step(tmp_path / "train.step", StepGroup("train", tuple(rows)), StepForm())
     text = (tmp_path / "train.step").read_text(encoding="ascii").replace("'copy','copy'", "'planet','planet'")
     (tmp_path / "train.step").write_text(text, encoding="ascii")
     (tmp_path / "report.json").write_bytes((train_step.parent / "report.json").read_bytes())

@@ -22,7 +22,7 @@ from parts.base.part import Part
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
 from parts.solids.faces import solid_curves, solid_faces
-from parts.solids.step_text import StepForm, StepPart, assembly_text, part_text, real, string
+from parts.solids.step_text import StepForm, StepGroup, StepPart, real, step_text, string
 from tests.parts.cams.barrel_cam.test_barrel_cam import CONE, END, GROOVE
 from tests.sampling import examples
 
@@ -69,7 +69,7 @@ def made(name: str) -> tuple[Part, Solid, str]:
     part = part_of(KINDS[name][0])
     body = part.body(0.0)
     solid = solid_faces(body, solid_curves(body, 9e-7))
-    return part, solid, part_text(StepPart("p", solid, None), StepForm())
+    return part, solid, step_text(StepPart("p", solid, None), StepForm())
 
 
 def check_closed(solid: Solid) -> None:
@@ -134,10 +134,10 @@ def test_the_kernel_calls_it_one_valid_solid_of_the_exact_volume(name: str, tmp_
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopExp import TopExp_Explorer
 
-    from parts.solids.kernel import faces_of, kernel_solid
+    from parts.solids.kernel import faces_of, solids_of
 
     part, _, text = made(name)
-    solid = kernel_solid(text)
+    (solid,) = solids_of(text)
     assert BRepCheck_Analyzer(solid).IsValid()
     shells = TopExp_Explorer(solid, TopAbs_ShapeEnum.TopAbs_SHELL)
     assert BRep_Tool.IsClosed_s(shells.Current())
@@ -172,7 +172,7 @@ def test_random_gears_are_closed(teeth: int, module: float, shift: float, helix:
 def test_files_are_small(keys: dict[str, Any], most: int) -> None:
     body = part_of(keys).body(0.0)
     solid = solid_faces(body, solid_curves(body, 9.9e-7))
-    assert len(part_text(StepPart("p", solid, "#c08040"), StepForm())) <= most
+    assert len(step_text(StepPart("p", solid, "#c08040"), StepForm())) <= most
 
 
 @pytest.mark.heavy
@@ -181,7 +181,7 @@ def test_a_file_of_ten_thousand_teeth_is_ten_times_that_of_a_thousand() -> None:
     sizes = {}
     for teeth in (200, 1000, 10_000):
         body = part_of({**GEAR, "number_of_teeth": teeth}).body(0.0)
-        text = part_text(StepPart("p", solid_faces(body, solid_curves(body, 9.9e-7)), None), StepForm())
+        text = step_text(StepPart("p", solid_faces(body, solid_curves(body, 9.9e-7)), None), StepForm())
         assert text.count("=ADVANCED_FACE(") == 6 * teeth + 3
         sizes[teeth] = len(text)
     assert sizes[200] <= 1_800_000
@@ -214,7 +214,7 @@ def test_material_density_and_volume_come_back(tmp_path: Path) -> None:
 
     part = StepPart("p", made("plain")[1], None, "сталь 45", 7.85, 1234.5678901)
     file = tmp_path / "p.step"
-    file.write_text(part_text(part, StepForm(author="Ім'я", organisation="КПІ")), encoding="ascii")
+    file.write_text(step_text(part, StepForm(author="Ім'я", organisation="КПІ")), encoding="ascii")
     # the kernel's header has no names that are not ASCII: the file is asked itself
     assert "('\\X2\\04060" in file.read_text()
     assert "('\\X2\\041A041F0406\\X0\\')" in file.read_text()
@@ -237,7 +237,7 @@ def test_material_density_and_volume_come_back(tmp_path: Path) -> None:
 
 
 def test_every_face_may_have_its_own_surface() -> None:
-    text = part_text(StepPart("p", made("plain")[1]), StepForm(shared=False))
+    text = step_text(StepPart("p", made("plain")[1]), StepForm(shared=False))
     surfaces = re.findall(r"=ADVANCED_FACE\('',\([^)]*\),#(\d+),", text)
     assert len(set(surfaces)) == len(surfaces) == 9 * 6 + 3
     assert made("plain")[2].count("=CYLINDRICAL_SURFACE(") == 3
@@ -256,12 +256,11 @@ def test_names_colours_and_places_come_back(tmp_path: Path) -> None:
     """By the kernel's own document: Cyrillic names, one product in two places."""
     from exporters.formats.read_step import read_step_assembly
 
-    solid = made("plain")[1]
-    parts = [StepPart("колесо", solid, "#c08040"), StepPart("pin's", made("end")[1], "#4f8fc0")]
+    wheel, pin = StepPart("колесо", made("plain")[1], "#c08040"), StepPart("pin's", made("end")[1], "#4f8fc0")
     turned = Placement3.about_z(0.3, (1.0, 2.0, -3.0))
-    rows = [("left", "колесо", Placement3()), ("праве", "колесо", turned), ("pin", "pin's", turned)]
-    text = assembly_text("пара", parts, rows, StepForm())
-    assert text == assembly_text("пара", parts, rows, StepForm())
+    rows = (("left", wheel, Placement3()), ("праве", wheel, turned), ("pin", pin, turned))
+    text = step_text(StepGroup("пара", rows), StepForm())
+    assert text == step_text(StepGroup("пара", rows), StepForm())
     assert text.isascii()
     assert text.count("MANIFOLD_SOLID_BREP(") == 2
     file = tmp_path / "pair.step"
@@ -273,3 +272,29 @@ def test_names_colours_and_places_come_back(tmp_path: Path) -> None:
     assert [(o.name, o.prototype) for o in found.occurrences] == [("left", 0), ("2", 0), ("pin", 1)]
     for occurrence, (_, _, place) in zip(found.occurrences, rows, strict=True):
         assert np.abs(occurrence.place - place.matrix()).max() < 1e-12
+
+
+@needs_kernel
+def test_an_assembly_may_stand_in_another_twice() -> None:
+    """A pair of pins in two places: one solid in the file, four for the kernel, each where it belongs."""
+    from OCP.BRepGProp import BRepGProp
+    from OCP.GProp import GProp_GProps
+
+    from parts.solids.kernel import solids_of
+
+    pin = StepPart("pin", made("plain")[1])
+    away, up = Placement3(translation=(50.0, 0.0, 0.0)), Placement3.about_z(0.5, (0.0, 0.0, 30.0))
+    pair = StepGroup("pair", (("a", pin, Placement3()), ("b", pin, away)))
+    text = step_text(StepGroup("whole", (("one", pair, Placement3()), ("two", pair, up))), StepForm())
+    assert [text.count(f"={kind}(") for kind in ("MANIFOLD_SOLID_BREP", "NEXT_ASSEMBLY_USAGE_OCCURRENCE")] == [1, 4]
+    centres = []
+    for solid in solids_of(text):
+        found = GProp_GProps()
+        BRepGProp.VolumeProperties_s(solid, found)
+        centres.append([found.CentreOfMass().Coord(i) for i in (1, 2, 3)])
+    own = np.array([[0.0, 0.0, 3.0]])
+    expected = np.concatenate([own, away.apply(own), up.apply(own), up.apply(away.apply(own))])
+    away_from = np.abs(np.array(centres)[:, None] - expected).max(axis=2)
+    assert len(centres) == 4
+    assert sorted(away_from.argmin(axis=0).tolist()) == [0, 1, 2, 3]
+    assert away_from.min(axis=0).max() < 1e-6
