@@ -376,6 +376,19 @@ def test_findings_reach_the_report_in_both_languages(tmp_path: Path) -> None:
     assert "підрізан" in texts[1]
 
 
+@pytest.mark.parametrize(("teeth", "told"), [(300, False), (340, True)])
+def test_a_step_file_that_loads_slowly_elsewhere_is_told(tmp_path: Path, teeth: int, told: bool) -> None:
+    scene = write_scene(tmp_path / "s.toml", {"a": part_keys(Gear(1, teeth, bore=8))}, [{"format": "step"}])
+    assert run("build", scene, "--out", tmp_path / "o", "--no-verify") == 0
+    text = (tmp_path / "o" / "s" / "a.step").read_text()
+    (entry,) = read_report(tmp_path / "o" / "s")["files"]
+    found = {f["code"]: f["value"] for f in entry["findings"]}
+    # the ends and the bore are three
+    faces = text.count("=ADVANCED_FACE(") - 3
+    assert found.get("many_faces") == (faces if told else None)
+    assert (faces > 2000) == told
+
+
 def test_every_finding_has_words_in_both_languages() -> None:
     from parts.texts.findings import FINDINGS, finding_text
 
