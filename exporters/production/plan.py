@@ -21,7 +21,6 @@ from parts.scene.placing import Placing, place
 
 if TYPE_CHECKING:
     from exporters.production.sheets import SheetJob
-    from parts.base.mate import Mating
 
 
 class LeftOut(Record):
@@ -100,7 +99,7 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
             left_out.append(LeftOut(where, why))
             continue
         if export.format == "sheet":
-            sheets += _sheets(scene, matings, _of_cams(export, parts, only_parts), where, source, taken)
+            sheets += _sheets(scene, placing, _of_cams(export, parts, only_parts), where, source, taken)
             continue
         made = []
         for part_id in export.parts or list(parts):
@@ -130,13 +129,13 @@ def _of_cams(export: ExportSpec, parts: dict[str, Part], only_parts: list[str]) 
 
 
 def _sheets(
-    scene: SceneFile, matings: list[Mating], export: ExportSpec, where: str, source: str, taken: dict[str, Text]
+    scene: SceneFile, placing: Placing, export: ExportSpec, where: str, source: str, taken: dict[str, Text]
 ) -> list[SheetJob]:
     if export.parts == []:
         return []
     from exporters.production.sheets import sheet_jobs
 
-    found = sheet_jobs(scene, matings, export, where, source)
+    found = sheet_jobs(scene, placing, export, where, source)
     for job in found:
         _take(job.path, where, taken, source)
     return found

@@ -17,7 +17,7 @@ from geometry.base.tolerance import DRAWN_ROUNDING
 from geometry.gears.pictures.meshing import MeshingPicture, meshing_picture
 from geometry.gears.teeth.limits import practicum_undercut
 from geometry.gears.teeth.transverse import overlap_ratio
-from parts.base.mate import Mating, Toothed
+from parts.base.mate import Toothed
 from parts.base.refusal import SceneError, placed
 from parts.base.schema import unit_of
 from parts.cams.coupler_cam.part import LinkageCamSpec
@@ -30,6 +30,7 @@ from parts.drawing.view import TEETH
 from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear
 from parts.mates.sheets.meshing import Facts, meshing_canvas
 from parts.scene.load import ExportSpec, SceneFile
+from parts.scene.placing import Placing
 from parts.texts.sheets import sheet_words
 
 # by how much the device moves its rack at each press of the key, mm: 4 to 5 in practicum, lesson 1; on wheels that are
@@ -84,7 +85,7 @@ class SheetJob(Record):
         return self.canvas.max_error + DRAWN_ROUNDING, "sampled" if self.canvas.sampled else "certified"
 
 
-def sheet_jobs(scene: SceneFile, matings: list[Mating], export: ExportSpec, where: str, source: str) -> list[SheetJob]:
+def sheet_jobs(scene: SceneFile, placing: Placing, export: ExportSpec, where: str, source: str) -> list[SheetJob]:
     """The files of one export.
 
     Raises
@@ -104,6 +105,14 @@ def sheet_jobs(scene: SceneFile, matings: list[Mating], export: ExportSpec, wher
         for number, (_, drawn) in enumerate(made, 1):
             _add_title_block(drawn, scene, export, number, len(made))
         return [SheetJob(export, x, f"{name}.{part}.{ending}", where) for part, x in made for ending in ENDINGS]
+    if export.purpose == "train":
+        from exporters.production.train_sheets import scene_train_sheet
+
+        expected = scene_train_sheet(scene, placing, export, _band(export), where, source)
+        _add_title_block(expected, scene, export, 1, 1)
+        name = f"{scene.name}.{export.name or export.purpose}"
+        return [SheetJob(export, expected, f"{name}.{ending}", where) for ending in ENDINGS]
+    matings = [mate.mating for mate in placing.mates]
     gears = {n: m for n, m in enumerate(matings, 1) if isinstance(m, Toothed) and m.pair is not None}
     if not gears:
         has_cam = any(isinstance(spec, CamSpec | LinkageCamSpec) for spec in scene.parts.values())

@@ -48,6 +48,7 @@ REASONS = {
     "same_file": N_("writes the same file as {other}; give one of them another name"),
     "shows_external_gears": N_("shows external gears; add one or remove the export"),
     "shows_gear_pairs": N_("shows pairs of involute gears only; remove the export or change its purpose"),
+    "shows_driven_gears": N_("shows gears that a drive turns; add mates of gears and [[drives]] or remove the export"),
     "shows_gear_pairs_of_mates": N_("shows pairs of involute gears only; add [[mates]] or remove the export"),
     "stopped_while_moving": N_(
         "a build moves its files into this folder, or was stopped while it did; build the scene again"

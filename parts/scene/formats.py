@@ -53,7 +53,7 @@ FILE_KINDS = {
         FileKind("stl", "stl", Form.TRIANGLES, {"print": 0.01}),
         FileKind("3mf", "3mf", Form.TRIANGLES, {"print": 0.01}, assembly=True),
         FileKind("step", "step", Form.FACES, {"model": 1e-6}, assembly=True),
-        FileKind("sheet", "sheet", Form.SHEET, {"meshing": 1e-6, "generating": 1e-6, "cam": 1e-6}),
+        FileKind("sheet", "sheet", Form.SHEET, {"meshing": 1e-6, "generating": 1e-6, "cam": 1e-6, "train": 1e-6}),
     )
 }
 # the words of scenes

@@ -60,10 +60,11 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     ]
     purpose: (
         Annotated[
-            Literal["laser", "print", "drawing", "model", "meshing", "generating", "cam"],
+            Literal["laser", "print", "drawing", "model", "meshing", "generating", "cam", "train"],
             Meta(
                 description="dxf: laser (arcs) or drawing (splines); sheet: meshing (picture of each pair), "
-                "generating (device TMM-42) or cam (diagrams, least radius, profile)",
+                "generating (device TMM-42), cam (diagrams, least radius, profile) or train (scheme, plans of "
+                "velocities)",
                 examples=["laser"],
             ),
         ]

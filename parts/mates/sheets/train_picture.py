@@ -51,9 +51,9 @@ class TrainPicture(Record):
         return low + (high - low) * one.teeth / (one.teeth + sign * two.teeth)
 
     def radius(self, rim: int) -> float:
-        """The largest working radius of a rim, mm."""
+        """The least working radius of a rim, mm."""
         axis = self.links[self.rims[rim].link].axis
-        return max(abs(self.pitch_height(mesh) - axis) for mesh in self.meshes if rim in mesh)
+        return min(abs(self.pitch_height(mesh) - axis) for mesh in self.meshes if rim in mesh)
 
     def heights(self, link: int) -> list[float]:
         """Where a link has its axis, carries one, or meshes, mm, from below: the points of its velocities."""

@@ -1,0 +1,141 @@
+"""The sheet of a scene's train: who meshes with whom and is carried by whom, unfolded into one plane."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from geometry.base.tolerance import PLACED_MM
+from geometry.kinematics.mechanism import FRAME, Revolute, Rolling, Tree
+from parts.base.mate import Toothed
+from parts.base.refusal import SceneError
+from parts.drawing.expected import Expected
+from parts.mates.sheets.train_picture import Link, Rim, TrainPicture
+from parts.mates.sheets.train_sheet import train_sheet
+from parts.scene.load import ExportSpec, SceneFile
+from parts.scene.placing import Instance, Placing
+from parts.scene.train import Train
+
+
+def scene_train_sheet(
+    scene: SceneFile, placing: Placing, export: ExportSpec, band: float, where: str, source: str
+) -> Expected:
+    """The sheet of the gears that the drives of a scene move; ``band``: height that a title block takes, mm.
+
+    Raises
+    ------
+    SceneError
+        No drive moves gears on parallel axes.
+    """
+    meshes = _meshes(placing)
+    if placing.train is None or not meshes:
+        raise SceneError(source, f"{where}.purpose", export.purpose, "shows_driven_gears")
+    picture, rims = train_picture(placing.train, meshes, placing.instances)
+    return train_sheet(scene.scene.title or scene.name, picture, rims, scene.scene.language, band)
+
+
+def _meshes(placing: Placing) -> list[Rolling]:
+    """The meshes of gears that move."""
+    if placing.train is None:
+        return []
+    gears = {(m.first.id, m.second.id) for m in placing.mates if isinstance(m.mating, Toothed) and m.mating.pair}
+    moved = placing.train.moving
+    rolling = [
+        j for j in moved.stands.mechanism.joints if isinstance(j, Rolling) and j.kind in ("external", "internal")
+    ]
+    shares = moved.turns.shares
+    return [j for j in rolling if (j.first, j.second) in gears and (shares.get(j.first) or shares.get(j.second))]
+
+
+def train_picture(
+    train: Train, meshes: Sequence[Rolling], instances: Sequence[Instance]
+) -> tuple[TrainPicture, list[str]]:
+    """A train as its sheet has it, numbered in the order of the meshes, and the part of each rim."""
+    stands, stand = train.moving.stands, {i.id: i for i in instances}
+    meshes = _once(stands, meshes, stand)
+    rims = list(dict.fromkeys(key for mesh in meshes for key in (mesh.first, mesh.second)))
+    toothed, driver = list(dict.fromkeys(map(stands.body, rims))), stands.body(train.drives[0])
+    joints = {body: stands.supports.get(body) for body in toothed}
+    carriers = {b: stands.body(j.on) for b, j in joints.items() if isinstance(j, Revolute) and j.on != FRAME}
+    bare = [c for c in dict.fromkeys(carriers.values()) if c not in toothed]
+    bodies = list(dict.fromkeys([*toothed, *bare, driver]))
+    names = {body: str(number) for number, body in enumerate((b for b in bodies if b not in bare), 1)}
+    names |= {body: f"H{number}" if len(bare) > 1 else "H" for number, body in enumerate(bare, 1)}
+    heights = _unfolded(stands, meshes, bodies)
+    rates = {body: train.moving.courses[body].rate for body in bodies}
+    links = tuple(
+        Link(
+            names[body],
+            heights[body],
+            rates[body] / rates[driver],
+            bodies.index(carriers[body]) if body in carriers else None,
+        )
+        for body in bodies
+    )
+    levels, rings = _levels(rims, meshes, stand), {_ring(mesh) for mesh in meshes}
+    teeth = {key: z for mesh in meshes for key, z in zip((mesh.first, mesh.second), mesh.teeth, strict=True)}
+    made = []
+    for index, key in enumerate(rims):
+        body = stands.body(key)
+        primes = "'" * sum(stands.body(other) == body for other in rims[:index])
+        made.append(Rim(names[body] + primes, bodies.index(body), teeth[key], levels[key], key in rings))
+    pairs = tuple((rims.index(mesh.first), rims.index(mesh.second)) for mesh in meshes)
+    return TrainPicture(links, tuple(made), pairs, bodies.index(driver)), [stand[key].part for key in rims]
+
+
+def _ring(mesh: Rolling) -> str | None:
+    """Which of two has its teeth inside."""
+    return max(zip(mesh.teeth, (mesh.first, mesh.second), strict=True))[1] if mesh.kind == "internal" else None
+
+
+def _once(stands: Tree, meshes: Sequence[Rolling], stand: Mapping[str, Instance]) -> list[Rolling]:
+    """The meshes without satellites that go round beside an equal one: on one carrier, of one part, as far out."""
+    twins: dict[tuple[object, ...], str] = {}
+    doubled = set()
+    for key in dict.fromkeys(key for mesh in meshes for key in (mesh.first, mesh.second)):
+        joint = stands.supports.get(stands.body(key))
+        if isinstance(joint, Revolute) and joint.on != FRAME:
+            arm = abs(joint.at - _at(stands, stands.body(joint.on)))
+            doubled.add(key)
+            doubled.discard(
+                twins.setdefault((joint.on, stand[key].part, *(round(x, 6) for x in (arm, stand[key].at[2]))), key)
+            )
+    return [mesh for mesh in meshes if not doubled & {mesh.first, mesh.second}]
+
+
+def _unfolded(stands: Tree, meshes: Sequence[Rolling], bodies: Sequence[str]) -> dict[str, float]:
+    """Heights of the axes, mm: each as far above the one before as they are apart, a ring's below its pinion's."""
+    found: dict[str, float] = {}
+
+    def put(body: str, height: float) -> None:
+        """All that turns about one axis stands at one height."""
+        for other in bodies:
+            if other not in found and abs(_at(stands, other) - _at(stands, body)) <= PLACED_MM:
+                found[other] = height
+
+    put(stands.body(meshes[0].first), 0.0)
+    for _ in bodies:
+        for mesh in meshes:
+            one, two = stands.body(mesh.first), stands.body(mesh.second)
+            apart = abs(_at(stands, two) - _at(stands, one))
+            ring = _ring(mesh)
+            if one in found and two not in found:
+                put(two, found[one] + (-apart if ring == mesh.second else apart))
+            elif two in found and one not in found:
+                put(one, found[two] + (-apart if ring == mesh.first else apart))
+    return {body: found.get(body, 0.0) for body in bodies}
+
+
+def _at(stands: Tree, body: str) -> complex:
+    joint = stands.supports.get(body)
+    return joint.at if isinstance(joint, Revolute) else 0j
+
+
+def _levels(rims: Sequence[str], meshes: Sequence[Rolling], stand: Mapping[str, Instance]) -> dict[str, int]:
+    """Rims that mesh with each other stand in one column, columns in the order of their heights along the axes."""
+    column = {key: {key} for key in rims}
+    for mesh in meshes:
+        joined = column[mesh.first] | column[mesh.second]
+        column |= dict.fromkeys(joined, joined)
+    heights = {key: min((stand[k].at[2], k) for k in column[key]) for key in rims}
+    order = sorted(set(heights.values()))
+    return {key: order.index(heights[key]) for key in rims}

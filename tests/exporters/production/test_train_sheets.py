@@ -1,0 +1,109 @@
+"""Sheets of trains: ratios read off the written files with dividers, for all schemes of figure 2.1; spoiled lines seen."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from pathlib import Path
+
+import ezdxf
+import pytest
+
+from exporters.drawings.verify import verify_sheet
+from exporters.drawings.write import write_sheet
+from exporters.production.build import build
+from exporters.production.plan import plan_build
+from parts.base.refusal import SceneError
+from parts.mates.sheets.train_picture import Link, Rim, TrainPicture
+from parts.mates.sheets.train_sheet import train_sheet
+from parts.scene.load import scene_from_toml
+from tests.parts.scene.test_trains import DRIVE, FREE, GEAR, JAMES
+
+SHEET = '[[exports]]\nformat = "sheet"\npurpose = "train"\n'
+
+
+def double(teeth: tuple[int, int, int, int], inner: tuple[bool, bool]) -> tuple[TrainPicture, Fraction]:
+    """A set z1, z2-z2', z3 with its last wheel held, and u_1H by (3), (4) of seed 001."""
+    z1, z2, z2b, z3 = teeth
+    carried = Fraction(z2, z1) * (1 if inner[0] else -1) * Fraction(z3, z2b) * (1 if inner[1] else -1)
+    ratio = 1 - carried
+    rate = 1 / ratio
+    planet = rate + (1 - rate) * Fraction(z1, z2) * (1 if inner[0] else -1)
+    axis = abs(z1 - z2 if inner[0] else z1 + z2)
+    links = (Link("1", 0, Fraction(1)), Link("2", axis, planet, 3), Link("3", 0, Fraction(0)), Link("H", 0, rate))
+    rims = (Rim("1", 0, z1, 0, inner[0]), Rim("2", 1, z2), Rim("2'", 1, z2b, 1), Rim("3", 2, z3, 1, inner[1]))
+    return TrainPicture(links, rims, ((0, 1), (3, 2))), ratio
+
+
+def lines(file: Path, layer: str) -> list[tuple[complex, complex]]:
+    space = ezdxf.readfile(file).modelspace()
+    return [
+        (complex(x.dxf.start.x, x.dxf.start.y), complex(x.dxf.end.x, x.dxf.end.y))
+        for x in space.query(f'LINE[layer=="{layer}"]')
+    ]
+
+
+def ratios(file: Path) -> tuple[float, float]:
+    """u_1H off the plan of velocities by p a / p c (section 4 of seed 001) and off that of angular ones by O1 / OH."""
+    fan = lines(file, "ANGULAR_VELOCITY")
+    (pole,) = {round(a.real, 9) for a, _ in fan}
+    first, last = lines(file, "VELOCITY")[0], lines(file, "VELOCITY")[-1]
+    slopes = [(b - a).real / (b - a).imag for a, b in (first, last)]
+    return slopes[0] / slopes[1], (fan[0][1].real - pole) / (fan[-1][1].real - pole)
+
+
+@pytest.mark.parametrize("language", ["en", "uk"])
+def test_the_ratio_of_james_is_read_off_the_written_file(tmp_path: Path, language: str) -> None:
+    """40/40/120 (seed 001, figure 5): 4.000 within 0.1 %."""
+    text = f'[scene]\nlanguage = "{language}"\n' + JAMES + DRIVE.format("sun", "turns = 4.0") + SHEET
+    plan = plan_build(scene_from_toml(text.encode(), "james.toml", "james"), "james", [], [])
+    built = build(plan, tmp_path)
+    assert built.well
+    assert ratios(tmp_path / "james.train.dxf") == pytest.approx((4.0, 4.0), rel=1e-9)
+    measured = {w.file.name: w.measured for w in built.written}
+    for file in ("james.train.dxf", "james.train.svg"):
+        assert measured[file]["ratio_1_H_by_velocity"] == pytest.approx(4.0, rel=1e-7)
+        assert measured[file]["ratio_1_2_by_angular_velocity"] == pytest.approx(-2.0, rel=1e-7)
+    words = (tmp_path / "james.train.svg").read_text(encoding="utf-8")
+    assert bool(re.search("[а-яіїє]", words)) == (language == "uk")
+    for word in ("1 (z = 40)", "2 (z = 40)", "3 (z = 120)", ">H<", ">p<", ">a<", ">b<", ">ω<"):
+        assert word in words
+
+
+@pytest.mark.parametrize(
+    ("teeth", "inner"),
+    [
+        ((40, 20, 30, 90), (False, True)),
+        ((50, 30, 20, 60), (False, False)),
+        ((100, 40, 30, 90), (True, True)),
+        ((100, 101, 99, 100), (False, False)),
+    ],
+)
+def test_the_schemes_of_figure_2_1(tmp_path: Path, teeth: tuple[int, int, int, int], inner: tuple[bool, bool]) -> None:
+    picture, ratio = double(teeth, inner)
+    for band, language in ((0.0, "en"), (55.0, "uk")):
+        sheet = train_sheet("set", picture, ["sun", "planet", "planet", "ring"], language, band)
+        for ending in ("dxf", "svg"):
+            file = tmp_path / f"set.{ending}"
+            write_sheet(file, sheet.canvas)
+            assert verify_sheet(file, sheet, 0.0).failures == ()
+        assert ratios(tmp_path / "set.dxf") == pytest.approx((float(ratio), float(ratio)), rel=1e-6)
+
+
+@pytest.mark.parametrize("layer", ["VELOCITY", "ANGULAR_VELOCITY"])
+@pytest.mark.parametrize("index", [0, 1, -1])
+def test_a_line_that_is_off_is_seen(tmp_path: Path, layer: str, index: int) -> None:
+    sheet = train_sheet("set", double((50, 30, 20, 60), (False, False))[0], ["a", "b", "c", "d"], "en")
+    file = tmp_path / "set.dxf"
+    write_sheet(file, sheet.canvas)
+    drawing = ezdxf.readfile(file)
+    line = list(drawing.modelspace().query(f'LINE[layer=="{layer}"]'))[index]
+    line.dxf.end = line.dxf.end + ezdxf.math.Vec3(0.01, 0, 0)
+    drawing.saveas(file)
+    assert any(layer in text for text in verify_sheet(file, sheet, 1e-6).failures)
+
+
+def test_what_no_drive_turns_is_refused() -> None:
+    for text in (FREE + SHEET, GEAR.format("a", 20) + '[[drives]]\ninstance = "a"\n' + SHEET):
+        with pytest.raises(SceneError, match="shows gears that a drive turns"):
+            plan_build(scene_from_toml(text.encode(), "s.toml", "s"), "s", [], [])
