@@ -50,7 +50,10 @@ class CarriedSpec(MateKeys, tag="carried", kw_only=True):
     offset: (
         Annotated[
             tuple[_Shift, _Shift, _Shift],
-            mm("x, y, z of the axis in the carrier's frame; default: where other mates have put it"),
+            mm(
+                "x, y, z of the axis in the carrier's frame; default: where other mates have put it",
+                example=[40.0, 0.0, 0.0],
+            ),
         ]
         | None
     ) = None
