@@ -29,7 +29,7 @@ TOPICS = {
     "gear-pair": "parts.mates.pages.external",
     "shift-choice": "parts.mates.pages.shift_choice",
     "worm": "parts.gears.worm.page",
-    "train": "parts.mates.pages.train",
+    "train": "parts.scene.train_page",
     "planetary": "parts.mates.pages.planetary",
     "cam": "parts.cams.disk_cam.page",
     "cycloidal": "parts.pins.cycloidal_page",

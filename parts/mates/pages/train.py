@@ -20,7 +20,7 @@ from parts.base.texts import N_, Message, Text, listed, message
 from parts.keys.base import mm
 from parts.mates.pages.train_cases import CASES
 from parts.mates.pages.train_model import Leg, Mesh, Stage, Train, central_ways, parsed, satellites, stages
-from parts.pages.inputs import PLACE, SceneKeys, checked, refusal
+from parts.pages.inputs import PLACE, checked, refusal
 from parts.pages.misprints import printed_for_train
 from parts.pages.page import Printed, Sheet, Table
 
@@ -68,16 +68,12 @@ class TrainKeys(Struct, forbid_unknown_fields=True):
     module: Annotated[float, mm("module, for distances and forces", least=0.01, most=1000)] | None = None
 
 
-def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
-    """Trains are calculated by keys only."""
-    raise SceneError(source, "TOPIC", TOPIC, "keys_not_a_scene")
-
-
 def sheet(table: dict[str, Any]) -> Sheet:
-    """The analysis of one train."""
+    """The analysis of one train; ``names`` of the table: which instance of a scene each name stands for."""
+    names = table.pop("names", {})
     keys: TrainKeys = checked(table, TrainKeys, TOPIC)
     try:
-        return _Page(keys).made()
+        return _Page(keys, names).made()
     except ParameterError as error:
         raise refusal(TOPIC, error, keys=keys) from error
 
@@ -94,7 +90,7 @@ def _key(name: str) -> str:
 class _Page:
     """The sheet of one train; formulas know wheels as z_1, stages as u_s1, speeds as omega_1."""
 
-    def __init__(self, keys: TrainKeys) -> None:
+    def __init__(self, keys: TrainKeys, names: Mapping[str, str]) -> None:
         case = None if keys.case is None else CASES.get(keys.case)
         if keys.case is not None and case is None:
             raise SceneError(
@@ -107,6 +103,8 @@ class _Page:
         if not words:
             raise ParameterError("meshes", None, "missing_key", None, what=N_("wheels in mesh, as 1-2, 2'-3 internal"))
         self.speeds = {name: _exact(w) for name, w in ({**(case.speeds if case else {}), **keys.speeds}).items()}
+        # which instance of a scene a name stands for
+        self.instances = names
         self.keys, self.words, self.open = keys, words, case.open if case else ""
         self.module = keys.module if keys.module is not None or case is None else case.module
         self.shafts = keys.shafts or (case.shafts if case else "")
@@ -202,7 +200,8 @@ class _Page:
         if driver and self.speeds and driver not in self.speeds:
             raise ParameterError("driver", driver, "driver_without_speed", None, known=list(self.speeds))
         start = bodies.get(self.inputs[0])
-        moving = [name for name in bodies if bodies[name] != start and not self.train.still(bodies[name])]
+        still = [b for b in bodies.values() if b == start or b in self.train.carried or self.train.still(b)]
+        moving = [name for name in bodies if bodies[name] not in still]
         self.driven = self.driven or (moving or wheels)[-1]
         places = {"driver": [driver] if driver else [], "driven": [self.driven], "speeds": self.inputs}
         for key, names in {**places, "torques": list(self.keys.torques)}.items():
@@ -229,6 +228,9 @@ class _Page:
         heads = (("1", ""), ("2", ""), (N_("kind"), ""), ("H", ""), ("z_1", ""), ("z_2", ""))
         title = N_("Meshes: first and second wheel, kind, carrier, teeth")
         page.tables.append(Table("meshes", title, heads, tuple(rows), labels=tuple(labels)))
+        if self.instances:
+            told = ", ".join(f"{name} {instance}" for name, instance in self.instances.items())
+            page.notes.append(message("names in the scene: {names}", names=told))
         shafts = [names for body in dict.fromkeys(train.bodies.values()) if len(names := self._names(body)) > 1]
         if shafts:
             told = ", ".join("-".join(names) for names in shafts)

@@ -242,7 +242,6 @@ def test_report_form_has_a_place_for_the_count() -> None:
         ((*JAMES, "held=3", "torques.3=4"), ("torques", "its torque is what is sought")),
         ((*JAMES, "held=3", "driven=5"), ("driven", "no such link")),
         ((*JAMES, "held=3", "mesh_efficiency=0"), ("mesh_efficiency", "above 0")),
-        (("idler_train",), ("takes keys, no scene",)),
     ],
 )
 def test_refusals_are_one_line(keys: tuple[str, ...], parts: tuple[str, ...]) -> None:

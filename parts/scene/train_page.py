@@ -1,0 +1,135 @@
+"""``higherpair calc train`` of a scene: its mechanism in the words of the topic, wheels numbered as the sources do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from parts.base.refusal import SceneError
+from parts.mates.pages.train import sheet
+
+if TYPE_CHECKING:
+    from geometry.kinematics.mechanism import Mechanism, Rolling
+    from parts.scene.load import SceneFile
+
+__all__ = ["sheet", "table_from"]
+_KINDS = ("external", "internal")
+# what a satellite meshes, how, and both numbers of teeth
+Side = tuple[str, str, tuple[int, int]]
+
+
+def table_from(scene: SceneFile, source: str, table: dict[str, Any]) -> dict[str, Any]:
+    """The train of a scene, of equal satellites the first, changed by the keys of the command line."""
+    from parts.scene.load import in_keys_of_file, make_parts
+    from parts.scene.placing import place
+    from parts.scene.train import scene_mechanism
+
+    with in_keys_of_file(scene.origins):
+        parts, matings = make_parts(scene, source)
+        placing = place(scene.instances, scene.drives, parts, matings, source)
+        stand = {one.id: (one.centre, one.rotation) for one in placing.instances}
+        held = [key for key, spec in scene.instances.items() if spec.held is True]
+        known = _Scene(scene_mechanism(stand, matings, held))
+    if not known.meshes:
+        raise SceneError(source, "mates", None, "no_gear_pair")
+    modules = {key: getattr(scene.parts[spec.part or key], "module", None) for key, spec in scene.instances.items()}
+    found = known.table(modules, [drive.instance for drive in scene.drives])
+    teeth = table.pop("teeth", {})
+    return found | table | {"teeth": {**found["teeth"], **teeth} if isinstance(teeth, dict) else teeth}
+
+
+class _Scene:
+    """Bodies and meshes of a mechanism, without the satellites that stand beside equal ones."""
+
+    def __init__(self, mechanism: Mechanism) -> None:
+        from geometry.kinematics.mechanism import FRAME, Revolute, Rolling, tree
+
+        stands = tree(mechanism)
+        self.body = stands.body
+        self.held = {key for key in stands.order if stands.still(key)}
+        self.carriers = {
+            key: stands.body(joint.on)
+            for key, joint in stands.supports.items()
+            if isinstance(joint, Revolute) and stands.body(joint.on) != FRAME
+        }
+        self.meshes = [j for j in mechanism.joints if isinstance(j, Rolling) and j.kind in _KINDS]
+        # the first of equal satellites does for all, and for those that mesh only some of its wheels
+        kept: list[tuple[str, set[Side]]] = []
+        twins: set[str] = set()
+        sides = {key: set(self._sides(key)) for key in self.carriers}
+        for key in sorted(sides, key=lambda k: -len(sides[k])):
+            if any(self.carriers[key] == carrier and sides[key] <= known for carrier, known in kept):
+                twins.add(key)
+            kept.append((self.carriers[key], sides[key]))
+        self.meshes = [m for m in self.meshes if not {self.body(m.first), self.body(m.second)} & twins]
+
+    def _sides(self, body: str) -> Iterator[Side]:
+        """What a satellite meshes, and how."""
+        for mesh in self.meshes:
+            one, two = self.body(mesh.first), self.body(mesh.second)
+            if body in (one, two):
+                yield (two if body == one else one), mesh.kind, mesh.teeth
+
+    def _numbered(self, drives: list[str]) -> dict[str, str]:
+        """Wheels by number on the way from the driver; the second rim of a satellite has the first one's, primed."""
+        ends = [key for mesh in self.meshes for key in (mesh.first, mesh.second)]
+        free = [k for k in ends if self.body(k) not in self.carriers and k not in self.held]
+        starts = [key for key in drives if self.body(key) in map(self.body, ends)]
+        names: dict[str, str] = {}
+        rims: dict[str, str] = {}
+        waiting, seen = [self.body(key) for key in reversed([*starts, *free, *ends])], set()
+        while waiting:
+            body = waiting.pop()
+            if body in seen:
+                continue
+            seen.add(body)
+            for mesh in self.meshes:
+                one, two = mesh.first, mesh.second
+                if body in (self.body(one), self.body(two)):
+                    wheels = (one, two) if self.body(one) == body else (two, one)
+                    for wheel in wheels:
+                        self._name(wheel, names, rims)
+                    waiting.append(self.body(wheels[1]))
+        return names
+
+    def _name(self, wheel: str, names: dict[str, str], rims: dict[str, str]) -> None:
+        body = self.body(wheel)
+        if wheel in names:
+            return
+        if body in rims:
+            rims[body] += "'"
+            names[wheel] = rims[body]
+            return
+        names[wheel] = str(1 + len([name for name in names.values() if not name.endswith("'")]))
+        if body in self.carriers:
+            rims[body] = names[wheel]
+
+    def table(self, modules: dict[str, float | None], drives: list[str]) -> dict[str, Any]:
+        """The keys of the topic; ``names``: which instance each name stands for."""
+        names = self._numbered(drives)
+        carriers = list(dict.fromkeys(c for b, c in self.carriers.items() if b in map(self.body, names)))
+        titles = {c: "H" if len(carriers) == 1 else f"H{k}" for k, c in enumerate(carriers, 1)}
+        shafts: dict[str, list[str]] = {}
+        for key, name in names.items():
+            shafts.setdefault(self.body(key), []).append(name)
+        for carrier, title in titles.items():
+            shafts.setdefault(carrier, []).append(title)
+        satellites = {
+            title: ", ".join(shafts[b][0] for b, c in self.carriers.items() if c == carrier and b in shafts)
+            for carrier, title in titles.items()
+        }
+        inputs = [shafts[self.body(key)][0] for key in drives if self.body(key) in shafts]
+        toothed = {key: z for mesh in self.meshes for key, z in zip((mesh.first, mesh.second), mesh.teeth, strict=True)}
+        return {
+            "teeth": {name: toothed[key] for key, name in names.items()},
+            "meshes": ", ".join(self._words(mesh, names, modules) for mesh in self.meshes),
+            "shafts": ", ".join("-".join(own) for own in shafts.values() if len(own) > 1),
+            "carriers": satellites,
+            "held": ", ".join(own[0] for body, own in shafts.items() if body in self.held),
+            "driver": inputs[0] if inputs else "",
+            "names": {name: key for key, name in names.items()} | {title: c for c, title in titles.items()},
+        }
+
+    def _words(self, mesh: Rolling, names: dict[str, str], modules: dict[str, float | None]) -> str:
+        module = modules.get(mesh.first)
+        return f"{names[mesh.first]}-{names[mesh.second]} {mesh.kind}" + (f" {module:g}" if module else "")
