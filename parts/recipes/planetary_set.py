@@ -77,6 +77,17 @@ class PlanetarySetKeys(RecipeKeys, kw_only=True, tag="planetary_set"):
     normal_backlash: Annotated[float, mm("normal backlash of both meshes", least=0, most=100, example=0.1)] | None = (
         None
     )
+    driver: Annotated[
+        Literal["first", "second", "carrier", "none"],
+        Meta(description="what is driven: wheel 1, wheel 3, the carrier, or none of them here"),
+    ] = "first"
+    held: Annotated[
+        Literal["first", "second", "carrier", "none"],
+        Meta(description="what stands still: wheel 1, wheel 3, the carrier, or none: a differential"),
+    ] = "second"
+    turns: Annotated[
+        float, Meta(ge=-10_000, le=10_000, description="how far the driver is turned", extra={"unit": "turns"})
+    ] = 1.0
     direction_deg: Annotated[float, degrees("direction of the first satellite", least=-360, most=360)] = 0.0
     face_width: Annotated[float, mm("face width of every wheel", least=0.1, most=10_000)] = 10.0
     plate_thickness: Annotated[float, mm("thickness of carrier, frame and crank", least=0.1, most=10_000)] = 4.0
@@ -153,6 +164,7 @@ class PlanetarySetRecipe(Recipe[PlanetarySetKeys]):
         _add_carrier(made, found)
         if keys.frame:
             _add_frame(made, found)
+        _add_drive(made, found)
         return found
 
 
@@ -408,3 +420,16 @@ def _add_frame(made: _Set, found: Expansion) -> None:
         {"kind": "fixed", "first": "shaft", "second": "crank", "offset": [0.0, 0.0, top - floor + thick]},
         {"kind": "fixed", "first": "crank", "second": "handle", "offset": [arm, 0.0, 0.0]},
     ]
+
+
+def _add_drive(made: _Set, found: Expansion) -> None:
+    """What stands still, and what is turned."""
+    keys = made.keys
+    links = {"first": made.wheels[0].id, "second": made.wheels[3].id, "carrier": "carrier"}
+    if keys.driver == keys.held != "none":
+        raise ParameterError("driver", keys.driver, "driver_is_held")
+    if keys.held != "none":
+        held = links[keys.held]
+        found.instances[held] = {**found.instances.get(held, {"part": held}), "held": True}
+    if keys.driver != "none":
+        found.drives.append({"instance": links[keys.driver], "turns": keys.turns})

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import tomllib
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -97,6 +98,29 @@ def test_teeth_of_satellites_stand_in_spaces(keys: dict[str, Any]) -> None:
         assert common(*ends, step) > 0.03
 
 
+@pytest.mark.parametrize(
+    ("name", "turns"),
+    [
+        ("james", {"sun": 4, "carrier": 1, "ring": 0}),
+        ("david", {"sun": Fraction(-4, 5), "carrier": 1, "second_satellite_3": 4}),
+        ("two_internal", {"carrier": 48, "ring": -7}),
+        ("practicum_example_1", {"ring": 20, "wheel_7": 1}),
+        ("practicum_example_2", {"wheel_1": 32, "carrier": 1}),
+        ("practicum_example_3", {"wheel_1": 20, "carrier": 1}),
+        ("compound_two_stage", {"first_sun": Fraction(108, 5), "second_carrier": 1}),
+        ("ferguson", {"carrier": 10_000, "sun": 1}),
+    ],
+)
+def test_drives_turn_the_sets_as_the_lesson_has_it(name: str, turns: dict[str, Fraction]) -> None:
+    """Willis's formula by hand; the text's misprints beside its right values stand in the scenes."""
+    made = load_scene(name)
+    parts, matings = make_parts(made, name)
+    (found,) = place(made.instances, made.drives, parts, matings, name).turns
+    assert {key: found.get(key, 0.0) for key in turns} == pytest.approx(
+        {key: float(t) for key, t in turns.items()}, rel=1e-15
+    )
+
+
 def test_ferguson_has_three_different_satellites() -> None:
     """101 and 100 teeth are turned to each other by thirds of what one tooth of each makes: 1/10100 of a turn."""
     made = load_scene("ferguson")
@@ -124,6 +148,7 @@ def test_ferguson_has_three_different_satellites() -> None:
         ({"teeth": [24, 24, 82], "satellites": 2}, "teeth", "no_shifts_fit"),
         ({"teeth": [24, 24, 72], "shifts": [0.1, 0.1, 0.5]}, "shifts", "shifts_not_coaxial"),
         ({"teeth": [24, 24, 72], "shifts": [0.1, 0.1]}, "shifts", "one_shift_a_wheel"),
+        ({"teeth": [24, 24, 72], "held": "first"}, "driver", "driver_is_held"),
         ({"teeth": [24, 24, 72], "second_module": 3.0}, "second_module", "one_rim_one_module"),
         ({"scheme": "david", "teeth": [20, 20, 20, 20]}, "teeth", "transmits_nothing"),
         ({**DAVID, "teeth": [50, 30, 20, 60], "satellites": 2, "frame": True}, "frame", "frame_needs_ring_and_sun"),
