@@ -7,6 +7,7 @@ run on one machine and asserts nothing about time.
 from __future__ import annotations
 
 import argparse
+import csv
 import importlib.util
 import json
 import os
@@ -153,6 +154,26 @@ def scaling(folder: Path, teeth: Sequence[int]) -> None:
         show(f"{kind} at {tolerance} mm, m 1, whole commands", rows)
 
 
+def many(folder: Path, count: int) -> None:
+    """So many gears by one ``catalogue``, as DXF, STL and STEP, all read back, by one process and by two."""
+    scene = write_scene(folder, "dxf", 0.005)
+    scene.write_text(scene.read_text("utf-8") + '[[exports]]\nformat = "stl"\n[[exports]]\nformat = "step"\n', "utf-8")
+    vary, spent = f"gear.number_of_teeth=20:{19 + count}", []
+    for jobs in ("1", "2"):
+        out = folder / f"jobs_{jobs}"
+        command = [sys.executable, "-m", "exporters", "catalogue", str(scene), "--vary", vary, "--jobs", jobs]
+        spent.append(seconds_of([*command, "--out", str(out)], folder))
+    rows = [["processes", "s", "ms a gear", "one / this"]]
+    rows += [[str(n), f"{s:.1f}", f"{1000 * s / count:.0f}", f"{spent[0] / s:.2f}"] for n, s in enumerate(spent, 1)]
+    show(f"catalogue of {count} gears, m 2, z from 20, DXF, STL and STEP", rows)
+    table = csv.DictReader((out / scene.stem / "catalogue.csv").read_text("utf-8").splitlines())
+    worst: dict[str, float] = {}
+    for row in table:
+        share = float(row["measured_mm"]) / float(row["max_error_mm"])
+        worst[row["format"]] = max(worst.get(row["format"], 0.0), share)
+    print("  greatest measured error / declared: " + ", ".join(f"{k} {v:.3f}" for k, v in worst.items()))
+
+
 def main() -> None:
     """Print everything."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -165,6 +186,7 @@ def main() -> None:
         against_floors(folder, 3 if options.quick else options.runs)
         if importlib.util.find_spec("OCP"):
             against_kernel(folder, 3 if options.quick else options.runs)
+        many(folder, 20 if options.quick else 181)
         scaling(folder, (100, 300, 1000) if options.quick else (100, 300, 1000, 3000, 10_000))
 
 
