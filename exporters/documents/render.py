@@ -123,8 +123,9 @@ def _html_section(section: Section, told: Words) -> str:
 
 
 def _subscripts(text: str) -> str:
-    """r_b1 as r with a lowered b1, z1 as z with a lowered 1."""
-    text = re.sub(r"_((?:[^\W_²³]|\.)+)", r"<sub>\1</sub>", html.escape(text))
+    """r_b1 as r with a lowered b1, z1 as z with a lowered 1; u_2'3^H with a lowered 2'3 and a raised H."""
+    text = re.sub(r"_(\d+&#x27;\w+|(?:[^\W_²³]|\.)+)", r"<sub>\1</sub>", html.escape(text))
+    text = re.sub(r"\^(\w+)", r"<sup>\1</sup>", text)
     return re.sub(r"(?<![\w&;#>])([A-Za-zα-ω])([12])(?![\w.])", r"\1<sub>\2</sub>", text)
 
 

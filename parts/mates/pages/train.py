@@ -133,7 +133,7 @@ class _Page:
         self._mobility(freedom)
         self._distances()
         if self.moved.free:
-            names = [self._name(body) for body in self.moved.free]
+            names = list(dict.fromkeys(self._name(train.bodies[link]) for link in self.moved.free))
             raise ParameterError("speeds", names[0], "left_free", None, free=names)
         found = stages(train, self.inputs[0], self.driven) if len(self.inputs) == 1 else None
         if found:

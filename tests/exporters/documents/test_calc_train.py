@@ -261,3 +261,11 @@ def test_nothing_heavy_is_loaded() -> None:
     )
     told = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert told.stdout.strip() == "[]"
+
+
+def test_symbols_of_links_are_lowered_and_what_is_held_is_raised() -> None:
+    page = calculate("train", ("case=trains_8",), "html", "en")
+    assert "u<sub>13</sub><sup>H</sup>" in page
+    assert "u<sub>2&#x27;3</sub><sup>H</sup>" in page
+    assert "z<sub>2</sub>&#x27;" in page
+    assert "^" not in page.split("<ul>")[0]

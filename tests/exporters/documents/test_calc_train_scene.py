@@ -64,3 +64,10 @@ def test_built_in_scenes() -> None:
     assert any("1 driver, 2 idler, 3 wheel" in note for note in data["notes"])
     with pytest.raises(SceneError, match="pair of gears"):
         calculate("train", ("laser_gear",), "json", "en")
+
+
+def test_what_nothing_moves_is_named_by_number(tmp_path: Path) -> None:
+    """A second rim is one body with the first: it is named once."""
+    with pytest.raises(SceneError, match="left free") as caught:
+        calculated(tmp_path, DAVID.replace("held = true", ""))
+    assert "H, 2, 3" in str(caught.value)
