@@ -64,6 +64,11 @@ def _motion(motion: dict[str, Any], told: Words) -> list[str]:
         )
     for found in (x for x in motion["uncovered"] if x["share"] < 1):
         lines.append(told.text("note: {first} and {second} were held over {share:.3g} of their period", **found))
+    if "lying" in motion:
+        names = ", ".join(motion["lying"])
+        lines.append(
+            told.text("note: held as they stand, not in motion, since their axes are not upright: {names}", names=names)
+        )
     if motion["uncovered"]:
         worst = max(motion["uncovered"], key=lambda x: x["depth"])
         pairs = counted("{pairs} pair", "{pairs} pairs", by="pairs", pairs=len(motion["uncovered"]))

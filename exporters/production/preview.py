@@ -18,6 +18,7 @@ from geometry.plane.contour import Approximation, Contour, edge_points
 from geometry.plane.profile import Profile
 from parts.base.part import Part
 from parts.base.texts import words
+from parts.scene.placing import UPWARDS, Instance
 from parts.texts.findings import finding_text
 from parts.texts.quantities import quantity_name
 
@@ -77,7 +78,7 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
 
     language = plan.scene.scene.language
     stand = sorted(plan.placing.instances, key=lambda i: i.at[2])
-    outers = [_samples(outlines[i.part][-1].geometry) * cmath.exp(1j * i.rotation) + i.centre for i in stand]
+    outers = [_outer(i, _samples(outlines[i.part][-1].geometry), plan.parts[i.part]) for i in stand]
     points = np.concatenate(outers)
     left, right = float(points.real.min()), float(points.real.max())
     low, high = float(points.imag.min()), float(points.imag.max())
@@ -96,19 +97,21 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     for index, instance in enumerate(stand):
         turn = cmath.exp(1j * instance.rotation)
         placed = [_placed(b.geometry, turn, instance.centre + shift) for b in reversed(outlines[instance.part])]
+        solid = _solid_pins(plan.parts[instance.part], outlines[instance.part])
+        if instance.axis != UPWARDS:
+            placed, solid = [Contour(outers[index] + shift, np.zeros(len(outers[index])))], []
         data = " ".join(path_data(contour, middle) for contour in placed)
         fill = plan.parts[instance.part].colour or _FILLS[index % len(_FILLS)]
         style = f"fill:{fill};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 600:.4g}"
         lines.append(f'<path d="{data}" style="{style}"/>')
-        solid = _solid_pins(plan.parts[instance.part], outlines[instance.part])
         pins = " ".join(path_data(_placed(c, turn, instance.centre + shift), middle) for c in solid)
         if pins:
             lines.append(f'<path d="{pins}" style="{_PIN_STYLE};stroke-width:{reach / 600:.4g}"/>')
         place = instance.centre + shift
-        x, y = (
-            middle + place.real,
-            middle - place.imag - _label_height(outlines[instance.part], outers[index] - instance.centre),
-        )
+        height = _label_height(outlines[instance.part], outers[index] - instance.centre)
+        if instance.axis != UPWARDS:
+            place, height = complex(outers[index].mean()) + shift, 0.0
+        x, y = middle + place.real, middle - place.imag - height
         labels.append(Label(instance.id, x, y, size))
     style = f"font-family:sans-serif;font-size:{size:.4g}px;text-anchor:middle;fill:#202830"
     for label in spread_labels(labels):
@@ -118,6 +121,25 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     file = folder / f"{scene_preview_name(plan)}"
     save(file, lines)
     return file
+
+
+def _outer(instance: Instance, points: Complex, part: Part) -> Complex:
+    """The outer boundary of an instance as it stands, seen from above; of one that lies the hull of both its ends."""
+    if instance.axis == UPWARDS:
+        return points * cmath.exp(1j * instance.rotation) + instance.centre
+    ends = [np.column_stack([points.real, points.imag, 0 * points.real + z]) for z in (0.0, part.face_width)]
+    seen = instance.scene_from_part.apply(np.concatenate(ends))
+    spots = sorted({(round(x, 9), round(y, 9)) for x, y in seen[:, :2].tolist()})
+    hull: list[complex] = []
+    for way in (spots, spots[::-1]):
+        side: list[complex] = []
+        for x, y in way:
+            here = complex(x, y)
+            while len(side) > 1 and ((side[-1] - side[-2]).conjugate() * (here - side[-2])).imag <= 0:
+                side.pop()
+            side.append(here)
+        hull += side[:-1]
+    return np.array(hull)
 
 
 def scene_preview_name(plan: Plan) -> str:

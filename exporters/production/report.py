@@ -19,7 +19,7 @@ from parts.base.content import content
 from parts.base.part import Part
 from parts.base.texts import ENGLISH, languages, words
 from parts.scene.load import resolved
-from parts.scene.placing import Instance
+from parts.scene.placing import UPWARDS, Instance
 from parts.texts.findings import finding_text
 
 NAME = "report.json"
@@ -167,6 +167,7 @@ def _placement(instance: Instance) -> dict[str, Any]:
         "at": list(instance.at),
         "rotation_deg": math.degrees(instance.rotation),
         "placed_by": instance.placed_by,
+        **({} if instance.axis == UPWARDS else {"axis": list(instance.axis)}),
     }
 
 

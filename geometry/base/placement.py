@@ -50,6 +50,24 @@ class Placement3(Record):
         c, s = math.cos(angle), math.sin(angle)
         return cls(((c, -s, 0.0), (s, c, 0.0), (0.0, 0.0, 1.0)), translation)
 
+    @classmethod
+    def towards(cls, axis: Vector, angle: float, translation: Vector = (0.0, 0.0, 0.0)) -> Placement3:
+        """Turn by ``angle`` (rad) about z, lay z on the unit vector ``axis`` by the shortest way, then move.
+
+        What points down is turned over about x.
+        """
+        turned = cls.about_z(angle, translation)
+        x, y, z = axis
+        aside = x * x + y * y
+        if aside == 0 and z > 0:
+            return turned
+        # (1 - z) / aside, without cancellation above
+        k = 1 / (1 + z) if z >= 0 else (1 - z) / aside if aside else 0.0
+        laid = np.array([[1 - k * x * x, -k * x * y, x], [-k * x * y, 1 - k * y * y, y], [-x, -y, z]])
+        if not aside:
+            laid = np.diag([1.0, -1.0, -1.0])
+        return _placement3(laid @ np.array(turned.rotation), np.array(translation))
+
     def matrix(self) -> NDArray[np.float64]:
         """(3, 4): rotation and translation side by side."""
         return np.column_stack([np.array(self.rotation), np.array(self.translation)])

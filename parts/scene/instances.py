@@ -42,6 +42,18 @@ class InstanceSpec(Struct, forbid_unknown_fields=True):
         ]
         | None
     ) = None
+    axis: (
+        Annotated[
+            list[Annotated[float, Meta(ge=-1e6, le=1e6)]],
+            Meta(
+                min_length=3,
+                max_length=3,
+                description="direction [x, y, z] of the part's axis, of any length; default: upwards",
+                examples=[[1.0, 0.0, 0.0]],
+            ),
+        ]
+        | None
+    ) = None
     held: Annotated[bool, Meta(description="stands still, as the frame does: a ring that is screwed on")] | None = None
 
 
@@ -130,6 +142,10 @@ def _instance_table(key: str, table: object, parts: dict[str, Struct], source: s
     if spec.about is not None and spec.at is None:
         # where each stands is for its mates to say
         raise SceneError(source, f"{place}.about", spec.about, "about_needs_at", REMOVED)
+    if spec.axis is not None and not any(spec.axis):
+        raise SceneError(source, f"{place}.axis", spec.axis, "no_direction")
+    if spec.axis is not None and spec.at is None:
+        raise SceneError(source, f"{place}.axis", spec.axis, "axis_needs_at", REMOVED)
     if spec.part is None:
         if key not in parts:
             raise SceneError(source, f"{place}.part", None, "which_part", None, known=list(parts))
@@ -154,10 +170,13 @@ def _group(key: str, spec: InstanceTable, count: int) -> Group:
 def _one(spec: InstanceTable, angle: float) -> InstanceSpec:
     """One member, turned about the axis by so many degrees."""
     if spec.at is None or not angle:
-        return InstanceSpec(spec.part, spec.at, spec.rotation_deg, spec.held)
+        return InstanceSpec(spec.part, spec.at, spec.rotation_deg, spec.axis, spec.held)
     axis = complex(*(spec.about or (0.0, 0.0)))
     moved = axis + (complex(*spec.at[:2]) - axis) * cmath.rect(1.0, math.radians(angle))
-    return InstanceSpec(spec.part, [moved.real, moved.imag, spec.at[2]], (spec.rotation_deg or 0.0) + angle, spec.held)
+    turned = (spec.rotation_deg or 0.0) + angle
+    direction = None if spec.axis is None else complex(*spec.axis[:2]) * cmath.rect(1.0, math.radians(angle))
+    tilted = spec.axis and direction is not None and [direction.real, direction.imag, spec.axis[2]]
+    return InstanceSpec(spec.part, [moved.real, moved.imag, spec.at[2]], turned, tilted or None, spec.held)
 
 
 def members(mate: MateKeys, groups: Mapping[str, Group], source: str, place: str) -> Iterator[MateKeys]:

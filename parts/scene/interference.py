@@ -15,7 +15,7 @@ import numpy as np
 from geometry.base.errors import GeometryError
 from geometry.base.record import Record
 from parts.base.part import Part
-from parts.scene.placing import Instance, Placing
+from parts.scene.placing import UPWARDS, Instance, Placing
 
 # boundaries go this far into the material, as a part of the solid's size, and the mesh half of it
 INSET = 2e-4
@@ -71,6 +71,12 @@ def _box(instance: Instance, part: Part) -> tuple[complex, float, float, float]:
     """Centre, reach, lower and upper end of an instance, mm."""
     body = part.body(0.0)
     reach = max(p.reach() for p in body.profiles)
+    if instance.axis != UPWARDS:
+        # a ball about it
+        low, high = body.levels()[0], body.levels()[-1]
+        x, y, z = (at + (low + high) / 2 * way for at, way in zip(instance.at, instance.axis, strict=True))
+        far = math.hypot(reach, (high - low) / 2)
+        return complex(x, y), far, z - far, z + far
     return instance.centre, reach, instance.at[2] + body.levels()[0], instance.at[2] + body.levels()[-1]
 
 
@@ -83,6 +89,8 @@ def _placed(instance: Instance, parts: dict[str, Part], solids: dict[str, Any]) 
     """The solid of an instance in its place; one mesh a part."""
     if instance.part not in solids:
         solids[instance.part] = inner_solid(parts[instance.part])
+    if instance.axis != UPWARDS:
+        return solids[instance.part].transform(instance.scene_from_part.matrix())
     x, y, z = instance.at
     turned = solids[instance.part].rotate([0.0, 0.0, math.degrees(math.remainder(instance.rotation, 2 * math.pi))])
     return turned.translate([x, y, z])

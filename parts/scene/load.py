@@ -368,7 +368,7 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
 
 
 # keys of instances and drives that are told where they are given
-_SELDOM = ("held", "travel")
+_SELDOM = ("axis", "held", "travel")
 
 
 def resolved(scene: SceneFile) -> dict[str, Any]:

@@ -19,7 +19,7 @@ from geometry.base.record import Draft, Record, field, replace
 from geometry.curves.curve import Real
 from parts.base.part import Part
 from parts.scene.interference import INSET, SLIVER, common_volume
-from parts.scene.placing import Instance, Placing
+from parts.scene.placing import UPWARDS, Instance, Placing
 from parts.scene.relative_path import Course, Path, path_of
 from parts.scene.shapes import Shape
 
@@ -73,14 +73,17 @@ def motion_found(placing: Placing, parts: dict[str, Part], course: Course, known
     shapes = {name: Shape(parts[name]) for name in dict.fromkeys(i.part for i in placing.instances)}
     plates = {i.id for i in placing.instances if parts[i.part].is_plate}
     mated = {frozenset((m.first.id, m.second.id)) for m in placing.mates if m.mating.has_contact}
+    # loose pins are the teeth of what they are seated in
+    seats = {m.second.id: m.first.id for m in placing.mates if m.mating.kind == "pin_seat"}
     found, clear = MotionFound(), dict[tuple[str, str, float], list[tuple[Path, Uncovered | None]]]()
     for index, one in enumerate(placing.instances):
         for two in placing.instances[index + 1 :]:
             ends = frozenset((one.id, two.id))
-            if not ends & course.rates.keys() or ends in known:
+            # paths are those of the plane
+            if not ends & course.rates.keys() or ends in known or {one.axis, two.axis} != {UPWARDS}:
                 continue
             # teeth of plates are left to their contact
-            if ends in mated and ends <= plates:
+            if ends <= plates and frozenset(seats.get(end, end) for end in ends) in mated:
                 continue
             found.pairs += 1
             try:

@@ -26,12 +26,15 @@ if TYPE_CHECKING:
     from parts.base.mate import Mating, Pose
     from parts.scene.train import Train
 
+UPWARDS: Vector = (0.0, 0.0, 1.0)
 # between things that no mate and no ``at`` places, mm
 _GAP = 5.0
 
 
 class Instance(Record):
     """A part at its place: the part's frame turned by ``rotation`` (rad) about z, then moved to ``at`` (mm).
+
+    Between both z is laid on the unit vector ``axis``, as ``Placement3.towards`` does it.
 
     ``placed_by``: "at" (the scene says where), "mate", "origin" (the first of all), or "row" (laid out beside).
     """
@@ -41,6 +44,7 @@ class Instance(Record):
     at: Vector = (0.0, 0.0, 0.0)
     rotation: float = 0.0
     placed_by: str = "origin"
+    axis: Vector = UPWARDS
 
     @property
     def centre(self) -> complex:
@@ -50,7 +54,7 @@ class Instance(Record):
     @property
     def scene_from_part(self) -> Placement3:
         """The placement of the part's frame in the scene."""
-        return Placement3.about_z(math.remainder(self.rotation, 2 * math.pi), self.at)
+        return Placement3.towards(self.axis, math.remainder(self.rotation, 2 * math.pi), self.at)
 
 
 class Condition(Record):
@@ -172,11 +176,15 @@ class _Placed:
         for key, spec in specs.items():
             if spec.at is not None:
                 x, y, z = spec.at
-                self.stand[key] = Instance(key, str(spec.part), (x, y, z), _turned(spec), "at")
+                self.stand[key] = Instance(key, str(spec.part), (x, y, z), _turned(spec), "at", _axis(spec))
 
     def join(self, index: int, mating: Mating) -> PlacedMate:
         """Run one mate: place its second, or only note that both stand."""
         first, second = mating.first, mating.second
+        for key in (first, second):
+            if key in self.stand and self.stand[key].axis != UPWARDS:
+                place = f"instances.{key}.axis"
+                raise SceneError(self.source, place, self.specs[key].axis, "tilted_mate", REMOVED, mate=index + 1)
         if first not in self.stand:
             self._begin(index, mating)
         here = self.stand[first]
@@ -239,7 +247,16 @@ class _Placed:
 
     def _edge(self, key: str, side: int) -> float:
         """How far an instance reaches to the right (side 1) or left (-1), mm."""
-        return self.stand[key].at[0] + side * _reach(self.parts[self.stand[key].part])
+        here = self.stand[key]
+        part = self.parts[here.part]
+        return here.at[0] + side * (_reach(part) + (part.face_width if here.axis != UPWARDS else 0.0))
+
+
+def _axis(spec: InstanceSpec) -> Vector:
+    if spec.axis is None:
+        return UPWARDS
+    x, y, z = (value / math.hypot(*spec.axis) for value in spec.axis)
+    return x, y, z
 
 
 def _turned(spec: InstanceSpec) -> float:
@@ -328,7 +345,7 @@ def _close_ones(
 ) -> tuple[Closeness, ...]:
     """Spur gears at one height whose tip circles cut each other though no mate joins them."""
     joined = {frozenset((m.first.id, m.second.id)) for m in mates}
-    gears = [i for i in instances if parts[i.part].kind == "spur_gear"]
+    gears = [i for i in instances if parts[i.part].kind == "spur_gear" and i.axis == UPWARDS]
     found = []
     for index, one in enumerate(gears):
         for two in gears[index + 1 :]:

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import cmath
+import json
 import math
+import re
 from collections.abc import Iterable
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -307,3 +310,52 @@ def test_placements_in_space_compose_and_undo() -> None:
     assert one.apply(np.array([[1.0, 0.0, 0.0]])) == pytest.approx(
         np.array([[1 + math.cos(0.7), -2 + math.sin(0.7), 3.0]])
     )
+
+
+@pytest.mark.parametrize(
+    "axis", [(1.0, 0.0, 0.0), (0.3, -0.4, 0.5), (1e-9, 0.0, -3.0), (0.0, 0.0, -2.0), (0.0, 0.0, 4.0)]
+)
+def test_an_axis_lays_a_part_down_by_the_shortest_way(axis: tuple[float, float, float]) -> None:
+    """Against Rodrigues' formula about z x axis; turned first, moved last."""
+    text = AB + instance("a", f"at = [1, 2, 3]\nrotation_deg = 30\naxis = {list(axis)}")
+    _, stand = placed(text)
+    matrix = next(i for i in stand.instances if i.id == "a").scene_from_part.matrix()
+    unit = np.array(axis) / np.linalg.norm(axis)
+    across = np.cross([0.0, 0.0, 1.0], unit)
+    size = np.linalg.norm(across)
+    if size == 0:
+        across, size = np.array([1.0, 0.0, 0.0]), 1.0
+    k = across / size
+    cross = np.array([[0, -k[2], k[1]], [k[2], 0, -k[0]], [-k[1], k[0], 0]])
+    sine, cosine = np.linalg.norm(np.cross([0.0, 0.0, 1.0], unit)), unit[2]
+    laid = np.eye(3) + sine * cross + (1 - cosine) * cross @ cross
+    c, s = math.cos(math.radians(30)), math.sin(math.radians(30))
+    assert np.allclose(matrix[:, :3], laid @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]), atol=1e-14)
+    assert np.allclose(matrix @ [0, 0, 1, 1], np.array([1, 2, 3]) + unit, atol=1e-14)
+
+
+def test_a_tilted_part_stands_in_its_place_in_files_and_in_the_way(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    plate = '[parts.{}]\nkind = "plate"\nwidth = 20.0\nheight = {}.0\n'
+    text = plate.format("a", 40) + plate.format("b", 30)
+    text += instance("a", "at = [0, 0, 0]") + instance("b", "at = [10, 0, 5]\naxis = [0, 1, 0]")
+    text += "[checks]\ninterference = true\n"
+    file, lying = tmp_path / "s.toml", text.replace("10, 0, 5", "100, 0, 5")
+    exports = "".join(f'[[exports]]\nformat = "{name}"\nassembly = true\n' for name in ("step", "3mf"))
+    file.write_text(text, encoding="utf-8")
+    assert main(["check", str(file)]) == 1
+    file.write_text(lying + exports, encoding="utf-8")
+    assert main(["build", str(file), "--out", str(tmp_path / "out")]) == 0
+    capsys.readouterr()
+    report = json.loads((tmp_path / "out" / "s" / "report.json").read_text("utf-8"))
+    assert report["instances"]["b"]["axis"] == [0.0, 1.0, 0.0]
+    assert "axis" not in report["instances"]["a"]
+    fixed = '[[mates]]\nkind = "fixed"\nfirst = "a"\nsecond = "b"\n'
+    for wrong, told in (
+        (lying + fixed, "mates[1] joins parts whose axes are upright"),
+        (lying.replace("at = [100, 0, 5]\n", ""), "only of an instance that stands"),
+        (lying.replace("[0, 1, 0]", "[0, 0, 0]"), "has no direction"),
+    ):
+        with pytest.raises(SceneError, match=re.escape(told)):
+            placed(wrong)

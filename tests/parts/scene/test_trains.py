@@ -1,4 +1,4 @@
-"""Scenes in motion: at any drive value every mate is kept as exactly as where it was placed; what cannot move is told."""
+"""Scenes in motion: at any drive value every mate is kept as exactly as at the start; what cannot move is told."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ GEAR = '[parts.{}]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = {}\nface
 PARTS = (
     GEAR.format("sun", 40)
     + GEAR.format("planet", 40)
-    + '[parts.ring]\nkind = "ring_gear"\nmodule = 2.0\nnumber_of_teeth = 120\nface_width = 5.0\nouter_diameter = 260.0\n'
+    + GEAR.format("ring", 120).replace("spur_gear", "ring_gear")
+    + "outer_diameter = 260.0\n"
     + '[parts.carrier]\nkind = "plate"\nwidth = 200.0\nheight = 200.0\nface_width = 3.0\n'
 )
 STAND = "[instances.planet]\ncount = 4\n[instances.ring]\n{}\n"
@@ -158,7 +159,7 @@ WRONG = [
     (JAMES + DRIVE.format("sun", "travel = 0.0"), "drives[1].travel", "moves nothing"),
     (RACK + DRIVE.format("rack", "turns = 1"), "drives[1].turns", "give travel"),
     (JAMES + AXIS.format("ring", "") + DRIVE.format("sun", ""), "mates[12].first", "carried by carrier already"),
-    (PARTS + AXIS.format("carrier", "").replace("planet_1", "planet"), "mates[1].offset", "is missing: where on the carrier"),
+    (PARTS + AXIS.format("carrier", "").replace("planet_1", "planet"), "mates[1].offset", "where on the carrier"),
 ]  # fmt: skip
 
 
