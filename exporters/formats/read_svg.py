@@ -49,7 +49,7 @@ def read_svg(file: Path) -> ReadOutlines:
             raise ReadError(f"an SVG {tag} has a {strange.pop()}, which may hide or move it")
         try:
             if tag == "path":
-                loops.append(_svg_path(element.get("d", ""), _layer(element)))
+                loops.append(svg_path(element.get("d", ""), _layer(element)))
             elif tag == "circle":
                 x, y, r = (float(element.get(k, "nan")) for k in ("cx", "cy", "r"))
                 ends = np.array([complex(x + r, -y), complex(x - r, -y)])
@@ -88,7 +88,7 @@ def _millimetres(text: str) -> float:
     return float(text.removesuffix("mm"))
 
 
-def _svg_path(data: str, layer: str) -> Loop:
+def svg_path(data: str, layer: str) -> Loop:
     """One closed subpath of absolute M, L, A and Z."""
     if re.sub(_COMMAND, "", data).strip():
         raise ReadError("an SVG path holds more than M, L, A and Z")

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import asdict
 
+from geometry.base.record import replace
 from geometry.base.tolerance import PLACED_MM
 from parts.base.mate import Mating, Toothed, Touching
 from parts.base.part import Part
@@ -16,6 +18,9 @@ from parts.scene.instances import DriveSpec
 from parts.scene.placing import UPWARDS, Closeness, Condition, PlacedMate, Placing
 from parts.texts.checks import condition_message
 from parts.texts.findings import finding_text
+
+if TYPE_CHECKING:
+    from geometry.gears.mesh.search import PairContact
 
 # mates that run no gears in each other: of these transmission error is not asked
 _WITHOUT_TEETH = ("fixed", "coaxial", "carried", "pin_seat", "eccentric_bearing")
@@ -80,7 +85,7 @@ def check_pair(
 
     ``second_turn`` (rad) and ``centre_shift`` (mm): how far the pair stands off the exact one; ``tolerance`` in mm.
     """
-    found = mating.contact(second_turn, centre_shift, tolerance)
+    found = _contact(mating, second_turn, centre_shift, tolerance)
     if found is None:
         return pair_quantities(mating)
     worst, told = found.worst, pair_quantities(mating)
@@ -101,6 +106,20 @@ def check_pair(
             for f in mating.findings()
         ],
     }
+
+
+def _contact(mating: Mating, phase: float, shift: float, tolerance: float | None) -> PairContact | None:
+    """The contact of a pair; one of gears that stands as another one did is held once."""
+    if not (isinstance(mating, Toothed) and mating.pair):
+        return mating.contact(phase, shift, tolerance)
+    alike = replace(mating, first="", second="", direction_deg=0.0)
+    # what rounding leaves is no difference
+    return _gear_contact(alike, round(phase, 13), round(shift, 10), tolerance)
+
+
+@lru_cache(maxsize=16)
+def _gear_contact(mating: Mating, phase: float, shift: float, tolerance: float | None) -> PairContact | None:
+    return mating.contact(phase, shift, tolerance)
 
 
 def _where(mating: Mating, drive: float) -> dict[str, float]:

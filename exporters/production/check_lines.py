@@ -53,13 +53,16 @@ def _motion(motion: dict[str, Any], told: Words) -> list[str]:
     if "one_pose" in motion:
         return [told.text("note: no drive moves this scene: its solids were held as they stand alone")]
     lines = []
-    if motion["poses"]:
-        # the rest repeat these, or circles keep them apart
+    if motion["pairs"]:
         pairs = counted("{pairs} pair", "{pairs} pairs", by="pairs", pairs=motion["pairs"])
         poses = counted("{poses} pose", "{poses} poses", by="poses", poses=motion["poses"])
         lines.append(
             told.say(
-                message("solids in motion: {pairs} over the period of each, {poses} held", pairs=pairs, poses=poses)
+                message(
+                    "solids in motion: {pairs} over the period of each; {poses} held, the rest repeats or lies apart",
+                    pairs=pairs,
+                    poses=poses,
+                )
             )
         )
     for found in (x for x in motion["uncovered"] if x["share"] < 1):

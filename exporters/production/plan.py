@@ -20,6 +20,7 @@ from parts.scene.load import ExportSpec, SceneFile, default_export, in_keys_of_f
 from parts.scene.placing import Placing, place
 
 if TYPE_CHECKING:
+    from exporters.production.motion import MotionJob
     from exporters.production.sheets import SheetJob
 
 
@@ -41,7 +42,7 @@ class Plan(Record):
     jobs: tuple[Job, ...]
     assemblies: tuple[AssemblyJob, ...]
     left_out: tuple[LeftOut, ...]
-    sheets: tuple[SheetJob, ...] = ()
+    sheets: tuple[SheetJob | MotionJob, ...] = ()
 
     @property
     def files(self) -> tuple[FileJob, ...]:
@@ -90,16 +91,22 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
     left_out += [LeftOut(f"parts.{p}", N_("no export asks for it"), as_asked=bool(only_formats)) for p in unused]
     jobs: list[Job] = []
     assemblies: list[AssemblyJob] = []
-    sheets: list[SheetJob] = []
+    sheets: list[SheetJob | MotionJob] = []
     taken: dict[str, Text] = {f"{part}.preview.svg".lower(): Message(N_("the preview of the part")) for part in parts}
     for where, export in exports:
-        if only_parts and (export.assembly or (export.format == "sheet" and export.purpose != "cam")):
+        if only_parts and (export.assembly or _of_several(export)):
             alone = N_("an assembly of all its parts was not asked for")
             why = alone if export.assembly else N_("a sheet of several parts was not asked for")
             left_out.append(LeftOut(where, why))
             continue
         if export.format == "sheet":
             sheets += _sheets(scene, placing, _of_cams(export, parts, only_parts), where, source, taken)
+            continue
+        if export.format == "motion":
+            from exporters.production.motion import motion_job
+
+            sheets.append(motion_job(scene, placing, parts, export, where, source))
+            _take(sheets[-1].path, where, taken, source)
             continue
         made = []
         for part_id in export.parts or list(parts):
@@ -119,6 +126,11 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
             stand = tuple(i for i in placing.instances if i.part in (export.parts or parts))
             assemblies.append(AssemblyJob(assembly_name(scene.name), export, tuple(made), stand, path, where))
     return Plan(source, scene, parts, placing, tuple(jobs), tuple(assemblies), tuple(left_out), tuple(sheets))
+
+
+def _of_several(export: ExportSpec) -> bool:
+    """Whether a picture shows parts together; that of a cam shows one."""
+    return export.format == "motion" or (export.format == "sheet" and export.purpose != "cam")
 
 
 def _of_cams(export: ExportSpec, parts: dict[str, Part], only_parts: list[str]) -> ExportSpec:

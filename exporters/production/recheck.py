@@ -91,7 +91,7 @@ def recheck(file: Path) -> Recheck:
 
 def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, Any], digest: str) -> Recheck:
     scene = scene_from_resolved(report["scene"], source)
-    if entry["format"] == "sheet":
+    if entry["format"] in ("sheet", "motion"):
         return _against_sheet(file, source, scene, entry, digest)
     if entry["part"] is None:
         return _against_assembly(file, source, scene, entry, digest)
@@ -115,7 +115,7 @@ def _against_sheet(file: Path, source: str, scene: SceneFile, entry: dict[str, A
     """A sheet: drawn again from the scene, and the file measured against that."""
     from exporters.production.plan import plan_build
 
-    plan = plan_build(scene, source, [], ["sheet"])
+    plan = plan_build(scene, source, [], [entry["format"]])
     job = {sheet.path: sheet for sheet in plan.sheets}[entry["path"]]
     declared, tolerance = float(entry["max_error"]), float(entry["tolerance"])
     return Recheck(file, job.verify(file, declared), declared, tolerance, digest == entry["sha256"])

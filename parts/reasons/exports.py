@@ -49,6 +49,7 @@ REASONS = {
     "shows_external_gears": N_("shows external gears; add one or remove the export"),
     "shows_gear_pairs": N_("shows pairs of involute gears only; remove the export or change its purpose"),
     "shows_driven_gears": N_("shows gears that a drive turns; add mates of gears and [[drives]] or remove the export"),
+    "shows_what_moves": N_("shows what a drive moves; add [[drives]] or remove the export"),
     "shows_gear_pairs_of_mates": N_("shows pairs of involute gears only; add [[mates]] or remove the export"),
     "stopped_while_moving": N_(
         "a build moves its files into this folder, or was stopped while it did; build the scene again"

@@ -54,6 +54,7 @@ FILE_KINDS = {
         FileKind("3mf", "3mf", Form.TRIANGLES, {"print": 0.01}, assembly=True),
         FileKind("step", "step", Form.FACES, {"model": 1e-6}, assembly=True),
         FileKind("sheet", "sheet", Form.SHEET, {"meshing": 1e-6, "generating": 1e-6, "cam": 1e-6, "train": 1e-6}),
+        FileKind("motion", "motion", Form.SHEET, {"animation": 0.02}),
     )
 }
 # the words of scenes

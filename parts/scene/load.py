@@ -56,11 +56,12 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     """Keys of ``[[exports]]``."""
 
     format: Annotated[
-        Literal["dxf", "svg", "stl", "3mf", "step", "sheet"], Meta(description="file format", examples=["dxf"])
+        Literal["dxf", "svg", "stl", "3mf", "step", "sheet", "motion"],
+        Meta(description="file format; motion: an animated SVG of what the drives move", examples=["dxf"]),
     ]
     purpose: (
         Annotated[
-            Literal["laser", "print", "drawing", "model", "meshing", "generating", "cam", "train"],
+            Literal["laser", "print", "drawing", "model", "meshing", "generating", "cam", "train", "animation"],
             Meta(
                 description="dxf: laser (arcs) or drawing (splines); sheet: meshing (picture of each pair), "
                 "generating (device TMM-42), cam (diagrams, least radius, profile) or train (scheme, plans of "

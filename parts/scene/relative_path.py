@@ -88,7 +88,7 @@ def path_of(pair: tuple[Instance, Instance], shapes: tuple[Shape, Shape], course
         return None
     fastest = float(max(map(abs, rates)))
     # spread over the whole, so that no dwell is taken for rest
-    probe = min(float(_common(rates)), _MOST_CYCLES / fastest) * np.concatenate([[0.0], _SPREAD])
+    probe = min(float(common_period(rates)), _MOST_CYCLES / fastest) * np.concatenate([[0.0], _SPREAD])
     places, turns = _seen(course, pair, probe)
     still = float(np.abs(places - places[0]).max()) <= _SAME
     coaxial = float(np.abs(places).max()) <= _SAME
@@ -156,12 +156,12 @@ def _period(
     arms, *_ = np.linalg.lstsq(waves, places, rcond=None)
     if float(np.abs(waves @ arms - places).max()) > _SAME:
         # a law is in it: what it is made of repeats
-        return _common(rates)
+        return common_period(rates)
     around = [x for x, arm in zip(carriers, arms, strict=True) if abs(arm) > _SAME]
     if not around:
-        return _common({(other - own) * math.lcm(*counts)})
+        return common_period({(other - own) * math.lcm(*counts)})
     found = {x - around[0] for x in around} | {counts[0] * (around[0] - own), counts[1] * (other - around[0])}
-    return _common(found)
+    return common_period(found)
 
 
 def _counts(distances: Real, shapes: tuple[Shape, Shape]) -> tuple[int, int]:
@@ -171,7 +171,7 @@ def _counts(distances: Real, shapes: tuple[Shape, Shape]) -> tuple[int, int]:
     return one.count(near - two.reach, far + two.reach), two.count(near - one.reach, far + one.reach)
 
 
-def _common(rates: Iterable[Fraction]) -> Fraction:
+def common_period(rates: Iterable[Fraction]) -> Fraction:
     """The time after which all rates have made whole turns; 1 where nothing turns."""
     periods = [1 / abs(rate) for rate in rates if rate]
     if not periods:

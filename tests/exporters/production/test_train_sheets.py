@@ -1,4 +1,4 @@
-"""Sheets of trains: ratios read off the written files with dividers, for all schemes of figure 2.1; spoiled lines seen."""
+"""Sheets of trains: ratios read off the written files, for all schemes of figure 2.1; spoiled lines are seen."""
 
 from __future__ import annotations
 

@@ -1,0 +1,72 @@
+"""An animated SVG (SMIL): outlines of instances that turn and move over one loop, again and again, in any browser."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+
+import numpy as np
+
+from exporters.formats.svg import number, path_data, save
+from geometry.base.record import Record
+from geometry.curves.curve import Complex, Real
+from geometry.plane.contour import Approximation
+
+# decimals of places, mm, and of angles, degrees
+_PLACE, _ANGLE = 6, 9
+
+
+class Track(Record):
+    """How an instance moves over one loop: places (mm) and angles (rad, counter-clockwise) at even times, the last one
+    that of the first again; a single one where it does not move so.
+    """
+
+    name: str
+    outlines: tuple[Approximation, ...]
+    colour: str
+    places: Complex
+    angles: Real
+
+
+def write_motion_svg(file: Path, title: str, tracks: Sequence[Track], box: Sequence[float], seconds: float) -> None:
+    """Write tracks, the lowest first; ``box``: left, low, right, high of all of it, mm."""
+    left, low, right, high = box
+    width, height = number(right - left), number(high - low)
+    stroke = number((right - left) / 900)
+    lines = [
+        '<?xml version="1.0" encoding="UTF-8"?>\n<svg xmlns="http://www.w3.org/2000/svg" version="1.1" '
+        f'width="{width}mm" height="{height}mm" viewBox="{number(left)} {number(-high)} {width} {height}">',
+        f"<title>{escape(title)}</title>",
+    ]
+    for track in tracks:
+        places = [f"{number(z.real, _PLACE)},{number(-z.imag, _PLACE)}" for z in track.places.tolist()]
+        angles = [number(-math.degrees(a), _ANGLE) for a in track.angles.tolist()]
+        data = " ".join(path_data(outline.geometry, 0.0) for outline in track.outlines)
+        lines += [
+            f'<g id="{track.name}"{_moved("translate", places, seconds)}',
+            f"<g{_moved('rotate', angles, seconds)}",
+            f'<path d="{data}" style="fill:{track.colour};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;'
+            f'stroke-width:{stroke}"/>',
+            "</g></g>",
+        ]
+    save(file, lines)
+
+
+def _moved(kind: str, values: Sequence[str], seconds: float) -> str:
+    """The rest of a group's opening: what moves it once, or over and over."""
+    if len(values) == 1:
+        return f' transform="{kind}({values[0]})">'
+    return (
+        f'><animateTransform attributeName="transform" type="{kind}" dur="{number(seconds)}s" '
+        f'repeatCount="indefinite" values="{";".join(values)}"/>'
+    )
+
+
+def even_values(values: Complex) -> Complex:
+    """As few of the values as hold them: one that stays, the ends of a straight and even way, or all of them."""
+    straight = values[0] + (values[-1] - values[0]) * np.linspace(0, 1, len(values))
+    if np.abs(values - values[0]).max() <= 10.0**-_ANGLE:
+        return values[:1]
+    return values[[0, -1]] if np.abs(values - straight).max() <= 10.0**-_ANGLE else values

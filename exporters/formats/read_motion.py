@@ -1,0 +1,113 @@
+"""An animated SVG read back: where every instance stands at any share of the loop. Shares no code with the writer."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from exporters.formats.read_svg import root_of, svg_path
+from exporters.formats.readback import Loop
+from geometry.base.record import Record
+from geometry.curves.curve import Complex, Real
+from parts.base.readback import ReadError
+
+if TYPE_CHECKING:
+    from xml.etree.ElementTree import Element
+
+_SVG = "{http://www.w3.org/2000/svg}"
+_KNOWN = {
+    "svg": {"width", "height", "viewBox", "version"},
+    "title": set[str](),
+    "g": {"id", "transform"},
+    "path": {"d", "style"},
+    "animateTransform": {"attributeName", "type", "dur", "repeatCount", "values"},
+}
+_STYLE = r"fill:#[0-9a-f]{6};fill-opacity:0\.85;fill-rule:evenodd;stroke:#202830;stroke-width:[\d.]+"
+
+
+class ReadTrack(Record):
+    """An instance: values (k,) of its place (mm, y up) and of its turn (rad) at even times, its outlines."""
+
+    places: Complex
+    angles: Complex
+    loops: tuple[Loop, ...]
+
+    def pose(self, share: Real) -> tuple[Complex, Real]:
+        """Place and turn at shares of the loop: SMIL goes straight from value to value."""
+        return _between(self.places, share), _between(self.angles, share).real
+
+
+class ReadMotion(Record):
+    """All instances, and how long a loop takes, seconds (0: nothing moves)."""
+
+    tracks: dict[str, ReadTrack]
+    seconds: float
+
+
+def read_motion(file: Path) -> ReadMotion:
+    """Read an animated SVG.
+
+    Raises
+    ------
+    ReadError
+        It is damaged, or holds what may move or hide an outline in another way.
+    """
+    from xml.etree import ElementTree
+
+    try:
+        root = root_of(file)
+    except (ElementTree.ParseError, OSError) as error:
+        raise ReadError(f"is not an SVG file: {error}") from error
+    for element in root.iter():
+        tag = element.tag.removeprefix(_SVG)
+        if tag not in _KNOWN or set(element.keys()) - _KNOWN[tag]:
+            raise ReadError(f"holds <{tag}> {sorted(element.keys())}, which a motion does not")
+    durations: set[str] = set()
+    tracks = {}
+    for outer in root.findall(f"{_SVG}g"):
+        inner = outer.find(f"{_SVG}g")
+        path = None if inner is None else inner.find(f"{_SVG}path")
+        name = outer.get("id", "")
+        if inner is None or path is None or name in tracks or not re.fullmatch(_STYLE, path.get("style", "")):
+            raise ReadError(f"instance {name} is not one outline within two groups")
+        loops = tuple(svg_path(part, "") for part in re.findall(r"M[^M]*", path.get("d", "")))
+        places, angles = _values(outer, "translate", durations), _values(inner, "rotate", durations)
+        tracks[name] = ReadTrack(places.conj(), np.asarray(-np.radians(angles.real) + 0j), loops)
+    if len(durations) > 1:
+        raise ReadError("instances take unlike times for their loop")
+    seconds = float(durations.pop().removesuffix("s")) if durations else 0.0
+    return ReadMotion(tracks, seconds)
+
+
+def _values(group: Element, kind: str, durations: set[str]) -> Complex:
+    """Values of a transform: x + iy of a translation, degrees of a turn, as the file has them."""
+    moves = group.findall(f"{_SVG}animateTransform")
+    placed = group.get("transform")
+    if placed is not None:
+        found = re.fullmatch(rf"{kind}\(([^()]*)\)", placed)
+        if moves or found is None:
+            raise ReadError(f"a group is placed by {placed}")
+        texts = [found[1]]
+    else:
+        wanted = {"attributeName": "transform", "type": kind, "repeatCount": "indefinite"}
+        if len(moves) != 1 or any(moves[0].get(key) != value for key, value in wanted.items()):
+            raise ReadError(f"a group has no {kind} that goes on for ever")
+        durations.add(moves[0].get("dur", ""))
+        texts = moves[0].get("values", "").split(";")
+    try:
+        numbers = [[float(x) for x in text.split(",")] for text in texts]
+    except ValueError as error:
+        raise ReadError(f"a value of a motion is no number: {error}") from error
+    if {len(row) for row in numbers} != {2 if kind == "translate" else 1}:
+        raise ReadError("a value of a motion lacks a number")
+    return np.array([complex(row[0], row[1] if len(row) > 1 else 0.0) for row in numbers])
+
+
+def _between(values: Complex, share: Real) -> Complex:
+    at = np.linspace(0, 1, len(values))
+    if len(values) == 1:
+        return np.full(len(share), values[0])
+    return np.interp(share, at, values.real) + 1j * np.interp(share, at, values.imag)

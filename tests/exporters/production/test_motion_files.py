@@ -1,0 +1,117 @@
+"""Animated SVG: poses at many times by a reader of the tests' own, loops that close, spoiled files."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from exporters.production.build import build
+from exporters.production.plan import Plan, plan_build
+from parts.base.refusal import SceneError
+from parts.scene.load import load_scene, resolved, scene_from_resolved, scene_from_toml
+from tests.exporters.making import run
+from tests.parts.scene.test_trains import DRIVE, FREE, JAMES
+
+MOTION = '[[exports]]\nformat = "motion"\n'
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def planned(text: str) -> Plan:
+    return plan_build(scene_from_toml(text.encode(), "s.toml", "s"), "s", [], ["motion"])
+
+
+def at(file: Path, name: str, share: float) -> tuple[complex, float]:
+    """Place and turn (degrees, counter-clockwise) of an instance, y up: what SMIL says of linear values."""
+    (group,) = (g for g in ElementTree.parse(file).getroot().iter(f"{SVG}g") if g.get("id") == name)
+    found = []
+    for element in (group, group.find(f"{SVG}g")):
+        assert element is not None
+        move = element.find(f"{SVG}animateTransform")
+        text = re.search(r"\((.*)\)", element.get("transform", "()")) if move is None else None
+        rows = [text[1]] if text else move.get("values", "").split(";")  # type: ignore[union-attr]
+        values = np.array([[float(x) for x in row.split(",")] for row in rows])
+        where = np.linspace(0, 1, len(values))
+        found.append([float(np.interp(share, where, column)) for column in values.T])
+    return complex(found[0][0], -found[0][1]), -found[1][0]
+
+
+def test_satellites_turn_as_the_formula_says(tmp_path: Path) -> None:
+    """40/40/120: in four turns of the sun the carrier makes one, a satellite turns by -2; then the loop closes."""
+    plan = planned(JAMES + DRIVE.format("sun", "turns = 4.0") + MOTION)
+    built = build(plan, tmp_path)
+    assert built.well
+    file = tmp_path / "s.motion.svg"
+    start = {i.id: i for i in plan.placing.instances}
+    for share in (0.0, 0.037, 1 / 3, 0.71, 1.0):
+        for name, turns in (("sun", 4), ("carrier", 1), ("planet_2", -2), ("ring", 0)):
+            place, turn = at(file, name, share)
+            assert turn == pytest.approx(math.degrees(start[name].rotation) + 360 * turns * share, abs=1e-7)
+            around = cmath.exp(2j * math.pi * share) if name == "planet_2" else 1.0
+            assert abs(place - start[name].centre * around) < 0.02
+    (written,) = built.written
+    assert written.job.told["closes"] is True
+    assert written.job.told["drive"] == pytest.approx(4.0)
+
+
+def test_a_follower_is_shown_on_its_cam(tmp_path: Path) -> None:
+    """The flat face of the laser model stands on its cam's law: heights against those of the placing."""
+    kept = resolved(load_scene("laser_cam_model")) | {
+        "drives": [{"instance": "cam"}],
+        "exports": [{"format": "motion"}],
+    }
+    plan = plan_build(scene_from_resolved(kept, "m"), "m", [], [])
+    assert build(plan, tmp_path).well
+    (file,) = tmp_path.glob("*.motion.svg")
+    for share in (0.1, 0.2, 0.45, 0.9):
+        stand = {i.id: i for i in plan.placing.at([share])}
+        assert abs(at(file, "follower", share)[0] - stand["follower"].centre) < 0.02
+        assert at(file, "guide_left", share)[0] == pytest.approx(stand["guide_left"].centre, abs=1e-5)
+
+
+def test_a_loop_that_would_take_too_long_is_cut_and_said() -> None:
+    """97 and 101 teeth, both marked by the flat of their bore: as they were after 101 turns. One alone: after one."""
+    keys = 'kind = "spur_gear"\nmodule = 1.0\nface_width = 5.0\n'
+    mate = '[[mates]]\nkind = "external_gear_pair"\nfirst = "a"\nsecond = "b"\n[[drives]]\ninstance = "a"\n'
+    flat = 'bore = { shape = "D", diameter = 9.0, flat = 8.0 }\n'
+
+    def told(second: str) -> tuple[object, object]:
+        parts = f"[parts.a]\nnumber_of_teeth = 97\n{keys}{flat}[parts.b]\nnumber_of_teeth = 101\n{keys}{second}"
+        found = planned(parts + mate + MOTION).sheets[0].told
+        return found["closes"], pytest.approx(found["drive"])
+
+    assert told("bore_diameter = 9.0\n") == (True, 1.0)
+    assert told(flat) == (False, 40.0)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        (r'values="[-\d.]+;', 'values="1.5;'),
+        (r'repeatCount="indefinite"', 'repeatCount="1"'),
+        (r'<g id="planet_3"', '<g id="planet_9"'),
+        (r"(;[-\d.]+,[-\d.]+){3}", ""),
+        (r'id="ring" transform="translate\([-\d.]+', 'id="ring" transform="translate(0.1'),
+        (r"<title>", "<style>path{display:none}</style><title>"),
+        (r"L[-\d.]+,", "L1,"),
+    ],
+)
+def test_spoiled_motions_are_seen(tmp_path: Path, old: str, new: str) -> None:
+    build(planned(JAMES + DRIVE.format("sun", "turns = 4.0") + MOTION), tmp_path)
+    file = tmp_path / "s.motion.svg"
+    text = file.read_text(encoding="utf-8")
+    assert run("verify", str(file)) == 0
+    spoiled = re.sub(old, new, text, count=1)
+    assert spoiled != text
+    file.write_text(spoiled, encoding="utf-8")
+    assert run("verify", str(file)) == 1
+
+
+def test_a_scene_without_drives_has_no_motion() -> None:
+    with pytest.raises(SceneError, match="shows what a drive moves"):
+        planned(FREE + MOTION)
