@@ -35,6 +35,7 @@ from geometry.kinematics.elimination import Row, eliminated, follows_from
 
 if TYPE_CHECKING:
     from geometry.base.placement import Vector
+    from geometry.base.series import Series
     from geometry.kinematics.motion import Pose
 
 # no name of an instance
@@ -70,12 +71,19 @@ class Prismatic(Record):
     direction: complex = 1 + 0j
 
 
+class Uneven(Record):
+    """How far (rad) a wheel is ahead of the ratio of whole turns, by the turn (rad) of the ``driver``, its partner."""
+
+    driver: str
+    ahead: Callable[[Series], Series]
+
+
 class Rolling(Record):
     """Two toothed links without slip; ``on``: the link that carries both axes.
 
     ``teeth``: those of the first (of a worm its starts) and of the second. ``sense``: +1 where both turn the same way,
     0: as the kind has it. A rack is the second, its ``module`` in mm; sense +1 where it moves along its direction as
-    the wheel turns counter-clockwise.
+    the wheel turns counter-clockwise. ``uneven``: of noncircular wheels, whose teeth give the ratio of whole turns.
     """
 
     kind: Kind
@@ -85,6 +93,7 @@ class Rolling(Record):
     on: str = FRAME
     sense: int = 0
     module: Fraction = Fraction(1)
+    uneven: Uneven | None = None
 
     @property
     def ratio(self) -> Fraction:
@@ -119,6 +128,11 @@ class Mechanism(Record):
     joints: tuple[Joint, ...]
     held: tuple[str, ...] = ()
     starts: Mapping[str, tuple[complex, float]] = field(default_factory=dict)
+
+
+def lead(joint: Rolling) -> str:
+    """The quantity by which an uneven wheel is ahead, as equations name it."""
+    return f"{joint.first}{FRAME}{joint.second}"
 
 
 class Equation(Record):
@@ -362,7 +376,11 @@ def _equations(stands: Tree) -> tuple[Equation, ...]:
             terms = {link: joint.ratio.numerator * value for link, value in one.items()}
             for link, value in two.items():
                 terms[link] = terms.get(link, Fraction()) - joint.ratio.denominator * value
-            found.append(Equation(joint, {link: value for link, value in terms.items() if value}))
+            terms = {link: value for link, value in terms.items() if value}
+            if joint.uneven is not None:
+                forward = joint.uneven.driver == joint.first
+                terms[lead(joint)] = Fraction(joint.ratio.denominator if forward else -joint.ratio.numerator)
+            found.append(Equation(joint, terms))
     for link in stands.mechanism.held:
         own = stands.body(link)
         found.append(Equation(link, {} if own == FRAME else {own: Fraction(1)}))
@@ -407,11 +425,12 @@ def turns(mechanism: Mechanism, drives: Iterable[str] = ()) -> Turns:
             raise ParameterError("drives", drive, "moves_by_law")
         own = {} if body == FRAME else {body: Fraction(1)}
         rows.append(Equation(drive, {**own, _known(drive): Fraction(-1)}))
-    known = {_known(drive) for drive in drives}.union(given)
+    leads = {lead(joint) for joint in mechanism.joints if isinstance(joint, Rolling) and joint.uneven}
+    known = {_known(drive) for drive in drives}.union(given, leads)
     table = [row.terms for row in rows]
     found = eliminated(table, known)
     for index, rest in found.left.items():
-        if rest:
+        if not leads.issuperset(rest):
             causes = _causes([rows[k].source for k in follows_from(table, index, known)])
             raise ParameterError("drives", _name(rows[index].source), "contradicts", None, by=causes)
     values: dict[str, Row[str]] = {name: {name: Fraction(1)} for name in given} | dict(found.solved)
@@ -460,9 +479,10 @@ def mobility(mechanism: Mechanism) -> Mobility:
         on = [stands.turning(link) for link in _on(stands.supports[name])]
         law = {link: -share for link, share in zip(on, _GENERIC, strict=False) if link != FRAME}
         table.append({**law, name: Fraction(1)})
-    found = eliminated(table)
+    leads = {lead(joint) for joint in mechanism.joints if isinstance(joint, Rolling) and joint.uneven}
+    found = eliminated(table, leads)
     redundant = [
-        Redundant(rows[k].source, tuple(rows[j].source for j in follows_from(table, k)))
+        Redundant(rows[k].source, tuple(rows[j].source for j in follows_from(table, k, leads)))
         for k in found.left
         if k < len(rows)
     ]

@@ -30,9 +30,12 @@ from geometry.kinematics.mechanism import (
     Mechanism,
     Prismatic,
     Revolute,
+    Rolling,
     Tree,
     Turns,
+    Uneven,
     Z,
+    lead,
     tree,
     turns,
 )
@@ -79,6 +82,7 @@ class Moving(Record):
     courses: Mapping[str, _Course]
     starts: Mapping[str, tuple[complex, float]]
     needs: Mapping[str, tuple[str, ...]]
+    leads: Mapping[str, Uneven]
 
     def driven(self, drives: Iterable[Drive]) -> Moving:
         """The same mechanism, its drives' lines or laws exchanged for others of the same links."""
@@ -105,6 +109,9 @@ class Moving(Record):
         inputs = {name: drive.law(t, order) for name, drive in self.drives.items() if drive.law}
         for name in self._all_needed(wanted):
             joint = self.stands.supports[name]
+            for other, _ in self.courses[name].shares:
+                if other in self.leads and other not in inputs:
+                    inputs[other] = self.leads[other].ahead(bodies[self.leads[other].driver].turn)
             if isinstance(joint, Group):
                 on = [self._pose(other, bodies[other]) for other in joint.on]
                 origin, angle = joint.poses(on)[joint.links.index(name)]
@@ -124,7 +131,10 @@ class Moving(Record):
         inputs = {name: drive.law(at, 0) for name, drive in self.drives.items() if drive.law}
         course = self.courses[body]
         for name, _ in course.shares:
-            if name not in inputs:
+            if name in self.leads:
+                driver = self.leads[name].driver
+                inputs[name] = self.leads[name].ahead([self.pose(driver, at, 0)[1][0] - self.starts[driver][1]])
+            elif name not in inputs:
                 inputs[name] = [self.pose(name, at, 0)[1][0] - self.starts[name][1]]
         slides = isinstance(self.stands.supports.get(body), Prismatic)
         own = course.start + course.rate * Fraction(t)
@@ -185,19 +195,20 @@ def moving(mechanism: Mechanism, drives: Iterable[Drive]) -> Moving:
     found = turns(mechanism, by_link)
     stands = tree(mechanism)
     courses = _courses(found, stands, by_link)
+    leads = {lead(joint): joint.uneven for joint in mechanism.joints if isinstance(joint, Rolling) and joint.uneven}
     planar = [name for name in stands.order if _in_plane(name, stands)]
-    needs = {name: _needs(name, stands, courses) for name in planar}
+    needs = {name: _needs(name, stands, courses, leads) for name in planar}
     try:
         order = [name for name in TopologicalSorter(needs).static_order() if name != FRAME]
     except CycleError as error:
         raise ParameterError("joints", error.args[1][0], "moves_itself") from None
     starts = _starts([name for name in stands.order if name in needs], stands)
-    return Moving(stands, found, by_link, courses, starts, {name: needs[name] for name in order})
+    return Moving(stands, found, by_link, courses, starts, {name: needs[name] for name in order}, leads)
 
 
 def _courses(found: Turns, stands: Tree, drives: Mapping[str, Drive]) -> dict[str, _Course]:
     def unit(link: str) -> float:
-        return _TRAVEL if isinstance(stands.supports[stands.body(link)], Prismatic) else _TURN
+        return _TRAVEL if isinstance(stands.supports.get(stands.body(link)), Prismatic) else _TURN
 
     courses = {name: _Course() for name in stands.order}
     for name in stands.quantities():
@@ -213,11 +224,13 @@ def _courses(found: Turns, stands: Tree, drives: Mapping[str, Drive]) -> dict[st
     return courses
 
 
-def _needs(name: str, stands: Tree, courses: Mapping[str, _Course]) -> tuple[str, ...]:
+def _needs(name: str, stands: Tree, courses: Mapping[str, _Course], leads: Mapping[str, Uneven]) -> tuple[str, ...]:
     joint = stands.supports[name]
     on = list(joint.on) if isinstance(joint, Group) else [joint.on]
-    groups = [other for other, _ in courses[name].shares if isinstance(stands.supports[other], Group)]
-    return tuple(other for other in (*on, *groups) if other != FRAME)
+    shares = [other for other, _ in courses[name].shares]
+    inputs = [leads[other].driver for other in shares if other in leads]
+    inputs += [other for other in shares if isinstance(stands.supports.get(other), Group)]
+    return tuple(other for other in (*on, *inputs) if other != FRAME)
 
 
 def _in_plane(link: str, stands: Tree) -> bool:

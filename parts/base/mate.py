@@ -108,6 +108,10 @@ class Mating(Joined, kw_only=True):
         """Where a second that ``follows`` stands when the first has moved from its start."""
         return self.second_pose(*now, math.radians(self.direction_deg))
 
+    def partner(self, driver: str, rotation: float, direction: float) -> float:
+        """Rotation of the other one of an ``uneven`` pair where the driver stands so, rad, continuous."""
+        raise NotImplementedError
+
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """Axis (mm) and rotation (rad) of the second where the first stands so."""
         raise NotImplementedError

@@ -48,6 +48,11 @@ class NoncircularMating(Toothed):
         teeth = self.gears.first.number_of_teeth, self.gears.second.number_of_teeth
         return (Rolling("external", self.first, self.second, teeth),)
 
+    def partner(self, driver: str, rotation: float, direction: float) -> float:
+        """By the arcs that have rolled."""
+        turned = self.gears.second_rotation if driver == self.first else self.gears.first_rotation
+        return turned(rotation, direction)
+
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """The second gear beyond the line of centres, its centrode on that of the first."""
         return centre + cmath.rect(self.distance, direction), self.gears.second_rotation(rotation, direction)

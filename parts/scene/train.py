@@ -24,6 +24,7 @@ from geometry.kinematics.mechanism import (
     Revolute,
     Rolling,
     Tree,
+    Uneven,
     tree,
     turns,
 )
@@ -125,7 +126,9 @@ class Bodies:
         return key
 
 
-def scene_mechanism(stand: Stand, matings: Sequence[Mating], held: Iterable[str] = ()) -> Mechanism:
+def scene_mechanism(
+    stand: Stand, matings: Sequence[Mating], held: Iterable[str] = (), drives: Iterable[str] = ()
+) -> Mechanism:
     """The mechanism of instances as they stand.
 
     An instance that no mate carries turns about its own axis on the frame; of several that are one body that is the
@@ -189,8 +192,28 @@ def scene_mechanism(stand: Stand, matings: Sequence[Mating], held: Iterable[str]
                     raise ParameterError(told, joint.second, "mesh_parts", None, first=joint.first)
                 # a ring that its mate holds turns nothing but what an eccentric carries
                 if not (mating.holds and shared == FRAME):
-                    meshes.append(replace(joint, on=shared))
+                    uneven = _ahead(mating, joint, stand, matings, set(drives)) if mating.uneven else None
+                    meshes.append(replace(joint, on=shared, uneven=uneven))
     return replace(base, joints=(*base.joints, *meshes))
+
+
+def _ahead(mating: Mating, joint: Rolling, stand: Stand, matings: Sequence[Mating], drives: set[str]) -> Uneven:
+    """What a noncircular pair adds to its ratio of whole turns; the driver is the one nearer to the drives."""
+    beyond = hanging_together(mating.second, [other for other in matings if other is not mating])
+    driver, mean = mating.first, float(joint.ratio)
+    if drives.intersection(beyond):
+        driver, mean = mating.second, 1 / mean
+    direction = cmath.phase(stand[mating.second][0] - stand[mating.first][0])
+    start = mating.partner(driver, stand[driver][1], direction)
+
+    def ahead(turn: Series) -> Series:
+        turned = np.vectorize(lambda t: mating.partner(driver, stand[driver][1] + float(t), direction), [float])(
+            turn[0]
+        )
+        # how fast it goes is the centrodes' matter
+        return [turned - start - mean * turn[0], *(np.full(np.shape(turned), np.nan) for _ in turn[1:])]
+
+    return Uneven(driver, ahead)
 
 
 def _following(mating: Mating, stand: Stand, body: str) -> Group:
@@ -225,7 +248,7 @@ def driven_train(
         if key in keys[:number]:
             raise SceneError(source, f"drives[{number + 1}].instance", key, "driven_already", other=key)
     try:
-        mechanism = scene_mechanism(stand, matings, held)
+        mechanism = scene_mechanism(stand, matings, held, keys)
         joined = _joined(mechanism, matings)
         _check_rings(matings, joined, source)
         stands = tree(mechanism)

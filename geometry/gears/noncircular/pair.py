@@ -50,6 +50,11 @@ class NoncircularPair(Record):
         arc = self.first.line.arc_at_angle(direction - rotation)
         return direction + math.pi - float(self.second.line.angle(self.shift - arc))
 
+    def first_rotation(self, rotation: float, direction: float = 0.0) -> float:
+        """Rotation of the first gear where the second stands so, rad: ``second_rotation`` back."""
+        arc = self.second.line.arc_at_angle(direction + math.pi - rotation)
+        return direction - float(self.first.line.angle(self.shift - arc))
+
     def rotations(self, arc: ArrayLike) -> tuple[Real, Real]:
         """Rotations of both gears at contacts s_1, the line of centres along +x, rad."""
         s = np.asarray(arc, dtype=float)

@@ -85,6 +85,24 @@ def test_two_drives_in_one_train() -> None:
         placed(both + DRIVE.format("carrier", ""))
 
 
+@pytest.mark.parametrize("driven", ["oval", "second_oval"])
+def test_oval_gears_turn_unevenly(driven: str) -> None:
+    """Both centrodes touch at any turn, whichever of both is driven; whole turns agree with the ratio."""
+    kept = resolved(load_scene("oval_gears")) | {"drives": [{"instance": driven}]}
+    made = scene_from_resolved(kept, "t")
+    parts, matings = make_parts(made, "t")
+    placing = place(made.instances, made.drives, parts, matings, "t")
+    uneven = 0.0
+    for value in (0.03, 0.21, 0.48, 0.9, 1.63):
+        moved = placing.at([value])
+        check_mates(placing, moved)
+        turns = [(b.rotation - a.rotation) / (2 * math.pi) for a, b in zip(placing.instances, moved, strict=True)]
+        stand = dict(zip((i.id for i in moved), turns, strict=True))
+        uneven = max(uneven, abs(math.remainder(stand["oval"] + stand["second_oval"], 1.0)))
+        assert math.remainder(stand[driven] - value, 1.0) == pytest.approx(0, abs=1e-14)
+    assert uneven > 0.01
+
+
 @pytest.mark.parametrize("name", ["idler_train", "lantern_pair", "cycloidal_reducer"])
 def test_built_in_scenes_with_drives_keep_their_mates(name: str) -> None:
     scene = load_scene(name)
