@@ -195,7 +195,7 @@ def _stop_traced(frame: FrameType, event: str, value: object) -> NoReturn:
 
 
 def _interrupted() -> int:
-    # Python remembers a stop that came within exec(), which dataclasses use, and would end itself by SIGINT in place of
+    # Python remembers a stop that came within exec(), which libraries use, and would end itself by SIGINT in place of
     # with our code; the next exec makes it forget
     exec("")
     print("higherpair: interrupted; nothing half-written is left", file=sys.stderr)

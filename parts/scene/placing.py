@@ -14,8 +14,6 @@ from geometry.base.errors import ParameterError
 from geometry.base.placement import Placement3, Vector
 from geometry.base.record import Record, replace
 from geometry.base.tolerance import PLACED_MM, TOLERANCES
-from geometry.gears.pairs.common_face import STRAIGHT
-from parts.base.mate import Toothed
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError, placed
 from parts.scene.instances import DriveSpec, InstanceSpec
@@ -274,6 +272,8 @@ def _closed(mate: PlacedMate) -> PlacedMate:
     """A mate between two instances that stood before it: centre distance and phase, with the numbers."""
     if not mate.only_checks:
         return mate
+    from parts.base.mate import Toothed
+
     first, second, turned = mate.first, mate.second, mate.first.rotation
     if isinstance(mate.mating, Toothed):
         # helical teeth are compared at one height: that of the second's lower face
@@ -302,13 +302,14 @@ def _with_faces_and_speeds(mates: tuple[PlacedMate, ...], parts: dict[str, Part]
         if mate.conditions or (mate.mating.has_contact and mate.mating.height):
             more.append(_height(mate, parts))
         if mate.only_checks:
-            face = mate.mating.face if isinstance(mate.mating, Toothed) else STRAIGHT
-            if isinstance(mate.mating, Toothed) and face.helix.angle:
+            from parts.base.mate import Toothed
+
+            if isinstance(mate.mating, Toothed) and (face := mate.mating.face).helix.angle:
                 width = max(_common_width(mate.first, mate.second, parts), 0.0)
                 mate = replace(mate, mating=replace(mate.mating, face=replace(face, width=width)))
-            if face.helix.double:
-                height = mate.second.at[2] - mate.first.at[2]
-                more.append(Condition("herringbone_height", height, 0.0, PLACED_MM, abs(height) <= PLACED_MM))
+                if face.helix.double:
+                    height = mate.second.at[2] - mate.first.at[2]
+                    more.append(Condition("herringbone_height", height, 0.0, PLACED_MM, abs(height) <= PLACED_MM))
             if ratios := _ratios(index, mates):
                 other, ratio = ratios
                 allowed = 1e3 * TOLERANCES.relative_rounding * max(abs(ratio), abs(other))
