@@ -46,7 +46,7 @@ def scene_checks(
             for found, mate in zip(checks["mates"], placing.mates, strict=True):
                 _add_transmission(found, mate)
         for found, mate in zip(checks["mates"], placing.mates, strict=True):
-            turns = [abs(train[mate.first.id]) for train in placing.turns if mate.first.id in train]
+            turns = [abs(turned) for turned in placing.train.rolled(mate.mating) if turned] if placing.train else []
             if turns and isinstance(mate.mating, Touching):
                 # contact is held against a whole pitch, whatever part of it the drive runs through
                 found["driven_pitches"] = turns[0] * mate.mating.first_teeth

@@ -29,7 +29,7 @@ from geometry.kinematics.mechanism import (
     turns,
 )
 from geometry.kinematics.moving import Drive, Moving, moving
-from parts.base.mate import Mating, Pose
+from parts.base.mate import Mating, Pose, Toothed
 from parts.base.refusal import SceneError
 from parts.scene.instances import DriveSpec
 
@@ -63,6 +63,13 @@ class Train(Record):
         """Centres (mm) and rotations (rad) of an instance at many t."""
         at, angle = self.moving.pose(key, t, 0)
         return np.asarray(at[0]), np.asarray(angle[0])
+
+    def rolled(self, mating: Mating) -> list[float]:
+        """By each drive the turns of a mate's first, against the carrier where both are toothed."""
+        ends = {(mating.first, mating.second)} if isinstance(mating, Toothed) else set()
+        meshes = (j for j in self.moving.stands.mechanism.joints if isinstance(j, Rolling))
+        carrier = next((j.on for j in meshes if (j.first, j.second) in ends), FRAME)
+        return [train.get(mating.first, 0.0) - train.get(carrier, 0.0) for train in self.turned]
 
     def rates(self, key: str) -> tuple[Fraction, ...] | None:
         """Turns of an instance, then of what carries it, from the nearest on, for one t.
@@ -187,6 +194,8 @@ def scene_mechanism(
         for joint in mating.joints:
             if isinstance(joint, Rolling):
                 shared = stands.common_carrier(joint.first, joint.second)
+                if bodies.of(joint.first) == bodies.of(joint.second):
+                    raise ParameterError(f"mates[{index + 1}].second", joint.second, "rolls_on_itself")
                 if shared is None:
                     told = f"mates[{index + 1}].second"
                     raise ParameterError(told, joint.second, "mesh_parts", None, first=joint.first)

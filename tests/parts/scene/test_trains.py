@@ -59,6 +59,9 @@ def test_satellites_go_round_in_mesh() -> None:
     (turns,) = placing.turns
     assert turns == {"sun": 4.0, "carrier": 1.0} | {f"planet_{k}": -2.0 for k in (1, 2, 3, 4)}
     assert placing.at([0]) == placing.instances
+    assert placing.train is not None
+    # three of the sun's four turns are rolled off on its satellites
+    assert placing.train.rolled(placing.mates[0].mating) == [3.0]
     for turned in (0.1, 1 / 3, 2.75, -1234.5678):
         moved = placing.at([turned])
         check_mates(placing, moved)
@@ -177,6 +180,9 @@ WRONG = [
     (JAMES + DRIVE.format("sun", "travel = 0.0"), "drives[1].travel", "moves nothing"),
     (RACK + DRIVE.format("rack", "turns = 1"), "drives[1].turns", "give travel"),
     (JAMES + AXIS.format("ring", "") + DRIVE.format("sun", ""), "mates[12].first", "carried by carrier already"),
+    (RACK.split("[parts.rack]")[0] + GEAR.format("b", 20) + '[[mates]]\nkind = "external_gear_pair"\nfirst = "gear"\n'
+     'second = "b"\n[[mates]]\nkind = "fixed"\nfirst = "gear"\nsecond = "b"\n' + DRIVE.format("gear", ""),
+     "mates[1].second", "a wheel has no mesh in itself"),
     (PARTS + AXIS.format("carrier", "").replace("planet_1", "planet"), "mates[1].offset", "where on the carrier"),
 ]  # fmt: skip
 
