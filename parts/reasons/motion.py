@@ -11,6 +11,7 @@ REASONS = {
     "contradicts": N_("is turned already by {by}; remove one of them"),
     "driven_is_driver": N_("is one body with the driver"),
     "driver_without_speed": N_("drives, but speeds names {known}; name the driver there, or leave it out"),
+    "held_too_many": N_("nothing can move while all of these are held; hold one less"),
     "left_free": N_("is left free by the drives, as are {free}; hold one of them or drive it"),
     "load_on_given_link": N_("is driven or held: its torque is what is sought"),
     "moves_by_law": N_("moves by a law of its own; drive what moves it"),

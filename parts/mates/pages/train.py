@@ -123,6 +123,8 @@ class _Page:
         mechanism = train.mechanism()
         self.drives = [train.bodies[name] for name in self.inputs]
         freedom = mobility(mechanism)
+        if freedom.degrees < 1 and train.held and mobility(replace(mechanism, held=())).degrees > 0:
+            raise ParameterError("held", ", ".join(train.held), "held_too_many")
         if freedom.degrees < 1:
             raise ParameterError("meshes", self.words, "train_is_locked", None, w=freedom.degrees)
         try:
@@ -260,10 +262,13 @@ class _Page:
             told = [f"{s.first}-{s.second}" for r in found.redundant if isinstance(s := r.source, Rolling)]
             text = N_("redundant, since they follow from the others: {meshes}")
             page.notes.append(message(text, meshes=", ".join(told)))
-        moving = any(not self.train.still(carrier) for carrier in self.train.carried.values())
+        train = self.train
+        moving = [carrier for carrier in train.carried.values() if not train.still(carrier)]
         kind: Text = N_("all axes stand still: an ordinary train")
         if moving:
             kind = N_("satellites turn about moving axes and W = 1: a planetary mechanism")
+            if not train.held:
+                kind = N_("satellites turn about moving axes, no wheel is held, and W = 1: a closed differential")
             if found.degrees > 1:
                 kind = message("satellites turn about moving axes and W = {w}: a differential", w=found.degrees)
         page.notes.append(kind)

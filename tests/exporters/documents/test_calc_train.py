@@ -183,6 +183,17 @@ def test_differential_from_two_speeds() -> None:
     assert 0.97 < data["values"]["efficiency"] < 0.98
 
 
+def test_a_closed_differential_is_solved_as_a_whole() -> None:
+    """Sun and ring both driven by a shaft 4-5: w_1 = -w/2, w_3 = -w/3; w_H = (40 w_1 + 120 w_3) / 160."""
+    teeth = ("teeth.1=40", "teeth.2=40", "teeth.3=120", "teeth.4=20", "teeth.1'=40", "teeth.5=20", "teeth.3'=60")
+    meshes = ("meshes=1-2, 2-3 internal, 4-1', 5-3'", "shafts=4-5", "carriers.H=2")
+    data = calculated(*teeth, *meshes, "driver=4", "driven=H", "mesh_efficiency=0.97")
+    assert data["exact"]["ratio"] == str(1 / (Fraction(-40, 2 * 160) + Fraction(-120, 3 * 160)))
+    assert any("closed differential" in note for note in data["notes"])
+    assert any("Willis" in note for note in data["notes"])
+    assert 0.9 < data["values"]["efficiency"] < 0.97
+
+
 def test_a_ring_of_four_turns_with_one_redundant_mesh() -> None:
     data = calculated("teeth=[20,30,40,50]", "meshes=1-2, 2-3, 3-4, 4-1", "driven=3")
     assert (data["values"]["degree_of_freedom"], data["values"]["exact_degree_of_freedom"]) == (0, 1)
@@ -230,6 +241,7 @@ def test_report_form_has_a_place_for_the_count() -> None:
         ((*JAMES, "carriers.K=2", "held=3"), ("carriers.K", "carried by H already")),
         ((*JAMES, "held=3", "speeds.1=3", "speeds.H=4"), ("speeds", "turned already by", "3")),
         (JAMES, ("left free", "H, 2, 3")),
+        ((*JAMES, "held=3,H"), ("held", "3, H", "hold one less")),
         ((*JAMES, "held=1,3"), ('"1"', "what is held drives nothing")),
         (("teeth=[20,30,40]", "meshes=1-2, 2-3, 3-1"), ("meshes", "W = 0")),
         (("teeth=[20,30]", "meshes=1-2 internl"), ("internl", "did you mean internal")),

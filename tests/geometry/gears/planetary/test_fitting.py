@@ -1,0 +1,51 @@
+"""The shifts of planetary sets against exact contact of the wheels that a build makes of them."""
+
+from __future__ import annotations
+
+import math
+import random
+from fractions import Fraction
+
+import pytest
+
+from geometry.gears.mesh.gears import GearMesh
+from geometry.gears.pairs.external import external_pair
+from geometry.gears.pairs.internal import internal_pair
+from geometry.gears.planetary.fitting import Fitting
+from geometry.gears.planetary.sets import SCHEMES, Search, found_sets
+from geometry.gears.shifts.external import Requirements
+from geometry.gears.teeth.basic_rack import BasicRack
+from geometry.gears.teeth.spur import SpurGear
+from parts.gears.ring_gear.part import RingGearSpec, settled_section
+
+RACK = BasicRack(math.radians(20), 1.0, 0.25, 0.38)
+WISHES = [("james", "2.5", 3), ("james", "12", 3), ("david", "-4", 3), ("david", "0.1", 1), ("two_internal", "-0.8", 1),
+          ("one_external_one_internal", "7", 2), ("one_external_one_internal", "20", 3), ("james", "4", 2)]  # fmt: skip
+
+
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize(("scheme", "ratio", "satellites"), WISHES)
+@pytest.mark.parametrize("seed", range(4))
+def test_fitted_sets_are_in_contact_without_overlap(scheme: str, ratio: str, satellites: int, seed: int) -> None:
+    u = Fraction(ratio)
+    bounds = u - abs(u) / 100, u + abs(u) / 100
+    found = found_sets(Search(SCHEMES[scheme], bounds, satellites=satellites))
+    apart = Fraction(1, satellites) if satellites > 1 else None
+    one = random.Random(seed).choice(found)
+    fit = Fitting(RACK, Requirements(0.25, 1.1), apart).fit(one)
+    assert fit is not None
+    x1, x2, x2p, x3 = fit.shifts
+    for mesh, x_rim, x_central in ((fit.meshes[0], x2, x1), (fit.meshes[1], x2p, x3)):
+        rim = SpurGear(1.0, mesh.rim, RACK, x_rim)
+        if mesh.internal:
+            keys = RingGearSpec(module=1.0, number_of_teeth=mesh.central, profile_shift_coefficient=x_central)
+            pair = internal_pair(rim, settled_section(keys))
+        else:
+            pair = external_pair(rim, SpurGear(1.0, mesh.central, RACK, x_central))
+        assert pair.working_centre_distance == pytest.approx(fit.distance, abs=1e-9)
+        assert GearMesh(pair).contact().verdict.name == "CONTACT"
+        # tips of neighbours, by the rim as it is built
+        if apart is not None:
+            reach = 2 * fit.distance * math.sin(math.pi / satellites) - 2 * pair.first.tip_radius
+            assert reach >= fit.gap - 1e-9
+            assert fit.gap >= 0
