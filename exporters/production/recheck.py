@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +16,7 @@ from exporters.verification.verdict import Verdict
 from geometry.base.errors import GeometryError
 from geometry.base.record import Record
 from parts.base.refusal import SceneError
-from parts.scene.formats import FileKind, Form, file_kind
+from parts.scene.formats import Form, file_kind
 from parts.scene.load import SceneFile, make_parts, scene_from_resolved
 from parts.scene.placing import place
 
@@ -98,7 +97,6 @@ def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, A
     part = make_parts(scene, source)[0][entry["part"]]
     declared, tolerance = float(entry["max_error"]), float(entry["tolerance"])
     kind = file_kind(entry["format"], entry["purpose"])
-    _needs_kernel(file, kind)
     also = audited if kind.form is Form.ARCS and kind.format == "dxf" else None
     verdict = verify_part(file, kind, part, float(entry["offset"]), declared, tolerance, also)
     return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
@@ -132,13 +130,7 @@ def _against_assembly(file: Path, source: str, scene: SceneFile, entry: dict[str
     kind = file_kind(entry["format"], entry["purpose"])
     if not kind.assembly or not instances:
         raise KeyError(f"an assembly of {len(instances)} instances, format {kind.format}")
-    _needs_kernel(file, kind)
     used = {i.part: made[i.part] for i in instances}
     expected = expected_of(assembly_name(scene.name), used, float(entry["offset"]), instances)
     verdict = verify_assembly(file, kind, expected, declared, tolerance)
     return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
-
-
-def _needs_kernel(file: Path, kind: FileKind) -> None:
-    if kind.form is Form.FACES and find_spec("OCP") is None:
-        raise SceneError(str(file), "", None, "needs_kernel_to_be_read")

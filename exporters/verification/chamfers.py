@@ -17,8 +17,8 @@ from geometry.solids.body import Body
 
 Points = NDArray[np.float64]
 
-# heights of samples that differ by rounding only have one section, mm
-_LEVEL_DIGITS = 9
+# heights of samples that differ by rounding only have one section; so far beyond a chamfer they are its own, mm
+_LEVEL_DIGITS, _BEYOND = 12, 1e-7
 # heights between two slices of a mesh, and places across each triangle there, that are measured
 _UP, _ACROSS = (0.25, 0.5, 0.75), (0.0, 0.5)
 
@@ -30,13 +30,13 @@ def chamfer_deviation(points: Points, body: Body, declared: float) -> float:
     """
     heights = np.round(points[:, 2], _LEVEL_DIGITS)
     best = np.full(len(points), np.inf)
-    places, slack = points[:, 0] + 1j * points[:, 1], 10.0**-_LEVEL_DIGITS
+    places = points[:, 0] + 1j * points[:, 1]
     for z in np.unique(heights).tolist():
         mine = np.flatnonzero(heights == z)
         sections = []
         for wall, _, _ in body.chamfers():
             low, high = body.height(wall)
-            if low - 100 * slack <= z <= high + 100 * slack:
+            if low - _BEYOND <= z <= high + _BEYOND:
                 sections.append(body.section(wall, float(np.clip(z, low, high))))
         if not sections:
             return math.inf

@@ -1,265 +1,165 @@
-"""Read-back of STEP files: faces and edges evaluated by the kernel that reads them, never by our own splines.
-
-The volume is taken by Gauss's theorem from Green's integrals over the caps' edges and over the chamfers: the
-kernel's own quadrature is good to 1e-6 only.
-"""
+"""Read-back of STEP files: faces and edges of a solid that was read against its exact body."""
 
 from __future__ import annotations
 
-from functools import cache
-from itertools import pairwise
-from typing import TYPE_CHECKING
-
 import numpy as np
-from numpy.typing import NDArray
 
-from exporters.formats.chains import chained
+from exporters.formats.read_brep import Model
+from exporters.formats.read_curves import Flags, spans_of
+from exporters.formats.read_part21 import Index, Real
 from exporters.formats.read_step import ReadSolid
+from exporters.formats.read_surfaces import PLANE, ROUND
 from exporters.verification.chamfers import chamfer_deviation
 from exporters.verification.outlines import verify_samples
-from exporters.verification.screw import cylinder_samples, face_samples, has_helix, screw_deviation, screw_samples
-from exporters.verification.slanted import chamfer_samples, slanted_share
+from exporters.verification.samples import edge_points, foot_points, inner_points
 from exporters.verification.verdict import Verdict, deviation_failures
-from geometry.base.record import Draft, field
 from geometry.curves.curve import Complex
 from geometry.curves.line_arc import Arc
 from geometry.plane.measure import distance_to_profile
 from geometry.plane.profile import Profile
-from geometry.solids.body import Body
+from geometry.solids.body import Body, Wall
 from geometry.solids.mass import body_moments
-from geometry.solids.screw import cut_twists
-from parts.base.readback import ReadError
-from parts.solids.kernel import count_solids, edges_of, faces_of
 
-if TYPE_CHECKING:
-    from OCP.BRepAdaptor import BRepAdaptor_Curve, BRepAdaptor_Surface
-    from OCP.GeomAbs import GeomAbs_SurfaceType
-    from OCP.TopoDS import TopoDS_Face, TopoDS_Shape
-
-_PER_CURVE, _PER_WALL = 25, 13
 _VOLUME = 1e-7
-# heights in a file meet those of the body this well, mm
-_LEVEL = 1e-7
+# heights in a file meet those of the body this well, mm; directions, 1 - cosine
+_LEVEL, _SQUARE = 1e-7, 1e-12
+# heights of walls are told apart by so many digits
+_DIGITS = 6
 
 
 def verify_solid(found: ReadSolid, body: Body, declared: float, tolerance: float) -> Verdict:
     """Hold a re-read solid against its exact body: caps, walls, cylinders, volume."""
-    solid, body = found.shape, cut_twists(body)
-    sheared = body.has_screws() and not body.twisted_profiles()
-    faces = _measured_faces(solid, screws=bool(body.twisted_profiles()), sheared=sheared)
-    exact = body_moments(body).volume
-    failures = _solid_failures(solid, body, faces.cylinders)
+    model = found.model
+    exact, volume = body_moments(body).volume, float(model.flux.sum())
     reach = max(p.reach() for p in body.profiles)
-    if not abs(faces.volume - exact) <= (_VOLUME + 2 * declared / reach) * exact:
-        failures.append(f"volume {faces.volume:.12g} mm^3 instead of {exact:.12g} mm^3")
-    worst, walls_found = _wall_deviation(faces, body, declared)
-    failures += walls_found
-    if faces.chamfers:
-        worst = max(worst, chamfer_deviation(np.concatenate(faces.chamfers), body, declared))
-    if body.has_screws():
-        worst = max(worst, screw_deviation(faces.screws, body, declared))
-    contours, expected = 0, _cap_profiles(body)
-    if len(expected) != len(faces.caps):
-        failures.append(f"plane faces at {len(faces.caps)} heights instead of {len(expected)}")
-    for z, pieces in faces.caps.items():
-        near = min(expected, key=lambda level: abs(level - z))
-        if abs(near - z) > _LEVEL:
-            failures.append(f"a plane face stands at z = {z:.9g} mm")
-            continue
-        verdict = verify_samples(chained(pieces), expected[near], declared, tolerance)
-        worst = max(worst, verdict.measured.get("max_deviation", 0.0))
-        contours += int(verdict.measured["contours"])
-        failures += verdict.failures
+    cylinders = int(np.count_nonzero((model.kind == ROUND) & (model.sizes[:, 1] == 0)))
+    failures = _cylinder_failures(cylinders, body)
+    if not abs(volume - exact) <= (_VOLUME + 2 * declared / reach) * exact:
+        failures.append(f"volume {volume:.12g} mm^3 instead of {exact:.12g} mm^3")
+    flat = (model.kind == PLANE) & (np.abs(model.frames.axes[:, 2, 2]) > 1 - _SQUARE)
+    sheared = body.has_screws() and not body.twisted_profiles()
+    upright = model.is_upright & ~flat & (not sheared)
+    if body.twisted_profiles():
+        upright &= ~_between_helices(model)
+    contours, worst, found_wrong = _caps(model, np.flatnonzero(flat), body, declared, tolerance)
+    failures += found_wrong
+    deviation, found_wrong = _wall_deviation(model, np.flatnonzero(upright), body, declared)
+    failures += found_wrong
+    slanted = np.flatnonzero(~flat & ~upright)
+    worst = max(worst, deviation)
+    if slanted.size:
+        points = np.concatenate([edge_points(model, slanted), inner_points(model, slanted)])
+        of = screw_deviation if body.has_screws() else chamfer_deviation
+        worst = max(worst, of(points, body, declared))
+    elif body.has_screws():
+        failures.append("the solid has no screw surface")
     failures += deviation_failures(worst, declared, tolerance, reach)
     measured = {
-        "volume": faces.volume,
-        "volume_error": faces.volume / exact - 1,
-        "cylinders": float(faces.cylinders),
+        "volume": volume,
+        "volume_error": volume / exact - 1,
+        "cylinders": float(cylinders),
         "contours": float(contours),
         "max_deviation": worst,
     }
     return Verdict(measured, tuple(dict.fromkeys(failures)))
 
 
-def _cap_profiles(body: Body) -> dict[float, list[Profile]]:
-    """The profiles that bound the caps at each height, turned as they stand there."""
-    found: dict[float, list[Profile]] = {}
+def screw_deviation(points: Real, body: Body, declared: float) -> float:
+    """Greatest distance of points (n, 3) from the screw surfaces, each within the plane of its own height, mm."""
+    best = np.full(len(points), np.inf)
+    for wall in body.walls:
+        if not body.is_screw(wall):
+            continue
+        low, high = body.height(wall)
+        mine = np.flatnonzero((points[:, 2] > low - _LEVEL) & (points[:, 2] < high + _LEVEL))
+        back = body.moved_back(wall, points[mine])
+        found = distance_to_profile(back, body.loop_profile(wall.lower), trusted=declared)
+        best[mine] = np.minimum(best[mine], found)
+    return float(best.max())
+
+
+def _caps(model: Model, faces: Index, body: Body, declared: float, tolerance: float) -> tuple[int, float, list[str]]:
+    """How many bounds the faces across the axis have, their deviation from the profiles there, and what is wrong."""
+    expected: dict[tuple[float, bool], list[Profile]] = {}
     for cap in body.caps:
-        loops = (cap.outer, *cap.holes)
-        found.setdefault(body.loops[cap.outer].z, []).extend(
-            body.loop_profile(i).placed(body.loops[i].placement) for i in loops
-        )
-    return found
+        profiles = (body.loop_profile(i).placed(body.loops[i].placement) for i in (cap.outer, *cap.holes))
+        expected.setdefault((body.loops[cap.outer].z, cap.up), []).extend(profiles)
+    found: dict[tuple[float, bool], list[int]] = {}
+    up = (model.frames.axes[:, 2, 2] > 0) == model.normal
+    for face in faces.tolist():
+        z = float(model.frames.origins[face, 2])
+        level = min(expected, key=lambda known: abs(known[0] - z))[0]
+        found.setdefault((level if abs(level - z) <= _LEVEL else z, bool(up[face])), []).append(face)
+    if found.keys() != expected.keys():
+        told = ", ".join(f"{z:.9g} mm {'up' if upwards else 'down'}" for z, upwards in sorted(found))
+        return 0, 0.0, [f"plane faces at {told or 'no height'} instead of {len(expected)} others"]
+    contours, worst, failures = 0, 0.0, list[str]()
+    for key, profiles in expected.items():
+        verdict = verify_samples(_loops(model, np.array(found[key])), profiles, declared, tolerance)
+        worst = max(worst, verdict.measured.get("max_deviation", 0.0))
+        contours += int(verdict.measured["contours"])
+        failures += verdict.failures
+    return contours, worst, failures
 
 
-def _wall_deviation(faces: _Faces, body: Body, declared: float) -> tuple[float, list[str]]:
-    """Greatest distance of the upright walls' samples from the profiles of the walls at their height."""
-    worst, failures = 0.0, []
-    for z, samples in faces.walls.items():
-        profiles = [
-            body.loop_profile(w.lower)
-            for w in body.walls
-            if body.is_upright(w) and body.height(w)[0] < z < body.height(w)[1]
-        ]
+def _loops(model: Model, faces: Index) -> list[Complex]:
+    """Points of the bounds of faces across the axis, one loop behind the other."""
+    mine = np.flatnonzero(np.isin(model.uses.face, faces))
+    along = model.uses.along[mine]
+    span, row = spans_of(model.curves, model.uses.edge[mine], along)
+    places = model.points[span, :, 0] + 1j * model.points[span, :, 1]
+    places = np.where(along[row][:, None], places, places[:, ::-1])
+    loop = model.uses.loop[mine][row]
+    return [piece[:, :-1].ravel() for piece in np.split(places, np.flatnonzero(np.diff(loop)) + 1)]
+
+
+def _wall_deviation(model: Model, walls: Index, body: Body, declared: float) -> tuple[float, list[str]]:
+    """Greatest distance of upright walls from the profiles of those at their height."""
+    if not walls.size:
+        return 0.0, []
+    points, face = foot_points(model, walls)
+    low, high = model.heights
+    heights = np.round((low + high)[face] / 2, _DIGITS)
+    worst, failures = 0.0, list[str]()
+    for z in np.unique(heights).tolist():
+        profiles = [body.loop_profile(w.lower) for w in body.walls if _stands(body, w, z)]
         if not profiles:
             failures.append(f"a wall stands at z = {z:.9g} mm, where there is none")
             continue
-        points = np.concatenate(samples)
-        worst = max(
-            worst, float(np.min([distance_to_profile(points, p, trusted=declared) for p in profiles], axis=0).max())
-        )
+        mine = points[heights == z]
+        places = (mine[..., 0] + 1j * mine[..., 1]).ravel()
+        away = [distance_to_profile(places, p, trusted=declared) for p in profiles]
+        worst = max(worst, float(np.min(away, axis=0).max()))
     return worst, failures
 
 
-def _solid_failures(solid: TopoDS_Shape, body: Body, cylinders: int) -> list[str]:
-    """One valid solid of the right height, whose arcs have all become cylinders."""
-    from OCP.Bnd import Bnd_Box
-    from OCP.BRepBndLib import BRepBndLib
-    from OCP.BRepCheck import BRepCheck_Analyzer
-
-    solids = count_solids(solid)
-    failures = [] if solids == 1 else [f"{solids} solids instead of 1"]
-    if not BRepCheck_Analyzer(solid).IsValid():
-        failures.append("the kernel calls the solid invalid")
-    box = Bnd_Box()
-    BRepBndLib.AddOptimal_s(solid, box, True, False)
-    levels = body.levels()
-    if max(abs(box.CornerMin().Z() - levels[0]), abs(box.CornerMax().Z() - levels[-1])) > 1e-6:
-        failures.append("the solid is not as thick as the part")
-    arcs = sum(
-        _cylinders(body.loop_profile(w.lower), turned=body.is_screw(w)) for w in body.walls if not body.is_chamfer(w)
-    )
-    if cylinders != arcs:
-        failures.append(f"{cylinders} cylinders instead of {arcs}")
-    return failures
+def _stands(body: Body, wall: Wall, z: float) -> bool:
+    low, high = body.height(wall)
+    return body.is_upright(wall) and low < z < high
 
 
-def _cylinders(profile: Profile, *, turned: bool) -> int:
+def _between_helices(model: Model) -> Flags:
+    """Which faces have an edge that neither stands upright nor lies across the axis."""
+    span, use = model.spans
+    reach = np.ptp(model.points[span], axis=1)
+    found = np.zeros(len(model.faces), dtype=bool)
+    found[model.uses.face[use[(reach[:, 2] > _LEVEL) & (reach[:, :2].max(axis=1) > _LEVEL)]]] = True
+    return found
+
+
+def _cylinder_failures(cylinders: int, body: Body) -> list[str]:
+    """All arcs have become cylinders; a screw surface may be cut across into several."""
+    walls = [w for w in body.walls if not body.is_chamfer(w)]
+    upright = sum(_cylinders(body.loop_profile(w.lower)) for w in walls if not body.is_screw(w))
+    turned = sum(_cylinders(body.loop_profile(w.lower), turned=True) for w in walls if body.is_screw(w))
+    more = cylinders - upright
+    if more == turned or (turned and more > 0 and more % turned == 0):
+        return []
+    return [f"{cylinders} cylinders instead of {upright + turned}"]
+
+
+def _cylinders(profile: Profile, *, turned: bool = False) -> int:
     """How many cylinders stand on a profile; a full circle is one. A ``turned`` one has those about the axis only."""
     arcs = [s.curve for s in profile.period if isinstance(s.curve, Arc) and not (turned and s.curve.centre)]
     whole = profile.count == 1 and len(arcs) == len(profile.period) and len({(a.centre, a.radius) for a in arcs}) == 1
     return 1 if whole else len(arcs) * profile.count
-
-
-class _Faces(Draft):
-    """Samples of cap edges by height, of upright walls by the height of their middle, of chamfers and of screw
-    surfaces (n, 3); cylinders, volume.
-    """
-
-    caps: dict[float, list[Complex]] = field(default_factory=dict)
-    walls: dict[float, list[Complex]] = field(default_factory=dict)
-    chamfers: list[NDArray[np.float64]] = field(default_factory=list)
-    screws: list[NDArray[np.float64]] = field(default_factory=list)
-    cylinders: int = 0
-    volume: float = 0.0
-
-
-def _measured_faces(solid: TopoDS_Shape, *, screws: bool, sheared: bool) -> _Faces:
-    """Every face of a solid, measured with the kernel's own evaluation; ``screws``: slanted faces are such.
-
-    The walls of a ``sheared`` body carry no volume: the field z along their slope has divergence 1 and runs in them.
-    """
-    from OCP.BRepAdaptor import BRepAdaptor_Surface
-    from OCP.GeomAbs import GeomAbs_SurfaceType
-
-    found = _Faces()
-    for face in faces_of(solid):
-        surface = BRepAdaptor_Surface(face)
-        kind = surface.GetType()
-        found.cylinders += kind == GeomAbs_SurfaceType.GeomAbs_Cylinder
-        slope = abs(surface.Plane().Axis().Direction().Z()) if kind == GeomAbs_SurfaceType.GeomAbs_Plane else -1.0
-        if slope > 1 - 1e-12:
-            z = _level(found.caps, surface.Plane().Location().Z())
-            pieces, share = _face_edges(face)
-            found.caps.setdefault(z, []).extend(pieces)
-            found.volume += z * share
-        elif sheared:
-            found.screws.append(face_samples(face, surface))
-        elif screws and kind == GeomAbs_SurfaceType.GeomAbs_Cylinder and has_helix(face):
-            found.screws.append(cylinder_samples(face, surface))
-        elif kind in _upright_kinds() or 0 <= slope < 1e-12:
-            z, samples = _wall_samples(surface)
-            found.walls.setdefault(_level(found.walls, z), []).append(samples)
-        else:
-            found.volume += slanted_share(face, surface)
-            if screws:
-                found.screws.append(screw_samples(surface))
-            else:
-                found.chamfers.append(chamfer_samples(face, surface))
-    return found
-
-
-def _upright_kinds() -> tuple[GeomAbs_SurfaceType, ...]:
-    from OCP.GeomAbs import GeomAbs_SurfaceType
-
-    return GeomAbs_SurfaceType.GeomAbs_Cylinder, GeomAbs_SurfaceType.GeomAbs_SurfaceOfExtrusion
-
-
-def _level(known: dict[float, list[Complex]], z: float) -> float:
-    """A height that is known already, or a new one."""
-    return next((k for k in known if abs(k - z) <= _LEVEL), z)
-
-
-def _wall_samples(surface: BRepAdaptor_Surface) -> tuple[float, Complex]:
-    """Points of a wall half way up and their height; the second parameter of every wall runs along the axis."""
-    middle = (surface.FirstVParameter() + surface.LastVParameter()) / 2
-    low, high = surface.FirstUParameter(), surface.LastUParameter()
-    places = [surface.Value(u, middle) for u in np.linspace(low, high, _PER_WALL).tolist()]
-    heights = [p.Z() for p in places]
-    if max(heights) - min(heights) > _LEVEL:
-        raise ReadError("a wall does not stand upright between both faces")
-    return heights[0], np.array([complex(p.X(), p.Y()) for p in places])
-
-
-def _face_edges(face: TopoDS_Face) -> tuple[list[Complex], float]:
-    """Samples of a plane face's edges in their sense, and the area inside them."""
-    from OCP.BRepAdaptor import BRepAdaptor_Curve
-    from OCP.TopAbs import TopAbs_Orientation
-
-    pieces, area = [], 0.0
-    for edge in edges_of(face):
-        samples, share = _edge_samples(BRepAdaptor_Curve(edge))
-        turned = edge.Orientation() == TopAbs_Orientation.TopAbs_REVERSED
-        pieces.append(samples[::-1] if turned else samples)
-        area += -share if turned else share
-    return pieces, area
-
-
-def _edge_samples(curve: BRepAdaptor_Curve) -> tuple[Complex, float]:
-    """Points along an edge and its share of the area, by Gauss's rule on the kernel's own derivatives."""
-    from OCP.GeomAbs import GeomAbs_CurveType
-    from OCP.gp import gp_Pnt, gp_Vec
-
-    low, high = curve.FirstParameter(), curve.LastParameter()
-    count = 10 * _PER_CURVE if curve.GetType() == GeomAbs_CurveType.GeomAbs_Circle and high - low > 1.5 else _PER_CURVE
-    points = [curve.Value(t) for t in np.linspace(low, high, count).tolist()]
-    breaks, order = _quadrature(curve, low, high)
-    nodes, weights = _gauss(order)
-    total = 0.0
-    place, slope = gp_Pnt(), gp_Vec()
-    for a, b in pairwise(breaks):
-        for node, weight in zip(nodes, weights, strict=True):
-            curve.D1((a + b) / 2 + (b - a) / 2 * node, place, slope)
-            total += weight * (b - a) / 4 * (place.X() * slope.Y() - place.Y() * slope.X())
-    return np.array([complex(p.X(), p.Y()) for p in points]), total
-
-
-def _quadrature(curve: BRepAdaptor_Curve, low: float, high: float) -> tuple[list[float], int]:
-    """Where to break an edge and how many nodes each piece takes, so that Gauss's rule is exact or as good."""
-    from OCP.GeomAbs import GeomAbs_CurveType
-
-    kind = curve.GetType()
-    if kind == GeomAbs_CurveType.GeomAbs_Line:
-        return [low, high], 1
-    if kind == GeomAbs_CurveType.GeomAbs_BSplineCurve and not curve.IsRational():
-        spline = curve.BSpline()
-        inner = [k for k in (spline.Knot(i) for i in range(1, spline.NbKnots() + 1)) if low < k < high]
-        # x y' - y x' has degree 2 p - 1 between knots
-        return [low, *inner, high], max(1, curve.Degree())
-    return np.linspace(low, high, 9).tolist(), 16
-
-
-@cache
-def _gauss(order: int) -> tuple[list[float], list[float]]:
-    nodes, weights = np.polynomial.legendre.leggauss(order)
-    return nodes.tolist(), weights.tolist()

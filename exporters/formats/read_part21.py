@@ -1,0 +1,300 @@
+"""The text of a STEP file (ISO 10303-21) as columns: ids, references and numbers of each kind of entity.
+
+A file is cut into pieces between two entities, strings are taken out of a piece, and the entities of one kind in it are
+matched by one expression that knows exactly what they look like. What is not known is refused: it might hide something.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import defaultdict
+from collections.abc import Iterator
+from functools import cache
+from itertools import chain
+from pathlib import Path
+from typing import BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.base.record import Record
+from parts.base.readback import ReadError
+
+Index = NDArray[np.int64]
+Real = NDArray[np.float64]
+# texts of what varies in an entity with lists
+Row = tuple[bytes, ...]
+
+# a file is read in pieces of so many bytes; no entity may be longer
+_PIECE = 1 << 24
+_FLOAT, _REFERENCE = rb"[-+]?\d+\.\d*(?:E[-+]?\d{1,3})?", rb"#(\d{1,15})"
+_LIST = rb"\((%b(?:,%b)*)\)"
+# what arguments are made of: string, one that may hold apostrophes, reference, real, integer, truth, star, word, and lists of references (in lists)
+_ATOMS = {
+    "s": rb'(?:!\d+)?"', "S": rb'(?:(?:!\d+)?")+', "r": _REFERENCE, "f": rb"(%b)" % _FLOAT, "i": rb"(\d{1,4})", "b": rb"([01])", "*": rb"\*",
+    "w": rb"(?:[01]|\.[A-Z_]+\.)", "R": _LIST % (rb"#\d{1,15}", rb"#\d{1,15}"), "I": _LIST % (rb"\d{1,5}", rb"\d{1,5}"),
+    "F": _LIST % (_FLOAT, _FLOAT), "M": rb"\((\([#\d,]+\)(?:,\([#\d,]+\))*)\)",
+}  # fmt: skip
+# the geometry and topology of ISO 10303-42 that is read: those of fixed length, and those with lists
+_FIXED = {
+    "CARTESIAN_POINT": "s,(f,f,f)", "DIRECTION": "s,(f,f,f)", "VECTOR": "s,r,f", "AXIS2_PLACEMENT_3D": "s,r,r,r",
+    "LINE": "s,r,r", "CIRCLE": "s,r,f", "PLANE": "s,r", "CYLINDRICAL_SURFACE": "s,r,f", "CONICAL_SURFACE": "s,r,f,f",
+    "TOROIDAL_SURFACE": "s,r,f,f", "SPHERICAL_SURFACE": "s,r,f", "SURFACE_OF_LINEAR_EXTRUSION": "s,r,r",
+    "VERTEX_POINT": "s,r", "EDGE_CURVE": "s,r,r,r,b", "ORIENTED_EDGE": "s,*,*,r,b",
+    "FACE_BOUND": "s,r,b", "FACE_OUTER_BOUND": "s,r,b", "MANIFOLD_SOLID_BREP": "s,r",
+}  # fmt: skip
+_LISTED = {
+    "EDGE_LOOP": "s,R", "CLOSED_SHELL": "s,R", "ADVANCED_FACE": "s,R,r,b",
+    "B_SPLINE_CURVE_WITH_KNOTS": "s,i,R,w,w,w,I,F,w", "B_SPLINE_SURFACE_WITH_KNOTS": "s,i,i,M,w,w,w,w,I,I,F,F,w",
+}  # fmt: skip
+# what stands around it: products, places, units, colours
+_ITEMS = {
+    "APPLICATION_PROTOCOL_DEFINITION": "S,S,i,r", "APPLICATION_CONTEXT": "S", "PRODUCT_CONTEXT": "S,r,S",
+    "PRODUCT": "S,S,S,R", "PRODUCT_RELATED_PRODUCT_CATEGORY": "S,$,R", "PRODUCT_DEFINITION_FORMATION": "S,S,r",
+    "PRODUCT_DEFINITION": "S,S,r,r", "PRODUCT_DEFINITION_CONTEXT": "S,r,S", "PRODUCT_DEFINITION_SHAPE": "S,S,r",
+    "SHAPE_DEFINITION_REPRESENTATION": "r,r", "ADVANCED_BREP_SHAPE_REPRESENTATION": "S,R,r",
+    "SHAPE_REPRESENTATION": "S,R,r", "NEXT_ASSEMBLY_USAGE_OCCURRENCE": "S,S,S,r,r,$",
+    "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION": "r,r", "ITEM_DEFINED_TRANSFORMATION": "S,S,r,r",
+    "UNCERTAINTY_MEASURE_WITH_UNIT": "LENGTH_MEASURE(f),r,S,S",
+    "MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION": "S,R,r", "STYLED_ITEM": "S,R,r",
+    "PRESENTATION_STYLE_ASSIGNMENT": "R", "SURFACE_STYLE_USAGE": "w,r", "SURFACE_SIDE_STYLE": "S,R",
+    "SURFACE_STYLE_FILL_AREA": "r", "FILL_AREA_STYLE": "S,R", "FILL_AREA_STYLE_COLOUR": "S,r", "COLOUR_RGB": "S,f,f,f",
+    "DRAUGHTING_PRE_DEFINED_COLOUR": "S", "CURVE_STYLE": "S,r,POSITIVE_LENGTH_MEASURE(f),r",
+    "DRAUGHTING_PRE_DEFINED_CURVE_FONT": "S",
+}  # fmt: skip
+# entities of several kinds at once, by the name they have here
+MILLIMETRE, RADIAN, CONTEXT, PLACED = "mm", "rad", "context", "placed"
+_COMPLEX = {
+    MILLIMETRE: "(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))",
+    RADIAN: "(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))",
+    "sr": "(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())",
+    CONTEXT: "(GEOMETRIC_REPRESENTATION_CONTEXT(i)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT(R)GLOBAL_UNIT_ASSIGNED_CONTEXT(R)"
+    "REPRESENTATION_CONTEXT(S,S))",
+    PLACED: "(REPRESENTATION_RELATIONSHIP(S,S,r,r)REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(r)"
+    "SHAPE_REPRESENTATION_RELATIONSHIP())",
+}  # fmt: skip
+_BEGIN = re.compile(rb"\s*ISO-10303-21;\s*HEADER;(.*?)ENDSEC;\s*DATA;\s*", re.DOTALL)
+_SCHEMA = re.compile(rb"FILE_SCHEMA\s*\(\s*\(\s*'AUTOMOTIVE_DESIGN\b")
+_END = re.compile(rb"ENDSEC;\s*END-ISO-10303-21;\s*$")
+_STRINGS, _STRING = re.compile(rb'[!\d"]*"'), re.compile(rb'(?:!(\d+))?"')
+_NUMBER = re.compile(rb"(?<![\w#!])%b" % _FLOAT)
+_ESCAPE = re.compile(r"\\X2\\((?:[0-9A-F]{4})+)\\X0\\|\\X\\([0-9A-F]{2})")
+_BLANK = b" \t\r\n"
+_IS_BLANK, _IS_WORD = (np.isin(np.arange(256), list(chars)) for chars in (_BLANK, b"0123456789+-.#ABCDEFGHIJKLMNOPQRSTUVWXYZ_"))
+# the end of a file stands in its last bytes
+_TAIL = 200
+# so much of a statement is shown
+_SHOWN = 60
+
+
+class Table(Record):
+    """The entities of a kind: their ids (n,), and what varies in each: references, numbers, truths as 0 and 1; (n, k)."""
+
+    ids: Index
+    rows: Real
+
+
+class Listed(Record):
+    """The entities of a kind with lists in them: their ids (n,), and the texts of what varies, a row each."""
+
+    ids: Index
+    rows: list[Row]
+
+
+class Item(Record):
+    """An entity that is no geometry: its kind, and all references, strings and real numbers in it, in their order."""
+
+    kind: str
+    references: tuple[int, ...]
+    strings: tuple[str, ...]
+    numbers: tuple[float, ...]
+
+
+class Entities(Record):
+    """What a file holds: tables by kind, and what is around the geometry by id."""
+
+    fixed: dict[str, Table]
+    listed: dict[str, Listed]
+    items: dict[int, Item]
+
+    def table(self, kind: str) -> Table:
+        """The entities of a kind of fixed length."""
+        width = sum(_FIXED[kind].count(c) for c in "rfib")
+        return self.fixed.get(kind) or Table(np.zeros(0, np.int64), np.zeros((0, width)))
+
+    def listed_of(self, kind: str) -> list[Row]:
+        """What varies in the entities of a kind with lists."""
+        return self.listed[kind].rows if kind in self.listed else []
+
+
+def read_part21(file: Path) -> Entities:
+    """The entities of a STEP file.
+
+    Raises
+    ------
+    ReadError
+        It is no STEP file of this schema, or an entity is not known or not what its kind is.
+    """
+    tables, lists = defaultdict[str, list[Table]](list), defaultdict[str, list[Listed]](list)
+    items: dict[int, Item] = {}
+    with file.open("rb") as source:
+        for piece in _pieces(source):
+            text, strings = _without_strings(piece)
+            for kind, statements in _by_kind(text).items():
+                if kind in _FIXED:
+                    tables[kind].append(_table(_matched(kind, statements)))
+                elif kind in _LISTED:
+                    rows = _matched(kind, statements)
+                    lists[kind].append(Listed(np.array([int(row[0]) for row in rows]), [row[1:] for row in rows]))
+                elif kind:
+                    items.update((int(row[0]), _item(kind, row[1], strings)) for row in _matched(kind, statements))
+                else:
+                    items.update(_complex(statements, strings))
+    fixed = {
+        kind: Table(np.concatenate([t.ids for t in found]), np.concatenate([t.rows for t in found]))
+        for kind, found in tables.items()
+    }
+    listed = {
+        kind: Listed(np.concatenate([t.ids for t in found]), [row for t in found for row in t.rows])
+        for kind, found in lists.items()
+    }
+    ids = np.concatenate([np.array([*items], np.int64), *(t.ids for t in (*fixed.values(), *listed.values()))])
+    ids.sort()
+    if (twice := np.flatnonzero(ids[1:] == ids[:-1])).size:
+        raise ReadError(f"#{ids[twice[0]]} is there twice in the STEP file")
+    for number, item in items.items():
+        for reference in item.references:
+            if ids[min(np.searchsorted(ids, reference), len(ids) - 1)] != reference:
+                raise ReadError(f"#{number} of the STEP file refers to #{reference}, which is not there")
+    return Entities(fixed, listed, items)
+
+
+def _pieces(source: BinaryIO) -> Iterator[bytes]:
+    """What lies between DATA and its end, in pieces of whole entities."""
+    held = source.read(_PIECE)
+    begin = _BEGIN.match(held)
+    if begin is None:
+        raise ReadError("not a readable STEP file")
+    if not _SCHEMA.search(begin[1]):
+        raise ReadError("the STEP file is not of the schema AUTOMOTIVE_DESIGN")
+    held = held[begin.end() :]
+    while more := source.read(_PIECE):
+        cut = max(held.rfind(end) for end in (b";\n#", b";\r\n#", b";#")) + 1
+        if cut == 0:
+            raise ReadError(f"the STEP file has no end of an entity in {_PIECE} bytes")
+        yield held[:cut]
+        held = held[cut:] + more
+    end = _END.search(held, max(0, len(held) - _TAIL))
+    if end is None:
+        raise ReadError("the STEP file does not come to its end")
+    yield held[: end.start()]
+
+
+def _without_strings(piece: bytes) -> tuple[bytes, list[bytes]]:
+    """A piece without blanks, with a " for each string, before it the number of one that is not empty: !7"; and these."""
+    parts = piece.split(b"'")
+    if len(parts) % 2 == 0:
+        raise ReadError("a string in the STEP file has no end")
+    if any(b'"' in part or b"!" in part for part in parts[::2]):
+        raise ReadError("the STEP file holds binary data or entities of its own")
+    strings: list[bytes] = []
+    for number, text in enumerate(parts[1::2]):
+        if text:
+            parts[2 * number] += b"!%d" % len(strings)
+            strings.append(text)
+    text = b'"'.join(parts[::2])
+    _check_blanks(text)
+    return text.translate(None, _BLANK).replace(b".T.", b"1").replace(b".F.", b"0"), strings
+
+
+def _check_blanks(text: bytes) -> None:
+    """No blank stands within a word or a number."""
+    bytes_ = np.frombuffer(text.strip(_BLANK), np.uint8)
+    blank, word = _IS_BLANK[bytes_], _IS_WORD[bytes_]
+    before, after = np.flatnonzero(blank[1:] & ~blank[:-1]), np.flatnonzero(blank[:-1] & ~blank[1:]) + 1
+    if np.any(word[before] & word[after]):
+        raise ReadError("a blank stands within a word of the STEP file")
+
+
+def _by_kind(text: bytes) -> dict[str, list[bytes]]:
+    """The statements of a piece: #1=KIND(…)."""
+    found = defaultdict[bytes, list[bytes]](list)
+    *statements, rest = text.split(b";")
+    for statement in statements:
+        found[statement[statement.find(b"=") + 1 : statement.find(b"(")]].append(statement)
+    if rest:
+        raise ReadError(f"the STEP file ends within {_told(rest)}")
+    return {kind.decode("latin-1"): mine for kind, mine in found.items()}
+
+
+def _shape(text: str) -> bytes:
+    """The expression of arguments, with what varies in groups."""
+    found = (_ATOMS.get(word) or re.escape(word.encode()) for word in re.findall(r"[A-Z_]{2,}|.", text))
+    return b"".join(found)
+
+
+@cache
+def _pattern(kind: str) -> re.Pattern[bytes]:
+    """What a statement of a kind looks like: its id and what varies in it in groups, or first all its arguments."""
+    if kind in _ITEMS:
+        arguments = rb"(%b)" % _shape(_ITEMS[kind])
+    elif kind in _FIXED or kind in _LISTED:
+        arguments = _shape({**_FIXED, **_LISTED}[kind])
+    else:
+        raise ReadError(f"the STEP file holds {kind[:_SHOWN]}, which is not known: it may change what is seen")
+    return re.compile(rb";#(\d{1,15})=%b\(%b\)(?=;)" % (kind.encode(), arguments))
+
+
+@cache
+def _complexes() -> dict[str, re.Pattern[bytes]]:
+    return {name: re.compile(rb"#(\d{1,15})=(%b)" % _shape(text)) for name, text in _COMPLEX.items()}
+
+
+def _matched(kind: str, statements: list[bytes]) -> list[Row]:
+    """Id and arguments of all statements of a kind."""
+    pattern = _pattern(kind)
+    rows: list[Row] = pattern.findall(b";%b;" % b";".join(statements))
+    if len(rows) != len(statements):
+        wrong = next(s for s in statements if not pattern.match(b";%b;" % s))
+        raise ReadError(f"{_told(wrong)} of the STEP file is not what a {kind} is")
+    return rows
+
+
+def _told(statement: bytes) -> str:
+    """A statement, or its beginning, to be shown."""
+    text = statement.decode("ascii", errors="replace")
+    return text if len(text) <= _SHOWN else f"{text[:_SHOWN]} …"
+
+
+def _table(rows: list[Row]) -> Table:
+    numbers = np.array(list(map(float, chain.from_iterable(rows)))).reshape(len(rows), -1)
+    return Table(numbers[:, 0].astype(np.int64), numbers[:, 1:])
+
+
+def _complex(statements: list[bytes], strings: list[bytes]) -> Iterator[tuple[int, Item]]:
+    for statement in statements:
+        found = [(name, m) for name, pattern in _complexes().items() if (m := pattern.fullmatch(statement))]
+        if not found:
+            raise ReadError(f"{_told(statement)} of the STEP file is not known: it may change what is seen")
+        (name, match), *_ = found
+        yield int(match[1]), _item(name, match[2], strings)
+
+
+def _item(kind: str, text: bytes, strings: list[bytes]) -> Item:
+    # an apostrophe in a string is two, which have cut it in two
+    words = ([strings[int(m)] if m else b"" for m in _STRING.findall(run)] for run in _STRINGS.findall(text))
+    return Item(
+        kind,
+        tuple(int(m) for m in re.findall(_REFERENCE, text)),
+        tuple(_decoded(b"'".join(word)) for word in words),
+        tuple(float(m) for m in _NUMBER.findall(text)),
+    )
+
+
+def _decoded(text: bytes) -> str:
+    """A string with its escapes resolved."""
+    try:
+        found = text.decode("utf-8")
+        return _ESCAPE.sub(lambda m: bytes.fromhex(m[1] or m[2]).decode("utf-16-be" if m[1] else "latin-1"), found)
+    except ValueError as error:
+        raise ReadError(f"a name in the STEP file cannot be read: {text[:_SHOWN]!r}") from error

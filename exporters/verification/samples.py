@@ -1,0 +1,102 @@
+"""Points within the faces of a solid that was read: by its surfaces' own formulas, at places of our choice."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from exporters.formats.read_brep import Model
+from exporters.formats.read_curves import spans_of
+from exporters.formats.read_part21 import Index, Real
+from exporters.formats.read_surfaces import EXTRUSION, PLANE, ROUND, SPLINE
+from parts.base.readback import ReadError
+
+# places along a spline surface's spans, shares of the way across other faces, and of each line there
+_SHARES, _LEVELS, _PLACES = np.linspace(0, 1, 7), np.linspace(0.1, 0.9, 5), np.linspace(0.02, 0.98, 9)
+
+
+def edge_points(model: Model, faces: Index) -> Real:
+    """Of all edges of some faces, (n, 3)."""
+    span, use = model.spans
+    mine = np.unique(span[np.isin(model.uses.face[use], faces)])
+    return model.points[mine].reshape(-1, 3)
+
+
+def foot_points(model: Model, walls: Index) -> tuple[Real, Index]:
+    """Of upright walls above the edges that they stand on, (n, 12, 3), and the wall of each row."""
+    flat = walls[model.kind[walls] != EXTRUSION]
+    span, face = model.feet(flat)
+    at = model.frames.local(face, model.points[span])
+    planes = model.kind[face] == PLANE
+    size = np.where(planes[:, None], 1.0, model.sizes[face, :1] / np.hypot(at[..., 0], at[..., 1]))
+    at *= np.stack([size, size, np.where(planes, 0.0, 1.0)[:, None] + 0 * size], axis=2)
+    swept = walls[model.kind[walls] == EXTRUSION]
+    span, row = spans_of(model.curves, model.moved[swept])
+    return np.concatenate([_placed(model, face, at), model.points[span]]), np.concatenate([face, swept[row]])
+
+
+def inner_points(model: Model, faces: Index) -> Real:
+    """Points within faces, (n, 3)."""
+    pieces = [np.zeros((0, 3))]
+    for patches in model.patches:
+        mine = np.flatnonzero(np.isin(patches.faces, faces))
+        pieces += [patches.grid(_SHARES, mine[k : k + 100])[0].reshape(-1, 3) for k in range(0, len(mine), 100)]
+    for face in faces[model.kind[faces] != SPLINE].tolist():
+        mine = np.flatnonzero(model.uses.face == face)
+        span, use = spans_of(model.curves, model.uses.edge[mine])
+        at = model.frames.local(np.full(len(span), face), model.points[span])
+        at[~model.uses.left[mine][use]] = at[~model.uses.left[mine][use], ::-1]
+        kind = int(model.kind[face])
+        if kind == EXTRUSION:
+            curved = ~model.straight[model.uses.edge[mine]][use]
+            found = _on_rulings(at[curved], use[curved])
+        elif kind in (PLANE, ROUND):
+            found = _across(at, kind, bool(model.normal[face]), model.sizes[face])
+        else:
+            raise ReadError(f"#{model.faces[face]} of the STEP file is of no kind that the part has")
+        pieces.append(_placed(model, np.array([face]), found[None])[0])
+    return np.concatenate(pieces)
+
+
+def _placed(model: Model, face: Index, at: Real) -> Real:
+    """Points (n, k, 3) in the frames of faces (n,), in that of the solid."""
+    return np.asarray(model.frames.origins[face][:, None] + at @ model.frames.axes[face])
+
+
+def _on_rulings(at: Real, use: Index) -> Real:
+    """Of an extrusion between two copies of its curve: the lower one, lifted towards the other."""
+    low, *others, high = sorted((float(at[use == k, :, 2].mean()), k) for k in np.unique(use).tolist())
+    if others:
+        raise ReadError("an extrusion of the STEP file does not lie between two copies of its curve")
+    lifts = np.array([0.0, 0.0, high[0] - low[0]]) * np.array([0.0, *_LEVELS])[:, None]
+    return np.asarray((at[use == low[1]].reshape(-1, 1, 3) + lifts).reshape(-1, 3))
+
+
+def _across(at: Real, kind: int, normal: bool, sizes: Real) -> Real:
+    """Of a plane or round face: points (n, 3) on lines across it, between the bounds on both sides.
+
+    ``at``: nodes (n, k, 3) of the bounds' spans as they run, the face on their left, seen from its normal.
+    """
+    v = at[..., 1] if kind == PLANE else at[..., 2]
+    plane = at[..., 0] + 1j * at[..., 1]
+    found = []
+    for level in (v.min() + (v.max() - v.min()) * _LEVELS).tolist():
+        up, down = (v[:, :-1] <= level) & (v[:, 1:] > level), (v[:, :-1] > level) & (v[:, 1:] <= level)
+        sides = []
+        for way in (down, up) if normal else (up, down):
+            share = (level - v[:, :-1][way]) / (v[:, 1:][way] - v[:, :-1][way])
+            where = plane[:, :-1][way] * (1 - share) + plane[:, 1:][way] * share
+            sides.append(where.real if kind == PLANE else np.angle(where))
+        begin, end = sides
+        if not len(begin):
+            begin, end = np.zeros(1), np.full(1, 2 * np.pi)
+        width = end - begin[:, None]
+        if kind == ROUND:
+            width = np.mod(width, 2 * np.pi)
+            # a seam has the face on both sides of it
+            width[(width < 1e-9) | (width > 2 * np.pi - 1e-9)] = 2 * np.pi
+        width[width <= 0] = np.inf
+        u = (begin[:, None] + width.min(axis=1)[:, None] * _PLACES).ravel()
+        size = sizes[0] + sizes[1] * level
+        round_ = (size * np.cos(u), size * np.sin(u), np.full(u.size, level))
+        found.append(np.column_stack((u, np.full(u.size, level), np.zeros(u.size)) if kind == PLANE else round_))
+    return np.concatenate(found)
