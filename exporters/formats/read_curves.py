@@ -19,7 +19,7 @@ Flags = NDArray[np.bool_]
 _NODES = 12
 
 
-class Frames(Record):
+class Frames(Record, eq=False):
     """Origins (n, 3), and axes (n, 3, 3) in rows: along, across, and the axis."""
 
     origins: Real
@@ -36,7 +36,7 @@ class Frames(Record):
         return np.asarray(away @ self.axes[which].transpose(0, 2, 1))
 
 
-class Knots(Record):
+class Knots(Record, eq=False):
     """Degree and knots of splines, each as often as it counts."""
 
     degree: int
@@ -80,7 +80,7 @@ class Knots(Record):
         return tuple(whole.reshape(2, -1, whole.shape[-1]))  # type: ignore[return-value]
 
 
-class Patches(Record):
+class Patches(Record, eq=False):
     """Spline surfaces of one net: their faces (n,), poles (n, k, l, 3), degrees and knots along and across."""
 
     faces: Index
@@ -88,18 +88,18 @@ class Patches(Record):
     along: Knots
     across: Knots
 
-    def grid(self, shares: Real, part: slice | Index) -> tuple[Real, Real, Real]:
-        """Points (n, i, j, 3) at shares of all spans, and their derivatives by the shares along and across.
+    def grid(self, along: Real, across: Real, part: slice | Index) -> tuple[Real, Real, Real]:
+        """Points (n, i, j, 3) at shares of all spans, and their derivatives by these along and across.
 
         ``part``: of which surfaces.
         """
-        (u, du), (v, dv) = self.along.matrices(shares), self.across.matrices(shares)
+        (u, du), (v, dv) = self.along.matrices(along), self.across.matrices(across)
         low, steep = (np.tensordot(self.poles[part], matrix, (1, 1)) for matrix in (u, du))
         found = [np.tensordot(x, y, (1, 1)).transpose(0, 2, 3, 1) for x, y in ((low, v), (steep, v), (low, dv))]
         return found[0], found[1], found[2]
 
 
-class Curves(Record):
+class Curves(Record, eq=False):
     """Lines, circles and splines, each run along a part of it or all of it; ``counts``: of the spans of each (n,).
 
     Lines: number, start, end; arcs: number, frame's number, radius, start and sweep; splines by their knots: numbers,

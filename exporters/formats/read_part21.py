@@ -27,12 +27,13 @@ Row = tuple[bytes, ...]
 
 # a file is read in pieces of so many bytes; no entity may be longer
 _PIECE = 1 << 24
-_FLOAT, _REFERENCE = rb"[-+]?\d+\.\d*(?:E[-+]?\d{1,3})?", rb"#(\d{1,15})"
+_FLOAT, _REFERENCE = rb"[-+]?\d+\.\d*(?:E[-+]?\d{1,2})?", rb"#(\d{1,15})"
 _LIST = rb"\((%b(?:,%b)*)\)"
-# what arguments are made of: string, one that may hold apostrophes, reference, real, integer, truth, star, word, and lists of references (in lists)
+# what arguments are made of: string, one that may hold apostrophes, reference, real, integer, truth, star, word; lists
 _ATOMS = {
-    "s": rb'(?:!\d+)?"', "S": rb'(?:(?:!\d+)?")+', "r": _REFERENCE, "f": rb"(%b)" % _FLOAT, "i": rb"(\d{1,4})", "b": rb"([01])", "*": rb"\*",
-    "w": rb"(?:[01]|\.[A-Z_]+\.)", "R": _LIST % (rb"#\d{1,15}", rb"#\d{1,15}"), "I": _LIST % (rb"\d{1,5}", rb"\d{1,5}"),
+    "s": rb'(?:!\d+)?"', "S": rb'(?:(?:!\d+)?")+', "r": _REFERENCE, "f": rb"(%b)" % _FLOAT, "i": rb"(\d{1,4})",
+    "b": rb"([01])", "*": rb"\*", "w": rb"(?:[01]|\.[A-Z_]+\.)", "R": _LIST % (rb"#\d{1,15}", rb"#\d{1,15}"),
+    "I": _LIST % (rb"\d{1,5}", rb"\d{1,5}"),
     "F": _LIST % (_FLOAT, _FLOAT), "M": rb"\((\([#\d,]+\)(?:,\([#\d,]+\))*)\)",
 }  # fmt: skip
 # the geometry and topology of ISO 10303-42 that is read: those of fixed length, and those with lists
@@ -78,23 +79,30 @@ _SCHEMA = re.compile(rb"FILE_SCHEMA\s*\(\s*\(\s*'AUTOMOTIVE_DESIGN\b")
 _END = re.compile(rb"ENDSEC;\s*END-ISO-10303-21;\s*$")
 _STRINGS, _STRING = re.compile(rb'[!\d"]*"'), re.compile(rb'(?:!(\d+))?"')
 _NUMBER = re.compile(rb"(?<![\w#!])%b" % _FLOAT)
-_ESCAPE = re.compile(r"\\X2\\((?:[0-9A-F]{4})+)\\X0\\|\\X\\([0-9A-F]{2})")
+_ESCAPE = re.compile(
+    r"\\X2\\((?:[0-9A-F]{4})+)\\X0\\|\\X4\\((?:[0-9A-F]{8})+)\\X0\\|\\X\\([0-9A-F]{2})|\\S\\([ -~])|\\(\\)|(\\)"
+)
+_CONTROL = re.compile(rb"[\0-\x1f]")
+_CODES = ("utf-16-be", "utf-32-be", "latin-1")
 _BLANK = b" \t\r\n"
-_IS_BLANK, _IS_WORD = (np.isin(np.arange(256), list(chars)) for chars in (_BLANK, b"0123456789+-.#ABCDEFGHIJKLMNOPQRSTUVWXYZ_"))
+_WORD = b"+-.#_0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+_IS_BLANK, _IS_WORD = (np.isin(np.arange(256), list(chars)) for chars in (_BLANK, _WORD))
+# ids and lengths are no greater
+_MOST = 1e15
 # the end of a file stands in its last bytes
 _TAIL = 200
 # so much of a statement is shown
 _SHOWN = 60
 
 
-class Table(Record):
-    """The entities of a kind: their ids (n,), and what varies in each: references, numbers, truths as 0 and 1; (n, k)."""
+class Table(Record, eq=False):
+    """The entities of a kind: ids (n,), and what varies in each (n, k): references, numbers, truths as 0 and 1."""
 
     ids: Index
     rows: Real
 
 
-class Listed(Record):
+class Listed(Record, eq=False):
     """The entities of a kind with lists in them: their ids (n,), and the texts of what varies, a row each."""
 
     ids: Index
@@ -110,7 +118,7 @@ class Item(Record):
     numbers: tuple[float, ...]
 
 
-class Entities(Record):
+class Entities(Record, eq=False):
     """What a file holds: tables by kind, and what is around the geometry by id."""
 
     fixed: dict[str, Table]
@@ -158,13 +166,14 @@ def read_part21(file: Path) -> Entities:
         kind: Listed(np.concatenate([t.ids for t in found]), [row for t in found for row in t.rows])
         for kind, found in lists.items()
     }
-    ids = np.concatenate([np.array([*items], np.int64), *(t.ids for t in (*fixed.values(), *listed.values()))])
+    of_kinds = [*(t.ids for t in fixed.values()), *(t.ids for t in listed.values())]
+    ids = np.concatenate([np.array([*items], np.int64), *of_kinds])
     ids.sort()
     if (twice := np.flatnonzero(ids[1:] == ids[:-1])).size:
         raise ReadError(f"#{ids[twice[0]]} is there twice in the STEP file")
     for number, item in items.items():
         for reference in item.references:
-            if ids[min(np.searchsorted(ids, reference), len(ids) - 1)] != reference:
+            if ids[min(int(np.searchsorted(ids, reference)), len(ids) - 1)] != reference:
                 raise ReadError(f"#{number} of the STEP file refers to #{reference}, which is not there")
     return Entities(fixed, listed, items)
 
@@ -191,12 +200,14 @@ def _pieces(source: BinaryIO) -> Iterator[bytes]:
 
 
 def _without_strings(piece: bytes) -> tuple[bytes, list[bytes]]:
-    """A piece without blanks, with a " for each string, before it the number of one that is not empty: !7"; and these."""
+    """A piece without blanks, a " for each string, before it the number of one that is not empty: !7"; and these."""
     parts = piece.split(b"'")
     if len(parts) % 2 == 0:
         raise ReadError("a string in the STEP file has no end")
     if any(b'"' in part or b"!" in part for part in parts[::2]):
         raise ReadError("the STEP file holds binary data or entities of its own")
+    if any(_CONTROL.search(part) for part in parts[1::2] if part):
+        raise ReadError("a string in the STEP file holds a line end")
     strings: list[bytes] = []
     for number, text in enumerate(parts[1::2]):
         if text:
@@ -268,6 +279,9 @@ def _told(statement: bytes) -> str:
 
 def _table(rows: list[Row]) -> Table:
     numbers = np.array(list(map(float, chain.from_iterable(rows)))).reshape(len(rows), -1)
+    if not np.abs(numbers).max() <= _MOST:
+        wrong = int(np.argmax(np.abs(numbers).max(axis=1)))
+        raise ReadError(f"#{rows[wrong][0].decode()} of the STEP file holds a number beyond any length")
     return Table(numbers[:, 0].astype(np.int64), numbers[:, 1:])
 
 
@@ -293,8 +307,17 @@ def _item(kind: str, text: bytes, strings: list[bytes]) -> Item:
 
 def _decoded(text: bytes) -> str:
     """A string with its escapes resolved."""
+
+    def letters(found: re.Match[str]) -> str:
+        *hexadecimal, upper, backslash, lone = found.groups()
+        if lone:
+            raise ValueError("a backslash alone")
+        for digits, code in zip(hexadecimal, _CODES, strict=True):
+            if digits:
+                return bytes.fromhex(digits).decode(code)
+        return chr(ord(upper) + 128) if upper else str(backslash)
+
     try:
-        found = text.decode("utf-8")
-        return _ESCAPE.sub(lambda m: bytes.fromhex(m[1] or m[2]).decode("utf-16-be" if m[1] else "latin-1"), found)
+        return _ESCAPE.sub(letters, text.decode("utf-8"))
     except ValueError as error:
         raise ReadError(f"a name in the STEP file cannot be read: {text[:_SHOWN]!r}") from error

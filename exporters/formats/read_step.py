@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 
 from exporters.formats.chains import nodes, smooth_loops
 from exporters.formats.read_assembly import Occurrence, Prototype, ReadAssembly
-from exporters.formats.read_brep import Model, frames_of, read_model
+from exporters.formats.read_brep import frames_of, read_model
 from exporters.formats.read_part21 import CONTEXT, MILLIMETRE, PLACED, RADIAN, Entities, Item, Real, read_part21
+from exporters.formats.read_solid import Model
 from exporters.formats.readback import SmoothLoop
 from geometry.base.record import Record
 from parts.base.readback import ReadError
@@ -26,10 +27,12 @@ _SHADES = {
     "red": "#ff0000", "green": "#00ff00", "blue": "#0000ff", "yellow": "#ffff00", "magenta": "#ff00ff",
     "cyan": "#00ffff", "black": "#000000", "white": "#ffffff",
 }  # fmt: skip
+# what stands at the origin is off it by no more, mm and rad
+_HOME = 1e-12
 Place = NDArray[np.float64]
 
 
-class ReadSolid(Record):
+class ReadSolid(Record, eq=False):
     """One solid, the names of the products in its file, and its colour, where it has one."""
 
     model: Model
@@ -99,7 +102,7 @@ class _Products:
         self.used = {item.references[1] for _, item in self._of("NEXT_ASSEMBLY_USAGE_OCCURRENCE")}
         self.inside: dict[int, list[tuple[str, int, Place]]] = {}
         self._place()
-        self.colours = {}
+        self.colours: dict[int, str] = {}
         for number, item in self._of("STYLED_ITEM"):
             *styles, solid = item.references
             if solid not in self.model.solids or solid in self.colours:
@@ -149,6 +152,12 @@ class _Products:
         return [self.items[n] for n in item.references if n in self.items and self.items[n].kind == kind]
 
     def _check_context(self, number: int, shape: Item) -> None:
+        """A shape consists of solids and axes, those of a part at its origin, in millimetres."""
+        axes = np.array([n for n in shape.references[:-1] if n not in self.model.solids])
+        frames = frames_of(self.entities, axes, np.full(len(axes), number))
+        home = np.abs(frames.origins).max() <= _HOME and np.abs(frames.axes - np.eye(3)).max() <= _HOME
+        if shape.kind == "ADVANCED_BREP_SHAPE_REPRESENTATION" and not home:
+            raise ReadError(f"#{number} of the STEP file has another origin than its part")
         context = self._at(number, shape.references[-1], CONTEXT)
         if not (self._at_all(context, MILLIMETRE) and self._at_all(context, RADIAN)):
             raise ReadError(f"#{number} of the STEP file is not in mm and rad")

@@ -1,26 +1,27 @@
 """Surfaces of a STEP file against the edges of their faces: how far these lie off, and what flux a face has.
 
-The flux of X/3 through a face is its share of the volume. On a plane, a surface of revolution or an extrusion it is that
-of a 1-form round the bounds, whose differential it is: with a surface's own parameters u and v, v along the axis,
+The flux of X/3 through a face is its share of the volume. On planes, surfaces of revolution and extrusions it is that
+of a 1-form round the bounds (Stokes): with a surface's own parameters u and v, v along the axis,
 X . (X_u x X_v) / 3 du dv = d(-H du), H its integral over v. Spline surfaces are integrated over between their ends.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 
-from exporters.formats.read_curves import Knots, lobatto
+from exporters.formats.read_curves import Patches, lobatto, spans_of
 from exporters.formats.read_part21 import Index, Real
+from exporters.formats.read_solid import EXTRUSION, GAP, PLANE, ROUND, SPHERE, TORUS, Model, refuse
 from geometry.base.record import Record
+from parts.base.readback import ReadError
 
 # an area of parameters that is none, rad^2
 _FLAT = 1e-9
-PLANE, ROUND, SPHERE, TORUS, EXTRUSION, SPLINE = range(6)
+# edges of so many spans are held against their surfaces at a time; grid points of spline surfaces
+_ROWS, _POINTS_AT_ONCE = 20_000, 400_000
 
 
-class Forms(Record):
+class Forms(Record, eq=False):
     """At nodes (n, k) of edges: distance from the surface, mm, and the 1-forms of flux, area of (u, v), and u."""
 
     gap: Real
@@ -75,3 +76,118 @@ def whole(kind: int, sizes: Real, along: Real, turns: Real, area: Real, sense: R
     poles = np.sign((turns / (2 * np.pi)).round()) * sense
     one = sense * 2 * np.pi * r * r / 3 * (r + poles * along / 2)
     return np.where(poles != 0, one, np.where(sense * area < _FLAT, sense * 4 * np.pi / 3 * r**3, 0.0))
+
+
+def measure(model: Model) -> tuple[Real, Real]:
+    """Flux and gap of every face, which must lie on the left of its bounds."""
+    uses, count = model.uses, len(model.faces)
+    flux, area, turns, about, gap = np.zeros((5, count))
+    span, row = spans_of(model.curves, uses.edge)
+    kinds = model.kind[uses.face[row]]
+    weights = lobatto()[1]
+    for kind in (PLANE, ROUND, SPHERE, TORUS, EXTRUSION):
+        mine = np.flatnonzero(kinds == kind)
+        if kind == TORUS and mine.size:
+            about = _about(model, span[mine], uses.face[row[mine]])
+        for start in range(0, len(mine), _ROWS):
+            part = mine[start : start + _ROWS]
+            face = uses.face[row[part]]
+            at = model.frames.local(face, model.points[span[part]])
+            way = np.where(uses.left[row[part]], 1.0, -1.0)[:, None, None]
+            step = way * model.frames.local(face, model.slopes[span[part]], moved=False)
+            found = forms(kind, at, step, model.frames.centres[face], model.sizes[face], about[face])
+            for total, form in ((flux, found.flux), (area, found.area), (turns, found.turn)):
+                total += np.bincount(face, form @ weights, count)
+            np.maximum.at(gap, face, found.gap.max(axis=1))
+    sense = np.where(model.normal, 1.0, -1.0)
+    for kind in (SPHERE, TORUS):
+        mine = np.flatnonzero(model.kind == kind)
+        more = whole(kind, model.sizes[mine], model.frames.centres[mine, 2], turns[mine], area[mine], sense[mine])
+        flux[mine] += more
+        area[mine] += np.where(more != 0, sense[mine] * np.inf, 0.0)
+    _follow(model, np.flatnonzero(model.kind[uses.face] == EXTRUSION), area, gap)
+    for patches in model.patches:
+        _measure_patches(model, patches, flux, area, gap)
+    if not gap.max(initial=0.0) <= GAP:
+        wrong = int(np.argmax(gap))
+        raise ReadError(f"#{model.faces[wrong]} of the STEP file is {gap[wrong]:.6g} mm away from its edges")
+    refuse(~(sense * area > 0), model.faces, "is a face turned inside out")
+    return flux, gap
+
+
+def _about(model: Model, span: Index, face: Index) -> Real:
+    """For faces on a torus a middle angle of their bounds round the tube, rad."""
+    at = model.frames.local(face, model.points[span])
+    spokes = np.hypot(at[..., 0], at[..., 1]) - model.sizes[face, :1] + 1j * at[..., 2]
+    total = (spokes / np.abs(spokes)).sum(axis=1)
+    return np.angle(
+        np.bincount(face, total.real, len(model.faces)) + 1j * np.bincount(face, total.imag, len(model.faces))
+    )
+
+
+def _follow(model: Model, mine: Index, area: Real, gap: Real) -> None:
+    """Edges of extrusions: straight ones are rulings at an end of the moved curve, others its copies, span by span."""
+    uses, curves = model.uses, model.curves
+    face, edge = uses.face[mine], uses.edge[mine]
+    basis = model.moved[face]
+    alike = curves.counts[edge] == curves.counts[basis]
+    off = np.where(alike | model.straight[edge], 0.0, np.inf)
+    ruling = np.flatnonzero(model.straight[edge])
+    first, last = curves.starts[basis[ruling]], (curves.starts + curves.counts)[basis[ruling]] - 1
+    at = model.frames.local(face[ruling], model.points[curves.starts[edge[ruling]]])
+    ends = np.stack([model.points[first, 0], model.points[last, -1]], axis=1)
+    away = at[:, :, None, :2] - model.frames.local(face[ruling], ends)[:, None, :, :2]
+    off[ruling] = np.hypot(away[..., 0], away[..., 1]).max(axis=1).min(axis=1)
+    copy = np.flatnonzero(alike & ~model.straight[edge])
+    if copy.size:
+        span, row = spans_of(curves, edge[copy])
+        begin = np.flatnonzero(np.diff(row, prepend=-1))
+        at = model.frames.local(face[copy][row], model.points[span])
+        gaps = []
+        for way in (1, -1):
+            its, _ = spans_of(curves, basis[copy], np.full(len(copy), way > 0))
+            away = at - model.frames.local(face[copy][row], model.points[its])[:, ::way]
+            gaps.append(np.maximum.reduceat(np.hypot(away[..., 0], away[..., 1]).max(axis=1), begin))
+        off[copy] = np.minimum(*gaps)
+        with_it = np.where(gaps[0] <= gaps[1], 1.0, -1.0) * np.where(uses.left[mine[copy]], 1.0, -1.0)
+        height = np.add.reduceat(at[..., 2].mean(axis=1), begin) / curves.counts[edge[copy]]
+        np.add.at(area, face[copy], -height * with_it)
+    np.maximum.at(gap, face, off)
+
+
+def _measure_patches(model: Model, patches: Patches, flux: Real, area: Real, gap: Real) -> None:
+    """Spline faces between the four ends of their surfaces: the same, by Gauss's rule on every span."""
+    uses, curves = model.uses, model.curves
+    nodes, weights = lobatto()
+    order = np.argsort(uses.face, kind="stable")
+    low = np.searchsorted(uses.face[order], patches.faces)
+    four = np.searchsorted(uses.face[order], patches.faces, side="right") - low == 4
+    refuse(~four, model.faces[patches.faces], "is a spline face without four edges")
+    mine = order[low[:, None] + np.arange(4)]
+    shape = tuple(len(k.spans) for k in (patches.along, patches.across))
+    block = max(1, _POINTS_AT_ONCE // (shape[0] * shape[1] * len(nodes) ** 2))
+    for start in range(0, len(mine), block):
+        part = slice(start, start + block)
+        points, along, across = patches.grid(nodes, nodes, part)
+        normal = np.sum(points * np.cross(along, across), axis=3) / 3
+        spread = np.einsum("nij,i,j->n", normal, np.tile(weights, shape[0]), np.tile(weights, shape[1]))
+        faces = patches.faces[part]
+        flux[faces] = np.where(model.normal[faces], spread, -spread)
+        sides = points[:, :, 0], points[:, -1], points[:, ::-1, -1], points[:, 0, ::-1]
+        # the side that each edge runs along, and whether round the patch on its left
+        side, way, off = (np.full((len(faces), 4), x) for x in (-1, 0.0, np.inf))
+        for corner in range(4):
+            edge = uses.edge[mine[part, corner]]
+            for number, line in enumerate(sides):
+                fits = np.flatnonzero(curves.counts[edge] * len(nodes) == line.shape[1])
+                span, _ = spans_of(curves, edge[fits])
+                run = model.points[span].reshape(len(fits), *line.shape[1:])
+                for turn in (1, -1):
+                    away = np.linalg.norm(run[:, ::turn] - line[fits], axis=2).max(axis=1)
+                    nearer = away < off[fits, corner]
+                    chosen = fits[nearer]
+                    off[chosen, corner], side[chosen, corner] = away[nearer], number
+                    way[chosen, corner] = turn * np.where(uses.left[mine[part, corner]], 1, -1)[chosen]
+        proper = np.all(np.sort(side, axis=1) == np.arange(4), axis=1) & np.all(way == way[:, :1], axis=1)
+        gap[faces] = np.where(proper, off.max(axis=1), np.inf)
+        area[faces] = way[:, 0]

@@ -10,16 +10,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from exporters.formats.read_solid import ROUND
 from exporters.formats.read_step import ReadSolid
-from exporters.formats.read_surfaces import ROUND
 from exporters.formats.readback import ReadMesh
 from exporters.verification.samples import edge_points, inner_points
 from exporters.verification.topology import doubled_normals, topology_failures
 from exporters.verification.verdict import Verdict, deviation_failures
-from geometry.curves.curve import Real
 
 if TYPE_CHECKING:
-
     from geometry.cams.barrel.body import BarrelBody as FacedBody
 
 # places of the samples in each triangle, in sixths

@@ -4,21 +4,26 @@ from __future__ import annotations
 
 import numpy as np
 
-from exporters.formats.read_brep import Model
-from exporters.formats.read_curves import spans_of
+from exporters.formats.read_curves import lobatto, spans_of
 from exporters.formats.read_part21 import Index, Real
-from exporters.formats.read_surfaces import EXTRUSION, PLANE, ROUND, SPLINE
+from exporters.formats.read_solid import EXTRUSION, LEVEL, PLANE, ROUND, SPLINE, Model
 from parts.base.readback import ReadError
 
-# places along a spline surface's spans, shares of the way across other faces, and of each line there
-_SHARES, _LEVELS, _PLACES = np.linspace(0, 1, 7), np.linspace(0.1, 0.9, 5), np.linspace(0.02, 0.98, 9)
+# which of the nodes on the way up are looked at: few heights, each of which may need a section of its own
+_KEPT = [0, 2, 4, 7, 9, 11]
+# spline surfaces that are evaluated at a time
+_BLOCK = 100
+# places on each line across a face
+_PLACES = np.linspace(0.02, 0.98, 9)
 
 
 def edge_points(model: Model, faces: Index) -> Real:
     """Of all edges of some faces, (n, 3)."""
     span, use = model.spans
     mine = np.unique(span[np.isin(model.uses.face[use], faces)])
-    return model.points[mine].reshape(-1, 3)
+    points = model.points[mine]
+    level = np.ptp(points[..., 2], axis=1) <= LEVEL
+    return np.concatenate([points[level].reshape(-1, 3), points[~level][:, _KEPT].reshape(-1, 3)])
 
 
 def foot_points(model: Model, walls: Index) -> tuple[Real, Index]:
@@ -26,9 +31,10 @@ def foot_points(model: Model, walls: Index) -> tuple[Real, Index]:
     flat = walls[model.kind[walls] != EXTRUSION]
     span, face = model.feet(flat)
     at = model.frames.local(face, model.points[span])
-    planes = model.kind[face] == PLANE
-    size = np.where(planes[:, None], 1.0, model.sizes[face, :1] / np.hypot(at[..., 0], at[..., 1]))
-    at *= np.stack([size, size, np.where(planes, 0.0, 1.0)[:, None] + 0 * size], axis=2)
+    round_ = model.kind[face] == ROUND
+    at[~round_, :, 2] = 0.0
+    size = np.hypot(at[round_, :, 0], at[round_, :, 1])
+    at[round_, :, :2] *= (model.sizes[face[round_], :1] / size)[..., None]
     swept = walls[model.kind[walls] == EXTRUSION]
     span, row = spans_of(model.curves, model.moved[swept])
     return np.concatenate([_placed(model, face, at), model.points[span]]), np.concatenate([face, swept[row]])
@@ -36,10 +42,12 @@ def foot_points(model: Model, walls: Index) -> tuple[Real, Index]:
 
 def inner_points(model: Model, faces: Index) -> Real:
     """Points within faces, (n, 3)."""
-    pieces = [np.zeros((0, 3))]
+    pieces, nodes = [np.zeros((0, 3))], lobatto()[0]
     for patches in model.patches:
         mine = np.flatnonzero(np.isin(patches.faces, faces))
-        pieces += [patches.grid(_SHARES, mine[k : k + 100])[0].reshape(-1, 3) for k in range(0, len(mine), 100)]
+        pieces += [
+            patches.grid(nodes, nodes[_KEPT], mine[k : k + 100])[0].reshape(-1, 3) for k in range(0, len(mine), 100)
+        ]
     for face in faces[model.kind[faces] != SPLINE].tolist():
         mine = np.flatnonzero(model.uses.face == face)
         span, use = spans_of(model.curves, model.uses.edge[mine])
@@ -67,7 +75,7 @@ def _on_rulings(at: Real, use: Index) -> Real:
     low, *others, high = sorted((float(at[use == k, :, 2].mean()), k) for k in np.unique(use).tolist())
     if others:
         raise ReadError("an extrusion of the STEP file does not lie between two copies of its curve")
-    lifts = np.array([0.0, 0.0, high[0] - low[0]]) * np.array([0.0, *_LEVELS])[:, None]
+    lifts = np.array([0.0, 0.0, high[0] - low[0]]) * lobatto()[0][_KEPT, None]
     return np.asarray((at[use == low[1]].reshape(-1, 1, 3) + lifts).reshape(-1, 3))
 
 
@@ -79,7 +87,7 @@ def _across(at: Real, kind: int, normal: bool, sizes: Real) -> Real:
     v = at[..., 1] if kind == PLANE else at[..., 2]
     plane = at[..., 0] + 1j * at[..., 1]
     found = []
-    for level in (v.min() + (v.max() - v.min()) * _LEVELS).tolist():
+    for level in (v.min() + (v.max() - v.min()) * lobatto()[0][_KEPT[1:-1]]).tolist():
         up, down = (v[:, :-1] <= level) & (v[:, 1:] > level), (v[:, :-1] > level) & (v[:, 1:] <= level)
         sides = []
         for way in (down, up) if normal else (up, down):

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from exporters.formats.read_brep import Model
-from exporters.formats.read_curves import Flags, spans_of
+from exporters.formats.read_curves import Flags, lobatto, spans_of
 from exporters.formats.read_part21 import Index, Real
+from exporters.formats.read_solid import LEVEL, PLANE, ROUND, SQUARE, Model
 from exporters.formats.read_step import ReadSolid
-from exporters.formats.read_surfaces import PLANE, ROUND
 from exporters.verification.chamfers import chamfer_deviation
 from exporters.verification.outlines import verify_samples
 from exporters.verification.samples import edge_points, foot_points, inner_points
@@ -21,8 +20,6 @@ from geometry.solids.body import Body, Wall
 from geometry.solids.mass import body_moments
 
 _VOLUME = 1e-7
-# heights in a file meet those of the body this well, mm; directions, 1 - cosine
-_LEVEL, _SQUARE = 1e-7, 1e-12
 # heights of walls are told apart by so many digits
 _DIGITS = 6
 
@@ -36,7 +33,7 @@ def verify_solid(found: ReadSolid, body: Body, declared: float, tolerance: float
     failures = _cylinder_failures(cylinders, body)
     if not abs(volume - exact) <= (_VOLUME + 2 * declared / reach) * exact:
         failures.append(f"volume {volume:.12g} mm^3 instead of {exact:.12g} mm^3")
-    flat = (model.kind == PLANE) & (np.abs(model.frames.axes[:, 2, 2]) > 1 - _SQUARE)
+    flat = (model.kind == PLANE) & (np.abs(model.frames.axes[:, 2, 2]) > 1 - SQUARE)
     sheared = body.has_screws() and not body.twisted_profiles()
     upright = model.is_upright & ~flat & (not sheared)
     if body.twisted_profiles():
@@ -71,7 +68,7 @@ def screw_deviation(points: Real, body: Body, declared: float) -> float:
         if not body.is_screw(wall):
             continue
         low, high = body.height(wall)
-        mine = np.flatnonzero((points[:, 2] > low - _LEVEL) & (points[:, 2] < high + _LEVEL))
+        mine = np.flatnonzero((points[:, 2] > low - LEVEL) & (points[:, 2] < high + LEVEL))
         back = body.moved_back(wall, points[mine])
         found = distance_to_profile(back, body.loop_profile(wall.lower), trusted=declared)
         best[mine] = np.minimum(best[mine], found)
@@ -82,35 +79,40 @@ def _caps(model: Model, faces: Index, body: Body, declared: float, tolerance: fl
     """How many bounds the faces across the axis have, their deviation from the profiles there, and what is wrong."""
     expected: dict[tuple[float, bool], list[Profile]] = {}
     for cap in body.caps:
-        profiles = (body.loop_profile(i).placed(body.loops[i].placement) for i in (cap.outer, *cap.holes))
-        expected.setdefault((body.loops[cap.outer].z, cap.up), []).extend(profiles)
+        loops = (cap.outer, *cap.holes)
+        expected.setdefault((body.loops[cap.outer].z, cap.up), []).extend(
+            body.loop_profile(i).placed(body.loops[i].placement) for i in loops
+        )
     found: dict[tuple[float, bool], list[int]] = {}
     up = (model.frames.axes[:, 2, 2] > 0) == model.normal
     for face in faces.tolist():
         z = float(model.frames.origins[face, 2])
         level = min(expected, key=lambda known: abs(known[0] - z))[0]
-        found.setdefault((level if abs(level - z) <= _LEVEL else z, bool(up[face])), []).append(face)
+        found.setdefault((level if abs(level - z) <= LEVEL else z, bool(up[face])), []).append(face)
     if found.keys() != expected.keys():
         told = ", ".join(f"{z:.9g} mm {'up' if upwards else 'down'}" for z, upwards in sorted(found))
         return 0, 0.0, [f"plane faces at {told or 'no height'} instead of {len(expected)} others"]
     contours, worst, failures = 0, 0.0, list[str]()
     for key, profiles in expected.items():
-        verdict = verify_samples(_loops(model, np.array(found[key])), profiles, declared, tolerance)
+        bounds, areas = _loops(model, np.array(found[key]))
+        verdict = verify_samples(bounds, profiles, declared, tolerance, areas)
         worst = max(worst, verdict.measured.get("max_deviation", 0.0))
         contours += int(verdict.measured["contours"])
         failures += verdict.failures
     return contours, worst, failures
 
 
-def _loops(model: Model, faces: Index) -> list[Complex]:
-    """Points of the bounds of faces across the axis, one loop behind the other."""
+def _loops(model: Model, faces: Index) -> tuple[list[Complex], list[float]]:
+    """Points of the bounds of faces across the axis, one loop behind the other, and what each encloses, mm^2."""
     mine = np.flatnonzero(np.isin(model.uses.face, faces))
     along = model.uses.along[mine]
     span, row = spans_of(model.curves, model.uses.edge[mine], along)
-    places = model.points[span, :, 0] + 1j * model.points[span, :, 1]
-    places = np.where(along[row][:, None], places, places[:, ::-1])
-    loop = model.uses.loop[mine][row]
-    return [piece[:, :-1].ravel() for piece in np.split(places, np.flatnonzero(np.diff(loop)) + 1)]
+    points, slopes = (x[span, :, 0] + 1j * x[span, :, 1] for x in (model.points, model.slopes))
+    shares = np.where(along[row], 0.5, -0.5) * ((np.conj(points) * slopes).imag @ lobatto()[1])
+    points = np.where(along[row][:, None], points, points[:, ::-1])
+    begin = np.flatnonzero(np.diff(model.uses.loop[mine][row], prepend=-1))
+    pieces = np.split(points[:, :-1], begin[1:])
+    return [piece.ravel() for piece in pieces], np.add.reduceat(shares, begin).tolist()
 
 
 def _wall_deviation(model: Model, walls: Index, body: Body, declared: float) -> tuple[float, list[str]]:
@@ -143,7 +145,7 @@ def _between_helices(model: Model) -> Flags:
     span, use = model.spans
     reach = np.ptp(model.points[span], axis=1)
     found = np.zeros(len(model.faces), dtype=bool)
-    found[model.uses.face[use[(reach[:, 2] > _LEVEL) & (reach[:, :2].max(axis=1) > _LEVEL)]]] = True
+    found[model.uses.face[use[(reach[:, 2] > LEVEL) & (reach[:, :2].max(axis=1) > LEVEL)]]] = True
     return found
 
 

@@ -1,0 +1,226 @@
+"""Spoiled STEP files of three kinds of solids, at their start, middle and end, and files that are traps."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from exporters.formats.read_part21 import read_part21
+from exporters.formats.read_step import read_step
+from exporters.production.recheck import recheck
+from parts.base.readback import ReadError
+from tests.exporters.making import part_keys, run, write_scene
+from tests.exporters.outside import Gear
+
+TOLERANCE = 1e-6
+# a plate, screw surfaces, and chamfers with cones
+PARTS = {
+    "plate": part_keys(Gear(2, 16, bore=8, shift=0.4)) | {"colour": "#c08040"},
+    "screw": part_keys(Gear(2, 16, bore=8, shift=0.4)) | {"helix_angle_deg": 20.0},
+    "chamfered": part_keys(Gear(2, 16, bore=8, shift=0.4)) | {"face_chamfer": 0.4},
+}
+NUMBER = r"-?\d+\.\d*(?:E[-+]?\d+)?"
+Spoil = Callable[[str, float], str]
+
+
+@pytest.fixture(scope="module")
+def good(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A file of each part, and its report."""
+    folder = tmp_path_factory.mktemp("good")
+    scene = write_scene(folder / "s.toml", PARTS, [{"format": "step"}])
+    assert run("build", scene, "--out", folder) == 0
+    return folder / "s"
+
+
+def nth(pattern: str, change: Callable[[re.Match[str]], str]) -> Spoil:
+    """One of the places that look like this changed."""
+
+    def spoil(text: str, share: float) -> str:
+        found = list(re.finditer(pattern, text, re.DOTALL))
+        place = found[round(share * (len(found) - 1))]
+        return text[: place.start()] + change(place) + text[place.end() :]
+
+    return spoil
+
+
+def more(step: float) -> Callable[[re.Match[str]], str]:
+    """The second group, a number, greater by so much."""
+    return lambda m: f"{m[1]}{float(m[2]) + step:.12f}{m[3]}"
+
+
+def turned(m: re.Match[str]) -> str:
+    """A truth turned."""
+    return f"{m[1]}{'F' if m[2] == 'T' else 'T'}{m[3]}"
+
+
+def pole(text: str, share: float) -> str:
+    """A pole in the middle of an edge moved across it by twice the tolerance."""
+    points = {m[1]: m for m in re.finditer(rf"(#\d+)=CARTESIAN_POINT\('',\(({NUMBER}),({NUMBER}),({NUMBER})\)", text)}
+    splines = [found.split(",") for found in re.findall(r"=B_SPLINE_CURVE_WITH_KNOTS\('',\d,\((#[^)]*)\)", text)]
+    level = [names for names in splines if len({points[name][4] for name in names}) == 1]
+    names = level[round(share * (len(level) - 1))]
+    middle = [points[name] for name in names[len(names) // 2 - 1 : len(names) // 2 + 2]]
+    places = [(m, np.array([float(m[k]) for k in (2, 3, 4)])) for m in middle]
+    along = places[2][1] - places[0][1]
+    across = np.array([-along[1], along[0], 0.0]) / np.hypot(along[0], along[1])
+    m, at = places[1]
+    moved = ",".join(f"{x:.10f}" for x in at + 2 * TOLERANCE * across)
+    return f"{text[: m.start(2)]}{moved}{text[m.end(4) :]}"
+
+
+def knot(text: str, share: float) -> str:
+    """An inner knot moved."""
+    found = [m for m in re.finditer(rf"\(((?:{NUMBER},)+{NUMBER})\),\.UNSPECIFIED", text) if m[1].count(",") > 1]
+    m = found[round(share * (len(found) - 1))]
+    first, *inner, last = map(float, m[1].split(","))
+    inner[0] += 0.01 * (last - first) / len(inner)
+    return f"{text[: m.start(1)]}{','.join(f'{x:.12f}' for x in (first, *inner, last))}{text[m.end(1) :]}"
+
+
+def without_a_face(text: str, share: float) -> str:
+    """A face that the shell no longer has."""
+    shell = re.search(r"CLOSED_SHELL\('',\(([^)]*)\)", text, re.DOTALL)
+    assert shell is not None
+    faces = re.sub(r"\s", "", shell[1]).split(",")
+    del faces[round(share * (len(faces) - 1))]
+    return f"{text[: shell.start(1)]}{','.join(faces)}{text[shell.end(1) :]}"
+
+
+def flipped(text: str, share: float) -> str:
+    """A face and its bounds turned about: what it says is right in itself, but its neighbours do not say so."""
+    faces = list(re.finditer(r"=ADVANCED_FACE\('',\(([^)]*)\),#\d+,\.([TF])\.", text))
+    face = faces[round(share * (len(faces) - 1))]
+    text = f"{text[: face.start(2)]}{'F' if face[2] == 'T' else 'T'}{text[face.end(2) :]}"
+    for bound in face[1].split(","):
+        text = re.sub(rf"(\n{bound}=FACE_BOUND\('',#\d+,\.)([TF])(\.)", turned, text)
+    return text
+
+
+SPOILED: dict[str, Spoil] = {
+    "radius of a surface": nth(rf"(CYLINDRICAL_SURFACE\('',#\d+,)({NUMBER})(\))", more(1e-4)),
+    "radius of an edge": nth(rf"(=CIRCLE\('',#\d+,)({NUMBER})(\))", more(1e-4)),
+    "pole": pole,
+    "knot": knot,
+    "edge turned": nth(r"(=ORIENTED_EDGE\([^;]*,\.)([TF])(\.\))", turned),
+    "edge against its curve": nth(r"(=EDGE_CURVE\([^;]*,\.)([TF])(\.\))", turned),
+    "face turned": nth(r"(=ADVANCED_FACE\([^;]*,\.)([TF])(\.\))", turned),
+    "face flipped": flipped,
+    "face left out": without_a_face,
+    "vertex moved": nth(rf"(=CARTESIAN_POINT\('',\()({NUMBER})(,{NUMBER},{NUMBER}\))", more(2e-6)),
+    "plane moved": nth(r"(=PLANE\('',#)(\d+)()", lambda m: f"{m[1]}{int(m[2]) - 1}"),
+    "reference to nothing": nth(r"(\(|,)#\d+(,|\))", lambda m: f"{m[1]}#99999999{m[2]}"),
+    "not a number": nth(rf"(CARTESIAN_POINT\('',\(){NUMBER}", lambda m: f"{m[1]}NaN"),
+    "endless number": nth(rf"(CARTESIAN_POINT\('',\(){NUMBER}", lambda m: f"{m[1]}1.E999"),
+    "there twice": nth(r"\n#\d+=CARTESIAN_POINT[^;]*;", lambda m: 2 * m[0]),
+    "blank in a number": nth(r"(CARTESIAN_POINT\('',\(-?\d)(\d*\.)", lambda m: f"{m[1]} {m[2]}"),
+    "statement cut": nth(r"\n#\d+=[^;]*;", lambda m: m[0][: len(m[0]) // 2]),
+    "strange entity": nth(r";\n#", lambda m: ";\n#88888888=INVISIBILITY((#1));\n#"),
+    "other unit": nth(r"\.MILLI\.,", lambda m: "$,"),
+    "other name": nth(r"PRODUCT\('(\w+)','(\w+)'", lambda m: m[0].replace(m[1], m[1][:-1])),
+    "loop of references": nth(r"\n#(\d+)=AXIS2_PLACEMENT_3D\('',#\d+", lambda m: m[0].rsplit("#", 1)[0] + f"#{m[1]}"),
+}  # fmt: skip
+
+
+def verdict(file: Path) -> tuple[str, ...]:
+    """What is found wrong with a file."""
+    return recheck(file).verdict.failures
+
+
+# the chamfered gear has no spline with an inner knot
+CASES = [(part, spoil) for part in PARTS for spoil in SPOILED if (part, spoil) != ("chamfered", "knot")]
+
+
+@pytest.mark.sampled(16)
+@pytest.mark.parametrize(("part", "spoil"), CASES)
+def test_a_spoiled_step_is_caught(part: str, spoil: str, good: Path, tmp_path: Path) -> None:
+    text = (good / f"{part}.step").read_text(encoding="ascii")
+    (tmp_path / "report.json").write_bytes((good / "report.json").read_bytes())
+    file = tmp_path / f"{part}.step"
+    for share in (0.0, 0.5, 1.0):
+        changed = SPOILED[spoil](text, share)
+        assert changed != text
+        file.write_text(changed, encoding="ascii", newline="\n")
+        assert verdict(file), share
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_a_good_step_is_good_however_it_is_laid_out(part: str, good: Path, tmp_path: Path) -> None:
+    """Other line ends, blanks between words, other ids, statements in another order: the same solid to the digit."""
+    text = (good / f"{part}.step").read_text(encoding="ascii")
+    (tmp_path / "report.json").write_bytes((good / "report.json").read_bytes())
+    head, body = text.split("DATA;\n")
+    data, tail = body.split("ENDSEC;")
+    statements = re.split(r"(?<=;)\n", data)[:-1]
+    shuffled = np.random.default_rng(3).permutation(np.array(statements, dtype=object)).tolist()
+    wide = re.sub(r"#(\d+)", lambda m: f"#{7 * int(m[1]) + 10**9}", "\r\n".join(shuffled))
+    wide = re.sub(r"([=(,)])", r" \1\n ", wide) + "\r\n"
+    file = tmp_path / f"{part}.step"
+    file.write_text(f"{head}DATA;\n{wide}ENDSEC;{tail}", encoding="ascii", newline="")
+    assert verdict(file) == ()
+    one, other = (read_step(f).model for f in (good / f"{part}.step", file))
+    assert other.flux.sum() == pytest.approx(one.flux.sum(), rel=1e-12)
+
+
+def test_a_large_file_is_read_in_pieces(good: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = read_part21(good / "screw.step")
+    monkeypatch.setattr("exporters.formats.read_part21._PIECE", 5_000)
+    pieces = read_part21(good / "screw.step")
+    assert pieces.items == whole.items
+    for kind, table in whole.fixed.items():
+        assert np.array_equal(table.rows, pieces.fixed[kind].rows)
+    assert {k: t.rows for k, t in whole.listed.items()} == {k: t.rows for k, t in pieces.listed.items()}
+
+
+@pytest.mark.parametrize("inside", ["", "#5=PRODUCT", "#5=CARTESIAN_POINT('',", "#5=EDGE_LOOP('',"])
+def test_ten_million_brackets_are_refused_at_once(inside: str, tmp_path: Path) -> None:
+    """Within a second of work and 500 MB; also where they have an end within the file."""
+    head = "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('AUTOMOTIVE_DESIGN'));\nENDSEC;\nDATA;\n"
+    tail = ";\n#7=PLANE('',#8);\nENDSEC;\nEND-ISO-10303-21;\n" if inside else ""
+    file = tmp_path / "g.step"
+    file.write_text(head + inside + "(" * 10_000_000 + tail, encoding="ascii")
+    code = (
+        "import resource, sys, time\n"
+        "from pathlib import Path\n"
+        "from exporters.formats.read_step import read_step\n"
+        "from parts.base.readback import ReadError\n"
+        "start = time.process_time()\n"
+        "try:\n    read_step(Path(sys.argv[1]))\n"
+        "except ReadError as error:\n    assert len(str(error)) < 200, error\n"
+        "else:\n    sys.exit('read')\n"
+        "print(time.process_time() - start, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)\n"
+    )
+    run_ = subprocess.run(
+        [sys.executable, "-c", code, file], capture_output=True, text=True, check=False, env=dict(os.environ)
+    )
+    assert run_.returncode == 0, run_.stderr
+    seconds, kilobytes = map(float, run_.stdout.split())
+    assert seconds < 1
+    assert kilobytes < 500_000
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [("\\X2\\041A043E043B04350441043E\\X0\\", "Колесо"), ("it''s", "it's"), ("a;b /* #1=", "a;b /* #1="),
+     ("\\X4\\0001F600\\X0\\ \\X\\E9 \\\\ \\S\\i", "😀 é \\ é"), ("Колесо", "Колесо"), ("''", "'")],
+)  # fmt: skip
+def test_names_are_read_as_part_21_has_them(text: str, name: str, good: Path, tmp_path: Path) -> None:
+    whole = (good / "plate.step").read_text(encoding="ascii")
+    file = tmp_path / "plate.step"
+    file.write_text(whole.replace("PRODUCT('plate','plate'", f"PRODUCT('{text}','{text}'"), encoding="utf-8")
+    assert read_step(file).names() == (name,)
+
+
+@pytest.mark.parametrize("text", ["\\X2\\041\\X0\\", "\\X2\\D800\\X0\\", "\\Z", "\\", "a\nb"])
+def test_a_name_that_is_none_is_refused(text: str, good: Path, tmp_path: Path) -> None:
+    whole = (good / "plate.step").read_text(encoding="ascii")
+    file = tmp_path / "plate.step"
+    file.write_text(whole.replace("PRODUCT('plate','plate'", f"PRODUCT('{text}','{text}'"), encoding="utf-8")
+    with pytest.raises(ReadError):
+        read_step(file)
