@@ -33,7 +33,7 @@ _LIST = rb"\((%b(?:,%b)*)\)"
 _ATOMS = {
     "s": rb'(?:!\d+)?"', "S": rb'(?:(?:!\d+)?")+', "r": _REFERENCE, "f": rb"(%b)" % _FLOAT, "i": rb"(\d{1,4})",
     "b": rb"([01])", "*": rb"\*", "w": rb"(?:[01]|\.[A-Z_]+\.)", "R": _LIST % (rb"#\d{1,15}", rb"#\d{1,15}"),
-    "I": _LIST % (rb"\d{1,5}", rb"\d{1,5}"),
+    "m": rb"(?:POSITIVE_RATIO|VOLUME)_MEASURE\(%b\)" % _FLOAT, "I": _LIST % (rb"\d{1,5}", rb"\d{1,5}"),
     "F": _LIST % (_FLOAT, _FLOAT), "M": rb"\((\([#\d,]+\)(?:,\([#\d,]+\))*)\)",
 }  # fmt: skip
 # the geometry and topology of ISO 10303-42 that is read: those of fixed length, and those with lists
@@ -61,7 +61,9 @@ _ITEMS = {
     "PRESENTATION_STYLE_ASSIGNMENT": "R", "SURFACE_STYLE_USAGE": "w,r", "SURFACE_SIDE_STYLE": "S,R",
     "SURFACE_STYLE_FILL_AREA": "r", "FILL_AREA_STYLE": "S,R", "FILL_AREA_STYLE_COLOUR": "S,r", "COLOUR_RGB": "S,f,f,f",
     "DRAUGHTING_PRE_DEFINED_COLOUR": "S", "CURVE_STYLE": "S,r,POSITIVE_LENGTH_MEASURE(f),r",
-    "DRAUGHTING_PRE_DEFINED_CURVE_FONT": "S",
+    "DRAUGHTING_PRE_DEFINED_CURVE_FONT": "S", "PROPERTY_DEFINITION": "S,S,r", "REPRESENTATION": "S,R,r",
+    "PROPERTY_DEFINITION_REPRESENTATION": "r,r", "DESCRIPTIVE_REPRESENTATION_ITEM": "S,S",
+    "MEASURE_REPRESENTATION_ITEM": "S,m,r", "DERIVED_UNIT": "R", "DERIVED_UNIT_ELEMENT": "r,f",
 }  # fmt: skip
 # entities of several kinds at once, by the name they have here
 MILLIMETRE, RADIAN, CONTEXT, PLACED = "mm", "rad", "context", "placed"
@@ -69,6 +71,8 @@ _COMPLEX = {
     MILLIMETRE: "(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))",
     RADIAN: "(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))",
     "sr": "(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())",
+    "g": "(MASS_UNIT()NAMED_UNIT(*)SI_UNIT($,.GRAM.))",
+    "cm": "(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.CENTI.,.METRE.))",
     CONTEXT: "(GEOMETRIC_REPRESENTATION_CONTEXT(i)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT(R)GLOBAL_UNIT_ASSIGNED_CONTEXT(R)"
     "REPRESENTATION_CONTEXT(S,S))",
     PLACED: "(REPRESENTATION_RELATIONSHIP(S,S,r,r)REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(r)"

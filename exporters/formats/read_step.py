@@ -7,7 +7,7 @@ solid, or of an assembly, for each product, and a placed relation between two fo
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import ClassVar
 
@@ -20,7 +20,7 @@ from exporters.formats.read_brep import frames_of, read_model
 from exporters.formats.read_part21 import CONTEXT, MILLIMETRE, PLACED, RADIAN, Entities, Item, Real, read_part21
 from exporters.formats.read_solid import Model
 from exporters.formats.readback import SmoothLoop
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from parts.base.readback import ReadError
 
 _SHADES = {
@@ -33,11 +33,15 @@ Place = NDArray[np.float64]
 
 
 class ReadSolid(Record, eq=False):
-    """One solid, the names of the products in its file, and its colour, where it has one."""
+    """One solid, the names of the products in its file, its colour and what it says of itself, where it does.
+
+    ``said``: words or numbers under "material name", "density" (g/cm^3), "volume" (mm^3).
+    """
 
     model: Model
     products: tuple[str, ...]
     colour: str | None = None
+    said: Mapping[str, str | float] = {}
     has_arcs: ClassVar[bool] = False
     is_flat: ClassVar[bool] = False
 
@@ -63,8 +67,9 @@ def read_step(file: Path) -> ReadSolid:
     products = _Products(read_part21(file))
     if len(products.model.solids) != 1:
         raise ReadError(f"{len(products.model.solids)} solids instead of 1")
+    found = products.prototype(next(iter(products.shapes))).part if len(products.names) == 1 else None
     names = tuple(products.names.values())
-    return ReadSolid(products.model, names, products.colours.get(int(products.model.solids[0])))
+    return replace(found, products=names) if isinstance(found, ReadSolid) else ReadSolid(products.model, names)
 
 
 def read_step_assembly(file: Path) -> ReadAssembly:
@@ -108,6 +113,9 @@ class _Products:
             if solid not in self.model.solids or solid in self.colours:
                 raise ReadError(f"#{number} of the STEP file colours something else than a solid, or one twice")
             self.colours[solid] = self._shade(styles)
+        self.said: dict[int, dict[str, str | float]] = {}
+        for number, item in self._of("PROPERTY_DEFINITION_REPRESENTATION"):
+            self._say(number, *item.references)
         held = Counter(solid for shape in self.shapes.values() for solid in shape.references)
         if any(held[solid] != 1 for solid in self.model.solids.tolist()):
             raise ReadError("a solid of the STEP file is not that of one product")
@@ -131,7 +139,7 @@ class _Products:
             raise ReadError(f"{name} has {len(solids)} solids instead of 1")
         colour = self.colours.get(solids[0])
         model = self.model.only(self.model.solids.tolist().index(solids[0]))
-        return Prototype(name, ReadSolid(model, (name,), colour), colour)
+        return Prototype(name, ReadSolid(model, (name,), colour, self.said.get(definition, {})), colour)
 
     def _of(self, kind: str) -> list[tuple[int, Item]]:
         return [(number, item) for number, item in self.items.items() if item.kind == kind]
@@ -182,6 +190,18 @@ class _Products:
             self.inside.setdefault(outer, []).append((use.strings[1], inner, place))
         if uses:
             raise ReadError(f"#{min(uses)} of the STEP file is a component without a place")
+
+    def _say(self, number: int, definition: int, representation: int) -> None:
+        """A property of a product, or of its shape."""
+        what = self._at(number, definition, "PROPERTY_DEFINITION")
+        value = self._at(number, representation, "REPRESENTATION").references[0]
+        item = self._at(representation, value, "DESCRIPTIVE_REPRESENTATION_ITEM", "MEASURE_REPRESENTATION_ITEM")
+        of = self.items.get(what.references[0])
+        product = of.references[0] if of is not None and of.kind == "PRODUCT_DEFINITION_SHAPE" else what.references[0]
+        said = self.said.setdefault(product, {})
+        if what.strings[1] in said or product not in self.names:
+            raise ReadError(f"#{number} of the STEP file says something of no product, or twice")
+        said[what.strings[1]] = item.numbers[0] if item.numbers else item.strings[1]
 
     def _shade(self, styles: list[int]) -> str:
         """The one colour that styles lead to."""

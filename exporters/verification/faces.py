@@ -15,7 +15,7 @@ from exporters.formats.read_step import ReadSolid
 from exporters.formats.readback import ReadMesh
 from exporters.verification.samples import edge_points, inner_points
 from exporters.verification.topology import doubled_normals, topology_failures
-from exporters.verification.verdict import Verdict, deviation_failures
+from exporters.verification.verdict import Verdict, deviation_failures, volume_failures
 
 if TYPE_CHECKING:
     from geometry.cams.barrel.body import BarrelBody as FacedBody
@@ -90,8 +90,7 @@ def verify_faced_solid(found: ReadSolid, body: FacedBody, declared: float, toler
     failures = [f"a {surface.what} of the part is missing" for i, surface in enumerate(surfaces) if i not in used]
     failures += deviation_failures(worst, declared, tolerance, body.reach())
     volume, exact = float(model.flux.sum()), body.volume()
-    if not abs(volume / exact - 1) <= _VOLUME + 10 * declared / body.wall_width:
-        failures.append(f"volume {volume:.12g} mm^3 instead of {exact:.12g} mm^3")
+    failures += volume_failures(volume, exact, _VOLUME + 10 * declared / body.wall_width, found.said.get("volume"))
     measured = {
         "volume": volume,
         "volume_error": volume / exact - 1,

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias, cast
 
 from exporters.formats.reading import READERS
 from exporters.verification.verdict import Verdict
@@ -50,6 +50,7 @@ def verify_part(
         verdict = held(found, kind, exact, declared, tolerance, part.id)
         if found.names() is not None and not same_shade(found.colour, part.colour):
             raise ReadError(f"{part.id} is coloured {found.colour} instead of {part.colour}")
+        check_said(found, kind, part)
     except (ReadError, OSError) as error:
         return Verdict({}, (str(error),))
     if also is not None and not verdict.failures:
@@ -83,6 +84,22 @@ def held(
     if name is not None and (names := found.names()) is not None and names != (name,):
         raise ReadError(f"the file names its parts {', '.join(names) or 'nothing'} instead of {name}")
     return _HELD[kind.form](found, exact, declared, tolerance)
+
+
+def check_said(found: ReadBack, kind: FileKind, part: Part) -> None:
+    """What a STEP file says of the material of a part is what the part says.
+
+    Raises
+    ------
+    ReadError
+        It is not.
+    """
+    if kind.form is not Form.FACES:
+        return
+    said = cast("ReadSolid", found).said
+    for name, expected in (("material name", part.material), ("density", part.density)):
+        if name in said and said[name] != expected:
+            raise ReadError(f"{part.id} says of its {name}: {said[name]} instead of {expected}")
 
 
 def same_shade(found: str | None, expected: str | None) -> bool:

@@ -26,3 +26,13 @@ def deviation_failures(worst: float, declared: float, tolerance: float, reach: f
     elif not worst <= declared + allowed:
         failures.append(f"deviates by {worst:.6g} mm, more than the declared {declared:.6g} mm")
     return failures
+
+
+def volume_failures(volume: float, exact: float, share: float, said: str | float | None) -> list[str]:
+    """What is wrong with a volume, mm^3: measured off by more than a share of it, or told in the file as another."""
+    failures = []
+    if not abs(volume - exact) <= share * exact:
+        failures.append(f"volume {volume:.12g} mm^3 instead of {exact:.12g} mm^3")
+    if said is not None and not abs(float(said) - exact) <= share * exact:
+        failures.append(f"says that its volume is {said} mm^3 instead of {exact:.12g} mm^3")
+    return failures
