@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from parts.base.refusal import SceneError
@@ -33,7 +33,7 @@ def table_from(scene: SceneFile, source: str, table: dict[str, Any]) -> dict[str
     if not known.meshes:
         raise SceneError(source, "mates", None, "no_gear_pair")
     modules = {key: getattr(scene.parts[spec.part or key], "module", None) for key, spec in scene.instances.items()}
-    found = known.table(modules, [drive.instance for drive in scene.drives])
+    found = known.table(modules, {drive.instance: drive.turns for drive in scene.drives if drive.travel is None})
     teeth = table.pop("teeth", {})
     return found | table | {"teeth": {**found["teeth"], **teeth} if isinstance(teeth, dict) else teeth}
 
@@ -70,7 +70,7 @@ class _Scene:
             if body in (one, two):
                 yield (two if body == one else one), mesh.kind, mesh.teeth
 
-    def _numbered(self, drives: list[str]) -> dict[str, str]:
+    def _numbered(self, drives: Iterable[str]) -> dict[str, str]:
         """Wheels by number on the way from the driver; the second rim of a satellite has the first one's, primed."""
         ends = [key for mesh in self.meshes for key in (mesh.first, mesh.second)]
         free = [k for k in ends if self.body(k) not in self.carriers and k not in self.held]
@@ -104,7 +104,7 @@ class _Scene:
         if body in self.carriers:
             rims[body] = names[wheel]
 
-    def table(self, modules: dict[str, float | None], drives: list[str]) -> dict[str, Any]:
+    def table(self, modules: dict[str, float | None], drives: Mapping[str, float]) -> dict[str, Any]:
         """The keys of the topic; ``names``: which instance each name stands for."""
         names = self._numbered(drives)
         carriers = list(dict.fromkeys(c for b, c in self.carriers.items() if b in map(self.body, names)))
@@ -118,7 +118,7 @@ class _Scene:
             title: ", ".join(shafts[b][0] for b, c in self.carriers.items() if c == carrier and b in shafts)
             for carrier, title in titles.items()
         }
-        inputs = [shafts[self.body(key)][0] for key in drives if self.body(key) in shafts]
+        inputs = {shafts[self.body(key)][0]: turns for key, turns in drives.items() if self.body(key) in shafts}
         toothed = {key: z for mesh in self.meshes for key, z in zip((mesh.first, mesh.second), mesh.teeth, strict=True)}
         return {
             "teeth": {name: toothed[key] for key, name in names.items()},
@@ -126,7 +126,8 @@ class _Scene:
             "shafts": ", ".join("-".join(own) for own in shafts.values() if len(own) > 1),
             "carriers": satellites,
             "held": ", ".join(own[0] for body, own in shafts.items() if body in self.held),
-            "driver": inputs[0] if inputs else "",
+            # of several drives the speeds are as their turns
+            **({"speeds": inputs} if len(inputs) > 1 else {"driver": next(iter(inputs), "")}),
             "names": {name: key for key, name in names.items()} | {title: c for c, title in titles.items()},
         }
 

@@ -201,10 +201,7 @@ class _Page:
         self.inputs = list(self.speeds) or [driver or wheels[0]]
         if driver and self.speeds and driver not in self.speeds:
             raise ParameterError("driver", driver, "driver_without_speed", None, known=list(self.speeds))
-        start = bodies.get(self.inputs[0])
-        still = [b for b in bodies.values() if b == start or b in self.train.carried or self.train.still(b)]
-        moving = [name for name in bodies if bodies[name] not in still]
-        self.driven = self.driven or (moving or wheels)[-1]
+        self.driven = self.driven or self._last(bodies.get(self.inputs[0], ""))
         places = {"driver": [driver] if driver else [], "driven": [self.driven], "speeds": self.inputs}
         for key, names in {**places, "torques": list(self.keys.torques)}.items():
             for name in names:
@@ -215,6 +212,14 @@ class _Page:
                 raise ParameterError("speeds" if self.speeds else "driver", name, "driver_is_held")
         if len(self.inputs) == 1 and bodies[self.driven] == bodies[self.inputs[0]]:
             raise ParameterError("driven", self.driven, "driven_is_driver")
+
+    def _last(self, start: str) -> str:
+        """The last link on a fixed axis, neither held nor the driver, that leads to as few others as possible."""
+        train = self.train
+        ends = [train.bodies[w] for mesh in train.meshes for w in (mesh.first, mesh.second)]
+        leads = {body: ends.count(body) + (body in train.carried.values()) for body in train.bodies.values()}
+        moving = [n for n, b in train.bodies.items() if b != start and b not in train.carried and not train.still(b)]
+        return min(reversed(moving or list(self.teeth)), key=lambda name: leads[train.bodies[name]])
 
     def _scheme(self) -> None:
         page, train = self.sheet, self.train

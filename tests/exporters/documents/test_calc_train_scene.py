@@ -43,6 +43,8 @@ def test_james_with_four_satellites(tmp_path: Path) -> None:
 def test_a_free_ring_asks_for_a_second_drive(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match="left free"):
         calculated(tmp_path, FREE)
+    both = FREE + DRIVE.format("sun", "turns = 3") + DRIVE.format("ring", "turns = -1")
+    assert {s["symbol"]: s["value"] for s in calculated(tmp_path, both)["steps"]}["ω_H"] == 0.0
     data = calculated(tmp_path, FREE, "speeds.1=120", "speeds.3=10", "driven=H")
     assert data["exact_turns"]["H"] == {"1": "1/4", "3": "3/4"}
 
@@ -56,6 +58,16 @@ def test_both_rims_of_a_satellite_have_one_number(tmp_path: Path) -> None:
         "driver": "H",
         "driven": "1",
     }
+
+
+SCENES = [("james", "4", "H"), ("ferguson", "10000", "1"), ("practicum_example_1", "20", "6"),
+          ("practicum_example_2", "32", "H"), ("compound_two_stage", "108/5", "H2")]  # fmt: skip
+
+
+@pytest.mark.parametrize(("scene", "ratio", "driven"), SCENES)
+def test_scenes_of_the_sources(scene: str, ratio: str, driven: str) -> None:
+    data = json.loads(calculate("train", (scene,), "json", "en"))
+    assert (data["exact"]["ratio"], data["exact"]["driven"]) == (ratio, driven)
 
 
 def test_built_in_scenes() -> None:
