@@ -26,40 +26,36 @@ def told_out(raw: dict[str, Any], source: str) -> tuple[dict[str, Any], dict[str
     """
     tables: dict[str, Any] = {key: value for key, value in raw.items() if key != "assemblies"}
     origins: dict[str, str] = {}
-    parts: dict[str, Table] = {}
-    instances: dict[str, Table] = {}
-    lists: dict[str, list[Table]] = {"mates": [], "drives": []}
+    named: dict[str, dict[str, Table]] = {"parts": {}, "instances": {}}
+    listed: dict[str, list[Table]] = {"mates": [], "drives": []}
     for number, table in enumerate(raw["assemblies"], 1):
         place = f"assemblies[{number}]"
         prefix, made = _made(table, source, place)
-        for part, keys in made.parts.items():
-            if prefix + part in parts:
-                raise SceneError(
-                    source, f"{place}.name", table.get("name"), "assemblies_share", None, part=prefix + part
-                )
-            parts[prefix + part] = keys
-            origins[f"parts.{prefix}{part}"] = f"{place}: parts.{prefix}{part}"
-        for key, own in made.instances.items():
-            instances[prefix + key] = _named(own, prefix)
-            origins[f"instances.{prefix}{key}"] = f"{place}: instances.{prefix}{key}"
-        for told, origin in made.origins.items():
-            head, _, rest = told.partition(".")
-            origins[f"{head}.{prefix}{rest}"] = f"{place}.{origin}"
-        for name, ours in lists.items():
+        for name, found in named.items():
+            for key, own in getattr(made, name).items():
+                if prefix + key in found:
+                    told = {"part": prefix + key}
+                    raise SceneError(source, f"{place}.name", table.get("name"), "assemblies_share", None, "", **told)
+                found[prefix + key] = _named(own, prefix)
+                origins[f"{name}.{prefix}{key}"] = f"{place}: {name}.{prefix}{key}"
+        for name, rows in listed.items():
             for own in getattr(made, name):
-                ours.append(_named(own, prefix))
-                origins[f"{name}[{len(ours)}]"] = f"{place}: {name}[{len(ours)}]"
-    for name, ours in lists.items():
-        for number, _ in enumerate(tables.get(name, []), 1):
-            origins[f"{name}[{len(ours) + number}]"] = f"{name}[{number}]"
-        tables[name] = [*ours, *tables.get(name, [])]
-    for name, ours_by_id in (("parts", parts), ("instances", instances)):
-        own_tables = tables.get(name, {})
-        for key, own in own_tables.items():
-            for changed in own if isinstance(own, dict) else ():
-                origins[f"{name}.{key}.{changed}"] = f"{name}.{key}.{changed}"
-        both = {key: {**table, **own_tables.get(key, {})} for key, table in ours_by_id.items()}
-        tables[name] = both | {key: own for key, own in own_tables.items() if key not in both}
+                rows.append(_named(own, prefix))
+                origins[f"{name}[{len(rows)}]"] = f"{place}: {name}[{len(rows)}]"
+        for there, origin in made.origins.items():
+            head, _, rest = there.partition(".")
+            origins[f"{head}.{prefix}{rest}"] = f"{place}.{origin}"
+    for name, rows in listed.items():
+        own_rows = tables.get(name, [])
+        origins |= {f"{name}[{len(rows) + k}]": f"{name}[{k}]" for k, _ in enumerate(own_rows, 1)}
+        tables[name] = [*rows, *own_rows]
+    for name, found in named.items():
+        for key, own in tables.get(name, {}).items():
+            if key in found and isinstance(own, dict):
+                origins |= {f"{name}.{key}.{changed}": f"{name}.{key}.{changed}" for changed in own}
+                own = {**found[key], **own}
+            found[key] = own
+        tables[name] = found
     return tables, origins
 
 

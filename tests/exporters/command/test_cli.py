@@ -60,10 +60,12 @@ DAILY = {
     "linkage_cam": "svg", "oval_gears": "dxf", "practicum_flat_cam": "stl", "practicum_pair": "dxf",
     "practicum_roller_cam": "stl", "print_cam_set": "stl", "print_gear": "stl", "rack_and_pinion": "sheet",
     "thesis_internal_pair": "dxf", "tmm42": "svg", "wedge_cam": "stl", "yoke_cam": "svg",
-    "james": "dxf", "david": "dxf", "one_external_one_internal": "dxf", "two_internal": "dxf", "differential": "dxf",
-    "practicum_example_1": "dxf", "practicum_example_2": "dxf", "practicum_example_3": "dxf", "ferguson": "dxf",
-    "compound_two_stage": "3mf", "james_laser": "svg", "james_print": "stl", "practicum_example_3_laser": "svg",
-    "practicum_example_3_print": "stl",
+    "james": "dxf", "james_laser": "svg", "james_print": "stl", "compound_two_stage": "3mf",
+}  # fmt: skip
+# sets like those: built whole among the heavy ones, checked by sample with their recipe
+LIKE_JAMES = {
+    "david", "differential", "ferguson", "one_external_one_internal", "two_internal", "practicum_example_1",
+    "practicum_example_2", "practicum_example_3", "practicum_example_3_laser", "practicum_example_3_print",
 }  # fmt: skip
 
 
@@ -80,7 +82,7 @@ def formats_of_scenes() -> list[Any]:
 def test_every_built_in_scene_and_every_format_has_its_day() -> None:
     cases = [case.values for case in formats_of_scenes() if not case.marks]
     assert dict(cases) == DAILY
-    assert set(DAILY) == set(built_in_scenes())
+    assert set(DAILY) | LIKE_JAMES == set(built_in_scenes())
     assert set(DAILY.values()) == {case.values[1] for case in formats_of_scenes()}
 
 
