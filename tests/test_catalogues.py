@@ -83,6 +83,17 @@ def test_translations_hold_the_same_placeholders(file: Path) -> None:
 
 
 @FILES
+def test_numbers_of_texts_have_points_as_those_beside_them_do(file: Path) -> None:
+    """Pages and terminals print points; drawings turn all of theirs into commas."""
+    mixed = []
+    for one in texts_of(file):
+        ids, told = pieces(one)
+        points = {n.replace(".", ",") for text in ids for n in re.findall(r"\d+\.\d+", text)}
+        mixed += [text for text in told if points & set(re.findall(r"\d+,\d+", text))]
+    assert not mixed
+
+
+@FILES
 def test_plurals_have_all_forms(file: Path) -> None:
     catalogue = read(file)
     plurals = [m for m in catalogue if m.pluralizable]

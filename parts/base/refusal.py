@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection
 
 from geometry.base.errors import Cure, Nearest, ParameterError, format_value
 from parts.base.reasons import REMEDIES, reason
@@ -51,11 +51,25 @@ class SceneError(ValueError):
 REMOVED = Nearest(None)
 
 
-def meant(word: object, known: Iterable[str]) -> Nearest | None:
+# words of other books for our keys, to which no letter leads
+_SYNONYMS = {
+    "eccentricity": ("follower_offset",),
+    "table": ("motion_table", "poles"),
+    "teeth": ("number_of_teeth",),
+    "stroke": ("lift",),
+    "thickness": ("face_width",),
+    "width": ("face_width",),
+}
+
+
+def meant(word: object, known: Collection[str]) -> Nearest | None:
     """The known word that was probably meant, or nothing."""
     import difflib
 
-    match = [] if word is None else difflib.get_close_matches(str(word), list(known), 1, 0.5)
+    if str(word) in _SYNONYMS:
+        match = [name for name in _SYNONYMS[str(word)] if name in known]
+    else:
+        match = [] if word is None else difflib.get_close_matches(str(word), list(known), 1, 0.5)
     return Nearest(match[0], "meant") if match else None
 
 

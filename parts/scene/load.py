@@ -187,6 +187,8 @@ def load_scene(address: str) -> SceneFile:
     name = path.stem.encode("utf-8", "replace").decode()
     if not name.strip(". ") or not name.isprintable():
         raise SceneError(address, "", None, "nameless_file")
+    if name.partition(".")[0].lower() in DEVICE_NAMES:
+        raise SceneError(address, "", None, "device_name")
     return scene_from_toml(raw_bytes, str(path), name)
 
 
@@ -250,6 +252,8 @@ def _scene_of(raw: dict[str, Any], source: str, name: str, origins: dict[str, st
     for number, table in enumerate(raw.get("mates", []), 1):
         place = f"mates[{number}]"
         for mate in members(_mate_spec(table, instances, groups, source, place), groups, source, place):
+            if mate in mates:
+                raise SceneError(source, place, None, "listed_twice")
             mates.append(mate)
             if len(mates) != number:
                 places[f"mates[{len(mates)}]"] = origins.get(place, place)

@@ -97,6 +97,7 @@ FINDINGS: dict[str, Text] = {
         "the outlines are moved out by {value:.4g} mm: gears in mesh lose {limit:.4g} mm of backlash, unchecked"
     ),
     "flat_outline": N_("web, hub and face chamfers are not in a flat outline; STL, 3MF and STEP have them"),
+    "never_moves": N_("the follower never moves: all phases are dwells, the cam is a round disk"),
     "rigid_impact": N_("rigid impact: velocity jumps by {value:.4g} per rad at cam angle {limit:.4g} deg"),
     "soft_impact": N_("soft impact: acceleration jumps by {value:.4g} per rad^2 at cam angle {limit:.4g} deg"),
     "steep_pressure_angle": N_("pressure angle {value:.2f} deg on the rise, usual is at most {limit:.0f} deg"),

@@ -440,6 +440,8 @@ def cam_findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
     from geometry.cams.plane.synthesis import greatest_pressure_angle, least_convex_radius
 
     found = []
+    if all(piece.is_constant for piece in cam.motion.pieces):
+        found.append(Finding("never_moves", 0.0, spec.lift or spec.swing_deg))
     for impact, order in (("rigid", 1), ("soft", 2)):
         jumps = [(abs(j.jumps[order]), math.degrees(j.angle)) for j in cam.motion.impacts() if j.impact == impact]
         if jumps:

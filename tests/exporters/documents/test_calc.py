@@ -118,7 +118,7 @@ def test_only_the_printed_pair_is_flagged() -> None:
 
 
 def test_the_misprinted_inequality_and_left_side_are_named() -> None:
-    assert "x_min ≤ x ≤ x_0,3" in calculate("tmm42", ["module=10", "number_of_teeth=10"], "text", "uk")
+    assert "x_min ≤ x ≤ x_0.3" in calculate("tmm42", ["module=10", "number_of_teeth=10"], "text", "uk")
     assert "(3.4) prints alpha_w" in calculate("gear-pair", ["practicum_pair"], "text", None)
 
 

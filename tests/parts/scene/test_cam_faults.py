@@ -46,6 +46,20 @@ def test_all_dwell_has_a_sheet(tmp_path: Path, capsys: pytest.CaptureFixture[str
     assert code == 0, told
     # nothing accelerates: no jump of S'' is told
     assert "jumps" not in told
+    assert "the follower never moves" in told
+
+
+@pytest.mark.parametrize(
+    ("key", "meant"), [("eccentricity = 3.0", "follower_offset"), ("table = [[0, 0]]", "motion_table")]
+)
+def test_a_word_of_other_books_leads_to_ours(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], key: str, meant: str
+) -> None:
+    """No letters tell it; and no key is told for a word that is merely a little alike."""
+    code, told = _built(tmp_path, _CAM + key, capsys)
+    assert (code, told.count(f"did you mean {meant}?")) == (2, 1), told
+    code, told = _built(tmp_path, '[parts.g]\nkind = "spur_gear"\neccentricity = 1.0\n', capsys)
+    assert (code, told.count("did you mean")) == (2, 0), told
 
 
 def test_rounding_is_no_impact() -> None:

@@ -271,6 +271,7 @@ WRONG = [
     (AB + INB.format("") + MATE.format("a", "b"), "mates[1].second", "stands as x"),
     (AB + INB.format("") + MATE.format("y", "a"), "mates[1].first", "instances: a, x"),
     (AB + MATE.format("a", "a"), "mates[1].second", "no mate in itself"),
+    (AB + MATE.format("a", "b") + MATE.format("a", "b"), "mates[2]", "listed twice"),
     (AB + INB.format("rotation_deg = 3") + MATE.format("a", "x"), "instances.x.rotation_deg", "mates[1]"),
     (ABC + MATE.format("b", "c") + MATE.format("a", "b"), "mates[2].first", "direction_deg = 180"),
     (ABC + MATE.format("a", "b") + MATE.format("c", "b"), "mates[2].first", "swap"),

@@ -312,3 +312,11 @@ def test_the_nearest_kerf_is_near(tmp_path: Path) -> None:
     for key, value in (("kerf", 8.0), ("offset", 5.0), ("offset", -5.0)):
         offer = offered_by(refusal(with_values({}, {key: value})))
         assert "works" in str(refusal(with_values({}, {key: offer * 1.001})))
+
+
+@pytest.mark.parametrize("name", ["CON.toml", "nul.v2.toml"])
+def test_a_file_named_like_a_device_of_windows_is_no_scene(tmp_path: Path, name: str) -> None:
+    """Its results would lie in a folder of that name, which Windows cannot make."""
+    (tmp_path / name).write_text(scene_text({}, {}), "utf-8")
+    with pytest.raises(SceneError, match="is a name that Windows keeps for a device"):
+        load_scene(str(tmp_path / name))
