@@ -154,8 +154,8 @@ FINDINGS: dict[str, Text] = {
         by="value",
     ),
     "many_faces": N_(
-        "STEP with more than {value:.0f} faces: programs that read it through Open CASCADE, like FreeCAD, take some 10 s for "
-        "{limit:.0f} of them and four times as long for twice as many"
+        "STEP with more than {value:.0f} faces: programs that read it through Open CASCADE, like FreeCAD, take some "
+        "10 s for {limit:.0f} of them and four times as long for twice as many"
     ),
     "flat_pins": N_(
         "the pins of one piece are not in a flat outline, which has holes in their place; STL, 3MF and STEP have them"
