@@ -293,7 +293,7 @@ def _parser(told: Words) -> argparse.ArgumentParser:
         metavar=told.term("command line", "TOPIC"),
         help=told.text(
             "{topics} or {last}",
-            topics="spur, ring, rack, tmm42, gear-pair, shift-choice, train, planetary, cam, cycloidal, lantern",
+            topics="spur, ring, rack, tmm42, gear-pair, shift-choice, worm, train, planetary, cam, cycloidal, lantern",
             last="noncircular",
         ),
     )
