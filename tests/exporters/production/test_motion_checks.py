@@ -11,9 +11,14 @@ import pytest
 import shapely
 from shapely import affinity
 
+from exporters.production.check import scene_checks
 from geometry.approximation.chords import approximate_profile
-from parts.scene.load import make_parts, scene_from_dict
+from geometry.gears.mesh.search import PairContact
+from parts.mates.involute import GearMating
+from parts.scene.load import make_parts, scene_from_dict, scene_from_toml
+from parts.scene.placing import place
 from tests.exporters.making import run, table
+from tests.parts.scene.test_trains import DRIVE, JAMES
 
 DWELL = {"move": "dwell", "angle_deg": 60.0}
 CAM = {
@@ -22,7 +27,7 @@ CAM = {
                {"move": "return_", "angle_deg": 120.0, "law": "sine"}, DWELL],
 }  # fmt: skip
 POST = {"kind": "pin", "diameter": 6.0, "length": 3.0}
-DRIVE = [{"instance": "cam"}]
+CAM_DRIVE = [{"instance": "cam"}]
 
 
 def check(folder: Path, raw: dict[str, Any], capsys: pytest.CaptureFixture[str]) -> tuple[int, dict[str, Any]]:
@@ -63,7 +68,7 @@ def test_a_post_in_the_way_of_a_cam_is_found_though_the_first_pose_is_clear(
     placed = {"cam": {"at": [0, 0, 0]}, "post": {"at": [x, 0, 0]}}
     raw = {"parts": {"cam": CAM, "post": POST}, "instances": placed}
     assert check(tmp_path, raw, capsys) == (0, {"motion": {"one_pose": True}})
-    code, found = check(tmp_path, {**raw, "drives": DRIVE}, capsys)
+    code, found = check(tmp_path, {**raw, "drives": CAM_DRIVE}, capsys)
     assert code == int(strikes)
     assert len(found.get("solids", [])) == int(strikes)
     assert found["motion"]["poses"] <= 720 + 12
@@ -144,3 +149,51 @@ def test_what_repeats_is_tested_once(tmp_path: Path, capsys: pytest.CaptureFixtu
     alike, odd = found((24.0, 24.0, 24.0)), found((24.0, 25.0, 24.0))
     assert (alike["tested"], odd["tested"]) == (1, 2)
     assert alike["poses"] < odd["poses"] <= 2 * 733
+
+
+def test_equal_satellites_are_held_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Four satellites in their ring: one contact of each mesh is sought, and the one that places the ring."""
+    sought: list[tuple[str, str]] = []
+    real = GearMating.contact
+
+    def counted(self: GearMating, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
+        sought.append((type(self).__name__, self.kind))
+        return real(self, phase_off, distance_off, tolerance)
+
+    monkeypatch.setattr(GearMating, "contact", counted)
+    all_in_ring = JAMES.replace('first = "planet_1"\nsecond = "ring"', 'first = "planet"\nsecond = "ring"', 1)
+    scene = scene_from_toml((all_in_ring + DRIVE.format("sun", "turns = 4.0")).encode(), "s", "s")
+    parts, matings = make_parts(scene, "s")
+    placing = place(scene.instances, scene.drives, parts, matings, "s")
+    found = scene_checks(placing, parts, scene.drives, "en", contact=True)
+    gears = [mate for mate in found["mates"] if "contact_ratio" in mate]
+    assert len(gears) >= 8
+    assert {mate["verdict"] for mate in gears} == {"contact"}
+    assert len(sought) == 3
+    assert len(set(sought)) == 2
+
+
+@pytest.mark.parametrize(("off_deg", "strikes"), [(0.0, False), (2.25, True)])
+def test_a_satellite_turned_by_a_quarter_pitch_is_found(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], off_deg: float, strikes: bool
+) -> None:
+    """One that the sun drives and nothing joins to the ring, of 40 teeth: a quarter of a pitch is 2.25 degrees."""
+    scene = scene_from_toml((JAMES + DRIVE.format("sun", "turns = 4.0")).encode(), "s", "s")
+    parts, matings = make_parts(scene, "s")
+    third = next(i for i in place(scene.instances, scene.drives, parts, matings, "s").instances if i.id == "planet_3")
+    turned = float(np.degrees(third.rotation)) + off_deg
+    text = JAMES.replace("count = 4", "count = 2\nstep_deg = 90.0") + DRIVE.format("sun", "turns = 4.0")
+    odd = (
+        f'[instances.odd]\npart = "planet"\nat = [{third.at[0]!r}, {third.at[1]!r}, 0.0]\nrotation_deg = {turned!r}\n'
+        '[[mates]]\nkind = "external_gear_pair"\nfirst = "sun"\nsecond = "odd"\n'
+        '[[mates]]\nkind = "carried"\nfirst = "carrier"\nsecond = "odd"\n'
+    )
+    file = tmp_path / "scene.toml"
+    file.write_text(text + odd, encoding="utf-8")
+    code = run("check", str(file), "--json")
+    found = json.loads(capsys.readouterr().out)
+    assert code == int(strikes)
+    assert [{x["first"], x["second"]} for x in found.get("solids", [])] == [{"odd", "ring"}] * strikes
+    phases = [c["met"] for m in found["mates"] for c in m.get("conditions", []) if c["code"] == "phase"]
+    assert all(phases) is not strikes
+    assert found["motion"]["tested"] == int(not strikes)
