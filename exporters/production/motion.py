@@ -28,7 +28,7 @@ from parts.scene.relative_path import Course, common_period, course_of
 from parts.scene.shapes import Shape
 
 # seconds for a turn of the first drive, and for a loop at least and at most; turns of the fastest in a loop at most
-_SECONDS, _LEAST, _MOST, _MOST_TURNS = 4.0, 4.0, 60.0, 40
+_SECONDS, _LEAST, _MOST, _MOST_TURNS = 4.0, 4.0, 60.0, 20
 # values of a way at first, and at most; of the tolerance what outlines and ways may take
 _VALUES, _MOST_VALUES, _SHARE = 60, 16_000, 0.5
 # of numbers in the file, mm

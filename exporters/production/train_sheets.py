@@ -49,11 +49,11 @@ def _meshes(placing: Placing) -> list[Rolling]:
 def train_picture(
     train: Train, meshes: Sequence[Rolling], instances: Sequence[Instance]
 ) -> tuple[TrainPicture, list[str]]:
-    """A train as its sheet has it, numbered in the order of the meshes, and the part of each rim."""
+    """A train as its sheet has it, numbered from the driver on, and the part of each rim."""
     stands, stand = train.moving.stands, {i.id: i for i in instances}
-    meshes = _once(stands, meshes, stand)
-    rims = list(dict.fromkeys(key for mesh in meshes for key in (mesh.first, mesh.second)))
-    toothed, driver = list(dict.fromkeys(map(stands.body, rims))), stands.body(train.drives[0])
+    driver = stands.body(train.drives[0])
+    meshes, rims = _along(stands, _once(stands, meshes, stand), driver)
+    toothed = list(dict.fromkeys(map(stands.body, rims)))
     joints = {body: stands.supports.get(body) for body in toothed}
     carriers = {b: stands.body(j.on) for b, j in joints.items() if isinstance(j, Revolute) and j.on != FRAME}
     bare = [c for c in dict.fromkeys(carriers.values()) if c not in toothed]
@@ -102,6 +102,23 @@ def _once(stands: Tree, meshes: Sequence[Rolling], stand: Mapping[str, Instance]
     return [mesh for mesh in meshes if not doubled & {mesh.first, mesh.second}]
 
 
+def _along(stands: Tree, meshes: Sequence[Rolling], driver: str) -> tuple[list[Rolling], list[str]]:
+    """The meshes and their rims in the order in which the motion comes to them from the driver."""
+    left, found, rims, reached = list(meshes), list[Rolling](), list[str](), {driver}
+    while left:
+        ends = [[key for key in (m.first, m.second) if stands.body(key) in reached] for m in left]
+        index = next((k for k, keys in enumerate(ends) if keys), 0)
+        mesh = left.pop(index)
+        found.append(mesh)
+        rims += [*ends[index], mesh.first, mesh.second]
+        for body in (stands.body(mesh.first), stands.body(mesh.second)):
+            joint = stands.supports.get(body)
+            # what stands still hands nothing on
+            reached |= set() if stands.still(body) else {body}
+            reached |= {stands.body(joint.on)} if isinstance(joint, Revolute) and joint.on != FRAME else set()
+    return found, list(dict.fromkeys(rims))
+
+
 def _unfolded(stands: Tree, meshes: Sequence[Rolling], bodies: Sequence[str]) -> dict[str, float]:
     """Heights of the axes, mm: each as far above the one before as they are apart, a ring's below its pinion's."""
     found: dict[str, float] = {}
@@ -112,7 +129,7 @@ def _unfolded(stands: Tree, meshes: Sequence[Rolling], bodies: Sequence[str]) ->
             if other not in found and abs(_at(stands, other) - _at(stands, body)) <= PLACED_MM:
                 found[other] = height
 
-    put(stands.body(meshes[0].first), 0.0)
+    put(bodies[0], 0.0)
     for _ in bodies:
         for mesh in meshes:
             one, two = stands.body(mesh.first), stands.body(mesh.second)

@@ -86,7 +86,7 @@ def test_a_loop_that_would_take_too_long_is_cut_and_said() -> None:
         return found["closes"], pytest.approx(found["drive"])
 
     assert told("bore_diameter = 9.0\n") == (True, 1.0)
-    assert told(flat) == (False, 40.0)
+    assert told(flat) == (False, 20.0)
 
 
 @pytest.mark.parametrize(
