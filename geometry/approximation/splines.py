@@ -49,7 +49,7 @@ _MOST_TRIES = 24
 # poles are rounded to 1/1024 to 1/512 of the tolerance, end legs of so many steps and more too
 _GRID_BITS, _LEAST_ROUNDED = 10, 16
 # how often a correction is solved for, each time with what is left
-_SOLUTIONS = 3
+_SOLUTIONS = 2
 # least length of an end leg of the control polygon, in distances from the origin: its direction is then good to
 # some 6e-10 rad; a curve that starts in a cusp (an involute on its base circle) would have none
 _LEAST_END_LEG = 2.5e-7
