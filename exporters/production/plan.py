@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
@@ -15,7 +14,7 @@ from parts.base.part import Part
 from parts.base.reasons import reason
 from parts.base.refusal import SceneError, meant, placed
 from parts.base.texts import N_, Message, Text, filled, message
-from parts.scene.formats import FORMATS, Form, file_kind
+from parts.scene.formats import FORMATS
 from parts.scene.load import ExportSpec, SceneFile, default_export, in_keys_of_file, make_parts
 from parts.scene.placing import Placing, place
 
@@ -84,8 +83,6 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
     ]
     unasked = [p for p in parts if only_parts and p not in only_parts]
     left_out += [LeftOut(f"parts.{p}", N_("was not asked for"), as_asked=True) for p in unasked]
-    exports, unmakeable = _without_kernel(exports, source, only_formats)
-    left_out += unmakeable
     used = {p for _, e in exports for p in e.parts or parts}
     unused = [p for p in parts if p not in used]
     left_out += [LeftOut(f"parts.{p}", N_("no export asks for it"), as_asked=bool(only_formats)) for p in unused]
@@ -160,25 +157,6 @@ def _take(path: str, where: str, taken: dict[str, Text], source: str) -> None:
     if path.lower() in taken:
         raise SceneError(source, f"{where}.name", path, "same_file", None, other=taken[path.lower()])
     taken[path.lower()] = where
-
-
-def _without_kernel(
-    exports: list[tuple[str, ExportSpec]], source: str, only_formats: list[str]
-) -> tuple[list[tuple[str, ExportSpec]], list[LeftOut]]:
-    """The exports that can be made, and those left out because the CAD kernel is not installed.
-
-    Raises
-    ------
-    SceneError
-        STEP was asked for by name, or nothing else was.
-    """
-    places = [where for where, e in exports if file_kind(e.format, e.purpose).form is Form.FACES]
-    if not places or find_spec("OCP") is not None:
-        return exports, []
-    if "step" in only_formats or len(places) == len(exports):
-        raise SceneError(source, f"{places[0]}.format", "step", "needs_kernel")
-    why = message("STEP {why}", why=filled(reason("needs_kernel")))
-    return [(w, e) for w, e in exports if w not in places], [LeftOut(where, why) for where in places]
 
 
 def _check_body(job: Job, source: str) -> None:

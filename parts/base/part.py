@@ -123,7 +123,7 @@ class Part(Record, dict=True):
         try:
             import cadquery
         except ImportError as error:
-            text = 'to_cadquery needs cadquery: pip install "cadquery" in place of cadquery-ocp-novtk'
+            text = 'to_cadquery needs cadquery: pip install "higherpair[cad]"'
             raise ImportError(text) from error
         from parts.solids.faces import solid_curves, solid_faces
         from parts.solids.kernel import solids_of

@@ -8,11 +8,9 @@ from __future__ import annotations
 
 import argparse
 import csv
-import importlib.util
 import json
 import os
 import platform
-import re
 import shutil
 import statistics
 import subprocess
@@ -81,30 +79,6 @@ def openscad(folder: Path) -> list[str] | None:
     return None if done.returncode or "Can't open" in done.stderr else command
 
 
-def kernel_imports() -> str:
-    """The import of every module of the CAD kernel that a STEP file needs, as the two files that write it have it."""
-    root = Path(__file__).parents[2]
-    sources = "".join(
-        (root / name).read_text(encoding="utf-8") for name in ("parts/solids/brep.py", "exporters/formats/step.py")
-    )
-    return "import " + ", ".join(sorted(set(re.findall(r"from (OCP\.\w+) import", sources))))
-
-
-def against_kernel(folder: Path, runs: int) -> None:
-    """STEP of one gear, m 2, z 23, beside the import that no program can do without."""
-    step = write_scene(folder, "step", 1e-6)
-    floor = "import of the OCP modules"
-    commands = {
-        floor: [sys.executable, "-c", kernel_imports()],
-        "build STEP, unverified": build_command(step, "--no-verify"),
-        "build STEP": build_command(step),
-    }
-    found = medians(commands, folder, runs)
-    rows = [["command", "s", "/ import OCP"]]
-    rows += [[name, f"{s:.3f}", f"{s / found[floor]:.2f}"] for name, s in found.items()]
-    show(f"STEP, cold, medians of {runs}", rows)
-
-
 def show(title: str, rows: list[list[str]]) -> None:
     """A table of plain columns."""
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
@@ -116,7 +90,7 @@ def show(title: str, rows: list[list[str]]) -> None:
 def against_floors(folder: Path, runs: int) -> None:
     """One gear, m 2, z 23: each command beside what it cannot go below."""
     stl, dxf = write_scene(folder, "stl", 0.001), write_scene(folder, "dxf", 0.005)
-    svg = write_scene(folder, "svg", 0.005)
+    svg, step = write_scene(folder, "svg", 0.005), write_scene(folder, "step", 1e-6)
     commands = {
         "python -c pass": [sys.executable, "-c", "pass"],
         "import numpy": [sys.executable, "-c", "import numpy"],
@@ -126,6 +100,8 @@ def against_floors(folder: Path, runs: int) -> None:
         "build DXF at 0.005": build_command(dxf),
         "build DXF at 0.005, unverified": build_command(dxf, "--no-verify"),
         "build SVG at 0.005": build_command(svg),
+        "build STEP": build_command(step),
+        "build STEP, unverified": build_command(step, "--no-verify"),
     }
     rival = openscad(folder)
     if rival is not None:
@@ -135,13 +111,14 @@ def against_floors(folder: Path, runs: int) -> None:
     rows += [[name, f"{s:.3f}", f"{s / found['import numpy']:.2f}", f"{s / found['import ezdxf']:.2f}"]
              for name, s in found.items()]  # fmt: skip
     show(f"whole commands, cold, medians of {runs}", rows)
+    print(f"  STEP / laser DXF: {found['build STEP'] / found['build DXF at 0.005']:.2f}")
     print("  OpenSCAD + BOSL2: not found" if rival is None else
           f"  STL / OpenSCAD: {found['build STL at 0.001'] / found['OpenSCAD + BOSL2, STL']:.2f}")  # fmt: skip
 
 
 def scaling(folder: Path, teeth: Sequence[int]) -> None:
     """Seconds, stages, peak memory and bytes as the number of teeth grows; the figures of each build's own report."""
-    for kind, tolerance in (("dxf", 0.005), ("stl", 0.01)):
+    for kind, tolerance in (("dxf", 0.005), ("stl", 0.01), ("step", 1e-6)):
         rows = [["z", "s", "approximate", "write", "verify", "MB", "kB", "us a tooth"]]
         for z in teeth:
             scene = write_scene(folder, kind, tolerance, z, 1.0)
@@ -184,8 +161,6 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         against_floors(folder, 3 if options.quick else options.runs)
-        if importlib.util.find_spec("OCP"):
-            against_kernel(folder, 3 if options.quick else options.runs)
         many(folder, 20 if options.quick else 181)
         scaling(folder, (100, 300, 1000) if options.quick else (100, 300, 1000, 3000, 10_000))
 

@@ -8,14 +8,13 @@ import subprocess
 import sys
 import zipfile
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 
-from tests.exporters.making import read_report, run, table
-from tests.exporters.train import IDS, STEP, THREEMF, TRAIN, made
+from tests.exporters.making import read_report, run
+from tests.exporters.train import IDS, STEP, THREEMF, made
 
 CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
 
@@ -196,44 +195,3 @@ def test_an_offset_shrinks_the_parts_and_not_the_places(tmp_path: Path) -> None:
     assert entry["offset"] == -0.05
     assert entry["measured"]["max_displacement"] < 1e-9
     assert run("verify", folder / "train.3mf") == 0
-
-
-@pytest.fixture
-def kernel_absent(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("exporters.production.plan.find_spec", lambda name: None)
-
-
-@pytest.mark.usefixtures("kernel_absent")
-def test_without_the_kernel_the_other_files_are_made(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    folder = made(tmp_path, {"format": "svg"}, {"format": "step"}, THREEMF, STEP)
-    assert {p.name for p in folder.iterdir()} == {
-        "sun.svg", "planet.svg", "train.3mf", "sun.preview.svg", "planet.preview.svg", "train.preview.svg",
-        "report.json",
-    }  # fmt: skip
-    left_out = {e["what"]: e["why"] for e in read_report(folder)["left_out"]}
-    assert set(left_out) == {"exports[2]", "exports[4]"}
-    out = capsys.readouterr().out
-    for place, why in left_out.items():
-        assert 'pip install "cadquery-ocp-novtk<8"' in why
-        assert f"left out: {place}: {why}" in out
-
-
-@pytest.mark.usefixtures("kernel_absent")
-@pytest.mark.parametrize(
-    ("exports", "options"),
-    [
-        ((STEP,), ()),
-        (({"format": "svg"}, STEP), ("--format", "step")),
-        (({"format": "svg"},), ("--format", "svg", "--format", "step")),
-    ],
-)
-def test_a_step_that_was_asked_for_by_name_is_refused(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], exports: Any, options: tuple[str, ...]
-) -> None:
-    scene = tmp_path / "train.toml"
-    scene.write_text(TRAIN + "".join(table("[[exports]]", e) for e in exports), encoding="utf-8")
-    assert run("build", scene, "--out", tmp_path / "out", *options) == 2
-    complaint = capsys.readouterr().err
-    assert complaint.count("\n") == 1
-    assert 'pip install "cadquery-ocp-novtk<8"' in complaint
-    assert not (tmp_path / "out").exists()
