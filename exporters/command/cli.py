@@ -38,8 +38,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     # numpy is not loaded yet: its threads would take longer to start than all that we compute
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     options = _parsed(list(sys.argv[1:] if arguments is None else arguments))
-    # only a command of its own may split: whoever calls this function keeps the process
-    options.splits = arguments is None
     previous: dict[signal.Signals, Any] = {}
     try:
         for stop in _stops():
@@ -156,14 +154,6 @@ def _stops() -> list[signal.Signals]:
     names = ("SIGINT", "SIGTERM", "SIGHUP")
     found = [getattr(signal, name) for name in names if hasattr(signal, name)]
     return [s for s in found if s.name != "SIGHUP" or signal.getsignal(s) != signal.SIG_IGN]
-
-
-def _split(options: argparse.Namespace, folders: Sequence[Path]) -> None:
-    """Before the CAD kernel is used: go on in a process apart, so that a signal need not wait for the kernel."""
-    if options.splits:
-        from exporters.production.apart import work_apart
-
-        work_apart(_stops(), folders, FAILED)
 
 
 def _stop(number: int, frame: FrameType | None) -> None:
@@ -334,8 +324,6 @@ def _build(options: argparse.Namespace) -> int:
     if refused:
         return WRONG_INPUT
     _refuse_one_folder(plans)
-    if any(file.export.format == "step" for p in plans for file in p.files):
-        _split(options, [options.out / p.scene.name for p in plans])
     made = [_built(plan, options) for plan in plans]
     if options.json:
         from exporters.production.report import read_report
@@ -473,8 +461,6 @@ def _verify(options: argparse.Namespace) -> int:
 
     _check_language(options)
     language = options.language or report_language(options.files[0])
-    if any(file.suffix.lower() == ".step" for file in options.files):
-        _split(options, [])
     results, refused = [], False
     for file in options.files:
         try:
@@ -504,8 +490,6 @@ def _converge(options: argparse.Namespace) -> int:
     if not plan.jobs:
         raise SceneError(options.scene, "exports", None, "nothing_to_measure")
     folder = options.out / scene.name
-    if any(job.export.format == "step" for job in plan.jobs):
-        _split(options, [folder])
     with staging_folder(folder) as staging:
         rungs, found = ladder(plan, staging), orders(plan)
         write_csv(staging / "converge.csv", rungs, found)
