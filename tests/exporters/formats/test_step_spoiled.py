@@ -178,6 +178,7 @@ def test_a_large_file_is_read_in_pieces(good: Path, tmp_path: Path, monkeypatch:
     assert {k: t.rows for k, t in whole.listed.items()} == {k: t.rows for k, t in pieces.listed.items()}
 
 
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="limits of POSIX")
 @pytest.mark.parametrize("inside", ["", "#5=PRODUCT", "#5=CARTESIAN_POINT('',", "#5=EDGE_LOOP('',"])
 def test_ten_million_brackets_are_refused_at_once(inside: str, tmp_path: Path) -> None:
     """Within a second of work and 500 MB; also where they have an end within the file."""
@@ -186,7 +187,7 @@ def test_ten_million_brackets_are_refused_at_once(inside: str, tmp_path: Path) -
     file = tmp_path / "g.step"
     file.write_text(head + inside + "(" * 10_000_000 + tail, encoding="ascii")
     code = (
-        "import resource, sys, time\n"
+        "import sys, time\n"
         "from pathlib import Path\n"
         "from exporters.formats.read_step import read_step\n"
         "from parts.base.readback import ReadError\n"
@@ -194,7 +195,9 @@ def test_ten_million_brackets_are_refused_at_once(inside: str, tmp_path: Path) -
         "try:\n    read_step(Path(sys.argv[1]))\n"
         "except ReadError as error:\n    assert len(str(error)) < 200, error\n"
         "else:\n    sys.exit('read')\n"
-        "print(time.process_time() - start, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)\n"
+        # its own peak: ru_maxrss of Linux counts what the caller had when it was forked
+        "peak = [line.split()[1] for line in Path('/proc/self/status').read_text().splitlines() if 'VmHWM' in line]\n"
+        "print(time.process_time() - start, *peak)\n"
     )
     run_ = subprocess.run(
         [sys.executable, "-c", code, file], capture_output=True, text=True, check=False, env=dict(os.environ)

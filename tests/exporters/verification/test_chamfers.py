@@ -81,11 +81,11 @@ def test_the_declared_error_of_a_step_file_holds_on_chamfers(name: str, tmp_path
     from OCP.BRepAdaptor import BRepAdaptor_Curve, BRepAdaptor_Surface
     from OCP.GeomAbs import GeomAbs_SurfaceType
 
-    from parts.solids.kernel import edges_of, faces_of, kernel_solid
+    from parts.solids.kernel import edges_of, faces_of, solids_of
 
     work, file, declared = written("step", name, tmp_path)
     points = []
-    for face in faces_of(kernel_solid(file.read_text())):
+    for face in faces_of(solids_of(file.read_text())[0]):
         surface = BRepAdaptor_Surface(face)
         ends = []
         for edge in edges_of(face):

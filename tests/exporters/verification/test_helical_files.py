@@ -105,7 +105,7 @@ def test_step_points_lie_on_the_screw_surface(tmp_path: Path) -> None:
     from OCP.TopExp import TopExp_Explorer
     from OCP.TopoDS import TopoDS
 
-    from parts.solids.kernel import kernel_solid
+    from parts.solids.kernel import solids_of
 
     scene = write(tmp_path, {"right": GEAR}, 'format = "step"')
     files = []
@@ -114,7 +114,7 @@ def test_step_points_lie_on_the_screw_surface(tmp_path: Path) -> None:
         files.append(tmp_path / run / "s" / "right.step")
     assert files[0].read_bytes() == files[1].read_bytes()
     points, radii = [], []
-    explorer = TopExp_Explorer(kernel_solid(files[0].read_text()), TopAbs_ShapeEnum.TopAbs_FACE)
+    explorer = TopExp_Explorer(solids_of(files[0].read_text())[0], TopAbs_ShapeEnum.TopAbs_FACE)
     while explorer.More():
         surface = BRepAdaptor_Surface(TopoDS.Face_s(explorer.Current()))
         if surface.GetType() == GeomAbs_SurfaceType.GeomAbs_Cylinder:
