@@ -73,7 +73,7 @@ REASONS = {
         "a range is FIRST:LAST or FIRST:LAST:STEP, FIRST to LAST by a STEP above 0, of at most {most} values"
     ),
     "no_variation": N_("write PART.KEY=1,2,5 or PART.KEY=8:200 or PART.KEY=0.5:2:0.25"),
-    "too_many_variants": N_("makes {count} variants; at most {most}"),
+    "too_many_variants": N_("makes {count} variants, more than {most}"),
     "worker_lost": N_(
         "a worker was ended from outside, mostly for want of memory; what is finished is kept: start again"
     ),
