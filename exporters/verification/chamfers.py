@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from exporters.formats.readback import ReadMesh
 from exporters.verification.topology import Triangles
-from geometry.plane.measure import distance_to_profile
+from geometry.plane.measure import distance_to_nearest
 from geometry.solids.body import Body
 
 Points = NDArray[np.float64]
@@ -40,13 +40,7 @@ def chamfer_deviation(points: Points, body: Body, declared: float) -> float:
                 sections.append(body.section(wall, float(np.clip(z, low, high))))
         if not sections:
             return math.inf
-        near = np.zeros(len(mine), dtype=np.int64)
-        if len(sections) > 1:
-            near = np.argmin([distance_to_profile(places[mine], s, trusted=math.inf) for s in sections], axis=0)
-        for index, section in enumerate(sections):
-            own = mine[near == index]
-            if own.size:
-                best[own] = distance_to_profile(places[own], section, trusted=declared)
+        best[mine] = distance_to_nearest(places[mine], sections, declared)
     return float(best.max())
 
 

@@ -85,6 +85,19 @@ def distance_to_profile(points: Complex, profile: Profile, *, trusted: float = 0
     return _distance(_folded(points, profile), [s.curve for s in profile.period], near, trusted)
 
 
+def distance_to_nearest(points: Complex, profiles: Sequence[Profile], trusted: float) -> Real:
+    """Distance of each point (n,) from the profile that is nearest to it by the quick pass, mm."""
+    found = np.empty(points.shape)
+    near = np.zeros(points.shape, dtype=np.int64)
+    if len(profiles) > 1:
+        near = np.argmin([distance_to_profile(points, p, trusted=math.inf) for p in profiles], axis=0)
+    for index, profile in enumerate(profiles):
+        own = np.flatnonzero(near == index)
+        if own.size:
+            found[own] = distance_to_profile(points[own], profile, trusted=trusted)
+    return found
+
+
 def distance_to_chain(points: Complex, curves: Sequence[Curve], *, trusted: float = 0.0) -> Real:
     """The same of curves one behind the other, mm: a part of a profile whose other parts are farther away."""
     return _distance(points, curves, np.ones(1, dtype=complex), trusted)
