@@ -242,6 +242,12 @@ def _parser(told: Words) -> argparse.ArgumentParser:
         "--format", action="append", default=[], metavar="F", help=told.text("only this format (may be repeated)")
     )
     build.add_argument("--no-verify", action="store_true", help=told.text("do not read the files back"))
+    build.add_argument(
+        "--verify",
+        choices=["reader", "kernel"],
+        default="reader",
+        help=told.text("who reads STEP files back: our reader, or the CAD kernel too"),
+    )
     build.set_defaults(run=_build)
     catalogue = command("catalogue", told.text("build a scene for every choice of keys' values"), quiet)
     catalogue.add_argument("scene", metavar=told.term("command line", "SCENE"), help=scene)
@@ -315,11 +321,17 @@ def _parser(told: Words) -> argparse.ArgumentParser:
 
 
 def _build(options: argparse.Namespace) -> int:
+    from importlib.util import find_spec
+
     from exporters.production.plan import plan_build
 
     def planned(address: str) -> Plan:
         return plan_build(_scene(address, options), address, options.part, options.format)
 
+    if options.verify == "kernel" and find_spec("OCP") is None:
+        from parts.base.refusal import SceneError
+
+        raise SceneError(options.scenes[0], "--verify", "kernel", "needs_kernel")
     plans, refused = _each(options, planned)
     if refused:
         return WRONG_INPUT
@@ -340,7 +352,7 @@ def _built(plan: Plan, options: argparse.Namespace) -> bool:
     folder = options.out / plan.scene.name
     partial, verify = bool(options.part or options.format), not options.no_verify
     with _progress(options, plan.scene.name, len(plan.files)) as advance:
-        built = build(plan, folder, verify=verify, partial=partial, progress=advance)
+        built = build(plan, folder, verify=verify, kernel=options.verify == "kernel", partial=partial, progress=advance)
     if not options.json and not (options.quiet and built.well):
         build_table(plan, folder, built)
     return built.well

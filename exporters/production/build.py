@@ -11,11 +11,12 @@ import msgspec
 
 from exporters.formats.registry import Chords, Shape, number_rounding, shape_of
 from exporters.production.check_lines import has_bad_verdict
-from exporters.production.jobs import FileJob, Job, Made, ShapeKey, Written
+from exporters.production.jobs import AssemblyJob, FileJob, Job, Made, ShapeKey, Written
 from exporters.production.moving import alone_in, move_into, staging_folder
 from exporters.production.plan import Plan
 from exporters.production.preview import outlines_of, part_preview, scene_preview
 from exporters.production.report import NAME, read_report, write_report
+from exporters.verification.verdict import Verdict
 from geometry.base.errors import ConvergenceError, Nearest, ParameterError, ThinWallError, rounded
 from geometry.base.record import Record, replace
 from geometry.plane.contour import Approximation
@@ -47,13 +48,14 @@ def build(
     folder: Path,
     *,
     verify: bool = True,
+    kernel: bool = False,
     partial: bool = False,
     progress: Callable[[str], None] = lambda path: None,
 ) -> Built:
     """Write every job, a preview of every part and the report into ``folder``; what fails its read-back stays out.
 
     ``partial``: keep what the report in ``folder`` says of other files of the same scene. Nothing half-written is left
-    behind: see ``moving.py``.
+    behind: see ``moving.py``. ``kernel``: STEP files are held against the CAD kernel too.
     """
     start = time.perf_counter()
     checks = _checks(plan)
@@ -69,6 +71,8 @@ def build(
         for file_job in plan.files:
             progress(file_job.path)
             written.append(_write(file_job, made, staging / file_job.path, plan.source, verify=verify))
+            if kernel and verify:
+                written[-1] = _by_kernel_too(written[-1])
             if file_job.path in spent:
                 written[-1].seconds["approximate"] = spent[file_job.path]
         wanted = dict.fromkeys(j.part.id for j in (*plan.jobs, *(m for a in plan.assemblies for m in a.members)))
@@ -130,6 +134,19 @@ def _write(job: FileJob, made: Made, file: Path, source: str, *, verify: bool) -
         raise _crossing(crossed, source)
     findings = (*findings, *verdict.findings)
     return Written(job, file, max_error, bound, entities, verdict.measured, findings, verdict.failures, seconds)
+
+
+def _by_kernel_too(item: Written) -> Written:
+    """A good STEP file, held against the CAD kernel as well."""
+    bodies = {m.part.id: m.body for m in item.job.members if m.kind.form is Form.FACES}
+    if item.failures or not bodies:
+        return item
+    from exporters.verification.kernel import judged_by_kernel
+
+    stood = item.job.instances if isinstance(item.job, AssemblyJob) else ()
+    solids = [bodies[i.part] for i in stood] or list(bodies.values())
+    verdict = judged_by_kernel(item.file, solids, item.max_error, Verdict(item.measured, ()))
+    return replace(item, measured=verdict.measured, failures=verdict.failures)
 
 
 def _is_thin(job: Job, made: Chords) -> bool:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Sequence
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +14,12 @@ from exporters.production.kept import failure_of
 from exporters.production.moving import is_half_moved
 from exporters.production.report import NAME, read_report
 from exporters.verification.judge import verify_part
-from exporters.verification.verdict import Verdict
+from exporters.verification.verdict import Verdict, judges
 from geometry.base.errors import GeometryError
 from geometry.base.record import Record
+from parts.base.part import Part
 from parts.base.refusal import SceneError
-from parts.scene.formats import Form, file_kind
+from parts.scene.formats import FileKind, Form, file_kind
 from parts.scene.load import SceneFile, make_parts, scene_from_resolved
 from parts.scene.placing import place
 
@@ -38,6 +41,7 @@ class Recheck(Record):
             "ok": not self.verdict.failures,
             "failures": list(self.verdict.failures),
             "measured": self.verdict.measured,
+            "judges": judges(self.verdict.measured),
             "declared": self.declared,
             "tolerance": self.tolerance,
             "same_bytes": self.same_bytes,
@@ -98,8 +102,21 @@ def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, A
     declared, tolerance = float(entry["max_error"]), float(entry["tolerance"])
     kind = file_kind(entry["format"], entry["purpose"])
     also = audited if kind.form is Form.ARCS and kind.format == "dxf" else None
-    verdict = verify_part(file, kind, part, float(entry["offset"]), declared, tolerance, also)
+    offset = float(entry["offset"])
+    verdict = verify_part(file, kind, part, offset, declared, tolerance, also)
+    verdict = _by_kernel_too(file, kind, [part], offset, declared, verdict)
     return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
+
+
+def _by_kernel_too(
+    file: Path, kind: FileKind, parts: Sequence[Part], offset: float, declared: float, verdict: Verdict
+) -> Verdict:
+    """A good STEP file is held against the CAD kernel as well, where that is installed."""
+    if kind.form is not Form.FACES or verdict.failures or find_spec("OCP") is None:
+        return verdict
+    from exporters.verification.kernel import judged_by_kernel
+
+    return judged_by_kernel(file, [part.body(offset) for part in parts], declared, verdict)
 
 
 def audited(file: Path) -> None:
@@ -133,4 +150,6 @@ def _against_assembly(file: Path, source: str, scene: SceneFile, entry: dict[str
     used = {i.part: made[i.part] for i in instances}
     expected = expected_of(assembly_name(scene.name), used, float(entry["offset"]), instances)
     verdict = verify_assembly(file, kind, expected, declared, tolerance)
+    stood = [made[i.part] for i in instances]
+    verdict = _by_kernel_too(file, kind, stood, expected.offset, declared, verdict)
     return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])

@@ -14,6 +14,7 @@ import numpy as np
 from exporters import __version__
 from exporters.production.jobs import Written
 from exporters.production.plan import Plan
+from exporters.verification.verdict import judges
 from geometry.base.findings import Finding
 from parts.base.content import content
 from parts.base.part import Part
@@ -146,6 +147,7 @@ def _entry(item: Written, language: str) -> dict[str, Any]:
         "bound": item.bound,
         "verified": bool(item.measured),
         "measured": item.measured,
+        "judges": judges(item.measured),
         "entities": item.entities,
         "bytes": item.file.stat().st_size,
         "sha256": _sha256(item.file),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from geometry.base.findings import Finding
 from geometry.base.record import Record
 
@@ -15,6 +17,11 @@ class Verdict(Record):
     measured: dict[str, float]
     failures: tuple[str, ...]
     findings: tuple[Finding, ...] = ()
+
+
+def judges(measured: Mapping[str, float]) -> list[str]:
+    """Who has judged a file, by what was measured on it: our own reader, and the CAD kernel."""
+    return [*(["reader"] if measured else []), *(["kernel"] if "kernel_volume_error" in measured else [])]
 
 
 def deviation_failures(worst: float, declared: float, tolerance: float, reach: float) -> list[str]:

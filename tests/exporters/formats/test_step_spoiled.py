@@ -16,7 +16,7 @@ from exporters.formats.read_part21 import read_part21
 from exporters.formats.read_step import read_step
 from exporters.production.recheck import recheck
 from parts.base.readback import ReadError
-from tests.exporters.making import part_keys, run, write_scene
+from tests.exporters.making import part_keys, read_report, run, write_scene
 from tests.exporters.outside import Gear
 
 TOLERANCE = 1e-6
@@ -166,6 +166,26 @@ def test_a_good_step_is_good_however_it_is_laid_out(part: str, good: Path, tmp_p
     assert verdict(file) == ()
     one, other = (read_step(f).model for f in (good / f"{part}.step", file))
     assert other.flux.sum() == pytest.approx(one.flux.sum(), rel=1e-12)
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_verify_holds_a_step_against_the_kernel_too(part: str, good: Path) -> None:
+    pytest.importorskip("OCP", reason="the CAD kernel is an extra")
+    found = recheck(good / f"{part}.step")
+    assert found.told["judges"] == ["reader", "kernel"]
+    assert found.told["ok"]
+    measured = found.verdict.measured
+    # two measurements of one volume that share no code
+    assert measured["kernel_volume_error"] == pytest.approx(measured["volume_error"], abs=2e-9)
+    assert measured["kernel_tolerance"] <= 1e-6
+
+
+def test_a_build_says_who_has_judged(tmp_path: Path) -> None:
+    pytest.importorskip("OCP", reason="the CAD kernel is an extra")
+    scene = write_scene(tmp_path / "s.toml", {"plate": PARTS["plate"]}, [{"format": "step", "assembly": True}])
+    for choice, judges in ([], ["reader"]), (["--verify", "kernel"], ["reader", "kernel"]), (["--no-verify"], []):
+        assert run("build", scene, "--out", tmp_path, *choice) == 0
+        assert read_report(tmp_path / "s")["files"][0]["judges"] == judges
 
 
 def test_a_large_file_is_read_in_pieces(good: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,0 +1,47 @@
+"""STEP files held against the CAD kernel too, where it is installed: it shares no code with our writer and reader."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from exporters.verification.verdict import Verdict
+from geometry.base.record import replace
+from geometry.solids.mass import body_moments
+from parts.solids.kernel import solids_of
+
+if TYPE_CHECKING:
+    from geometry.cams.barrel.body import BarrelBody
+    from geometry.solids.body import Body
+
+# by which the kernel may call two points one, mm; what its volumes are good to, part of them
+_TOLERANCE, _VOLUME = 1e-6, 1e-7
+# to which it integrates, part of the volume
+_QUADRATURE = 1e-9
+
+
+def judged_by_kernel(file: Path, bodies: Sequence[Body | BarrelBody], declared: float, verdict: Verdict) -> Verdict:
+    """A verdict on a good file with what the kernel says: of a solid for each body closed, valid, and its volume."""
+    from OCP.BRepCheck import BRepCheck_Analyzer
+    from OCP.BRepGProp import BRepGProp
+    from OCP.GProp import GProp_GProps
+    from OCP.ShapeAnalysis import ShapeAnalysis_ShapeTolerance
+
+    solids = solids_of(file.read_text(encoding="ascii"))
+    failures = [] if len(solids) == len(bodies) else [f"the kernel finds {len(solids)} solids instead of {len(bodies)}"]
+    if not all(BRepCheck_Analyzer(solid).IsValid() for solid in solids):
+        failures.append("the kernel calls a solid invalid")
+    loose = max((ShapeAnalysis_ShapeTolerance().Tolerance(solid, 1) for solid in solids), default=0.0)
+    if not loose <= _TOLERANCE:
+        failures.append(f"the kernel joins what stands {loose:.3g} mm apart")
+    found, exact = 0.0, sum(b.volume() if b.is_faced else body_moments(b).volume for b in bodies)
+    for solid in solids:
+        properties = GProp_GProps()
+        BRepGProp.VolumePropertiesGK_s(solid, properties, _QUADRATURE)
+        found += float(properties.Mass())
+    share = _VOLUME + 10 * declared / min(profile.reach() for b in bodies for profile in b.profiles)
+    if not abs(found / exact - 1) <= share:
+        failures.append(f"the kernel finds {found:.12g} mm^3 instead of {exact:.12g} mm^3")
+    measured = verdict.measured | {"kernel_volume_error": found / exact - 1, "kernel_tolerance": loose}
+    return replace(verdict, measured=measured, failures=(*verdict.failures, *failures))
