@@ -27,6 +27,7 @@ REASONS = {
     ),
     "mate_of_no_gears": N_("is a {kind} mate; name a pair of gears"),
     "more_phases_than_paper": N_("has more phases than the tables of one paper hold; leave it out of parts"),
+    "needs_kernel": N_("needs the CAD kernel: pip install 'higherpair[cad]'"),
     "no_exports": N_(
         'the scene asks for no file; add [[exports]] with format = "dxf" (or svg, stl, 3mf, step), or use --format'
     ),
