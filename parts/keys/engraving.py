@@ -30,7 +30,7 @@ class ToothMarkTable(Struct, forbid_unknown_fields=True):
 
     depth: Depth = 0.4
     height: (
-        Annotated[float, mm("height of the digits; default: as the room allows", above=0, most=1000, example=5.0)]
+        Annotated[float, mm("height of the digits; default: as the room allows", above=0, most=1000, example=2.0)]
         | None
     ) = None
 

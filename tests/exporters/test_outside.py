@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -9,7 +10,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from geometry.base.record import replace
 from tests.exporters.making import build_gear, check_deviation
 from tests.exporters.outside import Gear, distances, half_tooth, points_at
 from tests.oracles.rack_sweep import RackTool, outline_error

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 
-from geometry.base.record import replace
 from tests.oracles import exact_gear as exact
 from tests.oracles.exact_gear import MP, GearParameters, Segment
 from tests.oracles.rack_sweep import RackTool, clearance_error, outline_error, penetration

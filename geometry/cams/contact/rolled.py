@@ -28,8 +28,8 @@ _STEPS = 40
 _FLAT_BULGE = 1e-9
 # errors of an outline within which a guide's reach ends soon
 _NEAR_END = 10
-# angles this near to an edge's end, in steps of the grid, are its own
-_END = 1e-9
+# angles this near to an edge's end, in steps of the grid, are its own: ends of edges differ by the digits of a file
+_END = 1e-6
 
 
 class Rounds(Record):

@@ -60,7 +60,7 @@ DAILY = {
     "linkage_cam": "svg", "oval_gears": "dxf", "practicum_flat_cam": "stl", "practicum_pair": "dxf",
     "practicum_roller_cam": "stl", "print_cam_set": "stl", "print_gear": "stl", "rack_and_pinion": "sheet",
     "thesis_internal_pair": "dxf", "tmm42": "svg", "wedge_cam": "stl", "yoke_cam": "svg",
-    "james": "dxf", "james_laser": "svg", "james_print": "stl", "compound_two_stage": "3mf",
+    "james": "motion", "james_laser": "svg", "james_print": "stl", "compound_two_stage": "3mf",
 }  # fmt: skip
 # sets like those: built whole among the heavy ones, checked by sample with their recipe
 LIKE_JAMES = {

@@ -42,7 +42,8 @@ def test_every_tooth_is_merged_alike(tmp_path: Path) -> None:
     assert np.abs(np.roll(merged, -1) - merged).min() >= 0.02
     tips = merged[merged.imag > merged.imag.max() - 0.1]
     pitches = np.sort(tips.real).reshape(7, -1)
-    assert np.abs(np.diff(pitches, axis=0) - np.pi).max() < 1e-12
+    # alike but for the digits that are written
+    assert np.abs(np.diff(pitches, axis=0) - np.pi).max() < 4e-7
     # a rounded corner of radius r leaves less than r of a sharp one
     far = [np.abs(sharp - corner).min() for corner in merged]
     assert max(far) <= error + 0.004
