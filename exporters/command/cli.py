@@ -548,7 +548,8 @@ def _new(options: argparse.Namespace) -> int:
     from parts.base.registry import KINDS
     from parts.mates.registry import MATES
     from parts.recipes.registry import RECIPES
-    from parts.scene.files import built_in_scenes
+    from parts.scene.files import built_in_scenes, text_of
+    from parts.scene.load import load_scene
 
     _check_language(options)
     built_in = built_in_scenes()
@@ -558,10 +559,13 @@ def _new(options: argparse.Namespace) -> int:
     # a scene that has the name of a kind is asked for with its ending
     text = next((make(options.kind, _language(options)) for kinds, make in makers if options.kind in kinds), None)
     if text is None:
-        if options.kind not in scenes:
+        if options.kind not in scenes and not (options.expand and os.path.isfile(options.kind)):
             known = list(dict.fromkeys([*(kind for kinds, _ in makers for kind in kinds), *built_in]))
             raise SceneError("new", "KIND", options.kind, "unknown_kind", meant(options.kind, known), known=known)
-        text = scenes[options.kind].read_text(encoding="utf-8")
+        if options.kind not in scenes:
+            # whatever is wrong with it is told first
+            load_scene(options.kind)
+        text = text_of(Path(scenes.get(options.kind, options.kind)).read_bytes())
     _page(plain_scene(text, options.kind) if options.expand else text, options)
     return DONE
 

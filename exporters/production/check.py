@@ -114,11 +114,12 @@ def _contact(mating: Mating, phase: float, shift: float, tolerance: float | None
         return mating.contact(phase, shift, tolerance)
     alike = replace(mating, first="", second="", direction_deg=0.0)
     # what rounding leaves is no difference
-    return _gear_contact(alike, round(phase, 13), round(shift, 10), tolerance)
+    return gear_contact(alike, round(phase, 13), round(shift, 10), tolerance)
 
 
 @lru_cache(maxsize=16)
-def _gear_contact(mating: Mating, phase: float, shift: float, tolerance: float | None) -> PairContact | None:
+def gear_contact(mating: Mating, phase: float, shift: float, tolerance: float | None) -> PairContact | None:
+    """The contact of a pair, which equal ones share."""
     return mating.contact(phase, shift, tolerance)
 
 

@@ -86,6 +86,7 @@ REASONS = {
     "turns_fillets_back": N_("turns the elliptic fillets back"),
     "above_most_teeth": N_("is above most_teeth"),
     "driver_is_held": N_("is held: what is held drives nothing"),
+    "frame_holds_the_ring": N_("a frame stands still with the ring, which is not held here"),
     "frame_needs_ring_and_sun": N_("a frame holds the ring of a set with a ring and a sun"),
     "no_planetary_set": N_("no set within these limits has that ratio"),
     "no_shifts_fit": N_(

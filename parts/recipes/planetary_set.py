@@ -242,8 +242,9 @@ def _wheel_part(made: _Set, wheel: _Wheel) -> Table:
         "face_width": keys.face_width,
     }
     if wheel.is_ring and keys.frame:
-        table |= {"outer_diameter": 2 * _rim(wheel)[1], "holes": {"count": 4, "diameter": _SCREW, "start_deg": 45.0,
-                  "pitch_circle_diameter": 2 * _rim(wheel)[0]}}  # fmt: skip
+        screws, outside = _rim(made, wheel)
+        holes = {"count": 4, "diameter": _SCREW, "start_deg": 45.0, "pitch_circle_diameter": 2 * screws}
+        table |= {"outer_diameter": 2 * outside, "holes": holes}
     elif not wheel.is_ring:
         turns = wheel in made.wheels[1:3]
         table["bore_diameter"] = keys.pin_diameter + keys.clearance if turns else keys.shaft_diameter
@@ -257,10 +258,15 @@ def _looks(made: _Set, part: str) -> Table:
     return colour if made.keys.material is None else {"material": made.keys.material, **colour}
 
 
-def _rim(ring: _Wheel) -> tuple[float, float]:
-    """Radii of the circle of screws in a ring's rim and of its outside, mm, half millimetres."""
+def _rim(made: _Set, ring: _Wheel) -> tuple[float, float]:
+    """Radii of the circle of screws in a ring's rim and of its outside, mm, half millimetres.
+
+    Feet stand there, out of the way of a satellite's larger rim below the ring.
+    """
     root = math.ceil(2 * ring.module * (ring.teeth / 2 + 1.25 + ring.shift)) / 2
-    return root + _RIM / 2 + 1, root + _RIM + 1
+    passed = made.distance + max(w.module * (w.teeth / 2 + 1 + w.shift) for w in made.wheels[1:3])
+    screws = max(root + _RIM / 2 + 1, math.ceil(2 * (passed + 1.25 * _SCREW + 1)) / 2)
+    return screws, screws + _RIM / 2
 
 
 def _stand(made: _Set, found: Expansion, group: str, part: str) -> None:
@@ -387,8 +393,10 @@ def _add_frame(made: _Set, found: Expansion) -> None:
     ring, *_, sun = made.chain
     if not ring.is_ring or sun.is_ring:
         raise ParameterError("frame", keys.frame, "frame_needs_ring_and_sun", Nearest(False))
+    if keys.held != ("first" if ring is made.wheels[0] else "second"):
+        raise ParameterError("frame", keys.frame, "frame_holds_the_ring", Nearest(False))
     thick, gap = keys.plate_thickness, keys.axial_gap
-    screws, outside = _rim(ring)
+    screws, outside = _rim(made, ring)
     floor, top = made.low - 2 * gap - thick, made.high + 2 * gap + thick
     half, arm = outside + _MARGIN, round(max(0.8 * made.distance, 3 * keys.shaft_diameter), 1)
     feet = [cmath.rect(screws, math.radians(45 + 90 * k)) for k in range(4)]

@@ -21,7 +21,7 @@ from parts.base.part import Part
 from parts.scene.interference import INSET, SLIVER, common_volume
 from parts.scene.placing import UPWARDS, Instance, Placing
 from parts.scene.relative_path import Course, Path, path_of
-from parts.scene.shapes import Shape
+from parts.scene.shapes import Shape, free_between
 
 # poses of one pair at most; of one whose teeth the plane contact has decided; more in the search about the worst
 MOST_POSES, _MATED_POSES, _SEARCH = 720, 48, 12
@@ -108,7 +108,7 @@ def _hold(
     if shapes[0].high <= shapes[1].low + lift or shapes[1].high + lift <= shapes[0].low:
         return
     path = path_of(pair, shapes, course)
-    if path is None or (free := _free(path, shapes)).min() > 0:
+    if path is None or (free := free_between(path.distances, shapes)).min() > 0:
         return
     held = clear.setdefault((one.part, two.part, round(lift, _DIGITS)), [])
     alike = next((item for item in held if path.is_like(item[0])), None)
@@ -127,16 +127,6 @@ def _hold(
     # of a mate the plane contact covers what lies between poses
     if uncovered is not None and not is_mated:
         found.uncovered.append(replace(uncovered, first=one.id, second=two.id))
-
-
-def _free(path: Path, shapes: tuple[Shape, Shape]) -> Real:
-    """What circles about both axes leave between the solids, mm, at the times of a path; bores are asked for last."""
-    one, two = shapes
-    outside: Real = path.distances - one.reach - two.reach
-    wider = (one, two) if one.reach > two.reach else (two, one)
-    if outside.min() > 0 or path.distances.min() + wider[1].reach > wider[0].reach:
-        return outside
-    return np.maximum(outside, wider[0].bore - wider[1].reach - path.distances)
 
 
 class _Search:

@@ -11,7 +11,7 @@ import numpy as np
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from parts.scene.placing import Instance
-from parts.scene.shapes import Shape
+from parts.scene.shapes import Shape, free_between
 from parts.scene.train import Train
 
 # samples of a path for each cycle of its fastest rate; cycles at most, of which the rest is told
@@ -101,7 +101,14 @@ def path_of(pair: tuple[Instance, Instance], shapes: tuple[Shape, Shape], course
     period = Fraction(1) if once else _period(places, probe, (one, two), counts, rates)
     cycles = max(float(period) * fastest, 1e-9)
     share = min(1.0, _MOST_CYCLES / cycles)
-    times = np.linspace(0.0, float(period) * share, int(_PER_CYCLE * max(1.0, cycles * share)) + 1)
+    start = 0.0
+    if share < 1:
+        # the axes may go round far slower than both turn: the looked at part lies about their worst place
+        slow, free = _axes_free(course, pair, shapes, (one, two))
+        if free.min() > 0:
+            return None
+        start = float(slow[free.argmin()]) - float(period) * share / 2
+    times = start + np.linspace(0.0, float(period) * share, int(_PER_CYCLE * max(1.0, cycles * share)) + 1)
     places, turns = _seen(course, pair, times)
     turned = np.unwrap(turns)
     # seen from the second it is the same motion: the smaller bound counts
@@ -114,6 +121,21 @@ def path_of(pair: tuple[Instance, Instance], shapes: tuple[Shape, Shape], course
     length = np.concatenate([[0.0], np.cumsum(steps)]) * (1 + 2.0 / _PER_CYCLE)
     stands = _stands(places, turned, counts)
     return Path(lambda t: _seen(course, pair, t), counts, period, share, times, length, np.abs(places), stands)
+
+
+def _axes_free(
+    course: Course,
+    pair: tuple[Instance, Instance],
+    shapes: tuple[Shape, Shape],
+    chains: tuple[tuple[Fraction, ...], tuple[Fraction, ...]],
+) -> tuple[Real, Real]:
+    """What circles leave, mm, at times over the period of the distance of the axes, which only carriers change."""
+    carriers = {*chains[0][1:], *chains[1][1:]}
+    rates = {x - y for x in carriers for y in carriers} - {Fraction(0)}
+    cycles = min(float(common_period(rates) * max(rates, default=Fraction(1))), float(_MOST_CYCLES))
+    whole = cycles / float(max(rates, default=Fraction(1)))
+    times = np.linspace(0.0, whole, int(_PER_CYCLE * max(1.0, cycles)) + 1)
+    return times, free_between(np.abs(_seen(course, pair, times)[0]), shapes)
 
 
 def _chains(course: Course, pair: tuple[Instance, Instance]) -> tuple[tuple[Fraction, ...], tuple[Fraction, ...]]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geometry.base.record import Record
-from geometry.curves.curve import Complex
+from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc
 from geometry.plane.profile import Profile
 from geometry.solids.body import Body
@@ -119,3 +119,13 @@ def _form(profile: Profile, points: Complex) -> tuple[complex, object, tuple[flo
     turned = points * (abs(middle) / middle if middle else 1.0)
     ends = round(float(radii.min()), _DIGITS), round(float(radii.max()), _DIGITS)
     return middle, tuple(np.round(turned, _DIGITS - 1).tolist()), ends
+
+
+def free_between(distances: Real, shapes: tuple[Shape, Shape]) -> Real:
+    """What circles about both axes leave between two solids at distances of the axes, mm; bores are asked for last."""
+    one, two = shapes
+    outside: Real = distances - one.reach - two.reach
+    wider = (one, two) if one.reach > two.reach else (two, one)
+    if outside.min() > 0 or distances.min() + wider[1].reach > wider[0].reach:
+        return outside
+    return np.maximum(outside, wider[0].bore - wider[1].reach - distances)

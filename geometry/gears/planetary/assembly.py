@@ -69,14 +69,14 @@ class Satellites(Record):
             any_number = free or self.spacing == "unequal"
             fitting = (k for k in range(one.most_satellites(self.gap), 0, -1) if any_number or one.places % k == 0)
             raise ParameterError("satellites", n, "satellites_collide", Nearest(next(fitting), "at_most"))
-        if self.spacing == "equal" and not free and alike != equal:
-            degrees = "-" if alike is None else ", ".join(f"{360 * float(p):.6g}" for p in alike)
+        if alike is None and (self.spacing == "unequal" or not free):
+            raise ParameterError("satellites", n, "too_few_places", Nearest(one.places, "at_most"), places=one.places)
+        if alike is not None and self.spacing == "equal" and not free and alike != equal:
+            degrees = ", ".join(f"{360 * float(p):.6g}" for p in alike)
             raise ParameterError(
                 "satellites", n, "satellites_not_assembled", lambda: self._other_number(one),
                 places=one.places, teeth=self._other_teeth(one), spacing=degrees,
             )  # fmt: skip
-        if self.spacing == "unequal" and alike is None:
-            raise ParameterError("satellites", n, "too_few_places", Nearest(one.places, "at_most"), places=one.places)
         return places
 
     def _other_number(self, one: PlanetarySet) -> Nearest:

@@ -13,7 +13,7 @@ import pytest
 import shapely
 from shapely import affinity
 
-from exporters.production.check import scene_checks
+from exporters.production.check import gear_contact, scene_checks
 from geometry.approximation.chords import approximate_profile
 from geometry.curves.curve import Complex, Real
 from geometry.gears.mesh.search import PairContact
@@ -83,6 +83,26 @@ def test_a_post_in_the_way_of_a_cam_is_found_though_the_first_pose_is_clear(
         # what lies inside both for certain
         assert found["solids"][0]["volume"] == pytest.approx(3 * area, rel=0.1, abs=0.1)
         assert 0 < found["solids"][0]["drive_turn_deg"] < 360
+
+
+@pytest.mark.parametrize("slow", [0.01, 0.0001])
+def test_a_carrier_far_slower_than_its_satellites_brings_them_to_a_post(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], slow: float
+) -> None:
+    # 400 turns of a satellite move the carrier by a fraction of a turn: the post was never reached, and all was clear
+    file = tmp_path / "s.toml"
+    text = table("[[assemblies]]", {"kind": "planetary_set", "teeth": [24, 24, 72], "held": "none"})
+    text += table("[[drives]]", {"instance": "carrier", "turns": slow})
+    text += table("[parts.post]", {"kind": "pin", "diameter": 2.0, "length": 5.0})
+    text += table("[parts.base]", {"kind": "plate", "width": 10.0, "height": 10.0, "face_width": 3.0})
+    text += table("[instances.base]", {"part": "base", "held": True})
+    text += table("[[mates]]", {"kind": "coaxial", "first": "ring", "second": "base", "height": -60.0})
+    text += table("[[mates]]", {"kind": "fixed", "first": "base", "second": "post", "offset": [30.0, 51.96, 62.0]})
+    file.write_text(text, encoding="utf-8")
+    assert run("check", str(file), "--json") == 1
+    struck = json.loads(capsys.readouterr().out)["solids"]
+    assert {one["first"] for one in struck} == {"satellite_1", "satellite_2", "satellite_3"}
+    assert all(one["volume"] == pytest.approx(5 * np.pi, rel=0.01) for one in struck)
 
 
 def geared_cams(a: float) -> dict[str, Any]:
@@ -161,6 +181,7 @@ def test_equal_satellites_are_held_once(monkeypatch: pytest.MonkeyPatch) -> None
     """Four satellites in their ring: one contact of each mesh is sought, and the one that places the ring."""
     sought: list[tuple[str, str]] = []
     real = GearMating.contact
+    gear_contact.cache_clear()
 
     def counted(self: GearMating, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         sought.append((type(self).__name__, self.kind))

@@ -53,6 +53,21 @@ def refusal(**keys: Any) -> SceneError:
     return told({"assemblies": [{"kind": "planetary_set", **keys}]})
 
 
+def test_a_frame_stands_with_its_ring_and_out_of_the_way_of_larger_rims() -> None:
+    # strangers: feet stood within the path of the rim of 27 teeth; a frame turned with a ring that drives
+    assert refusal(teeth=[24, 30, 84], frame=True, held="first").code == "frame_holds_the_ring"
+    assert refusal(teeth=[24, 24, 72], frame=True, held="none").code == "frame_holds_the_ring"
+    made = resolved(scene(scheme="one_external_one_internal", teeth=[12, 27, 13, 52], module=1.0, frame=True))
+    foot = next(m for m in made["mates"] if m["second"] == "foot_1")["offset"]
+    tip = 1.0 * (12 + 27) / 2 + 1.0 * (27 / 2 + 1)
+    assert math.hypot(*foot[:2]) - made["parts"]["foot"]["diameter"] / 2 > tip
+
+
+def test_more_satellites_than_there_are_places_are_told_so() -> None:
+    found = refusal(scheme="david", teeth=[100, 99, 100, 101], satellites=2)
+    assert (found.code, found.numbers["places"]) == ("too_few_places", 1)
+
+
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", SETS)
 def test_every_set_is_in_contact_in_phase_and_runs_into_nothing(name: str, capsys: Any) -> None:
