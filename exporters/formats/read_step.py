@@ -151,9 +151,15 @@ class _Products:
         return item
 
     def _product(self, definition: Item) -> str:
-        (formation,) = self._at_all(definition, "PRODUCT_DEFINITION_FORMATION")
-        (product,) = self._at_all(formation, "PRODUCT")
-        return product.strings[1]
+        formation = self._only(definition, "PRODUCT_DEFINITION_FORMATION")
+        return self._only(formation, "PRODUCT").strings[1]
+
+    def _only(self, item: Item, kind: str) -> Item:
+        """The one thing of a kind that an item refers to."""
+        found = self._at_all(item, kind)
+        if len(found) != 1:
+            raise ReadError(f"a {item.kind} of the STEP file refers to no {kind}, or to several")
+        return found[0]
 
     def _at_all(self, item: Item, kind: str) -> list[Item]:
         """What an item refers to of a kind."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from exporters.verification.verdict import Verdict
 from geometry.base.record import replace
-from geometry.solids.mass import body_moments
+from geometry.solids.mass import body_moments, wall_area
 from parts.solids.kernel import solids_of
 
 if TYPE_CHECKING:
@@ -40,7 +40,8 @@ def judged_by_kernel(file: Path, bodies: Sequence[Body | BarrelBody], declared: 
         properties = GProp_GProps()
         BRepGProp.VolumePropertiesGK_s(solid, properties, _QUADRATURE)
         found += float(properties.Mass())
-    share = _VOLUME + 10 * declared / min(profile.reach() for b in bodies for profile in b.profiles)
+    areas = (10 * b.volume() / b.wall_width if b.is_faced else 2 * wall_area(b) for b in bodies)
+    share = _VOLUME + declared * sum(areas) / exact
     if not abs(found / exact - 1) <= share:
         failures.append(f"the kernel finds {found:.12g} mm^3 instead of {exact:.12g} mm^3")
     measured = verdict.measured | {"kernel_volume_error": found / exact - 1, "kernel_tolerance": loose}

@@ -17,7 +17,7 @@ from geometry.curves.line_arc import Arc
 from geometry.plane.measure import distance_to_nearest, distance_to_profile
 from geometry.plane.profile import Profile
 from geometry.solids.body import Body, Wall
-from geometry.solids.mass import body_moments
+from geometry.solids.mass import body_moments, wall_area
 
 _VOLUME = 1e-7
 # heights of walls are told apart by so many digits
@@ -31,7 +31,9 @@ def verify_solid(found: ReadSolid, body: Body, declared: float, tolerance: float
     reach = max(p.reach() for p in body.profiles)
     cylinders = int(np.count_nonzero((model.kind == ROUND) & (model.sizes[:, 1] == 0)))
     failures = _cylinder_failures(cylinders, body)
-    failures += volume_failures(volume, exact, _VOLUME + 2 * declared / reach, found.said.get("volume"))
+    failures += volume_failures(
+        volume, exact, _VOLUME + 2 * declared * wall_area(body) / exact, found.said.get("volume")
+    )
     flat = (model.kind == PLANE) & (np.abs(model.frames.axes[:, 2, 2]) > 1 - SQUARE)
     sheared = body.has_screws() and not body.twisted_profiles()
     upright = model.is_upright & ~flat & (not sheared)

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
-from geometry.plane.measure import gauss_rule, panel_edges
+from geometry.plane.measure import gauss_rule, panel_edges, profile_length
 from geometry.plane.profile import Profile
 from geometry.solids.body import Body, Wall
 
@@ -112,3 +112,16 @@ def _nodes(profile: Profile) -> tuple[Complex, Complex, Real]:
         slopes.append(segment.curve.derivative(t) * (high - low))
         weights.append((half * w).ravel())
     return np.concatenate(points), np.concatenate(slopes), np.concatenate(weights)
+
+
+def wall_area(body: Body) -> float:
+    """What a change of all walls by one mm changes of the volume at most, mm^2: their area, twice that of screws."""
+    lengths: dict[int, float] = {}
+    area = 0.0
+    for wall in body.walls:
+        profile = body.loops[wall.lower].profile
+        if profile not in lengths:
+            lengths[profile] = profile_length(body.profiles[profile])
+        low, high = body.height(wall)
+        area += lengths[profile] * (high - low) * (1 if body.is_upright(wall) else 2)
+    return area

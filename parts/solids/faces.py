@@ -15,13 +15,16 @@ if TYPE_CHECKING:
 # of each profile, or of a cylindrical cam its walls
 Curves: TypeAlias = "tuple[Outline, ...] | tuple[BarrelSplines]"
 
+_BARREL = 1e-6
+
 
 def solid_curves(body: Body | BarrelBody, tolerance: float) -> Curves:
     """The curves of a body within ``tolerance`` mm."""
     if body.is_faced:
         from geometry.cams.barrel.splines import barrel_splines
 
-        return (barrel_splines(body.cam, tolerance, body.bore),)
+        # with fewer poles the edges leave the walls by more than solids allow
+        return (barrel_splines(body.cam, min(tolerance, _BARREL), body.bore),)
     from geometry.solids.body_faces import body_outlines
 
     return body_outlines(body, tolerance)

@@ -247,3 +247,32 @@ def test_a_name_that_is_none_is_refused(text: str, good: Path, tmp_path: Path) -
     file.write_text(whole.replace("PRODUCT('plate','plate'", f"PRODUCT('{text}','{text}'"), encoding="utf-8")
     with pytest.raises(ReadError):
         read_step(file)
+
+
+def test_a_product_definition_of_another_thing_is_told(good: Path, tmp_path: Path) -> None:
+    # the report was blamed, in Python's words
+    text = (good / "plate.step").read_text(encoding="ascii")
+    (tmp_path / "report.json").write_bytes((good / "report.json").read_bytes())
+    found = re.search(r"=PRODUCT_DEFINITION_FORMATION\('','',#(\d+)\)", text)
+    assert found is not None
+    file = tmp_path / "plate.step"
+    file.write_text(text.replace(found[0], found[0].replace(f"#{found[1]}", "#1")), encoding="ascii")
+    assert any("refers to no PRODUCT" in failure for failure in verdict(file))
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        'kind = "ring_gear"\nnumber_of_teeth = 72\nmodule = 1.0\n',
+        'kind = "barrel_cam"\nform = "groove"\nlift = 20.0\nouter_diameter = 60.0\nroller_diameter = 10.0\n'
+        'groove_depth = 8.0\nbore = { shape = "keyway", diameter = 20.0 }\n'
+        'phases = [{ move = "rise", angle_deg = 180.0, law = "sine" }, '
+        '{ move = "return_", angle_deg = 180.0, law = "sine" }]\n',
+    ],
+    ids=["ring", "barrel"],
+)
+def test_a_good_step_is_good_at_a_loose_tolerance(keys: str, tmp_path: Path) -> None:
+    # strangers: a ring's volume was held to its reach, a barrel's edges left its walls by 3e-5 mm
+    file = tmp_path / "s.toml"
+    file.write_text(f'[parts.g]\n{keys}[[exports]]\nformat = "step"\ntolerance = 0.01\n', encoding="utf-8")
+    assert run("build", file, "--out", tmp_path / "o") == 0
