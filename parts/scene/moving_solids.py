@@ -20,7 +20,7 @@ from geometry.curves.curve import Real
 from parts.base.part import Part
 from parts.scene.interference import INSET, SLIVER, common_volume
 from parts.scene.placing import UPWARDS, Instance, Placing
-from parts.scene.relative_path import Course, Path, path_of
+from parts.scene.relative_path import Course, Path, path_of, stays_free
 from parts.scene.shapes import Shape, free_between
 
 # poses of one pair at most; of one whose teeth the plane contact has decided; more in the search about the worst
@@ -108,7 +108,12 @@ def _hold(
     if shapes[0].high <= shapes[1].low + lift or shapes[1].high + lift <= shapes[0].low:
         return
     path = path_of(pair, shapes, course)
-    if path is None or (free := free_between(path.distances, shapes)).min() > 0:
+    if path is None:
+        return
+    free = free_between(path.distances, shapes)
+    if stays_free(free):
+        if path.share < 1:
+            found.uncovered.append(Uncovered(one.id, two.id, 0.0, path.share, 0))
         return
     held = clear.setdefault((one.part, two.part, round(lift, _DIGITS)), [])
     alike = next((item for item in held if path.is_like(item[0])), None)

@@ -14,8 +14,8 @@ from parts.scene.placing import Instance
 from parts.scene.shapes import Shape, free_between
 from parts.scene.train import Train
 
-# samples of a path for each cycle of its fastest rate; cycles at most, of which the rest is told
-_PER_CYCLE, _MOST_CYCLES = 720, 400
+# samples of a path for each cycle of its fastest rate; cycles at most, of axes alone too, of which the rest is told
+_PER_CYCLE, _MOST_CYCLES, _MOST_OF_AXES = 720, 400, 2000
 # what is one place, mm; one angle, rad; one pose, mm or share of a turn
 _SAME, _SAME_ANGLE, _ALIKE = 1e-7, 1e-9, 1e-6
 # times that are tried where two pairs may stand alike, and how often each is made better
@@ -104,8 +104,8 @@ def path_of(pair: tuple[Instance, Instance], shapes: tuple[Shape, Shape], course
     start = 0.0
     if share < 1:
         # the axes may go round far slower than both turn: the looked at part lies about their worst place
-        slow, free = _axes_free(course, pair, shapes, (one, two))
-        if free.min() > 0:
+        slow, free, is_whole = _axes_free(course, pair, shapes, (one, two))
+        if is_whole and stays_free(free):
             return None
         start = float(slow[free.argmin()]) - float(period) * share / 2
     times = start + np.linspace(0.0, float(period) * share, int(_PER_CYCLE * max(1.0, cycles * share)) + 1)
@@ -128,14 +128,22 @@ def _axes_free(
     pair: tuple[Instance, Instance],
     shapes: tuple[Shape, Shape],
     chains: tuple[tuple[Fraction, ...], tuple[Fraction, ...]],
-) -> tuple[Real, Real]:
-    """What circles leave, mm, at times over the period of the distance of the axes, which only carriers change."""
+) -> tuple[Real, Real, bool]:
+    """What circles leave, mm, at times over the period of the distance of the axes, which only carriers change; whether
+    these are all of it.
+    """
     carriers = {*chains[0][1:], *chains[1][1:]}
     rates = {x - y for x in carriers for y in carriers} - {Fraction(0)}
-    cycles = min(float(common_period(rates) * max(rates, default=Fraction(1))), float(_MOST_CYCLES))
-    whole = cycles / float(max(rates, default=Fraction(1)))
-    times = np.linspace(0.0, whole, int(_PER_CYCLE * max(1.0, cycles)) + 1)
-    return times, free_between(np.abs(_seen(course, pair, times)[0]), shapes)
+    fastest = float(max(rates, default=Fraction(1)))
+    whole = float(common_period(rates)) * fastest
+    cycles = min(whole, float(_MOST_OF_AXES))
+    times = np.linspace(0.0, cycles / fastest, int(_PER_CYCLE * max(1.0, cycles)) + 1)
+    return times, free_between(np.abs(_seen(course, pair, times)[0]), shapes), cycles == whole
+
+
+def stays_free(free: Real) -> bool:
+    """Whether what circles leave, mm, stays above 0 between its samples too: there it falls by half a step at most."""
+    return bool(free.min() > (0.5 + 1.0 / _PER_CYCLE) * np.abs(np.diff(free)).max(initial=0.0))
 
 
 def _chains(course: Course, pair: tuple[Instance, Instance]) -> tuple[tuple[Fraction, ...], tuple[Fraction, ...]]:

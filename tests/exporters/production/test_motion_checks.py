@@ -105,6 +105,31 @@ def test_a_carrier_far_slower_than_its_satellites_brings_them_to_a_post(
     assert all(one["volume"] == pytest.approx(5 * np.pi, rel=0.01) for one in struck)
 
 
+@pytest.mark.parametrize(("teeth", "turns", "strikes"), [((997, 1009), 700, True), ((5003, 5009), 3500, False)])
+def test_carried_plates_that_meet_after_hundreds_of_turns_are_found_or_told(
+    teeth: tuple[int, int], turns: int, strikes: bool
+) -> None:
+    # the first 400 turns pass clear: the pair was called so, though they meet in the 700th, or where nobody has looked
+    parts = make_parts(scene_from_dict({"parts": {"plate": {**PLATE, "width": 0.3, "height": 0.2}}}, "t", "t"), "t")[0]
+    ratio = Fraction(teeth[0], teeth[1])
+
+    def pose(key: str, t: Real) -> tuple[Complex, Real]:
+        if key == "one":
+            return 50 * np.exp(2j * np.pi * t), 2 * np.pi * t
+        return 100 - 50 * np.exp(-2j * np.pi * float(ratio) * (t - turns)), -2 * np.pi * float(ratio) * t
+
+    ends = [Instance(key, "plate", (place.real, place.imag, 0.0), float(turn)) for key in ("one", "two")
+            for place, turn in [pose(key, np.float64(0.0))]]  # fmt: skip
+    rates = {"one": (Fraction(1), Fraction(1)), "two": (-ratio, -ratio)}
+    found = motion_found(Placing(tuple(ends)), parts, Course(pose, rates), set())
+    if strikes:
+        (struck,) = found.struck
+        assert struck.time == pytest.approx(turns, abs=0.01)
+    else:
+        (told,) = found.uncovered
+        assert told.share == pytest.approx(400 / sum(teeth), rel=1e-3)
+
+
 def geared_cams(a: float) -> dict[str, Any]:
     """Two cams on shafts that wheels of 20 and 30 teeth join below them."""
     cam = {**CAM, "lift": 16.0}

@@ -43,7 +43,7 @@ def test_every_tooth_is_merged_alike(tmp_path: Path) -> None:
     tips = merged[merged.imag > merged.imag.max() - 0.1]
     pitches = np.sort(tips.real).reshape(7, -1)
     # alike but for the digits that are written
-    assert np.abs(np.diff(pitches, axis=0) - np.pi).max() < 4e-7
+    assert np.abs(np.diff(pitches, axis=0) - np.pi).max() <= 1e-7
     # a rounded corner of radius r leaves less than r of a sharp one
     far = [np.abs(sharp - corner).min() for corner in merged]
     assert max(far) <= error + 0.004
