@@ -107,9 +107,15 @@ REASONS = {
     "too_few_places": N_("there are {places} places for one and the same satellite"),
     "transmits_nothing": N_("wheels 1 and 3 turn alike: the carrier transmits nothing"),
     "worm_flank_above_reference": N_("the flanks begin above the reference cylinder; take fewer starts or more q"),
+    "worm_fillet_too_large": N_(
+        "the fillet at the root has no room between two threads, or reaches the middle of the flank"
+    ),
+    "worm_flank_above_root": N_("the flanks begin above the root, and not radially; take fewer starts or more q"),
     "worm_form_factor_missing": N_("is missing: with a torque the strength of the wheel's teeth is computed"),
     "worm_pointed": N_("the thread is pointed below its tip"),
+    "worm_rounding_too_large": N_("the rounding has no room on the tip of the thread"),
     "worm_root_under_axis": N_("leaves no root: the threads reach the axis"),
+    "worm_spaces_closed": N_("the spaces between the threads close above the root; take more q or fewer starts"),
     "wheels_of_scheme": N_("this scheme has {wheels} wheels, in the order z1, z2, (z2',) z3"),
 }
 # fmt: on

@@ -1,0 +1,182 @@
+"""The thread of a worm with its corners: the lines of its axial section that the screw carries, points and normals.
+
+The axial section is a plane of r + iz, mm. The upper side of the thread about z = 0 is a chain of lines from the root
+to the tip: fillet (an arc that touches root and flank), a radial line where the flank begins above the fillet, the
+flank, the rounding of the tip (an arc that touches flank and tip). The lower side is its image under half a turn about
+x, and thread j of n stands turned by 2 pi j / n.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable
+from typing import Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from geometry.base.errors import ParameterError
+from geometry.base.nearest import nearest
+from geometry.base.record import Record, replace
+from geometry.base.roots import bracketed_root
+from geometry.curves.curve import Complex, Real
+from geometry.curves.line_arc import Arc, Line
+from geometry.gears.worms.worm import Worm
+
+Part = Literal["fillet", "radial", "flank", "rounding"]
+# of what is left of a land or a flank, in modules
+_LEAST = 1e-3
+# how much larger a diameter quotient is tried
+_WIDER = (1.25, 1.5, 2.0, 3.0, 5.0, 10.0)
+
+
+class FlankLine(Record):
+    """A flank in the axial section; its parameter t = sqrt(r^2 - least radius^2), mm, is smooth at its very start."""
+
+    worm: Worm
+    domain: tuple[float, float]
+
+    def radius(self, t: ArrayLike) -> Real:
+        """Radii, mm."""
+        return np.hypot(np.asarray(t, float), self.worm.flank.least_radius)
+
+    def point(self, t: ArrayLike) -> Complex:
+        """r + iz, mm."""
+        radius = self.radius(t)
+        return radius + 1j * self.worm.half_thickness(radius)
+
+    def tangent(self, t: ArrayLike) -> Complex:
+        """Unit tangent, outwards."""
+        way = 1 - 1j * self.worm.flank.slope(self.radius(t))
+        return np.asarray(way / np.abs(way))
+
+
+SectionLine: TypeAlias = Arc | Line | FlankLine
+
+
+class Thread(Record):
+    """A worm with the corners of its thread; ``tip_rounding``: radius of the arc in the axial section, mm.
+
+    ``lines``: of the upper side from the root on, by what each is; ``root_half`` and ``tip_half``: z at which the side
+    leaves the root and reaches the tip, mm.
+    """
+
+    worm: Worm
+    tip_rounding: float
+    lines: tuple[tuple[Part, SectionLine], ...]
+    root_half: float
+    tip_half: float
+
+    @property
+    def root_land(self) -> float:
+        """Axial width of the root cylinder between two threads, mm."""
+        return math.pi * self.worm.module - 2 * self.root_half
+
+    def points(self, plane: Complex, theta: ArrayLike, *, upper: bool = True, start: int = 0) -> Real:
+        """Points (..., 3), mm, of places r + iz of the upper side turned by theta, rad, of both broadcast."""
+        worm = self.worm
+        side = 1 if upper else -1
+        angle = np.asarray(theta, float)
+        turned = worm.sign * (side * angle + start * math.tau / worm.number_of_starts)
+        out = plane.real * np.exp(1j * turned)
+        rise = side * (plane.imag + worm.parameter * angle)
+        return np.stack(np.broadcast_arrays(out.real, out.imag, rise), axis=-1)
+
+    def normals(
+        self, plane: Complex, tangent: Complex, theta: ArrayLike, *, upper: bool = True, start: int = 0
+    ) -> Real:
+        """Unit normals (..., 3) out of the material; ``tangent`` in the axial section, from the root to the tip."""
+        worm = self.worm
+        side = 1 if upper else -1
+        angle = np.asarray(theta, float)
+        turned = np.exp(1j * worm.sign * (side * angle + start * math.tau / worm.number_of_starts))
+        r, way = plane.real, tangent
+        # outwards -r z', around -p r', upwards r r'
+        flat = (-r * way.imag - 1j * worm.sign * side * worm.parameter * way.real) * turned
+        found = np.stack(np.broadcast_arrays(flat.real, flat.imag, side * r * way.real), axis=-1)
+        return np.asarray(found / np.linalg.norm(found, axis=-1, keepdims=True))
+
+
+def thread_of(worm: Worm, tip_rounding: float = 0.0) -> Thread:
+    """The thread of a worm that exists (``Worm.checked``).
+
+    Raises
+    ------
+    ParameterError
+        The spaces close above the root, the flank begins above the fillet without a way down to it, or a corner's arc
+        is larger than its room.
+    """
+    flank, root, tip = worm.flank, worm.root_radius, worm.tip_radius
+    fillet, half_pitch, least = worm.fillet_coefficient * worm.module, math.pi * worm.module / 2, _LEAST * worm.module
+    begin = max(root, flank.least_radius)
+    if begin > root and flank.least_radius > 0 and float(flank.slope(begin * (1 + 1e-12))) > 1e-3:
+        # only the involute starts radially
+        raise _by_quotient(worm, "worm_flank_above_root", lambda w: thread_of(w, tip_rounding))
+    if not float(worm.half_thickness(begin)) < half_pitch - least:
+        raise _by_quotient(worm, "worm_spaces_closed", lambda w: thread_of(w, tip_rounding))
+
+    def half(radius: float) -> float:
+        return float(worm.half_thickness(max(radius, begin)))
+
+    def way(radius: float) -> complex:
+        """The tangent, outwards."""
+        slope = float(flank.slope(radius)) if radius > begin or begin == root else 0.0
+        return complex(1, -slope) / math.hypot(1, slope)
+
+    low, root_half = root, half(root)
+    lines: list[tuple[Part, SectionLine]] = []
+    if fillet > 0:
+        low = bracketed_root(lambda r: r - root - fillet * (1 + way(r).imag), root, root + fillet).value
+        tangent = way(low)
+        root_half = half(low) + fillet * tangent.real
+        if not (low < worm.reference_radius and root_half <= half_pitch - least):
+            raise ParameterError(
+                "fillet_coefficient", worm.fillet_coefficient, "worm_fillet_too_large",
+                lambda: nearest(
+                    lambda value: thread_of(replace(worm, fillet_coefficient=value)) is not None,
+                    worm.fillet_coefficient, 0.0,
+                ),
+            )  # fmt: skip
+        lines.append(("fillet", _fillet(complex(root + fillet, root_half), complex(low, half(low)))))
+    high, tip_half = tip, half(tip)
+    rounding: list[tuple[Part, SectionLine]] = []
+    if tip_rounding > 0:
+
+        def beyond(r: float) -> float:
+            return r - tip + tip_rounding * (1 + way(r).imag)
+
+        lowest = max(low, tip - tip_rounding)
+        fits = beyond(lowest) < 0
+        if fits:
+            high = bracketed_root(beyond, lowest, tip).value
+            tip_half = half(high) - tip_rounding * way(high).real
+        if not (fits and high > worm.reference_radius and tip_half >= least):
+            raise ParameterError(
+                "tip_rounding", tip_rounding, "worm_rounding_too_large",
+                lambda: nearest(lambda value: thread_of(worm, value) is not None, tip_rounding, 0.0),
+            )  # fmt: skip
+        centre = complex(tip - tip_rounding, tip_half)
+        spoke = math.atan2(half(high) - tip_half, high - centre.real)
+        rounding.append(("rounding", Arc(centre, tip_rounding, spoke, -spoke)))
+    if low < begin:
+        lines.append(("radial", Line(complex(low, half(begin)), complex(begin, half(begin)))))
+    start = math.sqrt(max((max(low, begin) - flank.least_radius) * (max(low, begin) + flank.least_radius), 0.0))
+    end = math.sqrt((high - flank.least_radius) * (high + flank.least_radius))
+    lines.append(("flank", FlankLine(worm, (start, end))))
+    return Thread(worm, tip_rounding, (*lines, *rounding), root_half, tip_half)
+
+
+def _fillet(centre: complex, end: complex) -> Arc:
+    """The fillet from the root, where it runs along -z, to its end on the flank; it turns left."""
+    return Arc(centre, abs(end - centre), math.pi, (cmath.phase(end - centre) - math.pi) % math.tau)
+
+
+def _by_quotient(worm: Worm, code: str, made: Callable[[Worm], Thread]) -> ParameterError:
+    given = worm.diameter_quotient
+
+    def works(value: float) -> bool:
+        return made(replace(worm, diameter_quotient=value).checked()) is not None
+
+    cure = lambda: nearest(works, given, [given * share for share in _WIDER])  # noqa: E731
+    return ParameterError("diameter_quotient", given, code, cure)
