@@ -12,11 +12,11 @@ from itertools import pairwise
 import numpy as np
 
 from geometry.approximation.outline import Outline, spline_outline
+from geometry.approximation.tensor import basis_matrix, clamped, greville, tensor_poles
 from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record, replace
 from geometry.cams.barrel.cam import BarrelCam
 from geometry.curves.bounds import Bound
-from geometry.curves.bspline import basis
 from geometry.curves.curve import Real
 from geometry.laws.piece import LawPiece, sign_changes
 from geometry.plane.profile import Profile
@@ -134,11 +134,11 @@ def _across(cam: BarrelCam, side: int, stretch: Stretch, target: float) -> Real:
     """Knots across the wall, evenly spread: as many as lines across it need."""
     angles = np.linspace(stretch.start, stretch.end, 2 * _REST_SAMPLES)[1:-1:4]
     for spans in _ACROSS:
-        knots = _knots(np.linspace(0.0, 1.0, spans + 1))
-        places, between = _greville(knots), np.linspace(0, 1, 11 * spans + 3)
+        knots = clamped(_DEGREE, np.linspace(0.0, 1.0, spans + 1))
+        places, between = greville(_DEGREE, knots), np.linspace(0, 1, 11 * spans + 3)
         exact = [cam.wall(angles[:, None], side, cam.inner + v * (cam.outer - cam.inner), stretch.piece)
                  for v in (places, between)]  # fmt: skip
-        weights = _matrix(knots, between) @ np.linalg.inv(_matrix(knots, places))
+        weights = basis_matrix(_DEGREE, knots, between) @ np.linalg.inv(basis_matrix(_DEGREE, knots, places))
         if np.abs(np.einsum("ij,ajc->aic", weights, exact[0]) - exact[1]).max() <= target / 3:
             break
     return knots
@@ -146,36 +146,13 @@ def _across(cam: BarrelCam, side: int, stretch: Stretch, target: float) -> Real:
 
 def _interpolated(cam: BarrelCam, side: int, stretch: Stretch, breaks: Real, v_knots: Real) -> tuple[WallSpline, Real]:
     """The spline on given knots, and the errors of its spans along the wall."""
-    u_knots = _knots(breaks)
-    u, v = _greville(u_knots), _greville(v_knots)
+    u_knots = clamped(_DEGREE, breaks)
+    u, v = greville(_DEGREE, u_knots), greville(_DEGREE, v_knots)
     radii = cam.inner + v * (cam.outer - cam.inner)
-    points = cam.wall(u[:, None], side, radii, stretch.piece)
-    along, crosswise = _matrix(u_knots, u), _matrix(v_knots, v)
-    half = np.linalg.solve(along, points.reshape(len(u), -1)).reshape(points.shape)
-    poles = np.linalg.solve(crosswise, half.transpose(1, 0, 2).reshape(len(v), -1)).reshape(len(v), len(u), 3)
-    poles = poles.transpose(1, 0, 2)
+    poles = tensor_poles(_DEGREE, u_knots, v_knots, cam.wall(u[:, None], side, radii, stretch.piece))
     made = WallSpline(side, stretch, u_knots, v_knots, poles, 0.0)
     errors = _errors(cam, made, breaks)
     return replace(made, max_error=float(errors.max())), errors
-
-
-def _knots(breaks: Real) -> Real:
-    return np.concatenate([np.full(_DEGREE + 1, breaks[0]), breaks[1:-1], np.full(_DEGREE + 1, breaks[-1])])
-
-
-def _greville(knots: Real) -> Real:
-    """One place for each pole: the mean of its inner knots."""
-    found = np.array([knots[i + 1 : i + _DEGREE + 1].mean() for i in range(len(knots) - _DEGREE - 1)])
-    found[0], found[-1] = knots[0], knots[-1]
-    return found
-
-
-def _matrix(knots: Real, t: Real) -> Real:
-    """Values of all basis functions, (places, poles)."""
-    first, values = basis(_DEGREE, knots, t)
-    matrix = np.zeros((len(t), len(knots) - _DEGREE - 1))
-    np.put_along_axis(matrix, first[:, None] + np.arange(_DEGREE + 1), values, axis=1)
-    return matrix
 
 
 def _errors(cam: BarrelCam, spline: WallSpline, breaks: Real) -> Real:
@@ -183,8 +160,8 @@ def _errors(cam: BarrelCam, spline: WallSpline, breaks: Real) -> Real:
     share = np.linspace(0, 1, _SAMPLES)
     u = (breaks[:-1, None] + np.diff(breaks)[:, None] * share).ravel()
     v = np.linspace(0, 1, 4 * (len(spline.across) - 2 * _DEGREE - 1) + 5)
-    along = _matrix(spline.along, u)
-    points = np.einsum("ui,vj,ijc->uvc", along, _matrix(spline.across, v), spline.poles)
+    along = basis_matrix(_DEGREE, spline.along, u)
+    points = np.einsum("ui,vj,ijc->uvc", along, basis_matrix(_DEGREE, spline.across, v), spline.poles)
     away = cam.distance(points.reshape(-1, 3), np.repeat(u, len(v)))
     worst = np.abs(away).reshape(len(u), len(v)).max(axis=1)
     for row, radius in ((0, cam.inner), (-1, cam.outer)):

@@ -1,0 +1,37 @@
+"""Tensor products of B-splines through points of a surface at Greville's places."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geometry.curves.bspline import basis
+from geometry.curves.curve import Real
+
+
+def clamped(degree: int, breaks: Real) -> Real:
+    """Knots with single breaks between clamped ends."""
+    return np.concatenate([np.full(degree, breaks[0]), breaks, np.full(degree, breaks[-1])])
+
+
+def greville(degree: int, knots: Real) -> Real:
+    """One place for each pole: the mean of its inner knots."""
+    found = np.array([knots[i + 1 : i + degree + 1].mean() for i in range(len(knots) - degree - 1)])
+    found[0], found[-1] = knots[0], knots[-1]
+    return found
+
+
+def basis_matrix(degree: int, knots: Real, t: Real) -> Real:
+    """Values of all basis functions, (places, poles)."""
+    first, values = basis(degree, knots, t)
+    matrix = np.zeros((len(t), len(knots) - degree - 1))
+    np.put_along_axis(matrix, first[:, None] + np.arange(degree + 1), values, axis=1)
+    return matrix
+
+
+def tensor_poles(degree: int, u_knots: Real, v_knots: Real, points: Real) -> Real:
+    """Poles (u, v, ...) through points (u, v, ...) at Greville's places of both knots."""
+    along, across = (basis_matrix(degree, knots, greville(degree, knots)) for knots in (u_knots, v_knots))
+    half = np.linalg.solve(along, points.reshape(len(along), -1)).reshape(points.shape)
+    turned = np.swapaxes(half, 0, 1)
+    poles = np.linalg.solve(across, turned.reshape(len(across), -1)).reshape(turned.shape)
+    return np.swapaxes(poles, 0, 1)

@@ -1,0 +1,209 @@
+"""The hob that leaves a worm wheel, and in closed form what its flanks and their rounded tips envelop.
+
+Frame of the drive (``drive.py``): the hob's axis crosses the line of centres x at x = a - a_0, swivelled about it from
+z towards y. Where the hob stands, a turn of it is a slide along its axis; the condition n v = 0 is linear in that
+slide, so each point of the hob, at a radius and a polar angle, has its point of the wheel in closed form, at any angle
+of the axes. What is described is the lower flank of a thread; half a turn about x makes the upper one of it.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from geometry.base.errors import ParameterError, limit
+from geometry.base.record import Record, replace
+from geometry.base.roots import bracketed_root
+from geometry.gears.worms.drive import WormDrive
+from geometry.gears.worms.worm import Worm
+
+Complex = NDArray[np.complex128]
+Real = NDArray[np.float64]
+
+# Newton's steps to a plane across the wheel's axis, the step of their slopes, and what is no change, rad
+_MOST_STEPS, _STEP, _SETTLED = 30, 1e-6, 1e-15
+
+
+class Meridian(Record, eq=False):
+    """Points of a thread's lower flank in the axial half plane: radius and z, mm, and a tangent there."""
+
+    radius: Real
+    z: Real
+    outwards: Real
+    upwards: Real
+
+
+class Cut(Record, eq=False):
+    """What the hob leaves: points about the wheel's axis in the frame of its tooth 1, and when they are left.
+
+    ``plane``: x + iy of the lower side of tooth 1, mm; ``turn``: polar angle of the hob's point about the hob's axis,
+    rad; ``slid``: how far the hob has slid along its axis, mm; ``touching``: the point in the frame of the drive,
+    x - a + iz, mm. ``normal`` (in the plane) and ``normal_rise`` are those of the wheel's surface, out of its material;
+    where ``steepness``, its part along the line of centres, goes through 0 the contact has run off to infinity.
+    """
+
+    plane: Complex
+    turn: Real
+    slid: Real
+    touching: Complex
+    normal: Complex
+    normal_rise: Real
+    steepness: Real
+
+
+class Hob(Record):
+    """A hob with the threads of ``worm`` up to ``tip_radius``, rounded by ``rounding`` (in the axial section), mm.
+
+    ``number_of_teeth``: of the wheel; ``centre_distance`` a_0, mm; ``swivel`` of its axis about the line of centres,
+    rad.
+    """
+
+    worm: Worm
+    number_of_teeth: int
+    centre_distance: float
+    tip_radius: float
+    rounding: float
+    swivel: float = 0.0
+
+    @property
+    def rate(self) -> float:
+        """By how much the wheel turns for a slide of the hob along its axis, rad/mm."""
+        return -self.worm.number_of_starts / (self.number_of_teeth * self.worm.parameter)
+
+    @property
+    def form_radius(self) -> float:
+        """Where the flank touches the rounding of the tip, mm."""
+        flank, centre = self.worm.flank, self.tip_radius - self.rounding
+
+        def beyond(radius: float) -> float:
+            slope = float(flank.slope(radius))
+            return radius - self.rounding * slope / math.hypot(1.0, slope) - centre
+
+        if self.rounding == 0:
+            return self.tip_radius
+        return bracketed_root(beyond, centre, self.tip_radius).value
+
+    @property
+    def least_normal(self) -> float:
+        """Angle of the rounding's normal from the axis where it touches the flank, rad; a right angle at the tip."""
+        return math.atan(float(self.worm.flank.slope(self.form_radius)))
+
+    @property
+    def half_land(self) -> float:
+        """Half the width of the tip between both roundings, axial, mm."""
+        return float(self.worm.half_thickness(self.form_radius)) - self.rounding * math.cos(self.least_normal)
+
+    def checked(self) -> Hob:
+        """The hob itself, where its thread has a tip.
+
+        Raises
+        ------
+        ParameterError
+            The roundings of its tip meet.
+        """
+        if self.half_land > 0:
+            return self
+
+        def left(rounding: float) -> float:
+            return replace(self, rounding=rounding).half_land
+
+        if left(0.0) <= 0:
+            raise ParameterError("tip_clearance_coefficient", self.worm.tip_clearance_coefficient, "hob_pointed")
+        most = bracketed_root(left, 0.0, self.rounding).value / self.worm.module
+        given = self.rounding / self.worm.module
+        raise ParameterError("hob_rounding_coefficient", given, "hob_rounding_too_large", limit(most, given))
+
+    def flank(self, radius: ArrayLike) -> Meridian:
+        """The flank at radii, mm."""
+        r = np.asarray(radius, float)
+        return Meridian(r, -self.worm.half_thickness(r), np.ones_like(r), self.worm.flank.slope(r))
+
+    def round(self, normal: ArrayLike) -> Meridian:
+        """The rounding of the tip at angles of its normal, from ``least_normal`` to a right angle, rad."""
+        angle = np.asarray(normal, float)
+        sine, cosine = np.sin(angle), np.cos(angle)
+        radius = self.tip_radius - self.rounding * (1 - sine)
+        return Meridian(radius, -self.half_land - self.rounding * cosine, cosine, sine)
+
+    def land(self, share: ArrayLike) -> Meridian:
+        """The tip between its roundings, from the lower one (0) to the upper one (1)."""
+        z = self.half_land * (2 * np.asarray(share, float) - 1)
+        return Meridian(np.full_like(z, self.tip_radius), z, np.zeros_like(z), np.ones_like(z))
+
+    def cut(self, meridian: Meridian, height: ArrayLike) -> Cut:
+        """What points of the thread leave in planes across the wheel's axis, ``height`` mm above its middle."""
+        y = -np.asarray(height, float)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            turn = np.arcsin(y / meridian.radius)
+            if self.swivel:
+                # the swivel moves the point from its plane by a little: Newton's steps, their slope by difference
+                for _ in range(_MOST_STEPS):
+                    off = self._touch(meridian, turn).y - y
+                    change = _STEP * off / (self._touch(meridian, turn + _STEP).y - off - y)
+                    turn = turn - change
+                    if not np.nanmax(np.abs(change), initial=0.0) > _SETTLED:
+                        break
+            found = self._touch(meridian, turn)
+            n_x, n_y, n_z = found.normal
+            turned = -np.exp(-1j * (self.rate * found.slid + math.pi / self.number_of_teeth))
+            size = np.sqrt(n_x * n_x + n_y * n_y + n_z * n_z)
+            touching = found.x + 1j * found.z
+            normal = (n_x + 1j * n_z) * turned / size
+            return Cut(touching * turned, turn, found.slid, touching, normal, -n_y / size, n_x / size)
+
+    def _touch(self, meridian: Meridian, turn: Real) -> _Touch:
+        """Where points of the thread touch the wheel."""
+        worm, r = self.worm, meridian.radius
+        sine, cosine = math.sin(self.swivel), math.cos(self.swivel)
+        out, side = np.cos(turn), np.sin(turn)
+        screw = worm.sign * worm.parameter
+        # normal of the thread, into it: tangent of the meridian x tangent of the turn, in the hob's frame
+        n_x = screw * meridian.outwards * side - meridian.upwards * r * out
+        n_side = -meridian.upwards * r * side - screw * meridian.outwards * out
+        n_along = r * meridian.outwards
+        n_y, n_z = n_side * cosine - n_along * sine, n_side * sine + n_along * cosine
+        x = r * out - self.centre_distance
+        # the hob slides along its axis, the wheel turns by ``rate``: n v = 0
+        z = (n_y * sine - n_z * (cosine - self.rate * x)) / (n_x * self.rate)
+        along = (z - r * side * sine) / cosine
+        y = r * side * cosine - along * sine
+        return _Touch(x, y, z, along - meridian.z - screw * turn, (n_x, n_y, n_z))
+
+
+class _Touch(Record, eq=False):
+    """A point in the frame of the drive about the wheel's axis, mm, the slide there, and the normal into the thread."""
+
+    x: Real
+    y: Real
+    z: Real
+    slid: Real
+    normal: tuple[Real, Real, Real]
+
+
+def worm_as_hob(drive: WormDrive, rounding_coefficient: float) -> Hob:
+    """A hob that is the worm itself, higher by the clearance of the wheel's root."""
+    return oversized_hob(drive, rounding_coefficient, drive.worm.diameter_quotient)
+
+
+def oversized_hob(drive: WormDrive, rounding_coefficient: float, quotient: float) -> Hob:
+    """A hob of the worm's normal module with another quotient, swivelled by the difference of both lead angles."""
+    worm = drive.worm
+    lead = math.atan2(worm.number_of_starts, quotient)
+    normal = worm.module * math.cos(worm.lead_angle)
+    module = normal / math.cos(lead)
+    angle = worm.pressure_angle
+    if worm.form == "ZA":
+        # axial: that of the normal section is kept
+        angle = math.atan(math.tan(angle) * math.cos(worm.lead_angle) / math.cos(lead))
+    made = (
+        worm
+        if quotient == worm.diameter_quotient
+        else replace(worm, module=module, diameter_quotient=quotient, pressure_angle=angle)
+    )
+    more = made.reference_radius - worm.reference_radius
+    tip = drive.centre_distance - drive.root_radius + more
+    swivel = worm.sign * (worm.lead_angle - lead)
+    rounding = rounding_coefficient * worm.module
+    return Hob(made, drive.number_of_teeth, drive.centre_distance + more, tip, rounding, swivel)

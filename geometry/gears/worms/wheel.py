@@ -1,0 +1,255 @@
+"""The teeth of a worm wheel as its hob leaves them, over heights above the mid plane of its rim.
+
+Frame: the wheel's axis is z, tooth 1 is centred on +x. Across the axis stand, from the middle of a space: the root that
+the hob's tip leaves, the fillet of its rounding, the flank of its thread, and the tip: a throat about the worm's axis
+within an outer cylinder. The lower side is described; half a turn about the middle of tooth 1
+makes the upper one of it.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from geometry.base.errors import ParameterError
+from geometry.base.nearest import nearest
+from geometry.base.record import Record, replace
+from geometry.base.roots import bracketed_roots
+from geometry.gears.worms.hob import Cut, Hob
+
+Complex = NDArray[np.complex128]
+Real = NDArray[np.float64]
+
+# radii of the thread and angles of its rounding at which a side is looked for
+_RADII, _ANGLES = 257, 65
+# steps of the golden section
+_GOLDEN, _GOLDEN_STEPS = (math.sqrt(5) - 1) / 2, 40
+# a thread's point that near the plane of its axis is not asked for, part of its radius
+_LEAST_SHARE = 1e-9
+# heights at which a face is looked at, and how well places between them are known, part of the width
+_LEVELS, _SETTLED = 33, 1e-9
+# the least width that is offered, part of the asked one
+_LEAST_WIDTH = 1e-2
+
+
+class NoTooth(Exception):
+    """No tooth stands at some height, and by what: a code."""
+
+    def __init__(self, code: str) -> None:
+        self.code = code
+        super().__init__(code)
+
+
+class Side(Record, eq=False):
+    """Where the parts of a tooth's lower side begin and end at heights (n,).
+
+    ``inner``: radius of the thread where the flank leaves the fillet, ``normal``: of the rounding there, rad;
+    ``outer``: radius of the thread at the tip, mm; ``undercut``: the fillet cuts the flank there.
+    """
+
+    heights: Real
+    inner: Real
+    normal: Real
+    outer: Real
+    undercut: NDArray[np.bool_]
+
+
+class WormTeeth(Record, dict=True):
+    """Teeth that ``hob`` cuts about a worm at ``centre_distance``; ``throat_radius`` about the worm's axis, mm.
+
+    ``outer_radius`` of the wheel and ``width`` of its rim, mm.
+    """
+
+    hob: Hob
+    centre_distance: float
+    throat_radius: float
+    outer_radius: float
+    width: float
+
+    @property
+    def number_of_teeth(self) -> int:
+        """z_2."""
+        return self.hob.number_of_teeth
+
+    @property
+    def throat_height(self) -> float:
+        """Where the throat meets the outer cylinder, above and below the middle, mm; at most half the width."""
+        out = self.centre_distance - self.outer_radius
+        if out >= self.throat_radius:
+            return 0.0
+        return min(math.sqrt((self.throat_radius - out) * (self.throat_radius + out)), self.width / 2)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Heights between which every face is smooth, ascending, mm."""
+        half, throat = self.width / 2, self.throat_height
+        found = {-half, half, *((-throat, throat) if 0 < throat < half else ())}
+        return tuple(sorted({*found, *(h for t in self.undercut_ends for h in (t, -t))}))
+
+    def tip_radius(self, heights: ArrayLike) -> Real:
+        """Of the wheel at heights, mm."""
+        y = np.minimum(np.abs(np.asarray(heights, float)), self.throat_radius)
+        throat = self.centre_distance - np.sqrt((self.throat_radius - y) * (self.throat_radius + y))
+        return np.where(np.abs(heights) >= self.throat_height, np.minimum(throat, self.outer_radius), throat)
+
+    def side(self, heights: ArrayLike) -> Side:
+        """Where fillet and flank of the lower side begin and end.
+
+        Raises
+        ------
+        NoTooth
+            At one of the heights the hob leaves no flank up to the tip.
+        """
+        z = np.atleast_1d(np.asarray(heights, float))
+        hob, tip = self.hob, self.tip_radius(z)
+        form = hob.form_radius
+        least = np.maximum(np.abs(z) / math.cos(hob.swivel) * (1 + _LEAST_SHARE), self._least_radius)
+        share = np.linspace(0.0, 1.0, _RADII)[:, None]
+        radii = form + (least - form) * share
+        reach = self._reach(radii, z)
+        # the flank turns back where it is undercut; then it grows until it is at the tip
+        with np.errstate(invalid="ignore"):
+            grows = np.diff(reach, axis=0) > 0
+        first = np.where(grows.any(axis=0), grows.argmax(axis=0), _RADII - 1)
+        beyond = (reach >= tip) & (np.arange(_RADII)[:, None] > first)
+        if not beyond.any(axis=0).all():
+            raise NoTooth("worm_wheel_flank_ends")
+        at = beyond.argmax(axis=0)
+        column = np.arange(len(z))
+
+        def past(radius: Real) -> Real:
+            return self._reach(radius, z) - tip
+
+        ends = radii[at - 1, column], radii[at, column]
+        outer = bracketed_roots(past, *ends, past(ends[0]), past(ends[1]))
+        undercut = first > 0
+        inner, normal = np.full(len(z), form), np.full(len(z), hob.least_normal)
+        if undercut.any():
+            column, first = column[undercut], first[undercut]
+            turning = self._turning(radii[first + 1, column], radii[first - 1, column], z[undercut])
+            inner[undercut], normal[undercut] = self._crossing(z[undercut], turning, outer[undercut])
+        return Side(z, inner, normal, outer, undercut)
+
+    @property
+    def _least_radius(self) -> float:
+        """Down to which a thread has its form, mm; an involute one goes on as a radial screw surface."""
+        flank = self.hob.worm.flank
+        return max(flank.least_radius if self.hob.worm.form != "ZI" else 0.0, 1e-3 * self.hob.tip_radius)
+
+    def _reach(self, radius: Real, heights: Real) -> Real:
+        """Distance from the wheel's axis of what the flank leaves, mm; infinite from where it stands upright on."""
+        cut = self.hob.cut(self.hob.flank(radius), heights)
+        return np.where(cut.steepness < 0, np.abs(cut.plane), np.inf)
+
+    def _turning(self, low: Real, high: Real, heights: Real) -> Real:
+        """Radii of the thread at which the flank turns back between others, by the golden section, mm."""
+        for _ in range(_GOLDEN_STEPS):
+            one, two = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+            left = self._reach(one, heights) < self._reach(two, heights)
+            low, high = np.where(left, low, one), np.where(left, two, high)
+        return np.asarray((low + high) / 2)
+
+    def _crossing(self, heights: Real, low: Real, high: Real) -> tuple[Real, Real]:
+        """Radii of the thread and normals of its rounding at which the fillets of undercut teeth meet the flanks.
+
+        ``low``: where the flank turns back, ``high``: at the tip.
+        """
+        hob = self.hob
+
+        def fillet(normal: Real) -> Complex:
+            return hob.cut(hob.round(normal), heights).plane
+
+        # from the root outwards the fillet's distance grows, up to its own turning back
+        normals = np.linspace(math.pi / 2, hob.least_normal, _ANGLES)
+        reach = np.abs(fillet(normals[:, None]))
+        falls = np.diff(reach, axis=0) < 0
+        top = np.where(falls.any(axis=0), falls.argmax(axis=0), _ANGLES - 1)
+        most = reach[top, np.arange(len(heights))]
+        ends = np.full(len(heights), math.pi / 2), normals[top]
+
+        def normal_at(reach: Real) -> Real:
+            def past(normal: Real) -> Real:
+                return reach - np.abs(fillet(normal))
+
+            return bracketed_roots(past, *ends, past(ends[0]), past(ends[1]))
+
+        def beyond(radius: Real) -> Real:
+            return self._reach(radius, heights) - most
+
+        def ahead(radius: Real) -> Real:
+            flank = hob.cut(hob.flank(radius), heights).plane
+            return np.angle(flank / fillet(normal_at(np.abs(flank))))
+
+        over = beyond(high) > 0
+        if not (beyond(low) < 0).all():
+            raise NoTooth("worm_wheel_undercut")
+        upper = bracketed_roots(beyond, low, np.where(over, high, low), beyond(low), beyond(np.where(over, high, low)))
+        high = np.where(over, upper, high)
+        values = ahead(low), ahead(high)
+        if not (values[0] * values[1] <= 0).all():
+            raise NoTooth("worm_wheel_undercut")
+        inner = bracketed_roots(ahead, low, high, *values)
+        return inner, normal_at(np.abs(hob.cut(hob.flank(inner), heights).plane))
+
+    def flank(self, side: Side, share: Real | float) -> Cut:
+        """The lower flank at shares (m, 1) from fillet (0) to tip (1), at the side's heights: (m, n)."""
+        return self.hob.cut(self.hob.flank(side.inner + (side.outer - side.inner) * share), side.heights)
+
+    def fillet(self, side: Side, share: Real | float) -> Cut:
+        """The lower fillet at shares (m, 1) from root (0) to flank (1), at the side's heights: (m, n)."""
+        normal = math.pi / 2 + (side.normal - math.pi / 2) * share
+        return self.hob.cut(self.hob.round(normal), side.heights)
+
+    def thickness(self, heights: ArrayLike) -> Real:
+        """Angle of the teeth at their tip at heights, rad."""
+        z = np.atleast_1d(np.asarray(heights, float))
+        lower, upper = (self.flank(self.side(h), 1.0).plane for h in (z, -z))
+        return -np.angle(lower) - np.angle(upper)
+
+    def checked(self) -> WormTeeth:
+        """The teeth themselves, where some of them is left at every height.
+
+        Raises
+        ------
+        ParameterError
+            The face is wider than teeth stand: the flank ends below the tip, undercut leaves none, or it is pointed.
+        """
+        ended = self._ended
+        if ended is None:
+            return self
+
+        def stands(width: float) -> bool:
+            return replace(self, width=width)._ended is None
+
+        raise ParameterError(
+            "face_width", self.width, ended, lambda: nearest(stands, self.width, _LEAST_WIDTH * self.width)
+        )
+
+    @cached_property
+    def _ended(self) -> str | None:
+        """What leaves no tooth at some height."""
+        try:
+            thickness = self.thickness(np.linspace(-self.width / 2, self.width / 2, _LEVELS))
+        except NoTooth as ended:
+            return ended.code
+        # beyond the hob's side its flanks turn round it
+        if thickness.max() >= 2 * math.pi / self.number_of_teeth:
+            return "worm_wheel_flank_ends"
+        return None if thickness.min() > 0 else "worm_wheel_pointed"
+
+    @cached_property
+    def undercut_ends(self) -> tuple[float, ...]:
+        """Heights at which undercut begins on the lower side, mm."""
+        z = np.linspace(-self.width / 2, self.width / 2, _LEVELS)
+        cut = self.side(z).undercut
+        found = []
+        for k in np.flatnonzero(cut[1:] != cut[:-1]).tolist():
+            low, high = float(z[k]), float(z[k + 1])
+            while high - low > _SETTLED * self.width:
+                middle = (low + high) / 2
+                low, high = (middle, high) if self.side(middle).undercut[0] == cut[k] else (low, middle)
+            found.append((low + high) / 2)
+        return tuple(found)

@@ -1,0 +1,159 @@
+"""Teeth of worm wheels against worms and hobs that are turned past them step by step."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from geometry.base.errors import ParameterError
+from geometry.base.record import replace
+from geometry.gears.worms.drive import WormDrive
+from geometry.gears.worms.hob import Hob, oversized_hob, worm_as_hob
+from geometry.gears.worms.wheel import WormTeeth
+from geometry.gears.worms.worm import Worm
+
+Real = NDArray[np.float64]
+THESIS = WormDrive(Worm(5.0, 1, 10.0), 128)
+
+
+def _teeth(drive: WormDrive, width: float, hob: Hob | None = None, outer: float | None = None) -> WormTeeth:
+    hob = worm_as_hob(drive, 0.2) if hob is None else hob
+    radius = drive.most_outer_diameter / 2 if outer is None else outer
+    return WormTeeth(hob.checked(), drive.centre_distance, drive.throat_radius, radius, width)
+
+
+def _gap(hob: Hob, plane: NDArray[np.complex128], height: Real, slid: Real) -> Real:
+    """Axial distance of points of the lower side of tooth 1 from the hob's lower flank where it has slid so far."""
+    teeth, worm = hob.number_of_teeth, hob.worm
+    # the space beside tooth 1 faces the hob, and the wheel turns by one tooth for each thread
+    turned = plane * np.exp(1j * math.pi / teeth) * np.exp(-1j * worm.number_of_starts * slid / worm.parameter / teeth)
+    x, y, z = hob.centre_distance - turned.real, -height, -turned.imag
+    sine, cosine = math.sin(hob.swivel), math.cos(hob.swivel)
+    y, z = y * cosine + z * sine, z * cosine - y * sine
+    thread = worm.sign * worm.parameter * np.arctan2(y, x) + slid
+    return thread - worm.half_thickness(np.hypot(x, y)) - z
+
+
+@pytest.mark.parametrize(("form", "near"), [("ZI", 1e-9), ("ZA", 1e-9), ("ZN1", 1e-9), ("ZN2", 1e-9), ("ZK1", 1e-6)])
+def test_every_point_of_a_flank_touches_the_worm_once_and_stays_out_of_it(form: str, near: float) -> None:
+    drive = WormDrive(replace(THESIS.worm, form=form), 128)
+    teeth = _teeth(drive, 26.0)
+    side = teeth.side(np.linspace(-13.0, 13.0, 14))
+    cut = teeth.flank(side, np.linspace(0.0, 1.0, 161)[:, None])
+    assert float(np.abs(cut.slid).max()) < 60.0
+    far = np.concatenate([_gap(teeth.hob, cut.plane, side.heights, np.full((), s))[None] for s in range(-60, 61, 5)])
+    assert float(far.min()) > -near
+    close = np.stack([_gap(teeth.hob, cut.plane, side.heights, cut.slid + d) for d in (-0.03, -0.01, 0.0, 0.01, 0.03)])
+    assert close.min(axis=0) == pytest.approx(0.0, abs=near)
+    # pushed in and pulled off
+    out = 1e-4 * cut.normal
+    assert float(_gap(teeth.hob, cut.plane + out, side.heights, cut.slid).max()) < -5e-5
+    assert (
+        float(np.stack([_gap(teeth.hob, cut.plane - out, side.heights, cut.slid + d) for d in (-0.1, 0, 0.1)]).min())
+        > 5e-5
+    )
+
+
+def _hobbed(hob: Hob, radius: float, height: float, near: float) -> float:
+    """Angle of the wheel's lower side at a radius and height as the turning hob leaves it, near one, by bisection."""
+    slid = np.linspace(-45.0, 45.0, 4001)
+    low, high = near - 2e-3, near + 2e-3
+    for _ in range(40):
+        middle = (low + high) / 2
+        gap = _gap(hob, np.full(slid.shape, radius * np.exp(1j * middle)), np.full(slid.shape, height), slid)
+        # between the steps the gap is a parabola
+        k = int(np.clip(gap.argmin(), 1, len(gap) - 2))
+        bend = gap[k - 1] - 2 * gap[k] + gap[k + 1]
+        least = gap[k] - (gap[k + 1] - gap[k - 1]) ** 2 / (8 * bend)
+        low, high = (middle, high) if least < 0 else (low, middle)
+    return low
+
+
+@pytest.mark.parametrize("hand", ["right", "left"])
+def test_an_oversized_hob_leaves_the_crown_of_brute_force_hobbing(hand: str) -> None:
+    drive = replace(THESIS, worm=replace(THESIS.worm, hand=hand))
+    hob = oversized_hob(drive, 0.2, 10.5)
+    assert 2 * hob.worm.reference_radius == pytest.approx(52.48, abs=5e-3)
+    assert abs(math.degrees(hob.swivel)) == pytest.approx(0.270, abs=5e-4)
+    crowns = {}
+    for height in (-12.0, 0.0, 12.0):
+        own = _crown(drive, hob, height)
+        radius, crown, angles = own
+        for r, angle in list(zip(radius, angles, strict=True))[::4]:
+            assert r * abs(_hobbed(hob, r, height, angle) - angle) < 1e-6
+        crowns[height] = crown
+    assert float(np.abs(crowns[0.0]).max()) < 1e-3
+    up = 12.0 if hand == "right" else -12.0
+    assert crowns[up][[0, -1]] * 1e3 == pytest.approx([47, 70], abs=1.0)
+    assert crowns[-up][[0, -1]] * 1e3 == pytest.approx([24.5, 63], abs=1.0)
+    wrong = replace(hob, swivel=-hob.swivel)
+    assert _crown(drive, wrong, up)[1][-1] * 1e3 == pytest.approx(-58, abs=1.0)
+    assert _crown(drive, wrong, -up)[1][-1] * 1e3 == pytest.approx(244, abs=1.0)
+
+
+def _crown(drive: WormDrive, hob: Hob, height: float) -> tuple[Real, Real, Real]:
+    """Radii, how far the hob cuts deeper than the worm along the normal of the rack, mm, and the angles it leaves."""
+    radius, angles = np.linspace(317.5, 328.0 if height else 325.0, 9), []
+    for tool in (worm_as_hob(drive, 0.2), hob):
+        r = np.linspace(tool.form_radius, 20.0, 20_001)
+        cut = tool.cut(tool.flank(r), height)
+        angles.append(np.interp(radius, np.abs(cut.plane), np.angle(cut.plane)))
+    return radius, radius * (angles[1] - angles[0]) * math.cos(math.radians(20)), angles[1]
+
+
+def test_the_thesis_wheel_has_the_teeth_of_the_probe() -> None:
+    teeth = _teeth(THESIS, 26.0).checked()
+    heights = np.array([-13.0, 0.0, 13.0])
+    assert teeth.tip_radius(heights) == pytest.approx([329.80, 325.0, 329.80], abs=5e-3)
+    thickness = teeth.thickness(heights) * teeth.tip_radius(heights)
+    assert thickness == pytest.approx([3.351, 4.087, 3.351], abs=1e-3)
+    assert not teeth.undercut_ends
+    assert teeth.breaks == (-13.0, 13.0)
+
+
+def test_steep_worms_have_wheels_up_to_where_teeth_end() -> None:
+    whole = _teeth(WormDrive(Worm(1.5, 2, 10.0), 40), 0.75 * 18.0, outer=65.25 / 2)
+    assert whole.checked() is whole
+    assert len(whole.breaks) == 4
+    _teeth(WormDrive(Worm(5.0, 4, 8.0), 40), 16.0).checked()
+    with pytest.raises(ParameterError) as caught:
+        _teeth(WormDrive(Worm(5.0, 4, 8.0), 40), 42.0).checked()
+    assert caught.value.name == "face_width"
+    cure = caught.value.nearest
+    assert cure is not None
+    assert isinstance(cure.value, float)
+    _teeth(WormDrive(Worm(5.0, 4, 8.0), 40), cure.value).checked()
+
+
+def test_undercut_teeth_end_where_fillet_and_flank_cross() -> None:
+    drive = WormDrive(Worm(2.0, 1, 10.0), 12)
+    teeth = _teeth(drive, 10.0)
+    side = teeth.side(np.array([-4.0, -2.0, 0.0]))
+    assert side.undercut.all()
+    first, last = teeth.undercut_ends
+    assert teeth.side([first - 1e-6, first + 1e-6, last - 1e-6, last + 1e-6]).undercut.tolist() == [0, 1, 1, 0]
+    with pytest.raises(ParameterError, match="worm_wheel_pointed"):
+        teeth.checked()
+    ends = teeth.flank(side, 0.0).plane, teeth.fillet(side, 1.0).plane
+    assert np.abs(ends[0] - ends[1]).max() < 1e-10
+    hob = teeth.hob
+    for share in (0.0, 0.5, 1.0):
+        cut = teeth.flank(side, share)
+        near = np.stack([_gap(hob, cut.plane, side.heights, cut.slid + d) for d in (-0.02, 0.0, 0.02)])
+        assert near.min(axis=0) == pytest.approx(0.0, abs=1e-9)
+    # above the crossing no tip of the hob cuts the flank
+    fillet = teeth.fillet(side, np.linspace(0.0, 1.0, 9)[:, None]).plane
+    assert (np.diff(np.abs(fillet), axis=0) > 0).all()
+
+
+def test_a_rounding_that_leaves_no_land_is_refused_with_the_largest() -> None:
+    with pytest.raises(ParameterError) as caught:
+        worm_as_hob(THESIS, 1.2).checked()
+    assert caught.value.name == "hob_rounding_coefficient"
+    cure = caught.value.nearest
+    assert cure is not None
+    assert isinstance(cure.value, float)
+    worm_as_hob(THESIS, cure.value).checked()
