@@ -22,6 +22,8 @@ from parts.base.readback import ReadError
 
 # spans of arcs at most, rad, and degree of splines: integrals over them are exact
 _ARC, _MOST_DEGREE = np.pi / 4, 7
+# directions that differ by less give no frame, rad
+_LEAST_TURN = 1e-6
 _SOLIDS, _SHELLS, _FACES, _LOOPS = ("MANIFOLD_SOLID_BREP",), ("CLOSED_SHELL",), ("ADVANCED_FACE",), ("EDGE_LOOP",)
 _BOUNDS, _USES, _EDGES = ("FACE_BOUND", "FACE_OUTER_BOUND"), ("ORIENTED_EDGE",), ("EDGE_CURVE",)
 _VERTICES, _POINTS, _VECTORS = ("VERTEX_POINT",), ("CARTESIAN_POINT",), ("VECTOR",)
@@ -105,6 +107,12 @@ class _Reader:
         """Places of points, (n, 3)."""
         return self.rows(*_POINTS)[self.found(references, _POINTS, who)]
 
+    def vectors(self, references: Real, who: Index) -> Real:
+        """Unit vectors along vectors, (n, 3)."""
+        found = self.rows(*_VECTORS)[self.found(references, _VECTORS, who)]
+        refuse(found[:, 1] == 0, who, "has a vector without length")
+        return self.directions(found[:, 0], who)
+
     def directions(self, references: Real, who: Index) -> Real:
         """Unit vectors, (n, 3)."""
         found = self.rows("DIRECTION")[self.found(references, ("DIRECTION",), who)]
@@ -115,13 +123,14 @@ class _Reader:
     def lines(self) -> tuple[Real, Real]:
         """Origins and directions of all lines, (n, 3) each."""
         rows, who = self.rows(_LINES), self.ids(_LINES)
-        vectors = self.rows(*_VECTORS)[self.found(rows[:, 1], _VECTORS, who)]
-        return self.points(rows[:, 0], who), self.directions(vectors[:, 0], who)
+        return self.points(rows[:, 0], who), self.vectors(rows[:, 1], who)
 
     def placed(self, references: Real | Index, who: Index) -> Frames:
         """Frames by their axis and a direction along."""
         rows = self.rows("AXIS2_PLACEMENT_3D")[self.found(references, ("AXIS2_PLACEMENT_3D",), who)]
-        return framed(self.points(rows[:, 0], who), self.directions(rows[:, 1], who), self.directions(rows[:, 2], who))
+        axes, along = self.directions(rows[:, 1], who), self.directions(rows[:, 2], who)
+        refuse(np.linalg.norm(np.cross(axes, along), axis=1) < _LEAST_TURN, who, "stands in axes of one direction")
+        return framed(self.points(rows[:, 0], who), axes, along)
 
 
 def frames_of(entities: Entities, references: Index, who: Index) -> Frames:
@@ -204,8 +213,7 @@ def _surfaces(read: _Reader, surface: Index) -> tuple[Index, Frames, Real, Index
             frames = Frames(np.zeros((count, 3)), np.zeros((count, 3, 3)))
         elif code == EXTRUSION:
             rows = read.rows(name)
-            vectors = read.rows(*_VECTORS)[read.found(rows[:, 1], _VECTORS, ids)]
-            axis = read.directions(vectors[:, 0], ids)
+            axis = read.vectors(rows[:, 1], ids)
             frames = framed(np.zeros((count, 3)), axis, np.eye(3)[np.argmin(np.abs(axis), axis=1)])
             curve = read.found(rows[:, 0], _CURVES, ids)
             flat = np.flatnonzero(curve < len(read.ids(_LINES)))
@@ -220,7 +228,6 @@ def _surfaces(read: _Reader, surface: Index) -> tuple[Index, Frames, Real, Index
             rows = read.rows(name)
             frames = read.placed(rows[:, 0], ids)
             size[:, : rows.shape[1] - 1] = rows[:, 1:]
-            refuse(np.any(size < 0, axis=1), ids, "has a size below 0")
             if name == "CONICAL_SURFACE":
                 size[:, 1] = np.tan(size[:, 1])
         kinds.append(kind)
@@ -265,8 +272,10 @@ def _splines(read: _Reader, spline: Index, sense: Flags, counts: Index) -> list[
     first = np.cumsum(sizes) - sizes
     poles = read.rows(*_POINTS)[flat]
     groups = defaultdict[Row, list[int]](list)
-    for number, (degree, _, often, at) in enumerate(listed):
+    for number, (degree, _, closed, often, at) in enumerate(listed):
         groups[degree, often, at].append(number)
+        if closed == b"1" and np.any(poles[first[number]] != poles[first[number] + sizes[number] - 1]):
+            raise ReadError(f"#{read.ids(_SPLINES)[number]} of the STEP file is said to be closed")
     against = np.concatenate([~sense, np.zeros(len(spline) - len(sense), bool)])
     found = []
     for (degree, often, at), numbers in groups.items():

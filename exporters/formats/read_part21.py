@@ -7,7 +7,7 @@ matched by one expression that knows exactly what they look like. What is not kn
 from __future__ import annotations
 
 import re
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 from functools import cache
 from itertools import chain
@@ -29,58 +29,100 @@ Row = tuple[bytes, ...]
 _PIECE = 1 << 24
 _FLOAT, _REFERENCE = rb"[-+]?\d+\.\d*(?:E[-+]?\d{1,2})?", rb"#(\d{1,15})"
 _LIST = rb"\((%b(?:,%b)*)\)"
-# what arguments are made of: string, one that may hold apostrophes, reference, real, integer, truth, star, word; lists
+# what arguments are made of: string, one that may hold apostrophes, reference, real, one that is not below 0, integer,
+# truth, star, word, a truth that is not claimed; lists
 _ATOMS = {
-    "s": rb'(?:!\d+)?"', "S": rb'(?:(?:!\d+)?")+', "r": _REFERENCE, "f": rb"(%b)" % _FLOAT, "i": rb"(\d{1,4})",
-    "b": rb"([01])", "*": rb"\*", "w": rb"(?:[01]|\.[A-Z_]+\.)", "R": _LIST % (rb"#\d{1,15}", rb"#\d{1,15}"),
+    "s": rb'(?:!\d+)?"', "S": rb'(?:(?:!\d+)?")+', "r": _REFERENCE, "f": rb"(%b)" % _FLOAT, "p": rb"(?!-)(%b)" % _FLOAT,
+    "i": rb"(\d{1,4})", "b": rb"([01])", "*": rb"\*", "R": _LIST % (rb"#\d{1,15}", rb"#\d{1,15}"),
+    "w": rb"\.[A-Z_]+\.", "n": rb"(?:0|\.U\.)",
     "m": rb"(?:POSITIVE_RATIO|VOLUME)_MEASURE\(%b\)" % _FLOAT, "I": _LIST % (rb"\d{1,5}", rb"\d{1,5}"),
     "F": _LIST % (_FLOAT, _FLOAT), "M": rb"\((\([#\d,]+\)(?:,\([#\d,]+\))*)\)",
 }  # fmt: skip
 # the geometry and topology of ISO 10303-42 that is read: those of fixed length, and those with lists
 _FIXED = {
-    "CARTESIAN_POINT": "s,(f,f,f)", "DIRECTION": "s,(f,f,f)", "VECTOR": "s,r,f", "AXIS2_PLACEMENT_3D": "s,r,r,r",
-    "LINE": "s,r,r", "CIRCLE": "s,r,f", "PLANE": "s,r", "CYLINDRICAL_SURFACE": "s,r,f", "CONICAL_SURFACE": "s,r,f,f",
-    "TOROIDAL_SURFACE": "s,r,f,f", "SPHERICAL_SURFACE": "s,r,f", "SURFACE_OF_LINEAR_EXTRUSION": "s,r,r",
+    "CARTESIAN_POINT": "s,(f,f,f)", "DIRECTION": "s,(f,f,f)", "VECTOR": "s,r,p", "AXIS2_PLACEMENT_3D": "s,r,r,r",
+    "LINE": "s,r,r", "CIRCLE": "s,r,p", "PLANE": "s,r", "CYLINDRICAL_SURFACE": "s,r,p", "CONICAL_SURFACE": "s,r,p,p",
+    "TOROIDAL_SURFACE": "s,r,p,p", "SPHERICAL_SURFACE": "s,r,p", "SURFACE_OF_LINEAR_EXTRUSION": "s,r,r",
     "VERTEX_POINT": "s,r", "EDGE_CURVE": "s,r,r,r,b", "ORIENTED_EDGE": "s,*,*,r,b",
     "FACE_BOUND": "s,r,b", "FACE_OUTER_BOUND": "s,r,b", "MANIFOLD_SOLID_BREP": "s,r",
 }  # fmt: skip
 _LISTED = {
     "EDGE_LOOP": "s,R", "CLOSED_SHELL": "s,R", "ADVANCED_FACE": "s,R,r,b",
-    "B_SPLINE_CURVE_WITH_KNOTS": "s,i,R,w,w,w,I,F,w", "B_SPLINE_SURFACE_WITH_KNOTS": "s,i,i,M,w,w,w,w,I,I,F,F,w",
+    "B_SPLINE_CURVE_WITH_KNOTS": "s,i,R,w,b,n,I,F,w", "B_SPLINE_SURFACE_WITH_KNOTS": "s,i,i,M,w,n,n,n,I,I,F,F,w",
 }  # fmt: skip
-# what stands around it: products, places, units, colours
+# what stands around it (products, places, units, colours), and after > the kinds that it refers to: the last ones one
+# by one, any before them as the first
+MILLIMETRE, CENTIMETRE, GRAM, CONTEXT, PLACED = "mm", "cm", "g", "context", "placed"
+PART, ASSEMBLY = "ADVANCED_BREP_SHAPE_REPRESENTATION", "SHAPE_REPRESENTATION"
+_COLOUR = "COLOUR_RGB/DRAUGHTING_PRE_DEFINED_COLOUR"
 _ITEMS = {
-    "APPLICATION_PROTOCOL_DEFINITION": "S,S,i,r", "APPLICATION_CONTEXT": "S", "PRODUCT_CONTEXT": "S,r,S",
-    "PRODUCT": "S,S,S,R", "PRODUCT_RELATED_PRODUCT_CATEGORY": "S,$,R", "PRODUCT_DEFINITION_FORMATION": "S,S,r",
-    "PRODUCT_DEFINITION": "S,S,r,r", "PRODUCT_DEFINITION_CONTEXT": "S,r,S", "PRODUCT_DEFINITION_SHAPE": "S,S,r",
-    "SHAPE_DEFINITION_REPRESENTATION": "r,r", "ADVANCED_BREP_SHAPE_REPRESENTATION": "S,R,r",
-    "SHAPE_REPRESENTATION": "S,R,r", "NEXT_ASSEMBLY_USAGE_OCCURRENCE": "S,S,S,r,r,$",
-    "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION": "r,r", "ITEM_DEFINED_TRANSFORMATION": "S,S,r,r",
-    "UNCERTAINTY_MEASURE_WITH_UNIT": "LENGTH_MEASURE(f),r,S,S",
-    "MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION": "S,R,r", "STYLED_ITEM": "S,R,r",
-    "PRESENTATION_STYLE_ASSIGNMENT": "R", "SURFACE_STYLE_USAGE": "w,r", "SURFACE_SIDE_STYLE": "S,R",
-    "SURFACE_STYLE_FILL_AREA": "r", "FILL_AREA_STYLE": "S,R", "FILL_AREA_STYLE_COLOUR": "S,r", "COLOUR_RGB": "S,f,f,f",
-    "DRAUGHTING_PRE_DEFINED_COLOUR": "S", "CURVE_STYLE": "S,r,POSITIVE_LENGTH_MEASURE(f),r",
-    "DRAUGHTING_PRE_DEFINED_CURVE_FONT": "S", "PROPERTY_DEFINITION": "S,S,r", "REPRESENTATION": "S,R,r",
-    "PROPERTY_DEFINITION_REPRESENTATION": "r,r", "DESCRIPTIVE_REPRESENTATION_ITEM": "S,S",
-    "MEASURE_REPRESENTATION_ITEM": "S,m,r", "DERIVED_UNIT": "R", "DERIVED_UNIT_ELEMENT": "r,f",
-}  # fmt: skip
+    "APPLICATION_CONTEXT": "S",
+    "APPLICATION_PROTOCOL_DEFINITION": "S,S,i,r > APPLICATION_CONTEXT",
+    "PRODUCT_CONTEXT": "S,r,S > APPLICATION_CONTEXT",
+    "PRODUCT": "S,S,S,R > PRODUCT_CONTEXT",
+    "PRODUCT_RELATED_PRODUCT_CATEGORY": "S,$,R > PRODUCT",
+    "PRODUCT_DEFINITION_FORMATION": "S,S,r > PRODUCT",
+    "PRODUCT_DEFINITION": "S,S,r,r > PRODUCT_DEFINITION_FORMATION PRODUCT_DEFINITION_CONTEXT",
+    "PRODUCT_DEFINITION_CONTEXT": "S,r,S > APPLICATION_CONTEXT",
+    "PRODUCT_DEFINITION_SHAPE": "S,S,r > PRODUCT_DEFINITION/NEXT_ASSEMBLY_USAGE_OCCURRENCE",
+    "SHAPE_DEFINITION_REPRESENTATION": f"r,r > PRODUCT_DEFINITION_SHAPE {PART}/{ASSEMBLY}",
+    PART: f"S,R,r > AXIS2_PLACEMENT_3D/MANIFOLD_SOLID_BREP {CONTEXT}",
+    ASSEMBLY: f"S,R,r > AXIS2_PLACEMENT_3D {CONTEXT}",
+    "NEXT_ASSEMBLY_USAGE_OCCURRENCE": "S,S,S,r,r,$ > PRODUCT_DEFINITION",
+    "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION": f"r,r > {PLACED} PRODUCT_DEFINITION_SHAPE",
+    "ITEM_DEFINED_TRANSFORMATION": "S,S,r,r > AXIS2_PLACEMENT_3D",
+    "UNCERTAINTY_MEASURE_WITH_UNIT": f"LENGTH_MEASURE(p),r,S,S > {MILLIMETRE}",
+    "MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION": f"S,R,r > STYLED_ITEM {CONTEXT}",
+    "STYLED_ITEM": "S,R,r > PRESENTATION_STYLE_ASSIGNMENT MANIFOLD_SOLID_BREP",
+    "PRESENTATION_STYLE_ASSIGNMENT": "R > SURFACE_STYLE_USAGE/CURVE_STYLE",
+    "SURFACE_STYLE_USAGE": ".BOTH.,r > SURFACE_SIDE_STYLE",
+    "SURFACE_SIDE_STYLE": "S,R > SURFACE_STYLE_FILL_AREA",
+    "SURFACE_STYLE_FILL_AREA": "r > FILL_AREA_STYLE",
+    "FILL_AREA_STYLE": "S,R > FILL_AREA_STYLE_COLOUR",
+    "FILL_AREA_STYLE_COLOUR": f"S,r > {_COLOUR}",
+    "COLOUR_RGB": "S,p,p,p",
+    "DRAUGHTING_PRE_DEFINED_COLOUR": "S",
+    "CURVE_STYLE": f"S,r,POSITIVE_LENGTH_MEASURE(p),r > DRAUGHTING_PRE_DEFINED_CURVE_FONT {_COLOUR}",
+    "DRAUGHTING_PRE_DEFINED_CURVE_FONT": "S",
+    "PROPERTY_DEFINITION": "S,S,r > PRODUCT_DEFINITION/PRODUCT_DEFINITION_SHAPE",
+    "REPRESENTATION": f"S,R,r > DESCRIPTIVE_REPRESENTATION_ITEM/MEASURE_REPRESENTATION_ITEM {CONTEXT}",
+    "PROPERTY_DEFINITION_REPRESENTATION": "r,r > PROPERTY_DEFINITION REPRESENTATION",
+    "DESCRIPTIVE_REPRESENTATION_ITEM": "S,S",
+    "MEASURE_REPRESENTATION_ITEM": "S,m,r > DERIVED_UNIT",
+    "DERIVED_UNIT": "R > DERIVED_UNIT_ELEMENT",
+    "DERIVED_UNIT_ELEMENT": f"r,f > {MILLIMETRE}/{CENTIMETRE}/{GRAM}",
+}
 # entities of several kinds at once, by the name they have here
-MILLIMETRE, RADIAN, CONTEXT, PLACED = "mm", "rad", "context", "placed"
 _COMPLEX = {
     MILLIMETRE: "(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))",
-    RADIAN: "(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))",
+    "rad": "(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))",
     "sr": "(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())",
-    "g": "(MASS_UNIT()NAMED_UNIT(*)SI_UNIT($,.GRAM.))",
-    "cm": "(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.CENTI.,.METRE.))",
-    CONTEXT: "(GEOMETRIC_REPRESENTATION_CONTEXT(i)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT(R)GLOBAL_UNIT_ASSIGNED_CONTEXT(R)"
-    "REPRESENTATION_CONTEXT(S,S))",
+    GRAM: "(MASS_UNIT()NAMED_UNIT(*)SI_UNIT($,.GRAM.))",
+    CENTIMETRE: "(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.CENTI.,.METRE.))",
+    CONTEXT: "(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT(R)GLOBAL_UNIT_ASSIGNED_CONTEXT(R)"
+    f"REPRESENTATION_CONTEXT(S,S)) > UNCERTAINTY_MEASURE_WITH_UNIT {MILLIMETRE} rad sr",
     PLACED: "(REPRESENTATION_RELATIONSHIP(S,S,r,r)REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(r)"
-    "SHAPE_REPRESENTATION_RELATIONSHIP())",
-}  # fmt: skip
-_BEGIN = re.compile(rb"\s*ISO-10303-21;\s*HEADER;(.*?)ENDSEC;\s*DATA;\s*", re.DOTALL)
+    f"SHAPE_REPRESENTATION_RELATIONSHIP()) > {PART}/{ASSEMBLY} {ASSEMBLY} ITEM_DEFINED_TRANSFORMATION",
+}
+# what is referred to just once by all entities of another kind
+_ONCE = {
+    "PRODUCT": ("PRODUCT_RELATED_PRODUCT_CATEGORY", "PRODUCT_DEFINITION_FORMATION"),
+    "PRODUCT_DEFINITION_FORMATION": ("PRODUCT_DEFINITION",),
+    "PRODUCT_DEFINITION": ("PRODUCT_DEFINITION_SHAPE",),
+    "NEXT_ASSEMBLY_USAGE_OCCURRENCE": ("PRODUCT_DEFINITION_SHAPE",),
+    PART: ("SHAPE_DEFINITION_REPRESENTATION",),
+    ASSEMBLY: ("SHAPE_DEFINITION_REPRESENTATION",),
+    "STYLED_ITEM": ("MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION",),
+    "PROPERTY_DEFINITION": ("PROPERTY_DEFINITION_REPRESENTATION",),
+    "REPRESENTATION": ("PROPERTY_DEFINITION_REPRESENTATION",),
+    PLACED: ("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION",),
+}
+# blanks and comments
+_GAP = rb"(?:\s|/\*(?:[^*]|\*(?!/))*+\*/)*+"
+_BEGIN = re.compile(rb"%bISO-10303-21;%bHEADER;(.*?)ENDSEC;%bDATA;\s*" % (_GAP, _GAP, _GAP), re.DOTALL)
+_COMMENT = re.compile(rb"('[^']*')|/\*.*?\*/", re.DOTALL)
 _SCHEMA = re.compile(rb"FILE_SCHEMA\s*\(\s*\(\s*'AUTOMOTIVE_DESIGN\b")
-_END = re.compile(rb"ENDSEC;\s*END-ISO-10303-21;\s*$")
+_END = re.compile(rb"ENDSEC;%bEND-ISO-10303-21;%b$" % (_GAP, _GAP))
 _STRINGS, _STRING = re.compile(rb'[!\d"]*"'), re.compile(rb'(?:!(\d+))?"')
 _NUMBER = re.compile(rb"(?<![\w#!])%b" % _FLOAT)
 _ESCAPE = re.compile(
@@ -131,7 +173,7 @@ class Entities(Record, eq=False):
 
     def table(self, kind: str) -> Table:
         """The entities of a kind of fixed length."""
-        width = sum(_FIXED[kind].count(c) for c in "rfib")
+        width = sum(_FIXED[kind].count(c) for c in "rfpib")
         return self.fixed.get(kind) or Table(np.zeros(0, np.int64), np.zeros((0, width)))
 
     def listed_of(self, kind: str) -> list[Row]:
@@ -175,11 +217,34 @@ def read_part21(file: Path) -> Entities:
     ids.sort()
     if (twice := np.flatnonzero(ids[1:] == ids[:-1])).size:
         raise ReadError(f"#{ids[twice[0]]} is there twice in the STEP file")
-    for number, item in items.items():
-        for reference in item.references:
-            if ids[min(int(np.searchsorted(ids, reference)), len(ids) - 1)] != reference:
-                raise ReadError(f"#{number} of the STEP file refers to #{reference}, which is not there")
+    _check_references(items, fixed)
     return Entities(fixed, listed, items)
+
+
+def _check_references(items: dict[int, Item], fixed: dict[str, Table]) -> None:
+    """What stands around the geometry refers to what it may, and as often."""
+    kinds = {number: item.kind for number, item in items.items()}
+    for kind in ("AXIS2_PLACEMENT_3D", "MANIFOLD_SOLID_BREP"):
+        kinds |= dict.fromkeys(fixed[kind].ids.tolist() if kind in fixed else (), kind)
+    uses = Counter[tuple[int, str]]()
+    for number, item in items.items():
+        allowed = _referred(item.kind)
+        first = len(item.references) - len(allowed)
+        for place, reference in enumerate(item.references):
+            if kinds.get(reference) not in (known := allowed[max(place - first, 0)]):
+                raise ReadError(f"#{number} of the STEP file refers to #{reference}, which is no {' or '.join(known)}")
+            uses[reference, item.kind] += 1
+    for number, item in items.items():
+        for user in _ONCE.get(item.kind, ()):
+            if (count := uses[number, user]) != 1:
+                raise ReadError(f"#{number} of the STEP file is that of {count} {user} instead of 1")
+
+
+@cache
+def _referred(kind: str) -> tuple[tuple[str, ...], ...]:
+    """Which kinds each of the last references of a kind may lead to, and those before them like the first of these."""
+    _, _, told = {**_ITEMS, **_COMPLEX}[kind].partition(" > ")
+    return tuple(tuple(word.split("/")) for word in told.split())
 
 
 def _pieces(source: BinaryIO) -> Iterator[bytes]:
@@ -205,6 +270,8 @@ def _pieces(source: BinaryIO) -> Iterator[bytes]:
 
 def _without_strings(piece: bytes) -> tuple[bytes, list[bytes]]:
     """A piece without blanks, a " for each string, before it the number of one that is not empty: !7"; and these."""
+    if b"/*" in piece:
+        piece = _COMMENT.sub(lambda m: m[1] or b" ", piece)
     parts = piece.split(b"'")
     if len(parts) % 2 == 0:
         raise ReadError("a string in the STEP file has no end")
@@ -244,7 +311,8 @@ def _by_kind(text: bytes) -> dict[str, list[bytes]]:
 
 def _shape(text: str) -> bytes:
     """The expression of arguments, with what varies in groups."""
-    found = (_ATOMS.get(word) or re.escape(word.encode()) for word in re.findall(r"[A-Z_]{2,}|.", text))
+    words = re.findall(r"[A-Z_]{2,}|.", text.partition(" > ")[0])
+    found = (_ATOMS.get(word) or re.escape(word.encode()) for word in words)
     return b"".join(found)
 
 

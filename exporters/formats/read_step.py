@@ -17,8 +17,19 @@ from numpy.typing import NDArray
 from exporters.formats.chains import nodes, smooth_loops
 from exporters.formats.read_assembly import Occurrence, Prototype, ReadAssembly
 from exporters.formats.read_brep import frames_of, read_model
-from exporters.formats.read_part21 import CONTEXT, MILLIMETRE, PLACED, RADIAN, Entities, Item, Real, read_part21
-from exporters.formats.read_solid import Model
+from exporters.formats.read_curves import Frames
+from exporters.formats.read_part21 import (
+    ASSEMBLY,
+    CENTIMETRE,
+    GRAM,
+    MILLIMETRE,
+    PART,
+    Entities,
+    Item,
+    Real,
+    read_part21,
+)
+from exporters.formats.read_solid import GAP, Model
 from exporters.formats.readback import SmoothLoop
 from geometry.base.record import Record, replace
 from parts.base.readback import ReadError
@@ -27,6 +38,12 @@ _SHADES = {
     "red": "#ff0000", "green": "#00ff00", "blue": "#0000ff", "yellow": "#ffff00", "magenta": "#ff00ff",
     "cyan": "#00ffff", "black": "#000000", "white": "#ffffff",
 }  # fmt: skip
+# what is said of a part: of what kind it is, what its value is called (None: as it is), and powers of its units
+_SAID: dict[str, tuple[str, str | None, dict[str, float]]] = {
+    "material name": ("material property", None, {}),
+    "density": ("material property", "g/cm3", {GRAM: 1.0, CENTIMETRE: -3.0}),
+    "volume": ("geometric validation property", "volume measure", {MILLIMETRE: 3.0}),
+}
 # what stands at the origin is off it by no more, mm and rad
 _HOME = 1e-12
 Place = NDArray[np.float64]
@@ -94,31 +111,34 @@ class _Products:
         self.items, self.entities = entities.items, entities
         self.model = read_model(entities)
         # definitions of products: their names, what represents them, and how they are used in others
-        self.names = {n: self._product(item) for n, item in self._of("PRODUCT_DEFINITION")}
+        self.names = {n: self._name(item) for n, item in self._of("PRODUCT_DEFINITION")}
         self.shapes: dict[int, Item] = {}
         self.representations: dict[int, int] = {}
         for number, item in self._of("SHAPE_DEFINITION_REPRESENTATION"):
-            definition = self._at(number, item.references[0], "PRODUCT_DEFINITION_SHAPE").references[0]
-            shape = self._at(number, item.references[1], "ADVANCED_BREP_SHAPE_REPRESENTATION", "SHAPE_REPRESENTATION")
-            self._check_context(item.references[1], shape)
+            whole, shape = item.references
+            (definition,) = self.items[whole].references
             if definition in self.shapes or definition not in self.names:
                 raise ReadError(f"#{number} of the STEP file represents no product, or one that is represented")
-            self.shapes[definition], self.representations[definition] = shape, item.references[1]
+            self.shapes[definition], self.representations[definition] = self.items[shape], shape
+            self._check_axes(shape)
         self.used = {item.references[1] for _, item in self._of("NEXT_ASSEMBLY_USAGE_OCCURRENCE")}
         self.inside: dict[int, list[tuple[str, int, Place]]] = {}
         self._place()
         self.colours: dict[int, str] = {}
         for number, item in self._of("STYLED_ITEM"):
             *styles, solid = item.references
-            if solid not in self.model.solids or solid in self.colours:
-                raise ReadError(f"#{number} of the STEP file colours something else than a solid, or one twice")
+            if solid in self.colours:
+                raise ReadError(f"#{number} of the STEP file colours a solid that has a colour")
             self.colours[solid] = self._shade(styles)
         self.said: dict[int, dict[str, str | float]] = {}
         for number, item in self._of("PROPERTY_DEFINITION_REPRESENTATION"):
-            self._say(number, *item.references)
+            self._say(number, *(self.items[n] for n in item.references))
         held = Counter(solid for shape in self.shapes.values() for solid in shape.references)
         if any(held[solid] != 1 for solid in self.model.solids.tolist()):
             raise ReadError("a solid of the STEP file is not that of one product")
+        for number, item in self._of("UNCERTAINTY_MEASURE_WITH_UNIT"):
+            if not 0 < item.numbers[0] <= GAP or item.strings[0] != "distance_accuracy_value":
+                raise ReadError(f"#{number} of the STEP file does not call points one within {GAP:g} mm")
 
     def parts(self, definition: int, place: Place, above: tuple[int, ...]) -> Iterator[tuple[str, int, Place]]:
         """What stands in a product, and in what stands there: name, product and place of each; or itself."""
@@ -144,85 +164,79 @@ class _Products:
     def _of(self, kind: str) -> list[tuple[int, Item]]:
         return [(number, item) for number, item in self.items.items() if item.kind == kind]
 
-    def _at(self, who: int, reference: int, *kinds: str) -> Item:
-        item = self.items.get(reference)
-        if item is None or item.kind not in kinds:
-            raise ReadError(f"#{who} of the STEP file refers to #{reference}, which is no {' or '.join(kinds)}")
-        return item
+    def _name(self, definition: Item) -> str:
+        (product,) = self.items[definition.references[0]].references
+        identity, name, _ = self.items[product].strings
+        if identity != name:
+            raise ReadError(f"#{product} of the STEP file is called {identity} and {name}")
+        return name
 
-    def _product(self, definition: Item) -> str:
-        formation = self._only(definition, "PRODUCT_DEFINITION_FORMATION")
-        return self._only(formation, "PRODUCT").strings[1]
+    def _frames(self, axes: list[int], who: int) -> Frames:
+        return frames_of(self.entities, np.array(axes), np.full(len(axes), who))
 
-    def _only(self, item: Item, kind: str) -> Item:
-        """The one thing of a kind that an item refers to."""
-        found = self._at_all(item, kind)
-        if len(found) != 1:
-            raise ReadError(f"a {item.kind} of the STEP file refers to no {kind}, or to several")
-        return found[0]
-
-    def _at_all(self, item: Item, kind: str) -> list[Item]:
-        """What an item refers to of a kind."""
-        return [self.items[n] for n in item.references if n in self.items and self.items[n].kind == kind]
-
-    def _check_context(self, number: int, shape: Item) -> None:
-        """A shape consists of solids and axes, those of a part at its origin, in millimetres."""
-        axes = np.array([n for n in shape.references[:-1] if n not in self.model.solids])
-        frames = frames_of(self.entities, axes, np.full(len(axes), number))
-        home = np.abs(frames.origins).max() <= _HOME and np.abs(frames.axes - np.eye(3)).max() <= _HOME
-        if shape.kind == "ADVANCED_BREP_SHAPE_REPRESENTATION" and not home:
+    def _check_axes(self, number: int) -> None:
+        """A part stands at its own origin."""
+        shape = self.items[number]
+        if shape.kind == ASSEMBLY:
+            return
+        frames = self._frames([n for n in shape.references[:-1] if n not in self.model.solids], number)
+        off = (np.abs(frames.origins), np.abs(frames.axes - np.eye(3)))
+        if not max(x.max(initial=0.0) for x in off) <= _HOME:
             raise ReadError(f"#{number} of the STEP file has another origin than its part")
-        context = self._at(number, shape.references[-1], CONTEXT)
-        if not (self._at_all(context, MILLIMETRE) and self._at_all(context, RADIAN)):
-            raise ReadError(f"#{number} of the STEP file is not in mm and rad")
 
     def _place(self) -> None:
         """What stands in each product: the place's axes in it, after those in what stands there."""
         uses = {n: item for n, item in self._of("NEXT_ASSEMBLY_USAGE_OCCURRENCE")}
         for number, item in self._of("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION"):
-            relation = self._at(number, item.references[0], PLACED)
-            occurrence = self._at(number, item.references[1], "PRODUCT_DEFINITION_SHAPE").references[0]
+            relation, (occurrence,) = (self.items[n].references for n in item.references)
             if occurrence not in uses:
                 raise ReadError(f"#{number} of the STEP file places nothing, or something twice")
             use = uses.pop(occurrence)
             outer, inner = use.references
-            own, whole, move = relation.references
+            own, whole, move = relation
             if (self.representations.get(inner), self.representations.get(outer)) != (own, whole):
                 raise ReadError(f"#{number} of the STEP file places another product than it names")
-            axes = np.array(self._at(number, move, "ITEM_DEFINED_TRANSFORMATION").references)
-            frames = frames_of(self.entities, axes, np.full(2, move))
+            axes = self.items[move].references
+            if any(n not in self.items[shape].references for n, shape in zip(axes, (own, whole), strict=True)):
+                raise ReadError(f"#{move} of the STEP file moves between axes that are none of its products'")
+            frames = self._frames([*axes], move)
             turn = frames.axes[1].T @ frames.axes[0]
             place = np.column_stack([turn, frames.origins[1] - turn @ frames.origins[0]])
             self.inside.setdefault(outer, []).append((use.strings[1], inner, place))
         if uses:
             raise ReadError(f"#{min(uses)} of the STEP file is a component without a place")
 
-    def _say(self, number: int, definition: int, representation: int) -> None:
+    def _say(self, number: int, what: Item, value: Item) -> None:
         """A property of a product, or of its shape."""
-        what = self._at(number, definition, "PROPERTY_DEFINITION")
-        value = self._at(number, representation, "REPRESENTATION").references[0]
-        item = self._at(representation, value, "DESCRIPTIVE_REPRESENTATION_ITEM", "MEASURE_REPRESENTATION_ITEM")
-        of = self.items.get(what.references[0])
-        product = of.references[0] if of is not None and of.kind == "PRODUCT_DEFINITION_SHAPE" else what.references[0]
+        kind, name = what.strings
+        of, item = self.items[what.references[0]], self.items[value.references[0]]
+        product = of.references[0] if of.kind == "PRODUCT_DEFINITION_SHAPE" else what.references[0]
+        units: dict[str, float] = {}
+        for element in self.items[item.references[0]].references if item.references else ():
+            (unit,), (power,) = self.items[element].references, self.items[element].numbers
+            units[self.items[unit].kind] = units.get(self.items[unit].kind, 0.0) + power
         said = self.said.setdefault(product, {})
-        if what.strings[1] in said or product not in self.names:
-            raise ReadError(f"#{number} of the STEP file says something of no product, or twice")
-        said[what.strings[1]] = item.numbers[0] if item.numbers else item.strings[1]
+        told = (kind, item.strings[0] if item.numbers else None, units)
+        is_part = product in self.shapes and self.shapes[product].kind == PART
+        if name in said or not is_part or told != _SAID.get(name) or value.strings[0] != name:
+            raise ReadError(f"#{number} of the STEP file says something of no part, twice, or in other words or units")
+        if not item.numbers and len(set(item.strings)) > 1:
+            raise ReadError(f"#{number} of the STEP file says {' and '.join(item.strings)} of its {name}")
+        said[name] = item.numbers[0] if item.numbers else item.strings[1]
 
     def _shade(self, styles: list[int]) -> str:
         """The one colour that styles lead to."""
-        found, left, seen = set[str](), list(styles), set[int]()
+        found, left, kinds = set[str](), list(styles), set[str]()
         while left:
-            number = left.pop()
-            item = self.items.get(number)
-            if item is None or number in seen:
-                continue
-            seen.add(number)
+            item = self.items[left.pop()]
+            kinds.add(item.kind)
             left += item.references
             if item.kind == "COLOUR_RGB":
                 found.add("#" + "".join(f"{round(255 * x):02x}" for x in item.numbers))
             elif item.kind == "DRAUGHTING_PRE_DEFINED_COLOUR":
                 found.add(_SHADES.get(item.strings[0], ""))
-        if len(found) != 1:
+            elif item.kind == "DRAUGHTING_PRE_DEFINED_CURVE_FONT" and item.strings[0] != "continuous":
+                raise ReadError(f"edges in the STEP file are {item.strings[0]} lines")
+        if len(found) != 1 or "FILL_AREA_STYLE_COLOUR" not in kinds:
             raise ReadError(f"{len(found)} colours of one solid in the STEP file")
         return found.pop()

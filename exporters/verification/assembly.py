@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from exporters.formats.read_assembly import ReadAssembly
 from exporters.formats.reading import ASSEMBLY_READERS
-from exporters.verification.judge import check_said, held, probed, same_shade
+from exporters.verification.judge import held, probed, said_failures, same_shade
 from exporters.verification.verdict import Verdict
 from geometry.base.record import Record
 from parts.base.part import Part
@@ -46,11 +46,10 @@ def verify_assembly(
 
     def check(found: ReadBack, part: Part) -> Verdict:
         exact = part.body(expected.offset)
-        check_said(found, kind, part)
         verdict = held(found, kind, exact, declared, tolerance)
         said = probed(found, part, expected.offset, declared, verdict)
         more = {f"{part.id}.{k}": v for k, v in said.measured.items() if k not in verdict.measured}
-        return Verdict(verdict.measured | more, said.failures)
+        return Verdict(verdict.measured | more, (*said.failures, *said_failures(found, kind, part)))
 
     try:
         return _verdict(ASSEMBLY_READERS[kind.name](file), expected, check)

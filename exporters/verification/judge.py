@@ -50,7 +50,7 @@ def verify_part(
         verdict = held(found, kind, exact, declared, tolerance, part.id)
         if found.names() is not None and not same_shade(found.colour, part.colour):
             raise ReadError(f"{part.id} is coloured {found.colour} instead of {part.colour}")
-        check_said(found, kind, part)
+        verdict = replace(verdict, failures=(*verdict.failures, *said_failures(found, kind, part)))
     except (ReadError, OSError) as error:
         return Verdict({}, (str(error),))
     if also is not None and not verdict.failures:
@@ -86,20 +86,14 @@ def held(
     return _HELD[kind.form](found, exact, declared, tolerance)
 
 
-def check_said(found: ReadBack, kind: FileKind, part: Part) -> None:
-    """What a STEP file says of the material of a part is what the part says.
-
-    Raises
-    ------
-    ReadError
-        It is not.
-    """
+def said_failures(found: ReadBack, kind: FileKind, part: Part) -> list[str]:
+    """What is wrong with what a STEP file says of a part, or not; a volume that it says is held with the solid."""
     if kind.form is not Form.FACES:
-        return
+        return []
     said = cast("ReadSolid", found).said
-    for name, expected in (("material name", part.material), ("density", part.density)):
-        if name in said and said[name] != expected:
-            raise ReadError(f"{part.id} says of its {name}: {said[name]} instead of {expected}")
+    expected = {"material name": part.material, "density": part.density}
+    wrong = [f"says of its {k}: {said.get(k)} instead of {v}" for k, v in expected.items() if said.get(k) != v]
+    return wrong if "volume" in said else [*wrong, "does not say its volume"]
 
 
 def same_shade(found: str | None, expected: str | None) -> bool:

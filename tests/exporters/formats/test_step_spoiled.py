@@ -22,9 +22,9 @@ from tests.exporters.outside import Gear
 TOLERANCE = 1e-6
 # a plate, screw surfaces, and chamfers with cones
 PARTS = {
-    "plate": part_keys(Gear(2, 16, bore=8, shift=0.4)) | {"colour": "#c08040"},
-    "screw": part_keys(Gear(2, 16, bore=8, shift=0.4)) | {"helix_angle_deg": 20.0},
-    "chamfered": part_keys(Gear(2, 16, bore=8, shift=0.4)) | {"face_chamfer": 0.4},
+    "plate": part_keys(Gear(2, 16, bore=8, shift=0.4)) | {"colour": "#c08040", "material": "PLA"},
+    "screw": part_keys(Gear(2, 16, bore=8, shift=0.4)) | {"material": "steel", "helix_angle_deg": 20.0},
+    "chamfered": part_keys(Gear(2, 16, bore=8, shift=0.4)) | {"material": "steel", "face_chamfer": 0.4},
 }
 NUMBER = r"-?\d+\.\d*(?:E[-+]?\d+)?"
 Spoil = Callable[[str, float], str]
@@ -123,6 +123,13 @@ SPOILED: dict[str, Spoil] = {
     "statement cut": nth(r"\n#\d+=[^;]*;", lambda m: m[0][: len(m[0]) // 2]),
     "strange entity": nth(r";\n#", lambda m: ";\n#88888888=INVISIBILITY((#1));\n#"),
     "other unit": nth(r"\.MILLI\.,", lambda m: "$,"),
+    "unit of density": nth(r"\.CENTI\.,", lambda m: ".MILLI.,"),
+    "power of a unit": nth(rf"(DERIVED_UNIT_ELEMENT\(#\d+,)({NUMBER})(\))", more(1)),
+    "points joined": nth(rf"(T\(LENGTH_MEASURE\()({NUMBER})(\),#)", more(1e-4)),
+    "name of a property": nth(r"PROPERTY_DEFINITION\('(\w+)", lambda m: m[0] + "x"),
+    "property left out": nth(r"\n#\d+=PROPERTY_DEFINITION_REPRESENTATION\([^;]*;", lambda m: ""),
+    "closed": nth(r"(SPLINE_CURVE_WITH_KNOTS\([^;]*D\.,\.)(F)(\.)", turned),
+    "vector against itself": nth(r"(=VECTOR\('',#\d+,)(1\.)(\))", more(-2)),
     "other name": nth(r"PRODUCT\('(\w+)','(\w+)'", lambda m: m[0].replace(m[1], m[1][:-1])),
     "loop of references": nth(r"\n#(\d+)=AXIS2_PLACEMENT_3D\('',#\d+", lambda m: m[0].rsplit("#", 1)[0] + f"#{m[1]}"),
 }  # fmt: skip
@@ -161,6 +168,8 @@ def test_a_good_step_is_good_however_it_is_laid_out(part: str, good: Path, tmp_p
     shuffled = np.random.default_rng(3).permutation(np.array(statements, dtype=object)).tolist()
     wide = re.sub(r"#(\d+)", lambda m: f"#{7 * int(m[1]) + 10**9}", "\r\n".join(shuffled))
     wide = re.sub(r"([=(,)])", r" \1\n ", wide) + "\r\n"
+    wide = wide.replace(";", "; /* it's #1=PLANE('',#2); * /**/", 5) + "/* after all */"
+    head, tail = f"/* a */{head}", tail.replace(";", ";/* b */")
     file = tmp_path / f"{part}.step"
     file.write_text(f"{head}DATA;\n{wide}ENDSEC;{tail}", encoding="ascii", newline="")
     assert verdict(file) == ()
@@ -249,6 +258,48 @@ def test_a_name_that_is_none_is_refused(text: str, good: Path, tmp_path: Path) -
         read_step(file)
 
 
+AROUND = (
+    "APPLICATION", "PRODUCT", "SHAPE_DEFINITION", "NEXT", "CONTEXT", "ITEM", "MECHANICAL", "STYLED", "PRESENTATION",
+    "SURFACE_S", "FILL", "CURVE", "PROPERTY", "REPRESENTATION", "MEASURE", "DERIVED", "(R", "UNCERTAINTY",
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def pair(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Two parts with materials, densities and colours of their own, in their places."""
+    folder = tmp_path_factory.mktemp("pair")
+    kinds = {"one": ("steel", "#c08040"), "two": ("brass", "#0080ff")}
+    parts = {
+        name: part_keys(Gear(2, 9 + k)) | {"material": material, "colour": colour, "density": 7.5 + k}
+        for k, (name, (material, colour)) in enumerate(kinds.items())
+    }
+    scene = write_scene(folder / "s.toml", parts, [{"format": "step", "assembly": True}])
+    assert run("build", scene, "--out", folder) == 0
+    return folder / "s"
+
+
+@pytest.mark.sampled(7)
+@pytest.mark.parametrize("kind", AROUND)
+def test_no_reference_around_the_solids_may_lead_elsewhere(kind: str, pair: Path, tmp_path: Path) -> None:
+    """Each to a like entity with another content, and to one of another kind: products, places, units, colours."""
+    text = (pair / "s.step").read_text(encoding="ascii")
+    (tmp_path / "report.json").write_bytes((pair / "report.json").read_bytes())
+    file = tmp_path / "s.step"
+    entities = {m[1]: m for m in re.finditer(r"(?<=\n)(#\d+)=([^;]*);", text)}
+    like: dict[str, list[str]] = {}
+    for name, found in entities.items():
+        like.setdefault(found[2].partition("(")[0], []).append(name)
+    for found in [m for m in entities.values() if m[2].startswith(kind)]:
+        for use in re.finditer(r"#\d+", found[2]):
+            what = entities[use[0]]
+            others = [n for n in like[what[2].partition("(")[0]] if entities[n][2] != what[2]][:3]
+            for other in (*others, "#3"):
+                place = found.start(2) + use.start()
+                changed = text[:place] + other + text[place + len(use[0]) :]
+                file.write_text(changed, encoding="ascii", newline="\n")
+                assert verdict(file), (found[0], use[0], other)
+
+
 def test_a_product_definition_of_another_thing_is_told(good: Path, tmp_path: Path) -> None:
     # the report was blamed, in Python's words
     text = (good / "plate.step").read_text(encoding="ascii")
@@ -257,7 +308,7 @@ def test_a_product_definition_of_another_thing_is_told(good: Path, tmp_path: Pat
     assert found is not None
     file = tmp_path / "plate.step"
     file.write_text(text.replace(found[0], found[0].replace(f"#{found[1]}", "#1")), encoding="ascii")
-    assert any("refers to no PRODUCT" in failure for failure in verdict(file))
+    assert any("which is no PRODUCT" in failure for failure in verdict(file))
 
 
 @pytest.mark.parametrize(
