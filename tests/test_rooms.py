@@ -21,7 +21,7 @@ STOREYS = (
     "parts.locale", "parts.solids", "parts.base", "parts.reasons", "parts.texts", "parts.keys", "parts.drawing",
     "parts.pages", "parts.bodies", "parts.gears", "parts.pins", "parts.cams", "parts.mates", "parts.recipes",
     "parts.scene", "parts.outside",
-    "exporters.formats", "exporters.verification", "exporters.drawings", "exporters.documents",
+    "exporters.formats", "exporters.verification", "exporters.drawings", "exporters.documents", "exporters.boards",
     "exporters.production", "exporters.command", "exporters.__main__",
 )  # fmt: skip
 Source = dict[str, str]

@@ -27,7 +27,7 @@ _OWN, _SOURCE, _OTHER = "gear", "source", "wheel"
 _SCHEMA = "higherpair.schema.json"
 _SCHEMA_COMMAND = f"higherpair schema --out {_SCHEMA}"
 # tables of a plain scene, as they are printed
-_TABLES = ("scene", "parts", "instances", "mates", "drives", "exports", "checks")
+_TABLES = ("scene", "parts", "instances", "mates", "drives", "boards", "beds", "exports", "checks")
 _COMMENTS = {
     "sheet": N_("picture of meshing of every pair, DXF and SVG"),
     "one_pair": N_("only of this one"),
@@ -164,7 +164,7 @@ def plain_scene(text: str, source: str) -> str:
     lines: list[str] = []
     for name in _TABLES:
         table = raw.get(name, {})
-        if name in ("parts", "instances"):
+        if name in ("parts", "instances", "boards", "beds"):
             for key, own in table.items():
                 lines += ["", f"[{name}.{key}]", *(f"{k} = {_toml(v)}" for k, v in own.items())]
         else:

@@ -43,7 +43,7 @@ def write_motion_svg(file: Path, title: str, tracks: Sequence[Track], box: Seque
     for track in tracks:
         places = [f"{number(z.real, _PLACE)},{number(-z.imag, _PLACE)}" for z in track.places.tolist()]
         angles = [number(-math.degrees(a), _ANGLE) for a in track.angles.tolist()]
-        data = " ".join(path_data(outline.geometry, 0.0) for outline in track.outlines)
+        data = " ".join(path_data(outline.geometry, 0j) for outline in track.outlines)
         lines += [
             f'<g id="{track.name}"{_moved("translate", places, seconds)}',
             f"<g{_moved('rotate', angles, seconds)}",

@@ -22,38 +22,56 @@ _LONG_BULGE = float(np.tan(np.radians(25)))
 def write_laser_svg(file: Path, layers: tuple[str, ...], boundaries: tuple[Approximation, ...]) -> dict[str, int]:
     """Write outlines at their true size; one user unit is one mm. No transform, no class, no style sheet."""
     middle = round(max(float(np.abs(b.geometry.vertices).max()) for b in boundaries), _PICTURE_DECIMALS) + _MARGIN
-    lines = [head(middle)]
+    return _write_outlines(file, layers, boundaries, head(middle), complex(middle, middle))
+
+
+def write_board_svg(
+    file: Path, layers: tuple[str, ...], boundaries: tuple[Approximation, ...], size: complex
+) -> dict[str, int]:
+    """Write the outlines of a board, whose lower left corner is the origin, on a page of its size, mm."""
+    return _write_outlines(file, layers, boundaries, page_head(size.real, size.imag), 1j * size.imag)
+
+
+def _write_outlines(
+    file: Path, layers: tuple[str, ...], boundaries: tuple[Approximation, ...], opening: str, origin: complex
+) -> dict[str, int]:
+    lines = [opening]
     for layer, boundary in zip(layers, boundaries, strict=True):
         style = f"fill:none;stroke:{STROKES[layer]};stroke-width:0.1"
-        lines.append(_shape(boundary.geometry, f'id="{layer.lower()}" style="{style}"', middle))
+        lines.append(_shape(boundary.geometry, f'id="{layer.lower()}" style="{style}"', origin))
     save(file, lines)
     return {"shapes": len(boundaries), "vertices": sum(len(b.geometry) for b in boundaries)}
 
 
 def head(middle: float, extra_width: float = 0.0, extra_height: float = 0.0) -> str:
     """The opening of a picture 2 ``middle`` mm wide and high, the origin in its middle, and what is added."""
-    width, height = number(2 * middle + extra_width), number(2 * middle + extra_height)
+    return page_head(2 * middle + extra_width, 2 * middle + extra_height)
+
+
+def page_head(wide: float, high: float) -> str:
+    """The opening of a picture so many mm wide and high."""
+    width, height = number(wide), number(high)
     return (
         '<?xml version="1.0" encoding="UTF-8"?>\n<svg xmlns="http://www.w3.org/2000/svg" version="1.1" '
         f'width="{width}mm" height="{height}mm" viewBox="0 0 {width} {height}">'
     )
 
 
-def _shape(contour: Contour, attributes: str, middle: float) -> str:
-    """A contour as a path, or as a circle where it is one."""
+def _shape(contour: Contour, attributes: str, origin: complex) -> str:
+    """A contour as a path, or as a circle where it is one; ``origin``: its place from the page's upper left corner."""
     if len(contour) == 2 and np.allclose(np.abs(contour.bulges), 1, rtol=1e-12):
         ends, decimals = contour.expanded()[0], contour.decimals or _PICTURE_DECIMALS
         centre, radius = ends.mean(), abs(ends[0] - ends[1]) / 2
-        x, y, r = (number(v, decimals) for v in (middle + centre.real, middle - centre.imag, radius))
+        x, y, r = (number(v, decimals) for v in (origin.real + centre.real, origin.imag - centre.imag, radius))
         return f'<circle cx="{x}" cy="{y}" r="{r}" {attributes}/>'
-    return f'<path d="{path_data(contour, middle)}" {attributes}/>'
+    return f'<path d="{path_data(contour, origin)}" {attributes}/>'
 
 
-def path_data(contour: Contour, middle: float) -> str:
+def path_data(contour: Contour, origin: complex) -> str:
     """Absolute M, L and A commands; y runs down in SVG, so a left turn has sweep flag 0."""
     vertices, bulges = _quartered(*contour.expanded())
     ends, decimals = np.roll(vertices, -1), contour.decimals or _PICTURE_DECIMALS
-    xs, ys = (middle + ends.real).tolist(), (middle - ends.imag).tolist()
+    xs, ys = (origin.real + ends.real).tolist(), (origin.imag - ends.imag).tolist()
     parts = [f"M{number(xs[-1], decimals)},{number(ys[-1], decimals)}"]
     for x, y, bulge, chord in zip(xs, ys, bulges.tolist(), np.abs(ends - vertices).tolist(), strict=True):
         to = f"{number(x, decimals)},{number(y, decimals)}"

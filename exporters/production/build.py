@@ -80,6 +80,10 @@ def build(
         previews = [part_preview(plan.parts[p], o, staging, plan.scene.scene.language) for p, o in outlines.items()]
         if len(plan.placing.instances) > 1 and len(wanted) == len(plan.parts):
             previews.append(scene_preview(plan, outlines, checks, staging))
+        if any(assembly.export.purpose == "board" for assembly in plan.assemblies):
+            from exporters.production.board_preview import board_previews
+
+            previews += board_previews(plan, outlines, staging)
         names = [item.job.path for item in written if not item.failures]
         with alone_in(folder):
             before = read_report(folder)

@@ -126,7 +126,7 @@ class Job(Content):
     def shape_key(self) -> ShapeKey:
         """What its boundaries depend on."""
         export = self.export
-        return (self.part.id, export.format, export.purpose, export.tolerance, export.curves, self.section.offset)
+        return (self.part.id, self.kind.name, export.tolerance, export.curves, self.section.offset)
 
     def chords(self, made: Made) -> Chords:
         """Its boundaries, of a laser file or a mesh."""

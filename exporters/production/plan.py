@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
 
@@ -14,11 +14,13 @@ from parts.base.part import Part
 from parts.base.reasons import reason
 from parts.base.refusal import SceneError, meant, placed
 from parts.base.texts import N_, Message, Text, filled, message
+from parts.keys.boards import PURPOSES_LAID
 from parts.scene.formats import FORMATS
 from parts.scene.load import ExportSpec, SceneFile, default_export, in_keys_of_file, make_parts
 from parts.scene.placing import Placing, place
 
 if TYPE_CHECKING:
+    from exporters.production.boards import BoardJob
     from exporters.production.motion import MotionJob
     from exporters.production.sheets import SheetJob
 
@@ -39,7 +41,7 @@ class Plan(Record):
     parts: dict[str, Part]
     placing: Placing
     jobs: tuple[Job, ...]
-    assemblies: tuple[AssemblyJob, ...]
+    assemblies: tuple[AssemblyJob | BoardJob, ...]
     left_out: tuple[LeftOut, ...]
     sheets: tuple[SheetJob | MotionJob, ...] = ()
 
@@ -87,8 +89,9 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
     unused = [p for p in parts if p not in used]
     left_out += [LeftOut(f"parts.{p}", N_("no export asks for it"), as_asked=bool(only_formats)) for p in unused]
     jobs: list[Job] = []
-    assemblies: list[AssemblyJob] = []
+    assemblies: list[AssemblyJob | BoardJob] = []
     sheets: list[SheetJob | MotionJob] = []
+    layouts: dict[object, list[Any]] = {}
     taken: dict[str, Text] = {f"{part}.preview.svg".lower(): Message(N_("the preview of the part")) for part in parts}
     for where, export in exports:
         if only_parts and (export.assembly or _of_several(export)):
@@ -98,6 +101,25 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
             continue
         if export.format == "sheet":
             sheets += _sheets(scene, placing, _of_cams(export, parts, only_parts), where, source, taken)
+            continue
+        if export.purpose == "board":
+            from exporters.production.boards import board_jobs
+
+            for board in board_jobs(scene, parts, export, _section, layouts, where, source):
+                _take(board.path, where, taken, source)
+                assemblies.append(board)
+            continue
+        if export.purpose == "plate":
+            from exporters.production.plates import plate_jobs
+
+            def solid(part: Part, export: ExportSpec = export, where: str = where) -> Job:
+                job = Job(part, export, _section(part, export, source, where), "", where)
+                _check_body(job, source)
+                return job
+
+            for plate in plate_jobs(scene, parts, export, solid, where, source):
+                _take(plate.path, where, taken, source)
+                assemblies.append(plate)
             continue
         if export.format == "motion":
             from exporters.production.motion import motion_job
@@ -127,6 +149,8 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
 
 def _of_several(export: ExportSpec) -> bool:
     """Whether a picture shows parts together; that of a cam shows one."""
+    if export.purpose in PURPOSES_LAID.values():
+        return True
     return export.format == "motion" or (export.format == "sheet" and export.purpose != "cam")
 
 
@@ -187,7 +211,9 @@ def _wanted_exports(scene: SceneFile, source: str, only_formats: list[str]) -> l
 def _file_name(part_id: str, export: ExportSpec, exports: list[ExportSpec]) -> str:
     """``<part>.<ext>``; with the export's name (default: its purpose) in between where two exports share an ending."""
     sharing = [
-        e for e in exports if e.format == export.format and not e.assembly and (e.parts is None or part_id in e.parts)
+        e
+        for e in exports
+        if e.format == export.format and not _of_several(e) and not e.assembly and part_id in (e.parts or [part_id])
     ]
     if len(sharing) > 1:
         return f"{part_id}.{export.name or export.purpose}.{export.format}"
@@ -196,7 +222,7 @@ def _file_name(part_id: str, export: ExportSpec, exports: list[ExportSpec]) -> s
 
 def _assembly_path(scene: SceneFile, export: ExportSpec, exports: list[ExportSpec]) -> str:
     """``<scene>.<ext>``; with a word in between where the export has a name, or another file would be the same."""
-    alike = [e for e in exports if e.format == export.format]
+    alike = [e for e in exports if e.format == export.format and not _of_several(e)]
     if export.name or sum(e.assembly for e in alike) > 1:
         return f"{scene.name}.{export.name or export.purpose}.{export.format}"
     parts = {p.lower() for e in alike if not e.assembly for p in e.parts or scene.parts}

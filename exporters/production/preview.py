@@ -28,7 +28,7 @@ _CAPTION_LETTERS, _WIDE_LETTERS = 42, 100
 _PIN_STYLE = "fill:#7f8c99;stroke:#202830"
 # outlines of more curves than this are drawn by so many points of each: arcs take seconds to fit
 _MOST_ARCS, _POINTS = 300, 8
-_FILLS = ("#b8c4d0", "#d9c39a", "#b5cfae", "#d3b3b3", "#bdb6d6")
+FILLS = ("#b8c4d0", "#d9c39a", "#b5cfae", "#d3b3b3", "#bdb6d6")
 # the boundaries of a part, the outer one last
 Outlines: TypeAlias = tuple[Approximation, ...]
 
@@ -38,6 +38,7 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
     remarks = [finding_text(language, f) for f in part.findings]
     reach = max(float(np.abs(b.geometry.vertices).max()) for b in boundaries)
     middle = reach * 1.08
+    corner = complex(middle, middle)
     text = reach / 22
     named = part.circles | part.quantities
     told = words(language)
@@ -51,12 +52,12 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
         )
     ]
     lines.append('<rect width="100%" height="100%" style="fill:#ffffff"/>')
-    data = " ".join(path_data(b.geometry, middle) for b in reversed(boundaries))
+    data = " ".join(path_data(b.geometry, corner) for b in reversed(boundaries))
     fill = part.colour or "#b8c4d0"
     lines.append(
         f'<path d="{data}" style="fill:{fill};fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 400:.4g}"/>'
     )
-    pins = " ".join(path_data(c, middle) for c in _solid_pins(part, boundaries))
+    pins = " ".join(path_data(c, corner) for c in _solid_pins(part, boundaries))
     if pins:
         lines.append(f'<path d="{pins}" style="{_PIN_STYLE};stroke-width:{reach / 400:.4g}"/>')
     dash = f"{reach / 30:.4g} {reach / 120:.4g} {reach / 200:.4g} {reach / 120:.4g}"
@@ -78,12 +79,13 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
 
     language = plan.scene.scene.language
     stand = sorted(plan.placing.instances, key=lambda i: i.at[2])
-    outers = [_outer(i, _samples(outlines[i.part][-1].geometry), plan.parts[i.part]) for i in stand]
+    outers = [_outer(i, samples(outlines[i.part][-1].geometry), plan.parts[i.part]) for i in stand]
     points = np.concatenate(outers)
     left, right = float(points.real.min()), float(points.real.max())
     low, high = float(points.imag.min()), float(points.imag.max())
     reach = max(right - left, high - low) / 2
     middle, shift = reach * 1.08, -complex(left + right, low + high) / 2
+    corner = complex(middle, middle)
     # a wide scene is drawn wide: what is above and below it is cut off
     spare = max(0.0, 2 * (middle - (high - low) / 2 - 0.08 * reach))
     rows = [plan.scene.scene.title or plan.scene.name, *check_lines(checks, language)]
@@ -100,11 +102,11 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
         solid = _solid_pins(plan.parts[instance.part], outlines[instance.part])
         if instance.axis != UPWARDS:
             placed, solid = [Contour(outers[index] + shift, np.zeros(len(outers[index])))], []
-        data = " ".join(path_data(contour, middle) for contour in placed)
-        fill = plan.parts[instance.part].colour or _FILLS[index % len(_FILLS)]
+        data = " ".join(path_data(contour, corner) for contour in placed)
+        fill = plan.parts[instance.part].colour or FILLS[index % len(FILLS)]
         style = f"fill:{fill};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 600:.4g}"
         lines.append(f'<path d="{data}" style="{style}"/>')
-        pins = " ".join(path_data(_placed(c, turn, instance.centre + shift), middle) for c in solid)
+        pins = " ".join(path_data(_placed(c, turn, instance.centre + shift), corner) for c in solid)
         if pins:
             lines.append(f'<path d="{pins}" style="{_PIN_STYLE};stroke-width:{reach / 600:.4g}"/>')
         place = instance.centre + shift
@@ -115,7 +117,7 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
         labels.append(Label(instance.id, x, y, size))
     style = f"font-family:sans-serif;font-size:{size:.4g}px;text-anchor:middle;fill:#202830"
     for label in spread_labels(labels):
-        lines.append(f'<text x="{label.x:.4g}" y="{label.y:.4g}" style="{style}">{_escaped(label.text)}</text>')
+        lines.append(f'<text x="{label.x:.4g}" y="{label.y:.4g}" style="{style}">{escaped(label.text)}</text>')
     lines.append("</g>")
     lines += _caption(rows, size, size)
     file = folder / f"{scene_preview_name(plan)}"
@@ -176,7 +178,7 @@ def _solid_pins(part: Part, outlines: Outlines) -> list[Contour]:
     return [c for c, at in zip(contours, centres, strict=True) if abs(abs(at) - radius) < 1e-6 * radius]
 
 
-def _samples(contour: Contour) -> Complex:
+def samples(contour: Contour) -> Complex:
     """Points all along a contour."""
     vertices, bulges = contour.expanded()
     return edge_points(vertices, np.roll(vertices, -1), bulges, np.linspace(0, 1, 9)[:-1]).ravel()
@@ -214,10 +216,11 @@ def _cross(middle: float, reach: float) -> list[str]:
 def _caption(rows: list[str], left: float, size: float) -> list[str]:
     style = f"font-family:sans-serif;font-size:{size:.4g}px;fill:#202830"
     return [
-        f'<text x="{left:.4g}" y="{(i + 1.5) * size * 1.7:.4g}" style="{style}">{_escaped(row)}</text>'
+        f'<text x="{left:.4g}" y="{(i + 1.5) * size * 1.7:.4g}" style="{style}">{escaped(row)}</text>'
         for i, row in enumerate(rows)
     ]
 
 
-def _escaped(text: str) -> str:
+def escaped(text: str) -> str:
+    """A text as it stands in an SVG."""
     return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")

@@ -96,6 +96,10 @@ def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, A
     scene = scene_from_resolved(report["scene"], source)
     if entry["format"] in ("sheet", "motion"):
         return _against_sheet(file, source, scene, entry, digest)
+    if "board" in entry:
+        return _against_board(file, source, scene, entry, digest)
+    if "bed" in entry:
+        return _against_plate(file, source, scene, entry, digest)
     if entry["part"] is None:
         return _against_assembly(file, source, scene, entry, digest)
     part = make_parts(scene, source)[0][entry["part"]]
@@ -134,6 +138,35 @@ def _against_sheet(file: Path, source: str, scene: SceneFile, entry: dict[str, A
     job = {sheet.path: sheet for sheet in plan.sheets}[entry["path"]]
     declared, tolerance = float(entry["max_error"]), float(entry["tolerance"])
     return Recheck(file, job.verify(file, declared), declared, tolerance, digest == entry["sha256"])
+
+
+def _against_board(file: Path, source: str, scene: SceneFile, entry: dict[str, Any], digest: str) -> Recheck:
+    """A board: its pieces where the report says that they lie."""
+    from exporters.verification.board import BoardPiece, ExpectedBoard, verify_board
+
+    pieces = tuple(
+        BoardPiece(name, told["part"], float(told["turn_deg"]), complex(*told["at"]))
+        for name, told in entry["pieces"].items()
+    )
+    expected = ExpectedBoard(scene.boards[entry["board"]], make_parts(scene, source)[0], pieces, float(entry["offset"]))
+    declared, tolerance = float(entry["max_error"]), float(entry["tolerance"])
+    verdict = verify_board(file, file_kind(entry["format"], entry["purpose"]), expected, declared, tolerance)
+    return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
+
+
+def _against_plate(file: Path, source: str, scene: SceneFile, entry: dict[str, Any], digest: str) -> Recheck:
+    """A plate: its pieces where the report says that they stand."""
+    from exporters.production.plates import instances_of
+    from exporters.verification.assembly import expected_of
+    from exporters.verification.plate import ExpectedPlate, verify_plate
+
+    made, stand = make_parts(scene, source)[0], instances_of(entry["pieces"])
+    used = {i.part: made[i.part] for i in stand}
+    expected = expected_of(assembly_name(scene.name), used, float(entry["offset"]), stand)
+    declared, tolerance = float(entry["max_error"]), float(entry["tolerance"])
+    kind, plate = file_kind(entry["format"], entry["purpose"]), ExpectedPlate(scene.beds[entry["bed"]], expected)
+    return Recheck(file, verify_plate(file, kind, plate, declared, tolerance), declared, tolerance,
+                   digest == entry["sha256"])  # fmt: skip
 
 
 def _against_assembly(file: Path, source: str, scene: SceneFile, entry: dict[str, Any], digest: str) -> Recheck:

@@ -61,6 +61,17 @@ REASONS = {
     "same_scene_name": N_("has the name of {other}: both would be made in one folder; build one of them with --out"),
     "too_large_file": N_("is larger than {most} bytes: not a scene file"),
     "travels_nowhere": N_("moves nothing: give a way in mm"),
+    "too_small_for_part": N_(
+        "the part {part} needs {width} x {height} mm within a margin of {margin} mm: give a larger board"
+    ),
+    "too_small_for_parts": N_("parts that are too large for it, and the scale at which each would do: {parts}"),
+    "gap_above_board": N_("is larger than the board, of which the shorter side is {side} mm"),
+    "margins_leave_nothing": N_("leaves nothing of a side of {side} mm"),
+    "part_not_so_thick": N_("the part {part} is {thickness} mm thick"),
+    "no_part_so_thick": N_("no flat part is as thick; flat parts have {found} mm"),
+    "no_boards": N_("needs a table {table}, which says how large it is"),
+    "key_of_board": N_("boards.NAME.kerf says it: a board is cut with one kerf"),
+    "not_of_boards": N_("parts are laid out as they are"),
     "turned_into_mesh": N_("{mate} turns it into mesh; give `at` too, and the mate only checks"),
     "turns_nothing": N_("turns nothing: 1.0 is one turn"),
     "unknown_kind": N_("unknown kind; known kinds: {known}"),

@@ -47,11 +47,11 @@ class FileKind(Record):
 FILE_KINDS = {
     kind.name: kind
     for kind in (
-        FileKind("dxf", "dxf", Form.ARCS, {"laser": 0.005}),
+        FileKind("dxf", "dxf", Form.ARCS, {"laser": 0.005, "board": 0.005}),
         FileKind("drawing", "dxf", Form.SPLINES, {"drawing": 1e-6}),
-        FileKind("svg", "svg", Form.ARCS, {"laser": 0.005}),
+        FileKind("svg", "svg", Form.ARCS, {"laser": 0.005, "board": 0.005}),
         FileKind("stl", "stl", Form.TRIANGLES, {"print": 0.01}),
-        FileKind("3mf", "3mf", Form.TRIANGLES, {"print": 0.01}, assembly=True),
+        FileKind("3mf", "3mf", Form.TRIANGLES, {"print": 0.01, "plate": 0.01}, assembly=True),
         FileKind("step", "step", Form.FACES, {"model": 1e-6}, assembly=True),
         FileKind("sheet", "sheet", Form.SHEET, {"meshing": 1e-6, "generating": 1e-6, "cam": 1e-6, "train": 1e-6}),
         FileKind("motion", "motion", Form.SHEET, {"animation": 0.02}),

@@ -7,7 +7,7 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar
 
 import msgspec
 from msgspec import Meta, Struct
@@ -20,6 +20,7 @@ from parts.base.registry import KINDS
 from parts.base.schema import converted, refuse_infinite
 from parts.base.texts import ENGLISH, languages
 from parts.keys.base import DEVICE_NAMES, IDENTIFIER, Identifier, mm
+from parts.keys.boards import PURPOSES_LAID, BedSpec, BoardSpec, LaidKeys, check_laid
 from parts.keys.sheet import CamSpeed, Intervals, MateNumber, RackStep, check_sheet_keys
 from parts.keys.title import TitleBlockKey
 from parts.scene.files import MOST_BYTES, built_in_scenes, text_of
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     from parts.base.mate import MateKeys, Mating
 
 
+L = TypeVar("L", bound=LaidKeys)
 # the languages that have a catalogue
 if TYPE_CHECKING:
     Language = str
@@ -61,9 +63,22 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     ]
     purpose: (
         Annotated[
-            Literal["laser", "print", "drawing", "model", "meshing", "generating", "cam", "train", "animation"],
+            Literal[
+                "laser",
+                "board",
+                "print",
+                "plate",
+                "drawing",
+                "model",
+                "meshing",
+                "generating",
+                "cam",
+                "train",
+                "animation",
+            ],
             Meta(
-                description="dxf: laser (arcs) or drawing (splines); sheet: meshing (picture of each pair), "
+                description="dxf: laser (arcs) or drawing (splines); dxf, svg: board (all flat parts laid on boards); "
+                "3mf: plate (all parts laid on beds); sheet: meshing (picture of each pair), "
                 "generating (device TMM-42), cam (diagrams, least radius, profile) or train (scheme, plans of "
                 "velocities)",
                 examples=["laser"],
@@ -128,6 +143,8 @@ class SceneFile(Struct, forbid_unknown_fields=True):
     mates: list[Any] = []
     drives: list[DriveSpec] = []
     checks: ChecksSpec = msgspec.field(default_factory=ChecksSpec)
+    boards: dict[str, BoardSpec] = {}
+    beds: dict[str, BedSpec] = {}
     origins: dict[str, str] = {}
 
 
@@ -224,7 +241,7 @@ def scene_from_dict(raw: dict[str, Any], source: str, name: str) -> SceneFile:
 
 def _check_tables(raw: dict[str, Any], source: str) -> None:
     """Only tables that a scene has, each of its form."""
-    tables: dict[str, type] = {key: dict for key in ("scene", "parts", "instances", "checks")}
+    tables: dict[str, type] = {key: dict for key in ("scene", "parts", "instances", "boards", "beds", "checks")}
     tables |= {key: list for key in ("assemblies", "mates", "drives", "exports")}
     for key, value in raw.items():
         if key not in tables:
@@ -260,7 +277,27 @@ def _scene_of(raw: dict[str, Any], source: str, name: str, origins: dict[str, st
     origins |= places
     drives = [drive_spec(t, instances, source, f"drives[{i + 1}]") for i, t in enumerate(raw.get("drives", []))]
     checks = converted(raw.get("checks", {}), ChecksSpec, source, "checks")
-    return SceneFile(name, info, parts, exports, instances, mates, drives, checks, origins)
+    boards = _laid(raw, "boards", BoardSpec, exports, parts, instances, source)
+    beds = _laid(raw, "beds", BedSpec, exports, parts, instances, source)
+    return SceneFile(name, info, parts, exports, instances, mates, drives, checks, boards, beds, origins)
+
+
+def _laid(
+    raw: dict[str, Any], key: str, kind: type[L], exports: list[ExportSpec], parts: dict[str, Struct],
+    instances: dict[str, InstanceSpec], source: str,
+) -> dict[str, L]:  # fmt: skip
+    """The boards or beds of a scene; exports that lay parts out need one."""
+    purpose = PURPOSES_LAID[key]
+    wanted = next((i for i, e in enumerate(exports, 1) if e.purpose == purpose), 0)
+    if wanted and not raw.get(key):
+        raise SceneError(source, f"exports[{wanted}].purpose", purpose, "no_boards", None, table=f"[{key}.NAME]")
+    found = {}
+    for name, table in raw.get(key, {}).items():
+        if not re.fullmatch(IDENTIFIER, name):
+            raise SceneError(source, f"{key}.{name}", None, "not_a_name", Nearest(f"{purpose}_1"))
+        found[name] = converted(table, kind, source, f"{key}.{name}")
+        check_laid(found[name], parts, instances, source, f"{key}.{name}")
+    return found
 
 
 def _mate_spec(
@@ -318,6 +355,10 @@ def _export_spec(table: object, parts: dict[str, Struct], source: str, place: st
             refuse(key, "only_for_format", formats='"step"', format=spec.format)
     if spec.assembly and spec.format not in ASSEMBLY_FORMATS:
         refuse("assembly", "only_for_format", formats=[f'"{f}"' for f in ASSEMBLY_FORMATS], format=spec.format)
+    if spec.purpose in PURPOSES_LAID.values():
+        for key, code in (("kerf", "key_of_board"), ("offset", "not_of_boards"), ("assembly", "not_of_boards")):
+            if getattr(spec, key) and not (key == "offset" and spec.format == "3mf"):
+                refuse(key, code)
     purposes = tolerances_of(spec.format)
     if spec.purpose is None:
         spec.purpose = default_export(spec.format).purpose
@@ -380,6 +421,9 @@ def resolved(scene: SceneFile) -> dict[str, Any]:
     """The scene as plain data with every default filled in and every group told out."""
     data: dict[str, Any] = msgspec.to_builtins(scene)
     del data["origins"]
+    # told where there are some
+    for key in [key for key in PURPOSES_LAID if not data[key]]:
+        del data[key]
     for spec in (*data["instances"].values(), *data["drives"]):
         for key in [key for key in _SELDOM if spec.get(key, 0) is None]:
             del spec[key]
@@ -388,10 +432,10 @@ def resolved(scene: SceneFile) -> dict[str, Any]:
 
 def scene_from_resolved(data: dict[str, Any], source: str) -> SceneFile:
     """A scene from what a report has kept."""
-    known = ("scene", "parts", "instances", "mates", "drives", "exports", "checks")
+    known = ("scene", "parts", "instances", "mates", "drives", "exports", "checks", *PURPOSES_LAID)
     tables: dict[str, Any] = {key: data[key] for key in known if key in data}
     tables["exports"] = [{k: v for k, v in e.items() if v is not None} for e in tables.get("exports", [])]
-    for name in ("parts", "instances"):
+    for name in ("parts", "instances", *PURPOSES_LAID):
         tables[name] = {k: _without_none(v) for k, v in tables.get(name, {}).items()}
     return scene_from_dict(tables, source, str(data.get("name", "scene")))
 

@@ -9,6 +9,7 @@ import msgspec
 from msgspec import Meta
 
 from parts.base.registry import KINDS
+from parts.keys.boards import BedSpec, BoardSpec
 from parts.mates.registry import MATES
 from parts.recipes.registry import RECIPES
 from parts.scene.instances import DriveSpec, InstanceTable
@@ -28,6 +29,8 @@ def scene_schema() -> str:
         ("instances", dict[str, InstanceTable], {}),
         ("mates", list[mate], []),
         ("drives", list[DriveSpec], []),
+        ("boards", dict[str, BoardSpec], {}),
+        ("beds", dict[str, BedSpec], {}),
         ("checks", ChecksSpec, msgspec.field(default_factory=ChecksSpec)),
         ("exports", list[ExportSpec], []),
     ]

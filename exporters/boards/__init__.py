@@ -1,0 +1,1 @@
+"""Parts laid out on boards and beds."""

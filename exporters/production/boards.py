@@ -1,0 +1,186 @@
+"""Boards among the files of a build: flat parts laid out on them, cut in order, held to account."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from msgspec.structs import replace as with_keys
+
+from exporters.boards.cuts import in_order
+from exporters.boards.nest import HALVES, QUARTERS, DoesNotFitError, Laid, Room, nest
+from exporters.formats.registry import BOUNDS
+from exporters.production.jobs import Job, Made
+from exporters.verification.board import BoardPiece, ExpectedBoard, verify_board
+from exporters.verification.verdict import Verdict
+from geometry.approximation.chords import approximate_profile
+from geometry.base.findings import Finding
+from geometry.base.record import Record, replace
+from geometry.plane.contour import Approximation, Contour
+from geometry.plane.offset_region import OffsetRegion
+from geometry.plane.profile import Region
+from parts.base.part import Part
+from parts.base.refusal import SceneError
+from parts.keys.boards import BoardSpec
+from parts.scene.boards import parts_of_board, pieces_of
+from parts.scene.load import ExportSpec, SceneFile
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from shapely.geometry.base import BaseGeometry
+
+# outlines are laid as chords so near to them, mm; places are told to so many decimals
+_CHORDS, _DECIMALS = 0.02, 4
+# of numbers on a board: what is turned and moved keeps the digits of the part's own file
+_FILE_DECIMALS = 12
+
+
+class BoardJob(Record):
+    """One board in one file; ``members`` are the jobs of its parts, whose own paths are not used."""
+
+    export: ExportSpec
+    name: str
+    board: BoardSpec
+    members: tuple[Job, ...]
+    pieces: tuple[BoardPiece, ...]
+    path: str
+    place: str
+
+    @property
+    def label(self) -> str:
+        """The file."""
+        return self.path
+
+    @property
+    def told(self) -> dict[str, Any]:
+        """The board, and where each piece lies: its part, the place of its origin, mm, and its turn, degrees."""
+        return {"part": None, "board": self.name, "pieces": {p.id: p.told for p in self.pieces}}
+
+    @property
+    def offset(self) -> float:
+        """Of every section, mm."""
+        return self.members[0].section.offset
+
+    def cuts(self, made: Made) -> tuple[tuple[str, ...], tuple[Approximation, ...]]:
+        """The layers and boundaries of all pieces in their places, in the order in which they are cut."""
+        rows = []
+        of_part = {m.part.id: m for m in self.members}
+        for piece in self.pieces:
+            job = of_part[piece.part]
+            for layer, boundary in zip(job.section.region.layers(), job.chords(made), strict=True):
+                vertices, bulges = boundary.geometry.expanded()
+                moved = Contour(piece.moved(vertices), bulges, decimals=_FILE_DECIMALS)
+                rows.append((layer, replace(boundary, geometry=moved)))
+        return in_order(rows)
+
+    def write(self, made: Made, file: Path) -> dict[str, int]:
+        """Write all pieces in their places; counts of what is in the file."""
+        layers, boundaries = self.cuts(made)
+        if self.export.format == "svg":
+            from exporters.formats.svg import write_board_svg
+
+            counts = write_board_svg(file, layers, boundaries, complex(self.board.width, self.board.height))
+        else:
+            from exporters.formats.laser_dxf import write_laser_dxf
+
+            counts = write_laser_dxf(file, layers, boundaries, version=self.export.dxf_version)
+        return {**counts, "pieces": len(self.pieces)}
+
+    def declared(self, made: Made) -> tuple[float, str]:
+        """The worst bound of its parts, mm, and the weakest kind of bound."""
+        found = [m.declared(made) for m in self.members]
+        return max(error for error, _ in found), max((bound for _, bound in found), key=BOUNDS.index)
+
+    def findings(self, made: Made) -> tuple[Finding, ...]:
+        """Remarks on the outlines in it."""
+        return tuple(dict.fromkeys(f for m in self.members for f in (*m.section.findings, *m.remarks(made))))
+
+    def verify(self, file: Path, declared: float) -> Verdict:
+        """Read it back: every piece whole and in its place, on the board, clear of the others."""
+        parts = {m.part.id: m.part for m in self.members}
+        expected = ExpectedBoard(self.board, parts, self.pieces, self.offset)
+        return verify_board(file, self.members[0].kind, expected, declared, self.members[0].tolerance)
+
+
+def board_jobs(
+    scene: SceneFile,
+    parts: Mapping[str, Part],
+    export: ExportSpec,
+    section: Callable[[Part, ExportSpec, str, str], OffsetRegion],
+    layouts: dict[object, list[Laid]],
+    where: str,
+    source: str,
+) -> list[BoardJob]:
+    """The files of one export: every board of every table, counted through.
+
+    ``layouts``: those that are made already, which exports of one scene share.
+
+    Raises
+    ------
+    SceneError
+        A board has no part, or a part is larger than its board; or a kerf that an outline does not survive.
+    """
+    found: list[BoardJob] = []
+    for name, board in scene.boards.items():
+        place = f"boards.{name}"
+        own = with_keys(export, kerf=board.kerf)
+        wanted = [p for p in parts_of_board(board, parts, source, place) if p in (export.parts or parts)]
+        counts = pieces_of(board, wanted, scene.instances)
+        jobs = {p: Job(parts[p], own, section(parts[p], own, source, place), "", where) for p in counts}
+        key = (name, tuple(counts), export.tolerance)
+        if key not in layouts:
+            layouts[key] = _laid_out(board, jobs, counts, source, place)
+        laid = layouts[key]
+        for number in range(1 + max((one.board for one in laid), default=-1)):
+            pieces = board_pieces([one for one in laid if one.board == number], laid)
+            members = tuple(jobs[p] for p in dict.fromkeys(piece.part for piece in pieces))
+            path = f"{scene.name}.{export.name or export.purpose}.{len(found) + 1}.{export.format}"
+            found.append(BoardJob(own, name, board, members, pieces, path, where))
+    return found
+
+
+def board_pieces(here: Sequence[Laid], laid: Sequence[Laid]) -> tuple[BoardPiece, ...]:
+    """The pieces of one board, named by their parts and counted through all boards."""
+    of_shape: dict[str, list[Laid]] = {}
+    for one in laid:
+        of_shape.setdefault(one.shape, []).append(one)
+    return tuple(
+        BoardPiece(f"{one.shape}_{1 + of_shape[one.shape].index(one)}", one.shape, 90 * one.turn, one.at)
+        for one in here
+    )
+
+
+def _laid_out(
+    board: BoardSpec, jobs: Mapping[str, Job], counts: Mapping[str, int], source: str, place: str
+) -> list[Laid]:
+    tolerance = max((job.tolerance for job in jobs.values()), default=0.0)
+    # both outlines may come nearer by what their chords and files leave of them
+    more = 2 * (_CHORDS + tolerance) + 2 * 10.0**-_DECIMALS
+    room = Room(
+        board.width, board.height, board.margin + more / 2, board.gap + more, HALVES if board.grain else QUARTERS
+    )
+    shapes = {p: (material(job.section.region), counts[p]) for p, job in jobs.items()}
+    try:
+        laid = nest(shapes, room)
+    except DoesNotFitError as refusal:
+        size = [round(x, 3) for x in refusal.size]
+        raise SceneError(
+            source, f"{place}.width", board.width, "too_small_for_part", None, "mm",
+            part=refusal.shape, width=size[0], height=size[1], margin=board.margin,
+        ) from refusal  # fmt: skip
+    return [replace(one, at=complex(round(one.at.real, _DECIMALS), round(one.at.imag, _DECIMALS))) for one in laid]
+
+
+def material(region: Region) -> BaseGeometry:
+    """The material of a section as polygons, near enough to be laid out, mm."""
+    import shapely
+
+    def ring(profile: Any) -> BaseGeometry:
+        vertices, _ = approximate_profile(profile, _CHORDS, arcs=False).geometry.expanded()
+        return shapely.Polygon(np.stack([vertices.real, vertices.imag], axis=1))
+
+    outer = shapely.union_all([ring(p) for p in (region.outer, *region.apart)])
+    return shapely.difference(outer, shapely.union_all([ring(p) for p in region.holes]))

@@ -1,0 +1,126 @@
+"""Plates among the files of a build: parts laid out on the beds of a printer, a file each."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from exporters.boards.nest import QUARTERS, DoesNotFitError, Laid, Room, nest
+from exporters.production.boards import board_pieces
+from exporters.production.jobs import AssemblyJob, Job, assembly_name
+from exporters.verification.assembly import expected_of
+from exporters.verification.plate import ExpectedPlate, verify_plate
+from exporters.verification.verdict import Verdict
+from geometry.base.errors import rounded
+from parts.base.part import Part
+from parts.base.refusal import SceneError
+from parts.base.texts import Message, listed
+from parts.keys.boards import BedSpec
+from parts.scene.boards import pieces_of
+from parts.scene.load import ExportSpec, SceneFile
+from parts.scene.placing import Instance
+
+if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
+# footprints are those of chords so near to the solids, mm
+_CHORDS = 0.02
+
+
+class PlateJob(AssemblyJob):
+    """One bed in one file: pieces as instances, each standing on z = 0."""
+
+    bed_name: str
+    bed: BedSpec
+
+    @property
+    def told(self) -> dict[str, Any]:
+        """The bed, and where each piece stands: its part, the place of its origin, mm, and its turn, degrees."""
+        pieces = {
+            i.id: {"part": i.part, "at": list(i.at), "turn_deg": round(math.degrees(i.rotation))}
+            for i in self.instances
+        }
+        return {"part": None, "bed": self.bed_name, "pieces": pieces}
+
+    def verify(self, file: Path, declared: float) -> Verdict:
+        """Read it back: every part in its place, on the bed, clear of the others."""
+        parts = {m.part.id: m.part for m in self.members}
+        expected = ExpectedPlate(self.bed, expected_of(self.name, parts, self.offset, self.instances))
+        return verify_plate(file, self.members[0].kind, expected, declared, self.members[0].tolerance)
+
+
+def plate_jobs(
+    scene: SceneFile,
+    parts: Mapping[str, Part],
+    export: ExportSpec,
+    job_of: Callable[[Part], Job],
+    where: str,
+    source: str,
+) -> list[PlateJob]:
+    """The files of one export: every plate of every bed, counted through.
+
+    Raises
+    ------
+    SceneError
+        Parts are larger than their bed.
+    """
+    found: list[PlateJob] = []
+    for name, bed in scene.beds.items():
+        wanted = [p for p in bed.parts or parts if p in (export.parts or parts)]
+        counts = pieces_of(bed, wanted, scene.instances)
+        jobs = {p: job_of(parts[p]) for p in counts}
+        feet = {p: _footprint(job) for p, job in jobs.items()}
+        laid = _laid_out(bed, feet, counts, source, f"beds.{name}")
+        for number in range(1 + max((one.board for one in laid), default=-1)):
+            pieces = board_pieces([one for one in laid if one.board == number], laid)
+            stand = tuple(
+                Instance(p.id, p.part, (p.at.real, p.at.imag, -feet[p.part][1]), math.radians(p.turn_deg), "plate")
+                for p in pieces
+            )
+            members = tuple(jobs[p] for p in dict.fromkeys(piece.part for piece in pieces))
+            path = f"{scene.name}.{export.name or export.purpose}.{len(found) + 1}.{export.format}"
+            found.append(PlateJob(assembly_name(scene.name), export, members, stand, path, where, name, bed))
+    return found
+
+
+def instances_of(pieces: Mapping[str, Mapping[str, Any]]) -> list[Instance]:
+    """The pieces of a plate as a report has them."""
+    return [
+        Instance(name, told["part"], tuple(told["at"]), math.radians(told["turn_deg"]), "plate")
+        for name, told in pieces.items()
+    ]
+
+
+def _footprint(job: Job) -> tuple[BaseGeometry, float, float]:
+    """The hull of a solid seen from above, and its lowest and highest z, mm."""
+    import shapely
+
+    from parts.solids.mesh import body_mesh, mesh_outlines
+
+    vertices = body_mesh(job.body, mesh_outlines(job.body, _CHORDS, 0.0)).vertices
+    hull = shapely.MultiPoint(vertices[:, :2]).convex_hull.buffer(_CHORDS)
+    return hull, float(vertices[:, 2].min()), float(vertices[:, 2].max())
+
+
+def _laid_out(
+    bed: BedSpec,
+    feet: Mapping[str, tuple[BaseGeometry, float, float]],
+    counts: Mapping[str, int],
+    source: str,
+    place: str,
+) -> list[Laid]:
+    room = Room(bed.width, bed.depth, bed.margin, bed.gap, QUARTERS)
+    scales = {p: bed.height / (high - low) for p, (_, low, high) in feet.items() if high - low > bed.height}
+    for part, (foot, _, _) in feet.items():
+        try:
+            nest({part: (foot, 1)}, room)
+        except DoesNotFitError as refusal:
+            scales[part] = min(refusal.scale, scales.get(part, math.inf))
+    if scales:
+        told = [
+            Message("{part} ({scale})", {"part": p, "scale": f"{rounded(s, up=False):g}"}) for p, s in scales.items()
+        ]
+        raise SceneError(source, f"{place}.width", bed.width, "too_small_for_parts", None, "mm", parts=listed(told))
+    return nest({p: (feet[p][0], counts[p]) for p in counts}, room)

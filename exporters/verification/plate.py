@@ -1,0 +1,56 @@
+"""Plates read back: an assembly in its places, all of it on the bed, each piece clear of the others."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from exporters.formats.reading import ASSEMBLY_READERS
+from exporters.verification.assembly import ExpectedAssembly, verify_assembly
+from exporters.verification.verdict import Verdict
+from geometry.base.record import Record, replace
+from parts.keys.boards import BedSpec
+from parts.scene.formats import FileKind
+
+
+class ExpectedPlate(Record):
+    """What a plate's file must hold, and the bed that it must lie on."""
+
+    bed: BedSpec
+    pieces: ExpectedAssembly
+
+
+def verify_plate(file: Path, kind: FileKind, expected: ExpectedPlate, declared: float, tolerance: float) -> Verdict:
+    """Read a plate back and hold it against what it must be, within a declared error, mm."""
+    verdict = verify_assembly(file, kind, expected.pieces, declared, tolerance)
+    return verdict if verdict.failures else _on_bed(file, kind, expected.bed, declared, verdict)
+
+
+def _on_bed(file: Path, kind: FileKind, bed: BedSpec, declared: float, verdict: Verdict) -> Verdict:
+    """Where the file's own vertices stand, each within the declared error, mm."""
+    import shapely
+
+    found = ASSEMBLY_READERS[kind.name](file)
+    hulls, failures = [], []
+    reach = np.array([bed.width, bed.depth, bed.height])
+    edge = np.array([bed.margin, bed.margin, 0.0])
+    least, most = np.full(3, np.inf), np.full(3, -np.inf)
+    for name, index, place in found.occurrences:
+        # a piece repeats its corners: those of its faces are all that there are
+        corners = found.prototypes[index].part.faces().reshape(-1, 3) @ place[:, :3].T + place[:, 3]
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        least, most = np.minimum(least, low), np.maximum(most, high)
+        if np.any(low < edge - declared) or np.any(high > reach - edge + declared):
+            failures.append(f"{name} does not lie on the bed")
+        hulls.append(shapely.MultiPoint(np.unique(corners[:, :2], axis=0)).convex_hull)
+    measured = {"least_margin": float(min(least[:2].min(), (reach - most)[:2].min())), "height": float(most[2])}
+    one, two = shapely.STRtree(hulls).query(np.array(hulls, dtype=object), predicate="dwithin", distance=bed.gap + 1.0)
+    for a, b in zip(one.tolist(), two.tolist(), strict=True):
+        if a < b:
+            gap = float(shapely.distance(hulls[a], hulls[b]))
+            measured["least_gap"] = min(gap, measured.get("least_gap", gap))
+            if gap < bed.gap - declared:
+                names = [found.occurrences[k].name for k in (a, b)]
+                failures.append(f"{names[0]} and {names[1]} stand {gap:.6g} mm apart instead of {bed.gap:g}")
+    return replace(verdict, measured=verdict.measured | measured, failures=tuple(failures))

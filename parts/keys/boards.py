@@ -1,0 +1,113 @@
+"""Tables ``[boards.NAME]`` and ``[beds.NAME]``: sheets to be cut, beds to print on, and how many pieces lie on them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated
+
+from msgspec import Meta, Struct
+
+from parts.base.refusal import SceneError, meant
+from parts.keys.base import mm
+
+# the tables, and the purpose of exports that lay parts out on them
+PURPOSES_LAID = {"boards": "board", "beds": "plate"}
+_MOST = 100_000.0
+# a class of forty with hundreds of pins each
+_MOST_COPIES = 1000
+
+
+class LaidKeys(Struct, forbid_unknown_fields=True, kw_only=True):
+    """Keys of boards and beds."""
+
+    width: Annotated[float, mm("along x", above=0, most=_MOST, example=600.0)]
+    margin: Annotated[float, mm("left free along its edges", least=0, most=_MOST)] = 5.0
+    gap: Annotated[float, mm("least distance between two pieces", least=0, most=_MOST)] = 2.0
+    sets: Annotated[
+        int, Meta(ge=1, le=_MOST_COPIES, description="how many of all that is laid: one for each group of a class")
+    ] = 1
+    copies: Annotated[
+        dict[str, Annotated[int, Meta(ge=0, le=_MOST_COPIES)]],
+        Meta(
+            description="pieces of a part, or of an instance, in a set; default: as many as it has instances",
+            examples=[{"wheel": 2}],
+        ),
+    ] = {}
+    parts: (
+        Annotated[list[str], Meta(min_length=1, description="the parts that are laid on it", examples=[["wheel"]])]
+        | None
+    ) = None
+
+    @property
+    def across(self) -> float:
+        """Size along y, mm."""
+        raise NotImplementedError
+
+
+class BoardSpec(LaidKeys, kw_only=True):
+    """Keys of ``[boards.NAME]``."""
+
+    height: Annotated[float, mm("along y", above=0, most=_MOST, example=400.0)]
+    thickness: Annotated[float, mm("parts of this thickness are cut from it", above=0, most=10_000, example=3.0)]
+    kerf: Annotated[float, mm("full width of the cut; the path runs half of it outside the part", least=0, most=10)] = (
+        0.0
+    )
+    grain: Annotated[bool, Meta(description="its grain runs along x: parts lie as drawn, or turned by half a turn")] = (
+        False
+    )
+    feed: (
+        Annotated[
+            float,
+            Meta(
+                gt=0,
+                le=10_000,
+                description="speed of the cut: tells how long it takes",
+                examples=[12.0],
+                extra={"unit": "mm/s"},
+            ),
+        ]
+        | None
+    ) = None
+
+    @property
+    def across(self) -> float:
+        """Size along y, mm."""
+        return self.height
+
+
+class BedSpec(LaidKeys, kw_only=True):
+    """Keys of ``[beds.NAME]``."""
+
+    depth: Annotated[float, mm("along y", above=0, most=_MOST, example=220.0)]
+    height: Annotated[float, mm("greatest height of a print", above=0, most=_MOST, example=250.0)]
+
+    @property
+    def across(self) -> float:
+        """Size along y, mm."""
+        return self.depth
+
+
+def check_laid(
+    spec: LaidKeys, known: Mapping[str, object], names: Mapping[str, object], source: str, place: str
+) -> None:
+    """Refuse what names no part (``known``) or instance (``names``), and margins that leave no room.
+
+    Raises
+    ------
+    SceneError
+        With the key and what is allowed.
+    """
+    for part in spec.parts or ():
+        if part not in known:
+            raise SceneError(source, f"{place}.parts", part, "no_such_part", meant(part, known), known=list(known))
+        if (spec.parts or []).count(part) > 1:
+            raise SceneError(source, f"{place}.parts", part, "listed_twice")
+    for name in spec.copies:
+        if name not in known and name not in names:
+            every = list({**known, **names})
+            raise SceneError(source, f"{place}.copies", name, "no_such_part", meant(name, every), known=every)
+    least = min(spec.width, spec.across)
+    if 2 * spec.margin >= least:
+        raise SceneError(source, f"{place}.margin", spec.margin, "margins_leave_nothing", None, side=least)
+    if spec.gap >= least:
+        raise SceneError(source, f"{place}.gap", spec.gap, "gap_above_board", None, side=least)

@@ -1,0 +1,48 @@
+"""What lies on the boards and beds of a scene: which parts, how many of each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from parts.base.part import Part
+from parts.base.refusal import SceneError
+from parts.keys.boards import BoardSpec, LaidKeys
+from parts.scene.instances import InstanceSpec
+
+# parts are as thick as their board to this, mm
+_SAME_THICKNESS = 1e-6
+
+
+def pieces_of(spec: LaidKeys, parts: list[str], instances: Mapping[str, InstanceSpec]) -> dict[str, int]:
+    """How many pieces of each of some parts lie on all boards together; those of which there are none are left out."""
+    found = {}
+    for part in parts:
+        own = [key for key, i in instances.items() if i.part == part]
+        count = spec.copies.get(part)
+        if count is None:
+            count = sum(spec.copies.get(key, 1) for key in own)
+        found[part] = spec.sets * count
+    return {part: count for part, count in found.items() if count}
+
+
+def parts_of_board(spec: BoardSpec, parts: Mapping[str, Part], source: str, place: str) -> list[str]:
+    """The parts that are cut from a board: those that it names, or all flat ones of its thickness.
+
+    Raises
+    ------
+    SceneError
+        There is none, or one that it names is not as thick.
+    """
+    for part in spec.parts or ():
+        if abs(parts[part].face_width - spec.thickness) > _SAME_THICKNESS:
+            raise SceneError(
+                source, f"{place}.thickness", spec.thickness, "part_not_so_thick", None, "mm",
+                part=part, thickness=parts[part].face_width,
+            )  # fmt: skip
+    if spec.parts is not None:
+        return spec.parts
+    found = [k for k, p in parts.items() if p.is_plate and abs(p.face_width - spec.thickness) <= _SAME_THICKNESS]
+    if not found:
+        flat = sorted({p.face_width for p in parts.values() if p.is_plate})
+        raise SceneError(source, f"{place}.thickness", spec.thickness, "no_part_so_thick", None, "mm", found=flat)
+    return found

@@ -1,0 +1,275 @@
+"""Boards and plates by the command: the written files measured by ezdxf and shapely, each check with a spoiled file."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections import defaultdict
+from functools import reduce
+from pathlib import Path
+from typing import Any
+
+import ezdxf
+import numpy as np
+import pytest
+import shapely
+
+from exporters.command.cli import main
+from exporters.formats.read_svg import read_svg
+from exporters.production.recheck import recheck
+
+PARTS = """
+[parts.ring]
+kind = "plate"
+width = 90.0
+height = 80.0
+corner_radius = 10.0
+holes = [{{ at = [0.0, 0.0], diameter = 64.0 }}]
+face_width = 3.0
+[parts.wheel]
+kind = "spur_gear"
+module = 2.0
+number_of_teeth = 17
+face_width = 3.0
+bore_diameter = 6.0
+[parts.bar]
+kind = "plate"
+width = 60.0
+height = 9.0
+holes = [{{ at = [-25.0, 0.0], diameter = 3.0 }}]
+engraved = [{{ start = [0.0, 0.0], end = [12.0, 0.0], width = 1.0 }}]
+face_width = 3.0
+[boards.plywood]
+width = {width}
+height = 120.0
+thickness = 3.0
+gap = {gap}
+kerf = {kerf}
+grain = {grain}
+sets = 2
+copies = {{ bar = 3 }}
+feed = 10.0
+{more}
+"""
+EXPORTS = """
+[[exports]]
+format = "dxf"
+kerf = {kerf}
+
+[[exports]]
+format = "dxf"
+purpose = "board"
+[[exports]]
+format = "svg"
+purpose = "board"
+"""
+
+
+def scene(folder: Path, *, width: float = 200.0, gap: float = 2.0, kerf: float = 0.2, grain: bool = False,
+          more: str = "", exports: str = EXPORTS) -> Path:  # fmt: skip
+    file = folder / "set.toml"
+    told = PARTS.format(width=width, gap=gap, kerf=kerf, grain=str(grain).lower(), more=more)
+    file.write_text(told + exports.format(kerf=kerf), encoding="utf-8")
+    return file
+
+
+def built(folder: Path, **keys: Any) -> Path:
+    assert main(["build", str(scene(folder, **keys)), "--out", str(folder), "--quiet"]) == 0
+    return folder / "set"
+
+
+def contours(file: Path) -> list[tuple[str, np.ndarray]]:
+    """Layer and rows (x, y, bulge) of each closed polyline of a DXF, by ezdxf, in the order of the file."""
+    found = []
+    for entity in ezdxf.readfile(file).modelspace():
+        assert entity.dxftype() == "LWPOLYLINE"
+        assert entity.closed
+        found.append((entity.dxf.layer, np.array(entity.get_points("xyb"))))
+    return found
+
+
+def polygon(rows: np.ndarray, steps: int = 96) -> shapely.Polygon:
+    """A contour by many points of each arc."""
+    points: list[complex] = []
+    for (x, y, bulge), (to_x, to_y, _) in zip(rows, np.roll(rows, -1, axis=0), strict=True):
+        start, end = complex(x, y), complex(to_x, to_y)
+        if bulge == 0:
+            points.append(start)
+            continue
+        # centre and radius of the arc through both ends
+        half = 2 * math.atan(bulge)
+        centre = (start + end) / 2 + 1j * (end - start) / 2 / math.tan(half)
+        points += [centre + (start - centre) * np.exp(2j * half * k / steps) for k in range(steps)]
+    return shapely.Polygon([(p.real, p.imag) for p in points])
+
+
+def bodies_of(file: Path) -> list[shapely.Polygon]:
+    """What is cut out whole: the material between the contours, by even and odd."""
+    rings = [polygon(rows) for layer, rows in contours(file) if layer != "ENGRAVE"]
+    whole = reduce(shapely.symmetric_difference, rings)
+    return list(whole.geoms) if isinstance(whole, shapely.MultiPolygon) else [whole]
+
+
+def bodies_gap(bodies: list[shapely.Polygon]) -> float:
+    """The least distance of two pieces that are near each other."""
+    tree = shapely.STRtree(bodies)
+    near = zip(*tree.query(bodies, predicate="dwithin", distance=6.0), strict=True)
+    return min((bodies[a].distance(bodies[b]) for a, b in near if a < b), default=math.inf)
+
+
+def pieces_of(folder: Path, name: str) -> dict[str, Any]:
+    report = json.loads((folder / "report.json").read_text("utf-8"))
+    entry: dict[str, Any] = next(e for e in report["files"] if e["path"] == name)
+    return entry
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return built(tmp_path_factory.mktemp("boards"))
+
+
+def test_pieces_are_whole_on_the_board_and_apart(folder: Path) -> None:
+    files = sorted(folder.glob("set.board.*.dxf"))
+    counts: dict[str, int] = defaultdict(int)
+    for file in files:
+        entry = pieces_of(folder, file.name)
+        for piece in entry["pieces"].values():
+            counts[piece["part"]] += 1
+        bodies = bodies_of(file)
+        assert len(bodies) == len(entry["pieces"])
+        low_x, low_y, high_x, high_y = shapely.union_all(bodies).bounds
+        assert min(low_x, low_y, 200 - high_x, 120 - high_y) >= 5 - 1e-6
+        gap = bodies_gap(bodies)
+        assert gap >= 2 - 1e-6
+        assert entry["measured"].get("least_gap", 3.0) == pytest.approx(min(gap, 3.0), abs=5e-3)
+        assert entry["measured"]["use_percent"] == pytest.approx(
+            100 * sum(b.area for b in bodies) / (200 * 120), rel=1e-4
+        )
+        length = sum(polygon(rows).length for _, rows in contours(file))
+        told = entry["measured"]
+        assert told["cut_length"] + told["engraved_length"] == pytest.approx(length, rel=1e-4)
+        assert told["cut_seconds"] == pytest.approx(length / 10, rel=1e-4)
+    assert counts == {"ring": 2, "wheel": 2, "bar": 6}
+
+
+def test_contours_are_those_of_the_part_moved(folder: Path) -> None:
+    for file in sorted(folder.glob("set.board.*.dxf")):
+        left = [rows for _, rows in contours(file)]
+        for piece in pieces_of(folder, file.name)["pieces"].values():
+            turn, at = 1j ** (piece["turn_deg"] // 90), complex(*piece["at"])
+            for _, own in contours(folder / f"{piece['part']}.dxf"):
+                moved = (own[:, 0] + 1j * own[:, 1]) * turn + at
+                alike = [
+                    i
+                    for i, rows in enumerate(left)
+                    if len(rows) == len(own)
+                    and np.abs(rows[:, 0] + 1j * rows[:, 1] - moved).max() <= 1e-9
+                    and np.array_equal(rows[:, 2], own[:, 2])
+                ]
+                assert len(alike) == 1
+                left.pop(alike[0])
+        assert left == []
+
+
+def test_small_pieces_lie_in_holes_and_are_cut_before_them(folder: Path) -> None:
+    file = folder / "set.board.1.dxf"
+    found = contours(file)
+    rings = [polygon(rows) for _, rows in found]
+    nested = 0
+    for index, ring in enumerate(rings):
+        for other, (layer, _) in enumerate(found):
+            if other != index and layer != "ENGRAVE" and rings[other].contains(ring):
+                assert index < other
+                nested += found[index][0] == "CUT_INNER" and ring.area > 500 and rings[other].area < 4000
+    # a wheel in the hole of each ring
+    assert nested == 2
+    order = [("ENGRAVE", "CUT_INNER", "CUT_OUTER").index(layer) for layer, _ in found]
+    assert order == sorted(order)
+
+
+def test_svg_holds_the_same_board(folder: Path) -> None:
+    for file in sorted(folder.glob("set.board.*.dxf")):
+        svg = file.with_suffix(".svg")
+        # an SVG is read about its middle
+        loops = [np.column_stack([x.vertices.real + 100, x.vertices.imag + 60, x.bulges]) for x in read_svg(svg).loops]
+        boxes = [[polygon(rows).bounds for rows in shapes] for shapes in ([r for _, r in contours(file)], loops)]
+        off = np.abs(np.array(boxes[0])[:, None] - np.array(boxes[1])[None]).max(axis=2)
+        assert len(loops) == len(boxes[0])
+        assert off.min(axis=0).max() <= 2e-3
+        assert recheck(svg).verdict.failures == ()
+
+
+def test_the_same_bytes_twice(folder: Path, tmp_path: Path) -> None:
+    again = built(tmp_path)
+    for file in folder.glob("set.board.*"):
+        assert file.read_bytes() == (again / file.name).read_bytes()
+
+
+def test_wider_cuts_and_gaps_and_a_grain(tmp_path: Path) -> None:
+    folder = built(tmp_path, kerf=0.3, gap=4.0, grain=True)
+    for file in folder.glob("set.board.*.dxf"):
+        assert bodies_gap(bodies_of(file)) >= 4 - 1e-6
+        assert {p["turn_deg"] for p in pieces_of(folder, file.name)["pieces"].values()} <= {0, 180}
+
+
+@pytest.mark.heavy
+def test_no_kerf_and_no_gap(tmp_path: Path) -> None:
+    folder = built(tmp_path, kerf=0.0, gap=0.0)
+    for file in folder.glob("set.board.*.dxf"):
+        assert bodies_gap(bodies_of(file)) >= -1e-6
+
+
+def copied(folder: Path, to: Path) -> Path:
+    for file in folder.iterdir():
+        (to / file.name).write_bytes(file.read_bytes())
+    return to / "set.board.1.dxf"
+
+
+@pytest.mark.parametrize("spoil", ["moved", "order", "layer", "missing"])
+def test_a_spoiled_board_is_caught(spoil: str, folder: Path, tmp_path: Path) -> None:
+    file = copied(folder, tmp_path)
+    drawing = ezdxf.readfile(file)
+    space = drawing.modelspace()
+    first, *_, last = space
+    if spoil == "moved":
+        last.translate(0.01, 0.0, 0.0)
+    elif spoil == "order":
+        space.unlink_entity(first)
+        space.add_entity(first)
+    elif spoil == "layer":
+        last.dxf.layer = "CUT_INNER"
+    else:
+        space.delete_entity(last)
+    drawing.saveas(file)
+    assert recheck(file).verdict.failures
+
+
+@pytest.mark.parametrize(("key", "value", "words"), [
+    ("gap", 3.0, "mm apart instead of 3"), ("margin", 6.0, "from the edge of the board instead of 6"),
+])  # fmt: skip
+def test_pieces_nearer_than_asked_are_caught(key: str, value: float, words: str, folder: Path, tmp_path: Path) -> None:
+    file = copied(folder, tmp_path)
+    report = json.loads((tmp_path / "report.json").read_text("utf-8"))
+    report["scene"]["boards"]["plywood"][key] = value
+    (tmp_path / "report.json").write_text(json.dumps(report), encoding="utf-8")
+    assert [f for f in recheck(file).verdict.failures if words in f]
+
+
+@pytest.mark.parametrize(("keys", "key", "words"), [
+    ({"width": 85.0}, "boards.plywood.width", "the part ring needs 90.2 x 80.2 mm"),
+    ({"gap": 500.0}, "boards.plywood.gap", "larger than the board, of which the shorter side is 120"),
+    ({"kerf": 3.2, "exports": EXPORTS.split("\n\n")[1]}, "boards.plywood.kerf", "bar"),
+    ({"more": 'margin = 60.0'}, "boards.plywood.margin", "leaves nothing of a side of 120"),
+    ({"more": 'parts = ["whel"]'}, "boards.plywood.parts", "wheel"),
+    ({"exports": '[[exports]]\nformat = "dxf"\npurpose = "board"\nkerf = 0.1\n'}, "exports[1].kerf", "boards.NAME"),
+    ({"exports": '[[exports]]\nformat = "3mf"\npurpose = "plate"\n'}, "exports[1].purpose", "[beds.NAME]"),
+])  # fmt: skip
+def test_bad_boards_are_refused_in_one_line(
+    keys: dict[str, Any], key: str, words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["build", str(scene(tmp_path, **keys)), "--out", str(tmp_path)]) == 2
+    told = capsys.readouterr().err
+    assert told.count("\n") == 1
+    assert key in told
+    assert words in told
+    assert not (tmp_path / "set").exists()
