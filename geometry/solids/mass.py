@@ -38,9 +38,21 @@ def body_moments(body: Body) -> Moments:
     total = np.zeros(10)
     for wall in body.walls:
         total += _wall_share(body, wall)
-    v, x, y, z, xx, yy, xy, zz, xz, yz = total.tolist()
+    return moments_of(total)
+
+
+def moments_of(integrals: Real) -> Moments:
+    """Moments from the integrals of 1, x, y, z, xx, yy, xy, zz, xz, yz."""
+    v, x, y, z, xx, yy, xy, zz, xz, yz = integrals.tolist()
     inertia = np.array([[yy + zz, -xy, -xz], [-xy, xx + zz, -yz], [-xz, -yz, xx + yy]])
     return Moments(v, np.array([x, y, z]) / v, inertia)
+
+
+def column_integrals(section: Real, low: float, high: float) -> Real:
+    """The same integrals over an upright column between two heights, mm, from those of its section."""
+    a, x, y, xx, yy, xy = section.tolist()
+    h, h2, h3 = high - low, (high**2 - low**2) / 2, (high**3 - low**3) / 3
+    return np.array([a * h, x * h, y * h, a * h2, xx * h, yy * h, xy * h, a * h3, x * h2, y * h2])
 
 
 def _wall_share(body: Body, wall: Wall) -> Real:

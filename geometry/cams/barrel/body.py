@@ -16,7 +16,7 @@ from geometry.curves.curve import Complex, Real
 from geometry.laws.piece import LawPiece
 from geometry.plane.measure import distance_to_profile, gauss_rule
 from geometry.plane.profile import Label, Profile, circle
-from geometry.solids.mass import Moments, section_moments
+from geometry.solids.mass import Moments, column_integrals, moments_of, section_moments
 
 # Gauss's rule over the cam angle (panels a piece) and across the walls, at first and at most; what is no change
 _POINTS, _PANELS, _ACROSS = 20, 3, 12
@@ -251,16 +251,14 @@ def barrel_moments(body: BarrelBody) -> Moments:
         total = finer
         if done and alike:
             break
-    v, x, y, z, xx, yy, xy, zz, xz, yz = total.tolist()
-    inertia = np.array([[yy + zz, -xy, -xz], [-xy, xx + zz, -yz], [-xz, -yz, xx + yy]])
-    return Moments(v, np.array([x, y, z]) / v, inertia)
+    return moments_of(total)
 
 
 def _integrals(body: BarrelBody, panels: int, across: int) -> Real:
     """Integrals of 1, x, y, z, xx, yy, xy, zz, xz, yz with so many panels a piece and nodes across the walls."""
     total = np.zeros(10)
     for profile, low, high in body.columns():
-        total += _column(section_moments(profile), low, high)
+        total += column_integrals(section_moments(profile), low, high)
     cam = body.cam
     nodes, weights = gauss_rule(across)
     half = (cam.outer - cam.inner) / 2
@@ -293,13 +291,6 @@ def _edges(cam: BarrelCam, side: int, radii: Real, angles: Real, piece: LawPiece
     points = cam.wall(angles[:, None], side, radii, piece)
     speed = cam.edge_speed(angles[:, None], side, radii, piece)
     return np.angle(points[..., 0] + 1j * points[..., 1]), points[..., 2], speed
-
-
-def _column(section: Real, low: float, high: float) -> Real:
-    """Integrals of 1, x, y, z, xx, yy, xy, zz, xz, yz over an upright column."""
-    a, x, y, xx, yy, xy = section.tolist()
-    h, h2, h3 = high - low, (high**2 - low**2) / 2, (high**3 - low**3) / 3
-    return np.array([a * h, x * h, y * h, a * h2, xx * h, yy * h, xy * h, a * h3, x * h2, y * h2])
 
 
 def _under(plane: Complex, base: float, height: Real, measure: Real) -> Real:

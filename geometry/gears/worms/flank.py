@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,6 +18,9 @@ from geometry.base.record import Record
 from geometry.base.roots import bracketed_root, bracketed_roots
 
 Real = NDArray[np.float64]
+
+# places at which a least one is sought, and how often nearer
+_PLACES, _ROUNDS = 33, 9
 
 
 class Screw(Record):
@@ -105,6 +109,7 @@ class ConvoluteFlank(Flank):
 
     space: bool = False
 
+    @lru_cache(maxsize=64)  # noqa: B019
     def _line(self) -> tuple[float, float, float]:
         """The line's point on the reference cylinder, along x and along the binormal, mm, and its slope."""
         screw, gamma = self.screw, self.screw.lead_angle
@@ -157,6 +162,21 @@ class GroundFlank(Flank):
 
     wheel_diameter: float
 
+    @property
+    def least_radius(self) -> float:
+        """Where the wheel touches nearest to the axis, mm."""
+        width = self.half_width()
+        return float(self._touch(np.array([self._deepest(width)]), width)[0][0])
+
+    def _deepest(self, half_width: float) -> float:
+        """How far from the wheel's axis it touches the screw nearest to the screw's, mm."""
+        low, high = self.wheel_diameter / 2, self.wheel_diameter / 2 + self.screw.radius
+        for _ in range(_ROUNDS):
+            places = np.linspace(low, high, _PLACES)
+            k = int(np.argmin(self._touch(places, half_width)[0]))
+            low, high = float(places[max(k - 1, 0)]), float(places[min(k + 1, _PLACES - 1)])
+        return (low + high) / 2
+
     def _touch(self, distance: Real, half_width: float) -> tuple[Real, Real, Real]:
         """Radius, axial half space and its slope, where the cone touches the screw ``distance`` mm from its axis."""
         screw, gamma = self.screw, self.screw.lead_angle
@@ -184,13 +204,14 @@ class GroundFlank(Flank):
         mean, reach = self.wheel_diameter / 2, self.screw.radius
         about = mean + self.screw.radius - radius
         low = np.maximum(about - 0.5 * reach, 1e-6 * mean)
-        high = about + 0.5 * reach
+        high = np.minimum(about + 0.5 * reach, self._deepest(half_width))
 
         def beyond(distance: Real) -> Real:
             return self._touch(distance, half_width)[0] - radius
 
         return bracketed_roots(beyond, low, high, beyond(low), beyond(high))
 
+    @lru_cache(maxsize=64)  # noqa: B019
     def half_width(self) -> float:
         """Half width of the wheel at its mean diameter that leaves the asked thickness, mm."""
         reference = np.array([self.screw.radius])

@@ -27,6 +27,8 @@ from geometry.gears.worms.worm import Worm
 Part = Literal["fillet", "radial", "flank", "rounding"]
 # of what is left of a land or a flank, in modules
 _LEAST = 1e-3
+# slope of what is radial
+_RADIAL = 1e-5
 # how much larger a diameter quotient is tried
 _WIDER = (1.25, 1.5, 2.0, 3.0, 5.0, 10.0)
 
@@ -110,9 +112,6 @@ def thread_of(worm: Worm, tip_rounding: float = 0.0) -> Thread:
     flank, root, tip = worm.flank, worm.root_radius, worm.tip_radius
     fillet, half_pitch, least = worm.fillet_coefficient * worm.module, math.pi * worm.module / 2, _LEAST * worm.module
     begin = max(root, flank.least_radius)
-    if begin > root and flank.least_radius > 0 and float(flank.slope(begin * (1 + 1e-12))) > 1e-3:
-        # only the involute starts radially
-        raise _by_quotient(worm, "worm_flank_above_root", lambda w: thread_of(w, tip_rounding))
     if not float(worm.half_thickness(begin)) < half_pitch - least:
         raise _by_quotient(worm, "worm_spaces_closed", lambda w: thread_of(w, tip_rounding))
 
@@ -160,6 +159,9 @@ def thread_of(worm: Worm, tip_rounding: float = 0.0) -> Thread:
         spoke = math.atan2(half(high) - tip_half, high - centre.real)
         rounding.append(("rounding", Arc(centre, tip_rounding, spoke, -spoke)))
     if low < begin:
+        if abs(float(flank.slope(begin * (1 + 1e-12)))) > _RADIAL:
+            # only the involute starts radially
+            raise _by_quotient(worm, "worm_flank_above_root", lambda w: thread_of(w, tip_rounding))
         lines.append(("radial", Line(complex(low, half(begin)), complex(begin, half(begin)))))
     start = math.sqrt(max((max(low, begin) - flank.least_radius) * (max(low, begin) + flank.least_radius), 0.0))
     end = math.sqrt((high - flank.least_radius) * (high + flank.least_radius))

@@ -1,0 +1,129 @@
+"""A worm as faces: closed, its volume that of the exact integrals, in files as our reader and the kernel have them."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from exporters.formats.read_step import read_step
+from exporters.verification.faces import verify_faced_solid
+from geometry.base.errors import ParameterError
+from geometry.base.record import replace
+from geometry.gears.worms.body import Step, WormBody, worm_moments
+from geometry.gears.worms.faces import worm_solid
+from geometry.gears.worms.thread import thread_of
+from geometry.gears.worms.worm import Worm
+from geometry.solids.bores import KeywayBore
+from parts.solids.kernel import solids_of
+from parts.solids.step_text import StepForm, StepPart, step_text
+
+SHAFT = (Step(30.0, 10.0), Step(20.0, 30.0, 1.0))
+KEYED = KeywayBore(12.0, 4.0, 1.8, 0.2, 1, 0.7).profile(0.0)
+STEEP = math.radians(20)
+
+
+def body_of(worm: Worm, length: float, rounding: float = 0.3, angle: float = STEEP, **more: object) -> WormBody:
+    return WormBody(thread_of(worm.checked(), rounding), length, angle, **more).checked()  # type: ignore[arg-type]
+
+
+BODIES = {
+    "thesis": body_of(Worm(5.0, 1, 10.0), 40.0, below=SHAFT),
+    "left with a base above the root": body_of(Worm(5.0, 4, 8.0, hand="left"), 40.0, 0.2, above=(Step(28.0, 9.0),)),
+    "plane ends and a keyway": body_of(Worm(5.0, 2, 10.0, "ZA", hand="left"), 40.0, 0.0, 0.0, bore=KEYED),
+    "ten starts": body_of(Worm(3.0, 10, 30.0, "ZN2"), 30.0, below=SHAFT, above=SHAFT),
+    "slim": body_of(Worm(2.0, 1, 4.0, "ZA"), 16.0, 0.0, math.radians(45)),
+}
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_the_faces_of_a_worm_are_closed_and_their_files_within_their_bound(name: str, tmp_path: Path) -> None:
+    body = BODIES[name]
+    made = worm_solid(body, 1e-4)
+    # every edge once each way
+    uses: Counter[tuple[int, bool]] = Counter()
+    for faces in made.solid.faces:
+        for edges, ways in faces.loops:
+            for row in edges:
+                uses.update(zip(row.tolist(), np.broadcast_to(ways, row.shape).tolist(), strict=True))
+    count = sum(len(bundle.start) for bundle in made.solid.edges)
+    assert uses == Counter({(edge, way): 1 for edge in range(count) for way in (True, False)})
+    text = step_text(StepPart(name, made.solid), StepForm(10))
+    file = tmp_path / "worm.step"
+    file.write_text(text)
+    verdict = verify_faced_solid(read_step(file), body, made.max_error + 1e-9, 1e-4)
+    assert verdict.failures == ()
+    assert verdict.measured["max_deviation"] > 0
+    assert abs(verdict.measured["volume_error"]) < 1e-9
+    worm, cones = body.thread.worm, text.count("=CONICAL_SURFACE(")
+    assert text.count("=TOROIDAL_SURFACE(") == 0
+    # cylinders and cones are themselves
+    assert cones >= (2 if body.end_angle else 0)
+    assert f"CYLINDRICAL_SURFACE('',#{_place(text)},{worm.tip_radius:g}" in text.replace(".)", ")")
+
+
+def _place(text: str) -> str:
+    """The frame of the first cylinder."""
+    return text.partition("=CYLINDRICAL_SURFACE('',#")[2].partition(",")[0]
+
+
+@pytest.mark.parametrize("name", ["left with a base above the root", "plane ends and a keyway"])
+def test_the_kernel_finds_the_worm_valid_and_of_its_volume(name: str) -> None:
+    pytest.importorskip("OCP")
+    from OCP.BRepCheck import BRepCheck_Analyzer
+    from OCP.BRepGProp import BRepGProp
+    from OCP.GProp import GProp_GProps
+
+    body = BODIES[name]
+    (solid,) = solids_of(step_text(StepPart("worm", worm_solid(body, 1e-4).solid), StepForm(10)))
+    assert BRepCheck_Analyzer(solid).IsValid()
+    found = GProp_GProps()
+    BRepGProp.VolumeProperties_s(solid, found, 1e-9)
+    assert found.Mass() == pytest.approx(worm_moments(body).volume, rel=1e-8)
+
+
+@pytest.mark.parametrize("starts", [1, 2, 3])
+def test_moments_are_those_of_the_thread_cut_into_cells(starts: int) -> None:
+    worm = Worm(5.0, starts, 8.0, "ZA", hand="left", fillet_coefficient=0.0)
+    body = body_of(worm, 40.0, 0.0, below=(Step(20.0, 7.0),))
+    # the thread by its definition in cells of r, angle and z; the rest are cylinders
+    r = np.linspace(worm.root_radius, worm.tip_radius, 41)
+    r = (r[1:] + r[:-1]) / 2
+    z = (np.arange(500) + 0.5) / 500 * 40.0 - 20.0
+    angle = (np.arange(240) + 0.5) / 240 * math.tau
+    ring, height = np.meshgrid(r, z, indexing="ij")
+    inside = np.abs(height) < 20.0 - (ring - worm.root_radius) * math.tan(STEEP)
+    share = math.pi * worm.module
+    total = np.zeros(5)
+    for phi in angle.tolist():
+        away = height + worm.parameter * phi
+        away = np.abs((away + share / 2) % share - share / 2)
+        cell = (inside & (away < worm.half_thickness(ring))) * ring
+        x, y = ring * math.cos(phi), ring * math.sin(phi)
+        total += [float((cell * f).sum()) for f in (1.0, x, x * x, height**2, y * height)]
+    total *= (r[1] - r[0]) * (z[1] - z[0]) * (angle[1] - angle[0])
+    root, shaft = worm.root_radius, 10.0
+    core = math.pi * (root**2 * 40.0 + shaft**2 * 7.0)
+    found = worm_moments(body)
+    volume = total[0] + core
+    assert found.volume == pytest.approx(volume, rel=1e-3)
+    assert found.centre[0] * volume == pytest.approx(total[1], abs=1e-3 * volume)
+    assert found.centre[2] * volume == pytest.approx(-math.pi * shaft**2 * 7.0 * 23.5, rel=1e-3)
+    xx = total[2] + math.pi * (root**4 * 40.0 + shaft**4 * 7.0) / 4
+    zz = total[3] + math.pi * (root**2 * 40.0**3 / 12 + shaft**2 * (27.0**3 - 20.0**3) / 3)
+    assert found.inertia[1, 1] == pytest.approx(xx + zz, rel=2e-3)
+    assert found.inertia[1, 2] == pytest.approx(-total[4], abs=2e-3 * zz)
+
+
+def test_a_thread_shorter_than_its_ends_is_refused_with_the_least_that_works() -> None:
+    body = BODIES["thesis"]
+    with pytest.raises(ParameterError) as caught:
+        replace(body, length=10.0).checked()
+    offered = caught.value.nearest
+    assert offered is not None
+    assert isinstance(offered.value, float)
+    least = replace(body, length=offered.value).checked()
+    assert worm_solid(least, 1e-3).max_error < 1e-6
