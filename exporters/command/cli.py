@@ -289,8 +289,9 @@ def _parser(told: Words) -> argparse.ArgumentParser:
         metavar=told.term("command line", "TOPIC"),
         help=told.text(
             "{topics} or {last}",
-            topics="spur, ring, rack, tmm42, gear-pair, shift-choice, worm, train, planetary, cam, cycloidal, lantern",
-            last="noncircular",
+            topics="spur, ring, rack, tmm42, gear-pair, shift-choice, worm, train, planetary, cam, cycloidal, lantern, "
+            "noncircular, power-table",
+            last="power-module",
         ),
     )
     calc.add_argument(

@@ -19,6 +19,7 @@ from parts.pages.page import Sheet
 
 if TYPE_CHECKING:
     from parts.pages.contour_picture import ContourPicture
+    from parts.pages.error_map import ErrorMap
 
 # each module has sheet_of(table, scene, source, language)
 TOPICS = {
@@ -35,6 +36,8 @@ TOPICS = {
     "cycloidal": "parts.pins.cycloidal_page",
     "lantern": "parts.pins.lantern_page",
     "noncircular": "parts.gears.noncircular_gear.page",
+    "power-table": "parts.mates.pages.power_table",
+    "power-module": "parts.mates.pages.power_module",
 }
 
 
@@ -65,9 +68,11 @@ def _home(topic: str) -> str | None:
     return TOPICS[topic] if topic in TOPICS else KINDS[topic].page if topic in KINDS else None
 
 
-def _write_picture(picture: ContourPicture, file: Path, words: Words) -> None:
+def _write_picture(picture: ContourPicture | ErrorMap, file: Path, words: Words) -> None:
     """Write a picture as the ending of its file says."""
-    if file.suffix.lower() == ".dxf":
+    from parts.pages.error_map import ErrorMap
+
+    if file.suffix.lower() == ".dxf" and not isinstance(picture, ErrorMap):
         from exporters.documents.contour_dxf import write_contour_dxf
 
         write_contour_dxf(file, picture.contour, picture.shown(words), words)
@@ -81,6 +86,10 @@ def sheet_of(topic: str, words: Sequence[str]) -> tuple[Sheet, str]:
     if len(addresses) > 1:
         raise SceneError(PLACE, addresses[1], None, "one_scene_only", None, other=addresses[0])
     table = table_of([word for word in words if word not in addresses])
+    if topic == "power-table" and isinstance(file := table.get("path"), str):
+        from exporters.formats.read_path import read_path
+
+        table["path"] = read_path(Path(file), f"{topic}.path")
     module = importlib.import_module(str(_home(topic)))
     if not addresses:
         return module.sheet(table), "en"

@@ -6,6 +6,7 @@ at 40 digits.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
@@ -103,6 +104,43 @@ def printed_for_worm(worm: Worm, teeth: int, shift: float) -> Mapping[tuple[str,
     """What the thesis prints wrongly for its two worm drives; empty for any other."""
     same = (worm.module, worm.diameter_quotient, worm.number_of_starts, shift) == (5.0, 10.0, 1, 0.0)
     return {**_WORMS[teeth], **_WORM_FORMULAS} if same and teeth in _WORMS else {}
+
+
+# thesis, sections 2.3 and 2.4
+POWER_MODULE: Mapping[str, Printed] = {
+    "pair_least_module": Printed("2.43", N_("its own numbers give 2.40")),
+    "pair_allowed_contact": Printed("665", N_("850/1.2·0.9405 = 666.19")),
+    "preload": Printed("94", N_("140/1.5 = 93.33, rounded up")),
+    "thesis_worm_radial_force": Printed(
+        "51", N_("the radial force belongs to the large force along the worm: 1400·tan 20° = 510 N")
+    ),
+    "turn_capacity": Printed("1.06e6 N", N_("the unit is N/mm^(3/2)")),
+    "radial_stiffness": Printed("5.5e4", N_("with i_2 = 1, where preload and axial stiffness have i_2 = 0")),
+}
+
+
+def printed_for_power_module() -> Mapping[tuple[str, int], Printed]:
+    """What the thesis misprints of its module in single steps."""
+    both = "turn_capacity", "radial_stiffness"
+    return {(name, 0): printed for name, printed in POWER_MODULE.items() if name not in both}
+
+
+_QUADRANT = N_("arctg(x/y) and arcsin lose quadrants; atan2 (x, y) and the law of cosines do not")
+_NO_ANGLE = N_("0/0, or an argument of arcsin beyond 1; the angle is kept at the centre")
+
+
+def printed_for_delta(point: complex, arms: tuple[float, float], delta: float) -> Printed | None:
+    """What the thesis's formula for delta (rad) gives where that is not the angle."""
+    (one, two), far = arms, abs(point)
+    try:
+        sine = math.sqrt(4 * (one * two) ** 2 - (one**2 + two**2 - far**2) ** 2) / (2 * one * far)
+        # y = 0 as the limit from above
+        lean = math.atan(point.real / point.imag) if point.imag else math.copysign(math.pi / 2, point.real)
+        found = lean - math.asin(sine)
+    except (ValueError, ZeroDivisionError):
+        return Printed("arctg (x/y) - arcsin √…", _NO_ANGLE)
+    off = abs(math.remainder(found - delta, 2 * math.pi))
+    return Printed(f"{math.degrees(found):.4f}°", _QUADRANT) if off > 1e-6 else None
 
 
 _INFINITE = N_("multiplied by the relative turning: divided by it F and R are infinite where both links turn alike")

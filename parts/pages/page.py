@@ -18,6 +18,7 @@ from parts.pages.terms import TERMS
 
 if TYPE_CHECKING:
     from parts.pages.contour_picture import ContourPicture
+    from parts.pages.error_map import ErrorMap
 
 Value = float | int | str
 _SUPERSCRIPTS = {"2": "²", "3": "³"}
@@ -106,7 +107,7 @@ class Sheet(Draft):
     known: dict[str, Known] = field(default_factory=dict)
     notes: list[Text] = field(default_factory=list)
     # what is drawn, the same in letters, and what only json carries
-    picture: ContourPicture | None = None
+    picture: ContourPicture | ErrorMap | None = None
     plain_picture: str = ""
     tables: list[Table] = field(default_factory=list)
     picture_file: str | None = None

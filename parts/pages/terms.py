@@ -552,3 +552,76 @@ circulation|c_P|c_P||greatest power of a mesh by that put in
 turns_of_driven|n|n||turns of the driven link for one turn of the driver
 turns_counted|n_counted|n||turns of it that were counted
 """)
+add_terms("""
+first_arm|L1|L_1|mm|distance O1O2 of the disks' axes
+second_arm|L2|L_2|mm|distance O2O3 of the platform's axis
+point_x|x|x|mm|x of the platform's axis O3
+point_y|y|y|mm|y of the platform's axis O3
+point_distance|r|r|mm|distance O1O3
+point_direction_deg|chi|χ|deg|direction of O1O3 from +y towards +x
+angle_at_o1_deg|mu|μ|deg|angle between O1O2 and O1O3
+beta_deg|beta|β|deg|angle between O2O1 and O2O3
+delta_deg|delta|δ|deg|angle of O1O2 from +y towards +x
+ring_angle_deg|theta|θ|deg|angle of the ring, drive II
+pair_ratio|u|u||ratio of the ring and the pinion of disk 3
+worm_turns|n|n||turns of the worm
+platform_turn_deg|phi_6|φ_6|deg|turn of the platform by the wheels 6, 7, 8, counter-clockwise
+path_length|s|s|mm|length of the path
+path_error|e|e|mm|the platform leaves the path by no more than
+load_arm|l|l|mm|greatest arm of a force on the platform about the drive
+load_held|F_max|F_max|N|force on the platform that the worms hold anywhere
+load|F|F|N|force on the platform
+load_torque|T_F|T_F|N*m|torque that the load asks of the wheel, at most
+worm_torque_asked|T_1F|T_1|N*m|torque on the worm there, by statics of the mechanism
+pinion_torque|T_11F|T_11|N*m|torque on the pinion of disk 3 there
+pair_torque|T_11|T_11|N*m|torque on the pinion of disk 3
+fatigue_limit_bending|sigma_Flim|σ_Flim|MPa|endurance limit in bending
+life_factor|Y_N|Y_N||factor of life
+roughness_factor|Y_R|Y_R||factor of the fillet's roughness
+size_factor|Y_X|Y_X||factor of size
+gradient_factor|Y_d|Y_δ||factor of the stress gradient
+bending_safety|S_F|S_F||safety in bending
+reversing_factor|K_R|K_R||factor of load in both senses
+pair_allowed_bending|sigma_FP1|σ_FP1|MPa|allowed bending stress of the pair
+module_factor|K_m|K_m||factor of the module
+pair_width_factor|K_Fb|K_Fβ||factor of load along the teeth
+pair_form_factor|Y_FS|Y_FS1||form factor of the tooth
+width_ratio|psi_bd|ψ_bd||width of the teeth by the diameter
+pair_least_module|m_0|m||least module of the pair by bending
+circumferential_force|F_t|F_t|N|force along the pitch circle
+elasticity_factor|Z_E|Z_E||factor of the materials
+zone_factor|Z_H|Z_H||factor of the flanks' form
+exact_zone_factor|Z_H0|Z_H||factor of the flanks' form, exactly
+overlap_factor|Z_eps|Z_ε||factor of the length of contact
+outer_load_factor|K_A|K_A||factor of outer dynamic load
+pair_speed_factor|K_Hv|K_Hv||factor of dynamic load
+pair_contact_stress|sigma_Hp|σ_H|MPa|contact stress of the pair
+contact_limit|sigma_Hlim|σ_Hlim|MPa|endurance limit in contact
+contact_safety|S_H|S_H||safety in contact
+contact_roughness_factor|Z_R|Z_R||factor of the flanks' roughness
+circumferential_speed_factor|Z_v|Z_v||factor of speed
+pair_allowed_contact|sigma_HPp|σ_HP|MPa|allowed contact stress of the pair
+pair_least_width|b_min|b_min|mm|least width of the pair by contact
+pair_radial_force|F_RZ|F_RZ|N|radial force of the pair
+thesis_worm_radial_force|F_RC|F_RC|N|radial force of the worm by the thesis
+loaded_turns|i_2|i_2||turns of balls that work against the first
+preload|F_H|F_H|N|preload
+balls|z_b|z||balls in one turn
+ball_diameter|d_b|d_k|mm|diameter of a ball
+radial_factor|k4|k_4||share of the balls that carry the radial load
+bearing_radial_force|F_R|F_R|N|radial load
+contact_angle_deg|alpha_b|α|deg|angle of contact
+turn_capacity|C|C||load of the turn for its approach, N/mm^(3/2)
+axial_stiffness|j_a|j_a||axial stiffness, N/mm
+radial_stiffness|j_r|j_r||radial stiffness, N/mm
+least_ball_circle|D_b|D_0|mm|least circle of so many balls
+ring_root_diameter|d_f12|d_f12|mm|root diameter of the ring
+ball_wall|w_b|w|mm|wall between the ring's root and the groove
+groove_radius|r_g|r_g|mm|radius of the groove
+ball_stiffness|K_0|K||load of a ball for its approach by the thesis, N/mm^(3/2)
+hertz_stiffness|K_1|K||load of a ball for its approach by Hertz, N/mm^(3/2)
+wheel_backlash|j_6|j_6|mm|backlash of each mesh that turns the platform
+platform_play_deg|phi_p|φ_p|deg|play of the platform's turn
+pin_clearance|c_p|c_p|mm|clearance of each pin of a crank
+pivot_circle|r_p|r_p|mm|radius of the circle of the cranks' pivots
+""")

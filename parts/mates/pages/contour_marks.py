@@ -19,21 +19,21 @@ from parts.pages.page import Sheet
 ENDINGS = (".svg", ".dxf")
 
 
-def checked_picture(topic: str, name: str | None) -> None:
+def checked_picture(topic: str, name: str | None, endings: tuple[str, ...] = ENDINGS) -> None:
     """Refuse a picture file that would be no picture.
 
     Raises
     ------
     SceneError
-        The name ends in neither .svg nor .dxf, or its folder does not exist; names one that works.
+        The name ends in none of ``endings``, or its folder does not exist; names one that works.
     """
     if name is None:
         return
     file = Path(name)
-    if file.suffix.lower() not in ENDINGS:
+    if file.suffix.lower() not in endings:
         stem = file.with_suffix("") if file.suffix else file
         works = Nearest(stem.with_name(f"{stem.name or 'contour'}.svg").as_posix())
-        raise SceneError(PLACE, f"{topic}.picture", name, "picture_ends_in", works, known=ENDINGS)
+        raise SceneError(PLACE, f"{topic}.picture", name, "picture_ends_in", works, known=endings)
     if not file.parent.is_dir():
         raise SceneError(PLACE, f"{topic}.picture", name, "no_such_folder", Nearest(file.name))
 

@@ -81,6 +81,10 @@ SHEETS = [
     ("cycloidal", "cycloidal_reducer"),
     ("lantern", "lantern_pair"),
     ("noncircular", "oval_gears", "part=oval"),
+    ("power-table", "x=50", "y=-80", "orientation=thesis"),
+    ("power-table", "arms=[72,50]", "x=-30", "y=40"),
+    ("power-module", "orientation=thesis"),
+    ("power-module", "load=2000", "loaded_turns=1", "arms=[72,60]"),
 ]  # fmt: skip
 
 

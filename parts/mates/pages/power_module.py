@@ -1,0 +1,353 @@
+"""``higherpair calc power-module``: sections 2.2 to 2.4 of the thesis, the load it holds, and what play does to it."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from typing import Annotated, Any
+
+import numpy as np
+from msgspec import Meta
+
+from geometry.base import hertz
+from geometry.base.errors import ParameterError
+from geometry.base.record import replace
+from geometry.curves.curve import Complex, Real
+from geometry.kinematics.statics import statics
+from geometry.kinematics.two_disk import TwoDisk
+from parts.base.texts import N_, filled, message
+from parts.gears.worm import page as worm_page
+from parts.keys.base import mm, size
+from parts.mates.pages.contour_marks import checked_picture
+from parts.mates.pages.power_table import DRIVES, TwoDiskKeys, given
+from parts.pages.error_map import ErrorMap
+from parts.pages.inputs import checked, refusal
+from parts.pages.misprints import POWER_MODULE, printed_for_power_module
+from parts.pages.page import Section, Sheet, Table
+
+TOPIC = "power-module"
+_WORM, _GEAR, _BALLS = "thesis, 2.2", "thesis, 2.3", "thesis, 2.4"
+_STRENGTH = Meta(description="factor of the strength calculation", gt=0, le=100)
+_Factor = Annotated[float, _STRENGTH]
+_Stress = Annotated[float, size("MPa", "stress", above=0, most=100_000)]
+_Length = Annotated[float, mm("length", above=0, most=10_000)]
+_Play = Annotated[float, mm("play", least=0, most=10)]
+# steel: Young's modulus, MPa, and Poisson's ratio
+_STEEL = 206_000.0, 0.3
+_MAP_BANDS, _MAP_POINTS = 48, ((0.0, 1), (0.35, 6), (0.65, 10), (0.92, 14))
+
+
+class PowerModuleKeys(TwoDiskKeys, kw_only=True):
+    """Keys of the topic; defaults are the thesis's."""
+
+    worm_torque: Annotated[float, size("N*m", "torque on either worm", above=0, most=1e6)] = 3.5
+    load: Annotated[float, size("N", "force on the platform's axis; default: what both worms hold anywhere",
+                                above=0, most=1e9, example=2000.0)] | None = None  # fmt: skip
+    worm_module: _Length = 5.0
+    diameter_quotient: Annotated[float, Meta(gt=0, le=1000, description="q of both worms")] = 10.0
+    rim_width: Annotated[float, mm("width of the worm wheels' rims", above=0, most=10_000)] = 26.0
+    rim_strength: Annotated[_Stress, Meta(description="tensile strength of the rims")] = 200.0
+    form_factors: Annotated[tuple[_Factor, _Factor], Meta(description="Y_F2 of both wheels")] = (1.26, 1.27)
+    module: Annotated[float, mm("module of the pair 11-12", above=0, most=1000)] = 3.0
+    face_width: Annotated[float, mm("width of the pair 11-12", above=0, most=10_000)] = 25.0
+    bending_limit: Annotated[_Stress, Meta(description="sigma_Flim of the pair's teeth")] = 580.0
+    contact_limit: Annotated[_Stress, Meta(description="sigma_Hlim of the pair's teeth")] = 850.0
+    balls: Annotated[int, Meta(ge=3, le=10_000, description="balls in one turn")] = 180
+    ball_diameter: _Length = 8.0
+    groove_radius: Annotated[float, mm("radius of the grooves", above=0, most=1000)] = 4.16
+    loaded_turns: Annotated[int, Meta(ge=0, le=1, description="i2, turns of balls that work against i1 = 1")] = 0
+    radial_factor: Annotated[float, Meta(gt=0, le=10, description="k4 of the radial stiffness")] = 0.1
+    worm_backlash: Annotated[_Play, Meta(description="on the reference circle of either worm wheel")] = 0.05
+    pair_backlash: Annotated[_Play, Meta(description="on the pitch circles of the pair 11-12")] = 0.05
+    pitch_error: Annotated[_Play, Meta(description="total pitch error of each of the three wheels")] = 0.0
+    wheel_backlash: Annotated[_Play, Meta(description="of each mesh that turns the platform, m 2, z 24")] = 0.05
+    pin_clearance: Annotated[_Play, Meta(description="of each pin of a crank, diametral")] = 0.02
+    pivot_circle: Annotated[float, mm("radius of the circle of the cranks' pivots", above=0, most=1e4)] = 51.0
+    picture: Annotated[str, Meta(description="SVG file of the error map to write")] | None = None
+
+
+def sheet(table: dict[str, Any]) -> Sheet:
+    """The calculation of one module."""
+    keys: PowerModuleKeys = checked(table, PowerModuleKeys, TOPIC)
+    checked_picture(TOPIC, keys.picture, (".svg",))
+    page = Sheet(TOPIC, N_("Two-disk power module"))
+    if keys == PowerModuleKeys(picture=keys.picture, orientation=keys.orientation):
+        page.printed = printed_for_power_module()
+    try:
+        keys.table  # noqa: B018 - the ring is the larger one
+        if not keys.ball_diameter / 2 < keys.groove_radius:
+            raise ParameterError("groove_radius", keys.groove_radius, "groove_below_ball", None,
+                                 least=keys.ball_diameter / 2)  # fmt: skip
+        given(page, keys)
+        torques = _load(page, keys)
+        _worms(page, keys, torques)
+        _pair(page, keys, torques[1])
+        _ball_ring(page, keys, torques)
+        _orientation(page, keys)
+        _play(page, keys)
+    except ParameterError as error:
+        raise refusal(TOPIC, error, keys=keys) from error
+    return page
+
+
+def _worst(table: TwoDisk) -> tuple[float, float]:
+    """Greatest arm (mm) of a force on O3 about drive I, with the beta (rad) at which it is; of II it is always one."""
+    beta = np.linspace(0, math.pi, 721)
+    arms = np.abs(table.drive_jacobian(0.0 * beta, beta)[0])
+    at = int(np.argmax(arms))
+    return float(arms[at]), float(beta[at])
+
+
+def _load(page: Sheet, keys: PowerModuleKeys) -> tuple[float, float]:
+    """The force on the platform, by virtual work and by the layer's statics; torques on both worm wheels, N m."""
+    table = keys.table
+    held = tuple(keys.worm_torque * ratio for ratio in keys.worm_ratios)
+    first, at_1 = _worst(table)
+    second = table.ratio * table.arms[1]
+    page.section(N_("Load on the platform"))
+    page.add("worm_torque", keys.worm_torque)
+    for name, torque in zip(DRIVES, held, strict=True):
+        page.add("wheel_torque", torque, f"{{T1}} * {{u{1 + (name == 'II')}}}", _WORM,
+                 symbol=f"T_2{name}", key=f"T2_{name}", of=DRIVES[name])  # fmt: skip
+    page.add("load_arm", first, symbol="l_I", key="l_I", of=DRIVES["I"])
+    page.add("load_arm", second, "{u} * {L2}", symbol="l_II", key="l_II", of=DRIVES["II"])
+    most = [1000 * torque / arm for torque, arm in zip(held, (first, second), strict=True)]
+    worst = "I" if most[0] < most[1] else "II"
+    page.add("load_held", min(most), f"1000 * {{T2_{worst}}} / {{l_{worst}}}", of=DRIVES[worst])
+    load = min(most) if keys.load is None else keys.load
+    page.add("load", load)
+    asked = load * first / 1000, load * second / 1000
+    for name, torque in zip(DRIVES, asked, strict=True):
+        page.add("load_torque", torque, f"{{F}} * {{l_{name}}} / 1000", symbol=f"T_F{name}", of=DRIVES[name])
+    text = N_(
+        "the worst place for drive I is beta = {angle:.4g}°, for drive II all are alike; the worst direction is that "
+        "in which the drive moves the platform: for II across O2O3"
+    )
+    page.notes.append(message(text, angle=math.degrees(at_1)))
+    _statics(page, table, load, at_1)
+    if load > min(most) * (1 + 1e-12):
+        page.notes.append(
+            message(N_("the worms do not hold this load everywhere: at most {limit:.6g} N"), limit=min(most))
+        )
+    return (held[0], held[1]) if keys.load is None else asked
+
+
+def _statics(page: Sheet, table: TwoDisk, load: float, beta: float) -> None:
+    """At the worst place in the worst direction: what the layer's statics gives for the worms, and the bearings."""
+    one, _ = (complex(way) for way in table.drive_jacobian(0.0, beta))
+    force = load * one / abs(one)
+    first, second = 1j * table.arms[0], complex(table.forward(0.0, beta)) - 1j * table.arms[0]
+    # turning disk 2 moves O2, turning disk 3 moves O3 about it
+    loads = {
+        link: Fraction((force.conjugate() * 1j * arm).real / 1000)
+        for link, arm in (("disk_2", first), ("disk_3", second))
+    }
+    state = statics(table.mechanism("idlers"), {"worm_1": Fraction(1), "worm_2": Fraction(1)}, loads)[0]
+    for name, worm in (("I", "worm_1"), ("II", "worm_2")):
+        page.add("worm_torque_asked", abs(float(state.torques[worm])), symbol=f"T_1{name}", of=DRIVES[name])
+    mesh = next(flow for flow in state.flows if flow.mesh.kind == "internal")
+    pinion = abs(float(mesh.torques[0]))
+    page.add("pinion_torque", pinion, symbol="T_11")
+
+
+def _worms(page: Sheet, keys: PowerModuleKeys, torques: tuple[float, float]) -> None:
+    """Both drives as ``calc worm`` has them."""
+    for name, ratio, form, torque in zip(DRIVES, keys.worm_ratios, keys.form_factors, torques, strict=True):
+        table = {"module": keys.worm_module, "diameter_quotient": keys.diameter_quotient, "number_of_teeth": ratio,
+                 "torque": torque / ratio, "form_factor": form, "face_width": keys.rim_width,
+                 "tensile_strength": keys.rim_strength}  # fmt: skip
+        own = worm_page.sheet(table)
+        for section in own.sections[1:]:
+            title = message(N_("{drive}: {what}"), drive=filled(DRIVES[name]), what=filled(section.title))
+            page.sections.append(Section(title, [replace(step, of=DRIVES[name]) for step in section.steps]))
+        page.known |= {f"{key}_{name}": known for key, known in own.known.items()}
+        page.notes += [note for note in own.notes if note not in page.notes]
+
+
+def _pair(page: Sheet, keys: PowerModuleKeys, torque: float) -> None:
+    """Section 2.3: bending gives the module, contact the width."""
+    pinion, ratio = keys.pair_teeth[0], keys.table.ratio
+    page.section(N_("Pair 11-12: bending"))
+    page.name("T2_ring", "T2_II") if keys.load is None else page.add("load_torque", torque, key="T2_ring")
+    own = torque / ratio
+    page.add("pair_torque", own, "{T2_ring} / {u}", _GEAR)
+    constants = (
+        ("fatigue_limit_bending", keys.bending_limit), ("life_factor", 1.0), ("roughness_factor", 1.05),
+        ("size_factor", 1.0), ("gradient_factor", 0.98), ("bending_safety", 1.7), ("reversing_factor", 0.75),
+    )  # fmt: skip
+    for name, value in constants:
+        page.add(name, value)
+    allowed = keys.bending_limit / 1.7 * 1.05 * 0.98 * 0.75
+    page.add("pair_allowed_bending", allowed,
+             "{sigma_Flim} * {Y_N} / {S_F} * {Y_R} * {Y_X} * {Y_d} * {K_R}", _GEAR)  # fmt: skip
+    for name, value in (("module_factor", 14.0), ("pair_width_factor", 1.05), ("pair_form_factor", 3.55),
+                        ("width_ratio", 0.05)):  # fmt: skip
+        page.add(name, value)
+    least = 14 * (own * 1.05 * 3.55 * ratio / (keys.pair_teeth[1] ** 2 * 0.05 * allowed)) ** (1 / 3)
+    formula = "{K_m} * cbrt({T_11} * {K_Fb} * {Y_FS} * {u} / ({z12}**2 * {psi_bd} * {sigma_FP1}))"
+    page.add("pair_least_module", least, formula, _GEAR)
+    page.add("module", keys.module)
+    page.section(N_("Pair 11-12: contact"))
+    diameter = keys.module * pinion
+    page.add("reference_diameter", diameter, "{m} * {z11}", _GEAR, symbol="d_11", key="d11")
+    page.add("face_width", keys.face_width)
+    along = 2000 * own / diameter
+    page.add("circumferential_force", along, "2000 * {T_11} / {d11}", _GEAR)
+    factors = (("elasticity_factor", 190.0), ("zone_factor", 2.49), ("overlap_factor", 0.84),
+                 ("outer_load_factor", 1.0), ("pair_speed_factor", 1.01))  # fmt: skip
+    for name, value in factors:
+        page.add(name, value)
+    zone = math.sqrt(4 / math.sin(math.radians(40)))
+    page.add("exact_zone_factor", zone, "sqrt(4 / sin(2 * 20 * pi / 180))")
+    stress = 190 * 2.49 * 0.84 * math.sqrt(along * 1.01 * 1.05 / (keys.face_width * diameter) * (ratio - 1) / ratio)
+    root = "sqrt({F_t} * {K_A} * {K_Hv} * {K_Fb} / ({b} * {d11}) * ({u} - 1) / {u})"
+    page.add("pair_contact_stress", stress, "{Z_E} * {Z_H} * {Z_eps} * " + root, _GEAR)
+    for name, value in (("contact_limit", keys.contact_limit), ("contact_safety", 1.2),
+                        ("contact_roughness_factor", 0.95), ("circumferential_speed_factor", 0.99)):  # fmt: skip
+        page.add(name, value)
+    bearable = keys.contact_limit / 1.2 * 0.95 * 0.99
+    page.add("pair_allowed_contact", bearable, "{sigma_Hlim} / {S_H} * {Z_R} * {Z_v}", _GEAR)
+    width = keys.face_width * (stress / bearable) ** 2
+    page.add("pair_least_width", width, "{b} * ({sigma_Hp} / {sigma_HPp})**2")
+    if least > keys.module:
+        page.notes.append(N_("the module of the pair 11-12 is less than bending asks for"))
+    if stress > bearable:
+        page.notes.append(N_("the contact stress of the pair 11-12 is more than allowed"))
+
+
+def _ball_ring(page: Sheet, keys: PowerModuleKeys, torques: tuple[float, float]) -> None:
+    """Section 2.4, once as the thesis has it and once with the right radial force; then Hertz for the groove."""
+    page.section(N_("Ring of balls: forces"))
+    worm = keys.worm_module * keys.diameter_quotient
+    axial = 2000 * torques[1] / keys.worm_ratios[1] / worm
+    page.name("F_a", "F_t1_II")
+    radial = page.known["F_t"].value
+    assert isinstance(radial, float)
+    gear = radial * math.tan(math.radians(20))
+    page.add("pair_radial_force", gear, "{F_t} * tan(20 * pi / 180)", _BALLS)
+    page.add("thesis_worm_radial_force", axial * math.tan(math.radians(20)), "{F_a} * tan(20 * pi / 180)", _BALLS)
+    page.name("F_RC_right", "F_r_II")
+    right = page.known["F_RC_right"].value
+    assert isinstance(right, float)
+    turns = keys.loaded_turns
+    share = 1 + turns ** (2 / 3) if turns else 1.0
+    page.add("loaded_turns", turns)
+    page.add("preload", axial / (1.5 * share), f"{{F_a}} / {1.5 * share:g}", _BALLS)
+    page.add("balls", keys.balls)
+    page.add("ball_diameter", keys.ball_diameter)
+    page.add("radial_factor", keys.radial_factor)
+    cases = (("thesis", N_("by the thesis"), gear + axial * math.tan(math.radians(20)), "{F_RZ} + {F_RC}"),
+             ("right", N_("right"), gear + right, "{F_RZ} + {F_RC_right}"))  # fmt: skip
+    for key, title, force, formula in cases:
+        page.section(message(N_("Ring of balls: stiffness, {what}"), what=filled(title)))
+        angle = math.atan(axial / force)
+        source, mark = (_BALLS, _marked(page)) if key == "thesis" else ("", lambda name: None)
+        page.add("bearing_radial_force", force, formula, source)
+        page.add("contact_angle_deg", math.degrees(angle), "arctan({F_a} / {F_R})", source)
+        load = 1e5 * keys.balls * math.sin(angle) ** 2.5 * math.sqrt(1.25 * keys.ball_diameter)
+        formula = "100000 * {z_b} * sin({alpha_b})**2 * sqrt(sin({alpha_b}) * 1.25 * {d_b})"
+        page.add("turn_capacity", load, formula, source)
+        mark("turn_capacity")
+        along = 1.5 * load ** (2 / 3) * (axial / (1.5 * share)) ** (1 / 3) * share
+        page.add("axial_stiffness", along, f"{1.5 * share:g} * cbrt({{C}}**2 * {{F_H}})", source)
+        mark("axial_stiffness")
+        across = keys.radial_factor * along / (1.5 * math.tan(angle) ** 2 * share)
+        page.add("radial_stiffness", across, f"{{k4}} * {{j_a}} / ({1.5 * share:g} * tan({{alpha_b}})**2)", source)
+        mark("radial_stiffness")
+    page.section(N_("Ring of balls: Hertz, and its place"))
+    least = keys.ball_diameter / math.sin(math.pi / keys.balls)
+    page.add("least_ball_circle", least, "{d_b} / sin(pi / {z_b})")
+    root = keys.module * (keys.pair_teeth[1] + 2.5)
+    page.add("ring_root_diameter", root, "{m} * ({z12} + 2.5)")
+    page.add("ball_wall", (least - root) / 2 - keys.ball_diameter / 2, "({D_b} - {d_f12} - {d_b}) / 2")
+    page.add("groove_radius", keys.groove_radius)
+    ball, modulus = keys.ball_diameter / 2, _STEEL[0] / (2 * (1 - _STEEL[1] ** 2))
+    flat = 1 / ball - 1 / keys.groove_radius
+    inner, outer = (1 / ball + sense / (least / 2 - sense * ball) for sense in (1, -1))
+    both = [hertz.stiffness((flat, sharp), modulus) for sharp in (inner, outer)]
+    # two contacts one behind the other under the same load
+    hertzian = sum(k ** (-2 / 3) for k in both) ** -1.5
+    page.add("ball_stiffness", 1e5 * math.sqrt(1.25 * keys.ball_diameter), "100000 * sqrt(1.25 * {d_b})", _BALLS)
+    page.add("hertz_stiffness", hertzian)
+    if (least - root) / 2 < keys.ball_diameter / 2:
+        page.notes.append(N_("so many balls have no place outside of the ring's teeth"))
+
+
+def _marked(page: Sheet) -> Any:
+    """Marks a step of the thesis's own chain where its number is misprinted."""
+
+    def mark(name: str) -> None:
+        if page.printed and name in POWER_MODULE:
+            page.mark_misprint(POWER_MODULE[name])
+
+    return mark
+
+
+def _orientation(page: Sheet, keys: PowerModuleKeys) -> None:
+    """By how much the platform can turn in its play, with idlers and with cranks: why cranks are the default."""
+    page.section(N_("Play of the platform's turn"))
+    page.add("wheel_backlash", keys.wheel_backlash)
+    page.add("platform_play_deg", math.degrees(4 * keys.wheel_backlash / 24), "4 * {j_6} / 24", of=N_("idlers"))
+    page.add("pin_clearance", keys.pin_clearance)
+    page.add("pivot_circle", keys.pivot_circle)
+    play = 4 * keys.pin_clearance / (math.cos(math.pi / 6) * keys.pivot_circle)
+    page.add("platform_play_deg", math.degrees(play), "4 * {c_p} / ({r_p} * cos(pi / 6))", of=N_("cranks"))
+
+
+def _play(page: Sheet, keys: PowerModuleKeys) -> None:
+    """What play in the three meshes does to O3, over the workspace; or the turn of the thesis's platform."""
+    table = keys.table
+    wheels = [keys.worm_module * ratio / 2 for ratio in keys.worm_ratios]
+    slack = [(keys.worm_backlash + keys.pitch_error) / radius for radius in wheels]
+    slack.append((keys.pair_backlash + keys.pitch_error) / (keys.module * keys.pair_teeth[0] / 2))
+    least, most = table.reach
+    radii = np.linspace(least, most, _MAP_BANDS + 1)
+    delta, beta = table.inverse(np.asarray(1j * radii, dtype=complex))
+    parts, worst = _reached(table, delta, beta, slack)
+    heads = tuple((name, "mm") for name in ("r", "I", "II", "11-12", "Σ"))
+    rows = np.stack([radii, *(np.abs(p) for p in parts), worst], 1)
+    title = N_("Error of the platform's axis by the play of drive I, drive II and the pair, and of all, at most")
+    page.tables.append(Table("errors", title, heads, tuple(tuple(map(float, row)) for row in rows[::4])))
+    page.picture_file = keys.picture
+    if keys.orientation == "thesis":
+        turn = np.degrees(table.platform_turn(beta, keys.orientation_teeth))
+        page.picture = ErrorMap(N_("Turn of the platform by the wheels 6, 7, 8 of the thesis"), "°",
+                                tuple(map(float, radii)), tuple(map(float, turn[1:])))  # fmt: skip
+        return
+    reached = []
+    for share, count in _MAP_POINTS:
+        for k in range(count):
+            place = complex((least + (most - least) * share) * np.exp(2j * math.pi * k / count))
+            corners = []
+            for elbow in (1, -1):
+                at = table.inverse(place, elbow)
+                corners.append(_zonotope([complex(p) for p in _reached(table, *at, slack)[0]]))
+            reached.append((place, (corners[0], corners[1])))
+    largest = float(worst.max())
+    magnified = max(
+        (step * 10.0**k for k in range(6) for step in (1, 2, 5) if step * 10**k * largest < most / 9), default=1.0
+    )
+    page.picture = ErrorMap(
+        N_("Error of the platform's axis by play, at most"), "mm", tuple(map(float, radii)),
+        tuple(map(float, np.maximum(worst[1:], worst[:-1]))), tuple(reached),
+        (N_("First elbow, beta > 0"), N_("Second elbow, beta < 0")), magnified,
+    )  # fmt: skip
+
+
+def _reached(table: TwoDisk, delta: Real, beta: Real, slack: list[float]) -> tuple[list[Complex], Real]:
+    """What the play of drive I, drive II and the pair moves O3 by, and the most that all of them do, mm."""
+    first, second = table.drive_jacobian(delta, beta)
+    parts = [first * slack[0], second * slack[1], table.jacobian(delta, beta)[1] * slack[2]]
+    sums = [np.abs(parts[0] + a * parts[1] + b * parts[2]) for a in (1, -1) for b in (1, -1)]
+    return parts, np.max(sums, axis=0)
+
+
+def _zonotope(parts: list[complex]) -> Complex:
+    """Corners of all sums of shares (-1/2 to 1/2) of vectors, counter-clockwise."""
+    ways = sorted((p if p.imag > 0 or (p.imag == 0 and p.real > 0) else -p for p in parts), key=np.angle)
+    corner = -sum(ways) / 2
+    found = []
+    for way in [*ways, *(-w for w in ways)]:
+        found.append(corner)
+        corner += way
+    return np.array(found)

@@ -1,0 +1,217 @@
+"""``higherpair calc power-table``: the angles and worm turns of the two-disk power module for points or for a path."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from msgspec import Meta, Struct
+
+from geometry.base.errors import ParameterError
+from geometry.curves.curve import Complex, Real
+from geometry.curves.line_arc import Arc, Line
+from geometry.kinematics.two_disk import Orientation, TwoDisk
+from geometry.kinematics.two_disk_path import Piece, followed
+from parts.base.texts import N_, Text, message
+from parts.keys.base import degrees, mm
+from parts.pages.inputs import checked, refusal
+from parts.pages.misprints import printed_for_delta
+from parts.pages.page import Sheet, Table
+
+TOPIC = "power-table"
+_THESIS = "thesis, 2.1"
+_MOST = 10_000.0
+# I turns disk 2, II the ring
+DRIVES = {"I": N_("drive I"), "II": N_("drive II")}
+_Teeth = Annotated[int, Meta(ge=1, le=10_000)]
+_Arm = Annotated[float, mm("length", above=0, most=_MOST)]
+_Place = Annotated[float, mm("coordinate", least=-_MOST, most=_MOST)]
+
+
+class TwoDiskKeys(Struct, kw_only=True, forbid_unknown_fields=True):
+    """Keys of the mechanism."""
+
+    arms: Annotated[tuple[_Arm, _Arm], mm("L1 = O1O2 and L2 = O2O3")] = (72.0, 72.0)
+    pair_teeth: Annotated[tuple[_Teeth, _Teeth], Meta(description="teeth of disk 3's pinion and of the ring")] = (
+        96, 144,
+    )  # fmt: skip
+    worm_ratios: Annotated[tuple[_Teeth, _Teeth], Meta(description="teeth of the worm wheels for one start")] = (
+        128, 106,
+    )  # fmt: skip
+    orientation: Annotated[Orientation, Meta(description="what turns the platform")] = "cranks"
+    orientation_teeth: Annotated[
+        tuple[_Teeth, _Teeth], Meta(description="teeth of the wheels 6 (and 7) and 8 of the thesis")
+    ] = (36, 36)
+
+    @property
+    def table(self) -> TwoDisk:
+        """The mechanism; its ring is larger than the pinion."""
+        if self.pair_teeth[0] >= self.pair_teeth[1]:
+            raise ParameterError("pair_teeth", list(self.pair_teeth), "ring_as_its_wheel")
+        return TwoDisk(arms=self.arms, teeth=self.pair_teeth, worm_ratios=self.worm_ratios)
+
+
+class PowerTableKeys(TwoDiskKeys, kw_only=True):
+    """Keys of the topic."""
+
+    x: Annotated[_Place | list[_Place], mm("x of a point, or of several")] | None = None
+    y: Annotated[_Place | list[_Place], mm("y of a point, or of several")] | None = None
+    path: (
+        Annotated[
+            list[tuple[_Place, _Place, _Place, _Place, float]],
+            Meta(description="a DXF file of lines, arcs and polylines, or pieces x1, y1, x2, y2, bulge"),
+        ]
+        | None
+    ) = None
+    tolerance: Annotated[float, mm("how far the platform may leave the path", least=1e-6, most=10)] = 0.01
+    elbow: Annotated[Literal[1, -1], Meta(description="with which sign of beta the path begins")] = 1
+    start_deg: Annotated[float, degrees("delta before the path begins", least=-36_000, most=36_000)] | None = None
+
+
+def sheet(table: dict[str, Any]) -> Sheet:
+    """The table of points or of a path."""
+    keys: PowerTableKeys = checked(table, PowerTableKeys, TOPIC)
+    page = Sheet(TOPIC, N_("Two-disk power table"))
+    try:
+        if keys.path is not None:
+            _path(page, keys)
+        else:
+            _points(page, keys)
+    except ParameterError as error:
+        raise refusal(TOPIC, error, keys=keys) from error
+    return page
+
+
+def given(page: Sheet, keys: TwoDiskKeys) -> None:
+    """The mechanism's own sizes."""
+    page.section(N_("Given"))
+    page.add("first_arm", keys.arms[0])
+    page.add("second_arm", keys.arms[1])
+    page.add("number_of_teeth", keys.pair_teeth[0], symbol="z_11", key="z11")
+    page.add("number_of_teeth", keys.pair_teeth[1], symbol="z_12", key="z12")
+    page.add("pair_ratio", keys.table.ratio, "{z12} / {z11}", _THESIS)
+    for number, drive in enumerate(DRIVES, 1):
+        page.add("worm_ratio", keys.worm_ratios[number - 1], symbol=f"u_{drive}", key=f"u{number}", of=DRIVES[drive])
+    if keys.orientation == "thesis":
+        page.add("number_of_teeth", keys.orientation_teeth[0], symbol="z_6", key="z6")
+        page.add("number_of_teeth", keys.orientation_teeth[1], symbol="z_8", key="z8")
+
+
+def _points(page: Sheet, keys: PowerTableKeys) -> None:
+    """One point step by step, for both elbows; and the table."""
+    if keys.x is None or keys.y is None:
+        missing = "x" if keys.x is None else "y"
+        raise ParameterError(missing, None, "missing_key", None, what=N_("x and y of a point, or path=FILE"))
+    x, y = np.atleast_1d(keys.x), np.atleast_1d(keys.y)
+    if len(x) != len(y) or not len(x):
+        raise ParameterError("y", keys.y, "as_many_as_x")
+    points, table = x + 1j * y, keys.table
+    given(page, keys)
+    if len(points) == 1:
+        _steps(page, keys, complex(points[0]))
+    rows: list[tuple[float, ...]] = []
+    for elbow in (1, -1):
+        delta, beta = table.inverse(points, elbow, math.radians(keys.start_deg or 0.0))
+        delta = np.unwrap(delta)
+        # what the coupling turns disk 3 by, and what is left for its own drive: from row to row
+        moved = np.diff(delta, prepend=delta[:1])
+        coupled = table.ratio * moved
+        own = np.diff(beta, prepend=beta[:1]) - coupled
+        columns = _columns(keys, table, points, delta, beta)
+        rows += [
+            (elbow, *row, math.degrees(gamma), math.degrees(rest))
+            for row, gamma, rest in zip(columns, coupled, own, strict=True)
+        ]
+    heads = (("elbow", ""), *_heads(keys), ("γ", "deg"), ("Δβ'", "deg"))
+    page.tables.append(Table("points", N_("Points, both elbows"), heads, tuple(rows)))
+    if table.reach[0] == 0 and not points.all():
+        page.notes.append(N_("at the centre every angle delta is right; it is kept at start_deg"))
+    _notes(page, keys)
+
+
+def _columns(keys: TwoDiskKeys, table: TwoDisk, points: Complex, delta: Real, beta: Real) -> list[tuple[float, ...]]:
+    one, two = table.drives(delta, beta)
+    ring = delta - beta / table.ratio
+    turn = table.platform_turn(beta, keys.orientation_teeth) if keys.orientation == "thesis" else 0 * beta
+    angles = (np.degrees(a) for a in (delta, beta, ring))
+    columns = (points.real, points.imag, *angles, one, two, np.degrees(turn))
+    return [tuple(map(float, row)) for row in zip(*columns, strict=True)]
+
+
+def _heads(keys: TwoDiskKeys) -> tuple[tuple[str, str], ...]:
+    angles = (("δ", "deg"), ("β", "deg"), ("θ", "deg"))
+    return (("x", "mm"), ("y", "mm"), *angles, ("n_I", ""), ("n_II", ""), ("φ_6", "deg"))
+
+
+def _steps(page: Sheet, keys: PowerTableKeys, point: complex) -> None:
+    table = keys.table
+    page.section(N_("Point"))
+    page.add("point_x", point.real)
+    page.add("point_y", point.imag)
+    far = abs(point)
+    page.add("point_distance", far, "sqrt({x}**2 + {y}**2)")
+    chi = math.degrees(math.atan2(point.real, point.imag))
+    half = "2 * arctan({x} / ({r} + {y}))" if far + point.imag > 1e-6 * far else ""
+    page.add("point_direction_deg", chi, half)
+    for elbow, title in ((1, N_("First elbow, beta > 0")), (-1, N_("Second elbow, beta < 0"))):
+        delta, beta = (float(a) for a in table.inverse(point, elbow, math.radians(keys.start_deg or 0.0)))
+        page.section(title)
+        sign, formula = "" if elbow > 0 else "-", "arccos(({L1}**2 + {L2}**2 - {r}**2) / (2 * {L1} * {L2}))"
+        # where the argument is near 1 the formula has lost its digits
+        plain = 0.05 < abs(beta) < math.pi - 0.05
+        page.add("beta_deg", math.degrees(beta), sign + formula if plain else "", _THESIS)
+        lean = elbow * (math.radians(chi) - delta)
+        formula = "arccos(({L1}**2 + {r}**2 - {L2}**2) / (2 * {L1} * {r}))"
+        page.add("angle_at_o1_deg", math.degrees(lean), formula if plain and 0.05 < lean < math.pi - 0.05 else "")
+        page.add("delta_deg", math.degrees(delta), f"{{chi}} {'-' if elbow > 0 else '+'} {{mu}}", _THESIS)
+        printed = printed_for_delta(point, table.arms, delta) if elbow > 0 else None
+        if printed is not None:
+            page.mark_misprint(printed)
+        one, two = (float(n) for n in table.drives(delta, beta))
+        page.add("worm_turns", one, "{u1} * {delta} / (2 * pi)", symbol="n_I", of=DRIVES["I"])
+        page.add("ring_angle_deg", math.degrees(delta - beta / table.ratio), "{delta} - {beta} / {u}")
+        page.add("worm_turns", two, "{u2} * {theta} / (2 * pi)", symbol="n_II", of=DRIVES["II"])
+        if keys.orientation == "thesis":
+            turn = float(table.platform_turn(beta, keys.orientation_teeth))
+            page.add("platform_turn_deg", math.degrees(turn), "(1 + {z8} / {z6}) * {beta}")
+
+
+def _path(page: Sheet, keys: PowerTableKeys) -> None:
+    table, pieces = keys.table, [_piece(*piece) for piece in keys.path or []]
+    if not pieces:
+        raise ParameterError("path", None, "no_path")
+    start = None if keys.start_deg is None else math.radians(keys.start_deg)
+    rows = followed(table, pieces, keys.tolerance, keys.elbow, start)
+    given(page, keys)
+    page.section(N_("Path"))
+    page.add("path_length", float(rows.way[-1]))
+    page.add("path_error", rows.error)
+    columns = _columns(keys, table, rows.place, rows.delta, rows.beta)
+    found = tuple((float(way), *row) for way, row in zip(rows.way, columns, strict=True))
+    heads = (("s", "mm"), *_heads(keys))
+    page.tables.append(Table("path", N_("Path, row by row: both worms run evenly in between"), heads, found))
+    _notes(page, keys)
+
+
+def _piece(x1: float, y1: float, x2: float, y2: float, bulge: float) -> Piece:
+    start, end = complex(x1, y1), complex(x2, y2)
+    if start == end:
+        raise ParameterError("path", [x1, y1, x2, y2, bulge], "piece_is_a_point")
+    if bulge == 0:
+        return Line(start, end)
+    centre = (start + end) / 2 + 1j * (end - start) * (1 - bulge**2) / (4 * bulge)
+    return Arc(centre, abs(start - centre), cmath.phase(start - centre), 4 * math.atan(bulge))
+
+
+def _notes(page: Sheet, keys: TwoDiskKeys) -> None:
+    """From where is counted, and what the platform does."""
+    told: list[Text] = [N_("angles and turns count from +y towards +x; beta and turns of the platform the other way")]
+    if keys.orientation == "thesis":
+        text = N_(
+            "the thesis's wheels 6, 7, 8 do not keep the platform parallel: from beta = 0 to 180° it turns by {turn:g}°"
+        )
+        turn = math.degrees(float(keys.table.platform_turn(math.pi, keys.orientation_teeth)))
+        told.append(message(text, turn=turn))
+    page.notes += told
