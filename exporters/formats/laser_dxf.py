@@ -1,4 +1,4 @@
-"""Laser DXF: one closed polyline a boundary, arcs as bulges, inner contours first. No kernel, no spline.
+"""Laser DXF: one closed polyline a boundary, arcs as bulges, inner contours first, names in open ones before all else.
 
 Header, tables and objects are those that ezdxf writes for an empty drawing; they lie in ``frames`` as ezdxf wrote
 them, since importing ezdxf takes longer than all else a laser file needs. Layers and polylines are put in here.
@@ -6,12 +6,13 @@ them, since importing ezdxf takes longer than all else a laser file needs. Layer
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 
-from geometry.plane.contour import Approximation, Contour, edge_box
+from geometry.curves.curve import Complex, Real
+from geometry.plane.contour import Approximation, edge_box
 
 # ACI colours: engraving blue, first of all; inner contours green, cut before the outer ones, red
 LAYER_COLOURS = {"ENGRAVE": 5, "CUT_INNER": 3, "CUT_OUTER": 1}
@@ -27,23 +28,36 @@ SLOTS = ("<<left>>", "<<low>>", "<<right>>", "<<high>>", "<<seed>>", "<<layer co
 
 
 def write_laser_dxf(
-    file: Path, layers: tuple[str, ...], boundaries: tuple[Approximation, ...], *, version: str
+    file: Path,
+    layers: tuple[str, ...],
+    boundaries: tuple[Approximation, ...],
+    *,
+    version: str,
+    strokes: Sequence[Complex] = (),
 ) -> dict[str, int]:
-    """Write closed polylines in mm; returns the number of entities of each kind."""
+    """Write closed polylines in mm, and open ones to be engraved; returns the number of entities of each kind."""
     # "\n" on every system, so that the bytes are the same there too
-    file.write_text(laser_dxf(layers, boundaries, version=version), encoding="ascii", newline="\n")
+    file.write_text(laser_dxf(layers, boundaries, version=version, strokes=strokes), encoding="ascii", newline="\n")
     kind = "POLYLINE" if version == "R12" else "LWPOLYLINE"
     arcs = sum(int(np.count_nonzero(b.geometry.bulges)) * b.geometry.count for b in boundaries)
-    return {kind: len(boundaries), "vertices": sum(len(b.geometry) for b in boundaries), "arcs": arcs}
+    counts = {kind: len(boundaries) + len(strokes), **({"strokes": len(strokes)} if strokes else {})}
+    return {**counts, "vertices": sum(len(b.geometry) for b in boundaries), "arcs": arcs}
 
 
-def laser_dxf(layers: tuple[str, ...], boundaries: tuple[Approximation, ...], *, version: str) -> str:
-    """The text of a DXF of closed polylines in mm; ``layers``: where each boundary stands; version R2000 or R12."""
+def laser_dxf(
+    layers: tuple[str, ...], boundaries: tuple[Approximation, ...], *, version: str, strokes: Sequence[Complex] = ()
+) -> str:
+    """The text of a DXF of closed polylines in mm; ``layers``: where each boundary stands; version R2000 or R12.
+
+    ``strokes``: points of open ones, which stand on ENGRAVE before all else.
+    """
     seed, frame = (_FRAMES / f"{version}.dxf").read_text("ascii").split("\n", 1)
     handles = _handles(int(seed, 16))
-    names = tuple(dict.fromkeys(layers))
+    names = tuple(dict.fromkeys((*(["ENGRAVE"] if strokes else []), *layers)))
     rows = [_layer(name, next(handles), version) for name in names]
-    drawn = [_polyline(a.geometry, y, handles, version) for y, a in zip(layers, boundaries, strict=True)]
+    drawn = [_polyline(stroke, np.zeros(len(stroke)), "ENGRAVE", handles, version, closed=0) for stroke in strokes]
+    outlines = zip(layers, (a.geometry.expanded() for a in boundaries), strict=True)
+    drawn += [_polyline(*corners, layer, handles, version) for layer, corners in outlines]
     boxes = [edge_box(v, np.roll(v, -1), b) for v, b in (a.geometry.expanded() for a in boundaries)]
     left, low = min(a.real for a, _ in boxes), min(a.imag for a, _ in boxes)
     right, high = max(b.real for _, b in boxes), max(b.imag for _, b in boxes)
@@ -75,15 +89,17 @@ def _layer(name: str, handle: str, version: str) -> str:
     return _rows((0, "LAYER"), (5, handle), *record, *looks, (370, -3), (390, _PLOT_STYLE))
 
 
-def _polyline(contour: Contour, layer: str, handles: Iterator[str], version: str) -> str:
-    """One closed polyline; flag 1 closes it, a bulge of 0 is left out."""
-    vertices, bulges = contour.expanded()
+def _polyline(
+    vertices: Complex, bulges: Real, layer: str, handles: Iterator[str], version: str, closed: int = 1
+) -> str:
+    """One polyline; flag 1 closes it, a bulge of 0 is left out."""
     corners = zip(vertices.real.tolist(), vertices.imag.tolist(), bulges.tolist(), strict=True)
     if version != "R12":
         owner = ((330, _MODEL_SPACE), (100, "AcDbEntity"), (8, layer), (100, "AcDbPolyline"))
-        head = _rows((0, "LWPOLYLINE"), (5, next(handles)), *owner, (90, len(vertices)), (70, 1))
+        head = _rows((0, "LWPOLYLINE"), (5, next(handles)), *owner, (90, len(vertices)), (70, closed))
         return head + "".join(f" 10\n{x!r}\n 20\n{y!r}\n{_bulge(b)}" for x, y, b in corners)
-    head = _rows((0, "POLYLINE"), (5, next(handles)), (8, layer), (66, 1), (10, 0.0), (20, 0.0), (30, 0.0), (70, 1))
+    own = ((8, layer), (66, 1), (10, 0.0), (20, 0.0), (30, 0.0), (70, closed))
+    head = _rows((0, "POLYLINE"), (5, next(handles)), *own)
     points = (
         f"  0\nVERTEX\n  5\n{next(handles)}\n  8\n{layer}\n 10\n{x!r}\n 20\n{y!r}\n 30\n0.0\n{_bulge(b)} 70\n0\n"
         for x, y, b in corners

@@ -1,4 +1,4 @@
-"""Read-back of laser DXF: the pairs of the file, its sections, handles and layers, and its closed polylines.
+"""Read-back of laser DXF: the pairs of the file, its sections, handles and layers, and its polylines.
 
 Shares no code with the writer, nor with ezdxf, whose import takes longer than making the file.
 """
@@ -63,7 +63,7 @@ class Pairs(Record):
 
 
 def read_dxf(file: Path) -> ReadOutlines:
-    """The closed polylines of a laser DXF in mm; everything else on it is an error.
+    """The closed polylines of a laser DXF in mm, and open ones that are engraved; everything else is an error.
 
     Raises
     ------
@@ -76,15 +76,20 @@ def read_dxf(file: Path) -> ReadOutlines:
         if header.get("$ACADVER", "AC1009") > "AC1009" and header.get("$INSUNITS") != _MILLIMETRES:
             raise ReadError("the DXF is not in mm ($INSUNITS is not 4)")
         _check_handles(sections, int(header.get("$HANDSEED", "0"), 16))
-        loops = tuple(_loops(sections["ENTITIES"], _model_space(sections)))
+        chains = tuple(_chains(sections["ENTITIES"], _model_space(sections)))
         layers = _layers(sections)
     except (ValueError, LookupError, OSError) as error:
         if isinstance(error, ReadError):
             raise
         raise ReadError(f"not a readable DXF: {error}") from error
-    if strange := {loop.layer for loop in loops} - layers:
+    if strange := {loop.layer for loop, _ in chains} - layers:
         raise ReadError(f"the DXF has no layer {strange.pop()}, on which a contour stands")
-    return ReadOutlines(loops)
+    order = [closed for _, closed in chains]
+    if order != sorted(order):
+        raise ReadError("an engraved line comes after a closed contour")
+    return ReadOutlines(
+        tuple(loop for loop, closed in chains if closed), tuple(loop.vertices for loop, closed in chains if not closed)
+    )
 
 
 def _pairs(file: Path) -> Pairs:
@@ -178,8 +183,8 @@ def _check_handles(sections: dict[str, Pairs], seed: int) -> None:
         raise ReadError("the DXF has a handle that its header ($HANDSEED) calls free")
 
 
-def _loops(entities: Pairs, space: str) -> Iterator[Loop]:
-    """The closed polylines, old style or new, of the model, whose handle is ``space``."""
+def _chains(entities: Pairs, space: str) -> Iterator[tuple[Loop, bool]]:
+    """The polylines, old style or new, of the model, whose handle is ``space``, and whether each is closed."""
     starts = entities.starts()
     heads = [i for i in starts.tolist() if entities.values[i] not in ("VERTEX", "SEQEND")]
     for start, end in zip(heads, [*heads[1:], len(entities.values)], strict=True):
@@ -190,7 +195,11 @@ def _loops(entities: Pairs, space: str) -> Iterator[Loop]:
         if space and entity.first(_OWNER, space) != space:
             raise ReadError(f"a {kind} on layer {layer} does not stand in the model")
         _check_plain(entity, kind, layer)
-        yield _loop(entity, kind, layer)
+        closed = int(entity.first(70, "0")) & 1 == 1
+        loop = _loop(entity, kind, layer)
+        if not closed and (layer.upper() != "ENGRAVE" or np.any(loop.bulges) or len(loop.vertices) < 2):
+            raise ReadError(f"an open or bent polyline on layer {layer}")
+        yield loop, closed
 
 
 def _check_plain(entity: Pairs, kind: str, layer: str) -> None:
@@ -211,7 +220,7 @@ def _check_plain(entity: Pairs, kind: str, layer: str) -> None:
 
 
 def _loop(entity: Pairs, kind: str, layer: str) -> Loop:
-    if int(entity.first(70, "0")) & ~0x80 != 1:
+    if int(entity.first(70, "0")) & ~0x81:
         raise ReadError(f"an open or bent polyline on layer {layer}")
     if any(np.any(entity.numbers(code) != (code == _EXTRUSION[-1])) for code in _EXTRUSION):
         raise ReadError(f"a polyline on layer {layer} lies in a plane of its own")

@@ -1,4 +1,4 @@
-"""Read-back of laser SVG: closed paths and circles in mm. Shares no code with the writer."""
+"""Read-back of laser SVG: closed paths and circles in mm, and engraved lines. Shares no code with the writer."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from exporters.formats.readback import Loop, ReadOutlines
+from geometry.curves.curve import Complex
 from parts.base.readback import ReadError
 
 if TYPE_CHECKING:
@@ -40,7 +41,8 @@ def read_svg(file: Path) -> ReadOutlines:
         raise ReadError(f"not a readable SVG in mm: {error}") from error
     if len(box) != 4 or max(abs(box[2] - width), abs(box[3] - height), abs(box[0]), abs(box[1])) > 1e-9 * width:
         raise ReadError("one unit of the SVG's view box is not one mm")
-    loops = []
+    loops: list[Loop] = []
+    strokes: list[Complex] = []
     for element in root.iter():
         tag = element.tag.removeprefix(_SVG)
         if tag not in _KNOWN or (tag == "svg") != (element is root):
@@ -48,8 +50,11 @@ def read_svg(file: Path) -> ReadOutlines:
         if strange := set(element.keys()) - _KNOWN[tag]:
             raise ReadError(f"an SVG {tag} has a {strange.pop()}, which may hide or move it")
         try:
-            if tag == "path":
-                loops.append(svg_path(element.get("d", ""), _layer(element)))
+            data = element.get("d", "")
+            if tag == "path" and (line := _open_line(data)) is not None and _layer(element) == "ENGRAVE":
+                strokes.append(line)
+            elif tag == "path":
+                loops.append(svg_path(data, _layer(element)))
             elif tag == "circle":
                 x, y, r = (float(element.get(k, "nan")) for k in ("cx", "cy", "r"))
                 ends = np.array([complex(x + r, -y), complex(x - r, -y)])
@@ -57,7 +62,16 @@ def read_svg(file: Path) -> ReadOutlines:
         except ValueError as error:
             raise ReadError(f"broken {tag}: {error}") from error
     middle = complex(width / 2, -height / 2)
-    return ReadOutlines(tuple(Loop(loop.vertices - middle, loop.bulges, loop.layer) for loop in loops))
+    moved = tuple(Loop(loop.vertices - middle, loop.bulges, loop.layer) for loop in loops)
+    return ReadOutlines(moved, tuple(stroke - middle for stroke in strokes))
+
+
+def _open_line(data: str) -> Complex | None:
+    """The points of a path of M and L alone that is not closed."""
+    if not re.fullmatch(rf"M{_NUMBER},{_NUMBER}(?: L{_NUMBER},{_NUMBER})+", data):
+        return None
+    numbers = [float(x) for x in re.findall(_NUMBER, data)]
+    return np.array([complex(x, -y) for x, y in zip(numbers[::2], numbers[1::2], strict=True)])
 
 
 def root_of(file: Path) -> Element:

@@ -67,9 +67,10 @@ class SmoothLoop(Record):
 
 
 class ReadOutlines(Record):
-    """A flat file of lines and arcs."""
+    """A flat file of lines and arcs; ``strokes``: points of open chains of lines, engraved."""
 
     loops: tuple[Loop, ...]
+    strokes: tuple[Complex, ...] = ()
     has_arcs = True
     is_flat = True
     colour = None

@@ -10,12 +10,15 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
+import numpy as np
+
 from exporters.formats.reading import ASSEMBLY_READERS, READERS
 from geometry.approximation.chords import approximate_profile
 from geometry.base.errors import Nearest, ParameterError, limit, rounded
 from geometry.base.placement import Placement3
 from geometry.base.record import Record, replace
 from geometry.base.tolerance import DRAWN_ROUNDING, LEAST_SEGMENT_MM, written_decimals
+from geometry.curves.curve import Complex
 from geometry.plane.contour import Approximation
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Region
@@ -202,7 +205,8 @@ def _step_rounding(content: Content) -> float:
 def _write_laser_dxf(content: Content, made: Chords, file: Path) -> dict[str, int]:
     from exporters.formats.laser_dxf import write_laser_dxf
 
-    return write_laser_dxf(file, content.section.region.layers(), made, version=content.export.dxf_version)
+    region, version = content.section.region, content.export.dxf_version
+    return write_laser_dxf(file, region.layers(), made, version=version, strokes=_strokes(content))
 
 
 def _write_drawing_dxf(content: Content, made: Curves, file: Path) -> dict[str, int]:
@@ -214,7 +218,13 @@ def _write_drawing_dxf(content: Content, made: Curves, file: Path) -> dict[str, 
 def _write_svg(content: Content, made: Chords, file: Path) -> dict[str, int]:
     from exporters.formats.svg import write_laser_svg
 
-    return write_laser_svg(file, content.section.region.layers(), made)
+    return write_laser_svg(file, content.section.region.layers(), made, _strokes(content))
+
+
+def _strokes(content: Content) -> tuple[Complex, ...]:
+    """What is engraved in single strokes, in the decimals of the file."""
+    strokes = [np.array(stroke, dtype=np.complex128) for stroke in content.section.region.strokes]
+    return tuple(np.asarray(np.round(stroke, content.decimals) + 0.0) for stroke in strokes)
 
 
 def _write_stl(content: Content, made: Chords, file: Path) -> dict[str, int]:

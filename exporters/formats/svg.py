@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -14,33 +15,59 @@ from geometry.plane.contour import Approximation, Contour, edge_points
 STROKES = {"ENGRAVE": "#0000ff", "CUT_INNER": "#00ff00", "CUT_OUTER": "#ff0000"}
 # of outlines that are pictures alone
 _PICTURE_DECIMALS = 6
+# of numbers that are rounded already
+_MOST_DIGITS = 12
 _MARGIN = 2.0
 # arcs of more than 100 degrees
 _LONG_BULGE = float(np.tan(np.radians(25)))
 
 
-def write_laser_svg(file: Path, layers: tuple[str, ...], boundaries: tuple[Approximation, ...]) -> dict[str, int]:
-    """Write outlines at their true size; one user unit is one mm. No transform, no class, no style sheet."""
+def write_laser_svg(
+    file: Path, layers: tuple[str, ...], boundaries: tuple[Approximation, ...], strokes: Sequence[Complex] = ()
+) -> dict[str, int]:
+    """Write outlines at their true size; one user unit is one mm. No transform, no class, no style sheet.
+
+    ``strokes``: points of open chains, which are engraved before all else.
+    """
     middle = round(max(float(np.abs(b.geometry.vertices).max()) for b in boundaries), _PICTURE_DECIMALS) + _MARGIN
-    return _write_outlines(file, layers, boundaries, head(middle), complex(middle, middle))
+    return _write_outlines(file, layers, boundaries, strokes, head(middle), complex(middle, middle))
 
 
 def write_board_svg(
-    file: Path, layers: tuple[str, ...], boundaries: tuple[Approximation, ...], size: complex
+    file: Path,
+    layers: tuple[str, ...],
+    boundaries: tuple[Approximation, ...],
+    size: complex,
+    strokes: Sequence[Complex] = (),
 ) -> dict[str, int]:
     """Write the outlines of a board, whose lower left corner is the origin, on a page of its size, mm."""
-    return _write_outlines(file, layers, boundaries, page_head(size.real, size.imag), 1j * size.imag)
+    return _write_outlines(file, layers, boundaries, strokes, page_head(size.real, size.imag), 1j * size.imag)
 
 
 def _write_outlines(
-    file: Path, layers: tuple[str, ...], boundaries: tuple[Approximation, ...], opening: str, origin: complex
+    file: Path,
+    layers: tuple[str, ...],
+    boundaries: tuple[Approximation, ...],
+    strokes: Sequence[Complex],
+    opening: str,
+    origin: complex,
 ) -> dict[str, int]:
     lines = [opening]
-    for layer, boundary in zip(layers, boundaries, strict=True):
-        style = f"fill:none;stroke:{STROKES[layer]};stroke-width:0.1"
-        lines.append(_shape(boundary.geometry, f'id="{layer.lower()}" style="{style}"', origin))
+    lines += [f'<path d="{stroke_data(stroke, origin)}" {_look("ENGRAVE")}/>' for stroke in strokes]
+    lines += [_shape(b.geometry, _look(layer), origin) for layer, b in zip(layers, boundaries, strict=True)]
     save(file, lines)
-    return {"shapes": len(boundaries), "vertices": sum(len(b.geometry) for b in boundaries)}
+    counts = {"shapes": len(boundaries), **({"strokes": len(strokes)} if strokes else {})}
+    return {**counts, "vertices": sum(len(b.geometry) for b in boundaries)}
+
+
+def _look(layer: str) -> str:
+    return f'id="{layer.lower()}" style="fill:none;stroke:{STROKES[layer]};stroke-width:0.1"'
+
+
+def stroke_data(points: Complex, origin: complex) -> str:
+    """Absolute M and L commands through points that are rounded already."""
+    places = zip((origin.real + points.real).tolist(), (origin.imag - points.imag).tolist(), strict=True)
+    return "M" + " L".join(f"{number(x, _MOST_DIGITS)},{number(y, _MOST_DIGITS)}" for x, y in places)
 
 
 def head(middle: float, extra_width: float = 0.0, extra_height: float = 0.0) -> str:

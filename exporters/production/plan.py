@@ -15,7 +15,7 @@ from parts.base.reasons import reason
 from parts.base.refusal import SceneError, meant, placed
 from parts.base.texts import N_, Message, Text, filled, message
 from parts.keys.boards import PURPOSES_LAID
-from parts.scene.formats import FORMATS
+from parts.scene.formats import FORMATS, Form, file_kind
 from parts.scene.load import ExportSpec, SceneFile, default_export, in_keys_of_file, make_parts
 from parts.scene.placing import Placing, place
 
@@ -233,7 +233,8 @@ def _assembly_path(scene: SceneFile, export: ExportSpec, exports: list[ExportSpe
 def _section(part: Part, export: ExportSpec, source: str, place: str) -> OffsetRegion:
     """The exact section with the export's kerf or offset, refused in the export's own key."""
     try:
-        return part.section(export.kerf / 2 if export.kerf else export.offset)
+        made = part.cut if file_kind(export.format, export.purpose).form is Form.ARCS else part.section
+        return made(export.kerf / 2 if export.kerf else export.offset)
     except OffsetError as error:
         key, given, cure = "offset", export.offset, error.nearest
         if export.kerf:

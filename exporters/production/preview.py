@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from exporters.formats.svg import head, number, path_data, save
+from exporters.formats.svg import head, number, path_data, save, stroke_data
 from exporters.production.plan import Plan
 from geometry.approximation.chords import approximate_profile
 from geometry.curves.curve import Complex
@@ -52,11 +52,16 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
         )
     ]
     lines.append('<rect width="100%" height="100%" style="fill:#ffffff"/>')
-    data = " ".join(path_data(b.geometry, corner) for b in reversed(boundaries))
+    cut, plain = part.cut(0.0).region, part.section(0.0).region
+    tags = [approximate_profile(p, reach / 1000, arcs=True) for p in cut.apart[len(plain.apart) :]]
+    data = " ".join(path_data(b.geometry, corner) for b in reversed((*tags, *boundaries)))
     fill = part.colour or "#b8c4d0"
     lines.append(
         f'<path d="{data}" style="fill:{fill};fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 400:.4g}"/>'
     )
+    if cut.strokes:
+        name = " ".join(stroke_data(np.array(stroke), corner) for stroke in cut.strokes)
+        lines.append(f'<path d="{name}" style="fill:none;stroke:#0000ff;stroke-width:0.25;stroke-linecap:round"/>')
     pins = " ".join(path_data(c, corner) for c in _solid_pins(part, boundaries))
     if pins:
         lines.append(f'<path d="{pins}" style="{_PIN_STYLE};stroke-width:{reach / 400:.4g}"/>')

@@ -44,7 +44,8 @@ def verify_part(
     ``declared``: the error that its report states, mm; the measured one must not exceed it or ``tolerance``.
     ``also``: what else is asked of a file that is good so far; it raises ``ReadError``.
     """
-    exact = part.body(offset) if kind.is_solid else part.section(offset).region
+    flat = part.cut if kind.form is Form.ARCS else part.section
+    exact = part.body(offset) if kind.is_solid else flat(offset).region
     try:
         found = READERS[kind.name](file)
         verdict = held(found, kind, exact, declared, tolerance, part.id)
@@ -107,9 +108,10 @@ def same_shade(found: str | None, expected: str | None) -> bool:
 
 
 def _outlines(found: ReadOutlines, region: Region, declared: float, tolerance: float) -> Verdict:
-    from exporters.verification.outlines import verify_loops
+    from exporters.verification.outlines import stroke_failures, verify_loops
 
-    return verify_loops(found.loops, region.profiles(), region.layers(), declared, tolerance)
+    verdict = verify_loops(found.loops, region.profiles(), region.layers(), declared, tolerance)
+    return replace(verdict, failures=(*verdict.failures, *stroke_failures(found.strokes, region.strokes, declared)))
 
 
 def _drawing(found: ReadDrawing, region: Region, declared: float, tolerance: float) -> Verdict:

@@ -101,12 +101,14 @@ class Region(Record):
 
     ``marks``: boundaries that do not go through, like the walls of a groove with a floor; engraved, not cut.
     ``apart``: outer boundaries of further pieces that lie beside the first, without holes.
+    ``strokes``: open chains of straight lines, a name in single strokes; engraved, and first of all.
     """
 
     outer: Profile
     holes: tuple[Profile, ...] = ()
     marks: tuple[Profile, ...] = ()
     apart: tuple[Profile, ...] = ()
+    strokes: tuple[tuple[complex, ...], ...] = ()
 
     def profiles(self) -> tuple[Profile, ...]:
         """Marks, then holes, then the outer boundaries: the order in which they are cut."""

@@ -28,6 +28,9 @@ T = TypeVar("T")
 # the keys of every part of a scene, for what is made from another part's
 Others = Mapping[str, Struct]
 
+# symbols of what tells wheels apart, and their keys
+_NUMBERS = (("z", "number_of_teeth"), ("m", "module"), ("x", "profile_shift_coefficient"))
+
 
 class Report(Record):
     """What a part says of itself: remarks, named diameters (mm) and all other named results.
@@ -90,6 +93,11 @@ class Kind(Generic[K, T]):
     def is_plate(self, keys: K, thing: T) -> bool:
         """Whether the solid is its section, extruded."""
         return True
+
+    def numbers(self, keys: K) -> str:
+        """The numbers by which people know one from another; no-break spaces hold each to its symbol."""
+        found = ((symbol, getattr(keys, key, None)) for symbol, key in _NUMBERS)
+        return " ".join(f"{symbol}\u00a0{value:.4g}" for symbol, value in found if value)
 
     def report(self, keys: K, thing: T) -> Report:
         """Remarks and named results."""

@@ -44,6 +44,33 @@ class Part(Record, dict=True):
         return lru_cache(maxsize=8)(lambda offset: self.made_by.section(self.keys, self.thing, offset))
 
     @cached_property
+    def cut(self) -> Callable[..., OffsetRegion]:
+        """The section as it is cut, with its name engraved where the part, or ``named``, asks for one."""
+        return lru_cache(maxsize=8)(self._cut)
+
+    def _cut(self, offset: float, *, named: bool = False) -> OffsetRegion:
+        label: bool | str | None = self.keys.label  # type: ignore[attr-defined]
+        if not (named if label is None else label):
+            return self.section(offset)
+        from geometry.plane.letters import unknown_letters
+        from geometry.solids import naming
+
+        # a title in a script without letters here is left out
+        names = (label if isinstance(label, str) else self.name, self.made_by.numbers(self.keys), self.id)
+        text = next(name for name in names if name and not unknown_letters(name))
+        return naming.named(self.section(offset), self.section(min(offset, 0.0)), text)
+
+    @property
+    def title(self) -> str | None:
+        """What people call it."""
+        return self.keys.title  # type: ignore[attr-defined]
+
+    @property
+    def name(self) -> str:
+        """Its title and its numbers, or its id."""
+        return " ".join(filter(None, (self.title, self.made_by.numbers(self.keys)))) or self.id
+
+    @cached_property
     def body(self) -> Callable[[float], Body]:
         """The exact solid, every boundary moved so many mm out of the material."""
         return lru_cache(maxsize=2)(lambda offset: self.made_by.solid(self.keys, self.thing, offset))

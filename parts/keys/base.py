@@ -73,12 +73,27 @@ def either(key: str, value: object, other: str, without: float | None = None) ->
     return ParameterError(key, value, "either_key", cure, one=other, other=key.partition(".")[0])
 
 
+Title = Annotated[
+    str, Meta(pattern=r"\S", max_length=120, description="what people call it, in any script", examples=["Pinion"])
+]
+LabelKey = (
+    Annotated[
+        bool,
+        Meta(description="laser: its name engraved in single strokes; default: on boards alone", examples=[True]),
+    ]
+    | Annotated[str, Meta(pattern=r"\S", max_length=60, description="its words")]
+    | None
+)
+
+
 class MaterialKeys(Struct, forbid_unknown_fields=True, kw_only=True):
     """Keys of every part that is made of something; the chain goes on below, in ``holes.py`` and ``wheel.py``."""
 
     material: Material | None = None
     density: Density | None = None
     colour: Colour | None = None
+    title: Title | None = None
+    label: LabelKey = None
 
 
 class MadeKeys(MaterialKeys, kw_only=True):

@@ -332,7 +332,13 @@ def _part_spec(key: str, table: object, source: str) -> Struct:
     if not isinstance(kind, str) or kind not in KINDS:
         code = "missing_kind" if kind is None else "unknown_kind"
         raise SceneError(source, f"{place}.kind", kind, code, meant(kind, KINDS), known=list(KINDS))
-    return converted(table, KINDS[kind].keys, source, place)
+    spec: Struct = converted(table, KINDS[kind].keys, source, place)
+    if isinstance(label := getattr(spec, "label", None), str):
+        from geometry.plane.letters import unknown_letters
+
+        if strange := unknown_letters(label):
+            raise SceneError(source, f"{place}.label", label, "no_such_letter", REMOVED, letters=strange)
+    return spec
 
 
 def _export_spec(table: object, parts: dict[str, Struct], source: str, place: str) -> ExportSpec:
@@ -413,8 +419,8 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
     return parts, matings
 
 
-# keys of instances and drives that are told where they are given
-_SELDOM = ("axis", "held", "travel")
+# keys of parts, instances and drives that are told where they are given
+_SELDOM = ("axis", "held", "travel", "title", "label")
 
 
 def resolved(scene: SceneFile) -> dict[str, Any]:
@@ -424,7 +430,7 @@ def resolved(scene: SceneFile) -> dict[str, Any]:
     # told where there are some
     for key in [key for key in PURPOSES_LAID if not data[key]]:
         del data[key]
-    for spec in (*data["instances"].values(), *data["drives"]):
+    for spec in (*data["parts"].values(), *data["instances"].values(), *data["drives"]):
         for key in [key for key in _SELDOM if spec.get(key, 0) is None]:
             del spec[key]
     return data

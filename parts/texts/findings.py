@@ -96,6 +96,10 @@ FINDINGS: dict[str, Text] = {
     "offset_in_mesh": N_(
         "the outlines are moved out by {value:.4g} mm: gears in mesh lose {limit:.4g} mm of backlash, unchecked"
     ),
+    "label_on_tag": N_(
+        "no room for its name, {limit:.1f} mm high at least, in clear material ({value:.1f} mm): it stands on a tag "
+        "beside the part"
+    ),
     "flat_outline": N_("web, hub and face chamfers are not in a flat outline; STL, 3MF and STEP have them"),
     "never_moves": N_("the follower never moves: all phases are dwells, the cam is a round disk"),
     "rigid_impact": N_("rigid impact: velocity jumps by {value:.4g} per rad at cam angle {limit:.4g} deg"),

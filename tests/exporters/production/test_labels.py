@@ -1,0 +1,136 @@
+"""Engraved names in laser files, read by ezdxf and measured by shapely: inside clear material, or on a tag, told."""
+
+from __future__ import annotations
+
+import json
+import re
+import string
+from pathlib import Path
+
+import ezdxf
+import numpy as np
+import pytest
+import shapely
+from ezdxf.path import make_path
+
+from exporters.command.cli import main
+from geometry.plane.letters import lettered, unknown_letters
+from geometry.solids.naming import STROKE
+from tests.exporters.making import table
+
+_UKRAINIAN = "АБВГҐДЕЄЖЗИІЇЙКЛМНОПРСТУФХЦЧШЩЬЮЯ"
+_GEAR = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 23, "face_width": 3.0, "bore_diameter": 6.0}
+_PARTS = {
+    "gear": {**_GEAR, "label": True},
+    "wheel": {
+        **_GEAR, "number_of_teeth": 60, "label": "Ґанок їжака, Єва", "bore_diameter": 20.0,
+        "spokes": {"count": 5, "inner_diameter": 34.0, "outer_diameter": 100.0, "width": 8.0},
+    },
+    "ring": {"kind": "ring_gear", "module": 2.0, "number_of_teeth": 60, "outer_diameter": 150.0, "label": True},
+    "rack": {"kind": "rack", "module": 2.0, "number_of_teeth": 12, "label": True},
+    "frame": {"kind": "plate", "width": 80.0, "height": 60.0, "title": "Рама", "label": True,
+              "holes": [{"at": [0.0, 0.0], "diameter": 20.0}]},
+    "arm": {"kind": "follower_arm", "end": "roller", "arm_length": 62.0, "width": 12.0,
+            "boss_diameter": 16.0, "pivot_diameter": 8.2, "pin_diameter": 4.0, "label": True},
+    "small": {**_GEAR, "module": 1.0, "number_of_teeth": 9, "profile_shift_coefficient": 0.4, "bore_diameter": 4.0,
+              "label": True},
+}  # fmt: skip
+
+
+def _scene(folder: Path, parts: dict, exports: list[dict], name: str = "s") -> Path:
+    file = folder / f"{name}.toml"
+    text = "".join(table(f"[parts.{key}]", keys) for key, keys in parts.items())
+    file.write_text(text + "".join(table("[[exports]]", keys) for keys in exports), encoding="utf-8")
+    return file
+
+
+def _read(file: Path) -> tuple[shapely.Geometry, list[np.ndarray], list[str]]:
+    """The material of a laser DXF, the engraved lines, and the layers in their order; read by ezdxf."""
+    outer, inner, lines, layers = [], [], [], []
+    for entity in ezdxf.readfile(file).modelspace():
+        points = np.array([(v.x, v.y) for v in make_path(entity).flattening(0.002)])
+        layers.append(entity.dxf.layer if entity.is_closed else "stroke")
+        if not entity.is_closed:
+            assert entity.dxf.layer == "ENGRAVE"
+            lines.append(points)
+        else:
+            (outer if layers[-1] == "CUT_OUTER" else inner).append(shapely.Polygon(points))
+    return shapely.difference(shapely.union_all(outer), shapely.union_all(inner)), lines, layers
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("labels")
+    exports = [
+        {"format": "dxf"},
+        {"format": "svg", "kerf": 0.3},
+        {"format": "dxf", "name": "r12", "dxf_version": "R12"},
+    ]
+    assert main(["build", str(_scene(folder, _PARTS, exports)), "--out", str(folder / "out")]) == 0
+    return folder / "out" / "s"
+
+
+@pytest.mark.parametrize("part", _PARTS)
+def test_every_name_lies_within_clear_material_by_half_a_stroke(made: Path, part: str) -> None:
+    for ending in ("laser.dxf", "r12.dxf"):
+        material, lines, layers = _read(made / f"{part}.{ending}")
+        name = shapely.MultiLineString(lines)
+        assert shapely.contains(material, name)
+        assert shapely.distance(shapely.boundary(material), name) >= STROKE
+        # engraved before anything is cut loose
+        assert layers == sorted(layers, key=["stroke", "CUT_INNER", "CUT_OUTER"].index)
+    assert (made / f"{part}.svg").read_text().count('id="engrave"') == len(lines)
+
+
+def test_a_name_without_room_stands_on_a_tag_and_is_told(made: Path) -> None:
+    material, lines, layers = _read(made / "small.laser.dxf")
+    assert layers.count("CUT_OUTER") == 2
+    gear, tag = sorted(material.geoms, key=lambda piece: piece.bounds[0])
+    assert gear.distance(tag) == pytest.approx(3.0, abs=0.1)
+    assert shapely.contains(tag, shapely.MultiLineString(lines))
+    report = json.loads((made / "report.json").read_text(encoding="utf-8"))
+    told = {f["path"]: [x["code"] for x in f["findings"]] for f in report["files"]}
+    assert all(("label_on_tag" in codes) == path.startswith("small.") for path, codes in told.items())
+
+
+def test_a_spoiled_stroke_is_caught(made: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for name, spoil in (
+        ("gear.laser.dxf", lambda text: re.sub(r"(AcDbPolyline\n 90\n\d+\n 70\n0\n 10\n)-", r"\g<1>", text, count=1)),
+        ("gear.svg", lambda text: text.replace('<path d="M', '<path d="M9', 1)),
+        ("gear.svg", lambda text: "\n".join(x for i, x in enumerate(text.split("\n")) if i != 2)),
+    ):
+        file = made / name
+        good = file.read_bytes()
+        assert main(["verify", str(file)]) == 0
+        file.write_text(spoil(good.decode()), encoding="utf-8", newline="\n")
+        assert main(["verify", str(file)]) == 1
+        assert "stroke" in capsys.readouterr().out
+        file.write_bytes(good)
+
+
+def test_without_a_label_nothing_is_engraved(made: Path, tmp_path: Path) -> None:
+    scene = _scene(tmp_path, {"gear": {**_GEAR, "label": False}, "plain": _GEAR}, [{"format": "dxf"}])
+    assert main(["build", str(scene), "--out", str(tmp_path / "out")]) == 0
+    assert (tmp_path / "out" / "s" / "gear.dxf").read_bytes() == (tmp_path / "out" / "s" / "plain.dxf").read_bytes()
+    assert "ENGRAVE" not in (tmp_path / "out" / "s" / "gear.dxf").read_text()
+
+
+def test_a_letter_that_there_is_not_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    scene = _scene(tmp_path, {"gear": {**_GEAR, "label": "歯車 23"}}, [{"format": "dxf"}])
+    assert main(["build", str(scene), "--out", str(tmp_path / "out")]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "parts.gear.label" in said
+    assert "歯車" in said
+    assert not (tmp_path / "out").exists()
+
+
+def test_every_letter_is_there_and_unlike_the_others() -> None:
+    letters = string.ascii_letters + string.digits + "ЫЭЁЪыэёъ" + _UKRAINIAN + _UKRAINIAN.lower() + ".,:;-+=/()°"
+    assert not unknown_letters(letters)
+    alike = dict(zip("АВЕКМНОРСТХІаеорсухі", "ABEKMHOPCTXIaeopcyxi", strict=True))
+    seen: dict[object, str] = {}
+    for letter in letters:
+        strokes = lettered((letter,), 12.0)
+        form = tuple(tuple((round(p.real, 6), round(p.imag, 6)) for p in stroke) for stroke in strokes)
+        assert alike.get(letter, letter) == seen.setdefault(form, alike.get(letter, letter))
