@@ -53,7 +53,7 @@ class Part(Record, dict=True):
         if not (named if label is None else label):
             return self.section(offset)
         from geometry.plane.letters import unknown_letters
-        from geometry.solids import naming
+        from parts.solids import naming
 
         # a title in a script without letters here is left out
         names = (label if isinstance(label, str) else self.name, self.made_by.numbers(self.keys), self.id)

@@ -15,7 +15,7 @@ from ezdxf.path import make_path
 
 from exporters.command.cli import main
 from geometry.plane.letters import lettered, unknown_letters
-from geometry.solids.naming import STROKE
+from parts.solids.naming import STROKE
 from tests.exporters.making import table
 
 _UKRAINIAN = "АБВГҐДЕЄЖЗИІЇЙКЛМНОПРСТУФХЦЧШЩЬЮЯ"
