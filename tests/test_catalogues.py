@@ -33,6 +33,7 @@ CYRILLIC_PLACES = {
     "parts/drawing/canvas.py": "narrow and wide letters of drawings",
     "parts/mates/pages/internal.py": "the practicum's table Д.1",
     "parts/mates/pages/external.py": "the practicum's tables А.1, Д.1, Е.1",
+    "geometry/plane/letters.py": "the letters that are engraved",
     "geometry/gears/shifts/tables.py": "the practicum's tables А.1, Б.1, В.1, Г.1",
 }
 
