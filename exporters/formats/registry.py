@@ -206,7 +206,7 @@ def _write_laser_dxf(content: Content, made: Chords, file: Path) -> dict[str, in
     from exporters.formats.laser_dxf import write_laser_dxf
 
     region, version = content.section.region, content.export.dxf_version
-    return write_laser_dxf(file, region.layers(), made, version=version, strokes=_strokes(content))
+    return write_laser_dxf(file, region.layers(), made, version=version, strokes=strokes_of(content))
 
 
 def _write_drawing_dxf(content: Content, made: Curves, file: Path) -> dict[str, int]:
@@ -218,10 +218,10 @@ def _write_drawing_dxf(content: Content, made: Curves, file: Path) -> dict[str, 
 def _write_svg(content: Content, made: Chords, file: Path) -> dict[str, int]:
     from exporters.formats.svg import write_laser_svg
 
-    return write_laser_svg(file, content.section.region.layers(), made, _strokes(content))
+    return write_laser_svg(file, content.section.region.layers(), made, strokes_of(content))
 
 
-def _strokes(content: Content) -> tuple[Complex, ...]:
+def strokes_of(content: Content) -> tuple[Complex, ...]:
     """What is engraved in single strokes, in the decimals of the file."""
     strokes = [np.array(stroke, dtype=np.complex128) for stroke in content.section.region.strokes]
     return tuple(np.asarray(np.round(stroke, content.decimals) + 0.0) for stroke in strokes)

@@ -11,7 +11,7 @@ from msgspec.structs import replace as with_keys
 
 from exporters.boards.cuts import in_order
 from exporters.boards.nest import HALVES, QUARTERS, DoesNotFitError, Laid, Room, nest
-from exporters.formats.registry import BOUNDS
+from exporters.formats.registry import BOUNDS, strokes_of
 from exporters.production.jobs import Job, Made
 from exporters.verification.board import BoardPiece, ExpectedBoard, verify_board
 from exporters.verification.verdict import Verdict
@@ -79,14 +79,17 @@ class BoardJob(Record):
     def write(self, made: Made, file: Path) -> dict[str, int]:
         """Write all pieces in their places; counts of what is in the file."""
         layers, boundaries = self.cuts(made)
+        own = {m.part.id: strokes_of(m) for m in self.members}
+        strokes = [np.round(p.moved(stroke), _FILE_DECIMALS) + 0.0 for p in self.pieces for stroke in own[p.part]]
         if self.export.format == "svg":
             from exporters.formats.svg import write_board_svg
 
-            counts = write_board_svg(file, layers, boundaries, complex(self.board.width, self.board.height))
+            size = complex(self.board.width, self.board.height)
+            counts = write_board_svg(file, layers, boundaries, size, strokes)
         else:
             from exporters.formats.laser_dxf import write_laser_dxf
 
-            counts = write_laser_dxf(file, layers, boundaries, version=self.export.dxf_version)
+            counts = write_laser_dxf(file, layers, boundaries, version=self.export.dxf_version, strokes=strokes)
         return {**counts, "pieces": len(self.pieces)}
 
     def declared(self, made: Made) -> tuple[float, str]:

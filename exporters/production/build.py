@@ -76,14 +76,14 @@ def build(
             if file_job.path in spent:
                 written[-1].seconds["approximate"] = spent[file_job.path]
         wanted = dict.fromkeys(j.part.id for j in (*plan.jobs, *(m for a in plan.assemblies for m in a.members)))
-        outlines = {p: outlines_of(plan.parts[p]) for p in wanted}
+        outlines = {p: outlines_of(plan.parts[p].section(0.0).region) for p in wanted}
         previews = [part_preview(plan.parts[p], o, staging, plan.scene.scene.language) for p, o in outlines.items()]
         if len(plan.placing.instances) > 1 and len(wanted) == len(plan.parts):
             previews.append(scene_preview(plan, outlines, checks, staging))
         if any(assembly.export.purpose == "board" for assembly in plan.assemblies):
             from exporters.production.board_preview import board_previews
 
-            previews += board_previews(plan, outlines, staging)
+            previews += board_previews(plan, staging)
         names = [item.job.path for item in written if not item.failures]
         with alone_in(folder):
             before = read_report(folder)

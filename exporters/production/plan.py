@@ -233,8 +233,8 @@ def _assembly_path(scene: SceneFile, export: ExportSpec, exports: list[ExportSpe
 def _section(part: Part, export: ExportSpec, source: str, place: str) -> OffsetRegion:
     """The exact section with the export's kerf or offset, refused in the export's own key."""
     try:
-        made = part.cut if file_kind(export.format, export.purpose).form is Form.ARCS else part.section
-        return made(export.kerf / 2 if export.kerf else export.offset)
+        offset, kind = export.kerf / 2 if export.kerf else export.offset, file_kind(export.format, export.purpose)
+        return part.cut(offset, named=export.purpose == "board") if kind.form is Form.ARCS else part.section(offset)
     except OffsetError as error:
         key, given, cure = "offset", export.offset, error.nearest
         if export.kerf:

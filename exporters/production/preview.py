@@ -15,7 +15,7 @@ from exporters.production.plan import Plan
 from geometry.approximation.chords import approximate_profile
 from geometry.curves.curve import Complex
 from geometry.plane.contour import Approximation, Contour, edge_points
-from geometry.plane.profile import Profile
+from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
 from parts.base.texts import words
 from parts.scene.placing import UPWARDS, Instance
@@ -155,9 +155,8 @@ def scene_preview_name(plan: Plan) -> str:
     return f"{plan.scene.name}{'.assembly' if alike else ''}.preview.svg"
 
 
-def outlines_of(part: Part) -> Outlines:
-    """The boundaries of a part, near enough for the eye."""
-    region = part.section(0.0).region
+def outlines_of(region: Region) -> Outlines:
+    """The boundaries of a section, near enough for the eye."""
     tolerance = max(2e-4 * region.outer.reach(), 1e-6)
     return tuple(
         approximate_profile(p, tolerance, arcs=True) if len(p.period) <= _MOST_ARCS else _sampled(p, tolerance)

@@ -17,12 +17,12 @@ import numpy as np
 
 from exporters.formats.readback import Loop
 from exporters.formats.reading import READERS
-from exporters.verification.outlines import verify_loops
+from exporters.verification.outlines import stroke_failures, verify_loops
 from exporters.verification.verdict import Verdict
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import edge_box, edge_points
-from geometry.plane.profile import Profile
+from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
 from parts.base.readback import ReadError
 from parts.keys.boards import BoardSpec
@@ -81,6 +81,10 @@ class ExpectedBoard(Record):
     pieces: tuple[BoardPiece, ...]
     offset: float
 
+    def region(self, piece: BoardPiece) -> Region:
+        """The section of a piece with its name, in the frame of its part."""
+        return self.parts[piece.part].cut(self.offset, named=True).region
+
 
 def verify_board(file: Path, kind: FileKind, expected: ExpectedBoard, declared: float, tolerance: float) -> Verdict:
     """Read a board's file back and hold it against what it must be, within a declared error, mm."""
@@ -90,12 +94,14 @@ def verify_board(file: Path, kind: FileKind, expected: ExpectedBoard, declared: 
         # an SVG is read about its middle
         corner = 0j if kind.format == "dxf" else complex(board.width, board.height) / 2
         loops = [Loop(x.vertices + corner, x.bulges, x.layer.upper()) for x in found.loops]
-        return _verdict(loops, expected, declared, tolerance)
+        return _verdict(loops, [stroke + corner for stroke in found.strokes], expected, declared, tolerance)
     except (ReadError, OSError) as error:
         return Verdict({}, (str(error),))
 
 
-def _verdict(loops: list[Loop], expected: ExpectedBoard, declared: float, tolerance: float) -> Verdict:
+def _verdict(
+    loops: list[Loop], strokes: list[Complex], expected: ExpectedBoard, declared: float, tolerance: float
+) -> Verdict:
     from shapely import symmetric_difference
 
     rows = [(piece, index) for piece in expected.pieces for index in _found(piece, expected)]
@@ -118,7 +124,7 @@ def _verdict(loops: list[Loop], expected: ExpectedBoard, declared: float, tolera
         back = [Loop(piece.moved_back(loops[i].vertices), loops[i].bulges, "") for i in own]
         # what is engraved takes nothing away
         material.append(reduce(symmetric_difference, (polygons[i] for i in own if loops[i].layer != "ENGRAVE")))
-        region = expected.parts[piece.part].section(expected.offset).region
+        region = expected.region(piece)
         for i in own:
             layer = region.layers()[owners[i][1]]
             wanted = "CUT_INNER" if layer == "CUT_OUTER" and inside[i] else layer
@@ -136,7 +142,9 @@ def _verdict(loops: list[Loop], expected: ExpectedBoard, declared: float, tolera
             failures.append(f"{piece.id} is off the other {piece.part} by {off:.3g} mm")
     measured |= {"max_deviation": worst, "shortest_edge": shortest}
     failures += _room_failures(expected, material, measured)
-    measured |= _ways(loops, expected)
+    names = [p.moved(np.array(stroke)) for p in expected.pieces for stroke in expected.region(p).strokes]
+    failures += stroke_failures(strokes, names, declared)
+    measured |= _ways(loops, strokes, expected)
     area = sum(m.area for m in material)
     measured["use_percent"] = 100 * area / (expected.board.width * expected.board.height)
     return Verdict(measured, tuple(failures))
@@ -144,7 +152,7 @@ def _verdict(loops: list[Loop], expected: ExpectedBoard, declared: float, tolera
 
 def _found(piece: BoardPiece, expected: ExpectedBoard) -> list[tuple[int, Real]]:
     """The number of each profile of a piece, and the box that its contour must have."""
-    region = expected.parts[piece.part].section(expected.offset).region
+    region = expected.region(piece)
     return [(k, _box(piece.moved(_points(p)))) for k, p in enumerate(region.profiles())]
 
 
@@ -266,10 +274,14 @@ def _room_failures(
         yield f"{a} and {b} lie {gaps[nearest]:.6g} mm apart instead of {board.gap:g}"
 
 
-def _ways(loops: Sequence[Loop], expected: ExpectedBoard) -> dict[str, float]:
+def _ways(loops: Sequence[Loop], strokes: Sequence[Complex], expected: ExpectedBoard) -> dict[str, float]:
     """Lengths of cuts, of engraved lines and of the way between them, mm, and how long all cuts take, s."""
     found = {"cut_length": 0.0, "engraved_length": 0.0, "way_between": 0.0}
     at = 0j
+    for stroke in strokes:
+        found["engraved_length"] += float(np.abs(np.diff(stroke)).sum())
+        found["way_between"] += float(abs(stroke[0] - at))
+        at = complex(stroke[-1])
     for loop in loops:
         chords, quarter = np.abs(np.roll(loop.vertices, -1) - loop.vertices), np.arctan(np.abs(loop.bulges))
         with np.errstate(invalid="ignore", divide="ignore"):

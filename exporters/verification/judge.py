@@ -9,6 +9,8 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias, cast
 
+import numpy as np
+
 from exporters.formats.reading import READERS
 from exporters.verification.verdict import Verdict
 from geometry.base.findings import Finding
@@ -111,7 +113,10 @@ def _outlines(found: ReadOutlines, region: Region, declared: float, tolerance: f
     from exporters.verification.outlines import stroke_failures, verify_loops
 
     verdict = verify_loops(found.loops, region.profiles(), region.layers(), declared, tolerance)
-    return replace(verdict, failures=(*verdict.failures, *stroke_failures(found.strokes, region.strokes, declared)))
+    return replace(
+        verdict,
+        failures=(*verdict.failures, *stroke_failures(found.strokes, [np.array(s) for s in region.strokes], declared)),
+    )
 
 
 def _drawing(found: ReadDrawing, region: Region, declared: float, tolerance: float) -> Verdict:

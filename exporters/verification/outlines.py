@@ -61,12 +61,12 @@ def verify_loops(
     return Verdict({"contours": len(loops), "max_deviation": worst, "shortest_edge": shortest}, tuple(failures))
 
 
-def stroke_failures(found: Sequence[Complex], strokes: Sequence[Sequence[complex]], declared: float) -> tuple[str, ...]:
+def stroke_failures(found: Sequence[Complex], strokes: Sequence[Complex], declared: float) -> tuple[str, ...]:
     """What is wrong with the engraved strokes of a file, each point within the declared error of its own, mm."""
     if len(found) != len(strokes):
         return (f"{len(found)} engraved strokes instead of {len(strokes)}",)
     for one, exact in zip(found, strokes, strict=True):
-        if len(one) != len(exact) or not np.abs(one - np.array(exact)).max() <= declared:
+        if len(one) != len(exact) or not np.abs(one - exact).max() <= declared:
             return ("an engraved stroke is not where it should be",)
     return ()
 

@@ -78,13 +78,14 @@ def built(folder: Path, **keys: Any) -> Path:
     return folder / "set"
 
 
-def contours(file: Path) -> list[tuple[str, np.ndarray]]:
-    """Layer and rows (x, y, bulge) of each closed polyline of a DXF, by ezdxf, in the order of the file."""
+def contours(file: Path, *, closed: bool = True) -> list[tuple[str, np.ndarray]]:
+    """Layer and rows (x, y, bulge) of each polyline of a DXF, by ezdxf, in the order of the file; open ones are names."""
     found = []
     for entity in ezdxf.readfile(file).modelspace():
         assert entity.dxftype() == "LWPOLYLINE"
-        assert entity.closed
-        found.append((entity.dxf.layer, np.array(entity.get_points("xyb"))))
+        assert entity.closed or entity.dxf.layer == "ENGRAVE"
+        if entity.closed == closed:
+            found.append((entity.dxf.layer, np.array(entity.get_points("xyb"))))
     return found
 
 
@@ -146,6 +147,9 @@ def test_pieces_are_whole_on_the_board_and_apart(folder: Path) -> None:
             100 * sum(b.area for b in bodies) / (200 * 120), rel=1e-4
         )
         length = sum(polygon(rows).length for _, rows in contours(file))
+        names = [rows[:, :2] for _, rows in contours(file, closed=False)]
+        assert shapely.contains(shapely.union_all(bodies).buffer(-0.125), shapely.MultiLineString(names))
+        length += shapely.MultiLineString(names).length
         told = entry["measured"]
         assert told["cut_length"] + told["engraved_length"] == pytest.approx(length, rel=1e-4)
         assert told["cut_seconds"] == pytest.approx(length / 10, rel=1e-4)
