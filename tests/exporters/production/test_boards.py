@@ -79,7 +79,7 @@ def built(folder: Path, **keys: Any) -> Path:
 
 
 def contours(file: Path, *, closed: bool = True) -> list[tuple[str, np.ndarray]]:
-    """Layer and rows (x, y, bulge) of each polyline of a DXF, by ezdxf, in the order of the file; open ones are names."""
+    """Layer and rows (x, y, bulge) of each polyline of a DXF, by ezdxf, in their order; open ones are names."""
     found = []
     for entity in ezdxf.readfile(file).modelspace():
         assert entity.dxftype() == "LWPOLYLINE"
