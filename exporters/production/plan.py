@@ -14,14 +14,22 @@ from parts.base.part import Part
 from parts.base.reasons import reason
 from parts.base.refusal import SceneError, meant, placed
 from parts.base.texts import N_, Message, Text, filled, message
+<<<<<<< HEAD
 from parts.keys.boards import PURPOSES_LAID
 from parts.scene.formats import FORMATS, Form, file_kind
+=======
+from parts.scene.formats import FILMS, FORMATS
+>>>>>>> 55ba6e1 (Solids in motion as animated glTF, read back; films are held at every value they have)
 from parts.scene.load import ExportSpec, SceneFile, default_export, in_keys_of_file, make_parts
 from parts.scene.placing import Placing, place
 
 if TYPE_CHECKING:
+<<<<<<< HEAD
     from exporters.production.boards import BoardJob
     from exporters.production.motion import MotionJob
+=======
+    from exporters.production.film import Film
+>>>>>>> 55ba6e1 (Solids in motion as animated glTF, read back; films are held at every value they have)
     from exporters.production.sheets import SheetJob
 
 
@@ -43,7 +51,7 @@ class Plan(Record):
     jobs: tuple[Job, ...]
     assemblies: tuple[AssemblyJob | BoardJob, ...]
     left_out: tuple[LeftOut, ...]
-    sheets: tuple[SheetJob | MotionJob, ...] = ()
+    sheets: tuple[SheetJob | Film, ...] = ()
 
     @property
     def files(self) -> tuple[FileJob, ...]:
@@ -89,9 +97,14 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
     unused = [p for p in parts if p not in used]
     left_out += [LeftOut(f"parts.{p}", N_("no export asks for it"), as_asked=bool(only_formats)) for p in unused]
     jobs: list[Job] = []
+<<<<<<< HEAD
     assemblies: list[AssemblyJob | BoardJob] = []
     sheets: list[SheetJob | MotionJob] = []
     layouts: dict[object, list[Any]] = {}
+=======
+    assemblies: list[AssemblyJob] = []
+    sheets: list[SheetJob | Film] = []
+>>>>>>> 55ba6e1 (Solids in motion as animated glTF, read back; films are held at every value they have)
     taken: dict[str, Text] = {f"{part}.preview.svg".lower(): Message(N_("the preview of the part")) for part in parts}
     for where, export in exports:
         if only_parts and (export.assembly or _of_several(export)):
@@ -102,6 +115,7 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
         if export.format == "sheet":
             sheets += _sheets(scene, placing, _of_cams(export, parts, only_parts), where, source, taken)
             continue
+<<<<<<< HEAD
         if export.purpose == "board":
             from exporters.production.boards import board_jobs
 
@@ -126,6 +140,10 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
 
             sheets.append(motion_job(scene, placing, parts, export, where, source))
             _take(sheets[-1].path, where, taken, source)
+=======
+        if export.format in FILMS:
+            sheets.append(_film(scene, placing, parts, export, where, source))
+>>>>>>> 55ba6e1 (Solids in motion as animated glTF, read back; films are held at every value they have)
             continue
         made = []
         for part_id in export.parts or list(parts):
@@ -147,11 +165,29 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
     return Plan(source, scene, parts, placing, tuple(jobs), tuple(assemblies), tuple(left_out), tuple(sheets))
 
 
+def _film(
+    scene: SceneFile, placing: Placing, parts: dict[str, Part], export: ExportSpec, where: str, source: str
+) -> Film:
+    """What drives move, as the format shows it."""
+    from exporters.production.film import film
+
+    made: type[Film]
+    if export.format == "glb":
+        from exporters.production.motion_solids import SolidFilm as made
+    else:
+        from exporters.production.motion import MotionJob as made
+    return film(made, scene, placing, parts, export, where, source)
+
+
 def _of_several(export: ExportSpec) -> bool:
     """Whether a picture shows parts together; that of a cam shows one."""
+<<<<<<< HEAD
     if export.purpose in PURPOSES_LAID.values():
         return True
     return export.format == "motion" or (export.format == "sheet" and export.purpose != "cam")
+=======
+    return export.format in FILMS or (export.format == "sheet" and export.purpose != "cam")
+>>>>>>> 55ba6e1 (Solids in motion as animated glTF, read back; films are held at every value they have)
 
 
 def _of_cams(export: ExportSpec, parts: dict[str, Part], only_parts: list[str]) -> ExportSpec:

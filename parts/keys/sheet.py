@@ -35,7 +35,7 @@ def check_sheet_keys(spec: Any, source: str, place: str) -> None:
         raise SceneError(
             source, f"{place}.title_block", given, "only_for_format", REMOVED, formats='"sheet"', format=spec.format
         )
-    if spec.format in ("sheet", "motion") and spec.offset:
+    if spec.format in ("sheet", "motion", "glb") and spec.offset:
         raise SceneError(source, f"{place}.offset", spec.offset, "sheet_shows_exact_profile", REMOVED)
     if spec.format == "sheet" and spec.parts is not None and spec.purpose == "meshing":
         raise SceneError(source, f"{place}.parts", None, "sheet_shows_a_pair", REMOVED)

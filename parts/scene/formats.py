@@ -55,8 +55,11 @@ FILE_KINDS = {
         FileKind("step", "step", Form.FACES, {"model": 1e-6}, assembly=True),
         FileKind("sheet", "sheet", Form.SHEET, {"meshing": 1e-6, "generating": 1e-6, "cam": 1e-6, "train": 1e-6}),
         FileKind("motion", "motion", Form.SHEET, {"animation": 0.02}),
+        FileKind("glb", "glb", Form.SHEET, {"animation": 0.02}),
     )
 }
+# what drives move, in a plane and in space
+FILMS = ("motion", "glb")
 # the words of scenes
 FORMATS = tuple(dict.fromkeys(kind.format for kind in FILE_KINDS.values()))
 ASSEMBLY_FORMATS = tuple(sorted((kind.format for kind in FILE_KINDS.values() if kind.assembly), reverse=True))

@@ -58,8 +58,11 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     """Keys of ``[[exports]]``."""
 
     format: Annotated[
-        Literal["dxf", "svg", "stl", "3mf", "step", "sheet", "motion"],
-        Meta(description="file format; motion: an animated SVG of what the drives move", examples=["dxf"]),
+        Literal["dxf", "svg", "stl", "3mf", "step", "sheet", "motion", "glb"],
+        Meta(
+            description="file format; motion, glb: what the drives move, as an animated SVG, and its solids as glTF",
+            examples=["dxf"],
+        ),
     ]
     purpose: (
         Annotated[

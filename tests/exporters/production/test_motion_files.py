@@ -93,6 +93,7 @@ def test_a_loop_that_would_take_too_long_is_cut_and_said() -> None:
     ("old", "new"),
     [
         (r'values="[-\d.]+;', 'values="1.5;'),
+        (r'(type="translate".*values="([-\d.]+,[-\d.]+;){7})[-\d.]+', r"\g<1>1.5"),
         (r'repeatCount="indefinite"', 'repeatCount="1"'),
         (r'<g id="planet_3"', '<g id="planet_9"'),
         (r"(;[-\d.]+,[-\d.]+){3}", ""),

@@ -1,0 +1,166 @@
+"""What drives move, as a film: its loop, and how every instance goes; its files stand in motion and motion_solids."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+
+from exporters.production.jobs import Made
+from exporters.verification.verdict import Verdict
+from geometry.base.findings import Finding
+from geometry.base.record import Record
+from geometry.curves.curve import Real
+from parts.base.part import Part
+from parts.base.refusal import SceneError
+from parts.scene.load import ExportSpec, SceneFile
+from parts.scene.placing import Instance, Placing
+from parts.scene.relative_path import Course, common_period, course_of
+from parts.scene.shapes import Shape
+
+# seconds for a turn of the first drive, and for a loop at least and at most; turns of the fastest in a loop at most
+_SECONDS, _LEAST, _MOST, _MOST_TURNS = 4.0, 4.0, 60.0, 20
+# values of a way at first, and at most; of the tolerance what outlines and ways may take
+_VALUES, _MOST_VALUES, SHARE = 60, 16_000, 0.5
+_FILLS = ("#b8c4d0", "#d9c39a", "#b5cfae", "#d3b3b3", "#bdb6d6")
+# times at which a file is held against exact poses
+TIMES = np.concatenate([[0.0, 1.0], np.arange(1, 48) * (math.sqrt(5) - 1) / 2 % 1.0])
+
+
+class Film(Record):
+    """What drives move, in one file; ``loop``: how much of their run it shows (1: all), and whether it closes."""
+
+    export: ExportSpec
+    title: str
+    parts: dict[str, Part]
+    instances: tuple[Instance, ...]
+    course: Course
+    loop: Fraction
+    closes: bool
+    turns: float
+    path: str
+    place: str
+    members: tuple[()] = ()
+    # of the file: what stands for a name that is not given, and the rest
+    ending: ClassVar[tuple[str, str]]
+
+    @property
+    def label(self) -> str:
+        """The file."""
+        return self.path
+
+    @property
+    def seconds(self) -> float:
+        """How long a loop takes."""
+        return min(max(_SECONDS * abs(self.turns), _LEAST), _MOST)
+
+    @property
+    def told(self) -> dict[str, Any]:
+        """What is in it: the turns (or the mm) of the first drive in one loop, and whether it ends as it begins."""
+        names = [instance.id for instance in self.instances]
+        return {"part": None, "instances": names, "drive": self.turns, "closes": self.closes, "seconds": self.seconds}
+
+    @property
+    def offset(self) -> float:
+        """None."""
+        return 0.0
+
+    @property
+    def tolerance(self) -> float:
+        """Of outlines or solids, and of ways, together, mm."""
+        return float(self.export.tolerance or 0.0)
+
+    def ways(self, instance: Instance, reach: float) -> tuple[Any, Any, float]:
+        """Places and angles at even shares of the loop, and how far what is straight between them is off, mm."""
+        count = _VALUES
+        while True:
+            places, angles = self.poses(instance, np.linspace(0, 1, 2 * count + 1))
+            # an even way is off the most in the middle between its ends
+            ways = [x[1::2] - (x[:-1:2] + x[2::2]) / 2 for x in (places, angles)]
+            off = float((np.abs(ways[0]) + reach * np.abs(ways[1])).max())
+            if off <= SHARE * self.tolerance / 2 or count >= _MOST_VALUES:
+                return places[::2], angles[::2], 2 * off
+            count *= 2
+
+    def poses(self, instance: Instance, shares: Real) -> tuple[Any, Any]:
+        """Exact places and angles of an instance at shares of the loop."""
+        times = shares * float(self.loop)
+        if instance.id not in self.course.rates:
+            return np.full(len(times), instance.centre), np.full(len(times), instance.rotation)
+        # angles are told within a turn
+        order = np.argsort(times)
+        places, angles = self.course.pose(instance.id, times)
+        unwrapped = np.empty_like(angles)
+        unwrapped[order] = np.unwrap(angles[order])
+        return places, unwrapped
+
+    def findings(self, made: Made) -> tuple[Finding, ...]:
+        """None."""
+        return ()
+
+    def write(self, made: Made, file: Path) -> dict[str, int]:
+        """Write it; counts of what is in it."""
+        raise NotImplementedError
+
+    def declared(self, made: Made) -> tuple[float, str]:
+        """What is shown and the ways it goes together, mm; ways are sampled."""
+        raise NotImplementedError
+
+    def verify(self, file: Path, declared: float) -> Verdict:
+        """Read it back: what is shown, and where it stands at many times, against exact poses."""
+        raise NotImplementedError
+
+
+def fill(index: int) -> str:
+    """The colour of what names none."""
+    return _FILLS[index % len(_FILLS)]
+
+
+def film(
+    made: type[Film],
+    scene: SceneFile,
+    placing: Placing,
+    parts: dict[str, Part],
+    export: ExportSpec,
+    where: str,
+    source: str,
+) -> Film:
+    """The film of one export.
+
+    Raises
+    ------
+    SceneError
+        Nothing is driven.
+    """
+    if placing.train is None:
+        raise SceneError(source, f"{where}.format", export.format, "shows_what_moves")
+    instances = tuple(i for i in placing.instances if export.parts is None or i.part in export.parts)
+    used = {name: parts[name] for name in dict.fromkeys(i.part for i in instances)}
+    course = course_of(placing.train, [i.id for i in instances])
+    loop, closes = _loop(course, instances, used)
+    drive = scene.drives[0]
+    asked = drive.turns if drive.travel is None else drive.travel
+    title = scene.scene.title or scene.name
+    unnamed, ending = made.ending
+    path = scene.name + (f".{export.name}" if export.name else unnamed) + ending
+    return made(export, title, used, instances, course, loop, closes, float(loop) * asked, path, where)
+
+
+def _loop(course: Course, instances: Sequence[Instance], parts: dict[str, Part]) -> tuple[Fraction, bool]:
+    """The share of the drives' run after which the picture is as it was; no more than a viewer will watch."""
+    if course.once & {i.id for i in instances}:
+        return Fraction(1), False
+    rates, fastest = set(), Fraction(0)
+    for instance in instances:
+        chain = course.rates.get(instance.id, ())
+        shape = Shape(parts[instance.part])
+        fastest = max([fastest, *map(abs, chain)])
+        # what is round, or looks alike in parts of a turn, comes again the sooner
+        rates |= {*chain[1:], *(rate * shape.count(0.0, shape.reach) for rate in chain[:1])}
+    period = common_period(rates)
+    most = _MOST_TURNS / fastest if fastest else period
+    return (period, True) if period <= most else (most, False)

@@ -1,0 +1,145 @@
+"""The motion of a scene as an animated glTF of its solids, and the file held against exact solids and poses."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import cast
+
+import numpy as np
+
+from exporters.formats.glb import SolidTrack, write_glb
+from exporters.formats.motion_svg import even_values
+from exporters.formats.read_glb import read_glb
+from exporters.formats.registry import Chords, Content, declared_error, shape_of
+from exporters.production.film import SHARE, TIMES, Film, fill
+from exporters.production.jobs import Made
+from exporters.verification.judge import held
+from exporters.verification.verdict import Verdict
+from geometry.base.placement import Placement3
+from geometry.base.record import replace
+from geometry.curves.curve import Real
+from parts.base.readback import ReadError
+from parts.scene.formats import file_kind
+from parts.scene.placing import UPWARDS, Instance
+from parts.solids.mesh import body_mesh
+
+# of a turn between two values: the shorter way round is the right one
+_STEP = 2 * math.pi / 3
+# float32: of a number, and of a turn by its quaternion
+_FLOAT32, _TURNED = 2.0**-24, 2.0**-22
+
+
+class SolidFilm(Film):
+    """The animated glTF of a scene."""
+
+    ending = "", ".glb"
+
+    def solids(self) -> dict[str, tuple[Content, Chords]]:
+        """What each part's mesh is made of."""
+        asked = replace(self.export, format="stl", purpose="print", tolerance=SHARE * self.tolerance)
+        contents = {name: Content(part, asked, part.section(0.0)) for name, part in self.parts.items()}
+        return {name: (content, cast(Chords, shape_of(content))) for name, content in contents.items()}
+
+    def reach(self, instance: Instance) -> float:
+        """How far a solid reaches from its origin, mm."""
+        body = self.parts[instance.part].body(0.0)
+        return math.hypot(body.section_reach(), *map(abs, (body.levels()[0], body.levels()[-1])))
+
+    def tracks(self) -> tuple[list[SolidTrack], float]:
+        """What moves how, and how far it is off its way, mm."""
+        made, worst = [], 0.0
+        for instance in self.instances:
+            reach = self.reach(instance)
+            places, angles, off = self.ways(instance, reach)
+            even = even_values(angles + 0j).real
+            steps = len(angles) - 1
+            if len(even) == 2:
+                # values of an even turn stand near enough for the shorter way round to be the right one
+                steps = max(1, math.ceil(abs(even[1] - even[0]) / _STEP))
+            if len(even) > 1:
+                even = np.interp(np.linspace(0, 1, steps + 1), np.linspace(0, 1, len(angles)), angles)
+            way = even_values(places)
+            heights = np.full(len(way), instance.at[2])
+            turns = np.array([_quaternion(instance.axis, angle) for angle in even.tolist()])
+            made.append(SolidTrack(instance.id, instance.part, np.column_stack([way.real, way.imag, heights]), turns))
+            # numbers, and the times of what moves, have 24 bits
+            far = float(np.abs(places).max()) + abs(instance.at[2])
+            run = float(np.abs(np.diff(places)).sum() + reach * np.abs(np.diff(angles)).sum())
+            worst = max(worst, off + 2 * _FLOAT32 * (far + run) + _TURNED * reach)
+        return made, worst
+
+    def write(self, made: Made, file: Path) -> dict[str, int]:
+        """Write it; counts of what is in it."""
+        solids = {
+            name: (body_mesh(content.body, chords), self.parts[name].colour or fill(index))
+            for index, (name, (content, chords)) in enumerate(self.solids().items())
+        }
+        write_glb(file, self.title, solids, self.tracks()[0], self.seconds)
+        return {"instances": len(self.instances), "triangles": sum(len(m.triangles) for m, _ in solids.values())}
+
+    def declared(self, made: Made) -> tuple[float, str]:
+        """The worst solid and the worst way together, mm; ways are sampled."""
+        return self._of_solids() + self.tracks()[1], "sampled"
+
+    def _of_solids(self) -> float:
+        return max(declared_error(content, chords)[0] for content, chords in self.solids().values())
+
+    def verify(self, file: Path, declared: float) -> Verdict:
+        """Read it back: every solid, and where instances stand at many times, against exact ones."""
+        try:
+            found = read_glb(file)
+        except (ReadError, OSError) as error:
+            return Verdict({}, (str(error),))
+        if list(found.tracks) != [i.id for i in self.instances] or list(found.solids) != list(self.parts):
+            return Verdict({}, (f"holds {', '.join(found.tracks)} of {', '.join(found.solids)}",))
+        failures: list[str] = []
+        if found.seconds and not math.isclose(found.seconds, self.seconds, rel_tol=1e-6):
+            failures.append(f"a loop takes {found.seconds:g} s instead of {self.seconds:g} s")
+        solid = 0.0
+        for name, part in self.parts.items():
+            verdict = held(found.solids[name], file_kind("stl", None), part.body(0.0), declared, self.tolerance)
+            failures += [f"{name}: {text}" for text in verdict.failures]
+            solid = max(solid, verdict.measured.get("max_deviation", 0.0))
+        worst = 0.0
+        for instance in self.instances:
+            track = found.tracks[instance.id]
+            if track.solid != instance.part:
+                failures.append(f"{instance.id} is shown as {track.solid}")
+            probes = np.vstack([np.zeros(3), self.reach(instance) * np.eye(3)])
+            # every value that the file has, too
+            values = np.concatenate([way[0] for way in (track.places, track.turns)])
+            times = np.unique(np.concatenate([TIMES * self.seconds, np.minimum(values, self.seconds)]))
+            exact = self._stands(instance, times / self.seconds, probes)
+            worst = max(worst, float(np.abs(track.stand(times, probes) - exact).max()))
+        if not worst + solid <= declared:
+            failures.append(f"an instance is {worst:.3g} mm off its place; {declared:.3g} mm is declared")
+        measured = {"max_deviation": solid, "pose_deviation": worst, "loop_seconds": found.seconds}
+        return Verdict(measured, tuple(failures))
+
+    def _stands(self, instance: Instance, shares: Real, probes: Real) -> Real:
+        """Points of an instance (n, 3) where it is at shares (t,) of the loop, (t, n, 3)."""
+        places, angles = self.poses(instance, shares)
+        laid = np.array(Placement3.towards(instance.axis, 0.0).rotation)
+        turned = np.stack([np.cos(angles), -np.sin(angles), np.sin(angles), np.cos(angles)], axis=-1).reshape(-1, 2, 2)
+        own = np.concatenate([np.einsum("tij,nj->tni", turned, probes[:, :2]), _heights(probes, len(shares))], axis=-1)
+        at = np.column_stack([places.real, places.imag, np.full(len(shares), instance.at[2])])
+        return np.asarray(own @ laid.T + at[:, None])
+
+
+def _heights(probes: Real, count: int) -> Real:
+    return np.broadcast_to(probes[None, :, 2:], (count, len(probes), 1))
+
+
+def _quaternion(axis: tuple[float, float, float], angle: float) -> list[float]:
+    """Turned about z, then z laid on an axis by the shortest way, as ``Placement3.towards`` has it."""
+    own = (0.0, 0.0, math.sin(angle / 2), math.cos(angle / 2))
+    if axis == UPWARDS:
+        return list(own)
+    x, y, z = axis
+    # half way between z and the axis; what points down is turned over about x
+    laid = np.array([-y, x, 0.0, 1 + z]) if z > -1 else np.array([1.0, 0.0, 0.0, 0.0])
+    a, b, c, d = (laid / np.linalg.norm(laid)).tolist()
+    p, q, r, s = own
+    return [d * p + a * s + b * r - c * q, d * q - a * r + b * s + c * p, d * r + a * q - b * p + c * s,
+            d * s - a * p - b * q - c * r]  # fmt: skip

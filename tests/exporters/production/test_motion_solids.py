@@ -1,0 +1,180 @@
+"""Animated glTF: solids and poses by a reader of the tests' own, an axis that lies, spoiled files."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import trimesh
+
+from exporters.production.build import build
+from exporters.production.plan import Plan, plan_build
+from parts.base.refusal import SceneError
+from parts.scene.load import scene_from_toml
+from tests.exporters.making import run
+from tests.parts.scene.test_trains import DRIVE, FREE, JAMES
+
+GLB = '[[exports]]\nformat = "glb"\n'
+TURNED = JAMES + DRIVE.format("sun", "turns = 4.0") + GLB
+TILTED = """[parts.a]
+kind = "spur_gear"
+module = 1.0
+number_of_teeth = 20
+[instances.a]
+part = "a"
+at = [5.0, 6.0, 7.0]
+axis = [{}]
+rotation_deg = 10.0
+[[drives]]
+instance = "a"
+turns = 0.5
+"""
+
+
+def planned(text: str) -> Plan:
+    return plan_build(scene_from_toml(text.encode(), "s.toml", "s"), "s", [], ["glb"])
+
+
+def opened(file: Path) -> tuple[dict[str, Any], bytearray]:
+    data = file.read_bytes()
+    size = int.from_bytes(data[12:16], "little")
+    return json.loads(data[20 : 20 + size]), bytearray(data[28 + size :])
+
+
+def numbers(scene: dict[str, Any], blob: bytes, accessor: int) -> np.ndarray:
+    told = scene["accessors"][accessor]
+    view = scene["bufferViews"][told["bufferView"]]
+    kind = "<f4" if told["componentType"] == 5126 else "<u4"
+    return np.frombuffer(blob, kind, view["byteLength"] // 4, view["byteOffset"]).reshape(told["count"], -1)
+
+
+def at(file: Path, name: str, share: float) -> np.ndarray:
+    """(4, 4) of an instance, mm: matrices between values by the half-way rule, which only even turns obey."""
+    scene, blob = opened(file)
+    number = next(k for k, node in enumerate(scene["nodes"]) if node["name"] == name)
+    node = scene["nodes"][number]
+    ways = {"translation": node.get("translation"), "rotation": node.get("rotation")}
+    animation = scene["animations"][0]
+    for channel in animation["channels"]:
+        if channel["target"]["node"] == number:
+            sampler = animation["samplers"][channel["sampler"]]
+            times, values = (numbers(scene, blob, sampler[key]).astype(float) for key in ("input", "output"))
+            place = share * float(times[-1, 0])
+            k = min(int(np.searchsorted(times[:, 0], place, side="right")) - 1, len(times) - 2)
+            part = (place - times[k, 0]) / (times[k + 1, 0] - times[k, 0])
+            one, two = values[k], values[k + 1]
+            if channel["target"]["path"] == "rotation":
+                # the turn from one to the other, as an axis and an angle
+                step = np.array(
+                    trimesh.transformations.quaternion_multiply(np.roll(two, 1), np.roll(one, 1) * [1, -1, -1, -1])
+                )
+                step *= math.copysign(1.0, step[0])
+                angle = 2 * math.atan2(float(np.linalg.norm(step[1:])), step[0]) * part
+                axis = step[1:] / max(float(np.linalg.norm(step[1:])), 1e-30)
+                turn = np.concatenate([[math.cos(angle / 2)], math.sin(angle / 2) * axis])
+                ways["rotation"] = np.roll(trimesh.transformations.quaternion_multiply(turn, np.roll(one, 1)), -1)
+            else:
+                ways["translation"] = one + part * (two - one)
+    found = trimesh.transformations.quaternion_matrix(np.roll(ways["rotation"], 1))
+    found[:3, 3] = ways["translation"]
+    return np.asarray(found)
+
+
+def test_satellites_turn_and_stand_in_space_as_the_formula_says(tmp_path: Path) -> None:
+    """40/40/120: in four turns of the sun the carrier makes one, a satellite turns by -2."""
+    plan = planned(TURNED)
+    assert build(plan, tmp_path).well
+    file = tmp_path / "s.glb"
+    start = {i.id: i for i in plan.placing.instances}
+    for share in (0.0, 0.037, 1 / 3, 0.71, 0.999):
+        for name, turns in (("sun", 4), ("carrier", 1), ("planet_2", -2), ("ring", 0)):
+            angle = start[name].rotation + 2 * math.pi * turns * share
+            around = np.exp(2j * math.pi * share) if name == "planet_2" else 1.0
+            place = start[name].centre * around
+            exact = trimesh.transformations.rotation_matrix(angle, [0, 0, 1])
+            exact[:3, 3] = place.real, place.imag, start[name].at[2]
+            off = np.abs(at(file, name, share) - exact)
+            assert off[:3, :3].max() < 2e-5
+            assert off[:3, 3].max() < 0.02
+
+
+def test_another_reader_finds_closed_solids_in_metres(tmp_path: Path) -> None:
+    plan = planned(TURNED)
+    build(plan, tmp_path)
+    scene = trimesh.load(tmp_path / "s.glb")
+    assert isinstance(scene, trimesh.Scene)
+    assert set(scene.geometry) == set(plan.parts)
+    for name, mesh in scene.geometry.items():
+        part = plan.parts[name]
+        assert mesh.is_watertight
+        assert mesh.volume == pytest.approx(part.made_by.moments(part.body(0.0)).volume, rel=2e-3)
+    width = 2 * plan.parts["ring"].section(0.0).region.outer.reach() / 1000
+    assert scene.extents[[0, 2]] == pytest.approx([width, width], rel=1e-3)
+
+
+@pytest.mark.parametrize("axis", ["1.0, 0.0, 0.0", "0.0, -1.0, 0.0", "0.0, 0.0, -1.0", "0.6, 0.0, 0.8"])
+def test_an_axis_that_lies_is_laid(tmp_path: Path, axis: str) -> None:
+    plan = planned(TILTED.format(axis) + GLB)
+    built = build(plan, tmp_path)
+    assert built.well
+    found = at(tmp_path / "s.glb", "a", 0.5)
+    (exact,) = plan.placing.at([built.written[0].job.told["drive"] / 2])
+    assert found[:3, :3] == pytest.approx(np.array(exact.scene_from_part.rotation), abs=1e-6)
+    assert found[:3, 3] == pytest.approx([5, 6, 7])
+
+
+def moved(scene: dict[str, Any], blob: bytearray, path: str, by: float) -> None:
+    """Change a number of the first channel that moves by its path."""
+    animation = scene["animations"][0]
+    channel = next(c for c in animation["channels"] if c["target"]["path"] == path)
+    accessor = animation["samplers"][channel["sampler"]]["output"]
+    start = scene["bufferViews"][scene["accessors"][accessor]["bufferView"]]["byteOffset"] + 64
+    value = np.frombuffer(blob, "<f4", 1, start)[0] + np.float32(by)
+    blob[start : start + 4] = np.float32(value).tobytes()
+
+
+def shrunk(scene: dict[str, Any], blob: bytearray) -> None:
+    told = scene["bufferViews"][scene["accessors"][0]["bufferView"]]
+    values = np.frombuffer(blob, "<f4", told["byteLength"] // 4, told["byteOffset"]).reshape(-1, 3) * np.float32(0.999)
+    blob[told["byteOffset"] : told["byteOffset"] + told["byteLength"]] = values.tobytes()
+    scene["accessors"][0] |= {"min": values.min(axis=0).tolist(), "max": values.max(axis=0).tolist()}
+
+
+SPOILED: dict[str, Callable[[dict[str, Any], bytearray], object]] = {
+    "a place": lambda scene, blob: moved(scene, blob, "translation", 0.1),
+    "a turn": lambda scene, blob: moved(scene, blob, "rotation", 1e-3),
+    "a solid": shrunk,
+    "metres": lambda scene, blob: scene["nodes"][0].update(scale=[1.0] * 3),
+    "another solid": lambda scene, blob: scene["nodes"][1].update(mesh=scene["nodes"][2]["mesh"]),
+    "an instance": lambda scene, blob: scene["nodes"][2].update(name="x"),
+    "steps": lambda scene, blob: scene["animations"][0]["samplers"][0].update(interpolation="STEP"),
+    "an extension": lambda scene, blob: scene.update(extensionsRequired=["X"]),
+    "bounds": lambda scene, blob: scene["accessors"][0].update(min=[0.0, 0.0, 0.0]),
+    "a mirror": lambda scene, blob: scene["nodes"][1].update(scale=[-1.0, 1.0, 1.0]),
+    "a hidden channel": lambda scene, blob: scene["animations"].append(scene["animations"][0]),
+    "the buffer": lambda scene, blob: blob.extend(b"0000"),
+}
+
+
+@pytest.mark.parametrize("what", SPOILED)
+def test_spoiled_films_are_seen(tmp_path: Path, what: str) -> None:
+    build(planned(TURNED), tmp_path)
+    file = tmp_path / "s.glb"
+    assert run("verify", str(file)) == 0
+    scene, blob = opened(file)
+    SPOILED[what](scene, blob)
+    text = json.dumps(scene).encode()
+    text += b" " * (-len(text) % 4)
+    words = [int(n).to_bytes(4, "little") for n in (2, 28 + len(text) + len(blob), len(text), len(blob))]
+    file.write_bytes(b"glTF" + words[0] + words[1] + words[2] + b"JSON" + text + words[3] + b"BIN\0" + blob)
+    assert run("verify", str(file)) == 1
+
+
+def test_a_scene_without_drives_has_no_film() -> None:
+    with pytest.raises(SceneError, match="shows what a drive moves"):
+        planned(FREE + GLB)
