@@ -14,22 +14,14 @@ from parts.base.part import Part
 from parts.base.reasons import reason
 from parts.base.refusal import SceneError, meant, placed
 from parts.base.texts import N_, Message, Text, filled, message
-<<<<<<< HEAD
 from parts.keys.boards import PURPOSES_LAID
-from parts.scene.formats import FORMATS, Form, file_kind
-=======
-from parts.scene.formats import FILMS, FORMATS
->>>>>>> 55ba6e1 (Solids in motion as animated glTF, read back; films are held at every value they have)
+from parts.scene.formats import FILMS, FORMATS, Form, file_kind
 from parts.scene.load import ExportSpec, SceneFile, default_export, in_keys_of_file, make_parts
 from parts.scene.placing import Placing, place
 
 if TYPE_CHECKING:
-<<<<<<< HEAD
     from exporters.production.boards import BoardJob
-    from exporters.production.motion import MotionJob
-=======
     from exporters.production.film import Film
->>>>>>> 55ba6e1 (Solids in motion as animated glTF, read back; films are held at every value they have)
     from exporters.production.sheets import SheetJob
 
 
@@ -97,14 +89,9 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
     unused = [p for p in parts if p not in used]
     left_out += [LeftOut(f"parts.{p}", N_("no export asks for it"), as_asked=bool(only_formats)) for p in unused]
     jobs: list[Job] = []
-<<<<<<< HEAD
     assemblies: list[AssemblyJob | BoardJob] = []
-    sheets: list[SheetJob | MotionJob] = []
-    layouts: dict[object, list[Any]] = {}
-=======
-    assemblies: list[AssemblyJob] = []
     sheets: list[SheetJob | Film] = []
->>>>>>> 55ba6e1 (Solids in motion as animated glTF, read back; films are held at every value they have)
+    layouts: dict[object, list[Any]] = {}
     taken: dict[str, Text] = {f"{part}.preview.svg".lower(): Message(N_("the preview of the part")) for part in parts}
     for where, export in exports:
         if only_parts and (export.assembly or _of_several(export)):
@@ -115,7 +102,6 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
         if export.format == "sheet":
             sheets += _sheets(scene, placing, _of_cams(export, parts, only_parts), where, source, taken)
             continue
-<<<<<<< HEAD
         if export.purpose == "board":
             from exporters.production.boards import board_jobs
 
@@ -135,15 +121,9 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
                 _take(plate.path, where, taken, source)
                 assemblies.append(plate)
             continue
-        if export.format == "motion":
-            from exporters.production.motion import motion_job
-
-            sheets.append(motion_job(scene, placing, parts, export, where, source))
-            _take(sheets[-1].path, where, taken, source)
-=======
         if export.format in FILMS:
             sheets.append(_film(scene, placing, parts, export, where, source))
->>>>>>> 55ba6e1 (Solids in motion as animated glTF, read back; films are held at every value they have)
+            _take(sheets[-1].path, where, taken, source)
             continue
         made = []
         for part_id in export.parts or list(parts):
@@ -181,13 +161,9 @@ def _film(
 
 def _of_several(export: ExportSpec) -> bool:
     """Whether a picture shows parts together; that of a cam shows one."""
-<<<<<<< HEAD
     if export.purpose in PURPOSES_LAID.values():
         return True
-    return export.format == "motion" or (export.format == "sheet" and export.purpose != "cam")
-=======
     return export.format in FILMS or (export.format == "sheet" and export.purpose != "cam")
->>>>>>> 55ba6e1 (Solids in motion as animated glTF, read back; films are held at every value they have)
 
 
 def _of_cams(export: ExportSpec, parts: dict[str, Part], only_parts: list[str]) -> ExportSpec:
