@@ -71,7 +71,7 @@ def _cut(body: Body) -> Body:
 
 def body_solid(body: Body, outlines: Sequence[Outline]) -> Solid:
     """The faces of a body over the finished curves of its profiles."""
-    made = _Maker(_cut(body), outlines)
+    made = BodyFaces(_cut(body), outlines)
     for wall in made.body.walls:
         made.wall(wall)
     for cap in made.body.caps:
@@ -79,7 +79,7 @@ def body_solid(body: Body, outlines: Sequence[Outline]) -> Solid:
     return made.solid()
 
 
-class _Maker(RingBuilder):
+class BodyFaces(RingBuilder):
     """Rings, walls and caps of one body."""
 
     def __init__(self, body: Body, outlines: Sequence[Outline]) -> None:

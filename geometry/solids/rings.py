@@ -6,7 +6,7 @@ A ring is one period of curves in all its places: each curve is one bundle of ed
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -105,16 +105,21 @@ class RingBuilder(SolidBuilder):
         along: BSpline,
         rise: Real,
         grids: Sequence[Complex],
+        round_faces: Mapping[int, tuple[Surface, bool]] | None = None,
     ) -> None:
         """Faces between rings of which one may be turned or narrower: poles over each curve (u, v) in the plane.
 
         ``rise``: their heights (v,), mm; ``along``: a spline on their knots v. Planes over lines, cylinders and cones
-        over arcs (whose grids are those of their ends), splines over all else.
+        over arcs (whose grids are those of their ends), splines over all else. ``round_faces``: the surfaces over
+        curves where they are others, and whether their normals point outwards.
         """
         corners, points = self._corners(lower, upper, along, rise, [grid[0] for grid in grids])
         for i, (grid, shape) in enumerate(zip(grids, lower.shapes, strict=True)):
             curve, other = lower.curves[i], upper.shapes[i]
-            if isinstance(shape, Circular) and isinstance(other, Circular):
+            if round_faces and i in round_faces:
+                surface, outwards = round_faces[i]
+                self._between(lower, upper, corners, i, surface, along=outwards)
+            elif isinstance(shape, Circular) and isinstance(other, Circular):
                 self._cylinder(lower, upper, corners, i, shape, other.radius - shape.radius, height)
             elif isinstance(curve, BSpline):
                 surface = self._tensor(lower, upper, points, i, along, rise, grid)

@@ -95,6 +95,11 @@ class WormTeeth(Record, dict=True):
         throat = self.centre_distance - np.sqrt((self.throat_radius - y) * (self.throat_radius + y))
         return np.where(np.abs(heights) >= self.throat_height, np.minimum(throat, self.outer_radius), throat)
 
+    def root_radius(self, heights: ArrayLike) -> Real:
+        """Of what the land of the hob's tip leaves at heights, mm."""
+        land = self.hob.cut(self.hob.land(np.full(np.shape(heights), 0.5)), heights)
+        return np.abs(land.plane)
+
     def side(self, heights: ArrayLike) -> Side:
         """Where fillet and flank of the lower side begin and end.
 
@@ -110,6 +115,9 @@ class WormTeeth(Record, dict=True):
         share = np.linspace(0.0, 1.0, _RADII)[:, None]
         radii = form + (least - form) * share
         reach = self._reach(radii, z)
+        if not (reach[0] < tip).all():
+            # the rounding of the hob's tip reaches as far as the tooth
+            raise NoTooth("worm_wheel_all_fillet")
         # the flank turns back where it is undercut; then it grows until it is at the tip
         with np.errstate(invalid="ignore"):
             grows = np.diff(reach, axis=0) > 0

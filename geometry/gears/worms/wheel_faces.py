@@ -1,0 +1,197 @@
+"""The faces of a worm wheel: flanks and fillets as splines over heights, throat and root as tori, all else as its core.
+
+Between two breaks of the teeth every face is one spline, whose poles stand at even heights: both ends lie in planes.
+Poles interpolate the exact envelope at Greville's places; the error is that of samples, along the normal.
+"""
+
+from __future__ import annotations
+
+import cmath
+from itertools import pairwise
+
+import numpy as np
+
+from geometry.approximation.outline import CadCurve, Outline
+from geometry.approximation.tensor import basis_matrix, clamped, greville, tensor_poles
+from geometry.base.errors import ConvergenceError
+from geometry.base.record import Record
+from geometry.curves.bounds import Bound
+from geometry.curves.bspline import BSpline
+from geometry.curves.curve import Complex, Real
+from geometry.curves.line_arc import Arc
+from geometry.gears.worms.hob import Cut
+from geometry.gears.worms.wheel import WormTeeth
+from geometry.gears.worms.wheel_body import WormWheelBody
+from geometry.solids.body_faces import BodyFaces, body_outlines
+from geometry.solids.faces import Cylinder, Frame, Solid, Surface, Torus
+from geometry.solids.rings import AHEAD, UP, Ring
+
+_DEGREE = 7
+# the kernel joins curves and surfaces within 1e-7 mm: up to a tolerance of 1e-6 mm edges are kept well below that
+_TARGET, _SHARE = 2e-8, 0.02
+_MARGIN = 1.5
+# samples a span, and lines of a family on which spans are chosen
+_MOST_SPANS, _SAMPLES, _LINES = 64, 7, 9
+# of the curves of a ring
+_ROOT, _TIP = 0, 3
+# rounding of the envelope and of its fit, part of the size
+_ROUNDING = 4e-15
+
+
+class Strip(Record, eq=False):
+    """Teeth between two heights: poles of the lower and the upper side's fillet and flank, (u, v), from root to tip."""
+
+    low: float
+    high: float
+    u_knots: tuple[Real, ...]
+    v_knots: Real
+    lower: tuple[Complex, ...]
+    upper: tuple[Complex, ...]
+
+
+class WheelSplines(Record, eq=False):
+    """The teeth as splines, the outlines of the core, and the worst error, mm."""
+
+    strips: tuple[Strip, ...]
+    core: tuple[Outline, ...]
+    max_error: float
+    bound: Bound = "sampled"
+
+
+def wheel_splines(body: WormWheelBody, tolerance: float) -> WheelSplines:
+    """Splines within ``tolerance`` mm of the teeth, and within what the kernel calls one point of throat and root.
+
+    Raises
+    ------
+    ConvergenceError
+        64 spans are not enough.
+    """
+    teeth = body.teeth
+    target = max(min(tolerance, max(_TARGET, _SHARE * tolerance)) / _MARGIN, _ROUNDING * teeth.outer_radius)
+    bands = list(pairwise(teeth.breaks))
+    # across: of fillet and flank, alike in all bands, which share the edges between them; then along each band
+    across = [max(_spans(teeth, part, band, target, along=False) for band in bands) for part in (0, 1)]
+    along = {band: max(_spans(teeth, part, band, target, along=True) for part in (0, 1)) for band in bands}
+    along = {(low, high): max(n, along[-high, -low]) for (low, high), n in along.items()}
+    error = np.inf
+    while error > target:
+        if max(*across, *along.values()) > _MOST_SPANS:
+            raise ConvergenceError("spline surfaces of the teeth", error, _MOST_SPANS)
+        made = {band: [_fitted(teeth, part, band, (across[part], n)) for part in (0, 1)] for band, n in along.items()}
+        error = max(own for fits in made.values() for _, own in fits)
+        across, along = [n + 1 for n in across], {band: n + 1 for band, n in along.items()}
+    strips = []
+    for low, high in bands:
+        lower, mirrored = ([fit.poles for fit, _ in made[band]] for band in ((low, high), (-high, -low)))
+        knots = [fit.u_knots for fit, _ in made[low, high]]
+        upper = [np.conj(grid[:, ::-1]) for grid in mirrored]
+        strips.append(Strip(low, high, tuple(knots), made[low, high][0][0].v_knots, tuple(lower), tuple(upper)))
+    core = body_outlines(body.core, tolerance)
+    return WheelSplines(tuple(strips), core, max(_MARGIN * error, *(o.max_error for o in core)))
+
+
+def _points(teeth: WormTeeth, part: int, shares: Real, heights: Real) -> Cut:
+    """The lower fillet (0) or flank (1) at shares and heights, (m, n)."""
+    return (teeth.fillet, teeth.flank)[part](teeth.side(heights), shares[:, None])
+
+
+def _spans(teeth: WormTeeth, part: int, band: tuple[float, float], target: float, *, along: bool) -> int:
+    """Least spans with which lines of one family are near enough."""
+    for spans in range(1, _MOST_SPANS):
+        knots = clamped(_DEGREE, np.linspace(*(band if along else (0.0, 1.0)), spans + 1))
+        places, between = greville(_DEGREE, knots), np.linspace(knots[0], knots[-1], _SAMPLES * spans + 8)
+        weights = basis_matrix(_DEGREE, knots, between) @ np.linalg.inv(basis_matrix(_DEGREE, knots, places))
+        if along:
+            shares = np.linspace(0.0, 1.0, _LINES)
+            exact = _points(teeth, part, shares, between)
+            found = _points(teeth, part, shares, places).plane @ weights.T
+        else:
+            heights = np.linspace(*band, _LINES)
+            exact = _points(teeth, part, between, heights)
+            found = weights @ _points(teeth, part, places, heights).plane
+        if float(_away(found, exact).max()) <= target / 2:
+            break
+    return spans
+
+
+def _away(points: Complex, exact: Cut) -> Real:
+    """How far points are from the surface along its normal, mm."""
+    return np.abs((np.conj(exact.normal) * (points - exact.plane)).real)
+
+
+def _fitted(teeth: WormTeeth, part: int, band: tuple[float, float], spans: tuple[int, int]) -> tuple[_Fit, float]:
+    """The spline of a lower fillet or flank, and how far it is from surface and edges, mm."""
+    u_knots = clamped(_DEGREE, np.linspace(0.0, 1.0, spans[0] + 1))
+    v_knots = clamped(_DEGREE, np.linspace(*band, spans[1] + 1))
+    exact = _points(teeth, part, greville(_DEGREE, u_knots), greville(_DEGREE, v_knots))
+    fit = _Fit(u_knots, v_knots, tensor_poles(_DEGREE, u_knots, v_knots, exact.plane))
+    u, v = (np.linspace(k[0], k[-1], _SAMPLES * n + 8) for k, n in zip((u_knots, v_knots), spans, strict=True))
+    found = basis_matrix(_DEGREE, u_knots, u) @ fit.poles @ basis_matrix(_DEGREE, v_knots, v).T
+    error = float(_away(found, _points(teeth, part, u, v)).max())
+    radius = (teeth.root_radius, teeth.tip_radius)[part](v)
+    return fit, max(error, float(np.abs(np.abs(found[-part]) - radius).max()))
+
+
+class _Fit(Record, eq=False):
+    """Knots both ways and poles (u, v) in the plane."""
+
+    u_knots: Real
+    v_knots: Real
+    poles: Complex
+
+
+def wheel_solid(body: WormWheelBody, splines: WheelSplines) -> Solid:
+    """The closed shell of a worm wheel over its splines."""
+    made = BodyFaces(body.core, splines.core)
+    teeth, middle = body.teeth, body.middle
+    rings = [_ring(made, teeth, strip, 0, middle) for strip in splines.strips]
+    rings.append(_ring(made, teeth, splines.strips[-1], -1, middle))
+    origin = made.add_points(np.zeros(1, complex), middle)
+    root, throat = (Torus(Frame(origin, UP, AHEAD), teeth.centre_distance, r) for r in _tubes(teeth))
+    rim = Cylinder(Frame(origin, UP, AHEAD), teeth.outer_radius)
+    for strip, (lower, upper) in zip(splines.strips, pairwise(rings), strict=True):
+        within = abs(strip.low + strip.high) / 2 < teeth.throat_height
+        tip: tuple[Surface, bool] = (throat, False) if within else (rim, True)
+        along = BSpline(_DEGREE, strip.v_knots, np.zeros(len(strip.v_knots) - _DEGREE - 1, complex))
+        rise = middle + greville(_DEGREE, strip.v_knots)
+        made.ruled(lower, upper, (0.0, 1.0), along, rise, _grids(strip, teeth), {_ROOT: (root, False), _TIP: tip})
+    rim_wall = next(w for w in body.core.walls if body.core.loop_profile(w.lower) is body.rim)
+    made.known |= {rim_wall.lower: rings[0], rim_wall.upper: rings[-1]}
+    for wall in body.core.walls:
+        if wall is not rim_wall:
+            made.wall(wall)
+    for cap in body.core.caps:
+        made.face(cap)
+    return made.solid()
+
+
+def _tubes(teeth: WormTeeth) -> tuple[float, float]:
+    """Radii of the tubes of root and throat, mm."""
+    return teeth.hob.tip_radius, teeth.throat_radius
+
+
+def _grids(strip: Strip, teeth: WormTeeth) -> list[Complex]:
+    """Poles over the curves of a ring; of arcs those of their starts."""
+    (fillet, flank), (upper_fillet, upper_flank) = strip.lower, strip.upper
+    pitch = np.exp(-2j * np.pi / teeth.number_of_teeth)
+    return [upper_fillet[:1] * pitch, fillet, flank, flank[-1:], upper_flank[::-1], upper_fillet[::-1]]
+
+
+def _ring(made: BodyFaces, teeth: WormTeeth, strip: Strip, end: int, middle: float) -> Ring:
+    """The edges of all teeth at the lower (0) or the upper (-1) end of a strip."""
+    before, fillet, flank, tip, upper_flank, upper_fillet = (grid[:, end] for grid in _grids(strip, teeth))
+    fillet_knots, flank_knots = strip.u_knots
+    period: tuple[CadCurve, ...] = (
+        _arc(complex(before[0]), complex(fillet[0])),
+        BSpline(_DEGREE, fillet_knots, fillet),
+        BSpline(_DEGREE, flank_knots, flank),
+        _arc(complex(tip[0]), complex(upper_flank[0])),
+        BSpline(_DEGREE, flank_knots, upper_flank),
+        BSpline(_DEGREE, fillet_knots, upper_fillet),
+    )
+    return made.ring(Outline(period, teeth.number_of_teeth, 0.0, "sampled"), middle + float(strip.v_knots[end]))
+
+
+def _arc(start: complex, end: complex) -> Arc:
+    """About the axis, mm."""
+    return Arc(0j, abs(start), cmath.phase(start), cmath.phase(end / start))
