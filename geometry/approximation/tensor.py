@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import numpy as np
 
 from geometry.curves.bspline import basis
-from geometry.curves.curve import Real
+from geometry.curves.curve import Complex, Real
+
+P = TypeVar("P", Real, Complex)
 
 
 def clamped(degree: int, breaks: Real) -> Real:
@@ -28,10 +32,10 @@ def basis_matrix(degree: int, knots: Real, t: Real) -> Real:
     return matrix
 
 
-def tensor_poles(degree: int, u_knots: Real, v_knots: Real, points: Real) -> Real:
+def tensor_poles(degree: int, u_knots: Real, v_knots: Real, points: P) -> P:
     """Poles (u, v, ...) through points (u, v, ...) at Greville's places of both knots."""
     along, across = (basis_matrix(degree, knots, greville(degree, knots)) for knots in (u_knots, v_knots))
-    half = np.linalg.solve(along, points.reshape(len(along), -1)).reshape(points.shape)
+    half: P = np.linalg.solve(along, points.reshape(len(along), -1)).reshape(points.shape)
     turned = np.swapaxes(half, 0, 1)
-    poles = np.linalg.solve(across, turned.reshape(len(across), -1)).reshape(turned.shape)
-    return np.swapaxes(poles, 0, 1)
+    poles: P = np.swapaxes(np.linalg.solve(across, turned.reshape(len(across), -1)).reshape(turned.shape), 0, 1)
+    return poles

@@ -22,8 +22,8 @@ from geometry.gears.worms.worm import Worm
 Complex = NDArray[np.complex128]
 Real = NDArray[np.float64]
 
-# Newton's steps to a plane across the wheel's axis, the step of their slopes, and what is no change, rad
-_MOST_STEPS, _STEP, _SETTLED = 30, 1e-6, 1e-15
+# Newton's steps to a plane across the wheel's axis, each good to the step of its slope, rad
+_STEPS, _STEP = 4, 1e-6
 
 
 class Meridian(Record, eq=False):
@@ -139,12 +139,9 @@ class Hob(Record):
             turn = np.arcsin(y / meridian.radius)
             if self.swivel:
                 # the swivel moves the point from its plane by a little: Newton's steps, their slope by difference
-                for _ in range(_MOST_STEPS):
-                    off = self._touch(meridian, turn).y - y
-                    change = _STEP * off / (self._touch(meridian, turn + _STEP).y - off - y)
-                    turn = turn - change
-                    if not np.nanmax(np.abs(change), initial=0.0) > _SETTLED:
-                        break
+                for _ in range(_STEPS):
+                    here = self._touch(meridian, turn).y
+                    turn = turn - _STEP * (here - y) / (self._touch(meridian, turn + _STEP).y - here)
             found = self._touch(meridian, turn)
             n_x, n_y, n_z = found.normal
             turned = -np.exp(-1j * (self.rate * found.slid + math.pi / self.number_of_teeth))

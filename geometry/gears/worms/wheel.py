@@ -110,23 +110,15 @@ class WormTeeth(Record, dict=True):
         """
         z = np.atleast_1d(np.asarray(heights, float))
         hob, tip = self.hob, self.tip_radius(z)
-        form = hob.form_radius
-        least = np.maximum(np.abs(z) / math.cos(hob.swivel) * (1 + _LEAST_SHARE), self._least_radius)
-        share = np.linspace(0.0, 1.0, _RADII)[:, None]
-        radii = form + (least - form) * share
-        reach = self._reach(radii, z)
+        form, column = hob.form_radius, np.arange(len(z))
+        radii, reach, first = self._search(z)
         if not (reach[0] < tip).all():
             # the rounding of the hob's tip reaches as far as the tooth
             raise NoTooth("worm_wheel_all_fillet")
-        # the flank turns back where it is undercut; then it grows until it is at the tip
-        with np.errstate(invalid="ignore"):
-            grows = np.diff(reach, axis=0) > 0
-        first = np.where(grows.any(axis=0), grows.argmax(axis=0), _RADII - 1)
         beyond = (reach >= tip) & (np.arange(_RADII)[:, None] > first)
         if not beyond.any(axis=0).all():
             raise NoTooth("worm_wheel_flank_ends")
         at = beyond.argmax(axis=0)
-        column = np.arange(len(z))
 
         def past(radius: Real) -> Real:
             return self._reach(radius, z) - tip
@@ -140,6 +132,19 @@ class WormTeeth(Record, dict=True):
             turning = self._turning(radii[first + 1, column], radii[first - 1, column], z[undercut])
             inner[undercut], normal[undercut] = self._crossing(z[undercut], turning, outer[undercut])
         return Side(z, inner, normal, outer, undercut)
+
+    def _search(self, heights: Real) -> tuple[Real, Real, NDArray[np.intp]]:
+        """Radii of the thread from its tip on, how far they reach, (m, n), and from which on the flank grows, (n,).
+
+        Where it is undercut it turns back first.
+        """
+        form = self.hob.form_radius
+        least = np.maximum(np.abs(heights) / math.cos(self.hob.swivel) * (1 + _LEAST_SHARE), self._least_radius)
+        radii = form + (least - form) * np.linspace(0.0, 1.0, _RADII)[:, None]
+        reach = self._reach(radii, heights)
+        with np.errstate(invalid="ignore"):
+            grows = np.diff(reach, axis=0) > 0
+        return radii, reach, np.where(grows.any(axis=0), grows.argmax(axis=0), _RADII - 1)
 
     @property
     def _least_radius(self) -> float:
@@ -252,12 +257,13 @@ class WormTeeth(Record, dict=True):
     def undercut_ends(self) -> tuple[float, ...]:
         """Heights at which undercut begins on the lower side, mm."""
         z = np.linspace(-self.width / 2, self.width / 2, _LEVELS)
-        cut = self.side(z).undercut
+        cut = self._search(z)[2] > 0
         found = []
         for k in np.flatnonzero(cut[1:] != cut[:-1]).tolist():
             low, high = float(z[k]), float(z[k + 1])
             while high - low > _SETTLED * self.width:
                 middle = (low + high) / 2
-                low, high = (middle, high) if self.side(middle).undercut[0] == cut[k] else (low, middle)
+                is_cut = self._search(np.array([middle]))[2][0] > 0
+                low, high = (middle, high) if is_cut == cut[k] else (low, middle)
             found.append((low + high) / 2)
         return tuple(found)

@@ -13,7 +13,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from geometry.base.record import Record
-from geometry.curves.curve import Complex, Real
+from geometry.curves.curve import Real
 from geometry.gears.worms.hob import Cut
 from geometry.gears.worms.wheel import Side, WormTeeth
 from geometry.plane.measure import distance_to_profile, gauss_rule
@@ -81,7 +81,7 @@ class WormWheelBody(Record, dict=True):
     @property
     def wall_width(self) -> float:
         """What the volume of a sliver along a wall goes by, mm."""
-        return float(self.teeth.tip_radius(0.0)) - self.teeth.root_radius(0.0)
+        return float(self.teeth.tip_radius(0.0)) - float(self.teeth.root_radius(0.0))
 
     def volume(self) -> float:
         """Exact, mm^3."""

@@ -23,7 +23,7 @@ from geometry.gears.worms.hob import Cut
 from geometry.gears.worms.wheel import WormTeeth
 from geometry.gears.worms.wheel_body import WormWheelBody
 from geometry.solids.body_faces import BodyFaces, body_outlines
-from geometry.solids.faces import Cylinder, Frame, Solid, Surface, Torus
+from geometry.solids.faces import Cylinder, Frame, Solid, SplineSurface, Surface, Torus
 from geometry.solids.rings import AHEAD, UP, Ring
 
 _DEGREE = 7
@@ -154,7 +154,9 @@ def wheel_solid(body: WormWheelBody, splines: WheelSplines) -> Solid:
         tip: tuple[Surface, bool] = (throat, False) if within else (rim, True)
         along = BSpline(_DEGREE, strip.v_knots, np.zeros(len(strip.v_knots) - _DEGREE - 1, complex))
         rise = middle + greville(_DEGREE, strip.v_knots)
-        made.ruled(lower, upper, (0.0, 1.0), along, rise, _grids(strip, teeth), {_ROOT: (root, False), _TIP: tip})
+        land = root if teeth.hob.swivel == 0 else _land(made, teeth, strip, lower.turns, rise)
+        below = (land, land is not root)
+        made.ruled(lower, upper, (0.0, 1.0), along, rise, _grids(strip, teeth), {_ROOT: below, _TIP: tip})
     rim_wall = next(w for w in body.core.walls if body.core.loop_profile(w.lower) is body.rim)
     made.known |= {rim_wall.lower: rings[0], rim_wall.upper: rings[-1]}
     for wall in body.core.walls:
@@ -163,6 +165,18 @@ def wheel_solid(body: WormWheelBody, splines: WheelSplines) -> Solid:
     for cap in body.core.caps:
         made.face(cap)
     return made.solid()
+
+
+def _land(made: BodyFaces, teeth: WormTeeth, strip: Strip, turns: Complex, rise: Real) -> SplineSurface:
+    """The root of a swivelled hob, a surface of revolution that is no torus."""
+    knots = clamped(_DEGREE, np.array([0.0, 1.0]))
+    v = greville(_DEGREE, strip.v_knots)
+    ends = [np.angle(teeth.fillet(teeth.side(z), 0.0).plane) for z in (v, -v)]
+    first, last = -ends[1] - 2 * np.pi / teeth.number_of_teeth, ends[0]
+    angles = first + (last - first) * greville(_DEGREE, knots)[:, None]
+    poles = tensor_poles(_DEGREE, knots, strip.v_knots, teeth.root_radius(v) * np.exp(1j * angles))
+    points = made.add_points(turns[:, None, None] * poles, rise)
+    return SplineSurface((_DEGREE, _DEGREE), knots, strip.v_knots, points)
 
 
 def _tubes(teeth: WormTeeth) -> tuple[float, float]:

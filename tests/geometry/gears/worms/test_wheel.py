@@ -19,10 +19,9 @@ Real = NDArray[np.float64]
 THESIS = WormDrive(Worm(5.0, 1, 10.0), 128)
 
 
-def _teeth(drive: WormDrive, width: float, hob: Hob | None = None, outer: float | None = None) -> WormTeeth:
-    hob = worm_as_hob(drive, 0.2) if hob is None else hob
+def _teeth(drive: WormDrive, width: float, outer: float | None = None, rounding: float = 0.2) -> WormTeeth:
     radius = drive.most_outer_diameter / 2 if outer is None else outer
-    return WormTeeth(hob.checked(), drive.centre_distance, drive.throat_radius, radius, width)
+    return WormTeeth(worm_as_hob(drive, rounding).checked(), drive.centre_distance, drive.throat_radius, radius, width)
 
 
 def _gap(hob: Hob, plane: NDArray[np.complex128], height: Real, slid: Real) -> Real:
@@ -115,7 +114,7 @@ def test_the_thesis_wheel_has_the_teeth_of_the_probe() -> None:
 
 
 def test_steep_worms_have_wheels_up_to_where_teeth_end() -> None:
-    whole = _teeth(WormDrive(Worm(1.5, 2, 10.0), 40), 0.75 * 18.0, outer=65.25 / 2)
+    whole = _teeth(WormDrive(Worm(1.5, 2, 10.0), 40), 0.75 * 18.0, 65.25 / 2, 0.1)
     assert whole.checked() is whole
     assert len(whole.breaks) == 4
     _teeth(WormDrive(Worm(5.0, 4, 8.0), 40), 16.0).checked()
