@@ -21,7 +21,7 @@ from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc
 from geometry.gears.worms.hob import Cut
 from geometry.gears.worms.wheel import WormTeeth
-from geometry.gears.worms.wheel_body import WormWheelBody
+from geometry.gears.worms.wheel_measures import FILLET, FLANK, WormWheel
 from geometry.solids.body_faces import BodyFaces, body_outlines
 from geometry.solids.faces import Cylinder, Frame, Solid, SplineSurface, Surface, Torus
 from geometry.solids.rings import AHEAD, UP, Ring
@@ -58,7 +58,7 @@ class WheelSplines(Record, eq=False):
     bound: Bound = "sampled"
 
 
-def wheel_splines(body: WormWheelBody, tolerance: float) -> WheelSplines:
+def wheel_splines(wheel: WormWheel, tolerance: float) -> WheelSplines:
     """Splines within ``tolerance`` mm of the teeth, and within what the kernel calls one point of throat and root.
 
     Raises
@@ -66,18 +66,21 @@ def wheel_splines(body: WormWheelBody, tolerance: float) -> WheelSplines:
     ConvergenceError
         64 spans are not enough.
     """
-    teeth = body.teeth
+    teeth = wheel.teeth
     target = max(min(tolerance, max(_TARGET, _SHARE * tolerance)) / _MARGIN, _ROUNDING * teeth.outer_radius)
     bands = list(pairwise(teeth.breaks))
     # across: of fillet and flank, alike in all bands, which share the edges between them; then along each band
-    across = [max(_spans(teeth, part, band, target, along=False) for band in bands) for part in (0, 1)]
-    along = {band: max(_spans(teeth, part, band, target, along=True) for part in (0, 1)) for band in bands}
+    across = [max(_spans(teeth, part, band, target, along=False) for band in bands) for part in (FILLET, FLANK)]
+    along = {band: max(_spans(teeth, part, band, target, along=True) for part in (FILLET, FLANK)) for band in bands}
     along = {(low, high): max(n, along[-high, -low]) for (low, high), n in along.items()}
     error = np.inf
     while error > target:
         if max(*across, *along.values()) > _MOST_SPANS:
             raise ConvergenceError("spline surfaces of the teeth", error, _MOST_SPANS)
-        made = {band: [_fitted(teeth, part, band, (across[part], n)) for part in (0, 1)] for band, n in along.items()}
+        made = {
+            band: [_fitted(teeth, part, band, (across[part], n)) for part in (FILLET, FLANK)]
+            for band, n in along.items()
+        }
         error = max(own for fits in made.values() for _, own in fits)
         across, along = [n + 1 for n in across], {band: n + 1 for band, n in along.items()}
     strips = []
@@ -86,7 +89,7 @@ def wheel_splines(body: WormWheelBody, tolerance: float) -> WheelSplines:
         knots = [fit.u_knots for fit, _ in made[low, high]]
         upper = [np.conj(grid[:, ::-1]) for grid in mirrored]
         strips.append(Strip(low, high, tuple(knots), made[low, high][0][0].v_knots, tuple(lower), tuple(upper)))
-    core = body_outlines(body.core, tolerance)
+    core = body_outlines(wheel.core, tolerance)
     return WheelSplines(tuple(strips), core, max(_MARGIN * error, *(o.max_error for o in core)))
 
 
@@ -140,10 +143,10 @@ class _Fit(Record, eq=False):
     poles: Complex
 
 
-def wheel_solid(body: WormWheelBody, splines: WheelSplines) -> Solid:
+def wheel_solid(wheel: WormWheel, splines: WheelSplines) -> Solid:
     """The closed shell of a worm wheel over its splines."""
-    made = BodyFaces(body.core, splines.core)
-    teeth, middle = body.teeth, body.middle
+    made = BodyFaces(wheel.core, splines.core)
+    teeth, middle = wheel.teeth, wheel.middle
     rings = [_ring(made, teeth, strip, 0, middle) for strip in splines.strips]
     rings.append(_ring(made, teeth, splines.strips[-1], -1, middle))
     origin = made.add_points(np.zeros(1, complex), middle)
@@ -157,12 +160,12 @@ def wheel_solid(body: WormWheelBody, splines: WheelSplines) -> Solid:
         land = root if teeth.hob.swivel == 0 else _land(made, teeth, strip, lower.turns, rise)
         below = (land, land is not root)
         made.ruled(lower, upper, (0.0, 1.0), along, rise, _grids(strip, teeth), {_ROOT: below, _TIP: tip})
-    rim_wall = next(w for w in body.core.walls if body.core.loop_profile(w.lower) is body.rim)
+    rim_wall = next(w for w in wheel.core.walls if wheel.core.loop_profile(w.lower) is wheel.rim)
     made.known |= {rim_wall.lower: rings[0], rim_wall.upper: rings[-1]}
-    for wall in body.core.walls:
+    for wall in wheel.core.walls:
         if wall is not rim_wall:
             made.wall(wall)
-    for cap in body.core.caps:
+    for cap in wheel.core.caps:
         made.face(cap)
     return made.solid()
 

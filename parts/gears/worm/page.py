@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from msgspec import Meta, Struct
 
@@ -11,10 +11,23 @@ from geometry.base.errors import ParameterError
 from geometry.gears.worms import strength
 from geometry.gears.worms.drive import WormDrive
 from geometry.gears.worms.flank import InvoluteFlank
-from geometry.gears.worms.worm import Worm
 from parts.base.refusal import SceneError
 from parts.base.texts import N_, message
-from parts.keys.base import degrees, in_modules, mm, size
+from parts.keys.base import mm, size
+from parts.keys.worm import (
+    Addendum,
+    AxialModule,
+    Clearance,
+    Fillet,
+    Form,
+    GrindingWheel,
+    Quotient,
+    Starts,
+    WheelShift,
+    WormAngle,
+    WormHand,
+    worm_of,
+)  # fmt: skip
 from parts.pages.inputs import SceneKeys, checked, refusal
 from parts.pages.misprints import printed_for_worm
 from parts.pages.page import Sheet
@@ -28,23 +41,18 @@ _Life = Annotated[float, Meta(gt=0, le=10, description="factor of life")]
 class WormKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     """Keys of a worm drive and of what it carries."""
 
-    module: Annotated[float, mm("axial module of the worm", above=0, most=1000)]
+    module: AxialModule
     number_of_teeth: Annotated[int, Meta(ge=8, le=10_000, description="teeth of the wheel, z2")]
-    number_of_starts: Annotated[int, Meta(ge=1, le=50, description="starts of the worm, z1")] = 1
-    diameter_quotient: Annotated[float, Meta(gt=0, le=1000, description="q = d1 / m")] = 10.0
-    profile_shift_coefficient: Annotated[float, in_modules("profile shift of the wheel", least=-3, most=3)] = 0.0
-    form: Annotated[Literal["ZA", "ZI", "ZN1", "ZN2", "ZK1"], Meta(description="form of the flanks, GOST 18498")] = "ZI"
-    pressure_angle_deg: Annotated[
-        float,
-        degrees("in the axial section (ZA), in the normal one, or of the grinding wheel (ZK1)", above=0, below=60),
-    ] = 20.0
-    hand: Annotated[Literal["right", "left"], Meta(description="hand of the worm")] = "right"
-    addendum_coefficient: Annotated[float, in_modules("addendum of the worm", above=0, most=5)] = 1.0
-    tip_clearance_coefficient: Annotated[float, in_modules("tip clearance", least=0, most=2)] = 0.2
-    fillet_coefficient: Annotated[float, in_modules("fillet at the worm's root", least=0, most=2)] = 0.2
-    grinding_wheel_diameter: Annotated[float, mm("mean diameter of the grinding wheel of ZK1", above=0, most=1e6)] = (
-        300.0
-    )
+    number_of_starts: Starts = 1
+    diameter_quotient: Quotient = 10.0
+    profile_shift_coefficient: WheelShift = 0.0
+    form: Form = "ZI"
+    pressure_angle_deg: WormAngle = 20.0
+    hand: WormHand = "right"
+    addendum_coefficient: Addendum = 1.0
+    tip_clearance_coefficient: Clearance = 0.2
+    fillet_coefficient: Fillet = 0.2
+    grinding_wheel_diameter: GrindingWheel = 300.0
     worm_length: Annotated[float, mm("threaded length b1", above=0, most=100_000)] | None = None
     face_width: Annotated[float, mm("width b2 of the wheel's rim", above=0, most=100_000)] | None = None
     torque: Annotated[float, size("N*m", "torque T1 on the worm", above=0, most=1e9)] | None = None
@@ -70,18 +78,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
     if keys.torque is not None and keys.form_factor is None:
         raise SceneError("calc", f"{TOPIC}.form_factor", None, "worm_form_factor_missing")
     try:
-        worm = Worm(
-            keys.module,
-            keys.number_of_starts,
-            keys.diameter_quotient,
-            keys.form,
-            math.radians(keys.pressure_angle_deg),
-            keys.hand,
-            keys.addendum_coefficient,
-            keys.tip_clearance_coefficient,
-            keys.fillet_coefficient,
-            keys.grinding_wheel_diameter,
-        ).checked()
+        worm = worm_of(keys, keys.fillet_coefficient)
     except ParameterError as error:
         raise refusal(TOPIC, error, keys=keys) from error
     drive = WormDrive(worm, keys.number_of_teeth, keys.profile_shift_coefficient)

@@ -10,8 +10,8 @@ from geometry.approximation.tensor import basis_matrix
 from geometry.gears.worms.drive import WormDrive
 from geometry.gears.worms.hob import Hob, oversized_hob, worm_as_hob
 from geometry.gears.worms.wheel import WormTeeth
-from geometry.gears.worms.wheel_body import WormWheelBody
 from geometry.gears.worms.wheel_faces import wheel_solid, wheel_splines
+from geometry.gears.worms.wheel_measures import FILLET, FLANK, WormWheel
 from geometry.gears.worms.worm import Worm
 from geometry.plane.profile import Label, Region, circle
 from geometry.solids.body import plate
@@ -20,17 +20,17 @@ THESIS = WormDrive(Worm(5.0, 1, 10.0), 128)
 STEEP = WormDrive(Worm(1.5, 2, 10.0), 40)
 
 
-def _body(drive: WormDrive, width: float, outer: float, hob: Hob | None = None) -> WormWheelBody:
+def _wheel(drive: WormDrive, width: float, outer: float, hob: Hob | None = None) -> WormWheel:
     teeth = WormTeeth(hob or worm_as_hob(drive, 0.1), drive.centre_distance, drive.throat_radius, outer, width)
     rim = circle(0.9 * drive.root_radius, Label.BODY)
     bore = circle(0.2 * drive.root_radius, Label.BORE, hole=True)
-    return WormWheelBody(teeth.checked(), plate(Region(rim, (bore,)), 0.0, width), rim)
+    return WormWheel(teeth.checked(), plate(Region(rim, (bore,)), 0.0, width), rim)
 
 
 @pytest.mark.parametrize(("drive", "width", "outer"), [(THESIS, 26.0, 330.0), (STEEP, 13.5, 65.25 / 2)])
 def test_volume_and_inertia_are_those_of_polygons(drive: WormDrive, width: float, outer: float) -> None:
-    body = _body(drive, width, outer)
-    teeth, share = body.teeth, np.linspace(0.0, 1.0, 400)[:, None]
+    wheel = _wheel(drive, width, outer)
+    teeth, share = wheel.teeth, np.linspace(0.0, 1.0, 400)[:, None]
     nodes, weights = np.polynomial.legendre.leggauss(12)
     areas, centres = [], []
     for low, high in zip(teeth.breaks, teeth.breaks[1:], strict=False):
@@ -48,7 +48,7 @@ def test_volume_and_inertia_are_those_of_polygons(drive: WormDrive, width: float
             centres.append(z[k])
     bore = 0.2 * drive.root_radius
     expected = sum(areas) - np.pi * bore**2 * width
-    moments = body.moments()
+    moments = wheel.moments()
     assert moments.volume == pytest.approx(expected, rel=1e-6)
     assert moments.centre == pytest.approx([0.0, 0.0, width / 2], abs=1e-9 * width)
     assert moments.inertia[0, 0] == moments.inertia[1, 1]
@@ -61,33 +61,32 @@ def _arc(start: complex, end: complex) -> np.ndarray:
 @pytest.mark.parametrize("oversized", [False, True])
 def test_splines_lie_on_the_envelope_and_their_edges_on_throat_and_root(oversized: bool) -> None:
     hob = oversized_hob(THESIS, 0.2, 10.5) if oversized else None
-    body = _body(THESIS, 26.0, 328.0, hob)
-    splines = wheel_splines(body, 1e-4)
+    wheel = _wheel(THESIS, 26.0, 328.0, hob)
+    splines = wheel_splines(wheel, 1e-4)
     assert splines.max_error < 1e-5
     assert len(splines.strips) == 3
-    faces = {face.what: face for face in body.surfaces()}
     for strip in splines.strips:
-        for knots, lower, upper, what in zip(strip.u_knots, strip.lower, strip.upper, ("fillet", "flank"), strict=True):
+        for which in (FILLET, FLANK):
             u, v = np.linspace(0.0, 1.0, 23), np.linspace(strip.low, strip.high, 19)
-            for tooth, poles in ((0, lower), (5, upper)):
-                plane = basis_matrix(7, knots, u) @ poles @ basis_matrix(7, strip.v_knots, v).T
+            for tooth, poles in ((0, strip.lower[which]), (5, strip.upper[which])):
+                plane = basis_matrix(7, strip.u_knots[which], u) @ poles @ basis_matrix(7, strip.v_knots, v).T
                 plane = plane * np.exp(2j * np.pi * tooth / 128)
-                height = np.broadcast_to(v + body.middle, plane.shape)
+                height = np.broadcast_to(v + wheel.middle, plane.shape)
                 points = np.stack([plane.real, plane.imag, height], axis=-1)
-                assert float(faces[what].distance(points.reshape(-1, 3)).max()) <= splines.max_error
-                end, what_ends = (
-                    (0, "root") if what == "fillet" else (-1, "throat" if strip.low < 0 < strip.high else "rim")
-                )
-                assert float(faces[what_ends].distance(points[end]).max()) <= splines.max_error
+                assert float(wheel.from_side(which, points.reshape(-1, 3)).max()) <= splines.max_error
+                if which == FILLET:
+                    assert float(wheel.from_root(points[0]).max()) <= splines.max_error
+                else:
+                    assert np.abs(plane[-1]) == pytest.approx(wheel.teeth.tip_radius(v), abs=splines.max_error)
     # what is off is told as that
-    off = points.reshape(-1, 3) * np.array([1.0, 1.0, 1.0]) + np.array([0.0, 0.01, 0.0])
-    assert float(faces["flank"].distance(off).max()) > 1e-3
+    off = points.reshape(-1, 3) + np.array([0.0, 0.01, 0.0])
+    assert float(wheel.from_side(FLANK, off).max()) > 5e-3
 
 
 def test_the_thesis_wheel_has_a_face_for_each_flank_and_fillet() -> None:
-    body = _body(THESIS, 26.0, 330.0)
-    solid = wheel_solid(body, wheel_splines(body, 1e-4))
-    kinds = {}
+    wheel = _wheel(THESIS, 26.0, 330.0)
+    solid = wheel_solid(wheel, wheel_splines(wheel, 1e-4))
+    kinds: dict[str, int] = {}
     for faces in solid.faces:
         kind = type(faces.surface).__name__
         kinds[kind] = kinds.get(kind, 0) + len(faces.loops[0][0])

@@ -1,0 +1,176 @@
+"""A worm wheel measured: its volume and inertia, and how far points lie from its flanks and fillets.
+
+The wheel is teeth about a core: a body whose rim is a circle, which the teeth take the place of.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+
+from geometry.base.record import Record
+from geometry.curves.curve import Real
+from geometry.gears.worms.wheel import Side, WormTeeth
+from geometry.plane.measure import gauss_rule
+from geometry.plane.profile import Profile
+from geometry.solids.body import Body
+from geometry.solids.mass import Moments, body_moments
+
+# Gauss's rule along each part of a side and over the heights of each band
+_ALONG, _ACROSS = 32, 32
+# heights of a band and shares from which the foot of a perpendicular is sought, its steps, the step of derivatives,
+# and how far beyond the ends of a part it may lie, as shares of it
+_LEVELS, _SHARES, _STEPS, _SHIFT, _BEYOND = 65, 129, 3, 1e-5, 0.02
+# parts of a side
+FILLET, FLANK = 0, 1
+
+
+class WormWheel(Record, dict=True):
+    """Teeth about a core whose rim is its profile ``rim``; lower face of the rim at z = 0."""
+
+    teeth: WormTeeth
+    core: Body
+    rim: Profile
+
+    @property
+    def middle(self) -> float:
+        """Height of the mid plane, mm."""
+        return self.teeth.width / 2
+
+    def moments(self) -> Moments:
+        """Volume, centre and inertia: the core's, and Green's theorem on the teeth's sections by Gauss's rule.
+
+        Three teeth or more have their centre on the axis, half a turn about a tooth's middle puts it in the mid plane.
+        """
+        teeth, core = self.teeth, body_moments(self.core)
+        nodes, weights = gauss_rule(_ACROSS)
+        area = polar = upright = 0.0
+        for low, high in pairwise(teeth.breaks):
+            z = (low + high) / 2 + (high - low) / 2 * nodes
+            own, second = self._sections(z)
+            share = weights * (high - low) / 2
+            area += float(share @ own)
+            polar += float(share @ second)
+            upright += float(share @ (own * (z + self.middle) ** 2))
+        radius, width = self.rim.reach(), teeth.width
+        disk = math.pi * radius**2
+        area -= disk * width
+        polar -= disk * radius**2 / 2 * width
+        upright -= disk * width**3 / 3
+        volume = core.volume + area
+        centre = (core.volume * core.centre + area * np.array([0.0, 0.0, self.middle])) / volume
+        side = polar / 2 + upright
+        return Moments(volume, centre, core.inertia + np.diag([side, side, polar]))
+
+    def _sections(self, heights: Real) -> tuple[Real, Real]:
+        """Areas and polar moments of the teeth's sections down to the axis, each (n,)."""
+        teeth, count = self.teeth, self.teeth.number_of_teeth
+        area, polar = np.zeros(len(heights)), np.zeros(len(heights))
+        nodes, weights = gauss_rule(_ALONG)
+        steps = _derivatives(nodes)
+        ends = []
+        for z in (heights, -heights):
+            side = teeth.side(z)
+            for part in (teeth.fillet, teeth.flank):
+                plane = part(side, (nodes[:, None] + 1) / 2).plane
+                # the lower side runs ahead, the upper one, half a turn on, back: both add up
+                cross = (np.conj(plane) * (steps @ plane)).imag * weights[:, None]
+                area += cross.sum(axis=0) / 2
+                polar += (np.abs(plane) ** 2 * cross).sum(axis=0) / 4
+            ends.append((np.angle(teeth.fillet(side, 0.0).plane), np.angle(teeth.flank(side, 1.0).plane)))
+        (root, tip), (other_root, other_tip) = ends
+        for radius, turn in (
+            (teeth.tip_radius(heights), -tip - other_tip),
+            (teeth.root_radius(heights), 2 * math.pi / count + root + other_root),
+        ):
+            area += radius**2 * turn / 2
+            polar += radius**4 * turn / 4
+        return count * area, count * polar
+
+    def from_root(self, points: Real) -> Real:
+        """Of points (n, 3) from what the land of the hob's tip leaves, mm."""
+        height = np.clip(points[:, 2] - self.middle, -self.middle, self.middle)
+        radius = np.hypot(points[:, 0], points[:, 1])
+        step = _SHIFT * self.middle
+        slope = (self.teeth.root_radius(height + step) - self.teeth.root_radius(height - step)) / (2 * step)
+        away = (radius - self.teeth.root_radius(height)) / np.hypot(1.0, slope)
+        return np.hypot(away, points[:, 2] - self.middle - height)
+
+    def from_side(self, which: int, points: Real) -> Real:
+        """Of points (n, 3) from the fillets (0) or flanks (1) of all teeth, mm, to first order in it.
+
+        Each point is turned onto the lower side of tooth 1, and its foot sought in its plane across the axis.
+        """
+        table = self._table
+        height = np.clip(points[:, 2] - self.middle, -self.middle, self.middle)
+        plane = points[:, 0] + 1j * points[:, 1]
+        lean = np.interp(height, table.heights, self._lean)
+        pitch = 2 * math.pi / self.teeth.number_of_teeth
+        plane = plane * np.exp(-1j * pitch * np.round((np.angle(plane) - lean) / pitch))
+        upper = np.angle(plane * np.exp(-1j * lean)) > 0
+        plane, height = np.where(upper, np.conj(plane), plane), np.where(upper, -height, height)
+        # where fillet and flank end need not be known well, but where they are
+        inner, normal, outer = (np.interp(height, table.heights, x) for x in (table.inner, table.normal, table.outer))
+        side = Side(height, inner, normal, outer, np.zeros(len(height), dtype=bool))
+        part = (self.teeth.fillet, self.teeth.flank)[which]
+        share = self._first_share(which, np.abs(plane), height)
+        for _ in range(_STEPS):
+            here = part(side, share).plane
+            way = (part(side, share + _SHIFT).plane - here) / _SHIFT
+            share = np.clip(share + (np.conj(way) * (plane - here)).real / np.abs(way) ** 2, -_BEYOND, 1 + _BEYOND)
+        cut = part(side, share)
+        off = np.conj(cut.normal) * (plane - cut.plane)
+        ended = (share <= -_BEYOND) | (share >= 1 + _BEYOND)
+        along = np.where(ended, np.abs(off.imag) / np.abs(cut.normal), 0.0)
+        return np.sqrt(off.real**2 + along**2 + (np.abs(points[:, 2] - self.middle) - np.abs(height)) ** 2)
+
+    @cached_property
+    def _table(self) -> Side:
+        """The lower side at heights that are dense in every band."""
+        bands = [np.linspace(low, high, _LEVELS) for low, high in pairwise(self.teeth.breaks)]
+        return self.teeth.side(np.unique(np.concatenate(bands)))
+
+    @cached_property
+    def _lean(self) -> Real:
+        """Angles of the middle of tooth 1 at the heights of the table, rad."""
+        lower = np.angle(self.teeth.flank(self._table, 0.5).plane)
+        # the table is symmetric about the middle
+        return np.asarray((lower - lower[::-1]) / 2)
+
+    @cached_property
+    def _reaches(self) -> tuple[tuple[Real, Real], ...]:
+        """Of fillet and flank: radii of both ends at the heights of the table, mm, and shares of even steps between."""
+        found = []
+        even = np.linspace(0.0, 1.0, _SHARES)
+        for part in (self.teeth.fillet, self.teeth.flank):
+            reach = np.abs(part(self._table, even[:, None]).plane)
+            ends = reach[[0, -1]]
+            steps = (reach - ends[0]) / (ends[1] - ends[0])
+            found.append((ends, np.stack([np.interp(even, column, even) for column in steps.T], axis=1)))
+        return tuple(found)
+
+    def _first_share(self, which: int, reach: Real, height: Real) -> Real:
+        """About which share of a part stands at a radius and a height: by the table, linear both ways."""
+        ends, shares = self._reaches[which]
+        heights = self._table.heights
+        column = np.clip(np.searchsorted(heights, height) - 1, 0, len(heights) - 2)
+        across = (height - heights[column]) / (heights[column + 1] - heights[column])
+        low, high = (ends[k][column] * (1 - across) + ends[k][column + 1] * across for k in (0, 1))
+        place = np.clip((reach - low) / (high - low), 0.0, 1.0) * (_SHARES - 1)
+        row = np.minimum(place.astype(np.intp), _SHARES - 2)
+        up = place - row
+        found = [shares[row, c] * (1 - up) + shares[row + 1, c] * up for c in (column, column + 1)]
+        return np.asarray(found[0] * (1 - across) + found[1] * across)
+
+
+def _derivatives(nodes: Real) -> Real:
+    """What values at nodes are multiplied by for the derivatives there of the polynomial through them."""
+    apart = nodes[:, None] - nodes + np.eye(len(nodes))
+    weights = 1 / apart.prod(axis=1)
+    matrix = weights / weights[:, None] / apart
+    np.fill_diagonal(matrix, 0.0)
+    np.fill_diagonal(matrix, -matrix.sum(axis=1))
+    return matrix

@@ -1,0 +1,92 @@
+"""Scene keys of a worm: its own, and those that a wheel tells of the worm that it is for."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Annotated, Literal, Protocol
+
+from msgspec import Meta
+
+from parts.keys.base import degrees, in_modules, mm
+
+if TYPE_CHECKING:
+    from geometry.gears.worms.worm import Worm
+
+AxialModule = Annotated[float, mm("axial module of the worm", above=0, most=1000, example=2.0)]
+Starts = Annotated[int, Meta(ge=1, le=50, description="starts of the worm, z1")]
+Quotient = Annotated[float, Meta(gt=0, le=1000, description="q = d1 / m")]
+Form = Annotated[Literal["ZA", "ZI", "ZN1", "ZN2", "ZK1"], Meta(description="form of the flanks, GOST 18498")]
+WormAngle = Annotated[
+    float, degrees("in the axial section (ZA), in the normal one, or of the grinding wheel (ZK1)", above=0, below=60)
+]
+WormHand = Annotated[Literal["right", "left"], Meta(description="hand of the worm")]
+Addendum = Annotated[float, in_modules("addendum of the worm", above=0, most=5)]
+Clearance = Annotated[float, in_modules("tip clearance", least=0, most=2)]
+Fillet = Annotated[float, in_modules("fillet at the worm's root", least=0, most=2)]
+GrindingWheel = Annotated[float, mm("mean diameter of the grinding wheel of ZK1", above=0, most=1e6)]
+WheelShift = Annotated[float, in_modules("profile shift of the wheel", least=-3, most=3)]
+
+
+class Threaded(Protocol):
+    """Keys that tell a worm."""
+
+    @property
+    def module(self) -> float:
+        """Axial, mm."""
+
+    @property
+    def number_of_starts(self) -> int:
+        """z1."""
+
+    @property
+    def diameter_quotient(self) -> float:
+        """d1 / m."""
+
+    @property
+    def form(self) -> str:
+        """Of the flanks."""
+
+    @property
+    def pressure_angle_deg(self) -> float:
+        """By the form."""
+
+    @property
+    def hand(self) -> Literal["right", "left"]:
+        """Of the thread."""
+
+    @property
+    def addendum_coefficient(self) -> float:
+        """In modules."""
+
+    @property
+    def tip_clearance_coefficient(self) -> float:
+        """In modules."""
+
+    @property
+    def grinding_wheel_diameter(self) -> float:
+        """Of ZK1, mm."""
+
+
+def worm_of(keys: Threaded, fillet_coefficient: float = 0.2, thinning: float = 0.0) -> Worm:
+    """The worm that keys tell, checked to exist.
+
+    Raises
+    ------
+    ParameterError
+        Its root lies under its axis, or its thread is pointed.
+    """
+    from geometry.gears.worms.worm import Worm
+
+    return Worm(
+        keys.module,
+        keys.number_of_starts,
+        keys.diameter_quotient,
+        keys.form,
+        math.radians(keys.pressure_angle_deg),
+        keys.hand,
+        keys.addendum_coefficient,
+        keys.tip_clearance_coefficient,
+        fillet_coefficient,
+        keys.grinding_wheel_diameter,
+        thinning,
+    ).checked()
