@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TypeVar
+from typing import TypeVar, cast
 
 import numpy as np
 
@@ -35,7 +35,7 @@ def basis_matrix(degree: int, knots: Real, t: Real) -> Real:
 def tensor_poles(degree: int, u_knots: Real, v_knots: Real, points: P) -> P:
     """Poles (u, v, ...) through points (u, v, ...) at Greville's places of both knots."""
     along, across = (basis_matrix(degree, knots, greville(degree, knots)) for knots in (u_knots, v_knots))
-    half: P = np.linalg.solve(along, points.reshape(len(along), -1)).reshape(points.shape)
+    half = np.linalg.solve(along, points.reshape(len(along), -1)).reshape(points.shape)
     turned = np.swapaxes(half, 0, 1)
-    poles: P = np.swapaxes(np.linalg.solve(across, turned.reshape(len(across), -1)).reshape(turned.shape), 0, 1)
-    return poles
+    poles = np.linalg.solve(across, turned.reshape(len(across), -1)).reshape(turned.shape)
+    return cast("P", np.swapaxes(poles, 0, 1))
