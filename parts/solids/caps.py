@@ -74,17 +74,17 @@ def _by_teeth(
     if len(holes) == 1 and is_round(holes[0]) and _is_star(points[ring]):
         core = _annulus(points, ring, rings[1][::-1])
     else:
-        core = _by_library(points, [ring, *rings[1:]])
+        core = library_triangles(points, [ring, *rings[1:]])
     return np.concatenate([*teeth, core]), _NONE
 
 
 def _whole(
     outer: Contour, holes: Sequence[Contour], points: Complex, rings: list[Triangles]
 ) -> tuple[Triangles, Complex]:
-    return _by_library(points, rings), _NONE
+    return library_triangles(points, rings), _NONE
 
 
-def _by_library(points: Complex, rings: list[Triangles]) -> Triangles:
+def library_triangles(points: Complex, rings: list[Triangles]) -> Triangles:
     """Triangles of any polygon with holes; no vertex is added."""
     import manifold3d
 

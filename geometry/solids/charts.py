@@ -1,0 +1,220 @@
+"""Where the edges and faces of a solid run: points of edges, angles and heights on surfaces and back.
+
+On planes u and v are lengths along the frame's first two axes, on surfaces of revolution u is the angle about the axis
+and v the height, on tori and spheres the angle of the meridian from its outermost point; u x v looks outwards.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geometry.base.distinct import distinct
+from geometry.base.record import Record
+from geometry.curves.bspline import basis
+from geometry.curves.curve import Real
+from geometry.solids.faces import (
+    Circular,
+    Cone,
+    Cylinder,
+    Edges,
+    Frame,
+    Index,
+    Plane,
+    Solid,
+    Sphere,
+    SplineSurface,
+    Straight,
+    Surface,
+    Torus,
+)  # fmt: skip
+
+TURN = 2 * np.pi
+
+
+def axes_of(solid: Solid, frame: Frame, rows: int) -> tuple[Real, Real]:
+    """Origins (rows, 3) of frames, and their axes (rows, 3, 3): the direction of angle 0, across, and the axis."""
+    axis, zero = (np.broadcast_to(x, (rows, 3)) for x in (frame.axis, frame.zero))
+    origin = np.broadcast_to(solid.points[frame.origin], (rows, 3))
+    return origin, np.stack([zero, np.cross(axis, zero), axis], axis=1)
+
+
+def arcs(solid: Solid, edges: Edges) -> tuple[Real, Real, Real, Real]:
+    """Of arcs (n,): origins and axes of their circles, angles of their starts and sweeps, rad."""
+    assert isinstance(edges.curve, Circular)
+    origin, axes = axes_of(solid, edges.curve.frame, len(edges.start))
+    ends = [np.einsum("nc,nkc->nk", solid.points[solid.vertices[x]] - origin, axes) for x in (edges.start, edges.end)]
+    first, last = (np.arctan2(end[:, 1], end[:, 0]) for end in ends)
+    return origin, axes, first, np.where(edges.start == edges.end, TURN, np.mod(last - first, TURN))
+
+
+def along_edges(solid: Solid, edges: Edges, shares: Real) -> tuple[Real, Real]:
+    """Points (n, k, 3) of edges at shares (k,) of their parameters, and the derivatives by these, mm."""
+    low, high = (solid.points[solid.vertices[x]][:, None] for x in (edges.start, edges.end))
+    curve = edges.curve
+    if isinstance(curve, Straight):
+        return low + (high - low) * shares[:, None], np.repeat(high - low, len(shares), axis=1)
+    if isinstance(curve, Circular):
+        origin, axes, first, sweep = arcs(solid, edges)
+        turn = first[:, None] + sweep[:, None] * shares
+        ways = np.stack([np.cos(turn), np.sin(turn)], axis=-1) * curve.radius
+        steps = np.stack([-ways[..., 1], ways[..., 0]], axis=-1) * sweep[:, None, None]
+        return origin[:, None] + ways @ axes[:, :2], steps @ axes[:, :2]
+    poles = solid.points[curve.poles]
+    points, steps = (np.einsum("kp,npc->nkc", m, poles) for m in spline_rows(curve.degree, curve.knots, shares, 1))
+    return points, steps
+
+
+def spline_rows(degree: int, knots: Real, shares: Real, order: int) -> list[Real]:
+    """What poles are multiplied by for points at shares of a spline's domain, and for derivatives up to an order.
+
+    Matrices (k, poles); the derivatives are those by the share.
+    """
+    count, width = len(knots) - degree - 1, knots[-1] - knots[0]
+    step = np.eye(count)
+    found = []
+    for k in range(order + 1):
+        p = degree - k
+        if p < 0:
+            found.append(np.zeros((len(shares), count)))
+            continue
+        own = knots[k : len(knots) - k]
+        first, values = basis(p, own, own[0] + shares * width)
+        rows = np.zeros((len(shares), len(own) - p - 1))
+        np.put_along_axis(rows, first[:, None] + np.arange(p + 1), values, axis=1)
+        found.append(rows @ step * width**k)
+        spread = own[p + 1 : -1] - own[1 : -p - 1] if p else np.zeros(0)
+        # poles of the next derivative; none where a knot jumps
+        with np.errstate(divide="ignore"):
+            factor = np.where(spread > 0, p / spread, 0.0)
+        step = factor[:, None] * np.diff(step, axis=0) if p else step
+    return found
+
+
+def span_shares(knots: Real) -> Real:
+    """Where spans begin and end, as shares of the domain."""
+    places = distinct(knots)
+    return np.asarray((places - places[0]) / (places[-1] - places[0]))
+
+
+class Chart(Record, eq=False):
+    """One plane or surface of revolution: origin (3,), axes (3, 3) in rows, and its kind and sizes."""
+
+    surface: Plane | Cylinder | Cone | Torus | Sphere
+    origin: Real
+    axes: Real
+
+    @property
+    def is_plane(self) -> bool:
+        """Whether it has no angles."""
+        return isinstance(self.surface, Plane)
+
+    @property
+    def is_bent(self) -> bool:
+        """Whether it is curved both ways."""
+        return isinstance(self.surface, Torus | Sphere)
+
+    def flat(self, points: Real) -> tuple[Real, Real]:
+        """u and v of points (..., 3) on it; angles within half a turn of 0."""
+        x, y, z = np.moveaxis((points - self.origin) @ self.axes.T, -1, 0)
+        if self.is_plane:
+            return x, y
+        if isinstance(self.surface, Torus | Sphere):
+            centre = self.surface.radius if isinstance(self.surface, Torus) else 0.0
+            return np.arctan2(y, x), np.arctan2(z, np.hypot(x, y) - centre)
+        return np.arctan2(y, x), z
+
+    def meridian(self, v: Real) -> tuple[Real, Real, Real, Real]:
+        """Radius and height, mm, at heights or angles v of the meridian, and their derivatives by v."""
+        s = self.surface
+        if isinstance(s, Torus | Sphere):
+            tube, centre = (s.tube, s.radius) if isinstance(s, Torus) else (s.radius, 0.0)
+            return centre + tube * np.cos(v), tube * np.sin(v), -tube * np.sin(v), tube * np.cos(v)
+        assert not isinstance(s, Plane)
+        slope = np.tan(s.slant) if isinstance(s, Cone) else 0.0
+        return s.radius + slope * v, v, np.full_like(v, slope), np.ones_like(v)
+
+    def spatial(self, u: Real, v: Real) -> Real:
+        """Points (..., 3) at u and v."""
+        return self.with_normal(u, v)[0]
+
+    def with_normal(self, u: Real, v: Real) -> tuple[Real, Real]:
+        """Points (..., 3), and the cross products of their derivatives by u and v."""
+        if self.is_plane:
+            local = np.stack([u, v, np.zeros_like(u)], axis=-1)
+            return self.origin + local @ self.axes, np.broadcast_to(self.axes[2], local.shape)
+        size, height, size_step, height_step = self.meridian(v)
+        c, s = np.cos(u), np.sin(u)
+        local = np.stack([size * c, size * s, height], axis=-1)
+        normal = np.stack([size * c * height_step, size * s * height_step, -size * size_step], axis=-1)
+        return self.origin + local @ self.axes, normal @ self.axes
+
+    def distance(self, points: Real) -> Real:
+        """Of points (n, 3) from the whole surface, mm."""
+        x, y, z = ((points - self.origin) @ self.axes.T).T
+        surface, size = self.surface, np.hypot(x, y)
+        if isinstance(surface, Plane):
+            return np.abs(z)
+        if isinstance(surface, Sphere):
+            return np.abs(np.hypot(size, z) - surface.radius)
+        if isinstance(surface, Torus):
+            return np.abs(np.hypot(size - surface.radius, z) - surface.tube)
+        slant = surface.slant if isinstance(surface, Cone) else 0.0
+        return np.asarray(np.abs((size - surface.radius) * np.cos(slant) - z * np.sin(slant)))
+
+    @property
+    def alike(self) -> tuple[object, ...]:
+        """By which surfaces of a solid that are one are told."""
+        axis, s = self.axes[2], self.surface
+        origin = self.origin
+        if isinstance(s, Plane):
+            return ("plane", *_digits(axis), *_digits(origin @ axis))
+        if isinstance(s, Cylinder):
+            side = np.sign(axis[np.argmax(np.abs(axis))])
+            return ("cylinder", s.radius, *_digits(axis * side), *_digits(origin - origin @ axis * axis))
+        if isinstance(s, Sphere):
+            return ("sphere", s.radius, *_digits(origin))
+        if isinstance(s, Cone):
+            return ("cone", s.slant, *_digits(axis), *_digits(origin - s.radius / np.tan(s.slant) * axis))
+        return ("torus", s.radius, s.tube, *_digits(np.abs(axis)), *_digits(origin))
+
+
+def _digits(values: Real) -> list[float]:
+    return (np.round(np.atleast_1d(values), 9) + 0.0).tolist()
+
+
+def charts(solid: Solid, surface: Surface, rows: int) -> list[Chart]:
+    """The charts of a bundle of faces, one for each."""
+    assert isinstance(surface, Plane | Cylinder | Cone | Torus | Sphere)
+    origin, axes = axes_of(solid, surface.frame, rows)
+    return [Chart(surface, o, a) for o, a in zip(origin, axes, strict=True)]
+
+
+class Patch(Record, eq=False):
+    """Spline surfaces on one net: what gives points, derivatives by shares of both domains."""
+
+    surface: SplineSurface
+    poles: Real
+
+    def rows(self, which: Index | slice) -> Patch:
+        """Some of them."""
+        return Patch(self.surface, self.poles[which])
+
+    def at(self, u: Real, v: Real, orders: tuple[int, int] = (0, 0)) -> Real:
+        """Points, or derivatives of these orders, (n, u, v, 3) on a grid of shares."""
+        s = self.surface
+        along = spline_rows(s.degrees[0], s.u_knots, u, orders[0])[-1]
+        across = spline_rows(s.degrees[1], s.v_knots, v, orders[1])[-1]
+        return np.asarray(np.einsum("iu,nuvc,jv->nijc", along, self.poles, across, optimize=True))
+
+
+def patch_of(solid: Solid, surface: SplineSurface) -> Patch:
+    """The surfaces of a bundle."""
+    return Patch(surface, solid.points[surface.poles])
+
+
+def edge_rows(solid: Solid) -> tuple[Index, Index]:
+    """Of every edge of a solid the bundle it is in and its row there."""
+    sizes = [len(e.start) for e in solid.edges]
+    return np.repeat(np.arange(len(sizes)), sizes), np.concatenate([np.arange(n) for n in sizes])
+
+

@@ -1,0 +1,481 @@
+"""Meshes of solids of faces: every edge sampled once, every face triangulated in the plane of its parameters.
+
+A face between four sides gets a grid, stitched to the points of its edges; any other one the Delaunay triangles of
+its bounds and of a grid within them. How far the triangles leave their surfaces is proven on planes and surfaces of
+revolution (the sagitta of the meridian and that of the angle), and sampled on splines.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.base.errors import ConvergenceError, ThinWallError
+from geometry.base.record import Record
+from geometry.curves.bounds import Bound
+from geometry.curves.curve import Complex, Real
+from geometry.solids.charts import Chart, Patch, along_edges, arcs, charts, edge_rows, patch_of, span_shares, spline_rows
+from geometry.solids.faces import Circular, Cone, Edges, Extrusion, Faces, Solid, Sphere, Spline, SplineSurface, Torus
+from geometry.solids.unrolled import Side, unrolled
+from parts.solids.caps import Triangles, library_triangles
+from parts.solids.flips import constrained, inner_cells
+from parts.solids.grids import Grid, grid_between
+
+# shares of the tolerance: of edges between faces that are bent one way, or both ways; of a grid along u and v
+_SINGLE, _DOUBLE, _ALONG, _ACROSS = 0.98, 0.55, 0.5, 0.4
+_MOST_ROUNDS, _MOST_TRIANGLES = 10, 4_000_000
+# arcs are cut into chords no longer than this, rad; samples for the bend of splines, each span
+_WIDEST, _BENDS = math.pi / 4, 5
+# what is added to the greatest sampled distance
+_MARGIN = 1.15
+# a corner of a face turns by more than this in the unit square, rad
+_CORNER = 0.4
+# where the samples of a triangle stand, in barycentric shares
+_PLACES = np.array([[1 / 3, 1 / 3, 1 / 3], [0.5, 0.5, 0], [0, 0.5, 0.5], [0.5, 0, 0.5]])
+_AT_ONCE = 400_000
+# differences by which two patches are one turned, part of the solid
+_ALIKE = 1e-9
+
+
+class FaceMesh(Record, eq=False):
+    """Vertices (n, 3), mm, triangles (k, 3), and how far they leave the solid, like an Approximation."""
+
+    vertices: Real
+    geometry: Triangles
+    max_error: float
+    bound: Bound
+    tolerance: float
+
+
+def face_mesh(solid: Solid, tolerance: float) -> FaceMesh:
+    """A closed mesh within ``tolerance`` mm of a solid.
+
+    Raises
+    ------
+    ConvergenceError
+        The tolerance asks for more triangles than a file can carry.
+    ThinWallError
+        The chords of a face's edges touch or cross.
+    """
+    target = tolerance
+    for _ in range(_MOST_ROUNDS):
+        made = _Mesher(solid, target)
+        error = made.run()
+        if error <= tolerance:
+            vertices, triangles = np.concatenate(made.points), np.concatenate(made.triangles)
+            return FaceMesh(vertices, triangles, error, made.bound, tolerance)
+        target *= max(0.95 * tolerance / error, 0.1)
+    raise ConvergenceError("mesh for the tolerance", error, _MOST_ROUNDS)
+
+
+class _Chain(Record, eq=False):
+    """Points (n, k, 3) of a bundle of edges at shares (k,), and the numbers of their vertices (n, k)."""
+
+    shares: Real
+    points: Real
+    numbers: Triangles
+
+
+class _Mesher:
+    """One mesh at one tolerance."""
+
+    def __init__(self, solid: Solid, tolerance: float) -> None:
+        self.solid, self.tolerance = solid, tolerance
+        self.points: list[Real] = [solid.points[solid.vertices]]
+        self.size = len(solid.vertices)
+        self.triangles: list[Triangles] = []
+        self.error, self.bound, self.count = 0.0, "exact", 0
+        self.bundle, self.row = edge_rows(solid)
+        bent = _bent_edges(solid)
+        ends = np.cumsum([len(edges.start) for edges in solid.edges])
+        doubly = [bool(own.any()) for own in np.split(bent, ends[:-1])]
+        self.chains = [self._chain(edges, both) for edges, both in zip(solid.edges, doubly, strict=True)]
+
+    def run(self) -> float:
+        """Triangles of all faces; the greatest distance, mm."""
+        for faces in self.solid.faces:
+            if isinstance(faces.surface, SplineSurface | Extrusion):
+                self._patches(faces)
+                continue
+            for row, chart in enumerate(charts(self.solid, faces.surface, len(faces.loops[0][0]))):
+                self._face(faces, row, chart)
+        return self.error
+
+    def _added(self, points: Real) -> Triangles:
+        """The numbers of new vertices, of the shape of their points."""
+        flat = points.reshape(-1, 3)
+        self.points.append(flat)
+        self.size += len(flat)
+        return np.arange(self.size - len(flat), self.size).reshape(points.shape[:-1])
+
+    def _chain(self, edges: Edges, bent: bool) -> _Chain:
+        shares = _shares(self.solid, edges, self.tolerance * (_DOUBLE if bent else _SINGLE))
+        points, _ = along_edges(self.solid, edges, shares)
+        ends = self.solid.points[self.solid.vertices[np.stack([edges.start, edges.end], axis=1)]]
+        points[:, 0], points[:, -1] = ends[:, 0], ends[:, 1]
+        inner = self._added(points[:, 1:-1])
+        return _Chain(shares, points, np.concatenate([edges.start[:, None], inner, edges.end[:, None]], axis=1))
+
+    def _keep(self, triangles: Triangles, error: float, bound: Bound) -> None:
+        self.triangles.append(triangles)
+        self.count += len(triangles)
+        if self.count > _MOST_TRIANGLES:
+            raise ConvergenceError("mesh for the tolerance", self.tolerance, self.count)
+        self.error = max(self.error, error)
+        if bound == "sampled" or (self.bound == "exact" and error > 0):
+            self.bound = bound
+
+    # ---- planes and surfaces of revolution
+
+    def _face(self, faces: Faces, row: int, chart: Chart) -> None:
+        """One face on a plane or a surface of revolution."""
+        loops: list[list[Side]] = []
+        numbers: list[list[Triangles]] = []
+        for edges, senses in faces.loops:
+            ways = np.broadcast_to(senses, edges.shape)[row].tolist()
+            runs, own = [], []
+            for edge, way in zip(edges[row].tolist(), ways, strict=True):
+                chain, at = self.chains[self.bundle[edge]], self.row[edge]
+                runs.append(chain.points[at, :: 1 if way else -1])
+                own.append(chain.numbers[at, :: 1 if way else -1])
+            sides = unrolled(chart, runs, along=faces.along)
+            loops.append(sides)
+            numbers.append([own[s.run] if s.run is not None else own[_before(sides, k)][-1:] for k, s in enumerate(sides)])
+        if not faces.along:
+            # counter-clockwise in u and v
+            loops = [[Side(s.u[::-1], s.v[::-1], s.run) for s in sides[::-1]] for sides in loops]
+            numbers = [[n[::-1] for n in own[::-1]] for own in numbers]
+        made = None if chart.is_plane or len(loops) > 1 else self._gridded(chart, loops[0], numbers[0])
+        triangles, u, v = made or self._trimmed(chart, loops, numbers)
+        found = triangles if faces.along else triangles[:, ::-1]
+        self._keep(found, *((0.0, "exact") if chart.is_plane else (_sagitta(chart, u, v), "certified")))
+
+    def _gridded(
+        self, chart: Chart, sides: list[Side], numbers: list[Triangles]
+    ) -> tuple[Triangles, Real, Real] | None:
+        """A grid between four sides, if there are as many and it does not fold: triangles, and their u and v."""
+        corners = _corners(sides)
+        if len(corners) != 4:
+            return None
+        four = []
+        for first, last in zip(corners, [*corners[1:], corners[0] + len(sides)], strict=True):
+            which = [k % len(sides) for k in range(first, last)]
+            uv = np.concatenate([_uv(sides[k])[0 if k == which[0] else 1 :] for k in which])
+            own = np.concatenate([numbers[k][0 if k == which[0] else 1 :] for k in which])
+            four.append((uv, own))
+        ways = [float(uv[-1, 0] - uv[0, 0]) / (1e-300 + float(np.abs(uv[-1] - uv[0]).sum())) for uv, _ in four]
+        begin = int(np.argmax(ways))
+        four = four[begin:] + four[:begin]
+        spread = np.ptp(np.concatenate([uv for uv, _ in four]), axis=0)
+        grid = Grid(tuple(_measured(uv, own, spread) for uv, own in four))
+        counts = [len(own) - 1 for _, own in four]
+        wide = max(float(np.ptp(four[k][0][:, 0])) for k in (0, 2))
+        high = max(float(np.ptp(four[k][0][:, 1])) for k in (1, 3))
+        u_count, v_count = max(counts[0], counts[2]), max(counts[1], counts[3])
+        if chart.is_bent:
+            largest = float(chart.meridian(np.concatenate([uv[:, 1] for uv, _ in four]))[0].max())
+            if isinstance(chart.surface, Torus | Sphere):
+                low, top = min(float(uv[:, 1].min()) for uv, _ in four), max(float(uv[:, 1].max()) for uv, _ in four)
+                if math.floor(top / (2 * math.pi)) * 2 * math.pi >= low:
+                    largest = float(chart.meridian(np.zeros(1))[0][0])
+            u_count = max(u_count, math.ceil(wide / _chord(largest, _ALONG * self.tolerance)))
+            v_count = max(v_count, math.ceil(high / _chord(_tube(chart), _ACROSS * self.tolerance)))
+        triangles, inner = grid_between(grid, u_count, v_count)
+        uv = np.concatenate([grid.ring(), inner])
+        uv[grid.collapsed(), 0] = np.nan
+        if np.any(_turned(uv, triangles) <= 0):
+            return None
+        names = np.concatenate([grid.names(), self._added(chart.spatial(inner[:, 0], inner[:, 1]))])
+        return names[triangles], uv[triangles, 0], uv[triangles, 1]
+
+    def _trimmed(
+        self, chart: Chart, loops: list[list[Side]], numbers: list[list[Triangles]]
+    ) -> tuple[Triangles, Real, Real]:
+        """Triangles of any face, and their u and v."""
+        rings, names = _closed(loops, numbers)
+        if chart.is_plane:
+            triangles = library_triangles(np.concatenate(rings), _numbered(rings))
+            plane = np.concatenate(rings)
+        else:
+            size = max(float(np.abs(chart.meridian(ring.imag)[0]).max()) for ring in rings)
+            u_step = _chord(size, _ALONG * self.tolerance)
+            high = max(float(np.ptp(ring.imag)) for ring in rings)
+            # along rulings steps cost nothing
+            v_step = _chord(_tube(chart), _ACROSS * self.tolerance) if chart.is_bent else max(high / 2, 1e-9)
+            scaled = [ring.real / u_step + 1j * ring.imag / v_step for ring in rings]
+            cells = inner_cells(scaled) if chart.is_bent else None
+            inside = cells.points if cells else np.zeros(0, complex)
+            triangles = constrained(scaled, cells)
+            plane = np.concatenate([*rings, inside.real * u_step + 1j * inside.imag * v_step])
+            if len(inside):
+                own = plane[-len(inside) :]
+                names.append(self._added(chart.spatial(own.real, own.imag)))
+        whole = np.concatenate(names)
+        found = whole[triangles]
+        return found, plane.real[triangles], plane.imag[triangles]
+
+    # ---- splines and extrusions
+
+    def _patches(self, faces: Faces) -> None:
+        """Faces between the four ends of spline surfaces, or between two copies of a curve."""
+        ((edges, senses),) = faces.loops
+        senses = np.broadcast_to(senses, edges.shape)
+        if not faces.along:
+            edges, senses = edges[:, ::-1], ~senses[:, ::-1]
+        patch = patch_of(self.solid, faces.surface) if isinstance(faces.surface, SplineSurface) else None
+        first = self._begin(edges, senses, patch)
+        order = (first[:, None] + np.arange(4)) % 4
+        edges, senses = np.take_along_axis(edges, order, axis=1), np.take_along_axis(senses, order, axis=1)
+        keys = np.concatenate([self.bundle[edges], senses], axis=1)
+        alike, which = np.unique(keys, axis=0, return_inverse=True)
+        for group in range(len(alike)):
+            rows = np.flatnonzero(which.ravel() == group)
+            self._patch_group(edges[rows], senses[rows[0]].tolist(), patch and patch.rows(rows), flip=not faces.along)
+
+    def _begin(self, edges: Triangles, senses: NDArray[np.bool_], patch: Patch | None) -> Triangles:
+        """The place in each loop of the edge that runs along u, at v's lower end, (n,)."""
+        ends = np.empty((*edges.shape, 2, 3))
+        for k in np.unique(self.bundle[edges]).tolist():
+            mine, chain = self.bundle[edges] == k, self.chains[k]
+            ends[mine] = chain.points[self.row[edges[mine]]][:, [0, -1]]
+        ends[~senses] = ends[~senses][:, ::-1]
+        if patch is None:
+            curved = np.array([len(chain.shares) > 2 for chain in self.chains])
+            return np.where(curved[self.bundle[edges[:, 0]]] | curved[self.bundle[edges[:, 2]]], 0, 1)
+        wanted = np.stack([patch.poles[:, 0, 0], patch.poles[:, -1, 0]], axis=1)
+        return np.asarray(np.linalg.norm(ends - wanted[:, None], axis=-1).sum(axis=-1).argmin(axis=1))
+
+    def _patch_group(self, edges: Triangles, ways: list[bool], patch: Patch | None, *, flip: bool) -> None:
+        """Patches whose edges are of the same bundles."""
+        sides, names, points = [], [], []
+        for k, way in enumerate(ways):
+            chain = self.chains[self.bundle[edges[0, k]]]
+            step = 1 if way else -1
+            shares = chain.shares if way else 1 - chain.shares[::-1]
+            own = self.row[edges[:, k]]
+            names.append(chain.numbers[own][:, ::step])
+            points.append(chain.points[own][:, ::step])
+            u, v = [(shares, 0 * shares), (0 * shares + 1, shares), (1 - shares, 0 * shares + 1), (0 * shares, 1 - shares)][k]
+            sides.append((shares, np.column_stack([u, v]), np.arange(len(shares))))
+        grid = Grid(tuple(sides))
+        counts = [len(shares) - 1 for shares, _, _ in sides]
+        u_count, v_count = max(counts[0], counts[2]), max(counts[1], counts[3])
+        rising = True
+        if patch is not None:
+            template = patch.rows(_templates(patch.poles))
+            u_own, v_own, rising = _bend(template, self.tolerance)
+            u_count, v_count = max(u_count, u_own), max(v_count, v_own)
+        triangles, inner = grid_between(grid, u_count, v_count, rising=rising)
+        ring = np.concatenate([n[:, :-1] for n in names], axis=1)
+        places = np.concatenate([p[:, :-1] for p in points], axis=1)
+        if patch is None:
+            low, high = points[0], points[2][:, ::-1]
+            s, t = inner.T
+            at = np.stack([np.interp(s, grid.sides[0][0], np.arange(low.shape[1]))])[0].round().astype(int)
+            inside = low[:, at] * (1 - t)[:, None] + high[:, at] * t[:, None]
+            numbers = np.concatenate([ring, self._added(inside)], axis=1)
+            self._keep(_oriented(numbers[:, triangles].reshape(-1, 3), flip), self.tolerance, "sampled")
+            return
+        inside = _scattered(patch, inner)[0]
+        numbers = np.concatenate([ring, self._added(inside)], axis=1)
+        which = _templates(patch.poles)
+        table = np.concatenate([grid.ring(), inner])
+        error = _patch_error(patch.rows(which), np.concatenate([places, inside], axis=1)[which], table, triangles)
+        self._keep(_oriented(numbers[:, triangles].reshape(-1, 3), flip), _MARGIN * error, "sampled")
+
+
+def _oriented(triangles: Triangles, flip: bool) -> Triangles:
+    return triangles[:, ::-1] if flip else triangles
+
+
+def _before(sides: Sequence[Side], k: int) -> int:
+    """The run before a side at a pole."""
+    run = sides[k - 1].run
+    assert run is not None
+    return run
+
+
+def _bent_edges(solid: Solid) -> NDArray[np.bool_]:
+    """Which edges bound a face that is bent both ways."""
+    found = np.zeros(sum(len(edges.start) for edges in solid.edges), dtype=bool)
+    for faces in solid.faces:
+        if isinstance(faces.surface, Torus | Sphere | SplineSurface):
+            for edges, _ in faces.loops:
+                found[edges] = True
+    return found
+
+
+def _chord(radius: float, sag: float) -> float:
+    """The angle whose chord leaves a circle by a sagitta, rad."""
+    return min(_WIDEST, 4 * math.asin(math.sqrt(min(max(sag, 0.0) / (2 * radius), 0.5)))) if radius > 0 else _WIDEST
+
+
+def _tube(chart: Chart) -> float:
+    return chart.surface.tube if isinstance(chart.surface, Torus) else getattr(chart.surface, "radius", 0.0)
+
+
+def _shares(solid: Solid, edges: Edges, sag: float) -> Real:
+    """Where a bundle of edges is cut: the ends of chords that leave none of them by more than a sagitta."""
+    curve = edges.curve
+    if isinstance(curve, Circular):
+        longest = float(arcs(solid, edges)[3].max())
+        return np.linspace(0, 1, max(1, math.ceil(longest / _chord(curve.radius, sag) - 1e-9)) + 1)
+    if not isinstance(curve, Spline):
+        return np.array([0.0, 1.0])
+    breaks = span_shares(curve.knots)
+    inner = np.linspace(0, 1, _BENDS)
+    at = (breaks[:-1, None] + np.diff(breaks)[:, None] * inner).ravel()
+    bends = np.einsum("kp,npc->nkc", spline_rows(curve.degree, curve.knots, at, 2)[2], solid.points[curve.poles])
+    most = np.linalg.norm(bends, axis=2).max(axis=0).reshape(-1, _BENDS).max(axis=1)
+    counts = np.maximum(1, np.ceil(np.diff(breaks) * np.sqrt(most / (8 * sag)))).astype(int)
+    if counts.sum() > _MOST_TRIANGLES:
+        raise ConvergenceError("mesh for the tolerance", sag, int(counts.sum()))
+    pieces = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(breaks, breaks[1:], counts, strict=False)]
+    return np.append(np.concatenate(pieces), 1.0)
+
+
+def _uv(side: Side) -> Real:
+    return np.column_stack([side.u, side.v])
+
+
+def _corners(sides: Sequence[Side]) -> list[int]:
+    """The sides at whose starts the loop has a corner, in the unit square."""
+    u, v = np.concatenate([s.u for s in sides]), np.concatenate([s.v for s in sides])
+    scale = np.array([max(float(np.ptp(u)), 1e-300), max(float(np.ptp(v)), 1e-300)])
+    found = []
+    for k, side in enumerate(sides):
+        last = sides[k - 1]
+        one, two = (_uv(last)[-1] - _uv(last)[-2]) / scale, (_uv(side)[1] - _uv(side)[0]) / scale
+        turn = math.atan2(one[0] * two[1] - one[1] * two[0], float(one @ two))
+        if abs(turn) > _CORNER or last.run is None or side.run is None:
+            found.append(k)
+    return found
+
+
+def _measured(uv: Real, names: Triangles, spread: Real) -> tuple[Real, Real, Triangles]:
+    """A side with its shares by its length in the unit square."""
+    steps = np.linalg.norm(np.diff(uv, axis=0) / spread, axis=1)
+    return np.concatenate([[0.0], np.cumsum(steps)]) / steps.sum(), uv, names
+
+
+def _turned(table: Real, triangles: Triangles) -> Real:
+    """Twice the signed areas of triangles in the plane of parameters."""
+    a, b, c = table[triangles].transpose(1, 0, 2)
+    return np.asarray((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+
+
+def _sagitta(chart: Chart, u: Real, v: Real) -> float:
+    """Proven bound of the distance of triangles with corners (n, 3) in u and v on a surface of revolution, mm.
+
+    Seen along the circles about the axis a point of a triangle lies within the sagitta of its angle of the hull of
+    its corners' meridian points; these lie on a line, or within the sagitta of the tube's arc.
+    """
+    if not len(u):
+        return 0.0
+    wide = np.nanmax(u, axis=1) - np.nanmin(u, axis=1)
+    high = np.ptp(v, axis=1)
+    bow = _tube(chart) * 2 * np.sin(np.minimum(high, math.pi) / 4) ** 2 if chart.is_bent else 0.0 * high
+    size = np.abs(chart.meridian(v)[0]).max(axis=1) + bow
+    slant = math.cos(chart.surface.slant) if isinstance(chart.surface, Cone) else 1.0
+    return float((bow + slant * size * 2 * np.sin(np.minimum(wide, math.pi) / 4) ** 2).max())
+
+
+def _closed(loops: list[list[Side]], numbers: list[list[Triangles]]) -> tuple[list[Complex], list[Triangles]]:
+    """The loops as rings of points u + iv with their numbers; what goes round the axis is cut open and joined."""
+    rings, names, open_ones = [], [], []
+    for sides, own in zip(loops, numbers, strict=True):
+        ring = np.concatenate([(s.u + 1j * s.v)[:-1] for s in sides])
+        name = np.concatenate([np.broadcast_to(n, s.u.shape)[:-1] for s, n in zip(sides, own, strict=True)])
+        turns = round(float(sides[-1].u[-1] - sides[0].u[0]) / (2 * math.pi))
+        if turns:
+            open_ones.append((turns, np.append(ring, ring[0] + turns * 2 * math.pi), np.append(name, name[0])))
+        else:
+            rings.append(ring)
+            names.append(name)
+    if len(open_ones) == 2:
+        (_, low, low_names), (_, high, high_names) = sorted(open_ones, key=lambda x: -x[0])
+        # the upper one runs back; begun where the lower one ends
+        start = int(np.argmin(np.abs(np.angle(np.exp(1j * (high[:-1].real - low[-1].real))))))
+        turned = np.concatenate([high[start:-1], high[: start + 1] - 2 * math.pi])
+        turned = turned + 2 * math.pi * round((low[-1].real - turned[0].real) / (2 * math.pi))
+        rings.insert(0, np.concatenate([low, turned]))
+        names.insert(0, np.concatenate([low_names, high_names[start:-1], high_names[: start + 1]]))
+        # holes lie within the turn that is cut out
+        middle = float(low.real.mean())
+        rings[1:] = [r - 2 * math.pi * round((float(r.real.mean()) - middle) / (2 * math.pi)) for r in rings[1:]]
+    elif open_ones:
+        raise ThinWallError("a face goes round its axis without an end")
+    return rings, names
+
+
+def _numbered(rings: Sequence[Complex]) -> list[Triangles]:
+    ends = np.cumsum([len(ring) for ring in rings]).tolist()
+    return [np.arange(end - len(ring), end) for ring, end in zip(rings, ends, strict=True)]
+
+
+def _templates(poles: Real) -> Triangles:
+    """Of patches those that no other one is, turned: by the lengths in their nets."""
+    steps = [np.diff(poles, axis=1), np.diff(poles, axis=2), poles[:, 1:, 1:] - poles[:, :-1, :-1]]
+    lengths = np.concatenate([np.linalg.norm(s, axis=-1).reshape(len(poles), -1) for s in steps], axis=1)
+    scale = _ALIKE * max(float(np.abs(poles).max()), 1e-300)
+    _, first = np.unique(np.round(lengths / scale / 100), axis=0, return_index=True)
+    return np.sort(first)
+
+
+def _bend(patch: Patch, tolerance: float) -> tuple[int, int, bool]:
+    """How many steps a grid needs along u and v, and whether the diagonals of its cells rise with both."""
+    u, v = (
+        np.interp(np.linspace(0, len(s) - 1, (_BENDS - 1) * (len(s) - 1) + 1), np.arange(len(s)), s)
+        for s in (span_shares(patch.surface.u_knots), span_shares(patch.surface.v_knots))
+    )
+    normal = np.cross(patch.at(u, v, (1, 0)), patch.at(u, v, (0, 1)))
+    size = np.linalg.norm(normal, axis=-1)
+    normal /= np.maximum(size, 1e-300)[..., None]
+    uu, uv, vv = (np.sum(normal * patch.at(u, v, k), axis=-1) for k in ((2, 0), (1, 1), (0, 2)))
+    most = [float(np.abs(x).max()) for x in (uu, uv, vv)]
+    counts = [max(1.0, math.sqrt(x / (8 * _ACROSS * tolerance))) for x in (most[0], most[2])]
+    cross = 2 * most[1] / (counts[0] * counts[1]) / 8
+    if cross > 0.2 * tolerance:
+        factor = math.sqrt(cross / (0.2 * tolerance))
+        counts = [x * math.sqrt(factor) if factor < 4 else x * factor for x in counts]
+    ratio = counts[0] / counts[1]
+    up, down = (float(np.abs(uu / ratio + s * 2 * uv + vv * ratio).max()) for s in (1, -1))
+    return math.ceil(counts[0]), math.ceil(counts[1]), up <= down
+
+
+def _scattered(patch: Patch, places: Real) -> tuple[Real, Real, Real]:
+    """Points (n, m, 3) at shares (m, 2) of all patches, and derivatives by both."""
+    s = patch.surface
+    u = spline_rows(s.degrees[0], s.u_knots, np.clip(places[:, 0], 0, 1), 1)
+    v = spline_rows(s.degrees[1], s.v_knots, np.clip(places[:, 1], 0, 1), 1)
+    half = np.einsum("mi,nijc->nmjc", u[0], patch.poles)
+    steep = np.einsum("mi,nijc->nmjc", u[1], patch.poles)
+    found = [np.einsum("nmjc,mj->nmc", x, y) for x, y in ((half, v[0]), (steep, v[0]), (half, v[1]))]
+    return found[0], found[1], found[2]
+
+
+def _patch_error(patch: Patch, points: Real, table: Real, triangles: Triangles) -> float:
+    """Greatest distance of samples of the triangles from their patches, mm: one step of Newton's from their shares."""
+    worst = 0.0
+    size = patch.poles.shape[1] * patch.poles.shape[2]
+    block = max(1, _AT_ONCE // (len(_PLACES) * max(patch.poles.shape[1:3])))
+    for row in range(len(patch.poles)):
+        own = patch.rows(slice(row, row + 1))
+        for start in range(0, len(triangles), block):
+            part = triangles[start : start + block]
+            uv = np.einsum("sk,nkc->nsc", _PLACES, table[part]).reshape(-1, 2)
+            at = np.einsum("sk,nkc->nsc", _PLACES, points[row][part]).reshape(-1, 3)
+            place, du, dv = (x[0] for x in _scattered(own, uv))
+            off = at - place
+            a, b, c = np.sum(du * du, -1), np.sum(du * dv, -1), np.sum(dv * dv, -1)
+            p, q = np.sum(off * du, -1), np.sum(off * dv, -1)
+            det = np.maximum(a * c - b * b, 1e-300)
+            step = np.column_stack([(c * p - b * q) / det, (a * q - b * p) / det])
+            place, du, dv = (x[0] for x in _scattered(own, uv + step))
+            normal = np.cross(du, dv)
+            normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+            worst = max(worst, float(np.abs(np.sum((at - place) * normal, axis=1)).max()))
+    return worst if size else 0.0

@@ -1,0 +1,158 @@
+"""Delaunay triangles of plane regions whose edges are kept, with a grid of unit cells in their middle where it helps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.base.errors import ThinWallError
+from geometry.base.record import Record
+from geometry.curves.curve import Complex, Real
+from parts.solids.caps import Triangles, library_triangles
+
+# how near to the bounds cells may come, and how closely these are sampled for it, in cells
+_CLEAR, _SAMPLED = 0.45, 0.2
+_MOST_CELLS, _MOST_ROUNDS, _ROUNDING = 400_000, 1000, 1e-9
+
+
+class Cells(Record, eq=False):
+    """Corners (n,) of unit cells within a region, triangles over them, and the loops round them, clockwise."""
+
+    points: Complex
+    triangles: Triangles
+    loops: tuple[Triangles, ...]
+
+
+def constrained(rings: Sequence[Complex], cells: Cells | None) -> Triangles:
+    """Delaunay triangles of the region within rings (the first one outside, the others clockwise) and of cells in it.
+
+    Raises
+    ------
+    ThinWallError
+        The rings touch or cross.
+    """
+    sizes = np.cumsum([0, *(len(ring) for ring in rings)]).tolist()
+    numbers = [np.arange(a, b) for a, b in zip(sizes, sizes[1:], strict=False)]
+    points = np.concatenate(rings)
+    found = []
+    if cells is not None:
+        points = np.concatenate([points, cells.points])
+        found.append(cells.triangles + sizes[-1])
+        numbers += [loop + sizes[-1] for loop in cells.loops]
+    found.append(library_triangles(points, numbers))
+    triangles = np.concatenate(found)
+    area = sum(0.5 * float(np.sum((np.conj(ring) * np.roll(ring, -1)).imag)) for ring in rings)
+    doubled = _turned(points, triangles)
+    if not (np.all(doubled >= 0) and np.isclose(0.5 * doubled.sum(), area, rtol=1e-9)):
+        raise ThinWallError("the outlines touch or cross at this tolerance; make it smaller")
+    kept = np.concatenate([np.stack([n, np.roll(n, -1)], axis=1) for n in numbers[: len(rings)]])
+    return _flipped(points, triangles, kept)
+
+
+def _turned(points: Complex, triangles: Triangles) -> Real:
+    a, b, c = points[triangles].T
+    return np.asarray((np.conj(b - a) * (c - a)).imag)
+
+
+def _flipped(points: Complex, triangles: Triangles, kept: Triangles) -> Triangles:
+    """Lawson's flips, as many at a time as do not meet."""
+    count = len(points)
+    fixed = np.sort(kept, axis=1) @ np.array([count, 1])
+    for _ in range(_MOST_ROUNDS):
+        sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+        owner, apex = np.tile(np.arange(len(triangles)), 3), triangles.T[[2, 0, 1]].ravel()
+        key = np.sort(sides, axis=1) @ np.array([count, 1])
+        order = np.argsort(key, kind="stable")
+        twin = np.flatnonzero(key[order][1:] == key[order][:-1])
+        one, two = order[twin], order[twin + 1]
+        free = ~np.isin(key[one], fixed)
+        one, two = one[free], two[free]
+        a, b, c, d = (points[x] for x in (sides[one, 0], sides[one, 1], apex[one], apex[two]))
+        wrong = np.flatnonzero(_in_circle(a, b, c, d) & (_cross(d, b, c) > 0) & (_cross(a, d, c) > 0))
+        if not wrong.size:
+            break
+        first, second = owner[one[wrong]], owner[two[wrong]]
+        chosen = np.full(len(triangles), len(wrong))
+        np.minimum.at(chosen, first, np.arange(len(wrong)))
+        np.minimum.at(chosen, second, np.arange(len(wrong)))
+        mine = np.flatnonzero((chosen[first] == np.arange(len(wrong))) & (chosen[second] == np.arange(len(wrong))))
+        at, other = one[wrong[mine]], two[wrong[mine]]
+        triangles = triangles.copy()
+        triangles[first[mine]] = np.stack([apex[other], sides[at, 1], apex[at]], axis=1)
+        triangles[second[mine]] = np.stack([sides[at, 0], apex[other], apex[at]], axis=1)
+    return triangles
+
+
+def _cross(a: Complex, b: Complex, c: Complex) -> Real:
+    return np.asarray((np.conj(b - a) * (c - a)).imag)
+
+
+def _in_circle(a: Complex, b: Complex, c: Complex, d: Complex) -> NDArray[np.bool_]:
+    """Whether d lies within the circle about the triangle a, b, c, by more than rounding."""
+    p, q, r = a - d, b - d, c - d
+    squares = [np.abs(x) ** 2 for x in (p, q, r)]
+    terms = [squares[k] * (np.conj(x) * y).imag for k, (x, y) in enumerate(((q, r), (r, p), (p, q)))]
+    size = np.maximum.reduce([*squares])
+    return np.asarray(sum(terms) > _ROUNDING * size * size)
+
+
+def inner_cells(rings: Sequence[Complex]) -> Cells | None:
+    """The cells of a unit grid that stand clear of the bounds of a region, if there are any."""
+    whole = np.concatenate(rings)
+    low = complex(whole.real.min(), whole.imag.min())
+    wide, high = (int(np.ceil(x)) for x in (np.ptp(whole.real), np.ptp(whole.imag)))
+    if wide * high > _MOST_CELLS:
+        raise ThinWallError("a face asks for more cells than a file can carry")
+    near = np.zeros((wide + 2, high + 2), dtype=bool)
+    # crossings of the rows' middles, for what lies inside
+    middles = low.imag + np.arange(high + 2) + 0.5
+    change = np.zeros((wide + 3, high + 2), dtype=np.int64)
+    for ring in rings:
+        after = np.roll(ring, -1)
+        for a, b in zip(ring.tolist(), after.tolist(), strict=True):
+            steps = max(2, int(abs(b - a) / _SAMPLED) + 2)
+            spots = a + (b - a) * np.linspace(0, 1, steps) - low
+            for dx in (-_CLEAR, 0.0, _CLEAR):
+                for dy in (-_CLEAR, 0.0, _CLEAR):
+                    i, j = np.floor(spots.real + dx).astype(int), np.floor(spots.imag + dy).astype(int)
+                    good = (i >= 0) & (j >= 0) & (i < wide + 2) & (j < high + 2)
+                    near[i[good], j[good]] = True
+            rows = np.flatnonzero((min(a.imag, b.imag) <= middles) & (middles < max(a.imag, b.imag)))
+            if rows.size:
+                x = a.real + (b.real - a.real) * (middles[rows] - a.imag) / (b.imag - a.imag) - low.real
+                # cells whose middle lies to the right of it
+                np.add.at(change, (np.clip(np.ceil(x - 0.5).astype(int), 0, wide + 2), rows), 1)
+    inside = (np.cumsum(change, axis=0)[:-1] % 2 == 1) & ~near
+    # cells that meet in a corner only would pinch the region about them
+    for a, b in (((0, 0), (1, 1)), ((0, 1), (1, 0))):
+        one, two = (inside[x : x + wide + 1, y : y + high + 1] for x, y in (a, b))
+        other = [inside[x : x + wide + 1, y : y + high + 1] for x, y in ((a[0], b[1]), (b[0], a[1]))]
+        one &= ~(one & two & ~other[0] & ~other[1])
+    i, j = np.nonzero(inside)
+    if not len(i):
+        return None
+    corners = np.stack([i * (high + 3) + j, (i + 1) * (high + 3) + j, (i + 1) * (high + 3) + j + 1, i * (high + 3) + j + 1], axis=1)
+    used, local = np.unique(corners, return_inverse=True)
+    local = local.reshape(-1, 4)
+    points = low + (used // (high + 3)) + 1j * (used % (high + 3))
+    triangles = np.concatenate([local[:, [0, 1, 2]], local[:, [0, 2, 3]]])
+    return Cells(points, triangles, _loops(local, len(used)))
+
+
+def _loops(cells: Triangles, count: int) -> tuple[Triangles, ...]:
+    """The loops round cells, with the cells on the right."""
+    sides = np.concatenate([cells[:, [k, (k + 1) % 4]] for k in range(4)])
+    key, back = sides @ np.array([count, 1]), sides @ np.array([1, count])
+    rim = sides[~np.isin(back, key)]
+    following = {b: a for a, b in rim.tolist()}
+    found = []
+    while following:
+        start, vertex = following.popitem()
+        chain = [start]
+        while vertex != start:
+            chain.append(vertex)
+            vertex = following.pop(vertex)
+        found.append(np.array(chain))
+    return tuple(found)
