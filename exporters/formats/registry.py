@@ -29,8 +29,8 @@ from parts.scene.load import ExportSpec
 if TYPE_CHECKING:
     from exporters.formats.read_assembly import ReadAssembly
     from geometry.approximation.outline import Outline
-    from geometry.cams.barrel.body import BarrelBody
     from geometry.solids.body import Body
+    from geometry.solids.faced import Faced
     from parts.base.readback import ReadBack
     from parts.solids.faces import Curves as SolidCurves
     from parts.solids.step_text import StepForm, StepPart
@@ -78,12 +78,12 @@ class Content(Record):
         return written_decimals(self.tolerance)
 
     @property
-    def body(self) -> Body:
+    def body(self) -> Body | Faced:
         """The exact solid, moved like the section."""
         return self.part.body(self.section.offset)
 
     @property
-    def exact(self) -> Region | Body | BarrelBody:
+    def exact(self) -> Region | Body | Faced:
         """What the file must agree with."""
         return self.body if self.kind.is_solid else self.section.region
 

@@ -18,7 +18,7 @@ from exporters.verification.topology import doubled_normals, topology_failures
 from exporters.verification.verdict import Verdict, deviation_failures, volume_failures
 
 if TYPE_CHECKING:
-    from geometry.cams.barrel.body import BarrelBody as FacedBody
+    from geometry.solids.faced import Faced
 
 # places of the samples in each triangle, in sixths
 _PLACES = [(a, b, 6 - a - b) for a in range(7) for b in range(7 - a)]
@@ -27,7 +27,7 @@ SHARES = np.array(_PLACES, dtype=float) / 6
 _VOLUME = 1e-7
 
 
-def verify_faced_mesh(mesh: ReadMesh, body: FacedBody, declared: float, tolerance: float) -> Verdict:
+def verify_faced_mesh(mesh: ReadMesh, body: Faced, declared: float, tolerance: float) -> Verdict:
     """Hold a mesh against its exact solid."""
     count = {"triangles": float(len(mesh.triangles))}
     failures = topology_failures(mesh)
@@ -38,7 +38,7 @@ def verify_faced_mesh(mesh: ReadMesh, body: FacedBody, declared: float, toleranc
     sizes = np.linalg.norm(doubled, axis=1)
     volume = float(np.einsum("ij,ij->i", corners[:, 0], doubled).sum() / 6)
     deviation, lone = mesh_deviation(mesh, body)
-    exact = body.volume()
+    exact = body.moments.volume
     reach = body.reach()
     failures += deviation_failures(deviation, declared, tolerance, reach)
     if lone:
@@ -56,10 +56,10 @@ def verify_faced_mesh(mesh: ReadMesh, body: FacedBody, declared: float, toleranc
     return Verdict(measured, tuple(failures))
 
 
-def mesh_deviation(mesh: ReadMesh, body: FacedBody) -> tuple[float, int]:
+def mesh_deviation(mesh: ReadMesh, body: Faced) -> tuple[float, int]:
     """Greatest distance of samples of the triangles from the face that each lies in, mm, and faces without any."""
-    faces = body.surfaces()
-    at_corners = np.stack([body.distance(face, mesh.vertices) for face in faces])
+    faces = body.surfaces
+    at_corners = np.stack([face.distance(mesh.vertices) for face in faces])
     # the face in whose surface all three corners lie best; where several do, the samples decide
     worst = at_corners[:, mesh.triangles].max(axis=2)
     near = worst <= 2 * worst.min(axis=0) + 1e-5 * body.reach()
@@ -68,29 +68,29 @@ def mesh_deviation(mesh: ReadMesh, body: FacedBody) -> tuple[float, int]:
     for index, face in enumerate(faces):
         mine = np.flatnonzero(near[index])
         samples = np.einsum("sk,nkc->nsc", SHARES, mesh.vertices[mesh.triangles[mine]])
-        here = body.distance(face, samples.reshape(-1, 3)).reshape(samples.shape[:2]).max(axis=1)
+        here = face.distance(samples.reshape(-1, 3)).reshape(samples.shape[:2]).max(axis=1)
         better = here < found[mine]
         found[mine[better]] = here[better]
         owner[mine[better]] = index
     return float(found.max()), sum(not np.any(owner == i) for i in range(len(faces)))
 
 
-def verify_faced_solid(found: ReadSolid, body: FacedBody, declared: float, tolerance: float) -> Verdict:
+def verify_faced_solid(found: ReadSolid, body: Faced, declared: float, tolerance: float) -> Verdict:
     """Hold a re-read solid against its exact one: faces, edges, ends, volume."""
-    model, surfaces = found.model, body.surfaces()
+    model, surfaces = found.model, body.surfaces
     used: set[int] = set()
     worst = 0.0
     for face in range(len(model.faces)):
         own = np.array([face])
         points = np.concatenate([edge_points(model, own), inner_points(model, own)])
-        away = [float(body.distance(surface, points).max()) for surface in surfaces]
+        away = [float(surface.distance(points).max()) for surface in surfaces]
         best = int(np.argmin(away))
         used.add(best)
         worst = max(worst, away[best])
     failures = [f"a {surface.what} of the part is missing" for i, surface in enumerate(surfaces) if i not in used]
     failures += deviation_failures(worst, declared, tolerance, body.reach())
-    volume, exact = float(model.flux.sum()), body.volume()
-    failures += volume_failures(volume, exact, _VOLUME + 10 * declared / body.wall_width, found.said.get("volume"))
+    volume, exact = float(model.flux.sum()), body.moments.volume
+    failures += volume_failures(volume, exact, _VOLUME + declared * body.slack / exact, found.said.get("volume"))
     measured = {
         "volume": volume,
         "volume_error": volume / exact - 1,

@@ -23,13 +23,13 @@ if TYPE_CHECKING:
     from exporters.formats.read_drawing import ReadDrawing
     from exporters.formats.read_step import ReadSolid
     from exporters.formats.readback import ReadMesh, ReadOutlines
-    from geometry.cams.barrel.body import BarrelBody
     from geometry.plane.profile import Region
     from geometry.solids.body import Body
+    from geometry.solids.faced import Faced
 
 # the kernel keeps a colour as float32
 _SHADE = 1
-Exact: TypeAlias = "Region | Body | BarrelBody"
+Exact: TypeAlias = "Region | Body | Faced"
 
 
 def verify_part(
@@ -125,7 +125,7 @@ def _drawing(found: ReadDrawing, region: Region, declared: float, tolerance: flo
     return verify_samples(found.loops(), region.profiles(), declared, tolerance)
 
 
-def _mesh(found: ReadMesh, body: Body | BarrelBody, declared: float, tolerance: float) -> Verdict:
+def _mesh(found: ReadMesh, body: Body | Faced, declared: float, tolerance: float) -> Verdict:
     if body.is_faced:
         from exporters.verification.faces import verify_faced_mesh
 
@@ -135,7 +135,7 @@ def _mesh(found: ReadMesh, body: Body | BarrelBody, declared: float, tolerance: 
     return verify_mesh(found, body, declared, tolerance)
 
 
-def _solid(found: ReadSolid, body: Body | BarrelBody, declared: float, tolerance: float) -> Verdict:
+def _solid(found: ReadSolid, body: Body | Faced, declared: float, tolerance: float) -> Verdict:
     if body.is_faced:
         from exporters.verification.faces import verify_faced_solid
 

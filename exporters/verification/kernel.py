@@ -12,8 +12,8 @@ from geometry.solids.mass import body_moments, wall_area
 from parts.solids.kernel import solids_of
 
 if TYPE_CHECKING:
-    from geometry.cams.barrel.body import BarrelBody
     from geometry.solids.body import Body
+    from geometry.solids.faced import Faced
 
 # by which the kernel may call two points one, mm; what its volumes are good to, part of them
 _TOLERANCE, _VOLUME = 1e-6, 1e-7
@@ -21,7 +21,7 @@ _TOLERANCE, _VOLUME = 1e-6, 1e-7
 _QUADRATURE = 1e-9
 
 
-def judged_by_kernel(file: Path, bodies: Sequence[Body | BarrelBody], declared: float, verdict: Verdict) -> Verdict:
+def judged_by_kernel(file: Path, bodies: Sequence[Body | Faced], declared: float, verdict: Verdict) -> Verdict:
     """A verdict on a good file with what the kernel says: of a solid for each body closed, valid, and its volume."""
     from OCP.BRepCheck import BRepCheck_Analyzer
     from OCP.BRepGProp import BRepGProp
@@ -35,12 +35,12 @@ def judged_by_kernel(file: Path, bodies: Sequence[Body | BarrelBody], declared: 
     loose = max((ShapeAnalysis_ShapeTolerance().Tolerance(solid, 1) for solid in solids), default=0.0)
     if not loose <= _TOLERANCE:
         failures.append(f"the kernel joins what stands {loose:.3g} mm apart")
-    found, exact = 0.0, sum(b.volume() if b.is_faced else body_moments(b).volume for b in bodies)
+    found, exact = 0.0, sum(b.moments.volume if b.is_faced else body_moments(b).volume for b in bodies)
     for solid in solids:
         properties = GProp_GProps()
         BRepGProp.VolumePropertiesGK_s(solid, properties, _QUADRATURE)
         found += float(properties.Mass())
-    areas = (10 * b.volume() / b.wall_width if b.is_faced else 2 * wall_area(b) for b in bodies)
+    areas = (b.slack if b.is_faced else 2 * wall_area(b) for b in bodies)
     share = _VOLUME + declared * sum(areas) / exact
     if not abs(found / exact - 1) <= share:
         failures.append(f"the kernel finds {found:.12g} mm^3 instead of {exact:.12g} mm^3")

@@ -90,6 +90,21 @@ def spline_rows(degree: int, knots: Real, shares: Real, order: int) -> list[Real
     return found
 
 
+def spline_windows(degree: int, knots: Real, shares: Real) -> tuple[Index, Real, Real]:
+    """Of shares (k,) the first pole at work, and what the degree + 1 poles from it on are multiplied by.
+
+    (k, degree + 1) each: for points, and for derivatives by the share.
+    """
+    width = knots[-1] - knots[0]
+    at = knots[0] + shares * width
+    first, values = basis(degree, knots, at)
+    _, lower = basis(degree - 1, knots[1:-1], at)
+    index = first[:, None] + np.arange(degree)
+    raised = lower * (degree * width / (knots[index + degree + 1] - knots[index + 1]))
+    none = np.zeros((len(shares), 1))
+    return first, values, np.concatenate([none, raised], axis=1) - np.concatenate([raised, none], axis=1)
+
+
 def span_shares(knots: Real) -> Real:
     """Where spans begin and end, as shares of the domain."""
     places = distinct(knots)
@@ -199,6 +214,20 @@ class Patch(Record, eq=False):
         """Some of them."""
         return Patch(self.surface, self.poles[which])
 
+    def scattered(self, places: Real) -> tuple[Real, Real, Real]:
+        """Points (n, k, 3) at shares (k, 2), and derivatives by both."""
+        s = self.surface
+        rows = [
+            spline_windows(degree, knots, np.clip(at, 0, 1))
+            for degree, knots, at in zip(s.degrees, (s.u_knots, s.v_knots), places.T, strict=True)
+        ]
+        (u, along, steep), (v, across, high) = rows
+        which = [x[:, None] + np.arange(d + 1) for x, d in zip((u, v), s.degrees, strict=True)]
+        near = self.poles[:, which[0][:, :, None], which[1][:, None, :]]
+        point, ahead = (np.einsum("ki,nkijc->nkjc", x, near) for x in (along, steep))
+        found = [np.einsum("nkjc,kj->nkc", x, y) for x, y in ((point, across), (ahead, across), (point, high))]
+        return found[0], found[1], found[2]
+
     def at(self, u: Real, v: Real, orders: tuple[int, int] = (0, 0)) -> Real:
         """Points, or derivatives of these orders, (n, u, v, 3) on a grid of shares."""
         s = self.surface
@@ -216,5 +245,3 @@ def edge_rows(solid: Solid) -> tuple[Index, Index]:
     """Of every edge of a solid the bundle it is in and its row there."""
     sizes = [len(e.start) for e in solid.edges]
     return np.repeat(np.arange(len(sizes)), sizes), np.concatenate([np.arange(n) for n in sizes])
-
-

@@ -153,10 +153,7 @@ def _charted(chart: Chart, loops: list[list[_Run]], *, along: bool) -> Real:
                 u, v, inner = side.u, side.v, slice(1, -1)
                 x, y, _ = ((run.points - chart.origin) @ chart.axes.T).T
                 dx, dy, _ = (run.steps @ chart.axes.T).T
-                if chart.is_plane:
-                    rate = dx[inner]
-                else:
-                    rate = (x * dy - y * dx)[inner] / (x * x + y * y)[inner]
+                rate = dx[inner] if chart.is_plane else (x * dy - y * dx)[inner] / (x * x + y * y)[inner]
                 u, v, step = u[inner], v[inner], rate * run.weights[inner]
             if not np.any(step):
                 continue
@@ -193,5 +190,3 @@ def _patches(solid: Solid, surface: SplineSurface, *, along: bool) -> Real:
         total += np.einsum("nijt,i,j->t", _terms(own.at(u, v), normals), u_weights, v_weights)
     total[1:] *= 1 if along else -1
     return total
-
-

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from geometry.base.findings import Finding
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.body import Body
+    from geometry.solids.faced import Faced
     from geometry.solids.mass import Moments
     from parts.base.readback import Probe
 
@@ -75,12 +76,14 @@ class Kind(Generic[K, T]):
         """The flat section, every boundary moved ``offset`` mm out of the material."""
         raise NotImplementedError
 
-    def solid(self, keys: K, thing: T, offset: float) -> Body:
+    def solid(self, keys: K, thing: T, offset: float) -> Body | Faced:
         """The solid, its lower face at z = 0, every boundary moved ``offset`` mm out of the material."""
         raise NotImplementedError
 
-    def moments(self, solid: Body) -> Moments:
+    def moments(self, solid: Body | Faced) -> Moments:
         """Volume, centre and inertia of a solid of the kind, by exact integrals."""
+        if solid.is_faced:
+            return solid.moments
         from geometry.solids.mass import body_moments
 
         return body_moments(solid)

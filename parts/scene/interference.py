@@ -14,12 +14,17 @@ import numpy as np
 
 from geometry.base.errors import GeometryError
 from geometry.base.record import Record
+from geometry.curves.curve import Real
+from geometry.solids.faced import FacedBody
 from parts.base.part import Part
 from parts.scene.placing import UPWARDS, Instance, Placing
+from parts.solids.mesh import Mesh, body_mesh, mesh_outlines
 
 # boundaries go this far into the material, as a part of the solid's size, and the mesh half of it
 INSET = 2e-4
 _SHARE = 0.5
+# planes about a vertex that turn by less, squared, are one
+_FLAT = 1e-3
 # of the lesser solid: less in common is rounding
 SLIVER = 1e-9
 
@@ -70,7 +75,7 @@ def _by_contact(placing: Placing, parts: dict[str, Part]) -> set[frozenset[str]]
 def _box(instance: Instance, part: Part) -> tuple[complex, float, float, float]:
     """Centre, reach, lower and upper end of an instance, mm."""
     body = part.body(0.0)
-    reach = max(p.reach() for p in body.profiles)
+    reach = body.section_reach()
     if instance.axis != UPWARDS:
         # a ball about it
         low, high = body.levels()[0], body.levels()[-1]
@@ -100,19 +105,33 @@ def inner_solid(part: Part) -> Any:
     """A mesh inside the part's solid, as manifold3d has it; finer where its walls are thin."""
     import manifold3d
 
-    from parts.solids.mesh import body_mesh, mesh_outlines
-
-    inset = INSET * max(p.reach() for p in part.body(0.0).profiles)
+    inset = INSET * part.body(0.0).section_reach()
     for _ in range(8):
         try:
-            body = part.body(-inset)
+            body = part.body(0.0)
+            by_faces = isinstance(body, FacedBody)
+            body = body if by_faces else part.body(-inset)
             mesh = body_mesh(body, mesh_outlines(body, _SHARE * inset, 0.0))
         except GeometryError:
             inset /= 4
             continue
-        vertices, triangles = mesh.vertices.astype(np.float32), mesh.triangles.astype(np.uint32)
+        corners = _moved_in(mesh, inset) if by_faces else mesh.vertices
+        vertices, triangles = corners.astype(np.float32), mesh.triangles.astype(np.uint32)
         return manifold3d.Manifold(manifold3d.Mesh(vertices, triangles))
     raise GeometryError(f"no mesh lies within {part.id}")
+
+
+def _moved_in(mesh: Mesh, inset: float) -> Real:
+    """The vertices of a mesh moved into it, so that the planes about each go in by an inset (least squares)."""
+    corners = mesh.vertices[mesh.triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    areas = np.linalg.norm(normals, axis=1)
+    normals /= areas[:, None]
+    spread, pull = np.zeros((len(mesh.vertices), 3, 3)), np.zeros((len(mesh.vertices), 3))
+    for corner in mesh.triangles.T:
+        np.add.at(spread, corner, areas[:, None, None] * normals[:, :, None] * normals[:, None])
+        np.add.at(pull, corner, areas[:, None] * normals)
+    return np.asarray(mesh.vertices - inset * np.einsum("nij,nj->ni", np.linalg.pinv(spread, _FLAT, True), pull))
 
 
 def common_volume(pair: Sequence[Any]) -> float:

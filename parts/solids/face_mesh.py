@@ -9,23 +9,40 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geometry.base.errors import ConvergenceError, ThinWallError
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.curves.bounds import Bound
 from geometry.curves.curve import Complex, Real
-from geometry.solids.charts import Chart, Patch, along_edges, arcs, charts, edge_rows, patch_of, span_shares, spline_rows
+from geometry.solids.charts import (
+    Chart,
+    Patch,
+    along_edges,
+    arcs,
+    charts,
+    edge_rows,
+    patch_of,
+    span_shares,
+    spline_rows,
+)
+from geometry.solids.faced import Faced, FacedBody
 from geometry.solids.faces import Circular, Cone, Edges, Extrusion, Faces, Solid, Sphere, Spline, SplineSurface, Torus
 from geometry.solids.unrolled import Side, unrolled
 from parts.solids.caps import Triangles, library_triangles
 from parts.solids.flips import constrained, inner_cells
 from parts.solids.grids import Grid, grid_between
 
+if TYPE_CHECKING:
+    from parts.solids.barrel_mesh import BarrelMesh
+
 # shares of the tolerance: of edges between faces that are bent one way, or both ways; of a grid along u and v
 _SINGLE, _DOUBLE, _ALONG, _ACROSS = 0.98, 0.55, 0.5, 0.4
+# what splines may take of it
+_SPLINES = 0.1
 _MOST_ROUNDS, _MOST_TRIANGLES = 10, 4_000_000
 # arcs are cut into chords no longer than this, rad; samples for the bend of splines, each span
 _WIDEST, _BENDS = math.pi / 4, 5
@@ -71,6 +88,20 @@ def face_mesh(solid: Solid, tolerance: float) -> FaceMesh:
     raise ConvergenceError("mesh for the tolerance", error, _MOST_ROUNDS)
 
 
+def faced_mesh(body: Faced, tolerance: float) -> FaceMesh | BarrelMesh:
+    """A closed mesh within ``tolerance`` mm of a body told by its faces; splines take their share of it."""
+    if isinstance(body, FacedBody):
+        faces = body.within(_SPLINES * tolerance)
+        made = face_mesh(faces.geometry, tolerance - faces.max_error)
+        bound: Bound = "sampled" if "sampled" in (made.bound, faces.bound) else made.bound
+        return replace(made, max_error=made.max_error + faces.max_error, bound=bound, tolerance=tolerance)
+    from geometry.cams.barrel.body import BarrelBody
+    from parts.solids.barrel_mesh import barrel_mesh
+
+    assert isinstance(body, BarrelBody)
+    return barrel_mesh(body, tolerance)
+
+
 class _Chain(Record, eq=False):
     """Points (n, k, 3) of a bundle of edges at shares (k,), and the numbers of their vertices (n, k)."""
 
@@ -87,7 +118,8 @@ class _Mesher:
         self.points: list[Real] = [solid.points[solid.vertices]]
         self.size = len(solid.vertices)
         self.triangles: list[Triangles] = []
-        self.error, self.bound, self.count = 0.0, "exact", 0
+        self.error, self.count = 0.0, 0
+        self.bound: Bound = "exact"
         self.bundle, self.row = edge_rows(solid)
         bent = _bent_edges(solid)
         ends = np.cumsum([len(edges.start) for edges in solid.edges])
@@ -143,7 +175,9 @@ class _Mesher:
                 own.append(chain.numbers[at, :: 1 if way else -1])
             sides = unrolled(chart, runs, along=faces.along)
             loops.append(sides)
-            numbers.append([own[s.run] if s.run is not None else own[_before(sides, k)][-1:] for k, s in enumerate(sides)])
+            numbers.append(
+                [own[s.run] if s.run is not None else own[_before(sides, k)][-1:] for k, s in enumerate(sides)]
+            )
         if not faces.along:
             # counter-clockwise in u and v
             loops = [[Side(s.u[::-1], s.v[::-1], s.run) for s in sides[::-1]] for sides in loops]
@@ -258,7 +292,12 @@ class _Mesher:
             own = self.row[edges[:, k]]
             names.append(chain.numbers[own][:, ::step])
             points.append(chain.points[own][:, ::step])
-            u, v = [(shares, 0 * shares), (0 * shares + 1, shares), (1 - shares, 0 * shares + 1), (0 * shares, 1 - shares)][k]
+            u, v = [
+                (shares, 0 * shares),
+                (0 * shares + 1, shares),
+                (1 - shares, 0 * shares + 1),
+                (0 * shares, 1 - shares),
+            ][k]
             sides.append((shares, np.column_stack([u, v]), np.arange(len(shares))))
         grid = Grid(tuple(sides))
         counts = [len(shares) - 1 for shares, _, _ in sides]
@@ -279,7 +318,7 @@ class _Mesher:
             numbers = np.concatenate([ring, self._added(inside)], axis=1)
             self._keep(_oriented(numbers[:, triangles].reshape(-1, 3), flip), self.tolerance, "sampled")
             return
-        inside = _scattered(patch, inner)[0]
+        inside = patch.scattered(inner)[0]
         numbers = np.concatenate([ring, self._added(inside)], axis=1)
         which = _templates(patch.poles)
         table = np.concatenate([grid.ring(), inner])
@@ -446,36 +485,24 @@ def _bend(patch: Patch, tolerance: float) -> tuple[int, int, bool]:
     return math.ceil(counts[0]), math.ceil(counts[1]), up <= down
 
 
-def _scattered(patch: Patch, places: Real) -> tuple[Real, Real, Real]:
-    """Points (n, m, 3) at shares (m, 2) of all patches, and derivatives by both."""
-    s = patch.surface
-    u = spline_rows(s.degrees[0], s.u_knots, np.clip(places[:, 0], 0, 1), 1)
-    v = spline_rows(s.degrees[1], s.v_knots, np.clip(places[:, 1], 0, 1), 1)
-    half = np.einsum("mi,nijc->nmjc", u[0], patch.poles)
-    steep = np.einsum("mi,nijc->nmjc", u[1], patch.poles)
-    found = [np.einsum("nmjc,mj->nmc", x, y) for x, y in ((half, v[0]), (steep, v[0]), (half, v[1]))]
-    return found[0], found[1], found[2]
-
-
 def _patch_error(patch: Patch, points: Real, table: Real, triangles: Triangles) -> float:
     """Greatest distance of samples of the triangles from their patches, mm: one step of Newton's from their shares."""
     worst = 0.0
-    size = patch.poles.shape[1] * patch.poles.shape[2]
-    block = max(1, _AT_ONCE // (len(_PLACES) * max(patch.poles.shape[1:3])))
+    block = max(1, _AT_ONCE // (len(_PLACES) * math.prod(d + 1 for d in patch.surface.degrees)))
     for row in range(len(patch.poles)):
         own = patch.rows(slice(row, row + 1))
         for start in range(0, len(triangles), block):
             part = triangles[start : start + block]
             uv = np.einsum("sk,nkc->nsc", _PLACES, table[part]).reshape(-1, 2)
             at = np.einsum("sk,nkc->nsc", _PLACES, points[row][part]).reshape(-1, 3)
-            place, du, dv = (x[0] for x in _scattered(own, uv))
+            place, du, dv = (x[0] for x in own.scattered(uv))
             off = at - place
             a, b, c = np.sum(du * du, -1), np.sum(du * dv, -1), np.sum(dv * dv, -1)
             p, q = np.sum(off * du, -1), np.sum(off * dv, -1)
             det = np.maximum(a * c - b * b, 1e-300)
             step = np.column_stack([(c * p - b * q) / det, (a * q - b * p) / det])
-            place, du, dv = (x[0] for x in _scattered(own, uv + step))
+            place, du, dv = (x[0] for x in own.scattered(uv + step))
             normal = np.cross(du, dv)
             normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
             worst = max(worst, float(np.abs(np.sum((at - place) * normal, axis=1)).max()))
-    return worst if size else 0.0
+    return worst

@@ -1,8 +1,9 @@
-"""Delaunay triangles of plane regions whose edges are kept, with a grid of unit cells in their middle where it helps."""
+"""Delaunay triangles of plane regions whose edges are kept, with unit cells in their middle where that helps."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,7 +35,7 @@ def constrained(rings: Sequence[Complex], cells: Cells | None) -> Triangles:
         The rings touch or cross.
     """
     sizes = np.cumsum([0, *(len(ring) for ring in rings)]).tolist()
-    numbers = [np.arange(a, b) for a, b in zip(sizes, sizes[1:], strict=False)]
+    numbers = [np.arange(a, b) for a, b in pairwise(sizes)]
     points = np.concatenate(rings)
     found = []
     if cells is not None:
@@ -133,10 +134,11 @@ def inner_cells(rings: Sequence[Complex]) -> Cells | None:
     i, j = np.nonzero(inside)
     if not len(i):
         return None
-    corners = np.stack([i * (high + 3) + j, (i + 1) * (high + 3) + j, (i + 1) * (high + 3) + j + 1, i * (high + 3) + j + 1], axis=1)
+    step = high + 3
+    corners = (i * step + j)[:, None] + np.array([0, step, step + 1, 1])
     used, local = np.unique(corners, return_inverse=True)
     local = local.reshape(-1, 4)
-    points = low + (used // (high + 3)) + 1j * (used % (high + 3))
+    points = low + (used // step) + 1j * (used % step)
     triangles = np.concatenate([local[:, [0, 1, 2]], local[:, [0, 2, 3]]])
     return Cells(points, triangles, _loops(local, len(used)))
 

@@ -86,7 +86,7 @@ def _zipped(low: Triangles, low_shares: Real, high: Triangles, high_shares: Real
     keys = np.concatenate([(low_shares[1:] + low_shares[:-1]) / 2, (high_shares[1:] + high_shares[:-1]) / 2])
     # rounded: the same shares are a tie on any machine
     is_low = np.argsort(np.round(keys, _DIGITS), kind="stable") < len(low) - 1
-    i = np.cumsum(is_low) - is_low
-    j = np.cumsum(~is_low) - ~is_low
+    i: Triangles = np.cumsum(is_low) - is_low
+    j: Triangles = np.arange(len(is_low)) - i
     third = np.where(is_low, low[np.minimum(i + 1, len(low) - 1)], high[np.minimum(j + 1, len(high) - 1)])
     return np.stack([low[i], third, high[j]], axis=1)

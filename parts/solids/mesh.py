@@ -7,6 +7,7 @@ closed by construction. parts/solids/faces.py is the other half.
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,10 @@ from geometry.solids.body import Body, Cap
 from geometry.solids.chamfer import chamfer_bow, chamfer_slices, cut_chamfers
 from parts.solids.caps import Triangles, aligned_bore, begun_at, cap_triangles, is_round, start_in_space
 
+if TYPE_CHECKING:
+    from geometry.solids.faced import Faced
+    from parts.solids.face_mesh import FaceMesh
+
 _GRID_DIGITS = 8
 
 
@@ -31,15 +36,15 @@ class Mesh(Record):
     triangles: Triangles
 
 
-def mesh_outlines(body: Body, tolerance: float, least_edge: float) -> tuple[Approximation, ...]:
+def mesh_outlines(body: Body | Faced, tolerance: float, least_edge: float) -> tuple[Approximation, ...]:
     """Chords of every profile of a body within ``tolerance`` mm; edges below ``least_edge`` mm are merged.
 
-    Profiles that a chamfer joins get matching vertices. A cylindrical cam's mesh is made whole.
+    Profiles that a chamfer joins get matching vertices. The mesh of a body told by its faces is made whole.
     """
     if body.is_faced:
-        from parts.solids.barrel_mesh import barrel_mesh
+        from parts.solids.face_mesh import faced_mesh
 
-        return (barrel_mesh(body, tolerance),)
+        return cast("tuple[Approximation, ...]", (faced_mesh(body, tolerance),))
     body = _sliced(body, tolerance)
     made: dict[int, Approximation] = {}
     twisted = body.twisted_profiles()
@@ -71,7 +76,7 @@ def _chamfered(body: Body, group: tuple[int, ...], tolerance: float, least_edge:
     return tuple(replace(a, max_error=a.max_error + bow, bound=bound, tolerance=tolerance) for a in made)
 
 
-def count_edges(body: Body, outlines: tuple[Approximation, ...]) -> int:
+def count_edges(body: Body | Faced, outlines: tuple[Approximation, ...]) -> int:
     """How many edges the slices of a mesh have in all: what its size goes by."""
     total = sum(len(a.geometry) for a in outlines)
     if body.is_faced:
@@ -85,7 +90,7 @@ def count_edges(body: Body, outlines: tuple[Approximation, ...]) -> int:
     return total
 
 
-def body_mesh(body: Body, outlines: tuple[Approximation, ...]) -> Mesh:
+def body_mesh(body: Body | Faced, outlines: tuple[Approximation, ...]) -> Mesh:
     """The closed mesh of a body from the chords of its profiles.
 
     Raises
@@ -94,7 +99,8 @@ def body_mesh(body: Body, outlines: tuple[Approximation, ...]) -> Mesh:
         The chords touch or cross at this tolerance.
     """
     if body.is_faced:
-        return Mesh(np.round(outlines[0].vertices, _decimals(body)) + 0.0, outlines[0].geometry)
+        made = cast("FaceMesh", outlines[0])
+        return Mesh(np.round(made.vertices, _decimals(body)) + 0.0, made.geometry)
     body, decimals = _sliced(body, outlines[0].tolerance), _decimals(body)
     # on a grid before any triangle is chosen: what machines round differently chooses none
     contours = _begun_in_spaces(body, [replace(a.geometry, decimals=decimals) for a in outlines])
@@ -195,7 +201,7 @@ def _assembled(body: Body, contours: list[Contour], steps: list[float], caps: _C
     return Mesh(np.round(np.concatenate(pieces), _decimals(body)) + 0.0, np.concatenate(triangles))
 
 
-def _decimals(body: Body) -> int:
+def _decimals(body: Body | Faced) -> int:
     """Decimals of a mesh's vertices: a step of 1e-8 of the section or less, which a float32 does not hold."""
     return _GRID_DIGITS - math.floor(math.log10(body.section_reach()) + 1e-9)
 

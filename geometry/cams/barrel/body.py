@@ -6,6 +6,7 @@ read-back and mass integrals go through this description, like those of other pa
 
 from __future__ import annotations
 
+from functools import partial
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -16,6 +17,7 @@ from geometry.curves.curve import Complex, Real
 from geometry.laws.piece import LawPiece
 from geometry.plane.measure import distance_to_profile, gauss_rule
 from geometry.plane.profile import Label, Profile, circle
+from geometry.solids.faced import Measured
 from geometry.solids.mass import Moments, column_integrals, moments_of, section_moments
 
 # Gauss's rule over the cam angle (panels a piece) and across the walls, at first and at most; what is no change
@@ -135,16 +137,6 @@ class BarrelBody(Record):
     web: float = 0.0
     is_faced: ClassVar[Literal[True]] = True
 
-    @property
-    def profiles(self) -> tuple[Profile, ...]:
-        """The circle around all of it, and the bore."""
-        return (circle(self.cam.outer, Label.BODY), *((self.bore,) if self.bore else ()))
-
-    @property
-    def walls(self) -> tuple[()]:
-        """It has none of the kinds of geometry/solids/body.py."""
-        return ()
-
     def levels(self) -> tuple[float, ...]:
         """Heights of all plane faces, ascending, mm."""
         heights = {face.outer.z for face in self.faces() if isinstance(face, Plane)}
@@ -161,10 +153,6 @@ class BarrelBody(Record):
     def steepness(self) -> float:
         """1: a step along the axis moves a wall by no more than itself."""
         return 1.0
-
-    def has_screws(self) -> bool:
-        """Whether there are walls of the kind of helical teeth: never."""
-        return False
 
     def faces(self) -> tuple[Face, ...]:
         """All faces, from the bottom to the top."""
@@ -185,25 +173,23 @@ class BarrelBody(Record):
             found.append(BoreWall(self.bore, *self._bore_ends()))
         return tuple(found)
 
-    def surfaces(self) -> list[Face]:
+    @property
+    def surfaces(self) -> tuple[Measured, ...]:
         """Its faces in different surfaces."""
-        found: dict[object, Face] = {}
+        found: dict[object, Measured] = {}
         for face in self.faces():
-            found.setdefault(face.surface, face)
-        return list(found.values())
-
-    def distance(self, face: Face, points: Real) -> Real:
-        """Of points (n, 3) from the surface that a face lies in, mm; of a wall also beyond its ends."""
-        return face.distance(self.cam, points)
+            found.setdefault(face.surface, Measured(face.what, partial(face.distance, self.cam)))
+        return tuple(found.values())
 
     @property
-    def wall_width(self) -> float:
-        """What the volume of a sliver along a wall goes by, mm."""
-        return self.cam.outer - self.cam.inner
+    def moments(self) -> Moments:
+        """Volume, centre and inertia."""
+        return barrel_moments(self)
 
-    def volume(self) -> float:
-        """Exact, mm^3."""
-        return barrel_moments(self).volume
+    @property
+    def slack(self) -> float:
+        """What a change of the walls by one mm changes of the volume at most, mm^2."""
+        return 10 * self.moments.volume / (self.cam.outer - self.cam.inner)
 
     def _bore_ends(self) -> tuple[float, float]:
         below, above = (0.0, 0.0) if self.hub is None else self.hub[1:]

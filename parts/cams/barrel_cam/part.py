@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from msgspec.structs import replace as changed
 
@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     from geometry.cams.barrel.body import BarrelBody
     from geometry.cams.barrel.cam import BarrelCam, Guide
     from geometry.cams.motion.follower_motion import FollowerMotion
-    from geometry.solids.mass import Moments
     from parts.base.readback import Probe
 
 # usual limits of the pressure angle: translating 30, swinging 45 degrees (practicum: 30 to 35, 40 to 50)
@@ -326,7 +325,7 @@ class Barrel(Kind[BarrelCamSpec, "BarrelBody"]):
 
         return development(thing.cam, thing.length, offset)
 
-    def solid(self, keys: BarrelCamSpec, thing: BarrelBody, offset: float) -> Any:
+    def solid(self, keys: BarrelCamSpec, thing: BarrelBody, offset: float) -> BarrelBody:
         """The barrel: a ``BarrelBody``, whose walls are no plane's."""
         return _moved(keys, thing, offset)
 
@@ -339,12 +338,6 @@ class Barrel(Kind[BarrelCamSpec, "BarrelBody"]):
         unrolled = (Finding("development", 2 * math.pi * thing.cam.outer, 2 * thing.cam.outer),)
         found = _findings(keys, thing.cam)
         return Report(found, quantities=_quantities(keys, thing), flat_findings=unrolled)
-
-    def moments(self, solid: BarrelBody) -> Moments:  # type: ignore[override]
-        """Volume, centre and inertia."""
-        from geometry.cams.barrel.body import barrel_moments
-
-        return barrel_moments(solid)
 
     def probes(self, keys: BarrelCamSpec, thing: BarrelBody) -> tuple[Probe, ...]:
         """The roller, put into the groove of every mesh and rolled along every flat outline."""

@@ -103,7 +103,7 @@ def test_spoiled_walls_are_seen_at_the_start_the_middle_and_the_end() -> None:
     body, mesh, error = formed("groove")
     walls = [face for face in body.faces() if isinstance(face, Track)]
     for wall in walls:
-        away = body.distance(wall, mesh.vertices)
+        away = wall.distance(body.cam, mesh.vertices)
         mine = np.flatnonzero(away < 1e-6)
         for pick in (mine[0], mine[len(mine) // 2], mine[-1]):
             vertices = mesh.vertices.copy()
@@ -138,7 +138,7 @@ def test_the_roller_in_the_groove_feels_the_walls() -> None:
     assert play.min() > 1.0 - 2 * error
     assert play[COUNT * 150 // 360] == pytest.approx(1.0, abs=2 * error)
     assert play.max() > 1.05
-    away = body.distance(next(f for f in body.faces() if isinstance(f, Track) and f.side == LOWER), mesh.vertices)
+    away = next(f for f in body.faces() if isinstance(f, Track) and f.side == LOWER).distance(cam, mesh.vertices)
     vertices = mesh.vertices.copy()
     vertices[away < 1e-6, 2] += 0.3
     lifted = rolled_places(cam, walls_of(vertices[mesh.triangles], body), COUNT)
@@ -221,7 +221,7 @@ def test_steep_grooves_are_not_refused_and_spoiled_ones_are(name: str) -> None:
     # a wall a tenth of the roller too high, one corner in the middle of a wall too low
     for side, way in ((LOWER, 0.4), (cam.sides[0], -0.4)):
         wall = next(f for f in body.faces() if isinstance(f, Track) and f.side == side)
-        mine, vertices = np.flatnonzero(body.distance(wall, mesh.vertices) < 1e-6), mesh.vertices.copy()
+        mine, vertices = np.flatnonzero(wall.distance(body.cam, mesh.vertices) < 1e-6), mesh.vertices.copy()
         vertices[mine if way > 0 else mine[len(mine) // 2], 2] += way
         bad = probed_mesh(keys, ReadMesh(vertices, mesh.triangles), error)
         assert "the roller's place is wrong by 0." in bad.failures[0]

@@ -1,0 +1,158 @@
+"""A body that is its faces: what a kind hands over whose solid no plane outlines sweep.
+
+A kind's ``solid`` gives a ``FacedBody``; STL, 3MF, STEP, mass, read-back and interference follow. Where its surfaces
+are planes and surfaces of revolution, the faces are exact, and ``exact_body(solid)`` is all. Where some are splines,
+``within`` makes them for a tolerance with their declared error, and ``walls`` tell how far points lie from what they
+approximate, by a way of their own: read-back holds files against that, and never against the splines.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+from typing import ClassVar, Literal, Protocol
+
+import numpy as np
+
+from geometry.base.record import Record
+from geometry.curves.bounds import Bound
+from geometry.curves.curve import Real
+from geometry.solids.charts import Chart, along_edges, charts, edge_rows
+from geometry.solids.face_moments import FaceMoments, face_moments
+from geometry.solids.faces import Extrusion, Faces, Solid, Sphere, SplineSurface, Torus
+from geometry.solids.mass import Moments
+from geometry.solids.unrolled import Side, unrolled
+
+# to which the splines are made whose moments and box are asked for, mm
+_FINE = 1e-5
+_SAMPLES = np.linspace(0, 1, 17)
+_FILL = np.linspace(0, 1, 33)
+# what may lie beyond samples of faces bent both ways, part of their size
+_BEYOND = 1.01
+
+
+class FacedSolid(Record, eq=False):
+    """The faces of a body, and how far they leave the exact one, mm, like an Approximation."""
+
+    geometry: Solid
+    max_error: float = 0.0
+    bound: Bound = "exact"
+
+
+class Measured(Record, eq=False):
+    """An exact surface of a body: what it is called, and how far points (n, 3) lie from it, mm, also beyond it."""
+
+    what: str
+    distance: Callable[[Real], Real]
+
+
+class Faced(Protocol):
+    """What files, mass and checks ask of a body told by its faces."""
+
+    is_faced: ClassVar[Literal[True]]
+
+    @property
+    def surfaces(self) -> tuple[Measured, ...]: ...
+    @property
+    def moments(self) -> Moments: ...
+    @property
+    def slack(self) -> float: ...
+    def levels(self) -> tuple[float, ...]: ...
+    def section_reach(self) -> float: ...
+    def reach(self) -> float: ...
+    def steepness(self) -> float: ...
+
+
+class FacedBody(Record, dict=True):
+    """A body told by its faces, closed for every tolerance.
+
+    ``within``: the faces within a tolerance, mm; ``walls``: the exact surfaces that its splines stand for, in any
+    number; ``own_moments``: where the kind knows them better than its faces do.
+    """
+
+    within: Callable[[float], FacedSolid]
+    walls: tuple[Measured, ...] = ()
+    own_moments: Callable[[], Moments] | None = None
+    is_faced: ClassVar[Literal[True]] = True
+
+    @cached_property
+    def _fine(self) -> Solid:
+        return self.within(_FINE).geometry
+
+    @cached_property
+    def surfaces(self) -> tuple[Measured, ...]:
+        """Every exact surface once."""
+        found: dict[object, Measured] = {}
+        for faces in self._fine.faces:
+            if isinstance(faces.surface, SplineSurface | Extrusion):
+                continue
+            for chart in charts(self._fine, faces.surface, len(faces.loops[0][0])):
+                found.setdefault(chart.alike, Measured(str(chart.alike[0]), chart.distance))
+        return (*self.walls, *found.values())
+
+    @cached_property
+    def _measured(self) -> FaceMoments:
+        return face_moments(self._fine)
+
+    @cached_property
+    def moments(self) -> Moments:
+        """Volume, centre and inertia: exact but for splines, whose volume is good to their error over their area."""
+        return self._measured.moments if self.own_moments is None else self.own_moments()
+
+    @property
+    def slack(self) -> float:
+        """What a change of all surfaces by one mm changes of the volume at most, mm^2: twice their area."""
+        return 2 * self._measured.area
+
+    @cached_property
+    def box(self) -> tuple[Real, Real]:
+        """Lower and upper corner (3,) of all that it fills, mm."""
+        solid = self._fine
+        points = [along_edges(solid, edges, _SAMPLES)[0].reshape(-1, 3) for edges in solid.edges]
+        beyond = max(float(np.linalg.norm(np.ptp(p.reshape(-1, 3), axis=0))) for p in points) * (_BEYOND - 1)
+        for faces in solid.faces:
+            if isinstance(faces.surface, SplineSurface):
+                points.append(solid.points[faces.surface.poles].reshape(-1, 3))
+            elif isinstance(faces.surface, Torus | Sphere):
+                for row, chart in enumerate(charts(solid, faces.surface, len(faces.loops[0][0]))):
+                    points.append(_filled(solid, chart, faces, row))
+        whole = np.concatenate(points)
+        return whole.min(axis=0) - beyond, whole.max(axis=0) + beyond
+
+    def levels(self) -> tuple[float, float]:
+        """Its lowest and highest place, mm."""
+        low, high = self.box
+        return float(low[2]), float(high[2])
+
+    def section_reach(self) -> float:
+        """Greatest distance from the axis, mm."""
+        return float(np.hypot(*np.maximum(np.abs(self.box[0]), np.abs(self.box[1]))[:2]))
+
+    def reach(self) -> float:
+        """Greatest coordinate, mm."""
+        return max(self.section_reach(), *map(abs, self.levels()))
+
+    def steepness(self) -> float:
+        """1: a step along the axis moves a surface by no more than itself."""
+        return 1.0
+
+
+def _filled(solid: Solid, chart: Chart, faces: Faces, row: int) -> Real:
+    """Points (n, 3) all over the u and v that a face bent both ways spans."""
+    bundle, at = edge_rows(solid)
+    sides: list[Side] = []
+    for edges, senses in faces.loops:
+        ways = np.broadcast_to(senses, edges.shape)[row]
+        runs = [
+            along_edges(solid, solid.edges[bundle[e]], _SAMPLES)[0][at[e], :: 1 if way else -1]
+            for e, way in zip(edges[row].tolist(), ways.tolist(), strict=True)
+        ]
+        sides += unrolled(chart, runs, along=faces.along)
+    u, v = (np.concatenate([side.u for side in sides]), np.concatenate([side.v for side in sides]))
+    grid = np.meshgrid(u.min() + np.ptp(u) * _FILL, v.min() + np.ptp(v) * _FILL)
+    return chart.spatial(grid[0], grid[1]).reshape(-1, 3)
+
+
+def exact_body(solid: Solid) -> FacedBody:
+    """The body of a solid without splines."""
+    return FacedBody(lambda _: FacedSolid(solid))
