@@ -17,7 +17,7 @@ from geometry.curves.curve import Real
 from geometry.plane.measure import gauss_rule
 from geometry.solids.charts import Chart, along_edges, arcs, charts, edge_rows, patch_of, span_shares
 from geometry.solids.faces import Circular, Edges, Extrusion, Solid, Spline, SplineSurface
-from geometry.solids.mass import Moments
+from geometry.solids.mass import Moments, moments_of
 from geometry.solids.unrolled import unrolled
 
 # nodes on a piece of an edge and across a face; arcs are cut into pieces no longer than this, rad
@@ -56,9 +56,7 @@ def face_moments(solid: Solid) -> FaceMoments:
             break
     else:
         raise ConvergenceError("moments of a solid", change, _MOST)
-    area, v, x, y, z, xx, yy, xy, zz, xz, yz = total.tolist()
-    inertia = np.array([[yy + zz, -xy, -xz], [-xy, xx + zz, -yz], [-xz, -yz, xx + yy]])
-    return FaceMoments(Moments(v, np.array([x, y, z]) / v, inertia), area, min(own, 1.0))
+    return FaceMoments(moments_of(total[1:]), float(total[0]), min(own, 1.0))
 
 
 def _total(solid: Solid, pieces: int) -> Real:

@@ -47,20 +47,33 @@ class Measured(Record, eq=False):
 
 
 class Faced(Protocol):
-    """What files, mass and checks ask of a body told by its faces."""
+    """What files, mass and checks ask of a body told by its faces; all lengths in mm."""
 
     is_faced: ClassVar[Literal[True]]
 
     @property
-    def surfaces(self) -> tuple[Measured, ...]: ...
+    def surfaces(self) -> tuple[Measured, ...]:
+        """Every exact surface once."""
+
     @property
-    def moments(self) -> Moments: ...
+    def moments(self) -> Moments:
+        """Volume, centre and inertia."""
+
     @property
-    def slack(self) -> float: ...
-    def levels(self) -> tuple[float, ...]: ...
-    def section_reach(self) -> float: ...
-    def reach(self) -> float: ...
-    def steepness(self) -> float: ...
+    def slack(self) -> float:
+        """What a change of all surfaces by one mm changes of the volume at most, mm^2."""
+
+    def levels(self) -> tuple[float, ...]:
+        """Heights, the lowest first, the highest last."""
+
+    def section_reach(self) -> float:
+        """Greatest distance from the axis."""
+
+    def reach(self) -> float:
+        """Greatest coordinate."""
+
+    def steepness(self) -> float:
+        """How far a surface moves sideways for a step along the axis at most."""
 
 
 class FacedBody(Record, dict=True):

@@ -1,0 +1,96 @@
+"""Meshes and moments of solids of faces, against closed forms and against those of the bodies that made the faces."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from exporters.formats.readback import ReadMesh
+from exporters.verification.topology import doubled_normals, topology_failures
+from geometry.solids.face_moments import face_moments
+from geometry.solids.faces import Circular, Faces, Frame, Solid, SolidBuilder, Sphere, Torus
+from geometry.solids.mass import body_moments
+from geometry.solids.rings import AHEAD, UP
+from parts.scene.load import load_scene, make_parts
+from parts.solids.face_mesh import face_mesh
+from parts.solids.faces import solid_curves, solid_faces
+
+# across a circle that stands upright, its angle 0 ahead and a quarter up
+_SIDEWAYS = np.array([[0.0, -1.0, 0.0]])
+
+
+def ball(radius: float, at: complex = 0j) -> Solid:
+    """A ball with one meridian as its seam."""
+    made = SolidBuilder()
+    middle, low, high = (made.add_points(np.array([at]), z) for z in (0.0, -radius, radius))
+    south, north = made.add_vertices(low), made.add_vertices(high)
+    seam = made.add_edges(south, north, Circular(Frame(middle, _SIDEWAYS, AHEAD), radius))
+    loop = np.stack([seam, seam], axis=1), np.array([True, False])
+    made.faces.append(Faces(Sphere(Frame(middle, UP, AHEAD), radius), (loop,)))
+    return made.solid()
+
+
+def ring(radius: float, tube: float) -> Solid:
+    """A torus with two circles as its seams."""
+    made = SolidBuilder()
+    middle, outside, within = (made.add_points(np.array([x + 0j]), 0.0) for x in (0.0, radius + tube, radius))
+    corner = made.add_vertices(outside)
+    around = made.add_edges(corner, corner, Circular(Frame(middle, UP, AHEAD), radius + tube))
+    across = made.add_edges(corner, corner, Circular(Frame(within, _SIDEWAYS, AHEAD), tube))
+    loop = np.stack([around, across, around, across], axis=1), np.array([True, True, False, False])
+    made.faces.append(Faces(Torus(Frame(middle, UP, AHEAD), radius, tube), (loop,)))
+    return made.solid()
+
+
+def held(solid: Solid, tolerance: float) -> float:
+    """The volume of a closed mesh within a tolerance."""
+    made = face_mesh(solid, tolerance)
+    mesh = ReadMesh(made.vertices, made.geometry)
+    assert topology_failures(mesh) == []
+    assert made.max_error <= tolerance
+    corners = mesh.faces()
+    return float(np.einsum("ij,ij->i", corners[:, 0], doubled_normals(corners)).sum() / 6)
+
+
+def test_a_ball_and_a_ring_by_closed_forms() -> None:
+    r, big, tube = 5.0, 10.0, 3.0
+    found = face_moments(ball(r, 7 + 2j))
+    volume = 4 / 3 * math.pi * r**3
+    assert found.moments.volume == pytest.approx(volume, rel=1e-12)
+    assert found.area == pytest.approx(4 * math.pi * r**2, rel=1e-12)
+    assert found.moments.centre == pytest.approx([7, 2, 0], abs=1e-11)
+    assert found.moments.inertia[2, 2] == pytest.approx(volume * (0.4 * r**2 + 53), rel=1e-12)
+    found = face_moments(ring(big, tube))
+    volume = 2 * math.pi**2 * big * tube**2
+    assert found.moments.volume == pytest.approx(volume, rel=1e-12)
+    assert found.area == pytest.approx(4 * math.pi**2 * big * tube, rel=1e-12)
+    assert found.moments.inertia[2, 2] == pytest.approx(volume * (big**2 + 0.75 * tube**2), rel=1e-12)
+    for solid, exact, distance in (
+        (ball(r), 4 / 3 * math.pi * r**3, lambda p: np.linalg.norm(p, axis=1) - r),
+        (ring(big, tube), volume, lambda p: np.hypot(np.hypot(p[:, 0], p[:, 1]) - big, p[:, 2]) - tube),
+    ):
+        for tolerance in (0.3, 0.01):
+            assert held(solid, tolerance) == pytest.approx(exact, abs=found.area * tolerance)
+            made = face_mesh(solid, tolerance)
+            middles = made.vertices[made.geometry].mean(axis=1)
+            # outside the corners stand on it, inside the triangles lie within the declared error
+            assert np.abs(distance(made.vertices)).max() < 1e-12
+            worst = float(np.abs(distance(middles)).max())
+            assert 0.1 * made.max_error < worst <= made.max_error
+
+
+@pytest.mark.parametrize("scene", ["helical_pair", "cycloidal_reducer"])
+def test_solids_of_scenes_are_closed_and_as_large_as_their_bodies(scene: str) -> None:
+    """The faces that STEP is written of, meshed and integrated, beside the bodies they were made of."""
+    parts, _ = make_parts(load_scene(scene), scene)
+    for part in parts.values():
+        body = part.body(0.0)
+        curves = solid_curves(body, 1e-6)
+        solid = solid_faces(body, curves)
+        exact = body.moments if body.is_faced else body_moments(body)
+        found = face_moments(solid)
+        assert found.moments.volume == pytest.approx(exact.volume, rel=1e-8)
+        assert found.moments.inertia == pytest.approx(exact.inertia, rel=1e-7, abs=1e-7 * np.abs(exact.inertia).max())
+        assert held(solid, 0.05) == pytest.approx(exact.volume, abs=0.05 * found.area)
