@@ -10,22 +10,28 @@ sliding the pieces together, by exact distances.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.base.record import Draft, Record
+from exporters.boards.slide import slid
+from geometry.base.record import Draft, Record, replace
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
 Flags = NDArray[np.bool_]
-# cells of the grid along the longer side of a board
-_CELLS = 800
+# cells of the grid along the longer side of a board, and of all tables together
+_COARSEST, _FINEST, _TABLES = 800, 6000, 15_000_000
 # a shape that fills its circumscribed circle so well is laid in one turn
 _ROUND = 1.02
+# cells that all layouts together look at
+_WORK = 2e10
+# layouts that are tried for each piece at most
+_TRIALS = 20
+_NOTHING = (math.inf, math.inf, math.inf)
 QUARTERS, HALVES = (0, 1, 2, 3), (0, 2)
 
 
@@ -73,7 +79,18 @@ def nest(shapes: Mapping[str, tuple[BaseGeometry, int]], room: Room) -> list[Lai
     DoesNotFitError
         A shape is larger than the room.
     """
-    return _Nest(shapes, room).laid()
+    laid = _Nest(shapes, room).laid()
+    return [one for number in range(1 + max((x.board for x in laid), default=-1))
+            for one in _together([x for x in laid if x.board == number], shapes, room)]  # fmt: skip
+
+
+def _together(laid: Sequence[Laid], shapes: Mapping[str, tuple[BaseGeometry, int]], room: Room) -> list[Laid]:
+    """The pieces of a board, slid together."""
+    from shapely.affinity import rotate, translate
+
+    placed = [translate(rotate(shapes[x.shape][0], 90 * x.turn, origin=(0, 0)), x.at.real, x.at.imag) for x in laid]
+    moved = slid(placed, room.margin * (1 + 1j), room.gap)
+    return [replace(x, at=x.at + by) for x, by in zip(laid, moved.tolist(), strict=True)]
 
 
 class _Nest:
@@ -82,8 +99,13 @@ class _Nest:
     def __init__(self, shapes: Mapping[str, tuple[BaseGeometry, int]], room: Room) -> None:
         self.room = room
         self.inner = complex(room.width - 2 * room.margin, room.height - 2 * room.margin)
-        self.cell = max(room.width, room.height) / _CELLS
         self.counts = {name: count for name, (_, count) in shapes.items()}
+        boxes = [g.bounds for g, _ in shapes.values()]
+        spans = np.array([max(b[2] - b[0], b[3] - b[1]) + room.gap for b in boxes])
+        # squares about all pairs of shapes in all turns to each other, of which each is looked at cell by cell
+        pairs = len(room.turns) * float(np.square(spans[:, None] + spans).sum())
+        longer = max(room.width, room.height)
+        self.cell = min(max(math.sqrt(pairs / _TABLES), longer / _FINEST), longer / _COARSEST)
         self.turned = {name: self._turns(name, geometry) for name, (geometry, _) in shapes.items()}
         self.tables: dict[tuple[str, int, str, int], Flags] = {}
 
@@ -123,11 +145,10 @@ class _Nest:
         return np.asarray(shapely.contains_xy(grown, *np.meshgrid(*axes, indexing="ij")))
 
     def table(self, one: tuple[str, int], two: tuple[str, int]) -> Flags:
-        """Steps (x, y) about the middle from shape ``one`` to shape ``two`` at which they are too near."""
+        """Steps (x, y) about the middle from shape ``one`` to shape ``two`` at which they are not too near."""
         name, turn = one
         other, turned = two
-        key = (name, 0, other, (turned - turn) % 4)
-        if key not in self.tables:
+        if (name, turn, other, turned) not in self.tables:
             shape = next(iter(self.turned[name].items()))
             base = self.turned[name].get(0) or _back(shape[1], shape[0])
             first = self._cover(base.geometry, base.half, self.room.gap)
@@ -136,55 +157,112 @@ class _Nest:
             size = [a + b - 1 for a, b in zip(first.shape, second.shape, strict=True)]
             fast = [_fast(n) for n in size]
             spectrum = np.fft.rfft2(first, fast) * np.fft.rfft2(second[::-1, ::-1], fast)
-            self.tables[key] = np.fft.irfft2(spectrum, fast)[: size[0], : size[1]] > 0.5
-        return np.rot90(self.tables[key], turn, axes=(0, 1))
+            clear = np.fft.irfft2(spectrum, fast)[: size[0], : size[1]] < 0.5
+            for quarter in range(4):
+                self.tables[name, quarter, other, (turned - turn + quarter) % 4] = np.ascontiguousarray(
+                    np.rot90(clear, quarter, axes=(0, 1))
+                )
+        return self.tables[name, turn, other, turned]
 
     def laid(self) -> list[Laid]:
-        """All pieces, board by board."""
-        left = dict(self.counts)
-        order = sorted(left, key=lambda name: -next(iter(self.turned[name].values())).geometry.convex_hull.area)
-        found: list[Laid] = []
-        board = 0
-        while any(left.values()):
-            found += self._board(board, order, left)
-            board += 1
-        return found
+        """The best of a fixed number of layouts: each begins anew from the best order, two pieces of it exchanged."""
+        size = {name: next(iter(turns.values())).geometry.convex_hull.area for name, turns in self.turned.items()}
+        reach = {
+            name: max(max(s.half.real, s.half.imag) for s in turns.values()) for name, turns in self.turned.items()
+        }
+        pieces = [name for name, count in self.counts.items() for _ in range(count)]
+        orders = [sorted(pieces, key=lambda name: -by[name]) for by in (size, reach)]
+        best = min(filter(None, map(self._packed, orders)), key=lambda found: found.rank)
+        work = len(pieces) * sum(map(len, self.turned.values())) * np.mean([t.size for t in self.tables.values()])
+        chance = _Chance()
+        for _ in range(min(int(_WORK / work), _TRIALS * len(pieces)) if len(self.counts) > 1 else 0):
+            order = list(best.order)
+            one, two = chance.below(len(order)), chance.below(len(order))
+            if order[one] == order[two]:
+                continue
+            order[one], order[two] = order[two], order[one]
+            found = self._packed(order, best.rank)
+            if found is not None and found.rank <= best.rank:
+                best = found
+        return best.laid
 
-    def _board(self, board: int, order: Sequence[str], left: dict[str, int]) -> Iterator[Laid]:
-        """What lies on one board; ``left`` is counted down."""
-        free = {}
-        wide, high = (math.floor(size / self.cell + 1e-9) for size in (self.inner.real, self.inner.imag))
+    def _packed(self, order: Sequence[str], than: tuple[float, float, float] = _NOTHING) -> _Layout | None:
+        """All pieces in an order, each where it lies farthest to the left, board by board; None: no better ``than``."""
+        left = list(order)
+        found: list[Laid] = []
+        end, board = 0.0, 0
+        while left:
+            here, left, end = self._board(board, left)
+            found += here
+            board += 1
+            if (board, end if board == than[0] else 0.0) > than[:2] or (left and board == than[0]):
+                return None
+        ends = sorted((one.at.real for one in found if one.board == board - 1), reverse=True)
+        return _Layout(tuple(order), found, (board, round(end, 6), sum(ends)))
+
+    def _board(self, board: int, order: Sequence[str]) -> tuple[list[Laid], list[str], float]:
+        """What lies on one board, what is left, and how far it reaches, mm."""
+        names = dict.fromkeys(order)
+        counts = {name: order.count(name) for name in names}
+        free = {(name, turn): self._all_free(shape) for name in names for turn, shape in self.turned[name].items()}
+        laid, left, end = [], [], 0.0
+        full: set[str] = set()
         for name in order:
-            for turn, shape in self.turned[name].items() if left[name] else ():
-                low = [math.ceil(size / self.cell - 1e-9) for size in (shape.half.real, shape.half.imag)]
-                ends = [(s - h) / self.cell + 1e-9 for s, h in ((self.inner.real, shape.half.real),
-                                                                 (self.inner.imag, shape.half.imag))]  # fmt: skip
-                free[name, turn] = np.zeros((wide + 1, high + 1), dtype=bool)
-                free[name, turn][low[0] : math.floor(ends[0]) + 1, low[1] : math.floor(ends[1]) + 1] = True
-        for name in order:
-            while left[name]:
-                best = min(filter(None, (self._first(free, name, turn) for turn in self.turned[name])), default=None)
-                if best is None:
-                    break
-                _, turn, (x, y) = best
-                left[name] -= 1
-                shape = self.turned[name][turn]
-                at = complex(x, y) * self.cell + self.room.margin * (1 + 1j) - shape.middle
-                yield Laid(name, board, turn, at)
-                for (other, way), places in free.items():
-                    if left[other]:
-                        _stamp(places, self.table((name, turn), (other, way)), x, y)
+            counts[name] -= 1
+            found = () if name in full else (self._first(free, name, turn) for turn in self.turned[name])
+            best = min(filter(None, found), default=None)
+            if best is None:
+                full.add(name)
+                left.append(name)
+                continue
+            (right, _), turn, (x, y) = best
+            end = max(end, right)
+            at = complex(x, y) * self.cell + self.room.margin * (1 + 1j) - self.turned[name][turn].middle
+            laid.append(Laid(name, board, turn, at))
+            for (other, way), places in free.items():
+                if counts[other] and other not in full:
+                    _stamp(places, self.table((name, turn), (other, way)), x, y)
+        return laid, left, end
+
+    def _all_free(self, shape: _Shape) -> Flags:
+        """Where the middle of a shape may stand on an empty board."""
+        count = [math.floor(size / self.cell + 1e-9) + 1 for size in (self.inner.real, self.inner.imag)]
+        low = [math.ceil(size / self.cell - 1e-9) for size in (shape.half.real, shape.half.imag)]
+        high = self.inner - shape.half
+        places = np.zeros(count, dtype=bool)
+        ends = [math.floor(size / self.cell + 1e-9) + 1 for size in (high.real, high.imag)]
+        places[low[0] : ends[0], low[1] : ends[1]] = True
+        return places
 
     def _first(
         self, free: Mapping[tuple[str, int], Flags], name: str, turn: int
     ) -> tuple[tuple[float, int], int, tuple[int, int]] | None:
         """The leftmost and then lowest free place of a shape in a turn, and by what it is compared with others."""
         places = free[name, turn]
-        at = int(places.argmax())
-        x, y = divmod(at, places.shape[1])
+        x, y = divmod(int(places.argmax()), places.shape[1])
         if not places[x, y]:
             return None
         return (x * self.cell + self.turned[name][turn].half.real, y), turn, (x, y)
+
+
+class _Layout(Record):
+    """Pieces in their places, the order that has led to it, and its rank: boards, how far the last one is used, mm."""
+
+    order: tuple[str, ...]
+    laid: list[Laid]
+    rank: tuple[float, float, float]
+
+
+class _Chance:
+    """Numbers that are as good as chance, the same on every machine (Lehmer's generator, Park and Miller 1988)."""
+
+    def __init__(self) -> None:
+        self.state = 1
+
+    def below(self, count: int) -> int:
+        """A number from 0 to below ``count``."""
+        self.state = self.state * 48271 % 2147483647
+        return self.state % count
 
 
 def _back(shape: _Shape, turn: int) -> _Shape:
@@ -200,7 +278,7 @@ def _stamp(places: Flags, table: Flags, x: int, y: int) -> None:
     left, low = x - table.shape[0] // 2, y - table.shape[1] // 2
     here = slice(max(left, 0), left + table.shape[0]), slice(max(low, 0), low + table.shape[1])
     part = places[here]
-    part &= ~table[here[0].start - left :, here[1].start - low :][: part.shape[0], : part.shape[1]]
+    part &= table[here[0].start - left :, here[1].start - low :][: part.shape[0], : part.shape[1]]
 
 
 def _fast(count: int) -> int:
