@@ -30,7 +30,7 @@ _ROUND = 1.02
 # cells that all layouts together look at
 _WORK = 2e10
 # layouts that are tried for each piece at most
-_TRIALS = 20
+_TRIALS = 12
 _NOTHING = (math.inf, math.inf, math.inf)
 QUARTERS, HALVES = (0, 1, 2, 3), (0, 2)
 

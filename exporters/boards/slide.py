@@ -19,7 +19,7 @@ _WAYS = (-1, -1j, -1, -1j, -1)
 
 
 def slid(pieces: Sequence[BaseGeometry], corner: complex, gap: float) -> Complex:
-    """How far each piece moves, mm; none leaves the ``corner`` (lower left) of the room or comes nearer than the gap."""
+    """How far each piece moves, mm; none leaves the room at its lower left ``corner`` or comes nearer than the gap."""
     import shapely
     from shapely.affinity import translate
 
