@@ -19,8 +19,7 @@ from parts.base.texts import ENGLISH, N_, Words, words
 from parts.keys.sheet import SHEET_KEYS
 from parts.mates.registry import MATES
 from parts.recipes.registry import RECIPES
-from parts.scene.load import ExportSpec, SceneInfo
-from parts.scene.recipes import told_out
+from parts.scene.load import ExportSpec, SceneInfo, plain_tables
 
 # parts of the scene: of the kind that is shown, the one that it is made from, any other one
 _OWN, _SOURCE, _OTHER = "gear", "source", "wheel"
@@ -159,11 +158,11 @@ def new_assembly(kind: str, language: str = ENGLISH) -> str:
 
 
 def plain_scene(text: str, source: str) -> str:
-    """The text of a scene, its assemblies told out as parts, instances, mates and drives."""
-    raw, _ = told_out({"assemblies": [], **tomllib.loads(text)}, source)
+    """The text of a scene, its defaults filled in, its assemblies told out as parts, instances, mates and drives."""
+    raw, _ = plain_tables(tomllib.loads(text), source)
     lines: list[str] = []
-    for name in _TABLES:
-        table = raw.get(name, {})
+    for name in [name for name in _TABLES if name in raw]:
+        table = raw[name]
         if name in ("parts", "instances", "boards", "beds"):
             for key, own in table.items():
                 lines += ["", f"[{name}.{key}]", *(f"{k} = {_toml(v)}" for k, v in own.items())]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from parts.base.texts import N_
 
 REASONS = {
+    "nothing_takes_it": N_("nothing in the scene takes it; what some part, mate, board or export takes: {known}"),
     "about_needs_at": N_("without `at` mates say where each of them stands"),
     "groups_differ": N_("are not as many as those of {first}, which are {count}"),
     "is_a_member": N_("{group} has one of this id already; rename one of them"),

@@ -6,6 +6,7 @@ import re
 import tomllib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar
 
@@ -233,18 +234,55 @@ def scene_from_dict(raw: dict[str, Any], source: str, name: str) -> SceneFile:
     """Validate the tables of a scene, its assemblies told out."""
     refuse_infinite(raw, source, "")
     _check_tables(raw, source)
-    origins: dict[str, str] = {}
-    if "assemblies" in raw:
-        from parts.scene.recipes import told_out
-
-        raw, origins = told_out(raw, source)
+    raw, origins = plain_tables(raw, source)
     with in_keys_of_file(origins):
         return _scene_of(raw, source, name, origins)
 
 
+def plain_tables(raw: dict[str, Any], source: str) -> tuple[dict[str, Any], dict[str, str]]:
+    """The tables of a scene, defaults filled in and assemblies told out, and for places in them those of the file."""
+    origins: dict[str, str] = {}
+    if "defaults" in raw:
+        from parts.scene.defaults import filled_in
+
+        raw, origins = filled_in(raw, source, ExportSpec, partial(_takes, source))
+    if "assemblies" in raw:
+        from parts.scene.recipes import told_out
+
+        with in_keys_of_file(origins):
+            raw, told = told_out(raw, source)
+        origins |= {place: _in_file(there, origins) for place, there in told.items()}
+    return raw, origins
+
+
+def _takes(source: str, table: dict[str, Any], key: str, value: object) -> bool:
+    """Whether an export that is well without a key is so with it; tolerances of CAD are their own.
+
+    Raises
+    ------
+    SceneError
+        No export may have that value.
+    """
+    converted({"format": "dxf", key: value}, ExportSpec, source, "defaults")
+    own = {k: v for k, v in table.items() if k != "parts"}
+    try:
+        spec = _export_spec(own, {}, source, "exports")
+    except SceneError:
+        return False
+    if key == "tolerance" and file_kind(spec.format, spec.purpose).is_cad:
+        return False
+    try:
+        _export_spec({**own, key: value}, {}, source, "exports")
+    except SceneError:
+        return False
+    return True
+
+
 def _check_tables(raw: dict[str, Any], source: str) -> None:
     """Only tables that a scene has, each of its form."""
-    tables: dict[str, type] = {key: dict for key in ("scene", "parts", "instances", "boards", "beds", "checks")}
+    tables: dict[str, type] = {
+        key: dict for key in ("scene", "defaults", "parts", "instances", "boards", "beds", "checks")
+    }
     tables |= {key: list for key in ("assemblies", "mates", "drives", "exports")}
     for key, value in raw.items():
         if key not in tables:

@@ -12,6 +12,7 @@ from parts.base.registry import KINDS
 from parts.keys.boards import BedSpec, BoardSpec
 from parts.mates.registry import MATES
 from parts.recipes.registry import RECIPES
+from parts.scene.defaults import default_names
 from parts.scene.instances import DriveSpec, InstanceTable
 from parts.scene.load import ChecksSpec, ExportSpec, SceneInfo
 
@@ -36,8 +37,28 @@ def scene_schema() -> str:
     ]
     scene = msgspec.defstruct("Scene", tables, forbid_unknown_fields=True, kw_only=True)
     schema = msgspec.json.schema(scene)
+    names = default_names(ExportSpec)
+    told = {"type": "object", "properties": {key: {} for key in names}, "additionalProperties": False}
+    schema["$defs"]["Scene"]["properties"]["defaults"] = told
+    needed: dict[str, Any] = {}
+    for place, items, kinds in (
+        ("parts", "additionalProperties", KINDS),
+        ("mates", "items", MATES),
+        ("assemblies", "items", RECIPES),
+    ):
+        rows = [(kind, schema["$defs"][entry.keys.__name__]) for kind, entry in kinds.items()]
+        needed[place] = {items: {"allOf": [_if_kind(kind, table.get("required", [])) for kind, table in rows]}}
+        # what a table needs may stand in the defaults
+        for _, table in rows:
+            table["required"] = [key for key in table.get("required", ()) if key not in names]
+    schema["$defs"]["Scene"] |= {"if": {"not": {"required": ["defaults"]}}, "then": {"properties": needed}}
     # what an assembly makes may be changed by keys alone
     keys = schema["$defs"]["Scene"]["properties"]["parts"]
     keys["additionalProperties"] = {"anyOf": [keys["additionalProperties"], {"not": {"required": ["kind"]}}]}
     schema["$defs"]["Scene"]["anyOf"] = [{"required": ["parts"]}, {"required": ["assemblies"]}]
     return json.dumps({"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}, indent=1) + "\n"
+
+
+def _if_kind(kind: str, keys: list[str]) -> dict[str, Any]:
+    """What a table of a kind needs."""
+    return {"if": {"properties": {"kind": {"const": kind}}, "required": ["kind"]}, "then": {"required": keys}}

@@ -1,0 +1,93 @@
+"""The table ``[defaults]``: keys said once, for every part, assembly, mate, board and export that takes them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import fields
+
+from parts.base.refusal import SceneError, meant
+from parts.base.registry import KINDS
+from parts.keys.boards import BedSpec, BoardSpec
+from parts.mates.registry import MATES
+from parts.recipes.registry import RECIPES
+
+Table = dict[str, Any]
+# whether a table of ``[[exports]]`` takes a key with a value
+Takes = Callable[[Table, str, object], bool]
+# tables that say their kind, and others
+_KINDS: dict[str, Mapping[str, Any]] = {"parts": KINDS, "assemblies": RECIPES, "mates": MATES}
+_PLAIN: dict[str, type[Struct]] = {"boards": BoardSpec, "beds": BedSpec}
+# keys that a table has already in another form
+_INSTEAD = {
+    "bore_diameter": ("bore",),
+    "bore": ("bore_diameter",),
+    "kerf": ("offset",),
+    "offset": ("kerf",),
+    "normal_backlash": ("circumferential_backlash",),
+    "circumferential_backlash": ("normal_backlash",),
+    "density": ("material",),
+}
+# keys that are not one for all
+_OWN = {"kind", "first", "second", "of", "name", "title", "format", "purpose", "parts", "copies"}
+
+
+def filled_in(raw: Table, source: str, export_keys: type[Struct], takes: Takes) -> tuple[Table, dict[str, str]]:
+    """The tables of a scene with its defaults where they have no key of their own; for each, where it has come from.
+
+    Raises
+    ------
+    SceneError
+        Nothing in the scene takes a key.
+    """
+    tables = {key: value for key, value in raw.items() if key != "defaults"}
+    origins: dict[str, str] = {}
+    known: set[str] = set()
+    used: set[str] = set()
+
+    def filled(name: str, place: str, table: object) -> object:
+        keys = _keys_of(name, table, export_keys)
+        if keys is None or not isinstance(table, dict):
+            return table
+        names, made = _names(keys), dict(table)
+        known.update(names)
+        for key, value in raw["defaults"].items():
+            if key not in names or (name == "exports" and key not in table and not takes(made, key, value)):
+                continue
+            used.add(key)
+            if not any(k in table for k in (key, *_INSTEAD.get(key, ()))):
+                made[key] = value
+                origins[f"{place}.{key}"] = f"{place}: defaults.{key}"
+        return made
+
+    for name in [name for name in (*_KINDS, *_PLAIN, "exports") if name in raw]:
+        if isinstance(raw[name], list):
+            tables[name] = [filled(name, f"{name}[{k}]", table) for k, table in enumerate(raw[name], 1)]
+        else:
+            tables[name] = {key: filled(name, f"{name}.{key}", table) for key, table in raw[name].items()}
+    for key, value in raw["defaults"].items():
+        if key not in used:
+            near = meant(key, known)
+            raise SceneError(source, f"defaults.{key}", value, "nothing_takes_it", near, known=sorted(known))
+    return tables, origins
+
+
+def default_names(export_keys: type[Struct]) -> list[str]:
+    """Every key that may stand in ``[defaults]`` of some scene."""
+    kinds: list[type[Struct]] = [kind.keys for found in _KINDS.values() for kind in found.values()]
+    return sorted({name for keys in (*kinds, *_PLAIN.values(), export_keys) for name in _names(keys)})
+
+
+def _names(keys: type[Struct]) -> set[str]:
+    return {f.encode_name for f in fields(keys)} - _OWN
+
+
+def _keys_of(name: str, table: object, export_keys: type[Struct]) -> type[Struct] | None:
+    """The keys of a table; None of one whose kind there is not, of which the loader tells."""
+    if name not in _KINDS:
+        return _PLAIN.get(name, export_keys)
+    kind = table.get("kind") if isinstance(table, dict) else None
+    keys: type[Struct] | None = _KINDS[name][kind].keys if isinstance(kind, str) and kind in _KINDS[name] else None
+    return keys
