@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from geometry.gears.mesh.search import PairContact
 
 # mates that run no gears in each other: of these transmission error is not asked
-_WITHOUT_TEETH = ("fixed", "coaxial", "carried", "pin_seat", "eccentric_bearing")
+_WITHOUT_TEETH = ("fixed", "coaxial", "carried", "parallel", "pin_seat", "eccentric_bearing")
 
 
 def scene_checks(

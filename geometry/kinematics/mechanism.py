@@ -41,9 +41,10 @@ if TYPE_CHECKING:
 # no name of an instance
 FRAME = "@"
 Z = (0.0, 0.0, 1.0)
-Kind = Literal["external", "internal", "bevel", "worm", "rack"]
+# parallel: two links that turn alike, as cranks of a parallelogram do, or what is hung on them and what it hangs on
+Kind = Literal["external", "internal", "bevel", "worm", "rack", "parallel"]
 # turns of the second for those of the first, where nothing else is said; seed 001 counts bevels and worms as positive
-_SENSES: Mapping[str, int] = {"external": -1, "internal": 1, "bevel": 1, "worm": 1, "rack": 1}
+_SENSES: Mapping[str, int] = {"external": -1, "internal": 1, "bevel": 1, "worm": 1, "rack": 1, "parallel": 1}
 
 
 class Fixed(Record):

@@ -93,6 +93,8 @@ class Mating(Joined, kw_only=True):
     follows = False
     # whether the ratio of its joints is only that of whole turns
     uneven = False
+    # whether a second that stands already must stand at ``height``
+    asks_height = True
 
     @property
     def joints(self) -> tuple[Joint, ...]:

@@ -49,6 +49,10 @@ MATES: Index[MateKind[Any, Any, Any]] = Index(
             "parts.mates.fixed:CARRIED",
             "The axis of the second stands on the first and goes round with it: a satellite on its carrier",
         ),
+        "parallel": (
+            "parts.mates.parallel:PARALLEL",
+            "The second turns as the first does: cranks of a parallelogram, or what they hold and what that hangs on",
+        ),
         "cycloidal_pair": (
             "parts.mates.cycloidal:CYCLOIDAL_PAIR",
             "A cycloidal disc (second) in its pin ring (first): eccentric distance and phase",

@@ -8,6 +8,8 @@ from parts.base.texts import N_
 REASONS = {
     "arc_consumed": N_("leaves nothing of an arc"),
     "arms_meet": N_("the arms meet beyond it"),
+    "axle_beyond_pinion": N_("the platform's axle stands in the pinion, at most {most} mm from its middle"),
+    "axles_meet": N_("leaves a wall of {wall} mm between two axles, or to a rim"),
     "bore_reaches_root_circle": N_("the bore reaches the root circle, {diameter} mm"),
     "bore_reaches_root_circle_nearly": N_("leaves less than {least} mm to the root circle, {diameter} mm"),
     "boundaries_cross": N_("two boundaries cross"),
@@ -27,6 +29,7 @@ REASONS = {
     "closes_holes": N_("closes the holes"),
     "closes_keyway": N_("closes the keyway"),
     "closes_windows": N_("closes the windows"),
+    "platform_too_small": N_("does not reach the pivots of its cranks"),
     "edge_consumed": N_("leaves nothing of an edge"),
     "engraved_too_deep": N_("leaves less than half of the thickness under it"),
     "flat_beyond_axis": N_("the flat stands on the axis or beyond it"),

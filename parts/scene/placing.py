@@ -299,7 +299,7 @@ def _with_faces_and_speeds(mates: tuple[PlacedMate, ...], parts: dict[str, Part]
     done = []
     for index, mate in enumerate(mates):
         more: list[Condition] = []
-        if mate.conditions or (mate.mating.has_contact and mate.mating.height):
+        if (mate.conditions and mate.mating.asks_height) or (mate.mating.has_contact and mate.mating.height):
             more.append(_height(mate, parts))
         if mate.only_checks:
             from parts.base.mate import Toothed

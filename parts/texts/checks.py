@@ -33,6 +33,7 @@ MATES: dict[str, Text] = {
     ),
     "coaxial": N_("{first} - {second}: on one axis"),
     "carried": N_("{second}: its axis goes round on {first}"),
+    "parallel": N_("{second} turns as {first} does"),
     "pin_seat": N_("seated in {first}: {second}"),
     "lantern_pair": N_(
         "lantern pair {first} - {second}: a_w = {working_centre_distance:.5f} mm, ratio {gear_ratio:.6g}, "

@@ -1,0 +1,76 @@
+"""The mate ``parallel``: two instances that always turn alike, wherever their axes go."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Annotated, Any
+
+from msgspec import Meta
+
+from geometry.base.errors import ParameterError
+from parts.base.mate import End, MateKeys, MateKind, Mating, Pose, Standing
+from parts.keys.base import degrees, mm
+
+if TYPE_CHECKING:
+    from geometry.kinematics.mechanism import Joint
+
+_MOST = 1e6
+_Shift = Annotated[float, mm("a coordinate of the second's axis from the first's", least=-_MOST, most=_MOST)]
+
+
+class ParallelSpec(MateKeys, tag="parallel", kw_only=True):
+    """Keys of ``parallel``."""
+
+    second: Annotated[str, Meta(description="instance that turns alike; other mates carry its axis")]
+    offset: (
+        Annotated[
+            tuple[_Shift, _Shift, _Shift],
+            mm("x, y, z of its axis at the start, along the scene's axes; default: where other mates put it",
+               example=[40.0, 0.0, 0.0]),
+        ]
+        | None
+    ) = None  # fmt: skip
+    rotation_deg: Annotated[float, degrees("turn of the second against the first", least=-36_000, most=36_000)] = 0.0
+
+
+class ParallelMating(Mating):
+    """The second as the cranks of a parallelogram hold it."""
+
+    offset: complex | None
+    rotation: float
+
+    asks_height = False
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """Both turn alike against whatever carries both."""
+        from geometry.kinematics.mechanism import Rolling
+
+        return (Rolling("parallel", self.first, self.second, (1, 1)),)
+
+    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+        """Beside the first, turned as it is."""
+        if self.offset is None:
+            raise ParameterError("offset", None, "place_on_carrier", None)
+        return centre + self.offset, rotation + self.rotation
+
+    def standing(self, first: Pose, second: Pose) -> Standing:
+        """How far the second is turned against the first; its axis is for other mates to hold."""
+        off = math.remainder(second[1] - first[1] - self.rotation, 2 * math.pi)
+        return Standing(0.0, self.distance, off, 0.0)
+
+
+class Parallel(MateKind[ParallelSpec, Any, Any]):
+    """Anything and anything."""
+
+    name, keys = "parallel", ParallelSpec
+
+    def mating(self, keys: ParallelSpec, first: End[Any], second: End[Any]) -> ParallelMating:
+        """Whatever the parts are."""
+        x, y, z = keys.offset or (0.0, 0.0, 0.0)
+        offset = None if keys.offset is None else complex(x, y)
+        turn = math.radians(keys.rotation_deg)
+        return ParallelMating(self.name, keys.first, keys.second, height=z, offset=offset, rotation=turn)
+
+
+PARALLEL = Parallel()

@@ -1,0 +1,193 @@
+"""The two-disk power table of flat parts: assembled, parallel, and free over its whole workspace, by polygons."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+
+from exporters.command.cli import main
+from geometry.approximation.chords import approximate_profile
+from geometry.kinematics.two_disk import TwoDisk
+from parts.base.refusal import SceneError
+from parts.scene.load import SceneFile, in_keys_of_file, load_scene, make_parts, scene_from_dict
+from parts.scene.placing import Placing, place
+
+Flat = tuple[str, float, float, shapely.Geometry]
+# what a kerf of 0.2 may cut away: nothing narrower than twice that stays
+KERF = 0.2
+
+
+def scene(**keys: Any) -> SceneFile:
+    return scene_from_dict({"assemblies": [{"kind": "power_table", **keys}]}, "t", "t")
+
+
+def placed(made: SceneFile) -> tuple[Placing, dict[str, Any]]:
+    with in_keys_of_file(made.origins):
+        parts, matings = make_parts(made, "t")
+    return place(made.instances, made.drives, parts, matings, "t"), parts
+
+
+def polygon(part: Any) -> shapely.Geometry:
+    region = part.section(0.0).region
+
+    def ring(profile: Any) -> shapely.Polygon:
+        points, _ = approximate_profile(profile, 1e-3, arcs=False).geometry.expanded()
+        return shapely.Polygon(np.stack([points.real, points.imag], axis=1))
+
+    shape = ring(region.outer)
+    for hole in region.holes:
+        shape = shape.difference(ring(hole))
+    return shape
+
+
+def flats(placing: Placing, parts: dict[str, Any]) -> list[Flat]:
+    """Every instance with its lower and upper face and its outline, smaller by what outlines and glued rods touch."""
+    shapes = {key: polygon(part).buffer(-0.01, quad_segs=2) for key, part in parts.items()}
+    return [(i.id, i.at[2], i.at[2] + parts[i.part].face_width, shapes[i.part]) for i in placing.instances]
+
+
+def moved(shape: shapely.Geometry, place: complex, turn: float) -> shapely.Geometry:
+    def way(points: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+        z = (points[:, 0] + 1j * points[:, 1]) * np.exp(1j * turn) + place
+        return np.stack([z.real, z.imag], axis=1)
+
+    return shapely.transform(shape, way)
+
+
+def struck(placing: Placing, parts: dict[str, Any], runs: list[tuple[float, float]]) -> set[frozenset[str]]:
+    """Pairs that meet somewhere: all that stand at one height are tried; the mesh is left to its own check."""
+    assert placing.train is not None
+    bodies = placing.train.moving.stands.body
+    found = flats(placing, parts)
+    pairs = [
+        (a, b)
+        for a, b in combinations(range(len(found)), 2)
+        if min(found[a][2], found[b][2]) - max(found[a][1], found[b][1]) > 1e-9
+        and bodies(found[a][0]) != bodies(found[b][0])
+        and {found[a][0], found[b][0]} != {"ring", "pinion"}
+    ]
+    assert len(pairs) > 150
+    met = set()
+    one, two = (np.array(side) for side in zip(*pairs, strict=True))
+    for run in runs:
+        poses = placing.train.poses([Fraction(r).limit_denominator(10**6) for r in run])
+        shapes = np.array([moved(shape, *poses[key]) for key, _, _, shape in found])
+        for a, b in np.array(pairs)[shapely.intersects(shapes[one], shapes[two])]:
+            met.add(frozenset((found[a][0], found[b][0])))
+    return met
+
+
+def runs(count: int) -> Iterator[tuple[float, float]]:
+    """Turns of disk 2 and of the ring over all that both can do against each other, evenly (Roberts)."""
+    for k in range(count):
+        yield 3 * ((0.7548776662 * k) % 1), 3 * ((0.5698402910 * k) % 1)
+
+
+@pytest.mark.heavy
+def test_the_scene_stands_in_contact_and_turns_without_overlap(capsys: Any) -> None:
+    assert main(["check", "--json", "power_table_laser"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert "solids" not in found
+    assert not found["motion"]["uncovered"]
+    assert all(c["met"] for m in found["mates"] for c in m.get("conditions", ()))
+    assert [m["verdict"] for m in found["mates"] if "gear_pair" in m["kind"]] == ["clear"]
+
+
+def test_the_platform_goes_where_the_mechanism_says_and_keeps_parallel() -> None:
+    made = scene()
+    placing, _ = placed(made)
+    assert placing.train is not None
+    table = TwoDisk(arms=(18.0, 18.0), teeth=(32, 48))
+    for disk, ring in runs(40):
+        poses = placing.train.poses([Fraction(disk).limit_denominator(999), Fraction(ring).limit_denominator(999)])
+        turns = [float(Fraction(run).limit_denominator(999)) for run in (disk, ring)]
+        # the scene starts with O2 and O3 on +x; delta counts clockwise
+        delta, theta = (-2 * math.pi * turn for turn in turns)
+        beta = math.pi + table.ratio * (delta - theta)
+        place, turn = poses["platform"]
+        assert abs(place - table.forward(delta, beta) * -1j) < 1e-9
+        assert abs(math.remainder(turn, 2 * math.pi)) < 1e-12
+        for stage, carrier, far in (("first", "flange", 18.0), ("second", "platform", 18.0)):
+            for k in (1, 2, 3):
+                at, lean = poses[f"{stage}_crank_{k}"]
+                pin = poses[f"{'upper' if stage == 'first' else 'platform'}_pin_{k}"][0]
+                assert abs(at + far * np.exp(1j * lean) - pin) < 1e-9, (stage, carrier, k)
+
+
+def test_nothing_is_in_the_way_over_the_whole_workspace() -> None:
+    placing, parts = placed(scene())
+    assert struck(placing, parts, list(runs(60))) == set()
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("keys", [{}, {"second_arm": 22.0}, {"module": 3.0, "teeth": [40, 56]}])
+def test_nothing_is_in_the_way_anywhere(keys: dict[str, Any]) -> None:
+    placing, parts = placed(scene(**keys))
+    assert struck(placing, parts, list(runs(3000))) == set()
+
+
+@pytest.mark.parametrize(
+    ("changed", "pair"),
+    [
+        ({"first_crank": {"width": 70.0, "boss_diameter": 70.0}}, {"first_crank_1", "hub_1"}),
+        ({"flange_pin": {"length": 14.0}}, {"flange_pin_1", "platform"}),
+    ],
+)
+def test_a_spoiled_part_is_found(changed: dict[str, Any], pair: set[str]) -> None:
+    made = scene_from_dict({"assemblies": [{"kind": "power_table"}], "parts": changed}, "t", "t")
+    placing, parts = placed(made)
+    assert frozenset(pair) in struck(placing, parts, list(runs(20)))
+
+
+def test_every_flat_part_is_wide_enough_for_its_kerf() -> None:
+    _, parts = placed(load_scene("power_table_laser"))
+    for key, part in parts.items():
+        shape = polygon(part)
+        assert shape.is_valid
+        assert shape.geom_type == "Polygon", key
+        # opened by a disc of twice the kerf nothing but sharp corners and tips of teeth goes, and nothing falls apart
+        opened = shape.buffer(-KERF).buffer(KERF)
+        assert opened.geom_type == "Polygon", key
+        assert shape.difference(opened).area < 2e-3 * shape.area, key
+
+
+@pytest.mark.parametrize(
+    ("keys", "code", "name"),
+    [
+        ({"teeth": [48, 32]}, "ring_as_its_wheel", "teeth"),
+        ({"second_arm": 40.0}, "axle_beyond_pinion", "second_arm"),
+        ({"second_arm": 6.0}, "axles_meet", "second_arm"),
+        ({"axle_diameter": 30.0}, "axles_meet", "axle_diameter"),
+        ({"platform_size": 40.0}, "platform_too_small", "platform_size"),
+    ],
+)
+def test_what_cannot_be_is_refused_by_its_driver(keys: dict[str, Any], code: str, name: str) -> None:
+    with pytest.raises(SceneError) as refused:
+        placed(scene(**keys))
+    assert refused.value.code == code
+    assert name in refused.value.key
+
+
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize("seed", range(200))
+def test_random_drivers_stand_free_or_are_refused(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    pinion = int(rng.integers(16, 60))
+    keys = {
+        "module": float(rng.choice([1.0, 1.5, 2.0, 2.25, 3.0])), "teeth": [pinion, pinion + int(rng.integers(10, 30))],
+        "second_arm": float(rng.uniform(8, 40)), "pin_diameter": float(rng.choice([3.0, 4.0, 6.0])),
+        "plate_thickness": float(rng.choice([3.0, 4.0, 6.0])), "platform_size": 300.0,
+    }  # fmt: skip
+    try:
+        placing, parts = placed(scene(**keys))
+    except SceneError:
+        return
+    assert struck(placing, parts, list(runs(25))) == set()
