@@ -21,7 +21,7 @@ MAY_IMPORT = {"geometry": {"geometry"}, "parts": {"geometry", "parts"}, "exporte
 NOT_IN_GEOMETRY = {"os", "pathlib", "io", "sys", "shutil", "tempfile", "json", "tomllib", "ezdxf", "shapely", "msgspec",
                    "rich", "argparse", "trimesh", "manifold3d", "cadquery", "OCP", "lib3mf", "scipy"}  # fmt: skip
 HEAVY = {"ezdxf", "shapely", "rich", "trimesh", "manifold3d", "cadquery", "OCP", "lib3mf", "scipy", "matplotlib",
-         "distributed"}  # fmt: skip
+         "distributed", "fpdf"}  # fmt: skip
 # a writer is itself imported only where its format is written
 HEAVY_AT_TOP = {"exporters/formats/dxf_file.py": {"ezdxf"}, "exporters/formats/drawing_dxf.py": {"ezdxf"}}
 # nothing else may be needed to install and run

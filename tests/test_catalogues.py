@@ -30,7 +30,6 @@ CYRILLIC_PLACES = {
     "parts/pages/terms.py": "symbols as the sources print them",
     "parts/pages/symbols.py": "their indices",
     "parts/base/materials.py": "materials as users write them in scenes of any language",
-    "parts/drawing/canvas.py": "narrow and wide letters of drawings",
     "parts/mates/pages/internal.py": "the practicum's table Д.1",
     "parts/mates/pages/external.py": "the practicum's tables А.1, Д.1, Е.1",
     "geometry/plane/letters.py": "the letters that are engraved",

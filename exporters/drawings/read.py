@@ -5,13 +5,14 @@ from __future__ import annotations
 import cmath
 import math
 import re
+from collections.abc import Sequence
 from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 
 from parts.base.readback import ReadError
-from parts.drawing.canvas import STYLES
+from parts.drawing.canvas import FRAME, STYLES
 from parts.drawing.readback import PER_CURVE, ReadSheet, ReadText
 
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
@@ -25,15 +26,22 @@ _GROUND = {"width": "100%", "height": "100%", "style": "fill:#ffffff"}
 _SVG = "{http://www.w3.org/2000/svg}"
 
 
-def read_sheet(file: Path) -> ReadSheet:
-    """Read a sheet by the ending of its name.
+def read_sheets(file: Path, layers: Sequence[Sequence[str]]) -> list[ReadSheet]:
+    """Read sheets by the ending of a file's name: several may be in a PDF, whose pages have paths of these ``layers``.
 
     Raises
     ------
     ReadError
         The file is damaged or holds what a sheet does not.
     """
-    return _read_dxf(file) if file.suffix == ".dxf" else _read_svg(file)
+    if file.suffix == ".pdf":
+        from exporters.drawings.read_pdf import read_pdf
+
+        pages = read_pdf(file)
+        if len(pages) != len(layers):
+            raise ReadError(f"has {len(pages)} pages instead of {len(layers)}")
+        return [page.sheet(wanted) for page, wanted in zip(pages, layers, strict=True)]
+    return [_read_dxf(file) if file.suffix == ".dxf" else _read_svg(file)]
 
 
 def _read_dxf(file: Path) -> ReadSheet:
@@ -51,6 +59,9 @@ def _read_dxf(file: Path) -> ReadSheet:
         if (colour, lengths, weight) != (style.aci, list(style.dashes), round(100 * style.width)):
             raise ReadError(f"layer {name} looks otherwise than it should")
     sheet, share = ReadSheet(), np.linspace(0, 1, PER_CURVE)
+    # a drawing is as large as its frame is
+    most = document.header.get("$EXTMAX", (0.0, 0.0))
+    sheet.width, sheet.height = most[0] + FRAME, most[1] + FRAME
     for curve in curves:
         match curve:
             case DrawnLine():
@@ -77,7 +88,8 @@ def _read_svg(file: Path) -> ReadSheet:
     sizes = root.get("viewBox", "").split()
     if len(sizes) != 4 or root.get("width") != f"{sizes[2]}mm" or root.get("height") != f"{sizes[3]}mm":
         raise ReadError("has no size in mm that its view box agrees with")
-    height, sheet = float(sizes[3]), ReadSheet()
+    height = float(sizes[3])
+    sheet = ReadSheet(width=float(sizes[2]), height=height)
     for group in root.findall(f"{_SVG}g"):
         layer = group.get("id", "")
         if group.get("style", "") != _look(layer):
@@ -89,7 +101,7 @@ def _read_svg(file: Path) -> ReadSheet:
             size = re.fullmatch(r"font-size:([\d.]+)px", text.get("style", ""))
             if size is None:
                 raise ReadError("has words without a size")
-            capital = float(size[1]) * 0.72
+            capital = float(size[1]) * 1493 / 2048
             sheet.texts.append(ReadText(text.text or "", at, float(text.get("textLength", "nan")), capital))
     return sheet
 
@@ -115,7 +127,7 @@ def _look(layer: str) -> str:
     if style is None:
         raise ReadError(f"layer {layer} does not belong on a sheet")
     if layer == "TEXT":
-        return f"font-family:Arial,Liberation Sans,sans-serif;fill:{style.colour}"
+        return f"font-family:DejaVu Sans Condensed,Arial,Liberation Sans,sans-serif;fill:{style.colour}"
     dashes = f";stroke-dasharray:{' '.join(f'{d:g}' for d in style.dashes)}" if style.dashes else ""
     return f"fill:none;stroke:{style.colour};stroke-width:{style.width}{dashes}"
 

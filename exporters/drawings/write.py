@@ -15,6 +15,7 @@ from geometry.base.tolerance import DRAWN_DECIMALS
 from geometry.curves.bspline import BSpline
 from geometry.curves.line_arc import Arc, Line
 from parts.drawing.canvas import STYLES, Canvas, Run
+from parts.drawing.font import CAPITAL
 
 _MILLIMETRES = 4
 _FONT = "arial.ttf"
@@ -23,13 +24,8 @@ _FONT = "arial.ttf"
 _STYLE, _SYMBOLS_STYLE = "unicode", "lc_opengost-ar"
 _OF_UNICODE = re.compile(r"[\u0020-\u00ff\u0400-\u04ff\u2032\u2033]*")
 _LINE_TYPES = {2: "DASHED", 4: "CENTER"}
-# height of a capital as a part of an SVG font's size
-_CAPITAL = 0.72
-
-
-def write_sheet(file: Path, canvas: Canvas) -> dict[str, int]:
-    """Write a sheet in the format of the file's ending; counts of what is in it."""
-    return write_sheet_dxf(file, canvas) if file.suffix == ".dxf" else write_sheet_svg(file, canvas)
+# the letters of the widths that are stated, and others as wide
+_FAMILY = "font-family:DejaVu Sans Condensed,Arial,Liberation Sans,sans-serif"
 
 
 def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
@@ -92,16 +88,14 @@ def write_sheet_svg(file: Path, canvas: Canvas) -> dict[str, int]:
         f'width="{width}mm" height="{height}mm" viewBox="0 0 {width} {height}">',
         '<rect width="100%" height="100%" style="fill:#ffffff"/>',
     ]
-    for name, style in STYLES.items():
-        curves = [s.curve for s in canvas.strokes if s.layer == name]
-        if not curves:
-            continue
+    for name in canvas.layers:
+        curves, style = [s.curve for s in canvas.strokes if s.layer == name], STYLES[name]
         dashes = f";stroke-dasharray:{' '.join(map(number, style.dashes))}" if style.dashes else ""
         look = f"fill:none;stroke:{style.colour};stroke-width:{style.width}{dashes}"
         lines.append(f'<g id="{name}" style="{look}">')
         lines += [f'<path d="{_path(c, canvas.height)}"/>' for c in curves]
         lines.append("</g>")
-    lines.append(f'<g id="TEXT" style="font-family:Arial,Liberation Sans,sans-serif;fill:{STYLES["TEXT"].colour}">')
+    lines.append(f'<g id="TEXT" style="{_FAMILY};fill:{STYLES["TEXT"].colour}">')
     lines += [_text(run, canvas.height) for t in canvas.texts for run in t.runs]
     lines.append("</g>")
     save(file, lines)
@@ -109,7 +103,7 @@ def write_sheet_svg(file: Path, canvas: Canvas) -> dict[str, int]:
 
 
 def _text(run: Run, height: float) -> str:
-    size, x, y = number(run.height / _CAPITAL), number(run.at.real), number(height - run.at.imag)
+    size, x, y = number(run.height / CAPITAL), number(run.at.real), number(height - run.at.imag)
     words = escape(run.text)
     length = f'textLength="{number(run.width)}" lengthAdjust="spacingAndGlyphs"'
     return f'<text x="{x}" y="{y}" style="font-size:{size}px" {length}>{words}</text>'
@@ -129,10 +123,10 @@ def _path(curve: CadCurve, height: float) -> str:
         parts = math.ceil(abs(curve.sweep) / (2 * math.pi / 3) - 1e-9)
         ends = [complex(curve.point(abs(curve.sweep) * k / parts)) for k in range(parts + 1)]
         return f"M{xy(ends[0])} " + " ".join(f"A{r},{r} 0 0 {flag} {xy(e)}" for e in ends[1:])
-    return " ".join([f"M{xy(complex(curve.poles[0]))}", *(f"C{xy(a)} {xy(b)} {xy(c)}" for a, b, c in _bezier(curve))])
+    return " ".join([f"M{xy(complex(curve.poles[0]))}", *(f"C{xy(a)} {xy(b)} {xy(c)}" for a, b, c in beziers(curve))])
 
 
-def _bezier(spline: BSpline) -> list[tuple[complex, complex, complex]]:
+def beziers(spline: BSpline) -> list[tuple[complex, complex, complex]]:
     """The last three control points of each span of a cubic, exact."""
     breaks = spline.breaks
     starts, ends = breaks[:-1], breaks[1:]

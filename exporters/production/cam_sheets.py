@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from geometry.base.errors import ParameterError
 from geometry.cams.plane.graphical import INTERVALS
-from parts.base.refusal import SceneError, meant, placed
+from parts.base.refusal import SceneError, meant
 from parts.base.registry import KINDS
 from parts.cams.coupler_cam.part import LinkageCamSpec
 from parts.cams.disk_cam import page as calculation
 from parts.cams.disk_cam.part import CamSpec
 from parts.cams.sheets.picture import cam_picture
 from parts.cams.sheets.sheet import cam_sheet
+from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
 from parts.scene.load import ExportSpec, SceneFile
 
@@ -20,13 +20,15 @@ _PAGE_ALONE = {"position_deg", "savvin_a", "largest_roller_radius"}
 _DRAWN = [str(kind.__struct_config__.tag) for kind in (CamSpec, LinkageCamSpec)]
 
 
-def cam_sheets(scene: SceneFile, export: ExportSpec, where: str, source: str) -> list[tuple[str, Expected]]:
-    """One sheet of every cam that the export names, all cams by default, with the part's id.
+def cam_sheets(
+    scene: SceneFile, export: ExportSpec, asked: Asked, where: str, source: str
+) -> list[tuple[str, Expected]]:
+    """The sheets of every cam that the export names, all cams by default, with the part's id.
 
     Raises
     ------
     SceneError
-        The scene has no cam, a named part is none, or its tables fit no paper.
+        The scene has no cam, or a named part is none.
     """
     cams = [key for key, spec in scene.parts.items() if isinstance(spec, CamSpec | LinkageCamSpec)]
     for part in export.parts or []:
@@ -52,9 +54,6 @@ def cam_sheets(scene: SceneFile, export: ExportSpec, where: str, source: str) ->
         page = calculation.sheet(table)
         # the position in numbers is for the page alone
         page.sections = [s for s in page.sections if not {x.name for x in s.steps} & _PAGE_ALONE]
-        try:
-            made = cam_sheet(part, picture, page, float(export.tolerance or 0.0))
-        except ParameterError as error:
-            raise placed(source, where, error) from error
-        found.append((part, made))
+        made = cam_sheet(part, picture, page, asked)
+        found += [(part if len(made) == 1 else f"{part}.{k}", one) for k, one in enumerate(made, 1)]
     return found

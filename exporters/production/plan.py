@@ -15,6 +15,7 @@ from parts.base.reasons import reason
 from parts.base.refusal import SceneError, meant, placed
 from parts.base.texts import N_, Message, Text, filled, message
 from parts.keys.boards import PURPOSES_LAID
+from parts.keys.sheet import SHEET_FORMATS
 from parts.scene.formats import FILMS, FORMATS, Form, file_kind
 from parts.scene.load import ExportSpec, SceneFile, default_export, in_keys_of_file, make_parts
 from parts.scene.placing import Placing, place
@@ -99,8 +100,8 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
             why = alone if export.assembly else N_("a sheet of several parts was not asked for")
             left_out.append(LeftOut(where, why))
             continue
-        if export.format == "sheet":
-            sheets += _sheets(scene, placing, _of_cams(export, parts, only_parts), where, source, taken)
+        if export.format in SHEET_FORMATS:
+            sheets += _sheets(scene, placing, parts, _of_cams(export, parts, only_parts), where, source, taken)
             continue
         if export.purpose == "board":
             from exporters.production.boards import board_jobs
@@ -160,27 +161,34 @@ def _film(
 
 
 def _of_several(export: ExportSpec) -> bool:
-    """Whether a picture shows parts together; that of a cam shows one."""
+    """Whether a picture shows parts together; that of a cam and a paper model show one."""
     if export.purpose in PURPOSES_LAID.values():
         return True
-    return export.format in FILMS or (export.format == "sheet" and export.purpose != "cam")
+    return export.format in FILMS or (export.format in SHEET_FORMATS and export.purpose not in ("cam", "model"))
 
 
 def _of_cams(export: ExportSpec, parts: dict[str, Part], only_parts: list[str]) -> ExportSpec:
-    """The export of the cams that were asked for by name: theirs is the one sheet of a single part."""
+    """The export of the parts that were asked for by name, of a sheet of cams those that are cams."""
     if not only_parts:
         return export
-    return replace(export, parts=[p for p in export.parts or parts if p in only_parts and parts[p].kind == "cam"])
+    asked = [p for p in export.parts or parts if p in only_parts]
+    return replace(export, parts=[p for p in asked if export.purpose == "model" or parts[p].kind == "cam"])
 
 
 def _sheets(
-    scene: SceneFile, placing: Placing, export: ExportSpec, where: str, source: str, taken: dict[str, Text]
+    scene: SceneFile,
+    placing: Placing,
+    parts: dict[str, Part],
+    export: ExportSpec,
+    where: str,
+    source: str,
+    taken: dict[str, Text],
 ) -> list[SheetJob]:
     if export.parts == []:
         return []
     from exporters.production.sheets import sheet_jobs
 
-    found = sheet_jobs(scene, placing, export, where, source)
+    found = sheet_jobs(scene, placing, parts, export, where, source)
     for job in found:
         _take(job.path, where, taken, source)
     return found

@@ -183,7 +183,7 @@ def _versions(written: list[Written]) -> dict[str, str]:
     versions = {"higherpair": __version__, "python": python, "numpy": np.__version__}
     exports = [item.job.export for item in written]
     formats = {"drawing" if e.purpose == "drawing" and e.format == "dxf" else e.format for e in exports}
-    for name, users in (("ezdxf", {"drawing", "sheet"}), ("lib3mf", {"3mf"})):
+    for name, users in (("ezdxf", {"drawing", "sheet"}), ("lib3mf", {"3mf"}), ("fpdf", {"pdf"})):
         if formats & users and name in sys.modules:
             versions[name] = str(getattr(sys.modules[name], "__version__", "installed"))
     return versions

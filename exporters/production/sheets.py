@@ -6,23 +6,25 @@ import math
 from pathlib import Path
 from typing import Any
 
-from exporters.drawings.verify import verify_sheet
-from exporters.drawings.write import write_sheet
+from exporters.drawings.sheets import sheet_rounding, write_sheets
+from exporters.drawings.verify import verify_sheets
 from exporters.production.jobs import Made
 from exporters.verification.verdict import Verdict
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.record import Record
-from geometry.base.tolerance import DRAWN_ROUNDING
+from geometry.base.tolerance import PDF_ROUNDING
 from geometry.gears.pictures.meshing import MeshingPicture, meshing_picture
 from geometry.gears.teeth.limits import practicum_undercut
 from geometry.gears.teeth.transverse import overlap_ratio
 from parts.base.mate import Toothed
+from parts.base.part import Part
 from parts.base.refusal import SceneError, placed
 from parts.base.schema import unit_of
 from parts.cams.coupler_cam.part import LinkageCamSpec
 from parts.cams.disk_cam.part import CamSpec
 from parts.drawing.canvas import Canvas, decimal, scale_text
+from parts.drawing.choice import Asked
 from parts.drawing.expected import Circle, Expected, Meshing
 from parts.drawing.table import Row
 from parts.drawing.title_block import TITLE_BLOCK, draw_title_block, title_block_of
@@ -40,17 +42,23 @@ ENDINGS = ("dxf", "svg")
 
 
 class SheetJob(Record):
-    """One file of a sheet; ``members`` are the jobs of parts in it: none."""
+    """One file of sheets, of several in a PDF only; ``members`` are the jobs of parts in it: none."""
 
     export: ExportSpec
-    expected: Expected
+    title: str
+    pages: tuple[Expected, ...]
     path: str
     place: str
     members: tuple[()] = ()
 
     @property
+    def expected(self) -> Expected:
+        """What the first sheet must hold."""
+        return self.pages[0]
+
+    @property
     def canvas(self) -> Canvas:
-        """What is drawn."""
+        """What is drawn on the first sheet."""
         return self.expected.canvas
 
     @property
@@ -60,8 +68,9 @@ class SheetJob(Record):
 
     @property
     def told(self) -> dict[str, Any]:
-        """The size of its paper."""
-        return {"part": None, "paper": self.canvas.paper}
+        """The size of its paper, and how many sheets it has where there are several."""
+        pages = {"pages": len(self.pages)} if len(self.pages) > 1 else {}
+        return {"part": None, "paper": self.canvas.paper, **pages}
 
     @property
     def offset(self) -> float:
@@ -70,11 +79,11 @@ class SheetJob(Record):
 
     def write(self, made: Made, file: Path) -> dict[str, int]:
         """Write the file; counts of what is in it."""
-        return write_sheet(file, self.canvas)
+        return write_sheets(file, [page.canvas for page in self.pages], self.title)
 
     def verify(self, file: Path, declared: float) -> Verdict:
         """Read it back and measure."""
-        return verify_sheet(file, self.expected, float(self.export.tolerance or 0.0))
+        return verify_sheets(file, self.pages, float(self.export.tolerance or 0.0))
 
     def findings(self, made: Made) -> tuple[Finding, ...]:
         """None."""
@@ -82,36 +91,64 @@ class SheetJob(Record):
 
     def declared(self, made: Made) -> tuple[float, str]:
         """Bound of its splines, mm on paper, and what kind of bound that is."""
-        return self.canvas.max_error + DRAWN_ROUNDING, "sampled" if self.canvas.sampled else "certified"
+        canvases = [page.canvas for page in self.pages]
+        worst = max(canvas.max_error for canvas in canvases) + sheet_rounding(Path(self.path))
+        return worst, "sampled" if any(canvas.sampled for canvas in canvases) else "certified"
 
 
-def sheet_jobs(scene: SceneFile, placing: Placing, export: ExportSpec, where: str, source: str) -> list[SheetJob]:
+def sheet_jobs(
+    scene: SceneFile, placing: Placing, parts: dict[str, Part], export: ExportSpec, where: str, source: str
+) -> list[SheetJob]:
     """The files of one export.
 
     Raises
     ------
     SceneError
-        The scene has no such pair, or there is nothing to draw of it.
+        The scene has no such pair, there is nothing to draw of it, or the paper is too small.
     """
-    if export.purpose == "generating":
-        expected = _generating(scene, export, where, source)
-        name = f"{scene.name}.{export.name or export.purpose}"
-        return [SheetJob(export, expected, f"{name}.{ending}", where) for ending in ENDINGS]
-    if export.purpose == "cam":
-        from exporters.production.cam_sheets import cam_sheets
+    tolerance, language = float(export.tolerance or 0.0), scene.scene.language
+    # a PDF's numbers take their share
+    share = PDF_ROUNDING if export.format == "pdf" else 0.0
+    asked = Asked(language, tolerance - share, _band(export), export.paper, export.scale)
+    try:
+        if export.format == "pdf":
+            from exporters.drawings.pdf import check_pdf
 
-        name = f"{scene.name}.{export.name or export.purpose}"
-        made = cam_sheets(scene, export, where, source)
-        for number, (_, drawn) in enumerate(made, 1):
-            _add_title_block(drawn, scene, export, number, len(made))
-        return [SheetJob(export, x, f"{name}.{part}.{ending}", where) for part, x in made for ending in ENDINGS]
-    if export.purpose == "train":
-        from exporters.production.train_sheets import scene_train_sheet
+            check_pdf(tolerance)
+        if export.purpose == "model":
+            from exporters.production.paper_models import paper_models
 
-        expected = scene_train_sheet(scene, placing, export, _band(export), where, source)
-        _add_title_block(expected, scene, export, 1, 1)
-        name = f"{scene.name}.{export.name or export.purpose}"
-        return [SheetJob(export, expected, f"{name}.{ending}", where) for ending in ENDINGS]
+            made = [("", page) for page in paper_models(scene.scene.title or scene.name, parts, export.parts, asked)]
+        elif export.purpose == "generating":
+            made = [("", _generating(scene, export, asked, where, source))]
+        elif export.purpose == "cam":
+            from exporters.production.cam_sheets import cam_sheets
+
+            made = cam_sheets(scene, export, asked, where, source)
+        elif export.purpose == "train":
+            from exporters.production.train_sheets import scene_train_sheet
+
+            made = [("", scene_train_sheet(scene, placing, export, asked, where, source))]
+        else:
+            made = _meshings(scene, placing, export, asked, where, source)
+    except ParameterError as error:
+        raise placed(source, where, error, unit_of(ExportSpec, error.name)) from error
+    for number, (_, expected) in enumerate(made, 1):
+        _add_title_block(expected, scene, export, number, len(made))
+    name, title = f"{scene.name}.{export.name or export.purpose}", scene.scene.title or scene.name
+    if export.format == "pdf":
+        return [SheetJob(export, title, tuple(expected for _, expected in made), f"{name}.pdf", where)]
+    return [
+        SheetJob(export, title, (expected,), f"{name}{'.' * bool(word)}{word}.{ending}", where)
+        for word, expected in made
+        for ending in ENDINGS
+    ]
+
+
+def _meshings(
+    scene: SceneFile, placing: Placing, export: ExportSpec, asked: Asked, where: str, source: str
+) -> list[tuple[str, Expected]]:
+    """The sheets of the pairs that an export names, by their numbers."""
     matings = [mate.mating for mate in placing.mates]
     gears = {n: m for n, m in enumerate(matings, 1) if isinstance(m, Toothed) and m.pair is not None}
     if not gears:
@@ -125,21 +162,20 @@ def sheet_jobs(scene: SceneFile, placing: Placing, export: ExportSpec, where: st
             kind = matings[given - 1].kind
             raise SceneError(source, f"{where}.mate", given, "mate_of_no_gears", works, kind=kind)
         raise SceneError(source, f"{where}.mate", given, "no_such_mate", works)
-    jobs = []
+    found = []
     for index, mating in gears.items():
         if export.mate not in (None, index):
             continue
         try:
-            expected = _meshing(mating, scene, float(export.tolerance or 0.0), _band(export))
+            assert mating.pair is not None
+            picture = meshing_picture(mating.pair)
         except ParameterError as error:
             raise SceneError(source, f"mates[{index}]", error.value, error.code, None, "", **error.numbers) from error
-        _add_title_block(expected, scene, export, index, len(matings) if export.mate is None else 1)
-        name = f"{scene.name}.{export.name or export.purpose}.{index}"
-        jobs += [SheetJob(export, expected, f"{name}.{ending}", where) for ending in ENDINGS]
-    return jobs
+        found.append((str(index), _meshing(mating, picture, scene, asked)))
+    return found
 
 
-def _generating(scene: SceneFile, export: ExportSpec, where: str, source: str) -> Expected:
+def _generating(scene: SceneFile, export: ExportSpec, asked: Asked, where: str, source: str) -> Expected:
     """The sheet of the device TMM-42 for one or two wheels of a scene."""
     from parts.gears.spur_gear import device_page as tmm42
     from parts.gears.spur_gear.device_sheet import generating_sheet
@@ -158,14 +194,8 @@ def _generating(scene: SceneFile, export: ExportSpec, where: str, source: str) -
         table.pop("profile_shift_coefficient")
     tables = tmm42.sheet(table, zero_only=all(g.profile_shift_coefficient == 0 for g in gears))
     pitch = math.pi * gears[0].module
-    try:
-        step = export.rack_step or min(max(RACK_STEP, _LEAST_STEP * pitch), _MOST_STEP * pitch)
-        language, tolerance = scene.scene.language, float(export.tolerance or 0.0)
-        expected = generating_sheet(gears, step, tables, language, tolerance, _band(export))
-    except ParameterError as error:
-        raise placed(source, where, error, unit_of(ExportSpec, error.name)) from error
-    _add_title_block(expected, scene, export, 1, 1)
-    return expected
+    step = export.rack_step or min(max(RACK_STEP, _LEAST_STEP * pitch), _MOST_STEP * pitch)
+    return generating_sheet(gears, step, tables, asked)
 
 
 def _band(export: ExportSpec) -> float:
@@ -198,12 +228,12 @@ def _most_shifted(ids: list[str], gears: list[Any]) -> str:
     return max(zip(ids, gears, strict=True), key=lambda pair: abs(pair[1].profile_shift_coefficient))[0]
 
 
-def _meshing(mating: Toothed, scene: SceneFile, tolerance: float, band: float) -> Expected:
+def _meshing(mating: Toothed, picture: MeshingPicture, scene: SceneFile, asked: Asked) -> Expected:
     pair: Any = mating.pair
-    picture, language = meshing_picture(pair), scene.scene.language
+    language = asked.language
     specs = [scene.parts[str(scene.instances[name].part)] for name in (mating.first, mating.second)]
     facts = _facts(mating, picture, language, specs)
-    canvas, view = meshing_canvas(picture, mating.module, facts, language, tolerance, band)
+    canvas, view = meshing_canvas(picture, mating.module, facts, asked)
     circles, paper = [], view.paper
     for body in picture.bodies:
         for name, radius in body.radii.items():

@@ -8,6 +8,7 @@ from geometry.base.tolerance import PLACED_MM
 from geometry.kinematics.mechanism import FRAME, Revolute, Rolling, Tree
 from parts.base.mate import Toothed
 from parts.base.refusal import SceneError
+from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
 from parts.mates.sheets.train_picture import Link, Rim, TrainPicture
 from parts.mates.sheets.train_sheet import train_sheet
@@ -17,9 +18,9 @@ from parts.scene.train import Train
 
 
 def scene_train_sheet(
-    scene: SceneFile, placing: Placing, export: ExportSpec, band: float, where: str, source: str
+    scene: SceneFile, placing: Placing, export: ExportSpec, asked: Asked, where: str, source: str
 ) -> Expected:
-    """The sheet of the gears that the drives of a scene move; ``band``: height that a title block takes, mm.
+    """The sheet of the gears that the drives of a scene move.
 
     Raises
     ------
@@ -30,7 +31,7 @@ def scene_train_sheet(
     if placing.train is None or not meshes:
         raise SceneError(source, f"{where}.purpose", export.purpose, "shows_driven_gears")
     picture, rims = train_picture(placing.train, meshes, placing.instances)
-    return train_sheet(scene.scene.title or scene.name, picture, rims, scene.scene.language, band)
+    return train_sheet(scene.scene.title or scene.name, picture, rims, asked)
 
 
 def _meshes(placing: Placing) -> list[Rolling]:

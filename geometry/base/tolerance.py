@@ -34,6 +34,8 @@ PLACED_MM = 1e-5
 # differently is far less. A curve moves by so much: both ends, and a radius.
 DRAWN_DECIMALS = 8
 DRAWN_ROUNDING = 2e-8
+# In a PDF, mm: four decimals of a point, of a place and of the height of the page, and arcs as cubics.
+PDF_ROUNDING = 6e-5
 
 # Decimals of numbers in files, of which a tolerance may ask for more or be content with less.
 _LEAST_DECIMALS, _MOST_DECIMALS = 6, 12

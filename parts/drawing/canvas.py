@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from typing import get_args
 
 import numpy as np
 
@@ -20,20 +21,25 @@ from geometry.curves.bspline import BSpline
 from geometry.curves.curve import Complex, Curve
 from geometry.curves.line_arc import Arc, Line
 from parts.base.texts import words
+from parts.drawing.font import letter_widths
+from parts.keys.sheet import Scale, scale_value
 
-# heights of capitals, mm; GOST 2.304
-TEXT_HEIGHT, SMALL_TEXT, LEAST_TEXT = 3.5, 2.5, 1.8
-# paper sizes (width, height of the upright sheet) and frame, mm; GOST 2.301, 2.104
-PAPERS = {"A3": (297.0, 420.0), "A2": (420.0, 594.0), "A1": (594.0, 841.0), "A0": (841.0, 1189.0)}
+# heights of capitals, mm; GOST 2.304. An index is one smaller
+HEIGHTS = (1.8, 2.5, 3.5, 5.0, 7.0)
+LEAST_TEXT, SMALL_TEXT, TEXT_HEIGHT, TITLE_TEXT = HEIGHTS[:4]
+# letters are narrowed to this part of their width before they are made smaller
+_NARROWED = 0.9
+# the longer side of paper on which names and tables are small, mm
+_SMALL_PAPER = 420.0
+# frame, mm; GOST 2.104
 FRAME_LEFT, FRAME = 20.0, 5.0
-# scales that a drawing may have; GOST 2.302
-SCALES = (100, 50, 40, 20, 10, 5, 4, 2.5, 2, 1, 1 / 2, 1 / 2.5, 1 / 4, 1 / 5, 1 / 10, 1 / 15, 1 / 20, 1 / 25, 1 / 40,
-          1 / 50, 1 / 75, 1 / 100, 1 / 200, 1 / 400, 1 / 500, 1 / 800, 1 / 1000)  # fmt: skip
+# scales that a drawing may have, the greatest first; GOST 2.302
+SCALES = tuple(map(scale_value, get_args(Scale)))
 # steps of the scales of diagrams; GOST 2.319 leaves them to the drawer, who takes round ones
 _STEPS, _ROUNDING = (1.0, 2.0, 2.5, 4.0, 5.0), 1e-9
-_SUBSCRIPT, _DROP = 0.7, 0.3
-# widths of letters as parts of the height of a capital
-_NARROW, _WIDE = set("iljtfrIі.,:;'|()[]! °"), set("mwMWшщжюмфШЩЖЮМФ@—")
+_INDEX = re.compile(r"_\{([^}]*)\}")
+# how far an index stands lower, and what hangs below a line, parts of its height
+_DROP, _HANG = 0.2, 0.3
 
 
 class Style(Record):
@@ -91,6 +97,9 @@ STYLES: dict[str, Style] = {
     "ROLLER": Style(0.25, (), 3, "#007020"),
     "PITCH_CURVE": Style(0.35, _DASH_DOT, 5, "#2040c0"),
     "CAM": Style(0.9, (), 7, "#000000"),
+    "CUT": Style(0.25, (), 7, "#000000"),
+    "REGISTER": Style(0.18, (), 8, "#808080"),
+    "CENTRE_MARK": Style(0.18, (), 8, "#808080"),
     "DIMENSION": Style(0.18, (), 8, "#505050"),
     "TEXT": Style(0.25, (), 7, "#000000"),
 }
@@ -149,51 +158,49 @@ class Text(Record):
 
 
 def text_of(text: str, at: complex, height: float = TEXT_HEIGHT, most: float | None = None) -> Text:
-    """A line of text from the left end of its base line; one longer than ``most`` mm is made smaller, then narrower."""
-    if most is not None and text_width(text, height) > most:
-        # many viewers do not narrow letters: what fits by its size fits everywhere
-        height *= max(min(1.0, LEAST_TEXT / height), most / text_width(text, height))
-    pieces = [(p, False) if i % 2 == 0 else (p, True) for i, p in enumerate(re.split(r"_\{([^}]*)\}", text)) if p]
-    natural = text_width(text, height)
-    squeeze = min(1.0, (most or natural) / natural) if natural else 1.0
+    """A line of text from the left end of its base line, in a height of the standard.
+
+    One longer than ``most`` mm is narrowed a little, made smaller, or narrowed as far as it must.
+    """
+    sizes = [h for h in reversed(HEIGHTS) if h <= height] or [LEAST_TEXT]
+    size = next((h for h in sizes if most is None or _NARROWED * text_width(text, h) <= most), sizes[-1])
+    natural = text_width(text, size)
+    squeeze = min(1.0, (natural if most is None else most) / natural) if natural else 1.0
     runs, x = [], at.real
-    lowered = False
-    for piece, is_low in pieces:
-        size = height * _SUBSCRIPT if is_low else height
-        width = plain_width(piece, size) * squeeze
-        bare = piece.strip(" ")
+    for piece, low in _pieces(text, size):
+        width, bare = plain_width(piece, low) * squeeze, piece.strip(" ")
         if bare:
-            lead = plain_width(piece[: len(piece) - len(piece.lstrip(" "))], size) * squeeze
-            place = complex(x + lead, at.imag - (_DROP * height if is_low else 0.0))
-            runs.append(Run(bare, place, size, plain_width(bare, size) * squeeze))
-            lowered = lowered or is_low
+            lead = plain_width(piece[: len(piece) - len(piece.lstrip(" "))], low) * squeeze
+            place = complex(x + lead, at.imag - (_DROP * size if low < size else 0.0))
+            runs.append(Run(bare, place, low, plain_width(bare, low) * squeeze))
         x += width
     # room for what hangs below the line
-    box = Box(at.real, at.imag - (0.35 if lowered else 0.3) * height, x, at.imag + height * 1.05)
-    return Text(re.sub(r"_\{([^}]*)\}", r"\1", text), tuple(runs), box)
+    hang = max((at.imag - run.at.imag + _HANG * run.height for run in runs), default=0.0)
+    return Text(_INDEX.sub(r"\1", text), tuple(runs), Box(at.real, at.imag - hang, x, at.imag + size * 1.05))
+
+
+def _pieces(text: str, height: float) -> list[tuple[str, float]]:
+    """The pieces of a line, each with its height."""
+    index = max((h for h in HEIGHTS if h < height), default=LEAST_TEXT)
+    return [(p, index if k % 2 else height) for k, p in enumerate(_INDEX.split(text)) if p]
 
 
 def text_width(text: str, height: float = TEXT_HEIGHT) -> float:
     """Length of a line of text, mm."""
-    pieces = re.split(r"_\{([^}]*)\}", text)
-    return sum(plain_width(p, height * (_SUBSCRIPT if i % 2 else 1)) for i, p in enumerate(pieces))
+    return sum(plain_width(piece, size) for piece, size in _pieces(text, height))
 
 
 def plain_width(text: str, height: float) -> float:
     """Length of letters of one height, mm."""
-    return height * sum(_letter_width(c) for c in text)
-
-
-def _letter_width(letter: str) -> float:
-    if letter in _NARROW:
-        return 0.45
-    return 1.15 if letter in _WIDE else 1.02 if letter.isupper() else 0.8
+    widths = letter_widths()
+    return height * sum(widths.get(c, 1.0) for c in text)
 
 
 class Canvas(Draft):
     """A sheet that grows: paper size (mm) with its name, strokes and texts; ``max_error`` of its splines, mm.
 
-    ``band``: height kept free above the frame's lower side, mm, for a title block.
+    ``band``: height kept free above the frame's lower side, mm, for a title block; ``margins``: on the left of the
+    frame and around it, mm.
     """
 
     width: float
@@ -204,6 +211,18 @@ class Canvas(Draft):
     max_error: float = 0.0
     sampled: bool = False
     band: float = 0.0
+    margins: tuple[float, float] = (FRAME_LEFT, FRAME)
+
+    @property
+    def layers(self) -> list[str]:
+        """Those that have strokes, in the order in which they are drawn."""
+        used = {stroke.layer for stroke in self.strokes}
+        return [name for name in STYLES if name in used]
+
+    @property
+    def letters(self) -> float:
+        """Height of the capitals of names and tables, mm: small ones on small paper."""
+        return SMALL_TEXT if max(self.width, self.height) <= _SMALL_PAPER else TEXT_HEIGHT
 
     @property
     def content(self) -> Box:
@@ -214,7 +233,8 @@ class Canvas(Draft):
     @property
     def frame(self) -> Box:
         """The frame that all stands in."""
-        return Box(FRAME_LEFT, FRAME, self.width - FRAME, self.height - FRAME)
+        left, other = self.margins
+        return Box(left, other, self.width - other, self.height - other)
 
     def line(self, layer: str, start: complex, end: complex) -> None:
         """A straight line."""
@@ -302,10 +322,14 @@ def standard_scale(needed: float) -> float:
     return 10.0 * power
 
 
+def scale_name(scale: float) -> str:
+    """2:1 or 1:2.5, as scenes have it."""
+    return f"{scale:g}:1" if scale >= 1 else f"1:{1 / scale:g}"
+
+
 def scale_text(scale: float, language: str) -> str:
     """2:1 or 1:2,5."""
-    text = f"{scale:g}:1" if scale >= 1 else f"1:{1 / scale:g}"
-    return decimal(text, language)
+    return decimal(scale_name(scale), language)
 
 
 def decimal(text: str, language: str) -> str:

@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from geometry.curves.curve import Complex
-from parts.drawing.canvas import TEXT_HEIGHT, Box, Canvas, text_of, text_width
+from parts.drawing.canvas import Box, Canvas, text_of, text_width
 
 _DIRECTIONS = 24
 _REACHES = (1.5, 3.0, 5.0, 8.0, 12.0, 17.0, 23.0, 30.0, 40.0, 55.0)
@@ -27,8 +27,9 @@ class Labeller:
         self._room = room
         self._points = canvas.obstacles()
 
-    def name(self, text: str, point: complex, height: float = TEXT_HEIGHT, prefer: complex = 0j) -> None:
+    def name(self, text: str, point: complex, height: float | None = None, prefer: complex = 0j) -> None:
         """A word beside a point, in the direction ``prefer`` where that costs nothing."""
+        height = height or self._canvas.letters
         width = text_width(text, height)
         reach = 2 * _REACHES[-1] + width
         near = self._points[np.abs(self._points - point) < reach]
@@ -95,12 +96,12 @@ class Labeller:
         if not names:
             return
         names = sorted(names, key=lambda pair: pair[1].imag)
-        step = 2.0 * TEXT_HEIGHT
+        size = self._canvas.letters
+        step = 1.7 * size
         heights = spread([p.imag for _, p in names], step, low, high)
         for (text, point), y in zip(names, heights, strict=True):
-            width = text_width(text)
-            start = edge - width if left else edge
-            self._canvas.write(text, complex(start, y - TEXT_HEIGHT / 2))
+            start = edge - text_width(text, size) if left else edge
+            self._canvas.write(text, complex(start, y - size / 2), size)
             foot = complex(edge + (1.0 if left else -1.0), y)
             self._canvas.line("DIMENSION", point, foot)
         self._points = self._canvas.obstacles()

@@ -38,12 +38,18 @@ class ReadText(Record):
 
 
 class ReadSheet(Draft):
-    """All that a file holds; ``samples`` has points of every line, arc and spline, by layer, one array a curve."""
+    """All that a sheet holds; ``samples`` has points of every line, arc and spline, by layer, one array a curve.
+
+    Width and height of the paper and the rounding of places of words, mm.
+    """
 
     lines: list[ReadLine] = field(default_factory=list)
     arcs: list[ReadArc] = field(default_factory=list)
     texts: list[ReadText] = field(default_factory=list)
     samples: list[tuple[str, Complex]] = field(default_factory=list)
+    width: float = 0.0
+    height: float = 0.0
+    rounding: float = 1e-6
 
     def add_line(self, layer: str, start: complex, end: complex) -> None:
         """A straight line with its samples."""

@@ -1,14 +1,12 @@
-"""Tables on sheets: name, symbol, value."""
+"""Tables on sheets: name, symbol, value, each column as wide as its words."""
 
 from __future__ import annotations
 
 from geometry.base.record import Record
-from parts.drawing.canvas import TEXT_HEIGHT, Box, Canvas
+from parts.drawing.canvas import TEXT_HEIGHT, Box, Canvas, text_width
 
-# columns and rows, mm
-COLUMNS = (62.0, 16.0, 42.0)
-ROW = 7.0
-_INDENT = 1.5
+# height of a row, room beside words, least length of a line that a row shows; in heights of a capital
+_ROW, _INDENT, _SAMPLE = 1.85, 0.45, 6.0
 
 
 class Row(Record):
@@ -19,36 +17,58 @@ class Row(Record):
     value: str = ""
     sample: str = ""
 
+    @property
+    def cells(self) -> tuple[str, str, str]:
+        """From the left."""
+        return self.name, self.symbol, self.value
 
-def table_size(rows: list[Row], columns: tuple[float, ...] = COLUMNS) -> tuple[float, float]:
-    """Width and height, mm."""
-    return sum(columns), ROW * len(rows)
+    @property
+    def is_heading(self) -> bool:
+        """Whether its name takes the whole row."""
+        return not (self.symbol or self.value or self.sample)
 
 
-def draw_table(
-    canvas: Canvas,
-    corner: complex,
-    rows: list[Row],
-    columns: tuple[float, ...] = COLUMNS,
-    height_of_text: float = TEXT_HEIGHT,
-) -> None:
-    """A table with its lower left corner at ``corner``; words are squeezed into their cells."""
-    width, height = table_size(rows, columns)
-    canvas.box("TABLE", Box(corner.real, corner.imag, corner.real + width, corner.imag + height))
-    for index, row in enumerate(rows):
-        y = corner.imag + height - ROW * (index + 1)
-        if index:
-            canvas.line("TABLE", complex(corner.real, y + ROW), complex(corner.real + width, y + ROW))
-        x = corner.real
-        cells = (row.name, row.symbol, row.value)
-        single = not row.symbol and not row.value and not row.sample
-        for column, (text, wide) in enumerate(zip(cells, columns, strict=True)):
-            if column and not single and not (row.sample and column == 2):
-                canvas.line("TABLE", complex(x, y), complex(x, y + ROW))
-            if text:
-                most = (width if single else wide) - 2 * _INDENT
-                canvas.write(text, complex(x + _INDENT, y + (ROW - height_of_text) / 2), height_of_text, most)
-            x += wide
-        if row.sample:
-            middle = complex(corner.real + columns[0], y + ROW / 2)
-            canvas.line(row.sample, middle + 1.5, middle + columns[1] + columns[2] - 1.5)
+class Table(Record):
+    """Rows in letters of a height, mm; words are squeezed where all columns would be wider than ``most`` mm."""
+
+    rows: tuple[Row, ...]
+    text: float = TEXT_HEIGHT
+    most: float | None = None
+
+    @property
+    def columns(self) -> tuple[float, ...]:
+        """Widths, mm."""
+        room = 2 * _INDENT * self.text
+        cells = [row.cells for row in self.rows if not row.is_heading]
+        widths = [max((text_width(row[k], self.text) + room for row in cells if row[k]), default=0.0) for k in range(3)]
+        headings = [text_width(row.name, self.text) + room for row in self.rows if row.is_heading]
+        samples = [widths[0] + _SAMPLE * self.text for row in self.rows if row.sample]
+        widths[2] += max([sum(widths), *headings, *samples]) - sum(widths)
+        share = 1.0 if self.most is None else min(1.0, self.most / sum(widths))
+        return tuple(width * share for width in widths)
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height, mm."""
+        return sum(self.columns), _ROW * self.text * len(self.rows)
+
+    def draw(self, canvas: Canvas, corner: complex) -> None:
+        """The table with its lower left corner at ``corner``."""
+        columns, (width, height), step = self.columns, self.size, _ROW * self.text
+        indent, left, top = _INDENT * self.text, corner.real, corner.imag + height
+        canvas.box("TABLE", Box(left, corner.imag, left + width, top))
+        for index, row in enumerate(self.rows):
+            y = top - step * (index + 1)
+            if index:
+                canvas.line("TABLE", complex(left, y + step), complex(left + width, y + step))
+            x = left
+            for column, (text, wide) in enumerate(zip(row.cells, columns, strict=True)):
+                if column and wide and not row.is_heading and not (row.sample and column == 2):
+                    canvas.line("TABLE", complex(x, y), complex(x, y + step))
+                if text:
+                    most = (width if row.is_heading else wide) - 2 * indent
+                    canvas.write(text, complex(x + indent, y + (step - self.text) / 2), self.text, most)
+                x += wide
+            if row.sample:
+                middle = complex(left + columns[0], y + step / 2)
+                canvas.line(row.sample, middle + indent, middle + columns[1] + columns[2] - indent)

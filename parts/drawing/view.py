@@ -7,25 +7,35 @@ from collections.abc import Sequence
 from geometry.base.record import Record
 from geometry.curves.curve import Curve
 from geometry.gears.pictures.meshing import Body, MeshingPicture
-from parts.drawing.canvas import FRAME, FRAME_LEFT, PAPERS, SCALES, Box, Canvas, Paper
-from parts.drawing.table import Row, table_size
+from parts.drawing.canvas import SCALES, Box, Canvas, Paper, text_width
+from parts.drawing.choice import Asked, sheet_for
+from parts.drawing.table import Row, Table
 
 # teeth drawn in the main position
 TEETH = 3
-# on both sides of the picture, for the names of circles, mm
-NAMES = 34.0
-# the least module on paper, mm, below which more of the axes is left off the sheet
-_LEAST_MODULE = 12.0
-# above the picture, for the title; around it; mm
-_TITLE, GAP = 14.0, 6.0
+# the least module on paper, mm, below which a larger paper is better
+_LEAST_MODULE = 8.0
+# above the picture, for the title; around it; from the picture to the names of its circles; mm
+_TITLE, GAP, LEAD = 14.0, 3.0, 7.0
+# what a broken line of centres takes for each axis beyond the window, mm
+BREAK = 15.0
+# the longest name of a circle
+_NAME = "r_{w2} = 1000.00"
 
 
 class View(Record):
-    """The part of the plane that is drawn (model mm), where it lies on paper, and what of the axes it holds."""
+    """The part of the plane that is drawn (model mm), where it lies on paper, and where words may stand."""
 
     window: Box
     paper: Paper
     room: Box
+
+    @property
+    def seen(self) -> Box:
+        """The window on paper, mm."""
+        low, high = (self.paper.point(complex(x, y)) for x, y in (
+            (self.window.left, self.window.low), (self.window.right, self.window.high)))  # fmt: skip
+        return Box(low.real, low.imag, high.real, high.imag)
 
     def shows(self, body: Body, name: str) -> bool:
         """Whether a circle of a body crosses the line of centres in the window."""
@@ -34,55 +44,70 @@ class View(Record):
         height = body.centre.imag + (1 if is_up(body, self.window) else -1) * body.radii[name]
         return self.window.low <= height <= self.window.high
 
+    def holds(self, point: complex) -> bool:
+        """Whether a point of the plane is drawn."""
+        window = self.window
+        return window.left <= point.real <= window.right and window.low <= point.imag <= window.high
 
-def layout(picture: MeshingPicture, module: float, rows: Sequence[Row], band: float = 0.0) -> tuple[Canvas, View]:
-    """The smallest sheet on which the teeth can be seen, with as much of the axes as they leave room for.
+    def beyond(self, picture: MeshingPicture) -> tuple[list[int], list[int]]:
+        """The bodies whose axes lie below and above the window, the nearest first."""
+        return _beyond(picture, self.window)
 
-    ``band``: height that a title block takes, mm.
+
+def layout(picture: MeshingPicture, module: float, rows: Sequence[Row], asked: Asked) -> tuple[Canvas, View]:
+    """The sheet with the teeth as large as it allows, and with as much of the axes as then still has room.
+
+    Raises
+    ------
+    ParameterError
+        The paper that is asked for is too small.
     """
-    # the scale, and base circles that lie off the sheet
-    table = table_size([*rows, *[Row("")] * 3])
-    best: tuple[float, str, bool, Box] | None = None
-    for depth in (2, 1, 0):
-        window = _window(picture, module, depth)
-        for name in ("A3", "A2", "A1"):
-            for upright in (False, True):
-                scale = _greatest_scale(window, _field(name, upright, table, band))
-                enough = scale * module >= _LEAST_MODULE
-                better = best is None or scale > best[0] * 1.01
-                if (enough or (depth == 0 and name == "A1")) and better:
-                    best = scale, name, upright, window
-            if best is not None and best[0] * module >= _LEAST_MODULE:
-                break
-        if best is not None and best[0] * module >= _LEAST_MODULE:
-            break
-    assert best is not None
-    scale, name, upright, window = best
-    size = PAPERS[name]
-    width, height = size if upright else size[::-1]
-    canvas = Canvas(width, height, name, band=band)
-    left, low, right, high = _field(name, upright, table, band)
-    middle = complex(left + right, low + high) / 2
+    windows = [_window(picture, module, depth) for depth in (2, 1, 0)]
+
+    def greatest(sheet: Canvas) -> float:
+        return _most(picture, windows[-1], sheet, rows)
+
+    canvas, scale = sheet_for(asked, greatest, _LEAST_MODULE / module)
+    window = next(w for w in windows if _most(picture, w, canvas, rows) >= scale or w is windows[-1])
+    field = _field(picture, window, canvas, rows)
+    middle = complex(field.left + field.right, field.low + field.high) / 2
     origin = middle - scale * complex(window.left + window.right, window.low + window.high) / 2
-    room = Box(left - NAMES, low, right + NAMES, high)
+    names, (below, above) = _names(canvas), _beyond(picture, window)
+    room = Box(field.left - names, field.low - BREAK * len(below), field.right + names, field.high + BREAK * len(above))
     return canvas, View(window, Paper(scale, origin), room)
 
 
-def _field(name: str, upright: bool, table: tuple[float, float], band: float) -> tuple[float, float, float, float]:
-    """Where the picture itself may lie: left, low, right, high, mm; the table stands below it or on its right."""
-    size = PAPERS[name]
-    width, height = size if upright else size[::-1]
-    left, right = FRAME_LEFT + NAMES + 2, width - FRAME - NAMES - 2
-    low, high = FRAME + GAP + band, height - FRAME - _TITLE
-    if upright:
-        return left, low + table[1], right, high
-    return left, low, right - table[0], high
+def _names(canvas: Canvas) -> float:
+    """What the names of circles take on each side of the picture, mm."""
+    return text_width(_NAME, canvas.letters) + LEAD + 1.0
 
 
-def _greatest_scale(window: Box, field: tuple[float, float, float, float]) -> float:
-    left, low, right, high = field
-    most = min((right - left) / (window.right - window.left), (high - low) / (window.high - window.low))
-    return next((s for s in SCALES if s <= most), most)
+def _field(picture: MeshingPicture, window: Box, canvas: Canvas, rows: Sequence[Row]) -> Box:
+    """Where the window itself may lie, mm; the table stands below it on upright paper, else on its right."""
+    content, (wide, tall) = canvas.content.grown(-GAP), Table(tuple(rows), canvas.letters).size
+    names, (below, above) = _names(canvas), _beyond(picture, window)
+    upright = canvas.height > canvas.width
+    return Box(
+        content.left + names,
+        content.low + (tall if upright else 0.0) + BREAK * len(below),
+        content.right - names - (0.0 if upright else wide),
+        content.high - _TITLE + GAP - BREAK * len(above),
+    )
+
+
+def _most(picture: MeshingPicture, window: Box, canvas: Canvas, rows: Sequence[Row]) -> float:
+    """The greatest standard scale at which a window fits; 0 for none."""
+    field = _field(picture, window, canvas, rows)
+    wide, tall = window.right - window.left, window.high - window.low
+    most = min((field.right - field.left) / wide, (field.high - field.low) / tall)
+    return next((s for s in SCALES if s <= most), 0.0)
+
+
+def _beyond(picture: MeshingPicture, window: Box) -> tuple[list[int], list[int]]:
+    middle = (window.low + window.high) / 2
+    axes = [(b.centre.imag, k) for k, b in enumerate(picture.bodies) if b.centre is not None]
+    axes.sort(key=lambda pair: abs(pair[0] - middle))
+    return [k for y, k in axes if y < window.low], [k for y, k in axes if y > window.high]
 
 
 def _window(picture: MeshingPicture, module: float, depth: int) -> Box:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from msgspec import Meta
 
@@ -13,9 +13,28 @@ RackStep = Annotated[float, mm("sheet, generating: way of the rack from position
 Intervals = Annotated[int, Meta(ge=2, le=72, description="sheet, cam: parts of each phase on paper; default: 8")]
 CamSpeed = Annotated[float, Meta(gt=0, le=1e6, description="sheet, cam: adds velocities", extra={"unit": "rpm"})]
 MateNumber = Annotated[int, Meta(ge=1, description="sheet: the pair that is shown, by number; default: all")]
+# GOST 2.301, 2.302
+PaperName = Literal["A4", "A3", "A2", "A1", "A0"]
+Scale = Literal[
+    "100:1", "50:1", "40:1", "20:1", "10:1", "5:1", "4:1", "2.5:1", "2:1", "1:1", "1:2", "1:2.5", "1:4", "1:5", "1:10",
+    "1:15", "1:20", "1:25", "1:40", "1:50", "1:75", "1:100", "1:200", "1:400", "1:500", "1:800", "1:1000"
+]  # fmt: skip
+PaperKey = Annotated[PaperName, Meta(description="sheet, pdf: size of the paper; default: the smallest that holds it")]
+ScaleKey = Annotated[
+    Scale, Meta(description="sheet, pdf: scale by GOST 2.302; default: the greatest that the paper allows")
+]
+
+
+def scale_value(text: str) -> float:
+    """2.5:1 as a number."""
+    paper, model = text.split(":")
+    return float(paper) / float(model)
+
+
 # the purpose that each key is for
 _PURPOSES = {"mate": "meshing", "rack_step": "generating", "intervals": "cam", "speed_rpm": "cam"}
-SHEET_KEYS = (*_PURPOSES, "title_block")
+SHEET_FORMATS = ("sheet", "pdf")
+SHEET_KEYS = (*_PURPOSES, "title_block", "paper", "scale")
 
 
 def check_sheet_keys(spec: Any, source: str, place: str) -> None:
@@ -30,12 +49,18 @@ def check_sheet_keys(spec: Any, source: str, place: str) -> None:
         value = getattr(spec, key)
         if value is not None and spec.purpose != purpose:
             raise SceneError(source, f"{place}.{key}", value, "only_for_purpose", REMOVED, purpose=purpose)
-    if spec.title_block and spec.format != "sheet":
-        given = spec.title_block is not False
-        raise SceneError(
-            source, f"{place}.title_block", given, "only_for_format", REMOVED, formats='"sheet"', format=spec.format
-        )
-    if spec.format in ("sheet", "motion", "glb") and spec.offset:
+    for key in ("title_block", "paper", "scale"):
+        given = getattr(spec, key)
+        if given and spec.format not in SHEET_FORMATS:
+            formats, given = [f'"{name}"' for name in SHEET_FORMATS], given if key != "title_block" else True
+            raise SceneError(
+                source, f"{place}.{key}", given, "only_for_format", REMOVED, formats=formats, format=spec.format
+            )
+        if given and key != "paper" and spec.format == "pdf" and spec.purpose == "model":
+            given = given if key == "scale" else True
+            raise SceneError(source, f"{place}.{key}", given, "model_is_full_size", REMOVED)
+    is_sheet = spec.format in SHEET_FORMATS
+    if (is_sheet or spec.format in ("motion", "glb")) and spec.offset:
         raise SceneError(source, f"{place}.offset", spec.offset, "sheet_shows_exact_profile", REMOVED)
-    if spec.format == "sheet" and spec.parts is not None and spec.purpose == "meshing":
+    if is_sheet and spec.parts is not None and spec.purpose == "meshing":
         raise SceneError(source, f"{place}.parts", None, "sheet_shows_a_pair", REMOVED)

@@ -12,10 +12,12 @@ REASONS = {
         "the device cuts with a rack: leave cutter out, or name other gears in parts of the export"
     ),
     "device_draws_external_gears": N_("the device draws external gears; name a spur_gear"),
-    "disk_fits_no_paper": N_("the disk fits no paper: its module is too large"),
     "disk_holds_two_wheels": N_("a disk holds two wheels"),
     "draws_only": N_("draws only {kinds}; here: {known}"),
     "draws_only_what_is_not_here": N_("draws only {kinds}; add one or remove the export"),
+    "finer_than_pdf": N_("a PDF does not tell places so exactly"),
+    "fits_no_paper": N_("fits no paper at any scale"),
+    "fits_no_paper_so_large": N_("no paper is large enough for it at this scale"),
     "finer_than_mesh_digits": N_("a mesh file stores 7 digits, too few for that at this size"),
     "folder_of_files": N_("no such file: it is a folder; name the files in it"),
     "last_build_failed": N_(
@@ -26,8 +28,8 @@ REASONS = {
         "build the scene again"
     ),
     "mate_of_no_gears": N_("is a {kind} mate; name a pair of gears"),
-    "more_phases_than_paper": N_("has more phases than the tables of one paper hold; leave it out of parts"),
     "needs_kernel": N_("needs the CAD kernel: pip install 'higherpair[cad]'"),
+    "needs_pdf": N_("needs what writes PDF: pip install 'higherpair[pdf]'"),
     "no_exports": N_(
         'the scene asks for no file; add [[exports]] with format = "dxf" (or svg, stl, 3mf, step), or use --format'
     ),
@@ -44,6 +46,8 @@ REASONS = {
     "of_part": N_("{part}: {why}"),
     "one_disk_one_size": N_("one disk needs module {module} and {teeth} teeth for both wheels"),
     "outline_crosses_itself": N_("an outline of {part} has a part so small that it crosses itself at this tolerance"),
+    "paper_too_small": N_("the paper is too small"),
+    "paper_too_small_for_scale": N_("the paper is too small at the scale {scale}"),
     "same_file": N_("writes the same file as {other}; give one of them another name"),
     "shows_external_gears": N_("shows external gears; add one or remove the export"),
     "shows_gear_pairs": N_("shows pairs of involute gears only; remove the export or change its purpose"),
@@ -53,7 +57,6 @@ REASONS = {
     "stopped_while_moving": N_(
         "a build moves its files into this folder, or was stopped while it did; build the scene again"
     ),
-    "table_fits_no_paper": N_("its table fits no paper"),
     "tolerance_not_met": N_("cannot be met: a residual of {residual} stays after {steps} steps; make it larger"),
     "too_many_edges": N_("would need {edges} edges"),
     "too_large_to_read_back": N_("is larger than {most} bytes, the most that is read back"),

@@ -46,6 +46,7 @@ REASONS = {
     "not_utf8": N_("is not UTF-8 text (byte {byte}); save it as UTF-8"),
     "of_another_kind": N_("is a {found}, not a {kind}"),
     "only_for_format": N_("only for format = {formats}, not {format}"),
+    "model_is_full_size": N_("a paper model is in full size, on bare sheets"),
     "only_for_purpose": N_('only for purpose = "{purpose}"'),
     "placed_is_the_second": N_(
         "is not placed, but {second} is; swap first and second (direction_deg = {angle}), or give instances.{first}.at"

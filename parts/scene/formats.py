@@ -54,6 +54,9 @@ FILE_KINDS = {
         FileKind("3mf", "3mf", Form.TRIANGLES, {"print": 0.01, "plate": 0.01}, assembly=True),
         FileKind("step", "step", Form.FACES, {"model": 1e-6}, assembly=True),
         FileKind("sheet", "sheet", Form.SHEET, {"meshing": 1e-6, "generating": 1e-6, "cam": 1e-6, "train": 1e-6}),
+        FileKind(
+            "pdf", "pdf", Form.SHEET, {"model": 1e-3, "meshing": 2e-4, "generating": 2e-4, "cam": 2e-4, "train": 2e-4}
+        ),
         FileKind("motion", "motion", Form.SHEET, {"animation": 0.02}),
         FileKind("glb", "glb", Form.SHEET, {"animation": 0.02}),
     )

@@ -22,7 +22,7 @@ from parts.base.schema import converted, refuse_infinite
 from parts.base.texts import ENGLISH, languages
 from parts.keys.base import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.keys.boards import PURPOSES_LAID, BedSpec, BoardSpec, LaidKeys, check_laid
-from parts.keys.sheet import CamSpeed, Intervals, MateNumber, RackStep, check_sheet_keys
+from parts.keys.sheet import CamSpeed, Intervals, MateNumber, PaperKey, RackStep, ScaleKey, check_sheet_keys
 from parts.keys.title import TitleBlockKey
 from parts.scene.files import MOST_BYTES, built_in_scenes, text_of
 from parts.scene.formats import ASSEMBLY_FORMATS, Form, file_kind, tolerances_of
@@ -59,9 +59,10 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     """Keys of ``[[exports]]``."""
 
     format: Annotated[
-        Literal["dxf", "svg", "stl", "3mf", "step", "sheet", "motion", "glb"],
+        Literal["dxf", "svg", "stl", "3mf", "step", "sheet", "pdf", "motion", "glb"],
         Meta(
-            description="file format; motion, glb: what the drives move, as an animated SVG, and its solids as glTF",
+            description="file format; sheet: DXF and SVG of a drawing; motion, glb: what the drives move, as an "
+            "animated SVG, and its solids as glTF",
             examples=["dxf"],
         ),
     ]
@@ -82,9 +83,9 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
             ],
             Meta(
                 description="dxf: laser (arcs) or drawing (splines); dxf, svg: board (all flat parts laid on boards); "
-                "3mf: plate (all parts laid on beds); sheet: meshing (picture of each pair), "
+                "3mf: plate (all parts laid on beds); sheet, pdf: meshing (picture of each pair), "
                 "generating (device TMM-42), cam (diagrams, least radius, profile) or train (scheme, plans of "
-                "velocities)",
+                "velocities); pdf: model (outlines 1:1 on sheets to be glued together)",
                 examples=["laser"],
             ),
         ]
@@ -122,6 +123,8 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     speed_rpm: CamSpeed | None = None
     title_block: TitleBlockKey = False
     mate: MateNumber | None = None
+    paper: PaperKey | None = None
+    scale: ScaleKey | None = None
 
 
 class ChecksSpec(Struct, forbid_unknown_fields=True):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from parts.base.texts import N_, Text, filled, in_context, words
+from parts.base.texts import N_, Text, counted, filled, in_context, words
 
 SHEETS: dict[str, Text] = {
     "external": N_("Picture of external involute meshing"),
@@ -85,6 +85,11 @@ SHEETS: dict[str, Text] = {
     "scheme_scale": N_("scale of the scheme's heights"),
     "velocity_scale": N_("velocities at 1 rad/s of the driver, mm/s in 1 mm"),
     "angular_scale": N_("angular velocities, rad/s in 1 mm"),
+    "model_print": N_("Print in actual size (100 %), not fitted to the page. The sides of the square measure 100 mm."),
+    "model_glue": N_("Sheets of one part overlap by 10 mm: lay cross on cross, glue, cut along the outline."),
+    "model_sheets": counted("{number} sheet", "{number} sheets", by="number"),
+    "model_tile": N_("{part}, scale 1:1: row {row} of {rows}, column {column} of {columns}"),
+    "model_whole": N_("{part}, scale 1:1"),
     "scale_profile": N_("scale of the profile"),
 }
 

@@ -11,7 +11,7 @@ from geometry.cams.plane.coupler import LinkageCam
 from geometry.curves.line_arc import Arc
 from geometry.kinematics.linkage import RockerDrive, RockerGuide, SliderDrive, SliderGuide
 from parts.cams.sheets.diagrams import Drawn
-from parts.cams.sheets.picture import TURN_SHARE, CamPicture
+from parts.cams.sheets.picture import CamPicture
 from parts.cams.sheets.tables import Grid
 from parts.drawing.canvas import SMALL_TEXT, Canvas, Paper
 from parts.drawing.labels import Labeller
@@ -153,14 +153,3 @@ def position_grid(picture: CamPicture, cam: LinkageCam) -> Grid:
 def _outward(point: complex) -> complex:
     """Direction away from the axis, to the right from the axis itself."""
     return point / abs(point) if point else 1.0 + 0j
-
-
-def intervals_beside(picture: CamPicture, rows: int) -> int:
-    """The most intervals of which both tables, of the graphical method and of the positions, have ``rows`` rows."""
-    phases = picture.cam.motion.phases
-    moving = sum(phase.law is not None for phase in phases)
-    if not phases:
-        return (rows - 2) // TURN_SHARE
-    if picture.drawn is None:
-        return (rows - 2 - len(phases) + moving) // max(moving, 1)
-    return (rows - 4 - len(phases)) // (2 * max(moving, 1))

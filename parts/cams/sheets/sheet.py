@@ -2,24 +2,31 @@
 
 from __future__ import annotations
 
-from geometry.base.errors import Nearest, ParameterError
-from geometry.base.record import Record
-from geometry.cams.plane.graphical import LEAST_INTERVALS
+from geometry.base.record import Draft, Record, field
+from geometry.curves.curve import Curve
 from parts.cams.sheets.diagrams import LEFT, RIGHT, Drawn, draw_diagrams, heights_of
 from parts.cams.sheets.joint import Joint, draw_joint, joint_of, joint_paper, joint_window, name_joint
-from parts.cams.sheets.links import intervals_beside, linkage_cam_of, position_grid
+from parts.cams.sheets.links import linkage_cam_of, position_grid
 from parts.cams.sheets.measures import CamMeasures
-from parts.cams.sheets.picture import CamPicture, Scales, scales_of
-from parts.cams.sheets.profile import draw_profile, name_profile, number_positions, profile_paper, profile_side
+from parts.cams.sheets.picture import CamPicture, scales_of
+from parts.cams.sheets.profile import (
+    draw_profile,
+    name_profile,
+    number_positions,
+    profile_paper,
+    profile_side,
+    reach_of,
+)
 from parts.cams.sheets.swing import draw_swing, name_swing, swing_of, swing_window
 from parts.cams.sheets.tables import ROW, WIDTH, Grid, characteristics, draw_grid, graphical_grid, legend, scale_rows
-from parts.drawing.canvas import FRAME, FRAME_LEFT, PAPERS, SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Paper, scale_text
-from parts.drawing.expected import Expected
+from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, TITLE_TEXT, Box, Canvas, Paper, scale_text
+from parts.drawing.choice import Asked, blank, sheet_for
+from parts.drawing.expected import Circle, Expected
 from parts.drawing.labels import Labeller
 from parts.pages.page import Sheet
 from parts.texts.sheets import sheet_words
 
-# a turn on the axis of abscissae, mm, on each paper
+# papers that hold all of a cam, each with the length of a turn on its axis of abscissae, mm
 _TURNS = {"A2": 180.0, "A1": 360.0, "A0": 360.0}
 _TITLE, _MARGIN, _CAPTION = 14.0, 4.0, 9.0
 # between tables; rows of the scales and the meaning of lines with the gaps around them, mm
@@ -27,86 +34,111 @@ _GRID_GAP = 3.0
 _SMALL_GRIDS = 17 * ROW + 3 * _GRID_GAP
 # width and height of the main inscription, GOST 2.104, form 1: the lower right corner stays free for it, mm
 INSCRIPTION = (185.0, 55.0)
-# what tables may not use of a paper's height
-_AROUND = 2 * FRAME + _TITLE + _MARGIN + INSCRIPTION[1]
 # least height of the joint diagram
 _LEAST_JOINT = 95.0
+# the least base circle on paper, mm, below which a larger paper is better
+_LEAST_RADIUS = 25.0
+# rows of a table on a page before it goes on
+_LEAST_ROWS = 6
+
+
+class _Page(Draft):
+    """A sheet with all that is drawn on it and must be read back."""
+
+    canvas: Canvas
+    drawn: list[Drawn] = field(default_factory=list)
+    circles: list[Circle] = field(default_factory=list)
+    curves: dict[str, list[Curve]] = field(default_factory=dict)
+    joint: Paper | None = None
+
+
+class _Place(Record):
+    """An area, mm, on a page."""
+
+    page: _Page
+    area: Box
 
 
 class _Layout(Record):
-    """A sheet's paper and the areas on it, mm."""
+    """Where everything goes: all on one page, or diagrams, constructions and tables on pages of their own.
 
-    canvas: Canvas
-    diagrams: Box
-    joint: Box
-    profile: Box
-    tables: complex
+    ``tables``: columns for them, in turn; what finds no room there goes onto further pages.
+    """
+
+    diagrams: _Place
+    joint: _Place
+    profile: _Place
+    tables: tuple[_Place, ...]
 
 
-def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, tolerance: float) -> Expected:
-    """The sheet of a cam; ``calculation`` is that of ``higherpair calc cam``, ``tolerance`` in mm on paper.
+def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, asked: Asked) -> list[Expected]:
+    """The sheets of a cam: one, or several where the paper that is asked for is small.
+
+    ``calculation`` is that of ``higherpair calc cam``.
 
     Raises
     ------
     ParameterError
-        The tables of so many intervals fit no paper.
+        The paper is too small for the scale that is asked for.
     """
-    joint, swing = joint_of(picture), swing_of(picture)
+    joint, swing, linked = joint_of(picture), swing_of(picture), linkage_cam_of(picture)
     first = characteristics(calculation, picture)
     graphical = graphical_grid(calculation, picture)
-    linked = linkage_cam_of(picture)
     places = None if linked is None else position_grid(picture, linked)
-    layout = _layout(picture, (first, graphical, places), has_joint=joint is not None or swing is not None)
-    canvas = layout.canvas
-    canvas.box("FRAME", canvas.frame)
-    left = canvas.frame.left + 6.0
-    canvas.write(
-        f"{_title(picture)}: {name}", complex(left, canvas.frame.high - 9.0), 5.0, canvas.frame.right - left - 6.0
-    )
-    scales = scales_of(
-        picture, layout.diagrams.right - layout.diagrams.left - LEFT - RIGHT, heights_of(layout.diagrams)
-    )
-    drawn = [draw_diagrams(canvas, picture, layout.diagrams, scales, tolerance)]
-    paper = profile_paper(picture, layout.profile)
-    made, circles, curves = draw_profile(canvas, picture, paper, tolerance)
-    drawn.append(made)
-    window, joint_place = None, None
+    tall = sum(g.height for g in (first, graphical, places) if g) + _SMALL_GRIDS + (_GRID_GAP if places else 0.0)
+    has_joint = joint is not None or swing is not None
+    layout, paper = _layout(picture, tall, asked, has_joint=has_joint)
+    pages = [layout.diagrams.page, layout.profile.page][: 1 if layout.tables else 2]
+    scales = scales_of(picture, layout.diagrams.area.right - layout.diagrams.area.left - LEFT - RIGHT,
+                       heights_of(layout.diagrams.area))  # fmt: skip
+    page = layout.diagrams.page
+    page.drawn.append(draw_diagrams(page.canvas, picture, layout.diagrams.area, scales, asked.tolerance))
+    page = layout.profile.page
+    made, circles, curves = draw_profile(page.canvas, picture, paper, asked.tolerance)
+    page.drawn.append(made)
+    page.circles += circles
+    page.curves |= curves
+    page, window = layout.joint.page, None
     if joint is not None:
-        joint_place, window = joint_paper(joint_window(picture, joint), layout.joint)
-        drawn.append(draw_joint(canvas, picture, joint, joint_place, window, tolerance))
+        page.joint, window = joint_paper(joint_window(picture, joint), layout.joint.area)
+        page.drawn.append(draw_joint(page.canvas, picture, joint, page.joint, window, asked.tolerance))
     elif swing is not None:
-        joint_place, window = joint_paper(swing_window(picture, swing), layout.joint)
-        drawn.append(draw_swing(canvas, picture, swing, joint_place, window, tolerance))
-    _captions(canvas, picture, layout, joint_place, paper)
-    corner = layout.tables
-    scale = None if joint_place is None else joint_place.scale
+        page.joint, window = joint_paper(swing_window(picture, swing), layout.joint.area)
+        page.drawn.append(draw_swing(page.canvas, picture, swing, page.joint, window, asked.tolerance))
+    _captions(picture, layout, paper)
+    scale = None if page.joint is None else page.joint.scale
     lines = legend(picture, has_return=joint is not None and joint.return_line is not None)
-    for grid in (first, scale_rows(picture, scales, scale, paper.scale), lines, graphical, places):
-        if grid is not None:
-            draw_grid(canvas, corner, grid)
-            corner -= 1j * (grid.height + _GRID_GAP)
-    number_positions(canvas, picture, paper)
-    name_profile(Labeller(canvas, layout.profile.grown(2.0)), picture, paper)
-    if joint is not None and joint_place is not None and window is not None:
-        name_joint(Labeller(canvas, layout.joint), picture, joint, joint_place, window)
-    elif swing is not None and joint_place is not None:
-        name_swing(Labeller(canvas, layout.joint), picture, swing, joint_place)
-    measures = _measures(picture, scales, joint, joint_place, drawn)
-    return Expected(canvas, paper, tuple(circles), curves, measures=measures)
-
-
-def _measures(
-    picture: CamPicture, scales: Scales, joint: Joint | None, place: Paper | None, drawn: list[Drawn]
-) -> CamMeasures:
-    curves = {layer: found for part in drawn for layer, found in part.curves.items()}
-    lines = tuple(line for part in drawn for line in part.lines)
+    grids = [g for g in (first, scale_rows(picture, scales, scale, paper.scale), lines, graphical, places) if g]
+    pages += _flow(grids, layout, asked)
+    for number, one in enumerate(pages, 1):
+        frame = one.canvas.frame
+        one.canvas.box("FRAME", frame)
+        title = f"{_title(picture)}: {name}" + (f" ({number}/{len(pages)})" if len(pages) > 1 else "")
+        one.canvas.write(
+            title, complex(frame.left + 6.0, frame.high - 9.0), TITLE_TEXT, frame.right - frame.left - 12.0
+        )
+    number_positions(layout.profile.page.canvas, picture, paper)
+    name_profile(Labeller(layout.profile.page.canvas, layout.profile.area.grown(2.0)), picture, paper)
+    labels = Labeller(page.canvas, layout.joint.area)
+    if joint is not None and page.joint is not None and window is not None:
+        name_joint(labels, picture, joint, page.joint, window)
+    elif swing is not None and page.joint is not None:
+        name_swing(labels, picture, swing, page.joint)
     low, high = picture.cam.motion.extremes(0)
-    lift = (high - low) * picture.unit
-    if joint is None or place is None:
-        return CamMeasures(curves, lines, scales.lift, lift)
-    return CamMeasures(
-        curves, lines, scales.lift, lift, place, joint.offset if joint.order == 1 else 0.0, abs(joint.least)
-    )
+    lift = scales.lift, (high - low) * picture.unit
+    return [
+        Expected(one.canvas, paper, tuple(one.circles), one.curves, measures=_measures(one, joint, lift))
+        for one in pages
+    ]
+
+
+def _measures(page: _Page, joint: Joint | None, lift: tuple[float, float]) -> CamMeasures:
+    """What must be measured off one page; ``lift``: scale and stroke of the diagrams."""
+    curves = {layer: found for part in page.drawn for layer, found in part.curves.items()}
+    lines = tuple(line for part in page.drawn for line in part.lines)
+    if joint is None or page.joint is None:
+        return CamMeasures(curves, lines, *lift)
+    return CamMeasures(curves, lines, *lift, page.joint, joint.offset if joint.order == 1 else 0.0, abs(joint.least))
 
 
 def _title(picture: CamPicture) -> str:
@@ -116,58 +148,108 @@ def _title(picture: CamPicture) -> str:
     return sheet_words(picture.language, f"cam_{picture.cam.kind.value}_{how}")
 
 
-def _layout(picture: CamPicture, grids: tuple[Grid | None, ...], *, has_joint: bool) -> _Layout:
-    """The smallest paper that holds the tables and the profile in full size; A1 for a larger cam."""
-    first, _, places = grids
-    tables = sum(grid.height for grid in grids if grid) + _SMALL_GRIDS + (_GRID_GAP if places else 0.0)
-    fitting = [name for name in _TURNS if tables <= PAPERS[name][0] - _AROUND]
-    if not fitting:
-        room = PAPERS["A0"][0] - _AROUND - _SMALL_GRIDS - (first.height if first else 0.0)
-        phases = max(len(picture.drawn.phases) if picture.drawn else 1, 1)
-        most = (int(room / ROW) - 2) // phases - 1
-        if places:
-            most = intervals_beside(picture, int((room - _GRID_GAP) / ROW))
-        if most < LEAST_INTERVALS:
-            raise ParameterError("parts", len(picture.cam.motion.phases), "more_phases_than_paper")
-        raise ParameterError("intervals", picture.intervals, "table_fits_no_paper", Nearest(most, "at_most"))
-    layouts = [_areas(name, picture, has_joint=has_joint) for name in fitting]
-    for layout in layouts[:2]:
-        if profile_paper(picture, layout.profile).scale >= 1:
-            return layout
-    return next((x for x in layouts if x.canvas.paper == "A1"), layouts[0])
+def _layout(picture: CamPicture, tables: float, asked: Asked, *, has_joint: bool) -> tuple[_Layout, Paper]:
+    """Where all goes, ``tables`` mm of tables in one column, and the place of the profile.
+
+    One sheet of the smallest paper that holds all of it; several where the paper asked for does not, or none does.
+    """
+
+    around = _TITLE + _MARGIN + INSCRIPTION[1]
+    contents = {name: blank(name, upright=False).content for name in _TURNS}
+    whole = [name for name, content in contents.items() if tables <= content.high - content.low - around]
+
+    def layout_on(sheet: Canvas) -> _Layout:
+        make = _areas if sheet.paper in whole else _pages
+        return make(sheet, picture, has_joint=has_joint)
+
+    def greatest(sheet: Canvas) -> float:
+        on_one = sheet.paper in whole
+        if (sheet.width > sheet.height) != on_one or (whole and not asked.paper and not on_one):
+            return 0.0
+        return profile_paper(picture, layout_on(sheet).profile.area).scale
+
+    least = min(1.0, _LEAST_RADIUS / reach_of(picture, 1.0).prime)
+    canvas, scale = sheet_for(asked, greatest, least)
+    layout = layout_on(canvas)
+    return layout, Paper(scale, profile_paper(picture, layout.profile.area).origin)
 
 
-def _areas(name: str, picture: CamPicture, *, has_joint: bool) -> _Layout:
+def _areas(canvas: Canvas, picture: CamPicture, *, has_joint: bool) -> _Layout:
     """Diagrams on the left, tables on the right, in between the joint diagram over the profile, which gets its need."""
-    height, width = PAPERS[name]
-    canvas = Canvas(width, height, name)
-    low, high = FRAME + _MARGIN, height - FRAME - _TITLE
+    page, frame = _Page(canvas), canvas.frame
+    low, high = frame.low + _MARGIN, frame.high - _TITLE
     # a linkage needs the room
     linked = linkage_cam_of(picture) is not None
-    split = FRAME_LEFT + _MARGIN + LEFT + (_TURNS["A2"] if linked else _TURNS[name]) + RIGHT
-    right = width - FRAME - WIDTH
-    diagrams = Box(FRAME_LEFT + _MARGIN, low, split, high)
-    foot, near, far = low + INSCRIPTION[1], split + _MARGIN, right - _MARGIN
-    top = high - _CAPTION
-    if linked:
+    split = frame.left + _MARGIN + LEFT + (_TURNS["A2"] if linked else _TURNS[canvas.paper]) + RIGHT
+    right = frame.right - WIDTH
+    middle = Box(split + _MARGIN, low + INSCRIPTION[1], right - _MARGIN, high)
+    joint, profile = _split(page, middle, picture, has_joint=has_joint)
+    diagrams = _Place(page, Box(frame.left + _MARGIN, low, split, high))
+    return _Layout(diagrams, joint, profile, (_Place(page, Box(right, low + INSCRIPTION[1], frame.right, high)),))
+
+
+def _pages(sheet: Canvas, picture: CamPicture, *, has_joint: bool) -> _Layout:
+    """The diagrams on a page, the constructions on another."""
+    first, second = (_Page(blank(sheet.paper, upright=True, band=sheet.band)) for _ in range(2))
+    content = sheet.content
+    area = Box(content.left + _MARGIN, content.low + _MARGIN, content.right - _MARGIN, content.high - _TITLE)
+    joint, profile = _split(second, area, picture, has_joint=has_joint)
+    return _Layout(_Place(first, area), joint, profile, ())
+
+
+def _split(page: _Page, area: Box, picture: CamPicture, *, has_joint: bool) -> tuple[_Place, _Place]:
+    """The joint diagram over the profile, each below its caption."""
+    top = area.high - _CAPTION
+    if linkage_cam_of(picture) is not None:
         top -= _CAPTION
     if has_joint:
-        room = top - _LEAST_JOINT - _MARGIN - _CAPTION - foot
-        top = foot + profile_side(picture, min(room, far - near))
-    profile = Box(near, foot, far, top)
-    joint = Box(near, top + _CAPTION + _MARGIN, far, high - _CAPTION)
-    return _Layout(canvas, diagrams, joint, profile, complex(right, high))
+        room = top - _LEAST_JOINT - _MARGIN - _CAPTION - area.low
+        top = area.low + profile_side(picture, min(room, area.right - area.left))
+    joint = Box(area.left, top + _CAPTION + _MARGIN, area.right, area.high - _CAPTION)
+    return _Place(page, joint), _Place(page, Box(area.left, area.low, area.right, top))
 
 
-def _captions(canvas: Canvas, picture: CamPicture, layout: _Layout, joint: Paper | None, profile: Paper) -> None:
-    language = picture.language
+def _flow(grids: list[Grid], layout: _Layout, asked: Asked) -> list[_Page]:
+    """Draw tables from column to column, and on as many new pages as they need."""
+    columns, pages = list(layout.tables), list[_Page]()
+    paper = layout.profile.page.canvas.paper
+    at: _Place | None = None
+    top = 0.0
+    while grids:
+        grid = grids[0]
+        rows = len(grid.rows) if at is None else int((top - at.area.low) / ROW + 1e-9)
+        # a table goes on where it would not fit a column of its own
+        if at is None or (rows < len(grid.rows) and (rows < _LEAST_ROWS or grid.height <= at.area.high - at.area.low)):
+            if not columns:
+                pages.append(_Page(blank(paper, upright=True, band=asked.band)))
+                columns = _columns(pages[-1])
+            at = columns.pop(0)
+            top = at.area.high
+            continue
+        done, rest = grid.cut(rows)
+        draw_grid(at.page.canvas, complex(at.area.left, top), done)
+        top -= done.height + _GRID_GAP
+        grids = [rest, *grids[1:]] if rest.rows else grids[1:]
+    return pages
+
+
+def _columns(page: _Page) -> list[_Place]:
+    """Columns of a page of tables."""
+    content = page.canvas.content
+    count = int((content.right - content.left - 2 * _MARGIN) / (WIDTH + _MARGIN))
+    low, high, left = content.low + _MARGIN, content.high - _TITLE, content.left + _MARGIN
+    starts = [left + k * (WIDTH + _MARGIN) for k in range(count)]
+    return [_Place(page, Box(x, low, x + WIDTH, high)) for x in starts]
+
+
+def _captions(picture: CamPicture, layout: _Layout, profile: Paper) -> None:
+    language, canvas = picture.language, layout.profile.page.canvas
+    area, joint = layout.profile.area, layout.joint.page.joint
     if linkage_cam_of(picture) is not None:
-        area, text = layout.profile, sheet_words(language, "no_joint")
-        canvas.write(
-            text, complex(area.left + 2.0, area.high + _CAPTION + 3.0), SMALL_TEXT, area.right - area.left - 4.0
-        )
-    for key, area, place in (("cam_profile", layout.profile, profile), ("cam_joint", layout.joint, joint)):
+        at, most = complex(area.left + 2.0, area.high + _CAPTION + 3.0), area.right - area.left - 4.0
+        canvas.write(sheet_words(language, "no_joint"), at, SMALL_TEXT, most)
+    for key, box, place in (("cam_profile", area, profile), ("cam_joint", layout.joint.area, joint)):
         if place is None:
             continue
         text = f"{sheet_words(language, key)}, M {scale_text(place.scale, language)}"
-        canvas.write(text, complex(area.left + 2.0, area.high + 3.0), TEXT_HEIGHT, area.right - area.left - 4.0)
+        canvas.write(text, complex(box.left + 2.0, box.high + 3.0), TEXT_HEIGHT, box.right - box.left - 4.0)

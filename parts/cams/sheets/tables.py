@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.cams.plane.coupler import LinkageCam
 from parts.base.texts import words
 from parts.cams.sheets.picture import CamPicture, Scales
@@ -35,6 +35,11 @@ class Grid(Record):
     def height(self) -> float:
         """mm."""
         return ROW * len(self.rows)
+
+    def cut(self, rows: int) -> tuple[Grid, Grid]:
+        """The first ``rows`` and the rest, under the same heading."""
+        rest = (self.rows[0], *self.rows[rows:]) if rows < len(self.rows) else ()
+        return replace(self, rows=self.rows[:rows]), replace(self, rows=rest)
 
 
 def _lowered(text: str) -> str:

@@ -8,6 +8,7 @@ import re
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.placement import Placement2
+from geometry.base.record import replace
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc
 from geometry.gears.pictures.generating import rack_contours
@@ -15,55 +16,50 @@ from geometry.gears.teeth.limits import root_form_diameter, undercut
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import tooth_side
 from parts.base.texts import words
-from parts.drawing.canvas import (
-    FRAME,
-    FRAME_LEFT,
-    PAPERS,
-    SCALES,
-    SMALL_TEXT,
-    Box,
-    Canvas,
-    Paper,
-    draw,
-    fitted,
-    scale_text,
-)
+from parts.drawing.canvas import SMALL_TEXT, TITLE_TEXT, Box, Canvas, Paper, draw, fitted, scale_text
+from parts.drawing.choice import Asked, sheet_for
 from parts.drawing.expected import Circle, Expected
 from parts.drawing.labels import Labeller
-from parts.drawing.table import Row, draw_table, table_size
+from parts.drawing.table import Row, Table
 from parts.pages.page import Sheet, formula_text, numbers_text
 from parts.pages.symbols import symbol_text
 from parts.pages.text import result_text, step_name
 from parts.texts.sheets import sheet_words
 
 TEETH = 3
-COLUMNS = (94.0, 104.0, 34.0)
+# the least module on paper, below which a larger paper is better
+_LEAST_MODULE = 6.0
 # an undercut is named where it takes more than this of the involute, in modules
 _SEEN_UNDERCUT = 0.01
-_MARGIN, _TITLE, _NAMES = 6.0, 14.0, 32.0
+# around the picture, above it for the title, for the names of circles on either side; mm
+_MARGIN, _TITLE, _NAMES = 5.0, 14.0, 13.0
 _CIRCLES = ("tip", "reference", "base", "root")
 _SYMBOLS = {"tip": "a", "reference": "", "base": "b", "root": "f"}
 
 
-def generating_sheet(
-    gears: list[SpurGear], step: float, tables: Sheet, language: str, tolerance: float, band: float = 0.0
-) -> Expected:
+def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, asked: Asked) -> Expected:
     """The sheet of one or two wheels on a disk: the first at the top, the second below.
-
-    ``band``: height that a title block takes, mm.
 
     Raises
     ------
     ParameterError
-        The wheels do not fit one disk and rack, or the step asks for too many positions.
+        The wheels do not fit one disk and rack, the step asks for too many positions, or the paper is too small.
     """
     _check(gears)
-    rows = _rows(tables, language)
+    language = asked.language
+    rows = [*_rows(tables, language), Row(sheet_words(language, "scale"), "", "1:1")]
     disk = max(g.tip_radius for g in gears)
-    canvas, paper, room = _layout(disk, rows, band)
+
+    def greatest(sheet: Canvas) -> float:
+        field, _ = _areas(sheet, rows)
+        return min(field.right - field.left - 2 * _NAMES, field.high - field.low) / (2.1 * disk)
+
+    canvas, scale = sheet_for(asked, greatest, _LEAST_MODULE / gears[0].module)
+    room, table = _areas(canvas, rows)
+    paper = Paper(scale, complex(room.left + room.right, room.low + room.high) / 2)
     canvas.box("FRAME", canvas.frame)
-    title = sheet_words(language, "generating")
-    canvas.write(title, complex(canvas.frame.left + _MARGIN, canvas.frame.high - 9.0), 5.0)
+    title, left = sheet_words(language, "generating"), canvas.frame.left + _MARGIN
+    canvas.write(title, complex(left, canvas.frame.high - 9.0), TITLE_TEXT, canvas.frame.right - _MARGIN - left)
     canvas.arc("DISK", _circle(paper, Arc(0j, disk, 0.0, 2 * math.pi)))
     for way in (1, 1j):
         canvas.line("CENTRE", paper.point(-1.04 * disk * way), paper.point(1.04 * disk * way))
@@ -83,10 +79,9 @@ def generating_sheet(
             circles.append(Circle(layer, paper.origin, paper.scale * radius))
             names.append((gear, index, name, paper.scale * radius, turn))
     for layer in ("RACK", "OUTLINE"):
-        draw(canvas, layer, fitted(canvas, curves[layer], paper.scale, tolerance), paper)
-    rows.append(Row(sheet_words(language, "scale"), "", scale_text(paper.scale, language)))
-    width, _ = table_size(rows, COLUMNS)
-    draw_table(canvas, complex(canvas.frame.right - width, canvas.content.low), rows, COLUMNS, SMALL_TEXT)
+        draw(canvas, layer, fitted(canvas, curves[layer], paper.scale, asked.tolerance), paper)
+    table = replace(table, rows=(*rows[:-1], Row(rows[-1].name, "", scale_text(scale, language))))
+    table.draw(canvas, complex(canvas.frame.right - table.size[0], canvas.content.low))
     _label(canvas, paper, room, gears, names, language)
     return Expected(canvas, paper, tuple(circles), curves)
 
@@ -134,28 +129,15 @@ def _lowered(text: str) -> str:
     return re.sub(r"_(\w[\w,]*)", r"_{\1}", text)
 
 
-def _layout(disk: float, rows: list[Row], band: float) -> tuple[Canvas, Paper, Box]:
-    """The smallest sheet that holds disk and tables, the disk as large as it may be; upright tables on the right."""
-    table = table_size([*rows, Row("")], COLUMNS)
-    best: tuple[float, str] | None = None
-    for name in ("A3", "A2", "A1"):
-        height, width = PAPERS[name]
-        if table[1] > height - 2 * FRAME - _TITLE - band:
-            continue
-        room = height - 2 * FRAME - _TITLE - band
-        free = min(width - FRAME_LEFT - FRAME - table[0] - 2 * _NAMES, room - 2 * _MARGIN)
-        scale = next((s for s in SCALES if s * 2.1 * disk <= free), None)
-        # at full size the device's own disk is seen; a smaller picture only where no paper holds that
-        if scale is not None and (best is None or best[0] < 1):
-            best = scale, name
-    if best is None:
-        raise ParameterError("parts", disk, "disk_fits_no_paper")
-    scale, name = best
-    height, width = PAPERS[name]
-    canvas = Canvas(width, height, name, band=band)
-    left, right, low = FRAME_LEFT, width - FRAME - table[0], FRAME + band
-    origin = complex((left + right) / 2, low + (height - low - FRAME - _TITLE) / 2)
-    return canvas, Paper(scale, origin), Box(left + 1, low + 1, right - 1, height - FRAME - _TITLE)
+def _areas(sheet: Canvas, rows: list[Row]) -> tuple[Box, Table]:
+    """Where disk and names may lie, mm, and the table: below it on upright paper, else on its right."""
+    content = sheet.content
+    upright = sheet.height > sheet.width
+    most = content.right - content.left if upright else (content.right - content.left) / 2
+    table = Table(tuple(rows), SMALL_TEXT, most)
+    wide, tall = table.size
+    low, right = (content.low + tall, content.right) if upright else (content.low, content.right - wide)
+    return Box(content.left, low, right, content.high - _TITLE).grown(-_MARGIN), table
 
 
 def _circle(paper: Paper, arc: Arc) -> Arc:

@@ -4,28 +4,22 @@ from __future__ import annotations
 
 import cmath
 import math
+from itertools import pairwise
 
 from geometry.base.record import Record, replace
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.pictures.meshing import CIRCLES, Body, MeshingPicture
-from parts.drawing.canvas import (
-    TEXT_HEIGHT,
-    Box,
-    Canvas,
-    Paper,
-    Stroke,
-    decimal,
-    draw,
-    fitted,
-    scale_text,
-)
+from parts.drawing.canvas import TITLE_TEXT, Box, Canvas, Paper, Stroke, decimal, draw, fitted, scale_text
+from parts.drawing.choice import Asked
 from parts.drawing.labels import Labeller
-from parts.drawing.table import Row, draw_table, table_size
-from parts.drawing.view import GAP, NAMES, TEETH, View, ends_of, is_up, layout
+from parts.drawing.table import Row, Table
+from parts.drawing.view import BREAK, GAP, LEAD, TEETH, View, ends_of, is_up, layout
 from parts.texts.sheets import sheet_words
 
 # how far inside a body its dimension arc runs, mm on paper
-_INSIDE = 11.0
+_INSIDE = 8.0
+# an axis beyond a break stands so far from where its line ends, mm on paper
+_AXIS = 4.0
 # circles are drawn at most this far from the line of centres
 _WIDEST = math.radians(75)
 SYMBOLS = {"tip": "a", "working": "w", "reference": "", "base": "b", "root": "f"}
@@ -42,44 +36,43 @@ class Facts(Record):
     rows: tuple[Row, ...]
 
 
-def meshing_canvas(
-    picture: MeshingPicture, module: float, facts: Facts, language: str, tolerance: float, band: float = 0.0
-) -> tuple[Canvas, View]:
-    """The sheet of a picture and what of the plane it shows, where.
+def meshing_canvas(picture: MeshingPicture, module: float, facts: Facts, asked: Asked) -> tuple[Canvas, View]:
+    """The sheet of a picture and what of the plane it shows, where; ``module`` in mm.
 
-    ``module`` in mm, ``tolerance`` and ``band``, the height of a title block, in mm on paper.
+    Raises
+    ------
+    ParameterError
+        The paper that is asked for is too small.
     """
-    canvas, view = layout(picture, module, facts.rows, band)
-    scale = view.paper.scale
+    language = asked.language
+    # what no sheet may show stands in the table
+    most = [Row(sheet_words(language, "off_sheet"), "r_{b1}", "1000.000")] * 2
+    canvas, view = layout(picture, module, [*facts.rows, *most, Row(sheet_words(language, "scale"), "", "0:0")], asked)
     canvas.box("FRAME", canvas.frame)
     fans = [_fan(body, view.window) for body in picture.bodies]
     ends = [_circles(canvas, body, fan, view) for body, fan in zip(picture.bodies, fans, strict=True)]
-    _teeth(canvas, picture, view, tolerance)
+    _teeth(canvas, picture, view, asked.tolerance)
     _lines(canvas, picture, view)
     canvas.arc("ARC_OF_ACTION", _arc(view.paper, picture.arc_of_action))
-    mark = picture.pitch
-    canvas.strokes += [_stroke("WORKING_PITCH", view.paper, mark)]
+    canvas.strokes += [_stroke("WORKING_PITCH", view.paper, picture.pitch)]
     dimensions = _dimensions(canvas, picture, view)
-    title = facts.title
-    top = canvas.frame.high - 9.0
-    canvas.write(title, complex(canvas.frame.left + GAP, top), 5.0, canvas.frame.right - canvas.frame.left - 2 * GAP)
+    content = canvas.content.grown(-GAP)
+    canvas.write(facts.title, complex(content.left, canvas.frame.high - 9.0), TITLE_TEXT, content.right - content.left)
     rows = list(facts.rows)
     for index, body in enumerate(picture.bodies, 1):
         # what a picture of large gears leaves out
         for name in (n for n in body.radii if not view.shows(body, n)):
             value = decimal(f"{body.radii[name]:.3f}", language)
             rows.append(Row(sheet_words(language, "off_sheet"), f"r_{{{SYMBOLS[name]}{index}}}", value))
-    rows.append(Row(sheet_words(language, "scale"), "", scale_text(scale, language)))
-    width, _ = table_size(rows)
-    corner = complex(canvas.frame.right - width, canvas.content.low)
-    draw_table(canvas, corner, rows)
+    rows.append(Row(sheet_words(language, "scale"), "", scale_text(view.paper.scale, language)))
+    table = Table(tuple(rows), canvas.letters)
+    table.draw(canvas, complex(canvas.frame.right - table.size[0], canvas.content.low))
     labels = Labeller(canvas, view.room)
     for index, (found, body) in enumerate(zip(ends, picture.bodies, strict=True)):
         left = index == 0
-        edge = view.room.left + NAMES - 3 if left else view.room.right - NAMES + 3
-        low = view.room.low + TEXT_HEIGHT
+        edge = view.seen.left - LEAD if left else view.seen.right + LEAD
         names = [(_circle_name(body, name, index, language), end[0 if left else 1]) for name, end in found]
-        labels.column(names, edge, low, view.room.high - TEXT_HEIGHT, left=left)
+        labels.column(names, edge, view.room.low + canvas.letters, view.room.high - canvas.letters, left=left)
     _names(labels, picture, view, dimensions, language)
     return canvas, view
 
@@ -154,20 +147,38 @@ def _lines(canvas: Canvas, picture: MeshingPicture, view: View) -> None:
     """Line of centres, T-T, the theoretical and the active line of action, the spokes to N1 and N2."""
     window, to = view.window, view.paper.point
     canvas.line("CENTRE", to(complex(0, window.low)), to(complex(0, window.high)))
+    for axis, way in _broken(picture, view).values():
+        # a thin zigzag, then the axis on what is left of the line
+        foot = axis - way * (BREAK - _AXIS)
+        points = [foot + way * k + side for k, side in ((0.0, 0.0), (1.0, -2.0), (3.0, 2.0), (4.0, 0.0))]
+        for start, end in pairwise(points):
+            canvas.line("DIMENSION", start, end)
+        canvas.line("CENTRE", points[-1], axis + way * _AXIS)
+        canvas.arc("DIMENSION", Arc(axis, 0.8, 0.0, 2 * math.pi))
     pole = picture.on_line(picture.pole)
     canvas.line("TANGENT", to(complex(window.left, pole.imag)), to(complex(window.right, pole.imag)))
     low, high = _clipped(picture, window)
     canvas.line("LINE_OF_ACTION", to(picture.on_line(low)), to(picture.on_line(high)))
     canvas.line("ACTIVE_LINE", to(picture.on_line(picture.start)), to(picture.on_line(picture.end)))
     for body, point in zip(picture.bodies, picture.tangent_points, strict=True):
-        if body.centre is not None and point is not None and _inside(body.centre, window) and _inside(point, window):
+        if body.centre is not None and point is not None and view.holds(body.centre) and view.holds(point):
             canvas.line("DIMENSION", to(body.centre), to(point))
     for point in _marks(picture):
-        if _inside(point, window):
+        if view.holds(point):
             canvas.arc("DIMENSION", Arc(to(point), 0.8, 0.0, 2 * math.pi))
     radius = _angle_radius(picture, view)
     phase = cmath.phase(picture.direction)
     canvas.arc("DIMENSION", Arc(to(pole), radius, phase, math.pi - phase))
+
+
+def _broken(picture: MeshingPicture, view: View) -> dict[int, tuple[complex, complex]]:
+    """Of the bodies whose axes lie beyond the window: where the axis stands on paper instead, and the way out."""
+    found = {}
+    below, above = view.beyond(picture)
+    for bodies, edge, way in ((below, view.seen.low, -1j), (above, view.seen.high, 1j)):
+        for k, body in enumerate(bodies, 1):
+            found[body] = complex(view.paper.origin.real, edge) + way * (k * BREAK - _AXIS), way
+    return found
 
 
 def _angle_radius(picture: MeshingPicture, view: View) -> float:
@@ -269,23 +280,16 @@ def _names(
     for index, point in enumerate(picture.tangent_points):
         if point is None:
             continue
-        if _inside(point, window):
+        if view.holds(point):
             labels.name(f"N_{{{index + 1}}}", to(point))
         else:
             end = low if abs(picture.on_line(low) - point) < abs(picture.on_line(high) - point) else high
             labels.name(sheet_words(language, "towards", name=f"N_{{{index + 1}}}"), to(picture.on_line(end)))
-    outside: dict[float, list[str]] = {}
+    broken = _broken(picture, view)
     for index, body in enumerate(picture.bodies):
-        if body.centre is None:
-            continue
-        if _inside(body.centre, window):
-            labels.name(f"O_{{{index + 1}}}", to(body.centre), prefer=1 + 0j)
-        else:
-            outside.setdefault(window.low if body.centre.imag < window.low else window.high, []).append(
-                f"O_{{{index + 1}}}"
-            )
-    for y, names in outside.items():
-        labels.name(sheet_words(language, "towards", name=", ".join(names)), to(complex(0, y)))
+        if body.centre is not None:
+            at = broken[index][0] if index in broken else to(body.centre)
+            labels.name(f"O_{{{index + 1}}}", at, prefer=1 + 0j)
     phase = cmath.phase(picture.direction)
     middle = to(pole) + cmath.rect(_angle_radius(picture, view), (math.pi + phase) / 2)
     labels.name("α_{w}", middle, prefer=-1 + 0j)
@@ -297,10 +301,6 @@ def _names(
     if "pitch" in dimensions:
         length = decimal(f"{picture.working_pitch:.3f}", language)
         labels.name(f"p_{{w}} = {length}", dimensions["pitch"], prefer=1j)
-
-
-def _inside(point: complex, window: Box) -> bool:
-    return window.left <= point.real <= window.right and window.low <= point.imag <= window.high
 
 
 def _arc(paper: Paper, arc: Arc) -> Arc:

@@ -60,3 +60,8 @@ class TrainPicture(Record):
         found = {self.links[link].axis, *(other.axis for other in self.links if other.carrier == link)}
         found |= {self.pitch_height(m) for m in self.meshes if link in (self.rims[k].link for k in m)}
         return sorted(found)
+
+    def reach(self) -> tuple[float, float]:
+        """The lowest and the highest point of all rims, mm."""
+        ends = [self.links[r.link].axis + s * self.radius(k) for k, r in enumerate(self.rims) for s in (1, -1)]
+        return min(ends), max(ends)

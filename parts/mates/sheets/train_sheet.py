@@ -2,73 +2,97 @@
 
 from __future__ import annotations
 
-from parts.drawing.canvas import FRAME, FRAME_LEFT, PAPERS, SCALES, Box, Canvas, Paper, decimal, scale_text
+from geometry.base.record import Record
+from parts.drawing.canvas import TITLE_TEXT, Box, Canvas, Paper, decimal, scale_text
+from parts.drawing.choice import Asked, sheet_for
 from parts.drawing.expected import Expected
 from parts.drawing.labels import Labeller
-from parts.drawing.table import Row, draw_table, table_size
+from parts.drawing.table import Row, Table
 from parts.mates.sheets.scheme import Scheme, scheme_width
 from parts.mates.sheets.train_picture import TrainPicture
 from parts.mates.sheets.velocities import PlanMeasures, draw_plans, name_plans, plans_of
 from parts.texts.sheets import sheet_words
 
-_TITLE, _GAP = 14.0, 8.0
-# least width of the plan of velocities, least height of that of angular velocities, mm
-_PLAN, _ANGLES = 85.0, 80.0
-_COLUMNS = (82.0, 14.0, 24.0)
+_TITLE, _GAP = 14.0, 6.0
+# least width of the plan of velocities, least sides of that of angular velocities, mm
+_PLAN, _ANGLES = 70.0, 60.0
+# the least wheel on paper, mm, below which larger paper is better; rings have a back, and a frame about it
+_LEAST_WHEEL, _BACKS = 10.0, 14.0
 
 
-def train_sheet(title: str, train: TrainPicture, told: list[str], language: str, band: float = 0.0) -> Expected:
-    """The sheet; ``told``: the part of each rim; ``band``: height that a title block takes, mm."""
+class _Areas(Record):
+    """Where the scheme, both plans and the table's lower left corner lie."""
+
+    scheme: Box
+    plan: Box
+    angles: Box
+    table: complex
+
+
+def _areas(sheet: Canvas, table: Table, scheme: float) -> _Areas:
+    """On upright paper the table and the plan of angular velocities stand below, else on the right."""
+    content, (wide, tall) = sheet.content.grown(-_GAP), table.size
+    corner = complex(sheet.content.right - wide, sheet.content.low)
+    high, low = sheet.content.high - _TITLE, content.low
+    if sheet.height > sheet.width:
+        angles = Box(content.left, low, corner.real - _GAP, low + max(tall, _ANGLES))
+        low, right = angles.high + 2 * _GAP, content.right
+    else:
+        angles = Box(corner.real + _GAP, low + tall + _GAP, content.right, high - _GAP)
+        right = corner.real - _GAP
+    split = content.left + scheme
+    return _Areas(Box(content.left, low, split, high), Box(split + _GAP, low, right, high), angles, corner)
+
+
+def train_sheet(title: str, train: TrainPicture, told: list[str], asked: Asked) -> Expected:
+    """The sheet; ``told``: the part of each rim.
+
+    Raises
+    ------
+    ParameterError
+        The paper that is asked for is too small, or none is large enough.
+    """
+    language, wide = asked.language, scheme_width(train)
     rows = _rows(train, told, language)
-    # two scales come below
-    width, height = table_size([*rows, *[Row("")] * 3], _COLUMNS)
-    name = next(
-        (n for n in ("A3", "A2", "A1") if _fits(n, width, height, band, scheme_width(train))),
-        "A0",
-    )
-    canvas = Canvas(PAPERS[name][1], PAPERS[name][0], name, band=band)
+    low, high = train.reach()
+    later = [Row(sheet_words(language, "velocity_scale"), "μ_{v}", "0.0025")] * 3
+
+    def areas_on(sheet: Canvas) -> _Areas:
+        return _areas(sheet, Table((*rows, *later), sheet.letters), wide)
+
+    def greatest(sheet: Canvas) -> float:
+        areas = areas_on(sheet)
+        if min(areas.plan.right - areas.plan.left - _PLAN, areas.angles.right - areas.angles.left - _ANGLES,
+               areas.angles.high - areas.angles.low - _ANGLES) < 0:  # fmt: skip
+            return 0.0
+        return max(areas.scheme.high - areas.scheme.low - _BACKS, 0.0) / (high - low)
+
+    smallest = min(2 * train.radius(k) for k in range(len(train.rims)))
+    canvas, scale = sheet_for(asked, greatest, _LEAST_WHEEL / smallest)
+    areas = areas_on(canvas)
+    base = (areas.scheme.low + areas.scheme.high) / 2 - scale * (high + low) / 2
     canvas.box("FRAME", canvas.frame)
-    content, right = canvas.content, canvas.frame.right - width
-    heading = f"{sheet_words(language, 'train')}: {title}"
-    most = content.right - content.left - 2 * _GAP
-    canvas.write(heading, complex(content.left + _GAP, content.high - 9.0), 5.0, most)
-    low, high = content.low + _GAP + 6.0, content.high - _TITLE - 8.0
-    scale, base = _heights(train, low, high)
-    scheme = Scheme(canvas, train, lambda h: base + scale * h, content.left + _GAP)
+    heading, left = f"{sheet_words(language, 'train')}: {title}", canvas.frame.left + _GAP
+    canvas.write(heading, complex(left, canvas.frame.high - 9.0), TITLE_TEXT, canvas.frame.right - _GAP - left)
+    scheme = Scheme(canvas, train, lambda h: base + scale * h, areas.scheme.left)
     scheme.draw()
-    plan = Box(content.left + scheme_width(train) + 2 * _GAP, low - 4.0, right - 2 * _GAP, high + 4.0)
-    angles = Box(right + _GAP, content.low + height + 2 * _GAP + 8.0, canvas.frame.right - _GAP, high - _GAP)
-    plans = plans_of(train, scheme.y, scale, plan.grown(-_GAP), angles.grown(-4.0))
+    plans = plans_of(train, scheme.y, scale, areas.plan.grown(-_GAP), areas.angles.grown(-_GAP))
     _transfer(canvas, train, scheme, plans.line)
-    draw_plans(canvas, plans, plan, angles)
+    draw_plans(canvas, plans, areas.plan, areas.angles)
     rows += [
         Row(sheet_words(language, "scheme_scale"), "", scale_text(scale, language)),
         Row(sheet_words(language, "velocity_scale"), "μ_{v}", decimal(f"{plans.velocity:g}", language)),
         Row(sheet_words(language, "angular_scale"), "μ_{ω}", decimal(f"{plans.angular:g}", language)),
     ]
-    draw_table(canvas, complex(right, content.low), rows, _COLUMNS)
+    table = Table(tuple(rows), canvas.letters)
+    table.draw(canvas, complex(canvas.content.right - table.size[0], canvas.content.low))
+    content = canvas.content
     labels = Labeller(canvas, Box(content.left, content.low, content.right, content.high - _TITLE))
     for mark, at in scheme.marks.items():
         teeth = {rim.name: rim.teeth for rim in train.rims}.get(mark)
         labels.name(mark if teeth is None else f"{mark} (z = {teeth})", at, prefer=1 + 0.3j)
-    name_plans(labels, plans, plan, angles)
+    name_plans(labels, plans, areas.plan, areas.angles)
     return Expected(canvas, Paper(scale, 1j * base), (), measures=PlanMeasures(plans))
-
-
-def _fits(name: str, width: float, height: float, band: float, scheme: float) -> bool:
-    """Whether a sheet has room for the table below the plan of angular velocities, beside scheme and plan."""
-    tall, wide = PAPERS[name]
-    room = tall - 2 * FRAME - band - _TITLE - 2 * _GAP
-    return height + _ANGLES <= room and wide - FRAME_LEFT - FRAME - width - scheme - 4 * _GAP >= _PLAN
-
-
-def _heights(train: TrainPicture, low: float, high: float) -> tuple[float, float]:
-    """The scale of the heights, and where on paper the height 0 lies, mm."""
-    ends = [train.links[r.link].axis + s * train.radius(k) for k, r in enumerate(train.rims) for s in (1, -1)]
-    # rings have a back, and a frame about it
-    most = (high - low - 14.0) / (max(ends) - min(ends))
-    scale = next((s for s in SCALES if s <= most), most)
-    return scale, (low + high) / 2 - scale * (max(ends) + min(ends)) / 2
 
 
 def _transfer(canvas: Canvas, train: TrainPicture, scheme: Scheme, line: float) -> None:

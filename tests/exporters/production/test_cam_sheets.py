@@ -284,12 +284,16 @@ LEGAL: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
 }  # fmt: skip
 
 
-@pytest.mark.heavy
-def test_the_number_of_intervals_that_works_works() -> None:
-    with pytest.raises(SceneError) as caught:
-        plan_build(cam_scene(ROCKER, intervals=72), "t", [], [])
-    most = int(re.findall(r"at most (\d+) works", str(caught.value))[0])
-    assert plan_build(cam_scene(ROCKER, intervals=most), "t", [], []).sheets
+def test_tables_go_on_where_one_sheet_does_not_hold_them(tmp_path: Path) -> None:
+    """72 intervals have their rows, each once, on several sheets, whose numbers the title tells."""
+    jobs = plan_build(cam_scene(ROCKER, intervals=72), "t", [], []).sheets
+    assert [j.path for j in jobs[::2]] == [f"t.cam.rocker.{k}.dxf" for k in range(1, len(jobs) // 2 + 1)]
+    for job in jobs[1::2]:
+        job.write({}, tmp_path / job.path)
+        assert job.verify(tmp_path / job.path, 0.0).failures == ()
+    assert any(t.text.endswith(f"(2/{len(jobs) // 2})") for t in jobs[2].canvas.texts)
+    starts = [t for job in jobs[4::2] for t in words_of(job) if re.fullmatch(r"\d{1,3}", t)]
+    assert starts.count("77") == starts.count("145") == 1
 
 
 @pytest.mark.heavy
@@ -326,10 +330,15 @@ def test_refusals_name_the_key_and_what_works() -> None:
             plan_build(scene, "t", [], [])
         return caught.value.key, caught.value.code, caught.value.nearest
 
-    key, code, nearest = told(cam_scene(ROCKER, intervals=72))
-    assert (key, code) == ("exports[1].intervals", "table_fits_no_paper")
+    key, code, nearest = told(cam_scene(ROCKER, paper="A4", scale="2.5:1"))
+    assert (key, code) == ("exports[1].paper", "paper_too_small_for_scale")
     assert nearest is not None
-    assert nearest.side == "at_most"
+    assert nearest.side == "at_least"
+    assert plan_build(cam_scene(ROCKER, paper=nearest.value, scale="2.5:1"), "t", [], []).sheets
+    key, code, nearest = told(cam_scene(ROCKER, scale="50:1"))
+    assert (key, code) == ("exports[1].scale", "fits_no_paper_so_large")
+    assert nearest is not None
+    assert plan_build(cam_scene(ROCKER, scale=nearest.value), "t", [], []).sheets
     scene = cam_scene(ROCKER)
     assert [j.path for j in plan_build(scene, "t", ["rocker"], []).sheets] == ["t.cam.rocker.dxf", "t.cam.rocker.svg"]
     scene.exports[0].purpose = "meshing"

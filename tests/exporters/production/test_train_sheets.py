@@ -9,11 +9,12 @@ from pathlib import Path
 import ezdxf
 import pytest
 
-from exporters.drawings.verify import verify_sheet
-from exporters.drawings.write import write_sheet
+from exporters.drawings.sheets import write_sheets
+from exporters.drawings.verify import verify_sheets
 from exporters.production.build import build
 from exporters.production.plan import plan_build
 from parts.base.refusal import SceneError
+from parts.drawing.choice import Asked
 from parts.mates.sheets.train_picture import Link, Rim, TrainPicture
 from parts.mates.sheets.train_sheet import train_sheet
 from parts.scene.load import scene_from_toml
@@ -82,25 +83,25 @@ def test_the_ratio_of_james_is_read_off_the_written_file(tmp_path: Path, languag
 def test_the_schemes_of_figure_2_1(tmp_path: Path, teeth: tuple[int, int, int, int], inner: tuple[bool, bool]) -> None:
     picture, ratio = double(teeth, inner)
     for band, language in ((0.0, "en"), (55.0, "uk")):
-        sheet = train_sheet("set", picture, ["sun", "planet", "planet", "ring"], language, band)
+        sheet = train_sheet("set", picture, ["sun", "planet", "planet", "ring"], Asked(language, 1e-6, band))
         for ending in ("dxf", "svg"):
             file = tmp_path / f"set.{ending}"
-            write_sheet(file, sheet.canvas)
-            assert verify_sheet(file, sheet, 0.0).failures == ()
+            write_sheets(file, [sheet.canvas], "set")
+            assert verify_sheets(file, [sheet], 0.0).failures == ()
         assert ratios(tmp_path / "set.dxf") == pytest.approx((float(ratio), float(ratio)), rel=1e-6)
 
 
 @pytest.mark.parametrize("layer", ["VELOCITY", "ANGULAR_VELOCITY"])
 @pytest.mark.parametrize("index", [0, 1, -1])
 def test_a_line_that_is_off_is_seen(tmp_path: Path, layer: str, index: int) -> None:
-    sheet = train_sheet("set", double((50, 30, 20, 60), (False, False))[0], ["a", "b", "c", "d"], "en")
+    sheet = train_sheet("set", double((50, 30, 20, 60), (False, False))[0], ["a", "b", "c", "d"], Asked("en", 1e-6))
     file = tmp_path / "set.dxf"
-    write_sheet(file, sheet.canvas)
+    write_sheets(file, [sheet.canvas], "set")
     drawing = ezdxf.readfile(file)
     line = list(drawing.modelspace().query(f'LINE[layer=="{layer}"]'))[index]
     line.dxf.end = line.dxf.end + ezdxf.math.Vec3(0.01, 0, 0)
     drawing.saveas(file)
-    assert any(layer in text for text in verify_sheet(file, sheet, 1e-6).failures)
+    assert any(layer in text for text in verify_sheets(file, [sheet], 1e-6).failures)
 
 
 def test_what_no_drive_turns_is_refused() -> None:

@@ -135,10 +135,10 @@ def test_without_the_key_a_sheet_has_none() -> None:
 
 
 @pytest.mark.parametrize("language", ["en", "uk"])
-def test_words_of_blocks_and_legends_fit_their_cells_unsqueezed(language: str) -> None:
+def test_words_of_blocks_and_legends_fit_their_cells_hardly_squeezed(language: str) -> None:
     """Viewers that do not narrow letters show what overruns its cell."""
     from parts.base.texts import words
-    from parts.drawing.canvas import plain_width, text_of
+    from parts.drawing.canvas import HEIGHTS, plain_width, text_of
     from parts.drawing.title_block import _LABELS
     from parts.texts.sheets import sheet_words
 
@@ -149,5 +149,5 @@ def test_words_of_blocks_and_legends_fit_their_cells_unsqueezed(language: str) -
         made = text_of(text, 0j, 2.5, room)
         assert made.box.right <= room + 1e-9
         for run in made.runs:
-            assert run.height >= 1.8 - 1e-9
-            assert run.width == pytest.approx(plain_width(run.text, run.height)), text
+            assert run.height in HEIGHTS
+            assert 0.9 - 1e-9 <= run.width / plain_width(run.text, run.height) <= 1 + 1e-9, text

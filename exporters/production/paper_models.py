@@ -1,0 +1,43 @@
+"""Paper models of flat parts: their outlines as lines and arcs, 1:1, on sheets of a PDF."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from geometry.approximation.chords import approximate_profile
+from geometry.curves.line_arc import Arc, Line
+from geometry.plane.contour import Contour
+from parts.base.part import Part
+from parts.drawing.choice import Asked
+from parts.drawing.expected import Expected
+from parts.drawing.tiles import Edge, model_pages
+
+
+def paper_models(title: str, parts: Mapping[str, Part], wanted: Sequence[str] | None, asked: Asked) -> list[Expected]:
+    """The sheets of the parts that are wanted, all of them by default."""
+    outlines, errors = {}, {}
+    for name in wanted or parts:
+        profiles = parts[name].section(0.0).region.profiles()
+        made = [approximate_profile(p, asked.tolerance, arcs=True) for p in profiles]
+        outlines[name] = [edge for one in made for edge in _edges(one.geometry)]
+        errors[name] = max(one.max_error for one in made)
+    return model_pages(title, outlines, errors, asked.paper or "A4", asked.language)
+
+
+def _edges(contour: Contour) -> list[Edge]:
+    """The lines and arcs of a contour."""
+    vertices, bulges = contour.expanded()
+    return [
+        Line(start, end) if not bulge else _arc(start, end, bulge)
+        for start, end, bulge in zip(vertices.tolist(), np.roll(vertices, -1).tolist(), bulges.tolist(), strict=True)
+    ]
+
+
+def _arc(start: complex, end: complex, bulge: float) -> Arc:
+    """An arc by its ends and its bulge, tan(sweep / 4)."""
+    chord, sweep = end - start, 4 * float(np.arctan(bulge))
+    # the centre stands off the chord's middle by chord / 2 cot(sweep / 2), to the left where the arc turns left
+    spoke = chord / 2 * (-1 - 1j * (1 - bulge * bulge) / (2 * bulge))
+    return Arc(start - spoke, abs(spoke), float(np.angle(spoke)), sweep)

@@ -1,0 +1,68 @@
+"""Which paper a picture gets, and its scale there: what the scene asks for, else the smallest that holds it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from geometry.base.errors import Nearest, ParameterError
+from geometry.base.record import Record
+from parts.drawing.canvas import SCALES, Canvas, scale_name
+from parts.keys.sheet import scale_value
+
+# width and height of the upright sheet, mm; GOST 2.301, whose A4 stands upright only
+PAPERS = {"A4": (210.0, 297.0), "A3": (297.0, 420.0), "A2": (420.0, 594.0), "A1": (594.0, 841.0), "A0": (841.0, 1189.0)}
+
+
+class Asked(Record):
+    """What a scene asks of a sheet: the words on it, how exact (mm on paper), paper and scale (None: as it fits).
+
+    ``band``: height that a title block takes, mm.
+    """
+
+    language: str
+    tolerance: float
+    band: float = 0.0
+    paper: str | None = None
+    scale: str | None = None
+
+
+def blank(name: str, *, upright: bool, band: float = 0.0) -> Canvas:
+    """An empty sheet."""
+    width, height = PAPERS[name] if upright else PAPERS[name][::-1]
+    return Canvas(width, height, name, band=band)
+
+
+def sheet_for(asked: Asked, greatest: Callable[[Canvas], float], least: float) -> tuple[Canvas, float]:
+    """The sheet of a picture and its scale.
+
+    ``greatest``: the greatest scale at which a sheet holds the picture, 0 where it holds none; ``least``: the scale
+    below which a larger paper is better, where the scene leaves both open.
+
+    Raises
+    ------
+    ParameterError
+        The paper is too small, or no paper is large enough.
+    """
+
+    def found(name: str) -> Iterator[tuple[float, Canvas]]:
+        for upright in (True, False):
+            if upright or name != "A4":
+                sheet = blank(name, upright=upright, band=asked.band)
+                most = greatest(sheet)
+                yield next((s for s in SCALES if s <= most * (1 + 1e-9)), 0.0), sheet
+
+    best = {name: max(found(name), key=lambda pair: pair[0]) for name in PAPERS}
+    given = None if asked.scale is None else scale_value(asked.scale)
+    holds = [name for name, (scale, _) in best.items() if scale >= (given or SCALES[-1])]
+    if not holds:
+        scale = max(scale for scale, _ in best.values())
+        if given is not None and scale:
+            raise ParameterError("scale", asked.scale, "fits_no_paper_so_large", Nearest(scale_name(scale), "at_most"))
+        raise ParameterError("paper", asked.paper, "fits_no_paper")
+    if asked.paper is not None and asked.paper not in holds:
+        code = "paper_too_small" if given is None else "paper_too_small_for_scale"
+        raise ParameterError("paper", asked.paper, code, Nearest(holds[0], "at_least"), scale=asked.scale)
+    enough = [name for name in holds if best[name][0] >= (given or least)]
+    name = asked.paper or (enough or [max(holds, key=lambda n: best[n][0])])[0]
+    scale, sheet = best[name]
+    return sheet, given or scale

@@ -1,0 +1,210 @@
+"""PDF, measured by pdfium: full size on tiles that fit each other, words to search for, the same bytes, damage seen."""
+
+from __future__ import annotations
+
+import ctypes
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from exporters.drawings import pdf as writer
+from exporters.drawings.sheets import write_sheets
+from exporters.production.plan import plan_build
+from exporters.production.sheets import SheetJob
+from geometry.base.record import replace
+from geometry.curves.line_arc import Arc, Line
+from parts.base.refusal import SceneError
+from parts.drawing.canvas import STYLES, Box, Stroke
+from parts.drawing.tiles import clipped
+from parts.scene.load import scene_from_dict
+
+pdfium = pytest.importorskip("pypdfium2")
+pytest.importorskip("fpdf")
+raw = pdfium.raw
+MM = 25.4 / 72
+GEAR = {"kind": "spur_gear", "module": 10.0, "number_of_teeth": 21, "bore_diameter": 50.0}
+Paths = list[tuple[str, np.ndarray]]
+
+
+def scene_of(language: str = "en", **export: Any) -> Any:
+    raw_scene = {
+        "scene": {"title": "Зубчаста пара", "language": language},
+        "parts": {"one": {**GEAR, "number_of_teeth": 13}, "two": GEAR},
+        "mates": [{"kind": "external_gear_pair", "first": "one", "second": "two"}],
+        "exports": [{"format": "pdf", **export}],
+    }
+    return scene_from_dict(raw_scene, "t", "t")
+
+
+def job_of(**export: Any) -> SheetJob:
+    (job,) = plan_build(scene_of(**export), "t", [], []).sheets
+    return job  # type: ignore[return-value]
+
+
+def paths_of(page: Any) -> Paths:
+    """Every piece of every path, with its colour: ends of lines, points of cubics, mm."""
+    found: Paths = []
+    for item in page.get_objects(filter=[raw.FPDF_PAGEOBJ_PATH]):
+        matrix, shades = raw.FS_MATRIX(), [ctypes.c_uint() for _ in range(4)]
+        raw.FPDFPageObj_GetMatrix(item, matrix)
+        raw.FPDFPageObj_GetStrokeColor(item, *shades)
+        colour = "#" + "".join(f"{one.value:02x}" for one in shades[:3])
+        poles: list[complex] = []
+        for k in range(raw.FPDFPath_CountSegments(item)):
+            segment, x, y = raw.FPDFPath_GetPathSegment(item, k), ctypes.c_float(), ctypes.c_float()
+            raw.FPDFPathSegment_GetPoint(segment, x, y)
+            point = complex(matrix.a * x.value + matrix.c * y.value + matrix.e,
+                            matrix.b * x.value + matrix.d * y.value + matrix.f) * MM  # fmt: skip
+            kind = raw.FPDFPathSegment_GetType(segment)
+            poles = [point] if kind == raw.FPDF_SEGMENT_MOVETO else [*poles, point]
+            if kind == raw.FPDF_SEGMENT_LINETO or len(poles) == 4:
+                degree, t = len(poles) - 1, np.linspace(0, 1, 33)
+                weights = {1: (1 - t, t), 3: ((1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t**2 * (1 - t), t**3)}[degree]
+                found.append((colour, sum(w * p for w, p in zip(weights, poles, strict=True))))
+                poles = [point]
+    return found
+
+
+def test_tiles_fit_each_other_and_make_the_exact_outline(tmp_path: Path) -> None:
+    """The wheel of 230 mm on two sheets of A4: their crosses coincide, and all that is on them is its outline."""
+    job = job_of(parts=["two"])
+    job.write({}, tmp_path / job.path)
+    assert job.verify(tmp_path / job.path, 0.0).failures == ()
+    document = pdfium.PdfDocument(tmp_path / job.path)
+    pages = [paths_of(page) for page in document]
+    assert [round(x * MM) for x in document[0].get_size()] == [210, 297]
+    square = np.concatenate([points for _, points in pages[0]][-4:])
+    assert np.ptp(square.real) == pytest.approx(100.0, abs=1e-3)
+    assert np.ptp(square.imag) == pytest.approx(100.0, abs=1e-3)
+    assert len(pages) == 3
+    marks = [
+        np.unique(np.round([p.mean() for c, p in page if c == STYLES["REGISTER"].colour], 3)) for page in pages[1:]
+    ]
+    assert [len(m) for m in marks] == [4, 4]
+    left, right = (sorted(m, key=lambda z: (z.real, z.imag)) for m in marks)
+    step = left[2] - right[0]
+    assert left[3] - right[1] == pytest.approx(step, abs=2e-3)
+    cuts = [np.concatenate([p for c, p in page if c == STYLES["CUT"].colour]) for page in pages[1:]]
+    drawn = np.concatenate([cuts[0], cuts[1] + step])
+    # a strip about the crosses is on both sheets
+    near = [points[np.abs(points.real - at.real) < 4.9] for points, at in ((cuts[0], left[2]), (cuts[1], right[0]))]
+    assert min(map(len, near)) > 100
+    assert np.abs(near[0][:, None] - (near[1] + step)).min(axis=1).max() < 0.3
+    part = plan_build(scene_of(), "t", [], []).parts["two"]
+    exact = [
+        curve.placed(place) for profile in part.section(0.0).region.profiles() for curve, place in all_curves(profile)
+    ]
+    points = np.concatenate([curve.point(np.linspace(*curve.domain, 60)) for curve in exact])
+    # where the wheel's axis lies: the middle of all that is drawn
+    origin = complex(drawn.real.min() + drawn.real.max(), drawn.imag.min() + drawn.imag.max()) / 2
+    whole = complex(points.real.min() + points.real.max(), points.imag.min() + points.imag.max()) / 2
+    drawn = drawn - origin + whole
+    from geometry.plane.measure import distance_to_curves
+
+    assert distance_to_curves(drawn, exact).max() < 1e-3 + 2e-3
+    assert max(np.abs(drawn - p).min() for p in points[::7]) < 0.5
+
+
+def all_curves(profile: Any) -> Any:
+    from geometry.base.placement import Placement2
+
+    turn = (-2 if profile.clockwise else 2) * np.pi / profile.count
+    return [(s.curve, Placement2(k * turn)) for k in range(profile.count) for s in profile.period]
+
+
+@pytest.mark.parametrize("purpose", ["meshing", "model"])
+def test_words_are_found_in_cyrillic_and_the_bytes_are_the_same(tmp_path: Path, purpose: str) -> None:
+    job = job_of(language="uk", purpose=purpose)
+    files = [tmp_path / f"{k}.pdf" for k in range(2)]
+    for file in files:
+        job.write({}, file)
+        assert job.verify(file, 0.0).failures == ()
+    assert files[0].read_bytes() == files[1].read_bytes()
+    document = pdfium.PdfDocument(files[0])
+    said = " ".join(page.get_textpage().get_text_range() for page in document)
+    for word in {
+        "meshing": ("Картина зовнішнього", "коефіцієнт зміщення", "αw"),
+        "model": ("Зубчаста пара", "квадрата"),
+    }[purpose]:
+        assert word in said
+    fonts = (
+        {item.get_font().get_base_name() for item in document[0].get_objects(filter=[raw.FPDF_PAGEOBJ_TEXT])}
+        if False
+        else set()
+    )
+    assert not fonts
+    assert b"/FontFile2" in files[0].read_bytes()
+
+
+def test_what_is_off_or_missing_in_a_pdf_is_seen(tmp_path: Path) -> None:
+    job = job_of(purpose="meshing")
+    canvas, file = job.canvas, tmp_path / "spoilt.pdf"
+    base = next(k for k, s in enumerate(canvas.strokes) if s.layer == "CIRCLE_BASE")
+    for number, moved, wanted in (
+        (base, replace(canvas.strokes[base].curve, radius=canvas.strokes[base].curve.radius + 1e-3), "no circle of"),
+        (-1, None, "paths on a page"),
+    ):
+        strokes = list(canvas.strokes)
+        if moved is not None:
+            strokes[number] = Stroke(strokes[number].layer, moved)
+        else:
+            strokes = [s for s in strokes if s.layer != "ACTIVE_FLANK"]
+        spoilt = type(canvas)(canvas.width, canvas.height, canvas.paper, strokes, canvas.texts)
+        write_sheets(file, [spoilt], "t")
+        assert any(wanted in text for text in job.verify(file, 0.0).failures)
+    less = type(canvas)(canvas.width, canvas.height, canvas.paper, canvas.strokes, canvas.texts[1:])
+    write_sheets(file, [less], "t")
+    assert any("words are missing" in text for text in job.verify(file, 0.0).failures)
+    file.write_bytes(file.read_bytes()[:-400])
+    assert job.verify(file, 0.0).failures
+
+
+@pytest.mark.parametrize(
+    ("export", "key"),
+    [
+        ({"scale": "1:1"}, "scale"),
+        ({"title_block": True}, "title_block"),
+        ({"kerf": 0.1}, "kerf"),
+        ({"tolerance": 1e-5}, "tolerance"),
+        (
+            {"purpose": "meshing", "paper": "A4", "scale": "2:1"},
+            'paper = "A4": the paper is too small at the scale 2:1',
+        ),
+        ({"purpose": "meshing", "scale": "100:1"}, "scale"),
+        ({"paper": "A5"}, "paper"),
+    ],
+)
+def test_refusals_name_the_key(export: dict[str, Any], key: str) -> None:
+    with pytest.raises(SceneError) as caught:
+        plan_build(scene_of(**export), "t", [], [])
+    assert f"exports[1].{key}" in str(caught.value)
+
+
+def test_what_is_not_installed_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(writer, "find_spec", lambda name: None)
+    with pytest.raises(SceneError, match=r"higherpair\[pdf\]"):
+        plan_build(scene_of(), "t", [], [])
+
+
+def test_a_scene_without_pdf_imports_nothing_of_it(tmp_path: Path) -> None:
+    code = (
+        "import sys; from exporters.command.cli import main; "
+        f"main(['build', 'practicum_pair', '--format', 'sheet', '--out', {str(tmp_path)!r}]); "
+        "assert 'ezdxf' in sys.modules and not {'fpdf', 'PIL'} & set(sys.modules), 'loaded'"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
+
+
+def test_an_edge_is_cut_at_the_sides_of_a_tile() -> None:
+    box = Box(-1.0, -1.0, 1.0, 1.0)
+    assert clipped(Line(-2 + 0j, 2 + 0j), box) == [Line(-1 + 0j, 1 + 0j)]
+    assert clipped(Line(-2 + 2j, 2 + 2j), box) == []
+    circle = Arc(0j, 1.2, 0.3, 2 * np.pi)
+    pieces = clipped(circle, box)
+    # four pieces in the corners, one of them cut where the circle begins or not
+    length = sum(abs(p.sweep) for p in pieces if isinstance(p, Arc))
+    assert length == pytest.approx(2 * np.pi - 8 * np.arccos(1 / 1.2), abs=1e-12)
