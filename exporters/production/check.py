@@ -16,7 +16,7 @@ from parts.base.part import Part
 from parts.base.texts import N_, words
 from parts.scene.instances import DriveSpec
 from parts.scene.placing import UPWARDS, Closeness, Condition, PlacedMate, Placing
-from parts.texts.checks import condition_message
+from parts.texts.checks import OFF_CENTRE, condition_message
 from parts.texts.findings import finding_text
 
 if TYPE_CHECKING:
@@ -52,6 +52,13 @@ def scene_checks(
                 found["driven_pitches"] = turns[0] * mate.mating.first_teeth
     if placing.close:
         checks["neighbours"] = [_neighbours(c, language) for c in placing.close]
+    if placing.off_centre:
+        told = words(language)
+        rows = [
+            {"frame": o.frame, "axle": o.axle, "distance": o.distance, "clearance": o.clearance}
+            for o in placing.off_centre
+        ]
+        checks["axles"] = [{**row, "text": told.text(OFF_CENTRE, **row)} for row in rows]
     if contact and len(placing.instances) > 1:
         checks |= _solids(placing, parts, drives, language)
     if placing.train is not None:

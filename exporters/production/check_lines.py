@@ -36,6 +36,7 @@ def check_lines(checks: dict[str, Any], language: str) -> list[str]:
         lines += _transmission(mate, told)
         lines += [told.text("note: {text}", text=f["text"]) for f in mate.get("findings", [])]
         lines += [told.text("BROKEN: {text}", text=c["text"]) for c in mate.get("conditions", []) if not c["met"]]
+    lines += [told.text("BROKEN: {text}", text=axle["text"]) for axle in checks.get("axles", [])]
     for close in checks.get("neighbours", []):
         lines.append(told.text("note: {text}", text=close["text"]))
     for found in checks.get("solids", []):
@@ -147,5 +148,7 @@ def _mate_head(mate: dict[str, Any]) -> Message:
 def has_bad_verdict(checks: dict[str, Any]) -> bool:
     """Whether something overlaps, could not be decided, or breaks a condition."""
     mates = checks.get("mates", [])
+    if checks.get("axles"):
+        return True
     bad = any(found.get("verdict") in ("overlap", "undecided") for found in (*mates, *checks.get("solids", [])))
     return bad or any(not condition["met"] for mate in mates for condition in mate.get("conditions", []))

@@ -5,7 +5,7 @@ A kind is an instance of a subclass, registered by one entry of ``parts/base/reg
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from msgspec import Struct
@@ -31,6 +31,14 @@ Others = Mapping[str, Struct]
 
 # symbols of what tells wheels apart, and their keys
 _NUMBERS = (("z", "number_of_teeth"), ("m", "module"), ("x", "profile_shift_coefficient"))
+
+
+class HoleAt(Record):
+    """A round hole: its centre (None: not known yet), its diameter, mm, and the instance whose axle it takes."""
+
+    centre: complex | None
+    diameter: float
+    axle: str | None = None
 
 
 class Report(Record):
@@ -101,6 +109,14 @@ class Kind(Generic[K, T]):
         """The numbers by which people know one from another; no-break spaces hold each to its symbol."""
         found = ((symbol, getattr(keys, key, None)) for symbol, key in _NUMBERS)
         return " ".join(f"{symbol}\u00a0{value:.4g}" for symbol, value in found if value)
+
+    def holes_at(self, keys: K) -> Sequence[HoleAt]:
+        """Round holes that an axle may go through."""
+        return ()
+
+    def axle_diameter(self, keys: K) -> float:
+        """Diameter of the axle that it turns on, mm; 0 where no key tells it."""
+        return float(getattr(keys, "bore_diameter", 0.0) or 0.0)
 
     def report(self, keys: K, thing: T) -> Report:
         """Remarks and named results."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, TypeVar
 from msgspec import Meta, Struct, field
 
 from geometry.base.errors import ParameterError, limit
-from parts.base.kind import Kind, Others
+from parts.base.kind import HoleAt, Kind, Others
 from parts.keys.base import LEAST_HOLE, MadeKeys, mm
 from parts.keys.engraving import Depth, Marks, check_depth, marked
 
@@ -23,10 +23,11 @@ _Place = Annotated[float, mm("a coordinate", least=-_MOST, most=_MOST)]
 
 
 class HoleAtTable(Struct, forbid_unknown_fields=True):
-    """A round hole anywhere."""
+    """A round hole anywhere, or on the axis of an instance."""
 
-    at: Annotated[tuple[_Place, _Place], mm("x, y of its centre")]
     diameter: Annotated[float, mm("diameter of the hole", least=LEAST_HOLE, most=_MOST)]
+    at: Annotated[tuple[_Place, _Place], mm("x, y of its centre")] | None = None
+    axis_of: Annotated[str, Meta(description="the instance whose axle it takes, in place of at")] | None = None
 
 
 class SlotTable(Struct, forbid_unknown_fields=True):
@@ -80,9 +81,10 @@ def checked_outline(
     """Edges with the holes and slots of a part's keys, checked one after the other; ``own``: key, centre, diameter."""
     from geometry.solids.plate import PlateHole, PlateOutline
 
-    holes = (*(PlateHole(at, d) for _, at, d in own), *(PlateHole(complex(*h.at), h.diameter) for h in keys.holes))
-    names = [key for key, _, _ in own]
-    names += [f"holes.item {i + 1}.diameter" for i in range(len(keys.holes))]
+    # a hole for an axle comes when that stands
+    placed = {i: PlateHole(complex(*h.at), h.diameter) for i, h in enumerate(keys.holes, 1) if h.at is not None}
+    holes = (*(PlateHole(at, d) for _, at, d in own), *placed.values())
+    names = [*(key for key, _, _ in own), *(f"holes.item {i}.diameter" for i in placed)]
     slots, marks = (_slots(key, getattr(keys, key), names) for key in ("slots", "engraved"))
     PlateOutline(edges, (*holes, *slots, *marks)).check_holes(names)
     for number, mark in enumerate(keys.engraved, 1):
@@ -117,6 +119,10 @@ class Extruded(Kind[K, T]):
     def flat(self, thing: T) -> PlateOutline:
         """The outline of the exact thing."""
         raise NotImplementedError
+
+    def holes_at(self, keys: K) -> Sequence[HoleAt]:
+        """Its holes; those for axles get their places when these stand."""
+        return [HoleAt(None if h.at is None else complex(*h.at), h.diameter, h.axis_of) for h in keys.holes]
 
     def section(self, keys: K, thing: T, offset: float) -> OffsetRegion:
         """The outline moved, and what is engraved in it."""

@@ -5,6 +5,9 @@ from __future__ import annotations
 from parts.base.texts import N_
 
 REASONS = {
+    "no_place_of_hole": N_("is missing: x, y of its centre, or axis_of = the instance whose axle it takes"),
+    "own_axis": N_("is an instance of this very part"),
+    "axle_not_upright": N_("the axis of {instance} is not upright"),
     "nothing_takes_it": N_("nothing in the scene takes it; what some part, mate, board or export takes: {known}"),
     "about_needs_at": N_("without `at` mates say where each of them stands"),
     "groups_differ": N_("are not as many as those of {first}, which are {count}"),

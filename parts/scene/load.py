@@ -441,14 +441,29 @@ def default_export(name: str) -> ExportSpec:
 
 def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mating]]:
     """The parts of a scene, each checked to exist, as its mates want them; and the mates."""
+    parts, matings = _made(scene, scene.parts, source)
+    if not any(part.made_by.holes_at(part.keys) for part in parts.values()):
+        return parts, matings
+    from parts.scene.axles import waits_for_axles, with_axle_holes
+
+    if not waits_for_axles(parts, scene.instances, source):
+        return parts, matings
+    from parts.scene.placing import place
+
+    placing = place(scene.instances, [], parts, matings, source)
+    return _made(scene, with_axle_holes(parts, placing, source), source)
+
+
+def _made(scene: SceneFile, specs: dict[str, Struct], source: str) -> tuple[dict[str, Part], list[Mating]]:
+    """The parts of these keys, and the mates."""
     gears = {}
     # what is made from another part's keys looks for it in the scene
-    for key, spec in sorted(scene.parts.items(), key=lambda item: "of" in item[1].__struct_fields__):
-        kind = KINDS[spec.__struct_config__.tag]
+    for key, spec in sorted(specs.items(), key=lambda item: "of" in item[1].__struct_fields__):
+        kind = KINDS[str(spec.__struct_config__.tag)]
         try:
-            gears[key] = kind.thing(spec, scene.parts)
+            gears[key] = kind.thing(spec, specs)
         except ParameterError as refusal:
-            raise kind.refused(spec, scene.parts, refusal, source, f"parts.{key}") from refusal
+            raise kind.refused(spec, specs, refusal, source, f"parts.{key}") from refusal
         except GeometryError as error:
             raise SceneError(source, f"parts.{key}", None, "no_outline", None, why=str(error)) from error
     matings: list[Mating] = []
@@ -456,10 +471,8 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
         from parts.scene.checks import joined
 
         part_of = {key: str(spec.part) for key, spec in scene.instances.items()}
-        gears, matings = joined(scene.parts, gears, scene.mates, part_of, source)
-    parts = {
-        key: Part(key, KINDS[str(spec.__struct_config__.tag)], spec, gears[key]) for key, spec in scene.parts.items()
-    }
+        gears, matings = joined(specs, gears, scene.mates, part_of, source)
+    parts = {key: Part(key, KINDS[str(spec.__struct_config__.tag)], spec, gears[key]) for key, spec in specs.items()}
     return parts, matings
 
 

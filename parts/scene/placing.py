@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from geometry.base.errors import ParameterError
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from parts.scene.train import Train
 
 UPWARDS: Vector = (0.0, 0.0, 1.0)
+# mates whose second has no axle of its own on the frame, or moves with another instance
+_CARRYING = ("fixed", "carried", "pin_seat", "eccentric_bearing", "cam_follower", "linkage_member", "wedge_follower")
 # between things that no mate and no ``at`` places, mm
 _GAP = 5.0
 
@@ -34,7 +36,8 @@ class Instance(Record):
 
     Between both z is laid on the unit vector ``axis``, as ``Placement3.towards`` does it.
 
-    ``placed_by``: "at" (the scene says where), "mate", "origin" (the first of all), or "row" (laid out beside).
+    ``placed_by``: "at" (the scene says where), "mate", "origin" (the first of all), "row" (laid out beside), or "axles"
+    (a frame, under them).
     """
 
     id: str
@@ -98,6 +101,15 @@ class Closeness(Record):
     tip_sum: float
 
 
+class OffCentre(Record):
+    """An axle that passes a hole of a flat part off its centre by more than the clearance; mm."""
+
+    frame: str
+    axle: str
+    distance: float
+    clearance: float
+
+
 class Placing(Record):
     """Where everything stands, and the train that the drives move."""
 
@@ -105,6 +117,7 @@ class Placing(Record):
     mates: tuple[PlacedMate, ...] = ()
     close: tuple[Closeness, ...] = ()
     train: Train | None = None
+    off_centre: tuple[OffCentre, ...] = ()
 
     @property
     def turns(self) -> tuple[dict[str, float], ...]:
@@ -120,8 +133,8 @@ class Placing(Record):
 
     @property
     def needs_check(self) -> bool:
-        """Whether there is anything to check or to tell: mates, neighbours that are too close, drives."""
-        return bool(self.mates or self.close or self.turns)
+        """Whether there is anything to check or to tell: mates, neighbours that are too close, axles, drives."""
+        return bool(self.mates or self.close or self.off_centre or self.turns)
 
 
 def place(
@@ -151,7 +164,8 @@ def place(
 
         held = [key for key, spec in specs.items() if spec.held is True]
         train = driven_train(_poses(instances), matings, drives, held, source)
-    return Placing(instances, mates, _close_ones(instances, mates, parts), train)
+    close = _close_ones(instances, mates, parts)
+    return Placing(instances, mates, close, train, tuple(_off_centre(instances, matings, parts)))
 
 
 def _poses(instances: Iterable[Instance]) -> dict[str, Pose]:
@@ -226,11 +240,25 @@ class _Placed:
     def lay_out(self) -> None:
         """What no mate and no ``at`` places goes into a row to the right of all else, or to the origin."""
         for key, spec in self.specs.items():
-            if key not in self.stand:
+            if key not in self.stand and not self._axles(key):
                 alone = not self.stand
                 self.stand[key] = Instance(key, str(spec.part), rotation=_turned(spec))
                 if not alone:
                     self.free.append([key])
+        self._lay_in_row()
+        for key in [key for key in self.specs if key not in self.stand]:
+            # a frame lies under the axles that it has holes for, its frame that of the scene
+            here = Instance(key, str(self.specs[key].part), rotation=_turned(self.specs[key]), placed_by="axles")
+            low = min((self.stand[axle].at[2] for axle in self._axles(key) if axle in self.stand), default=0.0)
+            self.stand[key] = replace(here, at=(0.0, 0.0, low - self.parts[here.part].face_width))
+
+    def _axles(self, key: str) -> list[str]:
+        """The instances whose axles go through holes of an instance."""
+        part = self.parts[str(self.specs[key].part)]
+        return [hole.axle for hole in part.made_by.holes_at(part.keys) if hole.axle is not None]
+
+    def _lay_in_row(self) -> None:
+        """Each free group to the right of all else."""
         if not self.free:
             return
         waiting = {key for group in self.free for key in group}
@@ -339,6 +367,26 @@ def _common_width(one: Instance, two: Instance, parts: dict[str, Part]) -> float
     """Length of the common range along the axes, mm; negative where there is none."""
     low = max(one.at[2], two.at[2])
     return min(i.at[2] + parts[i.part].face_width for i in (one, two)) - low
+
+
+def _off_centre(
+    instances: Sequence[Instance], matings: Sequence[Mating], parts: dict[str, Part]
+) -> Iterator[OffCentre]:
+    """Axles that do not go through the holes of plates: those that a hole is for, and others that stand in one."""
+    carried = {mating.second for mating in matings if mating.kind in _CARRYING}
+    upright = [(i, parts[i.part]) for i in instances if i.axis == UPWARDS]
+    for frame, plate in upright:
+        for hole in plate.made_by.holes_at(plate.keys):
+            if hole.centre is None:
+                continue
+            centre = frame.centre + hole.centre * cmath.exp(1j * frame.rotation)
+            for axle, wheel in upright:
+                bore, distance = wheel.made_by.axle_diameter(wheel.keys), abs(axle.centre - centre)
+                slack = PLACED_MM + TOLERANCES.relative_join * (abs(axle.centre) + abs(centre))
+                clearance = max((hole.diameter - bore) / 2, 0.0) if bore else 0.0
+                stands_in = axle.id not in carried and distance < hole.diameter / 2 and 0 < bore <= hole.diameter
+                if axle is not frame and (axle.id == hole.axle or stands_in) and distance > clearance + slack:
+                    yield OffCentre(frame.id, axle.id, distance, clearance)
 
 
 def _close_ones(

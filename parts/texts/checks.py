@@ -44,6 +44,9 @@ MATES: dict[str, Text] = {
 }
 # a pair of involute gears, of whatever kind
 GEAR_PAIR = N_("pair {first} - {second}: a_w = {a_w:.5f} mm, alpha_w = {alpha_w:.4f} deg, contact ratio {ratio:.4f}")
+OFF_CENTRE = N_(
+    "the axle of {axle} passes {frame} {distance:.6g} mm off the centre of a hole, its clearance is {clearance:.6g} mm"
+)
 # by the code of a condition, with its value, what is required, and its tolerance
 CONDITIONS: dict[str, str] = {
     "height": N_("{second} stands {value:.9g} mm above {first}, {required:.9g} mm is asked"),

@@ -1,0 +1,116 @@
+"""Holes that know an axle: a frame follows its pair; what passes a hole off its centre is BROKEN."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import ezdxf
+import pytest
+
+from exporters.command.cli import main
+
+PAIR = """
+[defaults]
+face_width = 3.0
+module = 2.0
+bore_diameter = 6.0
+[parts.pinion]
+kind = "spur_gear"
+number_of_teeth = 17
+profile_shift_coefficient = {shift}
+[parts.wheel]
+kind = "spur_gear"
+number_of_teeth = 30
+[parts.frame]
+kind = "plate"
+width = 120.0
+height = 60.0
+centre = [24.0, 0.0]
+holes = [{holes}]
+[[mates]]
+kind = "external_gear_pair"
+first = "pinion"
+second = "wheel"
+direction_deg = 10.0
+{more}
+[[exports]]
+format = "dxf"
+"""
+BOTH = '{ axis_of = "pinion", diameter = 6.0 }, { axis_of = "wheel", diameter = 6.2 }'
+
+
+def _scene(folder: Path, shift: float = 0.1, holes: str = BOTH, more: str = "") -> str:
+    file = folder / "s.toml"
+    file.write_text(PAIR.format(shift=shift, holes=holes, more=more), encoding="utf-8")
+    return str(file)
+
+
+def _working_distance(shift: float) -> float:
+    """inv alpha_w = inv alpha + 2 x tan alpha / (z1 + z2), by bisection."""
+    alpha = math.radians(20)
+    wanted = math.tan(alpha) - alpha + 2 * shift * math.tan(alpha) / 47
+    low, high = alpha / 2, 1.0
+    for _ in range(200):
+        middle = (low + high) / 2
+        low, high = (middle, high) if math.tan(middle) - middle < wanted else (low, middle)
+    return 47.0 * math.cos(alpha) / math.cos(low)
+
+
+@pytest.mark.parametrize("shift", [0.1, 0.55])
+@pytest.mark.parametrize("turned", [None, 25.0])
+def test_a_frame_follows_the_shifts_of_its_gears(shift: float, turned: float | None, tmp_path: Path) -> None:
+    more = "" if turned is None else f"[instances.frame]\nat = [-3.0, 2.0, -3.0]\nrotation_deg = {turned}"
+    assert main(["build", _scene(tmp_path, shift, more=more), "--out", str(tmp_path), "--part", "frame"]) == 0
+    found = []
+    for entity in ezdxf.readfile(tmp_path / "s" / "frame.dxf").modelspace():
+        if entity.dxf.layer == "CUT_INNER":
+            one, two = (complex(p[0], p[1]) for p in entity.get_points("xy"))
+            found.append(((one + two) / 2, abs(one - two)))
+    wheel = _working_distance(shift) * complex(math.cos(math.radians(10)), math.sin(math.radians(10)))
+    turn = 1.0 if turned is None else complex(math.cos(math.radians(turned)), -math.sin(math.radians(turned)))
+    shifted = 0j if turned is None else complex(-3, 2)
+    for (centre, diameter), axle, wanted in zip(found, (0j, wheel), (6.0, 6.2), strict=True):
+        assert abs(centre - (axle - shifted) * turn) <= 1e-5
+        assert diameter == pytest.approx(wanted, abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("holes", "more", "code", "told"),
+    [
+        (BOTH, "", 0, ""),
+        (BOTH, '[instances.frame]\nat = [0.0, 0.0, -3.0]\n[instances.cover]\npart = "frame"\nat = [0.05, 0.0, 3.0]', 1,
+         "the axle of pinion passes cover 0.05 mm off the centre of a hole, its clearance is 0 mm"),
+        # 47.2 mm along 10 degrees is 46.5, 8.2
+        ("{ at = [46.5, 8.2], diameter = 7.0 }", "[instances.frame]\nat = [0.0, 0.0, -3.0]", 0, ""),
+        ("{ at = [46.5, 6.9], diameter = 7.0 }", "[instances.frame]\nat = [0.0, 0.0, -3.0]", 1, "the axle of wheel"),
+        ("{ at = [46.5, 2.9], diameter = 7.0 }", "[instances.frame]\nat = [0.0, 0.0, -3.0]", 0, ""),
+    ],
+)  # fmt: skip
+def test_an_axle_off_its_hole_is_broken(
+    holes: str, more: str, code: int, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["check", _scene(tmp_path, holes=holes, more=more)]) == code
+    said = capsys.readouterr().out
+    assert ("BROKEN" in said) == bool(told)
+    assert told in said
+
+
+@pytest.mark.parametrize(
+    ("holes", "more", "key"),
+    [
+        ('{ axis_of = "whel", diameter = 6.0 }', "", "axis_of"),
+        ('{ axis_of = "frame", diameter = 6.0 }', "", "axis_of"),
+        ('{ axis_of = "wheel", at = [1.0, 2.0], diameter = 6.0 }', "", "axis_of"),
+        ("{ diameter = 6.0 }", "", "at"),
+        (BOTH, "[instances.frame]\nat = [0.0, 0.0, 0.0]\naxis = [1.0, 0.0, 0.0]", "axis_of"),
+    ],
+)
+def test_an_axle_that_is_not_there_is_one_line(
+    holes: str, more: str, key: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["build", _scene(tmp_path, holes=holes, more=more), "--out", str(tmp_path / "out")]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert f"parts.frame.holes.item 1.{key}" in said
+    assert not (tmp_path / "out").exists()
