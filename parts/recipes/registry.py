@@ -15,6 +15,10 @@ RECIPES: Index[Recipe[Any]] = Index(
             "parts.recipes.planetary_set:PLANETARY_SET",
             "Planetary set: central wheels, satellites with one rim or two on a carrier, with a frame and a crank",
         ),
+        "power_module": (
+            "parts.recipes.power_module:POWER_MODULE",
+            "Disks and wheels of the two-disk power module; cranks, idlers or the thesis's wheels turn its platform",
+        ),
         "power_table": (
             "parts.recipes.power_table:POWER_TABLE",
             "Two-disk power table of flat parts and pins, turned by two hand cranks, its platform parallel by cranks",

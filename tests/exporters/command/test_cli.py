@@ -66,7 +66,7 @@ DAILY = {
 LIKE_JAMES = {
     "david", "differential", "ferguson", "one_external_one_internal", "two_internal", "practicum_example_1",
     "practicum_example_2", "practicum_example_3", "practicum_example_3_laser", "practicum_example_3_print",
-    "power_table_laser",
+    "power_table_laser", "power_module_kinematics",
 }  # fmt: skip
 
 

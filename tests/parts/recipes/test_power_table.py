@@ -62,7 +62,9 @@ def moved(shape: shapely.Geometry, place: complex, turn: float) -> shapely.Geome
     return shapely.transform(shape, way)
 
 
-def struck(placing: Placing, parts: dict[str, Any], runs: list[tuple[float, float]]) -> set[frozenset[str]]:
+def struck(
+    placing: Placing, parts: dict[str, Any], runs: list[tuple[float, float]], least: int = 150
+) -> set[frozenset[str]]:
     """Pairs that meet somewhere: all that stand at one height are tried; the mesh is left to its own check."""
     assert placing.train is not None
     bodies = placing.train.moving.stands.body
@@ -74,7 +76,7 @@ def struck(placing: Placing, parts: dict[str, Any], runs: list[tuple[float, floa
         and bodies(found[a][0]) != bodies(found[b][0])
         and {found[a][0], found[b][0]} != {"ring", "pinion"}
     ]
-    assert len(pairs) > 150
+    assert len(pairs) >= least
     met = set()
     one, two = (np.array(side) for side in zip(*pairs, strict=True))
     for run in runs:

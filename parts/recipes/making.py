@@ -1,0 +1,64 @@
+"""Tables of parts and mates as a recipe's hand writes them: plates, rods, cranks, and how they stand on each other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from parts.recipes.recipe import Expansion, Table
+
+# rounding of a square plate's corners, mm
+_CORNER = 10.0
+
+
+class Making:
+    """An expansion that grows; ``colours`` by part, of what has none there that of ``pin``."""
+
+    def __init__(self, thickness: float, material: str | None, colours: Mapping[str, str]) -> None:
+        self.found = Expansion()
+        self.thickness, self.material, self.colours = thickness, material, colours
+
+    def part(self, name: str, colour: str = "", /, **keys: object) -> None:
+        """A part of the material."""
+        own = {"colour": self.colours[colour or name]}
+        self.found.parts[name] = keys | (own if self.material is None else {"material": self.material, **own})
+
+    def plate(self, name: str, size: float, holes: Sequence[Table], *, square: bool = False, **more: object) -> None:
+        """A disk of a diameter, or a square plate of a side."""
+        radius = min(_CORNER, size / 8) if square else size / 2
+        keys = {"width": size, "height": size, "corner_radius": radius, "face_width": self.thickness}
+        self.part(name, kind="plate", **(keys | {"holes": list(holes)} | more))
+
+    def pin(self, name: str, diameter: float, length: float, bore: float = 0.0) -> None:
+        """A rod or a tube."""
+        table = {"kind": "pin", "diameter": diameter, "length": length, "bore_diameter": bore}
+        self.found.parts[name] = table | {"colour": self.colours["pin"]}
+
+    def crank(self, name: str, length: float, holes: tuple[float, float], ends: tuple[float, float]) -> None:
+        """A link: diameters of its holes and of the round ends about them, that of the pivot first."""
+        self.part(
+            name, "crank", kind="follower_arm", end="roller", arm_length=length, boss_diameter=ends[0], width=ends[1],
+            pivot_diameter=holes[0], pin_diameter=holes[1], face_width=self.thickness,
+        )  # fmt: skip
+
+    def put(self, kind: str, first: str, second: str, part: str = "", **keys: object) -> None:
+        """An instance by its first mate."""
+        self.found.instances[second] = {"part": part or second}
+        self.mate(kind, first, second, **keys)
+
+    def mate(self, kind: str, first: str, second: str, **keys: object) -> None:
+        """One more mate of what stands."""
+        self.found.mates.append({"kind": kind, "first": first, "second": second, **keys})
+
+    def fix(self, first: str, second: str, at: complex, height: float, part: str = "") -> None:
+        """One body with the first; ``height`` above its lower face."""
+        self.put("fixed", first, second, part, offset=place(at, height))
+
+
+def place(at: complex, height: float) -> list[float]:
+    """An offset as scenes have it, its rounding taken off."""
+    return [round(at.real, 6), round(at.imag, 6), round(height, 6)]
+
+
+def hole(at: complex, diameter: float) -> Table:
+    """A round hole of a plate."""
+    return {"at": [round(at.real, 6), round(at.imag, 6)], "diameter": diameter}
