@@ -33,7 +33,7 @@ from parts.gears.spur_gear.part import gear_of
 from parts.mates.pages import internal_shift_choice, shift_choice
 from parts.mates.pages.contour_marks import checked_picture, contour_pictures
 from parts.mates.pages.internal_shift_choice import InternalShiftKeys, shift_pair
-from parts.pages.contour_picture import clipped, contour_svg, kinds_shown, line_name, line_title, tool_texts
+from parts.pages.contour_picture import clipped, contour_svg, grid_step, kinds_shown, line_name, line_title, tool_texts
 from parts.pages.inputs import checked, table_of
 from parts.pages.page import Sheet
 from parts.scene.load import load_scene, make_parts
@@ -153,6 +153,9 @@ def test_the_drawing_has_the_lines_of_the_contour(contour: Any, tmp_path: Path) 
     texts = " ".join(e.dxf.text for e in space.query("TEXT"))
     assert "довбач вінця: z_0 = 20" in texts
     assert "інтерференція" in texts
+    box, step = contour.box, grid_step(contour.box)
+    along = [e.dxf.text for e in space.query("TEXT") if abs(e.dxf.insert.y - (box.bottom * SCALE - 8)) < 1e-6]
+    assert along == [f"{k * step:.3g}" for k in range(-1000, 1000) if box.left <= k * step <= box.right]
     # the same bytes every time
     first = file.read_bytes()
     write_contour_dxf(file, contour, marks, words("uk"))

@@ -31,6 +31,8 @@ REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
     "ring tip, helical": ({**RING, **HELIX, "tip_diameter": 90.0}, "tip_diameter", "involute_ends_at_base_circle"),
     "ring shift, helical": ({**RING, **HELIX, "profile_shift_coefficient": -4.0}, "profile_shift_coefficient",
                             "no_working_angle_with_cutter"),
+    "ring shift": ({**RING, "cutter": {"number_of_teeth": 20}, "profile_shift_coefficient": -2.0},
+                   "profile_shift_coefficient", "no_working_angle_with_cutter"),
     "ring cutter": ({**RING, "cutter": {"number_of_teeth": 45}}, "cutter.number_of_teeth",
                     "cutter_trochoid_interference"),
     "ring root": ({**RING, "rounded_root": {"radius_coefficient": 1.2, "full_round": False}},
@@ -72,6 +74,15 @@ def test_a_refusal_is_told_in_the_keys_of_the_scene_with_the_nearest_that_works(
     step: float = 1 if isinstance(found.value, int) else 1e-3 * max(2.0, abs(found.value))  # type: ignore[arg-type]
     farther = found.value + (step if found.side == "at_most" else -step)  # type: ignore[operator]
     assert refusal(with_value(table, key, farther)) is not None
+
+
+def test_a_hub_ends_where_holes_begin() -> None:
+    holes = [{"count": 6, "pitch_circle_diameter": 40.0, "diameter": 10.0}]
+    hub = {"diameter": 34.0, "below": 5.0}
+    refused = refusal({**SPUR, "number_of_teeth": 40, "bore_diameter": 10.0, "hub": hub, "holes": holes})
+    assert refused is not None
+    assert refused.nearest is not None
+    assert 29.9 < refused.nearest.value < 30.0  # type: ignore[operator]
 
 
 def test_a_search_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:

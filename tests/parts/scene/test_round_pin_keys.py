@@ -129,3 +129,26 @@ def made(keys: Keys) -> None:
 @given(ANY)
 def test_any_part_of_many(keys: Keys) -> None:
     test_any_part_is_built_or_refused_with_what_works.hypothesis.inner_test(keys)
+
+
+def part_of(**table: Any) -> Any:
+    return make_parts(scene_from_dict({"parts": {"p": table}}, "s", "s"), "s")[0]["p"]
+
+
+def test_the_circle_that_is_told_takes_the_largest_pins() -> None:
+    disc = {"kind": "cycloidal_disc", "number_of_lobes": 11, "pin_circle_diameter": 80.0, "pin_diameter": 6.0,
+            "eccentricity": 1.5, "bore_diameter": 20.0}  # fmt: skip
+
+    def wrong(circle: float) -> SceneError:
+        with pytest.raises(SceneError) as refusal:
+            part_of(**disc, output_holes={"count": 10, "pitch_circle_diameter": circle, "pin_diameter": 20.0})
+        return refusal.value
+
+    best = wrong(20.0).numbers["circle"]
+    largest = [wrong(best * share).nearest.value for share in (0.9995, 1.0, 1.0005)]  # type: ignore[union-attr]
+    assert largest[1] > max(largest[0], largest[2])
+
+
+def test_a_ring_has_half_a_pin_inside_its_holes() -> None:
+    ring = part_of(kind="pin_ring", pin_circle_diameter=80.0, pin_diameter=6.0, number_of_pins=12, pins="holes")
+    assert ring.circles["inner_diameter"] == pytest.approx(80 - 6 - 6)

@@ -98,6 +98,15 @@ def test_wrong_keys_are_refused_with_what_works(name: str) -> None:
         assert parts_of(cured(parts, refusal))["yoke"].to_trimesh(0.05).is_watertight
 
 
+def test_a_stem_is_as_wide_as_the_drawn_frame_but_for_its_ledges() -> None:
+    outline = parts_of({"cam": FLAT, "yoke": YOKE})["yoke"].section(0.0).region.outer
+    across = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 5)).real for s in outline.period])
+    widest = refused({"cam": FLAT, "yoke": YOKE | {"stem_width": 400.0}}).nearest
+    assert widest is not None
+    # half a millimetre on either side
+    assert widest.value == pytest.approx(np.ptp(across) - 1.0)
+
+
 def test_the_departure_is_told_in_numbers() -> None:
     """A rise of 110 and a return of 130 degrees: the greatest departure by a dense table of the lift."""
     cam = WRONG["uneven"][0]
