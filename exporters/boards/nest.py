@@ -27,10 +27,12 @@ Flags = NDArray[np.bool_]
 _COARSEST, _FINEST, _TABLES = 800, 6000, 15_000_000
 # a shape that fills its circumscribed circle so well is laid in one turn
 _ROUND = 1.02
+# shapes are the same to this, mm; a turn is none where it changes so little of an area
+_SAME, _SYMMETRIC = 1e-6, 0.002
 # cells that all layouts together look at
 _WORK = 2e10
 # layouts that are tried for each piece at most
-_TRIALS = 12
+_TRIALS = 10
 _NOTHING = (math.inf, math.inf, math.inf)
 QUARTERS, HALVES = (0, 1, 2, 3), (0, 2)
 
@@ -55,10 +57,10 @@ class Laid(Record):
 
 
 class DoesNotFitError(Exception):
-    """A shape is larger than the room; ``size``: its least box, mm, ``scale``: the largest at which it fits."""
+    """A shape is larger than the room; ``size``: its box, mm."""
 
-    def __init__(self, shape: str, size: tuple[float, float], scale: float) -> None:
-        self.shape, self.size, self.scale = shape, size, scale
+    def __init__(self, shape: str, size: tuple[float, float]) -> None:
+        self.shape, self.size = shape, size
         super().__init__(shape)
 
 
@@ -71,6 +73,14 @@ class _Shape(Draft):
     cover: Flags
 
 
+def largest_scale(geometry: BaseGeometry, room: Room) -> float:
+    """The largest scale at which a shape has room."""
+    low_x, low_y, high_x, high_y = geometry.bounds
+    wide, high = room.width - 2 * room.margin, room.height - 2 * room.margin
+    sizes = (high_x - low_x, high_y - low_y), (high_y - low_y, high_x - low_x)
+    return max(min(wide / sizes[turn % 2][0], high / sizes[turn % 2][1]) for turn in room.turns)
+
+
 def nest(shapes: Mapping[str, tuple[BaseGeometry, int]], room: Room) -> list[Laid]:
     """Lay so many pieces of each shape (polygons, mm) on boards; in the order of the boards.
 
@@ -79,16 +89,67 @@ def nest(shapes: Mapping[str, tuple[BaseGeometry, int]], room: Room) -> list[Lai
     DoesNotFitError
         A shape is larger than the room.
     """
-    laid = _Nest(shapes, room).laid()
+    plain = _plain(shapes, room.gap)
+    alike = _alike(plain)
+    leaders = dict.fromkeys(alike.values())
+    counts = {name: sum(shapes[k][1] for k, own in alike.items() if own == name) for name in leaders}
+    found = _Nest({name: (plain[name], counts[name]) for name in leaders}, room).laid()
+    # shapes that are alike take the places of the first of them in turns
+    queues = {name: [k for k, own in alike.items() if own == name for _ in range(shapes[k][1])] for name in leaders}
+    laid = []
+    for one in found:
+        name = queues[one.shape].pop(0)
+        off = _middle(plain[one.shape]) - _middle(plain[name])
+        laid.append(replace(one, shape=name, at=one.at + off * 1j**one.turn))
     return [one for number in range(1 + max((x.board for x in laid), default=-1))
-            for one in _together([x for x in laid if x.board == number], shapes, room)]  # fmt: skip
+            for one in _together([x for x in laid if x.board == number], plain, room)]  # fmt: skip
 
 
-def _together(laid: Sequence[Laid], shapes: Mapping[str, tuple[BaseGeometry, int]], room: Room) -> list[Laid]:
+def _plain(shapes: Mapping[str, tuple[BaseGeometry, int]], gap: float) -> dict[str, BaseGeometry]:
+    """The shapes without the holes into which no piece goes."""
+    import shapely
+
+    def sides(geometry: BaseGeometry) -> list[float]:
+        low_x, low_y, high_x, high_y = geometry.bounds
+        return sorted((high_x - low_x, high_y - low_y))
+
+    boxes = [sides(geometry) for geometry, _ in shapes.values()]
+    found = {}
+    for name, (geometry, _) in shapes.items():
+        pieces = []
+        for piece in shapely.get_parts(geometry):
+            holes = ((hole, sides(hole)) for hole in piece.interiors)
+            kept = [h for h, (a, b) in holes if any(x + 2 * gap <= a and y + 2 * gap <= b for x, y in boxes)]
+            pieces.append(shapely.Polygon(piece.exterior, kept))
+        found[name] = shapely.union_all(pieces)
+    return found
+
+
+def _middle(geometry: BaseGeometry) -> complex:
+    """The middle of its box."""
+    low_x, low_y, high_x, high_y = geometry.bounds
+    return complex(low_x + high_x, low_y + high_y) / 2
+
+
+def _about(geometry: BaseGeometry) -> BaseGeometry:
+    """A geometry about the middle of its box."""
+    from shapely.affinity import translate
+
+    middle = _middle(geometry)
+    return translate(geometry, -middle.real, -middle.imag)
+
+
+def _alike(shapes: Mapping[str, BaseGeometry]) -> dict[str, str]:
+    """For each shape the first one that is the same but for its place."""
+    about = {name: _about(geometry).normalize() for name, geometry in shapes.items()}
+    return {name: next(k for k, one in about.items() if one.equals_exact(own, _SAME)) for name, own in about.items()}
+
+
+def _together(laid: Sequence[Laid], shapes: Mapping[str, BaseGeometry], room: Room) -> list[Laid]:
     """The pieces of a board, slid together."""
     from shapely.affinity import rotate, translate
 
-    placed = [translate(rotate(shapes[x.shape][0], 90 * x.turn, origin=(0, 0)), x.at.real, x.at.imag) for x in laid]
+    placed = [translate(rotate(shapes[x.shape], 90 * x.turn, origin=(0, 0)), x.at.real, x.at.imag) for x in laid]
     moved = slid(placed, room.margin * (1 + 1j), room.gap)
     return [replace(x, at=x.at + by) for x, by in zip(laid, moved.tolist(), strict=True)]
 
@@ -106,32 +167,35 @@ class _Nest:
         pairs = len(room.turns) * float(np.square(spans[:, None] + spans).sum())
         longer = max(room.width, room.height)
         self.cell = min(max(math.sqrt(pairs / _TABLES), longer / _FINEST), longer / _COARSEST)
+        self.grown: dict[str, Flags] = {}
         self.turned = {name: self._turns(name, geometry) for name, (geometry, _) in shapes.items()}
         self.tables: dict[tuple[str, int, str, int], Flags] = {}
+        self.spectra: dict[tuple[str, int, int, int], NDArray[np.complex128]] = {}
 
     def _turns(self, name: str, geometry: BaseGeometry) -> dict[int, _Shape]:
         """A shape in all turns in which it fits."""
-        from shapely.affinity import rotate, translate
+        from shapely.affinity import rotate
 
         low_x, low_y, high_x, high_y = geometry.bounds
-        middle, half = complex(low_x + high_x, low_y + high_y) / 2, complex(high_x - low_x, high_y - low_y) / 2
-        about = translate(geometry, -middle.real, -middle.imag)
+        middle, half = _middle(geometry), complex(high_x - low_x, high_y - low_y) / 2
+        about = _about(geometry)
+        self.grown[name] = self._cover(about, half, self.room.gap)
         cover = self._cover(about, half, 0.0)
         turns = self.room.turns
         reach = np.hypot(*np.array(about.convex_hull.exterior.coords).T).max()
         if reach <= _ROUND * min(half.real, half.imag):
             turns = (0,)
-        found = {}
+        found: dict[int, _Shape] = {}
         for turn in turns:
             size = half if turn % 2 == 0 else complex(half.imag, half.real)
             if 2 * size.real > self.inner.real or 2 * size.imag > self.inner.imag:
                 continue
             turned = rotate(about, 90 * turn, origin=(0, 0)) if turn else about
+            if any(turned.symmetric_difference(s.geometry).area <= _SYMMETRIC * turned.area for s in found.values()):
+                continue
             found[turn] = _Shape(turned, middle * 1j**turn, size, np.rot90(cover, turn, axes=(0, 1)))
         if not found:
-            sizes = [half if turn % 2 == 0 else complex(half.imag, half.real) for turn in turns]
-            scale = max(min(self.inner.real / s.real, self.inner.imag / s.imag) / 2 for s in sizes)
-            raise DoesNotFitError(name, (2 * half.real, 2 * half.imag), scale)
+            raise DoesNotFitError(name, (2 * half.real, 2 * half.imag))
         return found
 
     def _cover(self, geometry: BaseGeometry, half: complex, more: float) -> Flags:
@@ -149,20 +213,25 @@ class _Nest:
         name, turn = one
         other, turned = two
         if (name, turn, other, turned) not in self.tables:
-            shape = next(iter(self.turned[name].items()))
-            base = self.turned[name].get(0) or _back(shape[1], shape[0])
-            first = self._cover(base.geometry, base.half, self.room.gap)
-            cover = self.turned[other][turned].cover
-            second = np.rot90(cover, -turn, axes=(0, 1))
+            first = self.grown[name]
+            second = np.rot90(self.turned[other][turned].cover, -turn, axes=(0, 1))
             size = [a + b - 1 for a, b in zip(first.shape, second.shape, strict=True)]
-            fast = [_fast(n) for n in size]
-            spectrum = np.fft.rfft2(first, fast) * np.fft.rfft2(second[::-1, ::-1], fast)
+            fast = _fast(size[0]), _fast(size[1])
+            spectrum = self._spectrum(name, -1, first, fast)
+            spectrum = spectrum * self._spectrum(other, (turned - turn) % 4, second[::-1, ::-1], fast)
             clear = np.fft.irfft2(spectrum, fast)[: size[0], : size[1]] < 0.5
             for quarter in range(4):
                 self.tables[name, quarter, other, (turned - turn + quarter) % 4] = np.ascontiguousarray(
                     np.rot90(clear, quarter, axes=(0, 1))
                 )
         return self.tables[name, turn, other, turned]
+
+    def _spectrum(self, name: str, turn: int, cover: Flags, size: tuple[int, int]) -> NDArray[np.complex128]:
+        """The transform of a cover, padded to a size; turn -1: of the grown one."""
+        key = (name, turn, *size)
+        if key not in self.spectra:
+            self.spectra[key] = np.fft.rfft2(cover, size)
+        return self.spectra[key]
 
     def laid(self) -> list[Laid]:
         """The best of a fixed number of layouts: each begins anew from the best order, two pieces of it exchanged."""
@@ -173,9 +242,10 @@ class _Nest:
         pieces = [name for name, count in self.counts.items() for _ in range(count)]
         orders = [sorted(pieces, key=lambda name: -by[name]) for by in (size, reach)]
         best = min(filter(None, map(self._packed, orders)), key=lambda found: found.rank)
-        work = len(pieces) * sum(map(len, self.turned.values())) * np.mean([t.size for t in self.tables.values()])
+        cells = np.mean([t.size for t in self.tables.values()]) if len(self.counts) > 1 else math.inf
+        trials = _WORK / (len(pieces) * sum(map(len, self.turned.values())) * cells)
         chance = _Chance()
-        for _ in range(min(int(_WORK / work), _TRIALS * len(pieces)) if len(self.counts) > 1 else 0):
+        for _ in range(min(int(trials), _TRIALS * len(pieces))):
             order = list(best.order)
             one, two = chance.below(len(order)), chance.below(len(order))
             if order[one] == order[two]:
@@ -263,14 +333,6 @@ class _Chance:
         """A number from 0 to below ``count``."""
         self.state = self.state * 48271 % 2147483647
         return self.state % count
-
-
-def _back(shape: _Shape, turn: int) -> _Shape:
-    """A shape as it is before a turn."""
-    from shapely.affinity import rotate
-
-    half = shape.half if turn % 2 == 0 else complex(shape.half.imag, shape.half.real)
-    return _Shape(rotate(shape.geometry, -90 * turn, origin=(0, 0)), shape.middle, half, shape.cover)
 
 
 def _stamp(places: Flags, table: Flags, x: int, y: int) -> None:

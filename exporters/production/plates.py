@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from exporters.boards.nest import QUARTERS, DoesNotFitError, Laid, Room, nest
+from exporters.boards.nest import QUARTERS, Laid, Room, largest_scale, nest
 from exporters.production.boards import board_pieces
 from exporters.production.jobs import AssemblyJob, Job, assembly_name
 from exporters.verification.assembly import expected_of
@@ -112,12 +112,8 @@ def _laid_out(
     place: str,
 ) -> list[Laid]:
     room = Room(bed.width, bed.depth, bed.margin, bed.gap, QUARTERS)
-    scales = {p: bed.height / (high - low) for p, (_, low, high) in feet.items() if high - low > bed.height}
-    for part, (foot, _, _) in feet.items():
-        try:
-            nest({part: (foot, 1)}, room)
-        except DoesNotFitError as refusal:
-            scales[part] = min(refusal.scale, scales.get(part, math.inf))
+    every = {p: min(largest_scale(foot, room), bed.height / (high - low)) for p, (foot, low, high) in feet.items()}
+    scales = {part: scale for part, scale in every.items() if scale < 1}
     if scales:
         told = [
             Message("{part} ({scale})", {"part": p, "scale": f"{rounded(s, up=False):g}"}) for p, s in scales.items()

@@ -62,8 +62,9 @@ DAILY = {
     "thesis_internal_pair": "dxf", "tmm42": "svg", "wedge_cam": "stl", "yoke_cam": "svg",
     "james": "motion", "james_laser": "svg", "james_print": "glb", "compound_two_stage": "3mf",
 }  # fmt: skip
-# sets like those: built whole among the heavy ones, checked by sample with their recipe
+# sets like those: built whole among the heavy ones, checked by sample with their recipe; coupons have tests of their own
 LIKE_JAMES = {
+    "fit_coupon", "kerf_coupon",
     "david", "differential", "ferguson", "one_external_one_internal", "two_internal", "practicum_example_1",
     "practicum_example_2", "practicum_example_3", "practicum_example_3_laser", "practicum_example_3_print",
     "power_table_laser", "power_module_kinematics",

@@ -1,0 +1,155 @@
+"""Plates and coupons: what a printer and a laser get, measured on the files by trimesh, shapely and ezdxf."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+import re
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+import trimesh
+
+from exporters.command.cli import main
+from exporters.production.recheck import recheck
+from tests.exporters.production.test_boards import contours, pieces_of, polygon
+
+BED = """
+[parts.ring]
+kind = "pin"
+diameter = 40.0
+bore_diameter = 30.0
+length = {length}
+[parts.bar]
+kind = "plate"
+width = {width}
+height = 10.0
+face_width = 4.0
+[beds.printer]
+width = 80.0
+depth = 80.0
+height = 50.0
+copies = {{ bar = 4, ring = 3 }}
+{more}
+[[exports]]
+format = "3mf"
+purpose = "plate"
+"""
+
+
+def scene(folder: Path, *, width: float = 60.0, length: float = 5.0, more: str = "") -> Path:
+    file = folder / "set.toml"
+    file.write_text(BED.format(width=width, length=length, more=more), encoding="utf-8")
+    return file
+
+
+def meshes(file: Path) -> dict[str, trimesh.Trimesh]:
+    """Every item of a 3MF in its place, read from its text alone."""
+    text = zipfile.ZipFile(file).read("3D/3dmodel.model").decode()
+    objects = {}
+    for number, body in re.findall(r'<object id="(\d+)"[^>]*>(.*?)</object>', text, re.S):
+        corners = [[float(x) for x in row] for row in re.findall(r'<vertex x="(.*?)" y="(.*?)" z="(.*?)"', body)]
+        faces = [[int(x) for x in row] for row in re.findall(r'<triangle v1="(\d+)" v2="(\d+)" v3="(\d+)"', body)]
+        objects[number] = (np.array(corners), np.array(faces))
+    found = {}
+    for item in re.findall(r"<item [^>]*>", text):
+        number, name, place = (re.search(f'{key}="(.*?)"', item)[1] for key in ("objectid", "partnumber", "transform"))  # type: ignore[index]
+        rows = np.array([float(x) for x in place.split()]).reshape(4, 3)
+        corners, faces = objects[number]
+        found[name] = trimesh.Trimesh(corners @ rows[:3] + rows[3], faces, process=False)
+    return found
+
+
+def test_plates_lie_on_the_bed_and_apart(tmp_path: Path) -> None:
+    assert main(["build", str(scene(tmp_path)), "--out", str(tmp_path), "--quiet"]) == 0
+    files = sorted((tmp_path / "set").glob("set.plate.*.3mf"))
+    names: list[str] = []
+    for file in files:
+        found = meshes(file)
+        names += found
+        hulls = []
+        for mesh in found.values():
+            assert mesh.is_watertight
+            low, high = mesh.bounds
+            assert abs(low[2]) <= 1e-6
+            assert min(*low[:2], *(80 - high[:2])) >= 5 - 1e-6
+            hulls.append(shapely.MultiPoint(mesh.vertices[:, :2]).convex_hull)
+        assert min((a.distance(b) for a, b in itertools.combinations(hulls, 2)), default=9.0) >= 2 - 1e-6
+        assert recheck(file).verdict.failures == ()
+    assert sorted(names) == ["bar_1", "bar_2", "bar_3", "bar_4", "ring_1", "ring_2", "ring_3"]
+    # a wider gap than the one that was kept is noticed, and a narrower bed
+    for key, value in (("gap", 4.0), ("width", 70.0), ("height", 4.0)):
+        report = json.loads((tmp_path / "set" / "report.json").read_text("utf-8"))
+        report["scene"]["beds"]["printer"][key] = value
+        (tmp_path / "set" / "report.json").write_text(json.dumps(report), encoding="utf-8")
+        assert any(recheck(file).verdict.failures for file in files)
+
+
+@pytest.mark.parametrize(("keys", "words"), [
+    ({"width": 100.0, "length": 100.0}, "ring (0.5) and bar (0.6"), ({"width": 140.0}, "bar (0.49"),
+])  # fmt: skip
+def test_parts_too_large_for_a_bed_are_named_with_their_scale(
+    keys: dict[str, Any], words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["build", str(scene(tmp_path, **keys)), "--out", str(tmp_path)]) == 2
+    told = capsys.readouterr().err
+    assert told.count("\n") == 1
+    assert words.split(" and ", maxsplit=1)[0] in told
+    assert words.rsplit(" and ", maxsplit=1)[-1] in told
+    assert not (tmp_path / "set").exists()
+
+
+def test_the_kerf_coupon_tells_the_kerf(tmp_path: Path) -> None:
+    """Cut k wide, the plug of 10 mm fits the slot that is named k without play."""
+    assert main(["build", "kerf_coupon", "--out", str(tmp_path), "--quiet", "--format", "dxf", "--no-verify"]) == 0
+    file = tmp_path / "kerf_coupon" / "kerf_coupon.board.1.dxf"
+    rings = [polygon(rows) for _, rows in contours(file)]
+    pieces = pieces_of(file.parent, file.name)["pieces"]
+    (plug,) = (ring for ring in rings if ring.area == pytest.approx(100 + 25 * math.pi, rel=1e-3))
+    kerfs = []
+    for name, piece in pieces.items():
+        if not name.startswith("kerf"):
+            continue
+        at = shapely.Point(piece["at"])
+        slot = min((ring for ring in rings if ring.contains(at)), key=lambda ring: ring.area)
+        sides = sorted((slot.bounds[2] - slot.bounds[0], slot.bounds[3] - slot.bounds[1]))
+        kerf = int(piece["part"].removeprefix("kerf_")) / 100
+        assert sides[0] + kerf == pytest.approx(10 - kerf, abs=1e-6)
+        cut, left = slot.buffer(kerf / 2, 64), plug.buffer(-kerf / 2, 64)
+        assert cut.area == pytest.approx(left.area, rel=1e-3)
+        kerfs.append(kerf)
+    assert sorted(kerfs) == pytest.approx([0.06 + 0.02 * k for k in range(16)])
+
+
+@pytest.mark.heavy
+def test_the_fit_coupon_has_its_fits(tmp_path: Path) -> None:
+    assert main(["build", "fit_coupon", "--out", str(tmp_path), "--quiet", "--no-verify"]) == 0
+    (file,) = (tmp_path / "fit_coupon").glob("*.plate.*.3mf")
+    found = meshes(file)
+
+    def section(name: str) -> shapely.Polygon:
+        mesh = found[name]
+        mesh.apply_translation([*-mesh.bounds.mean(axis=0)[:2], 0.0])
+        lines = trimesh.intersections.mesh_plane(mesh, [0, 0, 1], [0, 0, 2.0])[:, :, :2].round(9)
+        faces = shapely.get_parts(shapely.polygonize([shapely.MultiLineString(list(lines))]))
+        return max(faces, key=lambda face: shapely.Polygon(face.exterior).area)
+
+    bores = [math.sqrt(4 * shapely.Polygon(hole).area / math.pi) for hole in section("bores_1").interiors]
+    assert sorted(bores) == pytest.approx([8 + k / 10 for k in range(7)], abs=0.02)
+    for k in range(5):
+        (hexagon,) = section(f"hexagon_{80 + k}_1").interiors
+        # 2 sqrt(3) r^2 about a circle of radius r
+        assert 2 * math.sqrt(shapely.Polygon(hexagon).area / (2 * math.sqrt(3))) == pytest.approx(8 + k / 10, abs=1e-3)
+    # teeth are thinner on the circle of 36 mm by half of j_bn / cos(20 deg), which is the same on both of a pair
+    circle = shapely.Point(0, 0).buffer(18, 512).exterior
+    thick = [shapely.Polygon(section(f"gear_{k}_1").exterior).intersection(circle).length / 18 for k in range(1, 6)]
+    backlash = np.array([0.05, 0.1, 0.15, 0.2, 0.3])
+    # the reference thickness is half of the pitch; chords of 0.01 mm stand within both flanks, alike on all
+    off = np.array(thick) - (math.pi - backlash / 2 / math.cos(math.radians(20)))
+    assert np.abs(off).max() <= 0.025
+    assert np.ptp(off) <= 1e-4
