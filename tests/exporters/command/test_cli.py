@@ -62,7 +62,7 @@ DAILY = {
     "thesis_internal_pair": "dxf", "tmm42": "svg", "wedge_cam": "stl", "yoke_cam": "svg",
     "james": "motion", "james_laser": "svg", "james_print": "glb", "compound_two_stage": "3mf",
 }  # fmt: skip
-# sets like those: built whole among the heavy ones, checked by sample with their recipe; coupons have tests of their own
+# sets like those: built whole among the heavy ones, checked by sample with their recipe; coupons have their own tests
 LIKE_JAMES = {
     "fit_coupon", "kerf_coupon",
     "david", "differential", "ferguson", "one_external_one_internal", "two_internal", "practicum_example_1",
