@@ -62,10 +62,10 @@ def read_model(entities: Entities) -> Model:
     _check_ends(curves, points, vertices, ids)
     model = Model(
         read.ids(*_SOLIDS), ids, curve < len(read.ids(_LINES)), curves, points, slopes, uses, faces, kind, solid,
-        frames, sizes, face_rows[:, 1] > 0, moved, _patches(read, surface), *np.zeros((2, len(faces))),
+        frames, sizes, face_rows[:, 1] > 0, moved, _patches(read, surface), *np.zeros((3, len(faces))),
     )  # fmt: skip
-    flux, gap = measure(model)
-    return replace(model, flux=flux, gap=gap)
+    flux, area, gap = measure(model)
+    return replace(model, flux=flux, area=area, gap=gap)
 
 
 class _Reader:

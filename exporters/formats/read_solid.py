@@ -11,7 +11,7 @@ from parts.base.readback import ReadError
 
 # axes are upright, and heights are one, so well: 1 - cosine, mm
 SQUARE, LEVEL = 1e-12, 1e-7
-_OF_FACES = ("faces", "kind", "solid", "sizes", "normal", "moved", "flux", "gap")
+_OF_FACES = ("faces", "kind", "solid", "sizes", "normal", "moved", "flux", "area", "gap")
 PLANE, ROUND, SPHERE, TORUS, EXTRUSION, SPLINE = range(6)
 # edges lie on their surfaces and end at their vertices this well, mm: as the files say themselves
 GAP = 1e-7
@@ -36,7 +36,7 @@ class Model(Record, eq=False):
     Edges (e,) are the first of ``curves``; those after them are the ones that extrusions move. Of all spans ``points``
     and ``slopes`` (n, 12, 3) at ``lobatto()``. Of faces (f,) ``kind``, ``solid``, ``frames``, ``sizes`` (f, 2),
     whether the ``normal`` is the surface's, and the curve that an extrusion has ``moved``; ``flux``: the share of the
-    volume, ``gap``, mm, between it and its edges. ``faces``, ``edges``, ``solids``: the ids of the entities.
+    volume, ``area``, mm^2, and ``gap``, mm, between it and its edges. ``faces``, ``edges``, ``solids``: ids.
     """
 
     solids: Index
@@ -55,6 +55,7 @@ class Model(Record, eq=False):
     moved: Index
     patches: tuple[Patches, ...]
     flux: Real
+    area: Real
     gap: Real
 
     @property

@@ -9,23 +9,25 @@ from __future__ import annotations
 
 import numpy as np
 
-from exporters.formats.read_curves import Patches, lobatto, spans_of
+from exporters.formats.read_curves import Flags, Patches, lobatto, spans_of
 from exporters.formats.read_part21 import Index, Real
 from exporters.formats.read_solid import EXTRUSION, GAP, PLANE, ROUND, SPHERE, TORUS, Model, refuse
 from geometry.base.record import Record
 from parts.base.readback import ReadError
 
-# an area of parameters that is none, rad^2
-_FLAT = 1e-9
 # edges of so many spans are held against their surfaces at a time; grid points of spline surfaces
 _ROWS, _POINTS_AT_ONCE = 20_000, 400_000
 
 
 class Forms(Record, eq=False):
-    """At nodes (n, k) of edges: distance from the surface, mm, and the 1-forms of flux, area of (u, v), and u."""
+    """At nodes (n, k) of edges: distance from the surface, mm, and the 1-forms of flux, area, area of (u, v), and u.
+
+    Of extrusions the last two areas hang on which way their moved curve is run: see ``_follow``.
+    """
 
     gap: Real
     flux: Real
+    size: Real
     area: Real
     turn: Real
 
@@ -41,50 +43,60 @@ def forms(kind: int, at: Real, step: Real, centre: Real, sizes: Real, about: Rea
     r, s = sizes[:, 0, None], sizes[:, 1, None]
     turn = x * step[..., 1] - y * step[..., 0]
     if kind == PLANE:
-        return Forms(np.abs(z), c3 / 6 * turn, turn / 2, turn)
+        return Forms(np.abs(z), c3 / 6 * turn, turn / 2, turn / 2, turn)
     if kind == EXTRUSION:
-        return Forms(np.zeros_like(x), -z / 3 * turn, np.zeros_like(x), turn)
+        none = np.zeros_like(x)
+        return Forms(none, -z / 3 * turn, none, none, turn)
     size = np.hypot(x, y)
     with np.errstate(divide="ignore", invalid="ignore"):
         turn = np.where(size > 0, turn / size**2, 0.0)
         across = np.where(size > 0, (x * c1 + y * c2) / size, 0.0)
     if kind == ROUND:
         # the normal is (n - s a) of size root(1 + s^2)
-        gap = np.abs(size - (r + z * s)) / np.sqrt(1 + s * s)
-        return Forms(gap, -(across - s * c3 + r) / 3 * (r * z + s * z * z / 2) * turn, -z * turn, turn)
+        slant, spread = np.sqrt(1 + s * s), -(r * z + s * z * z / 2) * turn
+        gap = np.abs(size - (r + z * s)) / slant
+        return Forms(gap, (across - s * c3 + r) / 3 * spread, slant * spread, -z * turn, turn)
     if kind == SPHERE:
         v = np.arctan2(z, size)
         inside = across * (v / 2 + np.sin(2 * v) / 4) + c3 * np.sin(v) ** 2 / 2 + r * np.sin(v)
-        return Forms(np.abs(np.hypot(size, z) - r), -r * r / 3 * inside * turn, -np.sin(v) * turn, turn)
+        area = -np.sin(v) * turn
+        return Forms(np.abs(np.hypot(size, z) - r), -r * r / 3 * inside * turn, r * r * area, area, turn)
     v = about[:, None] + np.angle((size - r + 1j * z) * np.exp(-1j * about)[:, None])
     a = across + r
     inside = (
         r * (a * np.sin(v) + c3 * (1 - np.cos(v)) + s * v)
         + s * (a * (v / 2 + np.sin(2 * v) / 4) + c3 * np.sin(v) ** 2 / 2 + s * np.sin(v))
     )  # fmt: skip
-    return Forms(np.abs(np.hypot(size - r, z) - s), -s / 3 * inside * turn, -v * turn, turn)
+    spread = -s * (r * v + s * np.sin(v)) * turn
+    return Forms(np.abs(np.hypot(size - r, z) - s), -s / 3 * inside * turn, spread, -v * turn, turn)
 
 
-def whole(kind: int, sizes: Real, along: Real, turns: Real, area: Real, sense: Real) -> Real:
-    """What faces round a pole of a sphere, and whole spheres and tori, have beside the flux of their bounds, (n,).
+def whole(kind: int, sizes: Real, along: Real, turns: Real, bare: Flags, sense: Real) -> tuple[Real, Real]:
+    """Flux and area that faces round a pole of a sphere, and whole spheres and tori, have beside those of their bounds.
 
-    ``along``: the centre's place on the axis; ``turns``: of the bounds round the axis; ``area``: by the 1-form.
+    ``along``: the centre's place on the axis; ``turns``: of the bounds round it; ``bare``: without bounds but seams.
     """
     r, s = sizes.T
     if kind == TORUS:
-        return np.where(sense * area < _FLAT, sense * 2 * np.pi**2 * r * s * s, 0.0)
+        size = np.where(bare, sense * 4 * np.pi**2 * r * s, 0.0)
+        return size * s / 2, size
     poles = np.sign((turns / (2 * np.pi)).round()) * sense
-    one = sense * 2 * np.pi * r * r / 3 * (r + poles * along / 2)
-    return np.where(poles != 0, one, np.where(sense * area < _FLAT, sense * 4 * np.pi / 3 * r**3, 0.0))
+    size = sense * 2 * np.pi * r * r * np.where(poles != 0, 1.0, np.where(bare, 2.0, 0.0))
+    return size * (r + poles * along / 2) / 3, size
 
 
-def measure(model: Model) -> tuple[Real, Real]:
-    """Flux and gap of every face, which must lie on the left of its bounds."""
+def measure(model: Model) -> tuple[Real, Real, Real]:
+    """Flux, area and gap of every face, which must lie on the left of its bounds."""
     uses, count = model.uses, len(model.faces)
-    flux, area, turns, about, gap = np.zeros((5, count))
+    flux, size, area, turns, about, gap = np.zeros((6, count))
     span, row = spans_of(model.curves, uses.edge)
     kinds = model.kind[uses.face[row]]
     weights = lobatto()[1]
+    # edges on both sides of which one face lies
+    pairs = np.argsort(uses.edge, kind="stable").reshape(-1, 2)
+    seams = np.empty(len(uses.edge), dtype=bool)
+    seams[pairs] = (uses.face[pairs[:, 0]] == uses.face[pairs[:, 1]])[:, None]
+    bare = np.bincount(uses.face, ~seams, count) == 0
     for kind in (PLANE, ROUND, SPHERE, TORUS, EXTRUSION):
         mine = np.flatnonzero(kinds == kind)
         if kind == TORUS and mine.size:
@@ -95,24 +107,28 @@ def measure(model: Model) -> tuple[Real, Real]:
             at = model.frames.local(face, model.points[span[part]])
             way = np.where(uses.left[row[part]], 1.0, -1.0)[:, None, None]
             step = way * model.frames.local(face, model.slopes[span[part]], moved=False)
+            if kind == SPHERE:
+                poles = (np.hypot(at[..., 0], at[..., 1]).min(axis=1) <= GAP) & ~seams[row[part]]
+                refuse(poles, model.faces[face], "is a face with an edge through a pole")
             found = forms(kind, at, step, model.frames.centres[face], model.sizes[face], about[face])
-            for total, form in ((flux, found.flux), (area, found.area), (turns, found.turn)):
+            for total, form in (flux, found.flux), (size, found.size), (area, found.area), (turns, found.turn):
                 total += np.bincount(face, form @ weights, count)
             np.maximum.at(gap, face, found.gap.max(axis=1))
     sense = np.where(model.normal, 1.0, -1.0)
     for kind in (SPHERE, TORUS):
         mine = np.flatnonzero(model.kind == kind)
-        more = whole(kind, model.sizes[mine], model.frames.centres[mine, 2], turns[mine], area[mine], sense[mine])
-        flux[mine] += more
-        area[mine] += np.where(more != 0, sense[mine] * np.inf, 0.0)
-    _follow(model, np.flatnonzero(model.kind[uses.face] == EXTRUSION), area, gap)
+        more = whole(kind, model.sizes[mine], model.frames.centres[mine, 2], turns[mine], bare[mine], sense[mine])
+        flux[mine] += more[0]
+        size[mine] += more[1]
+        area[mine] += np.where(more[1] != 0, sense[mine] * np.inf, 0.0)
+    _follow(model, np.flatnonzero(model.kind[uses.face] == EXTRUSION), size, area, gap)
     for patches in model.patches:
-        _measure_patches(model, patches, flux, area, gap)
+        _measure_patches(model, patches, flux, size, area, gap)
     if not gap.max(initial=0.0) <= GAP:
         wrong = int(np.argmax(gap))
         raise ReadError(f"#{model.faces[wrong]} of the STEP file is {gap[wrong]:.6g} mm away from its edges")
     refuse(~(sense * area > 0), model.faces, "is a face turned inside out")
-    return flux, gap
+    return flux, np.abs(size), gap
 
 
 def _about(model: Model, span: Index, face: Index) -> Real:
@@ -125,7 +141,7 @@ def _about(model: Model, span: Index, face: Index) -> Real:
     )
 
 
-def _follow(model: Model, mine: Index, area: Real, gap: Real) -> None:
+def _follow(model: Model, mine: Index, size: Real, area: Real, gap: Real) -> None:
     """Edges of extrusions: straight ones are rulings at an end of the moved curve, others its copies, span by span."""
     uses, curves = model.uses, model.curves
     face, edge = uses.face[mine], uses.edge[mine]
@@ -151,11 +167,14 @@ def _follow(model: Model, mine: Index, area: Real, gap: Real) -> None:
         off[copy] = np.minimum(*gaps)
         with_it = np.where(gaps[0] <= gaps[1], 1.0, -1.0) * np.where(uses.left[mine[copy]], 1.0, -1.0)
         height = np.add.reduceat(at[..., 2].mean(axis=1), begin) / curves.counts[edge[copy]]
+        steps = model.frames.local(face[copy][row], model.slopes[span], moved=False)
+        length = np.add.reduceat(np.hypot(steps[..., 0], steps[..., 1]) @ lobatto()[1], begin)
         np.add.at(area, face[copy], -height * with_it)
+        np.add.at(size, face[copy], -height * with_it * length)
     np.maximum.at(gap, face, off)
 
 
-def _measure_patches(model: Model, patches: Patches, flux: Real, area: Real, gap: Real) -> None:
+def _measure_patches(model: Model, patches: Patches, flux: Real, size: Real, area: Real, gap: Real) -> None:
     """Spline faces between the four ends of their surfaces: the same, by Gauss's rule on every span."""
     uses, curves = model.uses, model.curves
     nodes, weights = lobatto()
@@ -169,10 +188,12 @@ def _measure_patches(model: Model, patches: Patches, flux: Real, area: Real, gap
     for start in range(0, len(mine), block):
         part = slice(start, start + block)
         points, along, across = patches.grid(nodes, nodes, part)
-        normal = np.sum(points * np.cross(along, across), axis=3) / 3
-        spread = np.einsum("nij,i,j->n", normal, np.tile(weights, shape[0]), np.tile(weights, shape[1]))
+        normal = np.cross(along, across)
+        wide, high = np.tile(weights, shape[0]), np.tile(weights, shape[1])
+        spread = np.einsum("nij,i,j->n", np.sum(points * normal, axis=3) / 3, wide, high)
         faces = patches.faces[part]
         flux[faces] = np.where(model.normal[faces], spread, -spread)
+        size[faces] = np.einsum("nij,i,j->n", np.sqrt(np.sum(normal * normal, axis=3)), wide, high)
         sides = points[:, :, 0], points[:, -1], points[:, ::-1, -1], points[:, 0, ::-1]
         # the side that each edge runs along, and whether round the patch on its left
         side, way, off = (np.full((len(faces), 4), x) for x in (-1, 0.0, np.inf))

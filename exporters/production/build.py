@@ -149,7 +149,7 @@ def _by_kernel_too(item: Written) -> Written:
 
     stood = item.job.instances if isinstance(item.job, AssemblyJob) else ()
     solids = [bodies[i.part] for i in stood] or list(bodies.values())
-    verdict = judged_by_kernel(item.file, solids, item.max_error, Verdict(item.measured, ()))
+    verdict = judged_by_kernel(item.file, solids, Verdict(item.measured, ()))
     return replace(item, measured=verdict.measured, failures=verdict.failures)
 
 

@@ -109,19 +109,17 @@ def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, A
     also = audited if kind.form is Form.ARCS and kind.format == "dxf" else None
     offset = float(entry["offset"])
     verdict = verify_part(file, kind, part, offset, declared, tolerance, also)
-    verdict = _by_kernel_too(file, kind, [part], offset, declared, verdict)
+    verdict = _by_kernel_too(file, kind, [part], offset, verdict)
     return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
 
 
-def _by_kernel_too(
-    file: Path, kind: FileKind, parts: Sequence[Part], offset: float, declared: float, verdict: Verdict
-) -> Verdict:
+def _by_kernel_too(file: Path, kind: FileKind, parts: Sequence[Part], offset: float, verdict: Verdict) -> Verdict:
     """A good STEP file is held against the CAD kernel as well, where that is installed."""
     if kind.form is not Form.FACES or verdict.failures or find_spec("OCP") is None:
         return verdict
     from exporters.verification.kernel import judged_by_kernel
 
-    return judged_by_kernel(file, [part.body(offset) for part in parts], declared, verdict)
+    return judged_by_kernel(file, [part.body(offset) for part in parts], verdict)
 
 
 def audited(file: Path) -> None:
@@ -185,5 +183,5 @@ def _against_assembly(file: Path, source: str, scene: SceneFile, entry: dict[str
     expected = expected_of(assembly_name(scene.name), used, float(entry["offset"]), instances)
     verdict = verify_assembly(file, kind, expected, declared, tolerance)
     stood = [made[i.part] for i in instances]
-    verdict = _by_kernel_too(file, kind, stood, expected.offset, declared, verdict)
+    verdict = _by_kernel_too(file, kind, stood, expected.offset, verdict)
     return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])

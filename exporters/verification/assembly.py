@@ -76,10 +76,13 @@ def _verdict(found: ReadAssembly, expected: ExpectedAssembly, check: Callable[[R
         if not off <= _PLACE + _DIGITS * (reach[part] + float(np.abs(place[:, 3]).max())):
             failures.append(f"instance {name} stands {off:.6g} mm off its place")
     measured["max_displacement"] = worst_place
-    for name, shape, colour in found.prototypes:
+    volume = bound = 0.0
+    for index, (name, shape, colour) in enumerate(found.prototypes):
         if name not in expected.parts:
             continue
         verdict = check(shape, expected.parts[name])
+        share = verdict.measured.get("volume", 0.0) * sum(o.prototype == index for o in found.occurrences)
+        volume, bound = volume + share, bound + share * verdict.measured.get("volume_bound", 0.0)
         failures += [f"{name}: {failure}" for failure in verdict.failures]
         if not same_shade(colour, expected.parts[name].colour):
             failures.append(f"{name} is coloured {colour} instead of {expected.parts[name].colour}")
@@ -87,7 +90,7 @@ def _verdict(found: ReadAssembly, expected: ExpectedAssembly, check: Callable[[R
         measured["max_deviation"] = max(measured.get("max_deviation", 0.0), deviation)
         # what the probes say, under the part's name
         measured |= {key: value for key, value in verdict.measured.items() if key.startswith(f"{name}.")}
-    return Verdict(measured, tuple(failures))
+    return Verdict(measured | ({"volume_bound": bound / volume} if bound else {}), tuple(failures))
 
 
 def _name_failures(what: str, found: list[str], expected: list[str]) -> list[str]:

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from exporters.formats.read_solid import ROUND
+from exporters.formats.read_solid import EXTRUSION, ROUND, SPLINE
 from exporters.formats.read_step import ReadSolid
 from exporters.formats.readback import ReadMesh
 from exporters.verification.samples import edge_points, inner_points
 from exporters.verification.topology import doubled_normals, topology_failures
-from exporters.verification.verdict import Verdict, deviation_failures, volume_failures
+from exporters.verification.verdict import Verdict, deviation_failures, volume_bound, volume_failures
 
 if TYPE_CHECKING:
     from geometry.solids.faced import Faced
@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 # places of the samples in each triangle, in sixths
 _PLACES = [(a, b, 6 - a - b) for a in range(7) for b in range(7 - a)]
 SHARES = np.array(_PLACES, dtype=float) / 6
-# the volume is good to this, part of it, and to the walls' error
-_VOLUME = 1e-7
 
 
 def verify_faced_mesh(mesh: ReadMesh, body: Faced, declared: float, tolerance: float) -> Verdict:
@@ -90,10 +88,13 @@ def verify_faced_solid(found: ReadSolid, body: Faced, declared: float, tolerance
     failures = [f"a {surface.what} of the part is missing" for i, surface in enumerate(surfaces) if i not in used]
     failures += deviation_failures(worst, declared, tolerance, body.reach())
     volume, exact = float(model.flux.sum()), body.moments.volume
-    failures += volume_failures(volume, exact, _VOLUME + declared * body.slack / exact, found.said.get("volume"))
+    walls = float(model.area[np.isin(model.kind, (EXTRUSION, SPLINE))].sum())
+    bound = volume_bound(exact, float(model.area.sum()), walls + body.slack, declared)
+    failures += volume_failures(volume, exact, bound, found.said.get("volume"))
     measured = {
         "volume": volume,
         "volume_error": volume / exact - 1,
+        "volume_bound": bound / exact,
         "cylinders": float(np.count_nonzero((model.kind == ROUND) & (model.sizes[:, 1] == 0))),
         "max_deviation": worst,
     }

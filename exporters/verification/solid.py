@@ -11,7 +11,7 @@ from exporters.formats.read_step import ReadSolid
 from exporters.verification.chamfers import chamfer_deviation
 from exporters.verification.outlines import verify_samples
 from exporters.verification.samples import edge_points, foot_points, inner_points
-from exporters.verification.verdict import Verdict, deviation_failures, volume_failures
+from exporters.verification.verdict import Verdict, deviation_failures, volume_bound, volume_failures
 from geometry.curves.curve import Complex
 from geometry.curves.line_arc import Arc
 from geometry.plane.measure import distance_to_nearest, distance_to_profile
@@ -19,7 +19,6 @@ from geometry.plane.profile import Profile
 from geometry.solids.body import Body, Wall
 from geometry.solids.mass import body_moments, wall_area
 
-_VOLUME = 1e-7
 # heights of walls are told apart by so many digits
 _DIGITS = 6
 
@@ -28,12 +27,11 @@ def verify_solid(found: ReadSolid, body: Body, declared: float, tolerance: float
     """Hold a re-read solid against its exact body: caps, walls, cylinders, volume."""
     model = found.model
     exact, volume = body_moments(body).volume, float(model.flux.sum())
+    bound = volume_bound(exact, float(model.area.sum()), wall_area(body), declared)
     reach = max(p.reach() for p in body.profiles)
     cylinders = int(np.count_nonzero((model.kind == ROUND) & (model.sizes[:, 1] == 0)))
     failures = _cylinder_failures(cylinders, body)
-    failures += volume_failures(
-        volume, exact, _VOLUME + 2 * declared * wall_area(body) / exact, found.said.get("volume")
-    )
+    failures += volume_failures(volume, exact, bound, found.said.get("volume"))
     flat = (model.kind == PLANE) & (np.abs(model.frames.axes[:, 2, 2]) > 1 - SQUARE)
     sheared = body.has_screws() and not body.twisted_profiles()
     upright = model.is_upright & ~flat & (not sheared)
@@ -57,6 +55,7 @@ def verify_solid(found: ReadSolid, body: Body, declared: float, tolerance: float
     measured = {
         "volume": volume,
         "volume_error": volume / exact - 1,
+        "volume_bound": bound / exact,
         "cylinders": float(cylinders),
         "contours": float(contours),
         "max_deviation": worst,

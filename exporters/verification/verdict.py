@@ -9,6 +9,8 @@ from geometry.base.record import Record
 
 # rounding of the measurement itself, as a part of the section's size
 _ROUNDING = 1e-13
+# what volumes are good to, part of them, and how far a file's rounding moves a surface, mm
+_VOLUME, _LAST_DECIMAL = 1e-9, 1e-8
 
 
 class Verdict(Record):
@@ -35,11 +37,19 @@ def deviation_failures(worst: float, declared: float, tolerance: float, reach: f
     return failures
 
 
-def volume_failures(volume: float, exact: float, share: float, said: str | float | None) -> list[str]:
-    """What is wrong with a volume, mm^3: measured off by more than a share of it, or told in the file as another."""
+def volume_bound(exact: float, area: float, walls: float, declared: float) -> float:
+    """How much the volume of a file may differ at most, mm^3, whose ``walls`` are off by up to what is ``declared``.
+
+    ``area``: of all faces, which rounding moves; ``walls``: mm^2 that a mm on all walls changes of the volume.
+    """
+    return _VOLUME * exact + _LAST_DECIMAL * area + declared * walls
+
+
+def volume_failures(volume: float, exact: float, bound: float, said: str | float | None) -> list[str]:
+    """What is wrong with a volume, mm^3: measured off by more than a bound, or told in the file as another."""
     failures = []
-    if not abs(volume - exact) <= share * exact:
+    if not abs(volume - exact) <= bound:
         failures.append(f"volume {volume:.12g} mm^3 instead of {exact:.12g} mm^3")
-    if said is not None and not abs(float(said) - exact) <= share * exact:
+    if said is not None and not abs(float(said) - exact) <= bound:
         failures.append(f"says that its volume is {said} mm^3 instead of {exact:.12g} mm^3")
     return failures

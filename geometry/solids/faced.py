@@ -61,7 +61,7 @@ class Faced(Protocol):
 
     @property
     def slack(self) -> float:
-        """What a change of all surfaces by one mm changes of the volume at most, mm^2."""
+        """How much the volume of ``moments`` may be off for each mm that a file's faces are, mm^2; 0: exact."""
 
     def levels(self) -> tuple[float, ...]:
         """Heights, the lowest first, the highest last."""
@@ -114,8 +114,8 @@ class FacedBody(Record, dict=True):
 
     @property
     def slack(self) -> float:
-        """What a change of all surfaces by one mm changes of the volume at most, mm^2: twice their area."""
-        return 2 * self._measured.area
+        """How much the volume of ``moments`` may be off for each mm that a file's faces are, mm^2; 0: exact."""
+        return self._measured.area if self.walls and self.own_moments is None else 0.0
 
     @cached_property
     def box(self) -> tuple[Real, Real]:

@@ -127,13 +127,14 @@ def _nodes(profile: Profile) -> tuple[Complex, Complex, Real]:
 
 
 def wall_area(body: Body) -> float:
-    """What a change of all walls by one mm changes of the volume at most, mm^2: their area, twice that of screws."""
+    """What a change of all walls by one mm within the planes of their heights changes of the volume at most, mm^2."""
     lengths: dict[int, float] = {}
     area = 0.0
     for wall in body.walls:
-        profile = body.loops[wall.lower].profile
-        if profile not in lengths:
-            lengths[profile] = profile_length(body.profiles[profile])
+        profiles = [body.loops[loop].profile for loop in (wall.lower, wall.upper)]
+        for profile in profiles:
+            if profile not in lengths:
+                lengths[profile] = profile_length(body.profiles[profile])
         low, high = body.height(wall)
-        area += lengths[profile] * (high - low) * (1 if body.is_upright(wall) else 2)
+        area += max(lengths[profile] for profile in profiles) * (high - low)
     return area

@@ -59,12 +59,15 @@ def axes_of(asked: Sequence[str], scene: SceneFile) -> list[Axis]:
             raise SceneError(PLACE, key, text, "no_such_part", meant(part, scene.parts), known=list(scene.parts))
         if any(axis.key == key for axis in found):
             raise SceneError(PLACE, key, text, "given_twice")
-        axis = Axis(key, tuple(_values(key, text)))
+        axis = Axis(key, _counted(key, tuple(_values(key, text)), scene))
         names = [_name(key, value).lower() for value in axis.values]
         for i, value in enumerate(axis.values):
             if value in axis.values[:i] or names[i] in names[:i]:
                 raise SceneError(PLACE, key, value, "listed_twice")
-        _check_key(axis, scene)
+        refusal = _refusal(key, axis.values[0], scene)
+        # what a value does is the variant's
+        if refusal is not None and refusal.code in ("unknown_key", "not_a_table"):
+            raise refusal
         found.append(axis)
     if (count := prod(len(axis.values) for axis in found)) > MOST_VARIANTS:
         raise SceneError(PLACE, " ".join(asked), None, "too_many_variants", count=count, most=MOST_VARIANTS)
@@ -104,13 +107,22 @@ def _range(key: str, text: str, ends: Sequence[str]) -> list[Any]:
     return [number(first + k * step) for k in range(int((last - first) / step) + 1)]
 
 
-def _check_key(axis: Axis, scene: SceneFile) -> None:
-    """Refuse a key that the part has not, whatever its value; what a value does is the variant's."""
+def _counted(key: str, values: tuple[Any, ...], scene: SceneFile) -> tuple[Any, ...]:
+    """Values of a key; where it takes whole numbers only, those that are whole as such: 8 of 8:9:0.5."""
+    whole = [value for value in values if isinstance(value, float) and value.is_integer()]
+    refusals = [_refusal(key, value, scene) for value in (*whole[:1], *map(int, whole[:1]))]
+    if [error is not None and error.code == "wrong_type_of" for error in refusals] != [True, False]:
+        return values
+    return tuple(int(value) if value in whole else value for value in values)
+
+
+def _refusal(key: str, value: object, scene: SceneFile) -> SceneError | None:
+    """Why a key may not take a value."""
     try:
-        scene_from_resolved(_with(resolved(scene), {axis.key: axis.values[0]}), PLACE)
+        scene_from_resolved(_with(resolved(scene), {key: value}), PLACE)
     except SceneError as error:
-        if error.code in ("unknown_key", "not_a_table"):
-            raise
+        return error
+    return None
 
 
 def _with(scene: dict[str, Any], values: dict[str, Any]) -> dict[str, Any]:

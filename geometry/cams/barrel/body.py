@@ -188,8 +188,8 @@ class BarrelBody(Record):
 
     @property
     def slack(self) -> float:
-        """What a change of the walls by one mm changes of the volume at most, mm^2."""
-        return 10 * self.moments.volume / (self.cam.outer - self.cam.inner)
+        """Its moments are exact."""
+        return 0.0
 
     def _bore_ends(self) -> tuple[float, float]:
         below, above = (0.0, 0.0) if self.hub is None else self.hub[1:]

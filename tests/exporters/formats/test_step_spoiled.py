@@ -15,7 +15,9 @@ import pytest
 from exporters.formats.read_part21 import read_part21
 from exporters.formats.read_step import read_step
 from exporters.production.recheck import recheck
+from exporters.verification.kernel import judged_by_kernel
 from parts.base.readback import ReadError
+from parts.scene.load import load_scene, make_parts
 from tests.exporters.making import part_keys, read_report, run, write_scene
 from tests.exporters.outside import Gear
 
@@ -311,19 +313,91 @@ def test_a_product_definition_of_another_thing_is_told(good: Path, tmp_path: Pat
     assert any("which is no PRODUCT" in failure for failure in verdict(file))
 
 
+BARREL = (
+    'kind = "barrel_cam"\nform = "groove"\nlift = 20.0\nouter_diameter = 60.0\nroller_diameter = 10.0\n'
+    'groove_depth = 8.0\nbore = { shape = "keyway", diameter = 20.0 }\n'
+    'phases = [{ move = "rise", angle_deg = 180.0, law = "sine" }, '
+    '{ move = "return_", angle_deg = 180.0, law = "sine" }]\n'
+)
+
+
 @pytest.mark.parametrize(
-    "keys",
-    [
-        'kind = "ring_gear"\nnumber_of_teeth = 72\nmodule = 1.0\n',
-        'kind = "barrel_cam"\nform = "groove"\nlift = 20.0\nouter_diameter = 60.0\nroller_diameter = 10.0\n'
-        'groove_depth = 8.0\nbore = { shape = "keyway", diameter = 20.0 }\n'
-        'phases = [{ move = "rise", angle_deg = 180.0, law = "sine" }, '
-        '{ move = "return_", angle_deg = 180.0, law = "sine" }]\n',
-    ],
-    ids=["ring", "barrel"],
+    "keys", ['kind = "ring_gear"\nnumber_of_teeth = 72\nmodule = 1.0\n', BARREL], ids=["ring", "barrel"]
 )
 def test_a_good_step_is_good_at_a_loose_tolerance(keys: str, tmp_path: Path) -> None:
     # strangers: a ring's volume was held to its reach, a barrel's edges left its walls by 3e-5 mm
     file = tmp_path / "s.toml"
     file.write_text(f'[parts.g]\n{keys}[[exports]]\nformat = "step"\ntolerance = 0.01\n', encoding="utf-8")
     assert run("build", file, "--out", tmp_path / "o") == 0
+
+
+GEAR = 'kind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 16\nface_width = 10.0\n'
+
+
+@pytest.mark.parametrize(
+    ("keys", "size", "share"),
+    [(GEAR, "face_width = 10.0", 4e-7), (BARREL, "outer_diameter = 60.0", 3e-8)],
+    ids=["plate", "barrel"],
+)
+def test_a_volume_that_is_little_wrong_is_refused(keys: str, size: str, share: float, tmp_path: Path) -> None:
+    """No more is allowed than the walls within the declared error, and the last decimal, can change."""
+    scene = tmp_path / "s.toml"
+    scene.write_text(f'[parts.g]\n{keys}[[exports]]\nformat = "step"\n', encoding="utf-8")
+    assert run("build", scene, "--out", tmp_path) == 0
+    file = tmp_path / "s" / "g.step"
+    good = recheck(file).verdict
+    assert good.failures == ()
+    text = file.read_text(encoding="ascii")
+    for wrong in (1 - share, 1 + share):
+        changed = re.sub(rf"(VOLUME_MEASURE\()({NUMBER})", lambda m, w=wrong: f"{m[1]}{float(m[2]) * w:.9f}", text)
+        file.write_text(changed, encoding="ascii", newline="\n")
+        assert verdict(file)
+    pytest.importorskip("OCP", reason="the CAD kernel is an extra")
+    name, _, number = size.partition(" = ")
+    larger = f"{name} = {float(number) * (1 + share)}"
+    scene.write_text(f"[parts.g]\n{keys.replace(size, larger)}", encoding="utf-8")
+    body = make_parts(load_scene(str(scene)), "s")[0]["g"].body(0.0)
+    file.write_text(text, encoding="ascii", newline="\n")
+    assert any("the kernel finds" in failure for failure in judged_by_kernel(file, [body], good).failures)
+
+
+def test_balls_and_rings_are_measured_and_what_is_not_understood_is_refused(tmp_path: Path) -> None:
+    """Spheres and tori cut and written by the kernel: volume and area by its own integrals; edges at poles are told."""
+    pytest.importorskip("OCP", reason="the CAD kernel is an extra")
+    from OCP.BRepAlgoAPI import BRepAlgoAPI_Common, BRepAlgoAPI_Cut
+    from OCP.BRepGProp import BRepGProp
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox, BRepPrimAPI_MakeCylinder, BRepPrimAPI_MakeSphere
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeTorus as Torus
+    from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
+    from OCP.GProp import GProp_GProps
+    from OCP.Interface import Interface_Static
+    from OCP.STEPControl import STEPControl_AsIs, STEPControl_Writer
+
+    ball, quarter = (
+        BRepPrimAPI_MakeSphere(5.0).Shape(),
+        BRepPrimAPI_MakeBox(gp_Pnt(0, 0, -9), gp_Pnt(20, 20, 9)).Shape(),
+    )
+    slab = BRepPrimAPI_MakeBox(gp_Pnt(-9, -9, -4), gp_Pnt(9, 9, 3)).Shape()
+    drum = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, -5), gp_Dir(0, 0, 1)), 8.0, 10.0).Shape()
+    tilted = gp_Ax2(gp_Pnt(3, 4, 5), gp_Dir(1, 2, 3))
+    shapes = {
+        BRepAlgoAPI_Common(ball, slab).Shape(): None,
+        Torus(tilted, 10.0, 3.0).Shape(): None,
+        BRepAlgoAPI_Cut(drum, Torus(8.0, 2.0).Shape()).Shape(): None,
+        BRepAlgoAPI_Common(ball, quarter).Shape(): "through a pole",
+        BRepAlgoAPI_Common(Torus(10.0, 3.0).Shape(), quarter).Shape(): "inside out",
+    }
+    Interface_Static.SetIVal_s("write.surfacecurve.mode", 0)
+    for shape, refusal in shapes.items():
+        writer = STEPControl_Writer()
+        writer.Transfer(shape, STEPControl_AsIs)
+        writer.Write(str(tmp_path / "k.step"))
+        if refusal is not None:
+            with pytest.raises(ReadError, match=refusal):
+                read_step(tmp_path / "k.step")
+            continue
+        model, volume, area = read_step(tmp_path / "k.step").model, GProp_GProps(), GProp_GProps()
+        BRepGProp.VolumePropertiesGK_s(shape, volume, 1e-11)
+        BRepGProp.SurfaceProperties_s(shape, area, 1e-11)
+        assert model.flux.sum() == pytest.approx(volume.Mass(), rel=1e-11)
+        assert model.area.sum() == pytest.approx(area.Mass(), rel=1e-11)

@@ -38,6 +38,12 @@ def test_lists_and_ranges(text: str, values: list[object]) -> None:
     assert [type(v) for v in axis.values] == [type(v) for v in values]
 
 
+def test_a_step_of_a_half_finds_the_whole_numbers_of_a_key_that_takes_no_others() -> None:
+    # all of them were refused, 8.0 teeth too
+    (axis,) = axes_of(["gear.number_of_teeth=8:9:0.5"], SCENE)
+    assert [(value, type(value)) for value in axis.values] == [(8, int), (8.5, float), (9, int)]
+
+
 def test_every_choice_once_in_a_folder_of_its_own() -> None:
     axes = axes_of(["gear.number_of_teeth=8:10", "other.module=1,2.5", "gear.material=ÄÖ/..,steel"], SCENE)
     found = list(variants(SCENE, axes))
