@@ -52,7 +52,7 @@ Place = NDArray[np.float64]
 class ReadSolid(Record, eq=False):
     """One solid, the names of the products in its file, its colour and what it says of itself, where it does.
 
-    ``said``: words or numbers under "material name", "density" (g/cm^3), "volume" (mm^3).
+    ``said``: words or numbers under "title", "material name", "density" (g/cm^3), "volume" (mm^3).
     """
 
     model: Model
@@ -111,6 +111,7 @@ class _Products:
         self.items, self.entities = entities.items, entities
         self.model = read_model(entities)
         # definitions of products: their names, what represents them, and how they are used in others
+        self.titles: dict[str, str] = {}
         self.names = {n: self._name(item) for n, item in self._of("PRODUCT_DEFINITION")}
         self.shapes: dict[int, Item] = {}
         self.representations: dict[int, int] = {}
@@ -159,7 +160,8 @@ class _Products:
             raise ReadError(f"{name} has {len(solids)} solids instead of 1")
         colour = self.colours.get(solids[0])
         model = self.model.only(self.model.solids.tolist().index(solids[0]))
-        return Prototype(name, ReadSolid(model, (name,), colour, self.said.get(definition, {})), colour)
+        said = {**self.said.get(definition, {}), **({"title": self.titles[name]} if name in self.titles else {})}
+        return Prototype(name, ReadSolid(model, (name,), colour, said), colour)
 
     def _of(self, kind: str) -> list[tuple[int, Item]]:
         return [(number, item) for number, item in self.items.items() if item.kind == kind]
@@ -168,8 +170,8 @@ class _Products:
         (product,) = self.items[definition.references[0]].references
         identity, name, _ = self.items[product].strings
         if identity != name:
-            raise ReadError(f"#{product} of the STEP file is called {identity} and {name}")
-        return name
+            self.titles[identity] = name
+        return identity
 
     def _frames(self, axes: list[int], who: int) -> Frames:
         return frames_of(self.entities, np.array(axes), np.full(len(axes), who))

@@ -257,7 +257,7 @@ def _step_part(content: Content, made: SolidCurves) -> StepPart:
 
     part, body = content.part, content.body
     volume = part.made_by.moments(body).volume
-    return StepPart(part.id, solid_faces(body, made), part.colour, part.material, part.density, volume)
+    return StepPart(part.id, solid_faces(body, made), part.colour, part.material, part.density, volume, part.title)
 
 
 def _step_form(content: Content) -> StepForm:

@@ -54,6 +54,6 @@ def cam_sheets(
         page = calculation.sheet(table)
         # the position in numbers is for the page alone
         page.sections = [s for s in page.sections if not {x.name for x in s.steps} & _PAGE_ALONE]
-        made = cam_sheet(part, picture, page, asked)
+        made = cam_sheet(spec.title or part, picture, page, asked)
         found += [(part if len(made) == 1 else f"{part}.{k}", one) for k, one in enumerate(made, 1)]
     return found

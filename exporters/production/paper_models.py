@@ -18,8 +18,11 @@ from parts.drawing.tiles import Edge, model_pages
 def paper_models(title: str, parts: Mapping[str, Part], wanted: Sequence[str] | None, asked: Asked) -> list[Expected]:
     """The sheets of the parts that are wanted, all of them by default."""
     outlines, errors = {}, {}
-    for name in wanted or parts:
-        profiles = parts[name].section(0.0).region.profiles()
+    for part in (parts[name] for name in wanted or parts):
+        name = (
+            part.id if part.title is None else part.title if part.title not in outlines else f"{part.title} {part.id}"
+        )
+        profiles = part.section(0.0).region.profiles()
         made = [approximate_profile(p, asked.tolerance, arcs=True) for p in profiles]
         outlines[name] = [edge for one in made for edge in _edges(one.geometry)]
         errors[name] = max(one.max_error for one in made)

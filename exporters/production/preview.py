@@ -71,7 +71,7 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
         line = f"fill:none;stroke:{colour};stroke-width:{reach / 600:.4g};stroke-dasharray:{dash}"
         lines.append(f'<circle cx="{number(middle)}" cy="{number(middle)}" r="{number(diameter / 2)}" style="{line}"/>')
     lines += _cross(middle, reach)
-    lines += _caption([part.id, *rows, *remarks], 2 * middle + text, text)
+    lines += _caption([part.title or part.id, *rows, *remarks], 2 * middle + text, text)
     file = folder / f"{part.id}.preview.svg"
     save(file, lines)
     return file
@@ -119,7 +119,7 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
         if instance.axis != UPWARDS:
             place, height = complex(outers[index].mean()) + shift, 0.0
         x, y = middle + place.real, middle - place.imag - height
-        labels.append(Label(instance.id, x, y, size))
+        labels.append(Label(plan.parts[instance.part].title or instance.id, x, y, size))
     style = f"font-family:sans-serif;font-size:{size:.4g}px;text-anchor:middle;fill:#202830"
     for label in spread_labels(labels):
         lines.append(f'<text x="{label.x:.4g}" y="{label.y:.4g}" style="{style}">{escaped(label.text)}</text>')

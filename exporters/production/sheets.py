@@ -209,7 +209,9 @@ def _add_title_block(expected: Expected, scene: SceneFile, export: ExportSpec, s
         return
     language = scene.scene.language
     scale = scale_text(expected.paper.scale, language)
-    block = title_block_of(export.title_block, scene.scene.title or scene.name, scale, min(sheet, sheets), sheets)
+    shown = [scene.parts[part].title for part in export.parts or ()]
+    title = (shown[0] if len(shown) == 1 else None) or scene.scene.title or scene.name
+    block = title_block_of(export.title_block, title, scale, min(sheet, sheets), sheets)
     draw_title_block(expected.canvas, block, language)
 
 
@@ -306,7 +308,7 @@ def _facts(mating: Toothed, picture: MeshingPicture, language: str, specs: list[
         Row(word("arc"), sample="ARC_OF_ACTION"),
         Row(word("pitch"), sample="WORKING_PITCH"),
     ]
-    first, second = mating.first, mating.second
+    first, second = (spec.title or name for spec, name in zip(specs, (mating.first, mating.second), strict=True))
     if getattr(mating, "ring_first", False):
         # the picture counts the pinion first
         first, second = second, first

@@ -94,7 +94,11 @@ def said_failures(found: ReadBack, kind: FileKind, part: Part) -> list[str]:
     if kind.form is not Form.FACES:
         return []
     said = cast("ReadSolid", found).said
-    expected = {"material name": part.material, "density": part.density}
+    expected = {
+        "title": None if part.title == part.id else part.title,
+        "material name": part.material,
+        "density": part.density,
+    }
     wrong = [f"says of its {k}: {said.get(k)} instead of {v}" for k, v in expected.items() if said.get(k) != v]
     return wrong if "volume" in said else [*wrong, "does not say its volume"]
 

@@ -49,7 +49,10 @@ _PER_LINE = 16
 
 
 class StepPart(Record, eq=False):
-    """A named solid with its colour, like "#c08040", its material, density, g/cm^3, and volume, mm^3."""
+    """A named solid with its colour, like "#c08040", its material, density, g/cm^3, and volume, mm^3.
+
+    ``title``: what people call it, which CAD shows in place of the name.
+    """
 
     name: str
     solid: Solid
@@ -57,6 +60,7 @@ class StepPart(Record, eq=False):
     material: str | None = None
     density: float | None = None
     volume: float | None = None
+    title: str | None = None
 
 
 class StepForm(Record):
@@ -151,7 +155,9 @@ class _Text:
 
     def _part(self, part: StepPart) -> tuple[int, int]:
         """A product with its solid, colour and properties."""
-        definition, shape = self._named(part.name, "ADVANCED_BREP_SHAPE_REPRESENTATION", [self._solid(part)])
+        definition, shape = self._named(
+            part.name, "ADVANCED_BREP_SHAPE_REPRESENTATION", [self._solid(part)], part.title
+        )
         if part.material is not None:
             words = f"DESCRIPTIVE_REPRESENTATION_ITEM('{string(part.material)}','{string(part.material)}')"
             self._property(definition, "material property", "material name", self.add(words))
@@ -204,11 +210,11 @@ class _Text:
     def _home(self) -> int:
         return self.place(self.point((0.0, 0.0, 0.0)), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
 
-    def _named(self, name: str, kind: str, items: Sequence[int]) -> tuple[int, int]:
+    def _named(self, name: str, kind: str, items: Sequence[int], title: str | None = None) -> tuple[int, int]:
         """A product and its shape of items: the numbers of definition and representation."""
         scope = self.once(f"PRODUCT_CONTEXT('',#{self.application},'mechanical')")
         stage = self.once(f"PRODUCT_DEFINITION_CONTEXT('part definition',#{self.application},'design')")
-        product = self.add(f"PRODUCT('{string(name)}','{string(name)}','',(#{scope}))")
+        product = self.add(f"PRODUCT('{string(name)}','{string(title or name)}','',(#{scope}))")
         self.add(f"PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,(#{product}))")
         formation = self.add(f"PRODUCT_DEFINITION_FORMATION('','',#{product})")
         definition = self.add(f"PRODUCT_DEFINITION('design','',#{formation},#{stage})")
