@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from exporters.formats.read_assembly import ReadAssembly
     from geometry.approximation.outline import Outline
     from geometry.solids.body import Body
-    from geometry.solids.faced import Faced
+    from geometry.solids.measured import Faced
     from parts.base.readback import ReadBack
     from parts.solids.faces import Curves as SolidCurves
     from parts.solids.step_text import StepForm, StepPart

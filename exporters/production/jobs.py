@@ -21,7 +21,7 @@ from parts.scene.placing import Instance
 if TYPE_CHECKING:
     from exporters.verification.verdict import Verdict
     from geometry.solids.body import Body
-    from geometry.solids.faced import Faced
+    from geometry.solids.measured import Faced
 
 # teeth lose their shape where the tolerance is a larger part of the module
 _COARSE_SHARE = 0.05

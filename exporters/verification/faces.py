@@ -18,7 +18,7 @@ from exporters.verification.topology import doubled_normals, topology_failures
 from exporters.verification.verdict import Verdict, deviation_failures, volume_bound, volume_failures
 
 if TYPE_CHECKING:
-    from geometry.solids.faced import Faced
+    from geometry.solids.measured import Faced
 
 # places of the samples in each triangle, in sixths
 _PLACES = [(a, b, 6 - a - b) for a in range(7) for b in range(7 - a)]

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from exporters.formats.readback import ReadMesh, ReadOutlines
     from geometry.plane.profile import Region
     from geometry.solids.body import Body
-    from geometry.solids.faced import Faced
+    from geometry.solids.measured import Faced
 
 # the kernel keeps a colour as float32
 _SHADE = 1

@@ -13,7 +13,7 @@ from parts.solids.kernel import solids_of
 
 if TYPE_CHECKING:
     from geometry.solids.body import Body
-    from geometry.solids.faced import Faced
+    from geometry.solids.measured import Faced
 
 # by which the kernel may call two points one, mm
 _TOLERANCE = 1e-6

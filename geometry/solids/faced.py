@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property
-from typing import ClassVar, Literal, Protocol
+from typing import ClassVar, Literal
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from geometry.solids.charts import Chart, along_edges, charts, edge_rows
 from geometry.solids.face_moments import FaceMoments, face_moments
 from geometry.solids.faces import Extrusion, Faces, Solid, Sphere, SplineSurface, Torus
 from geometry.solids.mass import Moments
+from geometry.solids.measured import Measured
 from geometry.solids.unrolled import Side, unrolled
 
 # to which the splines are made whose moments and box are asked for, mm
@@ -37,43 +38,6 @@ class FacedSolid(Record, eq=False):
     geometry: Solid
     max_error: float = 0.0
     bound: Bound = "exact"
-
-
-class Measured(Record, eq=False):
-    """An exact surface of a body: what it is called, and how far points (n, 3) lie from it, mm, also beyond it."""
-
-    what: str
-    distance: Callable[[Real], Real]
-
-
-class Faced(Protocol):
-    """What files, mass and checks ask of a body told by its faces; all lengths in mm."""
-
-    is_faced: ClassVar[Literal[True]]
-
-    @property
-    def surfaces(self) -> tuple[Measured, ...]:
-        """Every exact surface once."""
-
-    @property
-    def moments(self) -> Moments:
-        """Volume, centre and inertia."""
-
-    @property
-    def slack(self) -> float:
-        """How much the volume of ``moments`` may be off for each mm that a file's faces are, mm^2; 0: exact."""
-
-    def levels(self) -> tuple[float, ...]:
-        """Heights, the lowest first, the highest last."""
-
-    def section_reach(self) -> float:
-        """Greatest distance from the axis."""
-
-    def reach(self) -> float:
-        """Greatest coordinate."""
-
-    def steepness(self) -> float:
-        """How far a surface moves sideways for a step along the axis at most."""
 
 
 class FacedBody(Record, dict=True):

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from geometry.base.findings import Finding
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.body import Body
-    from geometry.solids.faced import Faced
     from geometry.solids.mass import Moments
+    from geometry.solids.measured import Faced
     from parts.base.readback import Probe
 
 K = TypeVar("K", bound=Struct)

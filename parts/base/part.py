@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from geometry.base.findings import Finding
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.body import Body
-    from geometry.solids.faced import Faced
+    from geometry.solids.measured import Faced
     from parts.base.kind import Kind, Report
     from parts.base.readback import Probe
 

@@ -18,7 +18,7 @@ from parts.base.part import Part
 from parts.scene.interference import common_volume, inner_solid
 
 if TYPE_CHECKING:
-    from geometry.solids.faced import Faced
+    from geometry.solids.measured import Faced
 
 # what is one length, mm; what radii may lie beyond samples, or chords, as a part of them
 _SAME, _DIGITS, _MARGIN = 1e-7, 7, 1e-3

@@ -29,8 +29,9 @@ from geometry.solids.charts import (
     span_shares,
     spline_rows,
 )
-from geometry.solids.faced import Faced, FacedBody
+from geometry.solids.faced import FacedBody
 from geometry.solids.faces import Circular, Cone, Edges, Extrusion, Faces, Solid, Sphere, Spline, SplineSurface, Torus
+from geometry.solids.measured import Faced
 from geometry.solids.unrolled import Side, unrolled
 from parts.solids.caps import Triangles, library_triangles
 from parts.solids.flips import constrained, inner_cells

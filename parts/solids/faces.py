@@ -10,7 +10,7 @@ from geometry.solids.faces import Solid
 
 if TYPE_CHECKING:
     from geometry.approximation.outline import Outline
-    from geometry.solids.faced import Faced
+    from geometry.solids.measured import Faced
 
 _BARREL = 1e-6
 # of each profile, or the faces of a body that is told by them

@@ -23,7 +23,7 @@ from geometry.solids.chamfer import chamfer_bow, chamfer_slices, cut_chamfers
 from parts.solids.caps import Triangles, aligned_bore, begun_at, cap_triangles, is_round, start_in_space
 
 if TYPE_CHECKING:
-    from geometry.solids.faced import Faced
+    from geometry.solids.measured import Faced
     from parts.solids.face_mesh import FaceMesh
 
 _GRID_DIGITS = 8

@@ -17,8 +17,8 @@ from geometry.curves.curve import Complex, Real
 from geometry.laws.piece import LawPiece
 from geometry.plane.measure import distance_to_profile, gauss_rule
 from geometry.plane.profile import Label, Profile, circle
-from geometry.solids.faced import Measured
 from geometry.solids.mass import Moments, column_integrals, moments_of, section_moments
+from geometry.solids.measured import Measured
 
 # Gauss's rule over the cam angle (panels a piece) and across the walls, at first and at most; what is no change
 _POINTS, _PANELS, _ACROSS = 20, 3, 12
