@@ -19,11 +19,13 @@ from parts.drawing.font import CAPITAL
 
 _MILLIMETRES = 4
 _FONT = "arial.ttf"
-# LibreCAD takes a style by its name for a font of its own, and knows line types by standard names only. Its unicode,
-# which every version has, holds Cyrillic; what it lacks the font after GOST 2.304 has
+# LibreCAD takes a style by its name for a font of its own, and knows line types by standard names only, of which the
+# short ones (2) fit sheets. Its unicode, which every version has, holds Cyrillic; its font after GOST 2.304 the rest
 _STYLE, _SYMBOLS_STYLE = "unicode", "lc_opengost-ar"
 _OF_UNICODE = re.compile(r"[\u0020-\u00ff\u0400-\u04ff\u2032\u2033]*")
-_LINE_TYPES = {2: "DASHED", 4: "CENTER"}
+_LINE_TYPES = {2: "DASHED2", 4: "CENTER2"}
+# what letters leave free on either side, parts of their height: programs fit what is black between two points
+_BEARING = 0.07
 # the letters of the widths that are stated, and others as wide
 _FAMILY = "font-family:DejaVu Sans Condensed,Arial,Liberation Sans,sans-serif"
 
@@ -65,7 +67,8 @@ def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
         entity = space.add_text(
             run.text, height=round(run.height, DRAWN_DECIMALS), dxfattribs={"layer": "TEXT", "style": _style(run)}
         )
-        left, right = place_of(run.at), place_of(run.at + run.width)
+        free = _BEARING * run.height
+        left, right = place_of(run.at + free), place_of(run.at + run.width - free)
         entity.set_placement(left, right, align=TextEntityAlignment.FIT)
         counts["TEXT"] = counts.get("TEXT", 0) + 1
     # all stands within the frame; ezdxf takes a corner at 0, 0 for none

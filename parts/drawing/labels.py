@@ -15,8 +15,11 @@ _REACHES = (1.5, 3.0, 5.0, 8.0, 12.0, 17.0, 23.0, 30.0, 40.0, 55.0)
 # farther than this a word is joined to its point by a line
 _NEAR = 3.0
 _CLEARANCE = 0.6
-# what a millimetre of distance, and half a millimetre of line under a word, cost
-_PER_MM, _PER_POINT = 0.12, 1.0
+# from point to point of what may cross a word, mm
+_STEP = 0.5
+# what a millimetre of distance, and half a millimetre of line under a word, cost: words stand over lines nowhere
+# but where there is no other place
+_PER_MM, _PER_POINT = 0.12, 8.0
 
 
 class Labeller:
@@ -80,8 +83,10 @@ class Labeller:
         if cost >= most:
             return None
         if reach > _NEAR:
-            path = (point + (nearest(box, point) - point) * np.linspace(0, 1, 20)).astype(np.complex128)
-            if any(other.holds(path) for other in texts):
+            path = (point + (nearest(box, point) - point) * np.linspace(0, 1, 2 + int(reach / _STEP))).astype(
+                np.complex128
+            )
+            if any(other.grown(_CLEARANCE).holds(path) for other in texts):
                 return None
         return cost
 

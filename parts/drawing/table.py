@@ -44,8 +44,16 @@ class Table(Record):
         headings = [text_width(row.name, self.text) + room for row in self.rows if row.is_heading]
         samples = [widths[0] + _SAMPLE * self.text for row in self.rows if row.sample]
         widths[2] += max([sum(widths), *headings, *samples]) - sum(widths)
-        share = 1.0 if self.most is None else min(1.0, self.most / sum(widths))
-        return tuple(width * share for width in widths)
+        return tuple(min(width, self._widest(widths)) for width in widths)
+
+    def _widest(self, widths: list[float]) -> float:
+        """What a column may have so that all have room: narrow ones keep theirs."""
+        left, rest = self.most or sum(widths), sorted(widths)
+        for number, width in enumerate(rest):
+            if width * (len(rest) - number) > left:
+                return left / (len(rest) - number)
+            left -= width
+        return rest[-1]
 
     @property
     def size(self) -> tuple[float, float]:

@@ -104,7 +104,9 @@ def _axes(
     _arrow(canvas, top, 1j)
     unit = ("deg" if picture.swings else "mm") + ("", "/rad", "/rad2")[order]
     name = ("ψ" if picture.swings else "S") + "'" * order
-    canvas.write(f"{name}, {unit_text(unit, words(picture.language))}", top + complex(2.5, -2.0))
+    # on the left, where no line of a phase runs
+    text = f"{name}, {unit_text(unit, words(picture.language))}"
+    canvas.write(text, top - complex(2.5 + text_width(text), 2.0))
     canvas.write("φ", right + complex(-3.0, 3.0))
     scale = scales.of(order)
     step = standard_scale(max(high - low, 1e-9) * scale / _TICKS)
@@ -207,7 +209,7 @@ def _phases(
         if text_width(text, size) > length - 1:
             text = angle
         if text_width(text, size) <= length - 1:
-            canvas.write(text, complex(at + (length - text_width(text, size)) / 2, y + 1.3), size)
+            canvas.write(text, complex(at + (length - text_width(text, size)) / 2, y + 1.7), size)
         at += length
     for x in (left, left + width):
         canvas.line("PHASE", complex(x, low), complex(x, zeros[0].imag))

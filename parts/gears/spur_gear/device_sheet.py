@@ -159,9 +159,10 @@ def _label(
     for index, gear in enumerate(gears):
         key = "zero_wheel" if gear.profile_shift_coefficient == 0 else "shifted_wheel"
         way = 1j if index == 0 else -1j
-        # on its own side of the axis, right of the centre line
-        reach = paper.scale * gear.root_radius
-        canvas.write(sheet_words(language, key), paper.origin + 2.0 + 0.3 * reach * way, most=0.9 * reach)
+        # on its own side of the axis
+        labels.name(
+            sheet_words(language, key), paper.origin + 0.35 * paper.scale * gear.root_radius * way, prefer=1 + 0j
+        )
         form, side = root_form_diameter(gear) / 2, tooth_side(gear)
         if undercut(gear).margin < 0 and form - gear.base_radius > _SEEN_UNDERCUT * gear.module:
             at = next(

@@ -284,6 +284,7 @@ LEGAL: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
 }  # fmt: skip
 
 
+@pytest.mark.heavy
 def test_tables_go_on_where_one_sheet_does_not_hold_them(tmp_path: Path) -> None:
     """72 intervals have their rows, each once, on several sheets, whose numbers the title tells."""
     jobs = plan_build(cam_scene(ROCKER, intervals=72), "t", [], []).sheets

@@ -121,8 +121,8 @@ def test_librecad_finds_its_fonts_and_line_types_by_their_names(tmp_path: Path) 
     assert any(style == "unicode" and "кулачка" in text for style, text in texts)
     assert {drawing.styles.get(style).dxf.font for style, _ in texts} == {"arial.ttf"}
     kinds = {layer.dxf.linetype for layer in drawing.layers}
-    assert {"CENTER", "DASHED"} & kinds
-    assert {kind.upper() for kind in kinds} <= {"CENTER", "DASHED", "CONTINUOUS"}
+    assert {"CENTER2", "DASHED2"} & kinds
+    assert {kind.upper() for kind in kinds} <= {"CENTER2", "DASHED2", "CONTINUOUS"}
 
 
 def test_the_same_bytes_every_time(tmp_path: Path) -> None:
