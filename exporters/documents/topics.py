@@ -6,7 +6,6 @@ import importlib
 import os
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from exporters.documents.render import FORMATS, render
 from geometry.base.errors import Nearest
@@ -15,11 +14,7 @@ from parts.base.registry import KINDS
 from parts.base.texts import Words, languages
 from parts.base.texts import words as told
 from parts.pages.inputs import PLACE, table_of
-from parts.pages.page import Sheet
-
-if TYPE_CHECKING:
-    from parts.pages.contour_picture import ContourPicture
-    from parts.pages.error_map import ErrorMap
+from parts.pages.page import Picture, Sheet
 
 # each module has sheet_of(table, scene, source, language)
 TOPICS = {
@@ -68,11 +63,11 @@ def _home(topic: str) -> str | None:
     return TOPICS[topic] if topic in TOPICS else KINDS[topic].page if topic in KINDS else None
 
 
-def _write_picture(picture: ContourPicture | ErrorMap, file: Path, words: Words) -> None:
+def _write_picture(picture: Picture, file: Path, words: Words) -> None:
     """Write a picture as the ending of its file says."""
-    from parts.pages.error_map import ErrorMap
+    from parts.pages.contour_picture import ContourPicture
 
-    if file.suffix.lower() == ".dxf" and not isinstance(picture, ErrorMap):
+    if file.suffix.lower() == ".dxf" and isinstance(picture, ContourPicture):
         from exporters.documents.contour_dxf import write_contour_dxf
 
         write_contour_dxf(file, picture.contour, picture.shown(words), words)

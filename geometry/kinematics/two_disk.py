@@ -171,6 +171,18 @@ class TwoDisk(Record):
         force = np.conj(force)
         return -np.real(one * force), -np.real(two * force)
 
+    def mesh_force(
+        self, delta: Real | float, beta: Real | float, force: Complex | complex, pressure_angle: float
+    ) -> Complex:
+        """What the ring does to the pinion of disk 3 where a force (N) acts on O3: balanced about O2, no friction.
+
+        The mesh is at the pitch point, r_1 = L1 / (ratio - 1) beyond O2; its radial part pushes the pinion to O1.
+        """
+        along = np.exp(1j * (math.pi / 2 - np.asarray(delta)))
+        arm = -self.arms[1] * along * np.exp(1j * np.asarray(beta))
+        across = -np.imag(np.conj(arm) * force) * (self.ratio - 1) / self.arms[0]
+        return np.asarray((1j * across - np.abs(across) * math.tan(pressure_angle)) * along)
+
     def mechanism(self, orientation: Orientation = "cranks", wheels: tuple[int, int] = (36, 36)) -> Mechanism:
         """The links as they stand at delta = 0, beta = pi (O3 farthest, on +y); drives are worm_1 and worm_2.
 

@@ -9,16 +9,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from geometry.base.record import Draft, Record, field, replace
 from parts.base.texts import NC_, Text, Words
 from parts.pages.symbols import symbol_text
 from parts.pages.terms import TERMS
-
-if TYPE_CHECKING:
-    from parts.pages.contour_picture import ContourPicture
-    from parts.pages.error_map import ErrorMap
 
 Value = float | int | str
 _SUPERSCRIPTS = {"2": "²", "3": "³"}
@@ -42,6 +38,13 @@ _DECIMALS = {
     "MPa": 4,
     "W": 4,
 }
+
+
+class Picture(Protocol):
+    """What a page draws."""
+
+    def svg(self, words: Words) -> str:
+        """The picture in a language."""
 
 
 class Printed(Record):
@@ -107,7 +110,7 @@ class Sheet(Draft):
     known: dict[str, Known] = field(default_factory=dict)
     notes: list[Text] = field(default_factory=list)
     # what is drawn, the same in letters, and what only json carries
-    picture: ContourPicture | ErrorMap | None = None
+    picture: Picture | None = None
     plain_picture: str = ""
     tables: list[Table] = field(default_factory=list)
     picture_file: str | None = None

@@ -574,6 +574,9 @@ load|F|F|N|force on the platform
 load_torque|T_F|T_F|N*m|torque that the load asks of the wheel, at most
 worm_torque_asked|T_1F|T_1|N*m|torque on the worm there, by statics of the mechanism
 pinion_torque|T_11F|T_11|N*m|torque on the pinion of disk 3 there
+disk_3_bearing_force|F_O2|F_O2|N|radial force of load and mesh on the bearing of disk 3, and with it of disk 2, at most
+ring_bearing_force|F_12|F_12|N|radial force of the mesh on the bearing of the ring, at most
+worst_beta_deg|beta_F|β|deg|there, angle between O2O1 and O2O3
 pair_torque|T_11|T_11|N*m|torque on the pinion of disk 3
 fatigue_limit_bending|sigma_Flim|σ_Flim|MPa|endurance limit in bending
 life_factor|Y_N|Y_N||factor of life

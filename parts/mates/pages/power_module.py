@@ -125,6 +125,7 @@ def _load(page: Sheet, keys: PowerModuleKeys) -> tuple[float, float]:
     )
     page.notes.append(message(text, angle=math.degrees(at_1)))
     _statics(page, table, load, at_1)
+    _bearings(page, table, load)
     if load > min(most) * (1 + 1e-12):
         page.notes.append(
             message(N_("the worms do not hold this load everywhere: at most {limit:.6g} N"), limit=min(most))
@@ -148,6 +149,18 @@ def _statics(page: Sheet, table: TwoDisk, load: float, beta: float) -> None:
     mesh = next(flow for flow in state.flows if flow.mesh.kind == "internal")
     pinion = abs(float(mesh.torques[0]))
     page.add("pinion_torque", pinion, symbol="T_11")
+
+
+def _bearings(page: Sheet, table: TwoDisk, load: float) -> None:
+    """Radial forces of load and mesh on the bearings about O2 and O1, at most, over all places and directions."""
+    beta, direction = np.meshgrid(np.linspace(0, math.pi, 181), np.linspace(-math.pi, math.pi, 361))
+    force = load * np.exp(1j * direction)
+    mesh = table.mesh_force(0.0, beta, force, math.radians(20))
+    both = np.abs(force + mesh)
+    at = np.unravel_index(int(both.argmax()), both.shape)
+    page.add("disk_3_bearing_force", float(both[at]))
+    page.add("worst_beta_deg", math.degrees(beta[at]))
+    page.add("ring_bearing_force", float(np.abs(mesh).max()))
 
 
 def _worms(page: Sheet, keys: PowerModuleKeys, torques: tuple[float, float]) -> None:

@@ -10,15 +10,18 @@ import numpy as np
 from msgspec import Meta, Struct
 
 from geometry.base.errors import ParameterError
+from geometry.base.record import replace
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc, Line
 from geometry.kinematics.two_disk import Orientation, TwoDisk
 from geometry.kinematics.two_disk_path import Piece, followed
 from parts.base.texts import N_, Text, message
 from parts.keys.base import degrees, mm
+from parts.mates.pages.contour_marks import checked_picture
 from parts.pages.inputs import checked, refusal
 from parts.pages.misprints import printed_for_delta
 from parts.pages.page import Sheet, Table
+from parts.pages.table_scheme import scheme
 
 TOPIC = "power-table"
 _THESIS = "thesis, 2.1"
@@ -67,13 +70,15 @@ class PowerTableKeys(TwoDiskKeys, kw_only=True):
     ) = None
     tolerance: Annotated[float, mm("how far the platform may leave the path", least=1e-6, most=10)] = 0.01
     elbow: Annotated[Literal[1, -1], Meta(description="with which sign of beta the path begins")] = 1
+    picture: Annotated[str, Meta(description="SVG file of the scheme to write")] | None = None
     start_deg: Annotated[float, degrees("delta before the path begins", least=-36_000, most=36_000)] | None = None
 
 
 def sheet(table: dict[str, Any]) -> Sheet:
     """The table of points or of a path."""
     keys: PowerTableKeys = checked(table, PowerTableKeys, TOPIC)
-    page = Sheet(TOPIC, N_("Two-disk power table"))
+    checked_picture(TOPIC, keys.picture, (".svg",))
+    page = Sheet(TOPIC, N_("Two-disk power table"), picture_file=keys.picture)
     try:
         if keys.path is not None:
             _path(page, keys)
@@ -112,9 +117,11 @@ def _points(page: Sheet, keys: PowerTableKeys) -> None:
     if len(points) == 1:
         _steps(page, keys, complex(points[0]))
     rows: list[tuple[float, ...]] = []
+    joints: list[tuple[complex, complex]] = []
     for elbow in (1, -1):
         delta, beta = table.inverse(points, elbow, math.radians(keys.start_deg or 0.0))
         delta = np.unwrap(delta)
+        joints.append((_second(table, delta[0]), complex(points[0])))
         # what the coupling turns disk 3 by, and what is left for its own drive: from row to row
         moved = np.diff(delta, prepend=delta[:1])
         coupled = table.ratio * moved
@@ -124,6 +131,7 @@ def _points(page: Sheet, keys: PowerTableKeys) -> None:
             (elbow, *row, math.degrees(gamma), math.degrees(rest))
             for row, gamma, rest in zip(columns, coupled, own, strict=True)
         ]
+    page.picture = scheme(table.arms, table.ratio, tuple(joints))
     heads = (("elbow", ""), *_heads(keys), ("γ", "deg"), ("Δβ'", "deg"))
     page.tables.append(Table("points", N_("Points, both elbows"), heads, tuple(rows)))
     if table.reach[0] == 0 and not points.all():
@@ -190,9 +198,22 @@ def _path(page: Sheet, keys: PowerTableKeys) -> None:
     page.add("path_error", rows.error)
     columns = _columns(keys, table, rows.place, rows.delta, rows.beta)
     found = tuple((float(way), *row) for way, row in zip(rows.way, columns, strict=True))
+    joints = tuple((_second(table, rows.delta[k]), complex(rows.place[k])) for k in (0, -1))
+    page.picture = replace(scheme(table.arms, table.ratio, joints), path=_points_of(pieces))
     heads = (("s", "mm"), *_heads(keys))
     page.tables.append(Table("path", N_("Path, row by row: both worms run evenly in between"), heads, found))
     _notes(page, keys)
+
+
+def _second(table: TwoDisk, delta: float) -> complex:
+    """O2."""
+    return table.arms[0] * cmath.rect(1.0, math.pi / 2 - delta)
+
+
+def _points_of(pieces: list[Piece]) -> Complex:
+    return np.concatenate(
+        [piece.point(np.linspace(*piece.domain, 2 if isinstance(piece, Line) else 65)) for piece in pieces]
+    )
 
 
 def _piece(x1: float, y1: float, x2: float, y2: float, bulge: float) -> Piece:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import csv
 import io
+import itertools
 import json
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -112,6 +114,29 @@ def test_a_path_of_a_dxf(tmp_path: Path) -> None:
         assert told in sentence(refused.value, "en")
 
 
+def test_the_scheme_of_a_point_and_of_a_path(tmp_path: Path) -> None:
+    """O2 and O3 of both elbows where the angles put them; the path as long as it is drawn."""
+    shown = {}
+    for name, keys in (("point", ("x=50", "y=80")), ("path", ("path=[[-50,0,50,0,1],[50,0,60,20,0]]",))):
+        file = tmp_path / f"{name}.svg"
+        calculate("power-table", (*keys, f"picture={file}"), "text", "uk")
+        text = file.read_text(encoding="utf-8")
+        lines = re.findall(r'<polyline points="([^"]+)" style="fill:none;stroke:(#\w+);stroke-width:[23]"', text)
+        scale, middle = 280 / (216 * 1.03), 310
+        shown[name] = [
+            [complex(float(x) - middle, middle - float(y)) / scale for x, y in (p.split(",") for p in points.split())]
+            for points, _ in lines
+        ]
+    assert len(shown["point"]) == 2
+    for first, second, third in shown["point"]:
+        assert abs(first) + abs(third - (50 + 80j)) < 0.05
+        assert abs(second) == pytest.approx(72, abs=0.02)
+        assert abs(third - second) == pytest.approx(72, abs=0.02)
+    drawn = shown["path"][0]
+    length = sum(abs(b - a) for a, b in itertools.pairwise(drawn))
+    assert length == pytest.approx(50 * math.pi + abs(10 + 20j), abs=0.1)
+
+
 # name of the step, drive, case, its number, how near (inputs that the thesis has rounded before)
 NUMBERS = [
     *(
@@ -190,6 +215,24 @@ def test_the_load_that_both_worms_hold_anywhere(module: dict[str, Any]) -> None:
     more = calculated("power-module", "load=5000")
     assert any("do not hold" in note for note in more["notes"])
     assert step(more, "wheel_torque", "drive II")["value"] == pytest.approx(371)
+
+
+def test_forces_on_the_bearings(module: dict[str, Any]) -> None:
+    # the greatest torque on the pinion, F L2, over its pitch radius 144, by the pressure angle
+    load = 371 / 0.108
+    mesh = load * 72 / 144 / math.cos(math.radians(20))
+    assert module["values"]["ring_bearing_force"] == pytest.approx(mesh, rel=1e-9)
+    # by every place and direction, forces summed as vectors: N on the line of action, its moment about O2 that of F
+    worst = 0.0
+    for beta in range(0, 181, 2):
+        arm = 72 * complex(math.cos(math.radians(beta + 180)), math.sin(math.radians(beta + 180)))
+        for angle in range(-180, 180, 2):
+            force = load * complex(math.cos(math.radians(angle)), math.sin(math.radians(angle)))
+            moment = (arm.conjugate() * force).imag
+            lean = math.radians(110 if moment < 0 else -110)
+            way = complex(math.cos(lean), math.sin(lean))
+            worst = max(worst, abs(force + way * abs(moment) / (144 * math.cos(math.radians(20)))))
+    assert module["values"]["disk_3_bearing_force"] == pytest.approx(worst, rel=1e-3)
 
 
 def test_errors_by_play_over_the_workspace(module: dict[str, Any], tmp_path: Path) -> None:

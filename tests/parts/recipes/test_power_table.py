@@ -149,6 +149,47 @@ def test_a_spoiled_part_is_found(changed: dict[str, Any], pair: set[str]) -> Non
     assert frozenset(pair) in struck(placing, parts, list(runs(20)))
 
 
+# what is brought in together, straight along the axes: from the front, or from the back
+ORDER = [
+    ("front", ["base"]), ("front", ["guide"]), ("front", ["post"]), ("back", ["foot"]),
+    ("front", ["back", "tube", "dowel", "rim"]), ("front", ["disk_2", "shaft", "axle"]), ("front", ["ring"]),
+    ("front", ["pinion", "hub", "platform_axle"]), ("front", ["first_crank"]),
+    ("front", ["flange", "upper_pin", "flange_pin"]), ("front", ["second_crank"]),
+    ("front", ["platform", "platform_pin"]), ("back", ["ring_hand_crank", "handle"]), ("back", ["disk_hand_crank"]),
+]  # fmt: skip
+
+
+def blocked(order: list[tuple[str, list[str]]]) -> list[tuple[str, str]]:
+    """What is in the way of what, as each group comes along z to its place past all that stands already."""
+    placing, parts = placed(scene())
+    stand = {i.id: i for i in placing.instances}
+    whole = {key: (low, high, moved(shape, stand[key].centre, stand[key].rotation))
+             for key, low, high, shape in flats(placing, parts)}  # fmt: skip
+    there: list[str] = []
+    found = []
+    for side, names in order:
+        coming = [i.id for i in placing.instances if i.part in names and i.id not in there]
+        # both hand cranks have such a handle: each comes with its own
+        coming = [key for key in coming if not (key == "disk_handle" and "ring_hand_crank" in names)]
+        coming += ["disk_handle"] if "disk_hand_crank" in names else []
+        assert coming
+        for key in coming:
+            low, high, shape = whole[key]
+            for other in there:
+                beside = whole[other][1] > low + 1e-9 if side == "front" else whole[other][0] < high - 1e-9
+                if beside and shape.intersects(whole[other][2]):
+                    found.append((key, other))
+        there += coming
+    assert set(there) == set(stand)
+    return found
+
+
+def test_every_part_reaches_its_place_along_a_straight_way() -> None:
+    assert blocked(ORDER) == []
+    late = [group for group in ORDER if group[1] != ["second_crank"]]
+    assert ("second_crank_1", "platform") in blocked([*late, ("front", ["second_crank"])])
+
+
 def test_every_flat_part_is_wide_enough_for_its_kerf() -> None:
     _, parts = placed(load_scene("power_table_laser"))
     for key, part in parts.items():
