@@ -78,16 +78,16 @@ class _Strip(Record, eq=False):
     """The columns of one side of every thread from the lower end to the upper one.
 
     ``levels``: of each column the number of its even step at the root, none at both ends; ``first``, ``last``: the
-    columns between which lie whole axial planes; ``corners``: vertices (joints, n, columns).
+    columns between which lie whole axial planes; ``corners``: vertices (joints, n, columns); ``helices``: edges from
+    column to column (joints, n, columns - 1); ``across``: edges along each line (n, columns).
     """
 
     levels: tuple[int, ...]
     first: int
     last: int
     corners: Index
-    # helices (joints, cells, n), edges across (lines, columns, n)
     helices: Index
-    across: Index
+    across: tuple[Index, ...]
 
 
 class _Maker(RingBuilder):
@@ -234,56 +234,57 @@ class _Maker(RingBuilder):
             self.strips[side] = self._strip(side)
 
     def _strip(self, side: int) -> _Strip:
-        count = len(self.lines)
         levels = self._columns(side, np.array(self.joints[:1]))[1]
         first = levels.index(0)
         # vertices, and helices between them
-        corners, helix_points, helices = [], [], []
+        corners, helix_points, helices, across = [], [], [], []
         v = greville(_DEGREE, self.v_knots)
         for joint in self.joints:
             at = np.stack(self._columns(side, np.array([joint]))[0])[:, 0]
             angle = at[:-1, None] * (1 - v) + at[1:, None] * v
             flat, z = self.place_at(side, np.full(angle.shape, joint), angle)
             exact = np.stack([flat.real, flat.imag, z], axis=-1)
-            poles = _poles(self.v_knots, exact, 1)
             ends = self._placed(np.concatenate([exact[:, 0], exact[-1:, -1]]))
             vertices = self.add_vertices(ends.ravel()).reshape(ends.shape)
-            inner = self._placed(poles[:, 1:-1])
+            inner = self._placed(_poles(self.v_knots, exact, 1)[:, 1:-1])
             points = np.concatenate([ends[:, :-1, None], inner, ends[:, 1:, None]], axis=2)
             corners.append(vertices)
             helix_points.append(points)
-            helices.append([
-                self.add_edges(vertices[:, c], vertices[:, c + 1], Spline(_DEGREE, self.v_knots, points[:, c]))
-                for c in range(points.shape[1])
-            ])  # fmt: skip
-        across = []
+            helices.append(self._splines(vertices[:, :-1], vertices[:, 1:], self.v_knots, points))
         for k, line in enumerate(self.lines):
-            u = greville(_DEGREE, self.u_knots[k])
-            grid = self._points(side, line, u, v)
-            poles = _poles(self.v_knots, _poles(self.u_knots[k], grid, 1), 2)
+            u_knots = self.u_knots[k]
+            grid = self._points(side, line, greville(_DEGREE, u_knots), v)
+            poles = _poles(self.v_knots, _poles(u_knots, grid, 1), 2)
             columns = np.concatenate([poles[:, 1:-1, 0], poles[-1:, 1:-1, -1]])
             own, after = (self.solid_points(corners[i]) for i in (k, k + 1))
             lines = np.concatenate([own[..., None], self._placed(columns), after[..., None]], axis=2)
-            edges = [
-                self.add_edges(corners[k][:, c], corners[k + 1][:, c], Spline(_DEGREE, self.u_knots[k], lines[:, c]))
-                for c in range(lines.shape[1])
-            ]
+            edges = self._splines(corners[k], corners[k + 1], u_knots, lines)
             across.append(edges)
             cells = np.empty((len(self.starts), *poles.shape[:3]), dtype=np.intp)
             cells[:, :, 1:-1, 1:-1] = self._placed(poles[:, 1:-1, 1:-1])
             cells[:, :, :, 0], cells[:, :, :, -1] = lines[:, :-1], lines[:, 1:]
             cells[:, :, 0], cells[:, :, -1] = helix_points[k], helix_points[k + 1]
-            for c in range(cells.shape[1]):
-                surface = kinds.SplineSurface((_DEGREE, _DEGREE), self.u_knots[k], self.v_knots, cells[:, c])
+            # what the screw carries into each other is one bundle
+            for own_cells in (slice(0, first), slice(first, first + self.steps), slice(first + self.steps, None)):
+                surface = kinds.SplineSurface(
+                    (_DEGREE, _DEGREE), u_knots, self.v_knots, cells[:, own_cells].reshape(-1, *cells.shape[2:])
+                )
+                if not len(surface.poles):
+                    continue
                 # along the line, then around: left of both seen from above
                 around: list[Use] = [
-                    (edges[c], True), (helices[k + 1][c], True), (edges[c + 1], False), (helices[k][c], False)
+                    (edges[:, :-1][:, own_cells].ravel(), True), (helices[k + 1][:, own_cells].ravel(), True),
+                    (edges[:, 1:][:, own_cells].ravel(), False), (helices[k][:, own_cells].ravel(), False),
                 ]  # fmt: skip
                 if side < 0:
                     around = [(edge, not way) for edge, way in reversed(around)]
                 self.face(surface, around, along=side > 0, threaded=True)
-        assert len(across) == count
-        return _Strip(tuple(levels), first, first + self.steps, np.stack(corners), np.array(helices), np.array(across))
+        return _Strip(tuple(levels), first, first + self.steps, np.stack(corners), np.stack(helices), tuple(across))
+
+    def _splines(self, start: Index, end: Index, knots: Real, points: Index) -> Index:
+        """Edges between vertices (n, k) with points (n, k, poles)."""
+        shape = Spline(_DEGREE, knots, points.reshape(-1, points.shape[-1]))
+        return self.add_edges(start.ravel(), end.ravel(), shape).reshape(start.shape)
 
     def solid_points(self, vertices: Index) -> Index:
         """The points that vertices are."""
@@ -304,30 +305,26 @@ class _Maker(RingBuilder):
         worm, upper, lower = self.worm, self.strips[1], self.strips[-1]
         surface = self._pipe(worm.tip_radius)
         tops, lows = upper.corners[-1], lower.corners[-1]
-        edges = [
-            self.add_edges(lows[:, lower.first + k], tops[:, upper.first + k], Straight(UP))
-            for k in range(self.steps + 1)
-        ]
+        inner = slice(lower.first, lower.last + 1), slice(upper.first, upper.last + 1)
+        foot, head = lows[:, inner[0]], tops[:, inner[1]]
+        edges = self.add_edges(foot.ravel(), head.ravel(), Straight(UP)).reshape(foot.shape)
+        low, high = lower.helices[-1], upper.helices[-1]
+        if self.steps:
+            under, over = low[:, lower.first : lower.last].ravel(), high[:, upper.first : upper.last].ravel()
+            right, left = edges[:, 1:].ravel(), edges[:, :-1].ravel()
+            self.face(surface, [(under, True), (right, True), (over, False), (left, False)])
         self.tip_arcs = {
             end: self._arc(worm.tip_radius, end * float(self.body.end_height(worm.tip_radius)),
                            tops[:, column], lows[:, column])
             for end, column in ((-1, 0), (1, -1))
         }  # fmt: skip
-        for k in range(-1, self.steps + 1):
-            own = slice(upper.first + k, upper.first + k + 1), slice(lower.first + k, lower.first + k + 1)
-            if k < 0:
-                own = slice(0, upper.first), slice(0, lower.first)
-            elif k == self.steps:
-                own = slice(upper.last, None), slice(lower.last, None)
-            around: list[Use] = [(e, True) for e in lower.helices[-1][own[1]]]
-            if k < self.steps:
-                around.append((edges[k + 1], True))
-            else:
-                arc, way = self.tip_arcs[1]
-                around.append((arc, not way))
-            around += [(e, False) for e in reversed(upper.helices[-1][own[0]])]
-            around.append((edges[k], False) if k >= 0 else self.tip_arcs[-1])
-            self.face(surface, around)
+        arc, way = self.tip_arcs[1]
+        for own_low, own_high, before, after in (
+            (low[:, : lower.first], high[:, : upper.first], self.tip_arcs[-1], (edges[:, 0], True)),
+            (low[:, lower.last :], high[:, upper.last :], (edges[:, -1], False), (arc, not way)),
+        ):
+            around = [(e, True) for e in own_low.T]
+            self.face(surface, [*around, after, *((e, False) for e in own_high.T[::-1]), before])
 
     def roots(self) -> None:
         """The root cylinder between the upper side of every thread and the lower side of the one above it."""
@@ -372,14 +369,17 @@ class _Maker(RingBuilder):
         start, stop = lower.corners[0][above, 0], upper.corners[0][:, -1]
         bottom, bottom_nodes = self._arcs(radius, -half, [start, *(x for _, x in circles[-1]), upper.corners[0][:, 0]])
         top, top_nodes = self._arcs(radius, half, [lower.corners[0][above, -1], *(x for _, x in circles[1]), stop])
-        bottom += [(e, True) for e in upper.helices[0]]
+        bottom += [(e, True) for e in upper.helices[0].T]
         bottom_nodes += [upper.corners[0][:, c] for c in range(1, len(upper.levels))]
-        top = [(e[above], True) for e in lower.helices[0]] + top
+        top = [(e, True) for e in lower.helices[0][above].T] + top
         top_nodes = [lower.corners[0][above, c] for c in range(len(lower.levels) - 1)] + top_nodes
         self.space_arcs = {-1: bottom[: len(circles[-1]) + 1], 1: top[len(lower.levels) - 1 :]}
-        edges = [self.add_edges(foot, head, Straight(UP)) for _, foot, head in lines]
+        feet, heads = (np.stack([line[k] for line in lines]) for k in (1, 2))
+        edges = self.add_edges(feet.ravel(), heads.ravel(), Straight(UP)).reshape(feet.shape)
         at = [(_find(bottom_nodes, foot), _find(top_nodes, head)) for _, foot, head in lines]
         cuts = [(0, 0), *at, (len(bottom), len(top))]
+        # faces of alike bounds are one bundle
+        alike: dict[tuple[bool, ...], list[list[Use]]] = {}
         for i, ((b0, t0), (b1, t1)) in enumerate(pairwise(cuts)):
             around = bottom[b0:b1]
             if i < len(edges):
@@ -387,7 +387,10 @@ class _Maker(RingBuilder):
             around += [(edge, not way) for edge, way in reversed(top[t0:t1])]
             if i > 0:
                 around.append((edges[i - 1], False))
-            self.face(surface, around)
+            alike.setdefault(tuple(way for _, way in around), []).append(around)
+        for ways, faces in alike.items():
+            columns = [np.concatenate([around[k][0] for around in faces]) for k in range(len(ways))]
+            self.face(surface, list(zip(columns, ways, strict=True)))
 
     def _inner(self, strip: _Strip, column: int) -> bool:
         """Whether a column is none of the ends."""
@@ -413,9 +416,9 @@ class _Maker(RingBuilder):
             else:
                 surface = kinds.Plane(Frame(origin, UP, AHEAD))
             under = self._arc(worm.root_radius, end * half, upper.corners[0][:, column], lower.corners[0][:, column])
-            around: list[Use] = [(e[column], True) for e in upper.across]
+            around: list[Use] = [(e[:, column], True) for e in upper.across]
             around.append(self.tip_arcs[end])
-            around += [(e[column], False) for e in reversed(lower.across)]
+            around += [(e[:, column], False) for e in reversed(lower.across)]
             around.append((under[0], not under[1]))
             if end < 0:
                 around = [(edge, not way) for edge, way in reversed(around)]
