@@ -27,6 +27,10 @@ KINDS: Index[Kind[Any, Any]] = Index(
             "parts.gears.noncircular_gear.part:NONCIRCULAR_GEAR",
             "Noncircular gear, one of a pair: the keys tell the driver's centrode, ``role`` which of both this part is",
         ),
+        "worm": (
+            "parts.gears.worm.part:WORM",
+            "Cylindrical worm with its shaft, form ZA, ZI, ZN1, ZN2 or ZK1; the middle of its thread lies at z = 0",
+        ),
         "cam": (
             "parts.cams.disk_cam.part:CAM",
             "Disk cam; it turns counter-clockwise, cam angle 0 is the start of the first phase",

@@ -120,8 +120,12 @@ REASONS = {
     "worm_wheel_flank_ends": N_("the worm leaves no flank up to the tip of the teeth at the ends of the face"),
     "worm_wheel_pointed": N_("the teeth are pointed at the ends of the face"),
     "worm_wheel_undercut": N_("undercut leaves no flank at the ends of the face"),
+    "worm_not_moved": N_("would be no worm of its form: thin the thread by axial_thinning"),
     "worm_root_under_axis": N_("leaves no root: the threads reach the axis"),
+    "worm_shaft_over_root": N_("is thicker than the root of the thread, {root} mm: the thread would end in it"),
     "worm_spaces_closed": N_("the spaces between the threads close above the root; take more q or fewer starts"),
+    "worm_step_chamfer": N_("leaves nothing of its step of the shaft"),
+    "worm_thread_too_short": N_("leaves no whole thread between its ends"),
     "wheels_of_scheme": N_("this scheme has {wheels} wheels, in the order z1, z2, (z2',) z3"),
 }
 # fmt: on

@@ -136,6 +136,9 @@ FINDINGS: dict[str, Text] = {
         "the outline moved by {limit:.4g} mm crosses itself in {value:.0f} places: it is trimmed there",
         by="value",
     ),
+    "worm_section": N_(
+        "flat outline: the section across the worm's axis, {value:.6g} mm; STL, 3MF and STEP have the screw surfaces"
+    ),
     "transverse_section": N_(
         "helical teeth, {value:.6g} degrees: a flat outline is their transverse section; STL, 3MF and "
         "STEP have the screw surfaces"

@@ -79,6 +79,14 @@ QUANTITIES: dict[str, str] = {
     "contact_pressure_angle_deg": N_("pressure angle at the contact, deg"),
     "coupler_swing_deg": N_("the connecting rod turns by, deg"),
     "least_transmission_angle_deg": N_("least transmission angle at joint B, deg"),
+    "lead_angle_deg": N_("lead angle gamma, deg"),
+    "axial_pressure_angle_deg": N_("axial pressure angle alpha_x, deg"),
+    "axial_thickness": N_("axial thickness of the thread s_x, mm"),
+    "axial_tip_land": N_("axial width of the thread's tip, mm"),
+    "thread_chord": N_("chord across the thread, mm"),
+    "thread_chord_height": N_("depth of that chord below the tip, mm"),
+    "ball_diameter": N_("diameter of measuring balls, mm"),
+    "over_balls": N_("dimension over three balls M, mm"),
     "greatest_sliding_velocity": N_("greatest sliding velocity, mm per rad"),
 }
 

@@ -2,14 +2,13 @@
 
 The middle of the thread lies at z = 0. At both ends a cone about the axis cuts the thread: it begins on the root
 cylinder at the end of the threaded length and widens inwards over the whole depth of the thread; at ``end_angle`` 0 it
-is a plane. Meshes, B-reps, read-back and mass integrals go through this description.
+is a plane.
 """
 
 from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import ClassVar, Literal
 
 import numpy as np
 
@@ -17,8 +16,8 @@ from geometry.base.errors import ParameterError, limit
 from geometry.base.record import Record
 from geometry.curves.curve import Real
 from geometry.curves.line_arc import Arc, Line
-from geometry.gears.worms.thread import SectionLine, Thread
-from geometry.plane.measure import distance_to_profile, gauss_rule
+from geometry.gears.worms.thread import SectionLine, Thread, line_step
+from geometry.plane.measure import gauss_rule
 from geometry.plane.profile import Label, Profile, circle
 from geometry.solids.mass import Moments, column_integrals, moments_of, section_moments
 
@@ -44,7 +43,6 @@ class Screwed(Record):
     thread: Thread
     line: SectionLine
     upper: bool
-    what: str = "flank"
 
     def distance(self, points: Real) -> Real:
         """Of points (n, 3), mm, to first order in it: by the axial section, also beyond the ends of the line."""
@@ -79,51 +77,6 @@ class Screwed(Record):
         return np.asarray(low.imag + share * (high.imag - low.imag))
 
 
-class Round(Record):
-    """A cylinder or a cone about the axis between two circles (z, r), mm."""
-
-    low: tuple[float, float]
-    high: tuple[float, float]
-
-    @property
-    def what(self) -> str:
-        """In a phrase."""
-        return "cylinder" if self.low[1] == self.high[1] else "cone"
-
-    def distance(self, points: Real) -> Real:
-        """Of points (n, 3), mm."""
-        (z0, r0), (z1, r1) = self.low, self.high
-        size = math.hypot(z1 - z0, r1 - r0)
-        radius = np.hypot(points[:, 0], points[:, 1])
-        return np.asarray(np.abs((radius - r0) * (z1 - z0) - (points[:, 2] - z0) * (r1 - r0)) / size)
-
-
-class Level(Record):
-    """A plane across the axis, mm."""
-
-    z: float
-    what: str = "plane face"
-
-    def distance(self, points: Real) -> Real:
-        """Of points (n, 3), mm."""
-        return np.asarray(np.abs(points[:, 2] - self.z))
-
-
-class BoreWall(Record):
-    """The wall of the bore."""
-
-    profile: Profile
-    what: str = "wall"
-
-    def distance(self, points: Real) -> Real:
-        """Of points (n, 3), mm."""
-        plane = points[:, 0] + 1j * points[:, 1]
-        return np.asarray(distance_to_profile(plane, self.profile, trusted=np.inf))
-
-
-Face = Screwed | Round | Level | BoreWall
-
-
 class WormBody(Record):
     """A worm as a solid; ``length`` of the thread at its root, mm, ``end_angle`` of the cone from the end plane, rad.
 
@@ -136,29 +89,11 @@ class WormBody(Record):
     below: tuple[Step, ...] = ()
     above: tuple[Step, ...] = ()
     bore: Profile | None = None
-    is_faced: ClassVar[Literal[True]] = True
 
     @property
     def root_radius(self) -> float:
         """Of the worm, mm."""
         return self.thread.worm.root_radius
-
-    @property
-    def wall_width(self) -> float:
-        """What the volume of a sliver along a wall goes by, mm: the depth of the thread over its turns."""
-        worm = self.thread.worm
-        turns = max(1.0, self.length / (math.pi * worm.module))
-        return (worm.tip_radius - worm.root_radius) / turns
-
-    @property
-    def profiles(self) -> tuple[Profile, ...]:
-        """The circle around all of it, and the bore."""
-        return (circle(self.section_reach(), Label.BODY), *((self.bore,) if self.bore else ()))
-
-    @property
-    def walls(self) -> tuple[()]:
-        """It has none of the kinds of geometry/solids/body.py."""
-        return ()
 
     def end_height(self, radius: Real | float) -> Real:
         """Height of the upper cone at a radius, mm; the lower end is its mirror image."""
@@ -183,55 +118,6 @@ class WormBody(Record):
         """Lowest and highest z, mm."""
         return self.outline(above=False)[-1][0], self.outline(above=True)[-1][0]
 
-    def levels(self) -> tuple[float, ...]:
-        """Heights at which something ends, ascending, mm."""
-        return tuple(sorted({z for above in (False, True) for z, _ in self.outline(above=above)}))
-
-    def section_reach(self) -> float:
-        """Greatest distance from the axis, mm."""
-        return self.thread.worm.tip_radius
-
-    def reach(self) -> float:
-        """Greatest coordinate, mm."""
-        return max(self.section_reach(), *map(abs, self.ends()))
-
-    def steepness(self) -> float:
-        """How far a step along the axis moves a wall at most, as a part of it."""
-        return 1.0
-
-    def has_screws(self) -> bool:
-        """Whether there are walls of the kind of helical teeth: none of those."""
-        return False
-
-    def surfaces(self) -> list[Face]:
-        """Its faces in different surfaces."""
-        thread, worm, half = self.thread, self.thread.worm, self.length / 2
-        found: list[Face] = []
-        for upper in (True, False):
-            found += [Screwed(thread, line, upper, name) for name, line in thread.lines]
-        found += [_pipe(worm.root_radius), _pipe(worm.tip_radius)]
-        tip = float(self.end_height(worm.tip_radius))
-        for above, sign in ((False, -1.0), (True, 1.0)):
-            if self.end_angle > 0:
-                found.append(Round((sign * half, worm.root_radius), (sign * tip, worm.tip_radius)))
-            points = self.outline(above=above)
-            if self.end_angle == 0 and (len(points) == 1 or points[0][0] != points[1][0]):
-                found.append(Level(sign * half))
-            for before, after in zip(points, [*points[1:], (points[-1][0], 0.0)], strict=True):
-                known = _pipe(before[1]) if before[1] == after[1] else Round(before, after)
-                found.append(Level(before[0]) if before[0] == after[0] else known)
-        if self.bore is not None:
-            found.append(BoreWall(self.bore))
-        return list(dict.fromkeys(found))
-
-    def distance(self, face: Face, points: Real) -> Real:
-        """Of points (n, 3) from the surface that a face lies in, mm."""
-        return face.distance(points)
-
-    def volume(self) -> float:
-        """Exact, mm^3."""
-        return worm_moments(self).volume
-
     def checked(self) -> WormBody:
         """The solid itself, where it exists.
 
@@ -243,7 +129,7 @@ class WormBody(Record):
         least = self.least_length()
         if not self.length > least:
             raise ParameterError(
-                "thread_length", self.length, "worm_thread_too_short", limit(1.001 * least, self.length)
+                "thread_length", self.length, "worm_thread_too_short", limit(least * (1 + 1e-9), self.length)
             )
         return self
 
@@ -253,11 +139,6 @@ class WormBody(Record):
         places = np.concatenate([line.point(np.linspace(*line.domain, _SAMPLES)) for _, line in self.thread.lines])
         away = np.abs(places.imag) + (places.real - worm.root_radius) * math.tan(self.end_angle)
         return 2 * float(away.max()) * (1 + 1e-6)
-
-
-def _pipe(radius: float) -> Round:
-    """A cylinder about the axis, of any length."""
-    return Round((0.0, radius), (1.0, radius))
 
 
 def worm_moments(body: WormBody) -> Moments:
@@ -273,12 +154,10 @@ def worm_moments(body: WormBody) -> Moments:
     for _, line in body.thread.lines:
         low, high = line.domain
         t = (low + high) / 2 + (high - low) / 2 * nodes
-        place, way = line.point(t), line.tangent(t)
+        place = line.point(t)
         radii = place.real
-        # dr along the line by Gauss's rule: the speed over the parameter
-        speed = _speed(line, t)
         total += _rings(radii, place.imag / p, np.asarray(body.end_height(radii), float), n, p, sign) @ (
-            weights * (high - low) / 2 * speed * way.real
+            weights * (high - low) / 2 * line_step(line, t).real
         )
     half = body.length / 2
     columns = [(circle(worm.root_radius, Label.BODY), -half, half)]
@@ -291,14 +170,6 @@ def worm_moments(body: WormBody) -> Moments:
     for profile, base, top in columns:
         total += column_integrals(section_moments(profile), base, top)
     return moments_of(total)
-
-
-def _speed(line: SectionLine, t: Real) -> Real:
-    """|dpoint/dt| of a line, mm per unit of its parameter."""
-    if isinstance(line, Arc | Line):
-        return np.abs(line.derivative(t))
-    # r = hypot(t, least): dr/dt = t / r, and the tangent's share of r is its real part
-    return np.asarray(t / line.radius(t) / line.tangent(t).real)
 
 
 def _rings(r: Real, a: Real, h: Real, n: int, p: float, sign: int) -> Real:

@@ -9,6 +9,7 @@ two faces are curves of constant parameter of both.
 from __future__ import annotations
 
 import math
+from functools import lru_cache, partial
 from itertools import pairwise
 
 import numpy as np
@@ -17,13 +18,13 @@ from geometry.approximation.outline import Outline, spline_outline
 from geometry.approximation.tensor import basis_matrix, clamped, greville
 from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record
-from geometry.curves.bounds import Bound
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc
-from geometry.gears.worms.body import WormBody
+from geometry.gears.worms.body import Screwed, WormBody, worm_moments
 from geometry.gears.worms.thread import SectionLine
 from geometry.solids import faces as kinds
-from geometry.solids.faces import Circular, Faces, Frame, Index, Solid, Spline, Straight
+from geometry.solids.faced import FacedBody, FacedSolid, Measured
+from geometry.solids.faces import Circular, Faces, Frame, Index, Spline, Straight
 from geometry.solids.rings import AHEAD, UP, Ring, RingBuilder
 
 _DEGREE = 7
@@ -43,15 +44,16 @@ _MOST_ROUNDS = 12
 Use = tuple[Index, bool]
 
 
-class WormSolid(Record, eq=False):
-    """The faces, and how far they lie from the exact worm, mm."""
+def faced_worm(body: WormBody) -> FacedBody:
+    """A worm as files, mass and checks take it: the same faces for every tolerance that kernels allow."""
+    thread = body.thread
+    walls = [Measured(name, Screwed(thread, line, upper).distance)
+             for upper in (True, False) for name, line in thread.lines]  # fmt: skip
+    made = lru_cache(maxsize=2)(partial(worm_solid, body))
+    return FacedBody(lambda tolerance: made(min(tolerance, _TARGET)), tuple(walls), partial(worm_moments, body))
 
-    solid: Solid
-    max_error: float
-    bound: Bound = "sampled"
 
-
-def worm_solid(body: WormBody, tolerance: float) -> WormSolid:
+def worm_solid(body: WormBody, tolerance: float) -> FacedSolid:
     """The faces of a worm, splines within ``tolerance`` mm and within what kernels call one point of the cylinders.
 
     Raises
@@ -59,7 +61,7 @@ def worm_solid(body: WormBody, tolerance: float) -> WormSolid:
     ConvergenceError
         64 spans for a step are not enough.
     """
-    reach = body.section_reach()
+    reach = body.thread.worm.tip_radius
     target = max(min(tolerance, _TARGET) / _MARGIN, 4 * _ROUNDING * reach)
     made = _Maker(body, target)
     made.threads()
@@ -71,7 +73,7 @@ def worm_solid(body: WormBody, tolerance: float) -> WormSolid:
         bore = spline_outline(body.bore, tolerance, degree=_DEGREE, continuity=_DEGREE - 1)
     made.shafts(bore)
     worst = _MARGIN * made.worst
-    return WormSolid(made.solid(), worst if bore is None else max(worst, bore.max_error))
+    return FacedSolid(made.solid(), worst if bore is None else max(worst, bore.max_error), "sampled")
 
 
 class _Strip(Record, eq=False):

@@ -57,6 +57,14 @@ class FlankLine(Record):
 SectionLine: TypeAlias = Arc | Line | FlankLine
 
 
+def line_step(line: SectionLine, t: ArrayLike) -> Complex:
+    """Derivative of a line of the axial section by its parameter, mm per unit of it."""
+    if isinstance(line, Arc | Line):
+        return line.derivative(t)
+    slope = line.worm.flank.slope(line.radius(t))
+    return np.asarray(np.asarray(t, float) / line.radius(t) * (1 - 1j * slope))
+
+
 class Thread(Record):
     """A worm with the corners of its thread; ``tip_rounding``: radius of the arc in the axial section, mm.
 

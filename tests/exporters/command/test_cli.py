@@ -61,6 +61,7 @@ DAILY = {
     "practicum_roller_cam": "stl", "print_cam_set": "stl", "print_gear": "stl", "rack_and_pinion": "sheet",
     "thesis_internal_pair": "dxf", "tmm42": "svg", "wedge_cam": "stl", "yoke_cam": "svg",
     "james": "motion", "james_laser": "svg", "james_print": "glb", "compound_two_stage": "3mf",
+    "worm": "dxf",
 }  # fmt: skip
 # sets like those: built whole among the heavy ones, checked by sample with their recipe; coupons have their own tests
 LIKE_JAMES = {

@@ -14,7 +14,7 @@ from exporters.verification.faces import verify_faced_solid
 from geometry.base.errors import ParameterError
 from geometry.base.record import replace
 from geometry.gears.worms.body import Step, WormBody, worm_moments
-from geometry.gears.worms.faces import worm_solid
+from geometry.gears.worms.faces import faced_worm, worm_solid
 from geometry.gears.worms.thread import thread_of
 from geometry.gears.worms.worm import Worm
 from geometry.solids.bores import KeywayBore
@@ -45,16 +45,16 @@ def test_the_faces_of_a_worm_are_closed_and_their_files_within_their_bound(name:
     made = worm_solid(body, 1e-4)
     # every edge once each way
     uses: Counter[tuple[int, bool]] = Counter()
-    for faces in made.solid.faces:
+    for faces in made.geometry.faces:
         for edges, ways in faces.loops:
             for row in edges:
                 uses.update(zip(row.tolist(), np.broadcast_to(ways, row.shape).tolist(), strict=True))
-    count = sum(len(bundle.start) for bundle in made.solid.edges)
+    count = sum(len(bundle.start) for bundle in made.geometry.edges)
     assert uses == Counter({(edge, way): 1 for edge in range(count) for way in (True, False)})
-    text = step_text(StepPart(name, made.solid), StepForm(10))
+    text = step_text(StepPart(name, made.geometry), StepForm(10))
     file = tmp_path / "worm.step"
     file.write_text(text)
-    verdict = verify_faced_solid(read_step(file), body, made.max_error + 1e-9, 1e-4)
+    verdict = verify_faced_solid(read_step(file), faced_worm(body), made.max_error + 1e-9, 1e-4)
     assert verdict.failures == ()
     assert verdict.measured["max_deviation"] > 0
     assert abs(verdict.measured["volume_error"]) < 1e-9
@@ -78,7 +78,7 @@ def test_the_kernel_finds_the_worm_valid_and_of_its_volume(name: str) -> None:
     from OCP.GProp import GProp_GProps
 
     body = BODIES[name]
-    (solid,) = solids_of(step_text(StepPart("worm", worm_solid(body, 1e-4).solid), StepForm(10)))
+    (solid,) = solids_of(step_text(StepPart("worm", worm_solid(body, 1e-4).geometry), StepForm(10)))
     assert BRepCheck_Analyzer(solid).IsValid()
     found = GProp_GProps()
     BRepGProp.VolumeProperties_s(solid, found, 1e-9)

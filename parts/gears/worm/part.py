@@ -1,0 +1,257 @@
+"""The part kind ``worm``: a cylindrical worm with its shaft."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+from typing import TYPE_CHECKING, Annotated
+
+from msgspec import Meta, Struct, field
+from msgspec.structs import replace as changed
+
+from geometry.base.errors import Nearest, OffsetError, ParameterError, limit, rounded
+from geometry.base.findings import Finding
+from geometry.base.nearest import nearest
+from geometry.solids.hub_holes import HubHoles, least_wall
+from parts.base.kind import Kind, Others, Report
+from parts.keys.base import BoreDiameter, MaterialKeys, degrees, either, mm
+from parts.keys.holes import BoreTable, bore_of, hub_holes, wide_bore
+from parts.keys.worm import (
+    Addendum,
+    AxialModule,
+    Clearance,
+    Fillet,
+    Form,
+    GrindingWheel,
+    Quotient,
+    Starts,
+    WormAngle,
+    WormHand,
+    worm_of,
+)  # fmt: skip
+
+if TYPE_CHECKING:
+    from geometry.gears.worms.body import WormBody
+    from geometry.gears.worms.thread import Thread
+    from geometry.plane.offset_region import OffsetRegion
+    from geometry.solids.faced import FacedBody
+
+_MOST = 100_000.0
+# where it is not given
+_QUOTIENT = 10.0
+
+
+class StepTable(Struct, forbid_unknown_fields=True):
+    """One step of the shaft beside the thread, from the thread outwards."""
+
+    diameter: Annotated[float, mm("diameter of the step", above=0, most=_MOST, example=12.0)]
+    length: Annotated[float, mm("length of the step", above=0, most=_MOST, example=15.0)]
+    chamfer: Annotated[float, mm("45 degree chamfer of its outer edge", least=0, most=_MOST)] = 0.0
+
+
+Steps = Annotated[
+    list[StepTable],
+    Meta(
+        max_length=50,
+        description="the shaft, step by step from the thread outwards",
+        examples=[[{"diameter": 12.0, "length": 15.0, "chamfer": 0.5}]],
+    ),
+]
+
+
+class WormSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="worm"):
+    """Keys of ``worm``."""
+
+    module: AxialModule
+    thread_length: Annotated[float, mm("threaded length b1, at the root", above=0, most=10_000, example=40.0)]
+    number_of_starts: Starts = 1
+    diameter_quotient: Quotient = _QUOTIENT
+    lead_angle_deg: (
+        Annotated[float, degrees("lead angle on the reference cylinder, in place of q", above=0, below=89, example=5.7)]
+        | None
+    ) = None
+    form: Form = "ZI"
+    pressure_angle_deg: WormAngle = 20.0
+    hand: WormHand = "right"
+    addendum_coefficient: Addendum = 1.0
+    tip_clearance_coefficient: Clearance = 0.2
+    fillet_coefficient: Fillet = 0.2
+    grinding_wheel_diameter: GrindingWheel = 300.0
+    axial_thinning: Annotated[float, mm("thinning of the thread, axial, for backlash", least=0, most=1000)] = 0.0
+    tip_rounding: Annotated[float, mm("radius of the thread's tip edges in the axial section", least=0, most=1000)] = (
+        0.0
+    )
+    end_angle_deg: Annotated[
+        float,
+        degrees("cone that cuts the thread at both ends, from the end's plane; 0 cuts it plainly", least=0, most=60),
+    ] = 20.0
+    shaft_below: Steps = field(default_factory=list)
+    shaft_above: Steps = field(default_factory=list)
+    bore_diameter: BoreDiameter = 0.0
+    bore: BoreTable | None = None
+
+
+def _told(keys: WormSpec) -> WormSpec:
+    """The keys with the diameter quotient of their lead angle."""
+    if keys.lead_angle_deg is None:
+        return keys
+    if keys.diameter_quotient != _QUOTIENT:
+        raise either("diameter_quotient", keys.diameter_quotient, "lead_angle_deg", _QUOTIENT)
+    return changed(keys, diameter_quotient=keys.number_of_starts / math.tan(math.radians(keys.lead_angle_deg)))
+
+
+def thread_of_keys(keys: WormSpec) -> Thread:
+    """The thread of a part, checked to exist.
+
+    Raises
+    ------
+    ParameterError
+        It cannot; names the key and the nearest value that works.
+    """
+    from geometry.gears.worms.thread import thread_of
+
+    told = _told(keys)
+    try:
+        worm = worm_of(told, keys.fillet_coefficient, keys.axial_thinning)
+        return thread_of(worm, keys.tip_rounding)
+    except ParameterError as refusal:
+        if refusal.name == "addendum_coefficient":
+            raise ParameterError(refusal.name, refusal.value, refusal.code, partial(_lower, keys)) from refusal
+        if refusal.name != "diameter_quotient" or keys.lead_angle_deg is None:
+            raise
+        raise _in_degrees(refusal, keys.number_of_starts, keys.lead_angle_deg) from refusal
+
+
+def _lower(keys: WormSpec) -> Nearest | None:
+    """The addendum that leaves a tip, and with the root that goes with it spaces and their fillets."""
+
+    def works(value: float) -> bool:
+        return thread_of_keys(changed(keys, addendum_coefficient=value)).tip_half > 0
+
+    return nearest(works, keys.addendum_coefficient, (1.0, 0.5, 0.1))
+
+
+def _in_degrees(refusal: ParameterError, starts: int, given: float) -> ParameterError:
+    """A refusal of the diameter quotient in the lead angle that it stands for."""
+
+    def cure() -> Nearest | None:
+        found = refusal.nearest
+        if found is None or not isinstance(found.value, float):
+            return None
+        return Nearest(rounded(math.degrees(math.atan2(starts, found.value)), up=False), "at_most")
+
+    return ParameterError("lead_angle_deg", given, refusal.code, cure, **refusal.numbers)
+
+
+def _check_shaft(keys: WormSpec, root: float) -> None:
+    """Every step within the root, its chamfer within the step."""
+    for key in ("shaft_below", "shaft_above"):
+        steps: list[StepTable] = getattr(keys, key)
+        for number, step in enumerate(steps, 1):
+            place = f"{key}.item {number}"
+            if number == 1 and step.diameter > 2 * root:
+                most = limit(2 * root, step.diameter)
+                raise ParameterError(f"{place}.diameter", step.diameter, "worm_shaft_over_root", most, root=2 * root)
+            most_chamfer = min(step.length, step.diameter / 2 - least_wall(step.diameter / 2))
+            if step.chamfer > most_chamfer:
+                cure = limit(most_chamfer, step.chamfer)
+                raise ParameterError(f"{place}.chamfer", step.chamfer, "worm_step_chamfer", cure)
+
+
+def _check_bore(keys: WormSpec, holes: HubHoles, root: float) -> None:
+    """The bore leaves a wall in the thread and in every step."""
+    steps = [*keys.shaft_below, *keys.shaft_above]
+    least = min([root, *(step.diameter / 2 - step.chamfer for step in steps)])
+    room = least - least_wall(least)
+    if holes.bore_reach > room:
+        raise wide_bore(keys, room, "leaves_no_wall")
+
+
+class WormKind(Kind[WormSpec, "WormBody"]):
+    """A worm; the middle of its thread lies at z = 0, and its flat outline is the section there."""
+
+    name, keys = "worm", WormSpec
+
+    def thing(self, keys: WormSpec, others: Others) -> WormBody:
+        """The worm's solid, checked to exist."""
+        from geometry.gears.worms.body import Step, WormBody
+
+        thread = thread_of_keys(keys)
+        root = thread.worm.root_radius
+        holes = hub_holes(bore_of(keys), None, None)
+        if holes.bore is not None:
+            holes.bore.check()
+        _check_shaft(keys, root)
+        _check_bore(keys, holes, root)
+        bores = holes.profiles(0.0)
+        below, above = (
+            tuple(Step(s.diameter, s.length, s.chamfer) for s in steps)
+            for steps in (keys.shaft_below, keys.shaft_above)
+        )
+        angle = math.radians(keys.end_angle_deg)
+        return WormBody(thread, keys.thread_length, angle, below, above, bores[0] if bores else None).checked()
+
+    def section(self, keys: WormSpec, thing: WormBody, offset: float) -> OffsetRegion:
+        """The section across the axis in the middle of the thread."""
+        from geometry.gears.worms.section import transverse_profile
+        from geometry.plane.offset_region import OffsetRegion
+        from geometry.plane.profile import Region
+
+        _still(offset)
+        holes = () if thing.bore is None else (thing.bore,)
+        return OffsetRegion(Region(transverse_profile(thing.thread), holes), 0.0, ())
+
+    def solid(self, keys: WormSpec, thing: WormBody, offset: float) -> FacedBody:
+        """The worm."""
+        from geometry.gears.worms.faces import faced_worm
+
+        _still(offset)
+        return faced_worm(thing)
+
+    def height(self, keys: WormSpec, thing: WormBody) -> float:
+        """Its whole length."""
+        low, high = thing.ends()
+        return high - low
+
+    def is_plate(self, keys: WormSpec, thing: WormBody) -> bool:
+        """Never."""
+        return False
+
+    def report(self, keys: WormSpec, thing: WormBody) -> Report:
+        """Diameters, angles, and what is measured."""
+        from geometry.gears.worms.measures import BALL, over_balls, reference_chord
+
+        thread, worm = thing.thread, thing.thread.worm
+        circles = {
+            "tip_diameter": 2 * worm.tip_radius,
+            "reference_diameter": 2 * worm.reference_radius,
+            "root_diameter": 2 * worm.root_radius,
+            "root_form_diameter": 2
+            * dict(thread.lines)["flank"].point(dict(thread.lines)["flank"].domain[0]).real.item(),
+        }
+        if worm.form == "ZI":
+            circles["base_diameter"] = 2 * worm.flank.least_radius
+        chord, balls = reference_chord(thread), over_balls(thread, BALL * worm.module)
+        quantities = {
+            "length": self.height(keys, thing),
+            "lead_angle_deg": math.degrees(worm.lead_angle),
+            "axial_pressure_angle_deg": math.degrees(worm.axial_pressure_angle),
+            "pitch": math.pi * worm.module,
+            "lead": worm.lead,
+            "axial_thickness": 2 * worm.screw.half_thickness,
+            "thread_chord": chord.thickness,
+            "thread_chord_height": chord.height,
+            "axial_tip_land": 2 * thread.tip_half,
+            **({} if balls is None else {"ball_diameter": BALL * worm.module, "over_balls": balls}),
+        }
+        flat = (Finding("worm_section", 2 * worm.tip_radius, 0.0),)
+        return Report((), circles, quantities, flat)
+
+
+WORM = WormKind()
+
+
+def _still(offset: float) -> None:
+    """A thread is not moved out of its material: its parallel surfaces are of no form of flank."""
+    if offset != 0:
+        raise OffsetError(offset, "worm_not_moved", 0.0)

@@ -1,0 +1,141 @@
+"""The part kind ``worm``: files of every form through the command, measures by independent ways, refusals that work."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from exporters.command.cli import main
+from parts.base.part import Part
+from parts.scene.load import make_parts, scene_from_dict
+from tests.parts.nearest import cured, refused
+
+WORM: dict[str, Any] = {"kind": "worm", "module": 5.0, "thread_length": 40.0}
+EXTREMES: dict[str, dict[str, Any]] = {
+    "ground": {"module": 3.0, "number_of_starts": 2, "thread_length": 20.0, "form": "ZK1", "end_angle_deg": 0.0,
+               "shaft_below": [{"diameter": 22.8, "length": 4.0}]},
+    "base above the root": {"number_of_starts": 4, "diameter_quotient": 8.0, "tip_rounding": 0.3},
+    "q 50": {"module": 1.0, "diameter_quotient": 50.0, "thread_length": 8.0, "form": "ZA", "hand": "left"},
+    "q 4": {"module": 2.0, "diameter_quotient": 4.0, "thread_length": 16.0, "form": "ZN1", "end_angle_deg": 45.0},
+    "ten starts": {"module": 2.0, "number_of_starts": 10, "diameter_quotient": 30.0, "thread_length": 22.0, "form": "ZN2",
+                   "shaft_above": [{"diameter": 20.0, "length": 5.0, "chamfer": 1.0}], "bore_diameter": 8.0},
+    "lead of 60 degrees": {"number_of_starts": 6, "lead_angle_deg": 60.0, "addendum_coefficient": 0.3,
+                           "tip_clearance_coefficient": 0.1, "fillet_coefficient": 0.05, "pressure_angle_deg": 10.0,
+                           "form": "ZN1"},
+}  # fmt: skip
+
+
+def part_of(**keys: Any) -> Part:
+    return make_parts(scene_from_dict({"parts": {"worm": WORM | keys}}, "s", "s"), "s")[0]["worm"]
+
+
+def test_the_keys_of_the_thesis_give_its_numbers() -> None:
+    part = part_of(thread_length=120.0, tip_rounding=0.5)
+    found = part.circles | part.quantities
+    # table 2.2 of the thesis; alpha_x of an involute worm by its own formula
+    assert found["reference_diameter"] == 50.0
+    assert found["tip_diameter"] == 60.0
+    assert found["root_diameter"] == pytest.approx(38.0)
+    assert found["base_diameter"] == pytest.approx(13.185, abs=5e-4)
+    assert found["lead_angle_deg"] == pytest.approx(5.7106, abs=5e-5)
+    assert found["axial_pressure_angle_deg"] == pytest.approx(20.0918, abs=5e-5)
+    assert found["lead"] == pytest.approx(5 * math.pi)
+
+
+@pytest.mark.parametrize("keys", [{}, {"number_of_starts": 3, "form": "ZN1", "hand": "left"}, {"form": "ZA"}])
+def test_balls_touch_both_flanks_of_their_space_and_the_chord_is_the_shortest(keys: dict[str, Any]) -> None:
+    part = part_of(**keys)
+    thread, worm = part.thing.thread, part.thing.thread.worm
+    ball = part.quantities["ball_diameter"]
+    radius = (part.quantities["over_balls"] - ball) / 2
+    centre = np.array([radius, 0.0, math.pi * worm.module / 2])
+    line = dict(thread.lines)["flank"]
+    # brute force over the upper flank below the ball and the lower one above it
+    t, turn = np.meshgrid(np.linspace(*line.domain, 400), np.linspace(-0.6, 0.6, 1201))
+    for upper, up in ((True, 0.0), (False, math.pi * worm.module)):
+        points = thread.points(line.point(t), turn, upper=upper) + np.array([0.0, 0.0, up])
+        assert np.linalg.norm(points - centre, axis=-1).min() == pytest.approx(ball / 2, abs=2e-4)
+    r, half = worm.reference_radius, worm.screw.half_thickness
+    turns = np.linspace(-0.3, 0.3, 200_001)
+    sizes = 2 * np.hypot(r * np.sin(turns), half + worm.parameter * turns)
+    assert part.quantities["thread_chord"] == pytest.approx(sizes.min(), abs=1e-9)
+    least = turns[sizes.argmin()]
+    assert part.quantities["thread_chord_height"] == pytest.approx(worm.tip_radius - r * math.cos(least), abs=1e-5)
+
+
+def test_the_flat_section_is_that_of_the_screw_surfaces() -> None:
+    part = part_of(number_of_starts=2, hand="left", bore_diameter=10.0)
+    worm = part.thing.thread.worm
+    outer = part.section(0.0).region.outer
+    assert outer.count == 2
+    for segment in outer.period:
+        t = np.linspace(*segment.curve.domain, 9)
+        point = segment.curve.point(t)
+        if segment.label == "flank":
+            turned = np.abs(np.angle(point)) - worm.transverse_half_angle(np.abs(point))
+            assert np.abs(turned).max() < 1e-12
+        step = 1e-5
+        middle = t[1:-1]
+        for order in (1, 2, 3):
+            low, high = (
+                segment.curve.derivative(x, order - 1) if order > 1 else segment.curve.point(x)
+                for x in (middle - step, middle + step)
+            )
+            assert segment.curve.derivative(middle, order) == pytest.approx(
+                (high - low) / (2 * step), rel=1e-5, abs=1e-5
+            )
+
+
+@pytest.mark.parametrize("name", [
+    name if name == "ground" else pytest.param(name, marks=pytest.mark.heavy) for name in EXTREMES
+])  # fmt: skip
+def test_files_of_extreme_worms_are_read_back_as_they_should_be(name: str, tmp_path: Path) -> None:
+    rows = []
+    for key, value in (WORM | EXTREMES[name]).items():
+        told = json.dumps(value) if not isinstance(value, list) else (
+            "[" + ", ".join("{" + ", ".join(f"{k} = {v}" for k, v in row.items()) + "}" for row in value) + "]"
+        )  # fmt: skip
+        rows.append(f"{key} = {told}")
+    exports = [
+        '[[exports]]\nformat = "step"',
+        '[[exports]]\nformat = "stl"\ntolerance = 0.1',
+        '[[exports]]\nformat = "dxf"',
+    ]
+    scene = tmp_path / "one.toml"
+    scene.write_text("\n".join(["[parts.worm]", *rows, *exports]) + "\n", "utf-8")
+    assert main(["build", str(scene), "--out", str(tmp_path / "out")]) == 0
+    report = json.loads(next((tmp_path / "out").rglob("report.json")).read_text("utf-8"))
+    assert len(report["files"]) == 3
+    for file in report["files"]:
+        assert file["measured"]["max_deviation"] <= file["max_error"] <= file["tolerance"]
+
+
+@pytest.mark.parametrize(
+    ("keys", "key"),
+    [
+        ({"diameter_quotient": 2.0}, "diameter_quotient"),
+        ({"number_of_starts": 8, "lead_angle_deg": 60.0, "form": "ZN1"}, "lead_angle_deg"),
+        ({"thread_length": 9.0}, "thread_length"),
+        ({"fillet_coefficient": 1.9}, "fillet_coefficient"),
+        ({"tip_rounding": 5.0}, "tip_rounding"),
+        ({"addendum_coefficient": 3.0}, "addendum_coefficient"),
+        ({"shaft_above": [{"diameter": 45.0, "length": 5.0}]}, "shaft_above.item 1.diameter"),
+        ({"shaft_below": [{"diameter": 20.0, "length": 5.0, "chamfer": 6.0}]}, "shaft_below.item 1.chamfer"),
+        ({"bore_diameter": 40.0}, "bore_diameter"),
+        ({"diameter_quotient": 12.0, "lead_angle_deg": 10.0}, "diameter_quotient"),
+    ],
+)
+def test_a_worm_that_cannot_be_is_refused_with_a_value_that_works(keys: dict[str, Any], key: str) -> None:
+    refusal = refused({"worm": WORM | keys})
+    assert refusal.key == f"parts.worm.{key}"
+    assert cured({"worm": WORM | keys}, refusal) is not None
+
+
+def test_a_negative_module_is_refused_by_its_range() -> None:
+    refusal = refused({"worm": WORM | {"module": -5.0}})
+    assert refusal.key == "parts.worm.module"
