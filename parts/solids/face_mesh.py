@@ -498,6 +498,7 @@ def _patch_error(patch: Patch, points: Real, table: Real, triangles: Triangles) 
             at = np.einsum("sk,nkc->nsc", _PLACES, points[row][part]).reshape(-1, 3)
             place, du, dv = (x[0] for x in own.scattered(uv))
             off = at - place
+            away = np.linalg.norm(off, axis=1)
             a, b, c = np.sum(du * du, -1), np.sum(du * dv, -1), np.sum(dv * dv, -1)
             p, q = np.sum(off * du, -1), np.sum(off * dv, -1)
             det = np.maximum(a * c - b * b, 1e-300)
@@ -505,5 +506,7 @@ def _patch_error(patch: Patch, points: Real, table: Real, triangles: Triangles) 
             place, du, dv = (x[0] for x in own.scattered(uv + step))
             normal = np.cross(du, dv)
             normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
-            worst = max(worst, float(np.abs(np.sum((at - place) * normal, axis=1)).max()))
+            # where a patch begins with no way along u the step leads astray
+            across = np.abs(np.sum((at - place) * normal, axis=1))
+            worst = max(worst, float(np.minimum(away, across).max()))
     return worst

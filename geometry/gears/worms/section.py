@@ -10,9 +10,11 @@ from numpy.polynomial import Chebyshev
 from numpy.typing import ArrayLike
 
 from geometry.base.record import Record
-from geometry.curves.curve import Complex, Span
+from geometry.curves.curve import Complex, Curve, Span
+from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc
-from geometry.gears.worms.thread import Part, SectionLine, Thread, line_step
+from geometry.gears.worms.flank import InvoluteFlank
+from geometry.gears.worms.thread import FlankLine, Part, SectionLine, Thread, line_step
 from geometry.plane.profile import Label, Profile, Segment
 
 # of the series that gives higher derivatives
@@ -54,10 +56,20 @@ def _series(curve: TransverseLine) -> tuple[Chebyshev, Chebyshev]:
     return real, imag
 
 
+def _transverse(line: SectionLine, parameter: float) -> Curve:
+    """A line of the upper side in the plane z = 0; of ZI the involute that it is."""
+    if isinstance(line, FlankLine) and isinstance(line.worm.flank, InvoluteFlank):
+        base = line.worm.flank.least_radius
+        low, high = (t / base for t in line.domain)
+        turned = -float(line.worm.half_thickness(base)) / parameter
+        return Involute(base, turned, low, high)
+    return TransverseLine(line, parameter, *line.domain)
+
+
 def transverse_profile(thread: Thread) -> Profile:
     """The boundary of the section across the axis, through the middle of a thread on +x, either hand."""
     worm, p = thread.worm, thread.worm.parameter
-    side = [Segment(TransverseLine(line, p, *line.domain), _LABELS[name]) for name, line in thread.lines]
+    side = [Segment(_transverse(line, p), _LABELS[name]) for name, line in thread.lines]
     tip, root = thread.tip_half / p, thread.root_half / p
     land = Arc(0j, worm.tip_radius, -tip, 2 * tip)
     floor = Arc(0j, worm.root_radius, root, math.tau / worm.number_of_starts - 2 * root)

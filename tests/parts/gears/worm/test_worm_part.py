@@ -69,8 +69,9 @@ def test_balls_touch_both_flanks_of_their_space_and_the_chord_is_the_shortest(ke
     assert part.quantities["thread_chord_height"] == pytest.approx(worm.tip_radius - r * math.cos(least), abs=1e-5)
 
 
-def test_the_flat_section_is_that_of_the_screw_surfaces() -> None:
-    part = part_of(number_of_starts=2, hand="left", bore_diameter=10.0)
+@pytest.mark.parametrize("form", ["ZI", "ZN2"])
+def test_the_flat_section_is_that_of_the_screw_surfaces(form: str) -> None:
+    part = part_of(number_of_starts=2, hand="left", bore_diameter=10.0, form=form)
     worm = part.thing.thread.worm
     outer = part.section(0.0).region.outer
     assert outer.count == 2
