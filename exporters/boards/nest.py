@@ -30,7 +30,7 @@ _ROUND = 1.02
 # shapes are the same to this, mm; a turn is none where it changes so little of an area
 _SAME, _SYMMETRIC = 1e-6, 0.002
 # cells that all layouts together look at
-_WORK = 2e10
+_WORK = 1e10
 # layouts that are tried for each piece at most
 _TRIALS = 10
 _NOTHING = (math.inf, math.inf, math.inf)
@@ -101,8 +101,9 @@ def nest(shapes: Mapping[str, tuple[BaseGeometry, int]], room: Room) -> list[Lai
         name = queues[one.shape].pop(0)
         off = _middle(plain[one.shape]) - _middle(plain[name])
         laid.append(replace(one, shape=name, at=one.at + off * 1j**one.turn))
-    return [one for number in range(1 + max((x.board for x in laid), default=-1))
-            for one in _together([x for x in laid if x.board == number], plain, room)]  # fmt: skip
+    # only the last board has room to be saved
+    last = max((one.board for one in laid), default=0)
+    return [x for x in laid if x.board < last] + _together([x for x in laid if x.board == last], plain, room)
 
 
 def _plain(shapes: Mapping[str, tuple[BaseGeometry, int]], gap: float) -> dict[str, BaseGeometry]:

@@ -209,7 +209,7 @@ def _inside(polygons: Sequence[BaseGeometry]) -> list[list[int]]:
     import shapely
 
     tree = shapely.STRtree(list(polygons))
-    inner, outer = tree.query(np.array(polygons, dtype=object), predicate="within")
+    outer, inner = tree.query(np.array(polygons, dtype=object), predicate="contains")
     found: list[list[int]] = [[] for _ in polygons]
     for a, b in zip(inner.tolist(), outer.tolist(), strict=True):
         if a != b:
@@ -260,18 +260,32 @@ def _room_failures(
         piece = expected.pieces[int(edges.min(axis=1).argmin())]
         found = f"{measured['least_margin']:.6g} mm from the edge of the board"
         yield f"{piece.id} lies {found} instead of {board.margin:g}"
-    one, two = shapely.STRtree(list(material)).query(
-        np.array(material, dtype=object), predicate="dwithin", distance=board.gap + 1.0
-    )
-    pairs = [(a, b) for a, b in zip(one.tolist(), two.tolist(), strict=True) if a < b]
+    tree, every = shapely.STRtree(list(material)), np.array(material, dtype=object)
+    for a, b in zip(*tree.query(every, predicate="intersects").tolist(), strict=True):
+        if a < b:
+            yield f"{expected.pieces[a].id} and {expected.pieces[b].id} overlap"
+    near = zip(*tree.query(every, predicate="dwithin", distance=board.gap + 1.0).tolist(), strict=True)
+    pairs = [(a, b) for a, b in near if a < b]
     if not pairs:
         return
-    gaps = [shapely.distance(material[a], material[b]) - 2 * _SAG for a, b in pairs]
+    gaps = [_distance(material[a], material[b], board.gap + 1.0) - 2 * _SAG for a, b in pairs]
     nearest = int(np.argmin(gaps))
     measured["least_gap"] = gaps[nearest]
     if gaps[nearest] < board.gap - _KEPT:
         a, b = (expected.pieces[k].id for k in pairs[nearest])
         yield f"{a} and {b} lie {gaps[nearest]:.6g} mm apart instead of {board.gap:g}"
+
+
+def _distance(one: BaseGeometry, two: BaseGeometry, reach: float) -> float:
+    """The distance of two pieces that lie no farther apart than ``reach``, mm: of what each has near the other's box."""
+    import shapely
+
+    parts = []
+    for own, other in ((one, two), (two, one)):
+        low_x, low_y, high_x, high_y = other.bounds
+        box = low_x - reach, low_y - reach, high_x + reach, high_y + reach
+        parts.append(shapely.clip_by_rect(own.boundary, *box))
+    return float(shapely.distance(*parts))
 
 
 def _ways(loops: Sequence[Loop], strokes: Sequence[Complex], expected: ExpectedBoard) -> dict[str, float]:
