@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
@@ -23,6 +24,7 @@ from parts.scene.placing import Placing, place
 if TYPE_CHECKING:
     from exporters.production.boards import BoardJob
     from exporters.production.film import Film
+    from exporters.production.plates import PlateJob
     from exporters.production.sheets import SheetJob
 
 
@@ -88,7 +90,10 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
     left_out += [LeftOut(f"parts.{p}", N_("was not asked for"), as_asked=True) for p in unasked]
     used = {p for _, e in exports for p in e.parts or parts}
     unused = [p for p in parts if p not in used]
-    left_out += [LeftOut(f"parts.{p}", N_("no export asks for it"), as_asked=bool(only_formats)) for p in unused]
+    purposes = {e.purpose for _, e in exports}
+    unused = [f"parts.{p}" for p in unused]
+    unused += [f"{key}.{n}" for key, word in PURPOSES_LAID.items() for n in getattr(scene, key) if word not in purposes]
+    left_out += [LeftOut(what, N_("no export asks for it"), as_asked=bool(only_formats)) for what in unused]
     jobs: list[Job] = []
     assemblies: list[AssemblyJob | BoardJob] = []
     sheets: list[SheetJob | Film] = []
@@ -103,24 +108,14 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
         if export.format in SHEET_FORMATS:
             sheets += _sheets(scene, placing, parts, _of_cams(export, parts, only_parts), where, source, taken)
             continue
-        if export.purpose == "board":
-            from exporters.production.boards import board_jobs
-
-            for board in board_jobs(scene, parts, export, _section, layouts, where, source):
-                _take(board.path, where, taken, source)
-                assemblies.append(board)
-            continue
-        if export.purpose == "plate":
-            from exporters.production.plates import plate_jobs
-
-            def solid(part: Part, export: ExportSpec = export, where: str = where) -> Job:
-                job = Job(part, export, _section(part, export, source, where), "", where)
-                _check_body(job, source)
-                return job
-
-            for plate in plate_jobs(scene, parts, export, solid, where, source):
-                _take(plate.path, where, taken, source)
-                assemblies.append(plate)
+        if export.purpose in PURPOSES_LAID.values():
+            laid = _laid(scene, parts, export, layouts, where, source)
+            for one in laid:
+                _take(one.path, where, taken, source)
+            assemblies += laid
+            lying = {m.part.id for one in laid for m in one.members}
+            over = [p for p in export.parts or parts if p not in lying]
+            left_out += [LeftOut(f"{where}: parts.{p}", N_("lies on none of its boards or beds")) for p in over]
             continue
         if export.format in FILMS:
             sheets.append(_film(scene, placing, parts, export, where, source))
@@ -158,6 +153,25 @@ def _film(
     else:
         from exporters.production.motion import MotionJob as made
     return film(made, scene, placing, parts, export, where, source)
+
+
+def _laid(
+    scene: SceneFile, parts: dict[str, Part], export: ExportSpec, layouts: dict[object, list[Any]], where: str,
+    source: str,
+) -> Sequence[BoardJob | PlateJob]:  # fmt: skip
+    """The boards or plates of an export; ``layouts``: of boards, which exports share."""
+    if export.purpose == "board":
+        from exporters.production.boards import board_jobs
+
+        return board_jobs(scene, parts, export, _section, layouts, where, source)
+    from exporters.production.plates import plate_jobs
+
+    def solid(part: Part) -> Job:
+        job = Job(part, export, _section(part, export, source, where), "", where)
+        _check_body(job, source)
+        return job
+
+    return plate_jobs(scene, parts, export, solid, where, source)
 
 
 def _of_several(export: ExportSpec) -> bool:

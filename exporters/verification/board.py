@@ -277,7 +277,7 @@ def _room_failures(
 
 
 def _distance(one: BaseGeometry, two: BaseGeometry, reach: float) -> float:
-    """The distance of two pieces that lie no farther apart than ``reach``, mm: of what each has near the other's box."""
+    """The distance of two pieces within ``reach`` of each other, mm: of what each has near the other's box."""
     import shapely
 
     parts = []
