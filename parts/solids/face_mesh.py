@@ -371,6 +371,10 @@ def _shares(solid: Solid, edges: Edges, sag: float) -> Real:
     bends = np.einsum("kp,npc->nkc", spline_rows(curve.degree, curve.knots, at, 2)[2], solid.points[curve.poles])
     most = np.linalg.norm(bends, axis=2).max(axis=0).reshape(-1, _BENDS).max(axis=1)
     counts = np.maximum(1, np.ceil(np.diff(breaks) * np.sqrt(most / (8 * sag)))).astype(int)
+    # chords may pass over knots at which the curve has no corner
+    even = max(1.0, math.ceil(math.sqrt(float(most.max()) / (8 * sag))))
+    if even < counts.sum() and np.unique(curve.knots, return_counts=True)[1][1:-1].max(initial=0) < curve.degree:
+        breaks, counts = np.array([0.0, 1.0]), np.array([int(even)])
     if counts.sum() > _MOST_TRIANGLES:
         raise ConvergenceError("mesh for the tolerance", sag, int(counts.sum()))
     pieces = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(breaks, breaks[1:], counts, strict=False)]
