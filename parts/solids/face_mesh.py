@@ -223,6 +223,9 @@ class _Mesher:
         uv[grid.collapsed(), 0] = np.nan
         if np.any(_turned(uv, triangles) <= 0):
             return None
+        if not chart.is_bent and _sagitta(chart, uv[triangles, 0], uv[triangles, 1]) > self.tolerance:
+            # sides of unlike lengths: what is stitched to them is wider than both
+            return None
         names = np.concatenate([grid.names(), self._added(chart.spatial(inner[:, 0], inner[:, 1]))])
         return names[triangles], uv[triangles, 0], uv[triangles, 1]
 

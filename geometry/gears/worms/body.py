@@ -45,30 +45,27 @@ class Screwed(Record):
     upper: bool
 
     def distance(self, points: Real) -> Real:
-        """Of points (n, 3), mm, to first order in it: by the axial section, also beyond the ends of the line."""
+        """Of points (n, 3), mm, to first order in it, by the axial section; lines go on beyond their ends."""
         worm, side = self.thread.worm, 1 if self.upper else -1
         radius = np.hypot(points[:, 0], points[:, 1])
         angle = worm.sign * np.arctan2(points[:, 1], points[:, 0])
         pitch = math.pi * worm.module
         away = side * (points[:, 2] - worm.parameter * angle)
         away = away - pitch * np.round((away - self._height(radius)) / pitch)
-        line, p = self.line, worm.parameter
+        line, below = self.line, np.zeros(len(radius))
         if isinstance(line, Arc):
             spoke = radius + 1j * away - line.centre
-            off = np.abs(spoke) - line.radius
-            normal = spoke / np.abs(spoke)
+            off, rise = np.abs(spoke) - line.radius, spoke.imag / np.abs(spoke)
         elif isinstance(line, Line):
-            off, normal = away - line.start.imag, np.full(len(radius), 1j)
+            off, rise = away - line.start.imag, np.ones(len(radius))
         else:
             inside = np.maximum(radius, worm.flank.least_radius * (1 + 1e-12))
-            off = away - worm.half_thickness(inside)
-            normal = 1j + worm.flank.slope(inside)
-            off, normal = off / np.abs(normal), normal / np.abs(normal)
-        # what lies beyond the line's ends is not on it
-        low, high = (float(line.point(t).real) for t in line.domain)
-        beyond = np.maximum(0.0, np.maximum(low - radius, radius - high))
-        found = np.abs(off) / np.hypot(1.0, normal.imag * p / np.maximum(radius, _SAME))
-        return np.asarray(np.hypot(found, beyond))
+            steep = np.hypot(1.0, worm.flank.slope(inside))
+            off, rise, below = (away - worm.half_thickness(inside)) / steep, 1 / steep, inside - radius
+        # the screw leans what stands across the axial section
+        return np.asarray(
+            np.hypot(np.abs(off) / np.hypot(1.0, rise * worm.parameter / np.maximum(radius, _SAME)), below)
+        )
 
     def _height(self, radius: Real) -> Real:
         """z of the line near a radius, mm."""

@@ -241,6 +241,7 @@ class _Maker(RingBuilder):
         # vertices, and helices between them
         corners, helix_points, helices, across = [], [], [], []
         v = greville(_DEGREE, self.v_knots)
+        cells_alike = slice(first, first + self.steps)
         for joint in self.joints:
             at = np.stack(self._columns(side, np.array([joint]))[0])[:, 0]
             angle = at[:-1, None] * (1 - v) + at[1:, None] * v
@@ -252,7 +253,7 @@ class _Maker(RingBuilder):
             points = np.concatenate([ends[:, :-1, None], inner, ends[:, 1:, None]], axis=2)
             corners.append(vertices)
             helix_points.append(points)
-            helices.append(self._splines(vertices[:, :-1], vertices[:, 1:], self.v_knots, points))
+            helices.append(self._splines(vertices[:, :-1], vertices[:, 1:], self.v_knots, points, cells_alike))
         for k, line in enumerate(self.lines):
             u_knots = self.u_knots[k]
             grid = self._points(side, line, greville(_DEGREE, u_knots), v)
@@ -260,14 +261,14 @@ class _Maker(RingBuilder):
             columns = np.concatenate([poles[:, 1:-1, 0], poles[-1:, 1:-1, -1]])
             own, after = (self.solid_points(corners[i]) for i in (k, k + 1))
             lines = np.concatenate([own[..., None], self._placed(columns), after[..., None]], axis=2)
-            edges = self._splines(corners[k], corners[k + 1], u_knots, lines)
+            edges = self._splines(corners[k], corners[k + 1], u_knots, lines, slice(first, first + self.steps + 1))
             across.append(edges)
             cells = np.empty((len(self.starts), *poles.shape[:3]), dtype=np.intp)
             cells[:, :, 1:-1, 1:-1] = self._placed(poles[:, 1:-1, 1:-1])
             cells[:, :, :, 0], cells[:, :, :, -1] = lines[:, :-1], lines[:, 1:]
             cells[:, :, 0], cells[:, :, -1] = helix_points[k], helix_points[k + 1]
             # what the screw carries into each other is one bundle
-            for own_cells in (slice(0, first), slice(first, first + self.steps), slice(first + self.steps, None)):
+            for own_cells in (slice(0, first), cells_alike, slice(first + self.steps, None)):
                 surface = kinds.SplineSurface(
                     (_DEGREE, _DEGREE), u_knots, self.v_knots, cells[:, own_cells].reshape(-1, *cells.shape[2:])
                 )
@@ -283,10 +284,14 @@ class _Maker(RingBuilder):
                 self.face(surface, around, along=side > 0, threaded=True)
         return _Strip(tuple(levels), first, first + self.steps, np.stack(corners), np.stack(helices), tuple(across))
 
-    def _splines(self, start: Index, end: Index, knots: Real, points: Index) -> Index:
-        """Edges between vertices (n, k) with points (n, k, poles)."""
-        shape = Spline(_DEGREE, knots, points.reshape(-1, points.shape[-1]))
-        return self.add_edges(start.ravel(), end.ravel(), shape).reshape(start.shape)
+    def _splines(self, start: Index, end: Index, knots: Real, points: Index, alike: slice) -> Index:
+        """Edges between vertices (n, k) with points (n, k, poles); those that the screw carries along are a bundle."""
+        made = []
+        for own in (slice(0, alike.start), alike, slice(alike.stop, None)):
+            shape = Spline(_DEGREE, knots, points[:, own].reshape(-1, points.shape[-1]))
+            ends = start[:, own].ravel(), end[:, own].ravel()
+            made.append(self.add_edges(*ends, shape).reshape(start[:, own].shape))
+        return np.concatenate(made, axis=1)
 
     def solid_points(self, vertices: Index) -> Index:
         """The points that vertices are."""
