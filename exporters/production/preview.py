@@ -80,7 +80,7 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
 def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str, Any], folder: Path) -> Path:
     """All instances in their places, the upper ones last, and what the checks found."""
     from exporters.production.check_lines import check_lines
-    from exporters.production.preview_labels import Label, spread_labels
+    from exporters.production.preview_labels import Label, Tops, spread_labels
 
     language = plan.scene.scene.language
     stand = sorted(plan.placing.instances, key=lambda i: i.at[2])
@@ -91,16 +91,9 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     reach = max(right - left, high - low) / 2
     middle, shift = reach * 1.08, -complex(left + right, low + high) / 2
     corner = complex(middle, middle)
-    # a wide scene is drawn wide: what is above and below it is cut off
-    spare = max(0.0, 2 * (middle - (high - low) / 2 - 0.08 * reach))
-    rows = [plan.scene.scene.title or plan.scene.name, *check_lines(checks, language)]
-    rows = [line for row in rows for line in wrap(row, _WIDE_LETTERS)]
     size = reach / 30
-    caption = size * 1.7 * (len(rows) + 1)
-    lines = [head(middle, extra_height=caption - spare)]
-    lines.append('<rect width="100%" height="100%" style="fill:#ffffff"/>')
-    lines.append(f'<g transform="translate(0 {number(caption - spare / 2)})">')
-    labels: list[Label] = []
+    body: list[str] = []
+    labels, loops = list[Label](), list[list[Complex]]()
     for index, instance in enumerate(stand):
         turn = cmath.exp(1j * instance.rotation)
         placed = [_placed(b.geometry, turn, instance.centre + shift) for b in reversed(outlines[instance.part])]
@@ -108,25 +101,36 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
         if instance.axis != UPWARDS:
             placed, solid = [Contour(outers[index] + shift, np.zeros(len(outers[index])))], []
         data = " ".join(path_data(contour, corner) for contour in placed)
+        loops.append([middle + samples(contour).real + 1j * (middle - samples(contour).imag) for contour in placed])
         fill = plan.parts[instance.part].colour or FILLS[index % len(FILLS)]
         style = f"fill:{fill};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 600:.4g}"
-        lines.append(f'<path d="{data}" style="{style}"/>')
+        body.append(f'<path d="{data}" style="{style}"/>')
         pins = " ".join(path_data(_placed(c, turn, instance.centre + shift), corner) for c in solid)
         if pins:
-            lines.append(f'<path d="{pins}" style="{_PIN_STYLE};stroke-width:{reach / 600:.4g}"/>')
+            body.append(f'<path d="{pins}" style="{_PIN_STYLE};stroke-width:{reach / 600:.4g}"/>')
         place = instance.centre + shift
         height = _label_height(outlines[instance.part], outers[index] - instance.centre)
         if instance.axis != UPWARDS:
             place, height = complex(outers[index].mean()) + shift, 0.0
         x, y = middle + place.real, middle - place.imag - height
         labels.append(Label(plan.parts[instance.part].title or instance.id, x, y, size))
+    named = spread_labels(labels, Tops(loops))
     style = f"font-family:sans-serif;font-size:{size:.4g}px;text-anchor:middle;fill:#202830"
-    for label in spread_labels(labels):
-        lines.append(f'<text x="{label.x:.4g}" y="{label.y:.4g}" style="{style}">{escaped(label.text)}</text>')
-    lines.append("</g>")
-    lines += _caption(rows, size, size)
+    body += [
+        f'<text x="{one.x:.4g}" y="{one.y:.4g}" style="{style}">{escaped(one.text)}</text>' for one in named if one
+    ]
+    covered = [label.text for label, one in zip(labels, named, strict=True) if one is None]
+    rows = [plan.scene.scene.title or plan.scene.name, *check_lines(checks, language)]
+    if covered:
+        rows.append(words(language).text("covered in the picture: {names}", names=", ".join(covered)))
+    rows = [line for row in rows for line in wrap(row, _WIDE_LETTERS)]
+    # a wide scene is drawn wide: what is above and below it is cut off
+    spare = max(0.0, 2 * (middle - (high - low) / 2 - 0.08 * reach))
+    caption = size * 1.7 * (len(rows) + 1)
     file = folder / f"{scene_preview_name(plan)}"
-    save(file, lines)
+    lines = [head(middle, extra_height=caption - spare), '<rect width="100%" height="100%" style="fill:#ffffff"/>']
+    lines.append(f'<g transform="translate(0 {number(caption - spare / 2)})">')
+    save(file, [*lines, *body, "</g>", *_caption(rows, size, size)])
     return file
 
 

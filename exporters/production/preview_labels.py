@@ -1,13 +1,19 @@
-"""Names on the picture of a scene: each near its part, over no other name."""
+"""Names on the picture of a scene: each beside its part, over no other name and on no part above its own."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+from numpy.typing import NDArray
+
 from geometry.base.record import Record
+from geometry.curves.curve import Complex
 
 # width of a letter and room about a word, part of the letters' height; places tried above and below, and to each side
 _LETTER, _ROOM, _RINGS = 0.62, 0.15, 24
+# places along each side of a picture at which the uppermost part is known
+_CELLS = 200
 
 
 class Label(Record):
@@ -30,12 +36,49 @@ class Label(Record):
         return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
 
 
-def spread_labels(wanted: Sequence[Label]) -> list[Label]:
-    """The words in their order, each at the free place nearest to where it was wanted."""
-    made: list[Label] = []
-    for label in wanted:
-        free = (one for one in _places(label) if not any(one.covers(other) for other in made))
-        made.append(next(free, label))
+class Tops:
+    """Which of the parts of a picture is the uppermost at each place of a grid, by number in their order upwards.
+
+    Every part is its closed boundaries, points as the picture has them, y downwards.
+    """
+
+    def __init__(self, parts: Sequence[Sequence[Complex]], cells: int = _CELLS) -> None:
+        every = np.concatenate([loop for loops in parts for loop in loops])
+        self._low = complex(every.real.min(), every.imag.min())
+        self._step = max(float(np.ptp(every.real)), float(np.ptp(every.imag)), 1e-300) / cells
+        at = self._step * (np.arange(cells) + 0.5)
+        self._top: NDArray[np.int_] = np.full((cells, cells), -1)
+        for number, loops in enumerate(parts):
+            starts = np.concatenate(loops)
+            ends = np.concatenate([np.roll(loop, -1) for loop in loops])
+            for row, y in enumerate(self._low.imag + at):
+                cut = (starts.imag > y) != (ends.imag > y)
+                a, b = starts[cut], ends[cut]
+                places = np.sort(a.real + (y - a.imag) / (b.imag - a.imag) * (b.real - a.real))
+                self._top[row, np.searchsorted(places, self._low.real + at) % 2 == 1] = number
+
+    def shows(self, label: Label, number: int) -> bool:
+        """Whether a word lies under nothing that is above the part of this number, and beside what is seen of it."""
+        left, top, right, low = label.box
+        beside = self._within(left - label.size, top - label.size, right + label.size, low + label.size)
+        return bool((beside == number).any()) and not bool((self._within(left, top, right, low) > number).any())
+
+    def _within(self, left: float, top: float, right: float, low: float) -> NDArray[np.int_]:
+        """The uppermost parts in a box."""
+        corner, step = self._low, self._step
+        rows = slice(max(int((top - corner.imag) / step), 0), max(int((low - corner.imag) / step) + 1, 0))
+        return self._top[rows, max(int((left - corner.real) / step), 0) : max(int((right - corner.real) / step) + 1, 0)]
+
+
+def spread_labels(wanted: Sequence[Label], tops: Tops | None = None) -> list[Label | None]:
+    """The words in their order, each at the free place nearest to where it was wanted.
+
+    ``tops``: the parts of these words, in this order; one that is covered has no place for its word.
+    """
+    made: list[Label | None] = []
+    for number, label in enumerate(wanted):
+        apart = (one for one in _places(label) if not any(other and one.covers(other) for other in made))
+        made.append(next((one for one in apart if tops is None or tops.shows(one, number)), None))
     return made
 
 

@@ -6,6 +6,8 @@ import math
 from pathlib import Path
 from typing import Any
 
+from msgspec.structs import replace
+
 from exporters.drawings.sheets import sheet_rounding, write_sheets
 from exporters.drawings.verify import verify_sheets
 from exporters.production.jobs import Made
@@ -30,6 +32,7 @@ from parts.drawing.table import Row
 from parts.drawing.title_block import TITLE_BLOCK, draw_title_block, title_block_of
 from parts.drawing.view import TEETH
 from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear
+from parts.keys.title import TitleBlockTable
 from parts.mates.sheets.meshing import Facts, meshing_canvas
 from parts.scene.load import ExportSpec, SceneFile
 from parts.scene.placing import Placing
@@ -133,8 +136,10 @@ def sheet_jobs(
             made = _meshings(scene, placing, export, asked, where, source)
     except ParameterError as error:
         raise placed(source, where, error, unit_of(ExportSpec, error.name)) from error
-    for number, (_, expected) in enumerate(made, 1):
-        _add_title_block(expected, scene, export, number, len(made))
+    for number, (word, expected) in enumerate(made, 1):
+        shown = [word.partition(".")[0]] if export.purpose == "cam" else export.parts or []
+        part = parts[shown[0]] if len(shown) == 1 else None
+        _add_title_block(expected, scene, export, part, (number, len(made)))
     name, title = f"{scene.name}.{export.name or export.purpose}", scene.scene.title or scene.name
     if export.format == "pdf":
         return [SheetJob(export, title, tuple(expected for _, expected in made), f"{name}.pdf", where)]
@@ -203,16 +208,27 @@ def _band(export: ExportSpec) -> float:
     return TITLE_BLOCK[1] if export.title_block else 0.0
 
 
-def _add_title_block(expected: Expected, scene: SceneFile, export: ExportSpec, sheet: int, sheets: int) -> None:
-    """The title block on a sheet, where the export asks for one."""
+def _add_title_block(
+    expected: Expected, scene: SceneFile, export: ExportSpec, part: Part | None, number: tuple[int, int]
+) -> None:
+    """The title block on a sheet, where the export asks for one; of a single ``part`` with its material and mass."""
     if not export.title_block:
         return
     language = scene.scene.language
+    given = export.title_block if isinstance(export.title_block, TitleBlockTable) else TitleBlockTable()
+    more = {"name": given.name or (part and part.title) or scene.scene.title or scene.name}
+    if part is not None:
+        more |= {"material": given.material or part.material or "", "mass": given.mass or _mass(part, language)}
     scale = scale_text(expected.paper.scale, language)
-    shown = [scene.parts[part].title for part in export.parts or ()]
-    title = (shown[0] if len(shown) == 1 else None) or scene.scene.title or scene.name
-    block = title_block_of(export.title_block, title, scale, min(sheet, sheets), sheets)
-    draw_title_block(expected.canvas, block, language)
+    draw_title_block(expected.canvas, title_block_of(replace(given, **more), scale, *number), language)
+
+
+def _mass(part: Part, language: str) -> str:
+    """The mass in kg, as GOST 2.104 has it; nothing where the density is not known."""
+    if part.density is None:
+        return ""
+    kilograms = part.made_by.moments(part.body(0.0)).volume * part.density / 1e6
+    return decimal(f"{kilograms:.3g}", language)
 
 
 def _check_wheel(spec: SpurGearSpec, place: str, source: str) -> None:

@@ -62,11 +62,11 @@ class TitleBlock(Record):
     people: tuple[tuple[str, str], ...] = ()
 
 
-def title_block_of(given: bool | TitleBlockTable, name: str, scale: str, sheet: int = 1, sheets: int = 1) -> TitleBlock:
-    """The block that a scene asks for; ``name`` where it gives none."""
-    table = given if isinstance(given, TitleBlockTable) else TitleBlockTable()
+def title_block_of(table: TitleBlockTable, scale: str, sheet: int = 1, sheets: int = 1) -> TitleBlock:
+    """The block that a scene asks for."""
+    people = tuple((role, getattr(table, role)) for role in _ROLES if role)
     return TitleBlock(
-        table.name or name,
+        table.name,
         table.designation,
         scale,
         table.organisation,
@@ -76,7 +76,7 @@ def title_block_of(given: bool | TitleBlockTable, name: str, scale: str, sheet: 
         table.date,
         sheet,
         sheets,
-        tuple((role, getattr(table, role)) for role in _ROLES if role),
+        people,
     )
 
 

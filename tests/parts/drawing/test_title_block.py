@@ -110,6 +110,17 @@ def test_cam_sheets_leave_room_for_it() -> None:
     assert not [t for t in plain.texts if t.box.right > left and t.box.low < top]
 
 
+def test_the_block_of_one_part_tells_its_material_and_mass() -> None:
+    """A plain disk by hand: pi r^2 h rho, in kg; what the scene says itself goes before it."""
+    cam = {"kind": "cam", "follower": "roller", "lift": 0.001, "follower_radius": 6.0, "base_circle_radius": 40.0,
+           "face_width": 10.0, "material": "steel 45", "density": 8.0,
+           "phases": [{"move": m, "angle_deg": 180.0, "law": "cosine"} for m in ("rise", "return_")]}  # fmt: skip
+    for given, wanted in ((True, f"{np.pi * 40**2 * 10 * 8 / 1e6:.3g}"), ({"mass": "1 kg"}, "1 kg")):
+        raw = {"parts": {"disk": cam}, "exports": [{"format": "sheet", "purpose": "cam", "title_block": given}]}
+        words = [t.text for t in plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets[0].canvas.texts]
+        assert {"steel 45", wanted} <= set(words)
+
+
 @pytest.mark.parametrize(
     ("export", "key"),
     [
