@@ -125,6 +125,9 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
         for part_id in export.parts or list(parts):
             if only_parts and part_id not in only_parts:
                 continue
+            if not (export.parts or file_kind(export.format, export.purpose).is_solid or _is_flat(parts[part_id])):
+                left_out.append(LeftOut(where, message(N_("{part} has no flat outline"), part=part_id)))
+                continue
             path = "" if export.assembly else _file_name(part_id, export, [e for _, e in exports])
             _take(path, where, taken, source)
             job = Job(parts[part_id], export, _section(parts[part_id], export, source, where), path, where)
@@ -172,6 +175,11 @@ def _laid(
         return job
 
     return plate_jobs(scene, parts, export, solid, where, source)
+
+
+def _is_flat(part: Part) -> bool:
+    """Whether flat files can hold a part."""
+    return part.made_by.has_outline
 
 
 def _of_several(export: ExportSpec) -> bool:
@@ -268,6 +276,8 @@ def _section(part: Part, export: ExportSpec, source: str, place: str) -> OffsetR
     """The exact section with the export's kerf or offset, refused in the export's own key."""
     try:
         offset, kind = export.kerf / 2 if export.kerf else export.offset, file_kind(export.format, export.purpose)
+        if not (kind.is_solid or _is_flat(part)):
+            raise SceneError(source, f"{place}.parts", part.id, "no_flat_outline")
         return part.cut(offset, named=export.purpose == "board") if kind.form is Form.ARCS else part.section(offset)
     except OffsetError as error:
         key, given, cure = "offset", export.offset, error.nearest

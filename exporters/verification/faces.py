@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 # places of the samples in each triangle, in sixths
 _PLACES = [(a, b, 6 - a - b) for a in range(7) for b in range(7 - a)]
 SHARES = np.array(_PLACES, dtype=float) / 6
+# points of a face that tell in which surfaces it may lie
+_FEW = 9
 
 
 def verify_faced_mesh(mesh: ReadMesh, body: Faced, declared: float, tolerance: float) -> Verdict:
@@ -76,15 +78,19 @@ def mesh_deviation(mesh: ReadMesh, body: Faced) -> tuple[float, int]:
 def verify_faced_solid(found: ReadSolid, body: Faced, declared: float, tolerance: float) -> Verdict:
     """Hold a re-read solid against its exact one: faces, edges, ends, volume."""
     model, surfaces = found.model, body.surfaces
-    used: set[int] = set()
-    worst = 0.0
-    for face in range(len(model.faces)):
-        own = np.array([face])
-        points = np.concatenate([edge_points(model, own), inner_points(model, own)])
-        away = [float(surface.distance(points).max()) for surface in surfaces]
-        best = int(np.argmin(away))
-        used.add(best)
-        worst = max(worst, away[best])
+    own = [np.array([face]) for face in range(len(model.faces))]
+    points = [np.concatenate([edge_points(model, face), inner_points(model, face)]) for face in own]
+    # a few points tell which surfaces a face may lie in, all of them which one it does
+    few = np.concatenate([p[np.linspace(0, len(p) - 1, _FEW).astype(int)] for p in points])
+    rough = np.stack([surface.distance(few).reshape(-1, _FEW).max(axis=1) for surface in surfaces])
+    near = rough <= 2 * rough.min(axis=0) + 1e-5 * body.reach()
+    away = np.full(near.shape, np.inf)
+    for index, surface in enumerate(surfaces):
+        mine = np.flatnonzero(near[index])
+        if mine.size:
+            starts = np.cumsum([0, *(len(points[face]) for face in mine[:-1])])
+            away[index, mine] = np.maximum.reduceat(surface.distance(np.concatenate([points[f] for f in mine])), starts)
+    used, worst = set(away.argmin(axis=0).tolist()), float(away.min(axis=0).max())
     failures = [f"a {surface.what} of the part is missing" for i, surface in enumerate(surfaces) if i not in used]
     failures += deviation_failures(worst, declared, tolerance, body.reach())
     volume, exact = float(model.flux.sum()), body.moments.volume

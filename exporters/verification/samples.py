@@ -6,7 +6,7 @@ import numpy as np
 
 from exporters.formats.read_curves import lobatto, spans_of
 from exporters.formats.read_part21 import Index, Real
-from exporters.formats.read_solid import EXTRUSION, LEVEL, PLANE, ROUND, SPLINE, Model
+from exporters.formats.read_solid import EXTRUSION, LEVEL, PLANE, ROUND, SPHERE, SPLINE, TORUS, Model
 from parts.base.readback import ReadError
 
 # which of the nodes on the way up are looked at: few heights, each of which may need a section of its own
@@ -57,10 +57,8 @@ def inner_points(model: Model, faces: Index) -> Real:
         if kind == EXTRUSION:
             curved = ~model.straight[model.uses.edge[mine]][use]
             found = _on_rulings(at[curved], use[curved])
-        elif kind in (PLANE, ROUND):
-            found = _across(at, kind, bool(model.normal[face]), model.sizes[face])
         else:
-            raise ReadError(f"#{model.faces[face]} of the STEP file is of no kind that the part has")
+            found = _across(at, kind, bool(model.normal[face]), model.sizes[face])
         pieces.append(_placed(model, np.array([face]), found[None])[0])
     return np.concatenate(pieces)
 
@@ -80,12 +78,18 @@ def _on_rulings(at: Real, use: Index) -> Real:
 
 
 def _across(at: Real, kind: int, normal: bool, sizes: Real) -> Real:
-    """Of a plane or round face: points (n, 3) on lines across it, between the bounds on both sides.
+    """Of a plane or a face of revolution: points (n, 3) on lines across it, between the bounds on both sides.
 
     ``at``: nodes (n, k, 3) of the bounds' spans as they run, the face on their left, seen from its normal.
     """
     v = at[..., 1] if kind == PLANE else at[..., 2]
     plane = at[..., 0] + 1j * at[..., 1]
+    centre, tube = (0.0, sizes[0]) if kind == SPHERE else sizes
+    if kind in (SPHERE, TORUS):
+        # the angle of the meridian, from the middle of the face
+        spoke = np.abs(plane) - centre + 1j * at[..., 2]
+        middle = np.angle((spoke / np.abs(spoke)).mean())
+        v = middle + np.angle(spoke * np.exp(-1j * middle))
     found = []
     for level in (v.min() + (v.max() - v.min()) * lobatto()[0][_KEPT[1:-1]]).tolist():
         up, down = (v[:, :-1] <= level) & (v[:, 1:] > level), (v[:, :-1] > level) & (v[:, 1:] <= level)
@@ -98,13 +102,15 @@ def _across(at: Real, kind: int, normal: bool, sizes: Real) -> Real:
         if not len(begin):
             begin, end = np.zeros(1), np.full(1, 2 * np.pi)
         width = end - begin[:, None]
-        if kind == ROUND:
+        if kind != PLANE:
             width = np.mod(width, 2 * np.pi)
             # a seam has the face on both sides of it
             width[(width < 1e-9) | (width > 2 * np.pi - 1e-9)] = 2 * np.pi
         width[width <= 0] = np.inf
         u = (begin[:, None] + width.min(axis=1)[:, None] * _PLACES).ravel()
-        size = sizes[0] + sizes[1] * level
-        round_ = (size * np.cos(u), size * np.sin(u), np.full(u.size, level))
+        size, height = sizes[0] + sizes[1] * level, level
+        if kind in (SPHERE, TORUS):
+            size, height = centre + tube * np.cos(level), tube * np.sin(level)
+        round_ = (size * np.cos(u), size * np.sin(u), np.full(u.size, height))
         found.append(np.column_stack((u, np.full(u.size, level), np.zeros(u.size)) if kind == PLANE else round_))
     return np.concatenate(found)

@@ -58,6 +58,8 @@ class Kind(Generic[K, T]):
 
     name: str
     keys: type[K]
+    # whether flat files can hold it: its section is what its solid is made of
+    has_outline = True
     # where it comes from outside: sentences of its own refusals and remarks by code, names of its quantities
     reasons: Mapping[str, Text] = {}
     findings: Mapping[str, Text] = {}

@@ -23,6 +23,10 @@ KINDS: Index[Kind[Any, Any]] = Index(
             "parts.gears.rack.part:RACK",
             "Straight rack, spur or helical; its teeth are those of the basic rack",
         ),
+        "worm_wheel": (
+            "parts.gears.worm_wheel.part:WORM_WHEEL",
+            "Worm wheel, the envelope of its worm or of a larger hob: the keys tell the worm, then the rim",
+        ),
         "noncircular_gear": (
             "parts.gears.noncircular_gear.part:NONCIRCULAR_GEAR",
             "Noncircular gear, one of a pair: the keys tell the driver's centrode, ``role`` which of both this part is",

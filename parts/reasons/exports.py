@@ -33,6 +33,7 @@ REASONS = {
     "no_exports": N_(
         'the scene asks for no file; add [[exports]] with format = "dxf" (or svg, stl, 3mf, step), or use --format'
     ),
+    "no_flat_outline": N_("has no flat outline: it goes into STEP, STL and 3MF"),
     "no_outline": N_("no whole outline comes of it: {why}"),
     "no_report": N_("is damaged (it is not the JSON of a report); build the scene again"),
     "no_report_beside": N_("no {name} beside it; build the scene again to get one"),

@@ -205,7 +205,7 @@ class _Mesher:
         begin = int(np.argmax(ways))
         four = four[begin:] + four[:begin]
         spread = np.ptp(np.concatenate([uv for uv, _ in four]), axis=0)
-        grid = Grid(tuple(_measured(uv, own, spread) for uv, own in four))
+        grid = Grid(tuple(_measured(uv, own, spread, k % 2) for k, (uv, own) in enumerate(four)))
         counts = [len(own) - 1 for _, own in four]
         wide = max(float(np.ptp(four[k][0][:, 0])) for k in (0, 2))
         high = max(float(np.ptp(four[k][0][:, 1])) for k in (1, 3))
@@ -402,9 +402,11 @@ def _corners(sides: Sequence[Side]) -> list[int]:
     return found
 
 
-def _measured(uv: Real, names: Triangles, spread: Real) -> tuple[Real, Real, Triangles]:
-    """A side with its shares by its length in the unit square."""
-    steps = np.linalg.norm(np.diff(uv, axis=0) / spread, axis=1)
+def _measured(uv: Real, names: Triangles, spread: Real, along: int) -> tuple[Real, Real, Triangles]:
+    """A side with its shares by what it runs along, u (0) or v (1), or where it turns back by its length."""
+    steps = np.abs(np.diff(uv[:, along]))
+    if np.ptp(np.sign(np.diff(uv[:, along]))) != 0 or steps.sum() == 0:
+        steps = np.linalg.norm(np.diff(uv, axis=0) / spread, axis=1)
     return np.concatenate([[0.0], np.cumsum(steps)]) / steps.sum(), uv, names
 
 

@@ -24,7 +24,10 @@ Complex = NDArray[np.complex128]
 Real = NDArray[np.float64]
 
 # radii of the thread and angles of its rounding at which a side is looked for
-_RADII, _ANGLES = 257, 65
+_RADII, _ANGLES, _FIRST_STEP = 257, 129, 1e-7
+# of a fillet that cuts a flank: radii from which their crossing is sought, Newton's steps, the step of slopes (mm and
+# rad), how near both end, and what undercut is only beginning, part of the hob's size
+_CROSSINGS, _NEWTON_STEPS, _SLOPE, _MET, _BARELY = 65, 8, 1e-6, 1e-10, 3e-4
 # steps of the golden section
 _GOLDEN, _GOLDEN_STEPS = (math.sqrt(5) - 1) / 2, 40
 # a thread's point that near the plane of its axis is not asked for, part of its radius
@@ -130,7 +133,11 @@ class WormTeeth(Record, dict=True):
         if undercut.any():
             column, first = column[undercut], first[undercut]
             turning = self._turning(radii[first + 1, column], radii[first - 1, column], z[undercut])
-            inner[undercut], normal[undercut] = self._crossing(z[undercut], turning, outer[undercut])
+            # where undercut is just beginning both end where they touch
+            deep = form - turning > _BARELY * hob.tip_radius
+            cut = np.flatnonzero(undercut)[deep]
+            if cut.size:
+                inner[cut], normal[cut] = self._crossing(z[cut], turning[deep], outer[cut])
         return Side(z, inner, normal, outer, undercut)
 
     def _search(self, heights: Real) -> tuple[Real, Real, NDArray[np.intp]]:
@@ -140,7 +147,10 @@ class WormTeeth(Record, dict=True):
         """
         form = self.hob.form_radius
         least = np.maximum(np.abs(heights) / math.cos(self.hob.swivel) * (1 + _LEAST_SHARE), self._least_radius)
-        radii = form + (least - form) * np.linspace(0.0, 1.0, _RADII)[:, None]
+        # the first step is a small one: it tells whether the flank turns back at once
+        shares = np.linspace(0.0, 1.0, _RADII)
+        shares[1] = _FIRST_STEP
+        radii = form + (least - form) * shares[:, None]
         reach = self._reach(radii, heights)
         with np.errstate(invalid="ignore"):
             grows = np.diff(reach, axis=0) > 0
@@ -176,36 +186,39 @@ class WormTeeth(Record, dict=True):
             return hob.cut(hob.round(normal), heights).plane
 
         # from the root outwards the fillet's distance grows, up to its own turning back
-        normals = np.linspace(math.pi / 2, hob.least_normal, _ANGLES)
+        normals = hob.least_normal + (math.pi / 2 - hob.least_normal) * np.linspace(1.0, 0.0, _ANGLES) ** 3
         reach = np.abs(fillet(normals[:, None]))
         falls = np.diff(reach, axis=0) < 0
         top = np.where(falls.any(axis=0), falls.argmax(axis=0), _ANGLES - 1)
-        most = reach[top, np.arange(len(heights))]
-        ends = np.full(len(heights), math.pi / 2), normals[top]
 
-        def normal_at(reach: Real) -> Real:
-            def past(normal: Real) -> Real:
-                return reach - np.abs(fillet(normal))
+        def flank(radius: Real) -> Complex:
+            return hob.cut(hob.flank(radius), heights).plane
 
-            return bracketed_roots(past, *ends, past(ends[0]), past(ends[1]))
-
-        def beyond(radius: Real) -> Real:
-            return self._reach(radius, heights) - most
-
-        def ahead(radius: Real) -> Real:
-            flank = hob.cut(hob.flank(radius), heights).plane
-            return np.angle(flank / fillet(normal_at(np.abs(flank))))
-
-        over = beyond(high) > 0
-        if not (beyond(low) < 0).all():
+        # about where both are at one angle at one distance, column by column; then Newton's steps, slopes by difference
+        radii = low + (high - low) * np.linspace(0.0, 1.0, _CROSSINGS)[:, None] ** 3
+        lines, curves = flank(radii), fillet(normals[:, None])
+        radius, normal = np.empty(len(heights)), np.empty(len(heights))
+        for k, last in enumerate((top + 1).tolist()):
+            own = np.interp(np.abs(lines[:, k]), reach[:last, k], np.angle(curves[:last, k]), right=np.nan)
+            ahead = np.angle(lines[:, k]) - own
+            change = np.flatnonzero(ahead[1:] * ahead[:-1] <= 0)
+            if not change.size:
+                raise NoTooth("worm_wheel_undercut")
+            at = int(change[0])
+            share = ahead[at] / (ahead[at] - ahead[at + 1]) if ahead[at] != ahead[at + 1] else 0.0
+            radius[k] = radii[at, k] + share * (radii[at + 1, k] - radii[at, k])
+            size = np.abs(lines[at, k]) + share * (np.abs(lines[at + 1, k]) - np.abs(lines[at, k]))
+            normal[k] = np.interp(size, reach[:last, k], normals[:last])
+        for _ in range(_NEWTON_STEPS):
+            off = flank(radius) - fillet(normal)
+            one = (flank(radius + _SLOPE) - flank(radius - _SLOPE)) / (2 * _SLOPE)
+            two = (fillet(normal + _SLOPE) - fillet(normal - _SLOPE)) / (2 * _SLOPE)
+            cross = (np.conj(one) * two).imag
+            radius = radius - (np.conj(off) * two).imag / cross
+            normal = normal - (np.conj(off) * one).imag / cross
+        if not float(np.abs(flank(radius) - fillet(normal)).max()) <= _MET * hob.tip_radius:
             raise NoTooth("worm_wheel_undercut")
-        upper = bracketed_roots(beyond, low, np.where(over, high, low), beyond(low), beyond(np.where(over, high, low)))
-        high = np.where(over, upper, high)
-        values = ahead(low), ahead(high)
-        if not (values[0] * values[1] <= 0).all():
-            raise NoTooth("worm_wheel_undercut")
-        inner = bracketed_roots(ahead, low, high, *values)
-        return inner, normal_at(np.abs(hob.cut(hob.flank(inner), heights).plane))
+        return radius, normal
 
     def flank(self, side: Side, share: Real | float) -> Cut:
         """The lower flank at shares (m, 1) from fillet (0) to tip (1), at the side's heights: (m, n)."""

@@ -7,6 +7,7 @@ Poles interpolate the exact envelope at Greville's places; the error is that of 
 from __future__ import annotations
 
 import cmath
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -18,18 +19,22 @@ from geometry.base.record import Record
 from geometry.curves.bounds import Bound
 from geometry.curves.bspline import BSpline
 from geometry.curves.curve import Complex, Real
-from geometry.curves.line_arc import Arc
+from geometry.curves.line_arc import Arc, Line
 from geometry.gears.worms.hob import Cut
 from geometry.gears.worms.wheel import WormTeeth
 from geometry.gears.worms.wheel_measures import FILLET, FLANK, WormWheel
+from geometry.plane.measure import distance_to_profile
+from geometry.plane.profile import Profile
 from geometry.solids.body_faces import BodyFaces, body_outlines
+from geometry.solids.faced import FacedBody, FacedSolid, Measured
 from geometry.solids.faces import Cylinder, Frame, Solid, SplineSurface, Surface, Torus
 from geometry.solids.rings import AHEAD, UP, Ring
 
 _DEGREE = 7
-# the kernel joins curves and surfaces within 1e-7 mm: up to a tolerance of 1e-6 mm edges are kept well below that
-_TARGET, _SHARE = 2e-8, 0.02
-_MARGIN = 1.5
+# what is added to sampled errors; the kernel joins curves and surfaces within 1e-7 mm: edges are kept below that, mm
+_MARGIN, _EDGES = 1.5, 5e-8
+# the least error of faces that is asked for, mm
+_FINEST, _SHARE = 2e-8, 0.5
 # samples a span, and lines of a family on which spans are chosen
 _MOST_SPANS, _SAMPLES, _LINES = 64, 7, 9
 # of the curves of a ring
@@ -67,30 +72,32 @@ def wheel_splines(wheel: WormWheel, tolerance: float) -> WheelSplines:
         64 spans are not enough.
     """
     teeth = wheel.teeth
-    target = max(min(tolerance, max(_TARGET, _SHARE * tolerance)) / _MARGIN, _ROUNDING * teeth.outer_radius)
+    least = _ROUNDING * teeth.outer_radius
+    target = max(min(tolerance, max(_FINEST, _SHARE * tolerance)) / _MARGIN, least)
+    edges = max(min(target, _EDGES), least)
     bands = list(pairwise(teeth.breaks))
+    # tip and root are edges of exact surfaces: along them more is asked for
     # across: of fillet and flank, alike in all bands, which share the edges between them; then along each band
-    across = [max(_spans(teeth, part, band, target, along=False) for band in bands) for part in (FILLET, FLANK)]
-    along = {band: max(_spans(teeth, part, band, target, along=True) for part in (FILLET, FLANK)) for band in bands}
+    across = [max(_spans(teeth, part, band, target) for band in bands) for part in (FILLET, FLANK)]
+    along = {band: max(_spans_along(teeth, part, band, target, edges) for part in (FILLET, FLANK)) for band in bands}
     along = {(low, high): max(n, along[-high, -low]) for (low, high), n in along.items()}
-    error = np.inf
-    while error > target:
+    while True:
+        made = {band: [_fitted(teeth, p, band, (across[p], n)) for p in (FILLET, FLANK)] for band, n in along.items()}
+        fits = [fit for pair in made.values() for fit in pair]
+        error, edge = max(fit.error for fit in fits), max(fit.edge for fit in fits)
+        if error <= target and edge <= edges:
+            break
         if max(*across, *along.values()) > _MOST_SPANS:
-            raise ConvergenceError("spline surfaces of the teeth", error, _MOST_SPANS)
-        made = {
-            band: [_fitted(teeth, part, band, (across[part], n)) for part in (FILLET, FLANK)]
-            for band, n in along.items()
-        }
-        error = max(own for fits in made.values() for _, own in fits)
-        across, along = [n + 1 for n in across], {band: n + 1 for band, n in along.items()}
+            raise ConvergenceError("spline surfaces of the teeth", max(error, edge), _MOST_SPANS)
+        across, along = [n + (error > target) for n in across], {band: n + 1 for band, n in along.items()}
     strips = []
     for low, high in bands:
-        lower, mirrored = ([fit.poles for fit, _ in made[band]] for band in ((low, high), (-high, -low)))
-        knots = [fit.u_knots for fit, _ in made[low, high]]
+        lower, mirrored = ([fit.poles for fit in made[band]] for band in ((low, high), (-high, -low)))
+        knots = [fit.u_knots for fit in made[low, high]]
         upper = [np.conj(grid[:, ::-1]) for grid in mirrored]
-        strips.append(Strip(low, high, tuple(knots), made[low, high][0][0].v_knots, tuple(lower), tuple(upper)))
+        strips.append(Strip(low, high, tuple(knots), made[low, high][0].v_knots, tuple(lower), tuple(upper)))
     core = body_outlines(wheel.core, tolerance)
-    return WheelSplines(tuple(strips), core, max(_MARGIN * error, *(o.max_error for o in core)))
+    return WheelSplines(tuple(strips), core, max(_MARGIN * error, _MARGIN * edge, *(o.max_error for o in core)))
 
 
 def _points(teeth: WormTeeth, part: int, shares: Real, heights: Real) -> Cut:
@@ -98,23 +105,39 @@ def _points(teeth: WormTeeth, part: int, shares: Real, heights: Real) -> Cut:
     return (teeth.fillet, teeth.flank)[part](teeth.side(heights), shares[:, None])
 
 
-def _spans(teeth: WormTeeth, part: int, band: tuple[float, float], target: float, *, along: bool) -> int:
-    """Least spans with which lines of one family are near enough."""
+def _spans(teeth: WormTeeth, part: int, band: tuple[float, float], target: float) -> int:
+    """Least spans across a part with which its lines in planes are near enough."""
+    heights = np.linspace(*band, _LINES)
     for spans in range(1, _MOST_SPANS):
-        knots = clamped(_DEGREE, np.linspace(*(band if along else (0.0, 1.0)), spans + 1))
-        places, between = greville(_DEGREE, knots), np.linspace(knots[0], knots[-1], _SAMPLES * spans + 8)
-        weights = basis_matrix(_DEGREE, knots, between) @ np.linalg.inv(basis_matrix(_DEGREE, knots, places))
-        if along:
-            shares = np.linspace(0.0, 1.0, _LINES)
-            exact = _points(teeth, part, shares, between)
-            found = _points(teeth, part, shares, places).plane @ weights.T
-        else:
-            heights = np.linspace(*band, _LINES)
-            exact = _points(teeth, part, between, heights)
-            found = weights @ _points(teeth, part, places, heights).plane
-        if float(_away(found, exact).max()) <= target / 2:
+        places, between, weights = _interpolation(0.0, 1.0, spans)
+        found = weights @ _points(teeth, part, places, heights).plane
+        if float(_away(found, _points(teeth, part, between, heights)).max()) <= target / 2:
             break
     return spans
+
+
+def _spans_along(teeth: WormTeeth, part: int, band: tuple[float, float], target: float, edges: float) -> int:
+    """Least spans along a band with which its lines from end to end are near enough, and root and tip nearer."""
+    shares = np.linspace(0.0, 1.0, _LINES)
+    for spans in range(1, _MOST_SPANS):
+        places, between, weights = _interpolation(*band, spans)
+        found = _points(teeth, part, shares, places).plane @ weights.T
+        edge = np.abs(np.abs(found[-part]) - _edge_radius(teeth, part, between)).max()
+        if float(_away(found, _points(teeth, part, shares, between)).max()) <= target / 2 and float(edge) <= edges / 2:
+            break
+    return spans
+
+
+def _interpolation(low: float, high: float, spans: int) -> tuple[Real, Real, Real]:
+    """Places of interpolation on even spans, places between them, and what gives the values there, (m, n)."""
+    knots = clamped(_DEGREE, np.linspace(low, high, spans + 1))
+    places, between = greville(_DEGREE, knots), np.linspace(low, high, _SAMPLES * spans + 8)
+    return places, between, basis_matrix(_DEGREE, knots, between) @ np.linalg.inv(basis_matrix(_DEGREE, knots, places))
+
+
+def _edge_radius(teeth: WormTeeth, part: int, heights: Real) -> Real:
+    """Of the root, where fillets begin, or of the tip, where flanks end, mm."""
+    return teeth.root_radius(heights) if part == FILLET else teeth.tip_radius(heights)
 
 
 def _away(points: Complex, exact: Cut) -> Real:
@@ -122,25 +145,27 @@ def _away(points: Complex, exact: Cut) -> Real:
     return np.abs((np.conj(exact.normal) * (points - exact.plane)).real)
 
 
-def _fitted(teeth: WormTeeth, part: int, band: tuple[float, float], spans: tuple[int, int]) -> tuple[_Fit, float]:
-    """The spline of a lower fillet or flank, and how far it is from surface and edges, mm."""
-    u_knots = clamped(_DEGREE, np.linspace(0.0, 1.0, spans[0] + 1))
-    v_knots = clamped(_DEGREE, np.linspace(*band, spans[1] + 1))
-    exact = _points(teeth, part, greville(_DEGREE, u_knots), greville(_DEGREE, v_knots))
-    fit = _Fit(u_knots, v_knots, tensor_poles(_DEGREE, u_knots, v_knots, exact.plane))
-    u, v = (np.linspace(k[0], k[-1], _SAMPLES * n + 8) for k, n in zip((u_knots, v_knots), spans, strict=True))
-    found = basis_matrix(_DEGREE, u_knots, u) @ fit.poles @ basis_matrix(_DEGREE, v_knots, v).T
-    error = float(_away(found, _points(teeth, part, u, v)).max())
-    radius = (teeth.root_radius, teeth.tip_radius)[part](v)
-    return fit, max(error, float(np.abs(np.abs(found[-part]) - radius).max()))
-
-
 class _Fit(Record, eq=False):
-    """Knots both ways and poles (u, v) in the plane."""
+    """A lower fillet or flank: knots both ways, poles (u, v) in the plane, errors of surface and of edge, mm."""
 
     u_knots: Real
     v_knots: Real
     poles: Complex
+    error: float
+    edge: float
+
+
+def _fitted(teeth: WormTeeth, part: int, band: tuple[float, float], spans: tuple[int, int]) -> _Fit:
+    """The spline of a lower fillet or flank."""
+    u_knots = clamped(_DEGREE, np.linspace(0.0, 1.0, spans[0] + 1))
+    v_knots = clamped(_DEGREE, np.linspace(*band, spans[1] + 1))
+    exact = _points(teeth, part, greville(_DEGREE, u_knots), greville(_DEGREE, v_knots))
+    poles = tensor_poles(_DEGREE, u_knots, v_knots, exact.plane)
+    u, v = (np.linspace(k[0], k[-1], _SAMPLES * n + 8) for k, n in zip((u_knots, v_knots), spans, strict=True))
+    found = basis_matrix(_DEGREE, u_knots, u) @ poles @ basis_matrix(_DEGREE, v_knots, v).T
+    error = float(_away(found, _points(teeth, part, u, v)).max())
+    edge = float(np.abs(np.abs(found[-part]) - _edge_radius(teeth, part, v)).max())
+    return _Fit(u_knots, v_knots, poles, error, edge)
 
 
 def wheel_solid(wheel: WormWheel, splines: WheelSplines) -> Solid:
@@ -212,3 +237,23 @@ def _ring(made: BodyFaces, teeth: WormTeeth, strip: Strip, end: int, middle: flo
 def _arc(start: complex, end: complex) -> Arc:
     """About the axis, mm."""
     return Arc(0j, abs(start), cmath.phase(start), cmath.phase(end / start))
+
+
+def wheel_body(wheel: WormWheel) -> FacedBody:
+    """The wheel as files, mass and checks want it; splines are held against the envelope itself."""
+
+    def within(tolerance: float) -> FacedSolid:
+        splines = wheel_splines(wheel, tolerance)
+        return FacedSolid(wheel_solid(wheel, splines), splines.max_error, splines.bound)
+
+    walls = [Measured("flank", partial(wheel.from_side, FLANK)), Measured("fillet", partial(wheel.from_side, FILLET))]
+    if wheel.teeth.hob.swivel:
+        walls.append(Measured("root", wheel.from_root))
+    for profile in wheel.core.profiles:
+        if not all(isinstance(segment.curve, Arc | Line) for segment in profile.period):
+            walls.append(Measured("wall", partial(_from_wall, profile)))
+    return FacedBody(within, tuple(walls), wheel.moments)
+
+
+def _from_wall(profile: Profile, points: Real) -> Real:
+    return np.asarray(distance_to_profile(points[:, 0] + 1j * points[:, 1], profile, trusted=np.inf))

@@ -132,8 +132,8 @@ def test_undercut_teeth_end_where_fillet_and_flank_cross() -> None:
     teeth = _teeth(drive, 10.0)
     side = teeth.side(np.array([-4.0, -2.0, 0.0]))
     assert side.undercut.all()
-    first, last = teeth.undercut_ends
-    assert teeth.side([first - 1e-6, first + 1e-6, last - 1e-6, last + 1e-6]).undercut.tolist() == [0, 1, 1, 0]
+    (end,) = teeth.undercut_ends
+    assert teeth.side([end - 1e-6, end + 1e-6]).undercut.tolist() == [True, False]
     with pytest.raises(ParameterError, match="worm_wheel_pointed"):
         teeth.checked()
     ends = teeth.flank(side, 0.0).plane, teeth.fillet(side, 1.0).plane

@@ -63,7 +63,7 @@ def test_splines_lie_on_the_envelope_and_their_edges_on_throat_and_root(oversize
     hob = oversized_hob(THESIS, 0.2, 10.5) if oversized else None
     wheel = _wheel(THESIS, 26.0, 328.0, hob)
     splines = wheel_splines(wheel, 1e-4)
-    assert splines.max_error < 1e-5
+    assert splines.max_error < 1e-4
     assert len(splines.strips) == 3
     for strip in splines.strips:
         for which in (FILLET, FLANK):

@@ -1,0 +1,1 @@
+"""Worm wheels."""

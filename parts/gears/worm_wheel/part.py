@@ -1,0 +1,213 @@
+"""The part kind ``worm_wheel``: the wheel that a worm, or a hob of another diameter, envelops."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Annotated
+
+from msgspec import Meta
+
+from geometry.base.errors import OffsetError, ParameterError, limit
+from geometry.base.record import Record, replace
+from parts.base.kind import Kind, Others, Report
+from parts.keys.base import in_modules, mm
+from parts.keys.holes import HoledKeys, SpokesTable, bore_of, hub_holes
+from parts.keys.wheel import HubTable, WebTable, wheel_shape
+from parts.keys.worm import (
+    Addendum,
+    AxialModule,
+    Clearance,
+    Form,
+    GrindingWheel,
+    Quotient,
+    Starts,
+    WheelShift,
+    WormAngle,
+    WormHand,
+    worm_of,
+)  # fmt: skip
+
+if TYPE_CHECKING:
+    from geometry.gears.worms.drive import WormDrive
+    from geometry.gears.worms.wheel import WormTeeth
+    from geometry.gears.worms.wheel_measures import WormWheel
+    from geometry.plane.offset_region import OffsetRegion
+    from geometry.solids.faced import FacedBody
+    from geometry.solids.hub_holes import HubHoles
+
+# part of the root's radius at which the core ends whose place the teeth take
+_CORE = 0.5
+_LEAST_TEETH = 8
+
+
+class WormWheelSpec(HoledKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="worm_wheel"):
+    """Keys of ``worm_wheel``: those of its worm first."""
+
+    module: AxialModule
+    number_of_teeth: Annotated[
+        int, Meta(ge=_LEAST_TEETH, le=10_000, description="teeth of the wheel, z2", examples=[30])
+    ]
+    number_of_starts: Starts = 1
+    diameter_quotient: Quotient = 10.0
+    profile_shift_coefficient: WheelShift = 0.0
+    form: Form = "ZI"
+    pressure_angle_deg: WormAngle = 20.0
+    hand: WormHand = "right"
+    addendum_coefficient: Addendum = 1.0
+    tip_clearance_coefficient: Clearance = 0.2
+    grinding_wheel_diameter: GrindingWheel = 300.0
+    hob_rounding_coefficient: Annotated[
+        float, in_modules("rounding of the hob's tip, in its axial section", least=0, most=2)
+    ] = 0.2
+    hob_diameter_quotient: (
+        Annotated[
+            float,
+            Meta(
+                gt=0, le=1000,
+                description="q of the hob, more than the worm's for a crowned wheel; default: the worm's",
+                examples=[10.5],
+            ),
+        ]
+        | None
+    ) = None  # fmt: skip
+    axial_thinning: Annotated[
+        float, mm("by how much the hob's threads are thicker than the worm's, along its axis", least=0, most=100)
+    ] = 0.0
+    face_width: (  # type: ignore[assignment]
+        Annotated[
+            float,
+            mm("width b2 of the rim; default: the largest by GOST 19650", least=0.01, most=10_000, example=14.0),
+        ]
+        | None
+    ) = None
+    outer_diameter: (
+        Annotated[
+            float,
+            mm("d_ae2, outside of the throat; default: the largest by GOST 19650", above=0, most=200_000, example=66.0),
+        ]
+        | None
+    ) = None
+    spokes: SpokesTable | None = None
+    web: WebTable | None = None
+    hub: HubTable | None = None
+
+    def hub_holes(self) -> HubHoles:
+        """Bore, holes and windows."""
+        return hub_holes(bore_of(self), self.holes, self.spokes)
+
+
+class WheelThing(Record):
+    """A worm wheel with the drive that it is for."""
+
+    drive: WormDrive
+    wheel: WormWheel
+
+    @property
+    def teeth(self) -> WormTeeth:
+        """Its teeth."""
+        return self.wheel.teeth
+
+
+def drive_of(keys: WormWheelSpec) -> WormDrive:
+    """The worm that a wheel is for, and both together."""
+    from geometry.gears.worms.drive import WormDrive
+
+    return WormDrive(worm_of(keys), keys.number_of_teeth, keys.profile_shift_coefficient)
+
+
+def _teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
+    from geometry.gears.worms.hob import oversized_hob
+    from geometry.gears.worms.wheel import WormTeeth
+
+    given = keys.hob_diameter_quotient
+    if given is not None and given < keys.diameter_quotient:
+        raise ParameterError(
+            "hob_diameter_quotient", given, "hob_smaller_than_worm", limit(keys.diameter_quotient, given)
+        )
+    hob = oversized_hob(drive, keys.hob_rounding_coefficient, given or keys.diameter_quotient)
+    # a hob with thicker threads leaves thinner teeth
+    hob = replace(hob, worm=replace(hob.worm, thinning=-keys.axial_thinning)).checked()
+    width = drive.most_face_width if keys.face_width is None else keys.face_width
+    outer = drive.most_outer_diameter if keys.outer_diameter is None else keys.outer_diameter
+    least = 2 * drive.tip_radius
+    if outer < least:
+        raise ParameterError("outer_diameter", outer, "within_throat", limit(least, outer), diameter=least)
+    return WormTeeth(hob, drive.centre_distance, drive.throat_radius, outer / 2, width).checked()
+
+
+class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
+    """A worm wheel, which has another section at every height."""
+
+    name, keys, has_outline = "worm_wheel", WormWheelSpec, False
+
+    def thing(self, keys: WormWheelSpec, others: Others) -> WheelThing:
+        """The wheel, checked to exist."""
+        from geometry.gears.worms.wheel_measures import WormWheel
+        from geometry.plane.profile import Label, circle
+        from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
+
+        drive = drive_of(keys)
+        teeth, holes = _teeth_of(keys, drive), keys.hub_holes()
+        shape = wheel_shape(teeth.width, keys.web, keys.hub, 0.0)
+        check_wheel(shape, 2 * drive.root_radius, holes)
+        reach = max(holes.bore_reach, holes.beside_bore()[1], *(t.diameter / 2 for t in (keys.hub,) if t), *(
+            t.rim_diameter / 2 for t in (keys.web,) if t
+        ))  # fmt: skip
+        # between all that is cut and the teeth
+        rim = circle(reach + _CORE * (drive.root_radius - reach), Label.BODY)
+        core = wheel_body(shape, wheel_sections(lambda *_: rim, drive.root_radius, holes))
+        return WheelThing(drive, WormWheel(teeth, core, rim))
+
+    def section(self, keys: WormWheelSpec, thing: WheelThing, offset: float) -> OffsetRegion:
+        """The circle about it."""
+        from geometry.plane.offset_region import OffsetRegion
+        from geometry.plane.profile import Label, Region, circle
+
+        teeth = thing.teeth
+        return OffsetRegion(Region(circle(float(teeth.tip_radius(teeth.width / 2)), Label.BODY), ()), offset, ())
+
+    def solid(self, keys: WormWheelSpec, thing: WheelThing, offset: float) -> FacedBody:
+        """The teeth about their core."""
+        from geometry.gears.worms.wheel_faces import wheel_body
+
+        if offset != 0:
+            raise OffsetError(offset, "worm_wheel_not_moved", 0.0)
+        return wheel_body(thing.wheel)
+
+    def height(self, keys: WormWheelSpec, thing: WheelThing) -> float:
+        """Width of the rim."""
+        return thing.teeth.width
+
+    def is_plate(self, keys: WormWheelSpec, thing: WheelThing) -> bool:
+        """Never."""
+        return False
+
+    def report(self, keys: WormWheelSpec, thing: WheelThing) -> Report:
+        """Its sizes, and how long the worm is where it touches them."""
+        import numpy as np
+
+        drive, teeth = thing.drive, thing.teeth
+        circles = {
+            "outer_diameter": 2 * teeth.outer_radius,
+            "throat_diameter": 2 * drive.tip_radius,
+            "reference_diameter": 2 * drive.reference_radius,
+            "root_diameter": 2 * drive.root_radius,
+        }
+        heights = np.array([0.0, teeth.width / 2])
+        tips = teeth.thickness(heights) * teeth.tip_radius(heights)
+        sizes = {
+            "worm_centre_distance": drive.centre_distance,
+            "throat_radius": drive.throat_radius,
+            "tip_tooth_thickness": float(tips[0]),
+            "end_tip_thickness": float(tips[1]),
+        }
+        # an outer cylinder within the throat ends the teeth before their corners
+        used = drive.worm_length_used(2 * teeth.throat_height)
+        if used is not None:
+            sizes["worm_length_used"] = used
+        if teeth.hob.swivel:
+            sizes["hob_swivel_deg"] = math.degrees(teeth.hob.swivel)
+        return Report((), circles, sizes)
+
+
+WORM_WHEEL = WormWheelKind()

@@ -1,0 +1,102 @@
+"""Worm wheels through scenes and files: STEP and STL held against the envelope, spoiled ones caught, refusals."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from exporters.command.cli import main
+
+WHEEL = """
+[parts.wheel]
+kind = "worm_wheel"
+module = 2.0
+number_of_teeth = 20
+number_of_starts = 2
+face_width = 10.0
+outer_diameter = 46.0
+bore_diameter = 10.0
+{keys}
+
+[[exports]]
+format = "step"
+tolerance = 1e-3
+
+[[exports]]
+format = "stl"
+tolerance = 0.05
+"""
+
+
+def _built(folder: Path, keys: str = "", *more: str) -> int:
+    (folder / "wheel.toml").write_text(WHEEL.format(keys=keys))
+    return main(["build", str(folder / "wheel.toml"), "--out", str(folder / "out"), *more])
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [pytest.param('form = "ZA"\nhub = {diameter = 14.0, above = 4.0}', marks=pytest.mark.heavy),
+     pytest.param("hob_diameter_quotient = 11.0\naxial_thinning = 0.1", marks=pytest.mark.heavy)],
+)  # fmt: skip
+def test_files_of_a_wheel_are_the_envelope_within_their_bound(tmp_path: Path, keys: str) -> None:
+    assert _built(tmp_path, keys) == 0
+    report = json.loads((tmp_path / "out" / "wheel" / "report.json").read_text())
+    for file in report["files"]:
+        assert file["verified"]
+        measured = file["measured"]
+        assert measured["max_deviation"] <= file["max_error"] <= file["tolerance"]
+    step = tmp_path / "out" / "wheel" / "wheel.step"
+    text = step.read_text()
+    assert text.count("=TOROIDAL_SURFACE(") >= (0 if "hob" in keys else 2)
+    # a pole within a face stands beside its place
+    numbers = re.findall(r"=B_SPLINE_SURFACE_WITH_KNOTS\('',7,7,\((.*?)\),\.UNSPECIFIED", text, flags=re.DOTALL)[0]
+    inner = re.findall(r"#(\d+)", numbers)
+    row = numbers.split(")")[0].count("#")
+    pole = inner[3 * row + 3]
+    moved = re.sub(
+        rf"(?m)^(#{pole}=CARTESIAN_POINT\('',\()([-\d.]+)", lambda m: f"{m[1]}{float(m[2]) + 0.05:.8f}", text
+    )
+    assert moved != text
+    step.write_text(moved)
+    assert main(["verify", str(step)]) == 1
+
+
+def test_a_wheel_has_no_flat_outline(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert _built(tmp_path, "", "--format", "svg", "--no-verify") == 0
+    assert not (tmp_path / "out" / "wheel" / "wheel.svg").exists()
+
+
+@pytest.mark.parametrize(
+    ("keys", "told"),
+    [
+        ("face_width = 30.0", "face_width"),
+        ("hob_diameter_quotient = 9.0", "hob_diameter_quotient"),
+        ("outer_diameter = 40.0", "outer_diameter"),
+        ("hob_rounding_coefficient = 1.5", "hob_rounding_coefficient"),
+        ("addendum_coefficient = 3.0", "addendum_coefficient"),
+        ("diameter_quotient = 2.0", "diameter_quotient"),
+    ],
+)
+def test_what_cannot_be_cut_is_refused_in_its_key(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], keys: str, told: str
+) -> None:
+    text = WHEEL.format(keys="")
+    name, _, value = keys.partition(" = ")
+    text = re.sub(rf"(?m)^{name} = .*\n", "", text).replace("bore_d", f"{name} = {value}\nbore_d", 1)
+    (tmp_path / "wheel.toml").write_text(text)
+    assert main(["build", str(tmp_path / "wheel.toml"), "--out", str(tmp_path / "out")]) == 2
+    said = capsys.readouterr().err
+    assert told in said
+    works = re.search(r"(?:at most|at least|works?:?) ([-\d.]+)", said)
+    if works and told == "face_width":
+        fixed = re.sub(rf"(?m)^{name} = .*$", f"{name} = {works[1]}", text)
+        (tmp_path / "wheel.toml").write_text(fixed)
+        assert (
+            main(
+                ["build", str(tmp_path / "wheel.toml"), "--out", str(tmp_path / "o"), "--no-verify", "--format", "step"]
+            )
+            == 0
+        )
