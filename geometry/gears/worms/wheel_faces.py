@@ -26,8 +26,9 @@ from geometry.gears.worms.wheel_measures import FILLET, FLANK, WormWheel
 from geometry.plane.measure import distance_to_profile
 from geometry.plane.profile import Profile
 from geometry.solids.body_faces import BodyFaces, body_outlines
-from geometry.solids.faced import FacedBody, FacedSolid, Measured
+from geometry.solids.faced import FacedBody, FacedSolid
 from geometry.solids.faces import Cylinder, Frame, Solid, SplineSurface, Surface, Torus
+from geometry.solids.measured import Measured
 from geometry.solids.rings import AHEAD, UP, Ring
 
 _DEGREE = 7

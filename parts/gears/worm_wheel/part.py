@@ -73,13 +73,13 @@ class WormWheelSpec(HoledKeys, forbid_unknown_fields=True, kw_only=True, tag_fie
     axial_thinning: Annotated[
         float, mm("by how much the hob's threads are thicker than the worm's, along its axis", least=0, most=100)
     ] = 0.0
-    face_width: (  # type: ignore[assignment]
+    face_width: (
         Annotated[
             float,
             mm("width b2 of the rim; default: the largest by GOST 19650", least=0.01, most=10_000, example=14.0),
         ]
         | None
-    ) = None
+    ) = None  # type: ignore[assignment]
     outer_diameter: (
         Annotated[
             float,
