@@ -2,8 +2,9 @@
 
 From the front: platform 4 on its axle 9, disks 2 and 3 in one plane, a spacer, ring 21 and pinion 19, then what turns
 the platform: the wheels 16, 14, 11 of the thesis (``thesis``, which does not keep it parallel), an idler on each arm,
-or cranks. Worms, their wheels, balls, housing and screws are not in it. Wheels of the thesis: 16 is held, 14 stands on
-the axis of disk 3, twice as wide, 16 and 11 in two planes, since they pass over each other wherever O1O3 is short.
+or cranks. Numbers are those of the parts list; figure 2.1 has 6, 7, 8, 9, 11, 12, 15, 18 and 16/19 for its 11, 16, 14,
+13, 19, 21, 25, 23 and 26. Worms, their wheels, balls, housing and screws are not in it. Wheels of the thesis: 16 is
+held, 14 stands on the axis of disk 3, twice as wide, 16 and 11 in two planes: they pass over each other near O1.
 
 Idlers: z 24/12/24, shifted by -0.3, 0.3, -0.3, so that each mesh stays at half an arm; that of arm O1O2 rides on a link
 of its own behind the wheels, since disk 2 does not reach it. Cranks: as in ``power_table``, the second stage before the
@@ -34,6 +35,20 @@ _COLOURS = {
     "pinion": "#4f8fc0", "hub": "#70a0d0", "platform": "#f2e2b6", "wheel": "#c08040", "idler": "#8c96a0",
     "link": "#b5c7a3", "flange": "#b5c7a3", "spider": "#f2e2b6", "crank": "#d98880", "pin": "#d0d4d8",
 }  # fmt: skip
+# positions of the parts list, with their names in English and in Ukrainian
+_LIST = {
+    "body": ("1 Housing", "1 Корпус"),
+    "disk_2": ("2 Outer disk", "2 Диск зовнішній"),
+    "disk_3": ("3 Inner disk", "3 Диск внутрішній"),
+    "platform": ("4 Platform", "4 Платформа"),
+    "platform_axle": ("9 Platform axle", "9 Вісь платформи"),
+    "platform_wheel": ("11 Platform gear wheel", "11 Колесо зубчасте платформи"),
+    "satellite_axle": ("13 Satellite gear axle", "13 Вісь сателітного колеса"),
+    "satellite_wheel": ("14 Satellite gear wheel", "14 Колесо зубчасте сателітне"),
+    "central_wheel": ("16 Central gear wheel", "16 Колесо зубчасте центральне"),
+    "pinion": ("19 Gear wheel of the inner disk", "19 Колесо зубчасте внутрішнього диску"),
+    "ring": ("21 Internal gear wheel", "21 Колесо зубчасте внутрішнього зачеплення"),
+}
 _Turns = Annotated[float, Meta(ge=-1000, le=1000, extra={"unit": "turns"})]
 _Teeth = Annotated[int, Meta(ge=12, le=1000)]
 
@@ -64,6 +79,7 @@ class PowerModuleKeys(RecipeKeys, kw_only=True, tag="power_module"):
     platform_size: Annotated[float, mm("side of the platform", above=0, most=5000)] = 260.0
     turns_of_disk: Annotated[_Turns, Meta(description="how far disk 2 is turned")] = 1.0
     turns_of_ring: Annotated[_Turns, Meta(description="how far the ring is turned")] = -2.0
+    names: Annotated[Literal["en", "uk"], Meta(description="language of the parts list's names, as titles")] = "en"
     material: Material | None = None
 
 
@@ -125,6 +141,10 @@ class _Sizes(Record):
             raise ParameterError("teeth", list(keys.teeth), "axle_beyond_pinion", None, most=most)
         if keys.orientation != "cranks":
             teeth, idler = self.wheels
+            wall = self.arm - (keys.platform_axle_diameter + keys.satellite_axle_diameter) / 2 - keys.clearance
+            if wall < _WALL / 2:
+                given = keys.satellite_axle_diameter
+                raise ParameterError("satellite_axle_diameter", given, "axles_meet", None, wall=wall)
             shift = _SHIFT if keys.orientation == "idlers" else 0.0
             root = keys.wheel_module * (teeth - 2.5 - 2 * shift) - 2 * keys.wheel_module
             for name in ("platform_axle_diameter", "satellite_axle_diameter"):
@@ -170,6 +190,9 @@ class _Making(Making):
             {"instance": "disk_2", "turns": keys.turns_of_disk},
             {"instance": "ring", "turns": keys.turns_of_ring},
         ]
+        for name, titles in _LIST.items():
+            if name in self.found.parts:
+                self.found.parts[name]["title"] = titles[keys.names == "uk"]
         self.found.origins |= {
             "drives[1].turns": "turns_of_disk", "drives[2].turns": "turns_of_ring",
             "parts.platform.width": "platform_size",
@@ -194,7 +217,7 @@ class _Making(Making):
         )  # fmt: skip
         self.part(
             "pinion", kind="spur_gear", module=keys.module, number_of_teeth=keys.teeth[0], face_width=keys.face_width,
-            bore_diameter=keys.satellite_axle_diameter,
+            bore_diameter=0.0 if keys.orientation == "cranks" else keys.satellite_axle_diameter,
             holes={"count": 1, "diameter": turning, "pitch_circle_diameter": 2 * sizes.arm},
         )  # fmt: skip
         # the body stands behind all else
@@ -316,7 +339,6 @@ class _Making(Making):
         self.part(
             "spider", kind="carrier_plate", number_of_pins=3, pin_circle_diameter=2 * sizes.pivots, pin_diameter=pin,
             boss_diameter=2 * sizes.boss, face_width=thick, bore_diameter=axle, directions_deg=[60.0, 180.0, 300.0],
-            hub_diameter=2 * axle,
         )  # fmt: skip
         self.put("carried", "pinion", "spider", offset=place(arm, spider - self.gears))
         self.mate("parallel", "flange", "spider")

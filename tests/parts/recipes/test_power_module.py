@@ -70,6 +70,8 @@ def test_sixty_degrees_for_thirty_of_disk_3(orientation: str) -> None:
     assert turned == pytest.approx({"disk_2": 0, "disk_3": 30, "platform": 60 if orientation == "thesis" else 0})
 
 
+# how drivers that do not fit are refused
+ALLOWED = {"axle_beyond_pinion", "axle_in_the_teeth", "axles_meet", "wheels_do_not_span_arm"}
 MESHED = [
     {"central_wheel", "idler_1"}, {"idler_1", "satellite_wheel"}, {"satellite_front", "idler_2"},
     {"idler_2", "platform_wheel"}, {"central_wheel", "satellite_wheel"}, {"satellite_wheel", "platform_wheel"},
@@ -101,6 +103,42 @@ def test_wheels_of_the_thesis_in_one_plane_run_into_each_other() -> None:
             mate.offset = (x, y, z - 20.0)
     placing, parts = placed(made)
     assert frozenset({"central_wheel", "platform_wheel"}) in struck(placing, parts, list(runs(30)), least=16)
+
+
+def test_names_of_the_parts_list_stand_in_step_files(tmp_path: Path) -> None:
+    items = json.loads((Path(__file__).parents[2] / "published" / "power_module_list.json").read_text("utf-8"))["items"]
+    for language in ("en", "uk"):
+        made = module(orientation="thesis", names=language)
+        titles = {part.title for part in made.parts.values() if part.title}  # type: ignore[attr-defined]
+        known = {f"{item['pos']} {item[f'name_{language}']}" for item in items}
+        assert titles <= known
+        assert len(titles) == 11
+    scene = tmp_path / "named.toml"
+    keys = 'orientation = "thesis"\nnames = "uk"'
+    text = SCENE.read_text(encoding="utf-8").replace('orientation = "cranks"', keys)
+    scene.write_text(text, encoding="utf-8")
+    assert main(["build", str(scene), "--format", "step", "--part", "central_wheel", "--out", str(tmp_path), "-q"]) == 0
+
+
+@pytest.mark.sampled(4)
+@pytest.mark.parametrize("seed", range(200))
+def test_random_drivers_stand_free_or_are_refused(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    pinion = int(rng.integers(30, 110))
+    keys = {
+        "orientation": str(rng.choice(list(MESHES))), "teeth": [pinion, pinion + 2 * int(rng.integers(8, 30))],
+        "module": float(rng.choice([1.5, 2.0, 3.0, 4.0])), "wheel_module": float(rng.choice([1.0, 1.5, 2.0])),
+        "platform_axle_diameter": float(rng.uniform(6, 40)), "satellite_axle_diameter": float(rng.uniform(6, 30)),
+        "pin_diameter": float(rng.uniform(3, 14)), "wheel_width": float(rng.uniform(4, 20)),
+    }  # fmt: skip
+    try:
+        placing, parts = placed(module(**keys))
+        told = "axles_meet"
+        found = struck(placing, parts, list(runs(20)), least=16)
+    except SceneError as refused:
+        told, found = refused.code, set()
+    assert told in ALLOWED
+    assert [set(pair) for pair in found if set(pair) not in MESHED] == [], keys
 
 
 @pytest.mark.parametrize(
