@@ -21,8 +21,16 @@ TERMS: dict[str, Term] = {}
 
 
 def add_terms(text: str) -> None:
-    """One term a line: DESIGN name | key | symbol | unit | name."""
-    rows = ([cell.strip() for cell in line.split("|")] for line in text.strip().splitlines())
+    """One term a line: DESIGN name | key | symbol | unit | name.
+
+    Raises
+    ------
+    ValueError
+        A name that is taken.
+    """
+    rows = [[cell.strip() for cell in line.split("|")] for line in text.strip().splitlines()]
+    if taken := {name for name, *_ in rows} & TERMS.keys():
+        raise ValueError(f"terms that are there already: {taken}")
     TERMS.update({name: Term(*cells) for name, *cells in rows})
 
 
@@ -297,7 +305,7 @@ number_of_pins|N|N||number of pins
 pin_circle_radius|R|R|mm|radius of the pins' circle
 pin_radius|r_p|r_ц|mm|radius of a pin
 eccentricity|e|e|mm|eccentricity
-pin_clearance|c_p|c|mm|clearance between flank and pin, normal
+crank_pin_clearance|c_p|c|mm|clearance between flank and pin, normal
 pin_circle_shift|dR|ΔR|mm|the generating pin circle is smaller by
 generating_radius|R_g|R_т|mm|radius of the generating circle of pins
 generating_pin_radius|rho|ρ|mm|radius of the generating pin
@@ -610,7 +618,7 @@ thesis_worm_radial_force|F_RC|F_RC|N|radial force of the worm by the thesis
 loaded_turns|i_2|i_2||turns of balls that work against the first
 preload|F_H|F_H|N|preload
 balls|z_b|z||balls in one turn
-ball_diameter|d_b|d_k|mm|diameter of a ball
+guide_ball_diameter|d_b|d_k|mm|diameter of a ball
 radial_factor|k4|k_4||share of the balls that carry the radial load
 bearing_radial_force|F_R|F_R|N|radial load
 contact_angle_deg|alpha_b|α|deg|angle of contact
@@ -625,6 +633,6 @@ ball_stiffness|K_0|K||load of a ball for its approach by the thesis, N/mm^(3/2)
 hertz_stiffness|K_1|K||load of a ball for its approach by Hertz, N/mm^(3/2)
 wheel_backlash|j_6|j_6|mm|backlash of each mesh that turns the platform
 platform_play_deg|phi_p|φ_p|deg|play of the platform's turn
-pin_clearance|c_p|c_p|mm|clearance of each pin of a crank
+crank_pin_clearance|c_p|c_p|mm|clearance of each pin of a crank
 pivot_circle|r_p|r_p|mm|radius of the circle of the cranks' pivots
 """)

@@ -247,7 +247,7 @@ def _ball_ring(page: Sheet, keys: PowerModuleKeys, torques: tuple[float, float])
     page.add("loaded_turns", turns)
     page.add("preload", axial / (1.5 * share), f"{{F_a}} / {1.5 * share:g}", _BALLS)
     page.add("balls", keys.balls)
-    page.add("ball_diameter", keys.ball_diameter)
+    page.add("guide_ball_diameter", keys.ball_diameter)
     page.add("radial_factor", keys.radial_factor)
     cases = (("thesis", N_("by the thesis"), gear + axial * math.tan(math.radians(20)), "{F_RZ} + {F_RC}"),
              ("right", N_("right"), gear + right, "{F_RZ} + {F_RC_right}"))  # fmt: skip
@@ -301,7 +301,7 @@ def _orientation(page: Sheet, keys: PowerModuleKeys) -> None:
     page.section(N_("Play of the platform's turn"))
     page.add("wheel_backlash", keys.wheel_backlash)
     page.add("platform_play_deg", math.degrees(4 * keys.wheel_backlash / 24), "4 * {j_6} / 24", of=N_("idlers"))
-    page.add("pin_clearance", keys.pin_clearance)
+    page.add("crank_pin_clearance", keys.pin_clearance)
     page.add("pivot_circle", keys.pivot_circle)
     play = 4 * keys.pin_clearance / (math.cos(math.pi / 6) * keys.pivot_circle)
     page.add("platform_play_deg", math.degrees(play), "4 * {c_p} / ({r_p} * cos(pi / 6))", of=N_("cranks"))
