@@ -305,7 +305,7 @@ number_of_pins|N|N||number of pins
 pin_circle_radius|R|R|mm|radius of the pins' circle
 pin_radius|r_p|r_ц|mm|radius of a pin
 eccentricity|e|e|mm|eccentricity
-crank_pin_clearance|c_p|c|mm|clearance between flank and pin, normal
+pin_clearance|c_p|c|mm|clearance between flank and pin, normal
 pin_circle_shift|dR|ΔR|mm|the generating pin circle is smaller by
 generating_radius|R_g|R_т|mm|radius of the generating circle of pins
 generating_pin_radius|rho|ρ|mm|radius of the generating pin
