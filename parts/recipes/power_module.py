@@ -21,6 +21,7 @@ from msgspec import Meta
 
 from geometry.base.errors import ParameterError, limit
 from geometry.base.record import Record
+from parts.base.texts import N_, words
 from parts.keys.base import Material, mm
 from parts.recipes.making import Making, hole, place
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
@@ -35,19 +36,19 @@ _COLOURS = {
     "pinion": "#4f8fc0", "hub": "#70a0d0", "platform": "#f2e2b6", "wheel": "#c08040", "idler": "#8c96a0",
     "link": "#b5c7a3", "flange": "#b5c7a3", "spider": "#f2e2b6", "crank": "#d98880", "pin": "#d0d4d8",
 }  # fmt: skip
-# positions of the parts list, with their names in English and in Ukrainian
+# positions of the parts list, with their names
 _LIST = {
-    "body": ("1 Housing", "1 Корпус"),
-    "disk_2": ("2 Outer disk", "2 Диск зовнішній"),
-    "disk_3": ("3 Inner disk", "3 Диск внутрішній"),
-    "platform": ("4 Platform", "4 Платформа"),
-    "platform_axle": ("9 Platform axle", "9 Вісь платформи"),
-    "platform_wheel": ("11 Platform gear wheel", "11 Колесо зубчасте платформи"),
-    "satellite_axle": ("13 Satellite gear axle", "13 Вісь сателітного колеса"),
-    "satellite_wheel": ("14 Satellite gear wheel", "14 Колесо зубчасте сателітне"),
-    "central_wheel": ("16 Central gear wheel", "16 Колесо зубчасте центральне"),
-    "pinion": ("19 Gear wheel of the inner disk", "19 Колесо зубчасте внутрішнього диску"),
-    "ring": ("21 Internal gear wheel", "21 Колесо зубчасте внутрішнього зачеплення"),
+    "body": (1, N_("Housing")),
+    "disk_2": (2, N_("Outer disk")),
+    "disk_3": (3, N_("Inner disk")),
+    "platform": (4, N_("Platform")),
+    "platform_axle": (9, N_("Platform axle")),
+    "platform_wheel": (11, N_("Platform gear wheel")),
+    "satellite_axle": (13, N_("Satellite gear axle")),
+    "satellite_wheel": (14, N_("Satellite gear wheel")),
+    "central_wheel": (16, N_("Central gear wheel")),
+    "pinion": (19, N_("Gear wheel of the inner disk")),
+    "ring": (21, N_("Internal gear wheel")),
 }
 _Turns = Annotated[float, Meta(ge=-1000, le=1000, extra={"unit": "turns"})]
 _Teeth = Annotated[int, Meta(ge=12, le=1000)]
@@ -190,9 +191,10 @@ class _Making(Making):
             {"instance": "disk_2", "turns": keys.turns_of_disk},
             {"instance": "ring", "turns": keys.turns_of_ring},
         ]
-        for name, titles in _LIST.items():
+        told = words(keys.names)
+        for name, (position, title) in _LIST.items():
             if name in self.found.parts:
-                self.found.parts[name]["title"] = titles[keys.names == "uk"]
+                self.found.parts[name]["title"] = f"{position} {told.text(title)}"
         self.found.origins |= {
             "drives[1].turns": "turns_of_disk", "drives[2].turns": "turns_of_ring",
             "parts.platform.width": "platform_size",
