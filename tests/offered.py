@@ -84,8 +84,8 @@ def scenes() -> dict[str, Raw]:
     """Scenes that build, of every kind of part and of mate."""
     found = {f"new {kind}": _plain(tomllib.loads(new_scene(kind))) for kind in KINDS}
     built_in = {name: _plain(tomllib.loads(path.read_text("utf-8"))) for name, path in built_in_scenes().items()}
-    # what recipes make is not all of it in the scene's own keys
-    found |= {name: raw for name, raw in built_in.items() if "assemblies" not in raw}
+    # what recipes make and defaults fill in is not all of it in the scene's own keys
+    found |= {name: raw for name, raw in built_in.items() if not {"assemblies", "defaults"} & raw.keys()}
     swing = {"lift": None, "swing_deg": 20.0, "oscillating": SWING}
     wedge = {"kind": "wedge_cam", "follower": "roller", "follower_radius": 6.0, "base_height": 15.0,
              "phases": [{"move": "rise", "travel": 60.0, "law": "sine"}]}  # fmt: skip

@@ -140,6 +140,8 @@ def sheet_jobs(
         shown = [word.partition(".")[0]] if export.purpose == "cam" else export.parts or []
         part = parts[shown[0]] if len(shown) == 1 else None
         _add_title_block(expected, scene, export, part, (number, len(made)))
+        if export.cells == "empty":
+            expected.canvas.texts[:] = [seen for text in expected.canvas.texts for seen in text.asked()]
     name, title = f"{scene.name}.{export.name or export.purpose}", scene.scene.title or scene.name
     if export.format == "pdf":
         return [SheetJob(export, title, tuple(expected for _, expected in made), f"{name}.pdf", where)]
@@ -289,15 +291,15 @@ def _facts(mating: Toothed, picture: MeshingPicture, language: str, specs: list[
         return decimal(f"{value:.{digits}f}", language)
 
     helix = abs(getattr(specs[0], "helix_angle_deg", 0.0))
-    rows = [Row(word("module"), "m", decimal(f"{mating.module:g}", language))]
+    rows = [Row(word("module"), "m", decimal(f"{mating.module:g}", language), answers=0)]
     if helix:
         rows = [
-            Row(word("normal_module"), "m_{n}", decimal(f"{specs[0].module:g}", language)),
-            Row(word("helix_angle"), "β", f"{say(helix, 4)}°"),
+            Row(word("normal_module"), "m_{n}", decimal(f"{specs[0].module:g}", language), answers=0),
+            Row(word("helix_angle"), "β", f"{say(helix, 4)}°", answers=0),
             Row(word("transverse_module"), "m_{t}", decimal(f"{mating.module:.6g}", language)),
         ]
     for index, gear in enumerate(pair.gears, 1):
-        rows.append(Row(word("number_of_teeth"), f"z_{{{index}}}", str(gear.number_of_teeth)))
+        rows.append(Row(word("number_of_teeth"), f"z_{{{index}}}", str(gear.number_of_teeth), answers=0))
     for index, gear in enumerate(pair.gears, 1):
         shift = gear.profile_shift_coefficient / math.cos(math.radians(helix))
         name, symbol = ("normal_shift", f"x_{{n{index}}}") if helix else ("shift", f"x_{{{index}}}")

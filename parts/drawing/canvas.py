@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import get_args
 
 import numpy as np
@@ -112,6 +112,10 @@ class Stroke(Record):
     curve: CadCurve
 
 
+# a size with its number, of one word
+_SIZE = re.compile(r"\S+ = -?\d")
+
+
 class Run(Record):
     """A piece of text in one line and height: left end of its base line, height of a capital and length, mm."""
 
@@ -150,11 +154,24 @@ class Box(Record):
 
 
 class Text(Record):
-    """A line of text; ``_{…}`` lowers what stands in the braces."""
+    """A line of text; ``_{…}`` lowers what stands in the braces. ``answer``: what students find out themselves."""
 
     text: str
     runs: tuple[Run, ...]
     box: Box
+    answer: bool = False
+
+    def asked(self) -> Iterator[Text]:
+        """What students see of it: nothing of an answer, the name alone of a size in the picture, r = 5.00."""
+        if _SIZE.match(self.text):
+            index = next(k for k, run in enumerate(self.runs) if "=" in run.text)
+            last = self.runs[index]
+            text = last.text.partition("=")[0] + "="
+            width = last.width * plain_width(text, last.height) / plain_width(last.text, last.height)
+            runs = (*self.runs[:index], replace(last, text=text, width=width))
+            yield replace(self, text=self.text.partition("=")[0] + "=", runs=runs)
+        elif not self.answer:
+            yield self
 
 
 def text_of(text: str, at: complex, height: float = TEXT_HEIGHT, most: float | None = None) -> Text:
@@ -251,9 +268,11 @@ class Canvas(Draft):
         for start, end in zip(corners, (*corners[1:], corners[0]), strict=True):
             self.line(layer, start, end)
 
-    def write(self, text: str, at: complex, height: float = TEXT_HEIGHT, most: float | None = None) -> Text:
+    def write(
+        self, text: str, at: complex, height: float = TEXT_HEIGHT, most: float | None = None, *, answer: bool = False
+    ) -> Text:
         """A line of text from the left end of its base line."""
-        made = text_of(text, at, height, most)
+        made = replace(text_of(text, at, height, most), answer=answer)
         self.texts.append(made)
         return made
 

@@ -10,12 +10,16 @@ _ROW, _INDENT, _SAMPLE = 1.85, 0.45, 6.0
 
 
 class Row(Record):
-    """A row; a heading has a name alone; ``sample`` is a layer whose line stands in place of a symbol."""
+    """A row; a heading has a name alone; ``sample`` is a layer whose line stands in place of a symbol.
+
+    ``answers``: how many cells, from the right, students find out themselves.
+    """
 
     name: str
     symbol: str = ""
     value: str = ""
     sample: str = ""
+    answers: int = 1
 
     @property
     def cells(self) -> tuple[str, str, str]:
@@ -75,7 +79,8 @@ class Table(Record):
                     canvas.line("TABLE", complex(x, y), complex(x, y + step))
                 if text:
                     most = (width if row.is_heading else wide) - 2 * indent
-                    canvas.write(text, complex(x + indent, y + (step - self.text) / 2), self.text, most)
+                    at, answer = complex(x + indent, y + (step - self.text) / 2), column >= 3 - row.answers
+                    canvas.write(text, at, self.text, most, answer=answer and not row.is_heading)
                 x += wide
             if row.sample:
                 middle = complex(left + columns[0], y + step / 2)

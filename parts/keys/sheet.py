@@ -31,10 +31,13 @@ def scale_value(text: str) -> float:
     return float(paper) / float(model)
 
 
+CellsKey = Annotated[
+    Literal["numbers", "empty"], Meta(description="sheet, pdf: what is to be found out, in numbers or left to students")
+]
 # the purpose that each key is for
 _PURPOSES = {"mate": "meshing", "rack_step": "generating", "intervals": "cam", "speed_rpm": "cam"}
 SHEET_FORMATS = ("sheet", "pdf")
-SHEET_KEYS = (*_PURPOSES, "title_block", "paper", "scale")
+SHEET_KEYS = (*_PURPOSES, "title_block", "paper", "scale", "cells")
 
 
 def check_sheet_keys(spec: Any, source: str, place: str) -> None:
@@ -60,6 +63,11 @@ def check_sheet_keys(spec: Any, source: str, place: str) -> None:
             given = given if key == "scale" else True
             raise SceneError(source, f"{place}.{key}", given, "model_is_full_size", REMOVED)
     is_sheet = spec.format in SHEET_FORMATS
+    if spec.cells != "numbers" and (not is_sheet or spec.purpose == "model"):
+        formats = [f'"{name}"' for name in SHEET_FORMATS]
+        raise SceneError(
+            source, f"{place}.cells", spec.cells, "only_for_format", REMOVED, formats=formats, format=spec.format
+        )
     if (is_sheet or spec.format in ("motion", "glb")) and spec.offset:
         raise SceneError(source, f"{place}.offset", spec.offset, "sheet_shows_exact_profile", REMOVED)
     if is_sheet and spec.parts is not None and spec.purpose == "meshing":

@@ -22,7 +22,7 @@ from parts.base.schema import converted, refuse_infinite
 from parts.base.texts import ENGLISH, languages
 from parts.keys.base import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.keys.boards import PURPOSES_LAID, BedSpec, BoardSpec, LaidKeys, check_laid
-from parts.keys.sheet import CamSpeed, Intervals, MateNumber, PaperKey, RackStep, ScaleKey, check_sheet_keys
+from parts.keys.sheet import CamSpeed, CellsKey, Intervals, MateNumber, PaperKey, RackStep, ScaleKey, check_sheet_keys
 from parts.keys.title import TitleBlockKey
 from parts.scene.files import MOST_BYTES, built_in_scenes, text_of
 from parts.scene.formats import ASSEMBLY_FORMATS, Form, file_kind, tolerances_of
@@ -121,6 +121,7 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     rack_step: RackStep | None = None
     intervals: Intervals | None = None
     speed_rpm: CamSpeed | None = None
+    cells: CellsKey = "numbers"
     title_block: TitleBlockKey = False
     mate: MateNumber | None = None
     paper: PaperKey | None = None

@@ -30,6 +30,7 @@ class Grid(Record):
     columns: tuple[float, ...]
     rows: tuple[tuple[str, ...], ...]
     samples: tuple[tuple[int, str], ...] = ()
+    answers: tuple[int, ...] = ()
 
     @property
     def height(self) -> float:
@@ -39,7 +40,11 @@ class Grid(Record):
     def cut(self, rows: int) -> tuple[Grid, Grid]:
         """The first ``rows`` and the rest, under the same heading."""
         rest = (self.rows[0], *self.rows[rows:]) if rows < len(self.rows) else ()
-        return replace(self, rows=self.rows[:rows]), replace(self, rows=rest)
+        left = (*self.answers[:1], *self.answers[rows:]) if rest else ()
+        return (
+            replace(self, rows=self.rows[:rows], answers=self.answers[:rows]),
+            replace(self, rows=rest, answers=left),
+        )
 
 
 def _lowered(text: str) -> str:
@@ -50,15 +55,20 @@ def characteristics(calculation: Sheet, picture: CamPicture) -> Grid:
     """The steps of ``higherpair calc cam``, section by section."""
     told = words(picture.language)
     rows: list[tuple[str, ...]] = []
+    answers: list[int] = []
     for section in calculation.sections:
         rows.append((told.say(section.title),))
+        answers.append(0)
         for step in section.steps:
             # an angle of a phase stands among the characteristics
             if step.name in _LEFT_OUT or (step.name in _PHASES and _is_law(section)):
                 continue
             cells = _lowered(symbol_text(step.symbol, told)), result_text(step, told)
             rows.append((step_name(step, told), *(told.decimal(cell) for cell in cells)))
-    return Grid(_COLUMNS, tuple(rows))
+            # the characteristics are given, and the coefficients of the laws
+            found_out = section is not calculation.sections[0] and (step.formula or not _is_law(section))
+            answers.append(1 if found_out else 0)
+    return Grid(_COLUMNS, tuple(rows), answers=tuple(answers))
 
 
 def _is_law(section: Section) -> bool:
@@ -142,7 +152,9 @@ def graphical_grid(calculation: Sheet, picture: CamPicture) -> Grid | None:
     for number, phi, bend, rate, exact_rate, lift, exact in table.rows:
         rows.append((f"{number:.0f}", say(phi), say(bend), say(rate), say(exact_rate), say(rate - exact_rate, 3),
                      say(lift), say(exact), say(lift - exact, 3)))  # fmt: skip
-    return Grid((9.0, 15.0, 15.0, 14.0, 14.0, 16.0, 14.0, 14.0, 15.0), tuple(rows))
+    return Grid(
+        (9.0, 15.0, 15.0, 14.0, 14.0, 16.0, 14.0, 14.0, 15.0), tuple(rows), answers=(0, 0, *[7] * len(table.rows))
+    )
 
 
 def draw_grid(canvas: Canvas, corner: complex, grid: Grid) -> None:
@@ -160,7 +172,8 @@ def draw_grid(canvas: Canvas, corner: complex, grid: Grid) -> None:
             length = min(text_width(cell, SMALL_TEXT), room)
             at = x + wide - _INDENT - length if many and len(row) > 1 else x + _INDENT
             if cell:
-                canvas.write(cell, complex(at, y + (ROW - SMALL_TEXT) / 2 + 0.1), SMALL_TEXT, room)
+                answer = bool(grid.answers) and k >= len(row) - grid.answers[index]
+                canvas.write(cell, complex(at, y + (ROW - SMALL_TEXT) / 2 + 0.1), SMALL_TEXT, room, answer=answer)
             if k:
                 canvas.line("TABLE", complex(x, y), complex(x, y + ROW))
             x += wide

@@ -120,7 +120,9 @@ def _rows(tables: Sheet, language: str) -> list[Row]:
             formula = f"{formula_text(step, told)} = {numbers_text(step, told)}" if step.formula else ""
             symbol = symbol_text(step.symbol, told)
             cells = f"{step_name(step, told)}, {symbol}", formula, result_text(step, told)
-            rows.append(Row(*(told.decimal(_lowered(cell)) for cell in cells)))
+            name, formula, result = (told.decimal(_lowered(cell)) for cell in cells)
+            # the data of the device are given
+            rows.append(Row(name, formula, result, answers=0 if section is tables.sections[0] else 2))
     return rows
 
 

@@ -64,7 +64,7 @@ def meshing_canvas(picture: MeshingPicture, module: float, facts: Facts, asked: 
         for name in (n for n in body.radii if not view.shows(body, n)):
             value = decimal(f"{body.radii[name]:.3f}", language)
             rows.append(Row(sheet_words(language, "off_sheet"), f"r_{{{SYMBOLS[name]}{index}}}", value))
-    rows.append(Row(sheet_words(language, "scale"), "", scale_text(view.paper.scale, language)))
+    rows.append(Row(sheet_words(language, "scale"), "", scale_text(view.paper.scale, language), answers=0))
     table = Table(tuple(rows), canvas.letters)
     table.draw(canvas, complex(canvas.frame.right - table.size[0], canvas.content.low))
     labels = Labeller(canvas, view.room)

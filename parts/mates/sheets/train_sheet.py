@@ -80,9 +80,9 @@ def train_sheet(title: str, train: TrainPicture, told: list[str], asked: Asked) 
     _transfer(canvas, train, scheme, plans.line)
     draw_plans(canvas, plans, areas.plan, areas.angles)
     rows += [
-        Row(sheet_words(language, "scheme_scale"), "", scale_text(scale, language)),
-        Row(sheet_words(language, "velocity_scale"), "μ_{v}", decimal(f"{plans.velocity:g}", language)),
-        Row(sheet_words(language, "angular_scale"), "μ_{ω}", decimal(f"{plans.angular:g}", language)),
+        Row(sheet_words(language, "scheme_scale"), "", scale_text(scale, language), answers=0),
+        Row(sheet_words(language, "velocity_scale"), "μ_{v}", decimal(f"{plans.velocity:g}", language), answers=0),
+        Row(sheet_words(language, "angular_scale"), "μ_{ω}", decimal(f"{plans.angular:g}", language), answers=0),
     ]
     table = Table(tuple(rows), canvas.letters)
     table.draw(canvas, complex(canvas.content.right - table.size[0], canvas.content.low))
@@ -107,7 +107,8 @@ def _transfer(canvas: Canvas, train: TrainPicture, scheme: Scheme, line: float) 
 def _rows(train: TrainPicture, told: list[str], language: str) -> list[Row]:
     teeth = sheet_words(language, "number_of_teeth")
     rows = [
-        Row(f"{part}: {teeth}", f"z_{{{rim.name}}}", str(rim.teeth)) for part, rim in zip(told, train.rims, strict=True)
+        Row(f"{part}: {teeth}", f"z_{{{rim.name}}}", str(rim.teeth), answers=0)
+        for part, rim in zip(told, train.rims, strict=True)
     ]
     driver = train.links[train.driver]
     for link in train.links:
@@ -118,5 +119,5 @@ def _rows(train: TrainPicture, told: list[str], language: str) -> list[Row]:
             ratio = decimal(f"{float(1 / link.rate):.7g}", language)
             rows.append(Row(sheet_words(language, "train_ratio"), name, ratio))
         else:
-            rows.append(Row(sheet_words(language, "held"), link.name))
+            rows.append(Row(sheet_words(language, "held"), link.name, answers=0))
     return rows
