@@ -121,6 +121,13 @@ def measure(model: Model) -> tuple[Real, Real, Real]:
         flux[mine] += more[0]
         size[mine] += more[1]
         area[mine] += np.where(more[1] != 0, sense[mine] * np.inf, 0.0)
+    # a face on a cone round the apex, at z = -r / s, has a bound of no length there
+    apex = np.flatnonzero((model.kind == ROUND) & (model.sizes[:, 1] > 0) & ((turns / (2 * np.pi)).round() != 0))
+    r, s = model.sizes[apex].T
+    spread = -r * r / (2 * s) * turns[apex]
+    flux[apex] += (r - s * model.frames.centres[apex, 2]) / 3 * spread
+    size[apex] += np.sqrt(1 + s * s) * spread
+    area[apex] -= r / s * turns[apex]
     _follow(model, np.flatnonzero(model.kind[uses.face] == EXTRUSION), size, area, gap)
     for patches in model.patches:
         _measure_patches(model, patches, flux, size, area, gap)

@@ -130,6 +130,7 @@ def _filled(solid: Solid, chart: Chart, faces: Faces, row: int) -> Real:
     return chart.spatial(grid[0], grid[1]).reshape(-1, 3)
 
 
-def exact_body(solid: Solid) -> FacedBody:
-    """The body of a solid without splines."""
-    return FacedBody(lambda _: FacedSolid(solid))
+def exact_body(solid: Solid | FacedSolid) -> FacedBody:
+    """The body of a solid without spline surfaces, alike for every tolerance."""
+    made = solid if isinstance(solid, FacedSolid) else FacedSolid(solid)
+    return FacedBody(lambda _: made)

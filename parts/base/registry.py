@@ -100,6 +100,14 @@ KINDS: Index[Kind[Any, Any]] = Index(
             "Oscillating follower: its pivot is the origin, the arm runs along +x",
         ),
         "roller": ("parts.cams.follower:ROLLER", "Roller of a cam follower"),
+        "turned": (
+            "parts.bodies.turned:TURNED",
+            "Solid turned about its axis, told by half its section of lines and arcs: a ring, a ball, a cover",
+        ),
+        "shaft": (
+            "parts.bodies.turned:SHAFT",
+            "Shaft of steps with chamfers, fillets, grooves, keyways, centre holes or a bore; its lower end at z = 0",
+        ),
         "carrier_plate": (
             "parts.bodies.carrier:CARRIER_PLATE",
             "Plate of a carrier: a hub with an arm for the pin of each satellite, the first on +x, or a round plate",

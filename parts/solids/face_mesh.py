@@ -233,7 +233,7 @@ class _Mesher:
         self, chart: Chart, loops: list[list[Side]], numbers: list[list[Triangles]]
     ) -> tuple[Triangles, Real, Real]:
         """Triangles of any face, and their u and v."""
-        rings, names = _closed(loops, numbers)
+        rings, names = _closed(chart, loops, numbers)
         if chart.is_plane:
             triangles = library_triangles(np.concatenate(rings), _numbered(rings))
             plane = np.concatenate(rings)
@@ -432,7 +432,9 @@ def _sagitta(chart: Chart, u: Real, v: Real) -> float:
     return float((bow + slant * size * 2 * np.sin(np.minimum(wide, math.pi) / 4) ** 2).max())
 
 
-def _closed(loops: list[list[Side]], numbers: list[list[Triangles]]) -> tuple[list[Complex], list[Triangles]]:
+def _closed(
+    chart: Chart, loops: list[list[Side]], numbers: list[list[Triangles]]
+) -> tuple[list[Complex], list[Triangles]]:
     """The loops as rings of points u + iv with their numbers; what goes round the axis is cut open and joined."""
     rings, names, open_ones = [], [], []
     for sides, own in zip(loops, numbers, strict=True):
@@ -452,11 +454,13 @@ def _closed(loops: list[list[Side]], numbers: list[list[Triangles]]) -> tuple[li
         turned = turned + 2 * math.pi * round((low[-1].real - turned[0].real) / (2 * math.pi))
         rings.insert(0, np.concatenate([low, turned]))
         names.insert(0, np.concatenate([low_names, high_names[start:-1], high_names[: start + 1]]))
-        # holes lie within the turn that is cut out
-        middle = float(low.real.mean())
-        rings[1:] = [r - 2 * math.pi * round((float(r.real.mean()) - middle) / (2 * math.pi)) for r in rings[1:]]
     elif open_ones:
         raise ThinWallError("a face goes round its axis without an end")
+    if chart.is_plane:
+        return rings, names
+    # holes lie within the turn that is cut open
+    middle = (float(rings[0].real.min()) + float(rings[0].real.max())) / 2
+    rings[1:] = [r - 2 * math.pi * round((float(r.real.mean()) - middle) / (2 * math.pi)) for r in rings[1:]]
     return rings, names
 
 

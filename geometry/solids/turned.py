@@ -1,0 +1,435 @@
+"""Solids turned about the z axis from half a section: planes, cylinders, cones, spheres and tori, all exact.
+
+A section is complex, r + iz, counter-clockwise. Round holes run through it along the axis; pockets for keys are sunk
+into its cylinders.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from geometry.approximation.tensor import basis_matrix, clamped, greville
+from geometry.base.errors import ParameterError
+from geometry.base.record import Draft, Record, field, replace
+from geometry.curves.curve import Complex, Real
+from geometry.solids.faced import FacedSolid
+from geometry.solids.faces import (
+    Circular,
+    Cone,
+    Cylinder,
+    Faces,
+    Frame,
+    Index,
+    Loop,
+    Plane,
+    SolidBuilder,
+    Sphere,
+    Spline,
+    Straight,
+    Torus,
+)  # fmt: skip
+
+UP = np.array([[0.0, 0.0, 1.0]])
+# what is one place, part of the size; samples of an arc where boundaries are held against each other
+_SAME, _SAMPLES = 1e-9, 33
+# of the curve in which a round end of a pocket meets its shaft: degree, pieces, part of the radius that is near enough
+_DEGREE, _PIECES, _NEAR, _CHECKS, _MARGIN = 7, (8, 16, 32, 64, 128), 1e-10, 1001, 1.2
+
+
+class Corner(Record):
+    """A corner of half a section, r + iz, mm.
+
+    ``arc``: radius of the arc to the next corner, above 0 out of the material, below 0 into it, 0: a line;
+    ``chamfer``: length of both legs, ``fillet``: radius, of which one is 0.
+    """
+
+    at: complex
+    arc: float = 0.0
+    chamfer: float = 0.0
+    fillet: float = 0.0
+
+
+class Piece(Record):
+    """A line, or an arc about a ``centre``; ``convex``: it bulges out of the material."""
+
+    start: complex
+    end: complex
+    centre: complex | None = None
+    convex: bool = True
+
+    @property
+    def radius(self) -> float:
+        """Of the arc, mm."""
+        return 0.0 if self.centre is None else abs(self.start - self.centre)
+
+    @property
+    def on_axis(self) -> bool:
+        """Whether it sweeps nothing."""
+        return self.centre is None and self.start.real == self.end.real == 0
+
+    def points(self) -> Complex:
+        """Along it, (k,)."""
+        if self.centre is None:
+            return np.array([self.start, self.end])
+        sweep = np.angle((self.end - self.centre) / (self.start - self.centre))
+        way = 1 if self.convex else -1
+        whole = way * (float(sweep) * way % (2 * math.pi))
+        found = self.centre + (self.start - self.centre) * np.exp(1j * whole * np.linspace(0, 1, _SAMPLES))
+        found[-1] = self.end
+        return np.asarray(found)
+
+
+class Hole(Record):
+    """A round hole along the axis, mm."""
+
+    centre: complex
+    radius: float
+
+
+class Pocket(Record):
+    """A keyway in a cylinder from ``low`` to ``high``: its width, the distance of its floor from the axis, mm.
+
+    ``angle``: of its middle, rad; ``round_ends``: as an end mill leaves them.
+    """
+
+    low: float
+    high: float
+    width: float
+    floor: float
+    angle: float
+    round_ends: bool = True
+
+
+class HalfSection(Record):
+    """The pieces of a half section, and what is cut out of the turned solid."""
+
+    pieces: tuple[Piece, ...]
+    holes: tuple[Hole, ...] = ()
+    pockets: tuple[Pocket, ...] = ()
+
+    def radii(self) -> tuple[float, float]:
+        """Nearest to the axis, and farthest from it, mm."""
+        r = np.concatenate([p.points().real for p in self.pieces])
+        return float(r.min()), float(r.max())
+
+    def heights(self) -> tuple[float, float]:
+        """The lowest and the highest, mm."""
+        z = np.concatenate([p.points().imag for p in self.pieces])
+        return float(z.min()), float(z.max())
+
+
+def half_section(corners: Sequence[Corner]) -> tuple[Piece, ...]:
+    """The pieces between corners in either order, each corner with its chamfer or fillet.
+
+    Raises
+    ------
+    ParameterError
+        ``points.item k``: what they enclose is no half section.
+    """
+    corners = list(corners)
+    size, turned = len(corners), _signed(corners) < 0
+    turned = turned or (size == 2 and corners[0].at.imag > corners[1].at.imag)
+    numbers = list(range(size, 0, -1) if turned else range(1, size + 1))
+    if turned:
+        # an arc goes from the later corner to the earlier one
+        corners = [replace(corners[-1 - k], arc=corners[(-2 - k) % size].arc) for k in range(size)]
+    owners = [numbers[(k + 1) % size] if turned else numbers[k] for k in range(size)]
+    edges = [_edge(one, corners[(k + 1) % size], owners[k]) for k, one in enumerate(corners)]
+    found: list[Piece] = []
+    cuts = [_cut(edges[k - 1], edges[k], corner, numbers[k]) for k, corner in enumerate(corners)]
+    for k, edge in enumerate(edges):
+        (_, begin, cut), (end, _, _) = cuts[k], cuts[(k + 1) % len(cuts)]
+        if cut is not None:
+            found.append(cut)
+        if edge.centre is None:
+            way = edge.end - edge.start
+            left = ((end - begin) * way.conjugate()).real / abs(way)
+            if left < -_SAME * abs(way):
+                corner = corners[k] if begin != edge.start else corners[(k + 1) % len(corners)]
+                number = numbers[k] if corner is corners[k] else numbers[(k + 1) % len(corners)]
+                key, value = ("chamfer", corner.chamfer) if corner.chamfer else ("fillet", corner.fillet)
+                raise ParameterError(f"points.item {number}.{key}", value, "corner_longer_than_edge")
+            if left <= _SAME * abs(way):
+                continue
+        found.append(Piece(begin, end, edge.centre, edge.convex))
+    # where an edge was used up, its neighbours meet
+    found = [replace(p, start=before.end) for p, before in zip(found, [found[-1], *found[:-1]], strict=True)]
+    _check(found)
+    return tuple(found)
+
+
+def _signed(corners: Sequence[Corner]) -> float:
+    at = np.array([c.at for c in corners])
+    return float(np.sum((np.conj(at) * np.roll(at, -1)).imag))
+
+
+def _edge(one: Corner, two: Corner, number: int) -> Piece:
+    chord = two.at - one.at
+    if abs(chord) <= _SAME * max(abs(one.at), abs(two.at)):
+        raise ParameterError(f"points.item {number}.z", one.at.imag, "two_points_are_one")
+    if not one.arc:
+        return Piece(one.at, two.at)
+    rest = one.arc**2 - abs(chord) ** 2 / 4
+    if rest < -_SAME * one.arc**2:
+        raise ParameterError(f"points.item {number}.arc", one.arc, "arc_shorter_than_chord", least=abs(chord) / 2)
+    side = 1 if one.arc > 0 else -1
+    centre = (one.at + two.at) / 2 + 1j * side * chord / abs(chord) * math.sqrt(max(rest, 0.0))
+    if abs(centre.real) <= _SAME * abs(one.arc):
+        centre = complex(0.0, centre.imag)
+    if centre.real < 0:
+        raise ParameterError(f"points.item {number}.arc", one.arc, "arc_about_beyond_axis")
+    return Piece(one.at, two.at, centre, one.arc > 0)
+
+
+def _cut(before: Piece, after: Piece, corner: Corner, number: int) -> tuple[complex, complex, Piece | None]:
+    """Where the edge before a corner ends and the one after it begins, and what lies between."""
+    size, key = (corner.chamfer, "chamfer") if corner.chamfer else (corner.fillet, "fillet")
+    if not size:
+        return corner.at, corner.at, None
+    if before.centre is not None or after.centre is not None:
+        raise ParameterError(f"points.item {number}.{key}", size, "corner_of_an_arc")
+    back, ahead = before.start - before.end, after.end - after.start
+    back, ahead = back / abs(back), ahead / abs(ahead)
+    turn = math.atan2((-back.conjugate() * ahead).imag, (-back.conjugate() * ahead).real)
+    if abs(turn) < _SAME:
+        raise ParameterError(f"points.item {number}.{key}", size, "corner_is_straight")
+    leg = size if key == "chamfer" else size * math.tan(abs(turn) / 2)
+    ends = corner.at + leg * back, corner.at + leg * ahead
+    if key == "chamfer":
+        return (*ends, Piece(*ends))
+    centre = ends[0] + size * (1j if turn > 0 else -1j) * -back
+    if centre.real < 0:
+        raise ParameterError(f"points.item {number}.fillet", size, "arc_about_beyond_axis")
+    return (*ends, Piece(*ends, centre, turn > 0))
+
+
+def _check(pieces: Sequence[Piece]) -> None:
+    """The boundary runs beside the axis and crosses itself nowhere."""
+    lines = [p.points() for p in pieces]
+    size = max(float(np.abs(p).max()) for p in lines)
+    if any(float(p.real.min()) < -_SAME * size for p in lines):
+        raise ParameterError("points", len(pieces), "section_beyond_axis")
+    for piece, after in zip(pieces, [*pieces[1:], pieces[0]], strict=True):
+        if piece.end.real == 0 and not piece.on_axis and not after.on_axis:
+            raise ParameterError("points", len(pieces), "section_touches_axis")
+    a = np.concatenate([p[:-1] for p in lines])
+    b = np.concatenate([p[1:] for p in lines])
+    way = b - a
+
+    def side(p: Complex) -> Real:
+        return np.asarray((np.conj(way)[:, None] * (p[None, :] - a[:, None])).imag)
+
+    one, two = np.sign(side(a)), np.sign(side(b))
+    crossing = (one * two < 0) & (one * two < 0).T
+    if np.any(crossing) or float(np.sum((np.conj(a) * b).imag)) <= 0:
+        raise ParameterError("points", len(pieces), "boundary_crosses_itself")
+
+
+def _rim(half: float, radius: float) -> tuple[Real, Real, float]:
+    """The curve in which half a cylinder meets a larger one that it stands across: knots, poles and error, mm.
+
+    Poles (n, 3): along the larger one's circle, along its axis, and away from that.
+    """
+    for pieces in _PIECES:
+        knots = clamped(_DEGREE, np.linspace(0, 1, pieces + 1))
+        turn = np.pi * greville(_DEGREE, knots)
+        places = half * np.column_stack([np.cos(turn), np.sin(turn)])
+        places = np.column_stack([places, np.sqrt(radius**2 - places[:, 0] ** 2)])
+        poles = np.linalg.solve(basis_matrix(_DEGREE, knots, greville(_DEGREE, knots)), places)
+        x, z, y = (basis_matrix(_DEGREE, knots, np.linspace(0, 1, _CHECKS)) @ poles).T
+        error = _MARGIN * float(np.maximum(np.abs(np.hypot(x, z) - half), np.abs(np.hypot(x, y) - radius)).max())
+        if error <= _NEAR * radius:
+            break
+    return knots, np.asarray(poles, dtype=float), error
+
+
+def turned_solid(section: HalfSection, seam: float = 0.0) -> FacedSolid:
+    """The faces of a half section; ``seam``: the angle at which its surfaces are cut open, rad.
+
+    Raises
+    ------
+    ParameterError
+        ``holes``: one of them does not run from a plane face to another one within the material.
+    """
+    made = _Turned(section, seam)
+    for piece in section.pieces:
+        made.piece(piece)
+    for k, hole in enumerate(section.holes):
+        made.hole(hole, k + 1)
+    made.close()
+    return FacedSolid(made.solid(), made.error, "sampled" if made.error else "exact")
+
+
+class _Level(Draft):
+    """A plane face: its height, its radii and its loops."""
+
+    z: float
+    radii: tuple[float, float]
+    up: bool
+    loops: list[Loop] = field(default_factory=list)
+
+
+class _Turned(SolidBuilder):
+    """Builds a turned solid."""
+
+    def __init__(self, section: HalfSection, seam: float) -> None:
+        super().__init__()
+        self.section, self.error = section, 0.0
+        self.ahead = np.array([[math.cos(seam), math.sin(seam), 0.0]])
+        self.sideways = np.cross(self.ahead, UP)
+        self.known: dict[complex, tuple[Index, Index | None]] = {}
+        self.levels: list[_Level] = []
+
+    def point(self, at: complex) -> Index:
+        """A point of the half plane of the seam."""
+        plane = at.real * (self.ahead[0, 0] + 1j * self.ahead[0, 1])
+        return self.add_points(np.array([plane]), at.imag)
+
+    def corner(self, at: complex) -> tuple[Index, Index | None]:
+        """The vertex of a corner of the section, and its circle unless it stands on the axis."""
+        if at not in self.known:
+            vertex = self.add_vertices(self.point(at))
+            circle = None
+            if at.real > 0:
+                shape = Circular(Frame(self.point(1j * at.imag), UP, self.ahead), at.real)
+                circle = self.add_edges(vertex, vertex, shape)
+            self.known[at] = vertex, circle
+        return self.known[at]
+
+    def piece(self, piece: Piece) -> None:
+        """What a piece of the section sweeps."""
+        if piece.on_axis:
+            return
+        if piece.centre is None and piece.start.imag == piece.end.imag:
+            up = piece.end.real < piece.start.real
+            level = _Level(piece.start.imag, tuple(sorted((piece.start.real, piece.end.real))), up)  # type: ignore[arg-type]
+            for at, is_outer in ((piece.start, up), (piece.end, not up)):
+                circle = self.corner(at)[1] if at.real else None
+                if circle is not None:
+                    level.loops.insert(0 if is_outer else 1, (circle[:, None], np.array([is_outer == up])))
+            self.levels.append(level)
+            return
+        (first, low), (last, high) = self.corner(piece.start), self.corner(piece.end)
+        seam = self.add_edges(first, last, self._seam(piece))
+        edges = [(low, True), (seam, True), (high, False), (seam, False)]
+        kept = [(e, way) for e, way in edges if e is not None]
+        loops = [(np.stack([e for e, _ in kept], axis=1), np.array([way for _, way in kept]))]
+        surface, along = self._surface(piece)
+        if isinstance(surface, Cylinder):
+            low_z, high_z = sorted((piece.start.imag, piece.end.imag))
+            loops += [self.pocket(p, surface.radius) for p in self.section.pockets if along and low_z < p.low < high_z]
+        self.faces.append(Faces(surface, tuple(loops), along))
+
+    def _seam(self, piece: Piece) -> Straight | Circular:
+        if piece.centre is None:
+            step = piece.end - piece.start
+            return Straight((step.real * self.ahead + step.imag * UP) / abs(step))
+        axis = self.sideways if piece.convex else -self.sideways
+        return Circular(Frame(self.point(piece.centre), axis, self.ahead), piece.radius)
+
+    def _surface(self, piece: Piece) -> tuple[Cylinder | Cone | Sphere | Torus, bool]:
+        """Its surface, and whether that looks out of the material."""
+        if piece.centre is not None:
+            if piece.centre.real == 0:
+                return Sphere(Frame(self.point(piece.centre), UP, self.ahead), piece.radius), piece.convex
+            middle = Frame(self.point(1j * piece.centre.imag), UP, self.ahead)
+            return Torus(middle, piece.centre.real, piece.radius), piece.convex
+        step, along = piece.end - piece.start, piece.end.imag > piece.start.imag
+        if step.real == 0:
+            return Cylinder(Frame(self.point(1j * piece.start.imag), UP, self.ahead), piece.start.real), along
+        narrow, wide = sorted((piece.start, piece.end), key=lambda p: p.real)
+        axis = UP if wide.imag > narrow.imag else -UP
+        slant = math.atan2(wide.real - narrow.real, abs(wide.imag - narrow.imag))
+        if narrow.real == 0:
+            # an apex is no place for a surface to begin
+            narrow = (narrow + wide) / 2
+        return Cone(Frame(self.point(1j * narrow.imag), axis, self.ahead), narrow.real, slant), along
+
+    def hole(self, hole: Hole, number: int) -> None:
+        """A hole between two plane faces."""
+        near, far = abs(hole.centre) - hole.radius, abs(hole.centre) + hole.radius
+        over = [level for level in self.levels if level.radii[0] < near and far < level.radii[1]]
+        inside = [p for p in self.section.pieces if p.points().real.min() < far and p.points().real.max() > near]
+        if len(over) != 2 or len(inside) != 2 or over[0].up == over[1].up:
+            raise ParameterError("holes", number, "hole_between_no_planes")
+        low, high = sorted(over, key=lambda level: level.z)
+        start = self.ahead[0, 0] + 1j * self.ahead[0, 1]
+        rings = []
+        for level in (low, high):
+            vertex = self.add_vertices(self.add_points(np.array([hole.centre + hole.radius * start]), level.z))
+            centre = self.add_points(np.array([hole.centre]), level.z)
+            circle = self.add_edges(vertex, vertex, Circular(Frame(centre, UP, self.ahead), hole.radius))
+            rings.append((vertex, circle, centre))
+            level.loops.append((circle[:, None], np.array([not level.up])))
+        (top, above, _), (bottom, below, centre) = rings[1], rings[0]
+        seam = self.add_edges(bottom, top, Straight(UP))
+        loop = np.stack([above, seam, below, seam], axis=1), np.array([True, False, False, True])
+        self.faces.append(Faces(Cylinder(Frame(centre, UP, self.ahead), hole.radius), (loop,), along=False))
+
+    def pocket(self, pocket: Pocket, radius: float) -> Loop:
+        """The faces of a pocket; the loop of its rim on the cylinder."""
+        out = np.array([[math.cos(pocket.angle), math.sin(pocket.angle), 0.0]])
+        across = np.cross(UP, out)
+        half = pocket.width / 2
+        lift = math.sqrt(radius**2 - half**2)
+        inset = half if pocket.round_ends else 0.0
+        ends = pocket.low + inset, pocket.high - inset
+
+        def at(side: Real, height: Real | float, z: Real) -> Index:
+            places = side[:, None] * across + np.broadcast_to(height, side.shape)[:, None] * out + z[:, None] * UP
+            return self.add_points(places[:, 0] + 1j * places[:, 1], places[:, 2])
+
+        # counter-clockwise as seen from outside, where across points to the right: the lower right one first
+        side, z = half * np.array([1.0, 1.0, -1.0, -1.0]), np.array([ends[0], ends[1], ends[1], ends[0]])
+        floor, rim = (self.add_vertices(at(side, height, z)) for height in (pocket.floor, lift))
+        low_edges: list[Index] = []
+        high_edges: list[Index] = []
+        ups = self.add_edges(floor, rim, Straight(out))
+        for k in range(4):
+            after = (k + 1) % 4
+            way = UP if k == 0 else -UP if k == 2 else (-across if k == 1 else across)
+            if k in (0, 2):
+                shapes: tuple[Straight | Circular | Spline, Straight | Circular | Spline] = Straight(way), Straight(way)
+            elif pocket.round_ends:
+                middle = at(np.zeros(1), pocket.floor, np.array([ends[k == 1]]))
+                zero = across if k == 1 else -across
+                knots, rounded, error = _rim(half, radius)
+                self.error = max(self.error, error)
+                way_out = 1.0 if k == 1 else -1.0
+                inner = at(way_out * rounded[1:-1, 0], rounded[1:-1, 2], ends[k == 1] + way_out * rounded[1:-1, 1])
+                poles = np.concatenate([self.vertex_point(rim[k]), inner, self.vertex_point(rim[after])])
+                shapes = Circular(Frame(middle, out, zero), half), Spline(_DEGREE, knots, poles[None])
+            else:
+                centre = self.add_points(np.zeros(1, complex), ends[k == 1])
+                shapes = Straight(way), Circular(Frame(centre, -UP if k == 1 else UP, out), radius)
+            for found, corners, shape in ((low_edges, floor, shapes[0]), (high_edges, rim, shapes[1])):
+                found.append(self.add_edges(corners[k : k + 1], corners[after : after + 1], shape))
+        for k in range(4):
+            after = (k + 1) % 4
+            loop = np.stack([low_edges[k], ups[k : k + 1], high_edges[k], ups[after : after + 1]], axis=1)
+            # seen from within the pocket the edge of its floor runs backwards
+            walls = loop, np.array([False, True, True, False])
+            if k in (0, 2) or not pocket.round_ends:
+                normal = {0: -across, 1: -UP, 2: across, 3: UP}[k]
+                corner = self.vertex_point(floor[k])
+                zero = UP if k in (0, 2) else across
+                self.faces.append(Faces(Plane(Frame(corner, normal, zero)), (walls,)))
+            else:
+                middle = at(np.zeros(1), pocket.floor, np.array([ends[k == 1]]))
+                self.faces.append(Faces(Cylinder(Frame(middle, out, across), half), (walls,), along=False))
+        corner = self.vertex_point(floor[0])
+        self.faces.append(Faces(Plane(Frame(corner, out, UP)), ((np.stack(low_edges, axis=1), np.ones(4, bool)),)))
+        return np.stack(high_edges, axis=1)[:, ::-1], np.zeros(4, bool)
+
+    def vertex_point(self, vertex: int) -> Index:
+        """The point of a vertex."""
+        return np.concatenate(self.vertices)[vertex : vertex + 1]
+
+    def close(self) -> None:
+        """The plane faces with the holes in them."""
+        for level in self.levels:
+            origin = self.add_points(np.zeros(1, complex), level.z)
+            self.faces.append(Faces(Plane(Frame(origin, UP, self.ahead)), tuple(level.loops), level.up))

@@ -1,0 +1,369 @@
+"""The part kinds ``turned`` (half a section about an axis: rings, balls, covers) and ``shaft`` (steps on an axis)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
+
+from msgspec import Meta, Struct, field
+
+from geometry.base.errors import OffsetError, ParameterError, limit
+from parts.base.kind import Kind, Others, Report
+from parts.keys.base import BoreDiameter, MaterialKeys, degrees, either, mm
+from parts.keys.holes import HolesTable
+
+if TYPE_CHECKING:
+    from geometry.plane.offset_region import OffsetRegion
+    from geometry.solids.faced import FacedBody
+    from geometry.solids.turned import Corner, HalfSection, Pocket
+
+_MOST = 100_000.0
+# of a centre hole: half the angle of its cone, and of its tip; its mouth and depth in diameters, where none is given
+_CONE, _TIP, _MOUTH, _DEPTH = math.radians(30), math.radians(60), 2.12, 1.0
+_Size = Annotated[float, mm("radius of the arc or of the rounding", least=0, most=_MOST)]
+_Chamfer = Annotated[float, mm("both legs of the chamfer of its outer edges", least=0, most=_MOST)]
+_Fillet = Annotated[float, mm("rounding where it meets what is thicker", least=0, most=_MOST)]
+_Radii = "above 0 bulges out of the material, below 0 into it; 0: a line"
+
+
+class PointTable(Struct, forbid_unknown_fields=True, kw_only=True):
+    """A corner of half the section."""
+
+    r: Annotated[float, mm("distance from the axis", least=0, most=_MOST)]
+    z: Annotated[float, mm("height", least=-_MOST, most=_MOST)]
+    arc: Annotated[float, mm(f"radius of the arc to the next point: {_Radii}", least=-_MOST, most=_MOST)] = 0.0
+    chamfer: Annotated[float, mm("both legs of a chamfer between two lines", least=0, most=_MOST)] = 0.0
+    fillet: Annotated[float, mm("radius of a rounding between two lines", least=0, most=_MOST)] = 0.0
+
+
+_RING = [
+    {"r": 10.0, "z": 0.0},
+    {"r": 15.0, "z": 0.0, "chamfer": 0.5},
+    {"r": 15.0, "z": 8.0},
+    {"r": 10.0, "z": 8.0},
+]
+
+
+class TurnedSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="turned"):
+    """Keys of ``turned``."""
+
+    points: Annotated[
+        list[PointTable],
+        Meta(
+            min_length=2,
+            max_length=1000,
+            description="the corners of half the section, one after the other; the last one is joined to the first",
+            examples=[_RING],
+        ),
+    ]
+    holes: HolesTable | list[HolesTable] | None = None
+
+
+class GrooveTable(Struct, forbid_unknown_fields=True, kw_only=True):
+    """A groove round a step, as for a ring that holds a bearing."""
+
+    at: Annotated[float, mm("from the lower end of the step to the groove", least=0, most=_MOST)]
+    width: Annotated[float, mm("width of the groove", above=0, most=_MOST)]
+    diameter: Annotated[float, mm("at its bottom", above=0, most=_MOST)]
+    fillet: Annotated[float, mm("rounding of its bottom", least=0, most=_MOST)] = 0.0
+
+
+class ShaftKeywayTable(Struct, forbid_unknown_fields=True, kw_only=True):
+    """A keyway by a standard, or of one's own width and depth."""
+
+    at: Annotated[float, mm("from the lower end of the step to the keyway", least=0, most=_MOST)]
+    length: Annotated[float, mm("length of the keyway, its round ends included", above=0, most=_MOST)]
+    standard: Literal["DIN 6885", "GOST 23360"] = "DIN 6885"
+    width: Annotated[float, mm("width b; default: the standard's", above=0, most=_MOST, example=6.0)] | None = None
+    depth: (
+        Annotated[float, mm("depth t1 in the shaft; default: the standard's", above=0, most=_MOST, example=3.5)] | None
+    ) = None
+    angle_deg: Annotated[float, degrees("direction of its middle", least=-360, most=360)] = 90.0
+    ends: Annotated[Literal["round", "square"], Meta(description="as an end mill or a disk leaves them")] = "round"
+
+
+class StepTable(Struct, forbid_unknown_fields=True, kw_only=True):
+    """A step of a shaft."""
+
+    diameter: Annotated[float, mm("diameter", above=0, most=_MOST)]
+    length: Annotated[float, mm("length along the axis", above=0, most=_MOST)]
+    chamfer: _Chamfer = 0.0
+    fillet: _Fillet = 0.0
+    grooves: Annotated[
+        list[GrooveTable], Meta(max_length=100, examples=[[{"at": 2.0, "width": 1.1, "diameter": 11.5}]])
+    ] = field(default_factory=list)
+    keyways: Annotated[list[ShaftKeywayTable], Meta(max_length=100, examples=[[{"at": 4.0, "length": 12.0}]])] = field(
+        default_factory=list
+    )
+
+
+class CentreHolesTable(Struct, forbid_unknown_fields=True):
+    """Centre holes in both ends: a pilot with a tip of 120 degrees behind a cone of 60 degrees."""
+
+    diameter: Annotated[float, mm("diameter of the pilot", above=0, most=1000, example=2.0)]
+    mouth: (
+        Annotated[float, mm("of the cone at the end face; default: 2.12 diameters", above=0, most=1000, example=4.25)]
+        | None
+    ) = None
+    depth: (
+        Annotated[float, mm("of the pilot behind the cone; default: one diameter", least=0, most=1000, example=2.0)]
+        | None
+    ) = None
+
+
+class ShaftSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="shaft"):
+    """Keys of ``shaft``."""
+
+    steps: Annotated[
+        list[StepTable],
+        Meta(
+            min_length=1,
+            max_length=200,
+            description="from the lower end upwards",
+            examples=[[{"diameter": 12.0, "length": 20.0, "chamfer": 0.5}, {"diameter": 20.0, "length": 30.0}]],
+        ),
+    ]
+    bore_diameter: BoreDiameter = 0.0
+    centre_holes: CentreHolesTable | None = None
+
+
+K = TypeVar("K", TurnedSpec, ShaftSpec)
+
+
+class _Turned(Kind[K, "HalfSection"]):
+    """A solid turned about its axis; its flat section is what is seen along it."""
+
+    def section(self, keys: K, thing: HalfSection, offset: float) -> OffsetRegion:
+        """Its greatest circle with all that goes through."""
+        from geometry.plane.profile import Label, Region, circle
+        from parts.keys.pins import moved_region
+
+        inner, outer = thing.radii()
+        through = [(0j, inner)] * (inner > 0) + [(hole.centre, hole.radius) for hole in thing.holes]
+
+        def build(by: float) -> Region:
+            for _, radius in through:
+                if radius <= by:
+                    raise OffsetError(by, "hole_closed", radius * (1 - 1e-6))
+            if outer + by <= max((abs(at) + radius - by for at, radius in through), default=0.0):
+                raise OffsetError(by, "leaves_no_wall", 0.0)
+            holes = tuple(
+                circle(radius - by, Label.HOLE if at else Label.BORE, hole=True, centre=at) for at, radius in through
+            )
+            return Region(circle(outer + by, Label.BODY), holes)
+
+        return moved_region(build, offset)
+
+    def solid(self, keys: K, thing: HalfSection, offset: float) -> FacedBody:
+        """Its faces, all of them exact."""
+        from geometry.solids.faced import exact_body
+        from geometry.solids.turned import turned_solid
+
+        if offset:
+            raise OffsetError(offset, "turned_as_it_is", 0.0)
+        return exact_body(turned_solid(thing, _seam(thing.pockets)))
+
+    def height(self, keys: K, thing: HalfSection) -> float:
+        """From its lowest to its highest place."""
+        low, high = thing.heights()
+        return high - low
+
+    def is_plate(self, keys: K, thing: HalfSection) -> bool:
+        """Never: its walls are round."""
+        return False
+
+    def report(self, keys: K, thing: HalfSection) -> Report:
+        """Its sizes."""
+        inner, outer = thing.radii()
+        bore = {"bore_diameter": 2 * inner} if inner > 0 else {}
+        return Report(quantities={"outer_diameter": 2 * outer, **bore, "length": self.height(keys, thing)})
+
+
+def _seam(pockets: tuple[Pocket, ...]) -> float:
+    """An angle away from all pockets, rad."""
+    if not pockets:
+        return 0.0
+    turns = [math.tau * k / 360 for k in range(360)]
+    return max(turns, key=lambda turn: min(abs(math.remainder(turn - p.angle, math.tau)) for p in pockets))
+
+
+class Turned(_Turned[TurnedSpec]):
+    """Half a section, turned."""
+
+    name, keys = "turned", TurnedSpec
+
+    def thing(self, keys: TurnedSpec, others: Others) -> HalfSection:
+        """The section, checked to enclose one body."""
+        from geometry.solids.turned import Corner, HalfSection, Hole, half_section, turned_solid
+
+        for k, p in enumerate(keys.points, 1):
+            if p.chamfer and p.fillet:
+                raise either(f"points.item {k}.chamfer", p.chamfer, "fillet", 0.0)
+        pieces = half_section([Corner(complex(p.r, p.z), p.arc, p.chamfer, p.fillet) for p in keys.points])
+        groups = [keys.holes] if isinstance(keys.holes, HolesTable) else keys.holes or []
+        holes = []
+        for group in groups:
+            first, radius = math.radians(group.start_deg), group.pitch_circle_diameter / 2
+            for k in range(group.count):
+                turn = first + math.tau * k / group.count
+                holes.append(Hole(complex(radius * math.cos(turn), radius * math.sin(turn)), group.diameter / 2))
+        for k, hole in enumerate(holes):
+            if any(abs(hole.centre - other.centre) <= hole.radius + other.radius for other in holes[:k]):
+                raise ParameterError("holes", len(holes), "hole_reaches_edge")
+        found = HalfSection(pieces, tuple(holes))
+        turned_solid(found)
+        return found
+
+
+class Shaft(_Turned[ShaftSpec]):
+    """A shaft, its lower end at z = 0."""
+
+    name, keys = "shaft", ShaftSpec
+
+    def thing(self, keys: ShaftSpec, others: Others) -> HalfSection:
+        """The section of all steps, checked."""
+        from geometry.solids.turned import HalfSection, half_section
+
+        _check_shaft(keys)
+        corners, owners = zip(*_outline(keys), strict=True)
+        try:
+            pieces = half_section(corners)
+        except ParameterError as refusal:
+            number = int(refusal.name.partition("item ")[2].partition(".")[0] or 1)
+            raise refusal.renamed(owners[number - 1]) from refusal
+        return HalfSection(pieces, (), tuple(_pockets(keys)))
+
+
+def _check_shaft(keys: ShaftSpec) -> None:
+    """The bore leaves walls, grooves and centre holes fit.
+
+    Raises
+    ------
+    ParameterError
+        One does not.
+    """
+    if keys.bore_diameter and keys.centre_holes is not None:
+        raise either("bore_diameter", keys.bore_diameter, "centre_holes", 0.0)
+    for k, step in enumerate(keys.steps, 1):
+        least = min([step.diameter, *(g.diameter for g in step.grooves)])
+        if keys.bore_diameter >= least:
+            cure = limit(least * (1 - 1e-6), keys.bore_diameter, digits=6)
+            raise ParameterError("bore_diameter", keys.bore_diameter, "leaves_no_wall", cure)
+        place = step.chamfer
+        for number, groove in enumerate(sorted(step.grooves, key=lambda g: g.at), 1):
+            name = f"steps.item {k}.grooves.item {number}"
+            if groove.diameter >= step.diameter:
+                cure = limit(step.diameter * (1 - 1e-6), groove.diameter, digits=6)
+                raise ParameterError(f"{name}.diameter", groove.diameter, "groove_not_in_step", cure)
+            if groove.at <= place or groove.at + groove.width >= step.length - step.chamfer:
+                raise ParameterError(f"{name}.at", groove.at, "groove_beyond_step", least=place, length=step.length)
+            place = groove.at + groove.width
+    mouth = _mouth(keys)
+    for step in (keys.steps[0], keys.steps[-1]):
+        if mouth >= step.diameter - 2 * step.chamfer:
+            most = limit(step.diameter - 2 * step.chamfer, mouth, digits=6)
+            raise ParameterError("centre_holes.mouth", mouth, "leaves_no_wall", most)
+
+
+def _mouth(keys: ShaftSpec) -> float:
+    centre = keys.centre_holes
+    return 0.0 if centre is None else centre.mouth or _MOUTH * centre.diameter
+
+
+def _outline(keys: ShaftSpec) -> Iterator[tuple[Corner, str]]:
+    """The corners of half the section from the lower end upwards, each with the key that shapes it."""
+    from geometry.solids.turned import Corner
+
+    low = list(_end(keys))
+    yield from ((Corner(at), "centre_holes.diameter") for at in low)
+    z, steps, before = 0.0, keys.steps, keys.bore_diameter / 2
+    for k, step in enumerate(steps):
+        radius, own = step.diameter / 2, f"steps.item {k + 1}"
+        if radius > before:
+            if k:
+                last = steps[k - 1]
+                yield Corner(complex(before, z), fillet=last.fillet), f"steps.item {k}.fillet"
+            yield Corner(complex(radius, z), chamfer=step.chamfer), f"{own}.chamfer"
+        elif radius < before:
+            yield Corner(complex(before, z), chamfer=steps[k - 1].chamfer), f"steps.item {k}.chamfer"
+            yield Corner(complex(radius, z), fillet=step.fillet), f"{own}.fillet"
+        for groove in sorted(step.grooves, key=lambda g: g.at):
+            depth, ends = groove.diameter / 2, (z + groove.at, z + groove.at + groove.width)
+            yield Corner(complex(radius, ends[0])), f"{own}.grooves"
+            yield Corner(complex(depth, ends[0]), fillet=groove.fillet), f"{own}.grooves"
+            yield Corner(complex(depth, ends[1]), fillet=groove.fillet), f"{own}.grooves"
+            yield Corner(complex(radius, ends[1])), f"{own}.grooves"
+        z, before = z + step.length, radius
+    yield Corner(complex(before, z), chamfer=steps[-1].chamfer), f"steps.item {len(steps)}.chamfer"
+    yield from ((Corner(complex(at.real, z - at.imag)), "centre_holes.diameter") for at in low[::-1])
+
+
+def _end(keys: ShaftSpec) -> Iterator[complex]:
+    """What of an end face is nearest to the axis, from within outwards."""
+    centre = keys.centre_holes
+    if centre is None:
+        yield complex(keys.bore_diameter / 2, 0.0)
+        return
+    radius, mouth = centre.diameter / 2, _mouth(keys) / 2
+    cone = (mouth - radius) / math.tan(_CONE)
+    depth = cone + (_DEPTH * centre.diameter if centre.depth is None else centre.depth)
+    yield complex(0.0, depth + radius / math.tan(_TIP))
+    if depth > cone:
+        yield complex(radius, depth)
+    yield complex(radius, cone)
+    yield complex(mouth, 0.0)
+
+
+def _pockets(keys: ShaftSpec) -> Iterator[Pocket]:
+    """The keyways of all steps.
+
+    Raises
+    ------
+    ParameterError
+        One leaves its step, or meets another one.
+    """
+    from geometry.solids.keyways import keyway_row
+    from geometry.solids.turned import Pocket
+
+    z = 0.0
+    for k, step in enumerate(keys.steps, 1):
+        made: list[Pocket] = []
+        for number, way in enumerate(step.keyways, 1):
+            name, radius = f"steps.item {k}.keyways.item {number}", step.diameter / 2
+            width, depth = way.width, way.depth
+            if width is None or depth is None:
+                try:
+                    row = keyway_row(way.standard, step.diameter)
+                except ParameterError as refusal:
+                    raise refusal.renamed(f"steps.item {k}.diameter") from refusal
+                width, depth = width or row.width, depth or row.shaft_depth
+            floor = radius - depth
+            rim = math.sqrt(max(radius**2 - width**2 / 4, 0.0))
+            if not keys.bore_diameter / 2 < floor < rim:
+                raise ParameterError(f"{name}.depth", depth, "keyway_of_no_depth")
+            if width >= way.length and way.ends == "round":
+                raise ParameterError(f"{name}.length", way.length, "keyway_shorter_than_wide", width=width)
+            ends = way.at, way.at + way.length
+            cuts = [(0.0, max(step.chamfer, step.fillet)), (step.length - max(step.chamfer, step.fillet), step.length)]
+            cuts += [(g.at, g.at + g.width) for g in step.grooves]
+            if any(ends[0] <= b and a <= ends[1] for a, b in cuts):
+                raise ParameterError(f"{name}.at", way.at, "keyway_beyond_step", length=step.length)
+            turn = math.radians(way.angle_deg)
+            found = Pocket(z + ends[0], z + ends[1], width, floor, turn, way.ends == "round")
+            for other in made:
+                near = abs(math.remainder(turn - other.angle, math.tau))
+                wide = math.asin(width / 2 / radius) + math.asin(other.width / 2 / radius)
+                # behind their floors they may meet too
+                if (
+                    near <= 2 * wide + math.acos(min(1.0, floor / radius))
+                    and found.low <= other.high
+                    and other.low <= found.high
+                ):
+                    raise ParameterError(f"{name}.angle_deg", way.angle_deg, "keyways_meet")
+            made.append(found)
+            yield found
+        z += step.length
+
+
+TURNED, SHAFT = Turned(), Shaft()
