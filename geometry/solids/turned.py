@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from geometry.approximation.tensor import basis_matrix, clamped, greville
-from geometry.base.errors import ParameterError
+from geometry.base.errors import ParameterError, limit
 from geometry.base.record import Draft, Record, field, replace
 from geometry.curves.curve import Complex, Real
 from geometry.solids.faced import FacedSolid
@@ -174,7 +174,8 @@ def _edge(one: Corner, two: Corner, number: int) -> Piece:
         return Piece(one.at, two.at)
     rest = one.arc**2 - abs(chord) ** 2 / 4
     if rest < -_SAME * one.arc**2:
-        raise ParameterError(f"points.item {number}.arc", one.arc, "arc_shorter_than_chord", least=abs(chord) / 2)
+        least = limit(math.copysign(abs(chord) / 2 * (1 + _SAME), one.arc), one.arc, digits=6)
+        raise ParameterError(f"points.item {number}.arc", one.arc, "arc_shorter_than_chord", least)
     side = 1 if one.arc > 0 else -1
     centre = (one.at + two.at) / 2 + 1j * side * chord / abs(chord) * math.sqrt(max(rest, 0.0))
     if abs(centre.real) <= _SAME * abs(one.arc):

@@ -8,7 +8,7 @@ from parts.base.texts import N_
 REASONS = {
     "arc_about_beyond_axis": N_("its centre lies beyond the axis"),
     "arc_consumed": N_("leaves nothing of an arc"),
-    "arc_shorter_than_chord": N_("does not reach the next point; at least {least} mm does"),
+    "arc_shorter_than_chord": N_("does not reach the next point"),
     "arms_meet": N_("the arms meet beyond it"),
     "axle_beyond_pinion": N_("the platform's axle stands in the pinion, at most {most} mm from its middle"),
     "axle_in_the_teeth": N_("leaves no wall to the teeth of the wheel on it"),
