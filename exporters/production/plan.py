@@ -114,8 +114,8 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
                 _take(one.path, where, taken, source)
             assemblies += laid
             lying = {m.part.id for one in laid for m in one.members}
-            over = [p for p in export.parts or parts if p not in lying]
-            left_out += [LeftOut(f"{where}: parts.{p}", N_("lies on none of its boards or beds")) for p in over]
+            over = ", ".join(p for p in export.parts or parts if p not in lying)
+            left_out += [LeftOut(f"{where}: {over}", N_("lies on none of its boards or beds"))] if over else []
             continue
         if export.format in FILMS:
             sheets.append(_film(scene, placing, parts, export, where, source))
