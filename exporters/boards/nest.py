@@ -248,9 +248,9 @@ class _Nest:
         chance = _Chance()
         for _ in range(min(int(trials), _TRIALS * len(pieces))):
             order = list(best.order)
-            one, two = chance.below(len(order)), chance.below(len(order))
-            if order[one] == order[two]:
-                continue
+            one = two = chance.below(len(order))
+            while order[one] == order[two]:
+                two = chance.below(len(order))
             order[one], order[two] = order[two], order[one]
             found = self._packed(order, best.rank)
             if found is not None and found.rank <= best.rank:
@@ -263,16 +263,16 @@ class _Nest:
         found: list[Laid] = []
         end, board = 0.0, 0
         while left:
-            here, left, end = self._board(board, left)
+            here, left, end = self._board(board, left, than[1] if board + 1 == than[0] else math.inf)
             found += here
             board += 1
-            if (board, end if board == than[0] else 0.0) > than[:2] or (left and board == than[0]):
+            if board == than[0] and (left or end > than[1]):
                 return None
         ends = sorted((one.at.real for one in found if one.board == board - 1), reverse=True)
         return _Layout(tuple(order), found, (board, round(end, 6), sum(ends)))
 
-    def _board(self, board: int, order: Sequence[str]) -> tuple[list[Laid], list[str], float]:
-        """What lies on one board, what is left, and how far it reaches, mm."""
+    def _board(self, board: int, order: Sequence[str], most: float) -> tuple[list[Laid], list[str], float]:
+        """What lies on one board, what is left, and how far it reaches, mm; no more once that is above ``most``."""
         names = dict.fromkeys(order)
         counts = {name: order.count(name) for name in names}
         free = {(name, turn): self._all_free(shape) for name in names for turn, shape in self.turned[name].items()}
@@ -288,6 +288,8 @@ class _Nest:
                 continue
             (right, _), turn, (x, y) = best
             end = max(end, right)
+            if end > most:
+                break
             at = complex(x, y) * self.cell + self.room.margin * (1 + 1j) - self.turned[name][turn].middle
             laid.append(Laid(name, board, turn, at))
             for (other, way), places in free.items():

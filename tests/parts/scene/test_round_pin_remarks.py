@@ -72,7 +72,7 @@ def test_the_flat_file_of_solid_pins_says_so() -> None:
 def test_pictures_show_solid_pins_filled(tmp_path: Path) -> None:
     for pins, filled in (("solid", True), ("holes", False)):
         part = make_parts(scene({"plate": PLATE | {"pins": pins, "bore_diameter": 8.0}}), "t")[0]["plate"]
-        text = part_preview(part, outlines_of(part), tmp_path, "en").read_text(encoding="utf-8")
+        text = part_preview(part, outlines_of(part.section(0.0).region), tmp_path, "en").read_text(encoding="utf-8")
         found = re.findall(r'<path d="([^"]*)" style="fill:#7f8c99', text)
         assert bool(found) is filled
         assert not filled or found[0].count("M") == PLATE["number_of_pins"]
