@@ -69,7 +69,7 @@ def surfaces(file: Path) -> list[Any]:
     return found
 
 
-def flank_error(faces: list[Any]) -> float:
+def flank_error(faces: list[Any], teeth: int = TEETH, beta: float = BETA) -> float:
     """Greatest distance of points between form and tip circle from the involute helicoid, normal to the section, mm.
 
     The teeth's angle and the direction of their turn are fitted: files may begin elsewhere.
@@ -84,20 +84,20 @@ def flank_error(faces: list[Any]) -> float:
         v = np.linspace(surface.FirstVParameter(), surface.LastVParameter(), 25).tolist()
         points += [(p.X(), p.Y(), p.Z()) for a in u for b in v for p in [surface.Value(a, b)]]
     x, y, z = np.array(points).T
-    transverse = math.atan(math.tan(ALPHA) / math.cos(BETA))
-    reference = MODULE * TEETH / math.cos(BETA) / 2
-    base, pitch = reference * math.cos(transverse), 2 * math.pi / TEETH
+    transverse = math.atan(math.tan(ALPHA) / math.cos(beta))
+    reference = MODULE * teeth / math.cos(beta) / 2
+    base, pitch = reference * math.cos(transverse), 2 * math.pi / teeth
     radius = np.hypot(x, y)
-    # well above any root fillet and below any tip rounding
-    kept = (radius > reference - 0.3 * MODULE) & (radius < reference + 0.7 * MODULE)
+    # well above any root fillet, or undercut, and below any tip rounding
+    kept = (radius > reference - (0.3 * MODULE if teeth > 17 else 0.0)) & (radius < reference + 0.7 * MODULE)
     radius = radius[kept]
-    half = math.pi / 2 / TEETH + math.tan(transverse) - transverse
+    half = math.pi / 2 / teeth + math.tan(transverse) - transverse
     pressure = np.arccos(base / radius)
     expected = half - (np.tan(pressure) - pressure)
     best = math.inf
     for sense in (1, -1):
-        angle = np.arctan2(y, x)[kept] - sense * z[kept] * math.tan(BETA) / reference
-        start = np.angle(np.exp(1j * TEETH * angle).mean()) / TEETH
+        angle = np.arctan2(y, x)[kept] - sense * z[kept] * math.tan(beta) / reference
+        start = np.angle(np.exp(1j * teeth * angle).mean()) / teeth
         for phase in (start, start + pitch / 2):
             away = angle - phase
             away -= pitch * np.round(away / pitch)

@@ -405,7 +405,9 @@ def test_random_cams_become_good_files(seed: int, tmp_path: Path) -> None:
     outlines = mesh_outlines(body, tolerance, 0.0)
     made = body_mesh(body, outlines)
     mesh = ReadMesh(made.vertices, made.triangles)
-    assert verify_faced_mesh(mesh, body, outlines[0].max_error, tolerance).failures == ()
+    # vertices stand on a grid, of which a file's rounding has its share
+    declared = outlines[0].max_error + 1e-8 * body.section_reach()
+    assert verify_faced_mesh(mesh, body, declared, tolerance).failures == ()
     file = tmp_path / "cam.step"
     error = max(1e-6, written_step(file, body))
     assert verify_faced_solid(read_step(file), body, error, 1e-6).failures == ()
