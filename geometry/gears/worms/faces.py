@@ -288,6 +288,8 @@ class _Maker(RingBuilder):
         """Edges between vertices (n, k) with points (n, k, poles); those that the screw carries along are a bundle."""
         made = []
         for own in (slice(0, alike.start), alike, slice(alike.stop, None)):
+            if not start[:, own].size:
+                continue
             shape = Spline(_DEGREE, knots, points[:, own].reshape(-1, points.shape[-1]))
             ends = start[:, own].ravel(), end[:, own].ravel()
             made.append(self.add_edges(*ends, shape).reshape(start[:, own].shape))

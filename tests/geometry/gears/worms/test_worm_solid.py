@@ -35,6 +35,7 @@ BODIES = {
     "left with a base above the root": body_of(Worm(5.0, 4, 8.0, hand="left"), 40.0, 0.2, above=(Step(28.0, 9.0),)),
     "plane ends and a keyway": body_of(Worm(5.0, 2, 10.0, "ZA", hand="left"), 40.0, 0.0, 0.0, bore=KEYED),
     "ten starts": body_of(Worm(3.0, 10, 30.0, "ZN2"), 30.0, below=SHAFT, above=SHAFT),
+    "no whole step between the ends": body_of(Worm(1.0, 4, 43.0, "ZA"), 8.0, 0.0, math.radians(45)),
     "slim": body_of(Worm(2.0, 1, 4.0, "ZA"), 16.0, 0.0, math.radians(45)),
 }
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import random
 from pathlib import Path
 from typing import Any
 
@@ -11,14 +12,22 @@ import numpy as np
 import pytest
 
 from exporters.command.cli import main
+from exporters.formats.read_step import read_step
+from exporters.formats.read_stl import read_stl
+from exporters.formats.stl import write_stl
+from exporters.verification.faces import verify_faced_mesh, verify_faced_solid
 from parts.base.part import Part
+from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
+from parts.solids.mesh import body_mesh, mesh_outlines
+from parts.solids.step_text import StepForm, StepPart, step_text
 from tests.parts.nearest import cured, refused
 
 WORM: dict[str, Any] = {"kind": "worm", "module": 5.0, "thread_length": 40.0}
 EXTREMES: dict[str, dict[str, Any]] = {
-    "ground": {"module": 3.0, "number_of_starts": 2, "thread_length": 20.0, "form": "ZK1", "end_angle_deg": 0.0,
-               "shaft_below": [{"diameter": 22.8, "length": 4.0}]},
+    "plain ends": {"module": 3.0, "number_of_starts": 2, "thread_length": 16.0, "form": "ZA", "end_angle_deg": 0.0,
+                   "shaft_below": [{"diameter": 22.8, "length": 4.0}]},
+    "ground": {"module": 3.0, "number_of_starts": 2, "thread_length": 20.0, "form": "ZK1"},
     "base above the root": {"number_of_starts": 4, "diameter_quotient": 8.0, "tip_rounding": 0.3},
     "q 50": {"module": 1.0, "diameter_quotient": 50.0, "thread_length": 8.0, "form": "ZA", "hand": "left"},
     "q 4": {"module": 2.0, "diameter_quotient": 4.0, "thread_length": 16.0, "form": "ZN1", "end_angle_deg": 45.0},
@@ -94,7 +103,7 @@ def test_the_flat_section_is_that_of_the_screw_surfaces(form: str) -> None:
 
 
 @pytest.mark.parametrize("name", [
-    name if name == "ground" else pytest.param(name, marks=pytest.mark.heavy) for name in EXTREMES
+    name if name == "plain ends" else pytest.param(name, marks=pytest.mark.heavy) for name in EXTREMES
 ])  # fmt: skip
 def test_files_of_extreme_worms_are_read_back_as_they_should_be(name: str, tmp_path: Path) -> None:
     rows = []
@@ -141,3 +150,40 @@ def test_a_worm_that_cannot_be_is_refused_with_a_value_that_works(keys: dict[str
 def test_a_negative_module_is_refused_by_its_range() -> None:
     refusal = refused({"worm": WORM | {"module": -5.0}})
     assert refusal.key == "parts.worm.module"
+
+
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize("seed", range(40))
+def test_random_worms_are_closed_and_within_their_bounds_as_step_and_stl(seed: int, tmp_path: Path) -> None:
+    rng = random.Random(seed)
+    module, quotient = rng.choice([0.5, 1.0, 2.0, 5.0, 10.0]), round(rng.uniform(4.0, 50.0), 1)
+    root = module * (quotient - 2.4)
+    keys = {
+        "module": module, "number_of_starts": rng.choice([1, 2, 3, 4, 6, 10]), "diameter_quotient": quotient,
+        "form": rng.choice(["ZA", "ZI", "ZN1", "ZN2", "ZK1"]), "hand": rng.choice(["left", "right"]),
+        "thread_length": round(module * rng.uniform(6.0, 15.0), 2),
+        "end_angle_deg": rng.choice([0.0, 20.0, 45.0, 60.0]),
+        "tip_rounding": rng.choice([0.0, 0.05, 0.2]) * module, "fillet_coefficient": rng.choice([0.0, 0.2, 0.3]),
+        "shaft_above": [{"diameter": rng.uniform(1.0, 1.99) * root, "length": 2 * module, "chamfer": 0.05 * module}],
+        "shaft_below": [{"diameter": 1.999 * root, "length": module}], "bore_diameter": 0.3 * root,
+    }  # fmt: skip
+    try:
+        part = part_of(**keys)
+    except SceneError as refusal:
+        if not refusal.code.startswith("worm_"):
+            raise
+        return
+    body: Any = part.body(0.0)
+    faces = body.within(1e-4)
+    file = tmp_path / "worm.step"
+    file.write_text(step_text(StepPart("worm", faces.geometry), StepForm(9)))
+    verdict = verify_faced_solid(read_step(file), body, faces.max_error + 2e-9 + 1e-12 * body.reach(), 1e-4)
+    assert verdict.failures == ()
+    assert abs(verdict.measured["volume_error"]) < 1e-8
+    chords = mesh_outlines(body, 0.02 * module, 0.0)
+    file = tmp_path / "worm.stl"
+    write_stl(file, body_mesh(body, chords))
+    assert (
+        verify_faced_mesh(read_stl(file), body, chords[0].max_error + 1e-5 * module * quotient, 0.02 * module).failures
+        == ()
+    )
