@@ -48,7 +48,7 @@ def _preview(job: BoardJob, drawn: Mapping[str, _Drawn], fills: Mapping[str, str
         style = f"fill:{fills[piece.part]};fill-rule:evenodd;stroke:#202830;stroke-width:{size * _LINE:.4g}"
         lines.append(f'<path d="{data}" style="{style}"/>')
         if strokes:
-            name = " ".join(stroke_data(piece.moved(stroke), 1j * board.height) for stroke in strokes)
+            name = " ".join(stroke_data(np.round(piece.moved(stroke), 3), 1j * board.height) for stroke in strokes)
             lines.append(f'<path d="{name}" style="{_NAME}"/>')
     save(file, lines)
     return file

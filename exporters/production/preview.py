@@ -60,7 +60,7 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
         f'<path d="{data}" style="fill:{fill};fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 400:.4g}"/>'
     )
     if cut.strokes:
-        name = " ".join(stroke_data(np.array(stroke), corner) for stroke in cut.strokes)
+        name = " ".join(stroke_data(np.round(np.array(stroke), 3), corner) for stroke in cut.strokes)
         lines.append(f'<path d="{name}" style="fill:none;stroke:#0000ff;stroke-width:0.25;stroke-linecap:round"/>')
     pins = " ".join(path_data(c, corner) for c in _solid_pins(part, boundaries))
     if pins:
