@@ -82,6 +82,7 @@ def _across(at: Real, kind: int, normal: bool, sizes: Real) -> Real:
 
     ``at``: nodes (n, k, 3) of the bounds' spans as they run, the face on their left, seen from its normal.
     """
+    v = at[..., 1] if kind == PLANE else at[..., 2]
     plane = at[..., 0] + 1j * at[..., 1]
     centre, tube = (0.0, sizes[0]) if kind == SPHERE else sizes
     if kind in (SPHERE, TORUS):
@@ -89,21 +90,12 @@ def _across(at: Real, kind: int, normal: bool, sizes: Real) -> Real:
         spoke = np.abs(plane) - centre + 1j * at[..., 2]
         middle = np.angle((spoke / np.abs(spoke)).mean())
         v = middle + np.angle(spoke * np.exp(-1j * middle))
-    # heights, on spheres and tori angles of the meridian, on tori about the middle one
-    v, middle = at[..., 1] if kind == PLANE else at[..., 2], 0.0
-    if kind in (SPHERE, TORUS):
-        spokes = np.abs(plane) - (sizes[0] if kind == TORUS else 0.0) + 1j * at[..., 2]
-        middle = float(np.angle((spokes / np.abs(spokes)).sum()))
-        v = np.angle(spokes * np.exp(-1j * middle))
     found = []
-    rises = np.diff(v, axis=1)
-    # from one end of a tube's turn to the other it does not rise
-    steady = np.abs(rises) < np.pi if kind == TORUS else np.ones(rises.shape, dtype=bool)
     for level in (v.min() + (v.max() - v.min()) * lobatto()[0][_KEPT[1:-1]]).tolist():
         up, down = (v[:, :-1] <= level) & (v[:, 1:] > level), (v[:, :-1] > level) & (v[:, 1:] <= level)
         sides = []
-        for way in (down & steady, up & steady) if normal else (up & steady, down & steady):
-            share = (level - v[:, :-1][way]) / rises[way]
+        for way in (down, up) if normal else (up, down):
+            share = (level - v[:, :-1][way]) / (v[:, 1:][way] - v[:, :-1][way])
             where = plane[:, :-1][way] * (1 - share) + plane[:, 1:][way] * share
             sides.append(where.real if kind == PLANE else np.angle(where))
         begin, end = sides
@@ -121,12 +113,4 @@ def _across(at: Real, kind: int, normal: bool, sizes: Real) -> Real:
             size, height = centre + tube * np.cos(level), tube * np.sin(level)
         round_ = (size * np.cos(u), size * np.sin(u), np.full(u.size, height))
         found.append(np.column_stack((u, np.full(u.size, level), np.zeros(u.size)) if kind == PLANE else round_))
-        if kind == PLANE:
-            found.append(np.column_stack((u, np.full(u.size, level), np.zeros(u.size))))
-            continue
-        size, height = sizes[0] + sizes[1] * level, level
-        if kind in (SPHERE, TORUS):
-            centre, tube = sizes if kind == TORUS else (0.0, sizes[0])
-            size, height = centre + tube * np.cos(level + middle), tube * np.sin(level + middle)
-        found.append(np.column_stack((size * np.cos(u), size * np.sin(u), np.full(u.size, height))))
     return np.concatenate(found)
