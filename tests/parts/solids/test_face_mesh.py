@@ -81,7 +81,7 @@ def test_a_ball_and_a_ring_by_closed_forms() -> None:
             assert 0.1 * made.max_error < worst <= made.max_error
 
 
-@pytest.mark.parametrize("scene", ["helical_pair", "cycloidal_reducer"])
+@pytest.mark.parametrize("scene", ["helical_pair", "cycloidal_reducer", "barrel_cam"])
 def test_solids_of_scenes_are_closed_and_as_large_as_their_bodies(scene: str) -> None:
     """The faces that STEP is written of, meshed and integrated, beside the bodies they were made of."""
     parts, _ = make_parts(load_scene(scene), scene)
