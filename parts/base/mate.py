@@ -17,6 +17,7 @@ from parts.base.texts import Text
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
+    from geometry.base.placement import Vector
     from geometry.gears.mesh.search import PairContact
     from geometry.gears.pairs.external import ExternalPair
     from geometry.gears.pairs.internal import InternalPair
@@ -89,6 +90,8 @@ class Mating(Joined, kw_only=True):
     distance: float = 0.0
     # whether ``contact`` decides how the outlines of two plates stand to each other; else their solids do
     has_contact = False
+    # whether ``contact`` decides for solids that are no plates too
+    decides_solids = False
     # whether the second stands wherever the first puts it: a follower on its cam
     follows = False
     # whether the ratio of its joints is only that of whole turns
@@ -117,6 +120,10 @@ class Mating(Joined, kw_only=True):
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """Axis (mm) and rotation (rad) of the second where the first stands so."""
         raise NotImplementedError
+
+    def second_axis(self, direction: float) -> Vector:
+        """Along which the second's z is laid."""
+        return 0.0, 0.0, 1.0
 
     def standing(self, first: Pose, second: Pose) -> Standing | None:
         """How two placed instances stand to each other; None: the mate asks nothing of it."""

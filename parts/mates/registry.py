@@ -73,6 +73,10 @@ MATES: Index[MateKind[Any, Any, Any]] = Index(
             "parts.mates.lantern:LANTERN_PAIR",
             "A lantern (first) and its gear (second): exact centre distance and phase",
         ),
+        "worm_pair": (
+            "parts.mates.worm:WORM_PAIR",
+            "A worm wheel (first) and its worm (second), laid across the line of centres in the middle of the rim",
+        ),
         "noncircular_gear_pair": (
             "parts.mates.noncircular:NONCIRCULAR_GEAR_PAIR",
             "Two noncircular gears of one pair: exact centre distance, and the phase at which their centrodes touch",

@@ -68,7 +68,8 @@ def _by_contact(placing: Placing, parts: dict[str, Part]) -> set[frozenset[str]]
     return {
         frozenset((m.first.id, m.second.id))
         for m in placing.mates
-        if m.mating.has_contact and parts[m.first.part].is_plate and parts[m.second.part].is_plate
+        if m.mating.has_contact
+        and (m.mating.decides_solids or (parts[m.first.part].is_plate and parts[m.second.part].is_plate))
     }
 
 

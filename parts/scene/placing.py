@@ -211,7 +211,8 @@ class _Placed:
         except ParameterError as refusal:
             raise placed(self.source, f"mates[{index + 1}]", refusal) from refusal
         at = (centre.real, centre.imag, here.at[2] + mating.height)
-        self.stand[second] = Instance(second, str(self.specs[second].part), at, turned, "mate")
+        axis = mating.second_axis(direction)
+        self.stand[second] = Instance(second, str(self.specs[second].part), at, turned, "mate", axis)
         for group in self.free:
             if first in group:
                 group.append(second)
@@ -327,7 +328,9 @@ def _with_faces_and_speeds(mates: tuple[PlacedMate, ...], parts: dict[str, Part]
     done = []
     for index, mate in enumerate(mates):
         more: list[Condition] = []
-        if (mate.conditions and mate.mating.asks_height) or (mate.mating.has_contact and mate.mating.height):
+        if (mate.conditions and mate.mating.asks_height) or (
+            mate.mating.has_contact and mate.mating.height and mate.second.axis == UPWARDS
+        ):
             more.append(_height(mate, parts))
         if mate.only_checks:
             from parts.base.mate import Toothed

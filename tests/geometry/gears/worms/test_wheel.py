@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 
 from geometry.base.errors import ParameterError
 from geometry.base.record import replace
+from geometry.gears.worms.contact import worm_contact
 from geometry.gears.worms.drive import WormDrive
 from geometry.gears.worms.hob import Hob, oversized_hob, worm_as_hob
 from geometry.gears.worms.wheel import WormTeeth
 from geometry.gears.worms.worm import Worm
+from geometry.plane.distance import Verdict
 
 Real = NDArray[np.float64]
 THESIS = WormDrive(Worm(5.0, 1, 10.0), 128)
@@ -156,3 +158,19 @@ def test_a_rounding_that_leaves_no_land_is_refused_with_the_largest() -> None:
     assert cure is not None
     assert isinstance(cure.value, float)
     worm_as_hob(THESIS, cure.value).checked()
+
+
+@pytest.mark.parametrize("hob", [10.0, pytest.param(10.5, marks=pytest.mark.heavy)])
+def test_a_worm_pushed_in_overlaps_and_one_pulled_off_does_not_touch(hob: float) -> None:
+    teeth = WormTeeth(oversized_hob(THESIS, 0.2, hob), 345.0, THESIS.throat_radius, 330.0, 26.0).checked()
+    verdicts = {off: worm_contact(THESIS.worm, teeth, 0.0, off, None) for off in (-1e-4, 0.0, 1e-4)}
+    assert verdicts[-1e-4].verdict is Verdict.OVERLAP
+    assert verdicts[-1e-4].worst.gap == pytest.approx(-1e-4 * math.sin(math.radians(20)), rel=0.5)
+    assert verdicts[1e-4].verdict is Verdict.CLEAR
+    if hob == 10.0:
+        assert verdicts[0.0].verdict is Verdict.CONTACT
+        assert -1e-9 < verdicts[0.0].worst.gap <= verdicts[0.0].greatest_gap < 1e-9
+    # turned out of the middle it runs into one side
+    assert worm_contact(THESIS.worm, teeth, 1e-3, 0.0, None).verdict is Verdict.OVERLAP
+    thin = replace(THESIS.worm, thinning=0.1)
+    assert worm_contact(thin, teeth, 1e-3, 0.0, None).verdict is Verdict.CLEAR

@@ -1,0 +1,125 @@
+"""A worm and its wheel: axes crossed at a right angle, the worm in the middle of the wheel's rim."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import TYPE_CHECKING, Any
+
+from geometry.base.errors import ParameterError
+from geometry.base.placement import Vector
+from parts.base.mate import End, MateKind, Pose, Standing, Touching
+from parts.keys.mate import GearPairKeys
+from parts.mates.sizes import same_size
+
+if TYPE_CHECKING:
+    from geometry.gears.mesh.search import PairContact
+    from geometry.gears.worms.body import WormBody
+    from geometry.gears.worms.drive import WormDrive
+    from geometry.gears.worms.wheel import WormTeeth
+    from geometry.gears.worms.worm import Worm
+    from geometry.kinematics.mechanism import Joint
+    from parts.gears.worm.part import WormSpec
+    from parts.gears.worm_wheel.part import WheelThing, WormWheelSpec
+
+# keys that both have alike, and how a refusal tells it
+_ALIKE = ("module", "pressure_angle_deg", "addendum_coefficient")
+
+
+class WormPairSpec(GearPairKeys, tag="worm_pair", kw_only=True):
+    """Keys of ``worm_pair``."""
+
+
+class WormMating(Touching):
+    """A wheel (first) and its worm."""
+
+    worm: Worm
+    teeth: WormTeeth
+    drive: WormDrive
+
+    # their solids touch along lines: meshes cannot tell
+    decides_solids = True
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """The worm's starts on the wheel's teeth."""
+        from geometry.kinematics.mechanism import Rolling
+
+        teeth = self.teeth.number_of_teeth, self.worm.number_of_starts
+        return (Rolling("worm", self.first, self.second, teeth, sense=self.worm.sign),)
+
+    def second_axis(self, direction: float) -> Vector:
+        """Across the line of centres, to its right."""
+        axis = cmath.rect(1.0, direction - math.pi / 2)
+        return axis.real, axis.imag, 0.0
+
+    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+        """Where a thread of the worm stands in the space that faces it."""
+        pitch = 2 * math.pi / self.teeth.number_of_teeth
+        ahead = math.remainder(rotation + pitch / 2 - direction, pitch)
+        turn = self.worm.sign * ahead * self.drive.ratio
+        return centre + cmath.rect(self.distance, direction), direction + math.pi + turn
+
+    def standing(self, first: Pose, second: Pose) -> Standing | None:
+        """It is placed by its mate alone."""
+        return None
+
+    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
+        """Verdict over one pitch, in sections across the wheel's axis."""
+        from geometry.gears.worms.contact import worm_contact
+
+        return worm_contact(self.worm, self.teeth, phase_off, distance_off, tolerance)
+
+    def quantities(self) -> dict[str, Any]:
+        """Centre distance, ratio, and how much of the worm the wheel touches."""
+        used = self.drive.worm_length_used(2 * self.teeth.throat_height)
+        return {
+            "centre_distance": self.distance,
+            "ratio": self.drive.ratio,
+            **({} if used is None else {"worm_length_used": used}),
+        }
+
+
+class WormPair(MateKind[WormPairSpec, "WheelThing", "WormBody"]):
+    """A worm in its wheel."""
+
+    name, keys = "worm_pair", WormPairSpec
+    joins = (("worm_wheel", "worm"),)
+
+    def mating(self, keys: WormPairSpec, first: End[WheelThing], second: End[WormBody]) -> WormMating:
+        """The worm is the one that the wheel is for."""
+        drive, worm = first.thing.drive, second.thing.thread.worm
+        _check(first, second)
+        return WormMating(
+            self.name,
+            keys.first,
+            keys.second,
+            direction_deg=keys.direction_deg,
+            height=first.thing.teeth.width / 2,
+            distance=drive.centre_distance,
+            module=worm.module,
+            first_teeth=drive.number_of_teeth,
+            worm=worm,
+            teeth=first.thing.teeth,
+            drive=drive,
+        )
+
+
+def _check(first: End[WheelThing], second: End[WormBody]) -> None:
+    """Refuse the worm's key in which it is not the wheel's."""
+    wheel: WormWheelSpec = first.keys  # type: ignore[assignment]
+    own: WormSpec = second.keys  # type: ignore[assignment]
+    worm = second.thing.thread.worm
+    for key in _ALIKE:
+        same_size(key, getattr(own, key), getattr(wheel, key), "not_of_its_mate")
+    key = "diameter_quotient" if own.lead_angle_deg is None else "lead_angle_deg"
+    if not math.isclose(worm.diameter_quotient, wheel.diameter_quotient, rel_tol=1e-9):
+        raise ParameterError(key, getattr(own, key), "not_of_its_mate")
+    for key in ("number_of_starts", "form", "hand"):
+        if getattr(own, key) != getattr(wheel, key):
+            from geometry.base.errors import Nearest
+
+            raise ParameterError(key, getattr(own, key), "not_of_its_mate", Nearest(getattr(wheel, key)))
+
+
+WORM_PAIR = WormPair()

@@ -1,0 +1,102 @@
+"""A worm in its wheel: placed in space, held in sections, driven; what does not go together is refused."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import manifold3d
+import numpy as np
+import pytest
+
+from exporters.command.cli import main
+from parts.scene.load import load_scene, make_parts
+from parts.scene.placing import place
+
+PAIR = """
+[parts.wheel]
+kind = "worm_wheel"
+module = 2.0
+number_of_teeth = 20
+number_of_starts = 2
+hand = "{hand}"
+face_width = 10.0
+axial_thinning = {thinning}
+
+[parts.worm]
+kind = "worm"
+module = 2.0
+number_of_starts = 2
+hand = "{worm_hand}"
+thread_length = 36.0
+
+[instances.wheel]
+part = "wheel"
+rotation_deg = 11.0
+
+[[mates]]
+kind = "worm_pair"
+first = "wheel"
+second = "worm"
+direction_deg = 40.0
+
+[[drives]]
+instance = "worm"
+turns = 3.0
+
+[[exports]]
+format = "stl"
+"""
+
+
+def _scene(folder: Path, *, hand: str = "right", worm_hand: str | None = None, thinning: float = 0.0) -> Path:
+    file = folder / "pair.toml"
+    file.write_text(PAIR.format(hand=hand, worm_hand=worm_hand or hand, thinning=thinning))
+    return file
+
+
+def _checked(file: Path, capsys: pytest.CaptureFixture[str]) -> tuple[int, str]:
+    code = main(["check", str(file)])
+    said = capsys.readouterr()
+    return code, said.out + said.err
+
+
+@pytest.mark.parametrize("hand", ["right", "left"])
+def test_a_worm_touches_its_wheel_and_turns_it(tmp_path: Path, capsys: pytest.CaptureFixture[str], hand: str) -> None:
+    code, said = _checked(_scene(tmp_path, hand=hand), capsys)
+    assert code == 0
+    assert "CONTACT" in said
+    sign = "" if hand == "right" else "-"
+    assert f"wheel {sign}0.3 turns" in said
+
+
+def test_a_thinner_wheel_has_play_and_a_worm_of_the_other_hand_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    code, said = _checked(_scene(tmp_path, thinning=0.2), capsys)
+    assert code == 0
+    assert "CLEAR" in said
+    code, said = _checked(_scene(tmp_path, hand="right", worm_hand="left"), capsys)
+    assert code == 2
+    assert "hand" in said
+
+
+@pytest.mark.parametrize("hand", [pytest.param("right", marks=pytest.mark.heavy), "left"])
+def test_solids_in_their_places_are_apart_and_half_a_pitch_on_they_are_not(tmp_path: Path, hand: str) -> None:
+    file = _scene(tmp_path, hand=hand, thinning=0.2)
+    scene = load_scene(str(file))
+    parts, matings = make_parts(scene, str(file))
+    placing = place(scene.instances, scene.drives, parts, matings, str(file))
+    solids = {}
+    for instance in placing.instances:
+        mesh = parts[instance.part].to_trimesh(0.05)
+        vertices, triangles = np.asarray(mesh.vertices, np.float32), np.asarray(mesh.faces, np.uint32)
+        solid = manifold3d.Manifold(manifold3d.Mesh(vertices, triangles))
+        solids[instance.id] = (solid, instance)
+    for turned in (0.0, 0.37):
+        moved = {i.id: i for i in placing.at([turned])}
+        one, two = (solids[k][0].transform(moved[k].scene_from_part.matrix()) for k in ("wheel", "worm"))
+        assert (one ^ two).volume() == 0
+    worm = solids["worm"][0].rotate([0.0, 0.0, math.degrees(math.pi / 2)])
+    one, two = solids["wheel"], worm.transform(solids["worm"][1].scene_from_part.matrix())
+    assert (one[0].transform(one[1].scene_from_part.matrix()) ^ two).volume() > 1.0
