@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
+from contextlib import nullcontext
 from datetime import UTC, datetime
 from importlib.util import find_spec
 from pathlib import Path
@@ -71,7 +72,9 @@ def write_pdf(file: Path, pages: Sequence[Canvas], title: str) -> dict[str, int]
             pdf.set_stretching(100.0)
             natural = pdf.get_string_width(run.text)
             pdf.set_stretching(100 * run.width * POINT / natural)
-            pdf.text(run.at.real * POINT, (canvas.height - run.at.imag) * POINT, run.text)
+            x, y = run.at.real * POINT, (canvas.height - run.at.imag) * POINT
+            with pdf.rotation(90, x, y) if run.rises else nullcontext():
+                pdf.text(x, y, run.text)
     pdf.output(str(file))
     strokes, texts = (sum(map(len, rows)) for rows in ([p.strokes for p in pages], [p.texts for p in pages]))
     return {"pages": len(pages), "paths": strokes, "texts": texts}

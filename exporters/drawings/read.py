@@ -20,7 +20,7 @@ _KNOWN = {
     "svg": {"width", "height", "viewBox", "version"},
     "g": {"id", "style"},
     "path": {"d"},
-    "text": {"x", "y", "style", "textLength", "lengthAdjust"},
+    "text": {"x", "y", "style", "textLength", "lengthAdjust", "transform"},
 }
 _GROUND = {"width": "100%", "height": "100%", "style": "fill:#ffffff"}
 _SVG = "{http://www.w3.org/2000/svg}"
@@ -73,7 +73,10 @@ def _read_dxf(file: Path) -> ReadSheet:
                 sheet.add_arc(curve.layer, curve.centre, curve.radius, first, sweep)
             case _:
                 sheet.samples.append((curve.layer, curve.spans(share).ravel()))
-    sheet.texts += [ReadText(w.text, w.left, w.right.real - w.left.real, w.height) for w in words]
+    for one in words:
+        way = one.right - one.left
+        rises = abs(way.imag) > abs(way.real)
+        sheet.texts.append(ReadText(one.text, one.left, way.imag if rises else way.real, one.height, rises))
     return sheet
 
 
@@ -101,8 +104,11 @@ def _read_svg(file: Path) -> ReadSheet:
             size = re.fullmatch(r"font-size:([\d.]+)px", text.get("style", ""))
             if size is None:
                 raise ReadError("has words without a size")
-            capital = float(size[1]) * 1493 / 2048
-            sheet.texts.append(ReadText(text.text or "", at, float(text.get("textLength", "nan")), capital))
+            turn = text.get("transform")
+            if turn not in (None, f"rotate(-90 {text.get('x')} {text.get('y')})"):
+                raise ReadError(f"has words that are turned by {turn}")
+            capital, length = float(size[1]) * 1493 / 2048, float(text.get("textLength", "nan"))
+            sheet.texts.append(ReadText(text.text or "", at, length, capital, turn is not None))
     return sheet
 
 

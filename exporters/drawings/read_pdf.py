@@ -6,6 +6,7 @@ import re
 import zlib
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 
@@ -150,13 +151,17 @@ class _Look(Record):
     dashes: tuple[float, ...] = ()
 
 
+# a, b, c, d, e, f of PDF: x' = a x + c y + e, y' = b x + d y + f
+_Frame: TypeAlias = tuple[float, float, float, float, float, float]
+
+
 class _Reader:
     """Follows the operators of a page's stream."""
 
     def __init__(self, page: PdfPage, font: _Font | None, states: dict[bytes, bytes]) -> None:
         self.page, self.font, self.states = page, font, states
-        self.look, self.turn, self.shift = _Look(), (1.0, 1.0), 0j
-        self.kept: list[tuple[_Look, tuple[float, float], complex]] = []
+        self.look, self.frame = _Look(), (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
+        self.kept: list[tuple[_Look, _Frame]] = []
         self.strokes: list[list[Complex]] = []
         self.at = self.text = 0j
         self.size, self.stretch = 0.0, 100.0
@@ -174,9 +179,9 @@ class _Reader:
     def _do(self, name: str, operands: list[bytes]) -> None:
         if name in ("q", "Q"):
             if name == "q":
-                self.kept.append((self.look, self.turn, self.shift))
+                self.kept.append((self.look, self.frame))
             else:
-                self.look, self.turn, self.shift = self.kept.pop()
+                self.look, self.frame = self.kept.pop()
         elif name == "gs":
             self._state(self.states[operands[0][1:]])
         elif name == "Tj":
@@ -200,10 +205,9 @@ class _Reader:
             shades = numbers if name == "RG" else numbers * 3
             self._set(colour="#" + "".join(f"{round(255 * x):02x}" for x in shades))
         elif name == "cm":
-            a, b, c, d, e, f = numbers
-            if b or c or self.turn != (1.0, 1.0):
-                raise ValueError("a page that is turned")
-            self.turn, self.shift = (a, d), complex(e, f)
+            axes = [self._on(at) - self._on(0j) for at in (complex(*numbers[:2]), complex(*numbers[2:4]))]
+            origin = self._on(complex(*numbers[4:]))
+            self.frame = (*(x for at in (*axes, origin) for x in (at.real * _POINT, at.imag * _POINT)),)  # type: ignore[assignment]
         elif name == "Td":
             self.text = complex(*numbers)
         elif name == "Tz":
@@ -220,7 +224,8 @@ class _Reader:
 
     def _on(self, point: complex) -> complex:
         """A point of the stream on paper, mm."""
-        return (complex(self.turn[0] * point.real, self.turn[1] * point.imag) + self.shift) / _POINT
+        a, b, c, d, e, f = self.frame
+        return complex(a * point.real + c * point.imag + e, b * point.real + d * point.imag + f) / _POINT
 
     def _set(self, **more: object) -> None:
         values = {name: getattr(self.look, name) for name in ("colour", "width", "dashes")}
@@ -238,8 +243,9 @@ class _Reader:
         plain = re.sub(rb"\\(.)", lambda m: _ESCAPES.get(m[1], m[1]), raw, flags=re.DOTALL)
         words, length = self.font.said(plain)
         size = self.size / _POINT
-        at = self.text / _POINT
-        self.page.texts.append(ReadText(words, at, length * size * self.stretch / 100, size * _CAPITAL))
+        at, way = self._on(self.text), self._on(self.text + 1) - self._on(self.text)
+        rises = abs(way.imag) > abs(way.real)
+        self.page.texts.append(ReadText(words, at, length * size * self.stretch / 100, size * _CAPITAL, rises))
 
 
 def _add(sheet: ReadSheet, layer: str, pieces: tuple[Complex, ...]) -> None:

@@ -54,7 +54,7 @@ def _check(
     if expected.measures is not None:
         expected.measures.check(sheet, allowed, measured, failures)
     _check_words(sheet, canvas, measured, failures)
-    _check_frame(sheet, canvas.frame.grown(allowed), failures)
+    _check_frame(sheet, canvas.reach.grown(allowed), failures)
 
 
 def _check_circles(
@@ -146,7 +146,7 @@ def _check_words(sheet: ReadSheet, canvas: Canvas, measured: dict[str, float], f
     # a rounding less than each: neighbours may touch
     boxes = [_box(t).grown(-sheet.rounding) for t in sheet.texts]
     for index, box in enumerate(boxes):
-        if not box.within(canvas.frame):
+        if not box.within(canvas.reach):
             failures.append(f"{sheet.texts[index].text} leaves the frame")
         for other in range(index):
             if box.overlaps(boxes[other]):
@@ -155,6 +155,8 @@ def _check_words(sheet: ReadSheet, canvas: Canvas, measured: dict[str, float], f
 
 
 def _box(text: ReadText) -> Box:
+    if text.rises:
+        return Box(text.at.real - text.height, text.at.imag, text.at.real, text.at.imag + text.width)
     return Box(text.at.real, text.at.imag, text.at.real + text.width, text.at.imag + text.height)
 
 

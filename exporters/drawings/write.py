@@ -68,11 +68,11 @@ def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
             run.text, height=round(run.height, DRAWN_DECIMALS), dxfattribs={"layer": "TEXT", "style": _style(run)}
         )
         free = _BEARING * run.height
-        left, right = place_of(run.at + free), place_of(run.at + run.width - free)
+        left, right = place_of(run.at + free * run.way), place_of(run.at + (run.width - free) * run.way)
         entity.set_placement(left, right, align=TextEntityAlignment.FIT)
         counts["TEXT"] = counts.get("TEXT", 0) + 1
     # all stands within the frame; ezdxf takes a corner at 0, 0 for none
-    frame = canvas.frame
+    frame = canvas.reach
     space.reset_extents((frame.left, frame.low, 0.0), (frame.right, frame.high, 0.0))
     with fixed_metadata():
         save_dxf(drawing, file)
@@ -109,7 +109,8 @@ def _text(run: Run, height: float) -> str:
     size, x, y = number(run.height / CAPITAL), number(run.at.real), number(height - run.at.imag)
     words = escape(run.text)
     length = f'textLength="{number(run.width)}" lengthAdjust="spacingAndGlyphs"'
-    return f'<text x="{x}" y="{y}" style="font-size:{size}px" {length}>{words}</text>'
+    turn = f' transform="rotate(-90 {x} {y})"' if run.rises else ""
+    return f'<text x="{x}" y="{y}" style="font-size:{size}px" {length}{turn}>{words}</text>'
 
 
 def _path(curve: CadCurve, height: float) -> str:

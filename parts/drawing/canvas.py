@@ -117,12 +117,21 @@ _SIZE = re.compile(r"\S+ = -?\d")
 
 
 class Run(Record):
-    """A piece of text in one line and height: left end of its base line, height of a capital and length, mm."""
+    """A piece of text in one line and height: left end of its base line, height of a capital and length, mm.
+
+    ``rises``: turned to be read from the right, its base line upwards.
+    """
 
     text: str
     at: complex
     height: float
     width: float
+    rises: bool = False
+
+    @property
+    def way(self) -> complex:
+        """Along its base line."""
+        return 1j if self.rises else 1.0
 
 
 class Box(Record):
@@ -216,7 +225,8 @@ def plain_width(text: str, height: float) -> float:
 class Canvas(Draft):
     """A sheet that grows: paper size (mm) with its name, strokes and texts; ``max_error`` of its splines, mm.
 
-    ``band``: height kept free above the frame's lower side, mm, for a title block; ``margins``: on the left of the
+    ``band``: height kept free above the frame's lower side, mm, for a title block; ``columns``: width of what
+    stands on the left of the frame, mm; ``margins``: on the left of the
     frame and around it, mm.
     """
 
@@ -228,6 +238,7 @@ class Canvas(Draft):
     max_error: float = 0.0
     sampled: bool = False
     band: float = 0.0
+    columns: float = 0.0
     margins: tuple[float, float] = (FRAME_LEFT, FRAME)
 
     @property
@@ -253,6 +264,11 @@ class Canvas(Draft):
         left, other = self.margins
         return Box(left, other, self.width - other, self.height - other)
 
+    @property
+    def reach(self) -> Box:
+        """All that is drawn on: the frame, and columns in its margin."""
+        return replace(self.frame, left=self.frame.left - self.columns)
+
     def line(self, layer: str, start: complex, end: complex) -> None:
         """A straight line."""
         self.strokes.append(Stroke(layer, Line(start, end)))
@@ -275,6 +291,13 @@ class Canvas(Draft):
         made = replace(text_of(text, at, height, most), answer=answer)
         self.texts.append(made)
         return made
+
+    def write_rising(self, text: str, at: complex, height: float, most: float) -> None:
+        """A line of text turned to be read from the right, from the lower end of its base line."""
+        made = text_of(text, 0j, height, most)
+        runs = tuple(replace(run, at=at + 1j * run.at, rises=True) for run in made.runs)
+        low, box = at.imag + made.box.left, made.box
+        self.texts.append(Text(made.text, runs, Box(at.real - box.high, low, at.real - box.low, at.imag + box.right)))
 
     def obstacles(self) -> Complex:
         """Points on all strokes, about half a millimetre apart."""

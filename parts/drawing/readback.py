@@ -29,12 +29,13 @@ class ReadArc(Record):
 
 
 class ReadText(Record):
-    """Words: left end of the base line, length and height of capitals, mm."""
+    """Words: left end of the base line, length and height of capitals, mm; ``rises``: to be read from the right."""
 
     text: str
     at: complex
     width: float
     height: float
+    rises: bool = False
 
 
 class ReadSheet(Draft):

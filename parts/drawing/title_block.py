@@ -38,7 +38,17 @@ _LABELS: dict[str, Text] = {
     "scale": in_context("title block", "Scale"),
     "sheet": in_context("title block", "Sheet"),
     "sheets": in_context("title block", "Sheets"),
+    "original": in_context("title block", "Orig. no."),
+    "signed": in_context("title block", "Sign., date"),
+    "replaces": in_context("title block", "Repl. no."),
+    "duplicate": in_context("title block", "Dupl. no."),
+    "reference": in_context("title block", "Ref. no."),
+    "first_use": in_context("title block", "First used in"),
 }
+# columns on the left of the frame: width of the names and of all; from below, and from the top: name, height; mm
+_NAME, _COLUMNS = 5.0, 12.0
+_FROM_BELOW = (("original", 25), ("signed", 35), ("replaces", 25), ("duplicate", 25), ("signed", 35))
+_FROM_TOP = (("first_use", 60), ("reference", 60))
 # who signs, from the top row down; the fourth row is free
 _ROLES = ("drawn", "checked", "technical_check", "", "standards_check", "approved")
 _INDENT = 0.8
@@ -93,7 +103,28 @@ def draw_title_block(canvas: Canvas, block: TitleBlock, language: str) -> Box:
     _labels(canvas, corner, language)
     _entries(canvas, corner, block)
     _count(canvas, corner, block, language)
+    _columns(canvas, language)
     return Box(corner.real, corner.imag, corner.real + width, corner.imag + height)
+
+
+def _columns(canvas: Canvas, language: str) -> None:
+    """The columns in the margin, with the names of their cells."""
+    frame = canvas.frame
+    canvas.columns = _COLUMNS
+    left = frame.left - _COLUMNS
+    for cells, start, way in ((_FROM_BELOW, frame.low, 1), (_FROM_TOP, frame.high, -1)):
+        y = start
+        canvas.line("FRAME", complex(left, y), complex(frame.left, y))
+        for key, height in cells:
+            low = min(y, y + way * height)
+            y += way * height
+            canvas.line("FRAME", complex(left, y), complex(frame.left, y))
+            text, room = words(language).say(_LABELS[key]), height - 2 * _INDENT
+            long = min(text_width(text, SMALL_TEXT), room)
+            at = complex(left + (_NAME + SMALL_TEXT) / 2, low + (height - long) / 2)
+            canvas.write_rising(text, at, SMALL_TEXT, room)
+        for x in (left, left + _NAME):
+            canvas.line("FRAME", complex(x, start), complex(x, y))
 
 
 def _labels(canvas: Canvas, corner: complex, language: str) -> None:

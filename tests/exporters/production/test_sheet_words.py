@@ -38,6 +38,11 @@ def drawn(file: Path) -> tuple[list[Box], list[tuple[str, np.ndarray]]]:
             x, y, width = (float(text.get(key, "nan")) for key in ("x", "y", "textLength"))
             words = text.text or ""
             low = 0.29 * size if set(words) & HANGING else 0.0
+            if text.get("transform"):
+                # read from the right, upwards
+                assert text.get("transform") == f"rotate(-90 {text.get('x')} {text.get('y')})"
+                boxes.append((words, x - size + NEAR, y - width + NEAR, x + low - NEAR, y - NEAR))
+                continue
             boxes.append((words, x + NEAR, y - size + NEAR, x + width - NEAR, y + low - NEAR))
         for path in group.findall(f"{SVG}path"):
             chains.append((str(group.get("id")), points_of(path.get("d", ""))))
