@@ -97,7 +97,8 @@ def row(name: str, python: str, code: str, teeth: Sequence[int], folder: Path) -
         error = f"{1000 * flank_error(surfaces(file), z, 0.0):.2g} um" if not isinstance(taken, str) else "-"
         cells.append(f"z {z}: {taken if isinstance(taken, str) else f'{taken:.2f} s, {error}'}")
     done = [t for t in spent.values() if not isinstance(t, str)]
-    print(f"{name:14} mean {statistics.mean(done):6.2f} s of {len(done)}  " + "; ".join(cells), flush=True)
+    mean = f"mean {statistics.mean(done):6.2f} s of {len(done)}" if done else "none"
+    print(f"{name:14} {mean}  " + "; ".join(cells), flush=True)
 
 
 def main() -> None:
