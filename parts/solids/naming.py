@@ -112,8 +112,9 @@ class _Way:
         inside = shapely.contains(self.clear, points)
         spots, points = spots[inside], points[inside]
         room = shapely.distance(shapely.boundary(self.clear), points)
-        middle = (left + right) / 2
-        order = np.lexsort((spots.imag, -(room / _CLEAR).round(), (np.abs(spots.real - middle) / _CLEAR).round()))
+        off = spots - complex(left + right, low + high) / 2
+        ranks = (np.abs(off.real) / _CLEAR).round(), -(room / _CLEAR).round(), np.abs(off.imag).round(6), off.imag
+        order = np.lexsort(ranks[::-1])
         self.spots, self.room = spots[order], room[order]
 
     def placed(self, layouts: list[tuple[Stroke, ...]], height: float) -> tuple[Stroke, ...] | None:

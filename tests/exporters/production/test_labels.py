@@ -14,7 +14,12 @@ import shapely
 from ezdxf.path import make_path
 
 from exporters.command.cli import main
+from exporters.command.new import new_scene
+from geometry.approximation.chords import approximate_profile
 from geometry.plane.letters import lettered, unknown_letters
+from geometry.plane.profile import Profile
+from parts.base.registry import KINDS
+from parts.scene.load import make_parts, scene_from_toml
 from parts.solids.naming import STROKE
 from tests.exporters.making import table
 
@@ -134,3 +139,20 @@ def test_every_letter_is_there_and_unlike_the_others() -> None:
         strokes = lettered((letter,), 12.0)
         form = tuple(tuple((round(p.real, 6), round(p.imag, 6)) for p in stroke) for stroke in strokes)
         assert alike.get(letter, letter) == seen.setdefault(form, alike.get(letter, letter))
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_name_finds_room_on_every_kind(kind: str) -> None:
+    part = make_parts(scene_from_toml(new_scene(kind).encode(), kind, kind), kind)[0]["gear"]
+    region = part.cut(0.0, named=True).region
+
+    def ring(profile: Profile) -> shapely.Polygon:
+        points = approximate_profile(profile, 0.002, arcs=False).geometry.expanded()[0]
+        return shapely.Polygon(np.column_stack([points.real, points.imag]))
+
+    outer = shapely.union_all([ring(p) for p in (region.outer, *region.apart)])
+    material = shapely.difference(outer, shapely.union_all([ring(p) for p in (*region.holes, *region.marks)]))
+    name = shapely.MultiLineString([[(p.real, p.imag) for p in stroke] for stroke in region.strokes])
+    assert shapely.contains(material, name)
+    assert shapely.distance(shapely.boundary(material), name) >= STROKE
