@@ -125,8 +125,10 @@ class Job(Content):
     @property
     def shape_key(self) -> ShapeKey:
         """What its boundaries depend on."""
-        export = self.export
-        return (self.part.id, self.kind.name, export.tolerance, export.curves, self.section.offset)
+        export, section = self.export, self.section
+        # a tag beside it on a board is one more of them
+        boundaries = section.region.layers()
+        return (self.part.id, self.kind.name, export.tolerance, export.curves, section.offset, boundaries)
 
     def chords(self, made: Made) -> Chords:
         """Its boundaries, of a laser file or a mesh."""

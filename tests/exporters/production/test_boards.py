@@ -277,3 +277,34 @@ def test_bad_boards_are_refused_in_one_line(
     assert key in told
     assert words in told
     assert not (tmp_path / "set").exists()
+
+
+def test_a_part_has_its_tag_on_the_board_and_none_in_its_own_file(tmp_path: Path) -> None:
+    # both files were made of one outline: the build ended in an error
+    text = """[parts.link_with_a_long_name]
+kind = "follower_arm"
+end = "roller"
+arm_length = 18.0
+boss_diameter = 10.0
+pivot_diameter = 4.2
+pin_diameter = 4.2
+face_width = 4.0
+[boards.plywood]
+width = 100.0
+height = 60.0
+thickness = 4.0
+kerf = 0.2
+[[exports]]
+format = "dxf"
+purpose = "board"
+[[exports]]
+format = "dxf"
+kerf = 0.2
+"""
+    (tmp_path / "tagged.toml").write_text(text, encoding="utf-8")
+    assert main(["build", str(tmp_path / "tagged.toml"), "--out", str(tmp_path), "-q"]) == 0
+    drawn = {}
+    for name in ("tagged.board.1.dxf", "link_with_a_long_name.dxf"):
+        space = ezdxf.readfile(tmp_path / "tagged" / name).modelspace()
+        drawn[name] = sum(1 for e in space if e.dxftype() == "LWPOLYLINE" and e.closed)  # type: ignore[attr-defined]
+    assert drawn["tagged.board.1.dxf"] == drawn["link_with_a_long_name.dxf"] + 1
