@@ -24,8 +24,8 @@ from geometry.solids.unrolled import unrolled
 _NODES, _ACROSS, _FLAT, _PIECE = 16, 28, 4, math.pi / 4
 # moments of a polynomial patch of degree p have degree 5 p - 1
 _RAISED, _AT_ONCE = 2.5, 200_000
-# pieces are halved until nothing changes by more than this part
-_SETTLED, _MOST = 1e-12, 4
+# pieces are halved until nothing changes by more than this part, and refused above the second one
+_SETTLED, _ENOUGH, _MOST = 1e-12, 1e-9, 4
 # by which a face's own integrals stand: area, then 1, x, y, z, xx, yy, xy, zz, xz, yz
 _TERMS = 11
 
@@ -54,7 +54,7 @@ def face_moments(solid: Solid) -> FaceMoments:
         own = abs(change * scale / total[1])
         if change <= _SETTLED:
             break
-    else:
+    if not change <= _ENOUGH:
         raise ConvergenceError("moments of a solid", change, _MOST)
     return FaceMoments(moments_of(total[1:]), float(total[0]), min(own, 1.0))
 

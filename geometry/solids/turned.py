@@ -195,7 +195,8 @@ def _cut(before: Piece, after: Piece, corner: Corner, number: int) -> tuple[comp
     back, ahead = before.start - before.end, after.end - after.start
     back, ahead = back / abs(back), ahead / abs(ahead)
     turn = math.atan2((-back.conjugate() * ahead).imag, (-back.conjugate() * ahead).real)
-    if abs(turn) < _SAME:
+    # on the axis half a section has no corner that the solid would have
+    if abs(turn) < _SAME or corner.at.real == 0:
         raise ParameterError(f"points.item {number}.{key}", size, "corner_is_straight")
     leg = size if key == "chamfer" else size * math.tan(abs(turn) / 2)
     ends = corner.at + leg * back, corner.at + leg * ahead
@@ -214,6 +215,8 @@ def _check(pieces: Sequence[Piece]) -> None:
     if any(float(p.real.min()) < -_SAME * size for p in lines):
         raise ParameterError("points", len(pieces), "section_beyond_axis")
     for piece, after in zip(pieces, [*pieces[1:], pieces[0]], strict=True):
+        if piece.centre is not None and piece.centre.real > 0 and 0 in (piece.start.real, piece.end.real):
+            raise ParameterError("points", len(pieces), "arc_ends_on_axis")
         if piece.end.real == 0 and not piece.on_axis and not after.on_axis:
             raise ParameterError("points", len(pieces), "section_touches_axis")
     a = np.concatenate([p[:-1] for p in lines])
@@ -225,6 +228,14 @@ def _check(pieces: Sequence[Piece]) -> None:
 
     one, two = np.sign(side(a)), np.sign(side(b))
     crossing = (one * two < 0) & (one * two < 0).T
+    # a corner may lie on no edge but its own two, and none may turn back on the one before it
+    length = np.maximum(np.abs(way) ** 2, 1e-300)[:, None]
+    share = np.clip((np.conj(way)[:, None] * (a[None, :] - a[:, None])).real / length, 0.0, 1.0)
+    near = np.abs(a[:, None] + share * way[:, None] - a[None, :]) <= _SAME * size
+    own = np.arange(len(a))
+    near[own, own] = near[own - 1, own] = False
+    back = np.conj(np.roll(way, 1)) * way
+    crossing |= near | np.diag((back.real < 0) & (np.abs(back.imag) <= _SAME * np.abs(back)))
     if np.any(crossing) or float(np.sum((np.conj(a) * b).imag)) <= 0:
         raise ParameterError("points", len(pieces), "boundary_crosses_itself")
 

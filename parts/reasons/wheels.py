@@ -8,6 +8,7 @@ from parts.base.texts import N_
 REASONS = {
     "arc_about_beyond_axis": N_("its centre lies beyond the axis"),
     "arc_consumed": N_("leaves nothing of an arc"),
+    "arc_ends_on_axis": N_("an arc ends on the axis, but its centre does not lie there"),
     "arc_shorter_than_chord": N_("does not reach the next point"),
     "arms_meet": N_("the arms meet beyond it"),
     "axle_beyond_pinion": N_("the platform's axle stands in the pinion, at most {most} mm from its middle"),

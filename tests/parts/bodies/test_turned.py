@@ -144,6 +144,10 @@ def test_a_turned_part_in_every_solid_file(name: str, tmp_path: Path) -> None:
 REFUSED = {
     "beyond the axis": (points((1.0, 0.0), {"r": 2.0, "z": 0.0, "arc": 4.0}, (0.0, 1.0)), "points.item 2.arc"),
     "crossed": (points((1.0, 0.0), (5.0, 5.0), (5.0, 0.0), (1.0, 5.0)), "points"),
+    "doubled back": (points((1.0, 0.0), (9.0, 0.0), (5.0, 0.0), (5.0, 5.0), (1.0, 5.0)), "points"),
+    "an edge on a corner": (points((1.0, 0.0), (9.0, 0.0), (5.0, 5.0), (9.0, 9.0), (5.0, 9.0), (5.0, 3.0)), "points"),
+    "horn": (points((0.0, 0.0), {"r": 5.0, "z": 0.0, "arc": 4.0}, (0.0, 3.0)), "points"),
+    "chamfer on the axis": (points({"r": 0.0, "z": 0.0, "chamfer": 1.0}, (5.0, 0.0), (0.0, 5.0)), "points.item 1.chamfer"),
     "touching the axis": (points((0.0, 0.0), (5.0, 1.0), (5.0, 5.0)), "points"),
     "short arc": (points((1.0, 0.0), {"r": 5.0, "z": 0.0, "arc": 1.0}, (5.0, 5.0), (1.0, 5.0)), "points.item 2.arc"),
     "long chamfer": (points((1.0, 0.0), {"r": 5.0, "z": 0.0, "chamfer": 9.0}, (5.0, 5.0)), "points.item 2.chamfer"),
