@@ -108,7 +108,7 @@ def test_a_turned_part_in_every_solid_file(name: str, tmp_path: Path) -> None:
     outlines = mesh_outlines(body, 0.01, 0.0)
     made = body_mesh(body, outlines)
     mesh = ReadMesh(made.vertices, made.triangles)
-    verdict = verify_faced_mesh(mesh, body, outlines[0].max_error + GRID, 0.01)
+    verdict = verify_faced_mesh(mesh, body, outlines[0].max_error + 1e-7, 0.01)
     assert verdict.failures == ()
     # a tenth of what is allowed, or more: the bound is no wild guess
     assert verdict.measured["max_deviation"] > 0.1 * outlines[0].max_error
