@@ -236,12 +236,15 @@ class _Nest:
 
     def laid(self) -> list[Laid]:
         """The best of a fixed number of layouts: each begins anew from the best order, two pieces of it exchanged."""
-        size = {name: next(iter(turns.values())).geometry.convex_hull.area for name, turns in self.turned.items()}
-        reach = {
-            name: max(max(s.half.real, s.half.imag) for s in turns.values()) for name, turns in self.turned.items()
-        }
+        shapes = {name: next(iter(turns.values())) for name, turns in self.turned.items()}
+        size = {name: shape.geometry.convex_hull.area for name, shape in shapes.items()}
+        reach = {name: max(shape.half.real, shape.half.imag) for name, shape in shapes.items()}
+        breadth = {name: min(shape.half.real, shape.half.imag) for name, shape in shapes.items()}
         pieces = [name for name, count in self.counts.items() for _ in range(count)]
-        orders = [sorted(pieces, key=lambda name: -by[name]) for by in (size, reach)]
+        orders = [sorted(pieces, key=lambda name: -by[name]) for by in (size, reach, breadth)]
+        # one set after the other, as nearly as the counts allow
+        shares = [((k + 1) / count, -size[name], name) for name, count in self.counts.items() for k in range(count)]
+        orders.append([name for _, _, name in sorted(shares)])
         best = min(filter(None, map(self._packed, orders)), key=lambda found: found.rank)
         cells = np.mean([t.size for t in self.tables.values()]) if len(self.counts) > 1 else math.inf
         trials = _WORK / (len(pieces) * sum(map(len, self.turned.values())) * cells)

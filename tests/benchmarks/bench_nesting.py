@@ -19,7 +19,8 @@ from shapely.geometry.base import BaseGeometry
 
 from exporters.boards.nest import Laid, Room, nest
 from exporters.production.boards import material
-from parts.scene.load import make_parts, scene_from_toml
+from parts.scene.boards import parts_of_board, pieces_of
+from parts.scene.load import load_scene, make_parts, scene_from_toml
 
 _GEAR = '[parts.{0}]\nkind = "spur_gear"\nmodule = {1}\nnumber_of_teeth = {2}\nface_width = 3.0\nbore_diameter = 6.0\n'
 _PLATE = '[parts.{0}]\nkind = "plate"\nwidth = {1}\nheight = {2}\ncorner_radius = 4.0\nface_width = 3.0\n'
@@ -33,8 +34,6 @@ def shapes_of(text: str, counts: Mapping[str, int]) -> Shapes:
 
 def cases() -> Mapping[str, Shapes]:
     """Sets of parts for classes: a pair with its frame, a cam with what it moves, a train, one wheel alone."""
-    from parts.scene.load import load_scene
-
     model = make_parts(load_scene("laser_cam_model"), "")[0]
     james = make_parts(load_scene("james_laser"), "")[0]
     pair = _GEAR.format("pinion", 4.0, 13) + _GEAR.format("wheel", 4.0, 21) + _PLATE.format("frame", 150.0, 50.0)
@@ -55,6 +54,16 @@ def cases() -> Mapping[str, Shapes]:
     }
 
 
+def of_scene(name: str) -> tuple[Shapes, Room]:
+    """What the first board of a built-in scene holds, with its names and tags."""
+    scene = load_scene(name)
+    parts = make_parts(scene, name)[0]
+    board = next(iter(scene.boards.values()))
+    counts = pieces_of(board, parts_of_board(board, parts, name, ""), scene.instances)
+    shapes = {k: (material(parts[k].cut(board.kerf / 2, named=True).region), n) for k, n in counts.items()}
+    return shapes, Room(board.width, board.height, board.margin, board.gap)
+
+
 def placed(shapes: Shapes, one: Laid) -> BaseGeometry:
     turned = rotate(shapes[one.shape][0], 90 * one.turn, origin=(0, 0))
     return translate(turned, one.at.real, one.at.imag)
@@ -72,7 +81,9 @@ def strip_of_spyrrow(shapes: Shapes, room: Room, seconds: int) -> float:
 
     items = []
     for name, (shape, count) in shapes.items():
-        outer = shapely.Polygon(shape.exterior).simplify(0.01)
+        # of a part with a tag beside it the part alone
+        whole = max(shapely.get_parts(shape), key=lambda piece: piece.area)
+        outer = shapely.Polygon(whole.exterior).simplify(0.01)
         items.append(spyrrow.Item(name, list(outer.exterior.coords), count, [0.0, 90.0, 180.0, 270.0]))
     instance = spyrrow.StripPackingInstance("board", room.height - 2 * room.margin, items)
     config = spyrrow.StripPackingConfig(
@@ -83,8 +94,10 @@ def strip_of_spyrrow(shapes: Shapes, room: Room, seconds: int) -> float:
 
 def main() -> None:
     seconds = int(sys.argv[1]) if len(sys.argv) > 1 else 30
-    room = Room(600.0, 400.0, 5.0, 2.0)
-    for name, shapes in cases().items():
+    own_room = Room(600.0, 400.0, 5.0, 2.0)
+    found = {name: (shapes, own_room) for name, shapes in cases().items()}
+    found |= {name: of_scene(name) for name in ("lesson_3", "lesson_4", "lesson_5", "power_table_laser")}
+    for name, (shapes, room) in found.items():
         start = time.process_time()
         laid = nest(shapes, room)
         spent, own = time.process_time() - start, strip_of_boards(shapes, laid, room)
