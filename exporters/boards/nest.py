@@ -235,7 +235,7 @@ class _Nest:
         return self.spectra[key]
 
     def laid(self) -> list[Laid]:
-        """The best of a fixed number of layouts: each begins anew from the best order, two pieces of it exchanged."""
+        """The better of two searches, from the best order and from the worst: each exchanges two pieces at a time."""
         shapes = {name: next(iter(turns.values())) for name, turns in self.turned.items()}
         size = {name: shape.geometry.convex_hull.area for name, shape in shapes.items()}
         reach = {name: max(shape.half.real, shape.half.imag) for name, shape in shapes.items()}
@@ -245,9 +245,14 @@ class _Nest:
         # one set after the other, as nearly as the counts allow
         shares = [((k + 1) / count, -size[name], name) for name, count in self.counts.items() for k in range(count)]
         orders.append([name for _, _, name in sorted(shares)])
-        best = min(filter(None, map(self._packed, orders)), key=lambda found: found.rank)
+        begun = sorted(filter(None, map(self._packed, orders)), key=lambda found: found.rank)
+        return min((self._better(one) for one in (begun[0], begun[-1])), key=lambda found: found.rank).laid
+
+    def _better(self, best: _Layout) -> _Layout:
+        """The best of a fixed number of layouts about one."""
+        pieces = best.order
         cells = np.mean([t.size for t in self.tables.values()]) if len(self.counts) > 1 else math.inf
-        trials = _WORK / (len(pieces) * sum(map(len, self.turned.values())) * cells)
+        trials = _WORK / 2 / (len(pieces) * sum(map(len, self.turned.values())) * cells)
         chance = _Chance()
         for _ in range(min(int(trials), _TRIALS * len(pieces))):
             order = list(best.order)
@@ -258,7 +263,7 @@ class _Nest:
             found = self._packed(order, best.rank)
             if found is not None and found.rank <= best.rank:
                 best = found
-        return best.laid
+        return best
 
     def _packed(self, order: Sequence[str], than: tuple[float, float, float] = _NOTHING) -> _Layout | None:
         """All pieces in an order, each where it lies farthest to the left, board by board; None: no better ``than``."""
