@@ -100,7 +100,7 @@ FINDINGS: dict[str, Text] = {
         "no room for its name, {limit:.1f} mm high at least, in clear material ({value:.1f} mm): it stands on a tag "
         "beside the part"
     ),
-    "flat_outline": N_("web, hub and face chamfers are not in a flat outline; STL, 3MF and STEP have them"),
+    "flat_outline": N_("a flat outline holds the section alone; STL, 3MF and STEP have the whole solid"),
     "never_moves": N_("the follower never moves: all phases are dwells, the cam is a round disk"),
     "rigid_impact": N_("rigid impact: velocity jumps by {value:.4g} per rad at cam angle {limit:.4g} deg"),
     "soft_impact": N_("soft impact: acceleration jumps by {value:.4g} per rad^2 at cam angle {limit:.4g} deg"),
