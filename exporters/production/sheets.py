@@ -34,6 +34,7 @@ from parts.drawing.view import TEETH
 from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear
 from parts.keys.title import TitleBlockTable
 from parts.mates.sheets.meshing import Facts, meshing_canvas
+from parts.mates.worm import WormMating
 from parts.scene.load import ExportSpec, SceneFile
 from parts.scene.placing import Placing
 from parts.texts.sheets import sheet_words
@@ -157,7 +158,11 @@ def _meshings(
 ) -> list[tuple[str, Expected]]:
     """The sheets of the pairs that an export names, by their numbers."""
     matings = [mate.mating for mate in placing.mates]
-    gears = {n: m for n, m in enumerate(matings, 1) if isinstance(m, Toothed) and m.pair is not None}
+    gears = {
+        n: m
+        for n, m in enumerate(matings, 1)
+        if isinstance(m, WormMating) or (isinstance(m, Toothed) and m.pair is not None)
+    }
     if not gears:
         has_cam = any(isinstance(spec, CamSpec | LinkageCamSpec) for spec in scene.parts.values())
         code = "shows_gear_pairs" if matings or has_cam else "shows_gear_pairs_of_mates"
@@ -173,6 +178,9 @@ def _meshings(
     for index, mating in gears.items():
         if export.mate not in (None, index):
             continue
+        if isinstance(mating, WormMating):
+            found.append((str(index), _worm(mating, scene, asked, f"mates[{index}]", source)))
+            continue
         try:
             assert mating.pair is not None
             picture = meshing_picture(mating.pair)
@@ -180,6 +188,16 @@ def _meshings(
             raise SceneError(source, f"mates[{index}]", error.value, error.code, None, "", **error.numbers) from error
         found.append((str(index), _meshing(mating, picture, scene, asked)))
     return found
+
+
+def _worm(mating: WormMating, scene: SceneFile, asked: Asked, place: str, source: str) -> Expected:
+    """The sheet of a worm in its wheel, where they touch along lines."""
+    from parts.mates.sheets.worm_contact import worm_sheet
+
+    field = mating.field
+    if field is None or not field.goes_on():
+        raise SceneError(source, place, None, "worm_touches_at_points" if field is None else "worm_contact_turns")
+    return worm_sheet(mating, field, scene.scene.title or f"{mating.first}, {mating.second}", asked)
 
 
 def _generating(scene: SceneFile, export: ExportSpec, asked: Asked, where: str, source: str) -> Expected:

@@ -13,9 +13,11 @@ from parts.keys.mate import GearPairKeys
 from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
+    from geometry.base.findings import Finding
     from geometry.gears.mesh.search import PairContact
     from geometry.gears.worms.body import WormBody
     from geometry.gears.worms.drive import WormDrive
+    from geometry.gears.worms.field import Field
     from geometry.gears.worms.wheel import WormTeeth
     from geometry.gears.worms.worm import Worm
     from geometry.kinematics.mechanism import Joint
@@ -33,12 +35,28 @@ class WormPairSpec(GearPairKeys, tag="worm_pair", kw_only=True):
 class WormMating(Touching):
     """A wheel (first) and its worm."""
 
-    worm: Worm
+    body: WormBody
     teeth: WormTeeth
     drive: WormDrive
 
     # their solids touch along lines: meshes cannot tell
     decides_solids = True
+
+    @property
+    def worm(self) -> Worm:
+        """The worm itself."""
+        return self.body.thread.worm
+
+    @property
+    def field(self) -> Field | None:
+        """Where both touch; None of a wheel that a larger hob cut, which touches its worm at points."""
+        from geometry.gears.worms.field import Field
+        from geometry.gears.worms.thread import FlankLine
+
+        flank = next(line for _, line in self.body.thread.lines if isinstance(line, FlankLine))
+        if self.teeth.hob.worm.diameter_quotient != self.worm.diameter_quotient:
+            return None
+        return Field(self.teeth, *flank.radius(flank.domain).tolist())
 
     @property
     def joints(self) -> tuple[Joint, ...]:
@@ -70,6 +88,14 @@ class WormMating(Touching):
 
         return worm_contact(self.worm, self.teeth, phase_off, distance_off, tolerance)
 
+    def findings(self) -> tuple[Finding, ...]:
+        """Whether the thread is as long as the wheel touches it."""
+        from geometry.base.findings import Finding
+
+        field = self.field
+        used = 0.0 if field is None else field.length_used(math.tan(self.body.end_angle))
+        return (Finding("worm_not_long_enough", self.body.length, used),) if self.body.length < used else ()
+
     def quantities(self) -> dict[str, Any]:
         """Centre distance, ratio, and how much of the worm the wheel touches."""
         used = self.drive.worm_length_used(2 * self.teeth.throat_height)
@@ -99,7 +125,7 @@ class WormPair(MateKind[WormPairSpec, "WheelThing", "WormBody"]):
             distance=drive.centre_distance,
             module=worm.module,
             first_teeth=drive.number_of_teeth,
-            worm=worm,
+            body=second.thing,
             teeth=first.thing.teeth,
             drive=drive,
         )

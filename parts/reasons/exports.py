@@ -51,10 +51,14 @@ REASONS = {
     "paper_too_small_for_scale": N_("the paper is too small at the scale {scale}"),
     "same_file": N_("writes the same file as {other}; give one of them another name"),
     "shows_external_gears": N_("shows external gears; add one or remove the export"),
-    "shows_gear_pairs": N_("shows pairs of involute gears only; remove the export or change its purpose"),
+    "worm_touches_at_points": N_(
+        "a wheel that a larger hob cut touches its worm at points: it has no lines of contact to draw"
+    ),
+    "worm_contact_turns": N_("the contact turns back on the flanks of this pair: its lines are not drawn"),
+    "shows_gear_pairs": N_("shows pairs of involute gears or worms only; remove the export or change its purpose"),
     "shows_driven_gears": N_("shows gears that a drive turns; add mates of gears and [[drives]] or remove the export"),
     "shows_what_moves": N_("shows what a drive moves; add [[drives]] or remove the export"),
-    "shows_gear_pairs_of_mates": N_("shows pairs of involute gears only; add [[mates]] or remove the export"),
+    "shows_gear_pairs_of_mates": N_("shows pairs of involute gears or worms only; add [[mates]] or remove the export"),
     "stopped_while_moving": N_(
         "a build moves its files into this folder, or was stopped while it did; build the scene again"
     ),

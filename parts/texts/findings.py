@@ -136,6 +136,7 @@ FINDINGS: dict[str, Text] = {
         "the outline moved by {limit:.4g} mm crosses itself in {value:.0f} places: it is trimmed there",
         by="value",
     ),
+    "worm_not_long_enough": N_("the thread is {value:.5g} mm long, the wheel touches it over {limit:.5g} mm"),
     "worm_section": N_(
         "flat outline: the section across the worm's axis, {value:.6g} mm; STL, 3MF and STEP have the screw surfaces"
     ),

@@ -90,6 +90,16 @@ SHEETS: dict[str, Text] = {
     "model_sheets": counted("{number} sheet", "{number} sheets", by="number"),
     "model_tile": N_("{part}, scale 1:1: row {row} of {rows}, column {column} of {columns}"),
     "model_whole": N_("{part}, scale 1:1"),
+    "worm": N_("Lines of contact of worm and wheel"),
+    "worm_quotient": N_("diameter quotient of the worm"),
+    "worm_starts": N_("number of starts of the worm"),
+    "rim_width": N_("width of the wheel's rim"),
+    "worm_thread": N_("threaded length of the worm"),
+    "worm_used": N_("length of the worm that the wheel touches"),
+    "contact_now": N_("lines of contact at one moment"),
+    "contact_later": N_("the same, each sixth of a pitch on"),
+    "worm_field_1": N_("field of action of flank 1"),
+    "worm_field_2": N_("field of action of flank 2"),
     "scale_profile": N_("scale of the profile"),
 }
 

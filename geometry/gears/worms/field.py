@@ -1,0 +1,98 @@
+"""Where a worm touches the wheel that it envelops: the field of action on both, and its lines of contact.
+
+A point of the lower flank at a height above the mid plane and at a radius of the thread is touched where the worm has
+slid by ``Cut.slid``, in closed form (``hob.py``): a line of contact is a line of equal slide. A pitch on, the next
+tooth is touched along it. The upper flank is the lower one after half a turn about the line of centres.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.base.record import Record
+from geometry.gears.worms.hob import Cut
+from geometry.gears.worms.wheel import WormTeeth
+
+Real = NDArray[np.float64]
+
+# heights at which lines begin or end is looked for, radii at which the way of the contact is looked at, halvings
+_HEIGHTS, _RADII, _HALVINGS = 129, 33, 52
+
+
+class Field(Record):
+    """The field of action on the lower flank of ``teeth`` left by the worm itself.
+
+    ``least`` and ``most``: radii between which the thread of the worm has its flank, mm.
+    """
+
+    teeth: WormTeeth
+    least: float
+    most: float
+
+    def edges(self, heights: Real) -> tuple[Real, Real]:
+        """Radii of the thread at heights (n,) where the field ends: towards the wheel's root and at its tip, mm."""
+        side = self.teeth.side(heights)
+        return np.minimum(side.inner, self.most), np.maximum(side.outer, self.least)
+
+    def touching(self, heights: Real, radii: Real) -> Cut:
+        """What the worm touches at radii of its thread (.., n)."""
+        return self.teeth.hob.cut(self.teeth.hob.flank(radii), heights)
+
+    def line(self, heights: Real, slide: float | Real) -> Real:
+        """Radii of the thread at which it touches the wheel when it has slid so far, at heights (n,), mm.
+
+        Where the line does not reach that height, the end of the field that is nearer.
+        """
+        low, high = self.edges(heights)
+        for _ in range(_HALVINGS):
+            middle = (low + high) / 2
+            before = self.touching(heights, middle).slid < slide
+            low, high = np.where(before, middle, low), np.where(before, high, middle)
+        return np.asarray((low + high) / 2)
+
+    def lines(self, slides: Real) -> list[tuple[int, float, float]]:
+        """Lines of contact at slides (m,): which of them, and the heights between which each goes on, mm."""
+
+        def reached(heights: Real, slide: Real) -> NDArray[np.bool_]:
+            first, last = (self.touching(heights, radii).slid for radii in self.edges(heights))
+            return np.asarray((first <= slide) & (slide <= last))
+
+        half = self.teeth.width / 2
+        heights = np.linspace(-half, half, _HEIGHTS)
+        inside = reached(heights, slides[:, None])
+        which, at = np.nonzero(inside[:, 1:] != inside[:, :-1])
+        low, high, was = heights[at], heights[at + 1], inside[which, at]
+        for _ in range(_HALVINGS):
+            middle = (low + high) / 2
+            same = reached(middle, slides[which]) == was
+            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        found = []
+        for k in range(len(slides)):
+            ends = [-half] * bool(inside[k, 0]) + low[which == k].tolist() + [half] * bool(inside[k, -1])
+            found += [(k, a, b) for a, b in zip(ends[::2], ends[1::2], strict=True)]
+        return found
+
+    def slides(self) -> tuple[float, float]:
+        """The first and the last slide at which the flank is touched, mm."""
+        slid = self._sampled()[1].slid
+        return float(slid.min()), float(slid.max())
+
+    def length_used(self, slope: float = 0.0) -> float:
+        """Twice how far from its middle the worm is touched, mm.
+
+        ``slope``: by how much a thread ends earlier for each mm above its foot: the tangent of its end's cone.
+        """
+        radii, cut = self._sampled()
+        return 2 * float((np.abs(cut.touching.imag) + slope * (radii - self.teeth.hob.worm.root_radius)).max())
+
+    def goes_on(self) -> bool:
+        """Whether the contact moves from root to tip at every height, so that every line is found."""
+        return bool((np.diff(self._sampled()[1].slid, axis=0) > 0).all())
+
+    def _sampled(self) -> tuple[Real, Cut]:
+        """Radii (m, n) over the field, both ends of every height among them."""
+        heights = np.unique([*np.linspace(-self.teeth.width / 2, self.teeth.width / 2, _HEIGHTS), *self.teeth.breaks])
+        low, high = self.edges(heights)
+        radii = low + (high - low) * np.linspace(0.0, 1.0, _RADII)[:, None]
+        return radii, self.touching(heights, radii)
