@@ -75,6 +75,7 @@ _TAIL = """
 def new_scene(kind: str, language: str = ENGLISH) -> str:
     """The text of a scene with one part of a kind."""
     told, made_from = words(language), KINDS[kind].made_from
+    formats = ("dxf", "svg", "stl") if KINDS[kind].has_outline else ("stl", "step")
     owner: list[str] = []
     if made_from is not None:
         note = told.text("the cam that the part below belongs to")
@@ -90,13 +91,8 @@ def new_scene(kind: str, language: str = ENGLISH) -> str:
         *_keys(own_first(KINDS[kind].keys), told, {"of": _SOURCE}),
         "",
         "[[exports]]",
-        *_keys([f for f in fields(ExportSpec) if f.encode_name not in SHEET_KEYS], told),
-        "",
-        "[[exports]]",
-        'format = "svg"',
-        "",
-        "[[exports]]",
-        'format = "stl"',
+        *_keys([f for f in fields(ExportSpec) if f.encode_name not in SHEET_KEYS], told, {"format": formats[0]}),
+        *(line for one in formats[1:] for line in ("", "[[exports]]", f'format = "{one}"')),
         *_several(kind, told),
     ]
     return "\n".join(lines) + "\n"

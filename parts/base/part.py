@@ -151,7 +151,7 @@ class Part(Record, dict=True):
         try:
             import cadquery
         except ImportError as error:
-            text = 'to_cadquery needs cadquery: pip install "higherpair[cad]"'
+            text = 'to_cadquery needs cadquery: pip install ".[cad]" in the folder of higherpair'
             raise ImportError(text) from error
         from parts.solids.faces import solid_curves, solid_faces
         from parts.solids.kernel import solids_of

@@ -28,8 +28,8 @@ REASONS = {
         "build the scene again"
     ),
     "mate_of_no_gears": N_("is a {kind} mate; name a pair of gears"),
-    "needs_kernel": N_("needs the CAD kernel: pip install 'higherpair[cad]'"),
-    "needs_pdf": N_("needs what writes PDF: pip install 'higherpair[pdf]'"),
+    "needs_kernel": N_('needs the CAD kernel: pip install ".[cad]" in the folder of higherpair'),
+    "needs_pdf": N_('needs what writes PDF: pip install ".[pdf]" in the folder of higherpair'),
     "no_exports": N_(
         'the scene asks for no file; add [[exports]] with format = "dxf" (or svg, stl, 3mf, step), or use --format'
     ),

@@ -83,7 +83,7 @@ REASONS = {
     "unknown_mate": N_("unknown kind of mate; known: {known}"),
     "unknown_table": N_("unknown table; known: {known}"),
     "unreadable": N_("cannot be read: {why}"),
-    "needs_cluster": N_('needs Dask: pip install "higherpair[cluster]"'),
+    "needs_cluster": N_('needs Dask: pip install ".[cluster]" in the folder of higherpair'),
     "no_cluster": N_("no cluster answers there: {why}"),
     "no_range": N_(
         "a range is FIRST:LAST or FIRST:LAST:STEP, FIRST to LAST by a STEP above 0, of at most {most} values"

@@ -264,8 +264,11 @@ def test_the_scene_to_start_from_builds(kind: str, tmp_path: Path, capsys: pytes
     file = tmp_path / "mine.toml"
     file.write_text(new_scene(capsys, kind), encoding="utf-8")
     assert run("build", file, "--out", tmp_path / "o") == 0
-    wanted = {"stl"} | ({"dxf", "svg"} if KINDS[kind].has_outline else set())
-    assert {e["format"] for e in read_report(tmp_path / "o" / "mine")["files"]} >= wanted
+    report = read_report(tmp_path / "o" / "mine")
+    # nothing is asked for that the kind has not
+    assert report["left_out"] == []
+    wanted = {"stl"} | ({"dxf", "svg"} if KINDS[kind].has_outline else {"step"})
+    assert {e["format"] for e in report["files"]} >= wanted
 
 
 @pytest.mark.parametrize("kind", MATES)
