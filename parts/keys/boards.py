@@ -22,7 +22,7 @@ class LaidKeys(Struct, forbid_unknown_fields=True, kw_only=True):
 
     width: Annotated[float, mm("along x", above=0, most=_MOST, example=600.0)]
     margin: Annotated[float, mm("left free along its edges", least=0, most=_MOST)] = 5.0
-    gap: Annotated[float, mm("least distance between two cuts; the web left is less by the kerf", least=0, most=_MOST)] = 2.0
+    gap: Annotated[float, mm("least distance between two cuts; the web is less by the kerf", least=0, most=_MOST)] = 2.0
     sets: Annotated[
         int, Meta(ge=1, le=_MOST_COPIES, description="how many of all that is laid: one for each group of a class")
     ] = 1
