@@ -42,6 +42,8 @@ if TYPE_CHECKING:
 
 # shares of the tolerance: of edges between faces that are bent one way, or both ways; of a grid along u and v
 _SINGLE, _DOUBLE, _ALONG, _ACROSS = 0.98, 0.55, 0.5, 0.4
+# how often the grid of a face narrower than so many rad is made finer before the whole mesh is
+_FINER, _NARROW = 10, 0.5
 # what splines may take of it
 _SPLINES = 0.1
 _MOST_ROUNDS, _MOST_TRIANGLES = 10, 4_000_000
@@ -218,11 +220,16 @@ class _Mesher:
                     largest = float(chart.meridian(np.zeros(1))[0][0])
             u_count = max(u_count, math.ceil(wide / _chord(largest, _ALONG * self.tolerance)))
             v_count = max(v_count, math.ceil(high / _chord(_tube(chart), _ACROSS * self.tolerance)))
-        triangles, inner = grid_between(grid, u_count, v_count)
-        uv = np.concatenate([grid.ring(), inner])
-        uv[grid.collapsed(), 0] = np.nan
-        if np.any(_turned(uv, triangles) <= 0):
-            return None
+        for _ in range(_FINER if chart.is_bent and wide < _NARROW else 1):
+            triangles, inner = grid_between(grid, u_count, v_count)
+            uv = np.concatenate([grid.ring(), inner])
+            uv[grid.collapsed(), 0] = np.nan
+            if np.any(_turned(uv, triangles) <= 0):
+                return None
+            if _sagitta(chart, uv[triangles, 0], uv[triangles, 1]) <= self.tolerance:
+                break
+            # what is stitched to sides of unlike lengths is wider than the cells
+            u_count, v_count = math.ceil(1.15 * u_count), math.ceil(1.15 * v_count)
         if not chart.is_bent and _sagitta(chart, uv[triangles, 0], uv[triangles, 1]) > self.tolerance:
             # sides of unlike lengths: what is stitched to them is wider than both
             return None
