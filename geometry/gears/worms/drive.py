@@ -116,7 +116,8 @@ class WormDrive(Record):
         def beyond(radius: float) -> float:
             return abs(complex(self.section(radius, distance, upper=upper)[0])) - tip
 
-        low, high = max(worm.form_radius, abs(distance) * (1 + 1e-9)), worm.tip_radius
+        # an involute thread is radial where it begins: its normal there meets the pitch line nowhere
+        low, high = max(worm.form_radius, abs(distance)) * (1 + 1e-9), worm.tip_radius
         if beyond(low) * beyond(high) > 0:
             return None
         radius = bracketed_root(beyond, low, high).value

@@ -179,3 +179,17 @@ def test_worms_that_cannot_exist_are_refused_with_what_works(worm: Worm, key: st
     offered = caught.value.nearest
     assert offered is not None
     replace(worm, **{key: offered.value}).checked()
+
+
+def test_a_flank_that_begins_above_the_root_has_its_corners() -> None:
+    drive = WormDrive(Worm(5.0, 4, 8.0), 40)
+    assert drive.worm.form_radius > drive.worm.root_radius + 1
+    radii = np.linspace(drive.worm.form_radius, drive.worm.tip_radius, 200_002)[1:]
+    farthest = 0.0
+    for distance in (-10.0, 0.0, 10.0):
+        for upper in (True, False):
+            points, slid = drive.section(radii, distance, upper=upper)
+            along = drive.worm.axial(radii, distance)[0 if upper else 1] + slid
+            nearest = np.abs(np.abs(points) - drive.tip_radius_at(distance)).argmin()
+            farthest = max(farthest, abs(along[nearest]))
+    assert drive.worm_length_used(20.0) == pytest.approx(2 * farthest, abs=1e-2)
