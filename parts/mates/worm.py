@@ -54,7 +54,7 @@ class WormMating(Touching):
         from geometry.gears.worms.thread import FlankLine
 
         flank = next(line for _, line in self.body.thread.lines if isinstance(line, FlankLine))
-        if self.teeth.hob.worm.diameter_quotient != self.worm.diameter_quotient:
+        if self.teeth.hob.swivel:
             return None
         return Field(self.teeth, *flank.radius(flank.domain).tolist())
 
@@ -98,11 +98,11 @@ class WormMating(Touching):
 
     def quantities(self) -> dict[str, Any]:
         """Centre distance, ratio, and how much of the worm the wheel touches."""
-        used = self.drive.worm_length_used(2 * self.teeth.throat_height)
+        field = self.field
         return {
             "centre_distance": self.distance,
             "ratio": self.drive.ratio,
-            **({} if used is None else {"worm_length_used": used}),
+            **({} if field is None else {"worm_length_used": field.length_used()}),
         }
 
 

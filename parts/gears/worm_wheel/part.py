@@ -186,6 +186,8 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
         """Its sizes, and how long the worm is where it touches them."""
         import numpy as np
 
+        from geometry.gears.worms.field import Field
+
         drive, teeth = thing.drive, thing.teeth
         circles = {
             "outer_diameter": 2 * teeth.outer_radius,
@@ -201,12 +203,11 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
             "tip_tooth_thickness": float(tips[0]),
             "end_tip_thickness": float(tips[1]),
         }
-        # an outer cylinder within the throat ends the teeth before their corners
-        used = drive.worm_length_used(2 * teeth.throat_height)
-        if used is not None:
-            sizes["worm_length_used"] = used
         if teeth.hob.swivel:
+            # it touches its worm at points
             sizes["hob_swivel_deg"] = math.degrees(teeth.hob.swivel)
+        else:
+            sizes["worm_length_used"] = Field(teeth, drive.worm.form_radius, drive.worm.tip_radius).length_used()
         return Report((), circles, sizes)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 import ezdxf
@@ -110,3 +111,17 @@ def test_a_wheel_of_a_larger_hob_has_no_lines(tmp_path: Path, capsys: pytest.Cap
     file = _scene(tmp_path, hob="hob_diameter_quotient = 10.5")
     assert main(["build", str(file), "--out", str(tmp_path)]) == 2
     assert "touches its worm at points" in capsys.readouterr().err
+
+
+def test_corners_beyond_the_throat_count(capsys: pytest.CaptureFixture[str]) -> None:
+    main(["check", "worm_set_print", "--json"])
+    told = [float(x) for x in re.findall(r'"worm_length_used": ([0-9.]+)', capsys.readouterr().out)]
+    # the lower flank at the corner, where the outer cylinder ends the tooth, by a scan of the worm's section
+    drive, radii = WormDrive(Worm(2.0, 2, 10.0, "ZI"), 30), np.linspace(8.0, 12.0, 400_001)
+    corners = []
+    for height in (-7.0, 7.0):
+        points, slid = drive.section(radii, height, upper=False)
+        at = np.abs(np.abs(points) - 32.5).argmin()
+        corners.append(abs(drive.worm.axial(radii[at], height)[1] + slid[at]))
+    assert told
+    assert told[0] == pytest.approx(2 * max(corners), abs=1e-3)
