@@ -56,10 +56,12 @@ def write_motion_svg(file: Path, title: str, tracks: Sequence[Track], box: Seque
 
 def _moved(kind: str, values: Sequence[str], seconds: float) -> str:
     """The rest of a group's opening: what moves it once, or over and over."""
+    # the first pose, for what does not animate; what moves takes its place
+    placed = f' transform="{kind}({values[0]})">'
     if len(values) == 1:
-        return f' transform="{kind}({values[0]})">'
+        return placed
     return (
-        f'><animateTransform attributeName="transform" type="{kind}" dur="{number(seconds)}s" '
+        f'{placed}<animateTransform attributeName="transform" type="{kind}" dur="{number(seconds)}s" '
         f'repeatCount="indefinite" values="{";".join(values)}"/>'
     )
 

@@ -86,17 +86,18 @@ def _values(group: Element, kind: str, durations: set[str]) -> Complex:
     """Values of a transform: x + iy of a translation, degrees of a turn, as the file has them."""
     moves = group.findall(f"{_SVG}animateTransform")
     placed = group.get("transform")
-    if placed is not None:
-        found = re.fullmatch(rf"{kind}\(([^()]*)\)", placed)
-        if moves or found is None:
-            raise ReadError(f"a group is placed by {placed}")
-        texts = [found[1]]
-    else:
+    found = re.fullmatch(rf"{kind}\(([^()]*)\)", placed or "")
+    if found is None:
+        raise ReadError(f"a group is placed by {placed}")
+    texts = [found[1]]
+    if moves:
         wanted = {"attributeName": "transform", "type": kind, "repeatCount": "indefinite"}
         if len(moves) != 1 or any(moves[0].get(key) != value for key, value in wanted.items()):
             raise ReadError(f"a group has no {kind} that goes on for ever")
         durations.add(moves[0].get("dur", ""))
         texts = moves[0].get("values", "").split(";")
+        if texts[0] != found[1]:
+            raise ReadError(f"a group stands at {found[1]}, its motion starts at {texts[0]}")
     try:
         numbers = [[float(x) for x in text.split(",")] for text in texts]
     except ValueError as error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from itertools import count, takewhile
 from textwrap import wrap
 from typing import TYPE_CHECKING
@@ -32,6 +33,8 @@ _STEP, _PLACES = 0.88, 41
 _TURNED, _ROOM = 1.5, 1.2
 # of a tag: its letters, what is about them, its corners, and how far it stands off the part, mm
 _TAG, _RIM, _CORNER, _OFF = 3.0, 1.5, 1.0, 3.0
+# between the letters of a quantity and its value, and within that, no line ends
+_HELD = re.compile(r"(?<!\S)([^\W\d]{1,2}|[^\w\s]\S*|\d\S*) +(?=[^\w\s]|\d)")
 
 
 def named(section: OffsetRegion, exact: OffsetRegion, text: str) -> OffsetRegion:
@@ -136,6 +139,7 @@ class _Way:
 def _layouts(text: str) -> list[tuple[str, ...]]:
     """A text in one line, two or three, as even as its words allow; words that no-break spaces join stay together."""
     found = [tuple(text.splitlines())]
+    text = _HELD.sub("\\1\N{NO-BREAK SPACE}", text)
     for most in (2, 3) if len(found[0]) == 1 else ():
         for width in range(1, len(text)):
             lines = wrap(text, width, break_long_words=False, break_on_hyphens=False)

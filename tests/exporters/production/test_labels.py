@@ -141,6 +141,19 @@ def test_every_letter_is_there_and_unlike_the_others() -> None:
         assert alike.get(letter, letter) == seen.setdefault(form, alike.get(letter, letter))
 
 
+def test_a_value_stays_with_its_letter(tmp_path: Path) -> None:
+    """On a plate too narrow for one line, a line ends before m or x alone, as strokes of the file tell."""
+    strip = {"kind": "plate", "width": 15.0, "height": 15.0, "label": "z 10 m 10 x 0"}
+    assert main(["build", str(_scene(tmp_path, {"strip": strip}, [{"format": "dxf"}])), "--out", str(tmp_path)]) == 0
+    _, lines, _ = _read(tmp_path / "s" / "strip.dxf")
+    # strokes stand in the order of the text
+    middles = [float(stroke[:, 1].mean()) for stroke in lines]
+    rows = [k for k in range(1, len(middles)) if middles[k - 1] - middles[k] > 1.5]
+    teeth, module = (len(lettered((text,), 1.0)) for text in ("z 10", "m 10"))
+    assert rows
+    assert set(rows) <= {teeth, teeth + module}
+
+
 @pytest.mark.heavy
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_name_finds_room_on_every_kind(kind: str) -> None:

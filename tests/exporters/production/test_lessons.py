@@ -30,6 +30,9 @@ def test_a_lesson_stands_and_has_all_that_a_class_wants(name: str) -> None:
     asked = next(purpose for purpose, told, _ in made if told == "students")
     assert made == {(asked, "students", "empty"), (asked, "teacher", "numbers"), ("model", "paper", "numbers")}
     assert {e.format for e in scene.exports if e.purpose == "board"} == {"dxf", "svg"}
+    # no shift that students find stands engraved on their model
+    names = [n for part in parts.values() if (n := part.keys.label or part.name) and isinstance(n, str)]
+    assert not [n for n in names if re.search(r"\bx\W*0[.,]\d", n)]
 
 
 PAIR = """
