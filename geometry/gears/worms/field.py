@@ -7,6 +7,8 @@ tooth is touched along it. The upper flank is the lower one after half a turn ab
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -31,9 +33,12 @@ class Field(Record):
     most: float
 
     def edges(self, heights: Real) -> tuple[Real, Real]:
-        """Radii of the thread at heights (n,) where the field ends: towards the wheel's root and at its tip, mm."""
+        """Radii of the thread at heights (n,) where the field ends: towards the wheel's root and at its tip, mm.
+
+        Both are one where the worm does not reach down to the wheel's tip.
+        """
         side = self.teeth.side(heights)
-        return np.minimum(side.inner, self.most), np.maximum(side.outer, self.least)
+        return np.minimum(side.inner, self.most), np.clip(side.outer, self.least, self.most)
 
     def touching(self, heights: Real, radii: Real) -> Cut:
         """What the worm touches at radii of its thread (.., n)."""
@@ -73,6 +78,21 @@ class Field(Record):
             found += [(k, a, b) for a, b in zip(ends[::2], ends[1::2], strict=True)]
         return found
 
+    def spans(self) -> list[tuple[float, float]]:
+        """Heights between which the field is there and its borders are smooth, mm."""
+        ends = list(self.teeth.breaks)
+        heights = np.linspace(ends[0], ends[-1], _HEIGHTS)
+        there = np.greater(*self.edges(heights))
+        at = np.flatnonzero(there[1:] != there[:-1])
+        low, high, was = heights[at], heights[at + 1], there[at]
+        for _ in range(_HALVINGS * bool(at.size)):
+            middle = (low + high) / 2
+            same = np.greater(*self.edges(middle)) == was
+            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        ends = sorted({*ends, *low.tolist()})
+        there = np.greater(*self.edges(np.array([(a + b) / 2 for a, b in pairwise(ends)])))
+        return [span for span, is_there in zip(pairwise(ends), there.tolist(), strict=True) if is_there]
+
     def slides(self) -> tuple[float, float]:
         """The first and the last slide at which the flank is touched, mm."""
         slid = self._sampled()[1].slid
@@ -94,5 +114,7 @@ class Field(Record):
         """Radii (m, n) over the field, both ends of every height among them."""
         heights = np.unique([*np.linspace(-self.teeth.width / 2, self.teeth.width / 2, _HEIGHTS), *self.teeth.breaks])
         low, high = self.edges(heights)
+        touched = low > high
+        heights, low, high = heights[touched], low[touched], high[touched]
         radii = low + (high - low) * np.linspace(0.0, 1.0, _RADII)[:, None]
         return radii, self.touching(heights, radii)

@@ -200,7 +200,7 @@ def _curves(field: Field, flanks: list[Paper], along: Paper, pitch: float) -> li
         (_LATER if numbers[k] % _PLACES else _NOW, _Line((a, b), contact(slides[k]))) for k, a, b in field.lines(slides)
     ]
     spans = list(pairwise(teeth.breaks))
-    borders = [_Line(span, border(end)) for span in spans for end in (0, 1)]
+    borders = [_Line(span, border(end)) for span in field.spans() for end in (0, 1)]
     tooth = [_Line(span, lambda h, r=r: r(h) + 0j) for span in spans for r in (teeth.root_radius, teeth.tip_radius)]  # type: ignore[misc]
     found = []
     for way, flank, layer in zip((1, -1), flanks, _FIELDS, strict=True):

@@ -125,3 +125,14 @@ def test_corners_beyond_the_throat_count(capsys: pytest.CaptureFixture[str]) -> 
         corners.append(abs(drive.worm.axial(radii[at], height)[1] + slid[at]))
     assert told
     assert told[0] == pytest.approx(2 * max(corners), abs=1e-3)
+
+
+@pytest.mark.heavy
+def test_a_face_whose_ends_the_worm_does_not_reach_is_drawn(tmp_path: Path) -> None:
+    scene = PAIR.format(length=60.0, language="en", hob="number_of_starts = 2")
+    for old, new in (("module = 5.0", "module = 1.5"), ("= 128", "= 40"), ("26.0", "13.3"), ("660.0", "65.25"),
+                     ("thread_length", "number_of_starts = 2\nthread_length")):  # fmt: skip
+        scene = scene.replace(old, new)
+    file = tmp_path / "pair.toml"
+    file.write_text(scene)
+    assert main(["build", str(file), "--out", str(tmp_path)]) == 0
