@@ -131,7 +131,7 @@ def board_jobs(
         place = f"boards.{name}"
         own = with_keys(export, kerf=board.kerf)
         wanted = [p for p in parts_of_board(board, parts, source, place) if p in (export.parts or parts)]
-        counts = pieces_of(board, wanted, scene.instances)
+        counts = pieces_of(board, wanted, scene.instances, source, f"boards.{name}")
         jobs = {p: Job(parts[p], own, section(parts[p], own, source, place), "", where) for p in counts}
         key = (name, tuple(counts), export.tolerance)
         if key not in layouts:

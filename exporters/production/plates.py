@@ -69,7 +69,7 @@ def plate_jobs(
     found: list[PlateJob] = []
     for name, bed in scene.beds.items():
         wanted = [p for p in bed.parts or parts if p in (export.parts or parts)]
-        counts = pieces_of(bed, wanted, scene.instances)
+        counts = pieces_of(bed, wanted, scene.instances, source, f"beds.{name}")
         jobs = {p: job_of(parts[p]) for p in counts}
         feet = {p: _footprint(job) for p, job in jobs.items()}
         laid = _laid_out(bed, feet, counts, source, f"beds.{name}")
@@ -118,5 +118,8 @@ def _laid_out(
         told = [
             Message("{part} ({scale})", {"part": p, "scale": f"{rounded(s, up=False):g}"}) for p, s in scales.items()
         ]
-        raise SceneError(source, f"{place}.width", bed.width, "too_small_for_parts", None, "mm", parts=listed(told))
+        # the height is to blame where it alone is
+        high = all(largest_scale(feet[part][0], room) >= 1 for part in scales)
+        key, size = ("height", bed.height) if high else ("width", bed.width)
+        raise SceneError(source, f"{place}.{key}", size, "too_small_for_parts", None, "mm", parts=listed(told))
     return nest({p: (feet[p][0], counts[p]) for p in counts}, room)

@@ -18,10 +18,16 @@ from parts.base.texts import N_, Message, counted, listed, message
 S = TypeVar("S", bound=Struct)
 
 
+# XML has no place for them, whatever writes it
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ufffe\uffff]")
+
+
 def refuse_infinite(value: object, source: str, place: str) -> None:
-    """TOML knows nan and inf, and 1e400 becomes inf: none of them is a dimension."""
+    """TOML knows nan and inf, and 1e400 becomes inf: none of them is a dimension; no word is told by controls."""
     if isinstance(value, float) and not math.isfinite(value):
         raise SceneError(source, place, value, "not_finite")
+    if isinstance(value, str) and _CONTROL.search(value):
+        raise SceneError(source, place, value, "control_character")
     if isinstance(value, dict):
         for key, item in value.items():
             refuse_infinite(item, source, f"{place}.{key}" if place else str(key))

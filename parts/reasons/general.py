@@ -17,6 +17,7 @@ REASONS = {
     "not_above_zero": N_("must be above 0"),
     "not_allowed": N_("is not allowed; {allowed}"),
     "not_below_right_angle": N_("must be above 0 and below 90 degrees"),
+    "control_character": N_("has a character that no file can show"),
     "not_finite": N_("must be a finite number below 1e308"),
     "not_finite_above_zero": N_("must be a finite number above 0"),
     "not_finite_or_negative": N_("must be a finite number, at least 0"),

@@ -46,6 +46,7 @@ REASONS = {
     "not_for_r12": N_("R12 has no splines"),
     "not_placed": N_("is not placed; begin its train at {standing}, which is, or give instances.{first}.at"),
     "not_toml": N_("is not TOML: {why}; see `higherpair new spur_gear` for a start"),
+    "decimal_comma": N_("line {line}: a number has a comma; write {number} with a point"),
     "not_utf8": N_("is not UTF-8 text (byte {byte}); save it as UTF-8"),
     "of_another_kind": N_("is a {found}, not a {kind}"),
     "only_for_format": N_("only for format = {formats}, not {format}"),
@@ -69,6 +70,7 @@ REASONS = {
     "too_small_for_part": N_(
         "the part {part} needs {width} x {height} mm within a margin of {margin} mm: give a larger board"
     ),
+    "nothing_is_laid": N_("leaves no piece to lay"),
     "too_small_for_parts": N_("parts that are too large for it, and the scale at which each would do: {parts}"),
     "gap_above_board": N_("is larger than the board, of which the shorter side is {side} mm"),
     "margins_leave_nothing": N_("leaves nothing of a side of {side} mm"),

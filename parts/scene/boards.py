@@ -13,8 +13,16 @@ from parts.scene.instances import InstanceSpec
 _SAME_THICKNESS = 1e-6
 
 
-def pieces_of(spec: LaidKeys, parts: list[str], instances: Mapping[str, InstanceSpec]) -> dict[str, int]:
-    """How many pieces of each of some parts lie on all boards together; those of which there are none are left out."""
+def pieces_of(
+    spec: LaidKeys, parts: list[str], instances: Mapping[str, InstanceSpec], source: str, place: str
+) -> dict[str, int]:
+    """How many pieces of each of some parts lie on all boards together; those of which there are none are left out.
+
+    Raises
+    ------
+    SceneError
+        There is none of any.
+    """
     found = {}
     for part in parts:
         own = [key for key, i in instances.items() if i.part == part]
@@ -22,6 +30,8 @@ def pieces_of(spec: LaidKeys, parts: list[str], instances: Mapping[str, Instance
         if count is None:
             count = sum(spec.copies.get(key, 1) for key in own)
         found[part] = spec.sets * count
+    if parts and not any(found.values()):
+        raise SceneError(source, f"{place}.copies", spec.copies, "nothing_is_laid")
     return {part: count for part, count in found.items() if count}
 
 

@@ -320,3 +320,20 @@ def test_a_file_named_like_a_device_of_windows_is_no_scene(tmp_path: Path, name:
     (tmp_path / name).write_text(scene_text({}, {}), "utf-8")
     with pytest.raises(SceneError, match="is a name that Windows keeps for a device"):
         load_scene(str(tmp_path / name))
+
+
+@pytest.mark.parametrize(("part", "code", "told"), [
+    ({"module": "3,5"}, "decimal_comma", "line 3: a number has a comma; write 3.5"),
+    ({"title": '"a\\u0007b"'}, "control_character", "no file can show"),
+])  # fmt: skip
+def test_slips_of_the_keyboard_are_told_as_such(part: Keys, code: str, told: str) -> None:
+    # before: the parser's English of the end of a statement; pictures that no browser opens
+    found = refusal(scene_text(part))
+    assert found.code == code
+    assert told in str(found)
+
+
+def test_a_bed_too_low_is_told_by_its_height() -> None:
+    bed = "[beds.b]\nwidth = 200\ndepth = 200\nheight = 2\n"
+    found = refusal(scene_text(export={"format": '"3mf"', "purpose": '"plate"'}, tail=bed))
+    assert (found.key, found.code) == ("beds.b.height", "too_small_for_parts")
