@@ -163,16 +163,19 @@ class Box(Record):
 
 
 class Text(Record):
-    """A line of text; ``_{…}`` lowers what stands in the braces. ``answer``: what students find out themselves."""
+    """A line of text; ``_{…}`` lowers what stands in the braces.
+
+    ``answer``: whether students find it out themselves; None: as the value of every size in the picture, r = 5.00.
+    """
 
     text: str
     runs: tuple[Run, ...]
     box: Box
-    answer: bool = False
+    answer: bool | None = None
 
     def asked(self) -> Iterator[Text]:
-        """What students see of it: nothing of an answer, the name alone of a size in the picture, r = 5.00."""
-        if _SIZE.match(self.text):
+        """What students see of it: nothing of an answer, the name alone of a size in the picture."""
+        if self.answer is None and _SIZE.match(self.text):
             index = next(k for k, run in enumerate(self.runs) if "=" in run.text)
             last = self.runs[index]
             text = last.text.partition("=")[0] + "="
@@ -285,7 +288,13 @@ class Canvas(Draft):
             self.line(layer, start, end)
 
     def write(
-        self, text: str, at: complex, height: float = TEXT_HEIGHT, most: float | None = None, *, answer: bool = False
+        self,
+        text: str,
+        at: complex,
+        height: float = TEXT_HEIGHT,
+        most: float | None = None,
+        *,
+        answer: bool | None = None,
     ) -> Text:
         """A line of text from the left end of its base line."""
         made = replace(text_of(text, at, height, most), answer=answer)

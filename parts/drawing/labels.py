@@ -30,8 +30,16 @@ class Labeller:
         self._room = room
         self._points = canvas.obstacles()
 
-    def name(self, text: str, point: complex, height: float | None = None, prefer: complex = 0j) -> None:
-        """A word beside a point, in the direction ``prefer`` where that costs nothing."""
+    def name(
+        self,
+        text: str,
+        point: complex,
+        height: float | None = None,
+        prefer: complex = 0j,
+        *,
+        answer: bool | None = None,
+    ) -> None:
+        """A word beside a point, in the direction ``prefer`` where that costs nothing; ``answer`` as of a text."""
         height = height or self._canvas.letters
         width = text_width(text, height)
         reach = 2 * _REACHES[-1] + width
@@ -64,7 +72,7 @@ class Labeller:
         if best is None:
             return
         _, at, reach = best
-        made = self._canvas.write(text, at, height)
+        made = self._canvas.write(text, at, height, answer=answer)
         if reach > _NEAR:
             self._lead(point, made.box)
 

@@ -209,7 +209,7 @@ def _phases(
         if text_width(text, size) > length - 1:
             text = angle
         if text_width(text, size) <= length - 1:
-            canvas.write(text, complex(at + (length - text_width(text, size)) / 2, y + 1.7), size)
+            canvas.write(text, complex(at + (length - text_width(text, size)) / 2, y + 1.7), size, answer=False)
         at += length
     for x in (left, left + width):
         canvas.line("PHASE", complex(x, low), complex(x, zeros[0].imag))

@@ -137,7 +137,8 @@ def name_joint(labels: Labeller, picture: CamPicture, joint: Joint, paper: Paper
     labels.name("S" + "'" * joint.order, to(complex(window.right, 0)), prefer=-1 + 1j)
     labels.name("S_{0}", to(0j), SMALL_TEXT, prefer=-1 - 1j)
     if joint.offset:
-        labels.name(f"E = {say(joint.offset)}", to(complex(joint.offset, window.high)), SMALL_TEXT, prefer=1 - 1j)
+        text = f"E = {say(joint.offset)}"
+        labels.name(text, to(complex(joint.offset, window.high)), SMALL_TEXT, prefer=1 - 1j, answer=False)
     is_least = abs(joint.centre - joint.least) < 1e-9 * abs(joint.least)
     radius = abs(joint.least)
     name = "O'_{1}" if joint.offset and joint.order == 1 else "O_{1}"
@@ -151,7 +152,7 @@ def name_joint(labels: Labeller, picture: CamPicture, joint: Joint, paper: Paper
         symbol = "γ_{min}" if picture.asked or joint.order == 2 else "γ"
         centre, arc = _angle_arc(joint, paper, picture.gamma)
         text = f"{symbol} = {say(math.degrees(picture.gamma)).rstrip('0').rstrip(',.')}°"
-        labels.name(text, centre + arc, prefer=arc)
+        labels.name(text, centre + arc, prefer=arc, answer=False if picture.asked else None)
     for text, point in _numbers(picture, joint, paper):
         labels.name(text, point, SMALL_TEXT, prefer=complex(point.real - paper.origin.real, 0.1))
 

@@ -128,11 +128,12 @@ def name_links(labels: Labeller, picture: CamPicture, cam: LinkageCam, paper: Pa
     labels.name("A", paper.point(joint), prefer=_outward(joint))
     labels.name("B", paper.point(far), prefer=_outward(far))
     labels.name("O_{2}", paper.point(place), prefer=_outward(place))
-    labels.name(f"b = {say(linkage.coupler_length)}", paper.point((joint + far) / 2), SMALL_TEXT)
+    labels.name(f"b = {say(linkage.coupler_length)}", paper.point((joint + far) / 2), SMALL_TEXT, answer=False)
     for member, name, symbol, at in ((linkage.drive, "O_{1}", "l_{1}", joint), (linkage.guide, "C", "c", far)):
         if isinstance(member, RockerDrive | RockerGuide):
             labels.name(name, paper.point(member.pivot), prefer=_outward(member.pivot))
-            labels.name(f"{symbol} = {say(member.length)}", paper.point((member.pivot + at) / 2), SMALL_TEXT)
+            middle = paper.point((member.pivot + at) / 2)
+            labels.name(f"{symbol} = {say(member.length)}", middle, SMALL_TEXT, answer=False)
 
 
 def position_grid(picture: CamPicture, cam: LinkageCam) -> Grid:

@@ -247,10 +247,10 @@ def name_profile(labels: Labeller, picture: CamPicture, paper: Paper) -> None:
         if mount.offset and not cam.is_flat:
             spoke = cmath.exp(1j * math.radians(330))
             text = f"E = {say(abs(mount.offset))}"
-            labels.name(text, paper.point(abs(mount.offset) * spoke), SMALL_TEXT, prefer=spoke)
+            labels.name(text, paper.point(abs(mount.offset) * spoke), SMALL_TEXT, prefer=spoke, answer=False)
     elif (linked := linkage_cam_of(picture)) is not None:
         name_links(labels, picture, linked, paper)
     else:
         spoke = cmath.exp(1j * math.radians(20))
         point = paper.point(mount.centre_distance * spoke)
-        labels.name(f"d = {say(mount.centre_distance)}", point, SMALL_TEXT, prefer=-spoke)
+        labels.name(f"d = {say(mount.centre_distance)}", point, SMALL_TEXT, prefer=-spoke, answer=False)

@@ -72,7 +72,7 @@ def name_rocker(labels: Labeller, picture: CamPicture, paper: Paper, least: comp
     """The radius of curvature that is kept, and the numbers of the positions."""
     to, say = paper.point, picture.say
     kept = say(picture.least_curvature_radius).rstrip("0").rstrip(",.") or "0"
-    labels.name(f"ρ_{{min}} = {kept}", to(least), SMALL_TEXT, prefer=1 + 0j)
+    labels.name(f"ρ_{{min}} = {kept}", to(least), SMALL_TEXT, prefer=1 + 0j, answer=False)
     name_numbers(labels, picture, [to(contact) for _, contact in faces(picture)], to(least))
 
 

@@ -204,5 +204,6 @@ def name_swing(labels: Labeller, picture: CamPicture, swing: Swing, paper: Paper
     if picture.gamma is not None:
         symbol = "γ_{min}" if picture.asked else "γ"
         text = f"{symbol} = {say(math.degrees(picture.gamma)).rstrip('0').rstrip(',.')}°"
-        labels.name(text, to(swing.least + 0.25 * (swing.lowest - swing.least)), prefer=1 + 0j)
+        point = swing.least + 0.25 * (swing.lowest - swing.least)
+        labels.name(text, to(point), prefer=1 + 0j, answer=False if picture.asked else None)
     name_numbers(labels, picture, [to(foot) for foot, _ in _arms(picture)], to(swing.pivot))

@@ -21,6 +21,8 @@ _COLUMNS = (76.0, 16.0, 34.0)
 _INDENT = 1.2
 # steps of the calculation that the sheet's other rows say already
 _PHASES = {"rise_angle_deg", "return_angle_deg"}
+# sizes that a scene gives, beside the characteristics
+_GIVEN = re.compile("centre_distance|curvature_reserve|(driven|guide|coupler|follower)_(?!swing).*")
 _LEFT_OUT = {"lift_of_phase", "swing_of_phase_deg", "graphical_intervals"}
 
 
@@ -65,9 +67,9 @@ def characteristics(calculation: Sheet, picture: CamPicture) -> Grid:
                 continue
             cells = _lowered(symbol_text(step.symbol, told)), result_text(step, told)
             rows.append((step_name(step, told), *(told.decimal(cell) for cell in cells)))
-            # the characteristics are given, and the coefficients of the laws
-            found_out = section is not calculation.sections[0] and (step.formula or not _is_law(section))
-            answers.append(1 if found_out else 0)
+            # the characteristics are given, the sizes of the scene, and the coefficients of the laws
+            given = section is calculation.sections[0] or _GIVEN.fullmatch(step.name)
+            answers.append(1 if not given and (step.formula or not _is_law(section)) else 0)
     return Grid(_COLUMNS, tuple(rows), answers=tuple(answers))
 
 
