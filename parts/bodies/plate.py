@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, TypeVar
 
 from msgspec import Meta, Struct, field
+from msgspec.structs import replace
 
-from geometry.base.errors import ParameterError, limit
+from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.nearest import last_that_holds
 from parts.base.kind import HoleAt, Kind, Others
 from parts.keys.base import LEAST_HOLE, MadeKeys, mm
 from parts.keys.engraving import Depth, Marks, check_depth, marked
@@ -86,10 +89,24 @@ def checked_outline(
     holes = (*(PlateHole(at, d) for _, at, d in own), *placed.values())
     names = [*(key for key, _, _ in own), *(f"holes.item {i}.diameter" for i in placed)]
     slots, marks = (_slots(key, getattr(keys, key), names) for key in ("slots", "engraved"))
-    PlateOutline(edges, (*holes, *slots, *marks)).check_holes(names)
+    try:
+        PlateOutline(edges, (*holes, *slots, *marks)).check_holes(names)
+    except ParameterError as refusal:
+        raise _of_axle(keys, refusal) from refusal
     for number, mark in enumerate(keys.engraved, 1):
         check_depth(f"engraved.item {number}", mark.depth, keys.face_width)
     return PlateOutline(edges, (*holes, *slots))
+
+
+def _of_axle(keys: FlatKeys, refusal: ParameterError) -> ParameterError:
+    """A refusal of a hole as its axle tells it: that hole cannot be moved, and its size is not what is wrong."""
+    number = re.fullmatch(r"holes\.item (\d+)\.diameter", refusal.name)
+    hole = keys.holes[int(number[1]) - 1] if number else None
+    if number is None or hole is None or hole.axis_of is None or hole.at is None:
+        return refusal
+    x, y = (round(value, 4) + 0.0 for value in hole.at)
+    place = f"holes.item {number[1]}.axis_of"
+    return ParameterError(place, hole.axis_of, "hole_of_axle_outside", axle=hole.axis_of, x=x, y=y)
 
 
 def _slots(key: str, tables: Sequence[SlotTable], names: list[str]) -> tuple[PlateSlot, ...]:
@@ -151,6 +168,32 @@ class Plate(Flat[PlateSpec]):
     name, keys = "plate", PlateSpec
 
     def thing(self, keys: PlateSpec, others: Others) -> PlateOutline:
+        """The outline, checked: holes that keep their walls, else the side that is long enough for those of axles."""
+        try:
+            return self._outline(keys)
+        except ParameterError as refusal:
+            if refusal.code != "hole_of_axle_outside":
+                raise
+            for side, given in (("width", keys.width), ("height", keys.height)):
+                if (works := self._least(keys, side, given)) is not None:
+                    raise ParameterError(side, given, refusal.code, works, **refusal.numbers) from refusal
+            raise
+
+    def _least(self, keys: PlateSpec, side: str, given: float) -> Nearest | None:
+        """The least length of a side that holds all holes; None where none does."""
+
+        def fits(value: float) -> bool:
+            try:
+                self._outline(replace(keys, **{side: value}))
+            except ParameterError:
+                return False
+            return True
+
+        reach = max(abs(a - c) + h.diameter for h in keys.holes if h.at for a, c in zip(h.at, keys.centre, strict=True))
+        most = min(max(given, 2 * reach), _MOST)
+        return limit(last_that_holds(fits, given, most, steps=30), given) if fits(most) else None
+
+    def _outline(self, keys: PlateSpec) -> PlateOutline:
         """The outline, checked: roundings that the sides have room for, holes that keep their walls."""
         from geometry.solids.plate import rounded
 

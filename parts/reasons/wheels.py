@@ -45,6 +45,9 @@ REASONS = {
     "hole_between_no_planes": N_("a hole does not run from a plane face to another one within the material"),
     "hole_closed": N_("closes a hole"),
     "hole_lies_outside": N_("lies outside of the part or in another hole; move it inside"),
+    "hole_of_axle_outside": N_(
+        "the hole on the axle of {axle} falls at x {x}, y {y} mm: beyond the edge, over it, or into another hole"
+    ),
     "hole_reaches_edge": N_("reaches the edge or another hole"),
     "holes_reach_outside": N_("the holes reach the outside of the rim, {diameter} mm"),
     "holes_reach_root_circle": N_("the holes reach the root circle, {diameter} mm"),

@@ -35,9 +35,10 @@ def waits_for_axles(parts: Parts, instances: dict[str, InstanceSpec], source: st
             if hole.centre is not None:
                 told = {"one": "at", "other": "axis_of"}
                 raise SceneError(source, f"{place}.axis_of", hole.axle, "either_key", REMOVED, **told)
-            check_instance(hole.axle, instances, source, f"{place}.axis_of")
-            if instances[hole.axle].part == part.id:
+            others = {key: spec for key, spec in instances.items() if spec.part != part.id}
+            if hole.axle in instances and hole.axle not in others:
                 raise SceneError(source, f"{place}.axis_of", hole.axle, "own_axis")
+            check_instance(hole.axle, others, source, f"{place}.axis_of")
             found = True
     return found
 

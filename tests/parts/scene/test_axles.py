@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 import ezdxf
@@ -114,3 +115,46 @@ def test_an_axle_that_is_not_there_is_one_line(
     assert said.count("\n") == 1
     assert f"parts.frame.holes.item 1.{key}" in said
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("frame", "holes", "key", "others"),
+    [
+        # 47.2 mm along 10 degrees is 46.5, 8.2: the wheel's hole is over the right edge, or beyond it
+        ("width = 49.0\nheight = 60.0", BOTH, "width", "height = 60.0"),
+        ("width = 30.0\nheight = 60.0", BOTH, "width", "height = 60.0"),
+        ("width = 120.0\nheight = 18.0", BOTH, "height", "width = 120.0"),
+        # neither side alone
+        ("width = 30.0\nheight = 10.0", BOTH, None, ""),
+    ],
+)
+def test_a_frame_too_short_for_its_axles_is_told_its_least_size(
+    frame: str, holes: str, key: str | None, others: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = Path(_scene(tmp_path, holes=holes))
+    text = file.read_text(encoding="utf-8")
+    file.write_text(text.replace("width = 120.0\nheight = 60.0", frame), encoding="utf-8")
+    assert main(["check", str(file)]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert re.search(r"falls at x [-\d.]+, y [-\d.]+ mm", said)
+    assert "diameter" not in said
+    if key is None:
+        assert "axis_of" in said
+        assert "at least" not in said
+        return
+    found = re.search(rf"parts\.frame\.{key} = .*at least ([\d.]+) mm", said)
+    assert found
+    for scale, code in ((1.0, 0), (0.999, 2)):
+        file.write_text(
+            text.replace("width = 120.0\nheight = 60.0", f"{others}\n{key} = {scale * float(found[1])}"),
+            encoding="utf-8",
+        )
+        assert main(["check", str(file)]) == code
+
+
+def test_an_axle_is_looked_for_among_other_instances(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", _scene(tmp_path, holes='{ axis_of = "pinon", diameter = 6.0 }')]) == 2
+    said = capsys.readouterr().err
+    assert "pinion, wheel" in said
+    assert "wheel, frame" not in said
