@@ -9,11 +9,13 @@ approximate, by a way of their own: read-back holds files against that, and neve
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cached_property
 from typing import ClassVar, Literal
 
 import numpy as np
 
+from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record
 from geometry.curves.bounds import Bound
 from geometry.curves.curve import Real
@@ -54,7 +56,11 @@ class FacedBody(Record, dict=True):
 
     @cached_property
     def _fine(self) -> Solid:
-        return self.within(_FINE).geometry
+        """Faces as near as they can be made, down to ``_FINE``."""
+        for tolerance in (_FINE, 1e2 * _FINE):
+            with suppress(ConvergenceError):
+                return self.within(tolerance).geometry
+        return self.within(1e4 * _FINE).geometry
 
     @cached_property
     def surfaces(self) -> tuple[Measured, ...]:

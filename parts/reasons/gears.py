@@ -119,6 +119,7 @@ REASONS = {
     "hob_smaller_than_worm": N_("is less than that of the worm, which would not go into its wheel's teeth"),
     "within_throat": N_("lies within the throat, {diameter} mm"),
     "worm_wheel_not_moved": N_("a worm wheel is made as it is: thin its teeth by axial_thinning"),
+    "worm_wheel_faces_break": N_("the hob's tip breaks the faces of the teeth: a narrower rim or fewer starts"),
     "worm_wheel_all_fillet": N_("the fillet of the hob's tip reaches the tip of the teeth at the ends of the face"),
     "worm_wheel_flank_ends": N_("the worm leaves no flank up to the tip of the teeth at the ends of the face"),
     "worm_wheel_pointed": N_("the teeth are pointed at the ends of the face"),

@@ -83,6 +83,8 @@ class WormTeeth(Record, dict=True):
         out = self.centre_distance - self.outer_radius
         if out >= self.throat_radius:
             return 0.0
+        if out <= -self.throat_radius:
+            return self.width / 2
         return min(math.sqrt((self.throat_radius - out) * (self.throat_radius + out)), self.width / 2)
 
     @property
@@ -234,6 +236,13 @@ class WormTeeth(Record, dict=True):
         z = np.atleast_1d(np.asarray(heights, float))
         lower, upper = (self.flank(self.side(h), 1.0).plane for h in (z, -z))
         return -np.angle(lower) - np.angle(upper)
+
+    def narrowed(self) -> WormTeeth:
+        """The teeth with as much of the width as has some at every height; themselves where none has."""
+        if self._ended is None:
+            return self
+        found = nearest(lambda width: replace(self, width=width)._ended is None, self.width, _LEAST_WIDTH * self.width)
+        return replace(self, width=found.value) if found and isinstance(found.value, float) else self
 
     def checked(self) -> WormTeeth:
         """The teeth themselves, where some of them is left at every height.

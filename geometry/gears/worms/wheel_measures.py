@@ -159,7 +159,9 @@ class WormWheel(Record, dict=True):
         column = np.clip(np.searchsorted(heights, height) - 1, 0, len(heights) - 2)
         across = (height - heights[column]) / (heights[column + 1] - heights[column])
         low, high = (ends[k][column] * (1 - across) + ends[k][column + 1] * across for k in (0, 1))
-        place = np.clip((reach - low) / (high - low), 0.0, 1.0) * (_SHARES - 1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            # where a part has no width any share is its
+            place = np.nan_to_num(np.clip((reach - low) / (high - low), 0.0, 1.0)) * (_SHARES - 1)
         row = np.minimum(place.astype(np.intp), _SHARES - 2)
         up = place - row
         found = [shares[row, c] * (1 - up) + shares[row + 1, c] * up for c in (column, column + 1)]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta
 
-from geometry.base.errors import OffsetError, ParameterError, limit
+from geometry.base.errors import ConvergenceError, OffsetError, ParameterError, limit
 from geometry.base.record import Record, replace
 from parts.base.kind import Kind, Others, Report
 from parts.keys.base import in_modules, mm
@@ -36,6 +36,8 @@ if TYPE_CHECKING:
     from geometry.solids.hub_holes import HubHoles
 
 # part of the root's radius at which the core ends whose place the teeth take
+# of the module: as near as faces are fitted to see whether they hang together
+_ROUGH = 0.01
 _CORE = 0.5
 _LEAST_TEETH = 8
 
@@ -76,7 +78,12 @@ class WormWheelSpec(HoledKeys, forbid_unknown_fields=True, kw_only=True, tag_fie
     face_width: (
         Annotated[
             float,
-            mm("width b2 of the rim; default: the largest by GOST 19650", least=0.01, most=10_000, example=14.0),
+            mm(
+                "width b2 of the rim; default: the largest by GOST 19650 that has whole teeth",
+                least=0.01,
+                most=10_000,
+                example=14.0,
+            ),
         ]
         | None
     ) = None  # type: ignore[assignment]
@@ -132,7 +139,8 @@ def _teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     least = 2 * drive.tip_radius
     if outer < least:
         raise ParameterError("outer_diameter", outer, "within_throat", limit(least, outer), diameter=least)
-    return WormTeeth(hob, drive.centre_distance, drive.throat_radius, outer / 2, width).checked()
+    teeth = WormTeeth(hob, drive.centre_distance, drive.throat_radius, outer / 2, width)
+    return (teeth.narrowed() if keys.face_width is None else teeth).checked()
 
 
 class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
@@ -142,6 +150,7 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
 
     def thing(self, keys: WormWheelSpec, others: Others) -> WheelThing:
         """The wheel, checked to exist."""
+        from geometry.gears.worms.wheel_faces import wheel_splines
         from geometry.gears.worms.wheel_measures import WormWheel
         from geometry.plane.profile import Label, circle
         from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
@@ -156,7 +165,13 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
         # between all that is cut and the teeth
         rim = circle(reach + _CORE * (drive.root_radius - reach), Label.BODY)
         core = wheel_body(shape, wheel_sections(lambda *_: rim, drive.root_radius, holes))
-        return WheelThing(drive, WormWheel(teeth, core, rim))
+        wheel = WormWheel(teeth, core, rim)
+        try:
+            wheel_splines(wheel, _ROUGH * keys.module)
+        except ConvergenceError as error:
+            # faces that break off where none of the known ends is
+            raise ParameterError("face_width", teeth.width, "worm_wheel_faces_break") from error
+        return WheelThing(drive, wheel)
 
     def section(self, keys: WormWheelSpec, thing: WheelThing, offset: float) -> OffsetRegion:
         """The circle about it."""

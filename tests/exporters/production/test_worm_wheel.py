@@ -5,10 +5,13 @@ from __future__ import annotations
 import json
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from exporters.command.cli import main
+from parts.base.refusal import SceneError
+from parts.scene.load import make_parts, scene_from_dict
 
 WHEEL = """
 [parts.wheel]
@@ -100,3 +103,20 @@ def test_what_cannot_be_cut_is_refused_in_its_key(
             )
             == 0
         )
+
+
+def test_a_default_rim_has_whole_teeth_and_a_torn_face_is_refused() -> None:
+    # before: 18 mm by GOST 19650 refused, though nobody had asked for it; a traceback of the fit
+    def made(**keys: Any) -> Any:
+        wheel = {"kind": "worm_wheel", "module": 2.0, "number_of_starts": 2, "number_of_teeth": 30, **keys}
+        return make_parts(scene_from_dict({"parts": {"wheel": wheel}}, "s", "s"), "s")[0]["wheel"]
+
+    assert 16 < made(form="ZN1").thing.teeth.width < 18
+    torn = {"form": "ZA", "number_of_starts": 4, "diameter_quotient": 6.0, "number_of_teeth": 36, "hand": "left"}
+    for keys, code in (
+        ({**torn, "profile_shift_coefficient": 0.3}, "worm_wheel_faces_break"),
+        ({"face_width": 14.0, "outer_diameter": 100.0}, "worm_wheel_pointed"),
+    ):
+        with pytest.raises(SceneError) as refused:
+            made(**keys)
+        assert (refused.value.key, refused.value.code) == ("parts.wheel.face_width", code)

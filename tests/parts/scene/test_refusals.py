@@ -337,3 +337,10 @@ def test_a_bed_too_low_is_told_by_its_height() -> None:
     bed = "[beds.b]\nwidth = 200\ndepth = 200\nheight = 2\n"
     found = refusal(scene_text(export={"format": '"3mf"', "purpose": '"plate"'}, tail=bed))
     assert (found.key, found.code) == ("beds.b.height", "too_small_for_parts")
+
+
+def test_a_board_of_no_pieces_is_refused() -> None:
+    # before: a traceback of an empty layout
+    board = "[boards.b]\nwidth = 200\nheight = 200\nthickness = 3\ncopies = { gear = 0 }\n"
+    found = refusal(scene_text({"face_width": "3.0"}, {"format": '"dxf"', "purpose": '"board"'}, board))
+    assert (found.key, found.code) == ("boards.b.copies", "nothing_is_laid")
