@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 from typing import Any
 
-from msgspec.structs import replace
+from msgspec.structs import asdict, replace
 
 from exporters.drawings.sheets import sheet_rounding, write_sheets
 from exporters.drawings.verify import verify_sheets
@@ -21,13 +21,14 @@ from geometry.gears.teeth.limits import practicum_undercut
 from geometry.gears.teeth.transverse import overlap_ratio
 from parts.base.mate import Toothed
 from parts.base.part import Part
-from parts.base.refusal import SceneError, placed
+from parts.base.refusal import REMOVED, SceneError, placed
 from parts.base.schema import unit_of
 from parts.cams.coupler_cam.part import LinkageCamSpec
 from parts.cams.disk_cam.part import CamSpec
 from parts.drawing.canvas import Canvas, decimal, scale_text
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Circle, Expected, Meshing
+from parts.drawing.font import missing_letters
 from parts.drawing.table import Row
 from parts.drawing.title_block import TITLE_BLOCK, draw_title_block, title_block_of
 from parts.drawing.view import TEETH
@@ -145,12 +146,26 @@ def sheet_jobs(
             expected.canvas.texts[:] = [seen for text in expected.canvas.texts for seen in text.asked()]
     name, title = f"{scene.name}.{export.name or export.purpose}", scene.scene.title or scene.name
     if export.format == "pdf":
+        _check_letters([expected.canvas for _, expected in made], scene, export, where, source)
         return [SheetJob(export, title, tuple(expected for _, expected in made), f"{name}.pdf", where)]
     return [
         SheetJob(export, title, (expected,), f"{name}{'.' * bool(word)}{word}.{ending}", where)
         for word, expected in made
         for ending in ENDINGS
     ]
+
+
+def _check_letters(canvases: list[Canvas], scene: SceneFile, export: ExportSpec, where: str, source: str) -> None:
+    """Refuse a title that the font of a PDF cannot write."""
+    if not missing_letters("".join(run.text for canvas in canvases for text in canvas.texts for run in text.runs)):
+        return
+    given: dict[str, str | None] = {"scene.title": scene.scene.title}
+    given |= {f"parts.{key}.title": getattr(spec, "title", None) for key, spec in scene.parts.items()}
+    if isinstance(export.title_block, TitleBlockTable):
+        given |= {f"{where}.title_block.{key}": str(text) for key, text in asdict(export.title_block).items()}
+    for place, text in given.items():
+        if letters := missing_letters(text or ""):
+            raise SceneError(source, place, text, "no_such_letter_on_paper", REMOVED, letters=letters)
 
 
 def _meshings(

@@ -6,7 +6,8 @@ from collections.abc import Callable
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
 
-from geometry.base.record import Record
+from geometry.base.findings import Finding
+from geometry.base.record import Record, replace
 from parts.base.materials import density_of
 
 if TYPE_CHECKING:
@@ -14,7 +15,6 @@ if TYPE_CHECKING:
     import trimesh
     from msgspec import Struct
 
-    from geometry.base.findings import Finding
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.body import Body
     from geometry.solids.measured import Faced
@@ -59,7 +59,10 @@ class Part(Record, dict=True):
         # a title in a script without letters here is left out
         names = (label if isinstance(label, str) else self.name, self.made_by.numbers(self.keys), self.id)
         text = next(name for name in names if name and not unknown_letters(name))
-        return naming.named(self.section(offset), self.section(min(offset, 0.0)), text)
+        made = naming.named(self.section(offset), self.section(min(offset, 0.0)), text)
+        strange = unknown_letters(names[0])
+        told = (Finding("title_not_engraved", len(strange), 0.0),) if strange else ()
+        return replace(made, findings=(*made.findings, *told))
 
     @property
     def title(self) -> str | None:

@@ -12,6 +12,11 @@ FONT = Path(__file__).parent / "fonts" / "DejaVuSansCondensed.ttf"
 CAPITAL = 1493 / 2048
 
 
+def missing_letters(text: str) -> str:
+    """What of a text the font lacks, each once."""
+    return "".join(dict.fromkeys(c for c in text if not c.isspace() and c not in letter_widths()))
+
+
 @cache
 def letter_widths() -> Mapping[str, float]:
     """How far each letter of the font goes on, in heights of a capital (OpenType: cmap 4, hhea, hmtx)."""

@@ -11,6 +11,7 @@ REASONS = {
     "leaves_no_outline": N_("leaves no outline"),
     "missing": N_("is missing"),
     "missing_key": N_("is missing: {what}"),
+    "no_such_letter_on_paper": N_("the letters of a PDF lack {letters}"),
     "no_such_letter": N_("there is no letter to engrave for {letters}"),
     "not_a_list": N_("write it as [[{key}]]"),
     "not_a_table": N_("write it as a table, [{key}]"),

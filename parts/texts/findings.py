@@ -100,6 +100,10 @@ FINDINGS: dict[str, Text] = {
         "no room for its name, {limit:.1f} mm high at least, in clear material ({value:.1f} mm): it stands on a tag "
         "beside the part"
     ),
+    "title_not_engraved": N_(
+        "its title has {value:.0f} letters that cannot be engraved: its numbers or its id stand there; `label` says "
+        "what shall"
+    ),
     "flat_outline": N_("a flat outline holds the section alone; STL, 3MF and STEP have the whole solid"),
     "never_moves": N_("the follower never moves: all phases are dwells, the cam is a round disk"),
     "rigid_impact": N_("rigid impact: velocity jumps by {value:.4g} per rad at cam angle {limit:.4g} deg"),

@@ -186,7 +186,7 @@ def test_refusals_name_the_key(export: dict[str, Any], key: str) -> None:
 
 def test_what_is_not_installed_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(writer, "find_spec", lambda name: None)
-    with pytest.raises(SceneError, match=r"higherpair\[pdf\]"):
+    with pytest.raises(SceneError, match=r"\.\[pdf\]"):
         plan_build(scene_of(), "t", [], [])
 
 

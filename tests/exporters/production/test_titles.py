@@ -97,3 +97,47 @@ def test_engraved_is_what_there_are_letters_for(folder: Path) -> None:
     strokes = {name: (folder / f"{name}.svg").read_text().count('id="engrave"') for name in ("pinion", "wheel")}
     # "z 17 m 2 x 0.1" alone, where "Колесо z 30 m 2" has its title
     assert strokes["pinion"] < strokes["wheel"]
+
+
+PLATE = """
+[scene]
+title = "A frame{scene}"
+[parts.frame]
+kind = "plate"
+width = 40.0
+height = 30.0
+face_width = 3.0
+title = "Frame{part}"
+[boards.ply]
+width = 100.0
+height = 80.0
+thickness = 3.0
+"""
+
+
+@pytest.mark.parametrize(
+    ("scene", "part", "key"), [(" \U0001f600", "", "scene.title"), ("", " \U0001f600", "parts.frame.title")]
+)
+def test_a_title_that_a_pdf_cannot_write_is_refused_before_a_file(
+    scene: str, part: str, key: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("fpdf")
+    file = tmp_path / "s.toml"
+    export = '[[exports]]\nformat = "pdf"\npurpose = "model"\n'
+    file.write_text(PLATE.format(scene=scene, part=part) + export, encoding="utf-8")
+    assert main(["build", str(file), "--out", str(tmp_path / "out")]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert f"{key} = " in said
+    assert "lack \U0001f600" in said
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_title_that_is_not_engraved_is_told(tmp_path: Path) -> None:
+    file = tmp_path / "s.toml"
+    export = '[[exports]]\nformat = "dxf"\npurpose = "board"\n'
+    for part, told in ((" \U0001f600", True), ("", False)):
+        file.write_text(PLATE.format(scene="", part=part) + export, encoding="utf-8")
+        assert main(["build", str(file), "--out", str(tmp_path)]) == 0
+        report = (tmp_path / "s" / "report.json").read_text(encoding="utf-8")
+        assert ("title_not_engraved" in report) == told
