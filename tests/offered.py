@@ -79,10 +79,14 @@ def _spur(**keys: Any) -> Raw:
     return {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20} | keys
 
 
+# kinds whose new scene builds without a file of the user's
+ALONE = tuple(kind for kind in KINDS if kind != "step_part")
+
+
 @cache
 def scenes() -> dict[str, Raw]:
     """Scenes that build, of every kind of part and of mate."""
-    found = {f"new {kind}": _plain(tomllib.loads(new_scene(kind))) for kind in KINDS}
+    found = {f"new {kind}": _plain(tomllib.loads(new_scene(kind))) for kind in ALONE}
     built_in = {name: _plain(tomllib.loads(path.read_text("utf-8"))) for name, path in built_in_scenes().items()}
     # what recipes make and defaults fill in is not all of it in the scene's own keys
     found |= {name: raw for name, raw in built_in.items() if not {"assemblies", "defaults"} & raw.keys()}

@@ -18,8 +18,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from exporters.command.cli import main
-from parts.base.registry import KINDS
 from parts.scene.files import built_in_scenes
+from tests.offered import ALONE
 
 Table = dict[str, Any]
 _OPTIONAL = re.compile(r"^# (\w+ = .*)$", re.MULTILINE)
@@ -63,7 +63,7 @@ def _known(draw: random.Random) -> Table:
     """A built-in scene, or a new one of some kind."""
     if draw.random() < 0.5:
         return tomllib.loads(draw.choice(list(built_in_scenes().values())).read_text(encoding="utf-8"))
-    return tomllib.loads(_printed(draw.choice(sorted(KINDS))))
+    return tomllib.loads(_printed(draw.choice(sorted(ALONE))))
 
 
 def _add(scene: Table, known: Mapping[str, Any], prefix: str) -> None:

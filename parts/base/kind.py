@@ -17,6 +17,8 @@ from parts.base.schema import tried, unit_of
 from parts.base.texts import Text
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from geometry.base.findings import Finding
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.body import Body
@@ -81,6 +83,10 @@ class Kind(Generic[K, T]):
             It cannot exist: the key (``tip_relief.depth_coefficient``), its value in the key's unit, and why.
         """
         raise NotImplementedError
+
+    def gathered(self, keys: K, folder: Path) -> K:
+        """The keys with what they need of files; ``folder``: that of the scene's file."""
+        return keys
 
     def section(self, keys: K, thing: T, offset: float) -> OffsetRegion:
         """The flat section, every boundary moved ``offset`` mm out of the material."""

@@ -108,6 +108,10 @@ KINDS: Index[Kind[Any, Any]] = Index(
             "parts.bodies.turned:SHAFT",
             "Shaft of steps with chamfers, fillets, grooves, keyways, centre holes or a bore; its lower end at z = 0",
         ),
+        "step_part": (
+            "parts.bodies.step_part:STEP_PART",
+            "Solid of a STEP file of one's own, like a motor; taken over as it is, needs the extra cad",
+        ),
         "carrier_plate": (
             "parts.bodies.carrier:CARRIER_PLATE",
             "Plate of a carrier: a hub with an arm for the pin of each satellite, the first on +x, or a round plate",

@@ -16,7 +16,7 @@ from msgspec import Meta, Struct
 from geometry.base.errors import GeometryError, Nearest, ParameterError
 from parts.base.content import NotAFileError, content
 from parts.base.part import Part
-from parts.base.refusal import REMOVED, SceneError, meant
+from parts.base.refusal import REMOVED, SceneError, meant, placed
 from parts.base.registry import KINDS
 from parts.base.schema import converted, refuse_infinite
 from parts.base.texts import ENGLISH, languages
@@ -388,7 +388,10 @@ def _part_spec(key: str, table: object, source: str) -> Struct:
     if not isinstance(kind, str) or kind not in KINDS:
         code = "missing_kind" if kind is None else "unknown_kind"
         raise SceneError(source, f"{place}.kind", kind, code, meant(kind, KINDS), known=list(KINDS))
-    spec: Struct = converted(table, KINDS[kind].keys, source, place)
+    try:
+        spec: Struct = KINDS[kind].gathered(converted(table, KINDS[kind].keys, source, place), Path(source).parent)
+    except ParameterError as refusal:
+        raise placed(source, place, refusal) from None
     if isinstance(label := getattr(spec, "label", None), str):
         from geometry.plane.letters import unknown_letters
 

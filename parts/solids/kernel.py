@@ -45,14 +45,16 @@ def _explored(shape: TopoDS_Shape, kind: TopAbs_ShapeEnum) -> Iterator[TopoDS_Sh
 
 
 def solids_of(text: str) -> list[TopoDS_Shape]:
-    """The solids of a STEP file's text, each in its place."""
+    """The solids of a STEP file's text, each in its place; none of what is no STEP file."""
+    from OCP.IFSelect import IFSelect_ReturnStatus
     from OCP.STEPControl import STEPControl_Reader
     from OCP.TopAbs import TopAbs_ShapeEnum
 
     with silent_kernel():
         reader = STEPControl_Reader()
-        reader.ReadStream("part.step", BytesIO(text.encode("ascii")))
-        reader.TransferRoots()
+        status = reader.ReadStream("part.step", BytesIO(text.encode("ascii")))
+        if status != IFSelect_ReturnStatus.IFSelect_RetDone or not reader.TransferRoots():
+            return []
         return list(_explored(reader.OneShape(), TopAbs_ShapeEnum.TopAbs_SOLID))
 
 

@@ -20,6 +20,7 @@ from parts.scene.files import built_in_scenes
 from tests.exporters.making import build_gear, part_keys, read_report, run, write_scene
 from tests.exporters.outside import Gear
 from tests.exporters.production.test_build import command
+from tests.offered import ALONE
 
 GEAR = Gear(2, 23, bore=8)
 
@@ -259,7 +260,7 @@ def new_scene(capsys: pytest.CaptureFixture[str], kind: str = "spur_gear") -> st
 
 
 @pytest.mark.sampled(6)
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", ALONE)
 def test_the_scene_to_start_from_builds(kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "mine.toml"
     file.write_text(new_scene(capsys, kind), encoding="utf-8")

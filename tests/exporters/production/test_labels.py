@@ -18,10 +18,10 @@ from exporters.command.new import new_scene
 from geometry.approximation.chords import approximate_profile
 from geometry.plane.letters import lettered, unknown_letters
 from geometry.plane.profile import Profile
-from parts.base.registry import KINDS
 from parts.scene.load import make_parts, scene_from_toml
 from parts.solids.naming import STROKE
 from tests.exporters.making import table
+from tests.offered import ALONE
 
 _UKRAINIAN = "АБВГҐДЕЄЖЗИІЇЙКЛМНОПРСТУФХЦЧШЩЬЮЯ"
 _GEAR = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 23, "face_width": 3.0, "bore_diameter": 6.0}
@@ -155,7 +155,7 @@ def test_a_value_stays_with_its_letter(tmp_path: Path) -> None:
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", ALONE)
 def test_a_name_finds_room_on_every_kind(kind: str) -> None:
     part = make_parts(scene_from_toml(new_scene(kind).encode(), kind, kind), kind)[0]["gear"]
     region = part.cut(0.0, named=True).region

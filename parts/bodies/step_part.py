@@ -1,0 +1,125 @@
+"""The part kind ``step_part``: somebody else's solid from a STEP file, like the motor that a gear sits on."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path, PurePosixPath
+from typing import TYPE_CHECKING, Annotated
+
+from msgspec import Meta, field
+from msgspec.structs import replace as changed
+
+from geometry.base.errors import OffsetError, ParameterError
+from parts.base.content import NotAFileError, content
+from parts.base.kind import Kind, Others
+from parts.keys.base import MaterialKeys, degrees, mm
+
+if TYPE_CHECKING:
+    from geometry.plane.offset_region import OffsetRegion
+    from geometry.solids.faced import FacedBody
+
+_MOST, MOST_BYTES = 1e6, 8_000_000
+_Place = Annotated[float, mm("a coordinate in the file", least=-_MOST, most=_MOST)]
+_Way = Annotated[float, Meta(ge=-_MOST, le=_MOST)]
+
+
+class StepPartSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="step_part"):
+    """Keys of ``step_part``."""
+
+    file: Annotated[
+        str,
+        Meta(
+            pattern=r"\.([sS][tT][eE]?[pP])\Z",
+            max_length=200,
+            description="STEP file with one solid, beside the scene's file or in a folder there; needs the extra cad",
+            examples=["motor.step"],
+        ),
+    ]
+    origin: Annotated[tuple[_Place, _Place, _Place], mm("the part's origin in the file, which mates place")] = (
+        0.0,
+        0.0,
+        0.0,
+    )
+    axis: Annotated[tuple[_Way, _Way, _Way], Meta(description="direction of the part's axis in the file")] = (
+        0.0,
+        0.0,
+        1.0,
+    )
+    rotation_deg: Annotated[float, degrees("turn of the part's x axis about its axis", least=-36_000, most=36_000)] = (
+        0.0
+    )
+    held: Annotated[
+        dict[str, str], Meta(description="texts of files by their names, as reports keep them; what it lacks is read")
+    ] = field(default_factory=dict)
+
+
+class StepPart(Kind[StepPartSpec, "FacedBody"]):
+    """A solid that is taken over as it is; its flat section is the circle about it."""
+
+    name, keys, has_outline = "step_part", StepPartSpec, False
+
+    def gathered(self, keys: StepPartSpec, folder: Path) -> StepPartSpec:
+        """The keys with the file's text, and no other one."""
+        text = keys.held.get(keys.file)
+        return changed(keys, held={keys.file: _read(keys.file, folder) if text is None else text})
+
+    def thing(self, keys: StepPartSpec, others: Others) -> FacedBody:
+        """The body, in the part's frame."""
+        from geometry.base.placement import Placement3
+        from parts.solids.foreign import foreign_body
+
+        size = math.hypot(*keys.axis)
+        if not size:
+            raise ParameterError("axis", list(keys.axis), "no_direction")
+        x, y, z = (value / size for value in keys.axis)
+        laid = Placement3.towards((x, y, z), math.radians(keys.rotation_deg), keys.origin).inverse()
+        try:
+            return foreign_body(keys.held[keys.file], laid)
+        except ParameterError as refusal:
+            raise ParameterError("file", keys.file, refusal.code, None, **refusal.numbers) from refusal
+
+    def section(self, keys: StepPartSpec, thing: FacedBody, offset: float) -> OffsetRegion:
+        """The circle about it."""
+        from geometry.plane.offset_region import OffsetRegion
+        from geometry.plane.profile import Label, Region, circle
+
+        return OffsetRegion(Region(circle(thing.section_reach(), Label.BODY), ()), offset, ())
+
+    def solid(self, keys: StepPartSpec, thing: FacedBody, offset: float) -> FacedBody:
+        """As it is."""
+        if offset:
+            raise OffsetError(offset, "step_not_moved", 0.0)
+        return thing
+
+    def height(self, keys: StepPartSpec, thing: FacedBody) -> float:
+        """From its lowest to its highest place."""
+        low, high = thing.levels()
+        return high - low
+
+    def is_plate(self, keys: StepPartSpec, thing: FacedBody) -> bool:
+        """Never: nothing is known of its walls."""
+        return False
+
+
+STEP_PART = StepPart()
+
+
+def _read(name: str, folder: Path) -> str:
+    """The text of a file in a folder, or in one below it."""
+    told = PurePosixPath(name.replace("\\", "/"))
+    if told.is_absolute() or ":" in name or ".." in told.parts:
+        raise ParameterError("file", name, "file_elsewhere")
+    try:
+        path = (folder / told).resolve()
+        if not path.is_relative_to(folder.resolve()):
+            raise ParameterError("file", name, "file_elsewhere")
+        raw = content(path, MOST_BYTES)
+    except FileNotFoundError:
+        raise ParameterError("file", name, "no_such_file") from None
+    except (NotAFileError, OSError, ValueError) as error:
+        raise ParameterError(
+            "file", name, "unreadable", None, why=getattr(error, "strerror", None) or str(error)
+        ) from None
+    if len(raw) > MOST_BYTES:
+        raise ParameterError("file", name, "too_large_step", None, most=MOST_BYTES)
+    return raw.decode("ascii", "replace").replace("\ufffd", "?")

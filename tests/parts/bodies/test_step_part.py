@@ -1,0 +1,250 @@
+"""A STEP file of one's own as a part: bodies of the CAD kernel's own making, their volume, place and interference."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from exporters.command.cli import main
+from parts.base.refusal import SceneError
+from parts.scene.interference import solid_overlaps
+from parts.scene.load import load_scene, make_parts
+from parts.scene.placing import place
+from parts.solids.kernel import silent_kernel, solids_of
+
+pytest.importorskip("OCP")
+# a box of 40 x 40 x 30 with a round shaft of 5 x 20 on it, in a place of its own
+BOX, RADIUS, LENGTH, ASIDE = (40.0, 40.0, 30.0), 2.5, 20.0, (7.0, -3.0, 11.0)
+SHAFT = math.pi * RADIUS**2 * LENGTH
+VOLUME = math.prod(BOX) + SHAFT
+# of the centre of gravity above the box's lower face
+HIGH = (math.prod(BOX) * BOX[2] / 2 + SHAFT * (BOX[2] + LENGTH / 2)) / VOLUME
+SCENE = """
+[parts.motor]
+kind = "step_part"
+file = "bought/motor.step"
+origin = [27.0, 17.0, 41.0]
+density = 2.0
+colour = "#404040"
+title = "Двигун"
+
+[parts.gear]
+kind = "spur_gear"
+module = 1.0
+number_of_teeth = 20
+face_width = 8.0
+bore_diameter = 5.0
+
+[[mates]]
+kind = "{mate}"
+first = "motor"
+second = "gear"
+{height}
+
+[checks]
+interference = true
+
+[[exports]]
+format = "step"
+assembly = true
+
+[[exports]]
+format = "stl"
+
+[[exports]]
+format = "3mf"
+assembly = true
+"""
+
+
+def motor() -> Any:
+    """The body by the kernel's own booleans."""
+    from OCP.BRepAlgoAPI import BRepAlgoAPI_Fuse
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox, BRepPrimAPI_MakeCylinder
+    from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
+
+    x, y, z = ASIDE
+    box = BRepPrimAPI_MakeBox(gp_Pnt(x, y, z), *BOX).Shape()
+    foot = gp_Ax2(gp_Pnt(x + BOX[0] / 2, y + BOX[1] / 2, z + BOX[2] / 2), gp_Dir(0, 0, 1))
+    shaft = BRepPrimAPI_MakeCylinder(foot, RADIUS, BOX[2] / 2 + LENGTH).Shape()
+    return BRepAlgoAPI_Fuse(box, shaft).Shape()
+
+
+def written(file: Path, shape: Any, unit: str = "MM") -> None:
+    """A shape by the kernel's own writer."""
+    from OCP.Interface import Interface_Static
+    from OCP.STEPControl import STEPControl_StepModelType, STEPControl_Writer
+
+    file.parent.mkdir(exist_ok=True)
+    with silent_kernel():
+        writer = STEPControl_Writer()
+        Interface_Static.SetCVal_s("write.step.unit", unit)
+        writer.Transfer(shape, STEPControl_StepModelType.STEPControl_AsIs)
+        writer.Write(str(file))
+        Interface_Static.SetCVal_s("write.step.unit", "MM")
+
+
+def scene_in(folder: Path, mate: str = "fixed", height: str = "offset = [0.0, 0.0, 5.0]") -> Path:
+    """The scene of a gear on a motor, beside the motor's file."""
+    written(folder / "bought" / "motor.step", motor())
+    file = folder / "driven.toml"
+    file.write_text(SCENE.format(mate=mate, height=height), encoding="utf-8")
+    return file
+
+
+def alone(folder: Path, name: str = "body.step", more: str = "") -> Any:
+    """The part of a scene with nothing else."""
+    file = folder / "alone.toml"
+    file.write_text(f'[parts.body]\nkind = "step_part"\nfile = "{name}"\n{more}', encoding="utf-8")
+    return make_parts(load_scene(str(file)), str(file))[0]["body"]
+
+
+def kernel_box(shape: Any) -> list[float]:
+    """Corners of the box about a shape, by the kernel."""
+    from OCP.Bnd import Bnd_Box
+    from OCP.BRepBndLib import BRepBndLib
+
+    box = Bnd_Box()
+    BRepBndLib.AddOptimal_s(shape, box, False, False)
+    return list(box.Get())
+
+
+def test_a_motor_with_its_gear_is_built_verified_and_read_by_the_kernel(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene = scene_in(tmp_path)
+    assert main(["build", str(scene), "--out", str(tmp_path / "o")]) == 0
+    made = tmp_path / "o" / "driven"
+    body, gear = solids_of((made / "driven.step").read_text("ascii"))
+    # the origin lies in the middle of the box's upper face
+    half = BOX[0] / 2
+    assert kernel_box(body) == pytest.approx([-half, -half, -BOX[2], half, half, LENGTH], abs=1e-6)
+    assert kernel_box(gear)[2::3] == pytest.approx([5.0, 13.0], abs=1e-6)
+    part = json.loads((made / "report.json").read_text("utf-8"))["parts"]["motor"]
+    assert part["mass"] == pytest.approx(2.0 * VOLUME / 1000, rel=1e-9)
+    # what was built is verified without the file that it came from, wherever that has gone
+    (tmp_path / "bought" / "motor.step").unlink()
+    monkeypatch.chdir(made)
+    for file in ("driven.step", "driven.3mf", "motor.stl"):
+        assert main(["verify", file]) == 0, file
+
+
+def test_its_volume_and_place_are_the_kernel_s_in_any_unit(tmp_path: Path) -> None:
+    for unit in ("MM", "INCH", "M"):
+        written(tmp_path / "body.step", motor(), unit)
+        moments = alone(tmp_path).body(0.0).moments
+        assert moments.volume == pytest.approx(VOLUME, rel=1e-9)
+        assert moments.centre == pytest.approx([27.0, 17.0, 11.0 + HIGH], abs=1e-7)
+
+
+def test_its_axis_becomes_z(tmp_path: Path) -> None:
+    written(tmp_path / "body.step", motor())
+    turned = alone(tmp_path, more="origin = [27, 17, 11]\naxis = [0, 0, -2]\n").body(0.0)
+    assert turned.moments.centre == pytest.approx([0.0, 0.0, -HIGH], abs=1e-7)
+    # z is laid on x about y, so that the file's z is the part's -x, before that is turned about z
+    laid = alone(tmp_path, more="origin = [7, 17, 11]\naxis = [1, 0, 0]\nrotation_deg = 90\n").body(0.0)
+    assert laid.moments.centre == pytest.approx([0.0, HIGH, 20.0], abs=1e-7)
+    with pytest.raises(SceneError, match="axis"):
+        alone(tmp_path, more="axis = [0, 0, 0]\n")
+
+
+@pytest.mark.parametrize(
+    ("mate", "height", "common"),
+    [
+        ("fixed", "offset = [0.0, 0.0, 5.0]", 0.0),
+        ("coaxial", "height = 0.0", 0.0),
+        # 4 mm of the gear about its bore lie in the box
+        ("coaxial", "height = -4.0", None),
+    ],
+)
+def test_what_runs_into_it_is_found(tmp_path: Path, mate: str, height: str, common: float | None) -> None:
+    scene = load_scene(str(file := scene_in(tmp_path, mate, height)))
+    parts, matings = make_parts(scene, str(file))
+    found = solid_overlaps(place(scene.instances, [], parts, matings, str(file)), parts)
+    if common == 0:
+        assert found == ()
+        return
+    gear = parts["gear"].made_by.moments(parts["gear"].body(0.0)).volume
+    assert [o.volume for o in found] == [pytest.approx(gear / 2, rel=5e-3)]
+
+
+def _shapes() -> dict[str, Callable[[], Any]]:
+    from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut
+    from OCP.BRepPrimAPI import (
+        BRepPrimAPI_MakeBox,
+        BRepPrimAPI_MakeCone,
+        BRepPrimAPI_MakeCylinder,
+        BRepPrimAPI_MakeSphere,
+        BRepPrimAPI_MakeTorus,
+    )  # fmt: skip
+    from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
+
+    def ball(at: float) -> Any:
+        return BRepPrimAPI_MakeSphere(gp_Pnt(0, 0, at), 5.0).Shape()
+
+    def rod(y: float, z: float) -> Any:
+        return BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, -30), gp_Dir(0, y, z)), 3.0, 100.0).Shape()
+
+    box, round_rod = BRepPrimAPI_MakeBox(gp_Pnt(-20, -20, 0), 40, 40, 30).Shape(), rod(0, 1)
+    torus = BRepPrimAPI_MakeTorus(gp_Ax2(gp_Pnt(0, 0, 10), gp_Dir(0, 0, 1)), 3.0, 1.0).Shape()
+    return {
+        "ball": lambda: ball(0.0),
+        "ring": lambda: torus,
+        "cone": lambda: BRepPrimAPI_MakeCone(gp_Ax2(gp_Pnt(1, 2, 3), gp_Dir(0, 0.6, 0.8)), 5.0, 0.0, 9.0).Shape(),
+        "stump": lambda: BRepPrimAPI_MakeCone(2.0, 5.0, 9.0).Shape(),
+        "dimple": lambda: BRepAlgoAPI_Cut(box, ball(30.0)).Shape(),
+        "groove": lambda: BRepAlgoAPI_Cut(round_rod, torus).Shape(),
+        "bore": lambda: BRepAlgoAPI_Cut(box, round_rod).Shape(),
+        "hollow": lambda: BRepAlgoAPI_Cut(box, ball(15.0)).Shape(),
+        "ellipse": lambda: BRepAlgoAPI_Cut(box, rod(0.2, 1)).Shape(),
+    }
+
+
+@pytest.mark.parametrize("name", ["ball", "ring", "cone", "stump", "dimple", "groove", "bore"])
+def test_every_surface_of_revolution_is_taken_over(name: str, tmp_path: Path) -> None:
+    """Through a file of ours, read back and judged by the kernel too."""
+    written(tmp_path / "body.step", _shapes()[name]())
+    alone(tmp_path, more='\n[[exports]]\nformat = "step"\n\n[[exports]]\nformat = "stl"\ntolerance = 0.1\n')
+    assert main(["build", str(tmp_path / "alone.toml"), "--out", str(tmp_path / "o"), "--verify", "kernel"]) == 0
+
+
+def test_what_is_not_one_such_solid_is_refused_in_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from OCP.BRep import BRep_Builder
+    from OCP.TopoDS import TopoDS_Compound
+
+    def refusal(name: str = "body.step") -> str:
+        with pytest.raises(SceneError) as told:
+            alone(tmp_path, name)
+        assert "\n" not in str(told.value)
+        return told.value.code
+
+    pair, builder = TopoDS_Compound(), BRep_Builder()
+    builder.MakeCompound(pair)
+    for name in ("ball", "stump"):
+        builder.Add(pair, _shapes()[name]())
+    for shape, code in (
+        (pair, "step_solids"),
+        (_shapes()["hollow"](), "step_hollow"),
+        (_shapes()["ellipse"](), "step_curve"),
+    ):
+        written(tmp_path / "body.step", shape)
+        assert refusal() == code
+    (tmp_path / "body.step").write_text("no STEP file", encoding="utf-8")
+    assert refusal() == "step_solids"
+    (tmp_path / "body.step").write_bytes(b"0" * 8_000_001)
+    assert refusal() == "too_large_step"
+    assert refusal("none.step") == "no_such_file"
+    (tmp_path / "folder.step").mkdir()
+    assert refusal("folder.step") == "unreadable"
+    for elsewhere in ("../body.step", "/body.step", "C:/body.step", "a/../../body.step", "..\\\\body.step"):
+        assert refusal(elsewhere) == "file_elsewhere", elsewhere
+    assert refusal("motor.stl") == "not_allowed"
+    written(tmp_path / "body.step", motor())
+    monkeypatch.setitem(sys.modules, "OCP.IFSelect", None)
+    assert refusal() == "step_needs_kernel"
