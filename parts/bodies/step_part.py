@@ -49,7 +49,8 @@ class StepPartSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="step_part"
         0.0
     )
     held: Annotated[
-        dict[str, str], Meta(description="texts of files by their names, as reports keep them; what it lacks is read")
+        dict[str, str],
+        Meta(description="texts of files by their names, as reports keep them; what it lacks is read", examples=[{}]),
     ] = field(default_factory=dict)
 
 
