@@ -96,7 +96,6 @@ REASONS = {
     "step_curve": N_("has an edge of the kind {what}; lines and circles are taken over"),
     "step_hollow": N_("has a closed hollow; solids of one shell are taken over"),
     "step_loose": N_("its edges lie {error} mm off their faces, more than {most} mm"),
-    "step_needs_kernel": N_('a STEP file is read by the CAD kernel: pip install ".[cad]"'),
     "step_not_moved": N_("the solid of a STEP file is taken over as it is"),
     "step_solids": N_("must be a STEP file with one solid; it has {count}"),
     "step_surface": N_("has a face of the kind {what}; planes, cylinders, cones, spheres and tori are taken over"),

@@ -55,7 +55,7 @@ def foreign_body(text: str, part_from_file: Placement3) -> FacedBody:
     try:
         solids = solids_of(text)
     except ImportError:
-        raise ParameterError("file", None, "step_needs_kernel") from None
+        raise ParameterError("file", None, "needs_kernel") from None
     if len(solids) != 1:
         raise ParameterError("file", None, "step_solids", count=len(solids))
     made = _Taken(_laid(solids[0], part_from_file))

@@ -247,4 +247,4 @@ def test_what_is_not_one_such_solid_is_refused_in_one_line(tmp_path: Path, monke
     assert refusal("motor.stl") == "not_allowed"
     written(tmp_path / "body.step", motor())
     monkeypatch.setitem(sys.modules, "OCP.IFSelect", None)
-    assert refusal() == "step_needs_kernel"
+    assert refusal() == "needs_kernel"
