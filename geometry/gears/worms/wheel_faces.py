@@ -33,7 +33,7 @@ from geometry.solids.rings import AHEAD, UP, Ring
 
 _DEGREE = 7
 # what is added to sampled errors; the kernel joins curves and surfaces within 1e-7 mm: edges are kept below that, mm
-_MARGIN, _EDGES = 1.5, 5e-8
+_MARGIN, _EDGES = 2.0, 5e-8
 # the least error of faces that is asked for, mm
 _FINEST, _SHARE = 2e-8, 0.5
 # samples a span, and lines of a family on which spans are chosen
