@@ -76,6 +76,19 @@ def either(key: str, value: object, other: str, without: float | None = None) ->
 Title = Annotated[
     str, Meta(pattern=r"\S", max_length=120, description="what people call it, in any script", examples=["Pinion"])
 ]
+# of the parts list
+TitleUk = Annotated[Title, Meta(description="the same in Ukrainian, where the title is not")] | None
+Position = Annotated[int, Meta(ge=1, le=9999, description="number in the parts list", examples=[19])] | None
+Designation = (
+    Annotated[str, Meta(pattern=r"\S", max_length=60, description="of its drawing", examples=["ABC.01.00.19"])] | None
+)
+Standard = (
+    Annotated[
+        str,
+        Meta(pattern=r"\S", max_length=60, description="that it is bought by", examples=["GOST 7805-70"]),
+    ]
+    | None
+)
 LabelKey = (
     Annotated[
         bool,
@@ -93,6 +106,10 @@ class MaterialKeys(Struct, forbid_unknown_fields=True, kw_only=True):
     density: Density | None = None
     colour: Colour | None = None
     title: Title | None = None
+    title_uk: TitleUk = None
+    position: Position = None
+    designation: Designation = None
+    standard: Standard = None
     label: LabelKey = None
 
 

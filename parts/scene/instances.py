@@ -55,6 +55,13 @@ class InstanceSpec(Struct, forbid_unknown_fields=True):
         | None
     ) = None
     held: Annotated[bool, Meta(description="stands still, as the frame does: a ring that is screwed on")] | None = None
+    subassembly: (
+        Annotated[
+            str,
+            Meta(pattern=IDENTIFIER, description="what it is assembled with, in the product tree", examples=["drive"]),
+        ]
+        | None
+    ) = None
 
 
 class InstanceTable(InstanceSpec, forbid_unknown_fields=True):
@@ -170,13 +177,14 @@ def _group(key: str, spec: InstanceTable, count: int) -> Group:
 def _one(spec: InstanceTable, angle: float) -> InstanceSpec:
     """One member, turned about the axis by so many degrees."""
     if spec.at is None or not angle:
-        return InstanceSpec(spec.part, spec.at, spec.rotation_deg, spec.axis, spec.held)
+        return InstanceSpec(spec.part, spec.at, spec.rotation_deg, spec.axis, spec.held, spec.subassembly)
     axis = complex(*(spec.about or (0.0, 0.0)))
     moved = axis + (complex(*spec.at[:2]) - axis) * cmath.rect(1.0, math.radians(angle))
     turned = (spec.rotation_deg or 0.0) + angle
     direction = None if spec.axis is None else complex(*spec.axis[:2]) * cmath.rect(1.0, math.radians(angle))
     tilted = spec.axis and direction is not None and [direction.real, direction.imag, spec.axis[2]]
-    return InstanceSpec(spec.part, [moved.real, moved.imag, spec.at[2]], turned, tilted or None, spec.held)
+    moved_to = [moved.real, moved.imag, spec.at[2]]
+    return InstanceSpec(spec.part, moved_to, turned, tilted or None, spec.held, spec.subassembly)
 
 
 def members(mate: MateKeys, groups: Mapping[str, Group], source: str, place: str) -> Iterator[MateKeys]:

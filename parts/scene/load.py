@@ -492,7 +492,9 @@ def _made(scene: SceneFile, specs: dict[str, Struct], source: str) -> tuple[dict
 
 
 # keys of parts, instances and drives that are told where they are given
-_SELDOM = ("axis", "held", "travel", "title", "label")
+_SELDOM = (
+    "axis", "held", "travel", "title", "label", "title_uk", "position", "designation", "standard", "subassembly",
+)  # fmt: skip
 
 
 def resolved(scene: SceneFile) -> dict[str, Any]:
