@@ -27,7 +27,6 @@ FILES = pytest.mark.parametrize("file", catalogue_files(), ids=lambda f: f.parts
 CYRILLIC = re.compile("[\u0400-\u04ff]")
 # where Ukrainian letters stand in the code, and why
 CYRILLIC_PLACES = {
-    "parts/pages/terms.py": "symbols as the sources print them",
     "parts/pages/symbols.py": "their indices",
     "parts/base/materials.py": "materials as users write them in scenes of any language",
     "parts/mates/pages/internal.py": "the practicum's table Д.1",
@@ -193,7 +192,7 @@ def test_ukrainian_stands_in_the_catalogue_and_not_in_the_code() -> None:
     assert {place: lines for place, lines in found.items() if place not in CYRILLIC_PLACES} == {}
     assert sorted(CYRILLIC_PLACES) == sorted(set(CYRILLIC_PLACES) & set(found)), "a place that needs no leave"
     # in terms only symbols: no word of two letters but an index
-    for line in (HOUSE / "parts/pages/terms.py").read_text("utf-8").splitlines():
+    for line in (HOUSE / "parts/pages/terms.psv").read_text("utf-8").splitlines():
         if CYRILLIC.search(line):
             name, key, symbol, unit, english = line.split("|")
             assert not CYRILLIC.search(name + key + unit + english)
@@ -233,7 +232,7 @@ def test_the_archives_carry_the_catalogues(tmp_path: Path) -> None:
         (tree / file.name).write_bytes(file.read_bytes())
     for package in ("parts", "exporters", "geometry"):
         for file in (ROOT / package).rglob("*"):
-            if file.suffix in (".po", ".mo") or file.name == "__init__.py":
+            if file.suffix in (".po", ".mo", ".psv") or file.name == "__init__.py":
                 goal = tree / file.relative_to(ROOT)
                 goal.parent.mkdir(parents=True, exist_ok=True)
                 goal.write_bytes(file.read_bytes())
@@ -245,3 +244,4 @@ def test_the_archives_carry_the_catalogues(tmp_path: Path) -> None:
         names = [*zipfile.ZipFile(wheel).namelist(), *packed.getnames()]
     for ending in ("po", "mo"):
         assert sum(name.endswith(f"parts/locale/uk/LC_MESSAGES/higherpair.{ending}") for name in names) == 2
+    assert sum(name.endswith("parts/pages/terms.psv") for name in names) == 2
