@@ -1,16 +1,19 @@
 """The assembly ``power_table``: the two-disk power table (thesis) out of flat plates and dowels, to be cut and turned.
 
-From the back: cranks, base with feet, back disk, disk 2 within a rim, ring and pinion (disk 3), cranks of the first
+From the back: hand cranks or worm drives, base with feet, back disk, disk 2 within a rim, ring and pinion (disk 3), cranks of the first
 stage on posts, the flange that they hold, cranks of the second stage, platform. Back disk, rim and ring are one body,
 as the thesis's 12, 13, 18 are; the tube of the back disk and the shaft of disk 2 within it carry the hand cranks. The
 flange runs on a hub of the pinion: no axle crosses the plane of the first cranks.
+
+Worms, by a hexagon key in their bores, in place of the hand cranks: that of the ring nearer to the base. Their bearings stand
+in slots of the base; a worm is pushed in along its axis, the thin journal first, and held by a collar.
 """
 
 from __future__ import annotations
 
 import cmath
 import math
-from typing import Annotated
+from typing import Annotated, Literal
 
 from msgspec import Meta
 
@@ -25,10 +28,13 @@ _ROOT, _RIM = 1.25, 8.0
 # mm: wall beside a hole, of a boss about a pin beyond its radius, of a tube; feet, cranks by hand, handles
 _WALL, _BOSS, _TUBE = 3.0, 3.0, 3.0
 _FOOT, _FEET_HEIGHT, _HANDLE, _GRIP = 10.0, 70.0, 6.0, 25.0
+# worms: quotient q; addendum and dedendum, modules; length of the thread, modules; bearings, neck before them, collar, mm
+_Q, _ADDENDUM, _DEDENDUM, _THREAD = 10.0, 1.0, 1.2, 20.0
+_BEARING, _NECK, _COLLAR = 6.0, 6.0, 5.0
 _COLOURS = {
     "base": "#ece8df", "guide": "#e0d8c8", "back": "#c9b79c", "rim": "#c9b79c", "ring": "#9fb0c0", "disk_2": "#d9a066",
     "pinion": "#4f8fc0", "hub": "#70a0d0", "flange": "#b5c7a3", "crank": "#d98880", "platform": "#f2e2b6",
-    "pin": "#d0d4d8",
+    "pin": "#d0d4d8", "worm": "#8c96a0", "worm_wheel": "#c08040", "bearing": "#e0d8c8",
 }  # fmt: skip
 _Turns = Annotated[float, Meta(ge=-1000, le=1000, extra={"unit": "turns"})]
 
@@ -48,6 +54,16 @@ class PowerTableKeys(RecipeKeys, kw_only=True, tag="power_table"):
     clearance: Annotated[float, mm("of holes that turn on something beyond it", least=0, most=5)] = 0.2
     pin_diameter: Annotated[float, mm("of the cranks' pins", least=0.5, most=100)] = 4.0
     axle_diameter: Annotated[float, mm("of the shaft of disk 2, and of the axle of disk 3", least=1, most=200)] = 8.0
+    fit: Annotated[float, mm("by which rods are thinner than holes in which they are glued", least=0, most=2)] = 0.0
+    drive: Annotated[
+        Literal["hand_cranks", "worms"], Meta(description="what turns disk 2 and the ring, behind the base")
+    ] = "hand_cranks"
+    worm_module: Annotated[float, mm("module of the worms", least=0.2, most=50)] = 2.0
+    worm_wheel_teeth: Annotated[
+        tuple[Annotated[int, Meta(ge=20, le=1000)], Annotated[int, Meta(ge=20, le=1000)]],
+        Meta(description="of the worm wheels of disk 2 and of the ring; their worms have one start"),
+    ] = (30, 24)
+    worm_thinning: Annotated[float, mm("of the wheels' teeth, along the worms, for backlash", least=0, most=5)] = 0.2
     platform_axle_diameter: Annotated[float, mm("of the platform's axle", least=0.5, most=200)] = 6.0
     platform_size: Annotated[float, mm("side of the platform", above=0, most=2000)] = 84.0
     turns_of_disk: Annotated[_Turns, Meta(description="how far disk 2 is turned")] = 1.0
@@ -106,8 +122,59 @@ class _Sizes(Record):
 
     @property
     def half(self) -> float:
-        """Half a side of the base."""
-        return self.posts + self.keys.pin_diameter / 2 + 8
+        """Half a side of the base: beyond the posts, and the slots of the worms' bearings."""
+        beyond = self.posts + self.keys.pin_diameter / 2 + 8
+        if self.keys.drive == "worms":
+            far = max(self.worm_distance(teeth) for teeth in self.keys.worm_wheel_teeth) + self.bearing / 2
+            beyond = max(beyond, far + _BEARING + 3)
+        return beyond
+
+    @property
+    def tube(self) -> float:
+        """Outer diameter of the tube about the shaft of disk 2."""
+        return self.keys.axle_diameter + self.keys.clearance + 2 * _TUBE
+
+    def worm_distance(self, teeth: int) -> float:
+        """Centre distance of a worm and its wheel."""
+        return self.keys.worm_module * (_Q + teeth) / 2
+
+    def worm_wheel(self, teeth: int) -> float:
+        """Outer diameter of a worm wheel."""
+        return self.keys.worm_module * (teeth + 2.5)
+
+    @property
+    def worm_wheel_width(self) -> float:
+        """Seven modules, as whole teeth have it on a worm of q 10."""
+        return 7 * self.keys.worm_module
+
+    @property
+    def worm_core(self) -> float:
+        """Diameter of a worm at its root."""
+        return 2 * self.keys.worm_module * (_Q / 2 - _DEDENDUM)
+
+    @property
+    def journal(self) -> float:
+        """Diameter of a worm's thick journal: its thread goes through the bearing of that."""
+        return 2 * self.keys.worm_module * (_Q / 2 + _ADDENDUM) + 2
+
+    @property
+    def bearing(self) -> float:
+        """Width of a worm's bearings."""
+        return self.journal + self.keys.clearance + 2 * (_WALL + 1)
+
+    @property
+    def beside(self) -> float:
+        """How far the bearings stand from the middle of the worms: out of the wheels' way."""
+        wheel = max(map(self.worm_wheel, self.keys.worm_wheel_teeth)) / 2 + 1
+        inner = min(map(self.worm_distance, self.keys.worm_wheel_teeth)) - self.bearing / 2
+        past = math.sqrt(max(wheel**2 - max(inner, 0.0) ** 2, 0.0))
+        return max(past, self.keys.worm_module * _THREAD / 2 + _NECK)
+
+    @property
+    def worm_planes(self) -> tuple[float, float]:
+        """Heights of the axes of the worms of disk 2 and of the ring, below the base, the ring's nearer to it."""
+        ring = -(self.journal / 2 + 1)
+        return ring - self.worm_wheel_width / 2 - 1 - self.journal / 2, ring
 
     def checked(self) -> _Sizes:
         """Refuse sizes that nothing follows from, by the driver and its limit."""
@@ -131,6 +198,13 @@ class _Sizes(Record):
         least = 2 * (self.pivots + self.boss)
         if keys.platform_size < least:
             raise ParameterError("platform_size", keys.platform_size, "platform_too_small", Nearest(least, "at_least"))
+        if keys.drive == "worms":
+            for bore, teeth in zip((keys.axle_diameter, self.tube), keys.worm_wheel_teeth, strict=True):
+                root = (teeth - 2 - 2 * _DEDENDUM) * keys.worm_module
+                if bore + 4 * _WALL > root:
+                    least = (bore + 4 * _WALL) / (teeth - 2 - 2 * _DEDENDUM)
+                    given = keys.worm_module
+                    raise ParameterError("worm_module", given, "axle_in_the_teeth", Nearest(least, "at_least"))
         return self
 
 
@@ -160,6 +234,11 @@ class _Making(Making):
         thick, gap = self.keys.plate_thickness, self.keys.axial_gap
         super().__init__(thick, self.keys.material, _COLOURS)
         self.back = thick + gap
+        # lower ends of tube and shaft
+        self.ends = -gap - thick, -2 * (gap + thick)
+        if self.keys.drive == "worms":
+            disk, ring = (plane - sizes.worm_wheel_width / 2 for plane in sizes.worm_planes)
+            self.ends = ring, disk
         self.ring = self.back + 2 * thick
         self.disk = self.back + thick + gap
         self.pinion = self.ring + 2 * gap
@@ -175,7 +254,7 @@ class _Making(Making):
         self._disks()
         self._first_stage()
         self._second_stage()
-        self._hand_cranks()
+        (self._worms if self.keys.drive == "worms" else self._hand_cranks)()
         keys = self.keys
         self.found.drives.append({"instance": "disk_2", "turns": keys.turns_of_disk})
         self.found.drives.append({"instance": "ring", "turns": keys.turns_of_ring})
@@ -187,33 +266,39 @@ class _Making(Making):
         }  # fmt: skip
         return self.found
 
+    def pin(self, name: str, diameter: float, length: float, bore: float = 0.0) -> None:
+        """A rod or a tube, thinner than its hole."""
+        super().pin(name, diameter - self.keys.fit, length, bore)
+
     def _body(self) -> None:
         """The base on its feet, the guide about the ring's stack, and the posts of the first cranks."""
         sizes, keys = self.sizes, self.keys
-        tube = keys.axle_diameter + keys.clearance + 2 * _TUBE
         corners = [cmath.rect(math.sqrt(2) * (sizes.half - _FOOT), math.pi / 4 + k * math.pi / 2) for k in range(4)]
         posts = [sizes.posts * cmath.exp(2j * math.pi * k / 3) for k in range(3)]
         fixed = [hole(at, _FOOT) for at in corners] + [hole(at, keys.pin_diameter) for at in posts]
-        self.plate("base", 2 * sizes.half, [hole(0j, tube + keys.clearance), *fixed], square=True)
+        slots = {"slots": self._slots()} if keys.drive == "worms" else {}
+        self.plate("base", 2 * sizes.half, [hole(0j, sizes.tube + keys.clearance), *fixed], square=True, **slots)
         self.plate("guide", 2 * sizes.half, [hole(0j, 2 * (sizes.ring + keys.clearance)), *fixed], square=True)
         self.found.instances["base"] = {"part": "base", "held": True}
         thick = keys.plate_thickness
         self.fix("base", "guide", 0j, thick)
-        self.pin("foot", _FOOT, _FEET_HEIGHT)
+        height = _FEET_HEIGHT
+        if slots:
+            height = max(height, math.ceil(2 * thick + sizes.bearing / 2 - sizes.worm_planes[0]) + 5.0)
+        self.pin("foot", _FOOT, height)
         self.pin("post", keys.pin_diameter, self.first_cranks + thick)
         for k, at in enumerate(corners, 1):
-            self.fix("base", f"foot_{k}", at, 2 * thick - _FEET_HEIGHT, "foot")
+            self.fix("base", f"foot_{k}", at, 2 * thick - height, "foot")
         for k, at in enumerate(posts, 1):
             self.fix("base", f"post_{k}", at, 0.0, "post")
 
     def _ring(self) -> None:
         """Back disk, rim and ring, one body on four dowels; the tube in it."""
         sizes, keys, thick = self.sizes, self.keys, self.keys.plate_thickness
-        tube = keys.axle_diameter + keys.clearance + 2 * _TUBE
         circle = sizes.ring - _RIM / 2
         dowels = [cmath.rect(circle, math.pi / 4 + k * math.pi / 2) for k in range(4)]
         holes = [hole(at, keys.pin_diameter) for at in dowels]
-        self.plate("back", 2 * sizes.ring, [hole(0j, tube), *holes])
+        self.plate("back", 2 * sizes.ring, [hole(0j, sizes.tube), *holes])
         self.plate("rim", 2 * sizes.ring, [hole(0j, 2 * (sizes.disk + keys.clearance)), *holes])
         self.part(
             "ring", kind="ring_gear", module=keys.module, number_of_teeth=keys.teeth[1], face_width=thick,
@@ -226,9 +311,8 @@ class _Making(Making):
         self.pin("dowel", keys.pin_diameter, 3 * thick)
         for k, at in enumerate(dowels, 1):
             self.fix("ring", f"dowel_{k}", at, self.back - self.ring, "dowel")
-        # down to the lower face of its crank
-        low = -keys.axial_gap - thick
-        self.pin("tube", tube, self.back + thick - low, keys.axle_diameter + keys.clearance)
+        low, _ = self.ends
+        self.pin("tube", sizes.tube, self.back + thick - low, keys.axle_diameter + keys.clearance)
         self.fix("ring", "tube", 0j, low - self.ring, "tube")
 
     def _disks(self) -> None:
@@ -239,7 +323,7 @@ class _Making(Making):
         mark = {"start": [sizes.disk - 12, 0.0], "end": [sizes.disk - 4, 0.0], "width": 1.0}
         self.plate("disk_2", 2 * sizes.disk, [hole(0j, shaft), hole(arm, shaft)], engraved=[mark])
         self.put("coaxial", "base", "disk_2", height=self.disk)
-        low = -2 * keys.axial_gap - 2 * thick
+        _, low = self.ends
         self.pin("shaft", shaft, self.disk + thick - low)
         self.fix("disk_2", "shaft", 0j, low - self.disk)
         top = self.pinion + 3 * thick
@@ -303,12 +387,71 @@ class _Making(Making):
     def _hand_cranks(self) -> None:
         """Behind the base: that of the ring on the tube, that of disk 2 on the shaft, shorter, further back."""
         keys, thick = self.keys, self.keys.plate_thickness
-        tube = keys.axle_diameter + keys.clearance + 2 * _TUBE
         lengths = {"ring": round(0.7 * self.sizes.half, 1), "disk": round(0.45 * self.sizes.half, 1)}
-        bores, low = {"ring": tube, "disk": keys.axle_diameter}, -keys.axial_gap - thick
+        bores = {"ring": self.sizes.tube, "disk": keys.axle_diameter}
         self.pin("handle", _HANDLE, thick + _GRIP)
-        for name, owner, height in (("ring", "ring", low), ("disk", "disk_2", low - keys.axial_gap - thick)):
+        for name, owner, height in zip(("ring", "disk"), ("ring", "disk_2"), self.ends, strict=True):
             part = f"{name}_hand_crank"
             self.crank(part, lengths[name], (bores[name], _HANDLE), (bores[name] + 4 * _WALL, 2 * _HANDLE))
             self.fix(owner, part, 0j, height - (self.ring if owner == "ring" else self.disk))
             self.fix(part, f"{name}_handle", complex(lengths[name]), -_GRIP, "handle")
+
+    def _slots(self) -> list[Table]:
+        """Of the base, for the bearings of both worms; beyond their edges by the clearance."""
+        sizes, keys = self.sizes, self.keys
+        middle, half = sizes.beside + _BEARING / 2, (sizes.bearing + keys.clearance) / 2
+        return [
+            {"start": place(complex(side * (far - half), way * middle), 0.0)[:2],
+             "end": place(complex(side * (far + half), way * middle), 0.0)[:2], "width": _BEARING + keys.clearance}
+            for side, far in zip((-1, 1), map(sizes.worm_distance, keys.worm_wheel_teeth), strict=True)
+            for way in (1, -1)
+        ]  # fmt: skip
+
+    def _worms(self) -> None:
+        """Behind the base: the wheel of the ring on the tube, that of disk 2 on the shaft, each with its worm."""
+        sizes, keys = self.sizes, self.keys
+        above = {"disk": sizes.worm_planes[1] - sizes.worm_wheel_width / 2, "ring": 0.0}
+        owners, bores = {"disk": "disk_2", "ring": "ring"}, {"disk": keys.axle_diameter, "ring": sizes.tube}
+        stands = {"disk": self.disk, "ring": self.ring}
+        for name, teeth, plane in zip(owners, keys.worm_wheel_teeth, sizes.worm_planes, strict=True):
+            wheel, low = f"{name}_worm_wheel", plane - sizes.worm_wheel_width / 2
+            top = above[name] - keys.axial_gap - low - sizes.worm_wheel_width
+            self.part(
+                wheel, "worm_wheel", kind="worm_wheel", module=keys.worm_module, number_of_teeth=teeth,
+                diameter_quotient=_Q, face_width=sizes.worm_wheel_width, outer_diameter=sizes.worm_wheel(teeth),
+                axial_thinning=keys.worm_thinning, bore_diameter=bores[name],
+                hub={"diameter": bores[name] + 4 * _WALL, "above": round(top, 6)},
+            )  # fmt: skip
+            self.fix(owners[name], wheel, 0j, low - stands[name])
+            self._worm(name, wheel, teeth, plane, 1 if name == "ring" else -1)
+
+    def _worm(self, name: str, wheel: str, teeth: int, plane: float, side: int) -> None:
+        """A worm beside +x or -x with its bearings, the thick journal's at +y or -y, and the collar on its other end."""
+        sizes, keys = self.sizes, self.keys
+        core, gap, neck = sizes.worm_core, keys.axial_gap, sizes.beside - keys.worm_module * _THREAD / 2
+        thin = core - 3
+        self.part(
+            f"{name}_worm", "worm", kind="worm", module=keys.worm_module, diameter_quotient=_Q,
+            thread_length=_THREAD * keys.worm_module, tip_rounding=0.15 * keys.worm_module,
+            bore={"shape": "hexagon", "across_flats": 3 * keys.worm_module + keys.clearance},
+            shaft_below=[{"diameter": core, "length": neck}, {"diameter": sizes.journal, "length": _BEARING + 2}],
+            shaft_above=[{"diameter": core, "length": neck - gap},
+                         {"diameter": thin, "length": _BEARING + 2 * gap + _COLLAR}],
+        )  # fmt: skip
+        self.put("worm_pair", wheel, f"{name}_worm", direction_deg=0.0 if side > 0 else 180.0)
+        far, over = side * sizes.worm_distance(teeth), keys.plate_thickness - keys.clearance - plane
+        for end, diameter, way in (("thick", sizes.journal, side), ("thin", thin, -side)):
+            self.part(
+                f"{name}_{end}_bearing", "bearing", kind="plate", width=sizes.bearing, height=over + sizes.bearing / 2,
+                centre=place(complex(0, over / 2 - sizes.bearing / 4), 0.0)[:2], face_width=_BEARING,
+                holes=[hole(0j, diameter + keys.clearance)],
+            )  # fmt: skip
+            self._upright(f"{name}_{end}_bearing", complex(far, way * (sizes.beside + _BEARING / 2)), plane, _BEARING)
+        middle = sizes.beside + _BEARING + gap + _COLLAR / 2
+        self.pin(f"{name}_collar", core + 3, _COLLAR, thin)
+        self._upright(f"{name}_collar", complex(far, -side * middle), plane, _COLLAR)
+
+    def _upright(self, name: str, middle: complex, height: float, length: float) -> None:
+        """A part that stands still with its axis along -y."""
+        at = place(middle + 0.5j * length, height)
+        self.found.instances[name] = {"part": name, "at": at, "axis": [0.0, -1.0, 0.0], "held": True}
