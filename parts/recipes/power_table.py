@@ -1,12 +1,12 @@
 """The assembly ``power_table``: the two-disk power table (thesis) out of flat plates and dowels, to be cut and turned.
 
-From the back: hand cranks or worm drives, base with feet, back disk, disk 2 within a rim, ring and pinion (disk 3), cranks of the first
-stage on posts, the flange that they hold, cranks of the second stage, platform. Back disk, rim and ring are one body,
-as the thesis's 12, 13, 18 are; the tube of the back disk and the shaft of disk 2 within it carry the hand cranks. The
-flange runs on a hub of the pinion: no axle crosses the plane of the first cranks.
+From the back: hand cranks or worm drives, base with feet, back disk, disk 2 within a rim, ring and pinion (disk 3),
+cranks of the first stage on posts, the flange that they hold, cranks of the second stage, platform. Back disk, rim and
+ring are one body, as the thesis's 12, 13, 18 are; the tube of the back disk and the shaft of disk 2 within it carry the
+drives. The flange runs on a hub of the pinion: no axle crosses the plane of the first cranks.
 
-Worms, by a hexagon key in their bores, in place of the hand cranks: that of the ring nearer to the base. Their bearings stand
-in slots of the base; a worm is pushed in along its axis, the thin journal first, and held by a collar.
+Worms are turned by a hexagon key in their bores, that of the ring nearer to the base. Their bearings stand in slots of
+the base; a worm is pushed in along its axis, the thin journal first, and held by a collar.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.record import Record
 from parts.keys.base import Material, mm
 from parts.recipes.making import Making, hole, place
-from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
+from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
 
 # modules: what a ring's root is beyond its reference circle at most, with its clearance; a rim beyond that, mm
 _ROOT, _RIM = 1.25, 8.0
 # mm: wall beside a hole, of a boss about a pin beyond its radius, of a tube; feet, cranks by hand, handles
 _WALL, _BOSS, _TUBE = 3.0, 3.0, 3.0
 _FOOT, _FEET_HEIGHT, _HANDLE, _GRIP = 10.0, 70.0, 6.0, 25.0
-# worms: quotient q; addendum and dedendum, modules; length of the thread, modules; bearings, neck before them, collar, mm
+# worms: quotient q; addendum, dedendum and length of the thread, modules; bearings, neck before them, collar, mm
 _Q, _ADDENDUM, _DEDENDUM, _THREAD = 10.0, 1.0, 1.2, 20.0
 _BEARING, _NECK, _COLLAR = 6.0, 6.0, 5.0
 _COLOURS = {
@@ -426,7 +426,7 @@ class _Making(Making):
             self._worm(name, wheel, teeth, plane, 1 if name == "ring" else -1)
 
     def _worm(self, name: str, wheel: str, teeth: int, plane: float, side: int) -> None:
-        """A worm beside +x or -x with its bearings, the thick journal's at +y or -y, and the collar on its other end."""
+        """A worm beside +x or -x with its bearings, the thick journal's at +y or -y, and its collar."""
         sizes, keys = self.sizes, self.keys
         core, gap, neck = sizes.worm_core, keys.axial_gap, sizes.beside - keys.worm_module * _THREAD / 2
         thin = core - 3

@@ -51,7 +51,7 @@ def polygon(part: Any) -> shapely.Geometry:
 
 
 def flats(placing: Placing, parts: dict[str, Any]) -> list[Flat]:
-    """Every instance with its lower and upper face and its outline, smaller by what outlines and glued rods touch; but worm drives."""
+    """All but worm drives: lower and upper face and the outline, smaller by what outlines and glued rods touch."""
     upright = [i for i in placing.instances if i.axis[2] == 1 and parts[i.part].kind != "worm_wheel"]
     shapes = {key: polygon(parts[key]).buffer(-0.01, quad_segs=2) for key in {i.part for i in upright}}
     return [(i.id, i.at[2], i.at[2] + parts[i.part].face_width, shapes[i.part]) for i in upright]
