@@ -1,14 +1,16 @@
 """Meshes of solids of faces: every edge sampled once, every face triangulated in the plane of its parameters.
 
-A face between four sides gets a grid, stitched to the points of its edges; any other one the Delaunay triangles of
-its bounds and of a grid within them. How far the triangles leave their surfaces is proven on planes and surfaces of
-revolution (the sagitta of the meridian and that of the angle), and sampled on splines.
+A face between four sides gets a grid, stitched to the points of its edges, on splines rows as far apart as they are
+bent (``spacing.py``); any other one the Delaunay triangles of its bounds and of a grid within them. How far the
+triangles leave their surfaces is proven on planes and surfaces of revolution (the sagitta of the meridian and that of
+the angle), and sampled on splines.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from types import UnionType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,7 +37,8 @@ from geometry.solids.measured import Faced
 from geometry.solids.unrolled import Side, unrolled
 from parts.solids.caps import Triangles, library_triangles
 from parts.solids.flips import constrained, inner_cells
-from parts.solids.grids import Grid, grid_between
+from parts.solids.grids import Grid, grid_between, rows_between
+from parts.solids.spacing import Bends, bend_places, graded
 
 if TYPE_CHECKING:
     from parts.solids.barrel_mesh import BarrelMesh
@@ -44,11 +47,13 @@ if TYPE_CHECKING:
 _SINGLE, _DOUBLE, _ALONG, _ACROSS = 0.98, 0.55, 0.5, 0.4
 # how often the grid of a face narrower than so many rad is made finer before the whole mesh is
 _FINER, _NARROW = 10, 0.5
+# by how much the sagitta of a patch is made smaller where it was passed: to so much of it, and at most to a part
+_SAFE, _LEAST_SHARE = 0.9, 0.3
 # what splines may take of it
 _SPLINES = 0.1
 _MOST_ROUNDS, _MOST_TRIANGLES = 10, 4_000_000
 # arcs are cut into chords no longer than this, rad; samples for the bend of splines, each span
-_WIDEST, _BENDS = math.pi / 4, 5
+_WIDEST, _INNER = math.pi / 4, np.linspace(0, 1, 5)
 # what is added to the greatest sampled distance
 _MARGIN = 1.15
 # a corner of a face turns by more than this in the unit square, rad
@@ -124,10 +129,8 @@ class _Mesher:
         self.error, self.count = 0.0, 0
         self.bound: Bound = "exact"
         self.bundle, self.row = edge_rows(solid)
-        bent = _bent_edges(solid)
-        ends = np.cumsum([len(edges.start) for edges in solid.edges])
-        doubly = [bool(own.any()) for own in np.split(bent, ends[:-1])]
-        self.chains = [self._chain(edges, both) for edges, both in zip(solid.edges, doubly, strict=True)]
+        self.bent, self.patched = (self._bounding(kinds) for kinds in (Torus | Sphere | SplineSurface, SplineSurface))
+        self.chains = [self._chain(bundle, edges) for bundle, edges in enumerate(solid.edges)]
 
     def run(self) -> float:
         """Triangles of all faces; the greatest distance, mm."""
@@ -146,8 +149,14 @@ class _Mesher:
         self.size += len(flat)
         return np.arange(self.size - len(flat), self.size).reshape(points.shape[:-1])
 
-    def _chain(self, edges: Edges, bent: bool) -> _Chain:
-        shares = _shares(self.solid, edges, self.tolerance * (_DOUBLE if bent else _SINGLE))
+    def _bounding(self, kinds: UnionType | type) -> set[int]:
+        """Bundles of edges that bound a face of some kinds."""
+        own = [edges for faces in self.solid.faces if isinstance(faces.surface, kinds) for edges, _ in faces.loops]
+        return set(np.unique(self.bundle[np.concatenate([x.ravel() for x in own])]).tolist()) if own else set()
+
+    def _chain(self, bundle: int, edges: Edges) -> _Chain:
+        sag = self.tolerance * (_DOUBLE if bundle in self.bent else _SINGLE)
+        shares = _shares(self.solid, edges, sag, even=bundle not in self.patched)
         points, _ = along_edges(self.solid, edges, shares)
         ends = self.solid.points[self.solid.vertices[np.stack([edges.start, edges.end], axis=1)]]
         points[:, 0], points[:, -1] = ends[:, 0], ends[:, 1]
@@ -311,17 +320,11 @@ class _Mesher:
             ][k]
             sides.append((shares, np.column_stack([u, v]), np.arange(len(shares))))
         grid = Grid(tuple(sides))
-        counts = [len(shares) - 1 for shares, _, _ in sides]
-        u_count, v_count = max(counts[0], counts[2]), max(counts[1], counts[3])
-        rising = True
-        if patch is not None:
-            template = patch.rows(_templates(patch.poles))
-            u_own, v_own, rising = _bend(template, self.tolerance)
-            u_count, v_count = max(u_count, u_own), max(v_count, v_own)
-        triangles, inner = grid_between(grid, u_count, v_count, rising=rising)
         ring = np.concatenate([n[:, :-1] for n in names], axis=1)
         places = np.concatenate([p[:, :-1] for p in points], axis=1)
         if patch is None:
+            counts = [len(shares) - 1 for shares, _, _ in sides]
+            triangles, inner = grid_between(grid, max(counts[0], counts[2]), max(counts[1], counts[3]))
             low, high = points[0], points[2][:, ::-1]
             s, t = inner.T
             at = np.stack([np.interp(s, grid.sides[0][0], np.arange(low.shape[1]))])[0].round().astype(int)
@@ -329,12 +332,26 @@ class _Mesher:
             numbers = np.concatenate([ring, self._added(inside)], axis=1)
             self._keep(_oriented(numbers[:, triangles].reshape(-1, 3), flip), self.tolerance, "sampled")
             return
-        inside = patch.scattered(inner)[0]
-        numbers = np.concatenate([ring, self._added(inside)], axis=1)
         which = _templates(patch.poles)
-        table = np.concatenate([grid.ring(), inner])
-        error = _patch_error(patch.rows(which), np.concatenate([places, inside], axis=1)[which], table, triangles)
-        self._keep(_oriented(numbers[:, triangles].reshape(-1, 3), flip), _MARGIN * error, "sampled")
+        template = patch.rows(which)
+        bends, sag = Bends(template), self.tolerance
+        for _ in range(_FINER):
+            t, rows = bends.rows(sag)
+            if self.count + 2 * len(edges) * sum(len(row) for row in rows) > _MOST_TRIANGLES:
+                raise ConvergenceError("mesh for the tolerance", self.tolerance, self.count)
+            triangles, inner = rows_between(grid, t, rows, rising=bends.rising)
+            table = np.concatenate([grid.ring(), inner])
+            if np.any(_turned(table, triangles) <= 0):
+                # rows of unlike lengths may fold beside a side of few points
+                triangles, inner = rows_between(grid, t, [max(rows, key=len)] * len(rows), rising=bends.rising)
+                table = np.concatenate([grid.ring(), inner])
+            at = np.concatenate([places[which], template.scattered(inner)[0]], axis=1)
+            error = _MARGIN * _patch_error(template, at, table, triangles)
+            if error <= self.tolerance:
+                break
+            sag *= max(_SAFE * self.tolerance / error, _LEAST_SHARE)
+        numbers = np.concatenate([ring, self._added(patch.scattered(inner)[0])], axis=1)
+        self._keep(_oriented(numbers[:, triangles].reshape(-1, 3), flip), error, "sampled")
 
 
 def _oriented(triangles: Triangles, flip: bool) -> Triangles:
@@ -348,16 +365,6 @@ def _before(sides: Sequence[Side], k: int) -> int:
     return run
 
 
-def _bent_edges(solid: Solid) -> NDArray[np.bool_]:
-    """Which edges bound a face that is bent both ways."""
-    found = np.zeros(sum(len(edges.start) for edges in solid.edges), dtype=bool)
-    for faces in solid.faces:
-        if isinstance(faces.surface, Torus | Sphere | SplineSurface):
-            for edges, _ in faces.loops:
-                found[edges] = True
-    return found
-
-
 def _chord(radius: float, sag: float) -> float:
     """The angle whose chord leaves a circle by a sagitta, rad."""
     return min(_WIDEST, 4 * math.asin(math.sqrt(min(max(sag, 0.0) / (2 * radius), 0.5)))) if radius > 0 else _WIDEST
@@ -367,7 +374,7 @@ def _tube(chart: Chart) -> float:
     return chart.surface.tube if isinstance(chart.surface, Torus) else getattr(chart.surface, "radius", 0.0)
 
 
-def _shares(solid: Solid, edges: Edges, sag: float) -> Real:
+def _shares(solid: Solid, edges: Edges, sag: float, *, even: bool) -> Real:
     """Where a bundle of edges is cut: the ends of chords that leave none of them by more than a sagitta."""
     curve = edges.curve
     if isinstance(curve, Circular):
@@ -376,15 +383,17 @@ def _shares(solid: Solid, edges: Edges, sag: float) -> Real:
     if not isinstance(curve, Spline):
         return np.array([0.0, 1.0])
     breaks = span_shares(curve.knots)
-    inner = np.linspace(0, 1, _BENDS)
-    at = (breaks[:-1, None] + np.diff(breaks)[:, None] * inner).ravel()
+    at = bend_places(curve.knots) if not even else (breaks[:-1, None] + np.diff(breaks)[:, None] * _INNER).ravel()
     bends = np.einsum("kp,npc->nkc", spline_rows(curve.degree, curve.knots, at, 2)[2], solid.points[curve.poles])
-    most = np.linalg.norm(bends, axis=2).max(axis=0).reshape(-1, _BENDS).max(axis=1)
+    bent = np.linalg.norm(bends, axis=2).max(axis=0)
+    if not even:
+        return graded(at, bent, sag)
+    most = bent.reshape(-1, len(_INNER)).max(axis=1)
     counts = np.maximum(1, np.ceil(np.diff(breaks) * np.sqrt(most / (8 * sag)))).astype(int)
     # chords may pass over knots at which the curve has no corner
-    even = max(1.0, math.ceil(math.sqrt(float(most.max()) / (8 * sag))))
-    if even < counts.sum() and np.unique(curve.knots, return_counts=True)[1][1:-1].max(initial=0) < curve.degree:
-        breaks, counts = np.array([0.0, 1.0]), np.array([int(even)])
+    whole = max(1.0, math.ceil(math.sqrt(float(most.max()) / (8 * sag))))
+    if whole < counts.sum() and np.unique(curve.knots, return_counts=True)[1][1:-1].max(initial=0) < curve.degree:
+        breaks, counts = np.array([0.0, 1.0]), np.array([int(whole)])
     if counts.sum() > _MOST_TRIANGLES:
         raise ConvergenceError("mesh for the tolerance", sag, int(counts.sum()))
     pieces = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(breaks, breaks[1:], counts, strict=False)]
@@ -483,27 +492,6 @@ def _templates(poles: Real) -> Triangles:
     scale = _ALIKE * max(float(np.abs(poles).max()), 1e-300)
     _, first = np.unique(np.round(lengths / scale / 100), axis=0, return_index=True)
     return np.sort(first)
-
-
-def _bend(patch: Patch, tolerance: float) -> tuple[int, int, bool]:
-    """How many steps a grid needs along u and v, and whether the diagonals of its cells rise with both."""
-    u, v = (
-        np.interp(np.linspace(0, len(s) - 1, (_BENDS - 1) * (len(s) - 1) + 1), np.arange(len(s)), s)
-        for s in (span_shares(patch.surface.u_knots), span_shares(patch.surface.v_knots))
-    )
-    normal = np.cross(patch.at(u, v, (1, 0)), patch.at(u, v, (0, 1)))
-    size = np.linalg.norm(normal, axis=-1)
-    normal /= np.maximum(size, 1e-300)[..., None]
-    uu, uv, vv = (np.sum(normal * patch.at(u, v, k), axis=-1) for k in ((2, 0), (1, 1), (0, 2)))
-    most = [float(np.abs(x).max()) for x in (uu, uv, vv)]
-    counts = [max(1.0, math.sqrt(x / (8 * _ACROSS * tolerance))) for x in (most[0], most[2])]
-    cross = 2 * most[1] / (counts[0] * counts[1]) / 8
-    if cross > 0.2 * tolerance:
-        factor = math.sqrt(cross / (0.2 * tolerance))
-        counts = [x * math.sqrt(factor) if factor < 4 else x * factor for x in counts]
-    ratio = counts[0] / counts[1]
-    up, down = (float(np.abs(uu / ratio + s * 2 * uv + vv * ratio).max()) for s in (1, -1))
-    return math.ceil(counts[0]), math.ceil(counts[1]), up <= down
 
 
 def _patch_error(patch: Patch, points: Real, table: Real, triangles: Triangles) -> float:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from geometry.base.record import Record
 from geometry.curves.curve import Real
 from parts.solids.caps import Triangles
 
-# of shares that are compared
-_DIGITS = 11
+# of shares that are compared; by how much of a step a row is taken to lean
+_DIGITS, _LEAN = 11, 0.1
 
 
 class Grid(Record, eq=False):
@@ -63,6 +65,28 @@ def grid_between(grid: Grid, u_count: int, v_count: int, *, rising: bool = True)
     cells = ((a, b, c), (a, c, d)) if rising else ((a, b, d), (b, c, d))
     found += [np.stack(cell, axis=1) for cell in cells]
     return np.concatenate(found), _between(grid, s, t)
+
+
+def rows_between(grid: Grid, t: Real, rows: list[Real], *, rising: bool) -> tuple[Triangles, Real]:
+    """The same between the sides of the unit square over rows at ``t`` that have their own places along u each."""
+    counts = [len(names) - 1 for _, _, names in grid.sides]
+    starts = np.cumsum([0, *counts]).tolist()
+    chains = [np.arange(starts[k], starts[k + 1] + 1) % starts[-1] for k in range(4)]
+    shares = [own for own, _, _ in grid.sides]
+    ends = starts[-1] + np.cumsum([0, *(len(row) for row in rows)])
+    inner = [np.arange(a, b) for a, b in pairwise(ends.tolist())]
+    first, last = (np.array([own[k] for own in inner]) for k in (0, -1))
+    found = [
+        _zipped(chains[0], shares[0], inner[0], rows[0]),
+        _zipped(chains[1], shares[1], last, t),
+        _zipped(chains[2], shares[2], inner[-1][::-1], 1 - rows[-1][::-1]),
+        _zipped(chains[3], shares[3], first[::-1], 1 - t[::-1]),
+    ]
+    for (low, s_low), (high, s_high) in pairwise(zip(inner, rows, strict=True)):
+        # of alike rows the diagonals all go one way
+        lean = (-_LEAN if rising else _LEAN) / max(len(low), len(high))
+        found.append(_zipped(low, s_low, high, s_high + lean))
+    return np.concatenate(found), np.column_stack([np.concatenate(rows), np.repeat(t, [len(row) for row in rows])])
 
 
 def _between(grid: Grid, s: Real, t: Real) -> Real:

@@ -23,7 +23,9 @@ from geometry.solids.mass import Moments, body_moments
 _ALONG, _ACROSS = 32, 32
 # heights of a band and shares from which the foot of a perpendicular is sought, its steps, the step of derivatives,
 # and how far beyond the ends of a part it may lie, as shares of it
-_LEVELS, _SHARES, _STEPS, _SHIFT, _BEYOND = 65, 129, 3, 1e-5, 0.02
+_LEVELS, _SHARES, _STEPS, _SHIFT, _BEYOND = 65, 129, 4, 1e-5, 0.02
+# points that are looked at a time
+_BLOCK = 8192
 # parts of a side
 FILLET, FLANK = 0, 1
 
@@ -104,6 +106,11 @@ class WormWheel(Record, dict=True):
 
         Each point is turned onto the lower side of tooth 1, and its foot sought in its plane across the axis.
         """
+        return np.concatenate(
+            [self._block(which, points[k : k + _BLOCK]) for k in range(0, max(len(points), 1), _BLOCK)]
+        )
+
+    def _block(self, which: int, points: Real) -> Real:
         table = self._table
         height = np.clip(points[:, 2] - self.middle, -self.middle, self.middle)
         plane = points[:, 0] + 1j * points[:, 1]
@@ -117,11 +124,13 @@ class WormWheel(Record, dict=True):
         side = Side(height, inner, normal, outer, np.zeros(len(height), dtype=bool))
         part = (self.teeth.fillet, self.teeth.flank)[which]
         share = self._first_share(which, np.abs(plane), height)
-        for _ in range(_STEPS):
-            here = part(side, share).plane
-            way = (part(side, share + _SHIFT).plane - here) / _SHIFT
-            share = np.clip(share + (np.conj(way) * (plane - here)).real / np.abs(way) ** 2, -_BEYOND, 1 + _BEYOND)
         cut = part(side, share)
+        way = (part(side, share + _SHIFT).plane - cut.plane) / _SHIFT
+        # the way is kept: the foot is found well enough for a distance, which errs by the square of what it is off
+        for _ in range(_STEPS):
+            step = (np.conj(way) * (plane - cut.plane)).real / np.abs(way) ** 2
+            share = np.clip(share + step, -_BEYOND, 1 + _BEYOND)
+            cut = part(side, share)
         off = np.conj(cut.normal) * (plane - cut.plane)
         ended = (share <= -_BEYOND) | (share >= 1 + _BEYOND)
         along = np.where(ended, np.abs(off.imag) / np.abs(cut.normal), 0.0)

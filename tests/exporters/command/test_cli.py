@@ -260,11 +260,7 @@ def new_scene(capsys: pytest.CaptureFixture[str], kind: str = "spur_gear") -> st
 
 
 @pytest.mark.sampled(6)
-@pytest.mark.parametrize(
-    # a worm wheel at the finest takes half a minute
-    "kind",
-    [pytest.param(k, marks=pytest.mark.heavy) if k == "worm_wheel" else k for k in ALONE],
-)
+@pytest.mark.parametrize("kind", ALONE)
 def test_the_scene_to_start_from_builds(kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "mine.toml"
     file.write_text(new_scene(capsys, kind), encoding="utf-8")

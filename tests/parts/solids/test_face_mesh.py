@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 
 from exporters.formats.readback import ReadMesh
+from exporters.verification.faces import mesh_deviation
 from exporters.verification.topology import doubled_normals, topology_failures
 from geometry.solids.face_moments import face_moments
 from geometry.solids.faces import Circular, Faces, Frame, Solid, SolidBuilder, Sphere, Torus
 from geometry.solids.mass import body_moments
 from geometry.solids.rings import AHEAD, UP
-from parts.scene.load import load_scene, make_parts
-from parts.solids.face_mesh import face_mesh
+from parts.scene.load import load_scene, make_parts, scene_from_dict
+from parts.solids.face_mesh import face_mesh, faced_mesh
 from parts.solids.faces import solid_curves, solid_faces
 
 # across a circle that stands upright, its angle 0 ahead and a quarter up
@@ -79,6 +80,19 @@ def test_a_ball_and_a_ring_by_closed_forms() -> None:
             assert np.abs(distance(made.vertices)).max() < 1e-12
             worst = float(np.abs(distance(middles)).max())
             assert 0.1 * made.max_error < worst <= made.max_error
+
+
+def test_a_worm_wheel_has_triangles_where_it_is_bent() -> None:
+    # 75 716 before, as close all over as at the ends of its undercut
+    wheel = {"kind": "worm_wheel", "module": 2.0, "number_of_teeth": 30}
+    body = make_parts(scene_from_dict({"parts": {"wheel": wheel}}, "s", "s"), "s")[0]["wheel"].body(0.0)
+    made = faced_mesh(body, 0.05)
+    assert len(made.geometry) < 16_000
+    mesh = ReadMesh(made.vertices, made.geometry)
+    assert topology_failures(mesh) == []
+    deviation, lone = mesh_deviation(mesh, body)
+    assert 0.4 * made.max_error < deviation <= made.max_error <= 0.05
+    assert lone == 0
 
 
 @pytest.mark.parametrize("scene", ["helical_pair", "cycloidal_reducer", "barrel_cam"])
