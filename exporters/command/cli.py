@@ -129,10 +129,7 @@ def _scene(address: str, options: argparse.Namespace) -> SceneFile:
     from parts.scene.load import load_scene
 
     _check_language(options)
-    scene = load_scene(address)
-    if options.language is not None:
-        scene.scene.language = options.language
-    return scene
+    return load_scene(address, options.language)
 
 
 def _prepare_streams() -> None:
@@ -436,13 +433,13 @@ def _print_json(asked: Sequence[object], found: Sequence[object]) -> None:
 
 def _check(options: argparse.Namespace) -> int:
     from exporters.production.check import scene_checks
-    from exporters.production.check_lines import check_lines, has_bad_verdict
+    from exporters.production.check_lines import check_lines, has_bad_verdict, names_of
     from parts.base.refusal import SceneError
     from parts.scene.checks import check_solids
     from parts.scene.load import in_keys_of_file, make_parts
     from parts.scene.placing import place
 
-    def checked(address: str) -> tuple[dict[str, Any], SceneFile]:
+    def checked(address: str) -> tuple[dict[str, Any], SceneFile, dict[str, str]]:
         scene = _scene(address, options)
         with in_keys_of_file(scene.origins):
             parts, matings = make_parts(scene, address)
@@ -451,19 +448,23 @@ def _check(options: argparse.Namespace) -> int:
                 raise SceneError(address, "mates", None, "nothing_to_check")
             check_solids(parts, address)
         asked, language = scene.checks.transmission_error, scene.scene.language
-        return scene_checks(placing, parts, scene.drives, language, contact=True, transmission=asked), scene
+        return (
+            scene_checks(placing, parts, scene.drives, language, contact=True, transmission=asked),
+            scene,
+            names_of(placing.instances, parts),
+        )
 
     found, refused = _each(options, checked)
     if options.json:
-        _print_json(options.scenes, [checks for checks, _ in found])
-    for checks, scene in found:
+        _print_json(options.scenes, [checks for checks, *_ in found])
+    for checks, scene, names in found:
         if options.json or (options.quiet and not has_bad_verdict(checks)):
             continue
         language = scene.scene.language
         title = [] if len(options.scenes) == 1 else [f"{scene.name}:"]
-        lines = check_lines(checks, language)
+        lines = check_lines(checks, language, names)
         print("\n".join(title + (lines or [words(language).text("no mates; no solids run into each other")])))
-    return FAILED if any(has_bad_verdict(checks) for checks, _ in found) else WRONG_INPUT if refused else DONE
+    return FAILED if any(has_bad_verdict(checks) for checks, *_ in found) else WRONG_INPUT if refused else DONE
 
 
 def _verify(options: argparse.Namespace) -> int:
@@ -524,7 +525,7 @@ def _list(options: argparse.Namespace) -> int:
     kinds = {kind: told.text(phrase) for kind, phrase in KINDS.phrases.items()}
     mates = {kind: told.text(phrase) for kind, phrase in MATES.phrases.items()}
     assemblies = {kind: told.text(phrase) for kind, phrase in RECIPES.phrases.items()}
-    scenes = {name: title_of(file) for name, file in built_in_scenes().items()}
+    scenes = {name: title_of(file, _language(options)) for name, file in built_in_scenes().items()}
     if options.json:
         _print_json([""], [{"parts": kinds, "mates": mates, "assemblies": assemblies, "scenes": scenes}])
         return DONE
@@ -567,6 +568,8 @@ def _new(options: argparse.Namespace) -> int:
             # whatever is wrong with it is told first
             load_scene(options.kind)
         text = text_of(Path(scenes.get(options.kind, options.kind)).read_bytes())
+        if options.language is not None and options.kind in scenes and "\nlanguage = " not in text:
+            text = text.replace("[scene]\n", f'[scene]\nlanguage = "{options.language}"\n', 1)
     _page(plain_scene(text, options.kind) if options.expand else text, options)
     return DONE
 

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
 from typing import Any
 
+from parts.base.part import Part
 from parts.base.texts import N_, Message, Words, counted, filled, message, words
+from parts.scene.placing import Instance
 from parts.texts.checks import GEAR_PAIR, MATES, VERDICTS
 
 # gaps below this are rounding, mm
@@ -12,10 +16,21 @@ _ROUNDING = 1e-9
 _SENSES = {"clockwise": N_("clockwise"), "counter_clockwise": N_("counter-clockwise")}
 
 
-def check_lines(checks: dict[str, Any], language: str) -> list[str]:
-    """What the checks of a scene found, a line each."""
+_UNITS = {"mm": N_("mm"), "deg": N_("deg")}
+
+
+def names_of(instances: Iterable[Instance], parts: Mapping[str, Part]) -> dict[str, str]:
+    """What people call each instance."""
+    return {one.id: parts[one.part].called(one.id) for one in instances}
+
+
+def check_lines(checks: dict[str, Any], language: str, names: Mapping[str, str] = MappingProxyType({})) -> list[str]:
+    """What the checks of a scene found, a line each; ``names`` of instances, where they have one beside their id."""
     told, lines = words(language), []
-    for mate in _without_repeats(checks.get("mates", [])):
+    named = [
+        mate | {key: names.get(mate[key], mate[key]) for key in ("first", "second")} for mate in checks.get("mates", [])
+    ]
+    for mate in _without_repeats(named):
         text = told.say(_mate_head(mate))
         if "total_contact_ratio" in mate:
             text += told.text(", total {total:.4f}", total=mate["total_contact_ratio"])
@@ -44,8 +59,9 @@ def check_lines(checks: dict[str, Any], language: str) -> list[str]:
     if "motion" in checks:
         lines += _motion(checks["motion"], told)
     for drive in checks.get("drives", []):
-        train = ", ".join(f"{name} {turns:.6g}" for name, turns in drive["train"].items())
-        lines.append(told.text("drive {instance}: {train} turns", instance=drive["instance"], train=train))
+        train = ", ".join(f"{names.get(name, name)} {turns:.6g}" for name, turns in drive["train"].items())
+        driven = names.get(drive["instance"], drive["instance"])
+        lines.append(told.text("drive {instance}: {train} turns", instance=driven, train=train))
     return lines
 
 
@@ -133,7 +149,8 @@ def _transmission(mate: dict[str, Any], told: Words) -> list[str]:
 def _mate_head(mate: dict[str, Any]) -> Message:
     """Who is joined and how: gear pairs with their numbers, other kinds in the words of their own."""
     if "contact_ratio" not in mate:
-        return filled(MATES[mate["kind"]], **mate)
+        unit = {"unit": Message(_UNITS[mate["unit"]])} if "unit" in mate else {}
+        return filled(MATES[mate["kind"]], **{**mate, **unit})
     return filled(
         GEAR_PAIR,
         first=mate["first"],

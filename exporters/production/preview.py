@@ -79,11 +79,12 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
 
 def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str, Any], folder: Path) -> Path:
     """All instances in their places, the upper ones last, and what the checks found."""
-    from exporters.production.check_lines import check_lines
+    from exporters.production.check_lines import check_lines, names_of
     from exporters.production.preview_labels import Label, Tops, spread_labels
 
     language = plan.scene.scene.language
     stand = sorted(plan.placing.instances, key=lambda i: i.at[2])
+    names = names_of(stand, plan.parts)
     outers = [_outer(i, samples(outlines[i.part][-1].geometry), plan.parts[i.part]) for i in stand]
     points = np.concatenate(outers)
     left, right = float(points.real.min()), float(points.real.max())
@@ -113,14 +114,14 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
         if instance.axis != UPWARDS:
             place, height = complex(outers[index].mean()) + shift, 0.0
         x, y = middle + place.real, middle - place.imag - height
-        labels.append(Label(plan.parts[instance.part].title or instance.id, x, y, size))
+        labels.append(Label(names[instance.id], x, y, size))
     named = spread_labels(labels, Tops(loops))
     style = f"font-family:sans-serif;font-size:{size:.4g}px;text-anchor:middle;fill:#202830"
     body += [
         f'<text x="{one.x:.4g}" y="{one.y:.4g}" style="{style}">{escaped(one.text)}</text>' for one in named if one
     ]
     covered = [label.text for label, one in zip(labels, named, strict=True) if one is None]
-    rows = [plan.scene.scene.title or plan.scene.name, *check_lines(checks, language)]
+    rows = [plan.scene.scene.title or plan.scene.name, *check_lines(checks, language, names)]
     if covered:
         rows.append(words(language).text("covered in the picture: {names}", names=", ".join(covered)))
     rows = [line for row in rows for line in wrap(row, _WIDE_LETTERS)]

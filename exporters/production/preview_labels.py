@@ -45,6 +45,7 @@ class Tops:
     def __init__(self, parts: Sequence[Sequence[Complex]], cells: int = _CELLS) -> None:
         every = np.concatenate([loop for loops in parts for loop in loops])
         self._low = complex(every.real.min(), every.imag.min())
+        self._high = complex(every.real.max(), every.imag.max())
         self._step = max(float(np.ptp(every.real)), float(np.ptp(every.imag)), 1e-300) / cells
         at = self._step * (np.arange(cells) + 0.5)
         self._top: NDArray[np.int_] = np.full((cells, cells), -1)
@@ -57,11 +58,19 @@ class Tops:
                 places = np.sort(a.real + (y - a.imag) / (b.imag - a.imag) * (b.real - a.real))
                 self._top[row, np.searchsorted(places, self._low.real + at) % 2 == 1] = number
 
-    def shows(self, label: Label, number: int) -> bool:
-        """Whether a word lies under nothing that is above the part of this number, and beside what is seen of it."""
+    def shows(self, label: Label, number: int) -> int:
+        """How well a word stands for the part of this number: 3 on it alone, 2 beside it and over no edge, 1 beside it.
+
+        0: not beside what is seen of it, or on what is above it.
+        """
         left, top, right, low = label.box
         beside = self._within(left - label.size, top - label.size, right + label.size, low + label.size)
-        return bool((beside == number).any()) and not bool((self._within(left, top, right, low) > number).any())
+        under = set(self._within(left, top, right, low).ravel().tolist())
+        if left < self._low.real or top < self._low.imag or right > self._high.real or low > self._high.imag:
+            under.add(-1)
+        if not (beside == number).any() or max(under) > number:
+            return 0
+        return 1 if len(under) > 1 else 3 if number in under else 2
 
     def _within(self, left: float, top: float, right: float, low: float) -> NDArray[np.int_]:
         """The uppermost parts in a box."""
@@ -77,8 +86,10 @@ def spread_labels(wanted: Sequence[Label], tops: Tops | None = None) -> list[Lab
     """
     made: list[Label | None] = []
     for number, label in enumerate(wanted):
-        apart = (one for one in _places(label) if not any(other and one.covers(other) for other in made))
-        made.append(next((one for one in apart if tops is None or tops.shows(one, number)), None))
+        apart = [one for one in _places(label) if not any(other and one.covers(other) for other in made)]
+        ranks = [tops.shows(one, number) if tops else 1 for one in apart]
+        best = max(ranks, default=0)
+        made.append(apart[ranks.index(best)] if best else None)
     return made
 
 
@@ -89,7 +100,7 @@ def _places(label: Label) -> Iterator[Label]:
     for ring in range(1, _RINGS + 1):
         shifts += [(0.0, ring * step), (0.0, -ring * step)]
         for side in (1, -1):
-            shifts += [(side * wide * 0.6, k * step) for k in (ring, -ring)]
+            shifts += [(side * wide * share, k * step) for share in (0.6, 1.1, 1.7) for k in (ring, -ring)]
             shifts += [(side * wide * 1.1 * (ring // 4 + 1), k * step) for k in (0, ring, -ring)]
     shifts.sort(key=lambda s: abs(s[0]) + 1.5 * abs(s[1]))
     for x, y in shifts:

@@ -69,6 +69,13 @@ class Part(Record, dict=True):
         """What people call it."""
         return self.keys.title  # type: ignore[attr-defined]
 
+    def called(self, instance: str) -> str:
+        """What people call an instance of it: its title, and what the id says beside the part's own."""
+        if self.title is None:
+            return instance
+        rest = instance.removeprefix(self.id).removesuffix(self.id).split("_")
+        return " ".join((self.title, *filter(None, rest)))
+
     @property
     def name(self) -> str:
         """Its title and its numbers, or its id."""

@@ -16,9 +16,10 @@ def built_in_scenes() -> dict[str, Path]:
     return {path.stem: path for path in sorted(SCENE_FOLDER.glob("*.toml"))}
 
 
-def title_of(file: Path) -> str:
-    """The title of a scene of the package."""
-    return str(tomllib.loads(file.read_text(encoding="utf-8"))["scene"]["title"])
+def title_of(file: Path, language: str) -> str:
+    """The title of a scene of the package, in a language that it has or in English."""
+    told = tomllib.loads(file.read_text(encoding="utf-8"))["scene"]["title"]
+    return str(told.get(language, told["en"]) if isinstance(told, dict) else told)
 
 
 def text_of(raw: bytes) -> str:

@@ -1,14 +1,19 @@
-"""The language that a scene asks for, even where the scene itself is refused."""
+"""The language that a scene asks for, even where the scene itself is refused, and its words in it."""
 
 from __future__ import annotations
 
 import re
 import tomllib
 from pathlib import Path
+from typing import Any
 
 from parts.base.content import content
+from parts.base.refusal import SceneError, meant
 from parts.base.texts import ENGLISH, languages
 from parts.scene.files import MOST_BYTES, built_in_scenes, text_of
+
+# keys that hold words, and may hold them in several languages
+WORDS = ("title", "label")
 
 
 def language_of(address: str) -> str:
@@ -26,3 +31,39 @@ def language_of(address: str) -> str:
         found = re.search(rb"""(?m)^\s*language\s*=\s*["'](\w+)["']""", raw)
         asked = found[1].decode() if found else ENGLISH
     return asked if asked in languages() else ENGLISH
+
+
+def in_language(raw: dict[str, Any], source: str, asked: str | None) -> dict[str, Any]:
+    """The tables of a scene, its titles and labels in the language ``asked`` for, else in the scene's.
+
+    Raises
+    ------
+    SceneError
+        A language has no catalogue.
+    """
+    scene = raw.get("scene", {})
+    if not isinstance(scene, dict) or not isinstance(parts := raw.get("parts", {}), dict):
+        return raw
+    if asked is not None:
+        scene = {**scene, "language": asked}
+    language = scene.get("language", ENGLISH)
+    rows = {key: _chosen(table, language, source, f"parts.{key}") for key, table in parts.items()}
+    return {**raw, "scene": _chosen(scene, language, source, "scene"), **({"parts": rows} if rows else {})}
+
+
+def _chosen(table: Any, language: str, source: str, place: str) -> Any:
+    """A table whose words stand in one language: the one asked for, else English, else the first."""
+    if not isinstance(table, dict):
+        return table
+    made = dict(table)
+    for key in WORDS:
+        if not isinstance(told := table.get(key), dict) or not told:
+            continue
+        for other in told:
+            if other not in languages():
+                known = languages()
+                raise SceneError(
+                    source, f"{place}.{key}.{other}", told[other], "not_one_of", meant(other, known), known=known
+                )
+        made[key] = told.get(language, told.get(ENGLISH, next(iter(told.values()))))
+    return made

@@ -35,6 +35,7 @@ from parts.scene.instances import (
     instance_specs,
     members,
 )
+from parts.scene.language import in_language
 
 if TYPE_CHECKING:
     from parts.base.mate import MateKeys, Mating
@@ -183,8 +184,8 @@ def _heads(key: str) -> Iterator[str]:
         key = key.rpartition(".")[0]
 
 
-def load_scene(address: str) -> SceneFile:
-    """A scene by the name of a built-in one or by the path of a TOML file.
+def load_scene(address: str, language: str | None = None) -> SceneFile:
+    """A scene by the name of a built-in one or by the path of a TOML file, in its own ``language`` or this one.
 
     Raises
     ------
@@ -214,10 +215,10 @@ def load_scene(address: str) -> SceneFile:
         raise SceneError(address, "", None, "nameless_file")
     if name.partition(".")[0].lower() in DEVICE_NAMES:
         raise SceneError(address, "", None, "device_name")
-    return scene_from_toml(raw_bytes, str(path), name)
+    return scene_from_toml(raw_bytes, str(path), name, language)
 
 
-def scene_from_toml(raw_bytes: bytes, source: str, name: str) -> SceneFile:
+def scene_from_toml(raw_bytes: bytes, source: str, name: str, language: str | None = None) -> SceneFile:
     """Parse and validate a scene."""
     if len(raw_bytes) > MOST_BYTES:
         raise SceneError(source, "", None, "too_large_file", None, most=MOST_BYTES)
@@ -231,7 +232,7 @@ def scene_from_toml(raw_bytes: bytes, source: str, name: str) -> SceneFile:
         code = "not_toml" if str(error) else "too_deep"
         raise SceneError(source, "", None, code, None, why=str(error)) from None
     try:
-        return scene_from_dict(raw, source, name)
+        return scene_from_dict(raw, source, name, language)
     except RecursionError:
         raise SceneError(source, "", None, "too_deep") from None
 
@@ -245,10 +246,11 @@ def _decimal_comma(text: str, why: str) -> dict[str, Any] | None:
     return {"line": line, "number": f"{found[1]}.{found[2]}"} if found else None
 
 
-def scene_from_dict(raw: dict[str, Any], source: str, name: str) -> SceneFile:
+def scene_from_dict(raw: dict[str, Any], source: str, name: str, language: str | None = None) -> SceneFile:
     """Validate the tables of a scene, its assemblies told out."""
     refuse_infinite(raw, source, "")
     _check_tables(raw, source)
+    raw = in_language(raw, source, language)
     raw, origins = plain_tables(raw, source)
     with in_keys_of_file(origins):
         return _scene_of(raw, source, name, origins)

@@ -14,6 +14,7 @@ from parts.mates.registry import MATES
 from parts.recipes.registry import RECIPES
 from parts.scene.defaults import default_names
 from parts.scene.instances import DriveSpec, InstanceTable
+from parts.scene.language import WORDS
 from parts.scene.load import ChecksSpec, ExportSpec, SceneInfo
 
 
@@ -40,6 +41,12 @@ def scene_schema() -> str:
     names = default_names(ExportSpec)
     told = {"type": "object", "properties": {key: {} for key in names}, "additionalProperties": False}
     schema["$defs"]["Scene"]["properties"]["defaults"] = told
+    # words may be told in several languages
+    several = {"type": "object", "additionalProperties": {"type": "string"}}
+    for table in ("SceneInfo", *(entry.keys.__name__ for entry in KINDS.values())):
+        properties = schema["$defs"][table]["properties"]
+        for name in [name for name in WORDS if name in properties]:
+            properties[name] = {"anyOf": [properties[name], several], "default": properties[name].get("default")}
     needed: dict[str, Any] = {}
     for place, items, kinds in (
         ("parts", "additionalProperties", KINDS),

@@ -83,6 +83,20 @@ def test_a_hole_shows_what_lies_under_it() -> None:
     assert tops.shows(Label("in", 20.0, 38.0, 4.0), 1)
 
 
+def test_a_name_stands_on_no_edge_where_there_is_a_place() -> None:
+    square = np.array([0, 40, 40 + 40j, 40j])
+    tops = Tops([[square], [square / 2 + 30 + 30j]])
+    first, second = spread_labels([Label("wide", 3.0, 20.0, 4.0), Label("wide", 31.0, 45.0, 4.0)], tops)
+    assert first is not None
+    assert second is not None
+    for label, (low, high) in ((first, (0, 40)), (second, (30, 50))):
+        left, top, right, bottom = label.box
+        assert low <= left
+        assert right <= high
+        assert low <= top
+        assert bottom <= high
+
+
 def test_names_of_what_is_covered_stand_in_the_caption(tmp_path: Path) -> None:
     scene = tmp_path / "two.toml"
     scene.write_text(

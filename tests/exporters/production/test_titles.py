@@ -141,3 +141,57 @@ def test_a_title_that_is_not_engraved_is_told(tmp_path: Path) -> None:
         assert main(["build", str(file), "--out", str(tmp_path)]) == 0
         report = (tmp_path / "s" / "report.json").read_text(encoding="utf-8")
         assert ("title_not_engraved" in report) == told
+
+
+SPOKEN = """
+[scene]
+title = { en = "A model", uk = "Модель" }
+[parts.cog]
+kind = "plate"
+width = 40.0
+height = 30.0
+face_width = 3.0
+title = { en = "Wheel", uk = "Колесо" }
+label = { en = "left", uk = "ліве" }
+[parts.pinion]
+kind = "plate"
+width = 40.0
+height = 30.0
+face_width = 3.0
+title = { uk = "Шестерня" }
+[instances.cog_2]
+part = "cog"
+[[mates]]
+kind = "fixed"
+first = "pinion"
+second = "cog_2"
+offset = [50.0, 0.0, 0.0]
+[boards.ply]
+width = 200.0
+height = 100.0
+thickness = 3.0
+[[exports]]
+format = "svg"
+purpose = "board"
+"""
+
+
+def test_words_in_several_languages(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "s.toml"
+    file.write_text(SPOKEN, encoding="utf-8")
+    made = {}
+    for language, wanted in (("en", ("A model", "Wheel", "Шестерня")), ("uk", ("Модель", "Колесо", "Шестерня"))):
+        out = tmp_path / language
+        assert main(["build", str(file), "--out", str(out), "--language", language]) == 0
+        # how a mate joins whom, by their names
+        assert f"{wanted[2]} - {wanted[1]} 2" in capsys.readouterr().out
+        picture = (out / "s" / "s.board.1.preview.svg").read_text("utf-8")
+        assert all(word in picture for word in (*wanted, "200 x 100 x 3"))
+        made[language] = (out / "s" / "s.board.1.svg").read_bytes()
+    # engraved in its language
+    assert made["en"] != made["uk"]
+    file.write_text(SPOKEN.replace('uk = "Колесо"', 'ru = "Колесо"'), encoding="utf-8")
+    assert main(["build", str(file), "--out", str(tmp_path / "no")]) == 2
+    said = capsys.readouterr().err
+    assert 'parts.cog.title.ru = "Колесо": must be one of' in said
+    assert said.count("\n") == 1
