@@ -1,8 +1,10 @@
-"""``higherpair calc worm``: a worm drive by GOST 19650, its exact sections, and its strength as the thesis has it."""
+"""``higherpair calc worm``: a worm, or a worm drive by GOST 19650, its exact sections, its strength by the thesis."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from contextlib import suppress
 from typing import Annotated, Any
 
 from msgspec import Meta, Struct
@@ -11,8 +13,13 @@ from geometry.base.errors import ParameterError
 from geometry.gears.worms import strength
 from geometry.gears.worms.drive import WormDrive
 from geometry.gears.worms.flank import InvoluteFlank
-from parts.base.refusal import SceneError
+from geometry.gears.worms.measures import BALL, over_balls, reference_chord
+from geometry.gears.worms.thread import Thread, thread_of
+from geometry.gears.worms.worm import Worm
+from parts.base.refusal import SceneError, meant
 from parts.base.texts import N_, message
+from parts.gears.worm.part import WormSpec, told_worm
+from parts.gears.worm_wheel.part import WormWheelSpec
 from parts.keys.base import mm, size
 from parts.keys.worm import (
     Addendum,
@@ -28,7 +35,7 @@ from parts.keys.worm import (
     WormHand,
     worm_of,
 )  # fmt: skip
-from parts.pages.inputs import SceneKeys, checked, refusal
+from parts.pages.inputs import SceneKeys, checked, given, keys_of, refusal
 from parts.pages.misprints import printed_for_worm
 from parts.pages.page import Sheet
 
@@ -42,7 +49,9 @@ class WormKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     """Keys of a worm drive and of what it carries."""
 
     module: AxialModule
-    number_of_teeth: Annotated[int, Meta(ge=8, le=10_000, description="teeth of the wheel, z2")]
+    number_of_teeth: (
+        Annotated[int, Meta(ge=8, le=10_000, description="teeth of the wheel, z2; without it a worm alone")] | None
+    ) = None
     number_of_starts: Starts = 1
     diameter_quotient: Quotient = 10.0
     profile_shift_coefficient: WheelShift = 0.0
@@ -53,6 +62,10 @@ class WormKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     tip_clearance_coefficient: Clearance = 0.2
     fillet_coefficient: Fillet = 0.2
     grinding_wheel_diameter: GrindingWheel = 300.0
+    axial_thinning: Annotated[float, mm("thinning of the thread, axial, for backlash", least=0, most=1000)] = 0.0
+    tip_rounding: Annotated[float, mm("radius of the thread's tip edges in the axial section", least=0, most=1000)] = (
+        0.0
+    )
     worm_length: Annotated[float, mm("threaded length b1", above=0, most=100_000)] | None = None
     face_width: Annotated[float, mm("width b2 of the wheel's rim", above=0, most=100_000)] | None = None
     torque: Annotated[float, size("N*m", "torque T1 on the worm", above=0, most=1e9)] | None = None
@@ -68,27 +81,66 @@ class WormKeys(Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
-    """No scene has a worm yet."""
-    raise SceneError(source, "parts", None, "none_of_kind", None, known=[], kind=TOPIC)
+    """The keys of a scene's worm and of the wheel that it is mated with, changed by those of ``table``.
+
+    ``part``: which worm, or which wheel, where there are several.
+    """
+    fitting = [key for key, spec in scene.parts.items() if isinstance(spec, WormSpec | WormWheelSpec)]
+    pairs = [
+        tuple(scene.instances[getattr(mate, end)].part for end in ("first", "second"))
+        for mate in scene.mates
+        if mate.__struct_config__.tag == "worm_pair"
+    ]
+    part = table.pop("part", None)
+    if part is None and len(fitting) != 1 and (len(set(pairs)) != 1 or not set(fitting) <= {*pairs[0]}):
+        code = "choose_a_part" if fitting else "none_of_kind"
+        raise SceneError(source, "parts", None, code, None, known=fitting, kind=TOPIC)
+    if part is not None and part not in fitting:
+        code = "no_such_part" if fitting else "none_of_kind"
+        raise SceneError(source, "part", part, code, meant(part, fitting), known=fitting, kind=TOPIC)
+    chosen = part or fitting[0]
+    both = next((pair for pair in pairs if chosen in pair), (chosen,))
+    return drive_table([scene.parts[key] for key in both if key is not None]) | table
+
+
+def drive_table(specs: Sequence[Struct]) -> dict[str, Any]:
+    """The keys of this page that a worm and its wheel, or one of them, tell."""
+    table: dict[str, Any] = {}
+    for spec in specs:
+        if isinstance(spec, WormSpec):
+            table |= given(told_worm(spec)) | {"worm_length": spec.thread_length}
+        else:
+            # the thinning of a wheel is that of its teeth
+            table |= {key: value for key, value in given(spec).items() if key != "axial_thinning"}
+    return {key: value for key, value in table.items() if key in keys_of(WormKeys)}
 
 
 def sheet(table: dict[str, Any]) -> Sheet:
-    """The calculation of one worm drive."""
+    """The calculation of one worm, or of its drive."""
     keys: WormKeys = checked(table, WormKeys, TOPIC)
     if keys.torque is not None and keys.form_factor is None:
         raise SceneError("calc", f"{TOPIC}.form_factor", None, "worm_form_factor_missing")
+    if keys.torque is not None and keys.number_of_teeth is None:
+        raise SceneError("calc", f"{TOPIC}.number_of_teeth", None, "worm_wheel_missing")
     try:
-        worm = worm_of(keys, keys.fillet_coefficient)
+        worm = worm_of(keys, keys.fillet_coefficient, keys.axial_thinning)
     except ParameterError as error:
         raise refusal(TOPIC, error, keys=keys) from error
-    drive = WormDrive(worm, keys.number_of_teeth, keys.profile_shift_coefficient)
-    page = Sheet(TOPIC, N_("Worm drive"))
-    page.printed = printed_for_worm(worm, drive.number_of_teeth, drive.profile_shift_coefficient)
+    drive = keys.number_of_teeth and WormDrive(worm, keys.number_of_teeth, keys.profile_shift_coefficient)
+    page = Sheet(TOPIC, N_("Worm drive") if drive else N_("Worm"))
+    if drive:
+        page.printed = printed_for_worm(worm, drive.number_of_teeth, drive.profile_shift_coefficient)
     _given(page, keys)
-    _dimensions(page, drive)
-    _sections(page, drive, keys)
-    if keys.torque is not None:
-        _strength(page, drive, keys)
+    _dimensions(page, worm, drive or None)
+    _sections(page, worm, keys)
+    with suppress(ParameterError):
+        # of a thread that has room for its corners
+        _measures(page, thread_of(worm, keys.tip_rounding))
+    if drive:
+        if keys.face_width is not None or keys.worm_length is not None:
+            _lengths(page, drive, keys)
+        if keys.torque is not None:
+            _strength(page, drive, keys)
     return page
 
 
@@ -97,26 +149,31 @@ def _given(page: Sheet, keys: WormKeys) -> None:
     page.add("axial_module", keys.module)
     page.add("diameter_quotient", keys.diameter_quotient)
     page.add("number_of_starts", keys.number_of_starts)
-    page.add("worm_wheel_teeth", keys.number_of_teeth)
-    page.add("profile_shift_coefficient", keys.profile_shift_coefficient)
+    if keys.number_of_teeth is not None:
+        page.add("worm_wheel_teeth", keys.number_of_teeth)
+        page.add("profile_shift_coefficient", keys.profile_shift_coefficient)
     page.add("worm_form", keys.form)
     page.add("worm_pressure_angle_deg", keys.pressure_angle_deg)
     page.add("addendum_coefficient", keys.addendum_coefficient)
     page.add("tip_clearance_coefficient", keys.tip_clearance_coefficient)
     page.add("worm_fillet_coefficient", keys.fillet_coefficient)
+    if keys.axial_thinning:
+        page.add("axial_thinning", keys.axial_thinning)
 
 
-def _dimensions(page: Sheet, drive: WormDrive) -> None:
-    worm = drive.worm
-    page.section(N_("Dimensions of worm and wheel"))
-    page.add("worm_ratio", drive.ratio, "{z2} / {z1}", _GOST)
-    page.add("worm_centre_distance", drive.centre_distance, "0.5 * ({z2} + {q} + 2 * {x}) * {m}", _GOST)
+def _dimensions(page: Sheet, worm: Worm, drive: WormDrive | None) -> None:
+    page.section(N_("Dimensions of worm and wheel") if drive else N_("Dimensions of the worm"))
+    if drive:
+        page.add("worm_ratio", drive.ratio, "{z2} / {z1}", _GOST)
+        page.add("worm_centre_distance", drive.centre_distance, "0.5 * ({z2} + {q} + 2 * {x}) * {m}", _GOST)
     page.add("worm_reference_diameter", 2 * worm.reference_radius, "{q} * {m}", _GOST)
-    page.add("wheel_reference_diameter", 2 * drive.reference_radius, "{z2} * {m}", _GOST)
-    page.add("worm_pitch_diameter", 2 * drive.pitch_radius_of_worm, "({q} + 2 * {x}) * {m}", _GOST)
+    if drive:
+        page.add("wheel_reference_diameter", 2 * drive.reference_radius, "{z2} * {m}", _GOST)
+        page.add("worm_pitch_diameter", 2 * drive.pitch_radius_of_worm, "({q} + 2 * {x}) * {m}", _GOST)
     page.add("lead_angle_deg", math.degrees(worm.lead_angle), "arctan({z1} / {q})", _GOST)
-    formula = "arctan({z1} * {m} / {d_w1})"
-    page.add("pitch_lead_angle_deg", math.degrees(drive.pitch_lead_angle), formula, _GOST)
+    if drive:
+        formula = "arctan({z1} * {m} / {d_w1})"
+        page.add("pitch_lead_angle_deg", math.degrees(drive.pitch_lead_angle), formula, _GOST)
     flank = worm.flank
     if isinstance(flank, InvoluteFlank):
         formula = "arccos(cos({alpha}) * cos({gamma}))"
@@ -128,24 +185,47 @@ def _dimensions(page: Sheet, drive: WormDrive) -> None:
     page.add("worm_tip_diameter", 2 * worm.tip_radius, "{d1} + 2 * {h_a1}", _GOST)
     page.add("worm_root_diameter", 2 * worm.root_radius, "{d_a1} - 2 * {h1}", _GOST)
     page.add("worm_fillet_radius", worm.fillet_coefficient * worm.module, "{rho_f} * {m}", _GOST)
+    if drive:
+        _wheel(page, drive)
+
+
+def _wheel(page: Sheet, drive: WormDrive) -> None:
+    """Diameters of the wheel, and how wide and long both may be."""
+    starts = drive.worm.number_of_starts
     page.add("throat_diameter", 2 * drive.tip_radius, "{d2} + 2 * ({h_a} + {x}) * {m}", _GOST)
     page.add("wheel_root_diameter", 2 * drive.root_radius, "{d_a2} - 2 * {h1}", _GOST)
     page.add("most_outer_diameter", drive.most_outer_diameter, "{d_a2} + 6 * {m} / ({z1} + 2)", _GOST)
-    first, second = (11, 0.06) if worm.number_of_starts <= 2 else (12.5, 0.09)
+    first, second = (11, 0.06) if starts <= 2 else (12.5, 0.09)
     formula = f"({first} + {second} * {{z2}}) * {{m}}" if drive.profile_shift_coefficient == 0 else ""
     page.add("least_worm_length", drive.least_worm_length, formula, _GOST)
-    share = 0.75 if worm.number_of_starts <= 3 else 0.67
+    share = 0.75 if starts <= 3 else 0.67
     page.add("most_face_width", drive.most_face_width, f"{share} * {{d_a1}}", _GOST)
 
 
-def _sections(page: Sheet, drive: WormDrive, keys: WormKeys) -> None:
+def _sections(page: Sheet, worm: Worm, keys: WormKeys) -> None:
     """What follows from the exact surfaces."""
-    worm = drive.worm
     page.section(N_("Exact sections"))
     page.add("axial_pressure_angle_deg", math.degrees(worm.axial_pressure_angle), "")
-    page.add("axial_thickness", 2 * worm.screw.half_thickness, "pi * {m} / 2")
+    less = " - {A}" if keys.axial_thinning else ""
+    page.add("axial_thickness", 2 * worm.screw.half_thickness, f"pi * {{m}} / 2{less}")
     page.add("normal_thickness", 2 * worm.screw.half_thickness * math.cos(worm.lead_angle), "{s_x} * cos({gamma})")
     page.add("thread_tip_thickness", worm.tip_thickness, "")
+
+
+def _measures(page: Sheet, thread: Thread) -> None:
+    """What is read on the thread: its chord, and over balls."""
+    chord, ball = reference_chord(thread), BALL * thread.worm.module
+    page.section(N_("Measured"))
+    page.add("thread_chord", chord.thickness)
+    page.add("thread_chord_height", chord.height)
+    if (size := over_balls(thread, ball)) is not None:
+        page.add("ball_diameter", ball, f"{BALL} * {{m}}", _GOST)
+        page.add("over_balls", size)
+
+
+def _lengths(page: Sheet, drive: WormDrive, keys: WormKeys) -> None:
+    """How long the worm and how wide the wheel is, and what of it is used."""
+    page.section(N_("Length and width"))
     if keys.face_width is not None:
         used = drive.worm_length_used(keys.face_width)
         if used is None:

@@ -91,7 +91,7 @@ class WormSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field
     bore: BoreTable | None = None
 
 
-def _told(keys: WormSpec) -> WormSpec:
+def told_worm(keys: WormSpec) -> WormSpec:
     """The keys with the diameter quotient of their lead angle."""
     if keys.lead_angle_deg is None:
         return keys
@@ -110,7 +110,7 @@ def thread_of_keys(keys: WormSpec) -> Thread:
     """
     from geometry.gears.worms.thread import thread_of
 
-    told = _told(keys)
+    told = told_worm(keys)
     try:
         worm = worm_of(told, keys.fillet_coefficient, keys.axial_thinning)
         return thread_of(worm, keys.tip_rounding)
