@@ -70,6 +70,8 @@ class Kind(Generic[K, T]):
     page: str | None = None
     sheet: str | None = None
     drawing: str | None = None
+    # module with the table of its working drawing: data_table(part, scene, mates)
+    data_table: str | None = None
     # what ``new`` shows: keys of the part that its key ``of`` names; the purpose of a sheet that shows one part of it
     made_from: Mapping[str, object] | None = None
     sheet_shown: tuple[str, str] | None = None

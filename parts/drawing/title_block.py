@@ -8,6 +8,7 @@ from __future__ import annotations
 from geometry.base.record import Record
 from parts.base.texts import Text, in_context, words
 from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, text_width
+from parts.drawing.cells import INDENT, write_cell, write_lines
 from parts.keys.title import TitleBlockTable
 
 # width and height, mm; GOST 2.104, form 1
@@ -51,7 +52,6 @@ _FROM_BELOW = (("original", 25), ("signed", 35), ("replaces", 25), ("duplicate",
 _FROM_TOP = (("first_use", 60), ("reference", 60))
 # who signs, from the top row down; the fourth row is free
 _ROLES = ("drawn", "checked", "technical_check", "", "standards_check", "approved")
-_INDENT = 0.8
 # heights of capitals of designation, name and the rest, mm
 _LARGE, _MIDDLE = 7.0, 5.0
 
@@ -119,7 +119,7 @@ def _columns(canvas: Canvas, language: str) -> None:
             low = min(y, y + way * height)
             y += way * height
             canvas.line("FRAME", complex(left, y), complex(frame.left, y))
-            text, room = words(language).say(_LABELS[key]), height - 2 * _INDENT
+            text, room = words(language).say(_LABELS[key]), height - 2 * INDENT
             long = min(text_width(text, SMALL_TEXT), room)
             at = complex(left + (_NAME + SMALL_TEXT) / 2, low + (height - long) / 2)
             canvas.write_rising(text, at, SMALL_TEXT, room)
@@ -131,7 +131,7 @@ def _labels(canvas: Canvas, corner: complex, language: str) -> None:
     """The words that stand in every block."""
 
     def label(key: str, cell: tuple[float, float, float, float], *, middle: bool = True) -> None:
-        _write(canvas, corner, words(language).say(_LABELS[key]), cell, SMALL_TEXT, middle=middle)
+        write_cell(canvas, words(language).say(_LABELS[key]), _at(corner, cell), SMALL_TEXT, middle=middle)
 
     for key, left, right in (
         ("change", 0, 7), ("change_sheet", 7, 17), ("document", 17, 40), ("signature", 40, 55), ("date", 55, 65),
@@ -150,9 +150,9 @@ def _entries(canvas: Canvas, corner: complex, block: TitleBlock) -> None:
     for index, role in enumerate(_ROLES):
         low = 25 - 5 * index
         if people.get(role):
-            _write(canvas, corner, people[role], (17, low, 40, low + 5), SMALL_TEXT, middle=False)
+            write_cell(canvas, people[role], _at(corner, (17, low, 40, low + 5)), SMALL_TEXT, middle=False)
             if block.date:
-                _write(canvas, corner, block.date, (55, low, 65, low + 5), SMALL_TEXT)
+                write_cell(canvas, block.date, _at(corner, (55, low, 65, low + 5)), SMALL_TEXT)
     for text, cell, size in (
         (block.designation, (65, 40, 185, 55), _LARGE),
         (block.name, (65, 15, 135, 40), _MIDDLE),
@@ -162,56 +162,18 @@ def _entries(canvas: Canvas, corner: complex, block: TitleBlock) -> None:
         (block.scale, (167, 20, 185, 35), TEXT_HEIGHT),
         (block.organisation, (135, 0, 185, 15), _MIDDLE),
     ):
-        _lines(canvas, corner, text, cell, size)
+        write_lines(canvas, text, _at(corner, cell), size)
 
 
 def _count(canvas: Canvas, corner: complex, block: TitleBlock, language: str) -> None:
     """Number of the sheet, left out where there is one only (GOST 2.104), and how many there are."""
     sheet, sheets = (words(language).say(_LABELS[key]) for key in ("sheet", "sheets"))
     number = f" {block.sheet}" if block.sheets > 1 else ""
-    _write(canvas, corner, f"{sheet}{number}", (135, 15, 155, 20), SMALL_TEXT, middle=False)
-    _write(canvas, corner, f"{sheets} {block.sheets}", (155, 15, 185, 20), SMALL_TEXT, middle=False)
+    for text, left, right in ((f"{sheet}{number}", 135, 155), (f"{sheets} {block.sheets}", 155, 185)):
+        write_cell(canvas, text, _at(corner, (left, 15, right, 20)), SMALL_TEXT, middle=False)
 
 
-def _lines(canvas: Canvas, corner: complex, text: str, cell: tuple[float, float, float, float], size: float) -> None:
-    """A text in the middle of its cell, in as many lines as it needs at most of what has room."""
+def _at(corner: complex, cell: tuple[float, float, float, float]) -> Box:
+    """A cell of the form: left, low, right, high from the block's corner."""
     left, low, right, high = cell
-    rows = _wrapped(text, right - left - 2 * _INDENT, size)
-    most = max(1, int((high - low - 1) / (1.6 * size)))
-    while len(rows) > most and size > SMALL_TEXT:
-        size = max(SMALL_TEXT, size - 0.5)
-        rows, most = _wrapped(text, right - left - 2 * _INDENT, size), max(1, int((high - low - 1) / (1.6 * size)))
-    # what is longer still is squeezed into the last line
-    rows = [*rows[: most - 1], " ".join(rows[most - 1 :])] if len(rows) > most else rows
-    middle, step = (low + high) / 2, 1.6 * size
-    for index, row in enumerate(rows):
-        centre = middle + step * ((len(rows) - 1) / 2 - index)
-        _write(canvas, corner, row, (left, centre - step / 2, right, centre + step / 2), size)
-
-
-def _wrapped(text: str, width: float, size: float) -> list[str]:
-    """The text in lines no longer than a width, mm, at its spaces."""
-    rows: list[str] = []
-    for word in text.split():
-        if rows and text_width(f"{rows[-1]} {word}", size) <= width:
-            rows[-1] += f" {word}"
-        else:
-            rows.append(word)
-    return rows
-
-
-def _write(
-    canvas: Canvas,
-    corner: complex,
-    text: str,
-    cell: tuple[float, float, float, float],
-    size: float,
-    *,
-    middle: bool = True,
-) -> None:
-    """One line within a cell (left, low, right, high from the block's corner), in its middle or from its left."""
-    left, low, right, high = cell
-    room = right - left - 2 * _INDENT
-    long = min(text_width(text, size), room)
-    x = (left + right - long) / 2 if middle else left + _INDENT
-    canvas.write(text, corner + complex(x, (low + high - size) / 2), size, room)
+    return Box(corner.real + left, corner.imag + low, corner.real + right, corner.imag + high)

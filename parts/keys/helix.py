@@ -12,6 +12,7 @@ from msgspec import Meta, Struct
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.gears.teeth.helix import Hand, Helix
+from parts.keys.accuracy import AccuracyKey
 from parts.keys.base import MadeKeys, degrees, either, mm
 
 if TYPE_CHECKING:
@@ -42,6 +43,7 @@ class ToothedKeys(MadeKeys, forbid_unknown_fields=True, kw_only=True):
     helix_angle_deg: HelixAngle = 0.0
     hand: HandName = "right"
     double_helical: Double = False
+    accuracy: AccuracyKey = None
 
 
 def helix_of(keys: Struct) -> Helix:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from parts.base.texts import NC_, Words
 
 # the sources' indices and the English ones, of any symbol or of one; the longest first
@@ -37,3 +39,8 @@ def symbol_text(text: str, words: Words) -> str:
         if printed in text:
             text = text.replace(printed, words.term("index", english))
     return text
+
+
+def lowered(text: str) -> str:
+    """A symbol as sheets have it, its index in braces: d_{a1}."""
+    return re.sub(r"_([\w.,]+)", r"_{\1}", text)

@@ -309,6 +309,7 @@ class Barrel(Kind[BarrelCamSpec, "BarrelBody"]):
     """A cylindrical cam; its flat outline is the development of its outer cylinder."""
 
     name, keys = "barrel_cam", BarrelCamSpec
+    data_table = "parts.cams.data_tables"
 
     def thing(self, keys: BarrelCamSpec, others: Others) -> BarrelBody:
         """The solid, checked to guide its roller all the way."""

@@ -274,6 +274,7 @@ class CouplerCam(DiskKind[LinkageCamSpec, "LinkageCam"]):
     """A disk cam whose follower is carried by the connecting rod of a linkage."""
 
     name, keys = "linkage_cam", LinkageCamSpec
+    data_table = "parts.cams.data_tables"
 
     def thing(self, keys: LinkageCamSpec, others: Others) -> LinkageCam:
         """The cam, checked to move its follower all the way."""

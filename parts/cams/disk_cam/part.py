@@ -480,6 +480,7 @@ class Cam(DiskKind[CamSpec, "DiskCam"]):
     """A disk cam."""
 
     name, keys = "cam", CamSpec
+    data_table = "parts.cams.data_tables"
     sheet_shown = "cam", N_("diagrams and profile of the cam, DXF and SVG")
 
     def thing(self, keys: CamSpec, others: Others) -> DiskCam:

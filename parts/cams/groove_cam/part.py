@@ -259,6 +259,7 @@ class GrooveCam(Kind[GrooveCamSpec, GrooveDisk]):
     """A disk with a groove."""
 
     name, keys = "groove_cam", GrooveCamSpec
+    data_table = "parts.cams.data_tables"
 
     def thing(self, keys: GrooveCamSpec, others: Others) -> GrooveDisk:
         """The disk, checked to let its roller through."""

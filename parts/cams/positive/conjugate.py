@@ -228,6 +228,7 @@ class ConjugateCam(Turned[ConjugateCamSpec, SecondCam]):
     """The second disk of a pair."""
 
     name, keys, made_from = "conjugate_cam", ConjugateCamSpec, EVEN_CAM
+    data_table = "parts.cams.data_tables"
 
     def thing(self, keys: ConjugateCamSpec, others: Others) -> SecondCam:
         """The second cam, checked to move its roller all the way."""

@@ -11,7 +11,7 @@ from parts.base.texts import words
 from parts.cams.sheets.picture import CamPicture, Scales
 from parts.drawing.canvas import SMALL_TEXT, Box, Canvas, decimal, scale_text, text_width
 from parts.pages.page import Section, Sheet, unit_text
-from parts.pages.symbols import symbol_text
+from parts.pages.symbols import lowered, symbol_text
 from parts.pages.text import result_text, step_name
 from parts.texts.sheets import sheet_words
 
@@ -49,10 +49,6 @@ class Grid(Record):
         )
 
 
-def _lowered(text: str) -> str:
-    return re.sub(r"_([\w.,]+)", r"_{\1}", text)
-
-
 def characteristics(calculation: Sheet, picture: CamPicture) -> Grid:
     """The steps of ``higherpair calc cam``, section by section."""
     told = words(picture.language)
@@ -65,7 +61,7 @@ def characteristics(calculation: Sheet, picture: CamPicture) -> Grid:
             # an angle of a phase stands among the characteristics
             if step.name in _LEFT_OUT or (step.name in _PHASES and _is_law(section)):
                 continue
-            cells = _lowered(symbol_text(step.symbol, told)), result_text(step, told)
+            cells = lowered(symbol_text(step.symbol, told)), result_text(step, told)
             rows.append((step_name(step, told), *(told.decimal(cell) for cell in cells)))
             # the characteristics are given, the sizes of the scene, and the coefficients of the laws
             given = section is calculation.sections[0] or _GIVEN.fullmatch(step.name)

@@ -176,6 +176,7 @@ class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
     """An external gear; a mate may have shortened its tip."""
 
     name, keys = "spur_gear", SpurGearSpec
+    data_table = "parts.gears.data_tables"
     sheet_shown = "generating", N_('; purpose = "generating": device TMM-42')
 
     def thing(self, keys: SpurGearSpec, others: Others) -> SpurGear:

@@ -14,6 +14,7 @@ from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
 from geometry.solids.hub_holes import HubHoles, least_wall
 from parts.base.kind import Kind, Others, Report
+from parts.keys.accuracy import AccuracyKey
 from parts.keys.base import BoreDiameter, MaterialKeys, degrees, either, mm
 from parts.keys.holes import BoreTable, bore_of, hub_holes, wide_bore
 from parts.keys.worm import (
@@ -89,6 +90,7 @@ class WormSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field
     shaft_above: Steps = field(default_factory=list)
     bore_diameter: BoreDiameter = 0.0
     bore: BoreTable | None = None
+    accuracy: AccuracyKey = None
 
 
 def told_worm(keys: WormSpec) -> WormSpec:
@@ -171,6 +173,7 @@ class WormKind(Kind[WormSpec, "WormBody"]):
     """A worm; the middle of its thread lies at z = 0, and its flat outline is the section there."""
 
     name, keys = "worm", WormSpec
+    data_table = "parts.gears.data_tables"
 
     def thing(self, keys: WormSpec, others: Others) -> WormBody:
         """The worm's solid, checked to exist."""

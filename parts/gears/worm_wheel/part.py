@@ -10,6 +10,7 @@ from msgspec import Meta
 from geometry.base.errors import ConvergenceError, OffsetError, ParameterError, limit
 from geometry.base.record import Record, replace
 from parts.base.kind import Kind, Others, Report
+from parts.keys.accuracy import AccuracyKey
 from parts.keys.base import in_modules, mm
 from parts.keys.holes import HoledKeys, SpokesTable, bore_of, hub_holes
 from parts.keys.wheel import HubTable, WebTable, wheel_shape
@@ -97,6 +98,7 @@ class WormWheelSpec(HoledKeys, forbid_unknown_fields=True, kw_only=True, tag_fie
     spokes: SpokesTable | None = None
     web: WebTable | None = None
     hub: HubTable | None = None
+    accuracy: AccuracyKey = None
 
     def hub_holes(self) -> HubHoles:
         """Bore, holes and windows."""
@@ -147,6 +149,7 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
     """A worm wheel, which has another section at every height."""
 
     name, keys, has_outline = "worm_wheel", WormWheelSpec, False
+    data_table = "parts.gears.data_tables"
 
     def thing(self, keys: WormWheelSpec, others: Others) -> WheelThing:
         """The wheel, checked to exist."""

@@ -1,0 +1,94 @@
+"""The table of a cam's drawing: motion, follower, where the angles begin, and the positions of its profile."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from geometry.base.record import replace
+from parts.base.part import Part
+from parts.base.texts import N_, Text, listed, message
+from parts.cams.disk_cam.page import sheet, table_from
+from parts.pages.cam_steps import law_text
+from parts.pages.data_table import DataRow, DataTable, Mated, row_of, rows_of
+from parts.pages.inputs import SceneKeys
+from parts.pages.page import Sheet, Table
+from parts.pages.terms import TERMS
+
+_MOTION = ("lift", "swing_deg")
+_SIZES = (
+    "follower_radius", "roller_diameter", "follower_offset", "centre_distance", "arm_length", "pivot_offset",
+    "pivot_height", "start_angle_deg", "second_follower_radius", "roller_angle_deg", "driven_pivot_x",
+    "driven_pivot_y", "driven_length", "driven_start_angle_deg", "coupler_length", "guide_pivot_x", "guide_pivot_y",
+    "guide_length", "coupler_point_x", "coupler_point_y", "least_base_circle_radius", "least_cam_radius",
+    "base_height", "whole_travel", "outer_diameter", "floor_diameter", "groove_width", "groove_depth",
+)  # fmt: skip
+# the table of positions of each kind, and its columns that a maker needs
+_POLAR = ("phi", "S", "r", "theta")
+_POSITIONS = {
+    "cam": ("positions", _POLAR),
+    "linkage_cam": ("positions", _POLAR),
+    "conjugate_cam": ("positions_second", _POLAR),
+    "groove_cam": ("positions", ("phi", "S", "x_p", "y_p")),
+    "wedge_cam": ("positions", ("s", "S", "x", "y")),
+    "barrel_cam": ("development", ("phi", "x", "z", "x_1", "z_1", "x_2", "z_2")),
+}
+_FOLLOWERS: dict[str, Text] = {
+    "pointed": N_("pointed"),
+    "roller": N_("with a roller"),
+    "mushroom": N_("mushroom"),
+    "flat": N_("flat"),
+}
+
+
+def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTable:
+    """The table of a cam of a scene."""
+    page = sheet(table_from(scene, "", {"part": part.id}))
+    name, columns = _POSITIONS[part.kind]
+    found = next(table for table in page.tables if table.name == name)
+    return DataTable(
+        ((*rows_of(page, _MOTION), *_phases(page)), (*_follower(part), *rows_of(page, _SIZES)), _datum(part.kind)),
+        _columns(found, columns),
+    )
+
+
+def _phases(page: Sheet) -> list[DataRow]:
+    """Each phase with its law."""
+    laws = [phase["law"] for phase in page.data["phases"]]
+    steps = [s for s in page.steps() if s.name.endswith(("_angle_deg", "_travel")) and s.name.partition("_")[0] in
+             ("rise", "return", "far", "near")]  # fmt: skip
+    rows = []
+    for step, law in zip(steps, laws, strict=False):
+        row = row_of(step)
+        named = message("{phase}: {law}", phase=message(TERMS[step.name].name), law=law_text(law)) if law else row.name
+        rows.append(replace(row, name=named))
+    return rows
+
+
+def _follower(part: Part) -> tuple[DataRow, ...]:
+    keys = part.keys
+    shape = _FOLLOWERS.get(getattr(keys, "follower", ""))
+    if shape is None:
+        return ()
+    moves = N_("oscillating") if getattr(keys, "oscillating", None) else N_("translating")
+    if part.kind == "linkage_cam":
+        moves = N_("on a connecting rod")
+    return (DataRow(N_("follower"), "", listed([shape, moves])),)
+
+
+def _datum(kind: str) -> tuple[DataRow, ...]:
+    """Where the columns of the positions begin."""
+    if kind == "wedge_cam":
+        return (DataRow(N_("origin of x and y"), "", N_("as drawn")),)
+    turning = DataRow(N_("the cam turns"), "", N_("counter-clockwise"))
+    if kind == "barrel_cam":
+        return (turning, DataRow(N_("development of the outer cylinder"), "x", N_("φ = 0 at its right end")))
+    if kind == "groove_cam":
+        return (turning, DataRow(N_("path of the roller's centre"), "x_p", N_("from the axis, as drawn")))
+    return (turning, DataRow(N_("polar angle of the profile"), "θ", N_("from +x, as drawn")))
+
+
+def _columns(table: Table, names: tuple[str, ...]) -> Table:
+    """Some of a table's columns, in its own order."""
+    kept = [k for name in names for k, (symbol, _) in enumerate(table.heads) if symbol == name]
+    rows = tuple(tuple(row[k] for k in kept) for row in table.rows)
+    return replace(table, heads=tuple(table.heads[k] for k in kept), rows=rows)

@@ -1,0 +1,185 @@
+"""The table of a working drawing: what makes the teeth or the cam, what is measured, what is told beside (GOST 2.403).
+
+The values are the steps of the calculation of the same part. Sizes of the form are those of GOST 2.403 as drawing
+programs have them; cams, for which no standard has a table, are laid out alike, with their positions below.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+
+from geometry.base.record import Record
+from parts.base.part import Part
+from parts.base.texts import Text, Words, words
+from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, plain_width
+from parts.drawing.cells import INDENT, wrapped, write_cell, write_lines
+from parts.pages.page import Sheet, Step, Table, unit_text
+from parts.pages.symbols import lowered, symbol_text
+from parts.pages.terms import TERMS
+
+# name, symbol, value; a row, and one of two lines, mm
+COLUMNS = (65.0, 10.0, 35.0)
+WIDTH = sum(COLUMNS)
+_ROW, _TWO_LINES = 8.0, 13.0
+# a row of positions and its first column, mm, and how many columns have room, in tables side by side
+_POSITION, _FIRST, _MOST_COLUMNS = 5.0, 11.0, 8
+# what a head of a page's table is called on a drawing
+_GREEK = {"phi": "φ", "theta": "θ"}
+# decimals of a size and of a number without unit
+_DECIMALS = {"mm": 3, "": 4}
+Value = float | int | Text
+
+
+class DataRow(Record):
+    """A row: a quantity with its unit, or words; ``deviations``: the upper and the lower one, mm."""
+
+    name: Text
+    symbol: str
+    value: Value
+    unit: str = ""
+    deviations: tuple[float, float] | None = None
+
+
+class Mated(Record):
+    """A part that meshes with the one that is drawn, and the distance of their axes, mm."""
+
+    part: Part
+    distance: float
+
+
+class DataTable(Record):
+    """Rows for the maker, for who measures, for who asks; the parts are divided by thick lines.
+
+    ``positions``: a table of numbers below, by its columns.
+    """
+
+    parts: tuple[tuple[DataRow, ...], ...]
+    positions: Table | None = None
+
+
+def row_of(step: Step, deviations: tuple[float, float] | None = None) -> DataRow:
+    """A step of a calculation as a row."""
+    return DataRow(TERMS[step.name].name, step.symbol, step.value, step.unit, deviations)
+
+
+def rows_of(page: Sheet, names: Iterable[str]) -> tuple[DataRow, ...]:
+    """The steps of these names that the calculation has, in the order of the names."""
+    steps = page.steps()
+    return tuple(row_of(step) for name in names for step in steps if step.name == name)
+
+
+def value_text(row: DataRow, told: Words) -> str:
+    """What stands in the last column."""
+    if isinstance(row.value, float):
+        return told.decimal(sexagesimal(row.value) if row.unit == "deg" else rounded(row.value, row.unit))
+    return str(row.value) if isinstance(row.value, int) else told.say(row.value)
+
+
+def rounded(value: float, unit: str) -> str:
+    """A number to as many decimals as drawings have."""
+    text = f"{value:.{_DECIMALS[unit]}f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
+
+
+def sexagesimal(degrees: float) -> str:
+    """Degrees, minutes and seconds; what is nothing at the end is left out."""
+    seconds = round(abs(degrees) * 3600)
+    parts = [f"{seconds // 3600}°", f"{seconds // 60 % 60:02d}′", f"{seconds % 60:02d}″"]
+    while len(parts) > 1 and parts[-1].startswith("00"):
+        parts.pop()
+    return "-" * (degrees < 0 and seconds > 0) + "".join(parts)
+
+
+def _name(row: DataRow, told: Words) -> str:
+    name = told.say(row.name)
+    return name[:1].upper() + name[1:]
+
+
+def _height(row: DataRow, told: Words) -> float:
+    """Of a row, mm: two lines where its name or its words need them."""
+    cells = (_name(row, told), COLUMNS[0]), (value_text(row, told), COLUMNS[2])
+    long = any(len(wrapped(text, wide - 2 * INDENT, TEXT_HEIGHT)) > 1 for text, wide in cells)
+    return _TWO_LINES if long else _ROW
+
+
+def _blocks(table: Table) -> list[Sequence[tuple[float, ...]]]:
+    """The rows of positions that stand side by side."""
+    sides = _MOST_COLUMNS // len(table.heads)
+    each = math.ceil(len(table.rows) / sides)
+    return [table.rows[k * each : (k + 1) * each] for k in range(sides)]
+
+
+def table_height(table: DataTable, language: str) -> float:
+    """mm."""
+    told = words(language)
+    below = 0.0 if table.positions is None else _POSITION * (1 + len(_blocks(table.positions)[0]))
+    return below + sum(_height(row, told) for part in table.parts for row in part)
+
+
+def draw_data_table(canvas: Canvas, corner: complex, table: DataTable, language: str) -> Box:
+    """Draw a table with its upper right corner at ``corner``; the room that it takes, mm."""
+    told = words(language)
+    left, right, y = corner.real - WIDTH, corner.real, corner.imag
+    edges = [left + sum(COLUMNS[:k]) for k in range(len(COLUMNS) + 1)]
+    for part in filter(None, table.parts):
+        canvas.line("FRAME", complex(left, y), complex(right, y))
+        for number, row in enumerate(part):
+            if number:
+                canvas.line("TABLE", complex(left, y), complex(right, y))
+            low = y - _height(row, told)
+            name, symbol, value = (Box(a, low, b, y) for a, b in pairwise(edges))
+            write_lines(canvas, _name(row, told), name, TEXT_HEIGHT, middle=False)
+            write_cell(canvas, lowered(symbol_text(row.symbol, told)) or "—", symbol, TEXT_HEIGHT)
+            _write_value(canvas, row, value, told)
+            y = low
+    rows_end = y
+    if table.positions is not None:
+        y = _draw_positions(canvas, complex(left, y), table.positions, told)
+    for x in edges[1:-1]:
+        canvas.line("FRAME", complex(x, corner.imag), complex(x, rows_end))
+    canvas.box("FRAME", Box(left, y, right, corner.imag))
+    return Box(left, y, right, corner.imag)
+
+
+def _write_value(canvas: Canvas, row: DataRow, cell: Box, told: Words) -> None:
+    """The value, its deviations one above the other behind it, as GOST 2.307 has them."""
+    text = value_text(row, told)
+    if row.deviations is None:
+        write_lines(canvas, text, cell, TEXT_HEIGHT)
+        return
+    limits = [told.decimal(f"{value:+.3f}" if value else "0") for value in row.deviations]
+    wide = max(plain_width(limit, SMALL_TEXT) for limit in limits)
+    middle = cell.right - INDENT - wide
+    write_cell(canvas, text, Box(cell.left, cell.low, middle, cell.high), TEXT_HEIGHT)
+    step = (cell.high - cell.low) / 2
+    for limit, low in zip(limits, (cell.low + step, cell.low), strict=True):
+        canvas.write(limit, complex(middle, low + (step - SMALL_TEXT) / 2), SMALL_TEXT, wide)
+
+
+def _draw_positions(canvas: Canvas, corner: complex, table: Table, told: Words) -> float:
+    """Numbers in columns under their heads, in tables side by side; where they end, mm."""
+    blocks = _blocks(table)
+    side = WIDTH / len(blocks)
+    height, wide = _POSITION * (1 + len(blocks[0])), (side - _FIRST) / (len(table.heads) - 1)
+    edges = [0.0, *(_FIRST + k * wide for k in range(len(table.heads)))]
+    heads = [f"{_GREEK.get(name) or lowered(symbol_text(name, told))}, {unit_text(unit, told)}"
+             for name, unit in table.heads]  # fmt: skip
+    for number, rows in enumerate(blocks):
+        left = corner.real + number * side
+        for line, row in enumerate([heads, *([told.decimal(text) for text in position_texts(row)] for row in rows)]):
+            y = corner.imag - _POSITION * line
+            canvas.line("TABLE" if line else "FRAME", complex(left, y), complex(left + side, y))
+            for text, a, b in zip(row, edges, edges[1:], strict=False):
+                write_cell(canvas, text, Box(left + a, y - _POSITION, left + b, y), SMALL_TEXT)
+        for k, x in enumerate(edges[:-1]):
+            canvas.line(
+                "TABLE" if k else "FRAME", left + complex(x, corner.imag), left + complex(x, corner.imag - height)
+            )
+    return corner.imag - height
+
+
+def position_texts(row: Sequence[float]) -> list[str]:
+    """A row of positions: the argument with the decimals that it has, the rest with as many as drawings have."""
+    return [rounded(row[0], "mm"), *(f"{value:.{_DECIMALS['mm']}f}" for value in row[1:])]

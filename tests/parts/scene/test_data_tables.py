@@ -1,0 +1,222 @@
+"""Tables of working drawings: every cell against ``calc --format json``, their words on no line and no other word."""
+
+from __future__ import annotations
+
+import json
+import math
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+from exporters.documents.topics import calculate
+from parts.base.refusal import SceneError
+from parts.base.texts import Message, words
+from parts.drawing.canvas import Canvas
+from parts.pages.data_table import (
+    WIDTH,
+    DataRow,
+    DataTable,
+    draw_data_table,
+    position_texts,
+    sexagesimal,
+    table_height,
+    value_text,
+)
+from parts.pages.symbols import symbol_text
+from parts.scene.data_tables import part_table
+from parts.scene.load import load_scene, make_parts, scene_from_toml
+from parts.scene.placing import place
+
+TOPICS = {"spur_gear": "spur", "ring_gear": "ring", "rack": "rack", "worm": "worm", "worm_wheel": "worm"}
+CAMS = ("practicum_roller_cam", "groove_cam", "linkage_cam", "wedge_cam", "barrel_cam", "conjugate_cams")
+TOOTHED = ("practicum_pair", "helical_pair", "rack_and_pinion", "thesis_internal_pair", "worm_set_print")
+# what of a mate stands in a table, and is no step of the part's own calculation
+MATES = {"teeth of the mate", "drawing of the mate", "centre distance", "number of starts of the worm"}
+
+
+@cache
+def tables(address: str, text: str = "") -> dict[str, tuple[str, DataTable, Any]]:
+    """The tables of a scene by part: the topic of its calculation, the table, the part as the mates leave it."""
+    scene = scene_from_toml(text.encode(), address, address) if text else load_scene(address)
+    parts, matings = make_parts(scene, address)
+    placing = place(scene.instances, scene.drives, parts, matings, address)
+    found = {key: part_table(part, scene, placing, parts) for key, part in parts.items()}
+    return {key: (TOPICS.get(parts[key].kind, "cam"), table, parts[key]) for key, table in found.items() if table}
+
+
+def calculated(topic: str, address: str, key: str, part: Any) -> dict[str, Any]:
+    """The JSON of the same part; gears with the tip and the thinning that the mates have left, as the report has it."""
+    more = []
+    if topic in ("spur", "ring"):
+        more.append(f"tip_diameter={part.circles['tip_diameter']!r}")
+    if topic in ("spur", "ring", "rack"):
+        more.append(f"circumferential_thinning={part.thing.circumferential_thinning!r}")
+    elif part.kind == "worm":
+        more.append(f"axial_thinning={part.thing.thread.worm.thinning!r}")
+    found: dict[str, Any] = json.loads(calculate(topic, [address, f"part={key}", *more], "json", "en"))
+    return found
+
+
+@pytest.mark.parametrize("address", [*TOOTHED, *CAMS])
+def test_every_cell_is_what_the_calculation_prints(address: str) -> None:
+    seen = 0
+    for key, (topic, table, part) in tables(address).items():
+        data = calculated(topic, address, key, part)
+        steps = {(s["text"], s["symbol"]): s for s in data["steps"]}
+        for row in (row for rows in table.parts for row in rows):
+            name = words("en").say(row.name)
+            name = name.partition(": ")[0] if isinstance(row.name, Message) else name
+            found = name, symbol_text(row.symbol, words("en"))
+            if found not in steps:
+                assert isinstance(row.value, str | Message) or name in MATES, name
+                continue
+            step = steps[found]
+            is_word = isinstance(row.value, str)
+            assert row.value == (step["value"] if is_word else pytest.approx(step["value"], rel=1e-13, abs=1e-13))
+            assert row.unit == step["unit"]
+            seen += 1
+            text = value_text(row, words("en"))
+            if row.unit != "deg" and not is_word:
+                assert float(text) == pytest.approx(step["value"], abs=5.01e-4 if row.unit else 5.01e-5)
+        if table.positions is not None:
+            name = table.positions.name
+            heads = [symbol for symbol, _ in table.positions.heads]
+            assert [list(r) for r in table.positions.rows] == [[r[h] for h in heads] for r in data[name]]
+            texts = [list(map(float, position_texts(row))) for row in table.positions.rows]
+            assert texts == [[pytest.approx(r[h], abs=5.01e-4) for h in heads] for r in data[name]]
+    assert seen >= 5
+
+
+def values(text: str) -> dict[str, dict[str, Any]]:
+    """What stands in the tables of a scene, by part and row."""
+    return {
+        key: {words("en").say(row.name): row.value for rows in table.parts for row in rows}
+        for key, (_, table, _) in tables("scene", text).items()
+    }
+
+
+PAIR = """
+[parts.pinion]
+kind = "spur_gear"
+module = 2.0
+number_of_teeth = 20
+designation = "AB.01"
+[parts.wheel]
+kind = "spur_gear"
+module = 2.0
+number_of_teeth = 33
+helix_angle_deg = 0.0
+[[mates]]
+kind = "external_gear_pair"
+first = "pinion"
+second = "wheel"
+"""
+
+
+@pytest.mark.parametrize(
+    ("key", "of_pinion", "of_wheel"),
+    [
+        ("bore_diameter = 8.0", set(), set()),
+        ("face_width = 12.0", set(), set()),
+        (
+            "profile_shift_coefficient = 0.3",
+            {"profile shift coefficient (xi)", "span over k teeth", "centre distance"},
+            {"centre distance"},
+        ),
+    ],
+)
+def test_a_change_changes_the_cells_that_depend_on_it_alone(key: str, of_pinion: set[str], of_wheel: set[str]) -> None:
+    before, after = values(PAIR), values(PAIR.replace('designation = "AB.01"', f'designation = "AB.01"\n{key}'))
+    for part, changed in (("pinion", of_pinion), ("wheel", of_wheel)):
+        assert before[part].keys() == after[part].keys()
+        assert {name for name, value in before[part].items() if after[part][name] != value} == changed
+    assert after["wheel"]["drawing of the mate"] == "AB.01"
+    assert after["pinion"]["teeth of the mate"] == 33
+
+
+GRADE = '[parts.pinion.accuracy]\ngrade = "8-B"\nsource = "GOST 1643-81"\ndeviations = [-0.2, -0.1]\n[parts.wheel]'
+
+
+def test_a_grade_stands_with_its_source_and_deviations_on_what_is_measured() -> None:
+    _, table, _ = tables("scene", PAIR.replace("[parts.wheel]", GRADE))["pinion"]
+    rows = {words("en").say(row.name): row for part in table.parts for row in part}
+    assert rows["accuracy grade"].value == "8-B GOST 1643-81"
+    assert {name: row.deviations for name, row in rows.items() if row.deviations} == {"span over k teeth": (-0.1, -0.2)}
+    canvas = Canvas(120.0, 297.0, "")
+    draw_data_table(canvas, 115 + 290j, table, "uk")
+    assert {"-0,100", "-0,200"} <= {text.text for text in canvas.texts}
+
+
+def test_a_grade_without_a_source_is_told_by_key() -> None:
+    with pytest.raises(SceneError, match=r"parts\.pinion\.accuracy.*source"):
+        tables("scene", PAIR.replace("[parts.wheel]", GRADE.replace('source = "GOST 1643-81"\n', "")))
+
+
+@pytest.mark.parametrize(
+    ("keys", "control"),
+    [
+        ("", "span over k teeth"),
+        ("helix_angle_deg = 30.0\nface_width = 3.0", "size over balls"),
+        # stubs, whose flanks no two faces find
+        ("number_of_teeth = 10\ntip_diameter = 19.0", "size over pins"),
+    ],
+)
+def test_what_is_measured_touches_the_teeth(keys: str, control: str) -> None:
+    teeth = "" if "number_of_teeth" in keys else "number_of_teeth = 31\n"
+    found = tables("scene", f'[parts.gear]\nkind = "spur_gear"\nmodule = 2.0\n{teeth}{keys}\n')["gear"][1]
+    assert words("en").say(found.parts[1][-1].name) == control
+
+
+@pytest.mark.parametrize("degrees", [0.0, 15.0, 5.710593137499643, -12.5, 29.99999999, 0.0002])
+def test_an_angle_in_minutes_and_seconds_is_the_angle(degrees: float) -> None:
+    text = sexagesimal(degrees)
+    parts = text.lstrip("-").replace("′", "°").replace("″", "°").split("°")[:-1]
+    told = sum(float(part) / 60**k for k, part in enumerate(parts)) * (-1 if text.startswith("-") else 1)
+    assert abs(told - degrees) <= 0.5 / 3600 + 1e-12
+    assert all(float(part) < 60 for part in parts[1:])
+
+
+def crossings(canvas: Canvas) -> list[str]:
+    """Words that stand over another word or over a line of a table."""
+    words_at = np.array([(t.box.left, t.box.low, t.box.right, t.box.high) for t in canvas.texts])
+    ends = np.array([[complex(s.curve.point(t)) for t in s.curve.domain] for s in canvas.strokes])
+    lines = np.stack([ends.real.min(1), ends.imag.min(1), ends.real.max(1), ends.imag.max(1)], axis=1)
+
+    def over(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+        """Which boxes have more than a rounding in common."""
+        low, high = np.maximum(one[:, None, :2], other[:, :2]), np.minimum(one[:, None, 2:], other[:, 2:])
+        return np.all(low < high - 1e-6, axis=2)
+
+    thick = lines + np.array([-1e-5, -1e-5, 1e-5, 1e-5])
+    pairs = np.argwhere(np.tril(over(words_at, words_at), -1))
+    found = [f"{canvas.texts[i].text} over {canvas.texts[j].text}" for i, j in pairs]
+    return [*found, *(f"{canvas.texts[i].text} over a line" for i, _ in np.argwhere(over(words_at, thick)))]
+
+
+@pytest.mark.parametrize("address", [*TOOTHED, *CAMS])
+def test_words_stand_over_no_word_and_no_line(address: str) -> None:
+    for language in ("en", "uk"):
+        for key, (_, table, _) in tables(address).items():
+            canvas = Canvas(120.0, 2 * 297.0, "")
+            room = draw_data_table(canvas, 115 + 590j, table, language)
+            assert room.right - room.left == pytest.approx(WIDTH)
+            assert room.high - room.low == pytest.approx(table_height(table, language))
+            assert crossings(canvas) == [], key
+            assert all(text.box.within(room) for text in canvas.texts)
+            assert all(run.height >= 1.8 for text in canvas.texts for run in text.runs)
+
+
+def test_a_word_over_a_line_is_found() -> None:
+    canvas = Canvas(100.0, 100.0, "")
+    canvas.write("word", 10 + 10j)
+    canvas.line("TABLE", 0 + 11j, 50 + 11j)
+    assert crossings(canvas) == ["word over a line"]
+
+
+def test_rows_without_a_symbol_have_a_dash() -> None:
+    table = DataTable(((DataRow("module", "", math.pi, "mm"),),))
+    canvas = Canvas(120.0, 50.0, "")
+    draw_data_table(canvas, 115 + 40j, table, "en")
+    assert [text.text for text in canvas.texts] == ["Module", "—", "3.142"]
