@@ -59,11 +59,12 @@ def pieces(one: Message) -> tuple[list[str], list[str]]:
 @FILES
 def test_every_text_has_its_translation(file: Path) -> None:
     stand = {(m.context, pieces(m)[0][0]) for m in texts_of(file)}
-    asked = set(extracted())
+    made = extracted()
+    asked = set(made)
     assert sorted(map(str, asked - stand)) == [], "run python -m tests.catalogues and translate"
     assert sorted(map(str, stand - asked)) == [], "run python -m tests.catalogues"
     assert untranslated(file) == []
-    assert updated(file, extracted()) == file.read_text("utf-8"), "run python -m tests.catalogues"
+    assert updated(file, made) == file.read_text("utf-8"), "run python -m tests.catalogues"
 
 
 @FILES

@@ -32,7 +32,7 @@ SINGULAR: dict[str, Keys] = {
 }
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("name", SINGULAR)
 def test_near_a_dead_point_an_offer_keeps_away_from_it_and_its_files_hold(name: str, tmp_path: Path) -> None:

@@ -110,6 +110,7 @@ def whole_turns(degrees: float) -> float:
     return degrees - 360 * round(degrees / 360)
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", WORDS)
 @pytest.mark.parametrize("at", ["47", "231"])
 def test_a_position_is_that_of_forty_digit_poses(name: str, at: str) -> None:
@@ -160,7 +161,7 @@ def test_a_position_is_that_of_forty_digit_poses(name: str, at: str) -> None:
         assert profile == pytest.approx(complex(place(name, t)), abs=1e-9)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["roller", "sliders", "mushroom", "crossed"])
 def test_no_place_of_the_follower_cuts_into_the_profile(name: str) -> None:
     """The nearest of all places of the circle's centre is the radius away from every point of the table."""
@@ -187,7 +188,7 @@ def test_every_place_of_a_flat_face_holds_the_profile_on_one_side() -> None:
         assert beyond[round(row["phi"] * 4) % 1440] == pytest.approx(0, abs=1e-9)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", WORDS)
 def test_radii_of_curvature_are_those_of_circles_through_three_points(name: str) -> None:
     for at in (47.0, 231.0):

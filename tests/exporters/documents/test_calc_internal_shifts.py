@@ -345,4 +345,4 @@ def test_the_given_shifts_have_the_numbers_of_a_check(
     built = internal_pair(gear_of(gears[0]), checked_ring_gear(gears[1]))  # type: ignore[arg-type]
     assert choice["contact_ratio"] == pytest.approx(built.contact_ratio, rel=1e-12)
     assert any(f.code == "ring_tip_limited" for f in made["r"].findings) is limited
-    assert ("made shallower" in calculate("shift-choice", [str(file)], "text", "en")) is limited
+    assert ("made shallower" in render(sheet_for(f"shift-choice {file}"), "text", "en")) is limited

@@ -146,7 +146,7 @@ def verdict(file: Path) -> tuple[str, ...]:
 CASES = [(part, spoil) for part in PARTS for spoil in SPOILED if (part, spoil) != ("chamfered", "knot")]
 
 
-@pytest.mark.sampled(16)
+@pytest.mark.sampled(10)
 @pytest.mark.parametrize(("part", "spoil"), CASES)
 def test_a_spoiled_step_is_caught(part: str, spoil: str, good: Path, tmp_path: Path) -> None:
     text = (good / f"{part}.step").read_text(encoding="ascii")
@@ -159,6 +159,7 @@ def test_a_spoiled_step_is_caught(part: str, spoil: str, good: Path, tmp_path: P
         assert verdict(file), share
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("part", PARTS)
 def test_a_good_step_is_good_however_it_is_laid_out(part: str, good: Path, tmp_path: Path) -> None:
     """Other line ends, blanks between words, other ids, statements in another order: the same solid to the digit."""
@@ -179,6 +180,7 @@ def test_a_good_step_is_good_however_it_is_laid_out(part: str, good: Path, tmp_p
     assert other.flux.sum() == pytest.approx(one.flux.sum(), rel=1e-12)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("part", PARTS)
 def test_verify_holds_a_step_against_the_kernel_too(part: str, good: Path) -> None:
     pytest.importorskip("OCP", reason="the CAD kernel is an extra")
@@ -280,7 +282,7 @@ def pair(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "s"
 
 
-@pytest.mark.sampled(7)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("kind", AROUND)
 def test_no_reference_around_the_solids_may_lead_elsewhere(kind: str, pair: Path, tmp_path: Path) -> None:
     """Each to a like entity with another content, and to one of another kind: products, places, units, colours."""
@@ -334,6 +336,7 @@ def test_a_good_step_is_good_at_a_loose_tolerance(keys: str, tmp_path: Path) -> 
 GEAR = 'kind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 16\nface_width = 10.0\n'
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("keys", "size", "share"),
     [(GEAR, "face_width = 10.0", 4e-7), (BARREL, "outer_diameter = 60.0", 3e-8)],

@@ -238,6 +238,7 @@ def wait_for(place: Path, pattern: str, process: subprocess.Popen[str]) -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("moment", "number"), MOMENTS)
 def test_an_interrupted_build_leaves_nothing_behind(tmp_path: Path, number: signal.Signals, moment: str) -> None:
     big = {"kind": "spur_gear", "module": 1.0, "number_of_teeth": 3000, "bore_diameter": 20.0}

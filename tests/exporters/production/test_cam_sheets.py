@@ -39,6 +39,8 @@ ROCKER = {
     "phases": RISE_AND_RETURN, "oscillating": {"centre_distance": 90.0, "arm_length": 80.0},
     "least_transmission_angle_deg": 45.0,
 }  # fmt: skip
+# where the picture is not measured, few positions and rough curves
+ROUGH = {"intervals": 2, "tolerance": 1e-3}
 
 
 @cache
@@ -219,7 +221,7 @@ def sheet_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return written(tmp_path_factory.mktemp("sheet"))
 
 
-@pytest.mark.sampled(7)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("damage", DAMAGE)
 def test_damage_is_noticed(sheet_file: Path, tmp_path: Path, damage: str) -> None:
     drawing = ezdxf.readfile(sheet_file)
@@ -257,9 +259,7 @@ def test_a_given_speed_adds_scales_of_time() -> None:
     """The same diagrams are S(t), v(t), a(t) with mu_phi / omega, mu_S' omega and mu_S'' omega^2."""
     part = {"kind": "cam", "follower": "flat", "lift": 0.3, "phases": RISE_AND_RETURN,
             "least_transmission_angle_deg": 45.0, "least_curvature_radius": 1.0}  # fmt: skip
-    texts = [
-        t.text for t in plan_build(cam_scene(part, speed_rpm=600.0, intervals=2), "t", [], []).sheets[0].canvas.texts
-    ]
+    texts = [t.text for t in plan_build(cam_scene(part, speed_rpm=600.0, **ROUGH), "t", [], []).sheets[0].canvas.texts]
 
     def after(symbol: str) -> float:
         return float(texts[texts.index(symbol) + 1].split()[0])
@@ -309,7 +309,7 @@ def test_unusual_but_legal_cams_have_their_sheet(tmp_path: Path, name: str) -> N
 def test_a_table_of_points_has_a_sheet_without_the_graphical_method() -> None:
     part = {"kind": "cam", "follower": "pointed", "base_circle_radius": 60.0,
             "motion_table": [[0, 0], [120, 5], [240, 3]]}  # fmt: skip
-    job = plan_build(cam_scene(part, intervals=2), "t", [], []).sheets[0]
+    job = plan_build(cam_scene(part, **ROUGH), "t", [], []).sheets[0]
     assert not any("by the drawing" in t.text for t in job.canvas.texts)
     with pytest.raises(AssertionError):
         assert not any("by the drawing" in t.text for t in job_of("practicum_flat_cam", "dxf").canvas.texts)
@@ -318,7 +318,7 @@ def test_a_table_of_points_has_a_sheet_without_the_graphical_method() -> None:
 def test_numbers_of_an_axis_have_the_digits_of_their_step() -> None:
     """A lift of 12 mm is told every 2.5 mm; rounded to whole ones that would be 2, 5, 8, 10."""
     scene = cam_scene({"kind": "cam", "follower": "roller", "lift": 12.0, "follower_radius": 6.0,
-                       "base_circle_radius": 40.0, "phases": RISE_AND_RETURN})  # fmt: skip
+                       "base_circle_radius": 40.0, "phases": RISE_AND_RETURN}, tolerance=1e-3)  # fmt: skip
     texts = words_of(plan_build(scene, "t", [], ["sheet"]).sheets[0])
     assert {"2.5", "5.0", "7.5", "10.0"} <= set(texts)
     # positions and their rows are numbered too: 8 no more often than 14, which is on no axis
@@ -331,16 +331,16 @@ def test_refusals_name_the_key_and_what_works() -> None:
             plan_build(scene, "t", [], [])
         return caught.value.key, caught.value.code, caught.value.nearest
 
-    key, code, nearest = told(cam_scene(ROCKER, paper="A4", scale="2.5:1"))
+    key, code, nearest = told(cam_scene(ROCKER, paper="A4", scale="2.5:1", **ROUGH))
     assert (key, code) == ("exports[1].paper", "paper_too_small_for_scale")
     assert nearest is not None
     assert nearest.side == "at_least"
-    assert plan_build(cam_scene(ROCKER, paper=nearest.value, scale="2.5:1"), "t", [], []).sheets
-    key, code, nearest = told(cam_scene(ROCKER, scale="50:1"))
+    assert plan_build(cam_scene(ROCKER, paper=nearest.value, scale="2.5:1", **ROUGH), "t", [], []).sheets
+    key, code, nearest = told(cam_scene(ROCKER, scale="50:1", **ROUGH))
     assert (key, code) == ("exports[1].scale", "fits_no_paper_so_large")
     assert nearest is not None
-    assert plan_build(cam_scene(ROCKER, scale=nearest.value), "t", [], []).sheets
-    scene = cam_scene(ROCKER)
+    assert plan_build(cam_scene(ROCKER, scale=nearest.value, **ROUGH), "t", [], []).sheets
+    scene = cam_scene(ROCKER, **ROUGH)
     assert [j.path for j in plan_build(scene, "t", ["rocker"], []).sheets] == ["t.cam.rocker.dxf", "t.cam.rocker.svg"]
     scene.exports[0].purpose = "meshing"
     assert told(scene) == ("exports[1].purpose", "shows_gear_pairs", Nearest("cam"))
@@ -371,6 +371,7 @@ def test_a_build_reports_its_cam_sheets_and_verify_measures_them_again(tmp_path:
     assert run("verify", str(file)) == 1
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("part", "given", "found"),
     [
@@ -392,7 +393,7 @@ def test_what_is_given_stays_and_what_is_found_is_empty_on_every_sheet(
     part: dict[str, Any], given: list[str], found: str
 ) -> None:
     kept = {key: value for key, value in part.items() if value is not None}
-    plan = plan_build(cam_scene(kept, cells="empty"), "t", [], [])
+    plan = plan_build(cam_scene(kept, cells="empty", **ROUGH), "t", [], [])
     texts = ["".join(run.text for run in t.runs) for job in plan.sheets if job.path.endswith("svg")
              for t in job.canvas.texts]  # fmt: skip
     assert not set(given) - set(texts)

@@ -112,7 +112,7 @@ def sheets_of(name: str, language: str, **export: Any) -> Any:
     return [job for job in plan_build(scene, name, [], []).sheets if job.path.endswith(".svg")]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("export", [{}, {"paper": "A4", "title_block": True}, {"paper": "A1"}], ids=["", "A4", "A1"])
 @pytest.mark.parametrize("language", ["en", "uk"])
 @pytest.mark.parametrize("name", SCENES)
@@ -138,7 +138,7 @@ def test_a_word_that_is_moved_onto_a_line_is_seen(tmp_path: Path) -> None:
     assert {"T over P", "P over T"} & set(faults(file))
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", [n for n in SCENES if "pair" in n or "rack" in n])
 @pytest.mark.parametrize("paper", ["A4", "A3", "A2"])
 def test_meshing_is_as_large_as_its_paper_allows(name: str, paper: str) -> None:

@@ -43,7 +43,7 @@ def job_of(name: str, ending: str) -> SheetJob:
     return next(j for j in jobs_of(name) if j.path.endswith(ending))
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("language", ["en", "uk"])
 @pytest.mark.parametrize("name", SCENES)
 def test_every_sheet_is_good_in_both_languages(tmp_path: Path, name: str, language: str) -> None:
@@ -173,7 +173,7 @@ DAMAGE: dict[str, tuple[Callable[[Any], Any], str]] = {
 }
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("damage", DAMAGE)
 def test_damage_is_noticed(tmp_path: Path, damage: str) -> None:
     job = job_of("practicum_pair", "dxf")
@@ -313,7 +313,7 @@ LEGAL = {
 }
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", LEGAL)
 def test_extreme_but_legal_pairs_have_their_picture(tmp_path: Path, name: str) -> None:
     one, two = LEGAL[name]
@@ -361,7 +361,7 @@ def test_one_unshifted_wheel_is_the_zero_wheel_alone(tmp_path: Path) -> None:
             assert ("zero wheel" in words) is True
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("module", [0.2, 1.0, 10.0, 400.0])
 def test_the_device_takes_wheels_of_every_size(module: float, tmp_path: Path) -> None:
     for job in plan_build(generating(gear(12, module=module)), "t", [], []).sheets:
@@ -397,7 +397,7 @@ HELICAL: dict[str, tuple[dict[str, Any], dict[str, Any], str]] = {
 }
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("language", ["en", "uk"])
 @pytest.mark.parametrize("kind", HELICAL)
 def test_a_helical_pair_shows_its_transverse_section_and_tells_normal_data(

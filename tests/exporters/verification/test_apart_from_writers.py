@@ -41,6 +41,7 @@ def modules() -> Source:
     return sources()
 
 
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("reader", READERS)
 def test_a_reader_imports_no_writer(reader: str, modules: Source) -> None:
     assert shared(reader, modules) == set()

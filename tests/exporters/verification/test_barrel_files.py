@@ -81,7 +81,7 @@ def away_from_triangles(points: np.ndarray, corners: np.ndarray) -> np.ndarray:
     return np.array(found)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", FORMS)
 def test_meshes_are_closed_and_near_by_an_outside_measure(name: str) -> None:
     import trimesh

@@ -74,7 +74,7 @@ def roof_distance(points: np.ndarray, region: Region, width: float) -> np.ndarra
     return np.abs(depth - asked_depth) / math.sqrt(2)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", PARTS)
 def test_the_declared_error_of_a_step_file_holds_on_chamfers(name: str, tmp_path: Path) -> None:
     pytest.importorskip("OCP")

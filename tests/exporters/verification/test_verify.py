@@ -97,7 +97,7 @@ def test_a_dxf_that_was_only_saved_again_passes(originals: Path, tmp_path: Path,
     assert failures(file, entry) == ()
 
 
-@pytest.mark.sampled(15)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("where", SHARES)
 @pytest.mark.parametrize("change", spoil.ROW_CHANGES, ids=lambda c: c.__name__)
 @pytest.mark.parametrize("name", [n for n in FORMATS if n != "stl"])

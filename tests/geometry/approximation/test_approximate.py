@@ -237,7 +237,7 @@ def deviation(approximation: Approximation, profile: Profile) -> float:
     return float(max(there.max(), back.max()))
 
 
-@settings(max_examples=6)
+@settings(max_examples=3)
 @given(gears(), numbers(-4, -1.5))
 def test_whole_outlines_of_any_gear(gear: SpurGear, exponent: float) -> None:
     profile, tolerance = tooth_side(gear).profile(), gear.module * 10**exponent

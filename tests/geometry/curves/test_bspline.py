@@ -195,7 +195,7 @@ def test_knots_that_make_no_spline_are_refused(degree: int, knots: list[float], 
         BSpline(degree, np.array(knots, dtype=float), np.array(poles, dtype=complex))
 
 
-@pytest.mark.sampled(24)
+@pytest.mark.sampled(12)
 @EVERY
 @KINDS
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])

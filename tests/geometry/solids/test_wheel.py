@@ -64,7 +64,7 @@ def judged(body, tolerance: float = 0.002):  # type: ignore[no-untyped-def]
     return solid
 
 
-@pytest.mark.sampled(16)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("bore", BORES)
 @pytest.mark.parametrize("shape", SHAPES)
 def test_mass_and_mesh_agree(shape: str, bore: str) -> None:
@@ -122,7 +122,7 @@ def test_a_turned_wheel_is_the_sum_of_its_rings() -> None:
     judged(body)
 
 
-@examples(40)
+@examples(20)
 @given(
     width=st.floats(0.5, 30),
     web=st.one_of(st.none(), st.tuples(st.floats(0.1, 1), st.floats(18, 40), st.floats(-1, 1))),

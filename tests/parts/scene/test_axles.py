@@ -117,6 +117,7 @@ def test_an_axle_that_is_not_there_is_one_line(
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("frame", "holes", "key", "others"),
     [

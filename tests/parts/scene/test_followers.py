@@ -82,7 +82,7 @@ def made(text: str) -> tuple[Placing, dict[str, Any], Any]:
 CASES = [(k, None) for k in TRANSLATING] + [(k, s) for k in ARMS for s in ("against", "with")]
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("kind", "sense"), CASES)
 def test_contact_over_a_turn_and_what_spoils_it(kind: str, sense: str | None) -> None:
     _, _, mating = made(scene_text(kind, sense).replace("{turned}", "0.0").replace("{direction}", "90.0"))
@@ -118,6 +118,7 @@ def samples(profile: Profile) -> Complex:
     return np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 1000)[:-1]) for s in profile.segments()])
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["laser_cam_model", "print_cam_set"])
 def test_built_in_models_fit_together(name: str) -> None:
     scene = load_scene(str(built_in_scenes()[name]))

@@ -296,7 +296,7 @@ def with_offer(part: dict[str, Any], export: dict[str, Any], error: SceneError) 
     return (target, export) if table == "parts.gear" else (part, target)
 
 
-@pytest.mark.sampled(20)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("name", [pytest.param(n, marks=[pytest.mark.heavy] * (n == "edges")) for n in NEAREST])
 def test_the_nearest_value_that_a_refusal_names_does_build(name: str, tmp_path: Path) -> None:
     part, export, key = NEAREST[name]

@@ -37,7 +37,7 @@ def made(text: str) -> dict[str, object]:
     return make_parts(scene, "scene.toml")[0]["p"].quantities | {"circles": make_parts(scene, "")[0]["p"].circles}
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("text", [
     RING + "cutter = { number_of_teeth = 25, full_round = true }\n", RING + "rounded_root = { full_round = true }\n",
     RING + "holes = { count = 4, diameter = 4.0, pitch_circle_diameter = 112.0 }\ntip_chamfer = 0.2\n", SHAPED,
@@ -57,7 +57,7 @@ def test_every_plane_format_and_mesh_is_built_and_read_back(text: str, tmp_path:
         assert entry["bound"] in ("certified", "exact", "sampled")
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("text", [RING, RACK, SHAPED])
 def test_step_is_built_and_read_back(text: str, tmp_path: Path) -> None:
     pytest.importorskip("OCP")
@@ -66,6 +66,7 @@ def test_step_is_built_and_read_back(text: str, tmp_path: Path) -> None:
     assert main(["build", str(file), "--out", str(tmp_path)]) == 0
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("kind", ["spur_gear", "ring_gear", "rack"])
 def test_the_scene_to_start_from_builds(kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["new", kind]) == 0

@@ -46,7 +46,7 @@ def swept(cam: BarrelCam, corners: np.ndarray, near: np.ndarray) -> float:
     return float(np.abs(found).max())
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @CAMS
 @pytest.mark.parametrize("side", [UPPER, LOWER])
 def test_the_bound_is_never_below_the_truth_nor_far_above(cam: BarrelCam, side: int) -> None:

@@ -130,7 +130,7 @@ def test_the_least_prime_circle_at_a_distance(sense: int, returning: float | Non
         assert low <= searched[0] <= searched[-1] <= high
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("sense", [1, -1])
 @pytest.mark.parametrize("limit", [11.0, 15.0, 30.0, 45.0, 60.0, 80.0])
 @pytest.mark.parametrize("returns", [True, False])

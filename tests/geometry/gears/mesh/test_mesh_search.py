@@ -73,7 +73,7 @@ def brute_side_gaps(pair: ExternalPair, drive: float, second: float) -> list[flo
     return found
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("values", BESIDE_A_JUMP)
 def test_both_sides_against_dense_polylines(values: tuple[int, int, float, float, float]) -> None:
     pair = helical(*values)
@@ -135,8 +135,8 @@ def test_a_short_interruption_between_round_tips_is_seen(z1: int, z2: int, degre
 
 def test_no_section_is_undecided() -> None:
     rng = random.Random(41)
-    pairs = [p for p in (a_section(rng) for _ in range(45)) if p is not None]
-    assert len(pairs) > 20
+    pairs = [p for p in (a_section(rng) for _ in range(18)) if p is not None]
+    assert len(pairs) > 8
     for pair in pairs:
         check_section(pair)
 
@@ -183,6 +183,7 @@ MANY = {"20 in 28": inside(20, 28), "60 in 69": inside(60, 69), "100 in 108": in
         "shifted": inside(60, 68, 0.2, 0.9)}  # fmt: skip
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("name", MANY)
 @pytest.mark.parametrize("turn", [0.0, 2e-4])
 def test_excluded_teeth_hold_nothing(name: str, turn: float, monkeypatch: pytest.MonkeyPatch) -> None:

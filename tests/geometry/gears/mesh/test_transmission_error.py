@@ -177,7 +177,7 @@ SPOILT: dict[str, tuple[Any, float]] = {
 BOTH = [(name, 1) for name in SPOILT] + [("short tips", -1)]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("name", "sense"), BOTH + [pytest.param(n, -1, marks=pytest.mark.heavy) for n in SPOILT])
 def test_errors_against_polylines_turned_until_they_touch(name: str, sense: int) -> None:
     pair, shift = SPOILT[name]

@@ -35,7 +35,7 @@ def test_proposals_beat_random_legal_shifts(pair: InternalShiftPair, wish: Inter
     if wear is not None:
         assert wear.root_sliding[0] == pytest.approx(wear.root_sliding[1], rel=1e-6)
     rng, legal = random.Random(5), 0
-    for _ in range(2000):
+    for _ in range(700):
         x1 = rng.uniform(found.box.left, found.box.right)
         x2 = x1 + rng.uniform(found.lowest, found.highest)
         if least_margin(pair, wish, x1, x2) < 0:
@@ -44,7 +44,7 @@ def test_proposals_beat_random_legal_shifts(pair: InternalShiftPair, wish: Inter
         state = internal_state(pair, x1, x2)
         assert state.contact_ratio <= ratio.contact_ratio + 1e-6
         assert min(state.root_sliding(pair.gear_ratio)) <= min(sliding.root_sliding) + 1e-6
-    assert legal > 60
+    assert legal > 20
 
 
 @pytest.mark.heavy

@@ -100,7 +100,7 @@ def test_path_against_fifty_digits(distance: float) -> None:
         gear = GEARS[name]
         parameters = brute.exact_parameters(gear)
         moved = gear_region(gear, distance).region.outer
-        for point in brute.period_points(moved, 5):
+        for point in brute.period_points(moved, 3):
             found = float(exact_gear.normal_distance(complex(point), parameters))
             assert abs(found - distance) <= RIGHT * gear.tip_radius
 

@@ -137,6 +137,7 @@ def test_quantities_by_hand() -> None:
     assert pair_of(20, 0.3).distance == pytest.approx(20.6)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("teeth", "x", "name"), [(23, 0.0, "A"), (18, 0.3, "C"), (100, -0.2, "A"), (12, 0.5, "C"),
                                                   (40, 0.1, "B"), (1000, 0.0, "C")])  # fmt: skip
 def test_contact_without_backlash(teeth: int, x: float, name: str) -> None:

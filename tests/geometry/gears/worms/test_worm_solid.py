@@ -40,6 +40,7 @@ BODIES = {
 }
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", BODIES)
 def test_the_faces_of_a_worm_are_closed_and_their_files_within_their_bound(name: str, tmp_path: Path) -> None:
     body = BODIES[name]
@@ -71,6 +72,7 @@ def _place(text: str) -> str:
     return text.partition("=CYLINDRICAL_SURFACE('',#")[2].partition(",")[0]
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["left with a base above the root", "plane ends and a keyway"])
 def test_the_kernel_finds_the_worm_valid_and_of_its_volume(name: str) -> None:
     pytest.importorskip("OCP")

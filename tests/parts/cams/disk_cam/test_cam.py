@@ -122,6 +122,7 @@ def polyline(file: Path) -> np.ndarray:
     return np.array([complex(p.x, p.y) for p in path.flattening(1e-6)])
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", ["roller", "flat", "mushroom", "oscillating roller", "oscillating flat"])
 def test_the_follower_rolled_over_the_file_lifts_as_it_should(name: str, tmp_path: Path) -> None:
     """|dS| <= tolerance / cos nu; of a swinging follower, over the arm of the contact."""
@@ -304,7 +305,7 @@ NOT_CURED = {"no motion", "no lift", "never back", "open diagram", "no roller", 
              "rocker without arm"}  # fmt: skip
 
 
-@pytest.mark.sampled(20)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("name", WRONG)
 def test_wrong_keys_are_refused_in_the_users_terms(name: str) -> None:
     keys, blamed, code = WRONG[name]

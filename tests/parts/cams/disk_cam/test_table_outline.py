@@ -90,6 +90,7 @@ def farthest(points: NDArray[np.complex128], line: NDArray[np.complex128]) -> fl
     return float(best.max())
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("follower", "rows", "digits", "tolerance"),
     [("roller", 24, 12, 0.005), ("flat", 360, 12, 0.005), ("roller", 360, 3, 0.005), ("roller", 2000, 4, 0.005),
@@ -145,7 +146,7 @@ def test_splines_and_solids_of_a_table(tmp_path: Path, form: str) -> None:
     built(
         tmp_path,
         "roller",
-        "face_chamfer = 0.3\n" * (form == "step") + of_rows(table(24, 3)),
+        "face_chamfer = 0.3\n" * (form == "step") + of_rows(table(12, 3)),
         0.01 if form == "stl" else 1e-6,
         form,
     )

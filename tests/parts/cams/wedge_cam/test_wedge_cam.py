@@ -214,7 +214,7 @@ WRONG: dict[str, tuple[Keys, str, str]] = {
 NOT_CURED = {"flat", "no radius", "no lift", "arm with a jump"}
 
 
-@pytest.mark.sampled(12)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", WRONG)
 def test_wrong_keys_are_refused_with_what_works(name: str) -> None:
     keys, blamed, code = WRONG[name]
