@@ -17,13 +17,14 @@ from parts.base.refusal import SceneError, meant, placed
 from parts.base.texts import N_, Message, Text, filled, message
 from parts.keys.boards import PURPOSES_LAID
 from parts.keys.sheet import SHEET_FORMATS
-from parts.scene.formats import FILMS, FORMATS, Form, file_kind
+from parts.scene.formats import FORMATS, OF_SCENES, Form, file_kind
 from parts.scene.load import ExportSpec, SceneFile, default_export, in_keys_of_file, make_parts
 from parts.scene.placing import Placing, place
 
 if TYPE_CHECKING:
     from exporters.production.boards import BoardJob
     from exporters.production.film import Film
+    from exporters.production.parts_lists import ListJob
     from exporters.production.plates import PlateJob
     from exporters.production.sheets import SheetJob
 
@@ -46,7 +47,7 @@ class Plan(Record):
     jobs: tuple[Job, ...]
     assemblies: tuple[AssemblyJob | BoardJob, ...]
     left_out: tuple[LeftOut, ...]
-    sheets: tuple[SheetJob | Film, ...] = ()
+    sheets: tuple[SheetJob | Film | ListJob, ...] = ()
 
     @property
     def files(self) -> tuple[FileJob, ...]:
@@ -96,7 +97,7 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
     left_out += [LeftOut(what, N_("no export asks for it"), as_asked=bool(only_formats)) for what in unused]
     jobs: list[Job] = []
     assemblies: list[AssemblyJob | BoardJob] = []
-    sheets: list[SheetJob | Film] = []
+    sheets: list[SheetJob | Film | ListJob] = []
     layouts: dict[object, list[Any]] = {}
     taken: dict[str, Text] = {f"{part}.preview.svg".lower(): Message(N_("the preview of the part")) for part in parts}
     for where, export in exports:
@@ -117,8 +118,8 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
             over = ", ".join(p for p in export.parts or parts if p not in lying)
             left_out += [LeftOut(f"{where}: {over}", N_("lies on none of its boards or beds"))] if over else []
             continue
-        if export.format in FILMS:
-            sheets.append(_film(scene, placing, parts, export, where, source))
+        if export.format in OF_SCENES:
+            sheets.append(_of_scene(scene, placing, parts, export, where, source))
             _take(sheets[-1].path, where, taken, source)
             continue
         made = []
@@ -144,10 +145,14 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
     return Plan(source, scene, parts, placing, tuple(jobs), tuple(assemblies), tuple(left_out), tuple(sheets))
 
 
-def _film(
+def _of_scene(
     scene: SceneFile, placing: Placing, parts: dict[str, Part], export: ExportSpec, where: str, source: str
-) -> Film:
-    """What drives move, as the format shows it."""
+) -> Film | ListJob:
+    """The parts list, or what drives move, as the format shows it."""
+    if export.format == "csv":
+        from exporters.production.parts_lists import list_job
+
+        return list_job(scene, placing, parts, export, where)
     from exporters.production.film import film
 
     made: type[Film]
@@ -186,7 +191,7 @@ def _of_several(export: ExportSpec) -> bool:
     """Whether a picture shows parts together; that of a cam and a paper model show one."""
     if export.purpose in PURPOSES_LAID.values():
         return True
-    return export.format in FILMS or (export.format in SHEET_FORMATS and export.purpose not in ("cam", "model"))
+    return export.format in OF_SCENES or (export.format in SHEET_FORMATS and export.purpose not in ("cam", "model"))
 
 
 def _of_cams(export: ExportSpec, parts: dict[str, Part], only_parts: list[str]) -> ExportSpec:

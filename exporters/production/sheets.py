@@ -11,6 +11,7 @@ from msgspec.structs import asdict, replace
 from exporters.drawings.sheets import sheet_rounding, write_sheets
 from exporters.drawings.verify import verify_sheets
 from exporters.production.jobs import Made
+from exporters.production.parts_lists import rows_of
 from exporters.verification.verdict import Verdict
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
@@ -29,8 +30,9 @@ from parts.drawing.canvas import Canvas, decimal, scale_text
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Circle, Expected, Meshing
 from parts.drawing.font import missing_letters
+from parts.drawing.parts_list import form_of, list_sheets
 from parts.drawing.table import Row
-from parts.drawing.title_block import TITLE_BLOCK, draw_title_block, title_block_of
+from parts.drawing.title_block import FORM_1, TITLE_BLOCK, draw_title_block, title_block_of
 from parts.drawing.view import TEETH
 from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear
 from parts.keys.title import TitleBlockTable
@@ -130,6 +132,9 @@ def sheet_jobs(
             from exporters.production.cam_sheets import cam_sheets
 
             made = cam_sheets(scene, export, asked, where, source)
+        elif export.purpose == "parts_list":
+            pages = list_sheets(rows_of(scene, placing, parts, export), language)
+            made = [(str(n) if len(pages) > 1 else "", page) for n, page in enumerate(pages, 1)]
         elif export.purpose == "train":
             from exporters.production.train_sheets import scene_train_sheet
 
@@ -140,7 +145,7 @@ def sheet_jobs(
         raise placed(source, where, error, unit_of(ExportSpec, error.name)) from error
     for number, (word, expected) in enumerate(made, 1):
         shown = [word.partition(".")[0]] if export.purpose == "cam" else export.parts or []
-        part = parts[shown[0]] if len(shown) == 1 else None
+        part = parts[shown[0]] if len(shown) == 1 and export.purpose != "parts_list" else None
         _add_title_block(expected, scene, export, part, (number, len(made)))
         if export.cells == "empty":
             expected.canvas.texts[:] = [seen for text in expected.canvas.texts for seen in text.asked()]
@@ -247,7 +252,7 @@ def _add_title_block(
     expected: Expected, scene: SceneFile, export: ExportSpec, part: Part | None, number: tuple[int, int]
 ) -> None:
     """The title block on a sheet, where the export asks for one; of a single ``part`` with its material and mass."""
-    if not export.title_block:
+    if not export.title_block and export.purpose != "parts_list":
         return
     language = scene.scene.language
     given = export.title_block if isinstance(export.title_block, TitleBlockTable) else TitleBlockTable()
@@ -255,7 +260,8 @@ def _add_title_block(
     if part is not None:
         more |= {"material": given.material or part.material or "", "mass": given.mass or _mass(part, language)}
     scale = scale_text(expected.paper.scale, language)
-    draw_title_block(expected.canvas, title_block_of(replace(given, **more), scale, *number), language)
+    form = form_of(number[0]) if export.purpose == "parts_list" else FORM_1
+    draw_title_block(expected.canvas, title_block_of(replace(given, **more), scale, *number), language, form)
 
 
 def _mass(part: Part, language: str) -> str:

@@ -1,4 +1,4 @@
-"""The main inscription (title block) of a sheet: form 1 of GOST 2.104, 185 x 55 mm, in the frame's lower right corner.
+"""The main inscription (title block) of a sheet: forms 1, 2 and 2a of GOST 2.104 in the frame's lower right corner.
 
 ``draw_title_block`` draws it onto any canvas; layouts keep ``TITLE_BLOCK[1]`` mm free above the frame's lower side.
 """
@@ -11,18 +11,87 @@ from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, text_widt
 from parts.drawing.cells import INDENT, write_cell, write_lines
 from parts.keys.title import TitleBlockTable
 
-# width and height, mm; GOST 2.104, form 1
-TITLE_BLOCK = (185.0, 55.0)
-# lines of form 1, mm from the block's lower left corner: where, from, to
-_THICK_ROWS = (
-    (55, 0, 185), (40, 65, 185), (35, 0, 65), (35, 135, 185), (30, 0, 65), (20, 135, 185), (15, 65, 185), (0, 0, 185),
+# left, low, right, high, mm from the lower left corner of a form
+_Cell = tuple[float, float, float, float]
+_Line = tuple[float, float, float]
+# heights of capitals of designation, name and the rest, mm
+_LARGE, _MIDDLE = 7.0, 5.0
+# who signs a drawing, from the top row down; the fourth row is free
+_ROLES = ("drawn", "checked", "technical_check", "", "standards_check", "approved")
+
+
+class Form(Record):
+    """A form of GOST 2.104, mm: its size, lines (where, from, to), the words in all such blocks, what each cell holds.
+
+    ``counts``: cells of the sheet's number and of how many there are, beside their names or below them.
+    """
+
+    size: tuple[float, float]
+    thick_rows: tuple[_Line, ...]
+    thin_rows: tuple[_Line, ...]
+    thick_columns: tuple[_Line, ...]
+    thin_columns: tuple[_Line, ...]
+    labels: dict[str, _Cell]
+    entries: tuple[tuple[str, _Cell, float], ...]
+    counts: dict[str, _Cell]
+
+
+def _head(low: float, *roles: str) -> dict[str, _Cell]:
+    """The head of the table of changes, and below it who signs, from the top row down; a row may be free."""
+    columns = (("change", 0, 7), ("change_sheet", 7, 17), ("document", 17, 40), ("signature", 40, 55), ("date", 55, 65))
+    head: dict[str, _Cell] = {key: (left, low, right, low + 5) for key, left, right in columns}
+    return head | {role: (0, low - 5 * k, 17, low + 5 - 5 * k) for k, role in enumerate(roles, 1) if role}
+
+
+# of a drawing, of the first sheet of a text, of its others
+FORM_1 = Form(
+    (185.0, 55.0),
+    ((55, 0, 185), (40, 65, 185), (35, 0, 65), (35, 135, 185), (30, 0, 65), (20, 135, 185), (15, 65, 185), (0, 0, 185)),
+    tuple((y, 0, 65) for y in (50, 45, 40, 25, 20, 15, 10, 5)),
+    (
+        (0, 0, 55), (7, 30, 55), (17, 0, 55), (40, 0, 55), (55, 0, 55), (65, 0, 55), (135, 0, 40), (150, 20, 40),
+        (155, 15, 20), (167, 20, 40), (185, 0, 55),
+    ),
+    ((140, 20, 35), (145, 20, 35)),
+    {**_head(30, *_ROLES), "letter": (135, 35, 150, 40), "mass": (150, 35, 167, 40), "scale": (167, 35, 185, 40)},
+    (
+        ("designation", (65, 40, 185, 55), _LARGE), ("name", (65, 15, 135, 40), _MIDDLE),
+        ("material", (65, 0, 135, 15), _MIDDLE), ("letter", (135, 20, 140, 35), TEXT_HEIGHT),
+        ("mass", (150, 20, 167, 35), TEXT_HEIGHT), ("scale", (167, 20, 185, 35), TEXT_HEIGHT),
+        ("organisation", (135, 0, 185, 15), _MIDDLE),
+    ),
+    {"sheet": (135, 15, 155, 20), "sheets": (155, 15, 185, 20)},
 )  # fmt: skip
-_THIN_ROWS = tuple((y, 0, 65) for y in (50, 45, 40, 25, 20, 15, 10, 5))
-_THICK_COLUMNS = (
-    (0, 0, 55), (7, 30, 55), (17, 0, 55), (40, 0, 55), (55, 0, 55), (65, 0, 55), (135, 0, 40), (150, 20, 40),
-    (155, 15, 20), (167, 20, 40), (185, 0, 55),
+FORM_2 = Form(
+    (185.0, 40.0),
+    ((40, 0, 185), (30, 0, 65), (25, 0, 185), (20, 135, 185), (15, 135, 185), (0, 0, 185)),
+    tuple((y, 0, 65) for y in (35, 20, 15, 10, 5)),
+    (
+        (0, 0, 40), (7, 25, 40), (17, 0, 40), (40, 0, 40), (55, 0, 40), (65, 0, 40), (135, 0, 25), (150, 15, 25),
+        (165, 15, 25), (185, 0, 40),
+    ),
+    ((140, 15, 20), (145, 15, 20)),
+    {
+        **_head(25, "drawn", "checked", "", "standards_check", "approved"),
+        "letter": (135, 20, 150, 25), "sheet": (150, 20, 165, 25), "sheets": (165, 20, 185, 25),
+    },
+    (
+        ("designation", (65, 25, 185, 40), _LARGE), ("name", (65, 0, 135, 25), _MIDDLE),
+        ("letter", (135, 15, 140, 20), SMALL_TEXT), ("organisation", (135, 0, 185, 15), _MIDDLE),
+    ),
+    {"sheet": (150, 15, 165, 20), "sheets": (165, 15, 185, 20)},
 )  # fmt: skip
-_THIN_COLUMNS = ((140, 20, 35), (145, 20, 35))
+FORM_2A = Form(
+    (185.0, 15.0),
+    ((15, 0, 185), (8, 175, 185), (5, 0, 65), (0, 0, 185)),
+    ((10, 0, 65),),
+    ((0, 0, 15), (7, 0, 15), (17, 0, 15), (40, 0, 15), (55, 0, 15), (65, 0, 15), (175, 0, 15), (185, 0, 15)),
+    (),
+    {**_head(0), "sheet": (175, 8, 185, 15)},
+    (("designation", (65, 0, 175, 15), _LARGE),),
+    {"sheet": (175, 0, 185, 8)},
+)
+TITLE_BLOCK = FORM_1.size
 _LABELS: dict[str, Text] = {
     "change": in_context("title block", "Rev."),
     "change_sheet": in_context("title block, changes", "Sheet"),
@@ -50,10 +119,6 @@ _LABELS: dict[str, Text] = {
 _NAME, _COLUMNS = 5.0, 12.0
 _FROM_BELOW = (("original", 25), ("signed", 35), ("replaces", 25), ("duplicate", 25), ("signed", 35))
 _FROM_TOP = (("first_use", 60), ("reference", 60))
-# who signs, from the top row down; the fourth row is free
-_ROLES = ("drawn", "checked", "technical_check", "", "standards_check", "approved")
-# heights of capitals of designation, name and the rest, mm
-_LARGE, _MIDDLE = 7.0, 5.0
 
 
 class TitleBlock(Record):
@@ -90,19 +155,28 @@ def title_block_of(table: TitleBlockTable, scale: str, sheet: int = 1, sheets: i
     )
 
 
-def draw_title_block(canvas: Canvas, block: TitleBlock, language: str) -> Box:
+def draw_title_block(canvas: Canvas, block: TitleBlock, language: str, form: Form = FORM_1) -> Box:
     """Draw a title block into the lower right corner of the canvas's frame; the room that it takes, mm."""
-    width, height = TITLE_BLOCK
+    width, height = form.size
     corner = complex(canvas.frame.right - width, canvas.frame.low)
-    for layer, rows in (("FRAME", _THICK_ROWS), ("TABLE", _THIN_ROWS)):
+    for layer, rows in (("FRAME", form.thick_rows), ("TABLE", form.thin_rows)):
         for y, a, b in rows:
             canvas.line(layer, corner + complex(a, y), corner + complex(b, y))
-    for layer, columns in (("FRAME", _THICK_COLUMNS), ("TABLE", _THIN_COLUMNS)):
+    for layer, columns in (("FRAME", form.thick_columns), ("TABLE", form.thin_columns)):
         for x, a, b in columns:
             canvas.line(layer, corner + complex(x, a), corner + complex(x, b))
-    _labels(canvas, corner, language)
-    _entries(canvas, corner, block)
-    _count(canvas, corner, block, language)
+    for key, cell in form.labels.items():
+        told = words(language).say(_LABELS[key])
+        write_cell(canvas, told, _at(corner, cell), SMALL_TEXT, middle=key not in _ROLES)
+    for role, name in block.people:
+        if name and role in form.labels:
+            _, low, _, high = form.labels[role]
+            write_cell(canvas, name, _at(corner, (17, low, 40, high)), SMALL_TEXT, middle=False)
+            if block.date:
+                write_cell(canvas, block.date, _at(corner, (55, low, 65, high)), SMALL_TEXT)
+    for key, cell, size in form.entries:
+        write_lines(canvas, getattr(block, key), _at(corner, cell), size)
+    _count(canvas, corner, block, form, language)
     _columns(canvas, language)
     return Box(corner.real, corner.imag, corner.real + width, corner.imag + height)
 
@@ -127,53 +201,16 @@ def _columns(canvas: Canvas, language: str) -> None:
             canvas.line("FRAME", complex(x, start), complex(x, y))
 
 
-def _labels(canvas: Canvas, corner: complex, language: str) -> None:
-    """The words that stand in every block."""
-
-    def label(key: str, cell: tuple[float, float, float, float], *, middle: bool = True) -> None:
-        write_cell(canvas, words(language).say(_LABELS[key]), _at(corner, cell), SMALL_TEXT, middle=middle)
-
-    for key, left, right in (
-        ("change", 0, 7), ("change_sheet", 7, 17), ("document", 17, 40), ("signature", 40, 55), ("date", 55, 65),
-    ):  # fmt: skip
-        label(key, (left, 30, right, 35))
-    for index, role in enumerate(_ROLES):
-        if role:
-            label(role, (0, 25 - 5 * index, 17, 30 - 5 * index), middle=False)
-    for key, left, right in (("letter", 135, 150), ("mass", 150, 167), ("scale", 167, 185)):
-        label(key, (left, 35, right, 40))
-
-
-def _entries(canvas: Canvas, corner: complex, block: TitleBlock) -> None:
-    """What this sheet says; number of the sheet only where there are several (GOST 2.104)."""
-    people = dict(block.people)
-    for index, role in enumerate(_ROLES):
-        low = 25 - 5 * index
-        if people.get(role):
-            write_cell(canvas, people[role], _at(corner, (17, low, 40, low + 5)), SMALL_TEXT, middle=False)
-            if block.date:
-                write_cell(canvas, block.date, _at(corner, (55, low, 65, low + 5)), SMALL_TEXT)
-    for text, cell, size in (
-        (block.designation, (65, 40, 185, 55), _LARGE),
-        (block.name, (65, 15, 135, 40), _MIDDLE),
-        (block.material, (65, 0, 135, 15), _MIDDLE),
-        (block.letter, (135, 20, 140, 35), TEXT_HEIGHT),
-        (block.mass, (150, 20, 167, 35), TEXT_HEIGHT),
-        (block.scale, (167, 20, 185, 35), TEXT_HEIGHT),
-        (block.organisation, (135, 0, 185, 15), _MIDDLE),
-    ):
-        write_lines(canvas, text, _at(corner, cell), size)
-
-
-def _count(canvas: Canvas, corner: complex, block: TitleBlock, language: str) -> None:
+def _count(canvas: Canvas, corner: complex, block: TitleBlock, form: Form, language: str) -> None:
     """Number of the sheet, left out where there is one only (GOST 2.104), and how many there are."""
-    sheet, sheets = (words(language).say(_LABELS[key]) for key in ("sheet", "sheets"))
-    number = f" {block.sheet}" if block.sheets > 1 else ""
-    for text, left, right in ((f"{sheet}{number}", 135, 155), (f"{sheets} {block.sheets}", 155, 185)):
-        write_cell(canvas, text, _at(corner, (left, 15, right, 20)), SMALL_TEXT, middle=False)
+    for key, cell in form.counts.items():
+        number = "" if key == "sheet" and block.sheets == 1 else str(getattr(block, key))
+        named = key not in form.labels
+        text = f"{words(language).say(_LABELS[key])} {number}".strip() if named else number
+        write_cell(canvas, text, _at(corner, cell), SMALL_TEXT, middle=not named)
 
 
-def _at(corner: complex, cell: tuple[float, float, float, float]) -> Box:
-    """A cell of the form: left, low, right, high from the block's corner."""
+def _at(corner: complex, cell: _Cell) -> Box:
+    """A cell of a form on paper."""
     left, low, right, high = cell
     return Box(corner.real + left, corner.imag + low, corner.real + right, corner.imag + high)

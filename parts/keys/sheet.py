@@ -62,13 +62,15 @@ def check_sheet_keys(spec: Any, source: str, place: str) -> None:
         if given and key != "paper" and spec.format == "pdf" and spec.purpose == "model":
             given = given if key == "scale" else True
             raise SceneError(source, f"{place}.{key}", given, "model_is_full_size", REMOVED)
+        if given and key != "title_block" and spec.purpose == "parts_list":
+            raise SceneError(source, f"{place}.{key}", given, "list_has_its_form", REMOVED)
     is_sheet = spec.format in SHEET_FORMATS
-    if spec.cells != "numbers" and (not is_sheet or spec.purpose == "model"):
+    if spec.cells != "numbers" and (not is_sheet or spec.purpose in ("model", "parts_list")):
         formats = [f'"{name}"' for name in SHEET_FORMATS]
         raise SceneError(
             source, f"{place}.cells", spec.cells, "only_for_format", REMOVED, formats=formats, format=spec.format
         )
-    if (is_sheet or spec.format in ("motion", "glb")) and spec.offset:
+    if (is_sheet or spec.format in ("motion", "glb", "csv")) and spec.offset:
         raise SceneError(source, f"{place}.offset", spec.offset, "sheet_shows_exact_profile", REMOVED)
     if is_sheet and spec.parts is not None and spec.purpose == "meshing":
         raise SceneError(source, f"{place}.parts", None, "sheet_shows_a_pair", REMOVED)

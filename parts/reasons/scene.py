@@ -51,6 +51,7 @@ REASONS = {
     "of_another_kind": N_("is a {found}, not a {kind}"),
     "only_for_format": N_("only for format = {formats}, not {format}"),
     "model_is_full_size": N_("a paper model is in full size, on bare sheets"),
+    "list_has_its_form": N_("a parts list stands on A4, in its own form"),
     "only_for_purpose": N_('only for purpose = "{purpose}"'),
     "placed_is_the_second": N_(
         "is not placed, but {second} is; swap first and second (direction_deg = {angle}), or give instances.{first}.at"

@@ -44,6 +44,8 @@ class FileKind(Record):
         return self.form in (Form.SPLINES, Form.FACES, Form.SHEET)
 
 
+# purposes of sheets, the default first
+_SHEETS = ("meshing", "generating", "cam", "train", "parts_list")
 FILE_KINDS = {
     kind.name: kind
     for kind in (
@@ -53,16 +55,15 @@ FILE_KINDS = {
         FileKind("stl", "stl", Form.TRIANGLES, {"print": 0.01}),
         FileKind("3mf", "3mf", Form.TRIANGLES, {"print": 0.01, "plate": 0.01}, assembly=True),
         FileKind("step", "step", Form.FACES, {"model": 1e-6}, assembly=True),
-        FileKind("sheet", "sheet", Form.SHEET, {"meshing": 1e-6, "generating": 1e-6, "cam": 1e-6, "train": 1e-6}),
-        FileKind(
-            "pdf", "pdf", Form.SHEET, {"model": 1e-3, "meshing": 2e-4, "generating": 2e-4, "cam": 2e-4, "train": 2e-4}
-        ),
+        FileKind("sheet", "sheet", Form.SHEET, dict.fromkeys(_SHEETS, 1e-6)),
+        FileKind("pdf", "pdf", Form.SHEET, {"model": 1e-3, **dict.fromkeys(_SHEETS, 2e-4)}),
         FileKind("motion", "motion", Form.SHEET, {"animation": 0.02}),
         FileKind("glb", "glb", Form.SHEET, {"animation": 0.02}),
+        FileKind("csv", "csv", Form.SHEET, {"parts_list": 1e-6}),
     )
 }
-# what drives move, in a plane and in space
-FILMS = ("motion", "glb")
+# of a whole scene: what drives move, in a plane and in space; its parts list
+OF_SCENES = ("motion", "glb", "csv")
 # the words of scenes
 FORMATS = tuple(dict.fromkeys(kind.format for kind in FILE_KINDS.values()))
 ASSEMBLY_FORMATS = tuple(sorted((kind.format for kind in FILE_KINDS.values() if kind.assembly), reverse=True))

@@ -60,10 +60,10 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     """Keys of ``[[exports]]``."""
 
     format: Annotated[
-        Literal["dxf", "svg", "stl", "3mf", "step", "sheet", "pdf", "motion", "glb"],
+        Literal["dxf", "svg", "stl", "3mf", "step", "sheet", "pdf", "motion", "glb", "csv"],
         Meta(
             description="file format; sheet: DXF and SVG of a drawing; motion, glb: what the drives move, as an "
-            "animated SVG, and its solids as glTF",
+            "animated SVG, and its solids as glTF; csv: the parts list",
             examples=["dxf"],
         ),
     ]
@@ -80,13 +80,14 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
                 "generating",
                 "cam",
                 "train",
+                "parts_list",
                 "animation",
             ],
             Meta(
                 description="dxf: laser (arcs) or drawing (splines); dxf, svg: board (all flat parts laid on boards); "
                 "3mf: plate (all parts laid on beds); sheet, pdf: meshing (picture of each pair), "
-                "generating (device TMM-42), cam (diagrams, least radius, profile) or train (scheme, plans of "
-                "velocities); pdf: model (outlines 1:1 on sheets to be glued together)",
+                "generating (device TMM-42), cam (diagrams, least radius, profile), train (scheme, plans of "
+                "velocities) or parts_list (GOST 2.106); pdf: model (outlines 1:1 on sheets to be glued together)",
                 examples=["laser"],
             ),
         ]

@@ -1,0 +1,95 @@
+"""Parts lists among the files of a build: as sheets, and as CSV (RFC 4180, UTF-8) for programs."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+from typing import Any
+
+from exporters.production.jobs import Made
+from exporters.verification.verdict import Verdict
+from geometry.base.findings import Finding
+from geometry.base.record import Record
+from parts.base.part import Part
+from parts.base.texts import in_context, words
+from parts.scene.load import ExportSpec, SceneFile
+from parts.scene.parts_list import SECTIONS, ListRow, list_rows
+from parts.scene.placing import Placing
+
+# the columns, with what stands in them
+_HEADS = (
+    in_context("parts list", "Section"), in_context("parts list", "Item"), in_context("parts list", "Designation"),
+    in_context("parts list", "Name"), in_context("parts list", "Standard"), in_context("parts list", "Material"),
+    in_context("parts list", "Qty"), in_context("parts list", "Mass, kg"), in_context("parts list", "Total mass, kg"),
+    in_context("parts list", "Part"),
+)  # fmt: skip
+
+
+class ListJob(Record):
+    """The list as CSV; ``members`` are the jobs of parts in it: none."""
+
+    export: ExportSpec
+    language: str
+    rows: tuple[ListRow, ...]
+    path: str
+    place: str
+    members: tuple[()] = ()
+    offset: float = 0.0
+
+    @property
+    def label(self) -> str:
+        """The file."""
+        return self.path
+
+    @property
+    def told(self) -> dict[str, Any]:
+        """How many positions and pieces it has."""
+        return {"part": None, "positions": len(self.rows), "pieces": sum(row.count for row in self.rows)}
+
+    def lines(self) -> list[list[str]]:
+        """Its lines, the head first; masses with a point."""
+        told = words(self.language)
+        found = [[told.say(head) for head in _HEADS]]
+        for row in self.rows:
+            masses = ["" if m is None else f"{m:.6g}" for m in (row.mass, row.total)]
+            own = [told.say(SECTIONS[row.section]), str(row.position), row.designation, row.name, row.standard]
+            found.append([*own, row.material, str(row.count), *masses, " ".join(row.parts)])
+        return found
+
+    def write(self, made: Made, file: Path) -> dict[str, int]:
+        """Write it; how many lines."""
+        with file.open("w", encoding="utf-8", newline="") as stream:
+            csv.writer(stream).writerows(self.lines())
+        return {"lines": len(self.rows) + 1}
+
+    def verify(self, file: Path, declared: float) -> Verdict:
+        """Read it back: every cell is there, and nothing else."""
+        try:
+            read = list(csv.reader(file.read_text("utf-8").splitlines(keepends=True), strict=True))
+        except (csv.Error, UnicodeDecodeError) as error:
+            return Verdict({}, (f"is no CSV: {error}",))
+        wanted = self.lines()
+        wrong = [str(n) for n, (a, b) in enumerate(zip(read, wanted, strict=False), 1) if a != b]
+        failures = [f"lines {', '.join(wrong)} differ"] if wrong else []
+        failures += [f"has {len(read)} lines instead of {len(wanted)}"] if len(read) != len(wanted) else []
+        return Verdict({"lines": float(len(read))}, tuple(failures))
+
+    def findings(self, made: Made) -> tuple[Finding, ...]:
+        """None."""
+        return ()
+
+    def declared(self, made: Made) -> tuple[float, str]:
+        """Words have no error."""
+        return 0.0, "exact"
+
+
+def rows_of(scene: SceneFile, placing: Placing, parts: dict[str, Part], export: ExportSpec) -> tuple[ListRow, ...]:
+    """The list of the parts that an export names."""
+    wanted = {key: parts[key] for key in export.parts or parts}
+    return list_rows(placing.instances, wanted, scene.scene.language)
+
+
+def list_job(scene: SceneFile, placing: Placing, parts: dict[str, Part], export: ExportSpec, where: str) -> ListJob:
+    """The CSV of one export."""
+    path = f"{scene.name}.{export.name or export.purpose}.csv"
+    return ListJob(export, scene.scene.language, rows_of(scene, placing, parts, export), path, where)

@@ -1,0 +1,122 @@
+"""The parts list on paper: form 1 of GOST 2.106 on upright A4, with form 2 of the title block first, then 2a."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from parts.base.texts import N_, Text, Words, in_context, words
+from parts.drawing.canvas import TEXT_HEIGHT, Box, Canvas, Paper, text_width
+from parts.drawing.cells import INDENT, wrapped, write_cell
+from parts.drawing.choice import blank
+from parts.drawing.expected import Expected
+from parts.drawing.title_block import FORM_2, FORM_2A, Form
+from parts.scene.parts_list import SECTIONS, ListRow
+
+# GOST 2.106: widths of the columns, height of the head and of a row, mm
+_COLUMNS = (6.0, 6.0, 8.0, 70.0, 63.0, 10.0, 22.0)
+_HEAD, _ROW = 15.0, 8.0
+_HEADS: tuple[Text, ...] = (
+    in_context("parts list", "Format"), in_context("parts list", "Zone"), in_context("parts list", "Item"),
+    in_context("parts list", "Designation"), in_context("parts list", "Name"), in_context("parts list", "Qty"),
+    in_context("parts list", "Note"),
+)  # fmt: skip
+# below it a mass is told in g, kg
+_SMALL = 0.1
+# those that are read from the right, and the column of names
+_RISING, _NAMES = 3, 4
+_KILOGRAMS, _GRAMS = N_("{mass} kg"), N_("{mass} g")
+_Cells = tuple[str, ...]
+
+
+def form_of(number: int) -> Form:
+    """The title block of the sheet of a number."""
+    return FORM_2 if number == 1 else FORM_2A
+
+
+def list_sheets(rows: Sequence[ListRow], language: str) -> list[Expected]:
+    """The sheets of a list, without their title blocks; no section begins at the end of a sheet."""
+    lines = list(_lines(rows, language))
+    sheets: list[Expected] = []
+    while lines or not sheets:
+        canvas = blank("A4", upright=True)
+        floor = canvas.frame.low + form_of(len(sheets) + 1).size[1]
+        room = int((canvas.frame.high - _HEAD - floor) / _ROW + 1e-9)
+        shown = lines[:room]
+        # a name goes on with its number, a heading with what stands below it
+        while len(lines) > room and len(shown) > 1 and (_is_heading(shown[-1]) or not (shown[-1][2] or lines[room][2])):
+            shown.pop()
+        _form(canvas, room, language)
+        for number, cells in enumerate(shown):
+            _write(canvas, cells, canvas.frame.high - _HEAD - _ROW * (number + 1))
+        del lines[: len(shown)]
+        while lines and not any(lines[0]):
+            del lines[0]
+        sheets.append(Expected(canvas, Paper(1.0, 0j), ()))
+    return sheets
+
+
+def _is_heading(cells: _Cells) -> bool:
+    """Whether a line is the heading of a section, or is left free."""
+    return not any(cells) or len(cells) == 1
+
+
+def _lines(rows: Sequence[ListRow], language: str) -> Iterator[_Cells]:
+    """The lines of a list: of a section its heading between free ones, of a position as many as its name needs."""
+    told, room = words(language), _COLUMNS[_NAMES] - 2 * INDENT
+    section = ""
+    for row in rows:
+        if row.section != section:
+            section = row.section
+            yield from (("",), (told.say(SECTIONS[section]),), ("",))
+        names = wrapped(row.name, room, TEXT_HEIGHT)
+        # a standard is not torn from its number
+        if row.standard and text_width(f"{names[-1]} {row.standard}", TEXT_HEIGHT) <= room:
+            names[-1] += f" {row.standard}"
+        elif row.standard:
+            names.append(row.standard)
+        mass = "" if row.mass is None else _mass(row.mass, told)
+        yield ("", "", str(row.position), row.designation, names[0], str(row.count), mass)
+        yield from (("", "", "", "", name, "", "") for name in names[1:])
+
+
+def _mass(mass: float, told: Words) -> str:
+    """A mass in kg, a small one in g."""
+    text, value = (_GRAMS, 1e3 * mass) if mass < _SMALL else (_KILOGRAMS, mass)
+    return told.text(text, mass=told.decimal(f"{value:.3g}"))
+
+
+def _form(canvas: Canvas, room: int, language: str) -> None:
+    """Lines and head of the table."""
+    frame = canvas.frame
+    canvas.box("FRAME", frame)
+    low, x = frame.high - _HEAD - _ROW * room, frame.left
+    for number, (head, width) in enumerate(zip(_HEADS, _COLUMNS, strict=True)):
+        text = words(language).say(head)
+        if number < _RISING:
+            long = min(text_width(text, TEXT_HEIGHT), _HEAD - 2 * INDENT)
+            at = complex(x + (width + TEXT_HEIGHT) / 2, frame.high - (_HEAD + long) / 2)
+            canvas.write_rising(text, at, TEXT_HEIGHT, _HEAD - 2 * INDENT)
+        else:
+            write_cell(canvas, text, Box(x, frame.high - _HEAD, x + width, frame.high), TEXT_HEIGHT)
+        x += width
+        canvas.line("FRAME", complex(x, low), complex(x, frame.high))
+    for number in range(room + 1):
+        y = frame.high - _HEAD - _ROW * number
+        canvas.line("TABLE" if number else "FRAME", complex(frame.left, y), complex(frame.right, y))
+
+
+def _write(canvas: Canvas, cells: _Cells, low: float) -> None:
+    """A line of the list; a heading is underlined, in the middle of the names."""
+    left = canvas.frame.left
+    if len(cells) == 1:
+        x = left + sum(_COLUMNS[:_NAMES])
+        if cells[0]:
+            write_cell(canvas, cells[0], Box(x, low, x + _COLUMNS[_NAMES], low + _ROW), TEXT_HEIGHT)
+            box = canvas.texts[-1].box
+            canvas.line("TABLE", complex(box.left, box.low - 0.2), complex(box.right, box.low - 0.2))
+        return
+    for number, (text, width) in enumerate(zip(cells, _COLUMNS, strict=True)):
+        if text:
+            box = Box(left, low, left + width, low + _ROW)
+            write_cell(canvas, text, box, TEXT_HEIGHT, middle=number not in (_NAMES, _NAMES - 1))
+        left += width

@@ -1,0 +1,80 @@
+"""The parts list of a scene: what its instances are made of, by their positions."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from geometry.base.record import Record
+from parts.base.texts import Text, in_context
+
+if TYPE_CHECKING:
+    from parts.base.part import Part
+    from parts.keys.base import MaterialKeys
+    from parts.scene.placing import Instance
+
+# sections of a list in their order
+SECTIONS: dict[str, Text] = {
+    "parts": in_context("parts list", "Parts"),
+    "standard": in_context("parts list", "Standard items"),
+}
+
+
+class ListRow(Record):
+    """A position: what it is, how many of it, the mass of one and of all, kg; None: its density is not known.
+
+    ``mass`` is None too where parts of several masses share a position; ``parts``: their ids.
+    """
+
+    section: str
+    position: int
+    designation: str
+    name: str
+    standard: str
+    material: str
+    count: int
+    mass: float | None
+    total: float | None
+    parts: tuple[str, ...]
+
+
+def list_rows(instances: Sequence[Instance], parts: Mapping[str, Part], language: str) -> tuple[ListRow, ...]:
+    """The list of all instances of ``parts``, by section and position; what has no number goes on from the greatest."""
+    counts = Counter(i.part for i in instances if i.part in parts)
+    found: dict[tuple[object, ...], list[str]] = {}
+    for part in counts:
+        keys = _keys(parts[part])
+        found.setdefault((*_told(parts[part], language), keys.position or part), []).append(part)
+    number = max((_keys(parts[part]).position or 0 for part in counts), default=0)
+    rows = []
+    for (section, *_), ids in sorted(found.items(), key=lambda item: list(SECTIONS).index(str(item[0][0]))):
+        if (position := _keys(parts[ids[0]]).position) is None:
+            position = number = number + 1
+        masses = [_mass(parts[p]) for p in ids]
+        total = None if None in masses else sum(m * counts[p] for m, p in zip(masses, ids, strict=True) if m)
+        mass = masses[0] if len(set(masses)) == 1 else None
+        told, count = _told(parts[ids[0]], language)[1:], sum(counts[p] for p in ids)
+        rows.append(ListRow(str(section), position, *told, count, mass, total, tuple(ids)))
+    return tuple(sorted(rows, key=lambda row: (list(SECTIONS).index(row.section), row.position)))
+
+
+def _keys(part: Part) -> MaterialKeys:
+    """The keys that every kind has."""
+    keys: MaterialKeys = part.keys  # type: ignore[assignment]
+    return keys
+
+
+def _told(part: Part, language: str) -> tuple[str, str, str, str, str]:
+    """Section, designation, name, standard and material: of one position all are alike."""
+    keys = _keys(part)
+    name = (keys.title_uk if language == "uk" else None) or keys.title or part.id
+    section = "standard" if keys.standard else "parts"
+    return section, keys.designation or "", name, keys.standard or "", part.material or ""
+
+
+def _mass(part: Part) -> float | None:
+    """Of one, kg."""
+    if part.density is None:
+        return None
+    return float(part.made_by.moments(part.body(0.0)).volume) * part.density / 1e6
