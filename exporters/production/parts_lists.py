@@ -12,8 +12,9 @@ from geometry.base.findings import Finding
 from geometry.base.record import Record
 from parts.base.part import Part
 from parts.base.texts import in_context, words
+from parts.drawing.parts_list import SECTIONS, ListRow
 from parts.scene.load import ExportSpec, SceneFile
-from parts.scene.parts_list import SECTIONS, ListRow, list_rows
+from parts.scene.parts_list import list_rows
 from parts.scene.placing import Placing
 
 # the columns, with what stands in them

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from geometry.base.record import Record
 from parts.base.texts import N_, Text, Words, in_context, words
 from parts.drawing.canvas import TEXT_HEIGHT, Box, Canvas, Paper, text_width
 from parts.drawing.cells import INDENT, wrapped, write_cell
 from parts.drawing.choice import blank
 from parts.drawing.expected import Expected
 from parts.drawing.title_block import FORM_2, FORM_2A, Form
-from parts.scene.parts_list import SECTIONS, ListRow
 
 # GOST 2.106: widths of the columns, height of the head and of a row, mm
 _COLUMNS = (6.0, 6.0, 8.0, 70.0, 63.0, 10.0, 22.0)
@@ -25,7 +25,30 @@ _SMALL = 0.1
 # those that are read from the right, and the column of names
 _RISING, _NAMES = 3, 4
 _KILOGRAMS, _GRAMS = N_("{mass} kg"), N_("{mass} g")
+# sections of a list in their order
+SECTIONS: dict[str, Text] = {
+    "parts": in_context("parts list", "Parts"),
+    "standard": in_context("parts list", "Standard items"),
+}
 _Cells = tuple[str, ...]
+
+
+class ListRow(Record):
+    """A position: what it is, how many of it, the mass of one and of all, kg; None: its density is not known.
+
+    ``mass`` is None too where parts of several masses share a position; ``parts``: their ids.
+    """
+
+    section: str
+    position: int
+    designation: str
+    name: str
+    standard: str
+    material: str
+    count: int
+    mass: float | None
+    total: float | None
+    parts: tuple[str, ...]
 
 
 def form_of(number: int) -> Form:

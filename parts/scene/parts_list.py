@@ -6,37 +6,12 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from geometry.base.record import Record
-from parts.base.texts import Text, in_context
+from parts.drawing.parts_list import SECTIONS, ListRow
 
 if TYPE_CHECKING:
     from parts.base.part import Part
     from parts.keys.base import MaterialKeys
     from parts.scene.placing import Instance
-
-# sections of a list in their order
-SECTIONS: dict[str, Text] = {
-    "parts": in_context("parts list", "Parts"),
-    "standard": in_context("parts list", "Standard items"),
-}
-
-
-class ListRow(Record):
-    """A position: what it is, how many of it, the mass of one and of all, kg; None: its density is not known.
-
-    ``mass`` is None too where parts of several masses share a position; ``parts``: their ids.
-    """
-
-    section: str
-    position: int
-    designation: str
-    name: str
-    standard: str
-    material: str
-    count: int
-    mass: float | None
-    total: float | None
-    parts: tuple[str, ...]
 
 
 def list_rows(instances: Sequence[Instance], parts: Mapping[str, Part], language: str) -> tuple[ListRow, ...]:
