@@ -7,13 +7,19 @@ import math
 import re
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
 import numpy as np
 
+from exporters.drawings.dashes import LONGEST
+from geometry.curves.curve import Complex
 from parts.base.readback import ReadError
 from parts.drawing.canvas import FRAME, STYLES
 from parts.drawing.readback import PER_CURVE, ReadSheet, ReadText
+
+if TYPE_CHECKING:
+    from exporters.formats.read_drawing import DrawnSpline
 
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _KNOWN = {
@@ -45,7 +51,7 @@ def read_sheets(file: Path, layers: Sequence[Sequence[str]]) -> list[ReadSheet]:
 
 
 def _read_dxf(file: Path) -> ReadSheet:
-    from exporters.formats.read_drawing import DrawnArc, DrawnLine, drawn, look_of, opened
+    from exporters.formats.read_drawing import DrawnArc, DrawnLine, DrawnSpline, drawn, look_of, opened
 
     document = opened(file, audit=False)
     curves, words = drawn(document, "sheet")
@@ -62,6 +68,7 @@ def _read_dxf(file: Path) -> ReadSheet:
     # a drawing is as large as its frame is
     most = document.header.get("$EXTMAX", (0.0, 0.0))
     sheet.width, sheet.height = most[0] + FRAME, most[1] + FRAME
+    last = ""
     for curve in curves:
         match curve:
             case DrawnLine():
@@ -72,12 +79,27 @@ def _read_dxf(file: Path) -> ReadSheet:
                 sweep += 2 * math.pi if sweep <= 0 else 0.0
                 sheet.add_arc(curve.layer, curve.centre, curve.radius, first, sweep)
             case _:
-                sheet.samples.append((curve.layer, curve.spans(share).ravel()))
+                _add_spline(sheet, curve, curve.spans(share).ravel(), after_another=last == curve.layer)
+        last = curve.layer if isinstance(curve, DrawnSpline) else ""
     for one in words:
         way = one.right - one.left
         rises = abs(way.imag) > abs(way.real)
         sheet.texts.append(ReadText(one.text, one.left, way.imag if rises else way.real, one.height, rises))
     return sheet
+
+
+def _add_spline(sheet: ReadSheet, curve: DrawnSpline, points: Complex, *, after_another: bool) -> None:
+    """A spline with its samples, or a dash of one that goes on where the last one has ended."""
+    dashes = STYLES[curve.layer].dashes
+    if curve.dash != bool(dashes) or (dashes and np.abs(np.diff(points)).sum() > LONGEST * dashes[0]):
+        raise ReadError(f"a SPLINE on layer {curve.layer} is drawn otherwise than in its dashes")
+    if dashes and after_another:
+        # a gap on and no more: where a dash is missing, another curve begins
+        before = sheet.samples[-1][1]
+        gap, way = points[0] - before[-1], before[-1] - before[-2]
+        if dashes[1] / 2 < abs(gap) < dashes[1] * 1.01 and (gap / way).real > abs(gap / way) / 2:
+            points = np.concatenate([sheet.samples.pop()[1], points])
+    sheet.samples.append((curve.layer, points))
 
 
 def _read_svg(file: Path) -> ReadSheet:

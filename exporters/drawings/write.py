@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from exporters.drawings.dashes import dashes_of
 from exporters.formats.svg import number, save
 from geometry.approximation.outline import CadCurve
 from geometry.base.tolerance import DRAWN_DECIMALS
@@ -61,8 +62,13 @@ def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
     space = drawing.modelspace()
     counts: dict[str, int] = {}
     for stroke in canvas.strokes:
-        kind = add_curve(space, stroke.curve, stroke.layer)
-        counts[kind] = counts.get(kind, 0) + 1
+        dashes = STYLES[stroke.layer].dashes
+        pieces, line_type = [stroke.curve], "BYLAYER"
+        if dashes and isinstance(stroke.curve, BSpline):
+            pieces, line_type = [*dashes_of(stroke.curve, dashes)], "CONTINUOUS"
+        for piece in pieces:
+            kind = add_curve(space, piece, stroke.layer, line_type)
+            counts[kind] = counts.get(kind, 0) + 1
     for run in runs:
         entity = space.add_text(
             run.text, height=round(run.height, DRAWN_DECIMALS), dxfattribs={"layer": "TEXT", "style": _style(run)}

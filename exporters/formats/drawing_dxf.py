@@ -52,9 +52,9 @@ def _box(curve: CadCurve) -> list[complex]:
     return [complex(p) for p in curve.poles]
 
 
-def add_curve(space, curve: CadCurve, layer: str) -> str:
+def add_curve(space, curve: CadCurve, layer: str, line_type: str = "BYLAYER") -> str:
     """One curve on a layer as the DXF entity that it is; returns that entity's name."""
-    attributes = {"layer": layer}
+    attributes = {"layer": layer, **({} if line_type == "BYLAYER" else {"linetype": line_type})}
     if isinstance(curve, Line):
         space.add_line(place_of(curve.start), place_of(curve.end), dxfattribs=attributes)
         return "LINE"

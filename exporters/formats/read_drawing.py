@@ -33,6 +33,8 @@ _PLAIN = {
     "extrusion": (0.0, 0.0, 1.0), "paperspace": 0, "true_color": None, "color_name": None, "transparency": None,
     "rotation": 0.0, "oblique": 0.0, "text_generation_flag": 0,
 }  # fmt: skip
+# what a spline on a sheet may say beside, and only it
+_DASH = "CONTINUOUS"
 # colour and line type of the layer of a drawing
 _LOOK = (7, "CONTINUOUS")
 # arcs from here on get ten times as many samples, and are smooth for so long, degrees
@@ -84,10 +86,11 @@ class DrawnArc(Record):
 
 
 class DrawnSpline(Record):
-    """A spline with ezdxf's own evaluation."""
+    """A spline with ezdxf's own evaluation; ``dash``: one dash of a line, drawn solid whatever its layer is."""
 
     layer: str
     tool: BSpline
+    dash: bool
 
     def samples(self) -> Complex:
         """Points from end to end."""
@@ -137,7 +140,7 @@ def _circle(entity: Circle) -> DrawnArc:
 def _spline(entity: Spline) -> DrawnSpline:
     if any(point[2] for point in entity.control_points):
         raise ReadError(f"a SPLINE on layer {entity.dxf.layer} is lifted out of its plane")
-    return DrawnSpline(entity.dxf.layer, entity.construction_tool())
+    return DrawnSpline(entity.dxf.layer, entity.construction_tool(), entity.dxf.linetype == _DASH)
 
 
 def _text(entity: Text) -> DrawnText:
@@ -163,7 +166,7 @@ def drawn(document: Drawing, what: str = "drawing") -> tuple[list[DrawnCurve], l
         _check_layer(document, name)
     for entity in document.modelspace():
         kind = entity.dxftype()
-        _check_plain(entity)
+        _check_plain(entity, dashes=what == "sheet" and kind == "SPLINE")
         if kind in _CURVES:
             curves.append(_CURVES[kind](entity))
         elif isinstance(entity, Text) and what == "sheet":
@@ -173,9 +176,11 @@ def drawn(document: Drawing, what: str = "drawing") -> tuple[list[DrawnCurve], l
     return curves, words
 
 
-def _check_plain(entity: DXFGraphic) -> None:
-    """Nothing hides an entity, lifts or thickens it, or gives it another look than its layer's."""
+def _check_plain(entity: DXFGraphic, *, dashes: bool) -> None:
+    """Nothing hides an entity, lifts or thickens it, or gives it another look than its layer's, unless it is a dash."""
     for name, value in entity.dxfattribs().items():
+        if dashes and (name, value) == ("linetype", _DASH):
+            continue
         if name in _PLAIN and value != _PLAIN[name]:
             raise ReadError(f"a {entity.dxftype()} on layer {entity.dxf.layer} has {name} = {value}")
         if getattr(value, "z", 0.0) and name not in _PLAIN:

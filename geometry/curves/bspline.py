@@ -106,6 +106,24 @@ class BSpline(Record, eq=False):
         """The same points travelled the other way, on the same domain."""
         return BSpline(self.degree, _mirrored_knots(self.knots), self.poles[::-1])
 
+    def trimmed(self, low: float, high: float) -> BSpline:
+        """The same points between two parameters (blossoms at the knots that are left; Ramshaw 1987)."""
+        p = self.degree
+        inner = self.knots[(self.knots > low) & (self.knots < high)]
+        knots = np.concatenate([np.full(p + 1, low), inner, np.full(p + 1, high)])
+        poles = []
+        for first in range(len(knots) - p - 1):
+            # of the polynomial on some span that the pole is at work on
+            wide = next(k for k in range(first, first + p + 1) if knots[k] < knots[k + 1])
+            span = int(span_index(p, self.knots, (knots[wide] + knots[wide + 1]) / 2))
+            rest = self.poles[span - p : span + 1]
+            for k in range(1, p + 1):
+                starts, ends = self.knots[span - p + k : span + 1], self.knots[span + 1 : span + 1 + p + 1 - k]
+                share = (knots[first + k] - starts) / (ends - starts)
+                rest = (1 - share) * rest[:-1] + share * rest[1:]
+            poles.append(rest[0])
+        return BSpline(p, knots, np.array(poles))
+
     def placed(self, placement: Placement2) -> BSpline:
         """The spline carried by a rigid motion."""
         return BSpline(self.degree, self.knots, placement.apply(self.poles))

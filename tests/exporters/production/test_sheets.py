@@ -8,6 +8,7 @@ import math
 import re
 from collections.abc import Callable
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -125,6 +126,21 @@ def test_librecad_finds_its_fonts_and_line_types_by_their_names(tmp_path: Path) 
     assert {kind.upper() for kind in kinds} <= {"CENTER2", "DASHED2", "CONTINUOUS"}
 
 
+def test_splines_are_dashed_whatever_draws_them(tmp_path: Path) -> None:
+    """LibreCAD draws a spline solid, whatever its line type is: 4 mm and a gap of 1.5 mm are drawn as that."""
+    job = job_of("practicum_pair", "dxf")
+    job.write({}, tmp_path / job.path)
+    space = ezdxf.readfile(tmp_path / job.path).modelspace()
+    for layer in ("TOOTH_START", "TOOTH_END"):
+        found = dashes(space, layer)
+        assert {e.dxf.linetype for e in found} == {"CONTINUOUS"}
+        curves = [[(p.x, p.y) for p in e.construction_tool().approximate(200)] for e in found]
+        lengths = [sum(math.dist(a, b) for a, b in pairwise(points)) for points in curves]
+        assert max(lengths) < 1.7 * 4.0
+        gaps = [math.dist(one[-1], two[0]) for one, two in pairwise(curves)]
+        assert sum(1.45 < gap < 1.5001 for gap in gaps) > len(gaps) / 2
+
+
 def test_the_same_bytes_every_time(tmp_path: Path) -> None:
     for job, again in zip(jobs_of("practicum_pair"), plan_build(scene_of("practicum_pair"), "p", [], ["sheet"]).sheets,
                           strict=True):  # fmt: skip
@@ -142,6 +158,10 @@ def move_text(space: Any) -> None:
     texts = list(space.query("TEXT"))
     for key in ("insert", "align_point"):
         texts[3].dxf.set(key, texts[4].dxf.get(key))
+
+
+def dashes(space: Any, layer: str) -> list[Any]:
+    return list(space.query(f'SPLINE[layer=="{layer}"]'))
 
 
 def bend_spline(space: Any) -> None:
@@ -165,7 +185,11 @@ DAMAGE: dict[str, tuple[Callable[[Any], Any], str]] = {
     ),
     "pitch": (lambda s: on_layer(s, "ARC", "WORKING_PITCH").destroy(), "measures"),
     "tooth": (bend_spline, "outlines deviate"),
-    "tooth lost": (lambda s: s.delete_entity(on_layer(s, "SPLINE", "TOOTH_END")), "curves instead of"),
+    "tooth lost": (lambda s: s.delete_entity(on_layer(s, "SPLINE", "OUTLINE")), "curves instead of"),
+    "first dash lost": (lambda s: s.delete_entity(dashes(s, "TOOTH_END")[1]), "outlines deviate"),
+    "dash lost": (lambda s: s.delete_entity(dashes(s, "TOOTH_END")[2]), "curves instead of"),
+    "dashes doubled": (lambda s: dashes(s, "TOOTH_START")[1].dxf.set("linetype", "BYLAYER"), "in its dashes"),
+    "dash moved": (lambda s: dashes(s, "TOOTH_START")[1].translate(0.01, 0, 0), "outlines deviate"),
     "word lost": (lambda s: s.delete_entity(s.query('TEXT[text=="P"]').first), "words are missing: P"),
     "word over word": (move_text, "stands over"),
     "beyond the frame": (lambda s: on_layer(s, "LINE", "CENTRE").translate(0, 400, 0), "leaves the frame"),

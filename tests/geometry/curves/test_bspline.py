@@ -6,6 +6,7 @@ import math
 from functools import cache
 from typing import Any
 
+import ezdxf.math
 import numpy as np
 import pytest
 from hypothesis import given
@@ -379,3 +380,15 @@ def bound_of(curve: Curve, spline: BSpline) -> tuple[float, str]:
     near = t[np.argmin(np.abs(spline.point(x)[:, None] - curve.point(t)), axis=1)]
     near[0], near[-1] = curve.domain
     return distance_bound(curve, spline, x, near)
+
+
+def test_a_part_of_a_spline_is_the_spline() -> None:
+    """Against ezdxf's own evaluation, with knots of all multiplicities and ends on and beside knots."""
+    knots = np.array([0, 0, 0, 0, 1, 2, 2, 3, 3, 3, 5, 5, 5, 5.0])
+    poles = np.array([complex(k, (7 * k) % 5 - 0.3 * k) for k in range(10)])
+    whole = ezdxf.math.BSpline([(p.real, p.imag) for p in poles], 4, knots)
+    for low, high in ((0.0, 5.0), (0.3, 0.7), (0.3, 2.0), (2.0, 3.0), (1.9, 4.99), (3.0, 5.0)):
+        part = BSpline(3, knots, poles).trimmed(low, high)
+        t = np.linspace(low, high, 41)
+        assert part.domain == (low, high)
+        assert np.abs(part.point(t) - [complex(p.x, p.y) for p in whole.points(t)]).max() < 1e-13
