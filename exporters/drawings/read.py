@@ -16,7 +16,7 @@ from exporters.drawings.dashes import LONGEST
 from geometry.curves.curve import Complex
 from parts.base.readback import ReadError
 from parts.drawing.canvas import FRAME, STYLES
-from parts.drawing.readback import PER_CURVE, ReadSheet, ReadText
+from parts.drawing.readback import PER_CURVE, ReadDimension, ReadSheet, ReadText
 
 if TYPE_CHECKING:
     from exporters.formats.read_drawing import DrawnSpline
@@ -51,7 +51,15 @@ def read_sheets(file: Path, layers: Sequence[Sequence[str]]) -> list[ReadSheet]:
 
 
 def _read_dxf(file: Path) -> ReadSheet:
-    from exporters.formats.read_drawing import DrawnArc, DrawnLine, DrawnSpline, drawn, look_of, opened
+    from exporters.formats.read_drawing import (
+        DrawnArc,
+        DrawnLine,
+        DrawnSpline,
+        dimensions,
+        drawn,
+        look_of,
+        opened,
+    )
 
     document = opened(file, audit=False)
     curves, words = drawn(document, "sheet")
@@ -65,6 +73,7 @@ def _read_dxf(file: Path) -> ReadSheet:
         if (colour, lengths, weight) != (style.aci, list(style.dashes), round(100 * style.width)):
             raise ReadError(f"layer {name} looks otherwise than it should")
     sheet, share = ReadSheet(), np.linspace(0, 1, PER_CURVE)
+    sheet.dimensions = [ReadDimension(one.value, one.text) for one in dimensions(document)]
     # a drawing is as large as its frame is
     most = document.header.get("$EXTMAX", (0.0, 0.0))
     sheet.width, sheet.height = most[0] + FRAME, most[1] + FRAME

@@ -6,6 +6,7 @@ import math
 import re
 from html import escape
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,10 +16,15 @@ from geometry.approximation.outline import CadCurve
 from geometry.base.tolerance import DRAWN_DECIMALS
 from geometry.curves.bspline import BSpline
 from geometry.curves.line_arc import Arc, Line
-from parts.drawing.canvas import STYLES, Canvas, Run
+from parts.drawing.canvas import STYLES, TEXT_HEIGHT, Canvas, Dimension, Run
+from parts.drawing.dimensioning import ARROW
 from parts.drawing.font import CAPITAL
 
-_MILLIMETRES = 4
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing
+    from ezdxf.layouts import BaseLayout, BlockLayout
+
+_MILLIMETRES, _DIMSTYLE = 4, "ESKD"
 _FONT = "arial.ttf"
 # LibreCAD takes a style by its name for a font of its own, and knows line types by standard names only, of which the
 # short ones (2) fit sheets. Its unicode, which every version has, holds Cyrillic; its font after GOST 2.304 the rest
@@ -61,16 +67,21 @@ def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
         drawing.layers.add(name, color=style.aci, linetype=kind, lineweight=round(style.width * 100))
     space = drawing.modelspace()
     counts: dict[str, int] = {}
-    for stroke in canvas.strokes:
+    spaces: dict[tuple[str, int], BaseLayout] = {}
+    for one in canvas.dimensions:
+        block = _add_dimension(drawing, one)
+        spaces |= {("strokes", k): block for k in one.strokes} | {("texts", k): block for k in one.texts}
+        counts["DIMENSION"] = counts.get("DIMENSION", 0) + 1
+    for index, stroke in enumerate(canvas.strokes):
         dashes = STYLES[stroke.layer].dashes
         pieces, line_type = [stroke.curve], "BYLAYER"
         if dashes and isinstance(stroke.curve, BSpline):
             pieces, line_type = [*dashes_of(stroke.curve, dashes)], "CONTINUOUS"
         for piece in pieces:
-            kind = add_curve(space, piece, stroke.layer, line_type)
+            kind = add_curve(spaces.get(("strokes", index), space), piece, stroke.layer, line_type)
             counts[kind] = counts.get(kind, 0) + 1
-    for run in runs:
-        entity = space.add_text(
+    for index, run in ((k, run) for k, text in enumerate(canvas.texts) for run in text.runs):
+        entity = spaces.get(("texts", index), space).add_text(
             run.text, height=round(run.height, DRAWN_DECIMALS), dxfattribs={"layer": "TEXT", "style": _style(run)}
         )
         free = _BEARING * run.height
@@ -83,6 +94,35 @@ def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
     with fixed_metadata():
         save_dxf(drawing, file)
     return counts
+
+
+def _add_dimension(drawing: Drawing, one: Dimension) -> BlockLayout:
+    """A DIMENSION that programs can edit, measured in mm of the model; the block for its lines and words."""
+    from exporters.formats.drawing_dxf import place_of
+
+    name = f"{_DIMSTYLE}_{one.scale:g}".replace(".", "_")
+    if name not in drawing.dimstyles:
+        size = {"dimtxt": TEXT_HEIGHT, "dimasz": ARROW, "dimexe": 1.5, "dimexo": 0.0, "dimgap": 0.9, "dimdli": 8.0}
+        looks = {"dimtad": 1, "dimtih": 0, "dimtoh": 0, "dimdec": 3, "dimzin": 8, "dimlunit": 2, "dimtofl": 1}
+        drawing.dimstyles.new(
+            name, {**size, **looks, "dimdsep": ord(one.mark), "dimlfac": 1 / one.scale, "dimtxsty": _STYLE}
+        )
+        for key, value in {**size, "dimlfac": 1 / one.scale, "dimdec": 3, "dimzin": 8, "dimtad": 1}.items():
+            drawing.header[f"${key.upper()}"] = value
+    block = drawing.blocks.new_anonymous_block(type_char="D")
+    first, second = (place_of(p) for p in one.points)
+    attributes = {
+        "layer": "DIMENSION", "dimstyle": name, "geometry": block.name, "text": one.text,
+        "text_midpoint": (*place_of(one.middle), 0.0), "actual_measurement": one.value,
+    }  # fmt: skip
+    if one.kind == "linear":
+        more = {"defpoint": place_of(one.line), "defpoint2": first, "defpoint3": second, "angle": one.angle}
+    else:
+        more = {"defpoint": first, "defpoint4": second, "leader_length": abs(one.line - one.points[1])}
+    # the block belongs to this dimension alone; words stand where they were put
+    code = {"linear": 0, "diameter": 3, "radius": 4}[one.kind] | 32 | 128
+    drawing.modelspace().new_entity("DIMENSION", {**attributes, **more, "dimtype": code})
+    return block
 
 
 def _style(run: Run) -> str:

@@ -6,7 +6,7 @@ Splines are evaluated by the library that reads them, never by ours.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,12 +21,14 @@ from parts.base.readback import ReadError
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
-    from ezdxf.entities import Arc, Circle, DXFGraphic, Line, Spline, Text
+    from ezdxf.entities import Arc, Circle, Dimension, DXFGraphic, Line, Spline, Text
     from ezdxf.math import BSpline, Vec3
 
 _LAYER = "OUTLINE"
 _MILLIMETRES = 4
 _PER_CURVE = 25
+# what a dimension's own number may be off by, part of it
+_SAME = 1e-6
 # what an entity may say of its looks: no more than its absence
 _PLAIN = {
     "invisible": 0, "color": 256, "linetype": "BYLAYER", "lineweight": -1, "ltscale": 1.0, "thickness": 0.0,
@@ -117,6 +119,13 @@ class DrawnText(Record):
     height: float
 
 
+class DrawnDimension(Record):
+    """A dimension: its number by its own points and the scale of its style, mm, and its words."""
+
+    value: float
+    text: str
+
+
 DrawnCurve = DrawnLine | DrawnArc | DrawnSpline
 
 
@@ -162,9 +171,12 @@ def drawn(document: Drawing, what: str = "drawing") -> tuple[list[DrawnCurve], l
     from ezdxf.entities import Text
 
     curves, words = [], []
-    for name in {entity.dxf.layer for entity in document.modelspace()}:
+    entities = [*document.modelspace()]
+    if what == "sheet":
+        entities = [*(e for e in entities if e.dxftype() != "DIMENSION"), *_of_dimensions(document)]
+    for name in {entity.dxf.layer for entity in entities}:
         _check_layer(document, name)
-    for entity in document.modelspace():
+    for entity in entities:
         kind = entity.dxftype()
         _check_plain(entity, dashes=what == "sheet" and kind == "SPLINE")
         if kind in _CURVES:
@@ -174,6 +186,35 @@ def drawn(document: Drawing, what: str = "drawing") -> tuple[list[DrawnCurve], l
         else:
             raise ReadError(f"a {kind} stands in the {what}; only lines, arcs, circles and splines belong there")
     return curves, words
+
+
+def _dimensions_in(document: Drawing) -> list[Dimension]:
+    from ezdxf.entities import Dimension
+
+    return [entity for entity in document.modelspace() if isinstance(entity, Dimension)]
+
+
+def _of_dimensions(document: Drawing) -> Iterator[DXFGraphic]:
+    """What the dimensions of a drawing consist of."""
+    for entity in _dimensions_in(document):
+        _check_plain(entity, dashes=False)
+        if entity.dxf.geometry not in document.blocks:
+            raise ReadError("a DIMENSION has no block of lines")
+        yield from document.blocks.get(entity.dxf.geometry)
+
+
+def dimensions(document: Drawing) -> list[DrawnDimension]:
+    """The dimensions of a drawing, each measured by its own points."""
+    found = []
+    for entity in _dimensions_in(document):
+        if entity.dxf.dimstyle not in document.dimstyles:
+            raise ReadError(f"a DIMENSION has the style {entity.dxf.dimstyle}, which is not in the file")
+        factor = document.dimstyles.get(entity.dxf.dimstyle).dxf.dimlfac
+        value = float(entity.get_measurement()) * factor
+        if abs(value - entity.dxf.get("actual_measurement", math.nan)) > _SAME * max(1.0, abs(value)):
+            raise ReadError(f"a DIMENSION of {value:g} mm says that it measures otherwise")
+        found.append(DrawnDimension(value, entity.dxf.text))
+    return found
 
 
 def _check_plain(entity: DXFGraphic, *, dashes: bool) -> None:

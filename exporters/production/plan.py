@@ -16,7 +16,7 @@ from parts.base.reasons import reason
 from parts.base.refusal import SceneError, meant, placed
 from parts.base.texts import N_, Message, Text, filled, message
 from parts.keys.boards import PURPOSES_LAID
-from parts.keys.sheet import SHEET_FORMATS
+from parts.keys.sheet import on_sheet
 from parts.scene.formats import FORMATS, OF_SCENES, Form, file_kind
 from parts.scene.load import ExportSpec, SceneFile, default_export, in_keys_of_file, make_parts
 from parts.scene.placing import Placing, place
@@ -106,7 +106,7 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
             why = alone if export.assembly else N_("a sheet of several parts was not asked for")
             left_out.append(LeftOut(where, why))
             continue
-        if export.format in SHEET_FORMATS:
+        if on_sheet(export.format, export.purpose):
             sheets += _sheets(scene, placing, parts, _of_cams(export, parts, only_parts), where, source, taken)
             continue
         if export.purpose in PURPOSES_LAID.values():
@@ -182,16 +182,20 @@ def _laid(
     return plate_jobs(scene, parts, export, solid, where, source)
 
 
+# the purposes of sheets that show one part each
+_OF_ONE = ("cam", "model", "part")
+
+
 def _is_flat(part: Part) -> bool:
     """Whether flat files can hold a part."""
     return part.made_by.has_outline
 
 
 def _of_several(export: ExportSpec) -> bool:
-    """Whether a picture shows parts together; that of a cam and a paper model show one."""
+    """Whether a picture shows parts together; that of a cam, a paper model and a working drawing show one."""
     if export.purpose in PURPOSES_LAID.values():
         return True
-    return export.format in OF_SCENES or (export.format in SHEET_FORMATS and export.purpose not in ("cam", "model"))
+    return export.format in OF_SCENES or (on_sheet(export.format, export.purpose) and export.purpose not in _OF_ONE)
 
 
 def _of_cams(export: ExportSpec, parts: dict[str, Part], only_parts: list[str]) -> ExportSpec:
@@ -199,7 +203,7 @@ def _of_cams(export: ExportSpec, parts: dict[str, Part], only_parts: list[str]) 
     if not only_parts:
         return export
     asked = [p for p in export.parts or parts if p in only_parts]
-    return replace(export, parts=[p for p in asked if export.purpose == "model" or parts[p].kind == "cam"])
+    return replace(export, parts=[p for p in asked if export.purpose in ("model", "part") or parts[p].kind == "cam"])
 
 
 def _sheets(

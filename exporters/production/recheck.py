@@ -19,7 +19,7 @@ from geometry.base.errors import GeometryError
 from geometry.base.record import Record
 from parts.base.part import Part
 from parts.base.refusal import SceneError
-from parts.keys.sheet import SHEET_FORMATS
+from parts.keys.sheet import on_sheet
 from parts.scene.formats import OF_SCENES, FileKind, Form, file_kind
 from parts.scene.load import SceneFile, make_parts, scene_from_resolved
 from parts.scene.placing import place
@@ -95,7 +95,7 @@ def recheck(file: Path) -> Recheck:
 
 def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, Any], digest: str) -> Recheck:
     scene = scene_from_resolved(report["scene"], source)
-    if entry["format"] in (*SHEET_FORMATS, *OF_SCENES):
+    if on_sheet(entry["format"], entry["purpose"]) or entry["format"] in OF_SCENES:
         return _against_sheet(file, source, scene, entry, digest)
     if "board" in entry:
         return _against_board(file, source, scene, entry, digest)

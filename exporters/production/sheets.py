@@ -46,6 +46,8 @@ from parts.texts.sheets import sheet_words
 # much smaller or larger than its own no more and no less than these parts of the pitch
 RACK_STEP, _MOST_STEP, _LEAST_STEP = 4.5, 1 / 6, 1 / 60
 ENDINGS = ("dxf", "svg")
+# purposes whose sheets always have their title block
+_WITH_BLOCK = ("parts_list", "part")
 
 
 class SheetJob(Record):
@@ -135,6 +137,10 @@ def sheet_jobs(
         elif export.purpose == "parts_list":
             pages = list_sheets(rows_of(scene, placing, parts, export), language)
             made = [(str(n) if len(pages) > 1 else "", page) for n, page in enumerate(pages, 1)]
+        elif export.purpose == "part":
+            from exporters.production.part_drawings import part_drawings
+
+            made = part_drawings(scene, placing, parts, export, asked, where, source)
         elif export.purpose == "train":
             from exporters.production.train_sheets import scene_train_sheet
 
@@ -144,19 +150,20 @@ def sheet_jobs(
     except ParameterError as error:
         raise placed(source, where, error, unit_of(ExportSpec, error.name)) from error
     for number, (word, expected) in enumerate(made, 1):
-        shown = [word.partition(".")[0]] if export.purpose == "cam" else export.parts or []
+        shown = [word.partition(".")[0]] if export.purpose in ("cam", "part") else export.parts or []
         part = parts[shown[0]] if len(shown) == 1 and export.purpose != "parts_list" else None
         _add_title_block(expected, scene, export, part, (number, len(made)))
         if export.cells == "empty":
             expected.canvas.texts[:] = [seen for text in expected.canvas.texts for seen in text.asked()]
     name, title = f"{scene.name}.{export.name or export.purpose}", scene.scene.title or scene.name
+    endings = ENDINGS if export.format == "sheet" else (export.format,)
     if export.format == "pdf":
         _check_letters([expected.canvas for _, expected in made], scene, export, where, source)
         return [SheetJob(export, title, tuple(expected for _, expected in made), f"{name}.pdf", where)]
     return [
         SheetJob(export, title, (expected,), f"{name}{'.' * bool(word)}{word}.{ending}", where)
         for word, expected in made
-        for ending in ENDINGS
+        for ending in endings
     ]
 
 
@@ -245,14 +252,14 @@ def _generating(scene: SceneFile, export: ExportSpec, asked: Asked, where: str, 
 
 def _band(export: ExportSpec) -> float:
     """Height that the title block takes, mm."""
-    return TITLE_BLOCK[1] if export.title_block else 0.0
+    return TITLE_BLOCK[1] if export.title_block and export.purpose != "part" else 0.0
 
 
 def _add_title_block(
     expected: Expected, scene: SceneFile, export: ExportSpec, part: Part | None, number: tuple[int, int]
 ) -> None:
     """The title block on a sheet, where the export asks for one; of a single ``part`` with its material and mass."""
-    if not export.title_block and export.purpose != "parts_list":
+    if not export.title_block and export.purpose not in _WITH_BLOCK:
         return
     language = scene.scene.language
     given = export.title_block if isinstance(export.title_block, TitleBlockTable) else TitleBlockTable()

@@ -66,9 +66,8 @@ class Kind(Generic[K, T]):
     reasons: Mapping[str, Text] = {}
     findings: Mapping[str, Text] = {}
     quantities: Mapping[str, str] = {}
-    # modules with its calculation page, its sheet and its working drawing, loaded when one is asked for
+    # modules with its calculation page and its working drawing, loaded when one is asked for
     page: str | None = None
-    sheet: str | None = None
     drawing: str | None = None
     # module with the table of its working drawing: data_table(part, scene, mates)
     data_table: str | None = None

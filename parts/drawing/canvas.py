@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Sequence
-from typing import get_args
+from typing import Literal, get_args
 
 import numpy as np
 
@@ -101,6 +101,8 @@ STYLES: dict[str, Style] = {
     "REGISTER": Style(0.18, (), 8, "#808080"),
     "CENTRE_MARK": Style(0.18, (), 8, "#808080"),
     "DIMENSION": Style(0.18, (), 8, "#505050"),
+    "THIN": Style(0.25, (), 7, "#000000"),
+    "HIDDEN": Style(0.25, _DASHED, 7, "#404040"),
     "TEXT": Style(0.25, (), 7, "#000000"),
 }
 
@@ -208,6 +210,14 @@ def text_of(text: str, at: complex, height: float = TEXT_HEIGHT, most: float | N
     return Text(_INDEX.sub(r"\1", text), tuple(runs), Box(at.real, at.imag - hang, x, at.imag + size * 1.05))
 
 
+def rising_text(text: str, at: complex, height: float = TEXT_HEIGHT, most: float | None = None) -> Text:
+    """A line of text turned to be read from the right, from the lower end of its base line."""
+    made = text_of(text, 0j, height, most)
+    runs = tuple(replace(run, at=at + 1j * run.at, rises=True) for run in made.runs)
+    low, box = at.imag + made.box.left, made.box
+    return Text(made.text, runs, Box(at.real - box.high, low, at.real - box.low, at.imag + box.right))
+
+
 def _pieces(text: str, height: float) -> list[tuple[str, float]]:
     """The pieces of a line, each with its height."""
     index = max((h for h in HEIGHTS if h < height), default=LEAST_TEXT)
@@ -225,12 +235,35 @@ def plain_width(text: str, height: float) -> float:
     return height * sum(widths.get(c, 1.0) for c in text)
 
 
+class Dimension(Record):
+    """A dimension of a drawing, on paper; of its numbers ``value`` alone is the model's, mm.
+
+    ``kind``: linear between the ``points`` along ``angle`` (degrees), its line through ``line``; diameter from point to
+    point; radius from centre to arc. ``scale``: mm of paper for one of the model; ``text``: its words, <> for the
+    number, whose decimal ``mark`` is a point or a comma. ``strokes`` and ``texts``: which of the canvas's it consists
+    of; ``middle``: of its words.
+    """
+
+    name: str
+    kind: Literal["linear", "diameter", "radius"]
+    value: float
+    scale: float
+    points: tuple[complex, complex]
+    line: complex
+    angle: float
+    text: str
+    mark: str
+    middle: complex
+    strokes: range
+    texts: range
+
+
 class Canvas(Draft):
     """A sheet that grows: paper size (mm) with its name, strokes and texts; ``max_error`` of its splines, mm.
 
     ``band``: height kept free above the frame's lower side, mm, for a title block; ``columns``: width of what
-    stands on the left of the frame, mm; ``margins``: on the left of the
-    frame and around it, mm.
+    stands on the left of the frame, ``foot``: height of what
+    stands below it, mm; ``margins``: on the left of the frame and around it, mm.
     """
 
     width: float
@@ -238,10 +271,12 @@ class Canvas(Draft):
     paper: str
     strokes: list[Stroke] = field(default_factory=list)
     texts: list[Text] = field(default_factory=list)
+    dimensions: list[Dimension] = field(default_factory=list)
     max_error: float = 0.0
     sampled: bool = False
     band: float = 0.0
     columns: float = 0.0
+    foot: float = 0.0
     margins: tuple[float, float] = (FRAME_LEFT, FRAME)
 
     @property
@@ -269,8 +304,8 @@ class Canvas(Draft):
 
     @property
     def reach(self) -> Box:
-        """All that is drawn on: the frame, and columns in its margin."""
-        return replace(self.frame, left=self.frame.left - self.columns)
+        """All that is drawn on: the frame, and what stands in its margin."""
+        return replace(self.frame, left=self.frame.left - self.columns, low=self.frame.low - self.foot)
 
     def line(self, layer: str, start: complex, end: complex) -> None:
         """A straight line."""
@@ -303,10 +338,7 @@ class Canvas(Draft):
 
     def write_rising(self, text: str, at: complex, height: float, most: float) -> None:
         """A line of text turned to be read from the right, from the lower end of its base line."""
-        made = text_of(text, 0j, height, most)
-        runs = tuple(replace(run, at=at + 1j * run.at, rises=True) for run in made.runs)
-        low, box = at.imag + made.box.left, made.box
-        self.texts.append(Text(made.text, runs, Box(at.real - box.high, low, at.real - box.low, at.imag + box.right)))
+        self.texts.append(rising_text(text, at, height, most))
 
     def obstacles(self) -> Complex:
         """Points on all strokes, about half a millimetre apart."""

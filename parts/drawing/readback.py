@@ -38,10 +38,17 @@ class ReadText(Record):
     rises: bool = False
 
 
+class ReadDimension(Record):
+    """A dimension: its number by its own points and its scale, mm, and its words."""
+
+    value: float
+    text: str
+
+
 class ReadSheet(Draft):
     """All that a sheet holds; ``samples`` has points of every line, arc and spline, by layer, one array a curve.
 
-    Width and height of the paper and the rounding of places of words, mm.
+    Width and height of the paper and the rounding of places of words, mm; ``dimensions``: where the format has them.
     """
 
     lines: list[ReadLine] = field(default_factory=list)
@@ -51,6 +58,7 @@ class ReadSheet(Draft):
     width: float = 0.0
     height: float = 0.0
     rounding: float = 1e-6
+    dimensions: list[ReadDimension] | None = None
 
     def add_line(self, layer: str, start: complex, end: complex) -> None:
         """A straight line with its samples."""

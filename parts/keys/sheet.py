@@ -35,9 +35,14 @@ CellsKey = Annotated[
     Literal["numbers", "empty"], Meta(description="sheet, pdf: what is to be found out, in numbers or left to students")
 ]
 # the purpose that each key is for
-_PURPOSES = {"mate": "meshing", "rack_step": "generating", "intervals": "cam", "speed_rpm": "cam"}
+_PURPOSES = {"mate": "meshing", "rack_step": "generating", "intervals": "cam", "speed_rpm": "cam", "drawing": "part"}
 SHEET_FORMATS = ("sheet", "pdf")
 SHEET_KEYS = (*_PURPOSES, "title_block", "paper", "scale", "cells")
+
+
+def on_sheet(format_name: str, purpose: str | None) -> bool:
+    """Whether an export is a drawing on paper."""
+    return format_name in SHEET_FORMATS or purpose == "part"
 
 
 def check_sheet_keys(spec: Any, source: str, place: str) -> None:
@@ -54,7 +59,7 @@ def check_sheet_keys(spec: Any, source: str, place: str) -> None:
             raise SceneError(source, f"{place}.{key}", value, "only_for_purpose", REMOVED, purpose=purpose)
     for key in ("title_block", "paper", "scale"):
         given = getattr(spec, key)
-        if given and spec.format not in SHEET_FORMATS:
+        if given and not on_sheet(spec.format, spec.purpose):
             formats, given = [f'"{name}"' for name in SHEET_FORMATS], given if key != "title_block" else True
             raise SceneError(
                 source, f"{place}.{key}", given, "only_for_format", REMOVED, formats=formats, format=spec.format
@@ -64,8 +69,8 @@ def check_sheet_keys(spec: Any, source: str, place: str) -> None:
             raise SceneError(source, f"{place}.{key}", given, "model_is_full_size", REMOVED)
         if given and key != "title_block" and spec.purpose == "parts_list":
             raise SceneError(source, f"{place}.{key}", given, "list_has_its_form", REMOVED)
-    is_sheet = spec.format in SHEET_FORMATS
-    if spec.cells != "numbers" and (not is_sheet or spec.purpose in ("model", "parts_list")):
+    is_sheet = on_sheet(spec.format, spec.purpose)
+    if spec.cells != "numbers" and (not is_sheet or spec.purpose in ("model", "parts_list", "part")):
         formats = [f'"{name}"' for name in SHEET_FORMATS]
         raise SceneError(
             source, f"{place}.cells", spec.cells, "only_for_format", REMOVED, formats=formats, format=spec.format

@@ -24,6 +24,7 @@ from parts.keys.base import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.keys.boards import PURPOSES_LAID, BedSpec, BoardSpec, LaidKeys, check_laid
 from parts.keys.sheet import CamSpeed, CellsKey, Intervals, MateNumber, PaperKey, RackStep, ScaleKey, check_sheet_keys
 from parts.keys.title import TitleBlockKey
+from parts.keys.working import WorkingTable
 from parts.scene.files import MOST_BYTES, built_in_scenes, text_of
 from parts.scene.formats import ASSEMBLY_FORMATS, Form, file_kind, tolerances_of
 from parts.scene.instances import (
@@ -81,13 +82,15 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
                 "cam",
                 "train",
                 "parts_list",
+                "part",
                 "animation",
             ],
             Meta(
                 description="dxf: laser (arcs) or drawing (splines); dxf, svg: board (all flat parts laid on boards); "
                 "3mf: plate (all parts laid on beds); sheet, pdf: meshing (picture of each pair), "
                 "generating (device TMM-42), cam (diagrams, least radius, profile), train (scheme, plans of "
-                "velocities) or parts_list (GOST 2.106); pdf: model (outlines 1:1 on sheets to be glued together)",
+                "velocities) or parts_list (GOST 2.106); pdf: model (outlines 1:1 on sheets to be glued together); "
+                "dxf, svg, pdf: part (working drawing of each part)",
                 examples=["laser"],
             ),
         ]
@@ -128,6 +131,7 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     mate: MateNumber | None = None
     paper: PaperKey | None = None
     scale: ScaleKey | None = None
+    drawing: WorkingTable | None = None
 
 
 class ChecksSpec(Struct, forbid_unknown_fields=True):

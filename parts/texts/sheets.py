@@ -101,6 +101,11 @@ SHEETS: dict[str, Text] = {
     "worm_field_1": N_("field of action of flank 1"),
     "worm_field_2": N_("field of action of flank 2"),
     "scale_profile": N_("scale of the profile"),
+    "paper_format": in_context("title block", "Format"),
+    "holes_of": counted("{count} hole ", "{count} holes ", by="count"),
+    "spokes_of": counted("{count} spoke {width} wide", "{count} spokes {width} wide", by="count"),
+    "view_a": in_context("drawing, name of a view", "A"),
+    "unspecified_limits": N_("Unspecified limit deviations: H14, h14, ±IT14/2."),
 }
 
 

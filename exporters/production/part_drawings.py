@@ -1,0 +1,55 @@
+"""The working drawings of a scene's parts: which have one, what they are made of."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+from importlib import import_module
+
+from parts.base.part import Part
+from parts.base.refusal import SceneError
+from parts.base.registry import KINDS
+from parts.drawing.choice import Asked
+from parts.drawing.expected import Expected
+from parts.drawing.part_sheet import Block, part_sheet
+from parts.drawing.working import Subject
+from parts.keys.working import WorkingTable
+from parts.pages.data_table import WIDTH, draw_data_table, table_height
+from parts.scene.data_tables import part_table
+from parts.scene.load import ExportSpec, SceneFile
+from parts.scene.placing import Placing
+
+
+def part_drawings(
+    scene: SceneFile,
+    placing: Placing,
+    parts: Mapping[str, Part],
+    export: ExportSpec,
+    asked: Asked,
+    where: str,
+    source: str,
+) -> list[tuple[str, Expected]]:
+    """The drawings of the parts that the export names, of all that have one by default, with the part's id.
+
+    Raises
+    ------
+    SceneError
+        A named part's kind has no drawing, or no part has one.
+    """
+    known = [key for key, part in parts.items() if part.made_by.drawing]
+    for name in export.parts or []:
+        if name not in known:
+            raise SceneError(source, f"{where}.parts", name, "no_working_drawing", None, kind=parts[name].kind)
+    if not known:
+        drawn = [name for name, kind in KINDS.items() if kind.drawing]
+        raise SceneError(source, f"{where}.purpose", export.purpose, "draws_only_what_is_not_here", None, kinds=drawn)
+    found = []
+    for name in export.parts or known:
+        part, wishes = parts[name], export.drawing or WorkingTable()
+        drawing = import_module(str(part.made_by.drawing)).part_drawing(Subject(part, wishes, asked.language))
+        table, block = part_table(part, scene, placing, parts), None
+        if table is not None:
+            size = WIDTH, table_height(table, asked.language)
+            block = Block(size, partial(draw_data_table, table=table, language=asked.language))
+        found.append((name, part_sheet(drawing, block, wishes.roughness, asked)))
+    return found

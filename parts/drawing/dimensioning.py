@@ -1,0 +1,374 @@
+"""Views on paper with their dimensions: each word in a place that is free of lines and words; GOST 2.307, 2.309."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator, Sequence
+from typing import Literal
+
+import numpy as np
+
+from geometry.base.record import Draft, Record, field, replace
+from geometry.curves.curve import Complex
+from geometry.curves.line_arc import Line
+from parts.drawing.canvas import (
+    SMALL_TEXT,
+    TEXT_HEIGHT,
+    Box,
+    Canvas,
+    Dimension,
+    Paper,
+    Stroke,
+    Text,
+    decimal,
+    fitted,
+    rising_text,
+    text_of,
+    text_width,
+)
+from parts.drawing.hatching import hatching
+from parts.drawing.working import AXIS, Note, Round, Size, View, number_text
+
+# mm on paper: from the view to the first dimension line, from line to line; arrow, half its width; how far extension
+# lines reach beyond; from a line to its words; how far axes reach beyond their ends
+_FIRST, _STEP, ARROW, _BARB, _BEYOND, _GAP, _AXIS = 10.0, 8.0, 3.0, 0.5, 1.5, 1.5, 4.0
+# lines that fill an arrow
+_FAN = 5
+_HATCH = 2.5
+# leaders: how far out, every how many degrees
+_REACHES = (9.0, 13.0, 18.0, 24.0, 32.0, 42.0, 55.0, 70.0)
+_TURNS = (0.0, 15.0, -15.0, 30.0, -30.0, 50.0, -50.0, 80.0, -80.0, 120.0, -120.0, 160.0)
+# the sign of roughness: heights of its legs; where its words begin
+_SHORT, _LONG, _WORDS = 3.5, 8.0, 5.2
+_SLOPE = math.tan(math.radians(30))
+_SAMPLES = 33
+# rows of a side, and layouts of a view, that are tried
+_ROWS, _TRIES = 20, 12
+# what words keep off lines
+_FREE = 0.4
+_DIMENSION = "DIMENSION"
+
+
+class Ink(Draft):
+    """What is on paper: pieces of lines, boxes of words."""
+
+    pieces: list[Complex] = field(default_factory=list)
+    boxes: list[Box] = field(default_factory=list)
+
+    def add(self, stroke: Stroke) -> None:
+        """A curve as a chain of points."""
+        curve = stroke.curve
+        points = curve.point(np.linspace(*curve.domain, 2 if isinstance(curve, Line) else _SAMPLES))
+        self.pieces.append(np.stack([points[:-1], points[1:]]))
+
+    def holds(self, lines: Sequence[Line], words: Box) -> bool:
+        """Whether words and their lines have room: neither words over any line, nor over words."""
+        words, ends = words.grown(_FREE), np.array([[line.start for line in lines], [line.end for line in lines]])
+        if any(words.overlaps(other) for other in self.boxes) or crossed(words, self.lines):
+            return False
+        return not any(crossed(box, ends) for box in (words, *(other.grown(_FREE) for other in self.boxes)))
+
+    @property
+    def lines(self) -> Complex:
+        """Ends of all pieces, (2, n)."""
+        if len(self.pieces) > 1:
+            self.pieces[:] = [np.concatenate(self.pieces, axis=1)]
+        return self.pieces[0] if self.pieces else np.zeros((2, 0), dtype=complex)
+
+
+def crossed(box: Box, lines: Complex) -> bool:
+    """Whether a box holds a piece of any line; ends of lines: (2, n) (Liang and Barsky)."""
+    start, way = lines[0], lines[1] - lines[0]
+    first, last = np.zeros(len(way)), np.ones(len(way))
+    for at, step, least, most in (
+        (start.real, way.real, box.left, box.right),
+        (start.imag, way.imag, box.low, box.high),
+    ):
+        flat = np.abs(step) < 1e-12
+        safe = np.where(flat, 1.0, step)
+        ends = np.sort(np.array([(least - at) / safe, (most - at) / safe]), axis=0)
+        inside = (at > least) & (at < most)
+        first = np.maximum(first, np.where(flat, np.where(inside, 0.0, 2.0), ends[0]))
+        last = np.minimum(last, np.where(flat, 1.0, ends[1]))
+    return bool((last > first).any())
+
+
+class Laid(Record):
+    """A view on a canvas of its own, its origin at 0, and the room that it takes, mm on paper."""
+
+    canvas: Canvas
+    scale: float
+    box: Box
+
+
+class _NoRoomError(Exception):
+    """A size, leader or note found no place that is free."""
+
+    def __init__(self, owner: Size | Round | Note) -> None:
+        super().__init__()
+        self.owner = owner
+
+
+def laid(view: View, scale: float, language: str, tolerance: float) -> Laid | None:
+    """A view with all of its dimensions, at a scale; None where they find no room."""
+    sizes = sorted(view.sizes, key=lambda one: one.value)
+    leaders: list[Round | Note] = [*view.rounds, *view.notes]
+    for _ in range(_TRIES):
+        made = _Layout(view, scale, language, tolerance)
+        try:
+            made.fill(sizes, leaders, view.title)
+            return Laid(made.canvas, scale, made.extent())
+        except _NoRoomError as refusal:
+            # what had no room is the first to choose
+            owner = refusal.owner
+            sizes = [*(one for one in sizes if one is owner), *(one for one in sizes if one is not owner)]
+            leaders = [*(one for one in leaders if one is owner), *(one for one in leaders if one is not owner)]
+    return None
+
+
+class _Layout:
+    """Fills the canvas of one view; rows of dimension lines by their side."""
+
+    def __init__(self, view: View, scale: float, language: str, tolerance: float) -> None:
+        self.canvas, self.ink, self.language = Canvas(0.0, 0.0, ""), Ink(), language
+        self.paper = Paper(scale, 0j)
+        curves = fitted(self.canvas, [curve for _, curve in view.strokes], scale, tolerance)
+        for (layer, _), curve in zip(view.strokes, curves, strict=True):
+            self._stroke(layer, self.paper.scaled(curve))
+        self.body = self.extent()
+        for loop in hatching([[self.paper.scaled(c) for c in loop] for loop in view.hatched], _HATCH):  # type: ignore[misc]
+            self._stroke("HATCH", loop)
+        for axis in view.axes:
+            start, end = self.paper.point(axis.start), self.paper.point(axis.end)
+            beyond = _AXIS * (end - start) / abs(end - start)
+            self._stroke(AXIS, Line(start - beyond, end + beyond))
+        self.rows: dict[str, list[list[tuple[float, float]]]] = {}
+
+    def fill(self, sizes: Sequence[Size], leaders: Sequence[Round | Note], title: str) -> None:
+        """Add all words with their lines, in this order."""
+        for size in sizes:
+            self._size(size)
+        for one in leaders:
+            (self._round if isinstance(one, Round) else self._note)(one)  # type: ignore[arg-type]
+        if title:
+            box = self.extent()
+            long = text_width(title, TEXT_HEIGHT)
+            self._write(text_of(title, complex((box.left + box.right - long) / 2, box.high + 3.0)))
+
+    def extent(self) -> Box:
+        """All that is drawn and written."""
+        lines = self.ink.lines
+        if not lines.size:
+            return Box(0.0, 0.0, 0.0, 0.0)
+        boxes = [
+            Box(lines.real.min(), lines.imag.min(), lines.real.max(), lines.imag.max()),
+            *self.ink.boxes,
+        ]
+        return Box(
+            min(float(b.left) for b in boxes),
+            min(float(b.low) for b in boxes),
+            max(float(b.right) for b in boxes),
+            max(float(b.high) for b in boxes),
+        )
+
+    def _stroke(self, layer: str, curve: object) -> None:
+        stroke = Stroke(layer, curve)  # type: ignore[arg-type]
+        self.canvas.strokes.append(stroke)
+        self.ink.add(stroke)
+
+    def _write(self, text: Text) -> None:
+        self.canvas.texts.append(text)
+        self.ink.boxes.append(text.box)
+
+    def _size(self, size: Size) -> None:
+        """A linear dimension: in the nearest row of its side in which its words are free."""
+        upright = size.side in ("left", "right")
+        # along the dimension line, and away from the view
+        along, out = (
+            (1j, -1.0 if size.side == "left" else 1.0) if upright else (1.0, 1j * (-1) ** (size.side == "below"))
+        )
+        points = sorted((self.paper.point(size.start), self.paper.point(size.end)), key=lambda p: _along(p, along))
+        low, high = (_along(p, along) for p in points)
+        edge = {
+            "left": self.body.left, "right": self.body.right, "above": self.body.high, "below": self.body.low
+        }[size.side]  # fmt: skip
+        middle = (self.body.low + self.body.high if upright else self.body.left + self.body.right) / 2
+        number = number_text(size.value, self.language)
+        wide = text_width(size.before + number + size.after)
+        rows = self.rows.setdefault(size.side, [])
+        for index in range(_ROWS):
+            level = edge + (-1 if size.side in ("left", "below") else 1) * (_FIRST + _STEP * index)
+            while len(rows) <= index:
+                rows.append([])
+            for begin in _begins(low, high, wide, middle):
+                reach = min(low, begin), max(high, begin + wide)
+                if any(reach[0] - 1 < b and a < reach[1] + 1 for a, b in rows[index]):
+                    continue
+                lines = _dimension_lines(points, along, level, (low, high), (begin, begin + wide), out)
+                # words stand above their line, those of an upright one on its left
+                at = complex(level - _GAP, begin) if upright else complex(begin, level + _GAP)
+                text = (rising_text if upright else text_of)(size.before + number + size.after, at)
+                if self.ink.holds(lines, text.box):
+                    rows[index].append(reach)
+                    ends = [_at(along, level, place) for place in (low, high)]
+                    words = size.before.replace("Ø", "%%c") + "<>" + size.after
+                    angle = 90.0 if upright else 0.0
+                    self._dimension(
+                        size.name, "linear", size.value, (points[0], points[1]), ends[1], angle, words, lines, text
+                    )
+                    return
+        raise _NoRoomError(size)
+
+    def _dimension(
+        self,
+        name: str,
+        kind: Literal["linear", "diameter", "radius"],
+        value: float,
+        points: tuple[complex, complex],
+        line: complex,
+        angle: float,
+        words: str,
+        lines: Sequence[Line],
+        text: Text,
+    ) -> None:
+        first = len(self.canvas.strokes)
+        for one in lines:
+            self._stroke(_DIMENSION, one)
+        count, box = len(self.canvas.texts), text.box
+        self._write(text)
+        middle = complex(box.left + box.right, box.low + box.high) / 2
+        strokes, texts = range(first, len(self.canvas.strokes)), range(count, count + 1)
+        mark, scale = decimal(".", self.language), self.paper.scale
+        self.canvas.dimensions.append(
+            Dimension(name, kind, value, scale, points, line, angle, words, mark, middle, strokes, texts)
+        )
+
+    def _round(self, one: Round) -> None:
+        """A diameter or radius on a leader whose shelf carries the words."""
+        centre, radius = self.paper.point(one.centre), self.paper.scale * one.radius
+        words = one.before + number_text(one.value, self.language) + one.after
+
+        def leaders() -> Iterator[tuple[complex, complex, complex]]:
+            for reach in _REACHES:
+                for angle in one.angles:
+                    way = cmath.rect(1.0, math.radians(angle))
+                    yield centre + radius * way, centre + (radius + reach) * way, way
+
+        for tip, elbow, way in leaders():
+            lines, text = _shelved(elbow, words, way)
+            start = centre if one.is_radius else centre - radius * way
+            lines = [Line(tip if 2 * radius < 3 * ARROW or one.is_radius else start, elbow), *lines, *_arrow(tip, way)]
+            if not one.is_radius and 2 * radius >= 3 * ARROW:
+                # both arrows within the circle
+                lines = [*lines[:2], *_arrow(tip, -way), *_arrow(start, way)]
+            if self.ink.holds(lines, text.box):
+                template = one.before.replace("Ø", "%%c") + "<>" + one.after
+                kind: Literal["radius", "diameter"] = "radius" if one.is_radius else "diameter"
+                ends = (start, tip)
+                self._dimension(one.name, kind, one.value, ends, elbow, 0.0, template, lines, text)
+                return
+        raise _NoRoomError(one)
+
+    def _note(self, note: Note) -> None:
+        """Words on a leader, or the sign of a surface."""
+        tip, body = self.paper.point(note.at), self.body
+        outward = tip - complex((body.left + body.right) / 2, (body.low + body.high) / 2)
+        best = math.degrees(cmath.phase(outward)) if outward else 45.0
+        for reach in _REACHES:
+            for turn in _TURNS:
+                way = cmath.rect(1.0, math.radians(best + turn))
+                elbow = tip + reach * way
+                if note.is_rough:
+                    lines, text = rough_sign(elbow + (0.5 if way.real >= 0 else -_WORDS), note.text)
+                    side = 1.0 if way.real >= 0 else -1.0
+                    lines.append(Line(elbow, elbow + side * (_WORDS + 1.0)))
+                else:
+                    lines, text = _shelved(elbow, note.text, way)
+                lines = [Line(tip, elbow), *lines, *_arrow(tip, way)]
+                if self.ink.holds(lines, text.box):
+                    for line in lines:
+                        self._stroke(_DIMENSION, line)
+                    self._write(text)
+                    return
+        raise _NoRoomError(note)
+
+
+def _along(point: complex, way: complex) -> float:
+    return point.imag if way == 1j else point.real
+
+
+def _at(along: complex, level: float, place: float) -> complex:
+    return complex(level, place) if along == 1j else complex(place, level)
+
+
+def _begins(low: float, high: float, wide: float, middle: float) -> Iterator[float]:
+    """Where words may begin along a dimension line: in its middle, to a side of it, beyond its ends."""
+    room = high - low - wide - 2 * ARROW
+    if room >= 0:
+        yield from ((low + high - wide) / 2 + share * room / 2 for share in (0.0, 0.5, -0.5, 1.0, -1.0))
+    else:
+        beyond = high + ARROW + 2.0, low - ARROW - 2.0 - wide
+        yield from beyond if low + high >= 2 * middle - 1e-9 else beyond[::-1]
+
+
+def _dimension_lines(
+    points: Sequence[complex], along: complex, level: float, ends: tuple[float, float], words: tuple[float, float],
+    out: complex,
+) -> list[Line]:  # fmt: skip
+    """Extension lines, the dimension line as far as its words reach, arrows within where there is room."""
+    (low, high), feet = ends, [_at(along, level, place) for place in ends]
+    lines = [
+        Line(point, foot + _BEYOND * out) for point, foot in zip(points, feet, strict=True) if abs(point - foot) > 1e-9
+    ]
+    inside = high - low >= 2 * ARROW + 1.0
+    start, end = (low, high) if inside else (low - ARROW - 2.0, high + ARROW + 2.0)
+    line = Line(_at(along, level, min(start, words[0])), _at(along, level, max(end, words[1])))
+    way = along if inside else -along
+    return [*lines, line, *_arrow(feet[0], way), *_arrow(feet[1], -way)]
+
+
+def _arrow(tip: complex, way: complex) -> list[Line]:
+    """An arrow's lines from its tip; ``way``: from the tip to its foot."""
+    return [Line(tip, tip + way * complex(ARROW, _BARB * (2 * k / (_FAN - 1) - 1))) for k in range(_FAN)]
+
+
+def _shelved(elbow: complex, words: str, way: complex) -> tuple[list[Line], Text]:
+    """A shelf at the end of a leader, with the words above it."""
+    wide = text_width(words) + 1.0
+    left = elbow if way.real >= -1e-9 else elbow - wide
+    return [Line(left, left + wide)], text_of(words, left + complex(0.5, _GAP))
+
+
+def rough_sign(foot: complex, words: str, height: float = SMALL_TEXT) -> tuple[list[Line], Text]:
+    """The sign of a surface that stands on ``foot``, its words below the shelf."""
+    top = foot + complex(_LONG * _SLOPE, _LONG)
+    text = text_of(words, foot + complex(_WORDS, _LONG - 1.0 - height), height)
+    shelf = Line(top, complex(text.box.right + 1.0, top.imag))
+    return [Line(foot + complex(-_SHORT * _SLOPE, _SHORT), foot), Line(foot, top), shelf], text
+
+
+def moved(view: Laid, canvas: Canvas, shift: complex) -> None:
+    """Put a view onto a sheet."""
+    strokes, texts, paper, own = len(canvas.strokes), len(canvas.texts), Paper(1.0, shift), view.canvas
+    canvas.strokes += [replace(s, curve=paper.scaled(s.curve)) for s in own.strokes]
+    canvas.texts += [_shifted(text, shift) for text in own.texts]
+    canvas.dimensions += [
+        replace(
+            one,
+            points=(one.points[0] + shift, one.points[1] + shift),
+            line=one.line + shift,
+            middle=one.middle + shift,
+            strokes=range(one.strokes.start + strokes, one.strokes.stop + strokes),
+            texts=range(one.texts.start + texts, one.texts.stop + texts),
+        )
+        for one in own.dimensions
+    ]
+    canvas.max_error = max(canvas.max_error, own.max_error)
+    canvas.sampled = canvas.sampled or own.sampled
+
+
+def _shifted(text: Text, shift: complex) -> Text:
+    box = text.box
+    moved_box = Box(box.left + shift.real, box.low + shift.imag, box.right + shift.real, box.high + shift.imag)
+    return replace(text, runs=tuple(replace(run, at=run.at + shift) for run in text.runs), box=moved_box)

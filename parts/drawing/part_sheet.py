@@ -1,0 +1,225 @@
+"""The working drawing of a part on paper: its views, block of data, general roughness, requirements; GOST 2.109."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from functools import cache
+
+import numpy as np
+
+from geometry.base.record import Record
+from geometry.curves.curve import Curve
+from geometry.plane.measure import distance_to_curves
+from parts.drawing.canvas import SCALES, SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Paper, scale_text, text_width
+from parts.drawing.cells import wrapped
+from parts.drawing.choice import Asked, sheet_for
+from parts.drawing.dimensioning import Laid, laid, moved, rough_sign
+from parts.drawing.expected import Expected
+from parts.drawing.readback import ReadSheet
+from parts.drawing.title_block import TITLE_BLOCK
+from parts.drawing.working import PartDrawing, View, number_text
+from parts.texts.sheets import sheet_words
+
+# from line to line of requirements; room for the sign of roughness; mm
+_LINE, _SIGN = 7.0, (48.0, 20.0)
+# from the frame to views, from view to view, mm
+_MARGIN, _BETWEEN = 5.0, 12.0
+# the largest extent of a view on paper below which larger paper is better: of small parts, and of others
+_LEAST_SMALL, _LEAST = 45.0, 120.0
+# model mm by which a number of a file may be off
+_SAME = 1e-6
+# a curve of a file is another's where their ends are farther apart, mm on paper
+_NEAR = 0.01
+_INDENT = 1.0
+
+
+class PartMeasures(Record):
+    """Every dimension's number is read off the file; every exact curve is found there.
+
+    ``outlines``: curves in model mm with the paper that they lie on and their layer.
+    """
+
+    canvas: Canvas
+    outlines: tuple[tuple[Paper, str, Curve], ...]
+
+    def check(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:
+        """Hold the file against the model."""
+        worst = 0.0
+        for paper, layer, curve in self.outlines:
+            ends = curve.point(np.array(curve.domain)) * paper.scale + paper.origin
+            off = math.inf
+            for name, points in sheet.samples:
+                # a file may run along a curve either way
+                near = min(np.abs(points[[0, -1]] - ends).max(), np.abs(points[[-1, 0]] - ends).max())
+                if name == layer and near < _NEAR:
+                    model = (points - paper.origin) / paper.scale
+                    off = min(off, float(distance_to_curves(model, [curve]).max()) * paper.scale)
+            worst = max(worst, off)
+        measured["max_deviation"] = worst
+        if not worst <= allowed:
+            failures.append(f"outlines deviate by {worst:.3g} mm from the exact ones")
+        if sheet.dimensions is None:
+            return
+        wanted = self.canvas.dimensions
+        if len(sheet.dimensions) != len(wanted):
+            failures.append(f"{len(sheet.dimensions)} dimensions instead of {len(wanted)}")
+            return
+        off = max((abs(a.value - b.value) for a, b in zip(sheet.dimensions, wanted, strict=True)), default=0.0)
+        measured["dimensions"], measured["dimension_deviation"] = float(len(wanted)), off
+        if not off <= _SAME:
+            failures.append(f"a dimension measures {off:.3g} mm beside the model")
+        for read, one in zip(sheet.dimensions, wanted, strict=True):
+            if read.text != one.text:
+                failures.append(f"a dimension says {read.text} instead of {one.text}")
+
+
+class Block(Record):
+    """What stands in the upper right corner: width and height, mm, and what draws it from that corner on."""
+
+    size: tuple[float, float]
+    draw: Callable[[Canvas, complex], object]
+
+
+class _Corner(Record):
+    """What stands in the corners of a sheet: lines of requirements, block of data, sign of roughness."""
+
+    requirements: tuple[str, ...]
+    data: Block | None
+    roughness: str
+
+    @property
+    def low(self) -> float:
+        """Height of the title block and the requirements above it, mm."""
+        lines = _LINE * len(self.requirements)
+        return TITLE_BLOCK[1] + (lines + _MARGIN if lines else 0.0)
+
+    @property
+    def high(self) -> tuple[float, float]:
+        """Width and height of what stands in the upper right corner, mm."""
+        if self.data is None:
+            return _SIGN
+        return max(self.data.size[0], _SIGN[0]), _SIGN[1] + self.data.size[1]
+
+    def fields(self, frame: Box) -> Iterator[Box]:
+        """Where views may stand: left of all, left of the data, below the data."""
+        wide, tall = self.high
+        yield Box(frame.left, frame.low, frame.right - TITLE_BLOCK[0], frame.high)
+        yield Box(frame.left, frame.low + self.low, frame.right - wide, frame.high)
+        yield Box(frame.left, frame.low + self.low, frame.right, frame.high - tall)
+
+    def draw(self, canvas: Canvas, language: str) -> None:
+        """All of it."""
+        frame = canvas.frame
+        canvas.box("FRAME", frame)
+        left = frame.right - TITLE_BLOCK[0]
+        for k, line in enumerate(reversed(self.requirements)):
+            y = frame.low + TITLE_BLOCK[1] + _MARGIN + _LINE * k
+            canvas.write(line, complex(left + _INDENT, y), TEXT_HEIGHT, TITLE_BLOCK[0] - 2 * _INDENT)
+        self._sign(canvas, complex(frame.right - _SIGN[0] + 6.0, frame.high - _SIGN[1] + 6.0))
+        if self.data is not None:
+            self.data.draw(canvas, complex(frame.right, frame.high - _SIGN[1]))
+        text = f"{sheet_words(language, 'paper_format')} {canvas.paper}"
+        canvas.foot = canvas.margins[1]
+        at = complex(frame.right - text_width(text, SMALL_TEXT), frame.low - canvas.foot + 1.2)
+        canvas.write(text, at, SMALL_TEXT)
+
+    def _sign(self, canvas: Canvas, foot: complex) -> None:
+        """The roughness of all other surfaces: its sign, and in brackets the sign of the rest."""
+        lines, text = rough_sign(foot, self.roughness, TEXT_HEIGHT)
+        canvas.texts.append(text)
+        x = text.box.right + 2.5
+        small = [line for line in rough_sign(complex(x + 5.2, foot.imag), "")[0][:2]]
+        for line in (*lines, *small):
+            canvas.line("THIN", line.start, line.end)
+        for words, at in (("(", x), (")", x + 10.6)):
+            canvas.write(words, complex(at, foot.imag + 1.5), 5.0)
+
+
+def part_sheet(drawing: PartDrawing, data: Block | None, roughness: float, asked: Asked) -> Expected:
+    """The working drawing of a part on the smallest paper that shows it well, or as it is asked for.
+
+    Raises
+    ------
+    ParameterError
+        The paper is too small for the scale, or none is large enough.
+    """
+    language = asked.language
+    lines: list[str] = []
+    for number, text in enumerate(drawing.requirements, 1):
+        lines += wrapped(f"{number}. {text}", TITLE_BLOCK[0] - 2 * _INDENT, TEXT_HEIGHT)
+    corner = _Corner(tuple(lines), data, f"Ra {number_text(roughness, language)}")
+    sizes = [_extent(view) for view in drawing.views]
+
+    @cache
+    def views_at(scale: float) -> tuple[Laid, ...]:
+        """The views at a scale; none where their words find no room."""
+        found = [_laid(view, scale, asked) for view in drawing.views]
+        return () if None in found else tuple(one for one in found if one is not None)
+
+    def greatest(canvas: Canvas) -> float:
+        """The greatest scale at which all views stand in a field."""
+        fields = [field.grown(-_MARGIN) for field in corner.fields(canvas.frame)]
+        most = max(min(f.right - f.left, f.high - f.low) / min(sizes[0]) for f in fields)
+        for scale in (s for s in SCALES if s <= most):
+            if any(_places(views_at(scale), field, canvas) for field in fields):
+                return scale
+        return 0.0
+
+    extent = max(sizes[0])
+    needed = _LEAST_SMALL / extent if extent < _LEAST_SMALL else min(1.0, _LEAST / extent)
+    least = next((s for s in reversed(SCALES) if s >= needed), SCALES[0])
+    canvas, scale = sheet_for(asked, greatest, least)
+    corner.draw(canvas, language)
+    views = views_at(scale)
+    shifts = next(
+        found for f in corner.fields(canvas.frame) if (found := _places(views, f.grown(-_MARGIN), canvas)) is not None
+    )
+    outlines = []
+    for view, one, shift in zip(drawing.views, views, shifts, strict=True):
+        moved(one, canvas, shift)
+        outlines += [(Paper(one.scale, shift), layer, curve) for layer, curve in view.strokes]
+    return Expected(canvas, Paper(scale, shifts[0]), (), measures=PartMeasures(canvas, tuple(outlines)))
+
+
+def _extent(view: View) -> tuple[float, float]:
+    """Width and height of a view, model mm."""
+    points = np.concatenate([c.point(np.linspace(*c.domain, 33)) for _, c in view.strokes])
+    return float(np.ptp(points.real)) or 1.0, float(np.ptp(points.imag)) or 1.0
+
+
+def _laid(view: View, scale: float, asked: Asked) -> Laid | None:
+    """A view, of its own scale where it would be too small; its title tells that."""
+    own, title = scale, view.title
+    if view.least:
+        needed = view.least / max(_extent(view))
+        own = next((s for s in reversed(SCALES) if s >= max(needed, scale)), SCALES[0])
+        title = title if own == scale else f"{title} ({scale_text(own, asked.language)})"
+    made = View(view.strokes, view.hatched, view.axes, view.sizes, view.rounds, view.notes, title)
+    return laid(made, own, asked.language, asked.tolerance)
+
+
+def _places(views: Sequence[Laid], field: Box, canvas: Canvas) -> list[complex] | None:
+    """Where the origins of views stand in a field: in a row on one axis, on A4 one above the other too; None: not."""
+    boxes = [view.box for view in views]
+    if not boxes:
+        return None
+    wide, tall = field.right - field.left, field.high - field.low
+    gaps = _BETWEEN * (len(boxes) - 1)
+    low, high = min(b.low for b in boxes), max(b.high for b in boxes)
+    left, right = min(b.left for b in boxes), max(b.right for b in boxes)
+    row, column = sum(b.right - b.left for b in boxes) + gaps, sum(b.high - b.low for b in boxes) + gaps
+    found = []
+    if row <= wide and high - low <= tall:
+        x, y = field.left + (wide - row) / 2, field.low + (tall - high + low) / 2 - low
+        for box in boxes:
+            found.append(complex(x - box.left, y))
+            x += box.right - box.left + _BETWEEN
+        return found
+    if canvas.paper == "A4" and column <= tall and right - left <= wide:
+        x, y = field.left + (wide - right + left) / 2 - left, field.high - (tall - column) / 2
+        for box in boxes:
+            found.append(complex(x, y - box.high))
+            y -= box.high - box.low + _BETWEEN
+        return found
+    return None

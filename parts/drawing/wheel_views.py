@@ -1,0 +1,320 @@
+"""Views of a wheel for its working drawing: axial section, face, bore; images of teeth after GOST 2.402.
+
+Sections lie with the wheel's axis along x, its lower face at 0; a keyed bore stands with its first keyway upwards.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+
+from geometry.base.placement import Placement2
+from geometry.base.record import Record
+from geometry.curves.curve import Curve
+from geometry.curves.line_arc import Arc, Line
+from geometry.plane.profile import Profile
+from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
+from geometry.solids.hub_holes import HubHoles
+from geometry.solids.wheel import WheelShape
+from parts.drawing.working import AXIS, VISIBLE, Note, Round, Size, Subject, View
+from parts.texts.sheets import sheet_words
+
+# a view of a bore is so high on paper at least, mm
+_LEAST_BORE = 25.0
+_UP = math.pi / 2
+Stroke = tuple[str, Curve]
+
+
+class Wheel(Record):
+    """What the views of a wheel show, radii in mm.
+
+    ``tip`` up and down from the axis, where it is not round; ``root`` and ``pitch``: of teeth on it, None: it has none;
+    ``outline``: the exact one.
+    """
+
+    shape: WheelShape
+    holes: HubHoles
+    tip: tuple[float, float]
+    outline: Profile
+    root: float | None = None
+    pitch: float | None = None
+
+    @property
+    def turn(self) -> float:
+        """By how much it is turned for its bore to stand upright, rad."""
+        bore = self.holes.bore
+        return 0.0 if bore is None or isinstance(bore, RoundBore) else _UP - bore.angle  # type: ignore[attr-defined]
+
+
+class _Levels(Record):
+    """Both ends of rim, web and hub along the axis, mm."""
+
+    rim: tuple[float, float]
+    web: tuple[float, float]
+    hub: tuple[float, float]
+
+
+def levels(shape: WheelShape) -> _Levels:
+    """Where rim, web and hub begin and end."""
+    width, web, hub = shape.face_width, shape.web, shape.hub
+    middle = width / 2 + (web.shift if web else 0.0)
+    half = (web.thickness if web else width) / 2
+    disk = middle - half, middle + half
+    return _Levels((0.0, width), disk, (-hub.below, width + hub.above) if hub else disk)
+
+
+def circle_of(radius: float, centre: complex = 0j) -> Arc:
+    """A whole circle."""
+    return Arc(centre, radius, 0.0, 2 * math.pi)
+
+
+def axis_cross(radius: float) -> tuple[Line, Line]:
+    """The two axes of a round view."""
+    return Line(complex(-radius), complex(radius)), Line(-1j * radius, 1j * radius)
+
+
+def closed(points: Sequence[complex]) -> tuple[Line, ...]:
+    """A closed chain of lines, without those of no length."""
+    ring = [p for p, q in pairwise([*points, points[0]]) if abs(p - q) > 1e-9]
+    return tuple(Line(a, b) for a, b in pairwise([*ring, ring[0]]))
+
+
+def bore_radii(bore: Bore | None) -> tuple[float, float]:
+    """Distance of the bore's walls from the axis upwards and downwards, once it stands upright, mm."""
+    match bore:
+        case None:
+            return 0.0, 0.0
+        case KeywayBore():
+            radius = bore.diameter / 2
+            return radius + bore.depth, radius + bore.depth * (bore.keys == 2)
+        case FlatBore():
+            return bore.flat_distance, bore.diameter / 2 if bore.flats == 1 else bore.flat_distance
+        case PolygonBore():
+            return bore.across_flats / 2, bore.across_flats / 2
+        case _:
+            return bore.reach, bore.reach
+
+
+def _half(wheel: Wheel, bore: float, outer: float, *, toothed: bool) -> list[complex]:
+    """Corners of half a section, x + iy = height + i radius, from the bore upwards on the upper face and back."""
+    shape, at = wheel.shape, levels(wheel.shape)
+    sides = []
+    for side, cut in ((1, shape.chamfer_above), (0, shape.chamfer_below)):
+        way = 1 if side else -1
+        stepped, recessed = at.hub[side] != at.web[side], at.web[side] != at.rim[side]
+        points: list[complex] = []
+        inner = cut if bore and (stepped or not recessed) else 0.0
+        points += [complex(at.hub[side] - way * inner, bore), complex(at.hub[side], bore + inner)]
+        if stepped and shape.hub is not None:
+            radius = shape.hub.diameter / 2
+            points += [complex(at.hub[side], radius - cut), complex(at.hub[side] - way * cut, radius)]
+            points += [complex(at.web[side], radius)]
+        if recessed and shape.web is not None:
+            radius = shape.web.rim_diameter / 2
+            points += [complex(at.web[side], radius), complex(at.rim[side] - way * cut, radius)]
+            points += [complex(at.rim[side], radius + cut)]
+        last = 0.0 if toothed else cut
+        points += [complex(at.rim[side], outer - last), complex(at.rim[side] - way * last, outer)]
+        sides.append(points)
+    return [*sides[0], *sides[1][::-1]]
+
+
+def section_view(wheel: Wheel, subject: Subject) -> View:
+    """The axial section; holes and spokes are turned into its plane."""
+    shape, holes, wishes, at = wheel.shape, wheel.holes, subject.wishes, levels(wheel.shape)
+    strokes: list[Stroke] = []
+    hatched: list[tuple[Line, ...]] = []
+    axes = [Line(complex(min(at.hub[0], 0.0)), complex(max(at.hub[1], shape.face_width)))]
+    bores = bore_radii(holes.bore)
+    cuts: list[list[complex]] = []
+    for bore, tip, way in zip(bores, wheel.tip, (1, -1), strict=True):
+
+        def placed(points: Sequence[complex], way: int = way) -> list[complex]:
+            return [complex(p.real, way * p.imag) for p in points]
+
+        cuts.append(placed(_half(wheel, bore, tip, toothed=False)))
+        strokes += [(VISIBLE, line) for line in closed(cuts[-1])]
+        solid = cuts[-1] if wheel.root is None else placed(_half(wheel, bore, wheel.root, toothed=True))
+        hatched.append(closed(solid))
+        ends = complex(0.0, way), complex(shape.face_width, way)
+        if wheel.root is not None:
+            root = wheel.root
+            strokes.append((VISIBLE, Line(*(complex(e.real, e.imag * root) for e in ends))))
+        if wheel.pitch is not None:
+            pitch = wheel.pitch
+            axes.append(Line(*(complex(e.real, e.imag * pitch) for e in ends)))
+        for low, high, is_hole in _openings(holes):
+            corners = placed([complex(at.web[0], low), complex(at.web[1], low),
+                              complex(at.web[1], high), complex(at.web[0], high)])  # fmt: skip
+            hatched.append(closed(corners))
+            strokes += [(VISIBLE, Line(*corners[:2])), (VISIBLE, Line(*corners[2:]))]
+            if is_hole:
+                middle = way * (low + high) / 2
+                axes.append(Line(complex(at.web[0], middle), complex(at.web[1], middle)))
+    strokes += _behind(wheel, bores, at)
+    return View(tuple(strokes), tuple(hatched), tuple(axes), tuple(_section_sizes(wheel, subject)),
+                notes=_section_notes(wheel, subject, at, wishes.flank_roughness))  # fmt: skip
+
+
+def _openings(holes: HubHoles) -> list[tuple[float, float, bool]]:
+    """Holes and windows as the section shows them: nearest to and farthest from the axis, mm; whether it is round."""
+    found = [((g.pitch_circle_diameter - g.diameter) / 2, g.reach, True) for g in holes.round_holes]
+    spokes = holes.spokes
+    return found if spokes is None else [*found, (spokes.inner_diameter / 2, spokes.reach, False)]
+
+
+def _behind(wheel: Wheel, bores: tuple[float, float], at: _Levels) -> list[Stroke]:
+    """Edges of the bore that are seen behind the section, and those of a keyway along it."""
+    bore = wheel.holes.bore
+    if bore is None:
+        return []
+    shape, found = wheel.shape, list[Stroke]()
+    for side, cut in ((0, shape.chamfer_below), (1, shape.chamfer_above)):
+        recessed = at.web[side] != at.rim[side] and at.hub[side] == at.web[side]
+        cut = 0.0 if recessed else cut
+        way = 1 if side else -1
+        for z, more in {(at.hub[side], cut), (at.hub[side] - way * cut, 0.0)}:
+            found.append((VISIBLE, Line(complex(z, -bores[1] - more), complex(z, bores[0] + more))))
+    if isinstance(bore, KeywayBore):
+        rim = math.sqrt((bore.diameter - bore.width) * (bore.diameter + bore.width)) / 2
+        for way in (1, -1)[: bore.keys]:
+            found.append((VISIBLE, Line(complex(at.hub[0], way * rim), complex(at.hub[1], way * rim))))
+    return sorted(found, key=lambda pair: (pair[1].start.real, pair[1].start.imag))  # type: ignore[attr-defined]
+
+
+def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
+    shape, at, wishes = wheel.shape, levels(wheel.shape), subject.wishes
+    width, bore, found = shape.face_width, wheel.holes.bore, list[Size]()
+
+    def diameter(name: str, size: float, z: float, side: str, fit: str = "") -> None:
+        found.append(Size(name, complex(z, -size / 2), complex(z, size / 2), side, "Ø", fit))  # type: ignore[arg-type]
+
+    up, down = wheel.tip
+    if up == down:
+        diameter("tip_diameter", 2 * up, shape.chamfer_below, "left", wishes.tip)
+    if shape.web is not None:
+        diameter("web.rim_diameter", shape.web.rim_diameter, 0.0, "left")
+        found.append(Size("web.thickness", complex(at.web[0], shape.web.rim_diameter / 2),
+                          complex(at.web[1], shape.web.rim_diameter / 2), "above"))  # fmt: skip
+        if at.web[0] > 0:
+            found.append(Size("web.below", 1j * up, complex(at.web[0], shape.web.rim_diameter / 2), "above"))
+    for index, (_, group) in enumerate(wheel.holes.groups(), 1):
+        name = f"holes.{index}.pitch_circle_diameter"
+        diameter(name, group.pitch_circle_diameter, at.web[0], "left")
+    if (spokes := wheel.holes.spokes) is not None:
+        diameter("spokes.inner_diameter", spokes.inner_diameter, at.web[0], "left")
+        diameter("spokes.outer_diameter", spokes.outer_diameter, at.web[0], "left")
+    if shape.hub is not None:
+        diameter("hub.diameter", shape.hub.diameter, at.hub[1] - shape.chamfer_above, "right")
+        if at.hub[1] > width or at.hub[0] < 0:
+            edge = -shape.hub.diameter / 2
+            found.append(Size("hub.length", complex(at.hub[0], edge), complex(at.hub[1], edge), "below"))
+        if at.hub[0] < 0:
+            found.append(Size("hub.below", complex(at.hub[0], -shape.hub.diameter / 2), -1j * down, "below"))
+    if isinstance(bore, RoundBore):
+        diameter("bore_diameter", bore.diameter, at.hub[1], "right", wishes.bore)
+    found.append(Size("face_width", -1j * down, complex(width, -down), "below", "", wishes.width))
+    for name, cut, z, way in (("above", shape.chamfer_above, width, -1), ("below", shape.chamfer_below, 0.0, 1)):
+        if cut and not (name == "below" and cut == shape.chamfer_above):
+            ends = complex(z + way * cut, up), complex(z, up - cut)
+            found.append(Size(f"face_chamfer.{name}", *ends, "above", "", "×45°"))
+    return found
+
+
+def _section_notes(wheel: Wheel, subject: Subject, at: _Levels, flank: float) -> tuple[Note, ...]:
+    """Signs of roughness of the teeth, or of the outside, and of the bore."""
+    found = []
+    outside = wheel.pitch if wheel.pitch is not None else wheel.tip[0]
+    if wheel.pitch is not None:
+        found.append(Note(complex(wheel.shape.face_width, outside), f"Ra {subject.say(flank)}", is_rough=True))
+    if wheel.holes.bore is not None:
+        words = f"Ra {subject.say(subject.wishes.bore_roughness)}"
+        found.append(Note(complex(at.hub[1], -bore_radii(wheel.holes.bore)[1]), words, is_rough=True))
+    return tuple(found)
+
+
+def exact_teeth(outline: Profile, count: int, turn: float, tip: float) -> list[Stroke]:
+    """``count`` teeth about the upward direction of a profile that is turned, as they are; the tip circle elsewhere."""
+    step, first = outline.pitch_angle, _UP - turn
+    middle = round(first / step)
+    shown = range(middle - (count - 1) // 2, middle - (count - 1) // 2 + count)
+    found: list[Stroke] = []
+    for k in shown:
+        placement = Placement2(turn + step * k)
+        found += [(VISIBLE, segment.curve.placed(placement)) for segment in outline.period]
+    if count < outline.count:
+        begin = turn + step * (shown.stop - 0.5)
+        found.append((VISIBLE, Arc(0j, tip, begin, math.copysign(2 * math.pi, step) - step * count)))
+    return found
+
+
+def face_view(wheel: Wheel, subject: Subject) -> View:
+    """The view along the axis: circles for teeth, as many as are wished exact; hub, bore, holes."""
+    turn, tip = wheel.turn, max(wheel.tip)
+    placement = Placement2(turn)
+    strokes: list[Stroke] = []
+    if wheel.pitch is None:
+        strokes += [(VISIBLE, s.curve.placed(placement)) for s in wheel.outline.segments()]
+    else:
+        count = min(subject.wishes.teeth, wheel.outline.count)
+        strokes += exact_teeth(wheel.outline, count, turn, tip) if count else [(VISIBLE, circle_of(tip))]
+        strokes.append((AXIS, circle_of(wheel.pitch)))
+    shape, at = wheel.shape, levels(wheel.shape)
+    if shape.hub is not None and at.hub[1] > at.web[1]:
+        strokes.append((VISIBLE, circle_of(shape.hub.diameter / 2)))
+    if shape.web is not None and at.web[1] < at.rim[1]:
+        strokes.append((VISIBLE, circle_of(shape.web.rim_diameter / 2)))
+    for profile in wheel.holes.profiles():
+        strokes += [(VISIBLE, s.curve.placed(placement)) for s in profile.segments()]
+    axes: list[Line] = [*axis_cross(tip)]
+    rounds = []
+    for index, (_, group) in enumerate(wheel.holes.groups(), 1):
+        strokes.append((AXIS, circle_of(group.pitch_circle_diameter / 2)))
+        centres = [c * cmath.exp(1j * turn) for c in group.centres()]
+        for centre in centres:
+            way = centre / abs(centre) * group.diameter / 2
+            axes.append(Line(centre - way, centre + way))
+        words = sheet_words(subject.language, "holes_of", count=group.count) if group.count > 1 else ""
+        best = max(centres, key=lambda c: c.real + c.imag)
+        rounds.append(Round(f"holes.{index}.diameter", best, group.diameter / 2, f"{words}Ø"))
+    notes = []
+    if (spokes := wheel.holes.spokes) is not None:
+        text = sheet_words(subject.language, "spokes_of", count=spokes.count, width=subject.say(spokes.width))
+        at_spoke = cmath.rect((spokes.inner_diameter + spokes.outer_diameter) / 4, spokes.start + turn)
+        notes.append(Note(at_spoke + 0.5j * spokes.width * cmath.exp(1j * (spokes.start + turn)), text))
+    return View(tuple(strokes), (), tuple(axes), (), tuple(rounds), tuple(notes))
+
+
+def bore_view(bore: Bore, subject: Subject) -> View:
+    """The bore alone, with the sizes of its keyway or flats."""
+    turn = Placement2(_UP - bore.angle)  # type: ignore[attr-defined]
+    strokes = [(VISIBLE, s.curve.placed(turn)) for s in bore.profile().segments()]
+    up, down = bore_radii(bore)
+    sizes, rounds = [], list[Round]()
+    wishes = subject.wishes
+    if isinstance(bore, KeywayBore | FlatBore):
+        radius = bore.diameter / 2
+        sizes.append(Size("bore_diameter", -1j * radius, 1j * radius, "left", "Ø", wishes.bore))
+        sizes.append(Size("bore.height", -1j * down, 1j * up, "right"))
+        if isinstance(bore, KeywayBore):
+            half, corner = bore.width / 2, bore.corner_radius
+            sizes.append(Size("bore.width", complex(-half, up - corner), complex(half, up - corner), "above", "",
+                              wishes.keyway))  # fmt: skip
+            if corner:
+                centre = complex(half - corner, up - corner)
+                rounds.append(
+                    Round("bore.corner_radius", centre, corner, "R", is_radius=True, angles=(45.0, 30.0, 60.0))
+                )
+    else:
+        sizes.append(Size("bore.across_flats", -1j * down, 1j * up, "right", "", wishes.bore))
+    name = sheet_words(subject.language, "view_a")
+    return View(tuple(strokes), (), axis_cross(bore.reach), tuple(sizes), tuple(rounds), (), name, _LEAST_BORE)
+
+
+def wheel_views(wheel: Wheel, subject: Subject) -> tuple[View, ...]:
+    """Section, face, and the bore where it is not round."""
+    found = section_view(wheel, subject), face_view(wheel, subject)
+    bore = wheel.holes.bore
+    return found if bore is None or isinstance(bore, RoundBore) else (*found, bore_view(bore, subject))

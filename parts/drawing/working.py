@@ -1,0 +1,118 @@
+"""What a kind says for its working drawing: views in model mm with their sizes, requirements.
+
+A kind names a module, ``Kind.drawing``, whose ``part_drawing(subject)`` makes a ``PartDrawing``.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from geometry.base.record import Record
+from geometry.curves.curve import Curve
+from geometry.curves.line_arc import Arc, Line
+from parts.base.part import Part
+from parts.drawing.canvas import decimal
+from parts.keys.working import WorkingTable
+from parts.texts.sheets import sheet_words
+
+Side = Literal["left", "right", "above", "below"]
+# lines of GOST 2.303 by what they show
+VISIBLE, AXIS, THIN, HIDDEN = "OUTLINE", "CENTRE", "THIN", "HIDDEN"
+_DECIMALS = 3
+
+
+class Size(Record):
+    """A linear size: between two points along x (its line above or below the view) or along y (left or right).
+
+    ``before`` and ``after`` the number stand a sign and a fit: Ø, h11, ×45°. ``name``: of what it is, for readers of
+    the file's dimensions in programs.
+    """
+
+    name: str
+    start: complex
+    end: complex
+    side: Side
+    before: str = ""
+    after: str = ""
+
+    @property
+    def value(self) -> float:
+        """The number, mm."""
+        way = self.end - self.start
+        return abs(way.imag if self.side in ("left", "right") else way.real)
+
+
+class Round(Record):
+    """The diameter, or the radius where ``is_radius``, of a circle or arc, on a leader; ``angles``: where it may stand.
+
+    Angles in degrees, the best first.
+    """
+
+    name: str
+    centre: complex
+    radius: float
+    before: str = "Ø"
+    after: str = ""
+    is_radius: bool = False
+    angles: tuple[float, ...] = (45.0, 135.0, -45.0, -135.0)
+
+    @property
+    def value(self) -> float:
+        """The number, mm."""
+        return self.radius if self.is_radius else 2 * self.radius
+
+
+class Note(Record):
+    """Words on a leader to a point; ``is_rough``: in the sign of GOST 2.309 for a surface that is cut."""
+
+    at: complex
+    text: str
+    is_rough: bool = False
+
+
+class View(Record):
+    """A view in model mm, its x axis the axis that it shares with its neighbours.
+
+    ``strokes``: curves by the layer of their line; ``hatched``: closed loops of lines and arcs, material between them.
+    ``length``: axes reach so far beyond their ends on paper, mm. ``title``: stands above it; ``least``: mm that it is
+    high on paper at least, a view with a scale of its own.
+    """
+
+    strokes: tuple[tuple[str, Curve], ...]
+    hatched: tuple[tuple[Line | Arc, ...], ...] = ()
+    axes: tuple[Line, ...] = ()
+    sizes: tuple[Size, ...] = ()
+    rounds: tuple[Round, ...] = ()
+    notes: tuple[Note, ...] = ()
+    title: str = ""
+    least: float = 0.0
+
+
+class PartDrawing(Record):
+    """All that a kind draws of a part: views from left to right, lines of technical requirements."""
+
+    views: tuple[View, ...]
+    requirements: tuple[str, ...] = ()
+
+
+class Subject(Record):
+    """What a drawing is made of: the part, and what the export wishes."""
+
+    part: Part
+    wishes: WorkingTable
+    language: str
+
+    def say(self, value: float, digits: int = _DECIMALS) -> str:
+        """A number in the language, without zeros that say nothing."""
+        return number_text(value, self.language, digits)
+
+
+def number_text(value: float, language: str, digits: int = _DECIMALS) -> str:
+    """A number as drawings have it: so many decimals at most, none that are zero."""
+    text = f"{value:.{digits}f}"
+    return decimal(text.rstrip("0").rstrip(".") if "." in text else text, language)
+
+
+def requirements(subject: Subject) -> tuple[str, ...]:
+    """What holds for all sizes, and what the export adds."""
+    return (sheet_words(subject.language, "unspecified_limits"), *subject.wishes.requirements)
