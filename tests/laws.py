@@ -22,8 +22,9 @@ from geometry.curves.ellipse import EllipticArc
 from geometry.curves.elliptic_fillet import EllipticFillet
 from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line
-from geometry.curves.trochoid import Trochoid, TrochoidFillet
+from geometry.curves.trochoid import TrochoidFillet
 from tests.brute import refusal
+from tests.oracles.trochoid import Trochoid
 
 MP: Any = mpmath.mp.clone()
 MP.dps = 50

@@ -12,10 +12,11 @@ from geometry.curves.curve import Curve, OffsetCurve, Reversed
 from geometry.curves.cutter_fillet import CutterFillet
 from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line
-from geometry.curves.trochoid import Trochoid, TrochoidFillet
+from geometry.curves.trochoid import TrochoidFillet
 from geometry.gears.teeth.basic_rack import ISO_53, BasicRack, TipRelief, full_round_radius, iso_53
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import tooth_side
+from tests.oracles.trochoid import Trochoid
 
 
 def numbers(low: float, high: float) -> st.SearchStrategy[float]:

@@ -230,36 +230,6 @@ def least_in_brackets(
     return best_t, best
 
 
-class Approach(NamedTuple):
-    """The least signed distance of a curve from a boundary: mm, where on the curve, where on the boundary."""
-
-    distance: float
-    parameter: float
-    boundary_index: int
-    boundary_parameter: float
-
-
-def closest_approach(curve: Curve, boundary: Boundary, samples: int = 65, accuracy: float = 1e-13) -> Approach:
-    """Least signed distance of the points of a curve from a boundary, mm; negative: depth of the deepest point.
-
-    Every bracket between samples is searched that may hold less than the least sample (1-Lipschitz bound);
-    two minima within one sample step count as one.
-    """
-    t = np.linspace(*curve.domain, samples)
-
-    def evaluate(at: Real, _rows: Indices) -> tuple[Real, Real]:
-        feet = boundary.feet(curve.point(at))
-        return feet.distance, (np.conj(feet.normal) * curve.derivative(at)).real
-
-    value, slope = evaluate(t, np.arange(samples))
-    lengths = 1.2 * np.abs(np.diff(curve.point(t)))
-    chosen = np.flatnonzero(promising(value[:-1], value[1:], slope[:-1], slope[1:], lengths, value.min()))
-    where, least = least_in_brackets(evaluate, t[chosen], t[chosen + 1], (slope[chosen], slope[chosen + 1]), accuracy)
-    at = float(np.append(where, t)[np.argmin(np.append(least, value))])
-    feet = boundary.feet(curve.point(np.array([at])))
-    return Approach(float(feet.distance[0]), at, int(feet.curve_index[0]), float(feet.parameter[0]))
-
-
 def promising(low: Real, high: Real, slope_low: Real, slope_high: Real, lengths: Real, best: Real | float) -> Flags:
     """Which pieces of curves may hold less than ``best``: a falling and a rising end, and the Lipschitz bound.
 
@@ -299,27 +269,3 @@ def folded(points: Complex, vectors: Complex, pitch: float) -> tuple[Complex, Co
 def fold_images(points: Complex, pitch: float) -> Indices:
     """Which half pitch each point lies in, counted from the x axis: points with one number are folded alike."""
     return np.floor(np.angle(points) / (pitch / 2)).astype(np.intp)
-
-
-def involute_gap(first: Involute, second: Involute) -> tuple[float, float, float] | None:
-    """Distance of two facing involutes along their common normal, mm, and both roll angles; None where it misses one.
-
-    Both are branches that turn left on their way out (roll > 0), as lower flanks of two external gears that face
-    each other. The common normal touches both base circles at psi = delta + alpha_w, cos(alpha_w) =
-    (r_b1 + r_b2) / a, and the gap is a sin(alpha_w) - r_b1 f1 - r_b2 f2, negative where they overlap.
-    """
-    line = second.centre - first.centre
-    distance, radii = abs(line), first.base_radius + second.base_radius
-    if not distance > radii:
-        return None
-    angle = math.acos(radii / distance)
-    psi = math.atan2(line.imag, line.real) + angle
-    rolls = []
-    for curve, at in ((first, psi), (second, psi + math.pi)):
-        middle = (curve.start_roll + curve.end_roll) / 2
-        roll = middle + math.remainder(at - curve.base_angle - middle, 2 * math.pi)
-        if not curve.start_roll <= roll <= curve.end_roll:
-            return None
-        rolls.append(roll)
-    gap = distance * math.sin(angle) - first.base_radius * rolls[0] - second.base_radius * rolls[1]
-    return gap, rolls[0], rolls[1]

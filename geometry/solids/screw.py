@@ -18,7 +18,7 @@ from geometry.approximation.outline import Outline
 from geometry.base.record import replace
 from geometry.curves.bounds import Bound
 from geometry.curves.bspline import BSpline, basis
-from geometry.curves.curve import Complex, Real
+from geometry.curves.curve import Real
 from geometry.solids.body import Body, Loop, Wall
 
 _DEGREE = 7
@@ -82,11 +82,6 @@ def heights(spline: BSpline, low: float, high: float) -> Real:
     """Heights of the poles of a turn's spline between two levels, mm: its knot averages."""
     averages = np.array([spline.knots[i + 1 : i + 1 + spline.degree].mean() for i in range(len(spline.poles))])
     return low + (high - low) * averages
-
-
-def surface_poles(section: BSpline, turn: BSpline) -> Complex:
-    """Poles (u, v) of the tensor product in the plane, mm."""
-    return section.poles[:, None] * turn.poles[None, :]
 
 
 def with_turn_error(outline: Outline, reach: float) -> Outline:

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 _MOST = 100_000.0
 # of a centre hole: half the angle of its cone, and of its tip; its mouth and depth in diameters, where none is given
 _CONE, _TIP, _MOUTH, _DEPTH = math.radians(30), math.radians(60), 2.12, 1.0
-_Size = Annotated[float, mm("radius of the arc or of the rounding", least=0, most=_MOST)]
 _Chamfer = Annotated[float, mm("both legs of the chamfer of its outer edges", least=0, most=_MOST)]
 _Fillet = Annotated[float, mm("rounding where it meets what is thicker", least=0, most=_MOST)]
 _Radii = "above 0 bulges out of the material, below 0 into it; 0: a line"

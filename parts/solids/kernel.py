@@ -28,13 +28,6 @@ def edges_of(shape: TopoDS_Shape) -> Iterator[TopoDS_Edge]:
     return (TopoDS.Edge_s(edge) for edge in _explored(shape, TopAbs_ShapeEnum.TopAbs_EDGE))
 
 
-def count_solids(shape: TopoDS_Shape) -> int:
-    """How many solids a shape has."""
-    from OCP.TopAbs import TopAbs_ShapeEnum
-
-    return sum(1 for _ in _explored(shape, TopAbs_ShapeEnum.TopAbs_SOLID))
-
-
 def _explored(shape: TopoDS_Shape, kind: TopAbs_ShapeEnum) -> Iterator[TopoDS_Shape]:
     from OCP.TopExp import TopExp_Explorer
 

@@ -141,14 +141,6 @@ def _region(cam: BarrelCam, length: float, offset: float) -> Region:
     return Region(lower, apart=apart)
 
 
-def centre_line(cam: BarrelCam, length: float, count: int) -> Complex:
-    """Points of the developed path of the roller's axis where it leaves the outer cylinder, for pictures."""
-    at = np.linspace(0, 2 * math.pi, count)
-    place = cam.place(at, 0)[0]
-    aside = np.arcsin(place.real / cam.outer)
-    return np.asarray(cam.outer * (aside - at + math.pi) + 1j * (place.imag - length / 2))
-
-
 def _jacket(cam: BarrelCam, side: int, border: float, middle: float, offset: float) -> Profile:
     """The closed outline between a wall's edge and the end of the cylinder at y = ``border``, counter-clockwise."""
     edge = [c for piece in cam.motion.pieces for c in _edge_curves(cam, piece, side, middle)]

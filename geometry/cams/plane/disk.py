@@ -1,7 +1,7 @@
 """Disk cams: what a follower of given shape and guide asks of the cam at every angle.
 
 Frame: axis at the origin, the cam turns counter-clockwise, cam angle 0 at the start of the first phase. Formulas:
-practicum, lessons 4 and 5; the general method behind them: geometry/plane/envelope.py, which the tests hold them
+practicum, lessons 4 and 5; the general method behind them: tests/oracles/envelope.py, which the tests hold them
 against.
 """
 

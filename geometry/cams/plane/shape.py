@@ -11,7 +11,6 @@ from geometry.base.errors import UndercutError
 from geometry.base.record import Record
 from geometry.base.tolerance import TOLERANCES
 from geometry.cams.motion.follower_motion import TURN
-from geometry.cams.plane.curves import CentreEnvelope, FaceEnvelope
 from geometry.cams.plane.disk import DiskCam
 from geometry.cams.plane.undercut import Gap, kept_arcs
 from geometry.curves.curve import Curve, Reversed, end_point, start_point
@@ -22,7 +21,6 @@ from geometry.plane.profile import Label, Profile, Segment
 # rows of a table in one segment: those who sample a segment see each row
 _BLOCK_ROWS = 32
 _SLIVER = 1e-12
-CamCurve = CentreEnvelope | FaceEnvelope
 
 
 class CamShape(Record):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from geometry.base.errors import GeometryError
 from geometry.base.record import Record, replace
 from geometry.cams.plane.disk import DiskCam
 from geometry.cams.plane.shape import cam_shape
@@ -75,14 +74,6 @@ def lost_on(cam: DiskCam, clearance: float) -> dict[str, float]:
     """Lift that undercut takes on each wall, by its name, mm (rad if oscillating); whole walls are not named."""
     grown = (("inner", 0.0), ("outer", 2 * cam.radius + clearance))
     return {name: lost for name, grow in grown if (lost := lost_to_undercut(cam, grow)) is not None}
-
-
-def is_open(cam: DiskCam, clearance: float) -> bool:
-    """Whether a roller passes through its groove everywhere: both walls are whole."""
-    try:
-        return not lost_on(cam, clearance)
-    except GeometryError:
-        return False
 
 
 def path_reach(cam: DiskCam) -> float:

@@ -3,7 +3,7 @@
 Frame of the plate: x along the travel, y up, y = 0 the plate's lower edge; at travel t the plate's point x = t stands
 under the follower's starting place. Seen from the plate the follower slides by t along +x, so its centre runs along
 z(t) = t + m(t), m its path in the fixed frame, and the profile is z + i d z'/|z'| with d = -r: the envelope of Savvin's
-method for a translation, in closed form (tests hold it against geometry/plane/envelope.py). A flat face has no place
+method for a translation, in closed form (tests hold it against tests/oracles/envelope.py). A flat face has no place
 here: wherever the follower rests, the common normal would have to pass through an instant centre at infinity.
 """
 

@@ -17,8 +17,6 @@ from geometry.base.record import Record
 from geometry.curves.curve import Real
 from geometry.gears.noncircular.gear import NoncircularGear
 
-_RATIO_SAMPLES = 2049
-
 
 class NoncircularPair(Record):
     """Two gears in mesh, in either order; the first one's frame, its axis, is the origin."""

@@ -11,7 +11,6 @@ from collections.abc import Callable
 from functools import lru_cache
 from itertools import pairwise
 
-from geometry.base.errors import ParameterError
 from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
 from geometry.curves.implicit import Box
@@ -231,19 +230,6 @@ def proposal(pair: AnyShiftPair, wish: Requirements, x1: float, x2: float) -> Pr
     """What a pair of shifts gives."""
     state = state_of(pair, x1, x2)
     return Proposal(x1, x2, state.contact_ratio, state.root_sliding(pair.gear_ratio), least_margin(pair, wish, x1, x2))
-
-
-def checked_proposal(found: Proposal | None, name: str, value: object) -> Proposal:
-    """The proposal, or a refusal that names the key to loosen.
-
-    Raises
-    ------
-    ParameterError
-        Nothing was found.
-    """
-    if found is None:
-        raise ParameterError(name, value, "no_shifts_keep_requirements")
-    return found
 
 
 def _greatest_of(pair: AnyShiftPair, function: Callable[[float], float]) -> float | None:

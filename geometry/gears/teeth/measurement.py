@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from typing import TypeVar
 
-from geometry.base.angles import inverse_involute, involute_function, roll_minus_polar
+from geometry.base.angles import inverse_involute, involute_function
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
@@ -329,13 +329,3 @@ def _space_half_angle(gear: Measured) -> float:
 def angle_at(gear: Measured, radius: float) -> float:
     """alpha_y = arccos(r_b / r_y): the involute's pressure angle on a circle, rad."""
     return math.acos(min(gear.base_radius / radius, 1.0))
-
-
-def polar_thickness_angle(gear: SpurGear, radius: float) -> float:
-    """Half of the tooth's angle on a circle: psi_b - inv(alpha_y), rad; beyond the base circle."""
-    return gear.base_half_angle - float(roll_minus_polar(math.tan(angle_at(gear, radius))))
-
-
-def involute_at(gear: Measured, radius: float) -> float:
-    """inv(alpha_y) on a circle, rad."""
-    return involute_function(angle_at(gear, radius))

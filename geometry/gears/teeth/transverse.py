@@ -100,9 +100,3 @@ def overlap_ratio(face_width: float, helix_angle: float, normal_module: float) -
     The thesis on the power module prints it upside down and without the width.
     """
     return face_width * math.sin(abs(helix_angle)) / (math.pi * normal_module)
-
-
-def virtual_number_of_teeth(number_of_teeth: int, transverse_pressure_angle: float, helix_angle: float) -> float:
-    """z_nx = z / (cos^2(beta_b) cos(beta)), the teeth of the normal section's spur gear; ISO 21771."""
-    base_helix = base_helix_angle(transverse_pressure_angle, helix_angle)
-    return number_of_teeth / (math.cos(base_helix) ** 2 * math.cos(helix_angle))

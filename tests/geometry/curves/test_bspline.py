@@ -19,11 +19,12 @@ from geometry.curves.bspline import BSpline, basis, distance_bound, feet
 from geometry.curves.curve import Curve, Reversed, end_point, start_point
 from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line
-from geometry.curves.trochoid import Trochoid, TrochoidFillet
+from geometry.curves.trochoid import TrochoidFillet
 from geometry.gears.teeth.basic_rack import TipRelief, iso_53
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import tooth_side
 from tests import brute, laws
+from tests.oracles.trochoid import Trochoid
 from tests.sampling import examples
 from tests.strategies import numbers, placements
 

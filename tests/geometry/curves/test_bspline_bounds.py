@@ -16,7 +16,6 @@ from geometry.base.placement import Placement2
 from geometry.curves.bspline import BSpline, feet
 from geometry.curves.curve import OffsetCurve, start_point
 from geometry.curves.line_arc import Line
-from geometry.curves.trochoid import Trochoid
 from geometry.gears.teeth.basic_rack import iso_53
 from geometry.gears.teeth.spur import SpurGear
 from tests import brute
@@ -36,6 +35,7 @@ from tests.geometry.curves.test_bspline import (
     sides,
     size,
 )
+from tests.oracles.trochoid import Trochoid
 from tests.sampling import examples
 from tests.strategies import numbers
 

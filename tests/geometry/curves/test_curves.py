@@ -18,8 +18,9 @@ from geometry.curves.ellipse import EllipticArc, ellipse_angle
 from geometry.curves.elliptic_fillet import EllipticFillet
 from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line
-from geometry.curves.trochoid import Trochoid, TrochoidFillet
+from geometry.curves.trochoid import TrochoidFillet
 from tests import laws
+from tests.oracles.trochoid import Trochoid
 from tests.sampling import examples
 from tests.strategies import (
     curves,

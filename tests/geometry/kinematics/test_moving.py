@@ -19,8 +19,9 @@ from geometry.curves.curve import Real
 from geometry.kinematics.groups import dyad, prescribed
 from geometry.kinematics.linkage import RockerGuide, SliderGuide
 from geometry.kinematics.mechanism import FRAME, Fixed, Joint, Mechanism, Prismatic, Revolute, Rolling
-from geometry.kinematics.motion import GivenMotion, Pose, Rotation, instant_centre
+from geometry.kinematics.motion import GivenMotion, Pose
 from geometry.kinematics.moving import Drive, moving
+from tests.oracles.envelope import Rotation, instant_centre
 
 # z1 = 40, z2 = 40, z3 = 120 of seed 001, example 7 with the satellite that fits, in m 2
 JAMES = Mechanism(

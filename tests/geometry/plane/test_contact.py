@@ -9,6 +9,7 @@ import cmath
 import math
 import random
 from functools import cache
+from typing import NamedTuple
 
 import mpmath
 import numpy as np
@@ -19,16 +20,18 @@ from hypothesis import strategies as st
 from shapely import affinity
 
 from geometry.base.placement import Placement2
+from geometry.curves.curve import Curve, Real
 from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line
-from geometry.curves.trochoid import Trochoid, TrochoidFillet
+from geometry.curves.trochoid import TrochoidFillet
 from geometry.gears.mesh.gears import GearMesh
 from geometry.gears.pairs.external import ExternalPair, external_pair
 from geometry.gears.teeth.basic_rack import TipRelief, iso_53
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import ToothSide, tooth_side
-from geometry.plane.distance import Boundary, Verdict, closest_approach, folded, involute_gap
+from geometry.plane.distance import Boundary, Indices, Verdict, folded, least_in_brackets, promising
 from tests import brute
+from tests.oracles.trochoid import Trochoid
 from tests.sampling import examples
 from tests.strategies import fillets, gears, involutes, numbers, trochoids
 
@@ -39,6 +42,60 @@ ELL_POINTS = (0j, 3 + 0j, 3 + 1j, 1 + 1j, 1 + 3j, 3j)
 ELL = Boundary(
     tuple(Line(a, b) for a, b in zip(ELL_POINTS, (*ELL_POINTS[1:], ELL_POINTS[0]), strict=True)), closed=True
 )
+
+
+class Approach(NamedTuple):
+    """The least signed distance of a curve from a boundary: mm, where on the curve, where on the boundary."""
+
+    distance: float
+    parameter: float
+    boundary_index: int
+    boundary_parameter: float
+
+
+def closest_approach(curve: Curve, boundary: Boundary, samples: int = 65, accuracy: float = 1e-13) -> Approach:
+    """Least signed distance of the points of a curve from a boundary, mm; negative: depth of the deepest point.
+
+    Every bracket between samples is searched that may hold less than the least sample (1-Lipschitz bound);
+    two minima within one sample step count as one.
+    """
+    t = np.linspace(*curve.domain, samples)
+
+    def evaluate(at: Real, _rows: Indices) -> tuple[Real, Real]:
+        feet = boundary.feet(curve.point(at))
+        return feet.distance, (np.conj(feet.normal) * curve.derivative(at)).real
+
+    value, slope = evaluate(t, np.arange(samples))
+    lengths = 1.2 * np.abs(np.diff(curve.point(t)))
+    chosen = np.flatnonzero(promising(value[:-1], value[1:], slope[:-1], slope[1:], lengths, value.min()))
+    where, least = least_in_brackets(evaluate, t[chosen], t[chosen + 1], (slope[chosen], slope[chosen + 1]), accuracy)
+    at = float(np.append(where, t)[np.argmin(np.append(least, value))])
+    feet = boundary.feet(curve.point(np.array([at])))
+    return Approach(float(feet.distance[0]), at, int(feet.curve_index[0]), float(feet.parameter[0]))
+
+
+def involute_gap(first: Involute, second: Involute) -> tuple[float, float, float] | None:
+    """Distance of two facing involutes along their common normal, mm, and both roll angles; None where it misses one.
+
+    Both are branches that turn left on their way out (roll > 0), as lower flanks of two external gears that face
+    each other. The common normal touches both base circles at psi = delta + alpha_w, cos(alpha_w) =
+    (r_b1 + r_b2) / a, and the gap is a sin(alpha_w) - r_b1 f1 - r_b2 f2, negative where they overlap.
+    """
+    line = second.centre - first.centre
+    distance, radii = abs(line), first.base_radius + second.base_radius
+    if not distance > radii:
+        return None
+    angle = math.acos(radii / distance)
+    psi = math.atan2(line.imag, line.real) + angle
+    rolls = []
+    for curve, at in ((first, psi), (second, psi + math.pi)):
+        middle = (curve.start_roll + curve.end_roll) / 2
+        roll = middle + math.remainder(at - curve.base_angle - middle, 2 * math.pi)
+        if not curve.start_roll <= roll <= curve.end_roll:
+            return None
+        rolls.append(roll)
+    gap = distance * math.sin(angle) - first.base_radius * rolls[0] - second.base_radius * rolls[1]
+    return gap, rolls[0], rolls[1]
 
 
 def half_pitch(side: ToothSide) -> Boundary:

@@ -11,12 +11,11 @@ from geometry.cams.motion.follower_motion import dwell, follower_motion, return_
 from geometry.cams.plane.disk import FollowerKind, translating_cam
 from geometry.cams.plane.shape import cam_shape
 from geometry.curves.line_arc import Arc, Line
-from geometry.curves.trochoid import Trochoid
-from geometry.kinematics.motion import Rotation
 from geometry.laws.named import sine
-from geometry.plane.envelope import Pair, envelopes
-from geometry.plane.loops import self_crossings, without_loops
 from tests.geometry.plane.test_envelope import ROLLER_CIRCLE, D, follower_of
+from tests.oracles.envelope import Pair, Rotation, envelopes
+from tests.oracles.loops import self_crossings, without_loops
+from tests.oracles.trochoid import Trochoid
 
 
 def test_a_prolate_trochoid_crosses_itself_on_its_axis() -> None:

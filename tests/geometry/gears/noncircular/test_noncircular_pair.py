@@ -13,8 +13,9 @@ from geometry.gears.noncircular.gear import NoncircularGear
 from geometry.gears.noncircular.pair import NoncircularPair
 from geometry.gears.noncircular.pairing import Centrode, Pairing, paired
 from geometry.gears.teeth.basic_rack import iso_53
-from geometry.kinematics.centrodes import FocalEllipse, FourierRatio, LobedEllipse, Oval, RatioCentrode
+from geometry.kinematics.centrodes import FourierRatio, LobedEllipse, RatioCentrode
 from geometry.plane.distance import Verdict
+from tests.oracles.ellipses import FocalEllipse, Oval
 
 ALPHA = math.radians(20)
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Curve
-from geometry.plane.envelope import EnvelopeCurve
 from geometry.plane.measure import distance_to_curve
+from tests.oracles.envelope import EnvelopeCurve
 
 _SAMPLES = 1025
 _NEWTON_STEPS = 30
