@@ -42,7 +42,6 @@ REASONS = {
     "no_recommendation_with": N_("has no recommendation with {first}"),
     "no_relief_by_cutter": N_("a pinion cutter cuts none"),
     "no_span_of_helical_ring": N_("no faces find the flanks of a helical ring; measure between balls"),
-    "no_shifts_keep_requirements": N_("no shifts keep all requirements; try a smaller least_contact_ratio"),
     "no_such_cutter_teeth": N_("no cutter has so many teeth; a rack stands for larger ones"),
     "no_working_angle": N_("no working pressure angle exists"),
     "no_working_angle_with_cutter": N_("no pressure angle with the cutter exists"),

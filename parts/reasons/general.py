@@ -25,7 +25,6 @@ REASONS = {
     "not_one_of": N_("must be one of {known}"),
     "not_within": N_("must be above {low} and below {high}"),
     "out_of_range": N_("must be from {least} to {most}"),
-    "profile_never_touches": N_("no point of the follower's profile touches: its motion never slides along it"),
     "too_few": N_("is too few"),
     "unknown_key": N_("unknown key; known keys: {known}"),
     "wrong_number_of_knots": N_("there must be {wanted}: poles + degree + 1"),
