@@ -50,6 +50,7 @@ def away(name: str, points: np.ndarray) -> np.ndarray:
     return 4.0 - np.array([least_distance(complex(p) * turn, centres, drive) for p in points])
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["disc", "gear"])
 def test_files_lie_on_what_the_pins_leave(built: Path, name: str) -> None:
     entries = [e for e in read_report(built)["files"] if e["part"] == name]
@@ -68,6 +69,7 @@ def test_files_lie_on_what_the_pins_leave(built: Path, name: str) -> None:
         assert np.abs(inside).max() <= entry["tolerance"]
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("where", SHARES)
 @pytest.mark.parametrize("change", [spoil.moved, spoil.dropped, spoil.flattened_or_bent], ids=lambda c: c.__name__)
 @pytest.mark.parametrize("name", ["disc", "gear"])

@@ -65,6 +65,7 @@ def middle(piece: Segment, share: float = 0.5) -> tuple[complex, complex]:
     return complex(where), complex(normal)
 
 
+@pytest.mark.sampled(8)
 @every_case
 def test_exact_outline_has_no_penetration(name: str) -> None:
     p = CASES[name]
@@ -111,7 +112,7 @@ def test_negative_control_other_tool_is_seen(change: dict[str, str]) -> None:
     assert outline_error(points, other, p.z, float(p.tip_radius)).max() > 1e-7
 
 
-@pytest.mark.sampled(7)
+@pytest.mark.sampled(3)
 @every_case
 def test_penetration_is_the_distance_in_the_metal(name: str) -> None:
     """True maximum over the rolling: brute force and the 50-digit distance agree at random metal points."""
@@ -128,7 +129,7 @@ def test_penetration_is_the_distance_in_the_metal(name: str) -> None:
     assert np.all(depth[~metal] <= distance[~metal] + 1e-14 * ra)
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(4)
 @every_case
 def test_grid_does_not_matter(name: str) -> None:
     p = CASES[name]
@@ -179,7 +180,7 @@ def test_undercut_list() -> None:
     assert "z23" not in UNDERCUT
 
 
-@pytest.mark.sampled(12)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("z", [3, 6, 8, 17, 23, 1000])
 @pytest.mark.parametrize("degrees", ["14.5", "20", "25", "30"])
 def test_undercut_limit_formula(z: int, degrees: str) -> None:

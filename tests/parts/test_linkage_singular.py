@@ -32,7 +32,7 @@ SINGULAR: dict[str, Keys] = {
 }
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("name", SINGULAR)
 def test_near_a_dead_point_an_offer_keeps_away_from_it_and_its_files_hold(name: str, tmp_path: Path) -> None:
@@ -68,6 +68,7 @@ def test_the_bound_of_a_lift_follows_a_rate_that_falls() -> None:
     assert linear < low - outer <= bound < 2 * linear
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("swing", [0.001, 0.3])
 def test_a_small_swing_is_rolled_on_a_mesh_that_is_off_by_more_than_it(swing: float, tmp_path: Path) -> None:
     assert built(tmp_path, BARE | {"swing_deg": swing}, "stl")[1]["files"][0]["measured"]["swing_error_deg"] < 0.02

@@ -69,6 +69,7 @@ def rocker_angles(rows: list[dict[str, float]], distance: float, prime: float, s
     return np.degrees(np.arctan((80 * (1 + sense * rate) - distance * np.cos(psi)) / (distance * np.sin(psi))))
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("sense", "distance"), [("against", 100.0), ("with", 86.0), ("with", None)])
 def test_the_least_rocker(sense: str, distance: float | None) -> None:
     """Lesson 4, question 13, of a roller: brute force over circles, and over distances where none is given."""
@@ -97,6 +98,7 @@ def test_the_least_rocker(sense: str, distance: float | None) -> None:
         assert (found, prime) == (best, pytest.approx(smallest, rel=1e-12))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("reserve", "mount"), [
     (0.0, ("lift=20", "follower_offset=6")), (9.0, ("lift=20",)), (60.0, ("lift=20",)),
     (0.0, ("swing_deg=20", "oscillating.arm_length=80", "oscillating.centre_distance=90")),

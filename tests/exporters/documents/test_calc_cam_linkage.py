@@ -110,7 +110,7 @@ def whole_turns(degrees: float) -> float:
     return degrees - 360 * round(degrees / 360)
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", WORDS)
 @pytest.mark.parametrize("at", ["47", "231"])
 def test_a_position_is_that_of_forty_digit_poses(name: str, at: str) -> None:
@@ -283,6 +283,7 @@ def test_the_scene_is_its_own_page_and_changes_by_keys() -> None:
     assert (longer["driven_length"], longer["driven_pivot_x"]) == (59.0, 91.0)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("words", "told"),
     [

@@ -106,6 +106,7 @@ def test_arms_and_pressure_angles_of_pins_are_those_of_the_velocities() -> None:
     assert values["greatest_arm_angle_deg"] == pytest.approx(fine[int(column(fine, "l").argmax())]["psi"], abs=0.1)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("words", [DISC, ("number_of_lobes=3", "pin_circle_diameter=80", "pin_diameter=6",
                                           "eccentricity=1.2")], ids=["vertex", "lobe"])  # fmt: skip
 def test_the_least_radius_of_a_path_is_that_of_mpmath(words: tuple[str, ...]) -> None:

@@ -90,6 +90,7 @@ def caught(
     assert word in capsys.readouterr().out
 
 
+@pytest.mark.sampled(7)
 @pytest.mark.parametrize("spoil", SPOIL_3MF)
 def test_a_spoiled_3mf_is_caught(
     spoil: str, tmp_path: Path, train_3mf: Path, capsys: pytest.CaptureFixture[str]

@@ -75,7 +75,7 @@ def test_a_round_bore_is_a_circle(tmp_path: Path) -> None:
     assert float(inner.attrib["r"]) == 4.0
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", GEARS)
 @pytest.mark.parametrize("tolerance", [0.05, 0.005, 0.0002])
 def test_every_piece_is_within_the_tolerance(tmp_path: Path, name: str, tolerance: float) -> None:

@@ -147,6 +147,8 @@ def test_files_of_a_changed_scene_are_not_vouched_for(tmp_path: Path) -> None:
     assert run("verify", folder / "a.dxf") == 0
 
 
+# by default another process does it, as on another machine: test_same_bytes.py
+@pytest.mark.heavy
 def test_two_builds_give_the_same_bytes_whatever_came_between(tmp_path: Path) -> None:
     scene = pair(tmp_path, *ALL, {"format": "dxf", "dxf_version": "R12", "name": "old"}, {"format": "svg", "name": "b"})
     for name in ("first", "second"):
@@ -308,6 +310,7 @@ def loaded_by(*words: object, cwd: Path) -> list[str]:
 HEAVY = ("cadquery", "OCP", "trimesh", "manifold3d", "scipy", "matplotlib")
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("formats", "never"),
     [
@@ -333,6 +336,7 @@ NOT_OF_A_GEAR = ("geometry.gears.teeth.cutter", "geometry.curves.cutter_fillet",
                  "exporters.production.check")  # fmt: skip
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("words", "never"),
     [

@@ -107,6 +107,7 @@ def test_what_is_finished_is_kept_and_what_is_spoiled_is_made_again(plain: Path,
     assert all(len(e["files"]) == bool(e["files"]) for e in catalogued(scene, tmp_path / "o"))
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL there")
 @pytest.mark.parametrize("jobs", ["1", "2"])
 def test_a_kill_loses_nothing(plain: Path, tmp_path: Path, jobs: str) -> None:

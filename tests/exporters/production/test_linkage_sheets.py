@@ -50,19 +50,19 @@ def jobs(keys: dict[str, Any], language: str = "en", **export: Any) -> tuple[She
 
 
 @cache
-def roller_job(language: str = "en") -> SheetJob:
+def roller_job(language: str) -> SheetJob:
     return jobs(CASES["rocker"], language, **({} if language == "en" else {"tolerance": 1e-4}))[0]
 
 
 @pytest.fixture(scope="module")
 def roller_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     file = tmp_path_factory.mktemp("sheet") / "t.cam.cam.dxf"
-    roller_job().write({}, file)
+    roller_job("en").write({}, file)
     return file
 
 
 def test_both_languages_write_the_same_sheet_and_it_is_good(roller_file: Path, tmp_path: Path) -> None:
-    verdict = roller_job().verify(roller_file, 0.0)
+    verdict = roller_job("en").verify(roller_file, 0.0)
     assert verdict.failures == ()
     for key in ("max_deviation", "diagram_deviation", "line_deviation", "circle_deviation"):
         assert verdict.measured[key] <= 1.1e-6
@@ -74,13 +74,13 @@ def test_both_languages_write_the_same_sheet_and_it_is_good(roller_file: Path, t
     assert any(t.startswith("Сумісної діаграми немає") for t in texts["uk"])
     assert any("роликовим штовхачем на шатуні" in t for t in texts["uk"])
     twin = tmp_path / "twin.dxf"
-    roller_job().write({}, twin)
+    roller_job("en").write({}, twin)
     assert twin.read_bytes() == roller_file.read_bytes()
 
 
 @pytest.mark.parametrize("name", ["flat", *(pytest.param(n, marks=pytest.mark.heavy) for n in CASES if n != "flat")])
 def test_every_follower_and_linkage_has_its_sheet(name: str, tmp_path: Path) -> None:
-    for job in jobs(CASES[name], intervals=2, tolerance=1e-4):
+    for job in jobs(CASES[name], intervals=2, tolerance=1e-3):
         job.write({}, tmp_path / job.path)
         assert job.verify(tmp_path / job.path, 0.0).failures == ()
 
@@ -93,7 +93,7 @@ def angles() -> list[float]:
 def test_rollers_and_linkages_stand_where_forty_digit_poses_are_turned_to(roller_file: Path) -> None:
     """With ezdxf alone: rollers at every position, at four of them the rocker, rod and guide with their lengths."""
     space = ezdxf.readfile(roller_file).modelspace()
-    paper, case = roller_job().expected.paper, LINKS["roller"]
+    paper, case = roller_job("en").expected.paper, LINKS["roller"]
     middle = space.query('CIRCLE[layer=="CIRCLE_BASE"]').first.dxf.center
     rollers = [e.dxf for e in space.query('CIRCLE[layer=="ROLLER"]')]
     assert len(rollers) == 18
@@ -169,20 +169,20 @@ DAMAGE: dict[str, tuple[Callable[[Any], Any], str]] = {
 }
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("damage", DAMAGE)
 def test_damage_is_noticed(roller_file: Path, tmp_path: Path, damage: str) -> None:
     drawing = ezdxf.readfile(roller_file)
     spoil, wanted = DAMAGE[damage]
     spoil(drawing.modelspace())
     drawing.saveas(tmp_path / roller_file.name)
-    failures = roller_job().verify(tmp_path / roller_file.name, 0.0).failures
+    failures = roller_job("en").verify(tmp_path / roller_file.name, 0.0).failures
     assert any(wanted in failure for failure in failures), failures
 
 
 def test_a_slider_is_drawn_on_its_line(tmp_path: Path) -> None:
     """Four linkages with two sliders: a line and a rectangle each, the lines in their directions turned back."""
-    job = jobs(CASES["slider"], tolerance=1e-4)[0]
+    job = jobs(CASES["slider"], tolerance=1e-3)[0]
     file = tmp_path / job.path
     job.write({}, file)
     lines = [(complex(*e.dxf.start.vec2), complex(*e.dxf.end.vec2))

@@ -85,6 +85,7 @@ def test_a_post_in_the_way_of_a_cam_is_found_though_the_first_pose_is_clear(
         assert 0 < found["solids"][0]["drive_turn_deg"] < 360
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("slow", [0.01, 0.0001])
 def test_a_carrier_far_slower_than_its_satellites_brings_them_to_a_post(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], slow: float
@@ -105,6 +106,7 @@ def test_a_carrier_far_slower_than_its_satellites_brings_them_to_a_post(
     assert all(one["volume"] == pytest.approx(5 * np.pi, rel=0.01) for one in struck)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("teeth", "turns", "strikes"), [((997, 1009), 700, True), ((5003, 5009), 3500, False)])
 def test_carried_plates_that_meet_after_hundreds_of_turns_are_found_or_told(
     teeth: tuple[int, int], turns: int, strikes: bool

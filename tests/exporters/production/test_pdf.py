@@ -116,6 +116,7 @@ def all_curves(profile: Any) -> Any:
     return [(s.curve, Placement2(k * turn)) for k in range(profile.count) for s in profile.period]
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("purpose", ["meshing", "model"])
 def test_words_are_found_in_cyrillic_and_the_bytes_are_the_same(tmp_path: Path, purpose: str) -> None:
     job = job_of(language="uk", purpose=purpose)

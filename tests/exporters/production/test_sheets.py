@@ -393,6 +393,7 @@ def test_the_device_takes_wheels_of_every_size(module: float, tmp_path: Path) ->
         assert job.verify(tmp_path / job.path, 0.0).failures == ()
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("part", "export", "key", "mended"),
     [

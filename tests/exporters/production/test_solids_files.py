@@ -85,7 +85,7 @@ def once(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Once]:
     return {kind: Once(job, READERS[kind](file), declared) for kind, (job, file, declared) in files.items()}
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("other", [{"face_chamfer": 0.3}, {"hub": {"diameter": 22.5, "above": 5.0}},
                                    {"hub": {"diameter": 22.0, "above": 5.5}},
                                    {"web": {"thickness": 4.0, "rim_diameter": 48.0, "shift": 0.1}},

@@ -45,6 +45,7 @@ def staging(folder: Path) -> Path:
     return found[0].parent
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_does_not_wait_for_the_file(tmp_path: Path, number: signal.Signals) -> None:
     with started(tmp_path, HOLD) as process:

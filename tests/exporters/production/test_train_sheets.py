@@ -71,6 +71,7 @@ def test_the_ratio_of_james_is_read_off_the_written_file(tmp_path: Path, languag
         assert word in words
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("teeth", "inner"),
     [

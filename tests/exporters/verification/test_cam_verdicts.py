@@ -100,6 +100,7 @@ def test_the_least_cam_of_a_face_has_no_cusp(tmp_path: Path, law: str) -> None:
     assert base == pytest.approx(least, rel=1e-7)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("keys", "key", "offered"),
     [

@@ -73,7 +73,7 @@ def test_an_eccentric_disk_lifts_as_its_triangle_says(kind: FollowerKind, swings
     assert isinstance(mount, Oscillating) == swings
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", CAMS)
 def test_every_file_is_rolled_and_agrees_with_a_sweep(name: str, tmp_path: Path) -> None:
     folder, report = built(tmp_path, CAMS[name], TAIL)

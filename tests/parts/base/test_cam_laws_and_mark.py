@@ -92,6 +92,7 @@ CAMS: dict[str, Keys] = {
 }
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", CAMS)
 def test_the_mark_points_to_the_follower_at_cam_angle_0(name: str) -> None:
     made = parts_of({"cam": CAMS[name] | {"timing_mark": {"diameter": 3.0, "distance": 22.0}}})["cam"]

@@ -45,6 +45,7 @@ def arm(angle: float, distance: float, radius: float) -> shapely.Polygon:
     return affinity.rotate(way.buffer(radius, quad_segs=128), angle, origin=(0, 0))
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("offset", [0.0, 0.4, -0.4])
 def test_a_plate_is_its_hub_and_its_arms(offset: float) -> None:
     made = part(hub_diameter=36.0, bore_diameter=8.0, spacers=SPACERS, seat_clearance=0.1)

@@ -179,6 +179,7 @@ def test_what_is_no_solid_is_refused_by_its_key(name: str) -> None:
     assert f"parts.part.{key}" in str(found.value)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("height", "overlaps"), [("24.0", 0), ("19.0", 1)])
 def test_solids_of_faces_are_held_against_each_other(height: str, overlaps: int) -> None:
     """A gear on its shaft, bore on step, as it belongs; and sunk into the collar."""

@@ -19,6 +19,8 @@ from parts.scene.load import scene_from_dict
 
 # widths of the eleven columns and the right-hand ones, as the form has them
 COLUMNS = [7, 10, 23, 15, 10, 70, 5, 5, 5, 5, 12, 18]
+# where the picture is not measured, few positions and rough curves
+ROUGH = {"intervals": 2, "tolerance": 1e-3}
 WORDS = {"designation": "TMM.03.001", "drawn": "Ann", "approved": "Bob", "date": "21.11.26", "organisation": "Group 21"}
 
 
@@ -114,10 +116,10 @@ def test_long_words_stay_in_their_cells() -> None:
 def test_cam_sheets_leave_room_for_it() -> None:
     """The lower right corner of a cam sheet is free: nothing else is written where the title block stands."""
     raw = tomllib.loads(built_in_scenes()["practicum_roller_cam"].read_text())
+    rough = {"format": "sheet", "purpose": "cam", "tolerance": 1e-3}
     plain, titled = [
-        plan_build(
-            scene_from_dict({**raw, "exports": [{"format": "sheet", "purpose": "cam", **more}]}, "t", "t"), "t", [], []
-        ).sheets[0].expected.canvas
+        plan_build(scene_from_dict({**raw, "exports": [{**rough, **more}]}, "t", "t"), "t", [], []).sheets[0]
+        .expected.canvas
         for more in ({}, {"title_block": True})
     ]  # fmt: skip
     left, top = titled.frame.right - TITLE_BLOCK[0], titled.frame.low + TITLE_BLOCK[1]
@@ -131,7 +133,10 @@ def test_the_block_of_one_part_tells_its_material_and_mass() -> None:
            "face_width": 10.0, "material": "steel 45", "density": 8.0,
            "phases": [{"move": m, "angle_deg": 180.0, "law": "cosine"} for m in ("rise", "return_")]}  # fmt: skip
     for given, wanted in ((True, f"{np.pi * 40**2 * 10 * 8 / 1e6:.3g}"), ({"mass": "1 kg"}, "1 kg")):
-        raw = {"parts": {"disk": cam}, "exports": [{"format": "sheet", "purpose": "cam", "title_block": given}]}
+        raw = {
+            "parts": {"disk": cam},
+            "exports": [{"format": "sheet", "purpose": "cam", "title_block": given, **ROUGH}],
+        }
         words = [t.text for t in plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets[0].canvas.texts]
         assert {"steel 45", wanted} <= set(words)
 

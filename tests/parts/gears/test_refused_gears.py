@@ -57,6 +57,7 @@ def with_value(table: dict[str, Any], path: str, value: Any) -> dict[str, Any]:
     return {**table, key: with_value(table[key], rest, value) if rest else value}
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", REFUSED)
 def test_a_refusal_is_told_in_the_keys_of_the_scene_with_the_nearest_that_works(name: str) -> None:
     table, key, code = REFUSED[name]

@@ -84,6 +84,7 @@ def test_it_is_told_where_a_mate_stands_and_not_where_conditions_break() -> None
     assert "transmission_error" not in mate_of("external_gear_pair", SHORT, WHEEL, instances=place)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("language", "word"), [("en", "transmission error"), ("uk", "кінематична похибка")])
 def test_its_words(language: str, word: str) -> None:
     found = mate_of("rack_pair", {**SHORT, "tip_diameter": 39.4}, RACK)

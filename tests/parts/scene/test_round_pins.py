@@ -68,6 +68,7 @@ REDUCER_PARTS = {k: PARTS[k] for k in ("ring", "disc", "eccentric", "plate")}
 TURNED = {"ring": {"rotation_deg": 10.0}, "eccentric": {}, "disc": {}, "plate": {}}
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("pins", ["fixed", "half_round", "holes"])
 def test_reducer_turns_and_touches(pins: str) -> None:
     ring = RING | {"pins": pins} | ({"inner_diameter": 0.0} if pins == "holes" else {})

@@ -120,7 +120,7 @@ REMARKS = {
 }
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(7)
 @pytest.mark.parametrize("name", built_in_scenes())
 def test_every_built_in_scene_builds_parts_without_a_bad_remark(name: str) -> None:
     scene = load_scene(name)

@@ -61,6 +61,7 @@ def _checked(file: Path, capsys: pytest.CaptureFixture[str]) -> tuple[int, str]:
     return code, said.out + said.err
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("hand", ["right", "left"])
 def test_a_worm_touches_its_wheel_and_turns_it(tmp_path: Path, capsys: pytest.CaptureFixture[str], hand: str) -> None:
     code, said = _checked(_scene(tmp_path, hand=hand), capsys)

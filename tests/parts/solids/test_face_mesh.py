@@ -95,6 +95,7 @@ def test_a_worm_wheel_has_triangles_where_it_is_bent() -> None:
     assert lone == 0
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("scene", ["helical_pair", "cycloidal_reducer", "barrel_cam"])
 def test_solids_of_scenes_are_closed_and_as_large_as_their_bodies(scene: str) -> None:
     """The faces that STEP is written of, meshed and integrated, beside the bodies they were made of."""

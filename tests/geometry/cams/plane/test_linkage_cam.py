@@ -288,6 +288,7 @@ def test_cosines_over_an_interval() -> None:
         assert high - 1e-4 <= values.max() <= high + 1e-12
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("kind", [ROLLER, FLAT])
 def test_an_undercut_cam_is_trimmed_and_the_lost_lift_is_what_a_follower_loses(kind: FollowerKind) -> None:
     """Too large a roller, or too steep a law for a face: dropped onto the dense outline it loses what is told."""

@@ -52,7 +52,7 @@ def enough(kind: str) -> float:
     return (1 - found["effective_contact_ratio"]) * math.pi * 2.0 / math.sin(math.radians(45))  # type: ignore[no-any-return]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("kind", PAIRS)
 @pytest.mark.parametrize("double", [False, True])
 def test_a_face_that_is_just_wide_enough_carries_on(kind: str, double: bool) -> None:
@@ -75,6 +75,7 @@ def test_straight_teeth_have_no_overlap() -> None:
     assert not {"overlap_ratio", "total_contact_ratio"} & set(found)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("hand", ["right", "left"])
 def test_sections_along_the_face_against_dense_polygons(hand: str) -> None:
     """Driven on one side: at every drive angle some section of a face that is wide enough touches; else not always."""

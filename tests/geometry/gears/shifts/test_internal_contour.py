@@ -263,7 +263,7 @@ def interference_by_formulas(pair: InternalShiftPair, x1: float, x2: float) -> t
     return first, second, one + invs[0] - z2 / z1 * (two + invs[1])
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("pair", [CLOSE, NEAR, teeth_pair(30, 44)], ids=["40/50", "45/48", "30/44"])
 def test_the_lines_of_interference_by_printed_formulas(pair: InternalShiftPair) -> None:
     names = ["involute_interference", "trochoid_interference", "radial_assembly"]

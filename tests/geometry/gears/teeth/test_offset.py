@@ -93,6 +93,7 @@ def test_nothing_is_missing_from_the_path(name: str, share: float) -> None:
     assert abs(area / filled.area - 1) <= 2e-6
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("distance", [0.05, -0.05])
 def test_path_against_fifty_digits(distance: float) -> None:
     """The oracle knows neither involute nor trochoid; its signed distance is the offset itself, corners included."""

@@ -66,7 +66,7 @@ def side_points(gear: SpurGear, count: int) -> np.ndarray:
     return np.concatenate([brute.dense(s.curve, count) for s in tooth_side(gear).segments])
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @EVERY
 def test_outline_against_fifty_digits(gear: SpurGear) -> None:
     """Root land, fillet, joint, flank, relief and tip: every point lies on the envelope's outline."""
@@ -82,6 +82,7 @@ def test_outline_against_the_swept_rack(gear: SpurGear) -> None:
     assert error.max() <= RIGHT * gear.tip_radius
 
 
+@pytest.mark.sampled(10)
 @EVERY
 def test_the_whole_oracle_outline_is_there(gear: SpurGear) -> None:
     """The other way round: no part of the envelope's outline is missing, in any period."""

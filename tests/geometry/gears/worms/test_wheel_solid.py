@@ -58,6 +58,7 @@ def _arc(start: complex, end: complex) -> np.ndarray:
     return start * np.exp(1j * np.linspace(0.0, np.angle(end / start), 50))
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("oversized", [False, True])
 def test_splines_lie_on_the_envelope_and_their_edges_on_throat_and_root(oversized: bool) -> None:
     hob = oversized_hob(THESIS, 0.2, 10.5) if oversized else None

@@ -71,6 +71,7 @@ def test_every_file_is_rolled_by_the_followers_true_motion(name: str, tmp_path: 
     assert drawing[f"acceleration_jump{suffix}"] < 0.01 * drawing[f"acceleration_peak{suffix}"]
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["flat", "mushroom", "pointed"])
 def test_other_followers_are_rolled_over_a_laser_file(name: str, tmp_path: Path) -> None:
     file = built(tmp_path, ALL[name], 'format = "dxf"\nkerf = 0.2')[1]["files"][0]
@@ -185,7 +186,7 @@ def test_a_refusal_names_the_key_and_a_value_that_works_when_it_is_fed_back(name
     cured({"cam": keys}, refusal)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["too short", "other way", "slides in", "big roller", "face away", "bent face"])
 def test_a_refusal_speaks_ukrainian(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "s.toml"

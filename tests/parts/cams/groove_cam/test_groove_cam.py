@@ -137,6 +137,7 @@ SPOILED = [
 ]
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("wall", "place"), SPOILED)
 def test_one_spoiled_wall_is_found_by_its_lift(wall: str, place: float, tmp_path: Path) -> None:
     """A vertex of one wall is moved towards the roller; the distance to the outline is not asked."""
