@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 from parts.base.content import content
-from parts.base.refusal import SceneError, meant
 from parts.base.texts import ENGLISH, languages
 from parts.scene.files import MOST_BYTES, built_in_scenes, text_of
 
@@ -53,6 +52,9 @@ def in_language(raw: dict[str, Any], source: str, asked: str | None) -> dict[str
 
 def _chosen(table: Any, language: str, source: str, place: str) -> Any:
     """A table whose words stand in one language: the one asked for, else English, else the first."""
+    # ``list`` asks for the language alone and loads nothing of geometry
+    from parts.base.refusal import SceneError, meant
+
     if not isinstance(table, dict):
         return table
     made = dict(table)
