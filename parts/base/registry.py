@@ -112,6 +112,10 @@ KINDS: Index[Kind[Any, Any]] = Index(
             "parts.bodies.step_part:STEP_PART",
             "Solid of a STEP file of one's own, like a motor; taken over as it is, needs the extra cad",
         ),
+        "layered": (
+            "parts.bodies.layered:LAYERED",
+            "Upright body of layers, each within contours of its own: a housing, a plate with counterbores, a cage",
+        ),
         "carrier_plate": (
             "parts.bodies.carrier:CARRIER_PLATE",
             "Plate of a carrier: a hub with an arm for the pin of each satellite, the first on +x, or a round plate",

@@ -24,7 +24,7 @@ SCENE = Path(__file__).parents[3] / "parts" / "scenes" / "power_module_kinematic
 
 
 def module(**keys: Any) -> SceneFile:
-    return scene_from_dict({"assemblies": [{"kind": "power_module", **keys}]}, "t", "t")
+    return scene_from_dict({"assemblies": [{"kind": "power_module_kinematics", **keys}]}, "t", "t")
 
 
 @pytest.mark.sampled(1)

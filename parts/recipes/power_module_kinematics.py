@@ -1,4 +1,4 @@
-"""The assembly ``power_module``: disks and wheels of the power module (thesis) that its motion needs, and nothing else.
+"""The assembly ``power_module_kinematics``: disks and wheels of the power module (thesis) that its motion needs, and nothing else.
 
 From the front: platform 4 on its axle 9, disks 2 and 3 in one plane, a spacer, ring 21 and pinion 19, then what turns
 the platform: the wheels 16, 14, 11 of the thesis (``thesis``, which does not keep it parallel), an idler on each arm,
@@ -54,8 +54,8 @@ _Turns = Annotated[float, Meta(ge=-1000, le=1000, extra={"unit": "turns"})]
 _Teeth = Annotated[int, Meta(ge=12, le=1000)]
 
 
-class PowerModuleKeys(RecipeKeys, kw_only=True, tag="power_module"):
-    """Keys of ``power_module``."""
+class PowerModuleKinematicsKeys(RecipeKeys, kw_only=True, tag="power_module_kinematics"):
+    """Keys of ``power_module_kinematics``."""
 
     orientation: Annotated[
         Literal["cranks", "idlers", "thesis"],
@@ -87,7 +87,7 @@ class PowerModuleKeys(RecipeKeys, kw_only=True, tag="power_module"):
 class _Sizes(Record):
     """What follows from the keys, mm."""
 
-    keys: PowerModuleKeys
+    keys: PowerModuleKinematicsKeys
 
     @property
     def arm(self) -> float:
@@ -158,17 +158,17 @@ class _Sizes(Record):
         return self
 
 
-class PowerModuleRecipe(Recipe[PowerModuleKeys]):
+class PowerModuleKinematicsRecipe(Recipe[PowerModuleKinematicsKeys]):
     """Disks, wheels, links and cranks."""
 
-    name, keys = "power_module", PowerModuleKeys
+    name, keys = "power_module_kinematics", PowerModuleKinematicsKeys
 
-    def expanded(self, keys: PowerModuleKeys) -> Expansion:
+    def expanded(self, keys: PowerModuleKinematicsKeys) -> Expansion:
         """The tables of one module."""
         return _Making(_Sizes(keys).checked()).all()
 
 
-POWER_MODULE = PowerModuleRecipe()
+POWER_MODULE_KINEMATICS = PowerModuleKinematicsRecipe()
 
 
 class _Making(Making):

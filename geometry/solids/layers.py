@@ -1,0 +1,219 @@
+"""Solids of layers: closed contours at heights, material within an odd number of them.
+
+A contour that goes on into the next layer goes on as one wall. What one layer has and the next has not is a plane face:
+the regions between contours, told by how deep they are nested in both layers. Contours of one layer and of its
+neighbours lie within each other or apart; they neither cross nor touch.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import cached_property
+from itertools import combinations, pairwise
+
+import numpy as np
+
+from geometry.base.errors import GeometryError, OffsetError, ParameterError
+from geometry.base.record import Record
+from geometry.curves.curve import Complex
+from geometry.curves.line_arc import Arc
+from geometry.plane.profile import Label, Profile, Region, Segment
+from geometry.solids.body import Body, BodyBuilder
+from geometry.solids.plate import Edge, moved_edges
+
+# points of an arc where contours are held against each other
+_SAMPLES = 128
+
+
+class Contour(Record, dict=True):
+    """A closed counter-clockwise chain of lines and arcs, mm; a circle is one of two arcs about its centre."""
+
+    edges: tuple[Edge, ...]
+
+    @cached_property
+    def circle(self) -> tuple[complex, float] | None:
+        """Centre and radius of one that is a circle."""
+        arcs = [e for e in self.edges if isinstance(e, Arc)]
+        one = len(arcs) == len(self.edges) and len({(a.centre, a.radius) for a in arcs}) == 1
+        return (arcs[0].centre, arcs[0].radius) if one else None
+
+    @cached_property
+    def points(self) -> Complex:
+        """Along it, without the end."""
+        found = [e.point(np.linspace(*e.domain, _SAMPLES if isinstance(e, Arc) else 2)[:-1]) for e in self.edges]
+        return np.concatenate(found)
+
+    @cached_property
+    def box(self) -> tuple[float, float, float, float]:
+        """Least and greatest x, least and greatest y."""
+        x, y = self.points.real, self.points.imag
+        return float(x.min()), float(x.max()), float(y.min()), float(y.max())
+
+    def moved(self, offset: float, *, hole: bool) -> Profile:
+        """The boundary of the material within it, or about it, moved ``offset`` mm out of that."""
+        edges = moved_edges(self.edges, -offset if hole else offset)
+        if hole:
+            edges = tuple(e.reversed() for e in reversed(edges))
+        return Profile(tuple(Segment(e, Label.HOLE if hole else Label.BODY) for e in edges))
+
+
+class Layer(Record):
+    """So thick, mm, within an odd number of contours."""
+
+    thickness: float
+    contours: tuple[Contour, ...]
+
+
+class Layers(Record, dict=True):
+    """Layers upon each other, the lowest at z = 0."""
+
+    layers: tuple[Layer, ...]
+
+    @cached_property
+    def heights(self) -> tuple[float, ...]:
+        """Of all faces, from 0 upwards, mm."""
+        return (0.0, *np.cumsum([layer.thickness for layer in self.layers]).tolist())
+
+    @cached_property
+    def _depths(self) -> list[dict[Contour, bool]]:
+        """For each layer its contours, and whether each is a hole."""
+        return [{c: _nested(c, layer.contours) % 2 == 1 for c in layer.contours} for layer in self.layers]
+
+    def checked(self) -> Layers:
+        """Refuse contours that cross or touch in a layer, or one layer's and the next one's.
+
+        Raises
+        ------
+        ParameterError
+            ``layers.item k``.
+        """
+        for number, layer in enumerate(self.layers, 1):
+            above = self.layers[number].contours if number < len(self.layers) else ()
+            both = tuple(dict.fromkeys((*layer.contours, *above)))
+            if len(set(layer.contours)) < len(layer.contours) or any(_crosses(a, b) for a, b in combinations(both, 2)):
+                raise ParameterError(f"layers.item {number}", len(layer.contours), "contours_cross")
+        for number, (low, high) in enumerate(pairwise(self._depths), 1):
+            if any(high.get(c, hole) != hole for c, hole in low.items()):
+                raise ParameterError(f"layers.item {number}", len(low), "contours_cross")
+        if len(set(self._pieces().values())) > 1:
+            raise ParameterError("layers", len(self.layers), "layers_fall_apart")
+        return self
+
+    def _pieces(self) -> dict[tuple[int, Contour], int]:
+        """For the outlines of every layer, the number of the piece that they belong to."""
+        found = {(k, c): 0 for k, depths in enumerate(self._depths) for c, hole in depths.items() if not hole}
+        found = {key: number for number, key in enumerate(found)}
+        for k, (low, high) in enumerate(pairwise(self._depths)):
+            for inner in {**low, **high}:
+                owners = [_owner(inner, side) for side in (low, high)]
+                if owners[0] is None or owners[1] is None:
+                    continue
+                one, two = found[k, owners[0]], found[k + 1, owners[1]]
+                found = {key: one if number == two else number for key, number in found.items()}
+        return found
+
+    def region(self, offset: float = 0.0) -> Region:
+        """The largest piece of the layer with the largest outline."""
+        outers = ((c, depths) for depths in self._depths for c, hole in depths.items() if not hole)
+        outer, depths = max(outers, key=lambda found: _extent(found[0]))
+        inside = [c for c, hole in depths.items() if hole and _within(c, outer)]
+        held = [c for c in inside if _nested(c, [*inside, outer]) == 1]
+        return Region(outer.moved(offset, hole=False), tuple(c.moved(offset, hole=True) for c in held))
+
+    def body(self, offset: float = 0.0) -> Body:
+        """The solid, every wall moved ``offset`` mm out of the material.
+
+        Raises
+        ------
+        OffsetError
+            A contour vanishes.
+        """
+        made, heights = BodyBuilder(), self.heights
+        profiles: dict[tuple[Contour, bool], Profile] = {}
+        try:
+            for depths in self._depths:
+                for contour, hole in depths.items():
+                    if (contour, hole) not in profiles:
+                        profiles[contour, hole] = contour.moved(offset, hole=hole)
+        except GeometryError as refusal:
+            raise OffsetError(offset, str(refusal.args[-1]), 0.0) from refusal
+        empty: dict[Contour, bool] = {}
+        walls = [empty, *self._depths, empty]
+        for k, depths in enumerate(self._depths):
+            for contour, hole in depths.items():
+                if contour in walls[k]:
+                    continue
+                end = k + 1
+                while contour in walls[end + 1]:
+                    end += 1
+                made.run(profiles[contour, hole], ((heights[k], 0.0, 0j), (heights[end], 0.0, 0j)))
+        for z, (low, high) in zip(heights, pairwise(walls), strict=True):
+            self._faces(made, z, low, high, profiles)
+        return made.body()
+
+    def _faces(
+        self,
+        made: BodyBuilder,
+        z: float,
+        low: dict[Contour, bool],
+        high: dict[Contour, bool],
+        profiles: dict[tuple[Contour, bool], Profile],
+    ) -> None:
+        """The plane faces at a height between two layers."""
+        edges = [c for c in {**low, **high} if (c in low) != (c in high)]
+        both = [c for c in low if c in high]
+        loops = {c: made.loop(profiles[c, {**low, **high}[c]], z) for c in edges}
+        depth = {c: _nested(c, (*edges, *both)) for c in (*edges, *both)}
+        for outer in edges:
+            states = [_nested(outer, [*side]) % 2 == (outer not in side) for side in (low, high)]
+            if states[0] == states[1]:
+                continue
+            inner = [c for c in edges if depth[c] == depth[outer] + 1 and _within(c, outer)]
+            made.cap(loops[outer], [loops[c] for c in inner], up=states[0])
+
+
+def _owner(contour: Contour, depths: dict[Contour, bool]) -> Contour | None:
+    """The outline of the material of a layer just within a contour; None where there is none."""
+    about = [c for c in depths if c == contour or _within(contour, c)]
+    return max(about, key=lambda c: _nested(c, about)) if len(about) % 2 else None
+
+
+def _extent(contour: Contour) -> float:
+    low_x, high_x, low_y, high_y = contour.box
+    return (high_x - low_x) * (high_y - low_y)
+
+
+def _nested(contour: Contour, others: Sequence[Contour]) -> int:
+    """In how many of the others a contour lies."""
+    return sum(_within(contour, other) for other in others if other is not contour and other != contour)
+
+
+def _within(one: Contour, two: Contour) -> bool:
+    """Whether a contour lies within another, given that they do not cross."""
+    a, b = one.box, two.box
+    if not (a[0] > b[0] and a[1] < b[1] and a[2] > b[2] and a[3] < b[3]):
+        return False
+    if two.circle is not None:
+        return abs(complex(one.points[0]) - two.circle[0]) < two.circle[1]
+    spokes = two.points - one.points[0]
+    return bool(abs(np.angle(np.roll(spokes, -1) / spokes).sum()) > math.pi)
+
+
+def _crosses(one: Contour, two: Contour) -> bool:
+    """Whether two contours cross or touch."""
+    a, b = one.box, two.box
+    if a[1] < b[0] or b[1] < a[0] or a[3] < b[2] or b[3] < a[2]:
+        return False
+    if one.circle is not None and two.circle is not None:
+        distance = abs(one.circle[0] - two.circle[0])
+        return abs(one.circle[1] - two.circle[1]) <= distance <= one.circle[1] + two.circle[1]
+    p, q = one.points, two.points
+    u, v = np.roll(p, -1) - p, np.roll(q, -1) - q
+
+    def sides(way: Complex, start: Complex, points: Complex) -> Complex:
+        return (np.conj(way)[:, None] * (points[None, :] - start[:, None])).imag
+
+    over = sides(u, p, q) * sides(u, p, np.roll(q, -1)) <= 0
+    under = sides(v, q, p) * sides(v, q, np.roll(p, -1)) <= 0
+    return bool((over & under.T).any())

@@ -1,0 +1,141 @@
+"""The part kind ``layered``: an upright body of layers, each within its own contours: housings, counterbores, cages."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Annotated
+
+from msgspec import Meta, Struct, field
+
+from geometry.base.errors import GeometryError, ParameterError
+from parts.base.kind import Kind, Others, Report
+from parts.bodies.plate import Slots
+from parts.keys.base import LEAST_HOLE, MaterialKeys, mm
+
+if TYPE_CHECKING:
+    from geometry.plane.offset_region import OffsetRegion
+    from geometry.solids.body import Body
+    from geometry.solids.layers import Contour, Layers
+
+_MOST = 100_000.0
+_Place = Annotated[float, mm("a coordinate", least=-_MOST, most=_MOST)]
+
+
+class CircleTable(Struct, forbid_unknown_fields=True):
+    """A circle: an outline or a hole, by how many contours it lies in."""
+
+    diameter: Annotated[float, mm("diameter of the circle", least=LEAST_HOLE, most=_MOST)]
+    at: Annotated[tuple[_Place, _Place], mm("x, y of its centre")] = (0.0, 0.0)
+
+
+class PolygonTable(Struct, forbid_unknown_fields=True):
+    """A polygon, its corners rounded alike."""
+
+    points: Annotated[list[tuple[_Place, _Place]], Meta(min_length=3, max_length=1000, description="x, y of corners")]
+    corner_radius: Annotated[float, mm("rounding of the corners", least=0, most=_MOST)] = 0.0
+
+
+class LayerTable(Struct, forbid_unknown_fields=True, kw_only=True):
+    """A layer: material is what lies within an odd number of its contours."""
+
+    thickness: Annotated[float, mm("thickness of the layer", above=0, most=_MOST)]
+    circles: Annotated[list[CircleTable], Meta(max_length=2000)] = field(default_factory=list)
+    polygons: Annotated[list[PolygonTable], Meta(max_length=1000)] = field(default_factory=list)
+    slots: Slots = field(default_factory=list)
+
+
+_BOX = [
+    {"thickness": 4.0, "polygons": [{"points": [[-30, -20], [30, -20], [30, 20], [-30, 20]], "corner_radius": 5.0}]},
+    {"thickness": 8.0, "circles": [{"diameter": 30.0}, {"diameter": 20.0}]},
+]
+
+
+class LayeredSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="layered"):
+    """Keys of ``layered``."""
+
+    layers: Annotated[
+        list[LayerTable],
+        Meta(
+            min_length=1,
+            max_length=100,
+            description="from the lowest upwards; contours of neighbours are the same, apart, or within each other",
+            examples=[_BOX],
+        ),
+    ]
+
+
+class Layered(Kind[LayeredSpec, "Layers"]):
+    """Layers upon each other, the lower face of the lowest at z = 0."""
+
+    name, keys, has_outline = "layered", LayeredSpec, False
+
+    def thing(self, keys: LayeredSpec, others: Others) -> Layers:
+        """The layers, checked to have contours that neither cross nor touch."""
+        from geometry.solids.layers import Layer, Layers
+
+        made = []
+        for number, table in enumerate(keys.layers, 1):
+            if not (table.circles or table.polygons or table.slots):
+                raise ParameterError(f"layers.item {number}", 0, "layer_of_nothing")
+            made.append(Layer(table.thickness, tuple(_contours(table, f"layers.item {number}"))))
+        return Layers(tuple(made)).checked()
+
+    def section(self, keys: LayeredSpec, thing: Layers, offset: float) -> OffsetRegion:
+        """The layer with the largest outline."""
+        from geometry.plane.offset_region import OffsetRegion
+
+        return OffsetRegion(thing.region(offset), offset, ())
+
+    def solid(self, keys: LayeredSpec, thing: Layers, offset: float) -> Body:
+        """The layers."""
+        return thing.body(offset)
+
+    def height(self, keys: LayeredSpec, thing: Layers) -> float:
+        """Of all layers."""
+        return thing.heights[-1]
+
+    def is_plate(self, keys: LayeredSpec, thing: Layers) -> bool:
+        """Never: a layer may differ from the next."""
+        return False
+
+    def report(self, keys: LayeredSpec, thing: Layers) -> Report:
+        """Its size."""
+        low_x, high_x, low_y, high_y = (f(c.box[k] for layer in thing.layers for c in layer.contours)
+                                        for k, f in enumerate((min, max, min, max)))  # fmt: skip
+        return Report(quantities={"width": high_x - low_x, "height": high_y - low_y, "length": thing.heights[-1]})
+
+
+def _contours(table: LayerTable, place: str) -> list[Contour]:
+    """The contours of a layer, counter-clockwise.
+
+    Raises
+    ------
+    ParameterError
+        Roundings that meet, or a slot that ends where it begins.
+    """
+    from geometry.curves.line_arc import Arc
+    from geometry.solids.layers import Contour
+    from geometry.solids.plate import belt, rounded
+
+    found = []
+    for circle in table.circles:
+        centre, radius = complex(*circle.at), circle.diameter / 2
+        found.append(Contour((Arc(centre, radius, 0.0, math.pi), Arc(centre, radius, math.pi, math.pi))))
+    for number, polygon in enumerate(table.polygons, 1):
+        corners = [complex(*p) for p in polygon.points]
+        area = sum((a.conjugate() * b).imag for a, b in zip(corners, [*corners[1:], corners[0]], strict=True))
+        ordered = corners if area > 0 else corners[::-1]
+        try:
+            found.append(Contour(rounded([(p, polygon.corner_radius) for p in ordered])))
+        except (GeometryError, ZeroDivisionError) as error:
+            name = f"{place}.polygons.item {number}.corner_radius"
+            raise ParameterError(name, polygon.corner_radius, "roundings_meet") from error
+    for number, slot in enumerate(table.slots, 1):
+        if slot.start == slot.end:
+            raise ParameterError(f"{place}.slots.item {number}.end", list(slot.end), "slot_ends_at_start")
+        ends = ((complex(*at), slot.width / 2) for at in (slot.start, slot.end))
+        found.append(Contour(belt(*ends)))
+    return found
+
+
+LAYERED = Layered()

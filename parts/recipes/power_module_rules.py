@@ -1,0 +1,188 @@
+"""Sizes of the power module (thesis): one table of rules, what each belongs to, how it follows, and why.
+
+Names are those of the drivers (``PowerModuleKeys``) and of the rules above; lengths in mm. ``r_``: radius, about the
+axis of the part's own disk; ``z_``: height, 0 is the back of the disks, the front is up. ``CONDITIONS`` are lengths
+that must be left; each names the driver that a refusal names.
+"""
+
+from __future__ import annotations
+
+import ast
+import math
+from collections.abc import Mapping
+from functools import cache
+from types import CodeType
+
+from geometry.base.record import Record
+from parts.base.texts import N_
+
+
+class Rule(Record):
+    """A size: its name, the positions of the parts list that have it, what it is made of, and why so."""
+
+    name: str
+    positions: tuple[int, ...]
+    made_of: str
+    reason: str
+
+
+class Condition(Record):
+    """What must be at least 0, the driver that is to blame where it is not, and what it is."""
+
+    driver: str
+    made_of: str
+    reason: str
+
+
+# of the standard items: hole that a screw passes, diameter and height of its head
+M4, M8, M10, M12, M14 = (4.5, 7.0, 2.8), (9.0, 13.0, 8.0), (11.0, 16.0, 10.0), (13.5, 18.0, 12.0), (15.0, 21.0, 14.0)
+
+_R = Rule
+RULES = (
+    _R("arm", (2, 3), "module * (teeth_21 - teeth_19) / 2", N_("centre distance of ring and pinion without shifts")),
+    _R("r_tip", (19,), "module * (teeth_19 / 2 + 1)", N_("tips of the pinion")),
+    _R("r_root", (19,), "module * (teeth_19 / 2 - 1.25)", N_("roots of the pinion")),
+    _R("r_space", (21,), "module * (teeth_21 / 2 + 1.25)", N_("roots of the ring")),
+    _R("r_journal", (9,), "25", N_("the thread M45 of nut 47 and a shoulder")),
+    _R("r_56", (3, 17, 19), "floor(r_root - 10)", N_("screws M12 within the pinion's roots, with a wall of 4")),
+    _R("r_3", (3,), "ceil(max(r_tip, r_56 + 10 + ball / 2 + 4)) + 2",
+       N_("beyond the pinion's tips, and a wall between the screws' recess and the ball groove")),
+    _R("gap_race", (3, 20, 22, 30, 31, 33), "0.15 * ball", N_("half of the gap between the races: room for the cage")),
+    _R("r_small", (30,), "r_3 + gap_race", N_("circle of the balls between disk 3 and disk 2")),
+    _R("h_33", (33,), "3", N_("screws M4x6 hold by as much")),
+    _R("seat_33", (2, 33), "h_33 + 3", N_("heads of the screws M4 lie below the face of the disk")),
+    _R("r_33_in", (33,), "r_small + gap_race", N_("holds the balls, clear of the cage")),
+    _R("r_33_out", (2, 33), "r_small + ball / 2 + 10", N_("room for the screws M4 beside the ball race")),
+    _R("r_59", (33,), "r_small + ball / 2 + 5.6", N_("screws M4 in the middle of what lies on the disk")),
+    _R("z_upper", (30,), "disk_thickness - seat_33 - ball / 2", N_("balls under the front ring 33")),
+    _R("z_lower", (30,), "seat_33 + ball / 2", N_("balls on the rear ring 33")),
+    _R("r_8", (8,), "r_33_out + 3.5", N_("screws M4 beside ring 33")),
+    _R("r_8_out", (8,), "r_8 + 3.5", N_("half a head of M4 beyond its screws")),
+    _R("h_shield", (7, 8), "3", N_("screws M4x6 hold by as much")),
+    _R("r_53", (2, 24), "ceil(arm + r_8 + 10)", N_("screws M8 outside of the eccentric bore and its shield")),
+    _R("r_2", (2,), "r_53 + 9", N_("a wall of 5 beyond the screws")),
+    _R("gap_21", (17, 19, 21), "max(axial_gap, 10)", N_("heads M8 of wheel 21 stand between it and the disk")),
+    _R("h_24", (24,), "face_width + gap_21", N_("room for wheel 21 behind the disk")),
+    _R("r_24_in", (24,), "r_53 - 10", N_("a wall of 5 within the screws")),
+    _R("r_21_screws", (21, 22, 23), "ceil(r_space + 8.5)", N_("screws M8 outside of the teeth, with a wall of 4")),
+    _R("r_21", (21, 22), "ceil(r_21_screws + 9.5)", N_("a wall of 5 beyond the screws")),
+    _R("r_22_in", (22, 23), "ceil(r_space) + 1", N_("the pinion's tips stand free of it")),
+    _R("r_25_in", (25,), "r_53 + 7.5", N_("heads M8 of the screws of 24 stand within it")),
+    _R("r_41", (5, 24, 25), "r_25_in + 10", N_("bolts M8 with a wall of 5")),
+    _R("r_24", (24,), "r_41 + 10", N_("a wall of 6 beyond the bolts")),
+    _R("h_5", (5,), "2 * ball", N_("screws M8x25 hold by 9 mm")),
+    _R("r_large", (31,), "ceil(r_41 + 7.5 + ball / 2)",
+       N_("circle of the balls about disk 2 and about wheel 22: a wall of 3 between groove and screws")),
+    _R("r_5", (5, 22), "r_large - gap_race", N_("inner race: the groove is half a ball but for the gap")),
+    _R("r_20_in", (1, 6, 20), "r_large + gap_race", N_("outer race: quarter grooves, clear of the cage")),
+    _R("r_20_screws", (20,), "r_large + ball / 2 + 7.5", N_("a wall of 3 between groove and screws")),
+    _R("r_20", (20,), "r_20_screws + 9.5", N_("a wall of 5 beyond the screws")),
+    _R("h_20", (20,), "1.5 * ball", N_("half a ball and a wall, so that the flange of 22 is clear of the heads 41")),
+    _R("r_race", (1,), "r_large + ball / 2", N_("the balls about disk 2 run on the cylinder of the body")),
+    _R("r_6_screws", (6,), "r_race + 8.5", N_("screws M8 with a wall of 4")),
+    _R("r_6", (6,), "r_6_screws + 8.5", N_("half a head of M8 beyond its screws")),
+    _R("z_ball", (5, 31), "h_5 / 2", N_("the middle of guide 5")),
+    _R("small_balls", (30, 61), "round(balls / 2 * r_small / (r_small + r_large))",
+       N_("two rows of each circle share the balls of the list as the circles are long")),
+    _R("large_balls", (31, 61), "balls // 2 - small_balls", N_("the rest, twice")),
+    _R("r_7_in", (7,), "arm + r_8_out + 1.5", N_("clear of shield 8")),
+    _R("z_1", (25, 26), "-h_24 - worm_wheel_width / 2", N_("middle of worm wheel 25, right behind ring 24")),
+    _R("z_20", (20, 31), "-h_24 - worm_wheel_width - h_20", N_("balls of wheel 22, between both rings 20")),
+    _R("h_seat", (1, 26, 27), "ceil(worm_module * (worm_quotient / 2 + 1)) + 1",
+       N_("half of the tunnel through which the worm comes in")),
+    _R("z_2", (23, 26), "z_20 - h_20 - 8 - axial_gap - h_seat - 8",
+       N_("worm and its seat lie below the heads of the rings 20: so far are the worm wheels apart")),
+    _R("z_23", (23,), "z_2 - worm_wheel_width / 2", N_("lower face of worm wheel 23")),
+    _R("h_22", (22,), "-h_24 - z_23 - worm_wheel_width", N_("from wheel 21 to worm wheel 23")),
+    _R("a_1", (26,), "worm_module * (worm_teeth_25 + worm_quotient) / 2", N_("centre distance, no shift")),
+    _R("a_2", (26,), "worm_module * (worm_teeth_23 + worm_quotient) / 2", N_("centre distance, no shift")),
+    _R("r_25", (25,), "worm_module * (worm_teeth_25 / 2 + 2)", N_("largest radius by GOST 19650, one start")),
+    _R("r_23", (23,), "worm_module * (worm_teeth_23 / 2 + 2)", N_("largest radius by GOST 19650, one start")),
+    _R("h_12", (12,), "8", N_("screws M8x16 hold by as much")),
+    _R("z_11", (11,), "-h_24 - h_12 - 10 - wheel_width", N_("behind the heads of cover 12")),
+    _R("h_47", (9,), "12", N_("height of nut 47")),
+    _R("z_16", (16,), "z_11 - h_47 - axial_gap - 8 - wheel_width",
+       N_("nut 47 passes over wheel 16 and its screws where O3 is near O1")),
+    _R("h_14", (14,), "z_11 + wheel_width - z_16", N_("meshes with 16 and with 11, which stand in two planes")),
+    _R("r_wheel", (11, 14, 16), "arm / 2 + wheel_module", N_("tips of the wheels, whose mesh spans an arm")),
+    _R("r_54", (16, 18), "arm / 2 - 1.25 * wheel_module - 8.5", N_("screws M8 within the teeth, with a wall of 4")),
+    _R("h_18", (18,), "75 - wheel_width - 12", N_("screws M8x75 hold the body by 12 mm")),
+    _R("z_boss", (1,), "z_16 - h_18", N_("what ring 18 stands on")),
+    _R("z_floor", (1,), "min(z_23 - 8 - axial_gap, z_2 - h_seat - 4, z_boss - 12)",
+       N_("clear of the heads behind wheel 23, and of the seat of worm II")),
+    _R("h_floor", (1,), "30", N_("bolts M12x45 with their nuts")),
+    _R("z_lip", (1,), "z_1 + h_seat + 4", N_("a wall of 4 over the seat of worm I")),
+    _R("x_seat", (1, 26), "ceil(max(beside(r_25 + axial_gap, a_1 - h_seat - 8), beside(r_23 + axial_gap, a_2 - h_seat"
+       " - 8), worm_length / 2 + 8))", N_("seat for the cover, clear of both worm wheels")),
+    _R("r_worm_journal", (26, 27, 28), "floor(worm_module * (worm_quotient / 2 - 1.2) - 1)", N_("within the roots")),
+    _R("x_end", (1, 26), "ceil(max(beside(r_25 + axial_gap, a_1 - r_worm_journal - 9), beside(r_23 + axial_gap, a_2 -"
+       " r_worm_journal - 9), worm_length / 2 + 4))", N_("seat for the far end, clear of both worm wheels")),
+    _R("w_seat", (1, 27), "30", N_("two set screws M8 over each cover")),
+    _R("half_room", (1,), "ceil(a_1 + h_seat + 8 + axial_gap)", N_("the seat of worm I stands clear of the wall")),
+    _R("half", (1,), "half_room + 12", N_("wall of a casting")),
+    _R("r_55", (4, 9), "r_journal + 11", N_("counterbores for M10 with a wall of 2.5 to the spigot")),
+    _R("z_flange", (9,), "disk_thickness + 1", N_("turns over disk 3")),
+    _R("z_4", (4,), "z_flange + 12", N_("screws M10x30 hold the flange by 11 mm; over the heads of the shields")),
+)  # fmt: skip
+
+_C = Condition
+CONDITIONS = (
+    _C("teeth", "teeth_21 - teeth_19 - 1", N_("room of the pinion in the ring")),
+    _C("teeth", "r_56 - 11 - 3 - arm - r_journal - clearance",
+       N_("wall between the axle of the platform and the recess of disk 3")),
+    _C("teeth", "arm - r_journal - clearance - 20 - 3", N_("wall between the axle of the platform and nut 46")),
+    _C("teeth", "r_24_in - r_21 - 1", N_("gap between wheel 21 and ring 24")),
+    _C("teeth", "r_22_in - 2 * arm - r_wheel - 2", N_("gap about wheel 11 where it stands outermost")),
+    _C("teeth", "worm_module * (worm_teeth_25 / 2 - 1.2) - r_20_screws - 4 - 4", N_("wall under the teeth of wheel 25")),
+    _C("teeth", "worm_module * (worm_teeth_23 / 2 - 1.2) - r_21 - 2", N_("wall under the teeth of wheel 23")),
+    _C("disk_thickness", "z_upper - z_lower - 1.2 * ball - 0.2", N_("room for both rows of balls in disk 3")),
+    _C("disk_thickness", "disk_thickness - 18 - 10", N_("floor of the recess of disk 3 over its nut")),
+    _C("ball", "h_5 - 15", N_("height of guide 5 for its screws")),
+    _C("ball", "25 - h_5 - 5", N_("thread of the screws of guide 5")),
+    _C("ball", "45 - 2 * h_20 - 8", N_("thread of the screws of the rings 20")),
+    _C("ball", "h_20 - ball / 2 - 7.3", N_("flange of 22 below the heads 41")),
+    _C("balls", "2 * pi * r_small / max(small_balls, 1) - ball - 3", N_("room between two balls of the small circle")),
+    _C("balls", "2 * pi * r_large / max(large_balls, 1) - ball - 3", N_("room between two balls of the large circle")),
+    _C("wheel_module", "r_54 - 4.5 - 7 ", N_("room for six screws in wheel 16")),
+    _C("wheel_width", "75 - wheel_width - 12 - 5", N_("height of ring 18")),
+    _C("face_width", "45 - face_width - 8", N_("thread of the screws of wheel 21")),
+    _C("face_width", "45 - h_24 - 8", N_("thread of the screws of ring 24")),
+    _C("face_width", "face_width - 18", N_("thread of the screws M12 in the pinion")),
+    _C("worm_wheel_width", "45 - worm_wheel_width - 8", N_("thread of the screws of wheel 23")),
+    _C("worm_wheel_width", "40 - worm_wheel_width - 8", N_("thread of the bolts of wheel 25")),
+    _C("worm_wheel_width", "worm_wheel_width - (45 - 2 * h_20)", N_("thread of the rings 20 in wheel 25")),
+    _C("axial_gap", "35 - (disk_thickness - 18) - gap_21 - 0.5 - 8", N_("thread of the screws M12 in the pinion")),
+    _C("worm_module", "z_ball - ball / 2 - z_lip - 4", N_("lip of the body over worm I")),
+    _C("worm_module", "a_2 - h_seat - 8 - r_21 - 2", N_("room between the seat of worm II and ring 22")),
+    _C("platform_size", "platform_size / 2 - r_55 - 12", N_("edge of the platform beyond its screws")),
+)  # fmt: skip
+
+
+def _beside(reach: float, height: float) -> float:
+    """Half the chord of a circle at a distance from its middle; 0 where that is outside of it."""
+    return math.sqrt(max(reach**2 - height**2, 0.0))
+
+
+_KNOWN: Mapping[str, object] = {
+    "ceil": lambda x: math.ceil(x - 1e-9), "floor": lambda x: math.floor(x + 1e-9), "max": max, "min": min,
+    "round": round, "pi": math.pi, "beside": _beside,
+}  # fmt: skip
+
+
+@cache
+def _code(made_of: str) -> CodeType:
+    return compile(ast.parse(made_of, mode="eval"), made_of, "eval")
+
+
+def sizes(drivers: Mapping[str, float]) -> dict[str, float]:
+    """The drivers and every size by its name."""
+    found = dict(drivers)
+    for rule in RULES:
+        found[rule.name] = valued(rule.made_of, found)
+    return found
+
+
+def valued(made_of: str, known: Mapping[str, float]) -> float:
+    """What a rule or a condition comes to."""
+    value: float = eval(_code(made_of), {"__builtins__": {}, **_KNOWN}, dict(known))
+    return value
