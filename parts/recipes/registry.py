@@ -17,6 +17,10 @@ RECIPES: Index[Recipe[Any]] = Index(
         ),
         "power_module": (
             "parts.recipes.power_module:POWER_MODULE",
+            "Two-coordinate power module of the thesis: every position of its parts list, sized by rules",
+        ),
+        "power_module_kinematics": (
+            "parts.recipes.power_module_kinematics:POWER_MODULE_KINEMATICS",
             "Disks and wheels of the two-disk power module; cranks, idlers or the thesis's wheels turn its platform",
         ),
         "power_table": (

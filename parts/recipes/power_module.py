@@ -1,0 +1,681 @@
+"""The assembly ``power_module``: the two-coordinate power table of the thesis, every position of its parts list.
+
+Sizes follow by the rules of ``power_module_rules``. From the front: platform 4; shields 7, 8; disk 2 with disk 3 in it on
+two rows of balls, in the body on a third; wheel 21 with pinion 19 behind them; ring 24 and worm wheel 25 on disk 2; ring
+22, the inner race of the fourth row, and worm wheel 23 on wheel 21; the wheels 16, 14, 11 that turn the platform; both
+worms in the body. Each worm comes in through the seat that its cover then closes. Threads are plain cylinders of the
+nominal diameter. The groove that section 2.3 has in wheel 21 is turned in ring 22, one body with it.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from typing import Annotated, Literal
+
+from msgspec import Meta
+
+from geometry.base.errors import Nearest, ParameterError
+from parts.base.texts import N_, words
+from parts.keys.base import mm
+from parts.recipes.making import Making, place
+from parts.recipes.power_module_rules import CONDITIONS, M4, M8, M10, M12, sizes, valued
+from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
+
+_Turns = Annotated[float, Meta(ge=-1000, le=1000, extra={"unit": "turns"})]
+_Teeth = Annotated[int, Meta(ge=12, le=1000)]
+# of the M20 nut: radius, height; of the M45 nut: radius; across flats of M8 and M12, height of their heads and nuts
+_NUT_20, _NUT_45, _HEX_8, _HEX_12 = (17.0, 8.0), 35.0, (13.0, 5.3), (18.0, 7.5, 10.8)
+# step of a casting from one level to the next, play of what is turned by hand, mm
+_STEP, _PLAY = 1.0, 0.05
+
+STEEL, IRON, BRONZE, BRASS = "steel", "cast iron", "bronze", "brass"
+# by part: position, name, material, colour
+PARTS: Mapping[str, tuple[int, str, str, str]] = {
+    "body": (1, N_("Housing"), IRON, "#b8bfc4"),
+    "disk_2": (2, N_("Outer disk"), IRON, "#d9a066"),
+    "disk_3": (3, N_("Inner disk"), STEEL, "#e6c08a"),
+    "platform": (4, N_("Platform"), IRON, "#f2e2b6"),
+    "guide_5": (5, N_("Clip-on guide"), STEEL, "#8fa8b8"),
+    "guide_6": (6, N_("Clip-on guide"), STEEL, "#7f98a8"),
+    "shield_7": (7, N_("Protective disk"), STEEL, "#cfd4d8"),
+    "shield_8": (8, N_("Protective disk"), STEEL, "#dfe3e6"),
+    "platform_axle": (9, N_("Platform axle"), STEEL, "#a9b1b8"),
+    "spacer_10": (10, N_("Spacer ring"), STEEL, "#c2c8cc"),
+    "platform_wheel": (11, N_("Platform gear wheel"), STEEL, "#c08040"),
+    "cover_12": (12, N_("Cover of the platform bearing unit"), STEEL, "#b5c7a3"),
+    "satellite_axle": (13, N_("Satellite gear axle"), STEEL, "#a9b1b8"),
+    "satellite_wheel": (14, N_("Satellite gear wheel"), STEEL, "#b07030"),
+    "spacer_15": (15, N_("Spacer ring"), STEEL, "#c2c8cc"),
+    "central_wheel": (16, N_("Central gear wheel"), STEEL, "#c08040"),
+    "sleeve_17": (17, N_("Spacer sleeve"), STEEL, "#c2c8cc"),
+    "spacer_18": (18, N_("Spacer ring"), STEEL, "#c2c8cc"),
+    "pinion": (19, N_("Gear wheel of the inner disk"), STEEL, "#4f8fc0"),
+    "bearing_ring": (20, N_("Bearing ring"), STEEL, "#7fa8c9"),
+    "ring": (21, N_("Internal gear wheel"), STEEL, "#9fb0c0"),
+    "spacer_22": (22, N_("Spacer ring"), STEEL, "#8899aa"),
+    "worm_wheel_23": (23, N_("Worm wheel rotating the inner disk"), BRONZE, "#c8955c"),
+    "spacer_24": (24, N_("Spacer ring"), STEEL, "#98a8b0"),
+    "worm_wheel_25": (25, N_("Worm wheel rotating the outer disk"), BRONZE, "#d0a06a"),
+    "worm": (26, N_("Worm shaft"), STEEL, "#9aa5b1"),
+    "end_cover": (27, N_("End cover"), STEEL, "#b5c7a3"),
+    "spacer_28": (28, N_("Spacer ring"), STEEL, "#c2c8cc"),
+    "snap_ring": (29, N_("Snap ring"), STEEL, "#606a72"),
+    "small_cage": (30, N_("Small cage"), BRASS, "#d8c060"),
+    "large_cage": (31, N_("Large cage"), BRASS, "#d8c060"),
+    "plug": (32, N_("Plug"), STEEL, "#606a72"),
+    "protective_ring": (33, N_("Protective ring"), STEEL, "#9fb8a8"),
+}
+# standard items: position, name, standard; those with "_down" are the same, laid the other way round
+STANDARD: Mapping[str, tuple[int, str, str]] = {
+    "bolt_41": (41, N_("Bolt M8-6gx40"), "7805-70"),
+    "bolt_42": (42, N_("Bolt M12-6gx45"), "7805-70"),
+    "nut_44": (44, N_("Nut M12-6H"), "5927-70"),
+    "nut_46": (46, N_("Nut M20x1.5-6H"), "11871-88"),
+    "nut_47": (47, N_("Nut M45x1.5-6H"), "11871-88"),
+    "screw_49": (49, N_("Screw M8-6gx12"), "8878-83"),
+    "screw_51": (51, N_("Screw M8-6gx16"), "11738-84"),
+    "screw_51_down": (51, N_("Screw M8-6gx16"), "11738-84"),
+    "screw_52": (52, N_("Screw M8-6gx25"), "11738-84"),
+    "screw_53": (53, N_("Screw M8-6gx45"), "11738-84"),
+    "screw_53_down": (53, N_("Screw M8-6gx45"), "11738-84"),
+    "screw_54": (54, N_("Screw M8-6gx75"), "11738-84"),
+    "screw_55": (55, N_("Screw M10-6gx30"), "11738-84"),
+    "screw_56": (56, N_("Screw M12-6gx35"), "11738-84"),
+    "screw_57": (57, N_("Screw M14-6gx20"), "11738-84"),
+    "screw_59": (59, N_("Screw M4-6gx6"), "17473-80"),
+    "screw_59_down": (59, N_("Screw M4-6gx6"), "17473-80"),
+    "ball": (61, N_("Ball 8"), "3722-81"),
+}
+_DESIGNATION, _STANDARD = N_("KRB.PM.25.33.13.00.{number}"), N_("GOST {number}")
+
+
+class PowerModuleKeys(RecipeKeys, kw_only=True, tag="power_module"):
+    """Keys of ``power_module``: its drivers."""
+
+    orientation: Annotated[
+        Literal["thesis"], Meta(description="what turns the platform: the wheels 16, 14, 11 of the thesis")
+    ] = "thesis"
+    module: Annotated[float, mm("module of ring and pinion", least=0.1, most=100)] = 3.0
+    teeth: Annotated[tuple[_Teeth, _Teeth], Meta(description="of the pinion 19 and of the ring 21")] = (96, 144)
+    second_arm: (
+        Annotated[float, mm("O2O3; must be what ring and pinion give", above=0, most=1000, example=72.0)] | None
+    ) = None
+    wheel_module: Annotated[float, mm("module of the wheels 11, 14, 16", least=0.1, most=100)] = 2.0
+    worm_module: Annotated[float, mm("module of worms and worm wheels", least=0.1, most=100)] = 5.0
+    worm_quotient: Annotated[float, Meta(ge=4, le=30, description="q = d1 / m of both worms")] = 10.0
+    worm_teeth: Annotated[tuple[_Teeth, _Teeth], Meta(description="of the worm wheels 25 (I) and 23 (II)")] = (128, 106)
+    worm_wheel_width: Annotated[float, mm("of the worm wheels' rims", least=1, most=1000)] = 26.0
+    worm_length: Annotated[float, mm("of the worms' threads", least=1, most=5000)] = 120.0
+    face_width: Annotated[float, mm("of ring and pinion", least=1, most=1000)] = 25.0
+    wheel_width: Annotated[float, mm("of the wheels 11 and 16", least=1, most=1000)] = 15.0
+    disk_thickness: Annotated[float, mm("of disk 2, and with its gaps of disk 3", least=1, most=1000)] = 30.0
+    axial_gap: Annotated[float, mm("between planes that turn against each other", least=0.1, most=100)] = 5.0
+    clearance: Annotated[float, mm("radius of bores that turn on something, beyond it", least=0.01, most=1)] = 0.1
+    ball: Annotated[float, mm("diameter of all balls", least=1, most=100)] = 8.0
+    balls: Annotated[int, Meta(ge=8, le=2000, description="balls of both rows of each circle together")] = 180
+    platform_size: Annotated[float, mm("side of the platform", above=0, most=5000)] = 260.0
+    turns_of_disk: Annotated[_Turns, Meta(description="how far disk 2 is turned")] = 1.0
+    turns_of_ring: Annotated[_Turns, Meta(description="how far wheel 21 is turned")] = -2.0
+    names: Annotated[Literal["en", "uk"], Meta(description="language of titles and designations")] = "en"
+
+
+_DRIVERS = (
+    "module", "wheel_module", "worm_module", "worm_quotient", "worm_wheel_width", "worm_length", "face_width",
+    "wheel_width", "disk_thickness", "axial_gap", "clearance", "ball", "balls", "platform_size",
+)  # fmt: skip
+
+
+def drivers(keys: PowerModuleKeys) -> dict[str, float]:
+    """The drivers by the names that rules have for them."""
+    found = {name: getattr(keys, name) for name in _DRIVERS}
+    return found | {
+        "teeth_19": keys.teeth[0], "teeth_21": keys.teeth[1],
+        "worm_teeth_25": keys.worm_teeth[0], "worm_teeth_23": keys.worm_teeth[1],
+    }  # fmt: skip
+
+
+def checked_sizes(keys: PowerModuleKeys) -> dict[str, float]:
+    """Every size by its rule.
+
+    Raises
+    ------
+    ParameterError
+        A condition is not kept: its driver, what lacks and by how much.
+    """
+    found = sizes(drivers(keys))
+    for condition in CONDITIONS:
+        left = valued(condition.made_of, found)
+        if left < 0:
+            given = getattr(keys, condition.driver)
+            value = list(given) if isinstance(given, tuple) else given
+            raise ParameterError(condition.driver, value, "module_lacks", None, lacks=-left, what=condition.reason)
+    arm = found["arm"]
+    if keys.second_arm is not None and abs(keys.second_arm - arm) > 1e-9:
+        raise ParameterError("second_arm", keys.second_arm, "arm_of_ring_and_pinion", Nearest(arm), arm=arm)
+    whole = arm / keys.wheel_module
+    if abs(whole - round(whole)) > 1e-9 or round(whole) < 12:
+        raise ParameterError("wheel_module", keys.wheel_module, "wheels_do_not_span_arm", None, arm=arm)
+    return found
+
+
+class PowerModuleRecipe(Recipe[PowerModuleKeys]):
+    """The whole module."""
+
+    name, keys = "power_module", PowerModuleKeys
+
+    def expanded(self, keys: PowerModuleKeys) -> Expansion:
+        """The tables of one module."""
+        return _Making(keys).all()
+
+
+POWER_MODULE = PowerModuleRecipe()
+
+
+class _Making(Making):
+    """The tables as they grow; heights above the back of the disks."""
+
+    def __init__(self, keys: PowerModuleKeys) -> None:
+        self.keys, self.s = keys, checked_sizes(keys)
+        super().__init__(keys.disk_thickness, None, {name: row[3] for name, row in PARTS.items()})
+        self.within = ""
+        # heights of what others are fixed to
+        self.low = {"body": self.s["z_floor"] - self.s["h_floor"]}
+
+    def all(self) -> Expansion:
+        """All of it."""
+        self._body()
+        self._outer_disk()
+        self._ring()
+        self._inner_disk()
+        self._platform()
+        self._worms()
+        keys = self.keys
+        self.found.drives += [
+            {"instance": "disk_2", "turns": keys.turns_of_disk},
+            {"instance": "ring", "turns": keys.turns_of_ring},
+        ]
+        self._named()
+        self.found.origins |= {
+            "drives[1].turns": "turns_of_disk", "drives[2].turns": "turns_of_ring",
+            "parts.ring.number_of_teeth": "teeth", "parts.pinion.number_of_teeth": "teeth",
+            "parts.ring.module": "module", "parts.pinion.module": "module",
+            "parts.worm.module": "worm_module", "parts.worm_wheel_25.module": "worm_module",
+            "parts.worm_wheel_23.module": "worm_module",
+        }  # fmt: skip
+        return self.found
+
+    def _named(self) -> None:
+        """Position, names, material and standard of every part."""
+        told, uk = words(self.keys.names), words("uk")
+        for name, table in self.found.parts.items():
+            if name in PARTS:
+                position, title, material, colour = PARTS[name]
+                number = told.text(_DESIGNATION, number=f"{position:02}")
+                table |= {"designation": number, "material": material, "colour": colour}
+            else:
+                position, title, standard = STANDARD[name]
+                table |= {"standard": told.text(_STANDARD, number=standard), "material": STEEL, "colour": "#5f6870"}
+            table |= {"position": position, "title": told.text(title), "title_uk": uk.text(title)}
+
+    def _set(self, first: str, instance: str, part: str, z: float, at: complex = 0j, **more: object) -> None:
+        """An instance or a group of them (``count``), one body with another; ``z``: its lower face."""
+        table: Table = {"part": part, "subassembly": self.within, **more}
+        self.found.instances[instance] = table
+        self.low[instance] = z
+        self.mate("fixed", first, instance, offset=place(at, z - self.low[first]))
+
+    def _circle(self, first: str, name: str, part: str, count: int, radius: float, z: float, start: float = 0.0) -> None:
+        """A group on a circle about the axis of what it is fixed to; ``start``: its first one, degrees."""
+        self._set(first, name, part, z, cmath.rect(radius, math.radians(start)), count=count)
+
+    def _turned(self, name: str, points: Sequence[Sequence[float]], *holes: Table) -> None:
+        """A turned part: r, z and the arc to the next point, z above its own lower face."""
+        rows = [dict(zip(("r", "z", "arc"), (round(x, 6) for x in row), strict=False)) for row in points]
+        table: Table = {"kind": "turned", "points": rows}
+        self.found.parts[name] = table | ({"holes": list(holes)} if holes else {})
+
+    def _tube(self, name: str, inner: float, outer: float, height: float, *holes: Table) -> None:
+        self._turned(name, [(inner, 0), (outer, 0), (outer, height), (inner, height)], *holes)
+
+    def _layers(self, name: str, layers: Sequence[tuple[float, Table]]) -> None:
+        """A part of layers: thickness and contours of each; what is of no thickness is left out."""
+        rows = [{"thickness": round(thick, 6), **table} for thick, table in layers if thick > 1e-9]
+        self.found.parts[name] = {"kind": "layered", "layers": rows}
+
+    def _screw(self, name: str, diameter: float, length: float, head: tuple[float, float], *, down: bool = False) -> None:
+        """Shank and round head, its tip below; ``down``: its head below."""
+        shank, (wide, high) = diameter / 2, head
+        points = [(0.0, 0.0), (shank, 0.0), (shank, length), (wide / 2, length), (wide / 2, length + high)]
+        points += [(0.0, length + high)]
+        self._turned(name, [(r, length + high - z) for r, z in points] if down else points)
+
+    # -- what stands still
+
+    def _body(self) -> None:
+        s, keys = self.s, self.keys
+        self.within = "housing"
+        self.found.instances["body"] = {
+            "part": "body", "at": [0.0, 0.0, round(self.low["body"], 6)], "held": True, "subassembly": self.within,
+        }  # fmt: skip
+        self._layers("body", self._casting())
+        # the guide over the balls of disk 2, its screws in the lip
+        count = 20
+        self._tube("guide_6", s["r_20_in"], s["r_6"], keys.ball, _holes(count, M8[0], s["r_6_screws"]))
+        top = s["z_ball"] + keys.ball / 2
+        self._set("body", "guide_6", "guide_6", top)
+        self._screw("screw_51", 8, 16, M8[1:])
+        self._circle("body", "guide_6_screw", "screw_51", count, s["r_6_screws"], top + keys.ball - 16)
+        # what holds the central wheel
+        self._tube("spacer_18", 10.0, s["arm"] / 2 - 1.25 * keys.wheel_module, s["h_18"], _holes(6, 8, s["r_54"]))
+        self._set("body", "spacer_18", "spacer_18", s["z_boss"])
+        self._wheel("central_wheel", keys.wheel_width, 20.0, holes=_holes(6, M8[0], s["r_54"]))
+        self._set("body", "central_wheel", "central_wheel", s["z_16"])
+        self._screw("screw_54", 8, 75, M8[1:])
+        self._circle("body", "central_screw", "screw_54", 6, s["r_54"], s["z_16"] + keys.wheel_width - 75)
+        # to the bed
+        self._hex("bolt_42", 12, 45, _HEX_12[:2])
+        self._layers("nut_44", [(_HEX_12[2], {"polygons": [_hexagon(_HEX_12[0])], "circles": [_round(12)]})])
+        out = s["half"] + 20
+        for k, at in enumerate(_around(out), 1):
+            self._set("body", f"bolt_42_{k}", "bolt_42", s["z_floor"] - 45, at)
+            self._set("body", f"nut_44_{k}", "nut_44", self.low["body"] - _HEX_12[2], at)
+        flange, plug = 5.0, 20.0
+        self._turned("plug", [(0, 0), (15, 0), (15, flange), (10, flange), (10, flange + plug), (0, flange + plug)])
+        for k, at in enumerate(self._plugs(), 1):
+            self._set("body", f"plug_{k}", "plug", self.low["body"] - flange, at)
+
+    def _plugs(self) -> list[complex]:
+        """Holes in the floor of the casting."""
+        return [complex(side * (self.s["half_room"] - 30)) for side in (1, -1)]
+
+    def _casting(self) -> list[tuple[float, Table]]:
+        """The body's layers from the flange to the lip."""
+        s, keys = self.s, self.keys
+        ball = keys.ball / 2
+        levels = {self.low["body"], s["z_floor"], s["z_boss"], s["z_lip"], s["z_ball"] - ball, s["z_ball"] + ball}
+        levels.add(s["z_ball"] + ball - 10)
+        seats = [seat for worm in (1, 2) for seat in self._seats(worm)]
+        for _, _, bottom, top, cap in seats:
+            levels |= {bottom, top, cap}
+        heights = sorted(levels)
+        found = []
+        for low, high in pairwise(heights):
+            circles: list[Table] = []
+            polygons: list[Table] = [_square(s["half"])]
+            if high <= s["z_floor"]:
+                polygons = [_square(s["half"] + 40)]
+                circles += [_round(M12[0], at) for at in _around(s["half"] + 20)]
+                circles += [_round(20, at) for at in self._plugs()]
+            elif high <= s["z_lip"]:
+                polygons.append(_square(s["half_room"]))
+                if high <= s["z_boss"]:
+                    circles.append(_round(s["arm"] + 6))
+                    circles += [_round(8, at) for at in _on_circle(6, s["r_54"])]
+                for rows in seats:
+                    polygons += _seat_at(rows, (low + high) / 2)
+            else:
+                race = low >= s["z_ball"] - ball
+                circles.append(_round(2 * (s["r_race"] if race else s["r_20_in"])))
+                if low >= s["z_ball"] + ball - 10:
+                    circles += [_round(8, at) for at in _on_circle(20, s["r_6_screws"])]
+            for worm in (1, 2):
+                if low >= s[f"z_{worm}"] + s["h_seat"]:
+                    circles += [_round(8, at) for at in self._set_screws(worm) if worm == 1 or high <= self._cap(2)]
+            found.append((high - low, {"polygons": polygons, "circles": circles}))
+        return found
+
+    def _cap(self, worm: int) -> float:
+        """Top of the seat of a worm's cover."""
+        return self.s["z_lip"] if worm == 1 else self.s["z_2"] + self.s["h_seat"] + 8
+
+    def _seats(self, worm: int) -> list[tuple[complex, complex, float, float, float]]:
+        """Both blocks that a worm runs in: half their tunnels and outsides as corners, bottom, top and cap of it."""
+        s, side, z = self.s, 1 if worm == 1 else -1, self.s[f"z_{worm}"]
+        found = []
+        for far, (begin, half) in enumerate(((s["x_seat"], s["h_seat"]), (s["x_end"], s["r_worm_journal"] + _PLAY))):
+            wide = s["w_seat"] - 5 * far
+            way = side * (1 - 2 * far)
+            x = sorted((way * begin, way * (begin + wide)))
+            centre = side * s[f"a_{worm}"]
+            cap = z + half + 8 if far else self._cap(worm)
+            found.append((complex(*x), complex(centre, half), z - half, z + half, cap))
+        return found
+
+    def _set_screws(self, worm: int) -> list[complex]:
+        """Holes over a cover."""
+        s, side = self.s, 1 if worm == 1 else -1
+        return [complex(side * (s["x_seat"] + x), side * s[f"a_{worm}"]) for x in (9, 21)]
+
+    # -- what turns with disk 2
+
+    def _outer_disk(self) -> None:
+        s, keys = self.s, self.keys
+        self.within = "outer_disk"
+        t, arm, ball = keys.disk_thickness, s["arm"], keys.ball
+        seat, bore = 2 * s["r_33_out"], 2 * (s["r_small"] + ball / 2)
+        behind = [_round(8, at) for at in _on_circle(12, s["r_53"])]
+        front = [_round(4, at) for at in _on_circle(16, s["r_53"], 11.25)]
+        own = [_round(4, at + arm) for at in _on_circle(16, s["r_8"])]
+        clips = [_round(4, at + arm) for at in _on_circle(12, s["r_59"])]
+        edge = _round(2 * s["r_2"])
+        low, high = s["seat_33"], t - s["seat_33"]
+        thread = 16.0
+        self._layers("disk_2", [
+            (low, {"circles": [edge, _round(seat, arm), *behind]}),
+            (thread - low, {"circles": [edge, _round(bore, arm), *behind, *clips]}),
+            (high - thread, {"circles": [edge, _round(bore, arm), *front, *clips, *own]}),
+            (t - high, {"circles": [edge, _round(seat, arm), *front, *own]}),
+        ])  # fmt: skip
+        self.found.instances["disk_2"] = {"part": "disk_2", "subassembly": self.within}
+        self.low["disk_2"] = 0.0
+        self.mate("coaxial", "body", "disk_2", height=round(-self.low["body"], 6))
+        # shields
+        self._tube("shield_7", s["r_7_in"], s["r_6"], s["h_shield"], _holes(16, M4[0], s["r_53"], 11.25))
+        self._set("disk_2", "shield_7", "shield_7", t)
+        self._tube("shield_8", s["r_3"] - 6, s["r_8_out"], s["h_shield"], _holes(16, M4[0], s["r_8"]))
+        self._set("disk_2", "shield_8", "shield_8", t, arm)
+        self._screw("screw_59", 4, 6, M4[1:])
+        self._screw("screw_59_down", 4, 6, M4[1:], down=True)
+        tip = t + s["h_shield"] - 6
+        self._circle("disk_2", "shield_7_screw", "screw_59", 16, s["r_53"], tip, 11.25)
+        self._circle("shield_8", "shield_8_screw", "screw_59", 16, s["r_8"], tip)
+        # rings that hold the balls of disk 3
+        self._tube("protective_ring", s["r_33_in"], s["r_33_out"], s["h_33"], _holes(12, M4[0], s["r_59"]))
+        rear, fore = s["seat_33"] - s["h_33"], t - s["seat_33"]
+        self._set("disk_2", "protective_ring_1", "protective_ring", fore, arm)
+        self._set("disk_2", "protective_ring_2", "protective_ring", rear, arm)
+        self._circle("protective_ring_1", "front_clip", "screw_59", 12, s["r_59"], fore + s["h_33"] - 6)
+        self._circle("protective_ring_2", "rear_clip", "screw_59_down", 12, s["r_59"], rear - M4[2])
+        self._turned("ball", [(0.0, 0.0, ball / 2), (0.0, ball)])
+        self._cage("small_cage", s["r_small"], int(s["small_balls"]))
+        for k, z in enumerate((s["z_upper"], s["z_lower"]), 1):
+            self._row("disk_2", "small", k, z, arm)
+        self._cage("large_cage", s["r_large"], int(s["large_balls"]))
+        self._row("disk_2", "large", 1, s["z_ball"])
+        # ring 24 with the worm wheel and the outer races
+        h, wide = s["h_24"], keys.worm_wheel_width
+        edges, through = [_round(2 * s["r_24"]), _round(2 * s["r_24_in"])], _on_circle(12, s["r_53"])
+        passing = [_round(M8[0], at) for at in through]
+        bolts = [_round(8, at) for at in _on_circle(24, s["r_41"])]
+        guides = [_round(8, at) for at in _on_circle(32, s["r_41"], 1.875)]
+        self._layers("spacer_24", [
+            (40 - wide + 1, {"circles": [*edges, *passing, *bolts]}),
+            (h - (40 - wide + 1) - (25 - s["h_5"] + 1), {"circles": [*edges, *passing]}),
+            (25 - s["h_5"] + 1, {"circles": [*edges, *passing, *guides]}),
+        ])  # fmt: skip
+        self._set("disk_2", "spacer_24", "spacer_24", -h)
+        self._screw("screw_53", 8, 45, M8[1:])
+        self._screw("screw_53_down", 8, 45, M8[1:], down=True)
+        self._circle("disk_2", "spacer_24_screw", "screw_53_down", 12, s["r_53"], -h - M8[2])
+        groove = math.sqrt((ball / 2) ** 2 - s["gap_race"] ** 2)
+        z = s["z_ball"]
+        self._turned("guide_5", [
+            (s["r_2"], 0), (s["r_5"], 0), (s["r_5"], z - groove, -ball / 2), (s["r_5"], z + groove),
+            (s["r_5"], s["h_5"]), (s["r_2"], s["h_5"]),
+        ], _holes(32, M8[0], s["r_41"], 1.875))  # fmt: skip
+        self._set("disk_2", "guide_5", "guide_5", 0.0)
+        self._screw("screw_52", 8, 25, M8[1:])
+        self._circle("disk_2", "guide_5_screw", "screw_52", 32, s["r_41"], s["h_5"] - 25, 1.875)
+        self._worm_wheel("worm_wheel_25", 0, s["r_25_in"], [
+            _holes(24, M8[0], s["r_41"]), _holes(24, 8, s["r_20_screws"]),
+        ])  # fmt: skip
+        self._set("disk_2", "worm_wheel_25", "worm_wheel_25", -h - wide)
+        self._hex("bolt_41", 8, 40, _HEX_8, down=True)
+        self._circle("disk_2", "worm_wheel_25_bolt", "bolt_41", 24, s["r_41"], -h - wide - _HEX_8[1])
+        inner, middle, high = s["r_20_in"], s["r_large"] + ball / 2, s["h_20"]
+        self._turned("bearing_ring", [
+            (middle, 0), (s["r_20"], 0), (s["r_20"], high), (middle, high, -ball / 2), (inner, high - groove),
+            (inner, groove, -ball / 2),
+        ], _holes(24, M8[0], s["r_20_screws"]))  # fmt: skip
+        for k, z in enumerate((s["z_20"], s["z_20"] - high), 1):
+            self._set("disk_2", f"bearing_ring_{k}", "bearing_ring", z)
+        self._circle("disk_2", "bearing_screw", "screw_53_down", 24, s["r_20_screws"], s["z_20"] - high - M8[2])
+
+    # -- what turns with wheel 21
+
+    def _ring(self) -> None:
+        s, keys = self.s, self.keys
+        self.within = "ring"
+        self.part(
+            "ring", kind="ring_gear", module=keys.module, number_of_teeth=keys.teeth[1], face_width=keys.face_width,
+            outer_diameter=2 * s["r_21"], holes=_holes(12, M8[0], s["r_21_screws"]),
+        )  # fmt: skip
+        z = -s["h_24"]
+        self.found.instances["ring"] = {"part": "ring", "subassembly": self.within}
+        self.low["ring"] = z
+        self.mate("coaxial", "body", "ring", height=round(z - self.low["body"], 6))
+        half, low, high = keys.ball / 2, s["z_23"] + keys.worm_wheel_width, s["h_22"]
+        mid, groove = s["z_20"] - low, math.sqrt(half**2 - s["gap_race"] ** 2)
+        self._turned("spacer_22", [
+            (s["r_22_in"], 0), (s["r_21"], 0), (s["r_21"], mid - half - 2), (s["r_5"], mid - half - 2),
+            (s["r_5"], mid - groove, -half), (s["r_5"], mid + groove), (s["r_5"], mid + half + 2),
+            (s["r_21"], mid + half + 2), (s["r_21"], high), (s["r_22_in"], high),
+        ], _holes(12, 8, s["r_21_screws"]))  # fmt: skip
+        self._set("ring", "spacer_22", "spacer_22", low)
+        self._circle("ring", "ring_screw", "screw_53", 12, s["r_21_screws"], z + keys.face_width - 45)
+        self._row("ring", "large", 2, s["z_20"])
+        self._worm_wheel("worm_wheel_23", 1, s["r_22_in"], [_holes(12, M8[0], s["r_21_screws"])])
+        self._set("ring", "worm_wheel_23", "worm_wheel_23", s["z_23"])
+        self._circle("ring", "worm_wheel_23_screw", "screw_53_down", 12, s["r_21_screws"], s["z_23"] - M8[2])
+
+    # -- what turns with disk 3
+
+    def _inner_disk(self) -> None:
+        s, keys = self.s, self.keys
+        self.within = "inner_disk"
+        t, arm = keys.disk_thickness, s["arm"]
+        bore = 2 * (s["r_journal"] + keys.clearance)
+        third = _holes(1, bore, arm)
+        self.part(
+            "pinion", kind="spur_gear", module=keys.module, number_of_teeth=keys.teeth[0], face_width=keys.face_width,
+            bore_diameter=20.0, holes=[third, _holes(6, 12, s["r_56"], 30.0), *(
+                _holes(1, 8, abs(at), math.degrees(cmath.phase(at))) for at in _about(arm, s["r_journal"] + 16)
+            )],
+        )  # fmt: skip
+        z = -s["h_24"]
+        self.found.instances["pinion"] = {"part": "pinion", "subassembly": self.within}
+        self.low["pinion"] = z
+        self.mate("carried", "disk_2", "pinion", offset=place(complex(arm), z))
+        self.mate("internal_gear_pair", "ring", "pinion")
+        screws = _holes(6, M12[0], s["r_56"], 30.0)
+        self._tube("sleeve_17", 20.0, s["r_56"] + 9, s["gap_21"] + 0.5, third, screws)
+        self._set("pinion", "sleeve_17", "sleeve_17", z + keys.face_width)
+        high, ball, wide = t - 1.0, keys.ball, s["gap_race"]
+        groove, floor = math.sqrt((ball / 2) ** 2 - wide**2), 17.0
+        rows = [s["z_lower"] - 0.5, s["z_upper"] - 0.5]
+        self._turned("disk_3", [
+            (20.0, 0.0), (s["r_3"], 0.0),
+            *(p for row in rows for p in ((s["r_3"], row - groove, -ball / 2), (s["r_3"], row + groove))),
+            (s["r_3"], high), (s["r_56"] + 11, high), (s["r_56"] + 11, high - floor), (s["r_56"] - 11, high - floor),
+            (s["r_56"] - 11, high), (0.0, high), (0.0, 6.0), (20.0, 6.0),
+        ], third, screws)  # fmt: skip
+        self._set("pinion", "disk_3", "disk_3", 0.5)
+        self._screw("screw_56", 12, 35, M12[1:])
+        self._circle("pinion", "disk_3_screw", "screw_56", 6, s["r_56"], t - 0.5 - floor - 35, 30.0)
+        self._tube("cover_12", s["r_journal"] + 7, s["r_journal"] + 25, s["h_12"], _holes(4, M8[0], s["r_journal"] + 16, 45))
+        self._set("pinion", "cover_12", "cover_12", z - s["h_12"], complex(arm))
+        self._screw("screw_51_down", 8, 16, M8[1:], down=True)
+        self._circle("cover_12", "cover_12_screw", "screw_51_down", 4, s["r_journal"] + 16, z - s["h_12"] - M8[2], 45)
+        # the axle of the satellite
+        end, collar = s["z_16"] - keys.clearance, s["z_11"] + keys.wheel_width + keys.clearance
+        self._turned("satellite_axle", [
+            (7.0, 0.0), (10.0, 0.0), (10.0, collar - end), (15.0, collar - end), (15.0, z - end), (10.0, z - end),
+            (10.0, z + keys.face_width + 10 - end), (0.0, z + keys.face_width + 10 - end), (0.0, 17.0), (7.0, 17.0),
+        ])  # fmt: skip
+        self._set("pinion", "satellite_axle", "satellite_axle", end)
+        self._tube("nut_46", 10.0, *_NUT_20)
+        self._set("pinion", "nut_46", "nut_46", z + keys.face_width)
+        self._tube("spacer_15", 7.0, 14.0, 5.0)
+        self._set("pinion", "spacer_15", "spacer_15", end - 5)
+        self._screw("screw_57", 14, 20, (21.0, 14.0), down=True)
+        self._set("pinion", "screw_57", "screw_57", end - 5 - 14)
+        self._wheel("satellite_wheel", s["h_14"], 20.0 + 2 * keys.clearance)
+        self.found.instances["satellite_wheel"] = {"part": "satellite_wheel", "subassembly": self.within}
+        self.mate("external_gear_pair", "central_wheel", "satellite_wheel")
+        self.mate("carried", "disk_2", "satellite_wheel")
+
+    def _platform(self) -> None:
+        s, keys = self.s, self.keys
+        self.within = "platform"
+        self._wheel("platform_wheel", keys.wheel_width, 45.0)
+        self.found.instances["platform_wheel"] = {"part": "platform_wheel", "subassembly": self.within}
+        self.low["platform_wheel"] = s["z_11"]
+        self.mate("carried", "pinion", "platform_wheel", offset=place(complex(s["arm"]), s["z_11"] - self.low["pinion"]))
+        self.mate("external_gear_pair", "satellite_wheel", "platform_wheel")
+        end, r = s["z_11"] - s["h_47"] - 2, s["r_journal"]
+        shoulder, flange = s["z_11"] + keys.wheel_width - end, s["z_flange"] - end
+        self._turned("platform_axle", [
+            (0, 0), (22.5, 0), (22.5, shoulder), (r, shoulder), (r, flange), (s["r_55"] + 10, flange),
+            (s["r_55"] + 10, flange + 12), (r, flange + 12), (r, flange + 18), (0, flange + 18),
+        ], _holes(6, 10, s["r_55"]))  # fmt: skip
+        self._set("platform_wheel", "platform_axle", "platform_axle", end)
+        self._tube("nut_47", 22.5, _NUT_45, s["h_47"])
+        self._set("platform_wheel", "nut_47", "nut_47", s["z_11"] - s["h_47"])
+        top = -s["h_24"] - 1
+        self._tube("spacer_10", r, r + 6, top - s["z_11"] - keys.wheel_width)
+        self._set("platform_wheel", "spacer_10", "spacer_10", s["z_11"] + keys.wheel_width)
+        half, t = keys.platform_size / 2, keys.disk_thickness
+        side, screws = _square(half, 10.0), _on_circle(6, s["r_55"])
+        self._layers("platform", [
+            (19.0, {"polygons": [side], "circles": [_round(2 * r), *(_round(M10[0], at) for at in screws)]}),
+            (11.0, {"polygons": [side], "circles": [_round(2 * r), *(_round(M10[1] + 1, at) for at in screws)]}),
+        ])  # fmt: skip
+        self._set("platform_wheel", "platform", "platform", s["z_4"])
+        self._screw("screw_55", 10, 30, M10[1:])
+        self._circle("platform_wheel", "platform_screw", "screw_55", 6, s["r_55"], s["z_4"] + 19 - 30)
+
+    # -- worms
+
+    def _worms(self) -> None:
+        s, keys = self.s, self.keys
+        r, start = s["r_worm_journal"], keys.worm_length / 2
+        cover, flange = s["x_seat"], 8.0
+        out = cover + s["w_seat"] + flange
+        steps = [(r, out + 0.2 - start), (r - 1.5, 2.0), (r, 5.0), (r - 4, 40.0)]
+        self.part(
+            "worm", kind="worm", module=keys.worm_module, diameter_quotient=keys.worm_quotient,
+            thread_length=keys.worm_length,
+            shaft_above=[{"diameter": 2 * radius, "length": round(length, 6)} for radius, length in steps],
+            shaft_below=[{"diameter": 2 * r, "length": round(s["x_end"] + s["w_seat"] - 5 + 2 - start, 6)}],
+        )  # fmt: skip
+        seat, bore = s["h_seat"], r + _PLAY
+        self._turned("end_cover", [
+            (bore, 0), (seat, 0), (seat, s["w_seat"]), (seat + 6, s["w_seat"]), (seat + 6, s["w_seat"] + flange),
+            (bore, s["w_seat"] + flange),
+        ])  # fmt: skip
+        self._tube("spacer_28", bore, r + 5, cover - start - 2)
+        self._tube("snap_ring", r - 1.5 + _PLAY, r + 4, 1.8)
+        self._turned("screw_49", [(0, 0), (3, 0), (4, 1), (4, 12), (0, 12)])
+        for worm, wheel, direction in ((1, "worm_wheel_25", 90.0), (2, "worm_wheel_23", -90.0)):
+            self.within = f"worm_{worm}"
+            self.found.instances[f"worm_{worm}"] = {"part": "worm", "subassembly": self.within}
+            self.mate("worm_pair", wheel, f"worm_{worm}", direction_deg=direction)
+            way = 1 if worm == 1 else -1
+            for part, x in (("end_cover", cover), ("spacer_28", start + 1), ("snap_ring", out + 0.3)):
+                self.found.instances[f"{part}_{worm}"] = {
+                    "part": part, "at": [round(way * x, 6), round(way * s[f"a_{worm}"], 6), round(s[f"z_{worm}"], 6)],
+                    "axis": [float(way), 0.0, 0.0], "held": True, "subassembly": self.within,
+                }  # fmt: skip
+            for k, at in enumerate(self._set_screws(worm), 1):
+                self._set("body", f"set_screw_{worm}_{k}", "screw_49", s[f"z_{worm}"] + seat, at)
+
+    # -- bodies
+
+    def _wheel(self, name: str, width: float, bore: float, **more: object) -> None:
+        teeth = round(self.s["arm"] / self.keys.wheel_module)
+        self.part(name, kind="spur_gear", module=self.keys.wheel_module, number_of_teeth=teeth, bore_diameter=bore,
+                  face_width=width, **more)  # fmt: skip
+
+    def _worm_wheel(self, name: str, which: int, bore: float, holes: list[Table]) -> None:
+        keys = self.keys
+        self.part(
+            name, kind="worm_wheel", module=keys.worm_module, number_of_teeth=keys.worm_teeth[which],
+            diameter_quotient=keys.worm_quotient, face_width=keys.worm_wheel_width, bore_diameter=2 * bore,
+            outer_diameter=2 * self.s["r_25" if which == 0 else "r_23"], holes=holes,
+        )  # fmt: skip
+
+    def _hex(self, name: str, diameter: float, length: float, head: tuple[float, float], *, down: bool = False) -> None:
+        """A bolt with a hexagonal head, its tip below; ``down``: its head below."""
+        layers: list[tuple[float, Table]] = [
+            (length, {"circles": [_round(diameter)]}), (head[1], {"polygons": [_hexagon(head[0])]}),
+        ]  # fmt: skip
+        self._layers(name, layers[::-1] if down else layers)
+
+    def _cage(self, name: str, radius: float, count: int) -> None:
+        """A ring under the balls, and between two of them two posts."""
+        ball = self.keys.ball
+        half, low = 0.1 * ball, 0.175 * ball
+        pitch = 2 * math.pi * radius / count
+        long = min(0.5 * ball, (pitch - ball) / 2 - 0.1 * ball)
+        posts = []
+        for k in range(2 * count):
+            turn = 2 * math.pi * (k // 2) / count
+            ends = [turn + (1 - 2 * (k % 2)) * (0.55 * ball + along) / radius for along in (0.08 * ball, long)]
+            start, end = ([round(x, 9) for x in _pair(cmath.rect(radius, end))] for end in ends)
+            posts.append({"start": start, "end": end, "width": 1.4 * half})
+        edges = [_round(2 * (radius + half)), _round(2 * (radius - half))]
+        self._layers(name, [(low, {"circles": edges}), (0.65 * ball, {"slots": posts})])
+
+    def _row(self, first: str, size: str, number: int, z: float, at: float = 0.0) -> None:
+        """A cage with its balls, their middles at a height."""
+        name, ball = f"{size}_cage_{number}", self.keys.ball
+        self._set(first, name, f"{size}_cage", z - 0.7 * ball, complex(at))
+        self._circle(name, f"{size}_ball_{number}", "ball", int(self.s[f"{size}_balls"]), self.s[f"r_{size}"], z - ball / 2)
+
+
+def _pair(at: complex) -> list[float]:
+    return [round(at.real, 9), round(at.imag, 9)]
+
+
+def _round(diameter: float, at: complex = 0j) -> Table:
+    """A circle of a layer."""
+    return {"diameter": diameter, "at": _pair(complex(at))}
+
+
+def _square(half: float, corner: float = 0.0) -> Table:
+    return {"points": [[-half, -half], [half, -half], [half, half], [-half, half]], "corner_radius": corner}
+
+
+def _hexagon(across: float) -> Table:
+    return {"points": [_pair(cmath.rect(across / math.sqrt(3), math.pi * k / 3)) for k in range(6)]}
+
+
+def _on_circle(count: int, radius: float, start: float = 0.0) -> list[complex]:
+    return [cmath.rect(radius, math.radians(start) + 2 * math.pi * k / count) for k in range(count)]
+
+
+def _about(arm: float, radius: float) -> list[complex]:
+    """Four places about the axis O3."""
+    return [arm + at for at in _on_circle(4, radius, 45.0)]
+
+
+def _around(half: float) -> list[complex]:
+    """Corners and middles of a square."""
+    return [complex(x * half, y * half) for x in (-1, 0, 1) for y in (-1, 0, 1) if x or y]
+
+
+def _holes(count: int, diameter: float, radius: float, start: float = 0.0) -> Table:
+    return {"count": count, "diameter": diameter, "pitch_circle_diameter": 2 * radius, "start_deg": round(start, 9)}
+
+
+def _seat_at(seat: tuple[complex, complex, float, float, float], z: float) -> list[Table]:
+    """What of a worm's seat stands at a height: the block, its two sides, its cap."""
+    x, y, bottom, top, cap = seat
+    if z > cap:
+        return []
+    centre, half = y.real, y.imag
+    out = half + 8
+    if not bottom < z < top:
+        return [_box((x.real, x.imag), (centre - out, centre + out))]
+    inset = (x.real + _STEP, x.imag - _STEP)
+    return [
+        _box(inset, (centre - out + _STEP, centre - half)),
+        _box(inset, (centre + half, centre + out - _STEP)),
+    ]
+
+
+def _box(x: tuple[float, float], y: tuple[float, float]) -> Table:
+    return {"points": [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]]}
