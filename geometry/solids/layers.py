@@ -16,7 +16,7 @@ import numpy as np
 
 from geometry.base.errors import GeometryError, OffsetError, ParameterError
 from geometry.base.record import Record
-from geometry.curves.curve import Complex
+from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc
 from geometry.plane.profile import Label, Profile, Region, Segment
 from geometry.solids.body import Body, BodyBuilder
@@ -211,8 +211,8 @@ def _crosses(one: Contour, two: Contour) -> bool:
     p, q = one.points, two.points
     u, v = np.roll(p, -1) - p, np.roll(q, -1) - q
 
-    def sides(way: Complex, start: Complex, points: Complex) -> Complex:
-        return (np.conj(way)[:, None] * (points[None, :] - start[:, None])).imag
+    def sides(way: Complex, start: Complex, points: Complex) -> Real:
+        return np.asarray((np.conj(way)[:, None] * (points[None, :] - start[:, None])).imag)
 
     over = sides(u, p, q) * sides(u, p, np.roll(q, -1)) <= 0
     under = sides(v, q, p) * sides(v, q, np.roll(p, -1)) <= 0

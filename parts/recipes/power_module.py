@@ -1,10 +1,10 @@
 """The assembly ``power_module``: the two-coordinate power table of the thesis, every position of its parts list.
 
-Sizes follow by the rules of ``power_module_rules``. From the front: platform 4; shields 7, 8; disk 2 with disk 3 in it on
-two rows of balls, in the body on a third; wheel 21 with pinion 19 behind them; ring 24 and worm wheel 25 on disk 2; ring
-22, the inner race of the fourth row, and worm wheel 23 on wheel 21; the wheels 16, 14, 11 that turn the platform; both
-worms in the body. Each worm comes in through the seat that its cover then closes. Threads are plain cylinders of the
-nominal diameter. The groove that section 2.3 has in wheel 21 is turned in ring 22, one body with it.
+Sizes follow by the rules of ``power_module_rules``. From the front: platform 4; shields 7, 8; disk 2 with disk 3 in it
+on two rows of balls, in the body on a third; wheel 21 with pinion 19 behind them; ring 24 and worm wheel 25 on disk 2;
+ring 22, the inner race of the fourth row, and worm wheel 23 on wheel 21; the wheels 16, 14, 11 that turn the platform;
+both worms in the body. Each worm comes in through the seat that its cover then closes. Threads are plain cylinders of
+the nominal diameter. The groove that section 2.3 has in wheel 21 is turned in ring 22, one body with it.
 """
 
 from __future__ import annotations
@@ -16,9 +16,11 @@ from itertools import pairwise
 from typing import Annotated, Literal
 
 from msgspec import Meta
+from msgspec.structs import replace
 
 from geometry.base.errors import Nearest, ParameterError
-from parts.base.texts import N_, words
+from geometry.base.nearest import nearest
+from parts.base.texts import N_, Message, words
 from parts.keys.base import mm
 from parts.recipes.making import Making, place
 from parts.recipes.power_module_rules import CONDITIONS, M4, M8, M10, M12, sizes, valued
@@ -26,8 +28,8 @@ from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
 
 _Turns = Annotated[float, Meta(ge=-1000, le=1000, extra={"unit": "turns"})]
 _Teeth = Annotated[int, Meta(ge=12, le=1000)]
-# of the M20 nut: radius, height; of the M45 nut: radius; across flats of M8 and M12, height of their heads and nuts
-_NUT_20, _NUT_45, _HEX_8, _HEX_12 = (17.0, 8.0), 35.0, (13.0, 5.3), (18.0, 7.5, 10.8)
+# of the M20 nut: radius, height; across flats of M8 and M12, height of their heads and nuts
+_NUT_20, _HEX_8, _HEX_12 = (17.0, 8.0), (13.0, 5.3), (18.0, 7.5, 10.8)
 # step of a casting from one level to the next, play of what is turned by hand, mm
 _STEP, _PLAY = 1.0, 0.05
 
@@ -70,23 +72,23 @@ PARTS: Mapping[str, tuple[int, str, str, str]] = {
 }
 # standard items: position, name, standard; those with "_down" are the same, laid the other way round
 STANDARD: Mapping[str, tuple[int, str, str]] = {
-    "bolt_41": (41, N_("Bolt M8-6gx40"), "7805-70"),
-    "bolt_42": (42, N_("Bolt M12-6gx45"), "7805-70"),
+    "bolt_41": (41, N_("Bolt M8-6g x 40"), "7805-70"),
+    "bolt_42": (42, N_("Bolt M12-6g x 45"), "7805-70"),
     "nut_44": (44, N_("Nut M12-6H"), "5927-70"),
     "nut_46": (46, N_("Nut M20x1.5-6H"), "11871-88"),
     "nut_47": (47, N_("Nut M45x1.5-6H"), "11871-88"),
-    "screw_49": (49, N_("Screw M8-6gx12"), "8878-83"),
-    "screw_51": (51, N_("Screw M8-6gx16"), "11738-84"),
-    "screw_51_down": (51, N_("Screw M8-6gx16"), "11738-84"),
-    "screw_52": (52, N_("Screw M8-6gx25"), "11738-84"),
-    "screw_53": (53, N_("Screw M8-6gx45"), "11738-84"),
-    "screw_53_down": (53, N_("Screw M8-6gx45"), "11738-84"),
-    "screw_54": (54, N_("Screw M8-6gx75"), "11738-84"),
-    "screw_55": (55, N_("Screw M10-6gx30"), "11738-84"),
-    "screw_56": (56, N_("Screw M12-6gx35"), "11738-84"),
-    "screw_57": (57, N_("Screw M14-6gx20"), "11738-84"),
-    "screw_59": (59, N_("Screw M4-6gx6"), "17473-80"),
-    "screw_59_down": (59, N_("Screw M4-6gx6"), "17473-80"),
+    "screw_49": (49, N_("Screw M8-6g x 12"), "8878-83"),
+    "screw_51": (51, N_("Screw M8-6g x 16"), "11738-84"),
+    "screw_51_down": (51, N_("Screw M8-6g x 16"), "11738-84"),
+    "screw_52": (52, N_("Screw M8-6g x 25"), "11738-84"),
+    "screw_53": (53, N_("Screw M8-6g x 45"), "11738-84"),
+    "screw_53_down": (53, N_("Screw M8-6g x 45"), "11738-84"),
+    "screw_54": (54, N_("Screw M8-6g x 75"), "11738-84"),
+    "screw_55": (55, N_("Screw M10-6g x 30"), "11738-84"),
+    "screw_56": (56, N_("Screw M12-6g x 35"), "11738-84"),
+    "screw_57": (57, N_("Screw M14-6g x 20"), "11738-84"),
+    "screw_59": (59, N_("Screw M4-6g x 6"), "17473-80"),
+    "screw_59_down": (59, N_("Screw M4-6g x 6"), "17473-80"),
     "ball": (61, N_("Ball 8"), "3722-81"),
 }
 _DESIGNATION, _STANDARD = N_("KRB.PM.25.33.13.00.{number}"), N_("GOST {number}")
@@ -149,9 +151,9 @@ def checked_sizes(keys: PowerModuleKeys) -> dict[str, float]:
     for condition in CONDITIONS:
         left = valued(condition.made_of, found)
         if left < 0:
-            given = getattr(keys, condition.driver)
-            value = list(given) if isinstance(given, tuple) else given
-            raise ParameterError(condition.driver, value, "module_lacks", None, lacks=-left, what=condition.reason)
+            name, cure = _to_blame(keys, condition.driver)
+            given, told = getattr(keys, name), {"lacks": -left, "what": Message(condition.reason)}
+            raise ParameterError(name, list(given) if isinstance(given, tuple) else given, "module_lacks", cure, **told)
     arm = found["arm"]
     if keys.second_arm is not None and abs(keys.second_arm - arm) > 1e-9:
         raise ParameterError("second_arm", keys.second_arm, "arm_of_ring_and_pinion", Nearest(arm), arm=arm)
@@ -159,6 +161,23 @@ def checked_sizes(keys: PowerModuleKeys) -> dict[str, float]:
     if abs(whole - round(whole)) > 1e-9 or round(whole) < 12:
         raise ParameterError("wheel_module", keys.wheel_module, "wheels_do_not_span_arm", None, arm=arm)
     return found
+
+
+def _to_blame(keys: PowerModuleKeys, driver: str) -> tuple[str, Nearest | None]:
+    """The driver that alone can mend it, and its nearest value that does, on the way to its default; else its own."""
+    usual = PowerModuleKeys()
+    for name in dict.fromkeys((driver, *_DRIVERS)):
+        given, end = getattr(keys, name), getattr(usual, name)
+        if given == end or isinstance(given, tuple):
+            continue
+
+        def works(value: float, name: str = name) -> bool:
+            known = sizes(drivers(replace(keys, **{name: value})))
+            return all(valued(c.made_of, known) >= 0 for c in CONDITIONS)
+
+        if (cure := nearest(works, given, end)) is not None:
+            return name, cure
+    return driver, None
 
 
 class PowerModuleRecipe(Recipe[PowerModuleKeys]):
@@ -227,7 +246,9 @@ class _Making(Making):
         self.low[instance] = z
         self.mate("fixed", first, instance, offset=place(at, z - self.low[first]))
 
-    def _circle(self, first: str, name: str, part: str, count: int, radius: float, z: float, start: float = 0.0) -> None:
+    def _circle(
+        self, first: str, name: str, part: str, count: int, radius: float, z: float, start: float = 0.0
+    ) -> None:
         """A group on a circle about the axis of what it is fixed to; ``start``: its first one, degrees."""
         self._set(first, name, part, z, cmath.rect(radius, math.radians(start)), count=count)
 
@@ -245,7 +266,9 @@ class _Making(Making):
         rows = [{"thickness": round(thick, 6), **table} for thick, table in layers if thick > 1e-9]
         self.found.parts[name] = {"kind": "layered", "layers": rows}
 
-    def _screw(self, name: str, diameter: float, length: float, head: tuple[float, float], *, down: bool = False) -> None:
+    def _screw(
+        self, name: str, diameter: float, length: float, head: tuple[float, float], *, down: bool = False
+    ) -> None:
         """Shank and round head, its tip below; ``down``: its head below."""
         shank, (wide, high) = diameter / 2, head
         points = [(0.0, 0.0), (shank, 0.0), (shank, length), (wide / 2, length), (wide / 2, length + high)]
@@ -495,7 +518,9 @@ class _Making(Making):
         self._set("pinion", "disk_3", "disk_3", 0.5)
         self._screw("screw_56", 12, 35, M12[1:])
         self._circle("pinion", "disk_3_screw", "screw_56", 6, s["r_56"], t - 0.5 - floor - 35, 30.0)
-        self._tube("cover_12", s["r_journal"] + 7, s["r_journal"] + 25, s["h_12"], _holes(4, M8[0], s["r_journal"] + 16, 45))
+        self._tube(
+            "cover_12", s["r_journal"] + 7, s["r_journal"] + 25, s["h_12"], _holes(4, M8[0], s["r_journal"] + 16, 45)
+        )
         self._set("pinion", "cover_12", "cover_12", z - s["h_12"], complex(arm))
         self._screw("screw_51_down", 8, 16, M8[1:], down=True)
         self._circle("cover_12", "cover_12_screw", "screw_51_down", 4, s["r_journal"] + 16, z - s["h_12"] - M8[2], 45)
@@ -523,7 +548,9 @@ class _Making(Making):
         self._wheel("platform_wheel", keys.wheel_width, 45.0)
         self.found.instances["platform_wheel"] = {"part": "platform_wheel", "subassembly": self.within}
         self.low["platform_wheel"] = s["z_11"]
-        self.mate("carried", "pinion", "platform_wheel", offset=place(complex(s["arm"]), s["z_11"] - self.low["pinion"]))
+        self.mate(
+            "carried", "pinion", "platform_wheel", offset=place(complex(s["arm"]), s["z_11"] - self.low["pinion"])
+        )
         self.mate("external_gear_pair", "satellite_wheel", "platform_wheel")
         end, r = s["z_11"] - s["h_47"] - 2, s["r_journal"]
         shoulder, flange = s["z_11"] + keys.wheel_width - end, s["z_flange"] - end
@@ -532,12 +559,12 @@ class _Making(Making):
             (s["r_55"] + 10, flange + 12), (r, flange + 12), (r, flange + 18), (0, flange + 18),
         ], _holes(6, 10, s["r_55"]))  # fmt: skip
         self._set("platform_wheel", "platform_axle", "platform_axle", end)
-        self._tube("nut_47", 22.5, _NUT_45, s["h_47"])
+        self._tube("nut_47", 22.5, s["r_47"], s["h_47"])
         self._set("platform_wheel", "nut_47", "nut_47", s["z_11"] - s["h_47"])
         top = -s["h_24"] - 1
         self._tube("spacer_10", r, r + 6, top - s["z_11"] - keys.wheel_width)
         self._set("platform_wheel", "spacer_10", "spacer_10", s["z_11"] + keys.wheel_width)
-        half, t = keys.platform_size / 2, keys.disk_thickness
+        half = keys.platform_size / 2
         side, screws = _square(half, 10.0), _on_circle(6, s["r_55"])
         self._layers("platform", [
             (19.0, {"polygons": [side], "circles": [_round(2 * r), *(_round(M10[0], at) for at in screws)]}),
@@ -563,7 +590,7 @@ class _Making(Making):
         )  # fmt: skip
         seat, bore = s["h_seat"], r + _PLAY
         self._turned("end_cover", [
-            (bore, 0), (seat, 0), (seat, s["w_seat"]), (seat + 6, s["w_seat"]), (seat + 6, s["w_seat"] + flange),
+            (bore, 0), (seat, 0), (seat, s["w_seat"]), (seat + 3, s["w_seat"]), (seat + 3, s["w_seat"] + flange),
             (bore, s["w_seat"] + flange),
         ])  # fmt: skip
         self._tube("spacer_28", bore, r + 5, cover - start - 2)
@@ -623,7 +650,9 @@ class _Making(Making):
         """A cage with its balls, their middles at a height."""
         name, ball = f"{size}_cage_{number}", self.keys.ball
         self._set(first, name, f"{size}_cage", z - 0.7 * ball, complex(at))
-        self._circle(name, f"{size}_ball_{number}", "ball", int(self.s[f"{size}_balls"]), self.s[f"r_{size}"], z - ball / 2)
+        self._circle(
+            name, f"{size}_ball_{number}", "ball", int(self.s[f"{size}_balls"]), self.s[f"r_{size}"], z - ball / 2
+        )
 
 
 def _pair(at: complex) -> list[float]:

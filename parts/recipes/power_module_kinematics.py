@@ -1,4 +1,4 @@
-"""The assembly ``power_module_kinematics``: disks and wheels of the power module (thesis) that its motion needs, and nothing else.
+"""The assembly ``power_module_kinematics``: disks and wheels of the power module (thesis) as far as motion needs them.
 
 From the front: platform 4 on its axle 9, disks 2 and 3 in one plane, a spacer, ring 21 and pinion 19, then what turns
 the platform: the wheels 16, 14, 11 of the thesis (``thesis``, which does not keep it parallel), an idler on each arm,

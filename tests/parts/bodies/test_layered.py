@@ -1,0 +1,79 @@
+"""Bodies of layers: volume by plane geometry, files read back, contours that meet refused."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from exporters.command.cli import main
+from parts.base.refusal import SceneError
+from parts.scene.load import make_parts, scene_from_dict
+
+Keys = dict[str, Any]
+SQUARE = {"points": [[-30, -20], [30, -20], [30, 20], [-30, 20]]}
+BOX: list[Keys] = [
+    {"thickness": 4.0, "polygons": [SQUARE], "circles": [{"diameter": 5.0, "at": [20.0, 0.0]}]},
+    {"thickness": 8.0, "circles": [{"diameter": 30.0}, {"diameter": 20.0}]},
+    {"thickness": 3.0, "circles": [{"diameter": 36.0}, {"diameter": 20.0}, {"diameter": 2.0, "at": [12.5, 0.0]}],
+     "slots": [{"start": [-12.5, -2.0], "end": [-12.5, 2.0], "width": 3.0}]},
+    # a rim of its own on a wider one
+    {"thickness": 1.0, "circles": [{"diameter": 34.0}, {"diameter": 32.0}]},
+]  # fmt: skip
+
+
+def made(layers: list[Keys]) -> Any:
+    return make_parts(scene_from_dict({"parts": {"box": {"kind": "layered", "layers": layers}}}, "t", "t"), "t")[0][
+        "box"
+    ]
+
+
+def disk(diameter: float) -> float:
+    return math.pi * diameter**2 / 4
+
+
+def test_a_volume_is_that_of_its_layers() -> None:
+    part = made(BOX)
+    slot = disk(3.0) + 4 * 3
+    areas = [2400 - disk(5), disk(30) - disk(20), disk(36) - disk(20) - disk(2) - slot, disk(34) - disk(32)]
+    wanted = sum(area * layer["thickness"] for area, layer in zip(areas, BOX, strict=True))
+    assert part.made_by.moments(part.body(0.0)).volume == pytest.approx(wanted, rel=1e-12)
+    mesh = part.to_trimesh(0.001)
+    assert mesh.is_watertight
+    assert mesh.volume == pytest.approx(wanted, rel=2e-4)
+
+
+def test_its_files_are_read_back(tmp_path: Path) -> None:
+    scene = tmp_path / "box.toml"
+    rows = ", ".join("{" + ", ".join(f"{key} = {_toml(value)}" for key, value in row.items()) + "}" for row in BOX)
+    text = f'[parts.box]\nkind = "layered"\nlayers = [{rows}]\n'
+    scene.write_text(text + '[[exports]]\nformat = "step"\n[[exports]]\nformat = "stl"\n', encoding="utf-8")
+    assert main(["build", str(scene), "--out", str(tmp_path), "-q"]) == 0
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, list):
+        return "[" + ", ".join(_toml(item) for item in value) + "]"
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key} = {_toml(item)}" for key, item in value.items()) + "}"
+    return str(value)
+
+
+@pytest.mark.parametrize(
+    ("layers", "word"),
+    [
+        ([{"thickness": 1, "circles": [{"diameter": 10}, {"diameter": 10, "at": [4, 0]}]}], "cross"),
+        # touching
+        ([{"thickness": 1, "circles": [{"diameter": 10}, {"diameter": 4, "at": [3, 0]}]}], "cross"),
+        # a wall that goes on beside one that ends there
+        ([{"thickness": 1, "polygons": [SQUARE]}, {"thickness": 1, "circles": [{"diameter": 60}]}], "cross"),
+        ([{"thickness": 1, "circles": [{"diameter": 10}, {"diameter": 4, "at": [9, 0]}]}], "several"),
+        ([{"thickness": 1, "circles": [{"diameter": 10, "at": [x, 0]}]} for x in (0, 19)], "several"),
+        ([{"thickness": 1}], "no contour"),
+    ],
+)  # fmt: skip
+def test_what_is_no_body_is_refused(layers: list[Keys], word: str) -> None:
+    with pytest.raises(SceneError, match=word):
+        made(layers)
