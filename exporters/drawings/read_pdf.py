@@ -128,11 +128,24 @@ class _Font:
 
 def _page(objects: dict[int, bytes], number: int, parent: bytes, font: _Font | None) -> PdfPage:
     body = objects[number]
+    for one, known in ((parent, _TREE), (body, _PAGE)):
+        if strange := set(re.findall(rb"/(\w+)", one)) - known:
+            raise ReadError(f"has a page with {strange.pop().decode()}, which may turn, cut or scale it")
     box = _after(body if b"/MediaBox" in body else parent, rb"/MediaBox \[([^\]]*)\]")
-    width, height = (float(x) / _POINT for x in box.split()[2:])
+    left, low, width, height = (float(x) / _POINT for x in box.split())
+    if left or low:
+        raise ReadError(f"has a page from {left:g}, {low:g} mm on instead of 0, 0")
     page = PdfPage(width, height)
     _Reader(page, font, _states(objects, body)).run(_stream(objects[int(_after(body, rb"/Contents (\d+) 0 R"))]))
     return page
+
+
+# names in the object of all pages, in that of one, and in settings of lines
+_TREE = {b"Type", b"Pages", b"Count", b"Kids", b"MediaBox"}
+_PAGE = {b"Type", b"Page", b"Parent", b"MediaBox", b"Contents", b"Resources", b"Group"} | {
+    b"S", b"Transparency", b"CS", b"DeviceRGB"
+}  # fmt: skip
+_STATE = {b"Type", b"ExtGState", b"LW", b"D"}
 
 
 def _states(objects: dict[int, bytes], body: bytes) -> dict[bytes, bytes]:
@@ -232,6 +245,8 @@ class _Reader:
         self.look = _Look(**{**values, **more})
 
     def _state(self, body: bytes) -> None:
+        if strange := set(re.findall(rb"/(\w+)", body)) - _STATE:
+            raise ReadError(f"draws lines with {strange.pop().decode()}, which may hide them")
         if (width := re.search(rb"/LW ([\d.]+)", body)) is not None:
             self._set(width=float(width[1]))
         if (dashes := re.search(rb"/D \[\[([^\]]*)\] [\d.]+\]", body)) is not None:
