@@ -10,6 +10,7 @@ sliding the pieces together, by exact distances.
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -31,6 +32,8 @@ _ROUND = 1.02
 _SAME, _SYMMETRIC = 1e-6, 0.002
 # cells that all layouts together look at
 _WORK = 1e10
+# more boards than this are copies of the first ones, as long as there are pieces for them
+_FEW_BOARDS = 8.0
 # layouts that are tried for each piece at most
 _TRIALS = 10
 _NOTHING = (math.inf, math.inf, math.inf)
@@ -162,6 +165,8 @@ class _Nest:
         self.room = room
         self.inner = complex(room.width - 2 * room.margin, room.height - 2 * room.margin)
         self.counts = {name: count for name, (_, count) in shapes.items()}
+        filled = sum(geometry.area * count for geometry, count in shapes.values())
+        self.many = filled > _FEW_BOARDS * self.inner.real * self.inner.imag
         boxes = [g.bounds for g, _ in shapes.values()]
         spans = np.array([max(b[2] - b[0], b[3] - b[1]) + room.gap for b in boxes])
         # squares about all pairs of shapes in all turns to each other, of which each is looked at cell by cell
@@ -274,7 +279,13 @@ class _Nest:
             here, left, end = self._board(board, left, than[1] if board + 1 == than[0] else math.inf)
             found += here
             board += 1
-            if board == than[0] and (left or end > than[1]):
+            if self.many and left:
+                used, rest = Counter(one.shape for one in here), Counter(left)
+                times = min(rest[name] // count for name, count in used.items())
+                found += [replace(one, board=board + k) for k in range(times) for one in here]
+                left = _without(left, {name: times * count for name, count in used.items()})
+                board += times
+            if board > than[0] or (board == than[0] and (left or end > than[1])):
                 return None
         ends = sorted((one.at.real for one in found if one.board == board - 1), reverse=True)
         return _Layout(tuple(order), found, (board, round(end, 6), sum(ends)))
@@ -344,6 +355,18 @@ class _Chance:
         """A number from 0 to below ``count``."""
         self.state = self.state * 48271 % 2147483647
         return self.state % count
+
+
+def _without(order: Sequence[str], counts: Mapping[str, int]) -> list[str]:
+    """An order without the first so many of each name."""
+    spent = dict(counts)
+    left = []
+    for name in order:
+        if spent.get(name, 0):
+            spent[name] -= 1
+        else:
+            left.append(name)
+    return left
 
 
 def _stamp(places: Flags, table: Flags, x: int, y: int) -> None:

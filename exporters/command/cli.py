@@ -324,7 +324,9 @@ def _build(options: argparse.Namespace) -> int:
     from exporters.production.plan import plan_build
 
     def planned(address: str) -> Plan:
-        return plan_build(_scene(address, options), address, options.part, options.format)
+        scene = _scene(address, options)
+        with _waiting(options, scene):
+            return plan_build(scene, address, options.part, options.format)
 
     if options.verify == "kernel" and find_spec("OCP") is None:
         from parts.base.refusal import SceneError
@@ -354,6 +356,18 @@ def _built(plan: Plan, options: argparse.Namespace) -> bool:
     if not options.json and not (options.quiet and built.well):
         build_table(plan, folder, built)
     return built.well
+
+
+@contextmanager
+def _waiting(options: argparse.Namespace, scene: SceneFile) -> Iterator[None]:
+    """A line on a terminal while parts are laid out."""
+    if not (scene.boards or scene.beds) or not sys.stdout.isatty() or options.quiet or options.json:
+        yield
+        return
+    from rich.console import Console
+
+    with Console().status(words(scene.scene.language).text("laying parts out on boards and beds")):
+        yield
 
 
 @contextmanager

@@ -48,13 +48,9 @@ def _preview(job: BoardJob, title: str, drawn: Mapping[str, _Drawn], fills: Mapp
     counts = Counter(piece.part for piece in job.pieces)
     rows = [(f"{counts[m.part.id]} x {m.part.name}", fills[m.part.id]) for m in job.members]
     letters = size * _LETTERS
-    legend, bottom = _legend(
-        f"{title}: {board.width:g} x {board.height:g} x {board.thickness:g}",
-        rows,
-        letters,
-        complex(room, board.height + 2 * room),
-        board.width,
-    )
+    title += f": {board.width:g} x {board.height:g} x {board.thickness:g}"
+    title += f", {job.times} x" if job.times > 1 else ""
+    legend, bottom = _legend(title, rows, letters, complex(room, board.height + 2 * room), board.width)
     high = board.height + room
     corner = complex(room, high)
     lines = [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -46,6 +47,7 @@ class BoardJob(Record):
     board: BoardSpec
     members: tuple[Job, ...]
     pieces: tuple[BoardPiece, ...]
+    times: int
     path: str
     place: str
 
@@ -57,7 +59,7 @@ class BoardJob(Record):
     @property
     def told(self) -> dict[str, Any]:
         """The board, and where each piece lies: its part, the place of its origin, mm, and its turn, degrees."""
-        return {"part": None, "board": self.name, "pieces": {p.id: p.told for p in self.pieces}}
+        return {"part": None, "board": self.name, "times": self.times, "pieces": {p.id: p.told for p in self.pieces}}
 
     @property
     def offset(self) -> float:
@@ -99,7 +101,8 @@ class BoardJob(Record):
 
     def findings(self, made: Made) -> tuple[Finding, ...]:
         """Remarks on the outlines in it."""
-        return tuple(dict.fromkeys(f for m in self.members for f in (*m.section.findings, *m.remarks(made))))
+        found = dict.fromkeys(f for m in self.members for f in (*m.section.findings, *m.remarks(made)))
+        return (*found, *several(self.times))
 
     def verify(self, file: Path, declared: float) -> Verdict:
         """Read it back: every piece whole and in its place, on the board, clear of the others."""
@@ -137,23 +140,33 @@ def board_jobs(
         if key not in layouts:
             layouts[key] = _laid_out(board, jobs, counts, source, place)
         laid = layouts[key]
-        for number in range(1 + max((one.board for one in laid), default=-1)):
-            pieces = board_pieces([one for one in laid if one.board == number], laid)
+        for pieces, times in different_boards(laid):
             members = tuple(jobs[p] for p in dict.fromkeys(piece.part for piece in pieces))
             path = f"{scene.name}.{export.name or export.purpose}.{len(found) + 1}.{export.format}"
-            found.append(BoardJob(own, name, board, members, pieces, path, where))
+            found.append(BoardJob(own, name, board, members, pieces, times, path, where))
     return found
 
 
-def board_pieces(here: Sequence[Laid], laid: Sequence[Laid]) -> tuple[BoardPiece, ...]:
-    """The pieces of one board, named by their parts and counted through all boards."""
-    of_shape: dict[str, list[Laid]] = {}
+def different_boards(laid: Sequence[Laid]) -> list[tuple[tuple[BoardPiece, ...], int]]:
+    """The boards that differ, each with how many there are of it; pieces are counted through by their parts."""
+    boards: dict[int, list[Laid]] = {}
     for one in laid:
-        of_shape.setdefault(one.shape, []).append(one)
-    return tuple(
-        BoardPiece(f"{one.shape}_{1 + of_shape[one.shape].index(one)}", one.shape, 90 * one.turn, one.at)
-        for one in here
-    )
+        boards.setdefault(one.board, []).append(one)
+    times = Counter(tuple((one.shape, one.turn, one.at) for one in here) for here in boards.values())
+    named: Counter[str] = Counter()
+    found = []
+    for places, count in times.items():
+        pieces = []
+        for shape, turn, at in places:
+            named[shape] += 1
+            pieces.append(BoardPiece(f"{shape}_{named[shape]}", shape, 90 * turn, at))
+        found.append((tuple(pieces), count))
+    return found
+
+
+def several(times: int) -> tuple[Finding, ...]:
+    """What there is to tell of a board or bed that is made so many times."""
+    return (Finding("made_several_times", float(times), 1.0),) if times > 1 else ()
 
 
 def _laid_out(

@@ -8,12 +8,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from exporters.boards.nest import QUARTERS, Laid, Room, largest_scale, nest
-from exporters.production.boards import board_pieces
-from exporters.production.jobs import AssemblyJob, Job, assembly_name
+from exporters.production.boards import different_boards, several
+from exporters.production.jobs import AssemblyJob, Job, Made, assembly_name
 from exporters.verification.assembly import expected_of
 from exporters.verification.plate import ExpectedPlate, verify_plate
 from exporters.verification.verdict import Verdict
 from geometry.base.errors import rounded
+from geometry.base.findings import Finding
 from parts.base.part import Part
 from parts.base.refusal import SceneError
 from parts.base.texts import Message, listed
@@ -34,6 +35,7 @@ class PlateJob(AssemblyJob):
 
     bed_name: str
     bed: BedSpec
+    times: int
 
     @property
     def told(self) -> dict[str, Any]:
@@ -42,7 +44,11 @@ class PlateJob(AssemblyJob):
             i.id: {"part": i.part, "at": list(i.at), "turn_deg": round(math.degrees(i.rotation))}
             for i in self.instances
         }
-        return {"part": None, "bed": self.bed_name, "pieces": pieces}
+        return {"part": None, "bed": self.bed_name, "times": self.times, "pieces": pieces}
+
+    def findings(self, made: Made) -> tuple[Finding, ...]:
+        """Remarks on what is on it."""
+        return (*super().findings(made), *several(self.times))
 
     def verify(self, file: Path, declared: float) -> Verdict:
         """Read it back: every part in its place, on the bed, clear of the others."""
@@ -73,15 +79,14 @@ def plate_jobs(
         jobs = {p: job_of(parts[p]) for p in counts}
         feet = {p: _footprint(job) for p, job in jobs.items()}
         laid = _laid_out(bed, feet, counts, source, f"beds.{name}")
-        for number in range(1 + max((one.board for one in laid), default=-1)):
-            pieces = board_pieces([one for one in laid if one.board == number], laid)
+        for pieces, times in different_boards(laid):
             stand = tuple(
                 Instance(p.id, p.part, (p.at.real, p.at.imag, -feet[p.part][1]), math.radians(p.turn_deg), "plate")
                 for p in pieces
             )
             members = tuple(jobs[p] for p in dict.fromkeys(piece.part for piece in pieces))
             path = f"{scene.name}.{export.name or export.purpose}.{len(found) + 1}.{export.format}"
-            found.append(PlateJob(assembly_name(scene.name), export, members, stand, path, where, name, bed))
+            found.append(PlateJob(assembly_name(scene.name), export, members, stand, path, where, name, bed, times))
     return found
 
 

@@ -205,11 +205,12 @@ def _polygon(loop: Loop) -> BaseGeometry:
 
 
 def _inside(polygons: Sequence[BaseGeometry]) -> list[list[int]]:
-    """In which others each contour lies."""
+    """In which others each contour lies: where its first point does, since each is held to its own place besides."""
     import shapely
 
     tree = shapely.STRtree(list(polygons))
-    outer, inner = tree.query(np.array(polygons, dtype=object), predicate="contains")
+    first = shapely.points([polygon.exterior.coords[0] for polygon in polygons])
+    inner, outer = tree.query(first, predicate="within")
     found: list[list[int]] = [[] for _ in polygons]
     for a, b in zip(inner.tolist(), outer.tolist(), strict=True):
         if a != b:

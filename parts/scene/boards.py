@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from geometry.base.errors import Nearest
 from parts.base.part import Part
 from parts.base.refusal import SceneError
 from parts.keys.boards import BoardSpec, LaidKeys
 from parts.scene.instances import InstanceSpec
 
+# of all boards or beds of a table together, which take a minute to lay out
+MOST_PIECES = 20_000
 # parts are as thick as their board to this, mm
 _SAME_THICKNESS = 1e-6
 
@@ -21,7 +24,7 @@ def pieces_of(
     Raises
     ------
     SceneError
-        There is none of any.
+        There is none of any, or there are too many.
     """
     found = {}
     for part in parts:
@@ -30,6 +33,9 @@ def pieces_of(
         if count is None:
             count = sum(spec.copies.get(key, 1) for key in own)
         found[part] = spec.sets * count
+    if (every := sum(found.values())) > MOST_PIECES:
+        sets = Nearest(max(1, spec.sets * MOST_PIECES // every), "at_most")
+        raise SceneError(source, f"{place}.sets", spec.sets, "too_many_pieces", sets, pieces=every, most=MOST_PIECES)
     if parts and not any(found.values()):
         raise SceneError(source, f"{place}.copies", spec.copies, "nothing_is_laid")
     return {part: count for part, count in found.items() if count}

@@ -100,6 +100,7 @@ FINDINGS: dict[str, Text] = {
         "no room for its name, {limit:.1f} mm high at least, in clear material ({value:.1f} mm): it stands on a tag "
         "beside the part"
     ),
+    "made_several_times": N_("make it {value:.0f} times: that many boards or beds are alike"),
     "title_not_engraved": N_(
         "its title has {value:.0f} letters that cannot be engraved: its numbers or its id stand there; `label` says "
         "what shall"

@@ -308,3 +308,48 @@ kerf = 0.2
         space = ezdxf.readfile(tmp_path / "tagged" / name).modelspace()
         drawn[name] = sum(1 for e in space if e.dxftype() == "LWPOLYLINE" and e.closed)  # type: ignore[attr-defined]
     assert drawn["tagged.board.1.dxf"] == drawn["link_with_a_long_name.dxf"] + 1
+
+
+MANY = """
+[parts.bar]
+kind = "plate"
+width = 60.0
+height = 9.0
+face_width = 3.0
+[parts.tile]
+kind = "plate"
+width = 22.0
+height = 20.0
+face_width = 3.0
+[boards.ply]
+width = 110.0
+height = 70.0
+thickness = 3.0
+sets = {sets}
+copies = {{ tile = {tiles} }}
+[[exports]]
+format = "dxf"
+purpose = "board"
+"""
+
+
+def test_many_sets_repeat_boards_and_too_many_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "many.toml"
+    file.write_text(MANY.format(sets=1000, tiles=2), encoding="utf-8")
+    assert main(["build", str(file), "--out", str(tmp_path)]) == 0
+    counts: dict[str, int] = defaultdict(int)
+    said, boards = capsys.readouterr().out, 0
+    for path in sorted((tmp_path / "many").glob("*.dxf")):
+        entry = pieces_of(tmp_path / "many", path.name)
+        boards += entry["times"]
+        assert (f"make it {entry['times']} times" in said) is (entry["times"] > 1)
+        for piece in entry["pieces"].values():
+            counts[piece["part"]] += entry["times"]
+        assert bodies_gap(bodies_of(path)) >= 2 - 1e-6
+    assert counts == {"bar": 1000, "tile": 2000}
+    # by hand: 250 with eight tiles and a bar each, 94 with eight bars
+    assert boards <= 1.1 * (250 + 94)
+    file.write_text(MANY.format(sets=1000, tiles=30), encoding="utf-8")
+    assert main(["build", str(file), "--out", str(tmp_path / "no")]) == 2
+    told = capsys.readouterr().err
+    assert "boards.ply.sets = 1000: makes 31000 pieces; at most 20000 are laid out at once; at most 645 works" in told
