@@ -20,11 +20,15 @@ class Prototype(NamedTuple):
 
 
 class Occurrence(NamedTuple):
-    """A part in its place: the index of its prototype, and its placement as (3, 4): rotation and move, mm."""
+    """A part in its place: the index of its prototype, and its placement as (3, 4): rotation and move, mm.
+
+    ``within``: the sub-assembly that it belongs to; None of formats that have none.
+    """
 
     name: str
     prototype: int
     place: NDArray[np.float64]
+    within: str | None = None
 
 
 class ReadAssembly(Record):

@@ -96,11 +96,11 @@ def read_step_assembly(file: Path) -> ReadAssembly:
     if len(top) != 1:
         raise ReadError(f"{len(top)} products stand alone in the STEP file instead of 1")
     found = list(products.parts(top[0], np.eye(3, 4), ()))
-    kinds = list(dict.fromkeys(definition for _, definition, _ in found))
+    kinds = list(dict.fromkeys(definition for _, definition, _, _ in found))
     return ReadAssembly(
         products.names[top[0]],
         [products.prototype(definition) for definition in kinds],
-        [Occurrence(name, kinds.index(definition), place) for name, definition, place in found],
+        [Occurrence(name, kinds.index(definition), place, within) for name, definition, place, within in found],
     )
 
 
@@ -112,6 +112,7 @@ class _Products:
         self.model = read_model(entities)
         # definitions of products: their names, what represents them, and how they are used in others
         self.titles: dict[str, str] = {}
+        self.descriptions: dict[str, str] = {}
         self.names = {n: self._name(item) for n, item in self._of("PRODUCT_DEFINITION")}
         self.shapes: dict[int, Item] = {}
         self.representations: dict[int, int] = {}
@@ -141,16 +142,17 @@ class _Products:
             if not 0 < item.numbers[0] <= GAP or item.strings[0] != "distance_accuracy_value":
                 raise ReadError(f"#{number} of the STEP file does not call points one within {GAP:g} mm")
 
-    def parts(self, definition: int, place: Place, above: tuple[int, ...]) -> Iterator[tuple[str, int, Place]]:
-        """What stands in a product, and in what stands there: name, product and place of each; or itself."""
+    def parts(self, definition: int, place: Place, above: tuple[int, ...]) -> Iterator[tuple[str, int, Place, str]]:
+        """What stands in a product, and in what stands there: name, product, place and what it stands in; or itself."""
         if definition in above:
             raise ReadError("a product of the STEP file stands in itself")
         if definition not in self.inside:
-            yield self.names[definition], definition, place
+            yield self.names[definition], definition, place, ""
+        own = self.names[definition] if above else ""
         for name, product, where in self.inside.get(definition, []):
             moved = np.column_stack([place[:, :3] @ where[:, :3], place[:, :3] @ where[:, 3] + place[:, 3]])
-            for inner, part, its in self.parts(product, moved, (*above, definition)):
-                yield name if part == product else inner, part, its
+            for inner, part, its, within in self.parts(product, moved, (*above, definition)):
+                yield (name, part, its, own) if part == product else (inner, part, its, within)
 
     def prototype(self, definition: int) -> Prototype:
         """A product that is a part."""
@@ -160,7 +162,8 @@ class _Products:
             raise ReadError(f"{name} has {len(solids)} solids instead of 1")
         colour = self.colours.get(solids[0])
         model = self.model.only(self.model.solids.tolist().index(solids[0]))
-        said = {**self.said.get(definition, {}), **({"title": self.titles[name]} if name in self.titles else {})}
+        told = {"title": self.titles.get(name), "description": self.descriptions.get(name)}
+        said = {**self.said.get(definition, {}), **{key: text for key, text in told.items() if text}}
         return Prototype(name, ReadSolid(model, (name,), colour, said), colour)
 
     def _of(self, kind: str) -> list[tuple[int, Item]]:
@@ -168,7 +171,9 @@ class _Products:
 
     def _name(self, definition: Item) -> str:
         (product,) = self.items[definition.references[0]].references
-        identity, name, _ = self.items[product].strings
+        identity, name, description = self.items[product].strings
+        if description:
+            self.descriptions[identity] = description
         if identity != name:
             self.titles[identity] = name
         return identity

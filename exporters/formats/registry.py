@@ -41,7 +41,8 @@ Shape: TypeAlias = "Chords | Curves | SolidCurves"
 # from the strongest to the weakest
 BOUNDS = ("exact", "certified", "sampled")
 # name, name of the part, place of each instance
-Places = Sequence[tuple[str, str, Placement3]]
+# of an instance: its id, its part, its place, and the sub-assembly that it belongs to, if any
+Places = Sequence[tuple[str, str, Placement3, str | None]]
 # more edges than any receiving program opens; one file of them is some 300 MB
 _MOST_EDGES = 4_000_000
 # a float32 coordinate is good to 2^-24 of its size, both of them together to sqrt(2) of that; the rest is for the grid
@@ -248,7 +249,7 @@ def _write_3mf_assembly(
     from parts.solids.mesh import body_mesh
 
     meshes = [MeshPart(c.part.id, body_mesh(c.body, made[c.part.id]), c.part.colour) for c in contents]
-    return write_3mf_assembly(file, title, meshes, places)
+    return write_3mf_assembly(file, title, meshes, [place[:3] for place in places])
 
 
 def _step_part(content: Content, made: SolidCurves) -> StepPart:
@@ -256,8 +257,9 @@ def _step_part(content: Content, made: SolidCurves) -> StepPart:
     from parts.solids.step_text import StepPart
 
     part, body = content.part, content.body
-    volume = part.made_by.moments(body).volume
-    return StepPart(part.id, solid_faces(body, made), part.colour, part.material, part.density, volume, part.title)
+    volume, faces = part.made_by.moments(body).volume, solid_faces(body, made)
+    said = part.colour, part.material, part.density, volume, part.title, part.description
+    return StepPart(part.id, faces, *said)
 
 
 def _step_form(content: Content) -> StepForm:
@@ -280,8 +282,12 @@ def _write_step_assembly(
     from parts.solids.step_text import StepGroup
 
     solids = {c.part.id: _step_part(c, made[c.part.id]) for c in contents}
-    members = tuple((name, solids[part], place) for name, part, place in places)
-    return write_step(file, StepGroup(title, members), _step_form(contents[0]))
+    home, tree = Placement3.towards((0.0, 0.0, 1.0), 0.0, (0.0, 0.0, 0.0)), dict.fromkeys(p[3] for p in places)
+    members: list[tuple[str, StepPart | StepGroup, Placement3]] = []
+    for group in tree:
+        own = tuple((name, solids[part], place) for name, part, place, within in places if within == group)
+        members += own if group is None else [(group, StepGroup(group, own), home)]
+    return write_step(file, StepGroup(title, tuple(members)), _step_form(contents[0]))
 
 
 REGISTRY: dict[str, FileFormat[Any]] = {

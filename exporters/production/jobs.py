@@ -214,7 +214,7 @@ class AssemblyJob(Record):
         """Write one prototype per part and an occurrence of it for every instance; counts of what is in the file."""
         write = REGISTRY[self.members[0].kind.name].write_assembly
         assert write is not None
-        places = [(i.id, i.part, i.scene_from_part) for i in self.instances]
+        places = [(i.id, i.part, i.scene_from_part, i.subassembly) for i in self.instances]
         shapes = {m.part.id: made[m.shape_key] for m in self.members}
         counts = write(self.name, self.members, shapes, places, file)
         return {**counts, "parts": len(self.members), "instances": len(self.instances)}

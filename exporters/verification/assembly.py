@@ -23,7 +23,7 @@ _PLACE, _DIGITS = 1e-9, 1e-13
 
 
 class ExpectedAssembly(Record):
-    """What an assembly file must hold: its title, parts by name, and for each occurrence its part and (3, 4) place.
+    """What an assembly file must hold: its title, parts by name; of each occurrence part, place (3, 4), sub-assembly.
 
     The boundaries of the parts are moved ``offset`` mm out of the material.
     """
@@ -31,12 +31,13 @@ class ExpectedAssembly(Record):
     title: str
     parts: dict[str, Part]
     offset: float
-    occurrences: dict[str, tuple[str, NDArray[np.float64]]]
+    occurrences: dict[str, tuple[str, NDArray[np.float64], str]]
 
 
 def expected_of(title: str, parts: dict[str, Part], offset: float, instances: Iterable[Instance]) -> ExpectedAssembly:
     """What a file of some parts, moved ``offset`` mm out of the material, and of these instances must hold."""
-    return ExpectedAssembly(title, parts, offset, {i.id: (i.part, i.scene_from_part.matrix()) for i in instances})
+    places = {i.id: (i.part, i.scene_from_part.matrix(), i.subassembly or "") for i in instances}
+    return ExpectedAssembly(title, parts, offset, places)
 
 
 def verify_assembly(
@@ -64,13 +65,15 @@ def _verdict(found: ReadAssembly, expected: ExpectedAssembly, check: Callable[[R
     measured: dict[str, float] = {"parts": len(found.prototypes), "instances": len(found.occurrences)}
     reach = {name: part.body(expected.offset).reach() for name, part in expected.parts.items()}
     worst_place = 0.0
-    for name, index, placed in found.occurrences:
+    for name, index, placed, within in found.occurrences:
         if name not in expected.occurrences:
             continue
-        part, place = expected.occurrences[name]
+        part, place, wanted = expected.occurrences[name]
         prototype = found.prototypes[index].name
         if prototype != part:
             failures.append(f"instance {name} is {prototype} instead of {part}")
+        if within not in (None, wanted):
+            failures.append(f'instance {name} stands in "{within}" instead of "{wanted}"')
         off = _displacement(placed, place, reach[part])
         worst_place = max(worst_place, off)
         if not off <= _PLACE + _DIGITS * (reach[part] + float(np.abs(place[:, 3]).max())):

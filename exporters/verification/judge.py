@@ -96,6 +96,7 @@ def said_failures(found: ReadBack, kind: FileKind, part: Part) -> list[str]:
     said = cast("ReadSolid", found).said
     expected = {
         "title": None if part.title == part.id else part.title,
+        "description": part.description or None,
         "material name": part.material,
         "density": part.density,
     }

@@ -36,7 +36,7 @@ def _on_bed(file: Path, kind: FileKind, bed: BedSpec, declared: float, verdict: 
     reach = np.array([bed.width, bed.depth, bed.height])
     edge = np.array([bed.margin, bed.margin, 0.0])
     least, most = np.full(3, np.inf), np.full(3, -np.inf)
-    for name, index, place in found.occurrences:
+    for name, index, place, _ in found.occurrences:
         # a piece repeats its corners: those of its faces are all that there are
         corners = found.prototypes[index].part.faces().reshape(-1, 3) @ place[:, :3].T + place[:, 3]
         low, high = corners.min(axis=0), corners.max(axis=0)

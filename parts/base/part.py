@@ -69,6 +69,12 @@ class Part(Record, dict=True):
         """What people call it."""
         return self.keys.title  # type: ignore[attr-defined]
 
+    @property
+    def description(self) -> str:
+        """What a parts list says of it beside its title: designation or standard, and its title in Ukrainian."""
+        keys: Any = self.keys
+        return "; ".join(filter(None, (keys.designation or keys.standard, keys.title_uk)))
+
     def called(self, instance: str) -> str:
         """What people call an instance of it: its title, and what the id says beside the part's own."""
         if self.title is None:

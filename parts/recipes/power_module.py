@@ -376,7 +376,7 @@ class _Making(Making):
 
     def _outer_disk(self) -> None:
         s, keys = self.s, self.keys
-        self.within = "outer_disk"
+        self.within = "outer_disk_unit"
         t, arm, ball = keys.disk_thickness, s["arm"], keys.ball
         seat, bore = 2 * s["r_33_out"], 2 * (s["r_small"] + ball / 2)
         behind = [_round(8, at) for at in _on_circle(12, s["r_53"])]
@@ -461,7 +461,7 @@ class _Making(Making):
 
     def _ring(self) -> None:
         s, keys = self.s, self.keys
-        self.within = "ring"
+        self.within = "ring_unit"
         self.part(
             "ring", kind="ring_gear", module=keys.module, number_of_teeth=keys.teeth[1], face_width=keys.face_width,
             outer_diameter=2 * s["r_21"], holes=_holes(12, M8[0], s["r_21_screws"]),
@@ -488,7 +488,7 @@ class _Making(Making):
 
     def _inner_disk(self) -> None:
         s, keys = self.s, self.keys
-        self.within = "inner_disk"
+        self.within = "inner_disk_unit"
         t, arm = keys.disk_thickness, s["arm"]
         bore = 2 * (s["r_journal"] + keys.clearance)
         third = _holes(1, bore, arm)
@@ -544,7 +544,7 @@ class _Making(Making):
 
     def _platform(self) -> None:
         s, keys = self.s, self.keys
-        self.within = "platform"
+        self.within = "platform_unit"
         self._wheel("platform_wheel", keys.wheel_width, 45.0)
         self.found.instances["platform_wheel"] = {"part": "platform_wheel", "subassembly": self.within}
         self.low["platform_wheel"] = s["z_11"]
@@ -597,7 +597,7 @@ class _Making(Making):
         self._tube("snap_ring", r - 1.5 + _PLAY, r + 4, 1.8)
         self._turned("screw_49", [(0, 0), (3, 0), (4, 1), (4, 12), (0, 12)])
         for worm, wheel, direction in ((1, "worm_wheel_25", 90.0), (2, "worm_wheel_23", -90.0)):
-            self.within = f"worm_{worm}"
+            self.within = f"worm_{worm}_unit"
             self.found.instances[f"worm_{worm}"] = {"part": "worm", "subassembly": self.within}
             self.mate("worm_pair", wheel, f"worm_{worm}", direction_deg=direction)
             way = 1 if worm == 1 else -1

@@ -34,6 +34,8 @@ _GAP = 5.0
 class Instance(Record):
     """A part at its place: the part's frame turned by ``rotation`` (rad) about z, then moved to ``at`` (mm).
 
+    ``subassembly``: its place in the product tree.
+
     Between both z is laid on the unit vector ``axis``, as ``Placement3.towards`` does it.
 
     ``placed_by``: "at" (the scene says where), "mate", "origin" (the first of all), "row" (laid out beside), or "axles"
@@ -46,6 +48,7 @@ class Instance(Record):
     rotation: float = 0.0
     placed_by: str = "origin"
     axis: Vector = UPWARDS
+    subassembly: str | None = None
 
     @property
     def centre(self) -> complex:
@@ -157,7 +160,7 @@ def place(
     stand = placed.stand
     mates = tuple(_closed(replace(m, first=stand[m.mating.first], second=stand[m.mating.second])) for m in mates)
     mates = _with_faces_and_speeds(mates, parts)
-    instances = tuple(stand[i] for i in specs)
+    instances = tuple(replace(stand[i], subassembly=spec.subassembly) for i, spec in specs.items())
     train = None
     if drives:
         from parts.scene.train import driven_train

@@ -51,7 +51,7 @@ _PER_LINE = 16
 class StepPart(Record, eq=False):
     """A named solid with its colour, like "#c08040", its material, density, g/cm^3, and volume, mm^3.
 
-    ``title``: what people call it, which CAD shows in place of the name.
+    ``title``: what people call it, which CAD shows in place of the name; ``description``: what lists say of it.
     """
 
     name: str
@@ -61,6 +61,7 @@ class StepPart(Record, eq=False):
     density: float | None = None
     volume: float | None = None
     title: str | None = None
+    description: str = ""
 
 
 class StepForm(Record):
@@ -156,7 +157,7 @@ class _Text:
     def _part(self, part: StepPart) -> tuple[int, int]:
         """A product with its solid, colour and properties."""
         definition, shape = self._named(
-            part.name, "ADVANCED_BREP_SHAPE_REPRESENTATION", [self._solid(part)], part.title
+            part.name, "ADVANCED_BREP_SHAPE_REPRESENTATION", [self._solid(part)], part.title, part.description
         )
         if part.material is not None:
             words = f"DESCRIPTIVE_REPRESENTATION_ITEM('{string(part.material)}','{string(part.material)}')"
@@ -210,11 +211,13 @@ class _Text:
     def _home(self) -> int:
         return self.place(self.point((0.0, 0.0, 0.0)), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
 
-    def _named(self, name: str, kind: str, items: Sequence[int], title: str | None = None) -> tuple[int, int]:
+    def _named(
+        self, name: str, kind: str, items: Sequence[int], title: str | None = None, description: str = ""
+    ) -> tuple[int, int]:
         """A product and its shape of items: the numbers of definition and representation."""
         scope = self.once(f"PRODUCT_CONTEXT('',#{self.application},'mechanical')")
         stage = self.once(f"PRODUCT_DEFINITION_CONTEXT('part definition',#{self.application},'design')")
-        product = self.add(f"PRODUCT('{string(name)}','{string(title or name)}','',(#{scope}))")
+        product = self.add(f"PRODUCT('{string(name)}','{string(title or name)}','{string(description)}',(#{scope}))")
         self.add(f"PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,(#{product}))")
         formation = self.add(f"PRODUCT_DEFINITION_FORMATION('','',#{product})")
         definition = self.add(f"PRODUCT_DEFINITION('design','',#{formation},#{stage})")

@@ -125,7 +125,7 @@ def test_locations_in_a_step_are_exact(train_step: Path) -> None:
     found = read_step_assembly(train_step)
     assert found.title == "train"
     assert sorted(name for name, *_ in found.prototypes) == ["planet", "sun"]
-    placed = {name: (found.prototypes[index][0], matrix) for name, index, matrix in found.occurrences}
+    placed = {name: (found.prototypes[index][0], matrix) for name, index, matrix, _ in found.occurrences}
     assert {name: part for name, (part, _) in placed.items()} == IDS
     for key, expected in places(train_step.parent).items():
         assert same_place(placed[key][1], expected), key
@@ -195,3 +195,52 @@ def test_an_offset_shrinks_the_parts_and_not_the_places(tmp_path: Path) -> None:
     assert entry["offset"] == -0.05
     assert entry["measured"]["max_displacement"] < 1e-9
     assert run("verify", folder / "train.3mf") == 0
+
+
+def test_sub_assemblies_and_what_a_list_says_stand_in_step(tmp_path: Path) -> None:
+    """A sub-assembly is a product, equal parts are written once; the read-back holds the tree and the words."""
+    from exporters.formats.read_step import read_step_assembly
+    from exporters.production.recheck import recheck
+
+    scene = tmp_path / "tree.toml"
+    scene.write_text(
+        """
+[parts.pin]
+kind = "pin"
+diameter = 5.0
+length = 20.0
+title = "Pin"
+title_uk = "\u0428\u0442\u0438\u0444\u0442"
+position = 7
+standard = "ISO 2338"
+
+[parts.base]
+kind = "plate"
+width = 60.0
+height = 40.0
+designation = "AB.01"
+
+[instances]
+base = { at = [0, 0, -10] }
+left = { part = "pin", at = [-20, 0, 0], subassembly = "pins" }
+right = { part = "pin", at = [20, 0, 0], subassembly = "pins" }
+alone = { part = "pin", at = [0, 0, 0] }
+
+[[exports]]
+format = "step"
+assembly = true
+""",
+        encoding="utf-8",
+    )
+    assert run("build", scene, "--out", tmp_path, "-q") == 0
+    file = tmp_path / "tree" / "tree.step"
+    found = read_step_assembly(file)
+    assert {o.name: o.within for o in found.occurrences} == {"base": "", "left": "pins", "right": "pins", "alone": ""}
+    said = {p.name: p.part.said["description"] for p in found.prototypes}  # type: ignore[attr-defined]
+    assert said == {"base": "AB.01", "pin": "ISO 2338; \u0428\u0442\u0438\u0444\u0442"}
+    text = file.read_text(encoding="ascii")
+    assert text.count("=MANIFOLD_SOLID_BREP(") == 2
+    for old, new in (("'pins'", "'other'"), ("'AB.01'", "'AB.02'"), ("\\X2\\0428", "\\X2\\0429")):
+        assert old in text
+        file.write_text(text.replace(old, new), encoding="ascii")
+        assert recheck(file).verdict.failures

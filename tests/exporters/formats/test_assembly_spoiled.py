@@ -121,7 +121,7 @@ def test_copies_of_a_solid_are_no_instances(train_step: Path, tmp_path: Path) ->
     parts = {n: StepPart(n, s, "#c08040") for n, s in solids.items()}
     parts["copy"] = StepPart("copy", solids["planet"])
     rows = []
-    for name, index, matrix in found.occurrences:
+    for name, index, matrix, _ in found.occurrences:
         rotation = tuple(tuple(row) for row in matrix[:, :3].tolist())
         part = "copy" if name == "free" else found.prototypes[index][0]
         rows.append((name, parts[part], Placement3(rotation, tuple(matrix[:, 3].tolist()))))  # type: ignore[arg-type]
