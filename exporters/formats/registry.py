@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from exporters.formats.read_assembly import ReadAssembly
     from geometry.approximation.outline import Outline
     from geometry.solids.body import Body
-    from geometry.solids.measured import Faced
+    from geometry.solids.faced import FacedBody
     from parts.base.readback import ReadBack
     from parts.solids.faces import Curves as SolidCurves
     from parts.solids.step_text import StepForm, StepPart
@@ -79,12 +79,12 @@ class Content(Record):
         return written_decimals(self.tolerance)
 
     @property
-    def body(self) -> Body | Faced:
+    def body(self) -> Body | FacedBody:
         """The exact solid, moved like the section."""
         return self.part.body(self.section.offset)
 
     @property
-    def exact(self) -> Region | Body | Faced:
+    def exact(self) -> Region | Body | FacedBody:
         """What the file must agree with."""
         return self.body if self.kind.is_solid else self.section.region
 

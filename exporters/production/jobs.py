@@ -21,7 +21,7 @@ from parts.scene.placing import Instance
 if TYPE_CHECKING:
     from exporters.verification.verdict import Verdict
     from geometry.solids.body import Body
-    from geometry.solids.measured import Faced
+    from geometry.solids.faced import FacedBody
 
 # teeth lose their shape where the tolerance is a larger part of the module
 _COARSE_SHARE = 0.05
@@ -170,7 +170,7 @@ class Job(Content):
         return found
 
 
-def _side_faces(body: Body | Faced) -> int:
+def _side_faces(body: Body | FacedBody) -> int:
     """How many faces stand between the end faces of a body, those of round holes apart; a barrel's are few."""
     if body.is_faced:
         return 0

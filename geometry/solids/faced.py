@@ -13,25 +13,21 @@ from contextlib import suppress
 from functools import cached_property
 from typing import ClassVar, Literal
 
-import numpy as np
-
 from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record
 from geometry.curves.bounds import Bound
 from geometry.curves.curve import Real
-from geometry.solids.charts import Chart, along_edges, charts, edge_rows
+from geometry.solids.charts import charts
+from geometry.solids.extent import Extent, extent
 from geometry.solids.face_moments import FaceMoments, face_moments
-from geometry.solids.faces import Extrusion, Faces, Solid, Sphere, SplineSurface, Torus
+from geometry.solids.faces import Extrusion, Solid, SplineSurface
 from geometry.solids.mass import Moments
 from geometry.solids.measured import Measured
-from geometry.solids.unrolled import Side, unrolled
 
+# of triangles of every bundle of spline faces: how far they leave the exact walls at most, mm, this near to the truth
+Proof = Callable[[list[Real], float], float]
 # to which the splines are made whose moments and box are asked for, mm
 _FINE = 1e-5
-_SAMPLES = np.linspace(0, 1, 17)
-_FILL = np.linspace(0, 1, 33)
-# what may lie beyond samples of faces bent both ways, part of their size
-_BEYOND = 1.01
 
 
 class FacedSolid(Record, eq=False):
@@ -46,12 +42,14 @@ class FacedBody(Record, dict=True):
     """A body told by its faces, closed for every tolerance.
 
     ``within``: the faces within a tolerance, mm; ``walls``: the exact surfaces that its splines stand for, in any
-    number; ``own_moments``: where the kind knows them better than its faces do.
+    number; ``own_moments``: where the kind knows them better than its faces do; ``proof``: where it can prove how far
+    triangles (n, 3, 3) leave the walls, mm, bundle after bundle of its spline faces: its other surfaces are exact.
     """
 
     within: Callable[[float], FacedSolid]
     walls: tuple[Measured, ...] = ()
     own_moments: Callable[[], Moments] | None = None
+    proof: Proof | None = None
     is_faced: ClassVar[Literal[True]] = True
 
     @cached_property
@@ -88,19 +86,13 @@ class FacedBody(Record, dict=True):
         return self._measured.area if self.walls and self.own_moments is None else 0.0
 
     @cached_property
+    def _extent(self) -> Extent:
+        return extent(self._fine)
+
+    @property
     def box(self) -> tuple[Real, Real]:
         """Lower and upper corner (3,) of all that it fills, mm."""
-        solid = self._fine
-        points = [along_edges(solid, edges, _SAMPLES)[0].reshape(-1, 3) for edges in solid.edges]
-        beyond = max(float(np.linalg.norm(np.ptp(p.reshape(-1, 3), axis=0))) for p in points) * (_BEYOND - 1)
-        for faces in solid.faces:
-            if isinstance(faces.surface, SplineSurface):
-                points.append(solid.points[faces.surface.poles].reshape(-1, 3))
-            elif isinstance(faces.surface, Torus | Sphere):
-                for row, chart in enumerate(charts(solid, faces.surface, len(faces.loops[0][0]))):
-                    points.append(_filled(solid, chart, faces, row))
-        whole = np.concatenate(points)
-        return whole.min(axis=0) - beyond, whole.max(axis=0) + beyond
+        return self._extent.low, self._extent.high
 
     def levels(self) -> tuple[float, float]:
         """Its lowest and highest place, mm."""
@@ -109,7 +101,7 @@ class FacedBody(Record, dict=True):
 
     def section_reach(self) -> float:
         """Greatest distance from the axis, mm."""
-        return float(np.hypot(*np.maximum(np.abs(self.box[0]), np.abs(self.box[1]))[:2]))
+        return self._extent.radius
 
     def reach(self) -> float:
         """Greatest coordinate, mm."""
@@ -118,22 +110,6 @@ class FacedBody(Record, dict=True):
     def steepness(self) -> float:
         """1: a step along the axis moves a surface by no more than itself."""
         return 1.0
-
-
-def _filled(solid: Solid, chart: Chart, faces: Faces, row: int) -> Real:
-    """Points (n, 3) all over the u and v that a face bent both ways spans."""
-    bundle, at = edge_rows(solid)
-    sides: list[Side] = []
-    for edges, senses in faces.loops:
-        ways = np.broadcast_to(senses, edges.shape)[row]
-        runs = [
-            along_edges(solid, solid.edges[bundle[e]], _SAMPLES)[0][at[e], :: 1 if way else -1]
-            for e, way in zip(edges[row].tolist(), ways.tolist(), strict=True)
-        ]
-        sides += unrolled(chart, runs, along=faces.along)
-    u, v = (np.concatenate([side.u for side in sides]), np.concatenate([side.v for side in sides]))
-    grid = np.meshgrid(u.min() + np.ptp(u) * _FILL, v.min() + np.ptp(v) * _FILL)
-    return chart.spatial(grid[0], grid[1]).reshape(-1, 3)
 
 
 def exact_body(solid: Solid | FacedSolid) -> FacedBody:

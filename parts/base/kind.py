@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from geometry.base.findings import Finding
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.body import Body
+    from geometry.solids.faced import FacedBody
     from geometry.solids.mass import Moments
-    from geometry.solids.measured import Faced
     from parts.base.readback import Probe
 
 K = TypeVar("K", bound=Struct)
@@ -93,11 +93,11 @@ class Kind(Generic[K, T]):
         """The flat section, every boundary moved ``offset`` mm out of the material."""
         raise NotImplementedError
 
-    def solid(self, keys: K, thing: T, offset: float) -> Body | Faced:
+    def solid(self, keys: K, thing: T, offset: float) -> Body | FacedBody:
         """The solid, its lower face at z = 0, every boundary moved ``offset`` mm out of the material."""
         raise NotImplementedError
 
-    def moments(self, solid: Body | Faced) -> Moments:
+    def moments(self, solid: Body | FacedBody) -> Moments:
         """Volume, centre and inertia of a solid of the kind, by exact integrals."""
         if solid.is_faced:
             return solid.moments

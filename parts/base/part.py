@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.body import Body
-    from geometry.solids.measured import Faced
+    from geometry.solids.faced import FacedBody
     from parts.base.kind import Kind, Report
     from parts.base.readback import Probe
 
@@ -88,7 +88,7 @@ class Part(Record, dict=True):
         return " ".join(filter(None, (self.title, self.made_by.numbers(self.keys)))) or self.id
 
     @cached_property
-    def body(self) -> Callable[[float], Body | Faced]:
+    def body(self) -> Callable[[float], Body | FacedBody]:
         """The exact solid, every boundary moved so many mm out of the material."""
         return lru_cache(maxsize=2)(lambda offset: self.made_by.solid(self.keys, self.thing, offset))
 

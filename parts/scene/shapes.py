@@ -18,7 +18,7 @@ from parts.base.part import Part
 from parts.scene.interference import common_volume, inner_solid
 
 if TYPE_CHECKING:
-    from geometry.solids.measured import Faced
+    from geometry.solids.faced import FacedBody
 
 # what is one length, mm; what radii may lie beyond samples, or chords, as a part of them
 _SAME, _DIGITS, _MARGIN = 1e-7, 7, 1e-3
@@ -85,7 +85,7 @@ class Shape:
         return 0.0 if common_volume((self.solid, core.translate([0.0, 0.0, self.low - 1.0]))) else radius
 
 
-def _outline(body: Body | Faced) -> tuple[float, tuple[tuple[int, float, float], ...]]:
+def _outline(body: Body | FacedBody) -> tuple[float, tuple[tuple[int, float, float], ...]]:
     """Reach of a body, mm, and its walls; one that no plane outline sweeps has none that repeats."""
     if body.is_faced or any(loop.shift for loop in body.loops):
         reach = body.section_reach() * (1 + _MARGIN)

@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from types import UnionType
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,17 +30,13 @@ from geometry.solids.charts import (
     span_shares,
     spline_rows,
 )
-from geometry.solids.faced import FacedBody
+from geometry.solids.faced import FacedBody, Proof
 from geometry.solids.faces import Circular, Cone, Edges, Extrusion, Faces, Solid, Sphere, Spline, SplineSurface, Torus
-from geometry.solids.measured import Faced
 from geometry.solids.unrolled import Side, unrolled
 from parts.solids.caps import Triangles, library_triangles
 from parts.solids.flips import constrained, inner_cells
 from parts.solids.grids import Grid, grid_between, rows_between
 from parts.solids.spacing import Bends, bend_places, graded
-
-if TYPE_CHECKING:
-    from parts.solids.barrel_mesh import BarrelMesh
 
 # shares of the tolerance: of edges between faces that are bent one way, or both ways; of a grid along u and v
 _SINGLE, _DOUBLE, _ALONG, _ACROSS = 0.98, 0.55, 0.5, 0.4
@@ -54,6 +49,8 @@ _SPLINES = 0.1
 _MOST_ROUNDS, _MOST_TRIANGLES = 10, 4_000_000
 # arcs are cut into chords no longer than this, rad; samples for the bend of splines, each span
 _WIDEST, _INNER = math.pi / 4, np.linspace(0, 1, 5)
+# how near to the truth a proof shall be, part of the tolerance
+_SLACK = 0.04
 # what is added to the greatest sampled distance
 _MARGIN = 1.15
 # a corner of a face turns by more than this in the unit square, rad
@@ -75,8 +72,8 @@ class FaceMesh(Record, eq=False):
     tolerance: float
 
 
-def face_mesh(solid: Solid, tolerance: float) -> FaceMesh:
-    """A closed mesh within ``tolerance`` mm of a solid.
+def face_mesh(solid: Solid, tolerance: float, proof: Proof | None = None) -> FaceMesh:
+    """A closed mesh within ``tolerance`` mm of a solid; ``proof``: see ``FacedBody``.
 
     Raises
     ------
@@ -87,7 +84,7 @@ def face_mesh(solid: Solid, tolerance: float) -> FaceMesh:
     """
     target = tolerance
     for _ in range(_MOST_ROUNDS):
-        made = _Mesher(solid, target)
+        made = _Mesher(solid, target, proof)
         error = made.run()
         if error <= tolerance:
             vertices, triangles = np.concatenate(made.points), np.concatenate(made.triangles)
@@ -96,18 +93,14 @@ def face_mesh(solid: Solid, tolerance: float) -> FaceMesh:
     raise ConvergenceError("mesh for the tolerance", error, _MOST_ROUNDS)
 
 
-def faced_mesh(body: Faced, tolerance: float) -> FaceMesh | BarrelMesh:
+def faced_mesh(body: FacedBody, tolerance: float) -> FaceMesh:
     """A closed mesh within ``tolerance`` mm of a body told by its faces; splines take their share of it."""
-    if isinstance(body, FacedBody):
-        faces = body.within(_SPLINES * tolerance)
-        made = face_mesh(faces.geometry, tolerance - faces.max_error)
-        bound: Bound = "sampled" if "sampled" in (made.bound, faces.bound) else made.bound
-        return replace(made, max_error=made.max_error + faces.max_error, bound=bound, tolerance=tolerance)
-    from geometry.cams.barrel.body import BarrelBody
-    from parts.solids.barrel_mesh import barrel_mesh
-
-    assert isinstance(body, BarrelBody)
-    return barrel_mesh(body, tolerance)
+    faces = body.within(_SPLINES * tolerance)
+    if body.proof is not None:
+        return face_mesh(faces.geometry, tolerance, body.proof)
+    made = face_mesh(faces.geometry, tolerance - faces.max_error)
+    bound: Bound = "sampled" if "sampled" in (made.bound, faces.bound) else made.bound
+    return replace(made, max_error=made.max_error + faces.max_error, bound=bound, tolerance=tolerance)
 
 
 class _Chain(Record, eq=False):
@@ -121,8 +114,10 @@ class _Chain(Record, eq=False):
 class _Mesher:
     """One mesh at one tolerance."""
 
-    def __init__(self, solid: Solid, tolerance: float) -> None:
-        self.solid, self.tolerance = solid, tolerance
+    def __init__(self, solid: Solid, tolerance: float, proof: Proof | None) -> None:
+        self.solid, self.tolerance, self.proof = solid, tolerance, proof
+        # triangles on splines that are left to the proof
+        self.unproven: list[Triangles] = []
         self.points: list[Real] = [solid.points[solid.vertices]]
         self.size = len(solid.vertices)
         self.triangles: list[Triangles] = []
@@ -140,6 +135,9 @@ class _Mesher:
                 continue
             for row, chart in enumerate(charts(self.solid, faces.surface, len(faces.loops[0][0]))):
                 self._face(faces, row, chart)
+        if self.proof is not None:
+            points = np.concatenate(self.points)
+            self.error = max(self.error, self.proof([points[one] for one in self.unproven], _SLACK * self.tolerance))
         return self.error
 
     def _added(self, points: Real) -> Triangles:
@@ -197,6 +195,12 @@ class _Mesher:
         made = None if chart.is_plane or len(loops) > 1 else self._gridded(chart, loops[0], numbers[0])
         triangles, u, v = made or self._trimmed(chart, loops, numbers)
         found = triangles if faces.along else triangles[:, ::-1]
+        if self.proof is not None:
+            # corners that splines share may lie off the surface
+            corners = np.concatenate([self.chains[self.bundle[e]].points[self.row[e]] for e in _edges_of(faces, row)])
+            off = float(chart.distance(corners).max())
+            self._keep(found, off + (0.0 if chart.is_plane else _sagitta(chart, u, v)), "certified")
+            return
         self._keep(found, *((0.0, "exact") if chart.is_plane else (_sagitta(chart, u, v), "certified")))
 
     def _gridded(
@@ -335,27 +339,37 @@ class _Mesher:
         which = _templates(patch.poles)
         template = patch.rows(which)
         bends, sag = Bends(template), self.tolerance
+        along = sides[0][0][1:-1], 1 - sides[2][0][-2:0:-1]
         for _ in range(_FINER):
             t, rows = bends.rows(sag)
             if self.count + 2 * len(edges) * sum(len(row) for row in rows) > _MOST_TRIANGLES:
                 raise ConvergenceError("mesh for the tolerance", self.tolerance, self.count)
-            triangles, inner = rows_between(grid, t, rows, rising=bends.rising)
-            table = np.concatenate([grid.ring(), inner])
-            if np.any(_turned(table, triangles) <= 0):
-                # rows of unlike lengths may fold beside a side of few points
-                triangles, inner = rows_between(grid, t, [max(rows, key=len)] * len(rows), rising=bends.rising)
+            # where rows of unlike lengths fold, all are as fine as the finest of them and of both sides
+            for tried in (rows, [max((*rows, *along), key=len)] * len(rows)):
+                triangles, inner = rows_between(grid, t, tried, rising=bends.rising)
                 table = np.concatenate([grid.ring(), inner])
-            at = np.concatenate([places[which], template.scattered(inner)[0]], axis=1)
+                at = np.concatenate([places[which], template.scattered(inner)[0]], axis=1)
+                if not _folded(template, at, table, triangles):
+                    break
             error = _MARGIN * _patch_error(template, at, table, triangles)
             if error <= self.tolerance:
                 break
             sag *= max(_SAFE * self.tolerance / error, _LEAST_SHARE)
         numbers = np.concatenate([ring, self._added(patch.scattered(inner)[0])], axis=1)
-        self._keep(_oriented(numbers[:, triangles].reshape(-1, 3), flip), error, "sampled")
+        found = _oriented(numbers[:, triangles].reshape(-1, 3), flip)
+        if self.proof is None:
+            self._keep(found, error, "sampled")
+        else:
+            self._keep(found, 0.0, "certified")
+            self.unproven.append(found)
 
 
 def _oriented(triangles: Triangles, flip: bool) -> Triangles:
     return triangles[:, ::-1] if flip else triangles
+
+
+def _edges_of(faces: Faces, row: int) -> list[int]:
+    return [edge for edges, _ in faces.loops for edge in edges[row].tolist()]
 
 
 def _before(sides: Sequence[Side], k: int) -> int:
@@ -430,6 +444,15 @@ def _turned(table: Real, triangles: Triangles) -> Real:
     """Twice the signed areas of triangles in the plane of parameters."""
     a, b, c = table[triangles].transpose(1, 0, 2)
     return np.asarray((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+
+
+def _folded(patch: Patch, points: Real, table: Real, triangles: Triangles) -> bool:
+    """Whether triangles look the other way than their patches, or than the plane of parameters."""
+    if np.any(_turned(table, triangles) <= 0):
+        return True
+    _, du, dv = patch.scattered(table[triangles].mean(axis=1))
+    a, b, c = np.moveaxis(points[:, triangles], 2, 0)
+    return bool(np.any(np.sum(np.cross(b - a, c - a) * np.cross(du, dv), axis=-1) <= 0))
 
 
 def _sagitta(chart: Chart, u: Real, v: Real) -> float:

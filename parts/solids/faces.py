@@ -10,36 +10,21 @@ from geometry.solids.faces import Solid
 
 if TYPE_CHECKING:
     from geometry.approximation.outline import Outline
-    from geometry.solids.measured import Faced
 
-_BARREL = 1e-6
 # of each profile, or the faces of a body that is told by them
 Curves: TypeAlias = "tuple[Outline, ...] | tuple[FacedSolid]"
 
 
-def solid_curves(body: Body | Faced, tolerance: float) -> Curves:
+def solid_curves(body: Body | FacedBody, tolerance: float) -> Curves:
     """The curves of a body within ``tolerance`` mm."""
     if body.is_faced:
-        return (_within(body, tolerance),)
+        return (body.within(tolerance),)
     from geometry.solids.body_faces import body_outlines
 
     return body_outlines(body, tolerance)
 
 
-def _within(body: Faced, tolerance: float) -> FacedSolid:
-    if isinstance(body, FacedBody):
-        return body.within(tolerance)
-    from geometry.cams.barrel.body import BarrelBody
-    from geometry.cams.barrel.faces import barrel_solid
-    from geometry.cams.barrel.splines import barrel_splines
-
-    assert isinstance(body, BarrelBody)
-    # with fewer poles the edges leave the walls by more than solids allow
-    made = barrel_splines(body.cam, min(tolerance, _BARREL), body.bore)
-    return FacedSolid(barrel_solid(body, made), made.max_error, made.bound)
-
-
-def solid_faces(body: Body | Faced, curves: Curves) -> Solid:
+def solid_faces(body: Body | FacedBody, curves: Curves) -> Solid:
     """The closed shell of a body over its curves."""
     if body.is_faced:
         return cast("FacedSolid", curves[0]).geometry

@@ -23,7 +23,7 @@ from geometry.solids.chamfer import chamfer_bow, chamfer_slices, cut_chamfers
 from parts.solids.caps import Triangles, aligned_bore, begun_at, cap_triangles, is_round, start_in_space
 
 if TYPE_CHECKING:
-    from geometry.solids.measured import Faced
+    from geometry.solids.faced import FacedBody
     from parts.solids.face_mesh import FaceMesh
 
 _GRID_DIGITS = 8
@@ -36,7 +36,7 @@ class Mesh(Record):
     triangles: Triangles
 
 
-def mesh_outlines(body: Body | Faced, tolerance: float, least_edge: float) -> tuple[Approximation, ...]:
+def mesh_outlines(body: Body | FacedBody, tolerance: float, least_edge: float) -> tuple[Approximation, ...]:
     """Chords of every profile of a body within ``tolerance`` mm; edges below ``least_edge`` mm are merged.
 
     Profiles that a chamfer joins get matching vertices. The mesh of a body told by its faces is made whole.
@@ -76,7 +76,7 @@ def _chamfered(body: Body, group: tuple[int, ...], tolerance: float, least_edge:
     return tuple(replace(a, max_error=a.max_error + bow, bound=bound, tolerance=tolerance) for a in made)
 
 
-def count_edges(body: Body | Faced, outlines: tuple[Approximation, ...]) -> int:
+def count_edges(body: Body | FacedBody, outlines: tuple[Approximation, ...]) -> int:
     """How many edges the slices of a mesh have in all: what its size goes by."""
     total = sum(len(a.geometry) for a in outlines)
     if body.is_faced:
@@ -90,7 +90,7 @@ def count_edges(body: Body | Faced, outlines: tuple[Approximation, ...]) -> int:
     return total
 
 
-def body_mesh(body: Body | Faced, outlines: tuple[Approximation, ...]) -> Mesh:
+def body_mesh(body: Body | FacedBody, outlines: tuple[Approximation, ...]) -> Mesh:
     """The closed mesh of a body from the chords of its profiles.
 
     Raises
@@ -201,7 +201,7 @@ def _assembled(body: Body, contours: list[Contour], steps: list[float], caps: _C
     return Mesh(np.round(np.concatenate(pieces), _decimals(body)) + 0.0, np.concatenate(triangles))
 
 
-def _decimals(body: Body | Faced) -> int:
+def _decimals(body: Body | FacedBody) -> int:
     """Decimals of a mesh's vertices: a step of 1e-8 of the section or less, which a float32 does not hold."""
     return _GRID_DIGITS - math.floor(math.log10(body.section_reach()) + 1e-9)
 

@@ -6,19 +6,15 @@ read-back and mass integrals go through this description, like those of other pa
 
 from __future__ import annotations
 
-from functools import partial
-from typing import ClassVar, Literal
-
 import numpy as np
 
 from geometry.base.record import Record
 from geometry.cams.barrel.cam import LOWER, UPPER, BarrelCam
 from geometry.curves.curve import Complex, Real
 from geometry.laws.piece import LawPiece
-from geometry.plane.measure import distance_to_profile, gauss_rule
+from geometry.plane.measure import gauss_rule
 from geometry.plane.profile import Label, Profile, circle
 from geometry.solids.mass import Moments, column_integrals, moments_of, section_moments
-from geometry.solids.measured import Measured
 
 # Gauss's rule over the cam angle (panels a piece) and across the walls, at first and at most; what is no change
 _POINTS, _PANELS, _ACROSS = 20, 3, 12
@@ -41,16 +37,6 @@ class Cylinder(Record):
     lower: Ring
     upper: Ring
     outward: bool = True
-    what = "cylinder"
-
-    @property
-    def surface(self) -> object:
-        """By which faces in one surface are told: a groove leaves two parts of the outer cylinder."""
-        return ("cylinder", self.lower.radius)
-
-    def distance(self, cam: BarrelCam, points: Real) -> Real:
-        """Of points (n, 3) from its surface, mm."""
-        return np.abs(np.hypot(points[:, 0], points[:, 1]) - self.lower.radius)
 
 
 class Plane(Record):
@@ -60,16 +46,6 @@ class Plane(Record):
     inner: Ring | None
     bore: Profile | None
     up: bool
-    what = "plane face"
-
-    @property
-    def surface(self) -> object:
-        """Every one is a surface of its own."""
-        return self
-
-    def distance(self, cam: BarrelCam, points: Real) -> Real:
-        """Of points (n, 3) from its surface, mm."""
-        return np.abs(points[:, 2] - self.outer.z)
 
 
 class Track(Record):
@@ -78,12 +54,6 @@ class Track(Record):
     side: int
     inner: Ring
     outer: Ring
-    what = "wall"
-
-    @property
-    def surface(self) -> object:
-        """Every one is a surface of its own."""
-        return self
 
     def distance(self, cam: BarrelCam, points: Real) -> Real:
         """Of points (n, 3), mm, also beyond its ends: by the roller's way where one is near it, else the way to there.
@@ -106,18 +76,6 @@ class BoreWall(Record):
     profile: Profile
     low: float
     high: float
-    what = "wall"
-
-    @property
-    def surface(self) -> object:
-        """Every one is a surface of its own."""
-        return self
-
-    def distance(self, cam: BarrelCam, points: Real) -> Real:
-        """Of points (n, 3), mm, also beyond its ends."""
-        plane = points[:, 0] + 1j * points[:, 1]
-        height = np.maximum(0.0, np.maximum(self.low - points[:, 2], points[:, 2] - self.high))
-        return np.hypot(np.asarray(distance_to_profile(plane, self.profile, trusted=np.inf)), height)
 
 
 Face = Cylinder | Plane | Track | BoreWall
@@ -135,24 +93,6 @@ class BarrelBody(Record):
     bore: Profile | None = None
     hub: tuple[float, float, float] | None = None
     web: float = 0.0
-    is_faced: ClassVar[Literal[True]] = True
-
-    def levels(self) -> tuple[float, ...]:
-        """Heights of all plane faces, ascending, mm."""
-        heights = {face.outer.z for face in self.faces() if isinstance(face, Plane)}
-        return tuple(sorted(heights if self.cam.is_groove else {*heights, self.length}))
-
-    def section_reach(self) -> float:
-        """Greatest distance from the axis, mm."""
-        return self.cam.outer
-
-    def reach(self) -> float:
-        """Greatest coordinate, mm."""
-        return max(self.cam.outer, *map(abs, self.levels()))
-
-    def steepness(self) -> float:
-        """1: a step along the axis moves a wall by no more than itself."""
-        return 1.0
 
     def faces(self) -> tuple[Face, ...]:
         """All faces, from the bottom to the top."""
@@ -172,24 +112,6 @@ class BarrelBody(Record):
         if self.bore is not None:
             found.append(BoreWall(self.bore, *self._bore_ends()))
         return tuple(found)
-
-    @property
-    def surfaces(self) -> tuple[Measured, ...]:
-        """Its faces in different surfaces."""
-        found: dict[object, Measured] = {}
-        for face in self.faces():
-            found.setdefault(face.surface, Measured(face.what, partial(face.distance, self.cam)))
-        return tuple(found.values())
-
-    @property
-    def moments(self) -> Moments:
-        """Volume, centre and inertia."""
-        return barrel_moments(self)
-
-    @property
-    def slack(self) -> float:
-        """Its moments are exact."""
-        return 0.0
 
     def _bore_ends(self) -> tuple[float, float]:
         below, above = (0.0, 0.0) if self.hub is None else self.hub[1:]

@@ -6,22 +6,55 @@ the rims of all walls stand above each other.
 
 from __future__ import annotations
 
+from functools import lru_cache, partial
+
 import numpy as np
 
 from geometry.approximation.outline import Outline
-from geometry.cams.barrel.body import BarrelBody, BoreWall, Cylinder, Plane, Ring, Track
-from geometry.cams.barrel.cam import UPPER
-from geometry.cams.barrel.splines import BarrelSplines
+from geometry.cams.barrel.body import BarrelBody, BoreWall, Cylinder, Plane, Ring, Track, barrel_moments
+from geometry.cams.barrel.cam import LOWER, UPPER
+from geometry.cams.barrel.rolling import wall_height
+from geometry.cams.barrel.splines import BarrelSplines, barrel_splines
 from geometry.cams.motion.follower_motion import TURN
-from geometry.curves.curve import Complex
+from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc
 from geometry.solids import faces as kinds
+from geometry.solids.faced import FacedBody, FacedSolid
 from geometry.solids.faces import Circular, Faces, Frame, Index, Loop, Solid, Spline, Straight
+from geometry.solids.measured import Measured
 from geometry.solids.rings import AHEAD, UP, RingBuilder
 from geometry.solids.rings import Ring as Edging
 
+# with fewer poles the edges leave the walls by more than solids allow
+_FINEST = 1e-6
 # one face of a cylinder goes round by no more than this, rad, where the roller's rests allow it
 _MOST_TURN = 3.5
+
+
+def barrel_faces(body: BarrelBody) -> FacedBody:
+    """A cylindrical cam as a body told by its faces; its meshes are proven by how high their triangles stand."""
+    cam = body.cam
+
+    @lru_cache(maxsize=4)
+    def within(tolerance: float) -> FacedSolid:
+        made = barrel_splines(cam, tolerance, body.bore)
+        return FacedSolid(barrel_solid(body, made), made.max_error, made.bound)
+
+    def proof(walls: list[Real], slack: float) -> float:
+        sides: dict[int, list[Real]] = {side: [] for side in cam.sides}
+        for corners in walls:
+            a, b = np.moveaxis(corners[:, 1:] - corners[:, :1], 1, 0)
+            # the lower wall looks up
+            sides[UPPER if np.sum(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) < 0 else LOWER].append(corners)
+        return wall_height(cam, {side: np.concatenate(own) for side, own in sides.items() if own}, slack).bound
+
+    tracks = [face for face in body.faces() if isinstance(face, Track)]
+    return FacedBody(
+        lambda tolerance: within(min(tolerance, _FINEST)),
+        tuple(Measured("wall", partial(face.distance, cam)) for face in tracks),
+        lambda: barrel_moments(body),
+        proof,
+    )
 
 
 def barrel_solid(body: BarrelBody, splines: BarrelSplines) -> Solid:

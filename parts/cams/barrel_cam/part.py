@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from geometry.cams.barrel.body import BarrelBody
     from geometry.cams.barrel.cam import BarrelCam, Guide
     from geometry.cams.motion.follower_motion import FollowerMotion
+    from geometry.solids.faced import FacedBody
     from parts.base.readback import Probe
 
 # usual limits of the pressure angle: translating 30, swinging 45 degrees (practicum: 30 to 35, 40 to 50)
@@ -326,9 +327,11 @@ class Barrel(Kind[BarrelCamSpec, "BarrelBody"]):
 
         return development(thing.cam, thing.length, offset)
 
-    def solid(self, keys: BarrelCamSpec, thing: BarrelBody, offset: float) -> BarrelBody:
-        """The barrel: a ``BarrelBody``, whose walls are no plane's."""
-        return _moved(keys, thing, offset)
+    def solid(self, keys: BarrelCamSpec, thing: BarrelBody, offset: float) -> FacedBody:
+        """The barrel by its faces: its walls are no plane's."""
+        from geometry.cams.barrel.faces import barrel_faces
+
+        return barrel_faces(_moved(keys, thing, offset))
 
     def height(self, keys: BarrelCamSpec, thing: BarrelBody) -> float:
         """The barrel's length."""
@@ -345,7 +348,7 @@ class Barrel(Kind[BarrelCamSpec, "BarrelBody"]):
         from parts.cams.barrel_cam.probe import GrooveRoller
 
         roller = self.report(keys, thing).quantities["roller_diameter"]
-        return (GrooveRoller(lambda offset: self.solid(keys, thing, offset), roller),)
+        return (GrooveRoller(lambda offset: _moved(keys, thing, offset), roller),)
 
 
 BARREL_CAM = Barrel()

@@ -63,7 +63,7 @@ class GrooveRoller(Record):
             play = place[UPPER] - place[LOWER]
             measured |= {"least_play": float(play.min()), "greatest_play": float(play.max())}
         allowed = _allowed(cam, worst.angle, worst.depth, worst.upright, declared)
-        if worst.found <= allowed + _ROUNDING * body.reach():
+        if worst.found <= allowed + _ROUNDING * max(cam.outer, body.length):
             return Probed(measured)
         where = f"cam angle {math.degrees(worst.angle):.6g} degrees"
         text = f"the roller's place is wrong by {worst.found:.6g} mm at {where}, more than the walls allow"
@@ -90,7 +90,7 @@ class GrooveRoller(Record):
                 return Probed(failures=(f"the roller finds no wall at cam angle {lost:.6g} degrees",))
             found = lift_errors(error, law[kept], TURN / ANGLES, swings=False, round_about=offset >= 0)
             measured = {key: max(value, measured.get(key, 0.0)) for key, value in found.items()}
-            bound = _allowed(cam, angle, cam.outer, cosine, declared) + _ROUNDING * body.reach()
+            bound = _allowed(cam, angle, cam.outer, cosine, declared) + _ROUNDING * max(cam.outer, body.length)
             bound = np.maximum(np.maximum(np.roll(bound, 1), np.roll(bound, -1)), bound)[kept]
             at = np.degrees(angle[kept])
             place = lambda k, at=at: f"at cam angle {at[k]:.6g} degrees"  # noqa: E731

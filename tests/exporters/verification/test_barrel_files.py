@@ -24,6 +24,7 @@ from exporters.verification.verdict import Verdict
 from geometry.base.record import replace
 from geometry.cams.barrel.body import BarrelBody, Plane, Track
 from geometry.cams.barrel.cam import LOWER, UPPER
+from geometry.cams.barrel.faces import barrel_faces
 from geometry.cams.barrel.rolling import rolled_places, wall_height
 from geometry.cams.motion.follower_motion import TURN
 from geometry.plane.contour import edge_points
@@ -44,12 +45,15 @@ FORMS = {"groove": GROOVE | {"clearance": 0.2, "bore": {"shape": "keyway", "diam
 TOLERANCE = 0.05
 # angles at which the roller is put in
 COUNT = 240
+faced = cache(barrel_faces)
 
 
 def mesh_of(body: BarrelBody) -> tuple[ReadMesh, float]:
-    outlines = mesh_outlines(body, TOLERANCE, 0.0)
-    made = body_mesh(body, outlines)
-    return ReadMesh(made.vertices, made.triangles), outlines[0].max_error
+    exact = faced(body)
+    outlines = mesh_outlines(exact, TOLERANCE, 0.0)
+    made = body_mesh(exact, outlines)
+    # vertices stand on a grid
+    return ReadMesh(made.vertices, made.triangles), outlines[0].max_error + 1e-8 * body.cam.outer
 
 
 @cache
@@ -60,7 +64,7 @@ def formed(name: str) -> tuple[BarrelBody, ReadMesh, float]:
 
 
 def verdict(mesh: ReadMesh, body: BarrelBody, error: float) -> Verdict:
-    return verify_faced_mesh(mesh, body, error, TOLERANCE)
+    return verify_faced_mesh(mesh, faced(body), error, TOLERANCE)
 
 
 def away_from_triangles(points: np.ndarray, corners: np.ndarray) -> np.ndarray:
@@ -236,8 +240,9 @@ def test_the_error_that_is_told_holds_at_every_depth(seed: int) -> None:
         with contextlib.suppress(SceneError):
             body = body_of(keys)
             break
-    outlines = mesh_outlines(body, 2e-3 * body.cam.outer, 0.0)
-    made, cam = body_mesh(body, outlines), body.cam
+    exact = barrel_faces(body)
+    outlines = mesh_outlines(exact, 2e-3 * body.cam.outer, 0.0)
+    made, cam = body_mesh(exact, outlines), body.cam
     mesh = ReadMesh(made.vertices, made.triangles)
     good = probed_mesh(keys, mesh, outlines[0].max_error)
     assert good.failures == ()
@@ -318,9 +323,9 @@ def test_files_of_a_swinging_follower_with_a_conical_roller(tmp_path: Path) -> N
     # walls that the mesh's own check would have let through
     lifted = read_stl(folder / "cam.stl")
     part = part_of(SWING | CONICAL)
-    wall = next(f for f in part.body(0.0).faces() if isinstance(f, Track) and f.side == LOWER)
-    vertices = lifted.vertices.copy()
-    vertices[part.body(0.0).distance(wall, vertices) < 1e-4, 2] += 0.1
+    body, vertices = body_of(SWING | CONICAL), lifted.vertices.copy()
+    wall = next(f for f in body.faces() if isinstance(f, Track) and f.side == LOWER)
+    vertices[wall.distance(body.cam, vertices) < 1e-4, 2] += 0.1
     write_stl(folder / "bad.stl", Mesh(vertices, lifted.triangles))
     found = probed(read_stl(folder / "bad.stl"), part, 0.0, TOLERANCE, Verdict({}, ()))
     assert "the roller's place is wrong by 0.1" in found.failures[0]
@@ -337,8 +342,9 @@ def measured_length(folder: Path) -> float:
 
 def written_step(file: Path, body: BarrelBody) -> float:
     """Write a cam within 1e-6 mm; what its splines are off, mm."""
-    curves = solid_curves(body, 1e-6)
-    write_step(file, StepPart("cam", solid_faces(body, curves), None), StepForm())
+    exact = barrel_faces(body)
+    curves = solid_curves(exact, 1e-6)
+    write_step(file, StepPart("cam", solid_faces(exact, curves), None), StepForm())
     return max(c.max_error for c in curves)
 
 
@@ -353,7 +359,7 @@ def test_a_step_file_holds_the_exact_cam(name: str, tmp_path: Path) -> None:
     found = READERS["step"](file)
 
     def judged(exact: BarrelBody) -> Verdict:
-        return held(found, FILE_KINDS["step"], exact, error, 1e-6, "cam")
+        return held(found, FILE_KINDS["step"], barrel_faces(exact), error, 1e-6, "cam")
 
     good = judged(body)
     assert good.failures == ()
@@ -402,12 +408,13 @@ def test_random_cams_become_good_files(seed: int, tmp_path: Path) -> None:
 
     body = possible_cam(random.Random(seed))
     tolerance = 1e-3 * body.cam.outer
-    outlines = mesh_outlines(body, tolerance, 0.0)
-    made = body_mesh(body, outlines)
+    exact = barrel_faces(body)
+    outlines = mesh_outlines(exact, tolerance, 0.0)
+    made = body_mesh(exact, outlines)
     mesh = ReadMesh(made.vertices, made.triangles)
     # vertices stand on a grid, of which a file's rounding has its share
-    declared = outlines[0].max_error + 1e-8 * body.section_reach()
-    assert verify_faced_mesh(mesh, body, declared, tolerance).failures == ()
+    declared = outlines[0].max_error + 1e-8 * exact.section_reach()
+    assert verify_faced_mesh(mesh, exact, declared, tolerance).failures == ()
     file = tmp_path / "cam.step"
     error = max(1e-6, written_step(file, body))
-    assert verify_faced_solid(read_step(file), body, error, 1e-6).failures == ()
+    assert verify_faced_solid(read_step(file), exact, error, 1e-6).failures == ()

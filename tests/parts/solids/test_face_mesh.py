@@ -10,6 +10,8 @@ import pytest
 from exporters.formats.readback import ReadMesh
 from exporters.verification.faces import mesh_deviation
 from exporters.verification.topology import doubled_normals, topology_failures
+from geometry.base.record import replace
+from geometry.solids.extent import extent
 from geometry.solids.face_moments import face_moments
 from geometry.solids.faces import Circular, Faces, Frame, Solid, SolidBuilder, Sphere, Torus
 from geometry.solids.mass import body_moments
@@ -93,6 +95,31 @@ def test_a_worm_wheel_has_triangles_where_it_is_bent() -> None:
     deviation, lone = mesh_deviation(mesh, body)
     assert 0.4 * made.max_error < deviation <= made.max_error <= 0.05
     assert lone == 0
+
+
+def test_a_solid_reaches_as_far_as_closed_forms_say() -> None:
+    """A ball off the axis, a ring, and a ring that leans: its highest place lies inside its face."""
+    found = extent(ball(5.0, 7 + 2j))
+    assert found.low == pytest.approx([2, -3, -5], abs=1e-9)
+    assert found.high == pytest.approx([12, 7, 5], abs=1e-9)
+    assert found.radius == pytest.approx(math.hypot(7, 2) + 5, abs=1e-9)
+    found = extent(ring(10.0, 3.0))
+    assert [*found.low, *found.high, found.radius] == pytest.approx([-13, -13, -3, 13, 13, 3, 13], abs=1e-9)
+    lean = 0.7
+    turn = np.array([[1, 0, 0], [0, math.cos(lean), -math.sin(lean)], [0, math.sin(lean), math.cos(lean)]])
+    whole = ring(10.0, 3.0)
+    (around, across), (face,) = whole.edges, whole.faces
+    tilted = Solid(
+        whole.points @ turn.T,
+        whole.vertices,
+        tuple(replace(e, curve=replace(e.curve, frame=_turned(e.curve.frame, turn))) for e in (around, across)),
+        (replace(face, surface=replace(face.surface, frame=_turned(face.surface.frame, turn))),),
+    )
+    assert extent(tilted).high == pytest.approx([13, 10 * math.cos(lean) + 3, 10 * math.sin(lean) + 3], abs=1e-9)
+
+
+def _turned(frame: Frame, turn: np.ndarray) -> Frame:
+    return Frame(frame.origin, frame.axis @ turn.T, frame.zero @ turn.T)
 
 
 @pytest.mark.sampled(1)

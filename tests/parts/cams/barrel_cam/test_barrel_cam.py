@@ -12,6 +12,7 @@ import pytest
 from geometry.base.errors import OffsetError
 from geometry.cams.barrel.body import BarrelBody, barrel_moments
 from parts.base.part import Part
+from parts.cams.barrel_cam.probe import GrooveRoller
 from parts.scene.load import load_scene, make_parts, scene_from_dict
 from tests.parts.nearest import cured, refused
 
@@ -37,6 +38,13 @@ def body_of(keys: dict[str, Any]) -> BarrelBody:
     body = part_of(keys).thing
     assert body is not None
     return body
+
+
+def moved(part: Part, offset: float) -> BarrelBody:
+    """The solid of a part moved out of its material, as its probe has it."""
+    (probe,) = part.probes
+    assert isinstance(probe, GrooveRoller)
+    return probe.body(offset)
 
 
 def blamed(keys: dict[str, Any]) -> str:
@@ -116,8 +124,7 @@ def test_a_cone_has_its_apex_on_the_cams_axis_or_an_angle_of_its_own() -> None:
 
 def test_a_cone_moved_by_an_offset_stays_parallel() -> None:
     part = part_of(CONE)
-    body = part.body(0.3)
-    assert isinstance(body, BarrelBody)
+    body = moved(part, 0.3)
     points = body.cam.wall(np.linspace(0, 6, 40), 1, 26.0)
     assert np.abs(body_of(CONE).cam.distance(points) + 0.3).max() < 1e-12
     for keys in (CONE, GROOVE, END):
@@ -139,9 +146,9 @@ def test_keys_that_exclude_each_other_are_refused() -> None:
 
 def test_an_offset_moves_all_walls_but_the_ends() -> None:
     part = part_of(GROOVE | {"bore_diameter": 12.0})
-    grown = part.body(0.5)
+    grown = moved(part, 0.5)
     assert (grown.cam.radius, grown.cam.outer, grown.cam.inner) == (4.5, 30.5, 22.5)
-    assert grown.length == part.body(0.0).length
+    assert grown.length == moved(part, 0.0).length
     with pytest.raises(OffsetError) as closed:
         part.body(5.5)
     part.body(closed.value.nearest_offset)
@@ -149,13 +156,13 @@ def test_an_offset_moves_all_walls_but_the_ends() -> None:
         part.body(-30.0)
     # the sum of what grows is the surface that moved: to first order
     step = 1e-4
-    volumes = [barrel_moments(part.body(x)).volume for x in (-step, step)]
+    volumes = [barrel_moments(moved(part, x)).volume for x in (-step, step)]
     mesh = part.to_trimesh(0.05)
     flat = np.abs(mesh.face_normals[:, 2]) > 1 - 1e-9
-    ends = [m for m in np.flatnonzero(flat) if mesh.triangles_center[m, 2] in (0.0, part.body(0.0).length)]
-    moved = mesh.area - mesh.area_faces[ends].sum()
+    ends = [m for m in np.flatnonzero(flat) if mesh.triangles_center[m, 2] in (0.0, moved(part, 0.0).length)]
+    upright = mesh.area - mesh.area_faces[ends].sum()
     # dwells are plane rings too, but inside
-    assert (volumes[1] - volumes[0]) / (2 * step) == pytest.approx(moved, rel=5e-3)
+    assert (volumes[1] - volumes[0]) / (2 * step) == pytest.approx(upright, rel=5e-3)
 
 
 def test_what_is_told_of_steep_and_tight_grooves() -> None:
