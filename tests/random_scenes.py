@@ -30,7 +30,8 @@ _NAMING = ("first", "second", "instance", "part", "of", "about", "with_part")
 def random_scene(seed: str) -> str:
     """The text of a scene, the same for the same seed."""
     draw = random.Random(seed)
-    scene: Table = {"scene": {"title": f"random {seed}"}, "parts": {}, "instances": {}, "mates": [], "drives": []}
+    scene: Table = {"scene": {"title": f"random {seed}"}, "parts": {}, "instances": {}, "assemblies": [],
+                    "mates": [], "drives": [], "boards": {}, "beds": {}}  # fmt: skip
     for number in range(draw.choice((1, 1, 1, 2, 2, 3))):
         _add(scene, _known(draw), f"s{number}_" if number else "")
     for _ in range(draw.choice((0, 1, 1, 2, 3, 4))):
@@ -69,7 +70,7 @@ def _known(draw: random.Random) -> Table:
 def _add(scene: Table, known: Mapping[str, Any], prefix: str) -> None:
     """Parts, instances, mates and drives of another scene, under names of their own."""
     known = copy.deepcopy(dict(known))
-    names = {*known["parts"], *known.get("instances", {})}
+    names = {*known.get("parts", {}), *known.get("instances", {})}
 
     def renamed(table: Table) -> Table:
         own = {k: prefix + v if k in _NAMING and isinstance(v, str) and v in names else v for k, v in table.items()}
@@ -79,6 +80,11 @@ def _add(scene: Table, known: Mapping[str, Any], prefix: str) -> None:
         scene[room] |= {prefix + name: renamed(table) for name, table in known.get(room, {}).items()}
     for room in ("mates", "drives"):
         scene[room] += [renamed(table) for table in known.get(room, [])]
+    # names of what an assembly makes are its own
+    if not prefix:
+        scene["assemblies"] += known.get("assemblies", [])
+    for room in ("boards", "beds"):
+        scene[room] |= known.get(room, {})
 
 
 def _leaves(table: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], Any]]:
@@ -92,9 +98,11 @@ def _leaves(table: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any,
 
 def _move_a_key(scene: Table, draw: random.Random) -> None:
     """Set an optional key of a part to its example, or move a number of a part or a mate."""
-    name = draw.choice(sorted(scene["parts"]))
-    part = scene["parts"][name]
-    if draw.random() < 0.35 and (keys := _optional_keys(part["kind"])):
+    part = draw.choice([*(scene["parts"][name] for name in sorted(scene["parts"])), *scene["assemblies"]])
+    if draw.random() < 0.2 and part not in scene["assemblies"]:
+        part["label"] = draw.choice(("A1", "Деталь 2", {"text": "z", "height": 2.0}))
+        return
+    if draw.random() < 0.35 and (keys := _optional_keys(part["kind"]) if "kind" in part else ()):
         key, value = draw.choice(keys)
         part[key] = copy.deepcopy(value)
         return
@@ -120,20 +128,28 @@ def _moved(value: float, draw: random.Random) -> float:
 
 
 def _export(scene: Table, draw: random.Random) -> Table:
-    made: Table = {"format": draw.choice(("dxf", "dxf", "svg", "stl", "3mf", "step", "step", "sheet"))}
-    if made["format"] != "sheet" and draw.random() < 0.5:
+    made: Table = {"format": draw.choice(("dxf", "dxf", "svg", "stl", "3mf", "step", "step", "sheet", "pdf", "glb"))}
+    if made["format"] not in ("sheet", "pdf", "glb") and draw.random() < 0.5:
         made["tolerance"] = round(10.0 ** draw.uniform(-4, -1), 5)
-    if made["format"] == "sheet":
-        return made | {"purpose": draw.choice(("meshing", "cam"))}
+    made["name"] = f"{made['format']}{draw.randrange(10**6)}"
+    if made["format"] == "glb":
+        return made
+    if made["format"] in ("sheet", "pdf"):
+        return made | {"purpose": draw.choice(("meshing", "cam", *(("model",) * (made["format"] == "pdf"))))}
+    if made["format"] in ("dxf", "svg") and scene["boards"] and draw.random() < 0.5:
+        return made | {"purpose": "board"}
+    if made["format"] == "3mf" and scene["beds"] and draw.random() < 0.5:
+        return made | {"purpose": "plate"}
+    if made["format"] == "svg" and draw.random() < 0.2:
+        return {"format": "motion", "name": made["name"]}
     if made["format"] == "dxf":
         made["purpose"] = draw.choice(("laser", "drawing"))
     if made["format"] in ("dxf", "svg") and draw.random() < 0.4 and made.get("purpose") != "drawing":
         made["kerf"] = round(draw.uniform(0.0, 0.4), 3)
     if made["format"] in ("3mf", "step") and draw.random() < 0.4:
         made["assembly"] = True
-    elif draw.random() < 0.3:
+    elif draw.random() < 0.3 and scene["parts"]:
         made["parts"] = [draw.choice(sorted(scene["parts"]))]
-    made["name"] = f"{made['format']}{draw.randrange(10**6)}"
     return made
 
 
@@ -142,7 +158,7 @@ def _lines(scene: Table) -> Iterator[str]:
     for room, held in scene.items():
         if isinstance(held, list):
             tables = [(f"[[{room}]]", table) for table in held]
-        elif room in ("parts", "instances"):
+        elif room in ("parts", "instances", "boards", "beds"):
             tables = [(f"[{room}.{name}]", table) for name, table in held.items()]
         else:
             tables = [(f"[{room}]", held)]
