@@ -246,3 +246,18 @@ def test_the_archives_carry_the_catalogues(tmp_path: Path) -> None:
     for ending in ("po", "mo"):
         assert sum(name.endswith(f"parts/locale/uk/LC_MESSAGES/higherpair.{ending}") for name in names) == 2
     assert sum(name.endswith("parts/pages/terms.psv") for name in names) == 2
+
+
+def test_tomllib_says_nothing_of_its_own() -> None:
+    """What this Python's tomllib may tell of a scene stands in the catalogue."""
+    import inspect
+    from tomllib import _parser
+
+    calls = [c for c in ast.walk(ast.parse(inspect.getsource(_parser))) if isinstance(c, ast.Call)]
+    told = [
+        c.args[-1] for c in calls if isinstance(c.func, ast.Name) and c.func.id in ("suffixed_err", "TOMLDecodeError")
+    ]
+    pieces = [t.values if isinstance(t, ast.JoinedStr) else [t] for t in told]
+    said = {"".join(v.value if isinstance(v, ast.Constant) else "{what}" for v in row) for row in pieces}
+    assert len(said) > 15
+    assert {text for text in said if text[0].isupper()} <= {word for _, word in extracted()}

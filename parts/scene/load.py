@@ -232,23 +232,16 @@ def scene_from_toml(raw_bytes: bytes, source: str, name: str, language: str | No
     except UnicodeDecodeError as error:
         raise SceneError(source, "", None, "not_utf8", None, byte=error.start) from None
     except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
-        if isinstance(error, tomllib.TOMLDecodeError) and (comma := _decimal_comma(text_of(raw_bytes), str(error))):
+        from parts.scene.toml_errors import decimal_comma, told_toml
+
+        if isinstance(error, tomllib.TOMLDecodeError) and (comma := decimal_comma(text_of(raw_bytes), str(error))):
             raise SceneError(source, "", None, "decimal_comma", None, **comma) from None
         code = "not_toml" if str(error) else "too_deep"
-        raise SceneError(source, "", None, code, None, why=str(error)) from None
+        raise SceneError(source, "", None, code, None, why=told_toml(str(error))) from None
     try:
         return scene_from_dict(raw, source, name, language)
     except RecursionError:
         raise SceneError(source, "", None, "too_deep") from None
-
-
-def _decimal_comma(text: str, why: str) -> dict[str, Any] | None:
-    """The number with a comma on the line that is not TOML, if it is that."""
-    if (at := re.search(r"line (\d+)", why)) is None:
-        return None
-    line = int(at[1])
-    found = re.search(r"=\s*(-?\d+),(\d+)\s*(#.*)?$", text.splitlines()[line - 1])
-    return {"line": line, "number": f"{found[1]}.{found[2]}"} if found else None
 
 
 def scene_from_dict(raw: dict[str, Any], source: str, name: str, language: str | None = None) -> SceneFile:

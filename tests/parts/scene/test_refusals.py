@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
 
+from exporters.command.cli import main
 from exporters.production.build import build
 from exporters.production.plan import plan_build
 from parts.base.refusal import SceneError
@@ -344,3 +346,28 @@ def test_a_board_of_no_pieces_is_refused() -> None:
     board = "[boards.b]\nwidth = 200\nheight = 200\nthickness = 3\ncopies = { gear = 0 }\n"
     found = refusal(scene_text({"face_width": "3.0"}, {"format": '"dxf"', "purpose": '"board"'}, board))
     assert (found.key, found.code) == ("boards.b.copies", "nothing_is_laid")
+
+
+@pytest.mark.parametrize(("line", "kept"), [
+    ("kind spur_gear", "'='"), ("module = ", ""), ("[parts.g", "']'"), ("[parts.g]\n[parts.g]", "parts.g"),
+    ("a = [1", ""), ("a = {b = 1", ""), ('a = "b', ""), ('a = "\\q"', "'\\'"), ("a = 1 b", ""), ("a = 1\na = 2", ""),
+    ("a = 2026-13-01", ""), ('a = "\x01"', "'\\x01'"),
+])  # fmt: skip
+def test_what_is_no_toml_is_told_in_the_language_of_the_scene(
+    line: str, kept: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """With the place; English is tomllib's own sentence, keys as they are typed."""
+    file = tmp_path / "s.toml"
+    for language in ("uk", "en"):
+        text = f'[scene]\nlanguage = "{language}"\n{line}\n'
+        file.write_text(text, encoding="utf-8")
+        assert main(["check", str(file)]) == 2
+        said = capsys.readouterr().err
+        with pytest.raises(tomllib.TOMLDecodeError) as own:
+            tomllib.loads(text)
+        sentence = str(own.value).replace("('parts', 'g')", "parts.g")
+        assert (sentence in said) is (language == "en"), said
+        assert kept in said
+        if language == "uk":
+            rest = said.replace(str(file), "").replace(kept, "").replace("higherpair", "").partition(";")[0]
+            assert not re.search("[A-Za-z]{5}", rest), said

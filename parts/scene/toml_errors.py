@@ -1,0 +1,62 @@
+"""What tomllib says of a text that is no TOML, as messages: its sentences are translated like ours."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from parts.base.texts import N_, Text, filled, message
+
+# every sentence of tomllib (Python 3.11 to 3.14); one that is not here is told in English
+_SENTENCES = (
+    N_("Cannot declare {what} twice"),
+    N_("Cannot mutate immutable namespace {what}"),
+    N_("Cannot overwrite a value"),
+    N_("Cannot redefine namespace {what}"),
+    N_("Duplicate inline table key {what}"),
+    N_("Escaped character is not a Unicode scalar value"),
+    N_("Expected '=' after a key in a key/value pair"),
+    N_("Expected ']' at the end of a table declaration"),
+    N_("Expected ']]' at the end of an array declaration"),
+    N_("Expected newline or end of document after a statement"),
+    N_("Expected {what}"),
+    N_("Found invalid character {what}"),
+    N_("Illegal character {what}"),
+    N_("Invalid date or datetime"),
+    N_("Invalid hex value"),
+    N_("Invalid initial character for a key part"),
+    N_("Invalid statement"),
+    N_("Invalid value"),
+    N_("Unclosed array"),
+    N_("Unclosed inline table"),
+    N_("Unescaped '\\' in a string"),
+    N_("Unterminated string"),
+)
+
+
+def told_toml(why: str) -> Text:
+    """An error of tomllib, keys in it as they are typed."""
+    found = re.fullmatch(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", why, re.DOTALL)
+    if found is None:
+        return why
+    for text in _SENTENCES:
+        if given := re.fullmatch(re.escape(text).replace(r"\{what\}", "(.+)"), found[1], re.DOTALL):
+            said = filled(text, what=_as_typed(given[1])) if given.groups() else filled(text)
+            if found[2]:
+                return message("{what} (at line {line}, column {column})", what=said, line=found[2], column=found[3])
+            return message("{what} (at end of document)", what=said)
+    return why
+
+
+def _as_typed(what: str) -> str:
+    """A key that is told as the tuple of its parts, with dots between them."""
+    return ".".join(re.findall(r"'([^']*)'", what)) if what.startswith("(") else what
+
+
+def decimal_comma(text: str, why: str) -> dict[str, Any] | None:
+    """The number with a comma on the line that is not TOML, if it is that."""
+    if (at := re.search(r"line (\d+)", why)) is None:
+        return None
+    line = int(at[1])
+    found = re.search(r"=\s*(-?\d+),(\d+)\s*(#.*)?$", text.splitlines()[line - 1])
+    return {"line": line, "number": f"{found[1]}.{found[2]}"} if found else None
