@@ -449,7 +449,7 @@ def _check(options: argparse.Namespace) -> int:
     from exporters.production.check import scene_checks
     from exporters.production.check_lines import check_lines, has_bad_verdict, names_of
     from parts.base.refusal import SceneError
-    from parts.scene.checks import check_solids
+    from parts.scene.checks import check_solids, check_workspace
     from parts.scene.load import in_keys_of_file, make_parts
     from parts.scene.placing import place
 
@@ -461,9 +461,18 @@ def _check(options: argparse.Namespace) -> int:
             if len(placing.instances) < 2:
                 raise SceneError(address, "mates", None, "nothing_to_check")
             check_solids(parts, address)
+            check_workspace(scene.checks.workspace, placing, address)
         asked, language = scene.checks.transmission_error, scene.scene.language
         return (
-            scene_checks(placing, parts, scene.drives, language, contact=True, transmission=asked),
+            scene_checks(
+                placing,
+                parts,
+                scene.drives,
+                language,
+                contact=True,
+                transmission=asked,
+                workspace=scene.checks.workspace,
+            ),
             scene,
             names_of(placing.instances, parts),
         )

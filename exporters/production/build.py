@@ -108,7 +108,15 @@ def _checks(plan: Plan) -> dict[str, Any]:
 
     asked, language = scene.checks, scene.scene.language
     contact, transmission = asked.interference, asked.transmission_error
-    return scene_checks(plan.placing, plan.parts, scene.drives, language, contact=contact, transmission=transmission)
+    return scene_checks(
+        plan.placing,
+        plan.parts,
+        scene.drives,
+        language,
+        contact=contact,
+        transmission=transmission,
+        workspace=scene.checks.workspace,
+    )
 
 
 def approximated(job: Job, source: str) -> tuple[Shape, float]:

@@ -21,6 +21,7 @@ from parts.texts.findings import finding_text
 
 if TYPE_CHECKING:
     from geometry.gears.mesh.search import PairContact
+    from parts.scene.workspace import Struck
 
 # mates that run no gears in each other: of these transmission error is not asked
 _WITHOUT_TEETH = ("fixed", "coaxial", "carried", "parallel", "pin_seat", "eccentric_bearing")
@@ -34,10 +35,12 @@ def scene_checks(
     *,
     contact: bool,
     transmission: bool = False,
+    workspace: int | None = None,
 ) -> dict[str, Any]:
     """All that is known of how a scene's instances stand to each other.
 
-    ``contact``: interference of the pairs too; ``transmission``: and their transmission error.
+    ``contact``: interference of the pairs too; ``transmission``: and their transmission error; ``workspace``: solids
+    wherever the drives may stand, each pair in so many poses at most.
     """
     checks: dict[str, Any] = {}
     if placing.mates:
@@ -60,7 +63,7 @@ def scene_checks(
         ]
         checks["axles"] = [{**row, "text": told.text(OFF_CENTRE, **row)} for row in rows]
     if contact and len(placing.instances) > 1:
-        checks |= _solids(placing, parts, drives, language)
+        checks |= _solids(placing, parts, drives, language, workspace)
     if placing.train is not None:
         checks["drives"] = [
             {"instance": d.instance, "turns": d.turns, "train": train, **({"travel": slid} if slid else {})}
@@ -188,20 +191,35 @@ def _neighbours(close: Closeness, language: str) -> dict[str, Any]:
     }
 
 
-def _solids(placing: Placing, parts: dict[str, Part], drives: Sequence[DriveSpec], language: str) -> dict[str, Any]:
-    """Solids as they stand, then on the way that the drives move them."""
-    from parts.scene.interference import has_solid_pairs, solid_overlaps
+def _solids(
+    placing: Placing, parts: dict[str, Part], drives: Sequence[DriveSpec], language: str, workspace: int | None
+) -> dict[str, Any]:
+    """Solids as they stand, then on the way that the drives move them, or wherever these may stand."""
+    from parts.scene.interference import by_contact, has_solid_pairs, solid_overlaps
+    from parts.scene.shapes import Shape
 
-    overlaps = solid_overlaps(placing, parts)
+    shapes = {name: Shape(parts[name]) for name in dict.fromkeys(i.part for i in placing.instances)}
+    overlaps = solid_overlaps(placing, parts, lambda name: shapes[name].solid)
     solids = [_overlap(o.first, o.second, o.volume, language) for o in overlaps]
     checks: dict[str, Any] = {}
-    if placing.train is not None:
+    known = {frozenset((o.first, o.second)) for o in overlaps}
+    if placing.train is not None and workspace is not None:
+        from parts.scene.workspace import workspace_found
+
+        all_over = workspace_found(placing, shapes, by_contact(placing, parts), known, workspace)
+        solids += [_struck(x, drives, language) for x in all_over.struck]
+        checks["workspace"] = {
+            "rest": all_over.rest,
+            "tested": all_over.tested,
+            "poses": all_over.motion.poses,
+            "uncovered": [asdict(x) for x in all_over.motion.uncovered],
+        }
+    elif placing.train is not None:
         from parts.scene.moving_solids import motion_found
         from parts.scene.relative_path import course_of
 
-        known = {frozenset((o.first, o.second)) for o in overlaps}
         course = course_of(placing.train, [i.id for i in placing.instances])
-        found = motion_found(placing, parts, course, known)
+        found = motion_found(placing, shapes, course, known)
         solids += [_overlap(x.first, x.second, x.volume, language, drives[0], x.time) for x in found.struck]
         checks["motion"] = {
             "pairs": found.pairs,
@@ -214,6 +232,21 @@ def _solids(placing: Placing, parts: dict[str, Part], drives: Sequence[DriveSpec
     elif has_solid_pairs(placing, parts):
         checks["motion"] = {"one_pose": True}
     return {"solids": solids, **checks} if solids else checks
+
+
+def _struck(struck: Struck, drives: Sequence[DriveSpec], language: str) -> dict[str, Any]:
+    """Two solids in each other where the drives have turned so far."""
+    found = _overlap(struck.first, struck.second, struck.volume, language)
+    if struck.volume is None:
+        return found
+    turns = {drive.instance: 360.0 * turned for drive, turned in zip(drives, struck.turns, strict=True)}
+    told = words(language)
+    where = ", ".join(told.text("{drive} by {way:.6g} deg", drive=name, way=way) for name, way in turns.items())
+    text = told.text(
+        "{first} and {second} run into each other: {value:.4g} mm^3 in common where drives have turned: {where}",
+        first=struck.first, second=struck.second, value=struck.volume, where=where,
+    )  # fmt: skip
+    return {**found, "drive_turns_deg": turns, "text": text}
 
 
 def _overlap(

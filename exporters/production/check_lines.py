@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import Any
 
 from parts.base.part import Part
-from parts.base.texts import N_, Message, Words, counted, filled, message, words
+from parts.base.texts import N_, Message, Text, Words, counted, filled, message, words
 from parts.scene.placing import Instance
 from parts.texts.checks import GEAR_PAIR, MATES, VERDICTS
 
@@ -16,6 +17,15 @@ _ROUNDING = 1e-9
 _SENSES = {"clockwise": N_("clockwise"), "counter_clockwise": N_("counter-clockwise")}
 
 
+# why pairs cannot meet
+_REST = {
+    "fixed": N_("{pairs} fixed to each other"),
+    "height": N_("{pairs} never at one height"),
+    "mesh": N_("{pairs} held by their contact"),
+    "circles": N_("{pairs} kept apart by circles about their axes"),
+    "swept": N_("{pairs} past what one sweeps about its axis"),
+    "round": N_("{pairs} round about a common axis"),
+}
 _UNITS = {"mm": N_("mm"), "deg": N_("deg")}
 
 
@@ -58,6 +68,8 @@ def check_lines(checks: dict[str, Any], language: str, names: Mapping[str, str] 
         lines.append(f"{told.text(VERDICTS[found['verdict']])}: {found['text']}")
     if "motion" in checks:
         lines += _motion(checks["motion"], told)
+    if "workspace" in checks:
+        lines += _workspace(checks["workspace"], told)
     for drive in checks.get("drives", []):
         train = ", ".join(f"{names.get(name, name)} {turns:.6g}" for name, turns in drive["train"].items())
         driven = names.get(drive["instance"], drive["instance"])
@@ -89,6 +101,30 @@ def _motion(motion: dict[str, Any], told: Words) -> list[str]:
         lines.append(
             told.text("note: held as they stand, not in motion, since their axes are not upright: {names}", names=names)
         )
+    return [*lines, *_uncovered(motion, told)]
+
+
+def _workspace(found: dict[str, Any], told: Words) -> list[str]:
+    """How solids were held wherever the drives may stand, and why the rest cannot meet."""
+    counts = Counter(drives for *_, drives in found["tested"])
+    poses = counted("{poses} pose", "{poses} poses", by="poses", poses=found["poses"])
+    over = N_("{pairs} over {drives}")
+    held = [_pairs(count, over, told, drives=", ".join(drives)) for drives, count in counts.items()]
+    rest = [_pairs(len(pairs), _REST[why], told) for why, pairs in found["rest"].items() if pairs]
+    lines = [told.say(message("solids wherever drives may stand: {held}; {poses}", held=", ".join(held), poses=poses))]
+    lines += [told.text("cannot meet: {rest}", rest=", ".join(rest))] if rest else []
+    return [*lines, *_uncovered(found, told)]
+
+
+def _pairs(count: int, text: Text, told: Words, **more: object) -> str:
+    """So many pairs, of which something is told."""
+    pairs = counted("{pairs} pair", "{pairs} pairs", by="pairs", pairs=count)
+    return told.say(filled(text, pairs=pairs, **more))
+
+
+def _uncovered(motion: dict[str, Any], told: Words) -> list[str]:
+    """What may be hidden between poses."""
+    lines = []
     if motion["uncovered"]:
         worst = max(motion["uncovered"], key=lambda x: x["depth"])
         pairs = counted("{pairs} pair", "{pairs} pairs", by="pairs", pairs=len(motion["uncovered"]))

@@ -78,9 +78,10 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
     parts, matings = make_parts(scene, source)
     placing = place(scene.instances, scene.drives, parts, matings, source)
     if scene.checks.interference and len(placing.instances) > 1:
-        from parts.scene.checks import check_solids
+        from parts.scene.checks import check_solids, check_workspace
 
         check_solids(parts, source)
+        check_workspace(scene.checks.workspace, placing, source)
     exports = _wanted_exports(scene, source, only_formats)
     left_out = [
         LeftOut(f"exports[{i + 1}]", message("format {format} was not asked for", format=e.format), as_asked=True)

@@ -58,6 +58,11 @@ REASONS = {
     "worm_contact_turns": N_("the contact turns back on the flanks of this pair: its lines are not drawn"),
     "shows_gear_pairs": N_("shows pairs of involute gears or worms only; remove the export or change its purpose"),
     "shows_driven_gears": N_("shows gears that a drive turns; add mates of gears and [[drives]] or remove the export"),
+    "workspace_of_turns": N_(
+        "is told of drives that turn what they move evenly; {free} does not turn so; without the key the way of the "
+        "drives is held"
+    ),
+    "workspace_needs_drives": N_("is where drives move things; add [[drives]] or remove the key"),
     "shows_what_moves": N_("shows what a drive moves; add [[drives]] or remove the export"),
     "shows_gear_pairs_of_mates": N_("shows pairs of involute gears or worms only; add [[mates]] or remove the export"),
     "stopped_while_moving": N_(

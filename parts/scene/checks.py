@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
@@ -11,13 +11,16 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.nearest import nearest
 from parts.base.mate import End, MateKeys, MateKind, Mating
 from parts.base.part import Part
-from parts.base.refusal import SceneError, placed
+from parts.base.refusal import REMOVED, SceneError, placed
 from parts.base.registry import KINDS
 from parts.base.schema import tried, unit_of
 from parts.base.texts import message
 from parts.keys.wheel import as_typed
 from parts.mates.pairing import mated
 from parts.mates.registry import MATES
+
+if TYPE_CHECKING:
+    from parts.scene.placing import Placing
 
 # of the parts: their keys, what they are made from, and which part each instance is
 Ends = Mapping[str, End[Any]]
@@ -131,3 +134,23 @@ def solid_refused(part: Part, refusal: ParameterError, source: str) -> SceneErro
     """The refusal of a part's solid in the key that asks for it."""
     error = as_typed(part.keys, refusal)
     return placed(source, f"parts.{part.id}", error, unit_of(type(part.keys), error.name))
+
+
+def check_workspace(poses: int | None, placing: Placing, source: str) -> None:
+    """Refuse to hold a scene wherever its drives may stand where these do not tell where that is.
+
+    Raises
+    ------
+    SceneError
+        It has no drives, or something does not turn evenly with them.
+    """
+    if poses is None:
+        return
+    place = "checks.workspace"
+    if placing.train is None:
+        raise SceneError(source, place, poses, "workspace_needs_drives", REMOVED)
+    from parts.scene.workspace import uneven
+
+    free = next((i.id for i in placing.instances if uneven(placing.train, i.id)), None)
+    if free is not None:
+        raise SceneError(source, place, poses, "workspace_of_turns", REMOVED, free=free)

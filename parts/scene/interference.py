@@ -7,7 +7,8 @@ inside the true solid: what overlaps then overlaps for certain. The booleans are
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -37,10 +38,15 @@ class SolidOverlap(Record):
     volume: float | None
 
 
-def solid_overlaps(placing: Placing, parts: dict[str, Part]) -> tuple[SolidOverlap, ...]:
-    """Every two instances that run into each other for certain; teeth of plates in a mate are left to their contact."""
-    contact = _by_contact(placing, parts)
-    solids: dict[str, Any] = {}
+def solid_overlaps(
+    placing: Placing, parts: dict[str, Part], solid_of: Callable[[str], Any] | None = None
+) -> tuple[SolidOverlap, ...]:
+    """Every two instances that run into each other for certain; teeth of plates in a mate are left to their contact.
+
+    ``solid_of``: the mesh inside a part, where somebody has it already.
+    """
+    contact = by_contact(placing, parts)
+    solid_of = solid_of or cache(lambda key: inner_solid(parts[key]))
     boxes = {i.id: _box(i, parts[i.part]) for i in placing.instances}
     found = []
     for index, one in enumerate(placing.instances):
@@ -48,7 +54,7 @@ def solid_overlaps(placing: Placing, parts: dict[str, Part]) -> tuple[SolidOverl
             if frozenset((one.id, two.id)) in contact or not _meet(boxes[one.id], boxes[two.id]):
                 continue
             try:
-                volume = common_volume([_placed(i, parts, solids) for i in (one, two)])
+                volume = common_volume([_placed(i, solid_of) for i in (one, two)])
             except GeometryError:
                 found.append(SolidOverlap(one.id, two.id, None))
                 continue
@@ -60,10 +66,10 @@ def solid_overlaps(placing: Placing, parts: dict[str, Part]) -> tuple[SolidOverl
 def has_solid_pairs(placing: Placing, parts: dict[str, Part]) -> bool:
     """Whether there are pairs that are left to their solids."""
     count = len(placing.instances)
-    return len(_by_contact(placing, parts)) < count * (count - 1) // 2
+    return len(by_contact(placing, parts)) < count * (count - 1) // 2
 
 
-def _by_contact(placing: Placing, parts: dict[str, Part]) -> set[frozenset[str]]:
+def by_contact(placing: Placing, parts: dict[str, Part]) -> set[frozenset[str]]:
     """Pairs of plates that their mate holds against each other exactly."""
     return {
         frozenset((m.first.id, m.second.id))
@@ -91,14 +97,13 @@ def _meet(one: tuple[complex, float, float, float], two: tuple[complex, float, f
     return near and min(one[3], two[3]) > max(one[2], two[2])
 
 
-def _placed(instance: Instance, parts: dict[str, Part], solids: dict[str, Any]) -> Any:
+def _placed(instance: Instance, solid_of: Callable[[str], Any]) -> Any:
     """The solid of an instance in its place; one mesh a part."""
-    if instance.part not in solids:
-        solids[instance.part] = inner_solid(parts[instance.part])
+    solid = solid_of(instance.part)
     if instance.axis != UPWARDS:
-        return solids[instance.part].transform(instance.scene_from_part.matrix())
+        return solid.transform(instance.scene_from_part.matrix())
     x, y, z = instance.at
-    turned = solids[instance.part].rotate([0.0, 0.0, math.degrees(math.remainder(instance.rotation, 2 * math.pi))])
+    turned = solid.rotate([0.0, 0.0, math.degrees(math.remainder(instance.rotation, 2 * math.pi))])
     return turned.translate([x, y, z])
 
 

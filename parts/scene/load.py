@@ -138,6 +138,19 @@ class ChecksSpec(Struct, forbid_unknown_fields=True):
     """Keys of ``[checks]``."""
 
     interference: Annotated[bool, Meta(description="contact and interference of every mate")] = False
+    workspace: (
+        Annotated[
+            int,
+            Meta(
+                ge=1,
+                le=100_000,
+                description="with interference: solids wherever each drive may stand for itself, a pair in so many "
+                "poses at most",
+                examples=[400],
+            ),
+        ]
+        | None
+    ) = None
     transmission_error: Annotated[
         bool, Meta(description="how unevenly each mate runs: peak to peak from the exact contact, without load")
     ] = False

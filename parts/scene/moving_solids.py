@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Mapping
 from heapq import heapify, heappop, heappush
 from itertools import pairwise
 from typing import Any
@@ -17,7 +18,6 @@ import numpy as np
 from geometry.base.errors import GeometryError
 from geometry.base.record import Draft, Record, field, replace
 from geometry.curves.curve import Real
-from parts.base.part import Part
 from parts.scene.interference import INSET, SLIVER, common_volume
 from parts.scene.placing import UPWARDS, Instance, Placing
 from parts.scene.relative_path import Course, Path, path_of, stays_free
@@ -65,17 +65,22 @@ class MotionFound(Draft):
     poses: int = 0
 
 
-def motion_found(placing: Placing, parts: dict[str, Part], course: Course, known: set[frozenset[str]]) -> MotionFound:
+# by parts and height the pairs that were clear
+Clear = dict[tuple[str, str, float], list[tuple[Path, Uncovered | None]]]
+
+
+def motion_found(
+    placing: Placing, shapes: Mapping[str, Shape], course: Course, known: set[frozenset[str]]
+) -> MotionFound:
     """Every two instances that move on each other, each pair that repeats once.
 
     ``known``: pairs that overlap as they stand.
     """
-    shapes = {name: Shape(parts[name]) for name in dict.fromkeys(i.part for i in placing.instances)}
-    plates = {i.id for i in placing.instances if parts[i.part].is_plate}
+    plates = {i.id for i in placing.instances if shapes[i.part].part.is_plate}
     mated = {frozenset((m.first.id, m.second.id)) for m in placing.mates if m.mating.has_contact}
     # loose pins are the teeth of what they are seated in
     seats = {m.second.id: m.first.id for m in placing.mates if m.mating.kind == "pin_seat"}
-    found, clear = MotionFound(), dict[tuple[str, str, float], list[tuple[Path, Uncovered | None]]]()
+    found, clear = MotionFound(), Clear()
     for index, one in enumerate(placing.instances):
         for two in placing.instances[index + 1 :]:
             ends = frozenset((one.id, two.id))
@@ -87,20 +92,21 @@ def motion_found(placing: Placing, parts: dict[str, Part], course: Course, known
                 continue
             found.pairs += 1
             try:
-                _hold(found, clear, (one, two), (shapes[one.part], shapes[two.part]), course, is_mated=ends in mated)
+                hold(found, clear, (one, two), (shapes[one.part], shapes[two.part]), course, is_mated=ends in mated)
             except GeometryError:
                 found.struck.append(Struck(one.id, two.id, None, 0.0))
     return found
 
 
-def _hold(
+def hold(
     found: MotionFound,
-    clear: dict[tuple[str, str, float], list[tuple[Path, Uncovered | None]]],
+    clear: Clear,
     pair: tuple[Instance, Instance],
     shapes: tuple[Shape, Shape],
     course: Course,
     *,
     is_mated: bool,
+    most: int = MOST_POSES,
 ) -> None:
     """Hold one pair, unless one alike was clear."""
     one, two = pair
@@ -118,7 +124,7 @@ def _hold(
     held = clear.setdefault((one.part, two.part, round(lift, _DIGITS)), [])
     alike = next((item for item in held if path.is_like(item[0])), None)
     if alike is None:
-        search = _Search(shapes, path, free, lift, _MATED_POSES if is_mated else MOST_POSES)
+        search = _Search(shapes, path, free, lift, _MATED_POSES if is_mated else most)
         struck, uncovered = search.run(one.id, two.id)
         found.tested += 1
         found.poses += search.poses
@@ -134,69 +140,20 @@ def _hold(
         found.uncovered.append(replace(uncovered, first=one.id, second=two.id))
 
 
-class _Search:
-    """Poses of one pair, chosen as it is searched; places on its path go by the path's length, mm."""
+class Meeting:
+    """Two solids against each other, the second at a height over the first; ``most`` (mm): as far as gaps are sought.
 
-    def __init__(self, shapes: tuple[Shape, Shape], path: Path, free: Real, lift: float, most: int) -> None:
-        self.shapes, self.path, self.free, self.lift, self.most = shapes, path, free, lift, most
+    ``sought``: the same of solids that are no slabs; ``fine``: less is none.
+    """
+
+    def __init__(self, shapes: tuple[Shape, Shape], lift: float, most: float, sought: float) -> None:
+        self.shapes, self.lift, self.most, self.sought = shapes, lift, most, sought
         one, two = shapes
-        self.whole = float(path.length[-1])
-        self.step = _FIRST * self.whole / most
-        self.sought = min(2 * self.step, _SOUGHT * min(one.reach, two.reach))
         self.fine = INSET * max(one.reach, two.reach)
         self.first, self.second = one.slabs or (), two.slabs or ()
         self.meet = self._slabs if self.first and self.second else self._meshes
         self.last = self.fine
         self.sliver = SLIVER * min(one.solid.volume(), two.solid.volume())
-        self.poses = 0
-        # greatest common volume, mm^3, and where
-        self.worst = (0.0, 0.0)
-
-    def run(self, first: str, second: str) -> tuple[Struck | None, Uncovered | None]:
-        """Along the path, then where most of it was passed over, at last about its worst place."""
-        held = [(0.0, self._gap(0.0))]
-        while held[-1][0] < self.whole:
-            at = min(held[-1][0] + max(held[-1][1], self.step), self.whole)
-            held.append((at, self._gap(at)))
-        open_ones = [(-_hidden(a, b), a, b) for a, b in pairwise(held)]
-        heapify(open_ones)
-        while self.worst[0] == 0 and self.poses < self.most and -open_ones[0][0] > self.fine:
-            _, one, two = heappop(open_ones)
-            at = (one[0] + two[0]) / 2
-            middle = (at, self._gap(at))
-            heappush(open_ones, (-_hidden(one, middle), one, middle))
-            heappush(open_ones, (-_hidden(middle, two), middle, two))
-        if self.worst[0]:
-            self._about()
-            time = float(np.interp(self.worst[1], self.path.length, self.path.times))
-            return Struck(first, second, self.worst[0], time), None
-        depth = max(-open_ones[0][0], 0.0)
-        if depth <= self.fine and self.path.share == 1:
-            return None, None
-        return None, Uncovered(first, second, depth, self.path.share, self.poses)
-
-    def _about(self) -> None:
-        """The greatest common volume: steps about the worst pose are halved towards it."""
-        reach = self.step / 2
-        for _ in range(_SEARCH // 2):
-            for at in (self.worst[1] - reach, self.worst[1] + reach):
-                self.poses += 1
-                self.worst = max(self.worst, (self.meet(*self._pose(at % self.whole))[1], at % self.whole))
-            reach /= 2
-
-    def _pose(self, at: float) -> tuple[complex, float]:
-        place, turn = self.path.seen(np.array([np.interp(at, self.path.length, self.path.times)]))
-        return complex(place[0]), math.remainder(float(turn[0]), 2 * math.pi)
-
-    def _gap(self, at: float) -> float:
-        """Distance of the solids, mm, as far as it is worth knowing; what they have in common is noted."""
-        far = float(np.interp(at, self.path.length, self.free))
-        if far > self.step:
-            return far
-        self.poses += 1
-        gap, volume = self.meet(*self._pose(at))
-        self.worst = max(self.worst, (volume, at))
-        return gap
 
     def _slabs(self, place: complex, turn: float) -> tuple[float, float]:
         """What upright slabs keep apart at least, mm, and their common volume, mm^3, the second in its place."""
@@ -227,7 +184,7 @@ class _Search:
             while self.last > self.fine and near(self.last):
                 self.last /= 2
             return 0.0 if near(self.last) else self.last
-        while self.last < self.whole and not near(2 * self.last):
+        while self.last < self.most and not near(2 * self.last):
             self.last *= 2
         return self.last
 
@@ -237,6 +194,66 @@ class _Search:
         moved = two.solid.rotate([0.0, 0.0, math.degrees(turn)]).translate([place.real, place.imag, self.lift])
         gap = float(one.solid.min_gap(moved, self.sought))
         return gap, common_volume((one.solid, moved)) if gap <= 0 else 0.0
+
+
+class _Search:
+    """Poses of one pair, chosen as it is searched; places on its path go by the path's length, mm."""
+
+    def __init__(self, shapes: tuple[Shape, Shape], path: Path, free: Real, lift: float, most: int) -> None:
+        self.path, self.free, self.most = path, free, most
+        self.whole = float(path.length[-1])
+        self.step = _FIRST * self.whole / most
+        sought = min(2 * self.step, _SOUGHT * min(shape.reach for shape in shapes))
+        self.meeting = Meeting(shapes, lift, self.whole, sought)
+        self.poses = 0
+        # greatest common volume, mm^3, and where
+        self.worst = (0.0, 0.0)
+
+    def run(self, first: str, second: str) -> tuple[Struck | None, Uncovered | None]:
+        """Along the path, then where most of it was passed over, at last about its worst place."""
+        held = [(0.0, self._gap(0.0))]
+        while held[-1][0] < self.whole:
+            at = min(held[-1][0] + max(held[-1][1], self.step), self.whole)
+            held.append((at, self._gap(at)))
+        open_ones = [(-_hidden(a, b), a, b) for a, b in pairwise(held)]
+        heapify(open_ones)
+        while self.worst[0] == 0 and self.poses < self.most and -open_ones[0][0] > self.meeting.fine:
+            _, one, two = heappop(open_ones)
+            at = (one[0] + two[0]) / 2
+            middle = (at, self._gap(at))
+            heappush(open_ones, (-_hidden(one, middle), one, middle))
+            heappush(open_ones, (-_hidden(middle, two), middle, two))
+        if self.worst[0]:
+            self._about()
+            time = float(np.interp(self.worst[1], self.path.length, self.path.times))
+            return Struck(first, second, self.worst[0], time), None
+        depth = max(-open_ones[0][0], 0.0)
+        if depth <= self.meeting.fine and self.path.share == 1:
+            return None, None
+        return None, Uncovered(first, second, depth, self.path.share, self.poses)
+
+    def _about(self) -> None:
+        """The greatest common volume: steps about the worst pose are halved towards it."""
+        reach = self.step / 2
+        for _ in range(_SEARCH // 2):
+            for at in (self.worst[1] - reach, self.worst[1] + reach):
+                self.poses += 1
+                self.worst = max(self.worst, (self.meeting.meet(*self._pose(at % self.whole))[1], at % self.whole))
+            reach /= 2
+
+    def _pose(self, at: float) -> tuple[complex, float]:
+        place, turn = self.path.seen(np.array([np.interp(at, self.path.length, self.path.times)]))
+        return complex(place[0]), math.remainder(float(turn[0]), 2 * math.pi)
+
+    def _gap(self, at: float) -> float:
+        """Distance of the solids, mm, as far as it is worth knowing; what they have in common is noted."""
+        far = float(np.interp(at, self.path.length, self.free))
+        if far > self.step:
+            return far
+        self.poses += 1
+        gap, volume = self.meeting.meet(*self._pose(at))
+        self.worst = max(self.worst, (volume, at))
+        return gap
 
 
 def _hidden(one: tuple[float, float], two: tuple[float, float]) -> float:

@@ -19,10 +19,14 @@ from parts.scene.interference import common_volume, inner_solid
 
 if TYPE_CHECKING:
     from geometry.solids.faced import FacedBody
+    from parts.scene.placing import Instance
 
 # what is one length, mm; what radii may lie beyond samples, or chords, as a part of them
 _SAME, _DIGITS, _MARGIN = 1e-7, 7, 1e-3
 _TURN = 2 * math.pi
+# what turns about its axis is swept in so many layers and sides; part of a layer that is not gone into; part of the
+# reach by which radii differ
+_LAYERS, _SIDES, _THIN, _LEVEL = 1000, 128, 1e-3, 1e-4
 
 
 class Slab(Record):
@@ -54,6 +58,11 @@ class Shape:
         return inner_solid(self.part)
 
     @cached_property
+    def swept(self) -> Any:
+        """What it sweeps as it turns about its axis: a mesh that is no smaller, its free bore left out."""
+        return _swept(self)
+
+    @cached_property
     def slabs(self) -> tuple[Slab, ...] | None:
         """The solid as upright slabs; None of one with screws, chamfers or curved faces."""
         import shapely
@@ -83,6 +92,52 @@ class Shape:
             return 0.0
         core = manifold3d.Manifold.cylinder(self.high - self.low + 2.0, radius, radius, 64)
         return 0.0 if common_volume((self.solid, core.translate([0.0, 0.0, self.low - 1.0]))) else radius
+
+
+class LyingShape(Shape):
+    """A part on an axis that is not upright, turned as it lies, its own axis at the origin; one that ``turns`` about
+    its own axis is what it sweeps there.
+    """
+
+    def __init__(self, shape: Shape, instance: Instance, *, turns: bool) -> None:
+        self.part, self.turns = shape.part, turns
+        solid = shape.swept if turns else shape.solid
+        matrix = np.array(instance.scene_from_part.matrix())
+        matrix[:, 3] = 0.0
+        self.solid = solid.transform(matrix)
+        self.slabs = None
+        corners = np.asarray(self.solid.to_mesh().vert_properties)
+        self.low, self.high = float(corners[:, 2].min()), float(corners[:, 2].max())
+        self.reach = float(np.hypot(corners[:, 0], corners[:, 1]).max())
+        self.walls = ((1, 0.0, self.reach),)
+
+
+def _swept(shape: Shape) -> Any:
+    """What a solid sweeps as it turns about its axis: a solid of the same kind, no smaller; its free bore stays."""
+    import manifold3d
+
+    mesh = shape.solid.to_mesh()
+    corners = np.asarray(mesh.vert_properties)[:, :3][np.asarray(mesh.tri_verts)]
+    heights, radii = corners[..., 2], np.hypot(corners[..., 0], corners[..., 1]).max(axis=1)
+    low, step = float(heights.min()), float(np.ptp(heights)) / _LAYERS
+    # each triangle reaches its greatest radius in every layer that it goes through
+    first, last = ((x - low) // step for x in (heights.min(axis=1) + _THIN * step, heights.max(axis=1) - _THIN * step))
+    begin = np.clip(first, 0, _LAYERS - 1).astype(int)
+    counts = np.maximum(np.clip(last, 0, _LAYERS - 1).astype(int) - begin, 0) + 1
+    layers = np.repeat(begin, counts) + np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+    reach = np.zeros(_LAYERS)
+    np.maximum.at(reach, layers, np.repeat(radii, counts))
+    # layers of one radius are one
+    grid = _LEVEL * shape.reach
+    reach = np.ceil(reach / grid) * grid
+    ends = [0, *(np.flatnonzero(np.diff(reach)) + 1).tolist(), _LAYERS]
+    steps = [(float(reach[a]), low + step * k) for a, b in pairwise(ends) for k in (a, b)]
+    profile = manifold3d.CrossSection([[(0.0, low), *steps, (0.0, low + step * _LAYERS)]])
+    made = manifold3d.Manifold.revolve(profile, _SIDES)
+    if not shape.bore:
+        return made
+    core = manifold3d.Manifold.cylinder(shape.high - shape.low + 2.0, shape.bore, shape.bore, _SIDES)
+    return made - core.translate([0.0, 0.0, shape.low - 1.0])
 
 
 def _outline(body: Body | FacedBody) -> tuple[float, tuple[tuple[int, float, float], ...]]:

@@ -22,6 +22,7 @@ from parts.scene.load import make_parts, scene_from_dict, scene_from_toml
 from parts.scene.moving_solids import motion_found
 from parts.scene.placing import Instance, Placing, place
 from parts.scene.relative_path import Course
+from parts.scene.shapes import Shape
 from tests.exporters.making import run, table
 from tests.parts.scene.test_trains import DRIVE, JAMES
 
@@ -46,6 +47,10 @@ def check(folder: Path, raw: dict[str, Any], capsys: pytest.CaptureFixture[str])
     file.write_text(text, encoding="utf-8")
     code = run("check", str(file), "--json")
     return code, json.loads(capsys.readouterr().out)
+
+
+def shapes_of(parts: dict[str, Any]) -> dict[str, Shape]:
+    return {name: Shape(part) for name, part in parts.items()}
 
 
 def polygon(part: dict[str, Any]) -> Any:
@@ -123,7 +128,7 @@ def test_carried_plates_that_meet_after_hundreds_of_turns_are_found_or_told(
     ends = [Instance(key, "plate", (place.real, place.imag, 0.0), float(turn)) for key in ("one", "two")
             for place, turn in [pose(key, np.float64(0.0))]]  # fmt: skip
     rates = {"one": (Fraction(1), Fraction(1)), "two": (-ratio, -ratio)}
-    found = motion_found(Placing(tuple(ends)), parts, Course(pose, rates), set())
+    found = motion_found(Placing(tuple(ends)), shapes_of(parts), Course(pose, rates), set())
     if strikes:
         (struck,) = found.struck
         assert struck.time == pytest.approx(turns, abs=0.01)
@@ -273,7 +278,7 @@ def test_random_motions_against_polygons() -> None:
 
         ends = Instance("one", kinds[0], rotation=starts[0]), Instance("two", kinds[1], (distance, 0.0, 0.0), starts[1])
         rates = {"one": (own,), "two": (other, carrier) if carrier else (other,)}
-        found = motion_found(Placing(ends), parts, Course(pose, rates), set()).struck
+        found = motion_found(Placing(ends), shapes_of(parts), Course(pose, rates), set()).struck
         worst = 0.0
         for t in np.linspace(0, 12, 2401):
             moved = []
