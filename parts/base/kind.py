@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from geometry.solids.body import Body
     from geometry.solids.faced import FacedBody
     from geometry.solids.mass import Moments
+    from geometry.solids.sketch import Sketch
     from parts.base.readback import Probe
 
 K = TypeVar("K", bound=Struct)
@@ -96,6 +97,15 @@ class Kind(Generic[K, T]):
     def solid(self, keys: K, thing: T, offset: float) -> Body | FacedBody:
         """The solid, its lower face at z = 0, every boundary moved ``offset`` mm out of the material."""
         raise NotImplementedError
+
+    def sketch(self, keys: K, thing: T) -> Sketch | None:
+        """What assembly drawings show of it; None: they cannot."""
+        solid = self.solid(keys, thing, 0.0)
+        if solid.is_faced:
+            return None
+        from geometry.solids.sketch import sketch_of_body
+
+        return sketch_of_body(solid)
 
     def moments(self, solid: Body | FacedBody) -> Moments:
         """Volume, centre and inertia of a solid of the kind, by exact integrals."""

@@ -16,6 +16,7 @@ from parts.keys.holes import HolesTable
 if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.faced import FacedBody
+    from geometry.solids.sketch import Sketch
     from geometry.solids.turned import Corner, HalfSection, Pocket
 
 _MOST = 100_000.0
@@ -162,6 +163,12 @@ class _Turned(Kind[K, "HalfSection"]):
         if offset:
             raise OffsetError(offset, "turned_as_it_is", 0.0)
         return exact_body(turned_solid(thing, _seam(thing.pockets)))
+
+    def sketch(self, keys: K, thing: HalfSection) -> Sketch:
+        """It without its pockets; a shaft is not hatched along its axis."""
+        from geometry.solids.sketch import sketch_of_turned
+
+        return sketch_of_turned(thing, is_shaft=isinstance(keys, ShaftSpec))
 
     def height(self, keys: K, thing: HalfSection) -> float:
         """From its lowest to its highest place."""

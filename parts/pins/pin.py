@@ -14,6 +14,7 @@ from parts.keys.pins import MOST, check_holes, holes_of, most_of, moved_region
 if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.body import Body
+    from geometry.solids.sketch import Sketch
     from geometry.solids.pin_plates import RoundDisc
 
 
@@ -65,6 +66,12 @@ class Pin(_Round[PinSpec]):
             raise ParameterError("bore_diameter", keys.bore_diameter, "leaves_no_wall", cure)
         holes = HubHoles(RoundBore(keys.bore_diameter)) if keys.bore_diameter > 0 else HubHoles()
         return RoundDisc(keys.diameter / 2, 0.0, holes)
+
+    def sketch(self, keys: PinSpec, thing: RoundDisc) -> Sketch:
+        """A pin is not hatched along its axis."""
+        from geometry.solids.sketch import sketch_of_body
+
+        return sketch_of_body(self.solid(keys, thing, 0.0), is_shaft=True)
 
     def height(self, keys: PinSpec, thing: RoundDisc) -> float:
         """Its length."""

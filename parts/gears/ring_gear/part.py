@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from geometry.gears.teeth.ring import RingGear
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.body import Body
+    from geometry.solids.sketch import Sketch
 
 # modules outside the root circle where no rim was asked for
 _RIM = 2.5
@@ -207,6 +208,13 @@ class RingGearKind(Kind[RingGearSpec, "RingGear"]):
         region, twist = self.section(keys, thing, offset).region, helix_of(keys).twist(thing.reference_radius)
         body = plate(region, 0.0, keys.face_width, twist, toothed=region.holes[0])
         return engraved(body, _marks(keys, thing), keys.face_width)
+
+    def sketch(self, keys: RingGearSpec, thing: RingGear) -> Sketch:
+        """The ring with circles for its teeth."""
+        from geometry.solids.sketch import Teeth, sketch_of_body
+
+        teeth = Teeth(thing.tip_radius, thing.root_radius, thing.reference_radius)
+        return sketch_of_body(self.solid(keys, thing, 0.0), teeth)
 
     def report(self, keys: RingGearSpec, thing: RingGear) -> Report:
         """Diameters and thicknesses, the cutter, what is poor."""

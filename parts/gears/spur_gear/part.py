@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
     from geometry.plane.profile import Profile
     from geometry.solids.body import Body
+    from geometry.solids.sketch import Sketch
 
 # the radius that ISO 53 gives at the usual clearance; the default for racks given as a table
 _TABLE_TIP_RADIUS = 0.38
@@ -204,6 +205,13 @@ class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
 
         body = wheel_body(shape, wheel_sections(outline, thing.root_radius, thing.holes), offset)
         return engraved(body, _marks(keys, thing), keys.face_width)
+
+    def sketch(self, keys: SpurGearSpec, thing: SpurGear) -> Sketch:
+        """The wheel with circles for its teeth."""
+        from geometry.solids.sketch import Teeth, sketch_of_body
+
+        teeth = Teeth(thing.tip_radius, thing.root_radius, thing.reference_radius)
+        return sketch_of_body(self.solid(keys, thing, 0.0), teeth)
 
     def is_plate(self, keys: SpurGearSpec, thing: SpurGear) -> bool:
         """Whether there is nothing but the section."""

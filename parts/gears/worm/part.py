@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from geometry.gears.worms.thread import Thread
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.faced import FacedBody
+    from geometry.solids.sketch import Sketch
 
 _MOST = 100_000.0
 # where it is not given
@@ -210,6 +211,12 @@ class WormKind(Kind[WormSpec, "WormBody"]):
 
         _still(offset)
         return faced_worm(thing)
+
+    def sketch(self, keys: WormSpec, thing: WormBody) -> Sketch:
+        """The cylinder of its tips, its shaft."""
+        from geometry.solids.sketch import sketch_of_worm
+
+        return sketch_of_worm(thing)
 
     def height(self, keys: WormSpec, thing: WormBody) -> float:
         """Its whole length."""

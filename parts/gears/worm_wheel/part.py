@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.faced import FacedBody
     from geometry.solids.hub_holes import HubHoles
+    from geometry.solids.sketch import Sketch
 
 # part of the root's radius at which the core ends whose place the teeth take
 # of the module: as near as faces are fitted to see whether they hang together
@@ -191,6 +192,12 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
         if offset != 0:
             raise OffsetError(offset, "worm_wheel_not_moved", 0.0)
         return wheel_body(thing.wheel)
+
+    def sketch(self, keys: WormWheelSpec, thing: WheelThing) -> Sketch:
+        """The envelope of its tips about its core."""
+        from geometry.solids.sketch import sketch_of_worm_wheel
+
+        return sketch_of_worm_wheel(thing.wheel, thing.drive.reference_radius)
 
     def height(self, keys: WormWheelSpec, thing: WheelThing) -> float:
         """Width of the rim."""

@@ -1,0 +1,337 @@
+"""What assembly drawings show of a solid: its sections from height to height, teeth as circles (GOST 2.402).
+
+A sketch is a stack of layers. In its lower and its upper end each has closed boundaries in the plane of the part;
+between both they run straight. Round arcs of turned parts are cut into so many layers.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from geometry.base.record import Record, replace
+from geometry.curves.curve import Complex, Curve, Real
+from geometry.curves.line_arc import Arc, Line
+from geometry.gears.worms.body import WormBody
+from geometry.gears.worms.wheel_measures import WormWheel
+from geometry.plane.profile import Label, Profile
+from geometry.solids.body import Body, Wall
+from geometry.solids.turned import HalfSection
+
+# what is one height or one place, mm; samples of a curve; steps of a halving
+_SAME, _SAMPLES, _HALVINGS = 1e-7, 33, 40
+# radius of what is a point, mm
+_POINT = 1e-6
+# layers of an arc of a turned part, and of the throat of a worm wheel
+_ARC, _THROAT = 8, 12
+# turn of a wall from which on it is an edge, rad
+_EDGE = 0.1
+
+
+class Ring(Record):
+    """A closed boundary in the plane; ``root``: radius to which the section of teeth is hatched, mm."""
+
+    curves: tuple[Curve, ...]
+    root: float | None = None
+
+    @property
+    def circle(self) -> tuple[complex, float] | None:
+        """Centre and radius, where it is a single whole circle."""
+        (one, *more) = self.curves
+        return (one.centre, one.radius) if isinstance(one, Arc) and not more else None
+
+    def points(self) -> Complex:
+        """All along it, without the last, which is the first."""
+        return np.concatenate([c.point(np.linspace(*c.domain, _SAMPLES))[:-1] for c in self.curves])
+
+    def holds(self, points: Complex) -> np.ndarray:
+        """Whether points lie within it."""
+        if (round_ := self.circle) is not None:
+            return np.asarray(np.abs(points - round_[0]) < round_[1])
+        start = self.points()
+        end = np.roll(start, -1)
+        y = points.imag[:, None]
+        crossed = (start.imag > y) != (end.imag > y)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            at = start.real + (end.real - start.real) * (y - start.imag) / (end.imag - start.imag)
+        return np.asarray((crossed & (points.real[:, None] < at)).sum(axis=1) % 2 == 1)
+
+    def crossings(self, origin: complex, way: complex) -> list[float]:
+        """Where a straight line meets it, mm along ``way`` from ``origin``."""
+        if (round_ := self.circle) is not None:
+            foot = (round_[0] - origin) / way
+            reach = round_[1] ** 2 - foot.imag**2
+            return [] if reach <= 0 else [foot.real - math.sqrt(reach), foot.real + math.sqrt(reach)]
+        found = []
+        for curve in self.curves:
+            t = np.linspace(*curve.domain, _SAMPLES)
+            side = ((curve.point(t) - origin) / way).imag > 0
+            for k in np.flatnonzero(side[1:] != side[:-1]):
+                low, high = t[k], t[k + 1]
+                for _ in range(_HALVINGS):
+                    middle = (low + high) / 2
+                    if (((complex(curve.point(middle)) - origin) / way).imag > 0) == side[k]:
+                        low = middle
+                    else:
+                        high = middle
+                found.append(((complex(curve.point(low)) - origin) / way).real)
+        return found
+
+    def filled(self) -> Ring:
+        """What is hatched of it."""
+        return self if self.root is None else round_ring(self.root)
+
+
+class Layer(Record):
+    """The material between two heights, mm: boundaries at its lower and its upper end, one for one."""
+
+    low: float
+    high: float
+    lower: tuple[Ring, ...]
+    upper: tuple[Ring, ...]
+
+
+class Sketch(Record):
+    """Layers from below; ``creases``: heights at which walls bend; ``pitch``: radius of the pitch cylinder, mm.
+
+    ``is_shaft``: not hatched where it is cut along its axis (GOST 2.305).
+    """
+
+    layers: tuple[Layer, ...]
+    creases: tuple[float, ...] = ()
+    pitch: float | None = None
+    is_shaft: bool = False
+
+    def turned_over(self) -> Sketch:
+        """The same, turned over about x."""
+        def over(rings: Sequence[Ring]) -> tuple[Ring, ...]:
+            return tuple(replace(ring, curves=tuple(c.mirrored() for c in ring.curves)) for ring in rings)
+
+        layers = tuple(Layer(-k.high, -k.low, over(k.upper), over(k.lower)) for k in reversed(self.layers))
+        return replace(self, layers=layers, creases=tuple(-z for z in self.creases))
+
+    def edges(self) -> Iterator[tuple[float, Ring]]:
+        """What is seen from above of boundaries: upper ends of walls and their creases, by height."""
+        for number, layer in enumerate(self.layers):
+            after = self.layers[number + 1].lower if number + 1 < len(self.layers) else ()
+            for ring in layer.upper:
+                goes_on = any(_alike(ring, other) for other in after)
+                if not goes_on or any(abs(layer.high - z) < _SAME for z in self.creases):
+                    yield layer.high, ring
+
+    def covers(self, points: Complex, height: float) -> np.ndarray:
+        """Whether material stands above points of the plane at a height."""
+        found = np.zeros(len(points), dtype=bool)
+        for layer in self.layers:
+            if layer.low >= height - _SAME:
+                for rings in (layer.lower, layer.upper):
+                    found |= np.sum([ring.holds(points) for ring in rings], axis=0) % 2 == 1
+        return found
+
+
+def _alike(one: Ring, other: Ring) -> bool:
+    """Whether two boundaries are the same."""
+    if one.circle is not None and other.circle is not None:
+        return abs(one.circle[0] - other.circle[0]) < _SAME and abs(one.circle[1] - other.circle[1]) < _SAME
+    return one.curves == other.curves
+
+
+class Teeth(Record):
+    """Radii of teeth, mm."""
+
+    tip: float
+    root: float
+    pitch: float
+
+
+def round_ring(radius: float, root: float | None = None, centre: complex = 0j) -> Ring:
+    """A circle."""
+    return Ring((Arc(centre, radius, 0.0, 2 * math.pi),), root)
+
+
+def sketch_of_body(body: Body, teeth: Teeth | None = None, *, is_shaft: bool = False) -> Sketch:
+    """A solid of walls between plane caps; its toothed profile is drawn as ``teeth``."""
+
+    def ring(wall: Wall, z: float) -> Ring:
+        low, high = body.height(wall)
+        placement = body.loops[wall.lower if z - low < high - z else wall.upper].placement
+        profile = body.section(wall, z) if body.is_chamfer(wall) else body.loop_profile(wall.lower)
+        if teeth is not None and _is_toothed(profile):
+            return round_ring(teeth.tip, teeth.root)
+        curves = tuple(s.curve.placed(placement) for s in profile.segments())
+        if len(circles := {(c.centre, c.radius) for c in curves if isinstance(c, Arc)}) == 1 and len(curves) == 2:
+            ((centre, radius),) = circles
+            if all(isinstance(c, Arc) for c in curves):
+                return round_ring(radius, centre=centre)
+        return Ring(curves)
+
+    layers, creases = [], []
+    for low, high in pairwise(body.levels()):
+        walls = [w for w in body.walls if body.height(w)[0] <= low + _SAME and body.height(w)[1] >= high - _SAME]
+        layers.append(Layer(low, high, tuple(ring(w, low) for w in walls), tuple(ring(w, high) for w in walls)))
+        if any(body.is_chamfer(w) for w in walls):
+            creases += [low, high]
+    return Sketch(tuple(layers), tuple(creases), teeth and teeth.pitch, is_shaft)
+
+
+def _is_toothed(profile: Profile) -> bool:
+    return profile.count > 1 and any(s.label is Label.FLANK for s in profile.period)
+
+
+def sketch_of_turned(section: HalfSection, *, is_shaft: bool = False) -> Sketch:
+    """A turned part without its pockets."""
+    chain, creases = [], []
+    for piece, after in zip(section.pieces, (*section.pieces[1:], section.pieces[0]), strict=True):
+        points = piece.points()
+        kept = points[:: max(1, (len(points) - 1) // _ARC)] if piece.centre is not None else points
+        chain += [] if piece.on_axis else list(pairwise(kept.tolist()))
+        arriving, leaving = points[-1] - points[-2], np.diff(after.points()[:2])[0]
+        if abs(np.angle(leaving / arriving)) > _EDGE:
+            creases.append(float(points[-1].imag))
+    return Sketch(tuple(_lathe(chain, [(h.centre, h.radius) for h in section.holes])), tuple(creases), None, is_shaft)
+
+
+def _lathe(chain: Sequence[tuple[complex, complex]], holes: Sequence[tuple[complex, float]] = ()) -> Iterator[Layer]:
+    """The layers of half a section, whose lines are r + iz; round holes go through along the axis."""
+    levels = sorted({round(p.imag, 9) for edge in chain for p in edge})
+    for low, high in pairwise(levels):
+        if high - low < _SAME:
+            continue
+        walls = [sorted(e, key=lambda p: p.imag) for e in chain]
+        walls = [(a, b) for a, b in walls if a.imag <= low + _SAME and b.imag >= high - _SAME]
+
+        def radii(z: float) -> list[float]:
+            return sorted(a.real + (b.real - a.real) * (z - a.imag) / (b.imag - a.imag) for a, b in walls)
+
+        # a cone's point is a small circle
+        ends = [[round_ring(max(r, _POINT)) for r in radii(z)] for z in (low, high)]
+        reach = min(max(radii(z)) for z in (low, high))
+        through = tuple(round_ring(r, centre=c) for c, r in holes if abs(c) + r < reach)
+        yield Layer(low, high, (*ends[0], *through), (*ends[1], *through))
+
+
+def sketch_of_worm(worm: WormBody) -> Sketch:
+    """A worm as the cylinder of its tips, its shaft beside."""
+    thread = worm.thread.worm
+    below, above = worm.outline(above=False)[::-1], worm.outline(above=True)
+    end = float(worm.end_height(thread.tip_radius))
+    outline = [complex(r, z) for z, r in (*below, (-end, thread.tip_radius), (end, thread.tip_radius), *above)]
+    layers = []
+    for layer in _lathe(list(pairwise(outline))):
+        is_thread = abs(layer.low + end) < _SAME
+        rings = [tuple(replace(r, root=thread.root_radius) if is_thread else r for r in side)
+                 for side in (layer.lower, layer.upper)]  # fmt: skip
+        bore = () if worm.bore is None else (Ring(tuple(s.curve for s in worm.bore.segments())),)
+        layers.append(Layer(layer.low, layer.high, (*rings[0], *bore), (*rings[1], *bore)))
+    return Sketch(tuple(layers), tuple(p.imag for p in outline), thread.reference_radius, is_shaft=True)
+
+
+def sketch_of_worm_wheel(wheel: WormWheel, pitch: float) -> Sketch:
+    """A worm wheel as the envelope of its tips about its core."""
+    teeth, core, width = wheel.teeth, wheel.core, wheel.teeth.width
+    throat = np.linspace(-1.0, 1.0, _THROAT + 1) * teeth.throat_height + wheel.middle
+    levels = sorted({round(float(z), 9) for z in (*core.levels(), *throat, 0.0, width)})
+    plain = sketch_of_body(core)
+
+    def rings(inner: Sequence[Ring], z: float) -> tuple[Ring, ...]:
+        height = np.array([min(max(z, 0.0), width) - wheel.middle])
+        tip, root = (float(f(height)[0]) for f in (teeth.tip_radius, teeth.root_radius))
+        rim = round_ring(wheel.rim.reach())
+        return tuple(round_ring(tip, root) if _alike(ring, rim) else ring for ring in inner)
+
+    layers = []
+    for low, high in pairwise(levels):
+        whole = next(k for k in plain.layers if k.low <= low + _SAME and k.high >= high - _SAME)
+        layers.append(Layer(low, high, rings(whole.lower, low), rings(whole.upper, high)))
+    edges = (wheel.middle - teeth.throat_height, wheel.middle + teeth.throat_height)
+    return Sketch(tuple(layers), (*plain.creases, *edges), pitch)
+
+
+# lines of a view by their place: of what is cut or seen of layers whose boundaries meet a line at some places
+Cuts = Callable[[tuple[Ring, ...]], list[float]]
+
+
+def stacked(layers: Sequence[Layer], cuts: Cuts, creases: Sequence[float] = ()) -> Iterator[Line]:
+    """The lines about a stack of layers in a plane along its axis, s + iz; ``cuts``: where boundaries meet the plane.
+
+    Edges behind the ends of holes are among them, and creases.
+    """
+    spans = [(k.low, k.high, cuts(k.lower), cuts(k.upper)) for k in layers]
+    spans = [span for span in spans if span[2] and len(span[2]) == len(span[3])]
+    walls: dict[float, list[tuple[float, float]]] = {}
+    for low, high, first, last in spans:
+        for a, b in zip(first, last, strict=True):
+            if abs(a - b) > _SAME:
+                yield Line(complex(a, low), complex(b, high))
+                continue
+            runs = walls.setdefault(round(a, 7), [])
+            if runs and abs(runs[-1][1] - low) < _SAME:
+                runs[-1] = runs[-1][0], high
+            else:
+                runs.append((low, high))
+    for s, runs in walls.items():
+        for low, high in runs:
+            yield Line(complex(s, low), complex(s, high))
+    for z in sorted({round(z, 9) for span in spans for z in span[:2]}):
+        below = next((span[3] for span in spans if abs(span[1] - z) < _SAME), [])
+        above = next((span[2] for span in spans if abs(span[0] - z) < _SAME), [])
+        bends = any(abs(z - c) < _SAME for c in creases)
+        for a, b in _faces(below, above, bends=bends):
+            yield Line(complex(a, z), complex(b, z))
+
+
+def _faces(below: list[float], above: list[float], *, bends: bool) -> Iterator[tuple[float, float]]:
+    """Stretches of a height at which a line stands: material on one side alone, the end of a hole, or a crease."""
+    places = sorted({round(s, 7) for s in (*below, *above)})
+    stretches: list[tuple[float, float]] = []
+    for a, b in pairwise(places):
+        middle = (a + b) / 2
+        solid = [sum(s < middle for s in side) % 2 == 1 for side in (below, above)]
+        enclosed = [bool(side) and side[0] < middle < side[-1] for side in (below, above)]
+        drawn = solid[0] != solid[1] or (not any(solid) and enclosed[0] != enclosed[1]) or (bends and any(enclosed))
+        if drawn and stretches and abs(stretches[-1][1] - a) < _SAME:
+            stretches[-1] = stretches[-1][0], b
+        elif drawn:
+            stretches.append((a, b))
+    yield from stretches
+
+
+def hatched(layers: Sequence[Layer], cuts: Cuts) -> Iterator[tuple[Line, ...]]:
+    """The material that a plane along the axis cuts, as closed loops s + iz, teeth as far as their roots."""
+    for layer in layers:
+        first, last = (cuts(tuple(ring.filled() for ring in side)) for side in (layer.lower, layer.upper))
+        if len(first) != len(last):
+            continue
+        for (a, b), (c, d) in zip(zip(first[::2], first[1::2], strict=False), zip(last[::2], last[1::2], strict=False),
+                                  strict=True):  # fmt: skip
+            corners = complex(a, layer.low), complex(b, layer.low), complex(d, layer.high), complex(c, layer.high)
+            yield tuple(Line(p, q) for p, q in pairwise((*corners, corners[0])))
+
+
+def crossing(origin: complex, way: complex) -> Cuts:
+    """Where boundaries meet a straight line."""
+
+    def cuts(rings: tuple[Ring, ...]) -> list[float]:
+        return sorted(s for ring in rings for s in ring.crossings(origin, way))
+
+    return cuts
+
+
+def reaching(way: complex) -> Cuts:
+    """How far the outermost boundary reaches along a direction, both ways."""
+
+    def cuts(rings: tuple[Ring, ...]) -> list[float]:
+        ends: list[float] = []
+        for ring in rings:
+            if (found := ring.circle) is not None:
+                middle = (found[0] / way).real
+                ends += [middle - found[1], middle + found[1]]
+            else:
+                along: Real = (ring.points() / way).real
+                ends += [float(along.min()), float(along.max())]
+        return [min(ends), max(ends)] if ends else []
+
+    return cuts

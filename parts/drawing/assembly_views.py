@@ -1,0 +1,360 @@
+"""Views of an assembly: what is seen along its axes, without what is covered, and a section through them.
+
+A view's frame has x to the right, y up and z towards the viewer. Parts stand in it with their axes towards the viewer
+or in its plane; teeth are circles (GOST 2.402).
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from geometry.base.errors import ParameterError
+from geometry.base.placement import Placement2, Placement3
+from geometry.base.record import Record
+from geometry.curves.curve import Complex, Curve
+from geometry.curves.line_arc import Arc, Line
+from geometry.solids.sketch import Ring, Sketch, crossing, hatched, reaching, round_ring, stacked
+from parts.drawing.working import AXIS, VISIBLE
+
+# what is parallel, what is one place, mm; samples of an edge, steps of a halving
+_PARALLEL, _SAME, _SAMPLES, _HALVINGS = 1e-9, 1e-6, 65, 30
+# places that are tried for a leader's end, across a part
+_GRID = 25
+Stroke = tuple[str, Curve]
+
+
+class Shown(Record):
+    """An instance that is drawn: of which part, what of it, and where it stands in the frame of the view."""
+
+    id: str
+    part: str
+    sketch: Sketch
+    place: Placement3
+
+    @property
+    def axis(self) -> tuple[float, float, float]:
+        """Its axis in the view."""
+        (_, _, x), (_, _, y), (_, _, z) = self.place.rotation
+        return x, y, z
+
+    @property
+    def centre(self) -> complex:
+        """Its origin in the view's plane, mm."""
+        return complex(self.place.translation[0], self.place.translation[1])
+
+    @property
+    def depth(self) -> float:
+        """Of its origin, towards the viewer, mm."""
+        return self.place.translation[2]
+
+    @property
+    def stands(self) -> bool:
+        """Whether its axis points at the viewer or away."""
+        return abs(self.axis[2]) > 1 - _PARALLEL
+
+    def checked(self) -> Shown:
+        """Itself, where it can be drawn.
+
+        Raises
+        ------
+        ParameterError
+            Its axis is oblique to the view.
+        """
+        if not self.stands and abs(self.axis[2]) > _PARALLEL:
+            raise ParameterError("purpose", "assembly", "assembly_axis_oblique", instance=self.id)
+        return self
+
+    def faced(self) -> tuple[Sketch, Placement2]:
+        """The sketch of one that stands, its upper side to the viewer, and how its plane lies in the view's."""
+        (a, b, _), (c, d, _), _ = self.place.rotation
+        if self.axis[2] > 0:
+            return self.sketch, Placement2(math.atan2(c, a), self.centre)
+        return self.sketch.turned_over(), Placement2(math.atan2(c, a), self.centre)
+
+    @property
+    def along(self) -> complex:
+        """The axis of one that lies, in the view's plane."""
+        return complex(self.axis[0], self.axis[1])
+
+    def flat(self, view: complex) -> complex:
+        """A direction of the view's plane across the axis of one that lies, in the part's plane."""
+        back = np.array(self.place.rotation).T @ [view.real, view.imag, 0.0]
+        return complex(back[0], back[1])
+
+    def laid(self, point: complex) -> complex:
+        """A point s + iz of a plane along the axis of one that lies, in the view."""
+        return self.centre + self.along * (point.imag - 1j * point.real)
+
+
+class Drawn(Record):
+    """What a view has of an assembly, model mm: lines by layer, hatched loops and axes by part, places on parts.
+
+    ``spots``: for each part, points on it that are seen, the farthest from all lines first.
+    """
+
+    strokes: tuple[Stroke, ...]
+    hatched: tuple[tuple[tuple[Line | Arc, ...], ...], ...]
+    axes: tuple[Line, ...]
+    spots: dict[str, tuple[complex, ...]]
+
+
+def seen(shown: Sequence[Shown], view: Placement3) -> list[Shown]:
+    """Instances in the frame of a view."""
+    return [Shown(one.id, one.part, one.sketch, view @ one.place).checked() for one in shown]
+
+
+def along_axes(shown: Sequence[Shown]) -> Drawn:
+    """What is seen, each line as far as nothing stands before it."""
+    strokes: list[Stroke] = []
+    axes: list[Line] = []
+    covers = [_Cover(one) for one in shown]
+    for one in shown:
+        for height, curve in _edges(one):
+            strokes += [(VISIBLE, piece) for piece in _visible(curve, height, one, covers)]
+        strokes += _pitches(one)
+        axes += _axes(one)
+    lines = _samples(strokes)
+    spots: dict[str, tuple[complex, ...]] = {}
+    for one, cover in zip(shown, covers, strict=True):
+        found = cover.places()
+        for other in covers:
+            if other is not cover:
+                found = found[~other.hides(found, cover.top(found))]
+        spots[one.part] = (*spots.get(one.part, ()), *_farthest(found, lines))
+    return Drawn(tuple(strokes), (), tuple(axes), spots)
+
+
+class _Cover(Record):
+    """What an instance hides in a view."""
+
+    one: Shown
+
+    def hides(self, points: Complex, heights: np.ndarray | float) -> np.ndarray:
+        """Whether it stands before points of the view's plane at heights."""
+        one = self.one
+        if not one.stands:
+            return np.asarray((one.depth > np.asarray(heights) + _SAME) & self._silhouette().holds(points))
+        sketch, placement = one.faced()
+        places = np.asarray(placement.inverse().apply(points))
+        levels = np.broadcast_to(np.asarray(heights, float) - one.depth, places.shape)
+        found = np.zeros(places.shape, dtype=bool)
+        for level in np.unique(levels):
+            found[levels == level] = sketch.covers(places[levels == level], float(level))
+        return found
+
+    def _silhouette(self) -> Ring:
+        """The outline of one that lies."""
+        one = self.one
+        cuts = reaching(one.flat(-1j * one.along))
+        sides: list[complex] = []
+        back: list[complex] = []
+        for layer in one.sketch.layers:
+            for z, rings in ((layer.low, layer.lower), (layer.high, layer.upper)):
+                if ends := cuts(rings):
+                    sides.append(one.laid(complex(ends[1], z)))
+                    back.append(one.laid(complex(ends[0], z)))
+        ring = [*sides, *back[::-1]]
+        corners = [p for p, q in zip(ring, [*ring[1:], ring[0]], strict=True) if abs(p - q) > _SAME]
+        return Ring(tuple(Line(a, b) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)))
+
+    def places(self) -> Complex:
+        """Points all over it, in the view."""
+        rings, place = self._outlines()
+        all_points = np.concatenate([ring.points() for ring in rings])
+        x, y = (np.linspace(a.min(), a.max(), _GRID + 2)[1:-1] for a in (all_points.real, all_points.imag))
+        grid = (x[:, None] + 1j * y[None, :]).ravel()
+        inside = np.zeros(len(grid), dtype=bool)
+        for layer in self._layers(rings):
+            inside |= np.sum([ring.holds(grid) for ring in layer], axis=0) % 2 == 1
+        return np.asarray(place.apply(grid[inside]))
+
+    def _outlines(self) -> tuple[list[Ring], Placement2]:
+        if not self.one.stands:
+            return [self._silhouette()], Placement2()
+        sketch, placement = self.one.faced()
+        return [ring for layer in sketch.layers for ring in layer.upper], placement
+
+    def _layers(self, rings: list[Ring]) -> list[Sequence[Ring]]:
+        if not self.one.stands:
+            return [rings]
+        return [layer.upper for layer in self.one.faced()[0].layers]
+
+    def top(self, points: Complex) -> np.ndarray:
+        """Height of its highest place at points that are on it."""
+        one = self.one
+        if not one.stands:
+            return np.full(len(points), one.depth)
+        sketch, placement = one.faced()
+        places = np.asarray(placement.inverse().apply(points))
+        found = np.full(len(points), -np.inf)
+        for layer in sketch.layers:
+            inside = np.sum([ring.holds(places) for ring in layer.upper], axis=0) % 2 == 1
+            found = np.where(inside, layer.high, found)
+        return np.asarray(found + one.depth)
+
+
+def _edges(one: Shown) -> Iterator[tuple[float, Curve]]:
+    """The lines of an instance, with their heights."""
+    if one.stands:
+        sketch, placement = one.faced()
+        for height, ring in sketch.edges():
+            yield from ((height + one.depth, curve.placed(placement)) for curve in ring.curves)
+        return
+    cuts = reaching(one.flat(-1j * one.along))
+    for line in stacked(one.sketch.layers, cuts, one.sketch.creases):
+        yield one.depth, Line(one.laid(line.start), one.laid(line.end))
+
+
+def _pitches(one: Shown) -> Iterator[Stroke]:
+    """Pitch circle, or pitch lines along the teeth."""
+    pitch = one.sketch.pitch
+    if pitch is None:
+        return
+    if one.stands:
+        yield AXIS, Arc(one.centre, pitch, 0.0, 2 * math.pi)
+        return
+    low, high = _toothed(one.sketch)
+    for side in (pitch, -pitch):
+        yield AXIS, Line(one.laid(complex(side, low)), one.laid(complex(side, high)))
+
+
+def _toothed(sketch: Sketch) -> tuple[float, float]:
+    """From where to where along the axis teeth stand, mm."""
+    found = [k for k in sketch.layers if any(ring.root is not None for ring in k.lower)]
+    return found[0].low, found[-1].high
+
+
+def _axes(one: Shown) -> Iterator[Line]:
+    """A cross of axes, or the axis."""
+    if not one.stands:
+        layers = one.sketch.layers
+        yield Line(one.laid(1j * layers[0].low), one.laid(1j * layers[-1].high))
+        return
+    outer = [ring.circle for layer in one.sketch.layers for ring in layer.upper]
+    if reach := max((c[1] for c in outer if c is not None and abs(c[0]) < _SAME), default=0.0):
+        yield Line(one.centre - reach, one.centre + reach)
+        yield Line(one.centre - 1j * reach, one.centre + 1j * reach)
+
+
+def _visible(curve: Curve, height: float, one: Shown, covers: Sequence[_Cover]) -> Iterator[Curve]:
+    """The pieces of an edge that nothing hides."""
+
+    def hidden(t: np.ndarray) -> np.ndarray:
+        points = curve.point(t)
+        found = np.zeros(len(t), dtype=bool)
+        for cover in covers:
+            if cover.one.stands or cover.one is not one:
+                found |= cover.hides(points, height)
+        return found
+
+    t = np.linspace(*curve.domain, _SAMPLES)
+    mask = hidden(t)
+    if not mask.any():
+        yield curve
+        return
+    ends = [float(t[0])]
+    at = np.flatnonzero(mask[1:] != mask[:-1])
+    low, high, before = t[at], t[at + 1], mask[at]
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        same = hidden(middle) == before if len(middle) else before
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    ends += [*low.tolist(), float(t[-1])]
+    shows = not mask[0]
+    for a, b in zip(ends, ends[1:], strict=False):
+        if shows and b - a > _SAME * (t[-1] - t[0]):
+            yield curve.trimmed(a, b)
+        shows = not shows
+
+
+def cut(shown: Sequence[Shown]) -> Drawn:
+    """The section by the plane of the view."""
+    strokes: list[Stroke] = []
+    axes: list[Line] = []
+    hatches: dict[str, list[tuple[Line | Arc, ...]]] = {}
+    for one in shown:
+        drawn = list(_cut_across(one) if one.stands else _cut_along(one))
+        strokes += [stroke for stroke, _ in drawn if stroke is not None]
+        loops = [loop for _, loop in drawn if loop is not None]
+        if loops:
+            hatches.setdefault(one.part, []).extend(loops)
+        if any(stroke is not None for stroke, _ in drawn):
+            strokes += _pitches(one) if abs(one.depth) < _SAME or one.stands else ()
+            axes += _axes(one) if abs(one.depth) < _SAME or one.stands else ()
+    lines = _samples(strokes)
+    spots = {part: _farthest(_within(loops), lines) for part, loops in hatches.items()}
+    return Drawn(tuple(strokes), tuple(tuple(loops) for loops in hatches.values()), tuple(axes), spots)
+
+
+Cut = tuple[Stroke | None, tuple[Line | Arc, ...] | None]
+
+
+def _cut_along(one: Shown) -> Iterator[Cut]:
+    """A part cut along its axis."""
+    rotation = np.array(one.place.rotation)
+    normal = complex(rotation[2, 0], rotation[2, 1])
+    across = one.flat(-1j * one.along)
+    cuts, layers = crossing(-one.depth * normal, across), one.sketch.layers
+    for line in stacked(layers, cuts):
+        yield (VISIBLE, Line(one.laid(line.start), one.laid(line.end))), None
+    for layer in layers:
+        if any(ring.root is not None for ring in layer.lower):
+            ends = [cuts(tuple(round_ring(r.root) for r in side if r.root is not None))
+                    for side in (layer.lower, layer.upper)]  # fmt: skip
+            for a, b in zip(*ends, strict=False):
+                yield (VISIBLE, Line(one.laid(complex(a, layer.low)), one.laid(complex(b, layer.high)))), None
+    if not one.sketch.is_shaft:
+        for loop in hatched(layers, cuts):
+            yield None, tuple(Line(one.laid(k.start), one.laid(k.end)) for k in loop)
+
+
+def _cut_across(one: Shown) -> Iterator[Cut]:
+    """A part cut across its axis."""
+    sketch, placement = one.faced()
+    layer = next((k for k in sketch.layers if k.low < -one.depth < k.high), None)
+    if layer is None:
+        return
+    for ring in layer.lower:
+        for curve in ring.curves:
+            yield (VISIBLE, curve.placed(placement)), None
+        curves = [c.placed(placement) for c in ring.filled().curves]
+        yield None, tuple(piece for c in curves for piece in _plain(c))
+        if ring.root is not None:
+            yield (VISIBLE, curves[0]), None
+
+
+def _plain(curve: Curve) -> list[Line | Arc]:
+    """A curve as what hatching takes."""
+    if isinstance(curve, Line | Arc):
+        return [curve]
+    points = curve.point(np.linspace(*curve.domain, 17)).tolist()
+    return [Line(a, b) for a, b in zip(points, points[1:], strict=False)]
+
+
+def _samples(strokes: Sequence[Stroke]) -> Complex:
+    """Points all along the lines of a view."""
+    rows = [curve.point(np.linspace(*curve.domain, _SAMPLES)) for _, curve in strokes]
+    return np.concatenate(rows) if rows else np.zeros(0, dtype=complex)
+
+
+def _within(loops: Sequence[Sequence[Line | Arc]]) -> Complex:
+    """Points in what is hatched."""
+    found = []
+    for loop in loops:
+        points = np.concatenate([c.point(np.linspace(*c.domain, 9)) for c in loop])
+        x, y = (np.linspace(a.min(), a.max(), 9)[1:-1] for a in (points.real, points.imag))
+        grid = (x[:, None] + 1j * y[None, :]).ravel()
+        found.append(grid[Ring(tuple(loop)).holds(grid)])
+    return np.concatenate(found) if found else np.zeros(0, dtype=complex)
+
+
+def _farthest(points: Complex, lines: Complex) -> tuple[complex, ...]:
+    """The best few of places, the farthest from all lines first."""
+    if not len(points) or not len(lines):
+        return tuple(points[:1].tolist())
+    off = np.array([np.abs(lines - p).min() for p in points])
+    return tuple(points[np.argsort(-off, kind="stable")[:8]].tolist())
