@@ -35,6 +35,7 @@ from parts.drawing.table import Row
 from parts.drawing.title_block import FORM_1, TITLE_BLOCK, draw_title_block, title_block_of
 from parts.drawing.view import TEETH
 from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear
+from parts.keys.sheet import WORKING
 from parts.keys.title import TitleBlockTable
 from parts.mates.sheets.meshing import Facts, meshing_canvas
 from parts.mates.worm import WormMating
@@ -47,7 +48,7 @@ from parts.texts.sheets import sheet_words
 RACK_STEP, _MOST_STEP, _LEAST_STEP = 4.5, 1 / 6, 1 / 60
 ENDINGS = ("dxf", "svg")
 # purposes whose sheets always have their title block
-_WITH_BLOCK = ("parts_list", "part")
+_WITH_BLOCK = ("parts_list", *WORKING)
 
 
 class SheetJob(Record):
@@ -141,6 +142,10 @@ def sheet_jobs(
             from exporters.production.part_drawings import part_drawings
 
             made = part_drawings(scene, placing, parts, export, asked, where, source)
+        elif export.purpose == "assembly":
+            from exporters.production.assembly_drawings import assembly_drawing
+
+            made = [("", assembly_drawing(placing, parts, export, asked, where, source))]
         elif export.purpose == "train":
             from exporters.production.train_sheets import scene_train_sheet
 
@@ -151,7 +156,7 @@ def sheet_jobs(
         raise placed(source, where, error, unit_of(ExportSpec, error.name)) from error
     for number, (word, expected) in enumerate(made, 1):
         shown = [word.partition(".")[0]] if export.purpose in ("cam", "part") else export.parts or []
-        part = parts[shown[0]] if len(shown) == 1 and export.purpose != "parts_list" else None
+        part = parts[shown[0]] if len(shown) == 1 and export.purpose not in ("parts_list", "assembly") else None
         _add_title_block(expected, scene, export, part, (number, len(made)))
         if export.cells == "empty":
             expected.canvas.texts[:] = [seen for text in expected.canvas.texts for seen in text.asked()]

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -31,18 +32,19 @@ _ARC, _THROAT = 8, 12
 _EDGE = 0.1
 
 
-class Ring(Record):
+class Ring(Record, dict=True):
     """A closed boundary in the plane; ``root``: radius to which the section of teeth is hatched, mm."""
 
     curves: tuple[Curve, ...]
     root: float | None = None
 
-    @property
+    @cached_property
     def circle(self) -> tuple[complex, float] | None:
         """Centre and radius, where it is a single whole circle."""
         (one, *more) = self.curves
         return (one.centre, one.radius) if isinstance(one, Arc) and not more else None
 
+    @cached_property
     def points(self) -> Complex:
         """All along it, without the last, which is the first."""
         return np.concatenate([c.point(np.linspace(*c.domain, _SAMPLES))[:-1] for c in self.curves])
@@ -51,7 +53,7 @@ class Ring(Record):
         """Whether points lie within it."""
         if (round_ := self.circle) is not None:
             return np.asarray(np.abs(points - round_[0]) < round_[1])
-        start = self.points()
+        start = self.points
         end = np.roll(start, -1)
         y = points.imag[:, None]
         crossed = (start.imag > y) != (end.imag > y)
@@ -107,6 +109,7 @@ class Sketch(Record):
 
     def turned_over(self) -> Sketch:
         """The same, turned over about x."""
+
         def over(rings: Sequence[Ring]) -> tuple[Ring, ...]:
             return tuple(replace(ring, curves=tuple(c.mirrored() for c in ring.curves)) for ring in rings)
 
@@ -174,7 +177,7 @@ def sketch_of_body(body: Body, teeth: Teeth | None = None, *, is_shaft: bool = F
         layers.append(Layer(low, high, tuple(ring(w, low) for w in walls), tuple(ring(w, high) for w in walls)))
         if any(body.is_chamfer(w) for w in walls):
             creases += [low, high]
-    return Sketch(tuple(layers), tuple(creases), teeth and teeth.pitch, is_shaft)
+    return Sketch(tuple(layers), tuple(creases), None if teeth is None else teeth.pitch, is_shaft)
 
 
 def _is_toothed(profile: Profile) -> bool:
@@ -200,15 +203,13 @@ def _lathe(chain: Sequence[tuple[complex, complex]], holes: Sequence[tuple[compl
     for low, high in pairwise(levels):
         if high - low < _SAME:
             continue
-        walls = [sorted(e, key=lambda p: p.imag) for e in chain]
-        walls = [(a, b) for a, b in walls if a.imag <= low + _SAME and b.imag >= high - _SAME]
-
-        def radii(z: float) -> list[float]:
-            return sorted(a.real + (b.real - a.real) * (z - a.imag) / (b.imag - a.imag) for a, b in walls)
-
+        rising = [(a, b) if a.imag <= b.imag else (b, a) for a, b in chain]
+        walls = [(a, b) for a, b in rising if a.imag <= low + _SAME and b.imag >= high - _SAME]
+        radii = [sorted(a.real + (b.real - a.real) * (z - a.imag) / (b.imag - a.imag) for a, b in walls)
+                 for z in (low, high)]  # fmt: skip
         # a cone's point is a small circle
-        ends = [[round_ring(max(r, _POINT)) for r in radii(z)] for z in (low, high)]
-        reach = min(max(radii(z)) for z in (low, high))
+        ends = [[round_ring(max(r, _POINT)) for r in side] for side in radii]
+        reach = min(max(side) for side in radii)
         through = tuple(round_ring(r, centre=c) for c, r in holes if abs(c) + r < reach)
         yield Layer(low, high, (*ends[0], *through), (*ends[1], *through))
 
@@ -300,15 +301,36 @@ def _faces(below: list[float], above: list[float], *, bends: bool) -> Iterator[t
 
 
 def hatched(layers: Sequence[Layer], cuts: Cuts) -> Iterator[tuple[Line, ...]]:
-    """The material that a plane along the axis cuts, as closed loops s + iz, teeth as far as their roots."""
+    """The material that a plane along the axis cuts, as closed loops s + iz, teeth as far as their roots.
+
+    Layers that lie on each other make one loop, for hatching to run through.
+    """
+    # of each loop that grows: places of its left and its right side
+    growing: list[tuple[list[complex], list[complex]]] = []
     for layer in layers:
         first, last = (cuts(tuple(ring.filled() for ring in side)) for side in (layer.lower, layer.upper))
-        if len(first) != len(last):
+        if len(first) != len(last) or len(first) % 2:
             continue
-        for (a, b), (c, d) in zip(zip(first[::2], first[1::2], strict=False), zip(last[::2], last[1::2], strict=False),
-                                  strict=True):  # fmt: skip
-            corners = complex(a, layer.low), complex(b, layer.low), complex(d, layer.high), complex(c, layer.high)
-            yield tuple(Line(p, q) for p, q in pairwise((*corners, corners[0])))
+        spans = list(zip(first[::2], first[1::2], last[::2], last[1::2], strict=True))
+        goes_on = len(spans) == len(growing) and all(
+            abs(left[-1].imag - layer.low) < _SAME and a < right[-1].real and left[-1].real < b
+            for (left, right), (a, b, _, _) in zip(growing, spans, strict=True)
+        )
+        if not goes_on:
+            yield from map(_closed, growing)
+            growing = [([], []) for _ in spans]
+        for (left, right), (a, b, c, d) in zip(growing, spans, strict=True):
+            left += [complex(a, layer.low), complex(c, layer.high)]
+            right += [complex(b, layer.low), complex(d, layer.high)]
+    yield from map(_closed, growing)
+
+
+def _closed(sides: tuple[list[complex], list[complex]]) -> tuple[Line, ...]:
+    """The loop up the right side and down the left."""
+    left, right = sides
+    ring = [*right, *reversed(left)]
+    kept = [p for p, q in zip(ring, (*ring[1:], ring[0]), strict=True) if abs(p - q) > _SAME]
+    return tuple(Line(p, q) for p, q in zip(kept, (*kept[1:], kept[0]), strict=True))
 
 
 def crossing(origin: complex, way: complex) -> Cuts:
@@ -330,7 +352,7 @@ def reaching(way: complex) -> Cuts:
                 middle = (found[0] / way).real
                 ends += [middle - found[1], middle + found[1]]
             else:
-                along: Real = (ring.points() / way).real
+                along: Real = (ring.points / way).real
                 ends += [float(along.min()), float(along.max())]
         return [min(ends), max(ends)] if ends else []
 

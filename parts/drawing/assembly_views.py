@@ -6,9 +6,10 @@ or in its plane; teeth are circles (GOST 2.402).
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Iterator, Sequence
+from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -21,10 +22,11 @@ from geometry.solids.sketch import Ring, Sketch, crossing, hatched, reaching, ro
 from parts.drawing.working import AXIS, VISIBLE
 
 # what is parallel, what is one place, mm; samples of an edge, steps of a halving
-_PARALLEL, _SAME, _SAMPLES, _HALVINGS = 1e-9, 1e-6, 65, 30
+_PARALLEL, _SAME, _SAMPLES, _HALVINGS = 1e-9, 1e-6, 65, 24
 # places that are tried for a leader's end, across a part
-_GRID = 25
+_GRID, _FEW = 17, 12
 Stroke = tuple[str, Curve]
+Spot = tuple[complex, float]
 
 
 class Shown(Record):
@@ -70,10 +72,9 @@ class Shown(Record):
 
     def faced(self) -> tuple[Sketch, Placement2]:
         """The sketch of one that stands, its upper side to the viewer, and how its plane lies in the view's."""
-        (a, b, _), (c, d, _), _ = self.place.rotation
-        if self.axis[2] > 0:
-            return self.sketch, Placement2(math.atan2(c, a), self.centre)
-        return self.sketch.turned_over(), Placement2(math.atan2(c, a), self.centre)
+        (x, _, _), (y, _, _), _ = self.place.rotation
+        sketch = self.sketch if self.axis[2] > 0 else self.sketch.turned_over()
+        return sketch, Placement2(math.atan2(y, x), self.centre)
 
     @property
     def along(self) -> complex:
@@ -93,13 +94,13 @@ class Shown(Record):
 class Drawn(Record):
     """What a view has of an assembly, model mm: lines by layer, hatched loops and axes by part, places on parts.
 
-    ``spots``: for each part, points on it that are seen, the farthest from all lines first.
+    ``spots``: for each part, points on it that are seen with their distance from all lines, the farthest first.
     """
 
     strokes: tuple[Stroke, ...]
     hatched: tuple[tuple[tuple[Line | Arc, ...], ...], ...]
     axes: tuple[Line, ...]
-    spots: dict[str, tuple[complex, ...]]
+    spots: dict[str, tuple[Spot, ...]]
 
 
 def seen(shown: Sequence[Shown], view: Placement3) -> list[Shown]:
@@ -113,14 +114,18 @@ def along_axes(shown: Sequence[Shown]) -> Drawn:
     axes: list[Line] = []
     covers = [_Cover(one) for one in shown]
     for one in shown:
-        for height, curve in _edges(one):
-            strokes += [(VISIBLE, piece) for piece in _visible(curve, height, one, covers)]
-        strokes += _pitches(one)
+        edges = [piece for height, curve in _edges(one) for piece in _visible(curve, height, one, covers)]
+        if not edges:
+            continue
+        strokes += [(VISIBLE, piece) for piece in edges]
+        top = _height(one)
+        for layer, curve in _pitches(one):
+            strokes += [(layer, piece) for piece in _visible(curve, top, one, covers)]
         axes += _axes(one)
     lines = _samples(strokes)
-    spots: dict[str, tuple[complex, ...]] = {}
+    spots: dict[str, tuple[Spot, ...]] = {}
     for one, cover in zip(shown, covers, strict=True):
-        found = cover.places()
+        found = cover.places
         for other in covers:
             if other is not cover:
                 found = found[~other.hides(found, cover.top(found))]
@@ -128,25 +133,46 @@ def along_axes(shown: Sequence[Shown]) -> Drawn:
     return Drawn(tuple(strokes), (), tuple(axes), spots)
 
 
-class _Cover(Record):
+class _Cover(Record, dict=True):
     """What an instance hides in a view."""
 
     one: Shown
 
+    @cached_property
+    def faced(self) -> tuple[Sketch, Placement2]:
+        """The sketch of one that stands, and how its plane lies in the view's."""
+        return self.one.faced()
+
+    @cached_property
+    def reach(self) -> tuple[float, float]:
+        """How far it reaches from its origin in the view, and its highest place, mm."""
+        if not self.one.stands:
+            return float(np.abs(self.silhouette.points - self.one.centre).max()), self.one.depth
+        sketch = self.faced[0]
+        rings = [ring for layer in sketch.layers for ring in (*layer.lower, *layer.upper)]
+        return max(float(np.abs(ring.points).max()) for ring in rings), sketch.layers[-1].high + self.one.depth
+
     def hides(self, points: Complex, heights: np.ndarray | float) -> np.ndarray:
         """Whether it stands before points of the view's plane at heights."""
-        one = self.one
+        one, (reach, top) = self.one, self.reach
+        found = np.zeros(len(points), dtype=bool)
+        near = (np.abs(points - one.centre) <= reach + _SAME) & (np.asarray(heights) < top - _SAME)
+        if not near.any():
+            return found
         if not one.stands:
-            return np.asarray((one.depth > np.asarray(heights) + _SAME) & self._silhouette().holds(points))
-        sketch, placement = one.faced()
-        places = np.asarray(placement.inverse().apply(points))
-        levels = np.broadcast_to(np.asarray(heights, float) - one.depth, places.shape)
-        found = np.zeros(places.shape, dtype=bool)
+            found[near] = self.silhouette.holds(points[near])
+            return found
+        sketch, placement = self.faced
+        places = np.asarray(placement.inverse().apply(points[near]))
+        levels = np.broadcast_to(np.asarray(heights, float) - one.depth, found.shape)[near]
+        inner = np.zeros(len(places), dtype=bool)
         for level in np.unique(levels):
-            found[levels == level] = sketch.covers(places[levels == level], float(level))
+            inner[levels == level] = sketch.covers(places[levels == level], float(level))
+        found[near] = inner
         return found
 
-    def _silhouette(self) -> Ring:
+    @cached_property
+    def silhouette(self) -> Ring:
         """The outline of one that lies."""
         one = self.one
         cuts = reaching(one.flat(-1j * one.along))
@@ -161,10 +187,11 @@ class _Cover(Record):
         corners = [p for p, q in zip(ring, [*ring[1:], ring[0]], strict=True) if abs(p - q) > _SAME]
         return Ring(tuple(Line(a, b) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)))
 
+    @cached_property
     def places(self) -> Complex:
         """Points all over it, in the view."""
         rings, place = self._outlines()
-        all_points = np.concatenate([ring.points() for ring in rings])
+        all_points = np.concatenate([ring.points for ring in rings])
         x, y = (np.linspace(a.min(), a.max(), _GRID + 2)[1:-1] for a in (all_points.real, all_points.imag))
         grid = (x[:, None] + 1j * y[None, :]).ravel()
         inside = np.zeros(len(grid), dtype=bool)
@@ -174,21 +201,21 @@ class _Cover(Record):
 
     def _outlines(self) -> tuple[list[Ring], Placement2]:
         if not self.one.stands:
-            return [self._silhouette()], Placement2()
-        sketch, placement = self.one.faced()
+            return [self.silhouette], Placement2()
+        sketch, placement = self.faced
         return [ring for layer in sketch.layers for ring in layer.upper], placement
 
     def _layers(self, rings: list[Ring]) -> list[Sequence[Ring]]:
         if not self.one.stands:
             return [rings]
-        return [layer.upper for layer in self.one.faced()[0].layers]
+        return [layer.upper for layer in self.faced[0].layers]
 
     def top(self, points: Complex) -> np.ndarray:
         """Height of its highest place at points that are on it."""
         one = self.one
         if not one.stands:
             return np.full(len(points), one.depth)
-        sketch, placement = one.faced()
+        sketch, placement = self.faced
         places = np.asarray(placement.inverse().apply(points))
         found = np.full(len(points), -np.inf)
         for layer in sketch.layers:
@@ -202,11 +229,18 @@ def _edges(one: Shown) -> Iterator[tuple[float, Curve]]:
     if one.stands:
         sketch, placement = one.faced()
         for height, ring in sketch.edges():
-            yield from ((height + one.depth, curve.placed(placement)) for curve in ring.curves)
+            yield from ((height + one.depth, curve) for curve in _placed(ring, placement))
         return
     cuts = reaching(one.flat(-1j * one.along))
     for line in stacked(one.sketch.layers, cuts, one.sketch.creases):
         yield one.depth, Line(one.laid(line.start), one.laid(line.end))
+
+
+def _placed(ring: Ring, placement: Placement2) -> list[Curve]:
+    """A boundary in the view; files know no place at which a circle begins."""
+    if (found := ring.circle) is not None:
+        return [Arc(placement.apply(found[0]), found[1], 0.0, 2 * math.pi)]
+    return [curve.placed(placement) for curve in ring.curves]
 
 
 def _pitches(one: Shown) -> Iterator[Stroke]:
@@ -220,6 +254,13 @@ def _pitches(one: Shown) -> Iterator[Stroke]:
     low, high = _toothed(one.sketch)
     for side in (pitch, -pitch):
         yield AXIS, Line(one.laid(complex(side, low)), one.laid(complex(side, high)))
+
+
+def _height(one: Shown) -> float:
+    """Of the upper end of its teeth, or of its axis."""
+    if not one.stands or one.sketch.pitch is None:
+        return one.depth
+    return _toothed(one.faced()[0])[1] + one.depth
 
 
 def _toothed(sketch: Sketch) -> tuple[float, float]:
@@ -265,7 +306,7 @@ def _visible(curve: Curve, height: float, one: Shown, covers: Sequence[_Cover]) 
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     ends += [*low.tolist(), float(t[-1])]
     shows = not mask[0]
-    for a, b in zip(ends, ends[1:], strict=False):
+    for a, b in pairwise(ends):
         if shows and b - a > _SAME * (t[-1] - t[0]):
             yield curve.trimmed(a, b)
         shows = not shows
@@ -276,18 +317,20 @@ def cut(shown: Sequence[Shown]) -> Drawn:
     strokes: list[Stroke] = []
     axes: list[Line] = []
     hatches: dict[str, list[tuple[Line | Arc, ...]]] = {}
+    filled: dict[str, list[tuple[Line | Arc, ...]]] = {}
     for one in shown:
         drawn = list(_cut_across(one) if one.stands else _cut_along(one))
         strokes += [stroke for stroke, _ in drawn if stroke is not None]
         loops = [loop for _, loop in drawn if loop is not None]
-        if loops:
+        filled.setdefault(one.part, []).extend(loops)
+        if one.stands or not _is_whole(one.sketch):
             hatches.setdefault(one.part, []).extend(loops)
-        if any(stroke is not None for stroke, _ in drawn):
+        if drawn:
             strokes += _pitches(one) if abs(one.depth) < _SAME or one.stands else ()
             axes += _axes(one) if abs(one.depth) < _SAME or one.stands else ()
     lines = _samples(strokes)
-    spots = {part: _farthest(_within(loops), lines) for part, loops in hatches.items()}
-    return Drawn(tuple(strokes), tuple(tuple(loops) for loops in hatches.values()), tuple(axes), spots)
+    spots = {part: _farthest(_within(loops), lines) for part, loops in filled.items()}
+    return Drawn(tuple(strokes), tuple(tuple(loops) for loops in hatches.values() if loops), tuple(axes), spots)
 
 
 Cut = tuple[Stroke | None, tuple[Line | Arc, ...] | None]
@@ -298,8 +341,10 @@ def _cut_along(one: Shown) -> Iterator[Cut]:
     rotation = np.array(one.place.rotation)
     normal = complex(rotation[2, 0], rotation[2, 1])
     across = one.flat(-1j * one.along)
-    cuts, layers = crossing(-one.depth * normal, across), one.sketch.layers
-    for line in stacked(layers, cuts):
+    layers = one.sketch.layers
+    whole = _is_whole(one.sketch) and abs(one.depth) < _SAME
+    cuts = reaching(across) if whole else crossing(-one.depth * normal, across)
+    for line in stacked(layers, cuts, one.sketch.creases if whole else ()):
         yield (VISIBLE, Line(one.laid(line.start), one.laid(line.end))), None
     for layer in layers:
         if any(ring.root is not None for ring in layer.lower):
@@ -307,9 +352,13 @@ def _cut_along(one: Shown) -> Iterator[Cut]:
                     for side in (layer.lower, layer.upper)]  # fmt: skip
             for a, b in zip(*ends, strict=False):
                 yield (VISIBLE, Line(one.laid(complex(a, layer.low)), one.laid(complex(b, layer.high)))), None
-    if not one.sketch.is_shaft:
-        for loop in hatched(layers, cuts):
-            yield None, tuple(Line(one.laid(k.start), one.laid(k.end)) for k in loop)
+    for loop in hatched(layers, cuts):
+        yield None, tuple(Line(one.laid(k.start), one.laid(k.end)) for k in loop)
+
+
+def _is_whole(sketch: Sketch) -> bool:
+    """Whether it is not cut along its axis: a shaft that no bore goes through."""
+    return sketch.is_shaft and any(len(layer.lower) == 1 for layer in sketch.layers)
 
 
 def _cut_across(one: Shown) -> Iterator[Cut]:
@@ -319,9 +368,9 @@ def _cut_across(one: Shown) -> Iterator[Cut]:
     if layer is None:
         return
     for ring in layer.lower:
-        for curve in ring.curves:
-            yield (VISIBLE, curve.placed(placement)), None
-        curves = [c.placed(placement) for c in ring.filled().curves]
+        for curve in _placed(ring, placement):
+            yield (VISIBLE, curve), None
+        curves = _placed(ring.filled(), placement)
         yield None, tuple(piece for c in curves for piece in _plain(c))
         if ring.root is not None:
             yield (VISIBLE, curves[0]), None
@@ -332,7 +381,7 @@ def _plain(curve: Curve) -> list[Line | Arc]:
     if isinstance(curve, Line | Arc):
         return [curve]
     points = curve.point(np.linspace(*curve.domain, 17)).tolist()
-    return [Line(a, b) for a, b in zip(points, points[1:], strict=False)]
+    return [Line(a, b) for a, b in pairwise(points)]
 
 
 def _samples(strokes: Sequence[Stroke]) -> Complex:
@@ -352,9 +401,10 @@ def _within(loops: Sequence[Sequence[Line | Arc]]) -> Complex:
     return np.concatenate(found) if found else np.zeros(0, dtype=complex)
 
 
-def _farthest(points: Complex, lines: Complex) -> tuple[complex, ...]:
+def _farthest(points: Complex, lines: Complex) -> tuple[Spot, ...]:
     """The best few of places, the farthest from all lines first."""
-    if not len(points) or not len(lines):
-        return tuple(points[:1].tolist())
-    off = np.array([np.abs(lines - p).min() for p in points])
-    return tuple(points[np.argsort(-off, kind="stable")[:8]].tolist())
+    if not len(points):
+        return ()
+    off = np.array([float(np.abs(lines - p).min()) for p in points])
+    order = np.argsort(-np.round(off, 6), kind="stable")[:_FEW]
+    return tuple((complex(points[k]), float(off[k])) for k in order)

@@ -203,7 +203,8 @@ class _Layout:
                 rows.append([])
             for begin in _begins(low, high, wide, middle):
                 reach = min(low, begin), max(high, begin + wide)
-                if any(reach[0] - 1 < b and a < reach[1] + 1 for a, b in rows[index]):
+                # chains share their ends
+                if any(_meet(reach, taken) for taken in rows[index]):
                     continue
                 lines = _dimension_lines(points, along, level, (low, high), (begin, begin + wide), out)
                 # words stand above their line, those of an upright one on its left
@@ -292,6 +293,13 @@ class _Layout:
                     self._write(text)
                     return
         raise _NoRoomError(note)
+
+
+def _meet(one: tuple[float, float], two: tuple[float, float]) -> bool:
+    """Whether dimension lines of one row overlap or are too near, but for those that end in one place."""
+    if min(abs(one[0] - two[1]), abs(two[0] - one[1])) < 1e-6:
+        return False
+    return one[0] - 1 < two[1] and two[0] < one[1] + 1
 
 
 def _along(point: complex, way: complex) -> float:

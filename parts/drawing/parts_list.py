@@ -68,14 +68,32 @@ def list_sheets(rows: Sequence[ListRow], language: str) -> list[Expected]:
         # a name goes on with its number, a heading with what stands below it
         while len(lines) > room and len(shown) > 1 and (_is_heading(shown[-1]) or not (shown[-1][2] or lines[room][2])):
             shown.pop()
-        _form(canvas, room, language)
-        for number, cells in enumerate(shown):
-            _write(canvas, cells, canvas.frame.high - _HEAD - _ROW * (number + 1))
+        canvas.box("FRAME", canvas.frame)
+        _table(canvas, complex(canvas.frame.left, canvas.frame.high), shown, room, language)
         del lines[: len(shown)]
         while lines and not any(lines[0]):
             del lines[0]
         sheets.append(Expected(canvas, Paper(1.0, 0j), ()))
     return sheets
+
+
+def list_size(rows: Sequence[ListRow], language: str) -> tuple[float, float]:
+    """Width and height of a list that stands on a drawing, mm."""
+    return sum(_COLUMNS), _HEAD + _ROW * len(list(_lines(rows, language)))
+
+
+def draw_list(canvas: Canvas, corner: complex, rows: Sequence[ListRow], language: str) -> None:
+    """A list on a drawing, its upper left corner at ``corner``."""
+    lines, (width, height) = list(_lines(rows, language)), list_size(rows, language)
+    canvas.box("FRAME", Box(corner.real, corner.imag - height, corner.real + width, corner.imag))
+    _table(canvas, corner, lines, len(lines), language)
+
+
+def _table(canvas: Canvas, corner: complex, lines: Sequence[_Cells], room: int, language: str) -> None:
+    """Head, lines and free rows, as many as there is room for."""
+    _form(canvas, corner, room, language)
+    for number, cells in enumerate(lines):
+        _write(canvas, cells, corner - 1j * (_HEAD + _ROW * (number + 1)))
 
 
 def _is_heading(cells: _Cells) -> bool:
@@ -108,29 +126,28 @@ def _mass(mass: float, told: Words) -> str:
     return told.text(text, mass=told.decimal(f"{value:.3g}"))
 
 
-def _form(canvas: Canvas, room: int, language: str) -> None:
+def _form(canvas: Canvas, corner: complex, room: int, language: str) -> None:
     """Lines and head of the table."""
-    frame = canvas.frame
-    canvas.box("FRAME", frame)
-    low, x = frame.high - _HEAD - _ROW * room, frame.left
+    x, high = corner.real, corner.imag
+    left, low = x, high - _HEAD - _ROW * room
     for number, (head, width) in enumerate(zip(_HEADS, _COLUMNS, strict=True)):
         text = words(language).say(head)
         if number < _RISING:
             long = min(text_width(text, TEXT_HEIGHT), _HEAD - 2 * INDENT)
-            at = complex(x + (width + TEXT_HEIGHT) / 2, frame.high - (_HEAD + long) / 2)
+            at = complex(x + (width + TEXT_HEIGHT) / 2, high - (_HEAD + long) / 2)
             canvas.write_rising(text, at, TEXT_HEIGHT, _HEAD - 2 * INDENT)
         else:
-            write_cell(canvas, text, Box(x, frame.high - _HEAD, x + width, frame.high), TEXT_HEIGHT)
+            write_cell(canvas, text, Box(x, high - _HEAD, x + width, high), TEXT_HEIGHT)
         x += width
-        canvas.line("FRAME", complex(x, low), complex(x, frame.high))
+        canvas.line("FRAME", complex(x, low), complex(x, high))
     for number in range(room + 1):
-        y = frame.high - _HEAD - _ROW * number
-        canvas.line("TABLE" if number else "FRAME", complex(frame.left, y), complex(frame.right, y))
+        y = high - _HEAD - _ROW * number
+        canvas.line("TABLE" if number else "FRAME", complex(left, y), complex(x, y))
 
 
-def _write(canvas: Canvas, cells: _Cells, low: float) -> None:
-    """A line of the list; a heading is underlined, in the middle of the names."""
-    left = canvas.frame.left
+def _write(canvas: Canvas, cells: _Cells, corner: complex) -> None:
+    """A line of the list from its lower left corner; a heading is underlined, in the middle of the names."""
+    left, low = corner.real, corner.imag
     if len(cells) == 1:
         x = left + sum(_COLUMNS[:_NAMES])
         if cells[0]:

@@ -37,12 +37,14 @@ CellsKey = Annotated[
 # the purpose that each key is for
 _PURPOSES = {"mate": "meshing", "rack_step": "generating", "intervals": "cam", "speed_rpm": "cam", "drawing": "part"}
 SHEET_FORMATS = ("sheet", "pdf")
+# purposes of drawings for the workshop, each a file of its own
+WORKING = ("part", "assembly")
 SHEET_KEYS = (*_PURPOSES, "title_block", "paper", "scale", "cells")
 
 
 def on_sheet(format_name: str, purpose: str | None) -> bool:
     """Whether an export is a drawing on paper."""
-    return format_name in SHEET_FORMATS or purpose == "part"
+    return format_name in SHEET_FORMATS or purpose in WORKING
 
 
 def check_sheet_keys(spec: Any, source: str, place: str) -> None:
@@ -70,7 +72,7 @@ def check_sheet_keys(spec: Any, source: str, place: str) -> None:
         if given and key != "title_block" and spec.purpose == "parts_list":
             raise SceneError(source, f"{place}.{key}", given, "list_has_its_form", REMOVED)
     is_sheet = on_sheet(spec.format, spec.purpose)
-    if spec.cells != "numbers" and (not is_sheet or spec.purpose in ("model", "parts_list", "part")):
+    if spec.cells != "numbers" and (not is_sheet or spec.purpose in ("model", "parts_list", *WORKING)):
         formats = [f'"{name}"' for name in SHEET_FORMATS]
         raise SceneError(
             source, f"{place}.cells", spec.cells, "only_for_format", REMOVED, formats=formats, format=spec.format

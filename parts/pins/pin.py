@@ -14,8 +14,8 @@ from parts.keys.pins import MOST, check_holes, holes_of, most_of, moved_region
 if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.body import Body
-    from geometry.solids.sketch import Sketch
     from geometry.solids.pin_plates import RoundDisc
+    from geometry.solids.sketch import Sketch
 
 
 class PinSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", tag="pin"):

@@ -37,6 +37,10 @@ REASONS = {
     "no_outline": N_("no whole outline comes of it: {why}"),
     "no_report": N_("is damaged (it is not the JSON of a report); build the scene again"),
     "no_report_beside": N_("no {name} beside it; build the scene again to get one"),
+    "no_assembly_view": N_("a {kind} has no view in an assembly drawing ({part}); parts = [...] leaves it out"),
+    "assembly_axis_oblique": N_(
+        "the axis of {instance} is oblique to the views of an assembly drawing; parts = [...] leaves it out"
+    ),
     "no_working_drawing": N_("a {kind} has no working drawing"),
     "no_such_file": N_("no such file"),
     "no_such_mate": N_("the scene has no such mate"),

@@ -8,6 +8,7 @@ from __future__ import annotations
 from enum import Enum
 
 from geometry.base.record import Record
+from parts.keys.sheet import WORKING
 
 
 class Form(Enum):
@@ -55,10 +56,10 @@ FILE_KINDS = {
         FileKind("stl", "stl", Form.TRIANGLES, {"print": 0.01}),
         FileKind("3mf", "3mf", Form.TRIANGLES, {"print": 0.01, "plate": 0.01}, assembly=True),
         FileKind("step", "step", Form.FACES, {"model": 1e-6}, assembly=True),
-        FileKind("part_dxf", "dxf", Form.SHEET, {"part": 1e-6}),
-        FileKind("part_svg", "svg", Form.SHEET, {"part": 1e-6}),
+        FileKind("part_dxf", "dxf", Form.SHEET, dict.fromkeys(WORKING, 1e-6)),
+        FileKind("part_svg", "svg", Form.SHEET, dict.fromkeys(WORKING, 1e-6)),
         FileKind("sheet", "sheet", Form.SHEET, dict.fromkeys(_SHEETS, 1e-6)),
-        FileKind("pdf", "pdf", Form.SHEET, {"model": 1e-3, **dict.fromkeys((*_SHEETS, "part"), 2e-4)}),
+        FileKind("pdf", "pdf", Form.SHEET, {"model": 1e-3, **dict.fromkeys((*_SHEETS, *WORKING), 2e-4)}),
         FileKind("motion", "motion", Form.SHEET, {"animation": 0.02}),
         FileKind("glb", "glb", Form.SHEET, {"animation": 0.02}),
         FileKind("csv", "csv", Form.SHEET, {"parts_list": 1e-6}),

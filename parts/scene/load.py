@@ -83,6 +83,7 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
                 "train",
                 "parts_list",
                 "part",
+                "assembly",
                 "animation",
             ],
             Meta(
@@ -90,7 +91,7 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
                 "3mf: plate (all parts laid on beds); sheet, pdf: meshing (picture of each pair), "
                 "generating (device TMM-42), cam (diagrams, least radius, profile), train (scheme, plans of "
                 "velocities) or parts_list (GOST 2.106); pdf: model (outlines 1:1 on sheets to be glued together); "
-                "dxf, svg, pdf: part (working drawing of each part)",
+                "dxf, svg, pdf: part (working drawing of each part) or assembly (drawing of the whole scene)",
                 examples=["laser"],
             ),
         ]

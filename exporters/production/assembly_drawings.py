@@ -1,0 +1,134 @@
+"""The assembly drawing of a scene: its instances in two views, the parts list, sizes between axes and over all."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+
+from geometry.base.placement import Placement3
+from geometry.base.roots import bracketed_root
+from geometry.curves.curve import Curve
+from parts.base.part import Part
+from parts.base.refusal import SceneError
+from parts.drawing.assembly_sheet import AssemblyView, assembly_sheet
+from parts.drawing.assembly_views import Drawn, Shown, along_axes, cut, seen
+from parts.drawing.choice import Asked
+from parts.drawing.expected import Expected
+from parts.drawing.working import VISIBLE, Size
+from parts.scene.load import ExportSpec
+from parts.scene.parts_list import list_rows
+from parts.scene.placing import Placing
+
+# what is one place, mm
+_SAME, _SAMPLES = 1e-6, 65
+_TITLE = "A–A"
+
+
+def assembly_drawing(
+    placing: Placing, parts: Mapping[str, Part], export: ExportSpec, asked: Asked, where: str, source: str
+) -> Expected:
+    """The drawing of all instances of the parts that the export names.
+
+    Raises
+    ------
+    SceneError
+        A part whose kind has no view in an assembly, or an axis that is oblique to the views.
+    """
+    wanted = {key: parts[key] for key in export.parts or parts}
+    shown = []
+    for instance in (i for i in placing.instances if i.part in wanted):
+        part = wanted[instance.part]
+        sketch = part.made_by.sketch(part.keys, part.thing)
+        if sketch is None:
+            raise SceneError(source, f"{where}.purpose", export.purpose, "no_assembly_view", None, kind=part.kind,
+                             part=part.id)  # fmt: skip
+        shown.append(Shown(instance.id, instance.part, sketch, instance.scene_from_part))
+    centre, way = _line_of_centres(placing, set(wanted))
+    back = Placement3(translation=(-centre.real, -centre.imag, 0.0))
+    x, y = way.real, way.imag
+    front = seen(shown, Placement3(((x, y, 0.0), (-y, x, 0.0), (0.0, 0.0, 1.0))) @ back)
+    section = seen(shown, Placement3(((x, y, 0.0), (0.0, 0.0, 1.0), (y, -x, 0.0))) @ back)
+    main, across = along_axes(front), cut(section)
+    views = [
+        AssemblyView(across, (*_between(front, across), *_over_all(across, across=False)), title=_TITLE),
+        AssemblyView(main, (*_beside(front, placing), *_over_all(main, across=True)), marked=True),
+    ]
+    return assembly_sheet(views, list_rows(placing.instances, wanted, asked.language), asked)
+
+
+def _line_of_centres(placing: Placing, wanted: set[str]) -> tuple[complex, complex]:
+    """A point of the section's plane, and its direction: through the axes of the first mate that has two."""
+    for mate in placing.mates:
+        step = mate.second.centre - mate.first.centre
+        if {mate.first.part, mate.second.part} <= wanted and abs(step) > _SAME:
+            return mate.first.centre, step / abs(step)
+    first = next(i for i in placing.instances if i.part in wanted)
+    return first.centre, 1.0
+
+
+def _axes_on_plane(front: Sequence[Shown]) -> list[float]:
+    """Where axes cross the plane of the section, along it, mm."""
+    return sorted({round(one.centre.real, 9) for one in front if abs(one.centre.imag) < _SAME})
+
+
+def _between(front: Sequence[Shown], across: Drawn) -> list[Size]:
+    """From axis to axis in the plane of the section."""
+    low = min(float(c.point(np.array(c.domain)).imag.min()) for _, c in across.strokes)
+    places = _axes_on_plane(front)
+    return [
+        Size(f"axes.{number}", complex(a, low), complex(b, low), "below")
+        for number, (a, b) in enumerate(pairwise(places), 1)
+    ]
+
+
+def _beside(front: Sequence[Shown], placing: Placing) -> list[Size]:
+    """From axis to axis of mates beside that plane, along x and y; a distance that is told is not told again."""
+    places = {one.id: one.centre for one in front}
+    told = set()
+    found = []
+    for mate in placing.mates:
+        if not {mate.first.id, mate.second.id} <= places.keys():
+            continue
+        one, two = places[mate.first.id], places[mate.second.id]
+        distance = round(abs(two - one), 6)
+        if distance > _SAME and max(abs(one.imag), abs(two.imag)) > _SAME and distance not in told:
+            name = f"axes.{mate.first.id}.{mate.second.id}"
+            if abs((two - one).real) > _SAME:
+                found.append(Size(f"{name}.x", one, two, "above"))
+            if abs((two - one).imag) > _SAME:
+                found.append(Size(f"{name}.y", one, two, "left"))
+        told.add(distance)
+    return found
+
+
+def _farthest(drawn: Drawn, way: complex) -> complex:
+    """The farthest place of an outline in a direction."""
+    best = 0j
+    reach = -math.inf
+    for curve in (c for layer, c in drawn.strokes if layer == VISIBLE):
+        t = np.linspace(*curve.domain, _SAMPLES)
+        k = int((curve.point(t) / way).real.argmax())
+        low, high = t[max(k - 1, 0)], t[min(k + 1, _SAMPLES - 1)]
+        if _rate(curve, way, low) > 0 > _rate(curve, way, high):
+            at = bracketed_root(partial(_rate, curve, way), low, high).value
+        else:
+            at = t[k]
+        if ((point := complex(curve.point(at))) / way).real > reach + _SAME:
+            best, reach = point, (point / way).real
+    return best
+
+
+def _rate(curve: Curve, way: complex, t: float) -> float:
+    """How fast a curve runs in a direction."""
+    return (complex(curve.derivative(t)) / way).real
+
+
+def _over_all(drawn: Drawn, *, across: bool) -> list[Size]:
+    """Height of a view, and its width where ``across``."""
+    left, right, low, high = (_farthest(drawn, way) for way in (-1, 1, -1j, 1j))
+    found = [Size("height", complex(low), complex(high), "right")]
+    return [*found, Size("width", complex(left), complex(right), "below")] if across else found

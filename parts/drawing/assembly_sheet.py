@@ -1,0 +1,320 @@
+"""An assembly drawing on paper: views with numbers of positions on leaders, sizes, the parts list; GOST 2.109."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
+
+import numpy as np
+
+from geometry.base.record import Record
+from geometry.curves.curve import Complex
+from geometry.curves.line_arc import Arc, Line
+from parts.drawing.assembly_views import Drawn
+from parts.drawing.canvas import SCALES, TITLE_TEXT, Box, Canvas, Paper, Stroke, Text, text_of, text_width
+from parts.drawing.choice import Asked, sheet_for
+from parts.drawing.dimensioning import Ink, Laid, laid, moved
+from parts.drawing.expected import Expected
+from parts.drawing.hatching import hatching
+from parts.drawing.part_sheet import PartMeasures
+from parts.drawing.parts_list import ListRow, draw_list, list_size
+from parts.drawing.title_block import TITLE_BLOCK
+from parts.drawing.working import Size, View
+
+# mm on paper: from the frame to views, between views; of hatching from part to part
+_MARGIN, _BETWEEN, _HATCH, _WIDER = 6.0, 14.0, 2.5, 0.8
+# of numbers: their height, from one to the next, from the view to them, the shelf beside the number, the dot, how much
+# leaders rise
+_HEIGHT, _STEP, _AWAY, _SHELF, _DOT, _SLANT = TITLE_TEXT, 10.0, 9.0, 1.5, 0.5, 14.0
+# of the marks of the section: length of a stroke and of its arrow, how far outside
+_MARK, _ARROW, _OUT = 7.0, 5.0, 2.0
+# part of the most room about a leader's end with which nearer ends are as good
+_ROOMY = 0.6
+# the largest extent of the views on paper, below which larger paper is better, but for what is enlarged so far
+_LEAST, _ENLARGED = 120.0, 2.0
+_LETTER = "A"
+
+
+class AssemblyView(Record):
+    """A view of an assembly with its sizes; ``marked``: the plane of the section crosses it along x; or a title."""
+
+    drawn: Drawn
+    sizes: tuple[Size, ...]
+    marked: bool = False
+    title: str = ""
+
+
+def assembly_sheet(views: Sequence[AssemblyView], rows: Sequence[ListRow], asked: Asked) -> Expected:
+    """The drawing on the smallest paper that shows it well, or as it is asked for.
+
+    Raises
+    ------
+    ParameterError
+        The paper is too small for the scale, or none is large enough.
+    """
+    tall = TITLE_BLOCK[1] + list_size(rows, asked.language)[1]
+
+    def fields(frame: Box) -> Iterator[Box]:
+        """Beside the title block and the list, or above them."""
+        if frame.low + tall > frame.high:
+            return
+        yield Box(frame.left, frame.low, frame.right - TITLE_BLOCK[0], frame.high).grown(-_MARGIN)
+        yield Box(frame.left, frame.low + tall, frame.right, frame.high).grown(-_MARGIN)
+
+    @cache
+    def views_at(scale: float) -> tuple[Laid, ...]:
+        """The views at a scale; none where words or numbers find no room."""
+        found = _laid(views, rows, scale, asked)
+        return () if found is None else found
+
+    extents = [_extent(view.drawn) for view in views]
+
+    def greatest(canvas: Canvas) -> float:
+        """The greatest scale at which both views stand in a field."""
+        most = max(canvas.width, canvas.height) / max(max(extent) for extent in extents)
+        for scale in (s for s in SCALES if s <= most):
+            # bare views are held against the fields before they are laid out
+            bare = [Box(0.0, 0.0, scale * wide, scale * tall) for wide, tall in extents]
+            for field in fields(canvas.frame):
+                if _origins(bare, field) and _places(views_at(scale), field):
+                    return scale
+        return 0.0
+
+    canvas, scale = sheet_for(asked, greatest, min(_ENLARGED, _LEAST / max(max(extent) for extent in extents)))
+    made = views_at(scale)
+    canvas.box("FRAME", canvas.frame)
+    corner = complex(canvas.frame.right - TITLE_BLOCK[0], canvas.frame.low + tall)
+    draw_list(canvas, corner, rows, asked.language)
+    shifts = next(found for field in fields(canvas.frame) if (found := _places(made, field)) is not None)
+    outlines = []
+    for view, one, shift in zip(views, made, shifts, strict=True):
+        moved(one, canvas, shift)
+        outlines += [(Paper(one.scale, shift), layer, curve) for layer, curve in view.drawn.strokes]
+    return Expected(canvas, Paper(scale, shifts[0]), (), measures=PartMeasures(canvas, tuple(outlines)))
+
+
+def _extent(drawn: Drawn) -> tuple[float, float]:
+    """Width and height, model mm."""
+    points = _points(drawn)
+    return float(np.ptp(points.real)), float(np.ptp(points.imag))
+
+
+def _points(drawn: Drawn) -> Complex:
+    return np.concatenate([c.point(np.linspace(*c.domain, 33)) for _, c in drawn.strokes])
+
+
+def _places(views: Sequence[Laid], field: Box) -> list[complex] | None:
+    """Where the origins of views stand in a field, one above the other on one axis, or side by side; None: nowhere."""
+    return _origins([view.box for view in views], field) if views else None
+
+
+def _origins(boxes: Sequence[Box], field: Box) -> list[complex] | None:
+    """The same of their boxes."""
+    gaps = _BETWEEN * (len(boxes) - 1)
+    wide, tall = field.right - field.left, field.high - field.low
+    low, high = min(b.low for b in boxes), max(b.high for b in boxes)
+    left, right = min(b.left for b in boxes), max(b.right for b in boxes)
+    column, row = sum(b.high - b.low for b in boxes) + gaps, sum(b.right - b.left for b in boxes) + gaps
+    found = []
+    if column <= tall and right - left <= wide:
+        x, y = field.left + (wide - right + left) / 2 - left, field.high - (tall - column) / 2
+        for box in boxes:
+            found.append(complex(x, y - box.high))
+            y -= box.high - box.low + _BETWEEN
+        return found
+    if row <= wide and high - low <= tall:
+        x, y = field.left + (wide - row) / 2, field.low + (tall - high + low) / 2 - low
+        for box in boxes:
+            found.append(complex(x - box.left, y))
+            x += box.right - box.left + _BETWEEN
+        return found
+    return None
+
+
+def _laid(
+    views: Sequence[AssemblyView], rows: Sequence[ListRow], scale: float, asked: Asked
+) -> tuple[Laid, ...] | None:
+    """All views at a scale with their numbers; None where something finds no room."""
+    shares = _shared([view.drawn for view in views], rows, scale)
+    found = []
+    for view, share in zip(views, shares, strict=True):
+        drawn = view.drawn
+        marks = tuple(_marks(drawn, scale)) if view.marked else ()
+        plain = View((*drawn.strokes, *marks), (), drawn.axes, view.sizes, title=view.title)
+        one = laid(plain, scale, asked.language, asked.tolerance)
+        if one is None:
+            return None
+        _hatch(one.canvas, drawn, scale)
+        numbered = _numbered(one, share, _letters(drawn, scale) if view.marked else ())
+        if numbered is None:
+            return None
+        found.append(numbered)
+    return tuple(found)
+
+
+def _hatch(canvas: Canvas, drawn: Drawn, scale: float) -> None:
+    """Every part's own hatching: to one side or to the other, then wider (GOST 2.306)."""
+    paper = Paper(scale, 0j)
+    for number, loops in enumerate(drawn.hatched):
+        over = number % 2 == 1
+        placed = [[paper.scaled(c) for c in loop] for loop in loops]
+        turned = [[c.mirrored() if over else c for c in loop] for loop in placed]
+        for line in hatching(turned, _HATCH + _WIDER * (number // 2)):  # type: ignore[arg-type]
+            canvas.strokes.append(Stroke("HATCH", line.mirrored() if over else line))
+
+
+def _ends(drawn: Drawn, scale: float) -> tuple[float, float]:
+    """Where the marks of the section's plane begin on the left and on the right, model mm."""
+    points = _points(drawn)
+    return float(points.real.min()) - _OUT / scale, float(points.real.max()) + _OUT / scale
+
+
+def _marks(drawn: Drawn, scale: float) -> Iterator[tuple[str, Line]]:
+    """Strokes of the section's plane at both ends, with arrows along which it is looked at, upwards."""
+    for end, way in zip(_ends(drawn, scale), (-1, 1), strict=True):
+        far = end + way * _MARK / scale
+        yield "FRAME", Line(complex(end), complex(far))
+        tip, foot = complex(far - way * 1.0 / scale, 0), complex(far - way * 1.0 / scale, -_ARROW / scale)
+        yield "THIN", Line(foot, tip)
+        for side in (-1, 1):
+            yield "THIN", Line(tip + complex(side * 0.7, -2.5) / scale, tip)
+
+
+def _letters(drawn: Drawn, scale: float) -> tuple[complex, ...]:
+    """Where the letters of the section stand, mm on paper."""
+    left, right = (scale * end for end in _ends(drawn, scale))
+    wide = text_width(_LETTER, _HEIGHT)
+    return complex(left - _MARK + 2.0, -_HEIGHT - 1.5), complex(right + _MARK - 2.0 - wide, -_HEIGHT - 1.5)
+
+
+def _shared(drawns: Sequence[Drawn], rows: Sequence[ListRow], scale: float) -> list[dict[int, tuple[complex, ...]]]:
+    """For each view the numbers that stand there, with places for their leaders: where there is most room about."""
+    found: list[dict[int, tuple[complex, ...]]] = [{} for _ in drawns]
+    for row in rows:
+        places = [[spot for part in row.parts for spot in drawn.spots.get(part, ())] for drawn in drawns]
+        room = [max((off for _, off in spots), default=-1.0) for spots in places]
+        if max(room) > 0:
+            best = room.index(max(room))
+            ordered = sorted(places[best], key=lambda spot: -spot[1])
+            found[best][row.position] = tuple(scale * p for p, off in ordered if off >= _ROOMY * max(room))
+    return found
+
+
+class _Leader(Record):
+    """A number on its shelf: where its leader ends on the part, where it meets the shelf; ``way``: of the shelf, ±1."""
+
+    number: int
+    spot: complex
+    elbow: complex
+    way: int
+
+    def lines(self) -> list[Line]:
+        """Leader and shelf."""
+        long = text_width(str(self.number), _HEIGHT) + 2 * _SHELF
+        return [Line(self.spot, self.elbow), Line(self.elbow, self.elbow + self.way * long)]
+
+    @property
+    def words(self) -> Text:
+        """The number above its shelf."""
+        text = str(self.number)
+        left = _SHELF if self.way > 0 else -_SHELF - text_width(text, _HEIGHT)
+        return text_of(text, self.elbow + complex(left, 2.2), _HEIGHT)
+
+
+def _numbered(one: Laid, share: Mapping[int, tuple[complex, ...]], letters: Sequence[complex]) -> Laid | None:
+    """A view with its numbers in a column on each side; None where a leader would run through words."""
+    canvas, ink = one.canvas, Ink()
+    for stroke in canvas.strokes:
+        ink.add(stroke)
+    ink.boxes += [text.box for text in canvas.texts]
+    for at in letters:
+        letter = text_of(_LETTER, at, _HEIGHT)
+        canvas.texts.append(letter)
+        ink.boxes.append(letter.box)
+    box = _around(one.box, [text.box for text in canvas.texts])
+    middle = (box.left + box.right) / 2
+    sides: dict[int, list[tuple[int, tuple[complex, ...]]]] = {-1: [], 1: []}
+    for number, spots in sorted(share.items()):
+        # the other side takes what one has no room for
+        way = 1 if spots[0].real >= middle else -1
+        if len(sides[way]) * _STEP > box.high - box.low and len(sides[-way]) < len(sides[way]):
+            way = -way
+        sides[way].append((number, spots))
+    leaders: list[_Leader] = []
+    for way, numbers in sides.items():
+        column = _column(numbers, way, box, ink)
+        if column is None:
+            return None
+        leaders += column
+        for leader in column:
+            for line in leader.lines():
+                ink.add(Stroke("THIN", line))
+            ink.boxes.append(leader.words.box)
+    for leader in leaders:
+        for line in leader.lines():
+            canvas.strokes.append(Stroke("THIN", line))
+        canvas.strokes += [Stroke("THIN", Arc(leader.spot, r, 0.0, 2 * math.pi)) for r in (_DOT, _DOT / 2)]
+        canvas.texts.append(leader.words)
+    texts = [text.box for text in canvas.texts]
+    ends = [line.end for leader in leaders for line in leader.lines()]
+    shelves = [Box(p.real, p.imag, p.real, p.imag) for p in ends]
+    return Laid(canvas, one.scale, _around(box, [*texts, *shelves]))
+
+
+def _around(box: Box, others: Sequence[Box]) -> Box:
+    """The box about all."""
+    every = [box, *others]
+    return Box(min(b.left for b in every), min(b.low for b in every),
+               max(b.right for b in every), max(b.high for b in every))  # fmt: skip
+
+
+def _column(numbers: Sequence[tuple[int, tuple[complex, ...]]], way: int, box: Box, ink: Ink) -> list[_Leader] | None:
+    """The numbers of one side, from above, their leaders without crossings and over no words."""
+    x = box.right + _AWAY if way > 0 else box.left - _AWAY
+    order = sorted(numbers, key=lambda pair: -pair[1][0].imag)
+    if not order:
+        return []
+    # beside the parts, but within the height of the view where there is room
+    tall = _STEP * (len(order) - 1)
+    middle = sum(spots[0].imag for _, spots in order) / len(order)
+    top = max(min(middle + tall / 2 + _SLANT, box.high - _HEIGHT), box.low + tall)
+    for lift in (0.0, 3.0, -3.0, 6.0, -6.0, 10.0, -10.0, 15.0, -15.0, 20.0, -20.0):
+        chosen: list[_Leader] = []
+        for place, (number, spots) in enumerate(order):
+            elbow = complex(x, top + lift - _STEP * place)
+            fits = (_Leader(number, spot, elbow, way) for spot in sorted(spots, key=lambda spot: abs(spot - elbow)))
+            free = next((one for one in fits if ink.holds(one.lines(), one.words.box)), None)
+            if free is None:
+                break
+            chosen.append(free)
+        else:
+            return _untangled(chosen, ink)
+    return None
+
+
+def _untangled(leaders: list[_Leader], ink: Ink) -> list[_Leader]:
+    """The same, two that cross exchange their shelves, which makes both shorter."""
+    for _ in range(len(leaders) ** 2):
+        pairs = [(i, j) for i in range(len(leaders)) for j in range(i) if _cross(leaders[i], leaders[j])]
+        swapped = False
+        for i, j in pairs:
+            one, two = leaders[i], leaders[j]
+            new = _Leader(one.number, one.spot, two.elbow, one.way), _Leader(two.number, two.spot, one.elbow, two.way)
+            if all(ink.holds(leader.lines(), leader.words.box) for leader in new):
+                leaders[i], leaders[j] = new
+                swapped = True
+                break
+        if not swapped:
+            break
+    return leaders
+
+
+def _cross(one: _Leader, two: _Leader) -> bool:
+    """Whether two leaders cross."""
+
+    def side(a: complex, b: complex, p: complex) -> float:
+        return ((b - a).conjugate() * (p - a)).imag
+
+    (a, b), (c, d) = (one.spot, one.elbow), (two.spot, two.elbow)
+    return side(a, b, c) * side(a, b, d) < 0 and side(c, d, a) * side(c, d, b) < 0

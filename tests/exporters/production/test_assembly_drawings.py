@@ -1,0 +1,121 @@
+"""Assembly drawings: sizes off the files, a number for every position, nothing covered is drawn, refusals by key."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import ezdxf
+import numpy as np
+import pytest
+
+from exporters.production.plan import plan_build
+from geometry.base.placement import Placement3
+from geometry.solids.sketch import Layer, Sketch, round_ring
+from parts.base.refusal import SceneError
+from parts.drawing.assembly_views import Shown, along_axes
+from parts.scene.files import built_in_scenes
+from parts.scene.load import scene_from_dict, tomllib
+from tests.exporters.production.test_part_drawings import sizes
+from tests.exporters.production.test_sheet_words import faults
+
+DISC = {"kind": "pin", "diameter": 40.0, "length": 5.0}
+
+
+def scene(address: str, language: str = "en", **changed: Any) -> dict[str, Any]:
+    """A built-in scene with assembly drawings alone."""
+    raw = tomllib.loads(built_in_scenes()[address].read_text(encoding="utf-8"))
+    raw["scene"] = {**raw.get("scene", {}), "language": language}
+    exports = [{"format": f, "purpose": "assembly"} for f in ("dxf", "svg")]
+    return {**raw, "exports": exports, "checks": {}, **changed}
+
+
+def written(folder: Path, raw: dict[str, Any]) -> dict[str, Path]:
+    """The files of a scene, each read back."""
+    found = {}
+    for job in plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets:
+        file = folder / job.path
+        job.write({}, file)
+        assert job.verify(file, 0.0).failures == ()
+        found[file.suffix[1:]] = file
+    return found
+
+
+def numbers(dxf: Path) -> list[tuple[str, complex]]:
+    """The numbers on shelves, 5 mm high, and where they stand."""
+    words = ezdxf.readfile(dxf).modelspace().query("TEXT")
+    return sorted(
+        (e.dxf.text, complex(*e.dxf.insert.vec2)) for e in words if e.dxf.text.isdigit() and e.dxf.height == 5.0
+    )
+
+
+@pytest.mark.parametrize(
+    ("address", "language", "measured", "positions"),
+    [
+        # the centre distance of (3.4), the face width, tips: (d_a1 + d_a2) / 2 + a_w
+        ("practicum_pair", "en", {"179.183": 179.182637406, "40": 40.0}, 2),
+        pytest.param("practicum_pair", "uk", {"179,183": 179.182637406, "40": 40.0}, 2, marks=pytest.mark.heavy),
+        # m (z + z) / 2; the ring's outside
+        pytest.param("james", "en", {"80": 80.0, "270": 270.0}, 5, marks=pytest.mark.heavy),
+        ("worm_set_print", "uk", {"40": 40.0, "24": 24.0}, 2),
+    ],
+)
+def test_sizes_measure_the_scene_and_every_position_has_its_number(
+    tmp_path: Path, address: str, language: str, measured: dict[str, float], positions: int
+) -> None:
+    files = written(tmp_path, scene(address, language))
+    assert faults(files["svg"]) == []
+    found = sorted(sizes(files["dxf"]).values())
+    for value in measured.values():
+        assert min(abs(value - other) for other in found) < 1e-6
+    shown = numbers(files["dxf"])
+    assert [int(text) for text, _ in shown] == list(range(1, positions + 1))
+    # in columns: of each side of each view all numbers begin at one place
+    assert len({round(at.real, 1) for _, at in shown}) <= 4
+    audit = ezdxf.readfile(files["dxf"]).audit()
+    assert not audit.errors
+    assert not audit.fixes
+
+
+def test_the_same_bytes_twice(tmp_path: Path) -> None:
+    once = {ending: file.read_bytes() for ending, file in written(tmp_path, scene("practicum_pair")).items()}
+    again = {ending: file.read_bytes() for ending, file in written(tmp_path, scene("practicum_pair")).items()}
+    assert once == again
+
+
+def disc(name: str, centre: complex, height: float, *, over: bool = False) -> Shown:
+    ring = (round_ring(20.0),)
+    place = Placement3.towards((0.0, 0.0, -1.0 if over else 1.0), 0.3, (centre.real, centre.imag, height))
+    return Shown(name, name, Sketch((Layer(0.0, 5.0, ring, ring),)), place)
+
+
+@pytest.mark.parametrize("distance", [5.0, 20.0, 39.0, 41.0])
+def test_what_is_covered_is_not_drawn(distance: float) -> None:
+    # two circles of one radius: the lower one shows 2 r (pi - acos(d / 2 r))
+    drawn = along_axes([disc("low", 0j, 0.0), disc("high", distance + 0j, 20.0, over=True)])
+    lengths: dict[bool, float] = {}
+    for layer, curve in drawn.strokes:
+        points = curve.point(np.linspace(*curve.domain, 20001))
+        high = bool(abs(np.abs(points - distance).max() - 20.0) < 1e-9)
+        lengths[high] = lengths.get(high, 0.0) + float(np.abs(np.diff(points)).sum()) * (layer == "OUTLINE")
+    covered = math.acos(distance / 40.0) if distance < 40 else 0.0
+    assert lengths[True] == pytest.approx(40 * math.pi, abs=1e-5)
+    assert lengths[False] == pytest.approx(40 * (math.pi - covered), abs=1e-5)
+
+
+def refused(parts: dict[str, Any], **raw: Any) -> SceneError:
+    whole = {"parts": parts, "exports": [{"format": "svg", "purpose": "assembly"}], **raw}
+    with pytest.raises(SceneError) as caught:
+        plan_build(scene_from_dict(whole, "t", "t"), "t", [], [])
+    return caught.value
+
+
+def test_what_cannot_be_drawn_is_told_by_key() -> None:
+    barrel = tomllib.loads(built_in_scenes()["barrel_cam"].read_text(encoding="utf-8"))["parts"]["barrel"]
+    assert (refused({"p": barrel}).key, refused({"p": barrel}).code) == ("exports[1].purpose", "no_assembly_view")
+    tilted = {"p": {"at": [0.0, 0.0, 0.0]}, "q": {"at": [60.0, 0.0, 0.0], "axis": [0.6, 0.0, 0.8]}}
+    found = refused({"p": DISC, "q": DISC}, instances=tilted)
+    assert (found.key, found.code) == ("exports[1].purpose", "assembly_axis_oblique")
+    small = refused({"p": DISC}, exports=[{"format": "svg", "purpose": "assembly", "paper": "A4", "scale": "10:1"}])
+    assert small.key == "exports[1].paper"
