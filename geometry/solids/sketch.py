@@ -16,8 +16,6 @@ import numpy as np
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex, Curve, Real
 from geometry.curves.line_arc import Arc, Line
-from geometry.gears.worms.body import WormBody
-from geometry.gears.worms.wheel_measures import WormWheel
 from geometry.plane.profile import Label, Profile
 from geometry.solids.body import Body, Wall
 from geometry.solids.turned import HalfSection
@@ -26,8 +24,8 @@ from geometry.solids.turned import HalfSection
 _SAME, _SAMPLES, _HALVINGS = 1e-7, 33, 40
 # radius of what is a point, mm
 _POINT = 1e-6
-# layers of an arc of a turned part, and of the throat of a worm wheel
-_ARC, _THROAT = 8, 12
+# layers of an arc of a turned part
+_ARC = 8
 # turn of a wall from which on it is an edge, rad
 _EDGE = 0.1
 
@@ -121,7 +119,7 @@ class Sketch(Record):
         for number, layer in enumerate(self.layers):
             after = self.layers[number + 1].lower if number + 1 < len(self.layers) else ()
             for ring in layer.upper:
-                goes_on = any(_alike(ring, other) for other in after)
+                goes_on = any(alike(ring, other) for other in after)
                 if not goes_on or any(abs(layer.high - z) < _SAME for z in self.creases):
                     yield layer.high, ring
 
@@ -135,7 +133,7 @@ class Sketch(Record):
         return found
 
 
-def _alike(one: Ring, other: Ring) -> bool:
+def alike(one: Ring, other: Ring) -> bool:
     """Whether two boundaries are the same."""
     if one.circle is not None and other.circle is not None:
         return abs(one.circle[0] - other.circle[0]) < _SAME and abs(one.circle[1] - other.circle[1]) < _SAME
@@ -194,10 +192,10 @@ def sketch_of_turned(section: HalfSection, *, is_shaft: bool = False) -> Sketch:
         arriving, leaving = points[-1] - points[-2], np.diff(after.points()[:2])[0]
         if abs(np.angle(leaving / arriving)) > _EDGE:
             creases.append(float(points[-1].imag))
-    return Sketch(tuple(_lathe(chain, [(h.centre, h.radius) for h in section.holes])), tuple(creases), None, is_shaft)
+    return Sketch(tuple(lathe(chain, [(h.centre, h.radius) for h in section.holes])), tuple(creases), None, is_shaft)
 
 
-def _lathe(chain: Sequence[tuple[complex, complex]], holes: Sequence[tuple[complex, float]] = ()) -> Iterator[Layer]:
+def lathe(chain: Sequence[tuple[complex, complex]], holes: Sequence[tuple[complex, float]] = ()) -> Iterator[Layer]:
     """The layers of half a section, whose lines are r + iz; round holes go through along the axis."""
     levels = sorted({round(p.imag, 9) for edge in chain for p in edge})
     for low, high in pairwise(levels):
@@ -212,43 +210,6 @@ def _lathe(chain: Sequence[tuple[complex, complex]], holes: Sequence[tuple[compl
         reach = min(max(side) for side in radii)
         through = tuple(round_ring(r, centre=c) for c, r in holes if abs(c) + r < reach)
         yield Layer(low, high, (*ends[0], *through), (*ends[1], *through))
-
-
-def sketch_of_worm(worm: WormBody) -> Sketch:
-    """A worm as the cylinder of its tips, its shaft beside."""
-    thread = worm.thread.worm
-    below, above = worm.outline(above=False)[::-1], worm.outline(above=True)
-    end = float(worm.end_height(thread.tip_radius))
-    outline = [complex(r, z) for z, r in (*below, (-end, thread.tip_radius), (end, thread.tip_radius), *above)]
-    layers = []
-    for layer in _lathe(list(pairwise(outline))):
-        is_thread = abs(layer.low + end) < _SAME
-        rings = [tuple(replace(r, root=thread.root_radius) if is_thread else r for r in side)
-                 for side in (layer.lower, layer.upper)]  # fmt: skip
-        bore = () if worm.bore is None else (Ring(tuple(s.curve for s in worm.bore.segments())),)
-        layers.append(Layer(layer.low, layer.high, (*rings[0], *bore), (*rings[1], *bore)))
-    return Sketch(tuple(layers), tuple(p.imag for p in outline), thread.reference_radius, is_shaft=True)
-
-
-def sketch_of_worm_wheel(wheel: WormWheel, pitch: float) -> Sketch:
-    """A worm wheel as the envelope of its tips about its core."""
-    teeth, core, width = wheel.teeth, wheel.core, wheel.teeth.width
-    throat = np.linspace(-1.0, 1.0, _THROAT + 1) * teeth.throat_height + wheel.middle
-    levels = sorted({round(float(z), 9) for z in (*core.levels(), *throat, 0.0, width)})
-    plain = sketch_of_body(core)
-
-    def rings(inner: Sequence[Ring], z: float) -> tuple[Ring, ...]:
-        height = np.array([min(max(z, 0.0), width) - wheel.middle])
-        tip, root = (float(f(height)[0]) for f in (teeth.tip_radius, teeth.root_radius))
-        rim = round_ring(wheel.rim.reach())
-        return tuple(round_ring(tip, root) if _alike(ring, rim) else ring for ring in inner)
-
-    layers = []
-    for low, high in pairwise(levels):
-        whole = next(k for k in plain.layers if k.low <= low + _SAME and k.high >= high - _SAME)
-        layers.append(Layer(low, high, rings(whole.lower, low), rings(whole.upper, high)))
-    edges = (wheel.middle - teeth.throat_height, wheel.middle + teeth.throat_height)
-    return Sketch(tuple(layers), (*plain.creases, *edges), pitch)
 
 
 # lines of a view by their place: of what is cut or seen of layers whose boundaries meet a line at some places

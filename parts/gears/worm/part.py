@@ -214,7 +214,7 @@ class WormKind(Kind[WormSpec, "WormBody"]):
 
     def sketch(self, keys: WormSpec, thing: WormBody) -> Sketch:
         """The cylinder of its tips, its shaft."""
-        from geometry.solids.sketch import sketch_of_worm
+        from geometry.gears.worms.sketch import sketch_of_worm
 
         return sketch_of_worm(thing)
 

@@ -195,7 +195,7 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
 
     def sketch(self, keys: WormWheelSpec, thing: WheelThing) -> Sketch:
         """The envelope of its tips about its core."""
-        from geometry.solids.sketch import sketch_of_worm_wheel
+        from geometry.gears.worms.sketch import sketch_of_worm_wheel
 
         return sketch_of_worm_wheel(thing.wheel, thing.drive.reference_radius)
 
