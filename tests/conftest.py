@@ -88,4 +88,8 @@ def _heavy_alone(config: pytest.Config) -> bool:
 def _values(case: pytest.Function) -> dict[str, Hashable]:
     """Which value each parameter has: words and numbers by themselves, other things by their place in the list."""
     found = case.callspec
-    return {k: v if isinstance(v, str | int | float | tuple) else found.indices[k] for k, v in found.params.items()}
+    return {k: v if _is_plain(v) else found.indices[k] for k, v in found.params.items()}
+
+
+def _is_plain(value: Any) -> bool:
+    return isinstance(value, str | int | float) or (isinstance(value, tuple) and all(map(_is_plain, value)))

@@ -219,8 +219,9 @@ def _on_edges(aside: Real, size: Real, height: Real) -> Real:
         root = np.abs(r * dy - y * dr) / np.sqrt(dh**2 - q2)
         share = np.where(q1 * dh < 0, 2 * (root**2 - q0) / (q1 - 2 * dh * root), (-2 * dh * root - q1) / (2 * q2))
     share = np.where(np.isfinite(share), share, np.where(dh > 0, high, low))
-    # where q is curved upwards and the edge is flatter than its root nothing is stationary
-    share = np.where(dh**2 > q2, share, np.where(q1 > 0, high, low))
+    # of a cone q may be curved upwards: its root then rises or falls all along, and no flatter than sqrt(q2)
+    rises = q1 + q2 * (low + high) > 0
+    share = np.where((dh**2 > q2) & ((q2 <= 0) | (rises != (dh > 0))), share, np.where(rises, high, low))
     share = np.clip(share, low, np.maximum(low, high))
     q = (r + share * dr) ** 2 - (y + share * dy) ** 2
     return np.where(low <= high, np.sqrt(np.maximum(0.0, q)) + h + share * dh, -np.inf)

@@ -70,6 +70,15 @@ def test_a_frame_stands_with_its_ring_and_out_of_the_way_of_larger_rims() -> Non
     assert math.hypot(*foot[:2]) - made["parts"]["foot"]["diameter"] / 2 > tip
 
 
+@pytest.mark.parametrize("module", [2.0, 4.0])
+def test_screws_leave_a_wall_outside_the_roots_of_the_ring(module: float) -> None:
+    """Of whatever module: 6 mm between the root circle and the holes, 5 mm outside them."""
+    ring = resolved(scene(teeth=[24, 24, 72], module=module, frame=True))["parts"]["ring"]
+    circle, hole = ring["holes"]["pitch_circle_diameter"] / 2, ring["holes"]["diameter"] / 2
+    assert circle - hole - module * (72 / 2 + 1.25) >= 6.0
+    assert ring["outer_diameter"] / 2 - circle - hole >= 5.0
+
+
 def test_more_satellites_than_there_are_places_are_told_so() -> None:
     found = refusal(scheme="david", teeth=[100, 99, 100, 101], satellites=2)
     assert (found.code, found.numbers["places"]) == ("too_few_places", 1)
