@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from exporters.production.check_lines import check_lines, names_of
 from exporters.production.jobs import Written
 from exporters.production.plan import Plan
-from parts.base.texts import N_, Words, words
+from parts.base.texts import N_, Words, counted, words
 from parts.texts.findings import finding_message
 
 if TYPE_CHECKING:
@@ -32,7 +32,21 @@ def build_table(plan: Plan, folder: Path, built: Built) -> None:
         told.text("read back"),
     ]
     rows = [_row(item, folder, told) for item in written]
-    remarks = [told.text("preview: {path}", path=preview) for preview in built.previews]
+    pictures = {f"{part}.preview.svg" for part in plan.parts}
+    of_parts = [preview for preview in built.previews if preview.name in pictures]
+    named = built.previews if len(of_parts) <= _PREVIEWS else [p for p in built.previews if p not in of_parts]
+    remarks = [told.text("preview: {path}", path=preview) for preview in named]
+    if len(named) < len(built.previews):
+        remarks.append(
+            told.say(
+                counted(
+                    "previews of {parts} part beside it",
+                    "previews of {parts} parts beside it",
+                    by="parts",
+                    parts=len(of_parts),
+                )
+            )
+        )
     if any(item.failures for item in written):
         from exporters.production.kept import kept_lines
         from exporters.production.report import read_report
@@ -53,6 +67,8 @@ def build_table(plan: Plan, folder: Path, built: Built) -> None:
 
 # letters in a line of a terminal that nobody has widened
 _PAGE_WIDTH = 80
+# as many pictures of parts are named each
+_PREVIEWS = 12
 # how far the error of a file is known
 _BOUNDS = {"exact": N_("exact"), "certified": N_("certified"), "sampled": N_("sampled")}
 _STATES = {"good": N_("ok"), "bad": N_("FAILED"), "skipped": N_("not verified")}

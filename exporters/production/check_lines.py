@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import groupby
 from types import MappingProxyType
 from typing import Any
 
@@ -14,6 +16,8 @@ from parts.texts.checks import GEAR_PAIR, MATES, VERDICTS
 
 # gaps below this are rounding, mm
 _ROUNDING = 1e-9
+# the number that a name ends in, without zeros in front
+_NUMBERED = re.compile(r"(?<!\d)[1-9]\d*$", re.ASCII)
 _SENSES = {"clockwise": N_("clockwise"), "counter_clockwise": N_("counter-clockwise")}
 
 
@@ -70,8 +74,14 @@ def check_lines(checks: dict[str, Any], language: str, names: Mapping[str, str] 
         lines += _motion(checks["motion"], told)
     if "workspace" in checks:
         lines += _workspace(checks["workspace"], told)
+    # what is fixed to another turns with it
+    fixed = {mate["second"] for mate in checks.get("mates", []) if mate["kind"] == "fixed"}
     for drive in checks.get("drives", []):
-        train = ", ".join(f"{names.get(name, name)} {turns:.6g}" for name, turns in drive["train"].items())
+        rows = groupby(
+            ((names.get(name, name), turns) for name, turns in drive["train"].items() if name not in fixed),
+            key=lambda row: f"{row[1]:.6g}",
+        )
+        train = ", ".join(f"{name} {turns}" for turns, row in rows for name in _in_rows(name for name, _ in row))
         driven = names.get(drive["instance"], drive["instance"])
         lines.append(told.text("drive {instance}: {train} turns", instance=driven, train=train))
     return lines
@@ -145,17 +155,37 @@ def _seen(gap: float) -> float:
     return gap if abs(gap) > _ROUNDING else 0.0
 
 
+# mates that only say who belongs to whom
+_BARE = ("pin_seat", "fixed", "coaxial", "parallel")
+
+
 def _without_repeats(mates: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Mates of one kind and first one behind the other, of which there is no more to tell, as one with all seconds."""
-    shown: list[dict[str, Any]] = []
+    """Bare mates of one kind and first of which there is no more to tell, as one with all seconds."""
+    shown: dict[object, dict[str, Any]] = {}
+    seconds: dict[object, list[str]] = {}
     for mate in mates:
-        last = shown[-1] if shown else {}
         told = "verdict" in mate or mate.get("findings") or not all(c["met"] for c in mate.get("conditions", []))
-        if not told and mate["kind"] == "pin_seat" and all(last.get(k) == mate[k] for k in ("kind", "first")):
-            shown[-1] = {**last, "second": f"{last['second']}, {mate['second']}"}
-        else:
-            shown.append(mate)
-    return shown
+        key = (mate["kind"], mate["first"]) if mate["kind"] in _BARE and not told else len(shown)
+        shown.setdefault(key, mate)
+        seconds.setdefault(key, []).append(mate["second"])
+    return [{**mate, "second": ", ".join(_in_rows(seconds[key]))} for key, mate in shown.items()]
+
+
+def _in_rows(names: Iterable[str]) -> Iterator[str]:
+    """Names as they are, three or more that count on by their last number as the first ... the last."""
+    rows: list[list[str]] = []
+    open_rows: dict[tuple[str, int], list[str]] = {}
+    for name in names:
+        found = _NUMBERED.search(name)
+        stem, number = (name[: found.start()], int(found[0])) if found else (name, 0)
+        row = open_rows.pop((stem, number), None)
+        if row is None:
+            rows.append(row := [])
+        row.append(name)
+        if found:
+            open_rows[stem, number + 1] = row
+    for row in rows:
+        yield from row if len(row) < 3 else [f"{row[0]} ... {row[-1]}"]
 
 
 def _transmission(mate: dict[str, Any], told: Words) -> list[str]:

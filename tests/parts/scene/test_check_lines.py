@@ -1,0 +1,24 @@
+"""Lines of a check: what only belongs together is said once, whoever is wrong has a line of its own."""
+
+from __future__ import annotations
+
+from exporters.production.check_lines import check_lines
+
+
+def _fixed(second: str, met: bool = True) -> dict[str, object]:
+    conditions = [] if met else [{"met": False, "text": f"{second} stands apart"}]
+    return {"kind": "fixed", "first": "disk", "second": second, "conditions": conditions}
+
+
+def test_names_that_count_on_are_a_row() -> None:
+    """Bolts and nuts in turns, a gap in the numbers, names without one, and one that is wrong."""
+    names = ["bolt_1", "nut_1", "bolt_2", "nut_2", "bolt_3", "nut_4", "cover", "ring_09", "ring_10"]
+    mates = [*map(_fixed, names), _fixed("bolt_4", met=False)]
+    train = dict.fromkeys(["disk", *names], 2.0) | {"pin_1": 0.5, "pin_2": 0.5, "pin_3": 0.5, "pin_4": 0.25}
+    checks = {"mates": mates, "drives": [{"instance": "disk", "train": train}]}
+    assert check_lines(checks, "en") == [
+        "disk - bolt_1 ... bolt_3, nut_1, nut_2, nut_4, cover, ring_09, ring_10: fixed to each other",
+        "disk - bolt_4: fixed to each other",
+        "BROKEN: bolt_4 stands apart",
+        "drive disk: disk 2, pin_1 ... pin_3 0.5, pin_4 0.25 turns",
+    ]
