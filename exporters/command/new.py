@@ -196,7 +196,7 @@ def _value(field: FieldInfo, meta: Meta | None) -> str:
     return _table(_tables_of(field)[0]) if _is_open(field) else _toml(field.default)
 
 
-def _shown(kind: Any) -> Meta | None:
+def _shown(kind: object) -> Meta | None:
     """The last annotation with examples, of the outermost that have any: a key may have another one than its type."""
     if get_origin(kind) not in (Annotated, Union, UnionType):
         return None
@@ -204,7 +204,7 @@ def _shown(kind: Any) -> Meta | None:
     return own[-1] if own else next(filter(None, map(_shown, get_args(kind))), None)
 
 
-def _toml(value: Any) -> str:
+def _toml(value: object) -> str:
     """A value as it stands in a scene."""
     if isinstance(value, bool):
         return str(value).lower()

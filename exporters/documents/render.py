@@ -170,6 +170,6 @@ def _json_step(step: Step, told: Words) -> dict[str, Any]:
     }
 
 
-def _finite(value: Any) -> Any:
+def _finite(value: object) -> object:
     """JSON has no infinity."""
     return None if isinstance(value, float) and value in (float("inf"), float("-inf")) else value

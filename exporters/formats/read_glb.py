@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -135,7 +136,9 @@ def _read(data: bytes) -> ReadGlb:
     return ReadGlb(solids, tracks, seconds)
 
 
-def _moved(scene: dict[str, Any], array: Any) -> tuple[dict[tuple[int, str], tuple[Real, Real]], float]:
+def _moved(
+    scene: dict[str, Any], array: Callable[[int], NDArray[Any]]
+) -> tuple[dict[tuple[int, str], tuple[Real, Real]], float]:
     """Times and values of each node and what of it moves; how long it lasts."""
     found: dict[tuple[int, str], tuple[Real, Real]] = {}
     ends = set()

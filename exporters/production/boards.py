@@ -21,7 +21,7 @@ from geometry.base.findings import Finding
 from geometry.base.record import Record, replace
 from geometry.plane.contour import Approximation, Contour
 from geometry.plane.offset_region import OffsetRegion
-from geometry.plane.profile import Region
+from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
 from parts.base.refusal import SceneError
 from parts.keys.boards import BoardSpec
@@ -194,7 +194,7 @@ def material(region: Region) -> BaseGeometry:
     """The material of a section as polygons, near enough to be laid out, mm."""
     import shapely
 
-    def ring(profile: Any) -> BaseGeometry:
+    def ring(profile: Profile) -> BaseGeometry:
         vertices, _ = approximate_profile(profile, _CHORDS, arcs=False).geometry.expanded()
         return shapely.Polygon(np.stack([vertices.real, vertices.imag], axis=1))
 

@@ -50,7 +50,7 @@ def in_language(raw: dict[str, Any], source: str, asked: str | None) -> dict[str
     return {**raw, "scene": _chosen(scene, language, source, "scene"), **({"parts": rows} if rows else {})}
 
 
-def _chosen(table: Any, language: str, source: str, place: str) -> Any:
+def _chosen(table: object, language: str, source: str, place: str) -> Any:
     """A table whose words stand in one language: the one asked for, else English, else the first."""
     # ``list`` asks for the language alone and loads nothing of geometry
     from parts.base.refusal import SceneError, meant

@@ -11,7 +11,7 @@ import math
 from collections.abc import Mapping
 from heapq import heapify, heappop, heappush
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,6 +22,9 @@ from parts.scene.interference import INSET, SLIVER, common_volume
 from parts.scene.placing import UPWARDS, Instance, Placing
 from parts.scene.relative_path import Course, Path, path_of, stays_free
 from parts.scene.shapes import Shape, free_between
+
+if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
 
 # poses of one pair at most; of one whose teeth the plane contact has decided; more in the search about the worst
 MOST_POSES, _MATED_POSES, _SEARCH = 720, 48, 12
@@ -173,7 +176,7 @@ class Meeting:
                     volume += height * float(shapely.area(shapely.intersection(one.section, section)))
         return gap, volume if volume > self.sliver else 0.0
 
-    def _clearance(self, one: Any, two: Any) -> float:
+    def _clearance(self, one: BaseGeometry, two: BaseGeometry) -> float:
         """What two sections keep apart at least, mm: by powers of two about the last one, quicker than the distance."""
         import shapely
 

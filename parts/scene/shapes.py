@@ -18,6 +18,8 @@ from parts.base.part import Part
 from parts.scene.interference import common_volume, inner_solid
 
 if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
     from geometry.solids.faced import FacedBody
     from parts.scene.placing import Instance
 
@@ -34,7 +36,7 @@ class Slab(Record):
 
     low: float
     high: float
-    section: Any
+    section: BaseGeometry
 
 
 class Shape:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from geometry.cams.barrel.body import BarrelBody
 from geometry.cams.barrel.cam import LOWER, UPPER, AxialGuide, BarrelCam, SwingGuide
 from geometry.cams.motion.follower_motion import PhaseKind
 from geometry.curves.curve import Real
+from geometry.laws.piece import LawPiece
 from parts.base.texts import N_, message
 from parts.cams.barrel_cam.part import BARREL_CAM
 from parts.cams.disk_cam.speed_page import speed_section
@@ -130,7 +132,7 @@ def _walls(cam: BarrelCam, step: float) -> list[Table]:
     return made
 
 
-def wall_line(cam: BarrelCam, piece: Any, side: int, radius: float, angle: Real) -> Real:
+def wall_line(cam: BarrelCam, piece: LawPiece, side: int, radius: float, angle: Real) -> Real:
     """A wall's line on an unrolled cylinder, (3, ...): x, z and its radius of curvature, mm, convex above 0."""
     polar, height = cam.edge_series(piece, side, radius, angle, 2)
     first = radius * polar[1] + 1j * height[1]
@@ -142,7 +144,7 @@ def wall_line(cam: BarrelCam, piece: Any, side: int, radius: float, angle: Real)
     return np.stack([radius * (polar[0] + math.pi), height[0], bend])
 
 
-def _by_piece(cam: BarrelCam, angle: Real, function: Any) -> Real:
+def _by_piece(cam: BarrelCam, angle: Real, function: Callable[..., Real]) -> Real:
     """A function of a piece of the motion and its cam angles, at all cam angles; joints belong to what begins."""
     starts = np.array([p.start for p in cam.motion.pieces])
     index = np.searchsorted(starts, angle, side="right") - 1

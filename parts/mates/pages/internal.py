@@ -130,12 +130,11 @@ def _internal_pair(keys: InternalKeys, given_shift: bool) -> InternalPair:
         "first": End(keys.first, pinion),
         "second": End(ring_keys, checked_ring_gear(ring_keys)),
     }
-    mating: Any = mated(ends, [mate], _SAME)[1][0]
-    pair: InternalPair = mating.pair
+    pair: InternalPair = mated(ends, [mate], _SAME)[1][0].pair  # type: ignore[attr-defined]
     return pair
 
 
-def _helix(keys: Any) -> float:
+def _helix(keys: InternalKeys | RackKeys) -> float:
     """The helix angle of both, rad.
 
     Raises
@@ -149,7 +148,7 @@ def _helix(keys: Any) -> float:
     return math.radians(one)
 
 
-def _helical(keys: Any) -> Helical:
+def _helical(keys: InternalKeys | RackKeys) -> Helical:
     """What the page of a pair says beside its transverse section."""
     _helix(keys)
     return Helical(gear_of(keys.first), common_face(keys.first, keys.second))

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from geometry.base.record import Record
 from geometry.gears.pairs.common_face import CommonFace
+from geometry.gears.pairs.internal import InternalPair
 from geometry.gears.pairs.rack import RackPair
 from geometry.gears.teeth import limits, measurement
 from geometry.gears.teeth.spur import SpurGear
@@ -31,7 +31,7 @@ class Helical(Record):
         """Helix angle, rad; 0 for straight teeth."""
         return self.face.helix.angle
 
-    def normal_backlash(self, pair: Any) -> float:
+    def normal_backlash(self, pair: InternalPair | RackPair) -> float:
         """j_bn of the pair, mm."""
         return float(pair.normal_backlash) * normal_share(self.section_angle, self.angle)
 
@@ -54,12 +54,12 @@ def first_radii(page: Sheet, gear: SpurGear, helical: Helical) -> None:
     page.add("root_radius", gear.root_radius, formula, "practicum (3.13)", 1)
 
 
-def overlap(page: Sheet, pair: Any, helical: Helical) -> None:
+def overlap(page: Sheet, pair: InternalPair | RackPair, helical: Helical) -> None:
     """Axial overlap of helical teeth; nothing of straight ones."""
     overlap_steps(page, pair.contact_ratio, helical.face, "{b}@ * sin(abs({beta})) / (pi * {m_n})")
 
 
-def backlash_steps(page: Sheet, pair: Any, circumferential: float, helical: Helical) -> None:
+def backlash_steps(page: Sheet, pair: InternalPair | RackPair, circumferential: float, helical: Helical) -> None:
     """j_t, j_n and the bottom clearances."""
     page.section(N_("Backlash and clearance"))
     page.add("circumferential_backlash", circumferential, "", "ISO 21771")
@@ -78,7 +78,7 @@ def first_limits(page: Sheet, gear: SpurGear, helical: Helical) -> None:
     page.add("least_tip_thickness", value, f"{limits.LEAST_TIP_THICKNESS} * {{m}}", "practicum (1.3)")
 
 
-def pair_notes(page: Sheet, pair: Any, gear: SpurGear, helical: Helical) -> None:
+def pair_notes(page: Sheet, pair: InternalPair | RackPair, gear: SpurGear, helical: Helical) -> None:
     """What the pair does not keep, and its first gear."""
     found = [(f, 0) for f in helical.face.findings(pair.findings(), pair.effective_contact_ratio)]
     found += [(f, 1) for f in limits.findings(gear) if f.code != "thin_rim"]
