@@ -46,8 +46,9 @@ _FEW_SPANS = 4
 # a failed proof leaves to the samples
 _AIM, _LEAST_GOAL = 0.95, 0.6
 _MOST_TRIES = 24
-# poles are rounded to 1/1024 to 1/512 of the tolerance, end legs of so many steps and more too
-_GRID_BITS, _LEAST_ROUNDED = 10, 16
+# poles are rounded to 1/128 to 1/64 of the tolerance, end legs of so many steps and more too: along the curve they are
+# known to some 1e-11 mm only, and each machine's own noise takes a few of ten thousand over a finer grid's edges
+_GRID_BITS, _LEAST_ROUNDED = 7, 16
 # how often a correction is solved for, each time with what is left
 _SOLUTIONS = 2
 # least length of an end leg of the control polygon, in distances from the origin: its direction is then good to
@@ -197,7 +198,7 @@ def _alike(curve: Curve, like: SplineFit, tolerance: float) -> SplineFit | None:
 
 
 def _rounded(draft: _Draft, tolerance: float) -> _Draft:
-    """The draft with its poles on a grid of a thousandth of the tolerance, far above what machines round differently.
+    """The draft with its poles on a grid of a hundredth of the tolerance, far above what machines round differently.
 
     Ends stay, and the lengths of the end legs are rounded in place of their poles.
     """
@@ -220,7 +221,7 @@ def spline_on_knots(curve: Curve, model: BSpline, poles: Complex, shares: Real, 
     layout = _layout(model.degree, model.degree - 1, model.breaks)
     low, high = curve.domain
     at = (low + (high - low) * shares).reshape(layout.x.shape)
-    return _relaxed(curve, layout, poles, at, _AIM * tolerance, _ALIKE_WEIGHTS).spline
+    return _rounded(_relaxed(curve, layout, poles, at, _AIM * tolerance, _ALIKE_WEIGHTS), tolerance).spline
 
 
 def samples_of(model: BSpline) -> Real:
