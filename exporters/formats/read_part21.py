@@ -122,6 +122,9 @@ _GAP = rb"(?:\s|/\*(?:[^*]|\*(?!/))*+\*/)*+"
 _BEGIN = re.compile(rb"%bISO-10303-21;%bHEADER;(.*?)ENDSEC;%bDATA;\s*" % (_GAP, _GAP, _GAP), re.DOTALL)
 _COMMENT = re.compile(rb"('[^']*')|/\*.*?\*/", re.DOTALL)
 _SCHEMA = re.compile(rb"FILE_SCHEMA\s*\(\s*\(\s*'AUTOMOTIVE_DESIGN\b")
+_WORDS = rb"\(((?:\s*'(?:[^']|'')*'\s*,?)*+)\)"
+_NAMED = re.compile(rb"FILE_NAME\s*\(\s*'(?:[^']|'')*'\s*,\s*'[^']*'\s*,\s*%b\s*,\s*%b" % (_WORDS, _WORDS))
+_QUOTED = re.compile(rb"'((?:[^']|'')*)'")
 _END = re.compile(rb"ENDSEC;%bEND-ISO-10303-21;%b$" % (_GAP, _GAP))
 _STRINGS, _STRING = re.compile(rb'[!\d"]*"'), re.compile(rb'(?:!(\d+))?"')
 _NUMBER = re.compile(rb"(?<![\w#!])%b" % _FLOAT)
@@ -219,6 +222,19 @@ def read_part21(file: Path) -> Entities:
         raise ReadError(f"#{ids[twice[0]]} is there twice in the STEP file")
     _check_references(items, fixed)
     return Entities(fixed, listed, items)
+
+
+def read_signature(file: Path) -> tuple[str, str]:
+    """The author and the organisation of a STEP file's header; more than one of either are told with commas."""
+    with file.open("rb") as source:
+        begin = _BEGIN.match(source.read(_PIECE))
+    named = begin and _NAMED.search(_COMMENT.sub(rb"\1", begin[1]))
+    if not named:
+        raise ReadError("the header of the STEP file does not say who made it")
+    author, organisation = (
+        ", ".join(_decoded(word.replace(b"''", b"'")) for word in _QUOTED.findall(words)) for words in named.groups()
+    )
+    return author, organisation
 
 
 def _check_references(items: dict[int, Item], fixed: dict[str, Table]) -> None:

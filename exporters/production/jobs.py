@@ -150,7 +150,8 @@ class Job(Content):
         """Read it back, measure, and put it to the part's probes."""
         from exporters.verification import judge
 
-        return judge.verify_part(file, self.kind, self.part, self.offset, declared, self.tolerance)
+        verdict = judge.verify_part(file, self.kind, self.part, self.offset, declared, self.tolerance)
+        return judge.signed(file, self.kind, self.export.author, self.export.organisation, verdict)
 
     def remarks(self, made: Made) -> list[Finding]:
         """Remarks on one file: a tolerance too coarse for the teeth, edges too short for a laser."""
@@ -233,10 +234,13 @@ class AssemblyJob(Record):
 
     def verify(self, file: Path, declared: float) -> Verdict:
         """Read it back and measure every part in its place."""
+        from exporters.verification import judge
         from exporters.verification.assembly import expected_of, verify_assembly
 
         expected = expected_of(self.name, {m.part.id: m.part for m in self.members}, self.offset, self.instances)
-        return verify_assembly(file, self.members[0].kind, expected, declared, self.members[0].tolerance)
+        kind = self.members[0].kind
+        verdict = verify_assembly(file, kind, expected, declared, self.members[0].tolerance)
+        return judge.signed(file, kind, self.export.author, self.export.organisation, verdict)
 
 
 def assembly_name(scene: str) -> str:

@@ -13,7 +13,7 @@ from exporters.production.jobs import assembly_name
 from exporters.production.kept import failure_of
 from exporters.production.moving import is_half_moved
 from exporters.production.report import NAME, read_report
-from exporters.verification.judge import verify_part
+from exporters.verification.judge import signed, verify_part
 from exporters.verification.verdict import Verdict, judges
 from geometry.base.errors import GeometryError
 from geometry.base.record import Record
@@ -108,9 +108,14 @@ def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, A
     kind = file_kind(entry["format"], entry["purpose"])
     also = audited if kind.form is Form.ARCS and kind.format == "dxf" else None
     offset = float(entry["offset"])
-    verdict = verify_part(file, kind, part, offset, declared, tolerance, also)
+    verdict = _signed(file, kind, entry, verify_part(file, kind, part, offset, declared, tolerance, also))
     verdict = _by_kernel_too(file, kind, [part], offset, verdict)
     return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
+
+
+def _signed(file: Path, kind: FileKind, entry: dict[str, Any], verdict: Verdict) -> Verdict:
+    """A verdict that counts whom the header must name too."""
+    return signed(file, kind, str(entry.get("author", "")), str(entry.get("organisation", "")), verdict)
 
 
 def _by_kernel_too(file: Path, kind: FileKind, parts: Sequence[Part], offset: float, verdict: Verdict) -> Verdict:
@@ -181,7 +186,7 @@ def _against_assembly(file: Path, source: str, scene: SceneFile, entry: dict[str
         raise KeyError(f"an assembly of {len(instances)} instances, format {kind.format}")
     used = {i.part: made[i.part] for i in instances}
     expected = expected_of(assembly_name(scene.name), used, float(entry["offset"]), instances)
-    verdict = verify_assembly(file, kind, expected, declared, tolerance)
+    verdict = _signed(file, kind, entry, verify_assembly(file, kind, expected, declared, tolerance))
     stood = [made[i.part] for i in instances]
     verdict = _by_kernel_too(file, kind, stood, expected.offset, verdict)
     return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])

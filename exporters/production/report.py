@@ -140,6 +140,8 @@ def _entry(item: Written, language: str) -> dict[str, Any]:
         "format": export.format,
         "purpose": export.purpose,
         **job.told,
+        # only those of a STEP header that are told
+        **{key: text for key in ("author", "organisation") if (text := getattr(export, key))},
         "unit": "mm",
         "tolerance": export.tolerance,
         "offset": job.offset,

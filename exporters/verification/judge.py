@@ -104,6 +104,21 @@ def said_failures(found: ReadBack, kind: FileKind, part: Part) -> list[str]:
     return wrong if "volume" in said else [*wrong, "does not say its volume"]
 
 
+def signed(file: Path, kind: FileKind, author: str, organisation: str, verdict: Verdict) -> Verdict:
+    """A verdict on a file, which fails too where a STEP header names another author or organisation."""
+    if kind.form is not Form.FACES or verdict.failures:
+        return verdict
+    from exporters.formats.read_part21 import read_signature
+
+    try:
+        found = read_signature(file)
+    except (ReadError, OSError) as error:
+        return replace(verdict, failures=(str(error),))
+    pairs = zip(("author", "organisation"), found, (author, organisation), strict=True)
+    wrong = tuple(f'its {what} is "{own}" instead of "{told}"' for what, own, told in pairs if own != told)
+    return replace(verdict, failures=wrong)
+
+
 def same_shade(found: str | None, expected: str | None) -> bool:
     """Whether a colour is the one asked for; a part that asks for none may have any."""
     if expected is None:

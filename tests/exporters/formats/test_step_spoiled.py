@@ -28,6 +28,7 @@ PARTS = {
     "screw": part_keys(Gear(2, 16, bore=8, shift=0.4)) | {"material": "steel", "helix_angle_deg": 20.0},
     "chamfered": part_keys(Gear(2, 16, bore=8, shift=0.4)) | {"material": "steel", "face_chamfer": 0.4},
 }
+SIGNED = {"author": "Olha O'Dell, Кіт", "organisation": "Кафедра (ТММ), 1"}
 NUMBER = r"-?\d+\.\d*(?:E[-+]?\d+)?"
 Spoil = Callable[[str, float], str]
 
@@ -36,7 +37,7 @@ Spoil = Callable[[str, float], str]
 def good(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A file of each part, and its report."""
     folder = tmp_path_factory.mktemp("good")
-    scene = write_scene(folder / "s.toml", PARTS, [{"format": "step"}])
+    scene = write_scene(folder / "s.toml", PARTS, [{"format": "step"} | SIGNED])
     assert run("build", scene, "--out", folder) == 0
     return folder / "s"
 
@@ -133,6 +134,9 @@ SPOILED: dict[str, Spoil] = {
     "closed": nth(r"(SPLINE_CURVE_WITH_KNOTS\([^;]*D\.,\.)(F)(\.)", turned),
     "vector against itself": nth(r"(=VECTOR\('',#\d+,)(1\.)(\))", more(-2)),
     "other name": nth(r"PRODUCT\('(\w+)','(\w+)'", lambda m: m[0].replace(m[1], m[1][:-1])),
+    "other author": nth(r"FILE_NAME\([^;]*?\('Olha", lambda m: m[0][:-1]),
+    "author left out": nth(r"(FILE_NAME\('[^']*','[^']*',\()[^;]*?(\),\()", lambda m: f"{m[1]}''{m[2]}"),
+    "other organisation": nth(r", 1'", lambda m: ", 2'"),
     "loop of references": nth(r"\n#(\d+)=AXIS2_PLACEMENT_3D\('',#\d+", lambda m: m[0].rsplit("#", 1)[0] + f"#{m[1]}"),
 }  # fmt: skip
 
