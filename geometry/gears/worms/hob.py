@@ -187,20 +187,17 @@ def worm_as_hob(drive: WormDrive, rounding_coefficient: float) -> Hob:
 def oversized_hob(drive: WormDrive, rounding_coefficient: float, quotient: float) -> Hob:
     """A hob of the worm's normal module with another quotient, swivelled by the difference of both lead angles."""
     worm = drive.worm
-    lead = math.atan2(worm.number_of_starts, quotient)
-    normal = worm.module * math.cos(worm.lead_angle)
-    module = normal / math.cos(lead)
-    angle = worm.pressure_angle
-    if worm.form == "ZA":
-        # axial: that of the normal section is kept
-        angle = math.atan(math.tan(angle) * math.cos(worm.lead_angle) / math.cos(lead))
-    made = (
-        worm
-        if quotient == worm.diameter_quotient
-        else replace(worm, module=module, diameter_quotient=quotient, pressure_angle=angle)
-    )
+    made, swivel = worm, 0.0
+    if quotient != worm.diameter_quotient:
+        lead = math.atan2(worm.number_of_starts, quotient)
+        module = worm.module * math.cos(worm.lead_angle) / math.cos(lead)
+        angle = worm.pressure_angle
+        if worm.form == "ZA":
+            # axial: that of the normal section is kept
+            angle = math.atan(math.tan(angle) * math.cos(worm.lead_angle) / math.cos(lead))
+        made = replace(worm, module=module, diameter_quotient=quotient, pressure_angle=angle)
+        swivel = worm.sign * (worm.lead_angle - lead)
     more = made.reference_radius - worm.reference_radius
     tip = drive.centre_distance - drive.root_radius + more
-    swivel = worm.sign * (worm.lead_angle - lead)
     rounding = rounding_coefficient * worm.module
     return Hob(made, drive.number_of_teeth, drive.centre_distance + more, tip, rounding, swivel)

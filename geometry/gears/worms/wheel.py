@@ -33,9 +33,13 @@ _GOLDEN, _GOLDEN_STEPS = (math.sqrt(5) - 1) / 2, 40
 # a thread's point that near the plane of its axis is not asked for, part of its radius
 _LEAST_SHARE = 1e-9
 # heights at which a face is looked at, and how well places between them are known, part of the width
-_LEVELS, _SETTLED = 33, 1e-9
+_LEVELS, _SETTLED = 97, 1e-9
+# shares of a fillet at which it is looked whether it folds
+_FOLD = np.linspace(0.0, 1.0, 17)[:, None]
+# how far beside an end of undercut it is looked at, part of the width
+_BESIDE = (-1e-2, -1e-3, 1e-3, 1e-2)
 # the least width that is offered, part of the asked one
-_LEAST_WIDTH = 1e-2
+_LEAST_WIDTH = 2e-2
 
 
 class NoTooth(Exception):
@@ -50,7 +54,8 @@ class Side(Record, eq=False):
     """Where the parts of a tooth's lower side begin and end at heights (n,).
 
     ``inner``: radius of the thread where the flank leaves the fillet, ``normal``: of the rounding there, rad;
-    ``outer``: radius of the thread at the tip, mm; ``undercut``: the fillet cuts the flank there.
+    ``outer``: radius of the thread at the tip, mm; ``undercut``: the fillet cuts the flank there; ``hurry``: how many
+    times as steep fillet and flank are where they begin as where they end.
     """
 
     heights: Real
@@ -58,6 +63,7 @@ class Side(Record, eq=False):
     normal: Real
     outer: Real
     undercut: NDArray[np.bool_]
+    hurry: tuple[Real, Real]
 
 
 class WormTeeth(Record, dict=True):
@@ -116,14 +122,12 @@ class WormTeeth(Record, dict=True):
         z = np.atleast_1d(np.asarray(heights, float))
         hob, tip = self.hob, self.tip_radius(z)
         form, column = hob.form_radius, np.arange(len(z))
-        radii, reach, first = self._search(z)
+        radii, reach, first, at = self._search(z)
         if not (reach[0] < tip).all():
             # the rounding of the hob's tip reaches as far as the tooth
             raise NoTooth("worm_wheel_all_fillet")
-        beyond = (reach >= tip) & (np.arange(_RADII)[:, None] > first)
-        if not beyond.any(axis=0).all():
+        if not (at < _RADII).all():
             raise NoTooth("worm_wheel_flank_ends")
-        at = beyond.argmax(axis=0)
 
         def past(radius: Real) -> Real:
             return self._reach(radius, z) - tip
@@ -140,12 +144,23 @@ class WormTeeth(Record, dict=True):
             cut = np.flatnonzero(undercut)[deep]
             if cut.size:
                 inner[cut], normal[cut] = self._crossing(z[cut], turning[deep], outer[cut])
-        return Side(z, inner, normal, outer, undercut)
+        root, end = hob.cut(hob.round(np.full(len(z), np.pi / 2)), z), hob.cut(hob.round(normal), z)
+        begin, last = hob.cut(hob.flank(inner), z), hob.cut(hob.flank(outer), z)
+        way = np.abs(self.hob.cut(hob.round(math.pi / 2 + (normal - math.pi / 2) * _FOLD), z).plane)
+        if not (np.diff(way, axis=0) > 0).all():
+            raise NoTooth("worm_wheel_undercut")
+        if not ((root.steepness * end.steepness > 0) & (begin.slid < last.slid)).all():
+            # the contact has run off to infinity on the other side, where the hob cuts from behind
+            raise NoTooth("worm_wheel_flank_ends")
+        return Side(
+            z, inner, normal, outer, undercut,
+            (np.sqrt(root.steepness / end.steepness), begin.steepness / last.steepness),
+        )  # fmt: skip
 
-    def _search(self, heights: Real) -> tuple[Real, Real, NDArray[np.intp]]:
-        """Radii of the thread from its tip on, how far they reach, (m, n), and from which on the flank grows, (n,).
+    def _search(self, heights: Real) -> tuple[Real, Real, NDArray[np.intp], NDArray[np.intp]]:
+        """Radii of the thread from its tip on, how far they reach, (m, n), and between which the flank grows, (n,).
 
-        Where it is undercut it turns back first.
+        The last of these is the first beyond the tip of the tooth. Where it is undercut the flank turns back before.
         """
         form = self.hob.form_radius
         least = np.maximum(np.abs(heights) / math.cos(self.hob.swivel) * (1 + _LEAST_SHARE), self._least_radius)
@@ -155,8 +170,13 @@ class WormTeeth(Record, dict=True):
         radii = form + (least - form) * shares[:, None]
         reach = self._reach(radii, heights)
         with np.errstate(invalid="ignore"):
-            grows = np.diff(reach, axis=0) > 0
-        return radii, reach, np.where(grows.any(axis=0), grows.argmax(axis=0), _RADII - 1)
+            falls = ~(np.diff(reach, axis=0) > 0)
+        number = np.arange(_RADII)[:, None]
+        beyond = (reach >= self.tip_radius(heights)) & (number > 0)
+        beyond[1:] &= ~falls
+        at = np.where(beyond.any(axis=0), beyond.argmax(axis=0), _RADII)
+        first = np.where(falls & (number[1:] <= at), number[1:], 0).max(axis=0)
+        return radii, reach, first, at
 
     @property
     def _least_radius(self) -> float:
@@ -224,11 +244,12 @@ class WormTeeth(Record, dict=True):
 
     def flank(self, side: Side, share: Real | float) -> Cut:
         """The lower flank at shares (m, 1) from fillet (0) to tip (1), at the side's heights: (m, n)."""
+        share = _hurried(share, side.hurry[1])
         return self.hob.cut(self.hob.flank(side.inner + (side.outer - side.inner) * share), side.heights)
 
     def fillet(self, side: Side, share: Real | float) -> Cut:
         """The lower fillet at shares (m, 1) from root (0) to flank (1), at the side's heights: (m, n)."""
-        normal = math.pi / 2 + (side.normal - math.pi / 2) * share
+        normal = math.pi / 2 + (side.normal - math.pi / 2) * _hurried(share, side.hurry[0])
         return self.hob.cut(self.hob.round(normal), side.heights)
 
     def thickness(self, heights: ArrayLike) -> Real:
@@ -239,9 +260,9 @@ class WormTeeth(Record, dict=True):
 
     def narrowed(self) -> WormTeeth:
         """The teeth with as much of the width as has some at every height; themselves where none has."""
-        if self._ended is None:
+        if self.ended is None:
             return self
-        found = nearest(lambda width: replace(self, width=width)._ended is None, self.width, _LEAST_WIDTH * self.width)
+        found = nearest(lambda width: replace(self, width=width).ended is None, self.width, _LEAST_WIDTH * self.width)
         return replace(self, width=found.value) if found and isinstance(found.value, float) else self
 
     def checked(self) -> WormTeeth:
@@ -252,24 +273,30 @@ class WormTeeth(Record, dict=True):
         ParameterError
             The face is wider than teeth stand: the flank ends below the tip, undercut leaves none, or it is pointed.
         """
-        ended = self._ended
-        if ended is None:
+        if self.ended is None:
             return self
 
         def stands(width: float) -> bool:
-            return replace(self, width=width)._ended is None
+            return replace(self, width=width).ended is None
 
         raise ParameterError(
-            "face_width", self.width, ended, lambda: nearest(stands, self.width, _LEAST_WIDTH * self.width)
+            "face_width", self.width, self.ended, lambda: nearest(stands, self.width, _LEAST_WIDTH * self.width)
         )
 
     @cached_property
-    def _ended(self) -> str | None:
-        """What leaves no tooth at some height."""
+    def ended(self) -> str | None:
+        """What leaves no tooth at some height: a code."""
+        # just beside where undercut begins the flank may fold between fillet and tip
+        beside = [end + step * self.width for end in self.undercut_ends for step in _BESIDE]
+        heights = self.width / 2 * np.sin(np.linspace(-math.pi / 2, math.pi / 2, _LEVELS))
+        heights = np.concatenate([heights, np.clip([*beside, *np.negative(beside)], heights[0], heights[-1])])
         try:
-            thickness = self.thickness(np.linspace(-self.width / 2, self.width / 2, _LEVELS))
+            ends = np.angle(self.flank(self.side(heights), 1.0).plane)
         except NoTooth as ended:
             return ended.code
+        # the upper side is the lower one at the opposite height
+        whole = slice(0, _LEVELS)
+        thickness = -ends[whole] - ends[whole][::-1]
         # beyond the hob's side its flanks turn round it
         if thickness.max() >= 2 * math.pi / self.number_of_teeth:
             return "worm_wheel_flank_ends"
@@ -289,3 +316,11 @@ class WormTeeth(Record, dict=True):
                 low, high = (middle, high) if is_cut == cut[k] else (low, middle)
             found.append((low + high) / 2)
         return tuple(found)
+
+
+def _hurried(share: Real | float, hurry: Real) -> Real:
+    """Shares of a part's way over the hob for shares along the wheel.
+
+    The contact runs as 1 / steepness: were that linear on the hob, shares would be those of the run.
+    """
+    return np.asarray(share * hurry / (1 - share + share * hurry))

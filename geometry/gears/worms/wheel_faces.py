@@ -14,14 +14,14 @@ import numpy as np
 
 from geometry.approximation.outline import CadCurve, Outline
 from geometry.approximation.tensor import basis_matrix, clamped, greville, tensor_poles
-from geometry.base.errors import ConvergenceError
-from geometry.base.record import Record
+from geometry.base.errors import ConvergenceError, ParameterError
+from geometry.base.record import Record, replace
 from geometry.curves.bounds import Bound
 from geometry.curves.bspline import BSpline
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.worms.hob import Cut
-from geometry.gears.worms.wheel import WormTeeth
+from geometry.gears.worms.wheel import NoTooth, WormTeeth
 from geometry.gears.worms.wheel_measures import FILLET, FLANK, WormWheel
 from geometry.plane.measure import distance_to_profile
 from geometry.plane.profile import Profile
@@ -36,8 +36,11 @@ _DEGREE = 7
 _MARGIN, _EDGES = 2.0, 5e-8
 # the least error of faces that is asked for, mm
 _FINEST, _SHARE = 2e-8, 0.5
-# samples a span, and lines of a family on which spans are chosen
-_MOST_SPANS, _SAMPLES, _LINES = 64, 7, 9
+# spans at most, and of a rough fit, samples of each, and lines of a family on which spans are chosen
+_MOST_SPANS, _FEW_SPANS, _SAMPLES, _LINES = 64, 24, 7, 9
+# so many spans are one more when they are too few; parts of a width that are tried
+_SLOW = 6
+_NARROWER = (1.0, 0.95, 0.85, 0.7, 0.5, 0.3)
 # of the curves of a ring
 _ROOT, _TIP = 0, 3
 # rounding of the envelope and of its fit, part of the size
@@ -73,32 +76,57 @@ def wheel_splines(wheel: WormWheel, tolerance: float) -> WheelSplines:
         64 spans are not enough.
     """
     teeth = wheel.teeth
+    made = _fits(teeth, tolerance)
+    worst = max(max(fit.error, fit.edge) for pair in made.values() for fit in pair)
+    strips = []
+    for low, high in made:
+        lower, mirrored = ([fit.poles for fit in made[band]] for band in ((low, high), (-high, -low)))
+        knots = [fit.u_knots for fit in made[low, high]]
+        upper = [np.conj(grid[:, ::-1]) for grid in mirrored]
+        strips.append(Strip(low, high, tuple(knots), made[low, high][0].v_knots, tuple(lower), tuple(upper)))
+    core = body_outlines(wheel.core, tolerance)
+    return WheelSplines(tuple(strips), core, max(_MARGIN * worst, *(o.max_error for o in core)))
+
+
+def fitting(teeth: WormTeeth, tolerance: float) -> WormTeeth | None:
+    """The widest of some narrower teeth, themselves first, that splines come near; None where none do."""
+    for share in _NARROWER:
+        narrower = replace(teeth, width=share * teeth.width)
+        try:
+            narrower.checked()
+            _fits(narrower, tolerance, _FEW_SPANS)
+        except (ConvergenceError, NoTooth, ParameterError):
+            continue
+        return narrower
+    return None
+
+
+def _fits(teeth: WormTeeth, tolerance: float, most: int = _MOST_SPANS) -> dict[tuple[float, float], list[_Fit]]:
+    """The lower fillet and flank between each two breaks."""
     least = _ROUNDING * teeth.outer_radius
     target = max(min(tolerance, max(_FINEST, _SHARE * tolerance)) / _MARGIN, least)
     edges = max(min(target, _EDGES), least)
     bands = list(pairwise(teeth.breaks))
     # tip and root are edges of exact surfaces: along them more is asked for
     # across: of fillet and flank, alike in all bands, which share the edges between them; then along each band
-    across = [max(_spans(teeth, part, band, target) for band in bands) for part in (FILLET, FLANK)]
-    along = {band: max(_spans_along(teeth, part, band, target, edges) for part in (FILLET, FLANK)) for band in bands}
+    across = [max(_spans(teeth, part, band, target, most) for band in bands) for part in (FILLET, FLANK)]
+    along = {
+        band: max(_spans_along(teeth, part, band, target, edges, most) for part in (FILLET, FLANK)) for band in bands
+    }
     along = {(low, high): max(n, along[-high, -low]) for (low, high), n in along.items()}
     while True:
         made = {band: [_fitted(teeth, p, band, (across[p], n)) for p in (FILLET, FLANK)] for band, n in along.items()}
-        fits = [fit for pair in made.values() for fit in pair]
-        error, edge = max(fit.error for fit in fits), max(fit.edge for fit in fits)
-        if error <= target and edge <= edges:
-            break
-        if max(*across, *along.values()) > _MOST_SPANS:
-            raise ConvergenceError("spline surfaces of the teeth", max(error, edge), _MOST_SPANS)
-        across, along = [n + (error > target) for n in across], {band: n + 1 for band, n in along.items()}
-    strips = []
-    for low, high in bands:
-        lower, mirrored = ([fit.poles for fit in made[band]] for band in ((low, high), (-high, -low)))
-        knots = [fit.u_knots for fit in made[low, high]]
-        upper = [np.conj(grid[:, ::-1]) for grid in mirrored]
-        strips.append(Strip(low, high, tuple(knots), made[low, high][0].v_knots, tuple(lower), tuple(upper)))
-    core = body_outlines(wheel.core, tolerance)
-    return WheelSplines(tuple(strips), core, max(_MARGIN * error, _MARGIN * edge, *(o.max_error for o in core)))
+        error = [max(pair[p].error for pair in made.values()) for p in (FILLET, FLANK)]
+        off = {band for band, pair in made.items() for fit in pair if fit.error > target or fit.edge > edges}
+        if not off:
+            return made
+        if max(*across, *along.values()) > most:
+            raise ConvergenceError("spline surfaces of the teeth", max(error), most)
+        across = [n + (e > target) * (1 + n // _SLOW) for n, e in zip(across, error, strict=True)]
+        along = {
+            (low, high): n + bool(off & {(low, high), (-high, -low)}) * (1 + n // _SLOW)
+            for (low, high), n in along.items()
+        }
 
 
 def _points(teeth: WormTeeth, part: int, shares: Real, heights: Real) -> Cut:
@@ -106,10 +134,10 @@ def _points(teeth: WormTeeth, part: int, shares: Real, heights: Real) -> Cut:
     return (teeth.fillet, teeth.flank)[part](teeth.side(heights), shares[:, None])
 
 
-def _spans(teeth: WormTeeth, part: int, band: tuple[float, float], target: float) -> int:
+def _spans(teeth: WormTeeth, part: int, band: tuple[float, float], target: float, most: int) -> int:
     """Least spans across a part with which its lines in planes are near enough."""
     heights = np.linspace(*band, _LINES)
-    for spans in range(1, _MOST_SPANS):
+    for spans in range(1, most):
         places, between, weights = _interpolation(0.0, 1.0, spans)
         found = weights @ _points(teeth, part, places, heights).plane
         if float(_away(found, _points(teeth, part, between, heights)).max()) <= target / 2:
@@ -117,10 +145,10 @@ def _spans(teeth: WormTeeth, part: int, band: tuple[float, float], target: float
     return spans
 
 
-def _spans_along(teeth: WormTeeth, part: int, band: tuple[float, float], target: float, edges: float) -> int:
+def _spans_along(teeth: WormTeeth, part: int, band: tuple[float, float], target: float, edges: float, most: int) -> int:
     """Least spans along a band with which its lines from end to end are near enough, and root and tip nearer."""
     shares = np.linspace(0.0, 1.0, _LINES)
-    for spans in range(1, _MOST_SPANS):
+    for spans in range(1, most):
         places, between, weights = _interpolation(*band, spans)
         found = _points(teeth, part, shares, places).plane @ weights.T
         edge = np.abs(np.abs(found[-part]) - _edge_radius(teeth, part, between)).max()
@@ -247,7 +275,7 @@ def wheel_body(wheel: WormWheel) -> FacedBody:
         splines = wheel_splines(wheel, tolerance)
         return FacedSolid(wheel_solid(wheel, splines), splines.max_error, splines.bound)
 
-    walls = [Measured("flank", partial(wheel.from_side, FLANK)), Measured("fillet", partial(wheel.from_side, FILLET))]
+    walls = [Measured("flank", wheel.from_sides)]
     if wheel.teeth.hob.swivel:
         walls.append(Measured("root", wheel.from_root))
     for profile in wheel.core.profiles:

@@ -24,8 +24,8 @@ _ALONG, _ACROSS = 32, 32
 # heights of a band and shares from which the foot of a perpendicular is sought, its steps, the step of derivatives,
 # and how far beyond the ends of a part it may lie, as shares of it
 _LEVELS, _SHARES, _STEPS, _SHIFT, _BEYOND = 65, 129, 4, 1e-5, 0.02
-# points that are looked at a time
-_BLOCK = 8192
+# points that are looked at a time, and how near the border of flank and fillet both are looked at, modules
+_BLOCK, _BESIDE = 8192, 0.1
 # parts of a side
 FILLET, FLANK = 0, 1
 
@@ -101,6 +101,18 @@ class WormWheel(Record, dict=True):
         away = (radius - self.teeth.root_radius(height)) / np.hypot(1.0, slope)
         return np.hypot(away, points[:, 2] - self.middle - height)
 
+    def from_sides(self, points: Real) -> Real:
+        """Of points (n, 3) from flanks or fillets, whichever is nearer: one goes over into the other, mm."""
+        height = np.clip(points[:, 2] - self.middle, -self.middle, self.middle)
+        reach, away = np.hypot(points[:, 0], points[:, 1]), np.full(len(points), np.inf)
+        ends = self._reaches[FILLET][0][1]
+        borders = [np.interp(h, self._table.heights, ends) for h in (height, -height)]
+        beside = _BESIDE * self.teeth.hob.worm.module
+        owners = reach < np.maximum(*borders) + beside, reach > np.minimum(*borders) - beside
+        for which, mine in zip((FILLET, FLANK), owners, strict=True):
+            away[mine] = np.minimum(away[mine], self.from_side(which, points[mine]))
+        return away
+
     def from_side(self, which: int, points: Real) -> Real:
         """Of points (n, 3) from the fillets (0) or flanks (1) of all teeth, mm, to first order in it.
 
@@ -114,22 +126,28 @@ class WormWheel(Record, dict=True):
         table = self._table
         height = np.clip(points[:, 2] - self.middle, -self.middle, self.middle)
         plane = points[:, 0] + 1j * points[:, 1]
-        lean = np.interp(height, table.heights, self._lean)
-        pitch = 2 * math.pi / self.teeth.number_of_teeth
-        plane = plane * np.exp(-1j * pitch * np.round((np.angle(plane) - lean) / pitch))
-        upper = np.angle(plane * np.exp(-1j * lean)) > 0
-        plane, height = np.where(upper, np.conj(plane), plane), np.where(upper, -height, height)
+        pitch, reach = 2 * math.pi / self.teeth.number_of_teeth, np.abs(plane)
+        # the side that is nearest on the same circle
+        (share, lower), (other, upper) = (self._first(which, reach, h) for h in (height, -height))
+        ahead, behind = (
+            np.remainder(a + pitch / 2, pitch) - pitch / 2 for a in (np.angle(plane) - lower, np.angle(plane) + upper)
+        )
+        is_upper = np.abs(behind) < np.abs(ahead)
+        plane = reach * np.exp(1j * np.where(is_upper, upper - behind, lower + ahead))
+        share, height = np.where(is_upper, other, share), np.where(is_upper, -height, height)
         # where fillet and flank end need not be known well, but where they are
-        inner, normal, outer = (np.interp(height, table.heights, x) for x in (table.inner, table.normal, table.outer))
-        side = Side(height, inner, normal, outer, np.zeros(len(height), dtype=bool))
+        inner, normal, outer, *hurry = (
+            np.interp(height, table.heights, x) for x in (table.inner, table.normal, table.outer, *table.hurry)
+        )
+        side = Side(height, inner, normal, outer, np.zeros(len(height), dtype=bool), (hurry[0], hurry[1]))
         part = (self.teeth.fillet, self.teeth.flank)[which]
-        share = self._first_share(which, np.abs(plane), height)
         cut = part(side, share)
         way = (part(side, share + _SHIFT).plane - cut.plane) / _SHIFT
         # the way is kept: the foot is found well enough for a distance, which errs by the square of what it is off
         for _ in range(_STEPS):
             step = (np.conj(way) * (plane - cut.plane)).real / np.abs(way) ** 2
-            share = np.clip(share + step, -_BEYOND, 1 + _BEYOND)
+            # where a side is about to fold a step means little
+            share = np.clip(share + np.clip(step, -_BEYOND, _BEYOND), -_BEYOND, 1 + _BEYOND)
             cut = part(side, share)
         off = np.conj(cut.normal) * (plane - cut.plane)
         ended = (share <= -_BEYOND) | (share >= 1 + _BEYOND)
@@ -143,27 +161,25 @@ class WormWheel(Record, dict=True):
         return self.teeth.side(np.unique(np.concatenate(bands)))
 
     @cached_property
-    def _lean(self) -> Real:
-        """Angles of the middle of tooth 1 at the heights of the table, rad."""
-        lower = np.angle(self.teeth.flank(self._table, 0.5).plane)
-        # the table is symmetric about the middle
-        return np.asarray((lower - lower[::-1]) / 2)
-
-    @cached_property
     def _reaches(self) -> tuple[tuple[Real, Real], ...]:
-        """Of fillet and flank: radii of both ends at the heights of the table, mm, and shares of even steps between."""
+        """Of fillet and flank: radii of both ends at the heights of the table, mm; shares and angles of even steps."""
         found = []
         even = np.linspace(0.0, 1.0, _SHARES)
         for part in (self.teeth.fillet, self.teeth.flank):
-            reach = np.abs(part(self._table, even[:, None]).plane)
+            plane = part(self._table, even[:, None]).plane
+            reach, turn = np.abs(plane), np.angle(plane)
             ends = reach[[0, -1]]
             steps = (reach - ends[0]) / (ends[1] - ends[0])
-            found.append((ends, np.stack([np.interp(even, column, even) for column in steps.T], axis=1)))
+            shares = np.stack([np.interp(even, column, even) for column in steps.T], axis=1)
+            turns = np.stack(
+                [np.interp(share, even, column) for share, column in zip(shares.T, turn.T, strict=True)], axis=1
+            )
+            found.append((ends, np.stack([shares, turns])))
         return tuple(found)
 
-    def _first_share(self, which: int, reach: Real, height: Real) -> Real:
-        """About which share of a part stands at a radius and a height: by the table, linear both ways."""
-        ends, shares = self._reaches[which]
+    def _first(self, which: int, reach: Real, height: Real) -> Real:
+        """About which share of a lower part stands at a radius and a height, and its angle: linear both ways."""
+        ends, table = self._reaches[which]
         heights = self._table.heights
         column = np.clip(np.searchsorted(heights, height) - 1, 0, len(heights) - 2)
         across = (height - heights[column]) / (heights[column + 1] - heights[column])
@@ -173,7 +189,7 @@ class WormWheel(Record, dict=True):
             place = np.nan_to_num(np.clip((reach - low) / (high - low), 0.0, 1.0)) * (_SHARES - 1)
         row = np.minimum(place.astype(np.intp), _SHARES - 2)
         up = place - row
-        found = [shares[row, c] * (1 - up) + shares[row + 1, c] * up for c in (column, column + 1)]
+        found = [table[:, row, c] * (1 - up) + table[:, row + 1, c] * up for c in (column, column + 1)]
         return np.asarray(found[0] * (1 - across) + found[1] * across)
 
 

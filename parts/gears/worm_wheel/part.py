@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta
+from msgspec.structs import replace as changed
 
-from geometry.base.errors import ConvergenceError, OffsetError, ParameterError, limit
+from geometry.base.errors import Nearest, OffsetError, ParameterError, limit
+from geometry.base.nearest import nearest
 from geometry.base.record import Record, replace
 from parts.base.kind import Kind, Others, Report
 from parts.keys.accuracy import AccuracyKey
@@ -39,9 +42,11 @@ if TYPE_CHECKING:
 
 # part of the root's radius at which the core ends whose place the teeth take
 # of the module: as near as faces are fitted to see whether they hang together
-_ROUGH = 0.01
+_ROUGH = 1e-3
 _CORE = 0.5
 _LEAST_TEETH = 8
+# part of a width that is told apart from none
+_SLIVER = 0.02
 
 
 class WormWheelSpec(HoledKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="worm_wheel"):
@@ -125,7 +130,8 @@ def drive_of(keys: WormWheelSpec) -> WormDrive:
     return WormDrive(worm_of(keys), keys.number_of_teeth, keys.profile_shift_coefficient)
 
 
-def _teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
+def _asked_teeth(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
+    """The teeth as asked for, of which some stand in the middle at least."""
     from geometry.gears.worms.hob import oversized_hob
     from geometry.gears.worms.wheel import WormTeeth
 
@@ -136,14 +142,52 @@ def _teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
         )
     hob = oversized_hob(drive, keys.hob_rounding_coefficient, given or keys.diameter_quotient)
     # a hob with thicker threads leaves thinner teeth
-    hob = replace(hob, worm=replace(hob.worm, thinning=-keys.axial_thinning)).checked()
+    try:
+        hob = replace(hob, worm=replace(hob.worm, thinning=-keys.axial_thinning)).checked()
+    except ParameterError as refusal:
+        if refusal.code != "hob_pointed":
+            raise
+        key = "addendum_coefficient"
+        raise ParameterError(key, keys.addendum_coefficient, refusal.code, partial(_lower, keys)) from refusal
     width = drive.most_face_width if keys.face_width is None else keys.face_width
-    outer = drive.most_outer_diameter if keys.outer_diameter is None else keys.outer_diameter
     least = 2 * drive.tip_radius
+    # a throat wraps a third of the worm at most
+    most = min(drive.most_outer_diameter, max(2 * drive.centre_distance - drive.throat_radius, least))
+    outer = most if keys.outer_diameter is None else keys.outer_diameter
     if outer < least:
         raise ParameterError("outer_diameter", outer, "within_throat", limit(least, outer), diameter=least)
     teeth = WormTeeth(hob, drive.centre_distance, drive.throat_radius, outer / 2, width)
-    return (teeth.narrowed() if keys.face_width is None else teeth).checked()
+    sliver = replace(teeth, width=_SLIVER * width).ended
+    if sliver is not None:
+        # at any width
+        raise ParameterError("addendum_coefficient", keys.addendum_coefficient, sliver, partial(_lower, keys))
+    return teeth
+
+
+def _teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
+    """The teeth of the whole width, or where none is given of as much of it as has some."""
+    from geometry.gears.worms.wheel_faces import fitting
+
+    teeth = _asked_teeth(keys, drive)
+    teeth = (teeth.narrowed() if keys.face_width is None else teeth).checked()
+    # faces may break off where none of the known ends is
+    rough = _ROUGH * keys.module
+    found = fitting(teeth, rough)
+    if found is None or (found != teeth and keys.face_width is not None):
+        cure = None if found is None else limit(found.width, teeth.width)
+        raise ParameterError("face_width", teeth.width, "worm_wheel_faces_break", cure)
+    return found
+
+
+def _lower(keys: WormWheelSpec) -> Nearest | None:
+    """The addendum that leaves some tooth."""
+
+    def works(value: float) -> bool:
+        lower = changed(keys, addendum_coefficient=value)
+        _asked_teeth(lower, drive_of(lower))
+        return True
+
+    return nearest(works, keys.addendum_coefficient, (0.8, 0.6, 0.4), digits=2)
 
 
 class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
@@ -154,7 +198,6 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
 
     def thing(self, keys: WormWheelSpec, others: Others) -> WheelThing:
         """The wheel, checked to exist."""
-        from geometry.gears.worms.wheel_faces import wheel_splines
         from geometry.gears.worms.wheel_measures import WormWheel
         from geometry.plane.profile import Label, circle
         from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
@@ -169,13 +212,7 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
         # between all that is cut and the teeth
         rim = circle(reach + _CORE * (drive.root_radius - reach), Label.BODY)
         core = wheel_body(shape, wheel_sections(lambda *_: rim, drive.root_radius, holes))
-        wheel = WormWheel(teeth, core, rim)
-        try:
-            wheel_splines(wheel, _ROUGH * keys.module)
-        except ConvergenceError as error:
-            # faces that break off where none of the known ends is
-            raise ParameterError("face_width", teeth.width, "worm_wheel_faces_break") from error
-        return WheelThing(drive, wheel)
+        return WheelThing(drive, WormWheel(teeth, core, rim))
 
     def section(self, keys: WormWheelSpec, thing: WheelThing, offset: float) -> OffsetRegion:
         """The circle about it."""

@@ -113,11 +113,15 @@ def test_a_default_rim_has_whole_teeth_and_a_torn_face_is_refused() -> None:
         return make_parts(scene_from_dict({"parts": {"wheel": wheel}}, "s", "s"), "s")[0]["wheel"]
 
     assert 16 < made(form="ZN1").thing.teeth.width < 18
-    torn = {"form": "ZA", "number_of_starts": 4, "diameter_quotient": 6.0, "number_of_teeth": 36, "hand": "left"}
-    for keys, code in (
-        ({**torn, "profile_shift_coefficient": 0.3}, "worm_wheel_faces_break"),
-        ({"face_width": 14.0, "outer_diameter": 100.0}, "worm_wheel_pointed"),
-    ):
+    for keys, key, code in (
+        ({"face_width": 14.0, "outer_diameter": 100.0}, "face_width", "worm_wheel_pointed"),
+        # pointed at any width
+        ({"form": "ZN1", "number_of_starts": 4, "diameter_quotient": 4.47, "number_of_teeth": 112},
+         "addendum_coefficient", "worm_wheel_pointed"),
+    ):  # fmt: skip
         with pytest.raises(SceneError) as refused:
             made(**keys)
-        assert (refused.value.key, refused.value.code) == ("parts.wheel.face_width", code)
+        assert (refused.value.key, refused.value.code) == (f"parts.wheel.{key}", code)
+        nearest = refused.value.nearest
+        assert nearest is not None
+        assert made(**{**keys, key: nearest.value}).thing.teeth.ended is None

@@ -1,0 +1,97 @@
+"""Worm wheels of many starts and odd proportions: built as the passing hob leaves them, or refused with what works."""
+
+from __future__ import annotations
+
+import math
+import random
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from geometry.gears.worms.wheel import WormTeeth
+from geometry.gears.worms.wheel_faces import wheel_splines
+from parts.base.refusal import SceneError
+from parts.scene.load import make_parts, scene_from_dict
+from tests.sampling import examples
+
+# what a part of this sweep may lie within the hob as it goes by, mm: nothing but rounding
+_ROUNDING = 1e-7
+
+
+def _depth(teeth: WormTeeth, height: float) -> float:
+    """How deep the hob gets into the lower side at a height as it goes by, step by step; below 0: it stays off, mm."""
+    hob, worm = teeth.hob, teeth.hob.worm
+    side, shares = teeth.side(np.array([height])), np.linspace(0.0, 1.0, 7)[:, None]
+    points = np.concatenate([teeth.fillet(side, shares).plane, teeth.flank(side, shares).plane])
+    reach = 2 * float(np.abs(points).max())
+    slid = np.linspace(-reach, reach, 3001)
+    angle = (math.pi - worm.number_of_starts / worm.parameter * slid) / teeth.number_of_teeth
+    turned = points * np.exp(1j * angle)
+    x, y, z = hob.centre_distance - turned.real, -height, -turned.imag
+    radius = np.hypot(x, y)
+    corner = np.sqrt(np.maximum(hob.rounding**2 - np.maximum(radius - hob.tip_radius + hob.rounding, 0.0) ** 2, 0.0))
+    flank = worm.half_thickness(np.clip(radius, max(worm.flank.least_radius, 1e-6), hob.form_radius))
+    half = np.where(radius > hob.form_radius, hob.half_land + corner, flank)
+    middle = worm.sign * worm.parameter * np.arctan2(y, x) + slid
+    pitch = math.pi * worm.module
+    beside = np.abs(z - middle - pitch * np.round((z - middle) / pitch))
+    return float(np.where((radius < hob.tip_radius) & (x > 0), half - beside, -1.0).max())
+
+
+def _built(keys: dict[str, Any]) -> Any:
+    wheel = {"kind": "worm_wheel", **keys}
+    return make_parts(scene_from_dict({"parts": {"wheel": wheel}}, "s", "s"), "s")[0]["wheel"].thing
+
+
+def _held(keys: dict[str, Any]) -> None:
+    try:
+        thing = _built(keys)
+    except SceneError as refused:
+        nearest = refused.nearest
+        if nearest is not None and nearest.side != "exactly":
+            _built({**keys, (refused.key or "").rpartition(".")[2]: nearest.value})
+        return
+    teeth = thing.teeth
+    for height in np.linspace(-teeth.width / 2, teeth.width / 2, 7):
+        assert _depth(teeth, float(height)) < _ROUNDING
+    assert wheel_splines(thing.wheel, 1e-3 * keys["module"]).max_error <= 1e-3 * keys["module"]
+
+
+@pytest.mark.parametrize(
+    ("form", "module", "starts", "quotient", "teeth"),
+    [
+        # before: refused in their default width, though some of it has whole teeth
+        ("ZA", 2.0, 4, 6.0, 36),
+        pytest.param("ZA", 1.0, 6, 10.0, 60, marks=pytest.mark.heavy),
+        # before: written, and held back by their own read-back, since the contact runs off within the face
+        ("ZA", 2.0, 6, 6.0, 40),
+        pytest.param("ZI", 1.0, 6, 10.0, 60, marks=pytest.mark.heavy),
+    ],
+)  # fmt: skip
+def test_wheels_of_many_starts_are_what_the_hob_leaves(
+    form: str, module: float, starts: int, quotient: float, teeth: int
+) -> None:
+    keys = {"form": form, "module": module, "number_of_starts": starts, "diameter_quotient": quotient}
+    thing = _built({**keys, "number_of_teeth": teeth})
+    assert 0.3 < thing.teeth.width / thing.drive.most_face_width <= 1
+    _held({**keys, "number_of_teeth": teeth})
+
+
+@pytest.mark.heavy
+@examples(60)
+@given(seed=st.integers(0, 10**9))
+def test_extremes_are_built_or_refused_with_what_works(seed: int) -> None:
+    drawn = random.Random(seed)
+    starts = drawn.randint(1, 10)
+    # q from 4 to 50, lead up to 60 degrees
+    quotient = math.exp(drawn.uniform(math.log(max(4.0, starts / math.tan(math.radians(60)))), math.log(50)))
+    _held({
+        "module": drawn.choice([1.0, 1.5, 2.0, 5.0]),
+        "number_of_starts": starts, "diameter_quotient": round(quotient, 2),
+        "number_of_teeth": int(math.exp(drawn.uniform(math.log(10), math.log(300)))),
+        "form": drawn.choice(["ZA", "ZI", "ZN1", "ZN2"]), "hand": drawn.choice(["left", "right"]),
+        "profile_shift_coefficient": drawn.choice([0.0, 0.3, -0.3]),
+    })  # fmt: skip
