@@ -157,7 +157,9 @@ def sheet_jobs(
     for number, (word, expected) in enumerate(made, 1):
         shown = [word.partition(".")[0]] if export.purpose in ("cam", "part") else export.parts or []
         part = parts[shown[0]] if len(shown) == 1 and export.purpose not in ("parts_list", "assembly") else None
-        _add_title_block(expected, scene, export, part, (number, len(made)))
+        # each part's drawing is a document of its own
+        count = (1, 1) if export.purpose == "part" else (number, len(made))
+        _add_title_block(expected, scene, export, part, count)
         if export.cells == "empty":
             expected.canvas.texts[:] = [seen for text in expected.canvas.texts for seen in text.asked()]
     name, title = f"{scene.name}.{export.name or export.purpose}", scene.scene.title or scene.name

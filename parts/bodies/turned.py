@@ -198,6 +198,7 @@ class Turned(_Turned[TurnedSpec]):
     """Half a section, turned."""
 
     name, keys = "turned", TurnedSpec
+    drawing = "parts.bodies.turned_drawing"
 
     def thing(self, keys: TurnedSpec, others: Others) -> HalfSection:
         """The section, checked to enclose one body."""
@@ -226,6 +227,7 @@ class Shaft(_Turned[ShaftSpec]):
     """A shaft, its lower end at z = 0."""
 
     name, keys = "shaft", ShaftSpec
+    drawing = "parts.bodies.turned_drawing"
 
     def thing(self, keys: ShaftSpec, others: Others) -> HalfSection:
         """The section of all steps, checked."""

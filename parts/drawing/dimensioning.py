@@ -45,6 +45,8 @@ _SLOPE = math.tan(math.radians(30))
 _SAMPLES = 33
 # rows of a side, and layouts of a view, that are tried
 _ROWS, _TRIES = 20, 12
+# how much farther beyond the end of a dimension line its words may stand
+_FARTHER = (0.0, 4.0, 8.0, 13.0, 20.0, 30.0)
 # what words keep off lines
 _FREE = 0.4
 _DIMENSION = "DIMENSION"
@@ -147,8 +149,11 @@ class _Layout:
 
     def fill(self, sizes: Sequence[Size], leaders: Sequence[Round | Note], title: str) -> None:
         """Add all words with their lines, in this order."""
-        for size in sizes:
-            self._size(size)
+        for k, size in enumerate(sizes):
+            # where extension lines will run past its words
+            ends = [p for other in sizes[k + 1 :] if other.side == size.side for p in (other.start, other.end)]
+            if not any(self._size(size, coming) for coming in (ends, ())):
+                raise _NoRoomError(size)
         for one in leaders:
             (self._round if isinstance(one, Round) else self._note)(one)  # type: ignore[arg-type]
         if title:
@@ -181,8 +186,11 @@ class _Layout:
         self.canvas.texts.append(text)
         self.ink.boxes.append(text.box)
 
-    def _size(self, size: Size) -> None:
-        """A linear dimension: in the nearest row of its side in which its words are free."""
+    def _size(self, size: Size, coming: Sequence[complex]) -> bool:
+        """A linear dimension: in the nearest row of its side in which its words are free; whether there is one.
+
+        ``coming``: places from which extension lines will run to the same side.
+        """
         upright = size.side in ("left", "right")
         # along the dimension line, and away from the view
         along, out = (
@@ -197,6 +205,7 @@ class _Layout:
         number = number_text(size.value, self.language)
         wide = text_width(size.before + number + size.after)
         rows = self.rows.setdefault(size.side, [])
+        past = [_along(self.paper.point(p), along) for p in coming]
         for index in range(_ROWS):
             level = edge + (-1 if size.side in ("left", "below") else 1) * (_FIRST + _STEP * index)
             while len(rows) <= index:
@@ -205,6 +214,8 @@ class _Layout:
                 reach = min(low, begin), max(high, begin + wide)
                 # chains share their ends
                 if any(_meet(reach, taken) for taken in rows[index]):
+                    continue
+                if any(begin - 2 * _FREE < place < begin + wide + 2 * _FREE for place in past):
                     continue
                 lines = _dimension_lines(points, along, level, (low, high), (begin, begin + wide), out)
                 # words stand above their line, those of an upright one on its left
@@ -218,8 +229,8 @@ class _Layout:
                     self._dimension(
                         size.name, "linear", size.value, (points[0], points[1]), ends[1], angle, words, lines, text
                     )
-                    return
-        raise _NoRoomError(size)
+                    return True
+        return False
 
     def _dimension(
         self,
@@ -312,11 +323,11 @@ def _at(along: complex, level: float, place: float) -> complex:
 
 def _begins(low: float, high: float, wide: float, middle: float) -> Iterator[float]:
     """Where words may begin along a dimension line: in its middle, to a side of it, beyond its ends."""
-    room = high - low - wide - 2 * ARROW
+    room = high - low - wide - 2 * (ARROW + 2 * _FREE)
     if room >= 0:
         yield from ((low + high - wide) / 2 + share * room / 2 for share in (0.0, 0.5, -0.5, 1.0, -1.0))
-    else:
-        beyond = high + ARROW + 2.0, low - ARROW - 2.0 - wide
+    for more in _FARTHER:
+        beyond = high + ARROW + 2.0 + more, low - ARROW - 2.0 - wide - more
         yield from beyond if low + high >= 2 * middle - 1e-9 else beyond[::-1]
 
 

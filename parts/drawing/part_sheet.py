@@ -151,6 +151,10 @@ def part_sheet(drawing: PartDrawing, data: Block | None, roughness: float, asked
     corner = _Corner(tuple(lines), data, f"Ra {number_text(roughness, language)}")
     sizes = [_extent(view) for view in drawing.views]
 
+    extent = max(sizes[0])
+    needed = _LEAST_SMALL / extent if extent < _LEAST_SMALL else min(1.0, _LEAST / extent)
+    least = next((s for s in reversed(SCALES) if s >= needed), SCALES[0])
+
     @cache
     def views_at(scale: float) -> tuple[Laid, ...]:
         """The views at a scale; none where their words find no room."""
@@ -161,14 +165,13 @@ def part_sheet(drawing: PartDrawing, data: Block | None, roughness: float, asked
         """The greatest scale at which all views stand in a field."""
         fields = [field.grown(-_MARGIN) for field in corner.fields(canvas.frame)]
         most = max(min(f.right - f.left, f.high - f.low) / min(sizes[0]) for f in fields)
+        # unless a paper is asked for, what is large enough stays in its size
+        most = min(most, most if asked.paper or asked.scale else max(least, 1.0))
         for scale in (s for s in SCALES if s <= most):
             if any(_places(views_at(scale), field, canvas) for field in fields):
                 return scale
         return 0.0
 
-    extent = max(sizes[0])
-    needed = _LEAST_SMALL / extent if extent < _LEAST_SMALL else min(1.0, _LEAST / extent)
-    least = next((s for s in reversed(SCALES) if s >= needed), SCALES[0])
     canvas, scale = sheet_for(asked, greatest, least)
     corner.draw(canvas, language)
     views = views_at(scale)

@@ -7,24 +7,21 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Sequence
-from itertools import pairwise
 
 from geometry.base.placement import Placement2
 from geometry.base.record import Record
-from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Profile
 from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape
-from parts.drawing.working import AXIS, VISIBLE, Note, Round, Size, Subject, View
+from parts.drawing.revolved import Loop, below, closed, outlined, seen_edges
+from parts.drawing.working import AXIS, VISIBLE, Note, Round, Size, Stroke, Subject, View
 from parts.texts.sheets import sheet_words
 
 # a view of a bore is so high on paper at least, mm
 _LEAST_BORE = 25.0
 _UP = math.pi / 2
-Stroke = tuple[str, Curve]
 
 
 class Wheel(Record):
@@ -75,12 +72,6 @@ def axis_cross(radius: float) -> tuple[Line, Line]:
     return Line(complex(-radius), complex(radius)), Line(-1j * radius, 1j * radius)
 
 
-def closed(points: Sequence[complex]) -> tuple[Line, ...]:
-    """A closed chain of lines, without those of no length."""
-    ring = [p for p, q in pairwise([*points, points[0]]) if abs(p - q) > 1e-9]
-    return tuple(Line(a, b) for a, b in pairwise([*ring, ring[0]]))
-
-
 def bore_radii(bore: Bore | None) -> tuple[float, float]:
     """Distance of the bore's walls from the axis upwards and downwards, once it stands upright, mm."""
     match bore:
@@ -125,19 +116,19 @@ def section_view(wheel: Wheel, subject: Subject) -> View:
     """The axial section; holes and spokes are turned into its plane."""
     shape, holes, wishes, at = wheel.shape, wheel.holes, subject.wishes, levels(wheel.shape)
     strokes: list[Stroke] = []
-    hatched: list[tuple[Line, ...]] = []
+    hatched: list[tuple[Line | Arc, ...]] = []
     axes = [Line(complex(min(at.hub[0], 0.0)), complex(max(at.hub[1], shape.face_width)))]
     bores = bore_radii(holes.bore)
-    cuts: list[list[complex]] = []
     for bore, tip, way in zip(bores, wheel.tip, (1, -1), strict=True):
 
-        def placed(points: Sequence[complex], way: int = way) -> list[complex]:
-            return [complex(p.real, way * p.imag) for p in points]
+        def placed(loop: Loop, way: int = way) -> Loop:
+            return loop if way > 0 else below(loop)
 
-        cuts.append(placed(_half(wheel, bore, tip, toothed=False)))
-        strokes += [(VISIBLE, line) for line in closed(cuts[-1])]
-        solid = cuts[-1] if wheel.root is None else placed(_half(wheel, bore, wheel.root, toothed=True))
-        hatched.append(closed(solid))
+        loop = closed(_half(wheel, bore, tip, toothed=False))
+        strokes += outlined(placed(loop))
+        strokes += [(VISIBLE, line) for line in placed(seen_edges(loop, cut=True))]
+        solid = loop if wheel.root is None else closed(_half(wheel, bore, wheel.root, toothed=True))
+        hatched.append(tuple(placed(solid)))
         ends = complex(0.0, way), complex(shape.face_width, way)
         if wheel.root is not None:
             root = wheel.root
@@ -146,14 +137,17 @@ def section_view(wheel: Wheel, subject: Subject) -> View:
             pitch = wheel.pitch
             axes.append(Line(*(complex(e.real, e.imag * pitch) for e in ends)))
         for low, high, is_hole in _openings(holes):
-            corners = placed([complex(at.web[0], low), complex(at.web[1], low),
-                              complex(at.web[1], high), complex(at.web[0], high)])  # fmt: skip
-            hatched.append(closed(corners))
-            strokes += [(VISIBLE, Line(*corners[:2])), (VISIBLE, Line(*corners[2:]))]
+            sides = [Line(complex(at.web[0], way * y), complex(at.web[1], way * y)) for y in (low, high)]
+            hatched.append(closed([sides[0].start, sides[0].end, sides[1].end, sides[1].start]))
+            strokes += [(VISIBLE, side) for side in sides]
             if is_hole:
                 middle = way * (low + high) / 2
                 axes.append(Line(complex(at.web[0], middle), complex(at.web[1], middle)))
-    strokes += _behind(wheel, bores, at)
+    if isinstance(keyed := holes.bore, KeywayBore):
+        # edges of the keyway along the bore
+        rim = math.sqrt((keyed.diameter - keyed.width) * (keyed.diameter + keyed.width)) / 2
+        for way in (1, -1)[: keyed.keys]:
+            strokes.append((VISIBLE, Line(complex(at.hub[0], way * rim), complex(at.hub[1], way * rim))))
     return View(tuple(strokes), tuple(hatched), tuple(axes), tuple(_section_sizes(wheel, subject)),
                 notes=_section_notes(wheel, subject, at, wishes.flank_roughness))  # fmt: skip
 
@@ -163,25 +157,6 @@ def _openings(holes: HubHoles) -> list[tuple[float, float, bool]]:
     found = [((g.pitch_circle_diameter - g.diameter) / 2, g.reach, True) for g in holes.round_holes]
     spokes = holes.spokes
     return found if spokes is None else [*found, (spokes.inner_diameter / 2, spokes.reach, False)]
-
-
-def _behind(wheel: Wheel, bores: tuple[float, float], at: _Levels) -> list[Stroke]:
-    """Edges of the bore that are seen behind the section, and those of a keyway along it."""
-    bore = wheel.holes.bore
-    if bore is None:
-        return []
-    shape, found = wheel.shape, list[Stroke]()
-    for side, cut in ((0, shape.chamfer_below), (1, shape.chamfer_above)):
-        recessed = at.web[side] != at.rim[side] and at.hub[side] == at.web[side]
-        cut = 0.0 if recessed else cut
-        way = 1 if side else -1
-        for z, more in {(at.hub[side], cut), (at.hub[side] - way * cut, 0.0)}:
-            found.append((VISIBLE, Line(complex(z, -bores[1] - more), complex(z, bores[0] + more))))
-    if isinstance(bore, KeywayBore):
-        rim = math.sqrt((bore.diameter - bore.width) * (bore.diameter + bore.width)) / 2
-        for way in (1, -1)[: bore.keys]:
-            found.append((VISIBLE, Line(complex(at.hub[0], way * rim), complex(at.hub[1], way * rim))))
-    return sorted(found, key=lambda pair: (pair[1].start.real, pair[1].start.imag))  # type: ignore[attr-defined]
 
 
 def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:

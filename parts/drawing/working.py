@@ -21,6 +21,9 @@ VISIBLE, AXIS, THIN, HIDDEN = "OUTLINE", "CENTRE", "THIN", "HIDDEN"
 _DECIMALS = 3
 
 
+Stroke = tuple[str, Curve]
+
+
 class Size(Record):
     """A linear size: between two points along x (its line above or below the view) or along y (left or right).
 
@@ -78,7 +81,7 @@ class View(Record):
     high on paper at least, a view with a scale of its own.
     """
 
-    strokes: tuple[tuple[str, Curve], ...]
+    strokes: tuple[Stroke, ...]
     hatched: tuple[tuple[Line | Arc, ...], ...] = ()
     axes: tuple[Line, ...] = ()
     sizes: tuple[Size, ...] = ()

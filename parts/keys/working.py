@@ -24,7 +24,7 @@ class WorkingTable(Struct, forbid_unknown_fields=True, frozen=True):
     inner: Annotated[str, _fit("the inner diameter of a ring's teeth")] = "H11"
     bore: Annotated[str, _fit("bores")] = "H7"
     keyway: Annotated[str, _fit("the width of keyways in bores")] = "Js9"
-    shaft: Annotated[str, _fit("steps of a shaft")] = "h6"
+    shaft: Annotated[str, _fit("steps of a shaft")] = "h11"
     shaft_keyway: Annotated[str, _fit("the width of keyways in shafts")] = "P9"
     width: Annotated[str, _fit("the face width")] = "h11"
     roughness: Annotated[float, _rough("all surfaces that have no sign of their own")] = 6.3

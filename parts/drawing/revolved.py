@@ -1,0 +1,97 @@
+"""Sections and views of what is turned about an axis: the edges that are seen behind a section or from outside.
+
+A loop is half a section, closed: the axis along x, the distance from it along y, above 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from geometry.curves.curve import end_point, start_point
+from geometry.curves.line_arc import Arc, Line
+from parts.drawing.working import VISIBLE, Stroke
+
+Loop = Sequence[Line | Arc]
+# parts of the size: how far beside an edge is looked, what is one place
+_BESIDE, _SAME = 1e-7, 1e-6
+_SAMPLES = 129
+_SMOOTH = 1e-6
+
+
+def closed(points: Sequence[complex]) -> tuple[Line, ...]:
+    """A closed chain of lines, without those of no length."""
+    ring = [p for p, q in pairwise([*points, points[0]]) if abs(p - q) > 1e-9]
+    return tuple(Line(a, b) for a, b in pairwise([*ring, ring[0]]))
+
+
+def below(loop: Loop) -> tuple[Line | Arc, ...]:
+    """The other half."""
+    return tuple(curve.mirrored() for curve in reversed(loop))
+
+
+def outlined(loop: Loop) -> list[Stroke]:
+    """The lines of a section, without what lies on the axis."""
+    return [(VISIBLE, curve) for curve in loop if not (start_point(curve).imag == end_point(curve).imag == 0)]
+
+
+def seen_edges(loop: Loop, *, cut: bool) -> list[Line]:
+    """The edges that are seen in one half: behind a section where it is ``cut``, else of the whole from outside."""
+    points = np.concatenate([c.point(np.linspace(*c.domain, 2 if isinstance(c, Line) else _SAMPLES)) for c in loop])
+    size = float(np.abs(points).max())
+    corners = [
+        start_point(after)
+        for before, after in pairwise([*loop, loop[0]])
+        if abs((complex(before.tangent(before.domain[1])).conjugate() * complex(after.tangent(after.domain[0]))).imag)
+        > _SMOOTH
+    ]
+    found: list[Line] = []
+    for x in sorted({round(corner.real / size, 9) for corner in corners}):
+        here = [c.imag for c in corners if abs(c.real / size - x) < 2e-9]
+        at = next(c.real for c in corners if abs(c.real / size - x) < 2e-9)
+        sides = [_material(points, at + way * _BESIDE * size) for way in (-1, 1)]
+        spans = [(min(_covered(side, radius, size, cut=cut) for side in sides), radius) for radius in here]
+        faces = [
+            sorted((start_point(c).imag, end_point(c).imag))
+            for c in loop
+            if isinstance(c, Line) and abs(c.start.real - at) + abs(c.end.real - at) < _SAME * size
+        ]
+        for low, high in _without(spans, faces, _SAME * size):
+            found.append(Line(complex(at, low), complex(at, high)))
+    return found
+
+
+def _material(points: np.ndarray, x: float) -> list[tuple[float, float]]:
+    """Where there is material along the line at x, from the axis outwards."""
+    start, end = points, np.roll(points, -1)
+    crossed = (start.real > x) != (end.real > x)
+    a, b = start[crossed], end[crossed]
+    heights = np.sort(a.imag + (b.imag - a.imag) * (x - a.real) / (b.real - a.real)).tolist()
+    return list(pairwise(heights))[::2]
+
+
+def _covered(material: Iterable[tuple[float, float]], radius: float, size: float, *, cut: bool) -> float:
+    """Up to which distance from the axis an edge of a radius is covered on one side."""
+    if cut:
+        return max((min(end, radius) for start, end in material if start < radius - _SAME * size), default=0.0)
+    # from outside, by what is larger
+    return radius if any(end > radius + _SAME * size for _, end in material) else 0.0
+
+
+def _without(
+    spans: Iterable[tuple[float, float]], faces: Iterable[Sequence[float]], least: float
+) -> list[tuple[float, float]]:
+    """What of spans lies on no face, joined."""
+    found: list[tuple[float, float]] = []
+    for low, high in sorted(spans):
+        if found and low <= found[-1][1] + least:
+            found[-1] = found[-1][0], max(high, found[-1][1])
+        else:
+            found.append((low, high))
+    for a, b in faces:
+        found = [
+            piece for low, high in found for piece in ((low, min(high, a)), (max(low, b), high)) if piece[1] > piece[0]
+        ]
+    return [(low, high) for low, high in found if high - low > least]
