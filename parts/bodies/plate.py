@@ -133,6 +133,8 @@ def _marks(keys: FlatKeys) -> Marks:
 class Extruded(Kind[K, T]):
     """An outline of lines and arcs that is extruded as it is, lower face at z = 0."""
 
+    drawing = "parts.bodies.plate_drawing"
+
     def flat(self, thing: T) -> PlateOutline:
         """The outline of the exact thing."""
         raise NotImplementedError

@@ -5,13 +5,14 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 
-from geometry.curves.curve import end_point, start_point
+from geometry.curves.curve import start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.solids.turned import HalfSection, Hole, Piece, Pocket
-from parts.drawing.revolved import Loop, below, closed, outlined, seen_edges
+from parts.drawing.revolved import Loop, below, chamfers, closed, diameters, is_outer, lengths, outlined, seen_edges
 from parts.drawing.wheel_views import axis_cross, circle_of
 from parts.drawing.working import (
     AXIS,
@@ -20,7 +21,6 @@ from parts.drawing.working import (
     Note,
     PartDrawing,
     Round,
-    Side,
     Size,
     Stroke,
     Subject,
@@ -41,8 +41,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
     assert isinstance(half, HalfSection)
     loop = tuple(_curve(piece) for piece in half.pieces)
     is_shaft, hollow = subject.part.kind == "shaft", half.radii()[0] > 0
-    fits = (subject.wishes.shaft, "") if is_shaft else (subject.wishes.tip, subject.wishes.bore)
-    found = [_long_view(half, loop, subject, fits, cut=hollow or not is_shaft)]
+    found = [_long_view(half, loop, subject, is_shaft=is_shaft, cut=hollow or not is_shaft)]
     if half.holes:
         found.append(_face(half, subject))
     found += [_keyway(half, pocket, k, subject) for k, pocket in enumerate(half.pockets)]
@@ -63,23 +62,22 @@ def _curve(piece: Piece) -> Line | Arc:
     return Arc(centre, piece.radius, cmath.phase(start - centre), float(turns.sum()))
 
 
-def _long_view(half: HalfSection, loop: Loop, subject: Subject, fits: tuple[str, str], *, cut: bool) -> View:
+def _long_view(half: HalfSection, loop: Loop, subject: Subject, *, is_shaft: bool, cut: bool) -> View:
     """The view across the axis."""
     strokes: list[Stroke] = []
-    outer = {id(curve) for curve in loop if cut or _is_outer(loop, curve)}
-    for side in (loop, below(loop)):
-        shown = [curve for twin, curve in zip(loop, side if side is loop else reversed(side), strict=True)
-                 if id(twin) in outer]  # fmt: skip
-        strokes += outlined(shown)
-        if not cut:
-            inside = [c for twin, c in zip(loop, side if side is loop else reversed(side), strict=True)
-                      if id(twin) not in outer]  # fmt: skip
-            strokes += [(HIDDEN, curve) for _, curve in outlined(inside)]
+    outer = [curve for curve in loop if cut or is_outer(loop, curve)]
+    inner = [curve for curve in loop if curve not in outer]
+    for side in (outer, below(outer)):
+        strokes += outlined(side)
+    for side in (inner, below(inner)):
+        strokes += [(HIDDEN, curve) for _, curve in outlined(side)]
     for edge in seen_edges(loop, cut=cut):
         strokes += [(VISIBLE, edge), (VISIBLE, edge.mirrored())]
     low, high = half.heights()
     axes = [Line(complex(low), complex(high))]
-    sizes = [*_diameters(loop, fits, cut=cut), *_lengths(loop, low, high), *_chamfers(loop)]
+    wishes = subject.wishes
+    fits, largest = ((wishes.shaft, ""), None) if is_shaft else (("", wishes.bore), wishes.tip)
+    sizes = [*diameters(loop, fits, largest), *lengths(loop), *chamfers(loop)]
     for k, pocket in enumerate(half.pockets, 1):
         strokes += _slot(pocket)
         # seen from above, where it lies in the middle
@@ -94,89 +92,6 @@ def _long_view(half: HalfSection, loop: Loop, subject: Subject, fits: tuple[str,
         sizes.append(Size("holes.pitch_circle_diameter", complex(low, -radius), complex(low, radius), "left", "Ø"))
     hatched = (tuple(loop), below(loop)) if cut else ()
     return View(tuple(strokes), hatched, tuple(axes), tuple(sizes), tuple(_fillets(loop)), _rough(loop, subject))
-
-
-def _is_outer(loop: Loop, curve: Line | Arc) -> bool:
-    """Whether nothing lies farther from the axis than the middle of a curve."""
-    middle = complex(curve.point(sum(curve.domain) / 2))
-    for other in loop:
-        points = other.point(np.linspace(*other.domain, 2 if isinstance(other, Line) else 65))
-        for a, b in zip(points[:-1].tolist(), points[1:].tolist(), strict=True):
-            if min(a.real, b.real) < middle.real < max(a.real, b.real):
-                y = a.imag + (b.imag - a.imag) * (middle.real - a.real) / (b.real - a.real)
-                if y > middle.imag + 1e-6 * abs(middle):
-                    return False
-    # a face is seen from outside where it reaches the outside
-    return isinstance(curve, Arc) or abs(curve.start.real - curve.end.real) > _SAME or not _is_inner(loop, curve)
-
-
-def _is_inner(loop: Loop, curve: Line | Arc) -> bool:
-    """Whether a face ends in a place that something larger is over, on both sides of it: the end of a blind hole."""
-    low, high = (min(start_point(c).real for c in loop), max(start_point(c).real for c in loop))
-    return low + _SAME < start_point(curve).real < high - _SAME and curve is not loop[0] and _over(loop, curve)
-
-
-def _over(loop: Loop, curve: Line | Arc) -> bool:
-    x, top = start_point(curve).real, max(start_point(curve).imag, end_point(curve).imag)
-    return any(
-        isinstance(c, Line) and min(c.start.real, c.end.real) < x < max(c.start.real, c.end.real)
-        and min(c.start.imag, c.end.imag) > top
-        for c in loop
-    )  # fmt: skip
-
-
-def _diameters(loop: Loop, fits: tuple[str, str], *, cut: bool) -> Iterator[Size]:
-    """The diameters of cylinders, each once: outer ones on the side to which they are nearer, inner on the right."""
-    cylinders = [c for c in loop if isinstance(c, Line) and abs(c.start.imag - c.end.imag) < _SAME and c.start.imag > 0]
-    if not cylinders:
-        return
-    ends = [x for c in loop for x in (start_point(c).real, end_point(c).real)]
-    middle = (min(ends) + max(ends)) / 2
-    outer = {id(c): _is_outer(loop, c) for c in cylinders}
-    most = max(c.start.imag for c in cylinders)
-    seen: set[tuple[float, bool]] = set()
-    for c in cylinders:
-        radius, is_outer = c.start.imag, outer[id(c)]
-        if (key := (round(radius, 9), is_outer)) in seen:
-            continue
-        seen.add(key)
-        x = (c.start.real + c.end.real) / 2
-        side: Side = "left" if is_outer and x <= middle else "right"
-        at = min(c.start.real, c.end.real) if side == "left" else max(c.start.real, c.end.real)
-        fit = (fits[0] if fits[1] == "" or radius == most else "") if is_outer else fits[1]
-        name = f"{'outer' if is_outer else 'inner'}_diameter.{len(seen)}"
-        yield Size(name, complex(at, -radius), complex(at, radius), side, "Ø", fit)
-
-
-def _lengths(loop: Loop, low: float, high: float) -> Iterator[Size]:
-    """From the lower end to each face, and the whole length."""
-    faces = dict[float, tuple[float, float]]()
-    for c in loop:
-        if isinstance(c, Line) and abs(c.start.real - c.end.real) < _SAME:
-            x, top = c.start.real, max(c.start.imag, c.end.imag)
-            faces[round(x, 9)] = x, max(top, faces.get(round(x, 9), (x, 0.0))[1])
-    foot = next((top for x, top in faces.values() if abs(x - low) < _SAME), 0.0)
-    for k, (x, top) in enumerate(sorted(v for v in faces.values() if low + _SAME < v[0] < high - _SAME), 1):
-        yield Size(f"length.{k}", complex(low, -foot), complex(x, -top), "below")
-    last = next((top for x, top in faces.values() if abs(x - high) < _SAME), 0.0)
-    yield Size("length", complex(low, -foot), complex(high, -last), "below")
-
-
-def _chamfers(loop: Loop) -> Iterator[Size]:
-    """Chamfers of 45 degrees, those of one length once."""
-    lengths = [abs(_end.imag - _start.imag) for _start, _end in map(_ends, loop)]
-    whole, seen = max(lengths), set[float]()
-    for curve in loop:
-        start, end = _ends(curve)
-        way = end - start
-        slanted = isinstance(curve, Line) and abs(abs(way.real) - abs(way.imag)) < 1e-6 * abs(way)
-        if slanted and abs(way.imag) < whole and round(abs(way.real), 9) not in seen:
-            seen.add(round(abs(way.real), 9))
-            yield Size(f"chamfer.{len(seen)}", start, end, "above", "", "×45°")
-
-
-def _ends(curve: Line | Arc) -> tuple[complex, complex]:
-    return start_point(curve), end_point(curve)
 
 
 def _fillets(loop: Loop) -> Iterator[Round]:
@@ -260,8 +175,8 @@ def _keyway(half: HalfSection, pocket: Pocket, number: int, subject: Subject) ->
     rim = math.sqrt(radius * radius - w * w)
     turn = cmath.phase(complex(w, rim))
     around = Arc(0j, radius, math.pi - turn, math.pi + 2 * turn)
-    lines: tuple[Line | Arc, ...] = (Line(complex(w, rim), complex(w, pocket.floor)), Line(complex(w, pocket.floor), complex(-w, pocket.floor)),
-             Line(complex(-w, pocket.floor), complex(-w, rim)))  # fmt: skip
+    walls = [complex(w, rim), complex(w, pocket.floor), complex(-w, pocket.floor), complex(-w, rim)]
+    lines: list[Line | Arc] = [Line(a, b) for a, b in pairwise(walls)]
     bore = [circle_of(inner)] if inner > 0 else list[Arc]()
     sizes = (
         Size(f"keyway.{number + 1}.width", complex(-w, rim), complex(w, rim), "above", "", subject.wishes.shaft_keyway),

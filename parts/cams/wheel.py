@@ -84,6 +84,8 @@ T = TypeVar("T")
 class Turned(Kind[K, T]):
     """A kind whose solid is a wheel: outline, holes, hub and chamfers."""
 
+    drawing = "parts.cams.drawings"
+
     def body(self, keys: K, thing: T) -> WheelShape:
         """Thickness, hub and chamfers."""
         raise NotImplementedError

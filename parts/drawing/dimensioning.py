@@ -265,7 +265,8 @@ class _Layout:
             for reach in _REACHES:
                 for angle in one.angles:
                     way = cmath.rect(1.0, math.radians(angle))
-                    yield centre + radius * way, centre + (radius + reach) * way, way
+                    out = -1 if one.inward else 1
+                    yield centre + radius * way, centre + (radius + out * reach) * way, out * way
 
         for tip, elbow, way in leaders():
             lines, text = _shelved(elbow, words, way)

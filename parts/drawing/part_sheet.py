@@ -163,6 +163,8 @@ def part_sheet(drawing: PartDrawing, data: Block | None, roughness: float, asked
 
     def greatest(canvas: Canvas) -> float:
         """The greatest scale at which all views stand in a field."""
+        if corner.low + corner.high[1] > canvas.frame.high - canvas.frame.low:
+            return 0.0
         fields = [field.grown(-_MARGIN) for field in corner.fields(canvas.frame)]
         most = max(min(f.right - f.left, f.high - f.low) / min(sizes[0]) for f in fields)
         # unless a paper is asked for, what is large enough stays in its size

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Iterator
 
 from geometry.base.placement import Placement2
 from geometry.base.record import Record
@@ -16,7 +17,7 @@ from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, Round
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape
 from parts.drawing.revolved import Loop, below, closed, outlined, seen_edges
-from parts.drawing.working import AXIS, VISIBLE, Note, Round, Size, Stroke, Subject, View
+from parts.drawing.working import AXIS, THIN, VISIBLE, Note, Round, Size, Stroke, Subject, View
 from parts.texts.sheets import sheet_words
 
 # a view of a bore is so high on paper at least, mm
@@ -24,19 +25,42 @@ _LEAST_BORE = 25.0
 _UP = math.pi / 2
 
 
+class Crown(Record):
+    """The rim of a worm wheel: distance of its worm's axis, radii of throat and root about that, of the outside, mm."""
+
+    distance: float
+    throat: float
+    root: float
+    outer: float
+
+    def top(self, side: Line, radius: float) -> list[Line | Arc]:
+        """What stands in place of the rim's outer line, which runs in -x: the arc of a radius about the worm's axis."""
+        middle = complex((side.start.real + side.end.real) / 2, self.distance)
+        drop = self.distance - side.start.imag
+        half = min(abs(side.start.real - side.end.real) / 2, math.sqrt(max((radius - drop) * (radius + drop), 0.0)))
+        turn = math.asin(half / radius)
+        arc = Arc(middle, radius, turn - _UP, -2 * turn)
+        ends = complex(arc.point(0.0)), complex(arc.point(2 * turn))
+        found: list[Line | Arc] = [Line(side.start, ends[0]), arc, Line(ends[1], side.end)]
+        return [line for line in found if isinstance(line, Arc) or abs(line.end - line.start) > 1e-9]
+
+
 class Wheel(Record):
     """What the views of a wheel show, radii in mm.
 
     ``tip`` up and down from the axis, where it is not round; ``root`` and ``pitch``: of teeth on it, None: it has none;
-    ``outline``: the exact one.
+    ``outline``: the exact one, None: it has another at each height; ``crown``: of a worm wheel; ``rounds``: circles
+    about the axis that are shown, with their sizes.
     """
 
     shape: WheelShape
     holes: HubHoles
     tip: tuple[float, float]
-    outline: Profile
+    outline: Profile | None
     root: float | None = None
     pitch: float | None = None
+    crown: Crown | None = None
+    rounds: tuple[Round, ...] = ()
 
     @property
     def turn(self) -> float:
@@ -112,6 +136,27 @@ def _half(wheel: Wheel, bore: float, outer: float, *, toothed: bool) -> list[com
     return [*sides[0], *sides[1][::-1]]
 
 
+def _loops(wheel: Wheel, bore: float, tip: float) -> tuple[Loop, Loop, Loop]:
+    """Half a section, what is hatched of it, and the root line of teeth, which are not."""
+    loop, width, crown = closed(_half(wheel, bore, tip, toothed=False)), wheel.shape.face_width, wheel.crown
+    if wheel.root is None:
+        return loop, loop, ()
+    if crown is None:
+        solid = closed(_half(wheel, bore, wheel.root, toothed=True))
+        return loop, solid, (Line(1j * wheel.root, complex(width, wheel.root)),)
+    edge = crown.distance - math.sqrt((crown.root - width / 2) * (crown.root + width / 2))
+    solid = closed(_half(wheel, bore, edge, toothed=True))
+    tips, roots = (crown.top(Line(complex(width, y), 1j * y), r) for y, r in ((tip, crown.throat), (edge, crown.root)))
+    return _topped(loop, tip, tips), _topped(solid, edge, roots), tuple(roots)
+
+
+def _topped(loop: Loop, height: float, top: Loop) -> Loop:
+    """A loop with other lines in place of the one at a height."""
+    return tuple(
+        piece for c in loop for piece in (top if isinstance(c, Line) and c.start.imag == c.end.imag == height else (c,))
+    )
+
+
 def section_view(wheel: Wheel, subject: Subject) -> View:
     """The axial section; holes and spokes are turned into its plane."""
     shape, holes, wishes, at = wheel.shape, wheel.holes, subject.wishes, levels(wheel.shape)
@@ -124,15 +169,11 @@ def section_view(wheel: Wheel, subject: Subject) -> View:
         def placed(loop: Loop, way: int = way) -> Loop:
             return loop if way > 0 else below(loop)
 
-        loop = closed(_half(wheel, bore, tip, toothed=False))
-        strokes += outlined(placed(loop))
-        strokes += [(VISIBLE, line) for line in placed(seen_edges(loop, cut=True))]
-        solid = loop if wheel.root is None else closed(_half(wheel, bore, wheel.root, toothed=True))
+        loop, solid, root = _loops(wheel, bore, tip)
         hatched.append(tuple(placed(solid)))
+        strokes += outlined(placed(loop))
+        strokes += [(VISIBLE, line) for line in placed((*root, *seen_edges(loop, cut=True)))]
         ends = complex(0.0, way), complex(shape.face_width, way)
-        if wheel.root is not None:
-            root = wheel.root
-            strokes.append((VISIBLE, Line(*(complex(e.real, e.imag * root) for e in ends))))
         if wheel.pitch is not None:
             pitch = wheel.pitch
             axes.append(Line(*(complex(e.real, e.imag * pitch) for e in ends)))
@@ -148,8 +189,16 @@ def section_view(wheel: Wheel, subject: Subject) -> View:
         rim = math.sqrt((keyed.diameter - keyed.width) * (keyed.diameter + keyed.width)) / 2
         for way in (1, -1)[: keyed.keys]:
             strokes.append((VISIBLE, Line(complex(at.hub[0], way * rim), complex(at.hub[1], way * rim))))
-    return View(tuple(strokes), tuple(hatched), tuple(axes), tuple(_section_sizes(wheel, subject)),
-                notes=_section_notes(wheel, subject, at, wishes.flank_roughness))  # fmt: skip
+    sizes, notes = tuple(_section_sizes(wheel, subject)), _section_notes(wheel, subject, at, wishes.flank_roughness)
+    return View(tuple(strokes), tuple(hatched), tuple(axes), sizes, tuple(_crown_rounds(wheel)), notes)
+
+
+def _crown_rounds(wheel: Wheel) -> Iterator[Round]:
+    """The radius of a worm wheel's throat."""
+    if (crown := wheel.crown) is not None:
+        centre = complex(wheel.shape.face_width / 2, crown.distance)
+        angles = (-90.0, -80.0, -100.0)
+        yield Round("throat_radius", centre, crown.throat, "R", is_radius=True, angles=angles, inward=True)
 
 
 def _openings(holes: HubHoles) -> list[tuple[float, float, bool]]:
@@ -169,6 +218,8 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
     up, down = wheel.tip
     if up == down:
         diameter("tip_diameter", 2 * up, shape.chamfer_below, "left", wishes.tip)
+    if (crown := wheel.crown) is not None:
+        diameter("throat_diameter", 2 * (crown.distance - crown.throat), width / 2, "right")
     if shape.web is not None:
         diameter("web.rim_diameter", shape.web.rim_diameter, 0.0, "left")
         found.append(Size("web.thickness", complex(at.web[0], shape.web.rim_diameter / 2),
@@ -230,11 +281,14 @@ def face_view(wheel: Wheel, subject: Subject) -> View:
     turn, tip = wheel.turn, max(wheel.tip)
     placement = Placement2(turn)
     strokes: list[Stroke] = []
-    if wheel.pitch is None:
+    if wheel.outline is None:
+        strokes += [(VISIBLE, circle_of(tip))]
+    elif wheel.pitch is None:
         strokes += [(VISIBLE, s.curve.placed(placement)) for s in wheel.outline.segments()]
     else:
         count = min(subject.wishes.teeth, wheel.outline.count)
         strokes += exact_teeth(wheel.outline, count, turn, tip) if count else [(VISIBLE, circle_of(tip))]
+    if wheel.pitch is not None:
         strokes.append((AXIS, circle_of(wheel.pitch)))
     shape, at = wheel.shape, levels(wheel.shape)
     if shape.hub is not None and at.hub[1] > at.web[1]:
@@ -243,23 +297,32 @@ def face_view(wheel: Wheel, subject: Subject) -> View:
         strokes.append((VISIBLE, circle_of(shape.web.rim_diameter / 2)))
     for profile in wheel.holes.profiles():
         strokes += [(VISIBLE, s.curve.placed(placement)) for s in profile.segments()]
-    axes: list[Line] = [*axis_cross(tip)]
-    rounds = []
-    for index, (_, group) in enumerate(wheel.holes.groups(), 1):
-        strokes.append((AXIS, circle_of(group.pitch_circle_diameter / 2)))
-        centres = [c * cmath.exp(1j * turn) for c in group.centres()]
-        for centre in centres:
-            way = centre / abs(centre) * group.diameter / 2
-            axes.append(Line(centre - way, centre + way))
-        words = sheet_words(subject.language, "holes_of", count=group.count) if group.count > 1 else ""
-        best = max(centres, key=lambda c: c.real + c.imag)
-        rounds.append(Round(f"holes.{index}.diameter", best, group.diameter / 2, f"{words}Ø"))
+    strokes += [(AXIS, circle_of(group.pitch_circle_diameter / 2)) for _, group in wheel.holes.groups()]
+    axes = (*axis_cross(tip), *hole_axes(wheel.holes, turn))
+    rounds = [*group_rounds(wheel.holes, turn, subject), *wheel.rounds]
+    strokes += [(THIN, circle_of(one.radius)) for one in wheel.rounds]
     notes = []
     if (spokes := wheel.holes.spokes) is not None:
         text = sheet_words(subject.language, "spokes_of", count=spokes.count, width=subject.say(spokes.width))
         at_spoke = cmath.rect((spokes.inner_diameter + spokes.outer_diameter) / 4, spokes.start + turn)
         notes.append(Note(at_spoke + 0.5j * spokes.width * cmath.exp(1j * (spokes.start + turn)), text))
-    return View(tuple(strokes), (), tuple(axes), (), tuple(rounds), tuple(notes))
+    return View(tuple(strokes), (), axes, (), tuple(rounds), tuple(notes))
+
+
+def hole_axes(holes: HubHoles, turn: float) -> tuple[Line, ...]:
+    """Short axes of round holes, along the radius."""
+    centres = [(c * cmath.exp(1j * turn), g.diameter / 2) for _, g in holes.groups() for c in g.centres()]
+    return tuple(Line(c - c / abs(c) * r, c + c / abs(c) * r) for c, r in centres)
+
+
+def group_rounds(holes: HubHoles, turn: float, subject: Subject) -> tuple[Round, ...]:
+    """The diameters of groups of round holes, with how many there are."""
+    found = []
+    for index, (_, group) in enumerate(holes.groups(), 1):
+        best = max((c * cmath.exp(1j * turn) for c in group.centres()), key=lambda c: c.real + c.imag)
+        words = sheet_words(subject.language, "holes_of", count=group.count) if group.count > 1 else ""
+        found.append(Round(f"holes.{index}.diameter", best, group.diameter / 2, f"{words}Ø"))
+    return tuple(found)
 
 
 def bore_view(bore: Bore, subject: Subject) -> View:

@@ -48,7 +48,7 @@ class Size(Record):
 class Round(Record):
     """The diameter, or the radius where ``is_radius``, of a circle or arc, on a leader; ``angles``: where it may stand.
 
-    Angles in degrees, the best first.
+    Angles in degrees, the best first. ``inward``: its leader runs towards the centre.
     """
 
     name: str
@@ -57,6 +57,7 @@ class Round(Record):
     before: str = "Ø"
     after: str = ""
     is_radius: bool = False
+    inward: bool = False
     angles: tuple[float, ...] = (45.0, 135.0, -45.0, -135.0)
 
     @property

@@ -82,6 +82,7 @@ class RackKind(Kind[RackSpec, "Rack"]):
     """A straight rack; its datum line lies on the x axis."""
 
     name, keys = "rack", RackSpec
+    drawing = "parts.gears.drawings"
     data_table = "parts.gears.data_tables"
 
     def thing(self, keys: RackSpec, others: Others) -> Rack:

@@ -188,6 +188,7 @@ class RingGearKind(Kind[RingGearSpec, "RingGear"]):
     """An internal gear: a toothed hole in a round rim."""
 
     name, keys = "ring_gear", RingGearSpec
+    drawing = "parts.gears.drawings"
     data_table = "parts.gears.data_tables"
 
     def thing(self, keys: RingGearSpec, others: Others) -> RingGear:

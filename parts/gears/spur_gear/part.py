@@ -177,7 +177,7 @@ class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
     """An external gear; a mate may have shortened its tip."""
 
     name, keys = "spur_gear", SpurGearSpec
-    drawing = "parts.gears.spur_gear.drawing"
+    drawing = "parts.gears.drawings"
     data_table = "parts.gears.data_tables"
     sheet_shown = "generating", N_('; purpose = "generating": device TMM-42')
 

@@ -174,6 +174,7 @@ class WormKind(Kind[WormSpec, "WormBody"]):
     """A worm; the middle of its thread lies at z = 0, and its flat outline is the section there."""
 
     name, keys = "worm", WormSpec
+    drawing = "parts.gears.drawings"
     data_table = "parts.gears.data_tables"
 
     def thing(self, keys: WormSpec, others: Others) -> WormBody:

@@ -194,6 +194,7 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
     """A worm wheel, which has another section at every height."""
 
     name, keys, has_outline = "worm_wheel", WormWheelSpec, False
+    drawing = "parts.gears.drawings"
     data_table = "parts.gears.data_tables"
 
     def thing(self, keys: WormWheelSpec, others: Others) -> WheelThing:

@@ -1,0 +1,94 @@
+"""The working drawing of a flat body of lines and arcs: its outline with the places of its holes, its thickness."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator
+
+from geometry.curves.curve import Curve
+from geometry.curves.line_arc import Arc, Line
+from geometry.plane.profile import Profile
+from parts.drawing.wheel_views import circle_of
+from parts.drawing.working import VISIBLE, Note, PartDrawing, Round, Size, Stroke, Subject, View, requirements
+from parts.texts.sheets import sheet_words
+
+_DIGITS = 9
+
+
+def part_drawing(subject: Subject) -> PartDrawing:
+    """One view, its thickness told."""
+    region = subject.part.section(0.0).region
+    curves = [s.curve for s in region.outer.segments()]
+    ends = [_extremes(c) for c in curves]
+    low = complex(min(e[0] for e in ends), min(e[1] for e in ends))
+    high = complex(max(e[2] for e in ends), max(e[3] for e in ends))
+    strokes: list[Stroke] = [(VISIBLE, curve) for curve in curves]
+    round_holes = [found for hole in region.holes if (found := _circle(hole)) is not None]
+    strokes += [(VISIBLE, circle_of(radius, centre)) for centre, radius in round_holes]
+    slots = [hole for hole in region.holes if _circle(hole) is None]
+    for profile in (*slots, *region.marks):
+        strokes += [(VISIBLE, s.curve) for s in profile.segments()]
+    axes = [Line(centre - r * way, centre + r * way) for centre, r in round_holes for way in (1, 1j)]
+    centres = [centre for centre, _ in round_holes]
+    for profile in slots:
+        centres += [s.curve.centre for s in profile.segments() if isinstance(s.curve, Arc)]
+    sizes = [Size("width", low, complex(high.real, low.imag), "below"),
+             Size("height", low, complex(low.real, high.imag), "left")]  # fmt: skip
+    for k, (x, at) in enumerate(sorted({round(c.real, _DIGITS): c for c in centres}.items()), 1):
+        if low.real < x < high.real:
+            sizes.append(Size(f"x.{k}", low, at, "below"))
+    for k, (y, at) in enumerate(sorted({round(c.imag, _DIGITS): c for c in centres}.items()), 1):
+        if low.imag < y < high.imag:
+            sizes.append(Size(f"y.{k}", low, at, "left"))
+    rounds = [*_diameters(round_holes, subject), *_radii([curves, *[[s.curve for s in p.segments()] for p in slots]])]
+    thick = Note(complex(high.real, (low.imag + 2 * high.imag) / 3), f"s {subject.say(subject.part.face_width)}")
+    edges = max((c for c in curves if isinstance(c, Line)), key=lambda c: c.end.real + c.start.real, default=None)
+    notes = (thick if edges is None else Note((edges.start + edges.end) / 2, thick.text),)
+    view = View(tuple(strokes), (), tuple(axes), tuple(sizes), tuple(rounds), notes)
+    return PartDrawing((view,), requirements(subject))
+
+
+def _extremes(curve: Curve) -> tuple[float, float, float, float]:
+    """Least x and y, greatest x and y of a line or arc."""
+    assert isinstance(curve, Line | Arc)
+    a, b = curve.domain
+    points = [complex(curve.point(t)) for t in (a, b)]
+    if isinstance(curve, Arc):
+        for k in range(4):
+            turn = (k * math.pi / 2 - curve.start_angle) * math.copysign(1.0, curve.sweep) % (2 * math.pi)
+            if turn <= abs(curve.sweep):
+                points.append(curve.centre + cmath.rect(curve.radius, k * math.pi / 2))
+    return (min(p.real for p in points), min(p.imag for p in points),
+            max(p.real for p in points), max(p.imag for p in points))  # fmt: skip
+
+
+def _circle(profile: Profile) -> tuple[complex, float] | None:
+    """Centre and radius of a round hole; None: it is none."""
+    arcs = [s.curve for s in profile.segments() if isinstance(s.curve, Arc)]
+    whole = len({(a.centre, a.radius) for a in arcs}) == 1 and len(arcs) == len(list(profile.segments()))
+    return (arcs[0].centre, arcs[0].radius) if whole else None
+
+
+def _diameters(holes: list[tuple[complex, float]], subject: Subject) -> Iterator[Round]:
+    """Each diameter once, with how many holes have it."""
+    groups: dict[float, list[complex]] = {}
+    for centre, radius in holes:
+        groups.setdefault(round(radius, _DIGITS), []).append(centre)
+    for k, (_, centres) in enumerate(sorted(groups.items()), 1):
+        best = max(centres, key=lambda c: (round(c.real + c.imag, 6), c.real))
+        radius = next(r for c, r in holes if c == best)
+        words = sheet_words(subject.language, "holes_of", count=len(centres)) if len(centres) > 1 else ""
+        yield Round(f"holes.{k}.diameter", best, radius, f"{words}Ø")
+
+
+def _radii(chains: list[list[Curve]]) -> Iterator[Round]:
+    """Each radius of an arc once."""
+    seen = set[float]()
+    for chain in chains:
+        for curve in chain:
+            if isinstance(curve, Arc) and round(curve.radius, _DIGITS) not in seen:
+                seen.add(round(curve.radius, _DIGITS))
+                way = math.degrees(cmath.phase(complex(curve.point(abs(curve.sweep) / 2)) - curve.centre))
+                yield Round(f"radius.{len(seen)}", curve.centre, curve.radius, "R", is_radius=True,
+                            angles=(way, way + 20, way - 20))  # fmt: skip

@@ -1,0 +1,57 @@
+"""The working drawings of cams that are disks: the exact profile, its base circle, the axial section."""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+import numpy as np
+
+from geometry.base.roots import bracketed_root
+from geometry.curves.curve import Curve
+from geometry.plane.profile import Profile
+from parts.cams.wheel import Turned
+from parts.drawing.wheel_views import Wheel, wheel_views
+from parts.drawing.working import PartDrawing, Round, Subject, requirements
+
+_SAMPLES = 65
+
+
+def part_drawing(subject: Subject) -> PartDrawing:
+    """Section across the profile, face, bore."""
+    part = subject.part
+    kind = part.made_by
+    assert isinstance(kind, Turned)
+    outline = part.section(0.0).region.outer
+    bare = Wheel(kind.body(part.keys, part.thing), kind.holes(part.keys, part.thing), (0.0, 0.0), outline)
+    up = math.pi / 2 - bare.turn
+    circles = [
+        Round(name.removesuffix("_diameter"), 0j, size / 2, angles=(-60.0, -120.0, -30.0, 210.0))
+        for name, size in part.circles.items()
+        if name == "base_circle_diameter"
+    ]
+    tip = reach(outline, up), reach(outline, up + math.pi)
+    wheel = Wheel(bare.shape, bare.holes, tip, outline, rounds=tuple(circles))
+    return PartDrawing(wheel_views(wheel, subject), requirements(subject))
+
+
+def reach(profile: Profile, angle: float) -> float:
+    """How far a profile about the origin is from there in a direction (rad), mm."""
+    turn = cmath.exp(-1j * angle)
+    found = []
+    for segment in profile.segments():
+        curve = segment.curve
+        t = np.linspace(*curve.domain, _SAMPLES)
+        points = curve.point(t) * turn
+        for k in np.flatnonzero((points[:-1].imag >= 0) != (points[1:].imag >= 0)):
+            found.append(_crossing(curve, turn, float(t[k]), float(t[k + 1])))
+    return max(found)
+
+
+def _crossing(curve: Curve, turn: complex, low: float, high: float) -> float:
+    """How far out a piece of a curve crosses the direction, which it does once."""
+
+    def off(t: float) -> float:
+        return (complex(curve.point(t)) * turn).imag
+
+    return (complex(curve.point(bracketed_root(off, low, high).value)) * turn).real

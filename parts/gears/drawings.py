@@ -1,0 +1,213 @@
+"""The working drawings of gears, rings, racks, worms and their wheels; images of teeth after GOST 2.402."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geometry.curves.curve import Curve, end_point, start_point
+from geometry.curves.line_arc import Line
+from geometry.gears.teeth.ring import RingGear
+from geometry.gears.teeth.spur import SpurGear
+from geometry.solids.bores import RoundBore
+from parts.drawing.revolved import below, chamfers, closed, diameters, lengths, outlined, seen_edges
+from parts.drawing.wheel_views import (
+    Crown,
+    Wheel,
+    axis_cross,
+    bore_view,
+    circle_of,
+    exact_teeth,
+    group_rounds,
+    hole_axes,
+    wheel_views,
+)
+from parts.drawing.working import (
+    AXIS,
+    HIDDEN,
+    THIN,
+    VISIBLE,
+    Note,
+    PartDrawing,
+    Round,
+    Size,
+    Stroke,
+    Subject,
+    View,
+    requirements,
+)
+from parts.gears.rack.part import RackSpec
+from parts.gears.ring_gear.part import RingGearSpec
+from parts.gears.spur_gear.part import SpurGearSpec
+from parts.gears.worm.part import WormSpec
+from parts.gears.worm_wheel.part import WheelThing, WormWheelSpec
+from parts.keys.holes import bore_of
+from parts.keys.wheel import wheel_shape
+from parts.texts.sheets import sheet_words
+
+if TYPE_CHECKING:
+    from geometry.gears.teeth.rack import Rack
+    from geometry.gears.worms.body import WormBody
+
+
+def part_drawing(subject: Subject) -> PartDrawing:
+    """The drawing of any toothed part."""
+    match subject.part.keys:
+        case SpurGearSpec() as keys:
+            views = wheel_views(_spur(keys, subject), subject)
+        case WormWheelSpec() as keys:
+            views = wheel_views(_worm_wheel(keys, subject.part.thing), subject)
+        case RingGearSpec() as keys:
+            views = _ring(keys, subject.part.thing, subject)
+        case RackSpec() as keys:
+            views = _rack(keys, subject.part.thing, subject)
+        case WormSpec() as keys:
+            views = _worm(keys, subject.part.thing, subject)
+        case keys:
+            raise TypeError(type(keys))
+    return PartDrawing(views, requirements(subject))
+
+
+def _spur(keys: SpurGearSpec, subject: Subject) -> Wheel:
+    gear: SpurGear = subject.part.thing
+    shape = wheel_shape(keys.face_width, keys.web, keys.hub, keys.face_chamfer)
+    tip, outline = gear.tip_radius, subject.part.section(0.0).region.outer
+    return Wheel(shape, gear.holes, (tip, tip), outline, gear.root_radius, gear.reference_radius)
+
+
+def _worm_wheel(keys: WormWheelSpec, thing: WheelThing) -> Wheel:
+    drive, teeth = thing.drive, thing.teeth
+    shape, a = wheel_shape(teeth.width, keys.web, keys.hub, 0.0), drive.centre_distance
+    edge = float(teeth.tip_radius(teeth.width / 2))
+    crown = Crown(a, drive.throat_radius, a - drive.root_radius, teeth.outer_radius)
+    return Wheel(shape, keys.hub_holes(), (edge, edge), None, drive.root_radius, drive.reference_radius, crown)
+
+
+def _ring(keys: RingGearSpec, ring: RingGear, subject: Subject) -> tuple[View, ...]:
+    """Axial section and face of a ring."""
+    width, outer, root = keys.face_width, ring.outer_radius, ring.root_radius
+    tip, pitch, wishes = ring.tip_radius, ring.reference_radius, subject.wishes
+    loop = closed([complex(0, tip), complex(width, tip), complex(width, outer), complex(0, outer)])
+    solid = closed([complex(0, root), complex(width, root), complex(width, outer), complex(0, outer)])
+    strokes: list[Stroke] = []
+    axes = [Line(0j, complex(width))]
+    for side, way in ((loop, 1), (below(loop), -1)):
+        strokes += [*outlined(side), (VISIBLE, Line(complex(0, way * root), complex(width, way * root)))]
+        strokes += [(VISIBLE, edge if way > 0 else edge.mirrored()) for edge in seen_edges(loop, cut=True)]
+        axes.append(Line(complex(0, way * pitch), complex(width, way * pitch)))
+        for _, group in ring.holes.groups():
+            for radius in (group.pitch_circle_diameter / 2 - group.diameter / 2, group.reach):
+                strokes.append((VISIBLE, Line(complex(0, way * radius), complex(width, way * radius))))
+            middle = way * group.pitch_circle_diameter / 2
+            axes.append(Line(complex(0, middle), complex(width, middle)))
+    hatched = [solid, below(solid)]
+    for _, group in ring.holes.groups():
+        low, high = group.pitch_circle_diameter / 2 - group.diameter / 2, group.reach
+        hole = closed([complex(0, low), complex(width, low), complex(width, high), complex(0, high)])
+        hatched += [hole, below(hole)]
+    sizes = [
+        Size("outer_diameter", complex(0, -outer), complex(0, outer), "left", "Ø", wishes.tip),
+        Size("tip_diameter", complex(width, -tip), complex(width, tip), "right", "Ø", wishes.inner),
+        Size("face_width", complex(0, -outer), complex(width, -outer), "below", "", wishes.width),
+    ]
+    for index, (_, group) in enumerate(ring.holes.groups(), 1):
+        middle = group.pitch_circle_diameter / 2
+        sizes.append(Size(f"holes.{index}.pitch_circle_diameter", -1j * middle, 1j * middle, "left", "Ø"))
+    rough = Note(complex(width, -pitch), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True)
+    section = View(tuple(strokes), tuple(hatched), tuple(axes), tuple(sizes), notes=(rough,))
+    toothed = next(p for p in subject.part.section(0.0).region.holes if p.count == ring.number_of_teeth)
+    count = min(wishes.teeth, ring.number_of_teeth)
+    face: list[Stroke] = [(VISIBLE, circle_of(outer)), (AXIS, circle_of(pitch))]
+    face += exact_teeth(toothed, count, 0.0, tip) if count else [(VISIBLE, circle_of(tip))]
+    for _, group in ring.holes.groups():
+        face += [(VISIBLE, circle_of(group.diameter / 2, centre)) for centre in group.centres()]
+        face.append((AXIS, circle_of(group.pitch_circle_diameter / 2)))
+    cross = (*axis_cross(outer), *hole_axes(ring.holes, 0.0))
+    return section, View(tuple(face), (), cross, (), group_rounds(ring.holes, 0.0, subject))
+
+
+def _rack(keys: RackSpec, rack: Rack, subject: Subject) -> tuple[View, ...]:
+    """The rack from its side, its end teeth and as many more as are wished exact, and its section."""
+    length, pitch, wishes = rack.length, rack.pitch, subject.wishes
+    tip, root, foot = rack.addendum, -rack.dedendum, -rack.dedendum - rack.body_height
+    region, half = subject.part.section(0.0).region, length / 2
+    shown = max(1, math.ceil(wishes.teeth / 2)) * pitch
+    strokes: list[Stroke] = []
+    kept = [s.curve for s in region.outer.segments() if _beside(s.curve, half, shown)]
+    strokes += [(VISIBLE, curve) for curve in kept]
+    if 2 * shown < length:
+        tips = [p.real for c in kept for p in (start_point(c), end_point(c)) if abs(p.imag - tip) < 1e-6]
+        left, right = max(x for x in tips if x < 0), min(x for x in tips if x > 0)
+        strokes += [(VISIBLE, Line(complex(left, tip), complex(right, tip))),
+                    (THIN, Line(complex(-half + shown, root), complex(half - shown, root)))]  # fmt: skip
+    sizes = [Size("length", complex(-half, foot), complex(half, foot), "below")]
+    rounds = []
+    if rack.holes is not None:
+        holes, y = rack.holes, root - rack.holes.depth
+        centres = [complex((k - (holes.count - 1) / 2) * holes.spacing, y) for k in range(holes.count)]
+        strokes += [(VISIBLE, circle_of(holes.diameter / 2, centre)) for centre in centres]
+        sizes.append(Size("holes.depth", complex(-half, foot), centres[0], "left"))
+        if len(centres) > 1:
+            sizes.append(Size("holes.spacing", centres[0], centres[1], "below"))
+        sizes.append(Size("holes.first", complex(-half, foot), centres[0], "below"))
+        rounds.append(Round("holes.diameter", centres[-1], holes.diameter / 2, _count(holes.count, subject)))
+    rough = Note(complex(half - pitch / 2, tip), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True)
+    front = View(tuple(strokes), (), (Line(complex(-half), complex(half)),), tuple(sizes), tuple(rounds), (rough,))
+    width = keys.face_width
+    whole = closed([complex(0, foot), complex(width, foot), complex(width, tip), complex(0, tip)])
+    solid = closed([complex(0, foot), complex(width, foot), complex(width, root), complex(0, root)])
+    section = View(
+        (*((VISIBLE, line) for line in whole), (VISIBLE, Line(complex(0, root), complex(width, root)))),
+        (solid,),
+        (Line(0j, complex(width)),),
+        (
+            Size("face_width", complex(0, foot), complex(width, foot), "below", "", wishes.width),
+            Size("height", complex(width, foot), complex(width, tip), "right", "", wishes.tip),
+            Size("datum_height", complex(0, foot), 0j, "left"),
+        ),
+    )
+    return front, section
+
+
+def _count(number: int, subject: Subject) -> str:
+    return f"{sheet_words(subject.language, 'holes_of', count=number)}Ø" if number > 1 else "Ø"
+
+
+def _beside(curve: Curve, half: float, shown: float) -> bool:
+    """Whether a curve of a rack is drawn as it is: at an end of it, or longer than what is left out."""
+    xs = curve.point(np.linspace(*curve.domain, 5)).real
+    return bool(xs.max() <= -half + shown + 1e-6 or xs.min() >= half - shown - 1e-6 or np.ptp(xs) > half)
+
+
+def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
+    """The worm with its shaft from outside, and its bore where that is not round."""
+    worm, half, wishes = body.thread.worm, body.length / 2, subject.wishes
+    top = float(body.end_height(worm.tip_radius))
+    lower, upper = ([complex(z, r) for z, r in body.outline(above=side)] for side in (False, True))
+    points = [complex(lower[-1].real, 0), *lower[::-1], complex(-top, worm.tip_radius), complex(top, worm.tip_radius),
+              *upper, complex(upper[-1].real, 0)]  # fmt: skip
+    loop = closed(points)
+    strokes: list[Stroke] = []
+    for way, side in ((1, loop), (-1, below(loop))):
+        strokes += outlined(side)
+        strokes += [(VISIBLE, edge if way > 0 else edge.mirrored()) for edge in seen_edges(loop, cut=False)]
+        strokes.append((THIN, Line(complex(-half, way * worm.root_radius), complex(half, way * worm.root_radius))))
+        strokes.append(
+            (AXIS, Line(complex(-half, way * worm.reference_radius), complex(half, way * worm.reference_radius)))
+        )
+    low, high = body.ends()
+    at_root = complex(-half, worm.root_radius), complex(half, worm.root_radius)
+    sizes = [*diameters(loop, (wishes.shaft, ""), largest=wishes.tip), *lengths(loop), *chamfers(loop),
+             Size("thread_length", *at_root, "above")]  # fmt: skip
+    bore = bore_of(keys)
+    made = None if bore is None else bore.bore()
+    if made is not None:
+        reach = made.reach
+        strokes += [(HIDDEN, Line(complex(low, y), complex(high, y))) for y in (-reach, reach)]
+        if isinstance(made, RoundBore):
+            sizes.append(Size("bore_diameter", complex(high, -reach), complex(high, reach), "right", "Ø", wishes.bore))
+    rough = Note(complex(top / 2, worm.tip_radius), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True)
+    view = View(tuple(strokes), (), (Line(complex(low), complex(high)),), tuple(sizes), notes=(rough,))
+    return (view,) if made is None or isinstance(made, RoundBore) else (view, bore_view(made, subject))
