@@ -273,6 +273,8 @@ def _add_title_block(
     more = {"name": given.name or (part and part.title) or scene.scene.title or scene.name}
     if part is not None:
         more |= {"material": given.material or part.material or "", "mass": given.mass or _mass(part, language)}
+        if export.purpose == "part":
+            more["designation"] = given.designation or part.keys.designation or ""  # type: ignore[attr-defined]
     scale = scale_text(expected.paper.scale, language)
     form = form_of(number[0]) if export.purpose == "parts_list" else FORM_1
     draw_title_block(expected.canvas, title_block_of(replace(given, **more), scale, *number), language, form)

@@ -31,7 +31,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
         if name == "base_circle_diameter"
     ]
     tip = reach(outline, up), reach(outline, up + math.pi)
-    wheel = Wheel(bare.shape, bare.holes, tip, outline, rounds=tuple(circles))
+    wheel = Wheel(bare.shape, bare.holes, tip, outline, rounds=tuple(circles), stands=False)
     return PartDrawing(wheel_views(wheel, subject), requirements(subject))
 
 

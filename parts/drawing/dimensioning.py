@@ -389,6 +389,10 @@ def moved(view: Laid, canvas: Canvas, shift: complex) -> None:
 
 
 def _shifted(text: Text, shift: complex) -> Text:
-    box = text.box
-    moved_box = Box(box.left + shift.real, box.low + shift.imag, box.right + shift.real, box.high + shift.imag)
-    return replace(text, runs=tuple(replace(run, at=run.at + shift) for run in text.runs), box=moved_box)
+    runs = tuple(replace(run, at=run.at + shift) for run in text.runs)
+    return replace(text, runs=runs, box=shifted(text.box, shift))
+
+
+def shifted(box: Box, by: complex) -> Box:
+    """A rectangle moved."""
+    return Box(box.left + by.real, box.low + by.imag, box.right + by.real, box.high + by.imag)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
+from itertools import product
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from geometry.plane.measure import distance_to_curves
 from parts.drawing.canvas import SCALES, SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Paper, scale_text, text_width
 from parts.drawing.cells import wrapped
 from parts.drawing.choice import Asked, sheet_for
-from parts.drawing.dimensioning import Laid, laid, moved, rough_sign
+from parts.drawing.dimensioning import Laid, laid, moved, rough_sign, shifted
 from parts.drawing.expected import Expected
 from parts.drawing.readback import ReadSheet
 from parts.drawing.title_block import TITLE_BLOCK
@@ -32,6 +33,8 @@ _SAME = 1e-6
 # a curve of a file is another's where their ends are farther apart, mm on paper
 _NEAR = 0.01
 _INDENT = 1.0
+# places along each side of a sheet that are tried for views
+_TRIED = 24
 
 
 class PartMeasures(Record):
@@ -101,12 +104,11 @@ class _Corner(Record):
             return _SIGN
         return max(self.data.size[0], _SIGN[0]), _SIGN[1] + self.data.size[1]
 
-    def fields(self, frame: Box) -> Iterator[Box]:
-        """Where views may stand: left of all, left of the data, below the data."""
+    def taken(self, frame: Box) -> tuple[Box, ...]:
+        """Where no views may stand: at the data, at the title block and the requirements above it."""
         wide, tall = self.high
-        yield Box(frame.left, frame.low, frame.right - TITLE_BLOCK[0], frame.high)
-        yield Box(frame.left, frame.low + self.low, frame.right - wide, frame.high)
-        yield Box(frame.left, frame.low + self.low, frame.right, frame.high - tall)
+        return (Box(frame.right - wide, frame.high - tall, frame.right, frame.high),
+                Box(frame.right - TITLE_BLOCK[0], frame.low, frame.right, frame.low + self.low))  # fmt: skip
 
     def draw(self, canvas: Canvas, language: str) -> None:
         """All of it."""
@@ -162,24 +164,20 @@ def part_sheet(drawing: PartDrawing, data: Block | None, roughness: float, asked
         return () if None in found else tuple(one for one in found if one is not None)
 
     def greatest(canvas: Canvas) -> float:
-        """The greatest scale at which all views stand in a field."""
+        """The greatest scale at which all views stand on a sheet."""
         if corner.low + corner.high[1] > canvas.frame.high - canvas.frame.low:
             return 0.0
-        fields = [field.grown(-_MARGIN) for field in corner.fields(canvas.frame)]
-        most = max(min(f.right - f.left, f.high - f.low) / min(sizes[0]) for f in fields)
+        frame = canvas.frame
+        most = min(frame.right - frame.left, frame.high - frame.low) / min(sizes[0])
         # unless a paper is asked for, what is large enough stays in its size
         most = min(most, most if asked.paper or asked.scale else max(least, 1.0))
-        for scale in (s for s in SCALES if s <= most):
-            if any(_places(views_at(scale), field, canvas) for field in fields):
-                return scale
-        return 0.0
+        return next((s for s in SCALES if s <= most and _places(views_at(s), corner, canvas) is not None), 0.0)
 
     canvas, scale = sheet_for(asked, greatest, least)
     corner.draw(canvas, language)
     views = views_at(scale)
-    shifts = next(
-        found for f in corner.fields(canvas.frame) if (found := _places(views, f.grown(-_MARGIN), canvas)) is not None
-    )
+    shifts = _places(views, corner, canvas)
+    assert shifts is not None
     outlines = []
     for view, one, shift in zip(drawing.views, views, shifts, strict=True):
         moved(one, canvas, shift)
@@ -204,27 +202,34 @@ def _laid(view: View, scale: float, asked: Asked) -> Laid | None:
     return laid(made, own, asked.language, asked.tolerance)
 
 
-def _places(views: Sequence[Laid], field: Box, canvas: Canvas) -> list[complex] | None:
-    """Where the origins of views stand in a field: in a row on one axis, on A4 one above the other too; None: not."""
+def _places(views: Sequence[Laid], corner: _Corner, canvas: Canvas) -> list[complex] | None:
+    """Where the origins of views stand: in a row on one axis, on A4 one above the other too; None: not at all."""
     boxes = [view.box for view in views]
     if not boxes:
         return None
-    wide, tall = field.right - field.left, field.high - field.low
-    gaps = _BETWEEN * (len(boxes) - 1)
-    low, high = min(b.low for b in boxes), max(b.high for b in boxes)
-    left, right = min(b.left for b in boxes), max(b.right for b in boxes)
-    row, column = sum(b.right - b.left for b in boxes) + gaps, sum(b.high - b.low for b in boxes) + gaps
-    found = []
-    if row <= wide and high - low <= tall:
-        x, y = field.left + (wide - row) / 2, field.low + (tall - high + low) / 2 - low
-        for box in boxes:
-            found.append(complex(x - box.left, y))
-            x += box.right - box.left + _BETWEEN
-        return found
-    if canvas.paper == "A4" and column <= tall and right - left <= wide:
-        x, y = field.left + (wide - right + left) / 2 - left, field.high - (tall - column) / 2
-        for box in boxes:
-            found.append(complex(x, y - box.high))
-            y -= box.high - box.low + _BETWEEN
-        return found
+    row, x = [], 0.0
+    for box in boxes:
+        row.append(complex(x - box.left))
+        x += box.right - box.left + _BETWEEN
+    column, y = [], 0.0
+    for box in boxes:
+        column.append(1j * (y - box.high))
+        y -= box.high - box.low + _BETWEEN
+    frame, taken = canvas.frame.grown(-_MARGIN), [box.grown(_MARGIN) for box in corner.taken(canvas.frame)]
+    for places in (row, column) if canvas.paper == "A4" else (row,):
+        stand = [shifted(box, at) for box, at in zip(boxes, places, strict=True)]
+        whole = Box(min(b.left for b in stand), min(b.low for b in stand),
+                    max(b.right for b in stand), max(b.high for b in stand))  # fmt: skip
+        free = complex(frame.right - frame.left - whole.right + whole.left,
+                       frame.high - frame.low - whole.high + whole.low)  # fmt: skip
+        if min(free.real, free.imag) < 0:
+            continue
+        # those nearest to the middle first
+        steps = sorted(product(range(_TRIED + 1), repeat=2), key=lambda t: sum((2 * n - _TRIED) ** 2 for n in t))
+        for k, n in steps:
+            by = complex(
+                frame.left - whole.left + free.real * k / _TRIED, frame.low - whole.low + free.imag * n / _TRIED
+            )
+            if not any(shifted(box, by).overlaps(other) for box in stand for other in taken):
+                return [at + by for at in places]
     return None

@@ -50,7 +50,7 @@ class Wheel(Record):
 
     ``tip`` up and down from the axis, where it is not round; ``root`` and ``pitch``: of teeth on it, None: it has none;
     ``outline``: the exact one, None: it has another at each height; ``crown``: of a worm wheel; ``rounds``: circles
-    about the axis that are shown, with their sizes.
+    about the axis that are shown, with their sizes; ``stands``: its face is drawn with the bore upright.
     """
 
     shape: WheelShape
@@ -61,6 +61,7 @@ class Wheel(Record):
     pitch: float | None = None
     crown: Crown | None = None
     rounds: tuple[Round, ...] = ()
+    stands: bool = True
 
     @property
     def turn(self) -> float:
@@ -278,7 +279,7 @@ def exact_teeth(outline: Profile, count: int, turn: float, tip: float) -> list[S
 
 def face_view(wheel: Wheel, subject: Subject) -> View:
     """The view along the axis: circles for teeth, as many as are wished exact; hub, bore, holes."""
-    turn, tip = wheel.turn, max(wheel.tip)
+    turn, tip = wheel.turn if wheel.stands else 0.0, max(wheel.tip)
     placement = Placement2(turn)
     strokes: list[Stroke] = []
     if wheel.outline is None:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -13,58 +16,176 @@ from parts.base.refusal import SceneError
 from parts.scene.load import scene_from_dict
 from tests.exporters.production.test_sheet_words import faults
 
-GEAR: dict[str, Any] = {
-    "kind": "spur_gear", "module": 2.0, "number_of_teeth": 40, "face_width": 20.0, "material": "steel",
-    "face_chamfer": 1.0, "bore": {"shape": "keyway", "diameter": 20.0},
-    "web": {"thickness": 8.0, "rim_diameter": 64.0}, "hub": {"diameter": 34.0, "above": 5.0},
-    "holes": {"count": 4, "diameter": 9.0, "pitch_circle_diameter": 49.0},
+KEYED = {"shape": "keyway", "diameter": 20.0}
+PARTS: dict[str, dict[str, Any]] = {
+    "gear": {
+        "kind": "spur_gear", "module": 2.0, "number_of_teeth": 40, "face_width": 20.0, "face_chamfer": 1.0,
+        "web": {"thickness": 8.0, "rim_diameter": 64.0}, "hub": {"diameter": 34.0, "above": 5.0}, "bore": KEYED,
+        "holes": {"count": 4, "diameter": 9.0, "pitch_circle_diameter": 49.0},
+    },
+    "helical": {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 25, "face_width": 18.0, "helix_angle_deg": 15.0,
+                "bore_diameter": 14.0},
+    "ring": {"kind": "ring_gear", "module": 2.0, "number_of_teeth": 40, "face_width": 15.0, "outer_diameter": 112.0,
+             "tip_diameter": 77.0, "holes": {"count": 6, "diameter": 5.0, "pitch_circle_diameter": 100.0}},
+    "rack": {"kind": "rack", "module": 2.0, "number_of_teeth": 15, "face_width": 15.0, "body_height": 12.0},
+    "cam": {
+        "kind": "cam", "follower": "roller", "follower_radius": 8.0, "base_circle_radius": 40.0, "lift": 20.0,
+        "phases": [{"move": "rise", "angle_deg": 180.0, "law": "sine"},
+                   {"move": "return_", "angle_deg": 180.0, "law": "sine"}],
+        "bore": {"shape": "hexagon", "across_flats": 12.0}, "hub": {"diameter": 30.0, "above": 8.0},
+    },
+    "worm": {"kind": "worm", "module": 4.0, "thread_length": 50.0, "bore_diameter": 8.0,
+             "shaft_above": [{"diameter": 25.0, "length": 20.0, "chamfer": 1.0}]},
+    "wheel": {"kind": "worm_wheel", "module": 4.0, "number_of_teeth": 30, "face_width": 30.0, "outer_diameter": 136.0,
+              "bore_diameter": 25.0},
+    "bearing": {"kind": "turned", "points": [
+        {"r": 20.0, "z": 0.0}, {"r": 31.0, "z": 0.0, "chamfer": 1.0}, {"r": 31.0, "z": 16.0}, {"r": 20.0, "z": 16.0},
+        {"r": 20.0, "z": 11.0, "arc": -3.5}, {"r": 20.0, "z": 5.0}]},
+    "shaft": {"kind": "shaft", "centre_holes": {"diameter": 2.0}, "steps": [
+        {"diameter": 20.0, "length": 30.0, "chamfer": 1.0, "keyways": [{"at": 5.0, "length": 20.0}]},
+        {"diameter": 30.0, "length": 40.0}]},
+    "plate": {"kind": "plate", "width": 120.0, "height": 80.0, "corner_radius": 8.0, "face_width": 5.0, "holes": [
+        {"at": [-45.0, -25.0], "diameter": 6.0}, {"at": [45.0, -25.0], "diameter": 6.0},
+        {"at": [0.0, 10.0], "diameter": 20.0}]},
 }  # fmt: skip
+# what each drawing must measure, mm: typed sizes, those of the standards (d_a = m (z + 2 x + 2), DIN 6885, GOST 19650)
+SIZES: dict[str, list[float]] = {
+    "gear": [84, 20, 25, 64, 49, 34, 8, 6, 1, 20, 22.8, 6, 0.25, 9],
+    "helical": [50 / math.cos(math.radians(15)) + 4, 14, 18],
+    "ring": [112, 77, 15, 100, 5],
+    "rack": [15 * 2 * math.pi, 15, 12 + 2.5 + 2, 12 + 2.5],
+    "cam": [80, 10, 18, 30, 12],
+    "worm": [48, 25, 8, 50, 50, 70, 1],
+    "wheel": [136, 128, 25, 30, 16],
+    "bearing": [62, 40, 16, 1, 3.5],
+    "shaft": [20, 30, 30, 70, 1, 20, 5, 6, 16.5, 2],
+    "plate": [120, 80, 8, 15, 105, 60, 15, 50, 6, 20],
+}
 
 
-def jobs(part: dict[str, Any], language: str = "en", **export: Any) -> list[Any]:
-    raw = {
-        "scene": {"language": language},
-        "parts": {"p": part},
-        "exports": [{"format": f, "purpose": "part", **export} for f in ("dxf", "svg")],
-    }
-    return list(plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets)
+def jobs(part: dict[str, Any], language: str = "en", formats: tuple[str, ...] = ("dxf", "svg"), **export: Any) -> Any:
+    exports = [{"format": name, "purpose": "part", **export} for name in formats]
+    raw = {"scene": {"language": language}, "parts": {"p": part | {"material": "steel"}}, "exports": exports}
+    return plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets
 
 
 def sizes(file: Path) -> dict[str, float]:
-    """Every dimension of a DXF by its words and number of its kind, measured by ezdxf at the scale of its style."""
+    """Every dimension of a DXF by the number of its kind of words, measured by ezdxf at the scale of its style."""
     document = ezdxf.readfile(file)
     found: dict[str, float] = {}
     for entity in document.modelspace().query("DIMENSION"):
         value = float(entity.get_measurement()) * document.dimstyles.get(entity.dxf.dimstyle).dxf.dimlfac
         assert value == pytest.approx(entity.dxf.actual_measurement, abs=1e-6)
+        said = [text.dxf.text for text in document.blocks.get(entity.dxf.geometry).query("TEXT")]
+        template = entity.dxf.text.replace("%%c", "Ø")
+        number = "".join(said).replace(" ", "").removeprefix(template.partition("<>")[0].replace(" ", ""))
+        shown = float(number.removesuffix(template.partition("<>")[2]).replace(",", "."))
+        assert shown == pytest.approx(value, abs=6e-4)
         found[f"{entity.dxf.text} {sum(key.startswith(entity.dxf.text + ' ') for key in found)}"] = value
     return found
 
 
-def written(tmp_path: Path, part: dict[str, Any], language: str = "en", **export: Any) -> tuple[Path, Path]:
+def written(folder: Path, part: dict[str, Any], language: str = "en", **export: Any) -> tuple[Path, Path]:
     files = []
     for job in jobs(part, language, **export):
-        file = tmp_path / job.path
-        job.write({}, file)
-        assert job.verify(file, 0.0).failures == ()
-        files.append(file)
+        job.write({}, folder / job.path)
+        assert job.verify(folder / job.path, 0.0).failures == ()
+        files.append(folder / job.path)
     return files[0], files[1]
 
 
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize("export", [{}, {"paper": "A1"}, {"drawing": {"teeth": 3, "requirements": ["HRC 40 " * 30]}}])
 @pytest.mark.parametrize("language", ["en", "uk"])
-def test_every_dimension_measures_the_model_and_no_word_stands_over_a_line(tmp_path: Path, language: str) -> None:
-    dxf, svg = written(tmp_path, GEAR, language)
+@pytest.mark.parametrize("name", PARTS)
+def test_every_dimension_measures_the_model_and_no_word_stands_over_a_line(
+    tmp_path: Path, name: str, language: str, export: dict[str, Any]
+) -> None:
+    dxf, svg = written(tmp_path, PARTS[name], language, **export)
     assert faults(svg) == []
-    # d_a = m (z + 2); DIN 6885: 6 x 2.8 for 20 mm
-    wanted = [84.0, 20.0, 25.0, 64.0, 49.0, 34.0, 8.0, 6.0, 1.0, 20.0, 22.8, 6.0, 0.25, 9.0]
-    assert sorted(sizes(dxf).values()) == pytest.approx(sorted(wanted), abs=1e-6)
+    assert sorted(sizes(dxf).values()) == pytest.approx(sorted(SIZES[name]), abs=1e-6)
     audit = ezdxf.readfile(dxf).audit()
     assert not audit.errors
     assert not audit.fixes
 
 
-def test_a_kind_without_a_drawing_is_refused_by_key() -> None:
-    belt = {"kind": "yoke_frame", "of": "q"}
+def words(file: Path) -> set[str]:
+    """All words of a sheet that are no dimension's."""
+    return {text.dxf.text for text in ezdxf.readfile(file).modelspace().query("TEXT")}
+
+
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize(
+    ("change", "moved", "told"),
+    [
+        # the key grows with the bore: d 22 has 6 x 2.8 too
+        ({"bore": {"shape": "keyway", "diameter": 22.0}}, {"%%c<>H7": 2.0, "<>": 2.0}, {"mass"}),
+        ({"face_width": 24.0}, {"<>h11": 4.0}, {"mass", "hub", "web"}),
+        ({"profile_shift_coefficient": 0.25}, {"%%c<>h11": 1.0}, {"mass", "x", "W", "k"}),
+    ],
+    ids=["bore", "width", "shift"],
+)
+def test_what_is_changed_changes_its_own_dimensions_and_cells_alone(
+    tmp_path: Path, change: dict[str, Any], moved: dict[str, float], told: set[str]
+) -> None:
+    gear = PARTS["gear"] | {"hub": {"diameter": 36.0}}
+    (tmp_path / "a").mkdir()
+    (tmp_path / "b").mkdir()
+    before, after = (written(tmp_path / key, part)[0] for key, part in (("a", gear), ("b", gear | change)))
+    old, new = sizes(before), sizes(after)
+    differ = {key: new[key] - old[key] for key in old if abs(new[key] - old[key]) > 1e-9}
+    assert old.keys() == new.keys()
+    # where the web stands follows from the width
+    web = {"<>": 2.0} if "web" in told else {}
+    assert sorted(differ.values()) == pytest.approx(sorted((moved | web).values()), abs=1e-6)
+    assert {key.rpartition(" ")[0] for key in differ} == set(moved | web)
+    cells = words(after) ^ words(before)
+    # old and new of the mass, of the shift, of the span and its teeth
+    assert len(cells) <= 2 * len(told - {"hub", "web"})
+    assert cells
+
+
+def test_refusals_name_their_key() -> None:
     with pytest.raises(SceneError) as caught:
-        jobs(belt, parts=["p"])
-    assert caught.value.key
+        jobs(PARTS["gear"], paper="A4", scale="5:1")
+    assert caught.value.key == "exports[1].paper"
+    with pytest.raises(SceneError) as caught:
+        jobs(PARTS["gear"], cells="empty")
+    assert caught.value.key == "exports[1].cells"
+    with pytest.raises(SceneError) as caught:
+        jobs(PARTS["gear"], drawing={"bore": "7H"})
+    assert caught.value.key == "exports[1].drawing.bore"
+    oval = {"kind": "noncircular_gear", "centrode": "oval", "axis_ratio": 1.5, "number_of_teeth": 30, "module": 2.0}
+    with pytest.raises(SceneError) as caught:
+        jobs(oval, parts=["p"])
+    assert caught.value.key == "exports[1].parts"
+    with pytest.raises(SceneError) as caught:
+        jobs(oval)
+    assert caught.value.key == "exports[1].purpose"
+
+
+def test_the_same_bytes_twice_and_a_dimension_that_lies_is_seen(tmp_path: Path) -> None:
+    formats = ("dxf", "svg", "pdf")
+    for job in jobs(PARTS["bearing"], formats=formats):
+        file, other = tmp_path / job.path, tmp_path / f"again.{job.path}"
+        job.write({}, file)
+        job.write({}, other)
+        assert file.read_bytes() == other.read_bytes()
+    job = jobs(PARTS["bearing"])[0]
+    file = tmp_path / job.path
+    document = ezdxf.readfile(file)
+    (dimension, *_) = document.modelspace().query("DIMENSION")
+    x, y, z = dimension.dxf.defpoint2
+    dimension.dxf.defpoint2 = (x + 0.001, y + 0.001, z)
+    document.saveas(file)
+    assert any("dimension" in failure.lower() for failure in job.verify(file, 0.0).failures)
+
+
+def test_scenes_without_drawings_import_nothing_of_them() -> None:
+    code = (
+        "import sys; from exporters.production.plan import plan_build; from parts.scene.load import load_scene\n"
+        "plan_build(load_scene('laser_gear'), 'laser_gear', [], ['dxf'])\n"
+        "print([m for m in sys.modules if m.endswith(('drawing.working', 'drawings', 'dimensioning', 'part_sheet'))])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
