@@ -546,3 +546,15 @@ def test_a_worm_drive_that_locks_itself_says_so() -> None:
     assert values_of(words)["values"]["back_driving_efficiency"] == 0.0
     assert "self-locking" in calculate("worm", words.split()[1:], "text", "en")
     assert "самогальмівна" in calculate("worm", words.split()[1:], "text", "uk")
+
+
+def test_a_ring_tells_where_its_tooth_is_pointed() -> None:
+    """S / d = inv(20) - inv(alpha_y) there, by halving; a tooth that is thick at the base circle has no such place."""
+    thickness, low, high = math.pi - 2.1, 0.0, math.radians(20)
+    wanted = math.tan(high) - high - thickness / 80
+    for _ in range(80):
+        middle = (low + high) / 2
+        low, high = (middle, high) if math.tan(middle) - middle < wanted else (low, middle)
+    values = values_of("ring module=2 number_of_teeth=40 circumferential_thinning=2.1")["values"]
+    assert values["pointed_diameter"] == pytest.approx(80 * math.cos(math.radians(20)) / math.cos(low), rel=1e-9)
+    assert "pointed_diameter" not in values_of("ring module=2 number_of_teeth=40")["values"]

@@ -296,3 +296,19 @@ def test_misprints_of_table_2_2_are_told_where_its_rise_is() -> None:
         printed = f"{table[place]['printed'][quantity]:g}"
         assert f"= {printed} at k = {place[0]}/8 of the rise: right is {right}" in page
     assert "table 2.2" not in calculate("cam", ["practicum_flat_cam"], "text", "en")
+
+
+def test_printed_rows_are_the_numbers_of_json() -> None:
+    """To four decimals, what is infinite as such: the radius of a straight stretch and of no curvature."""
+    words = ["follower=pointed", "lift=8", "kind=wedge_cam", "base_height=15", "step=20",
+             'phases=[{move="rise",travel=40,law="constant_velocity"},{move="dwell",travel=20}]']  # fmt: skip
+    rows = json.loads(calculate("cam", words, "json", "en"))["positions"]
+    text = calculate("cam", words, "md", "en").partition("## Positions")[2]
+    printed = [line.strip("| ").split(" | ") for line in text.splitlines() if line.startswith("| ")][2:]
+    assert len(printed) >= len(rows) > 2
+    seen = set()
+    for row, cells in zip(rows, printed, strict=False):
+        for value, cell in zip(row.values(), cells, strict=False):
+            seen.add(cell if value is None else "number")
+            assert cell in ("∞", "-∞") if value is None else abs(float(cell) - value) <= 5.1e-5
+    assert {"∞", "number"} <= seen
