@@ -26,9 +26,10 @@ if TYPE_CHECKING:
 # what is one length, mm; what radii may lie beyond samples, or chords, as a part of them
 _SAME, _DIGITS, _MARGIN = 1e-7, 7, 1e-3
 _TURN = 2 * math.pi
-# what turns about its axis is swept in so many layers and sides; part of a layer that is not gone into; part of the
-# reach by which radii differ
-_LAYERS, _SIDES, _THIN, _LEVEL = 1000, 128, 1e-3, 1e-4
+# mm: as near as faces are wanted to see of what kind they are
+_ROUGH = 0.1
+# what turns about an axis is swept in so many layers and sides; part of the reach by which radii differ
+_LAYERS, _SIDES, _LEVEL = 500, 256, 1e-4
 
 
 class Slab(Record):
@@ -60,9 +61,44 @@ class Shape:
         return inner_solid(self.part)
 
     @cached_property
-    def swept(self) -> Any:
-        """What it sweeps as it turns about its axis: a mesh that is no smaller, its free bore left out."""
-        return _swept(self)
+    def profile(self) -> tuple[Real, Real]:
+        """Levels (n + 1), mm, and how far it reaches from its axis between each two (n), no less."""
+        mesh = self.solid.to_mesh()
+        corners = np.asarray(mesh.vert_properties, dtype=float)[:, :3][np.asarray(mesh.tri_verts)]
+        radii = np.hypot(corners[..., 0], corners[..., 1]).max(axis=1)
+        low, high = corners[..., 2].min(axis=1), corners[..., 2].max(axis=1)
+        # shoulders are levels of their own
+        even = np.linspace(low.min(), high.max(), _LAYERS + 1)
+        thin = _SAME * max(self.reach, even[-1] - even[0])
+        levels = np.unique(np.concatenate([even, low[high - low <= thin]]))
+        levels = levels[np.concatenate([[True], np.diff(levels) > 2 * thin])]
+        count = len(levels) - 1
+        # each triangle reaches its greatest radius in every layer that it goes through
+        first, last = (np.searchsorted(levels, z, "right") - 1 for z in (low + 2 * thin, high - 2 * thin))
+        first, last = np.clip(first, 0, count - 1), np.clip(last, 0, count - 1)
+        counts = np.maximum(last - first, 0) + 1
+        layers = np.repeat(first, counts) + np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+        reach = np.zeros(count)
+        np.maximum.at(reach, layers, np.repeat(radii, counts))
+        # layers of one radius are one
+        grid = _LEVEL * self.reach
+        reach = np.ceil(reach / grid) * grid
+        starts = np.concatenate([[True], np.diff(reach) != 0])
+        return np.concatenate([levels[:-1][starts], levels[-1:]]), reach[starts]
+
+    def swept(self, near: float = 0.0, far: float = 0.0) -> Any:
+        """What it sweeps as its axis goes about another one, ``near`` to ``far`` from it (mm), a mesh no smaller.
+
+        About its own axis its free bore is left out.
+        """
+        import manifold3d
+
+        levels, reach = self.profile
+        outer = (far + reach) / math.cos(math.pi / _SIDES)
+        inner = np.maximum(near - reach, 0.0) if far else np.full(len(reach), self.bore)
+        sides = [[(float(r), float(z)) for r, *ends in zip(radii, levels, levels[1:], strict=False) for z in ends]
+                 for radii in (outer, np.minimum(inner, outer))]  # fmt: skip
+        return manifold3d.Manifold.revolve(manifold3d.CrossSection([[*sides[0], *reversed(sides[1])]]), _SIDES)
 
     @cached_property
     def slabs(self) -> tuple[Slab, ...] | None:
@@ -103,7 +139,7 @@ class LyingShape(Shape):
 
     def __init__(self, shape: Shape, instance: Instance, *, turns: bool) -> None:
         self.part, self.turns = shape.part, turns
-        solid = shape.swept if turns else shape.solid
+        solid = shape.swept() if turns else shape.solid
         matrix = np.array(instance.scene_from_part.matrix())
         matrix[:, 3] = 0.0
         self.solid = solid.transform(matrix)
@@ -114,36 +150,10 @@ class LyingShape(Shape):
         self.walls = ((1, 0.0, self.reach),)
 
 
-def _swept(shape: Shape) -> Any:
-    """What a solid sweeps as it turns about its axis: a solid of the same kind, no smaller; its free bore stays."""
-    import manifold3d
-
-    mesh = shape.solid.to_mesh()
-    corners = np.asarray(mesh.vert_properties)[:, :3][np.asarray(mesh.tri_verts)]
-    heights, radii = corners[..., 2], np.hypot(corners[..., 0], corners[..., 1]).max(axis=1)
-    low, step = float(heights.min()), float(np.ptp(heights)) / _LAYERS
-    # each triangle reaches its greatest radius in every layer that it goes through
-    first, last = ((x - low) // step for x in (heights.min(axis=1) + _THIN * step, heights.max(axis=1) - _THIN * step))
-    begin = np.clip(first, 0, _LAYERS - 1).astype(int)
-    counts = np.maximum(np.clip(last, 0, _LAYERS - 1).astype(int) - begin, 0) + 1
-    layers = np.repeat(begin, counts) + np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
-    reach = np.zeros(_LAYERS)
-    np.maximum.at(reach, layers, np.repeat(radii, counts))
-    # layers of one radius are one
-    grid = _LEVEL * shape.reach
-    reach = np.ceil(reach / grid) * grid
-    ends = [0, *(np.flatnonzero(np.diff(reach)) + 1).tolist(), _LAYERS]
-    steps = [(float(reach[a]), low + step * k) for a, b in pairwise(ends) for k in (a, b)]
-    profile = manifold3d.CrossSection([[(0.0, low), *steps, (0.0, low + step * _LAYERS)]])
-    made = manifold3d.Manifold.revolve(profile, _SIDES)
-    if not shape.bore:
-        return made
-    core = manifold3d.Manifold.cylinder(shape.high - shape.low + 2.0, shape.bore, shape.bore, _SIDES)
-    return made - core.translate([0.0, 0.0, shape.low - 1.0])
-
-
 def _outline(body: Body | FacedBody) -> tuple[float, tuple[tuple[int, float, float], ...]]:
     """Reach of a body, mm, and its walls; one that no plane outline sweeps has none that repeats."""
+    if body.is_faced and _is_round(body):
+        return body.section_reach(), ()
     if body.is_faced or any(loop.shift for loop in body.loops):
         reach = body.section_reach() * (1 + _MARGIN)
         return reach, ((1, 0.0, reach),)
@@ -163,6 +173,22 @@ def _outline(body: Body | FacedBody) -> tuple[float, tuple[tuple[int, float, flo
         even = count == 1 and float(np.abs(gaps - _TURN / len(middles)).max()) <= _SAME
         found.append((len(middles) if even else count, near, far))
     return reach, tuple(found)
+
+
+def _is_round(body: FacedBody) -> bool:
+    """Whether all faces of a body are turned about its axis."""
+    from geometry.solids.faces import Extrusion, Sphere, SplineSurface
+
+    solid = body.within(_ROUGH).geometry
+    for faces in solid.faces:
+        if isinstance(faces.surface, Extrusion | SplineSurface):
+            return False
+        frame = faces.surface.frame
+        if np.abs(solid.points[frame.origin, :2]).max() > _SAME:
+            return False
+        if not isinstance(faces.surface, Sphere) and np.abs(np.abs(frame.axis[:, 2]) - 1).max() > _SAME:
+            return False
+    return True
 
 
 def _form(profile: Profile, points: Complex) -> tuple[complex, object, tuple[float, float]]:

@@ -35,6 +35,8 @@ from parts.scene.train import Train
 _NONE = 1e-7
 # how far solids that are no slabs are sought of each other, as a part of their size
 _SOUGHT = 0.1
+# of what two pairs have in common
+_DIGITS = 7
 # places at which circles are asked, for each pose in which solids are
 _LOOKS = 100
 _TURN = 2 * math.pi
@@ -90,11 +92,18 @@ def workspace_found(
             for i in placing.instances}  # fmt: skip
     waves = {i.id: _still(train, i) if i.id in lying else _waves_of(train, i.id) for i in stand}
     held = _Held(train, {i.id: i for i in stand if i.id in lying}, poses)
-    found = WorkspaceFound({why: [] for why in REASONS})
+    bodies = train.moving.stands.body
+    found, done = WorkspaceFound({why: [] for why in REASONS}), dict[object, bool]()
     for pair in combinations(stand, 2):
         one, two = (i.id for i in pair)
+        if bodies(one) == bodies(two):
+            found.rest["fixed"].append((one, two))
+            continue
+        if not _at_one_height(pair, (made[one], made[two])):
+            found.rest["height"].append((one, two))
+            continue
         seen = _Seen(pair, (waves[one], waves[two]), (made[one], made[two]))
-        if (why := _why_not(seen, is_mated=frozenset((one, two)) in contact)) is not None:
+        if (why := _why_not(seen, done, is_mated=frozenset((one, two)) in contact)) is not None:
             found.rest[why].append((one, two))
         elif frozenset((one, two)) not in known:
             try:
@@ -102,6 +111,11 @@ def workspace_found(
             except GeometryError:
                 found.struck.append(Struck(one, two, None, (0.0,) * len(train.drives)))
     return found
+
+
+def _at_one_height(pair: tuple[Instance, Instance], shapes: tuple[Shape, Shape]) -> bool:
+    (one, two), lift = shapes, pair[1].at[2] - pair[0].at[2]
+    return one.high > two.low + lift and two.high + lift > one.low
 
 
 def uneven(train: Train, key: str) -> bool:
@@ -181,13 +195,10 @@ class _Held:
             found.motion.uncovered.append(Uncovered(one.id, two.id, search.depth, 1.0, search.poses))
 
 
-def _why_not(seen: _Seen, *, is_mated: bool) -> str | None:
-    """Why a pair needs not be held, if it does not."""
-    one, two = seen.shapes
+def _why_not(seen: _Seen, done: dict[object, bool], *, is_mated: bool) -> str | None:
+    """Why a pair at one height that moves needs not be held, if it does not."""
     if not seen.moves and not seen.swept:
         return "fixed"
-    if one.high <= two.low + seen.lift or two.high + seen.lift <= one.low:
-        return "height"
     if is_mated:
         return "mesh"
     far = sum(map(abs, seen.arms.values()))
@@ -196,7 +207,7 @@ def _why_not(seen: _Seen, *, is_mated: bool) -> str | None:
         return "circles"
     if not seen.vectors and not seen.swept:
         return "round"
-    return "swept" if seen.sweeps_past() else None
+    return "swept" if seen.sweeps_past(done) else None
 
 
 class _Seen:
@@ -235,15 +246,27 @@ class _Seen:
         every += [(rates[drive], abs(arm)) for rates, arm in self.arms.items()]
         return _TURN * min(sum(float(abs(rate - base)) * long for rate, long in every) for base, _ in every)
 
-    def sweeps_past(self) -> bool:
-        """Whether one that turns about an axis that stands in the other sweeps nothing that the other takes."""
-        place, angle = self.at((0.0,) * len(self.drives))
-        for turning, other in ((0, 1), (1, 0)):
-            if _differences([self.waves[other].own, *self.arms]):
+    def sweeps_past(self, done: dict[object, bool]) -> bool:
+        """Whether one sweeps nothing that the other takes as it goes about an axis that stands in it; ``done``: asked
+        before, of what is alike.
+        """
+        sizes = [(isinstance(shape, LyingShape), shape.reach) for shape in self.shapes]
+        for k, sign in enumerate((-1, 1)):
+            shape, other, seen_by = self.shapes[k], self.shapes[1 - k], self.waves[1 - k]
+            about = [abs(arm) for rates, arm in self.arms.items() if rates != seen_by.own]
+            # where both go about each other the smaller one sweeps less
+            if about and sizes[k] > sizes[1 - k]:
                 continue
-            solids = [shape.swept if k == turning else shape.solid for k, shape in enumerate(self.shapes)]
-            moved = solids[1].rotate([0.0, 0.0, math.degrees(angle)]).translate([place.real, place.imag, self.lift])
-            if not common_volume((solids[0], moved)):
+            far = math.fsum(about)
+            near = max(2 * max(about, default=0.0) - far, 0.0)
+            # the axis about which it goes, in the frame of the other
+            at = sign * self.arms.get(seen_by.own, 0j) * cmath.rect(1.0, -seen_by.angle)
+            told = (near, far, at.real, at.imag, sign * self.lift)
+            key = (id(shape), id(other), *(round(x, _DIGITS) for x in told))
+            if key not in done:
+                solid = shape.swept(near, far).translate([at.real, at.imag, sign * self.lift])
+                done[key] = not common_volume((solid, other.solid))
+            if done[key]:
                 return True
         return False
 
