@@ -385,7 +385,7 @@ class _Making(Making):
         clips = [_round(4, at + arm) for at in _on_circle(12, s["r_59"])]
         edge = _round(2 * s["r_2"])
         low, high = s["seat_33"], t - s["seat_33"]
-        thread = 16.0
+        thread = s["h_thread"]
         self._layers("disk_2", [
             (low, {"circles": [edge, _round(seat, arm), *behind]}),
             (thread - low, {"circles": [edge, _round(bore, arm), *behind, *clips]}),
@@ -593,7 +593,7 @@ class _Making(Making):
             (bore, 0), (seat, 0), (seat, s["w_seat"]), (seat + 3, s["w_seat"]), (seat + 3, s["w_seat"] + flange),
             (bore, s["w_seat"] + flange),
         ])  # fmt: skip
-        self._tube("spacer_28", bore, r + 5, cover - start - 2)
+        self._tube("spacer_28", bore, r + 3, cover - start - 2)
         self._tube("snap_ring", r - 1.5 + _PLAY, r + 4, 1.8)
         self._turned("screw_49", [(0, 0), (3, 0), (4, 1), (4, 12), (0, 12)])
         for worm, wheel, direction in ((1, "worm_wheel_25", 90.0), (2, "worm_wheel_23", -90.0)):

@@ -24,6 +24,8 @@ from parts.pages.error_map import ErrorMap
 from parts.pages.inputs import checked, refusal
 from parts.pages.misprints import POWER_MODULE, printed_for_power_module
 from parts.pages.page import Section, Sheet, Table
+from parts.recipes import power_module as recipe
+from parts.recipes.power_module_rules import CONDITIONS, RULES, sizes, valued
 
 TOPIC = "power-module"
 _WORM, _GEAR, _BALLS = "thesis, 2.2", "thesis, 2.3", "thesis, 2.4"
@@ -85,9 +87,30 @@ def sheet(table: dict[str, Any]) -> Sheet:
         _ball_ring(page, keys, torques)
         _orientation(page, keys)
         _play(page, keys)
+        _sizes(page, keys)
     except ParameterError as error:
         raise refusal(TOPIC, error, keys=keys) from error
     return page
+
+
+def _sizes(page: Sheet, keys: PowerModuleKeys) -> None:
+    """Every rule by which the assembly ``power_module`` is sized, with these drivers; what they lack as notes."""
+    usual = recipe.PowerModuleKeys(
+        module=keys.module, teeth=keys.pair_teeth, worm_module=keys.worm_module, worm_quotient=keys.diameter_quotient,
+        worm_teeth=keys.worm_ratios, worm_wheel_width=keys.rim_width, face_width=keys.face_width, balls=keys.balls,
+        ball=keys.ball_diameter,
+    )  # fmt: skip
+    found = sizes(recipe.drivers(usual))
+    labels = tuple((r.name, ", ".join(map(str, r.positions)), r.made_of, r.reason) for r in RULES)
+    heads = ((N_("size"), ""), (N_("positions"), ""), (N_("rule"), ""), (N_("reason"), ""), (N_("value"), "mm"))
+    rows = tuple((found[r.name],) for r in RULES)
+    page.tables.append(Table("sizes", N_("Sizes of the assembly power_module, by rules"), heads, rows, labels=labels))
+    for condition in CONDITIONS:
+        if (left := valued(condition.made_of, found)) < 0:
+            told = message(N_("lacks {lacks} mm: {what}"), lacks=f"{-left:.6g}", what=filled(condition.reason))
+            page.notes.append(
+                message(N_("assembly power_module, {driver}: {what}"), driver=condition.driver, what=told)
+            )
 
 
 def _worst(table: TwoDisk) -> tuple[float, float]:

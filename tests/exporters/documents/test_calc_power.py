@@ -274,3 +274,9 @@ def test_hertz_against_forty_digits(sharp: float, flat: float) -> None:
     if sharp == flat:
         # a ball of radius R on a plane: 4/3 E* sqrt(R)
         assert hertz.stiffness((flat, sharp), modulus) == pytest.approx(4 / 3 * modulus * math.sqrt(1 / sharp))
+
+
+def test_sizes_of_the_module_stand_with_their_rules_on_one_page(module: dict[str, Any]) -> None:
+    found = {row["size"]: row["value"] for row in module["sizes"] if row["rule"] and row["reason"]}
+    # the thesis's axes, and half the circle on which the list's 2 x 58 balls run
+    assert (found["arm"], found["a_1"], found["a_2"], found["r_large"]) == (72.0, 345.0, 290.0, 280.0)
