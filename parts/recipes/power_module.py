@@ -23,7 +23,7 @@ from geometry.base.nearest import nearest
 from parts.base.texts import N_, Message, words
 from parts.keys.base import mm
 from parts.recipes.making import Making, place
-from parts.recipes.power_module_rules import CONDITIONS, M4, M8, M10, M12, sizes, valued
+from parts.recipes.power_module_rules import CONDITIONS, M4, M8, M10, M12, Condition, sizes, valued
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
 
 _Turns = Annotated[float, Meta(ge=-1000, le=1000, extra={"unit": "turns"})]
@@ -151,7 +151,7 @@ def checked_sizes(keys: PowerModuleKeys) -> dict[str, float]:
     for condition in CONDITIONS:
         left = valued(condition.made_of, found)
         if left < 0:
-            name, cure = _to_blame(keys, condition.driver)
+            name, cure = _to_blame(keys, condition)
             given, told = getattr(keys, name), {"lacks": -left, "what": Message(condition.reason)}
             raise ParameterError(name, list(given) if isinstance(given, tuple) else given, "module_lacks", cure, **told)
     arm = found["arm"]
@@ -163,21 +163,24 @@ def checked_sizes(keys: PowerModuleKeys) -> dict[str, float]:
     return found
 
 
-def _to_blame(keys: PowerModuleKeys, driver: str) -> tuple[str, Nearest | None]:
-    """The driver that alone can mend it, and its nearest value that does, on the way to its default; else its own."""
+def _to_blame(keys: PowerModuleKeys, condition: Condition) -> tuple[str, Nearest | None]:
+    """The driver that mends everything, with its nearest value that does on the way to its default; or this alone."""
     usual = PowerModuleKeys()
-    for name in dict.fromkeys((driver, *_DRIVERS)):
-        given, end = getattr(keys, name), getattr(usual, name)
-        if given == end or isinstance(given, tuple):
-            continue
+    names = dict.fromkeys((condition.driver, *_DRIVERS))
+    changed = [name for name in names if getattr(keys, name) != getattr(usual, name)]
+    for kept in (CONDITIONS, (condition,)):
+        for name in changed:
+            given, end = getattr(keys, name), getattr(usual, name)
+            if isinstance(given, tuple):
+                continue
 
-        def works(value: float, name: str = name) -> bool:
-            known = sizes(drivers(replace(keys, **{name: value})))
-            return all(valued(c.made_of, known) >= 0 for c in CONDITIONS)
+            def works(value: float, name: str = name, kept: tuple[Condition, ...] = kept) -> bool:
+                known = sizes(drivers(replace(keys, **{name: value})))
+                return all(valued(c.made_of, known) >= 0 for c in kept)
 
-        if (cure := nearest(works, given, end)) is not None:
-            return name, cure
-    return driver, None
+            if (cure := nearest(works, given, end)) is not None:
+                return name, cure if kept is CONDITIONS else None
+    return condition.driver, None
 
 
 class PowerModuleRecipe(Recipe[PowerModuleKeys]):

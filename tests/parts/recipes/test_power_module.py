@@ -67,15 +67,15 @@ def test_what_does_not_go_together_names_its_driver_and_limit(keys: dict[str, An
 
 
 def test_nothing_overlaps_at_home_by_sections_and_layers() -> None:
-    """Told from the tables alone; a cover too wide, a hole beside its screw, a ball too large and a long bolt show."""
+    """Told from the tables alone; a cover too wide, holes beside their screws and balls of 8.1 show."""
     scene = module()
     assert overlaps(scene) == {}
     parts: Any = scene.parts
     parts["end_cover"].points[3].r += 4.0
     parts["guide_6"].holes[0].pitch_circle_diameter += 2.0
-    parts["bearing_ring"].points[3].z -= 0.05
+    parts["ball"].points[0].arc, parts["ball"].points[1].z = 4.05, 8.1
     found = {name for pair in overlaps(scene) for name in pair}
-    assert {"end_cover_1", "guide_6", "bearing_ring_1"} <= found
+    assert {"end_cover_1", "guide_6", "bearing_ring_2", "spacer_22", "disk_3"} <= found
 
 
 # from where random drivers are taken: as large as they differ, most of them go together
