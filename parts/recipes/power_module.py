@@ -1,6 +1,6 @@
 """The assembly ``power_module``: the two-coordinate power table of the thesis, every position of its parts list.
 
-Sizes follow by the rules of ``power_module_rules``. From the front: platform 4; shields 7, 8; disk 2 with disk 3 in it
+Sizes follow by ``parts/pages/module_rules.py``. From the front: platform 4; shields 7, 8; disk 2 with disk 3 in it
 on two rows of balls, in the body on a third; wheel 21 with pinion 19 behind them; ring 24 and worm wheel 25 on disk 2;
 ring 22, the inner race of the fourth row, and worm wheel 23 on wheel 21; the wheels 16, 14, 11 that turn the platform;
 both worms in the body. Each worm comes in through the seat that its cover then closes. Threads are plain cylinders of
@@ -22,8 +22,8 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.nearest import nearest
 from parts.base.texts import N_, Message, words
 from parts.keys.base import mm
+from parts.pages.module_rules import CONDITIONS, DRIVERS, M4, M8, M10, M12, Condition, sizes, valued
 from parts.recipes.making import Making, place
-from parts.recipes.power_module_rules import CONDITIONS, M4, M8, M10, M12, Condition, sizes, valued
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
 
 _Turns = Annotated[float, Meta(ge=-1000, le=1000, extra={"unit": "turns"})]
@@ -100,34 +100,47 @@ class PowerModuleKeys(RecipeKeys, kw_only=True, tag="power_module"):
     orientation: Annotated[
         Literal["thesis"], Meta(description="what turns the platform: the wheels 16, 14, 11 of the thesis")
     ] = "thesis"
-    module: Annotated[float, mm("module of ring and pinion", least=0.1, most=100)] = 3.0
-    teeth: Annotated[tuple[_Teeth, _Teeth], Meta(description="of the pinion 19 and of the ring 21")] = (96, 144)
+    module: Annotated[float, mm("module of ring and pinion", least=0.1, most=100)] = DRIVERS["module"]
+    teeth: Annotated[tuple[_Teeth, _Teeth], Meta(description="of the pinion 19 and of the ring 21")] = (
+        int(DRIVERS["teeth_19"]),
+        int(DRIVERS["teeth_21"]),
+    )
     second_arm: (
         Annotated[float, mm("O2O3; must be what ring and pinion give", above=0, most=1000, example=72.0)] | None
     ) = None
-    wheel_module: Annotated[float, mm("module of the wheels 11, 14, 16", least=0.1, most=100)] = 2.0
-    worm_module: Annotated[float, mm("module of worms and worm wheels", least=0.1, most=100)] = 5.0
-    worm_quotient: Annotated[float, Meta(ge=4, le=30, description="q = d1 / m of both worms")] = 10.0
-    worm_teeth: Annotated[tuple[_Teeth, _Teeth], Meta(description="of the worm wheels 25 (I) and 23 (II)")] = (128, 106)
-    worm_wheel_width: Annotated[float, mm("of the worm wheels' rims", least=1, most=1000)] = 26.0
-    worm_length: Annotated[float, mm("of the worms' threads", least=1, most=5000)] = 120.0
-    face_width: Annotated[float, mm("of ring and pinion", least=1, most=1000)] = 25.0
-    wheel_width: Annotated[float, mm("of the wheels 11 and 16", least=1, most=1000)] = 15.0
-    disk_thickness: Annotated[float, mm("of disk 2, and with its gaps of disk 3", least=1, most=1000)] = 30.0
-    axial_gap: Annotated[float, mm("between planes that turn against each other", least=0.1, most=100)] = 5.0
-    clearance: Annotated[float, mm("radius of bores that turn on something, beyond it", least=0.01, most=1)] = 0.1
-    ball: Annotated[float, mm("diameter of all balls", least=1, most=100)] = 8.0
-    balls: Annotated[int, Meta(ge=8, le=2000, description="balls of both rows of each circle together")] = 180
-    platform_size: Annotated[float, mm("side of the platform", above=0, most=5000)] = 260.0
+    wheel_module: Annotated[float, mm("module of the wheels 11, 14, 16", least=0.1, most=100)] = DRIVERS["wheel_module"]
+    worm_module: Annotated[float, mm("module of worms and worm wheels", least=0.1, most=100)] = DRIVERS["worm_module"]
+    worm_quotient: Annotated[float, Meta(ge=4, le=30, description="q = d1 / m of both worms")] = DRIVERS[
+        "worm_quotient"
+    ]
+    worm_teeth: Annotated[tuple[_Teeth, _Teeth], Meta(description="of the worm wheels 25 (I) and 23 (II)")] = (
+        int(DRIVERS["worm_teeth_25"]),
+        int(DRIVERS["worm_teeth_23"]),
+    )
+    worm_wheel_width: Annotated[float, mm("of the worm wheels' rims", least=1, most=1000)] = DRIVERS["worm_wheel_width"]
+    worm_length: Annotated[float, mm("of the worms' threads", least=1, most=5000)] = DRIVERS["worm_length"]
+    face_width: Annotated[float, mm("of ring and pinion", least=1, most=1000)] = DRIVERS["face_width"]
+    wheel_width: Annotated[float, mm("of the wheels 11 and 16", least=1, most=1000)] = DRIVERS["wheel_width"]
+    disk_thickness: Annotated[float, mm("of disk 2, and with its gaps of disk 3", least=1, most=1000)] = DRIVERS[
+        "disk_thickness"
+    ]
+    axial_gap: Annotated[float, mm("between planes that turn against each other", least=0.1, most=100)] = DRIVERS[
+        "axial_gap"
+    ]
+    clearance: Annotated[float, mm("radius of bores that turn on something, beyond it", least=0.01, most=1)] = DRIVERS[
+        "clearance"
+    ]
+    ball: Annotated[float, mm("diameter of all balls", least=1, most=100)] = DRIVERS["ball"]
+    balls: Annotated[int, Meta(ge=8, le=2000, description="balls of both rows of each circle together")] = int(
+        DRIVERS["balls"]
+    )
+    platform_size: Annotated[float, mm("side of the platform", above=0, most=5000)] = DRIVERS["platform_size"]
     turns_of_disk: Annotated[_Turns, Meta(description="how far disk 2 is turned")] = 1.0
     turns_of_ring: Annotated[_Turns, Meta(description="how far wheel 21 is turned")] = -2.0
     names: Annotated[Literal["en", "uk"], Meta(description="language of titles and designations")] = "en"
 
 
-_DRIVERS = (
-    "module", "wheel_module", "worm_module", "worm_quotient", "worm_wheel_width", "worm_length", "face_width",
-    "wheel_width", "disk_thickness", "axial_gap", "clearance", "ball", "balls", "platform_size",
-)  # fmt: skip
+_DRIVERS = tuple(name for name in DRIVERS if "teeth" not in name)
 
 
 def drivers(keys: PowerModuleKeys) -> dict[str, float]:

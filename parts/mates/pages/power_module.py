@@ -23,9 +23,8 @@ from parts.mates.pages.power_table import DRIVES, TwoDiskKeys, given
 from parts.pages.error_map import ErrorMap
 from parts.pages.inputs import checked, refusal
 from parts.pages.misprints import POWER_MODULE, printed_for_power_module
+from parts.pages.module_rules import CONDITIONS, DRIVERS, RULES, sizes, valued
 from parts.pages.page import Section, Sheet, Table
-from parts.recipes import power_module as recipe
-from parts.recipes.power_module_rules import CONDITIONS, RULES, sizes, valued
 
 TOPIC = "power-module"
 _WORM, _GEAR, _BALLS = "thesis, 2.2", "thesis, 2.3", "thesis, 2.4"
@@ -95,12 +94,13 @@ def sheet(table: dict[str, Any]) -> Sheet:
 
 def _sizes(page: Sheet, keys: PowerModuleKeys) -> None:
     """Every rule by which the assembly ``power_module`` is sized, with these drivers; what they lack as notes."""
-    usual = recipe.PowerModuleKeys(
-        module=keys.module, teeth=keys.pair_teeth, worm_module=keys.worm_module, worm_quotient=keys.diameter_quotient,
-        worm_teeth=keys.worm_ratios, worm_wheel_width=keys.rim_width, face_width=keys.face_width, balls=keys.balls,
-        ball=keys.ball_diameter,
-    )  # fmt: skip
-    found = sizes(recipe.drivers(usual))
+    own = {
+        "module": keys.module, "teeth_19": keys.pair_teeth[0], "teeth_21": keys.pair_teeth[1],
+        "worm_module": keys.worm_module, "worm_quotient": keys.diameter_quotient, "worm_teeth_25": keys.worm_ratios[0],
+        "worm_teeth_23": keys.worm_ratios[1], "worm_wheel_width": keys.rim_width, "face_width": keys.face_width,
+        "balls": keys.balls, "ball": keys.ball_diameter,
+    }  # fmt: skip
+    found = sizes({**DRIVERS, **own})
     labels = tuple((r.name, ", ".join(map(str, r.positions)), r.made_of, r.reason) for r in RULES)
     heads = ((N_("size"), ""), (N_("positions"), ""), (N_("rule"), ""), (N_("reason"), ""), (N_("value"), "mm"))
     rows = tuple((found[r.name],) for r in RULES)

@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 
 from parts.base.refusal import SceneError
+from parts.pages.module_rules import RULES
 from parts.recipes.power_module import PowerModuleKeys
-from parts.recipes.power_module_rules import RULES
 from parts.scene.load import SceneFile, scene_from_dict
 from tests.oracles.clearances import overlaps
 

@@ -1,6 +1,6 @@
 """Sizes of the power module (thesis): one table of rules, what each belongs to, how it follows, and why.
 
-Names are those of the drivers (``PowerModuleKeys``) and of the rules above; lengths in mm. ``r_``: radius, about the
+Names are those of ``DRIVERS`` and of the rules above; lengths in mm. ``r_``: radius, about the
 axis of the part's own disk; ``z_``: height, 0 is the back of the disks, the front is up. ``CONDITIONS`` are lengths
 that must be left; each names the driver that a refusal names.
 """
@@ -36,6 +36,14 @@ class Condition(Record):
 
 # of the standard items: hole that a screw passes, diameter and height of its head
 M4, M8, M10, M12, M14 = (4.5, 7.0, 2.8), (9.0, 13.0, 8.0), (11.0, 16.0, 10.0), (13.5, 18.0, 12.0), (15.0, 21.0, 14.0)
+
+# what is given, with the thesis's numbers and what goes with them
+DRIVERS: Mapping[str, float] = {
+    "module": 3.0, "teeth_19": 96, "teeth_21": 144, "wheel_module": 2.0, "worm_module": 5.0, "worm_quotient": 10.0,
+    "worm_teeth_25": 128, "worm_teeth_23": 106, "worm_wheel_width": 26.0, "worm_length": 120.0, "face_width": 25.0,
+    "wheel_width": 15.0, "disk_thickness": 30.0, "axial_gap": 5.0, "clearance": 0.1, "ball": 8.0, "balls": 180,
+    "platform_size": 260.0,
+}  # fmt: skip
 
 _R = Rule
 RULES = (
