@@ -6,7 +6,7 @@ from typing import Annotated
 
 from msgspec import Meta, Struct
 
-_FIT = r"^([A-Z]{1,2}|[a-z]{1,2})([1-9]|1[0-8])?$"
+_FIT = r"^[A-Za-z][A-Za-z]?([1-9]|1[0-8])?$"
 
 
 def _fit(meaning: str) -> Meta:
