@@ -14,6 +14,7 @@ import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from geometry.base.errors import ConvergenceError, CuspError, ParameterError
 from geometry.base.record import Record, replace
@@ -397,8 +398,9 @@ def _correction(curve: Curve, ends: Ends, layout: _Layout, poles: Complex, t: Re
     known = np.concatenate([residual.imag, weight * residual.real], axis=1)
     n = layout.count
     columns = np.concatenate([layout.index, n + layout.index], axis=1)
-    matrix = np.zeros((2 * n, 2 * n))
-    np.add.at(matrix, (columns[:, :, None], columns[:, None, :]), rows.transpose(0, 2, 1) @ rows)
+    cells = (2 * n * columns[:, :, None] + columns[:, None, :]).ravel()
+    blocks = rows.transpose(0, 2, 1) @ rows
+    matrix = _summed(cells, blocks, 4 * n * n).reshape(2 * n, 2 * n)
     # the end legs' directions become unknowns in place of the real parts of their poles
     _, _, leave, arrive = ends
     ways = ((1, leave), (n - 2, arrive))
@@ -406,13 +408,13 @@ def _correction(curve: Curve, ends: Ends, layout: _Layout, poles: Complex, t: Re
         _along(line, n, ways)
     kept = np.concatenate([np.arange(1, n - 1), np.arange(n + 2, 2 * n - 2)])
     reduced = matrix[np.ix_(kept, kept)]
-    reduced[np.diag_indices_from(reduced)] += 1e-15 * np.trace(reduced) / len(reduced)
+    reduced.ravel()[:: len(reduced) + 1] += 1e-15 * np.trace(reduced) / len(reduced)
     inverse, change = np.linalg.inv(reduced), np.zeros(n, dtype=complex)
     # what the squared matrix has rounded away is found from the residuals of its rows: the same poles on any machine
     for _ in range(_SOLUTIONS):
-        right = np.zeros(2 * n)
         moved = np.concatenate([change.real, change.imag])[columns]
-        np.add.at(right, columns, np.einsum("jqk,jq->jk", rows, known - np.einsum("jqk,jk->jq", rows, moved)))
+        shares = np.einsum("jqk,jq->jk", rows, known - np.einsum("jqk,jk->jq", rows, moved))
+        right = _summed(columns.ravel(), shares, 2 * n)
         _along(right, n, ways)
         solved = np.zeros(2 * n)
         solved[kept] = inverse @ right[kept]
@@ -421,6 +423,11 @@ def _correction(curve: Curve, ends: Ends, layout: _Layout, poles: Complex, t: Re
         step[n - 2] *= arrive
         change += step
     return change
+
+
+def _summed(places: NDArray[np.intp], shares: Real, size: int) -> Real:
+    """Sums of shares by their places, (size,)."""
+    return np.asarray(np.bincount(places, weights=shares.ravel(), minlength=size), dtype=np.float64)
 
 
 def _along(line: Real, n: int, ways: Sequence[tuple[int, complex]]) -> None:
