@@ -39,14 +39,14 @@ def assembly_drawing(
         A part whose kind has no view in an assembly, or an axis that is oblique to the views.
     """
     wanted = {key: parts[key] for key in export.parts or parts}
-    shown = []
-    for instance in (i for i in placing.instances if i.part in wanted):
-        part = wanted[instance.part]
+    sketches = {}
+    for part in (wanted[key] for key in dict.fromkeys(i.part for i in placing.instances) if key in wanted):
         sketch = part.made_by.sketch(part.keys, part.thing)
         if sketch is None:
             raise SceneError(source, f"{where}.purpose", export.purpose, "no_assembly_view", None, kind=part.kind,
                              part=part.id)  # fmt: skip
-        shown.append(Shown(instance.id, instance.part, sketch, instance.scene_from_part))
+        sketches[part.id] = sketch
+    shown = [Shown(i.id, i.part, sketches[i.part], i.scene_from_part) for i in placing.instances if i.part in wanted]
     centre, way = _line_of_centres(placing, set(wanted))
     back = Placement3(translation=(-centre.real, -centre.imag, 0.0))
     x, y = way.real, way.imag

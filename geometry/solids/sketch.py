@@ -51,13 +51,25 @@ class Ring(Record, dict=True):
         """Whether points lie within it."""
         if (round_ := self.circle) is not None:
             return np.asarray(np.abs(points - round_[0]) < round_[1])
+        start, end, low, high = self._sides
+        found = np.zeros(len(points), dtype=bool)
+        near = (
+            (points.real > low.real) & (points.real < high.real) & (points.imag > low.imag) & (points.imag < high.imag)
+        )
+        if near.any():
+            y = points.imag[near, None]
+            crossed = (start.imag > y) != (end.imag > y)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                at = start.real + (end.real - start.real) * (y - start.imag) / (end.imag - start.imag)
+            found[near] = (crossed & (points.real[near, None] < at)).sum(axis=1) % 2 == 1
+        return found
+
+    @cached_property
+    def _sides(self) -> tuple[Complex, Complex, complex, complex]:
+        """Its chords from place to place, and the corners of the box about it."""
         start = self.points
-        end = np.roll(start, -1)
-        y = points.imag[:, None]
-        crossed = (start.imag > y) != (end.imag > y)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            at = start.real + (end.real - start.real) * (y - start.imag) / (end.imag - start.imag)
-        return np.asarray((crossed & (points.real[:, None] < at)).sum(axis=1) % 2 == 1)
+        low, high = complex(start.real.min(), start.imag.min()), complex(start.real.max(), start.imag.max())
+        return start, np.roll(start, -1), low, high
 
     def crossings(self, origin: complex, way: complex) -> list[float]:
         """Where a straight line meets it, mm along ``way`` from ``origin``."""
@@ -111,8 +123,11 @@ class Sketch(Record):
         def over(rings: Sequence[Ring]) -> tuple[Ring, ...]:
             return tuple(replace(ring, curves=tuple(c.mirrored() for c in ring.curves)) for ring in rings)
 
-        layers = tuple(Layer(-k.high, -k.low, over(k.upper), over(k.lower)) for k in reversed(self.layers))
-        return replace(self, layers=layers, creases=tuple(-z for z in self.creases))
+        layers = []
+        for k in reversed(self.layers):
+            lower = over(k.upper)
+            layers.append(Layer(-k.high, -k.low, lower, lower if k.upper is k.lower else over(k.lower)))
+        return replace(self, layers=tuple(layers), creases=tuple(-z for z in self.creases))
 
     def edges(self) -> Iterator[tuple[float, Ring]]:
         """What is seen from above of boundaries: upper ends of walls and their creases, by height."""
@@ -128,13 +143,15 @@ class Sketch(Record):
         found = np.zeros(len(points), dtype=bool)
         for layer in self.layers:
             if layer.low >= height - _SAME:
-                for rings in (layer.lower, layer.upper):
+                for rings in (layer.lower,) if layer.upper is layer.lower else (layer.lower, layer.upper):
                     found |= np.sum([ring.holds(points) for ring in rings], axis=0) % 2 == 1
         return found
 
 
 def alike(one: Ring, other: Ring) -> bool:
     """Whether two boundaries are the same."""
+    if one is other:
+        return True
     if one.circle is not None and other.circle is not None:
         return abs(one.circle[0] - other.circle[0]) < _SAME and abs(one.circle[1] - other.circle[1]) < _SAME
     return one.curves == other.curves
@@ -172,7 +189,9 @@ def sketch_of_body(body: Body, teeth: Teeth | None = None, *, is_shaft: bool = F
     layers, creases = [], []
     for low, high in pairwise(body.levels()):
         walls = [w for w in body.walls if body.height(w)[0] <= low + _SAME and body.height(w)[1] >= high - _SAME]
-        layers.append(Layer(low, high, tuple(ring(w, low) for w in walls), tuple(ring(w, high) for w in walls)))
+        lower = tuple(ring(w, low) for w in walls)
+        straight = all(body.is_upright(w) for w in walls)
+        layers.append(Layer(low, high, lower, lower if straight else tuple(ring(w, high) for w in walls)))
         if any(body.is_chamfer(w) for w in walls):
             creases += [low, high]
     return Sketch(tuple(layers), tuple(creases), None if teeth is None else teeth.pitch, is_shaft)

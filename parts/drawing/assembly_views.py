@@ -24,7 +24,7 @@ from parts.drawing.working import AXIS, VISIBLE
 # what is parallel, what is one place, mm; samples of an edge, steps of a halving
 _PARALLEL, _SAME, _SAMPLES, _HALVINGS = 1e-9, 1e-6, 65, 24
 # places that are tried for a leader's end, across a part
-_GRID, _FEW = 17, 12
+_GRID, _FEW, _ENOUGH = 17, 12, 48
 Stroke = tuple[str, Curve]
 Spot = tuple[complex, float]
 
@@ -112,7 +112,7 @@ def along_axes(shown: Sequence[Shown]) -> Drawn:
     """What is seen, each line as far as nothing stands before it."""
     strokes: list[Stroke] = []
     axes: list[Line] = []
-    covers = [_Cover(one) for one in shown]
+    covers = _Covers(tuple(_Cover(one) for one in shown))
     for one in shown:
         edges = [piece for height, curve in _edges(one) for piece in _visible(curve, height, one, covers)]
         if not edges:
@@ -124,12 +124,15 @@ def along_axes(shown: Sequence[Shown]) -> Drawn:
         axes += _axes(one)
     lines = _samples(strokes)
     spots: dict[str, tuple[Spot, ...]] = {}
-    for one, cover in zip(shown, covers, strict=True):
+    for one, cover in zip(shown, covers.all, strict=True):
+        if len(spots.get(one.part, ())) >= _ENOUGH:
+            continue
         found = cover.places
-        for other in covers:
+        for other in covers.near(found, cover.reach[1] - cover.tall) if len(found) else ():
             if other is not cover:
                 found = found[~other.hides(found, cover.top(found))]
-        spots[one.part] = (*spots.get(one.part, ()), *_farthest(found, lines))
+        near = lines[np.abs(lines - one.centre) <= cover.reach[0] + _SAME]
+        spots[one.part] = (*spots.get(one.part, ()), *_farthest(found, near))
     return Drawn(tuple(strokes), (), tuple(axes), spots)
 
 
@@ -151,6 +154,12 @@ class _Cover(Record, dict=True):
         sketch = self.faced[0]
         rings = [ring for layer in sketch.layers for ring in (*layer.lower, *layer.upper)]
         return max(float(np.abs(ring.points).max()) for ring in rings), sketch.layers[-1].high + self.one.depth
+
+    @property
+    def tall(self) -> float:
+        """From its lowest to its highest place, mm."""
+        layers = self.one.sketch.layers
+        return layers[-1].high - layers[0].low if self.one.stands else 0.0
 
     def hides(self, points: Complex, heights: np.ndarray | float) -> np.ndarray:
         """Whether it stands before points of the view's plane at heights."""
@@ -224,6 +233,26 @@ class _Cover(Record, dict=True):
         return np.asarray(found + one.depth)
 
 
+class _Covers(Record, dict=True):
+    """All that hides in a view."""
+
+    all: tuple[_Cover, ...]
+
+    @cached_property
+    def _rounds(self) -> tuple[Complex, np.ndarray, np.ndarray]:
+        """Centres, reaches and tops."""
+        reaches = np.array([cover.reach for cover in self.all])
+        return np.array([cover.one.centre for cover in self.all]), reaches[:, 0], reaches[:, 1]
+
+    def near(self, points: Complex, height: float) -> list[_Cover]:
+        """Those that may stand before points at a height."""
+        centres, reaches, tops = self._rounds
+        middle = (points.real.min() + points.real.max()) / 2 + 0.5j * (points.imag.min() + points.imag.max())
+        radius = np.abs(points - middle).max()
+        may = (np.abs(centres - middle) <= reaches + radius + _SAME) & (tops > height + _SAME)
+        return [self.all[k] for k in np.flatnonzero(may)]
+
+
 def _edges(one: Shown) -> Iterator[tuple[float, Curve]]:
     """The lines of an instance, with their heights."""
     if one.stands:
@@ -281,18 +310,19 @@ def _axes(one: Shown) -> Iterator[Line]:
         yield Line(one.centre - 1j * reach, one.centre + 1j * reach)
 
 
-def _visible(curve: Curve, height: float, one: Shown, covers: Sequence[_Cover]) -> Iterator[Curve]:
+def _visible(curve: Curve, height: float, one: Shown, covers: _Covers) -> Iterator[Curve]:
     """The pieces of an edge that nothing hides."""
+
+    t = np.linspace(*curve.domain, _SAMPLES)
+    near = [cover for cover in covers.near(curve.point(t), height) if cover.one.stands or cover.one is not one]
 
     def hidden(t: np.ndarray) -> np.ndarray:
         points = curve.point(t)
         found = np.zeros(len(t), dtype=bool)
-        for cover in covers:
-            if cover.one.stands or cover.one is not one:
-                found |= cover.hides(points, height)
+        for cover in near:
+            found |= cover.hides(points, height)
         return found
 
-    t = np.linspace(*curve.domain, _SAMPLES)
     mask = hidden(t)
     if not mask.any():
         yield curve
