@@ -12,6 +12,7 @@ import numpy as np
 from geometry.base.placement import Placement3
 from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Curve
+from parts.base.mate import Touching
 from parts.base.part import Part
 from parts.base.refusal import SceneError
 from parts.drawing.assembly_sheet import AssemblyView, assembly_sheet
@@ -54,7 +55,7 @@ def assembly_drawing(
     section = seen(shown, Placement3(((x, y, 0.0), (0.0, 0.0, 1.0), (y, -x, 0.0))) @ back)
     main, across = along_axes(front), cut(section)
     views = [
-        AssemblyView(across, (*_between(front, across), *_over_all(across, across=False)), title=_TITLE),
+        AssemblyView(across, (*_between(front, across, placing), *_over_all(across, across=False)), title=_TITLE),
         AssemblyView(main, (*_beside(front, placing), *_over_all(main, across=True)), marked=True),
     ]
     return assembly_sheet(views, list_rows(placing.instances, wanted, asked.language), asked)
@@ -70,15 +71,20 @@ def _line_of_centres(placing: Placing, wanted: set[str]) -> tuple[complex, compl
     return first.centre, 1.0
 
 
-def _axes_on_plane(front: Sequence[Shown]) -> list[float]:
-    """Where axes cross the plane of the section, along it, mm."""
-    return sorted({round(one.centre.real, 9) for one in front if abs(one.centre.imag) < _SAME})
+def _meshes(front: Sequence[Shown], placing: Placing) -> list[tuple[str, complex, complex]]:
+    """The axes of what meshes or touches, by the names of both, in the view."""
+    places = {one.id: one.centre for one in front}
+    return [
+        (f"axes.{mate.first.id}.{mate.second.id}", places[mate.first.id], places[mate.second.id])
+        for mate in placing.mates
+        if isinstance(mate.mating, Touching) and {mate.first.id, mate.second.id} <= places.keys()
+    ]
 
 
-def _between(front: Sequence[Shown], across: Drawn) -> list[Size]:
+def _between(front: Sequence[Shown], across: Drawn, placing: Placing) -> list[Size]:
     """From axis to axis in the plane of the section."""
     low = min(float(c.point(np.array(c.domain)).imag.min()) for _, c in across.strokes)
-    places = _axes_on_plane(front)
+    places = sorted({round(p.real, 9) for _, *both in _meshes(front, placing) for p in both if abs(p.imag) < _SAME})
     return [
         Size(f"axes.{number}", complex(a, low), complex(b, low), "below")
         for number, (a, b) in enumerate(pairwise(places), 1)
@@ -87,16 +93,11 @@ def _between(front: Sequence[Shown], across: Drawn) -> list[Size]:
 
 def _beside(front: Sequence[Shown], placing: Placing) -> list[Size]:
     """From axis to axis of mates beside that plane, along x and y; a distance that is told is not told again."""
-    places = {one.id: one.centre for one in front}
     told = set()
     found = []
-    for mate in placing.mates:
-        if not {mate.first.id, mate.second.id} <= places.keys():
-            continue
-        one, two = places[mate.first.id], places[mate.second.id]
+    for name, one, two in _meshes(front, placing):
         distance = round(abs(two - one), 6)
         if distance > _SAME and max(abs(one.imag), abs(two.imag)) > _SAME and distance not in told:
-            name = f"axes.{mate.first.id}.{mate.second.id}"
             if abs((two - one).real) > _SAME:
                 found.append(Size(f"{name}.x", one, two, "above"))
             if abs((two - one).imag) > _SAME:

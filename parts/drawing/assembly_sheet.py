@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 
@@ -29,8 +29,12 @@ _MARGIN, _BETWEEN, _HATCH, _WIDER = 6.0, 14.0, 2.5, 0.8
 _HEIGHT, _STEP, _AWAY, _SHELF, _DOT, _SLANT = TITLE_TEXT, 10.0, 9.0, 1.5, 0.5, 14.0
 # of the marks of the section: length of a stroke and of its arrow, how far outside
 _MARK, _ARROW, _OUT = 7.0, 5.0, 2.0
+# height of the longest list that stands on the drawing, mm
+_MOST_LIST = 220.0
 # part of the most room about a leader's end with which nearer ends are as good
 _ROOMY = 0.6
+# shelves that are tried for a number, each half a step lower
+_TRIES = 12
 # the largest extent of the views on paper, below which larger paper is better, but for what is enlarged so far
 _LEAST, _ENLARGED = 120.0, 2.0
 _LETTER = "A"
@@ -48,12 +52,15 @@ class AssemblyView(Record):
 def assembly_sheet(views: Sequence[AssemblyView], rows: Sequence[ListRow], asked: Asked) -> Expected:
     """The drawing on the smallest paper that shows it well, or as it is asked for.
 
+    A long list stands on sheets of its own. A part that is covered in all views has no number.
+
     Raises
     ------
     ParameterError
         The paper is too small for the scale, or none is large enough.
     """
-    tall = TITLE_BLOCK[1] + list_size(rows, asked.language)[1]
+    listed = rows if list_size(rows, asked.language)[1] <= _MOST_LIST else ()
+    tall = TITLE_BLOCK[1] + (list_size(rows, asked.language)[1] if listed else 0.0)
 
     def fields(frame: Box) -> Iterator[Box]:
         """Beside the title block and the list, or above them."""
@@ -85,7 +92,8 @@ def assembly_sheet(views: Sequence[AssemblyView], rows: Sequence[ListRow], asked
     made = views_at(scale)
     canvas.box("FRAME", canvas.frame)
     corner = complex(canvas.frame.right - TITLE_BLOCK[0], canvas.frame.low + tall)
-    draw_list(canvas, corner, rows, asked.language)
+    if listed:
+        draw_list(canvas, corner, listed, asked.language)
     shifts = next(found for field in fields(canvas.frame) if (found := _places(made, field)) is not None)
     outlines = []
     for view, one, shift in zip(views, made, shifts, strict=True):
@@ -279,18 +287,21 @@ def _column(numbers: Sequence[tuple[int, tuple[complex, ...]]], way: int, box: B
     tall = _STEP * (len(order) - 1)
     middle = sum(spots[0].imag for _, spots in order) / len(order)
     top = max(min(middle + tall / 2 + _SLANT, box.high - _HEIGHT), box.low + tall)
-    for lift in (0.0, 3.0, -3.0, 6.0, -6.0, 10.0, -10.0, 15.0, -15.0, 20.0, -20.0):
-        chosen: list[_Leader] = []
-        for place, (number, spots) in enumerate(order):
-            elbow = complex(x, top + lift - _STEP * place)
-            fits = (_Leader(number, spot, elbow, way) for spot in sorted(spots, key=lambda spot: abs(spot - elbow)))
+    chosen: list[_Leader] = []
+    y = top
+    for number, spots in order:
+        free = None
+        for _ in range(_TRIES):
+            elbow = complex(x, y)
+            fits = (_Leader(number, spot, elbow, way) for spot in sorted(spots, key=partial(_off, elbow)))
             free = next((one for one in fits if ink.holds(one.lines(), one.words.box)), None)
-            if free is None:
+            y -= _STEP if free else _STEP / 2
+            if free:
                 break
-            chosen.append(free)
-        else:
-            return _untangled(chosen, ink)
-    return None
+        if free is None:
+            return None
+        chosen.append(free)
+    return _untangled(chosen, ink)
 
 
 def _untangled(leaders: list[_Leader], ink: Ink) -> list[_Leader]:
@@ -308,6 +319,11 @@ def _untangled(leaders: list[_Leader], ink: Ink) -> list[_Leader]:
         if not swapped:
             break
     return leaders
+
+
+def _off(one: complex, other: complex) -> float:
+    """Distance of two points."""
+    return abs(one - other)
 
 
 def _cross(one: _Leader, two: _Leader) -> bool:
