@@ -156,9 +156,9 @@ def moved_edges(edges: Sequence[Edge], offset: float) -> tuple[Edge, ...]:
         following, after = alive[(index + 1) % len(alive)]
         ends.append(_joint(edge, carrier, following, after, offset))
     made: list[Edge] = []
-    for index, (edge, carrier) in enumerate(alive):
+    for index, (_, carrier) in enumerate(alive):
         leaving, arc, _ = ends[index]
-        made.append(_between(edge, carrier, ends[index - 1][2], leaving))
+        made.append(_between(carrier, ends[index - 1][2], leaving))
         if arc is not None:
             made.append(arc)
     return tuple(made)
@@ -190,7 +190,7 @@ def _joint(
     return found, None, found
 
 
-def _between(edge: Edge, carrier: Edge, start: complex, end: complex) -> Edge:
+def _between(carrier: Edge, start: complex, end: complex) -> Edge:
     """The part of a moved edge between two points of it."""
     if isinstance(carrier, Line):
         way = complex(carrier.tangent(0.0))

@@ -46,7 +46,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
     except ParameterError as error:
         raise refusal(TOPIC, error, keys=keys) from error
     page = Sheet(TOPIC, N_("Cycloidal disc and its pins"))
-    _given(page, keys, disc)
+    _given(page, disc)
     _sizes(page, disc)
     _limits(page, disc)
     _pushing(page, disc)
@@ -66,7 +66,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
     return page
 
 
-def _given(page: Sheet, keys: DiscKeys, disc: CycloidalDisc) -> None:
+def _given(page: Sheet, disc: CycloidalDisc) -> None:
     page.section(N_("Given"))
     page.add("number_of_lobes", disc.number_of_lobes)
     page.add("number_of_pins", disc.number_of_pins, "{z} + 1")

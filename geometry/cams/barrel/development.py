@@ -154,7 +154,7 @@ def _jacket(cam: BarrelCam, side: int, border: float, middle: float, offset: flo
         return _profile([*edge, *sides])
     moved = [c.offset(-offset) for c in edge]
     if offset > 0:
-        return _profile(_rounded(edge, moved, corners, offset))
+        return _profile(_rounded(moved, corners, offset))
     inward = -math.copysign(1.0, (last - first).real) * offset
     left, right = first.real + inward, last.real - inward
     moved = _cut(_cut(moved, lambda p: (p.real - left) * inward, keep_end=True), lambda p: (right - p.real) * inward)
@@ -167,7 +167,7 @@ def _jacket(cam: BarrelCam, side: int, border: float, middle: float, offset: flo
     return _profile([*moved, *(Line(p, q) for p, q in pairwise(path))])
 
 
-def _rounded(edge: list[Curve], moved: list[Curve], corners: list[complex], offset: float) -> list[Curve]:
+def _rounded(moved: list[Curve], corners: list[complex], offset: float) -> list[Curve]:
     """The outline moved out: straight sides beside their own, arcs about the corners."""
     found: list[Curve] = list(moved)
     at = end_point(moved[-1])

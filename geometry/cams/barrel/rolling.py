@@ -106,10 +106,10 @@ def _sought(cam: BarrelCam, side: int, plane: Complex, z: Real) -> Real:
     samples = -polar + first + share * (last - first)
     best, column = np.argmax(held(cam, side, plane, z, samples)[0], axis=0), np.arange(len(plane))
     low, high = (samples[np.clip(best + k, 0, count - 1), column] for k in (-1, 1))
-    return _refined(cam, side, plane, z, samples[best, column], low, high)
+    return _refined(cam, side, plane, samples[best, column], low, high)
 
 
-def _refined(cam: BarrelCam, side: int, plane: Complex, z: Real, at: Real, low: Real, high: Real) -> Real:
+def _refined(cam: BarrelCam, side: int, plane: Complex, at: Real, low: Real, high: Real) -> Real:
     """Newton's steps to the greatest V, bisected where they leave the bracket."""
     for _ in range(_STEPS):
         place, fixed = cam.place(at, 2), plane * np.exp(1j * at)
@@ -158,7 +158,7 @@ def _halved(cam: BarrelCam, side: int, plane: Complex, z: Real, at: Real, apart:
     a, b, c = edge, (edge + 1) % 3, (edge + 2) % 3
     middle, height, near = ((x[row, a] + x[row, b]) / 2 for x in (plane, z, at))
     width = np.ptp(at, axis=1) + 0.1 * cam.radius / (cam.outer + cam.fastest())
-    touched = _refined(cam, side, middle, height, near, near - width, near + width)
+    touched = _refined(cam, side, middle, near, near - width, near + width)
     found = []
     for old, new in ((plane, middle), (z, height), (at, touched)):
         found.append(np.concatenate([np.stack([old[row, a], new, old[row, c]], axis=1),

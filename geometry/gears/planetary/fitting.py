@@ -173,7 +173,7 @@ class Fitting(Record):
         a = next(self._distances(teeth)) if distance is None else distance
         one, two = (mesh.central_shift(a, 0.0) for mesh in meshes)
         nan = math.nan
-        return self._made(meshes, a, (nan if one is None else one, 0.0, 0.0, nan if two is None else two), teeth)
+        return self._made(meshes, a, (nan if one is None else one, 0.0, 0.0, nan if two is None else two))
 
     def _meshes(self, teeth: PlanetarySet) -> tuple[RimMesh, RimMesh]:
         z1, z2, z2p, z3 = teeth.teeth
@@ -195,11 +195,11 @@ class Fitting(Record):
         if any(mesh.shift_total(distance) is None for mesh in meshes):
             return None
         if not teeth.scheme.double:
-            good = (x for x in self._rim_shifts(meshes[0]) if all(self._keeps(m, distance, x, teeth) for m in meshes))
+            good = (x for x in self._rim_shifts(meshes[0]) if all(self._keeps(m, distance, x) for m in meshes))
             x = next(good, None)
-            return None if x is None else self._with(meshes, distance, (x, x), teeth)
-        found = [next((x for x in self._rim_shifts(m) if self._keeps(m, distance, x, teeth)), None) for m in meshes]
-        return None if None in found else self._with(meshes, distance, (found[0] or 0.0, found[1] or 0.0), teeth)
+            return None if x is None else self._with(meshes, distance, (x, x))
+        found = [next((x for x in self._rim_shifts(m) if self._keeps(m, distance, x)), None) for m in meshes]
+        return None if None in found else self._with(meshes, distance, (found[0] or 0.0, found[1] or 0.0))
 
     def _rim_shifts(self, mesh: RimMesh) -> list[float]:
         """The shifts of a rim that are tried, the least first; that at which it is no longer undercut among them."""
@@ -208,7 +208,7 @@ class Fitting(Record):
         tried = [0.0, *(sign * round(k * _STEP, 10) for k in steps for sign in (1, -1)), mesh.least_rim_shift]
         return sorted((x for x in tried if least <= x <= _MOST_SHIFT), key=lambda x: (abs(x), x))
 
-    def _keeps(self, mesh: RimMesh, distance: float, rim_shift: float, teeth: PlanetarySet) -> bool:
+    def _keeps(self, mesh: RimMesh, distance: float, rim_shift: float) -> bool:
         central = mesh.central_shift(distance, rim_shift)
         assert central is not None
         if abs(central) > 2 * _MOST_SHIFT or mesh.least_margin(self.wish, rim_shift, central) < -_ROUNDING:
@@ -216,21 +216,13 @@ class Fitting(Record):
         tip, _ = mesh.tips(rim_shift, central)
         return _gap(distance, tip, self.apart) >= self.least_gap - _ROUNDING
 
-    def _with(
-        self, meshes: tuple[RimMesh, RimMesh], distance: float, rims: tuple[float, float], teeth: PlanetarySet
-    ) -> Fit:
+    def _with(self, meshes: tuple[RimMesh, RimMesh], distance: float, rims: tuple[float, float]) -> Fit:
         one, two = (mesh.central_shift(distance, x) for mesh, x in zip(meshes, rims, strict=True))
         assert one is not None
         assert two is not None
-        return self._made(meshes, distance, (one, rims[0], rims[1], two), teeth)
+        return self._made(meshes, distance, (one, rims[0], rims[1], two))
 
-    def _made(
-        self,
-        meshes: tuple[RimMesh, RimMesh],
-        distance: float,
-        shifts: tuple[float, float, float, float],
-        teeth: PlanetarySet,
-    ) -> Fit:
+    def _made(self, meshes: tuple[RimMesh, RimMesh], distance: float, shifts: tuple[float, float, float, float]) -> Fit:
         x1, x2, x2p, x3 = shifts
         fit = Fit(meshes, distance, shifts, 0.0, self.least_gap, self.wish)
         tip = max(meshes[0].tips(x2, x1)[0], meshes[1].tips(x2p, x3)[0])

@@ -274,7 +274,7 @@ def internal_contour(
     known = {n: field(c) for n, c in wanted.items() if _alone(c.name) is None and n != "working_angle"}
     fine = tolerance / 2
     lines = list(contour_lines(known, lambda _: least_pinion_shift(pair), sheared, fine, None, _shifts_at))
-    lines += [line for c in wanted.values() for line in _straight_lines(pair, c, box, lowest)]
+    lines += [line for c in wanted.values() for line in _straight_lines(c, box, lowest)]
     region = tuple(tuple(map(_shifts_at, ring)) for ring in level_lines(legal, sheared, fine))
     order = {name: k for k, name in enumerate(dict.fromkeys(c.name for c in wanted.values()))}
     return BlockingContour(pair, wish, box, tuple(sorted(lines, key=lambda li: order.get(li.name, 99))), region)
@@ -306,7 +306,7 @@ def _alone(name: str) -> int | None:
     return 1 if name in _OF_RING or (name.removeprefix("cutter_") != name and not name.endswith("_first")) else None
 
 
-def _straight_lines(pair: InternalShiftPair, condition: Condition, box: Box, difference: float) -> list[ContourLine]:
+def _straight_lines(condition: Condition, box: Box, difference: float) -> list[ContourLine]:
     """inv(alpha_w) = 0, and the lines of one gear alone, as far as inv(alpha_w) >= 0 inside the box."""
     which = _alone(condition.name)
     if condition.name == "working_angle":

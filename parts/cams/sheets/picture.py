@@ -19,11 +19,10 @@ TURN_SHARE = 3
 
 
 class Position(Record):
-    """A numbered position of the follower: its number, the cam angle (rad), whether a phase ends or begins there."""
+    """A numbered position of the follower: its number and the cam angle, rad."""
 
     number: int
     angle: float
-    is_joint: bool
 
 
 class CamPicture(Record):
@@ -94,14 +93,14 @@ def _positions(cam: DiskCam, intervals: int) -> tuple[Position, ...]:
     phases = cam.motion.phases
     if not phases:
         count = TURN_SHARE * intervals
-        return tuple(Position(k, 2 * math.pi * k / count, k == 0) for k in range(count))
+        return tuple(Position(k, 2 * math.pi * k / count) for k in range(count))
     found: list[Position] = []
     at = 0.0
     for index, phase in enumerate(phases):
         end = 2 * math.pi if index == len(phases) - 1 else at + phase.angle
         count = intervals if phase.law is not None else 1
         for k in range(count):
-            found.append(Position(len(found), at + (end - at) * k / count, k == 0))
+            found.append(Position(len(found), at + (end - at) * k / count))
         at = end
     return tuple(found)
 

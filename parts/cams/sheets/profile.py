@@ -125,10 +125,10 @@ def draw_profile(
     _marks(canvas, picture, paper)
     for position in picture.positions:
         _follower(canvas, drawn, picture, paper, reach, position.angle)
-        centre = _turned(picture, position.angle, complex(cam.reference_point(position.angle)))
+        centre = _turned(position.angle, complex(cam.reference_point(position.angle)))
         if cam.kind is FollowerKind.MUSHROOM:
             # the part of the face about the contact
-            down = cmath.phase(-_turned(picture, position.angle, complex(cam.normal(position.angle))))
+            down = cmath.phase(-_turned(position.angle, complex(cam.normal(position.angle))))
             face = Arc(paper.point(centre), paper.scale * cam.radius, down - _FACE_HALF, 2 * _FACE_HALF)
             canvas.arc("ROLLER", face)
             circles.append(Circle("ROLLER", face.centre, face.radius))
@@ -146,7 +146,7 @@ def draw_profile(
     return drawn, circles, curves
 
 
-def _turned(picture: CamPicture, angle: float, point: complex) -> complex:
+def _turned(angle: float, point: complex) -> complex:
     """A point of the fixed frame in the cam's."""
     return point * cmath.exp(-1j * angle)
 
@@ -156,9 +156,7 @@ def _follower(canvas: Canvas, drawn: Drawn, picture: CamPicture, paper: Paper, r
     cam, mount = picture.cam, picture.cam.mount
 
     def line(layer: str, start: complex, end: complex) -> None:
-        drawn.line(
-            canvas, layer, paper.point(_turned(picture, angle, start)), paper.point(_turned(picture, angle, end))
-        )
+        drawn.line(canvas, layer, paper.point(_turned(angle, start)), paper.point(_turned(angle, end)))
 
     here = complex(cam.reference_point(angle))
     if isinstance(mount, Translating):

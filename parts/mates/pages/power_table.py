@@ -132,7 +132,7 @@ def _points(page: Sheet, keys: PowerTableKeys) -> None:
             for row, gamma, rest in zip(columns, coupled, own, strict=True)
         ]
     page.picture = scheme(table.arms, table.ratio, tuple(joints))
-    heads = (("elbow", ""), *_heads(keys), ("γ", "deg"), ("Δβ'", "deg"))
+    heads = (("elbow", ""), *_heads(), ("γ", "deg"), ("Δβ'", "deg"))
     page.tables.append(Table("points", N_("Points, both elbows"), heads, tuple(rows)))
     if table.reach[0] == 0 and not points.all():
         page.notes.append(N_("at the centre every angle delta is right; it is kept at start_deg"))
@@ -148,7 +148,7 @@ def _columns(keys: TwoDiskKeys, table: TwoDisk, points: Complex, delta: Real, be
     return [tuple(map(float, row)) for row in zip(*columns, strict=True)]
 
 
-def _heads(keys: TwoDiskKeys) -> tuple[tuple[str, str], ...]:
+def _heads() -> tuple[tuple[str, str], ...]:
     angles = (("δ", "deg"), ("β", "deg"), ("θ", "deg"))
     return (("x", "mm"), ("y", "mm"), *angles, ("n_I", ""), ("n_II", ""), ("φ_6", "deg"))
 
@@ -200,7 +200,7 @@ def _path(page: Sheet, keys: PowerTableKeys) -> None:
     found = tuple((float(way), *row) for way, row in zip(rows.way, columns, strict=True))
     joints = tuple((_second(table, rows.delta[k]), complex(rows.place[k])) for k in (0, -1))
     page.picture = replace(scheme(table.arms, table.ratio, joints), path=_points_of(pieces))
-    heads = (("s", "mm"), *_heads(keys))
+    heads = (("s", "mm"), *_heads())
     page.tables.append(Table("path", N_("Path, row by row: both worms run evenly in between"), heads, found))
     _notes(page, keys)
 
