@@ -49,7 +49,7 @@ def test_distances_have_their_sign_and_size() -> None:
     assert off == pytest.approx([3, -3])
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("export", [{"format": "dxf"}, {"format": "svg"}, {"format": "stl"}], ids=lambda e: e["format"])
 def test_a_slightly_wrong_gear_is_noticed(tmp_path: Path, export: dict[str, Any]) -> None:
     """Negative control: the file is that of one gear, the measurement asks for another."""

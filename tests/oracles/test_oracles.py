@@ -75,6 +75,7 @@ def test_exact_outline_has_no_penetration(name: str) -> None:
         assert error.max() < 2e-15 * radius, kind
 
 
+@pytest.mark.sampled(8)
 @every_case
 def test_every_tooth_and_both_flanks_are_alike(name: str) -> None:
     p = CASES[name]

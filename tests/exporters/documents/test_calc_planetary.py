@@ -37,6 +37,7 @@ def refused(*keys: str) -> str:
     return line
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("keys", SHEETS, ids=" ".join)
 def test_every_printed_formula_gives_its_value(keys: tuple[str, ...]) -> None:
     steps = [s for s in sheet_of("planetary", keys)[0].steps() if s.formula]

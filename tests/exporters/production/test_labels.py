@@ -75,7 +75,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "out" / "s"
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("part", _PARTS)
 def test_every_name_lies_within_clear_material_by_half_a_stroke(made: Path, part: str) -> None:
     for ending in ("laser.dxf", "r12.dxf"):

@@ -169,7 +169,7 @@ DAMAGE: dict[str, tuple[Callable[[Any], Any], str]] = {
 }
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("damage", DAMAGE)
 def test_damage_is_noticed(roller_file: Path, tmp_path: Path, damage: str) -> None:
     drawing = ezdxf.readfile(roller_file)

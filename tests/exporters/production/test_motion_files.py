@@ -93,7 +93,7 @@ def test_a_loop_that_would_take_too_long_is_cut_and_said() -> None:
     assert told(flat) == (False, 20.0)
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("old", "new"),
     [

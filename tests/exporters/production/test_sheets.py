@@ -44,7 +44,7 @@ def job_of(name: str, ending: str) -> SheetJob:
     return next(j for j in jobs_of(name) if j.path.endswith(ending))
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("language", ["en", "uk"])
 @pytest.mark.parametrize("name", SCENES)
 def test_every_sheet_is_good_in_both_languages(tmp_path: Path, name: str, language: str) -> None:
@@ -197,7 +197,7 @@ DAMAGE: dict[str, tuple[Callable[[Any], Any], str]] = {
 }
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("damage", DAMAGE)
 def test_damage_is_noticed(tmp_path: Path, damage: str) -> None:
     job = job_of("practicum_pair", "dxf")
@@ -393,7 +393,7 @@ def test_the_device_takes_wheels_of_every_size(module: float, tmp_path: Path) ->
         assert job.verify(tmp_path / job.path, 0.0).failures == ()
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("part", "export", "key", "mended"),
     [

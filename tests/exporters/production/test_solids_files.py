@@ -47,7 +47,7 @@ def made(kind: str, folder: Path) -> tuple[Any, Path, float]:
     return job, file, declared_error(job, shape)[0]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("kind", ["stl", "3mf", "step"])
 @pytest.mark.parametrize("keys", [{}, {"web": None, "holes": None}, {"hub": None, "face_chamfer": 0.0}], ids=str)
 def test_a_wheel_is_written_and_read_back(kind: str, keys: dict[str, Any], tmp_path: Path) -> None:
@@ -127,7 +127,7 @@ def test_a_triangle_flipped_or_lost_is_caught(once: dict[str, Once], share: floa
     assert spoiled(once["stl"], triangles=np.delete(good, at, axis=0))
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("place", range(PLACES))
 def test_a_spoiled_vertex_is_caught_wherever_it_is(once: dict[str, Once], place: int) -> None:
     good = once["stl"].found.vertices

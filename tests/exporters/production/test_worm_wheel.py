@@ -72,7 +72,7 @@ def test_a_wheel_has_no_flat_outline(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert not (tmp_path / "out" / "wheel" / "wheel.svg").exists()
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("keys", "told"),
     [

@@ -103,7 +103,7 @@ def test_gears_on_slender_ellipses_are_cut(e: float, teeth: int) -> None:
     assert ellipse - 2.5 * perimeter < area < ellipse + 2 * perimeter + 4 * math.pi
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("keys", "key"), [
     ({"eccentricity": 0.9999, "number_of_teeth": 400}, "eccentricity"),
     ({"eccentricity": 0.9995, "number_of_teeth": 2000}, "eccentricity"),

@@ -69,7 +69,7 @@ def test_the_columns_of_the_margin_are_those_of_the_form() -> None:
     assert all(t.box.left >= 8 and t.box.right <= 13.5 and t.runs[0].at.real < 13 for t in turned)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("language", ["en", "uk"])
 @pytest.mark.parametrize("export", [{}, {"purpose": "generating", "parts": ["one"]}], ids=["meshing", "generating"])
 @pytest.mark.parametrize("asked", [True, WORDS], ids=["plain", "table"])

@@ -120,8 +120,14 @@ REMARKS = {
 }
 
 
+# ten groups of parts take four seconds
+TEN_GROUPS = {"lesson_4", "lesson_5"}
+
+
 @pytest.mark.sampled(7)
-@pytest.mark.parametrize("name", built_in_scenes())
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.heavy] * (name in TEN_GROUPS)) for name in built_in_scenes()]
+)
 def test_every_built_in_scene_builds_parts_without_a_bad_remark(name: str) -> None:
     scene = load_scene(name)
     assert scene.name == name

@@ -123,7 +123,7 @@ def test_every_edge_is_run_once_each_way(name: str) -> None:
 
 
 @needs_kernel
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", KINDS)
 def test_the_kernel_calls_it_one_valid_solid_of_the_exact_volume(name: str, tmp_path: Path) -> None:
     from OCP.BRep import BRep_Tool

@@ -75,6 +75,7 @@ def test_outline_against_fifty_digits(gear: SpurGear) -> None:
     assert worst <= RIGHT * gear.tip_radius
 
 
+@pytest.mark.sampled(12)
 @EVERY
 def test_outline_against_the_swept_rack(gear: SpurGear) -> None:
     points = side_points(gear, 60)
@@ -93,6 +94,7 @@ def test_the_whole_oracle_outline_is_there(gear: SpurGear) -> None:
     assert brute.distance_to_outline(turned, profile).max() <= RIGHT * gear.tip_radius
 
 
+@pytest.mark.sampled(12)
 @EVERY
 def test_joint_and_labels_against_the_oracle(gear: SpurGear) -> None:
     """Each piece ends where the oracle's ends; the joint is smooth unless undercut, where it is a convex corner."""

@@ -177,7 +177,7 @@ WRONG: dict[str, tuple[Keys, str]] = {
 }  # fmt: skip
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", WRONG)
 def test_a_refusal_names_the_key_and_a_value_that_works_when_it_is_fed_back(name: str) -> None:
     keys, blamed = WRONG[name]

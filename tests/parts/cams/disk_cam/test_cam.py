@@ -306,7 +306,7 @@ NOT_CURED = {"no motion", "no lift", "never back", "open diagram", "no roller", 
              "rocker without arm"}  # fmt: skip
 
 
-@pytest.mark.sampled(12)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", WRONG)
 def test_wrong_keys_are_refused_in_the_users_terms(name: str) -> None:
     keys, blamed, code = WRONG[name]

@@ -138,7 +138,7 @@ def test_an_undercut_table_is_told_and_its_cure_works(capsys: pytest.CaptureFixt
     assert main(["build", str(scene), "--out", str(tmp_path)]) == 0
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("form", ["step", 'dxf"\npurpose = "drawing', "stl"])
 def test_splines_and_solids_of_a_table(tmp_path: Path, form: str) -> None:
     """Splines end at the rows, areas and volumes are added up row by row: 6e-5 of the volume was off otherwise."""
