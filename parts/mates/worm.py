@@ -6,7 +6,7 @@ import cmath
 import math
 from typing import TYPE_CHECKING, Any
 
-from geometry.base.errors import ParameterError
+from geometry.base.errors import Nearest, ParameterError
 from geometry.base.placement import Vector
 from parts.base.mate import End, MateKind, Pose, Standing, Touching
 from parts.keys.mate import GearPairKeys
@@ -138,14 +138,14 @@ def _check(first: End[WheelThing], second: End[WormBody]) -> None:
     worm = second.thing.thread.worm
     for key in _ALIKE:
         same_size(key, getattr(own, key), getattr(wheel, key), "not_of_its_mate")
-    key = "diameter_quotient" if own.lead_angle_deg is None else "lead_angle_deg"
-    if not math.isclose(worm.diameter_quotient, wheel.diameter_quotient, rel_tol=1e-9):
-        raise ParameterError(key, getattr(own, key), "not_of_its_mate")
     for key in ("number_of_starts", "form", "hand"):
         if getattr(own, key) != getattr(wheel, key):
-            from geometry.base.errors import Nearest
-
             raise ParameterError(key, getattr(own, key), "not_of_its_mate", Nearest(getattr(wheel, key)))
+    if not math.isclose(worm.diameter_quotient, wheel.diameter_quotient, rel_tol=1e-9):
+        key, wanted = "diameter_quotient", wheel.diameter_quotient
+        if own.lead_angle_deg is not None:
+            key, wanted = "lead_angle_deg", math.degrees(math.atan2(wheel.number_of_starts, wheel.diameter_quotient))
+        raise ParameterError(key, getattr(own, key), "not_of_its_mate", Nearest(wanted))
 
 
 WORM_PAIR = WormPair()

@@ -21,6 +21,8 @@ Real = NDArray[np.float64]
 
 # places at which a least one is sought, and how often nearer
 _PLACES, _ROUNDS = 33, 9
+# rows of a table from which contacts are found, steps from there, and how near they end, part of the radius
+_TABLE, _STEPS, _MET = 2049, 3, 4e-15
 
 
 class Screw(Record):
@@ -221,10 +223,28 @@ class GroundFlank(Flank):
 
         return bracketed_root(beyond, 0.0, 2 * self.screw.half_space).value
 
+    @lru_cache(maxsize=64)  # noqa: B019
+    def _table(self) -> tuple[Real, Real, Real]:
+        """Radii, ascending, how far from the wheel's axis it touches there, and by how much that changes."""
+        width, mean = self.half_width(), self.wheel_diameter / 2
+        places = np.linspace(max(mean - self.screw.radius, 1e-6 * mean), self._deepest(width), _TABLE)[::-1]
+        radius = self._touch(places, width)[0]
+        return radius, places, np.gradient(places, radius)
+
     def _contact(self, radius: ArrayLike) -> tuple[Real, Real]:
         width = self.half_width()
         r = np.asarray(radius, float)
-        _, half, slope = self._touch(self._distances(np.atleast_1d(r).ravel(), width), width)
+        flat = np.atleast_1d(r).ravel()
+        radii, places, slopes = self._table()
+        distance, slope = np.interp(flat, radii, places), np.interp(flat, radii, slopes)
+        for _ in range(_STEPS):
+            off = self._touch(distance, width)[0] - flat
+            distance = distance - off * slope
+        # beyond the table, and where the wheel reaches deepest
+        hard = ~(np.abs(self._touch(distance, width)[0] - flat) <= _MET * flat) | (flat > radii[-1])
+        if hard.any():
+            distance[hard] = self._distances(flat[hard], width)
+        _, half, slope = self._touch(distance, width)
         return half.reshape(r.shape), slope.reshape(r.shape)
 
     def drop(self, radius: ArrayLike) -> Real:

@@ -6,13 +6,15 @@ Frame: the axis is z, a thread lies about z = 0 on +x; a right-hand worm's threa
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from geometry.base.errors import ParameterError, limit
-from geometry.base.record import Record
+from geometry.base.nearest import nearest
+from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.gears.worms.flank import FORMS, Flank, Screw
 
@@ -124,6 +126,13 @@ class Worm(Record):
         if self.form_radius >= self.reference_radius:
             raise ParameterError("number_of_starts", self.number_of_starts, "worm_flank_above_reference")
         if self.tip_thickness <= 0:
+            if self.thinning > 0 and replace(self, thinning=0.0).tip_thickness > 0:
+
+                def left(thinning: float) -> bool:
+                    return replace(self, thinning=thinning).tip_thickness > 0
+
+                cure = partial(nearest, left, self.thinning, 0.0)
+                raise ParameterError("axial_thinning", self.thinning, "worm_pointed", cure)
             sharp = self._pointed_radius()
             most = (sharp - self.reference_radius) / self.module
             raise ParameterError(

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta
 from msgspec.structs import replace as changed
 
-from geometry.base.errors import Nearest, OffsetError, ParameterError, limit
+from geometry.base.errors import GeometryError, OffsetError, ParameterError, limit
 from geometry.base.nearest import nearest
 from geometry.base.record import Record, replace
+from geometry.solids.hub_holes import least_wall
 from parts.base.kind import Kind, Others, Report
 from parts.keys.accuracy import AccuracyKey
 from parts.keys.base import in_modules, mm
-from parts.keys.holes import HoledKeys, SpokesTable, bore_of, hub_holes
+from parts.keys.holes import HoledKeys, SpokesTable, bore_of, hub_holes, wide_bore
 from parts.keys.wheel import HubTable, WebTable, wheel_shape
 from parts.keys.worm import (
     Addendum,
@@ -145,10 +147,9 @@ def _asked_teeth(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     try:
         hob = replace(hob, worm=replace(hob.worm, thinning=-keys.axial_thinning)).checked()
     except ParameterError as refusal:
-        if refusal.code != "hob_pointed":
+        if refusal.code != "hob_pointed" and not keys.axial_thinning:
             raise
-        key = "addendum_coefficient"
-        raise ParameterError(key, keys.addendum_coefficient, refusal.code, partial(_lower, keys)) from refusal
+        raise _toothless(keys, refusal.code) from refusal
     width = drive.most_face_width if keys.face_width is None else keys.face_width
     least = 2 * drive.tip_radius
     # a throat wraps a third of the worm at most
@@ -160,7 +161,7 @@ def _asked_teeth(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     sliver = replace(teeth, width=_SLIVER * width).ended
     if sliver is not None:
         # at any width
-        raise ParameterError("addendum_coefficient", keys.addendum_coefficient, sliver, partial(_lower, keys))
+        raise _toothless(keys, sliver)
     return teeth
 
 
@@ -179,15 +180,22 @@ def _teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     return found
 
 
-def _lower(keys: WormWheelSpec) -> Nearest | None:
-    """The addendum that leaves some tooth."""
+def _toothless(keys: WormWheelSpec, code: str) -> ParameterError:
+    """No tooth is left: in the key that takes it away, with the value that leaves some."""
 
-    def works(value: float) -> bool:
-        lower = changed(keys, addendum_coefficient=value)
-        _asked_teeth(lower, drive_of(lower))
+    def stands(key: str, value: float) -> bool:
+        less = changed(keys, **{key: value})
+        _asked_teeth(less, drive_of(less))
         return True
 
-    return nearest(works, keys.addendum_coefficient, (0.8, 0.6, 0.4), digits=2)
+    key: str = "addendum_coefficient"
+    ends: tuple[float, ...] = (0.8, 0.6, 0.4)
+    if keys.axial_thinning:
+        with suppress(GeometryError):
+            stands("axial_thinning", 0.0)
+            key, ends = "axial_thinning", (0.0,)
+    given = getattr(keys, key)
+    return ParameterError(key, given, code, partial(nearest, partial(stands, key), given, ends))
 
 
 class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
@@ -206,6 +214,9 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
         drive = drive_of(keys)
         teeth, holes = _teeth_of(keys, drive), keys.hub_holes()
         shape = wheel_shape(teeth.width, keys.web, keys.hub, 0.0)
+        room = drive.root_radius - least_wall(drive.root_radius)
+        if holes.bore_reach > room:
+            raise wide_bore(keys, room, "leaves_no_wall")
         check_wheel(shape, 2 * drive.root_radius, holes)
         reach = max(holes.bore_reach, holes.beside_bore()[1], *(t.diameter / 2 for t in (keys.hub,) if t), *(
             t.rim_diameter / 2 for t in (keys.web,) if t

@@ -118,6 +118,9 @@ def test_a_default_rim_has_whole_teeth_and_a_torn_face_is_refused() -> None:
         # pointed at any width
         ({"form": "ZN1", "number_of_starts": 4, "diameter_quotient": 4.47, "number_of_teeth": 112},
          "addendum_coefficient", "worm_wheel_pointed"),
+        # before: told of the addendum, which leaves too little in any case; and of a face between two edges
+        ({"axial_thinning": 2.5}, "axial_thinning", "worm_wheel_pointed"),
+        ({"bore_diameter": 58.0}, "bore_diameter", "leaves_no_wall"),
     ):  # fmt: skip
         with pytest.raises(SceneError) as refused:
             made(**keys)

@@ -82,6 +82,21 @@ def test_a_thinner_wheel_has_play_and_a_worm_of_the_other_hand_is_refused(
     assert "hand" in said
 
 
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [("diameter_quotient = 11.0", "11.0: must fit its mate; 10 works"),
+     ("lead_angle_deg = 11.0", "11.0: must fit its mate; 11.309932474 degrees works")],
+)  # fmt: skip
+def test_a_worm_of_another_diameter_is_told_the_one_that_fits(
+    given: str, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = _scene(tmp_path)
+    file.write_text(file.read_text().replace("thread_length", f"{given}\nthread_length"))
+    code, said = _checked(file, capsys)
+    assert code == 2
+    assert told in said
+
+
 @pytest.mark.parametrize("hand", [pytest.param("right", marks=pytest.mark.heavy), "left"])
 def test_solids_in_their_places_are_apart_and_half_a_pitch_on_they_are_not(tmp_path: Path, hand: str) -> None:
     file = _scene(tmp_path, hand=hand, thinning=0.2)

@@ -135,6 +135,8 @@ def test_files_of_extreme_worms_are_read_back_as_they_should_be(name: str, tmp_p
         ({"fillet_coefficient": 1.9}, "fillet_coefficient"),
         ({"tip_rounding": 5.0}, "tip_rounding"),
         ({"addendum_coefficient": 3.0}, "addendum_coefficient"),
+        # before: an outline that does not come about, without a key
+        ({"axial_thinning": 9.0}, "axial_thinning"),
         ({"shaft_above": [{"diameter": 45.0, "length": 5.0}]}, "shaft_above.item 1.diameter"),
         ({"shaft_below": [{"diameter": 20.0, "length": 5.0, "chamfer": 6.0}]}, "shaft_below.item 1.chamfer"),
         ({"bore_diameter": 40.0}, "bore_diameter"),
