@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,7 +19,9 @@ from geometry.base.errors import ParameterError
 from geometry.base.nearest import nearest
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_roots
+from geometry.curves.line_arc import Line
 from geometry.gears.worms.hob import Cut, Hob
+from geometry.plane.profile import Label, Profile, Segment
 
 Complex = NDArray[np.complex128]
 Real = NDArray[np.float64]
@@ -257,6 +260,18 @@ class WormTeeth(Record, dict=True):
         z = np.atleast_1d(np.asarray(heights, float))
         lower, upper = (self.flank(self.side(h), 1.0).plane for h in (z, -z))
         return -np.angle(lower) - np.angle(upper)
+
+    def outline(self, height: float, points: int = 12) -> Profile:
+        """The section at a height as a polygon through so many points of each flank and fillet, for the eye."""
+        shares = np.linspace(0.0, 1.0, points)[:, None]
+        lower, upper = (
+            np.concatenate([self.fillet(side, shares[:-1]).plane, self.flank(side, shares).plane])[:, 0]
+            for side in (self.side(h) for h in (height, -height))
+        )
+        around = [*lower, *np.conj(upper[::-1]), lower[0] * np.exp(2j * math.pi / self.number_of_teeth)]
+        way = [*(Label.FLANK for _ in lower[1:]), Label.TIP_LAND, *(Label.FLANK for _ in upper[1:]), Label.ROOT_LAND]
+        lines = [Line(complex(a), complex(b)) for a, b in pairwise(around)]
+        return Profile(tuple(map(Segment, lines, way)), self.number_of_teeth)
 
     def narrowed(self) -> WormTeeth:
         """The teeth with as much of the width as has some at every height; themselves where none has."""

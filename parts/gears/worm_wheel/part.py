@@ -227,12 +227,12 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
         return WheelThing(drive, WormWheel(teeth, core, rim))
 
     def section(self, keys: WormWheelSpec, thing: WheelThing, offset: float) -> OffsetRegion:
-        """The circle about it."""
+        """Its upper face, near enough for pictures."""
         from geometry.plane.offset_region import OffsetRegion
-        from geometry.plane.profile import Label, Region, circle
+        from geometry.plane.profile import Region
 
-        teeth = thing.teeth
-        return OffsetRegion(Region(circle(float(teeth.tip_radius(teeth.width / 2)), Label.BODY), ()), offset, ())
+        outline = thing.teeth.outline(thing.teeth.width / 2)
+        return OffsetRegion(Region(outline, keys.hub_holes().profiles(0.0)), 0.0, ())
 
     def solid(self, keys: WormWheelSpec, thing: WheelThing, offset: float) -> FacedBody:
         """The teeth about their core."""
