@@ -258,7 +258,7 @@ def _step_part(content: Content, made: SolidCurves) -> StepPart:
 
     part, body = content.part, content.body
     volume, faces = part.made_by.moments(body).volume, solid_faces(body, made)
-    said = part.colour, part.material, part.density, volume, part.title, part.description
+    said = part.colour, part.material, part.density, volume, part.product_name, part.description
     return StepPart(part.id, faces, *said)
 
 

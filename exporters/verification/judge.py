@@ -95,7 +95,7 @@ def said_failures(found: ReadBack, kind: FileKind, part: Part) -> list[str]:
         return []
     said = cast("ReadSolid", found).said
     expected = {
-        "title": None if part.title == part.id else part.title,
+        "title": None if part.product_name == part.id else part.product_name,
         "description": part.description or None,
         "material name": part.material,
         "density": part.density,

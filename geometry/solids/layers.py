@@ -22,8 +22,8 @@ from geometry.plane.profile import Label, Profile, Region, Segment
 from geometry.solids.body import Body, BodyBuilder
 from geometry.solids.plate import Edge, moved_edges
 
-# points of an arc where contours are held against each other
-_SAMPLES = 128
+# points of an arc where contours are held against each other: at most, and of one of 1 mm
+_SAMPLES, _OF_ONE = 128, 64.0
 
 
 class Contour(Record, dict=True):
@@ -41,7 +41,10 @@ class Contour(Record, dict=True):
     @cached_property
     def points(self) -> Complex:
         """Along it, without the end."""
-        found = [e.point(np.linspace(*e.domain, _SAMPLES if isinstance(e, Arc) else 2)[:-1]) for e in self.edges]
+        found = []
+        for edge in self.edges:
+            count = min(_SAMPLES, math.ceil(_OF_ONE * math.sqrt(edge.radius))) if isinstance(edge, Arc) else 1
+            found.append(edge.point(np.linspace(*edge.domain, count + 1)[:-1]))
         return np.concatenate(found)
 
     @cached_property

@@ -70,6 +70,15 @@ class Part(Record, dict=True):
         return self.keys.title  # type: ignore[attr-defined]
 
     @property
+    def product_name(self) -> str | None:
+        """What CAD shows of it: its position and title; the kernel takes a name without any ASCII letter for none."""
+        if self.title is None:
+            return None
+        keys: Any = self.keys
+        told = " ".join(str(word) for word in (keys.position, self.title) if word)
+        return told if any("!" <= letter <= "~" for letter in told) else f"{told} ({self.id})"
+
+    @property
     def description(self) -> str:
         """What a parts list says of it beside its title: designation or standard, and its title in Ukrainian."""
         keys: Any = self.keys

@@ -237,6 +237,7 @@ assembly = true
     found = read_step_assembly(file)
     assert {o.name: o.within for o in found.occurrences} == {"base": "", "left": "pins", "right": "pins", "alone": ""}
     said = {p.name: p.part.said["description"] for p in found.prototypes}  # type: ignore[attr-defined]
+    assert {p.part.said.get("title") for p in found.prototypes} == {None, "7 Pin"}  # type: ignore[attr-defined]
     assert said == {"base": "AB.01", "pin": "ISO 2338; \u0428\u0442\u0438\u0444\u0442"}
     text = file.read_text(encoding="ascii")
     assert text.count("=MANIFOLD_SOLID_BREP(") == 2
