@@ -102,12 +102,16 @@ def _add_dimension(drawing: Drawing, one: Dimension) -> BlockLayout:
 
     name = f"{_DIMSTYLE}_{one.scale:g}".replace(".", "_")
     if name not in drawing.dimstyles:
-        size = {"dimtxt": TEXT_HEIGHT, "dimasz": ARROW, "dimexe": 1.5, "dimexo": 0.0, "dimgap": 0.9, "dimdli": 8.0}
+        is_first = not any(style.dxf.name.startswith(_DIMSTYLE) for style in drawing.dimstyles)
+        size = {"dimtxt": TEXT_HEIGHT, "dimasz": ARROW, "dimexe": 1.5, "dimexo": 0.0, "dimgap": 0.9, "dimdli": 8.0,
+                "dimclrt": STYLES["TEXT"].aci}  # fmt: skip
         looks = {"dimtad": 1, "dimtih": 0, "dimtoh": 0, "dimdec": 3, "dimzin": 8, "dimlunit": 2, "dimtofl": 1}
         drawing.dimstyles.new(
             name, {**size, **looks, "dimdsep": ord(one.mark), "dimlfac": 1 / one.scale, "dimtxsty": _STYLE}
         )
-        for key, value in {**size, "dimlfac": 1 / one.scale, "dimdec": 3, "dimzin": 8, "dimtad": 1}.items():
+        # some programs know one style only: the first, that of the sheet
+        heads = {**size, "dimlfac": 1 / one.scale, "dimdec": 3, "dimzin": 8, "dimtad": 1, "dimdsep": ord(one.mark)}
+        for key, value in heads.items() if is_first else ():
             drawing.header[f"${key.upper()}"] = value
     block = drawing.blocks.new_anonymous_block(type_char="D")
     first, second = (place_of(p) for p in one.points)

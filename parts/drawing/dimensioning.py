@@ -112,12 +112,15 @@ class _NoRoomError(Exception):
         self.owner = owner
 
 
-def laid(view: View, scale: float, language: str, tolerance: float) -> Laid | None:
-    """A view with all of its dimensions, at a scale; None where they find no room."""
+def laid(view: View, scale: float, language: str, tolerance: float, *, own: bool = False) -> Laid | None:
+    """A view with all of its dimensions, at a scale; None where they find no room.
+
+    ``own``: its scale is not the sheet's, which is all that some programs know, so its numbers stand as words.
+    """
     sizes = sorted(view.sizes, key=lambda one: one.value)
     leaders: list[Round | Note] = [*view.rounds, *view.notes]
     for _ in range(_TRIES):
-        made = _Layout(view, scale, language, tolerance)
+        made = _Layout(view, scale, language, tolerance, own=own)
         try:
             made.fill(sizes, leaders, view.title)
             return Laid(made.canvas, scale, made.extent())
@@ -132,8 +135,8 @@ def laid(view: View, scale: float, language: str, tolerance: float) -> Laid | No
 class _Layout:
     """Fills the canvas of one view; rows of dimension lines by their side."""
 
-    def __init__(self, view: View, scale: float, language: str, tolerance: float) -> None:
-        self.canvas, self.ink, self.language = Canvas(0.0, 0.0, ""), Ink(), language
+    def __init__(self, view: View, scale: float, language: str, tolerance: float, *, own: bool) -> None:
+        self.canvas, self.ink, self.language, self.own = Canvas(0.0, 0.0, ""), Ink(), language, own
         self.paper = Paper(scale, 0j)
         curves = fitted(self.canvas, [curve for _, curve in view.strokes], scale, tolerance)
         for (layer, _), curve in zip(view.strokes, curves, strict=True):
@@ -224,13 +227,18 @@ class _Layout:
                 if self.ink.holds(lines, text.box):
                     rows[index].append(reach)
                     ends = [_at(along, level, place) for place in (low, high)]
-                    words = size.before.replace("Ø", "%%c") + "<>" + size.after
+                    words = self._template(size)
                     angle = 90.0 if upright else 0.0
                     self._dimension(
                         size.name, "linear", size.value, (points[0], points[1]), ends[1], angle, words, lines, text
                     )
                     return True
         return False
+
+    def _template(self, one: Size | Round) -> str:
+        """The words of a dimension as programs keep them."""
+        number = number_text(one.value, self.language) if self.own else "<>"
+        return one.before.replace("Ø", "%%c") + number + one.after
 
     def _dimension(
         self,
@@ -276,7 +284,7 @@ class _Layout:
                 # both arrows within the circle
                 lines = [*lines[:2], *_arrow(tip, -way), *_arrow(start, way)]
             if self.ink.holds(lines, text.box):
-                template = one.before.replace("Ø", "%%c") + "<>" + one.after
+                template = self._template(one)
                 kind: Literal["radius", "diameter"] = "radius" if one.is_radius else "diameter"
                 ends = (start, tip)
                 self._dimension(one.name, kind, one.value, ends, elbow, 0.0, template, lines, text)

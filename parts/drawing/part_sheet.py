@@ -11,6 +11,7 @@ import numpy as np
 
 from geometry.base.record import Record
 from geometry.curves.curve import Curve
+from geometry.curves.line_arc import Arc
 from geometry.plane.measure import distance_to_curves
 from parts.drawing.canvas import SCALES, SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Paper, scale_text, text_width
 from parts.drawing.cells import wrapped
@@ -33,6 +34,8 @@ _SAME = 1e-6
 # a curve of a file is another's where their ends are farther apart, mm on paper
 _NEAR = 0.01
 _INDENT = 1.0
+# half of what a bracket turns, rad
+_BRACKET = 0.65
 # places along each side of a sheet that are tried for views
 _TRIED = 24
 
@@ -134,8 +137,10 @@ class _Corner(Record):
         small = [line for line in rough_sign(complex(x + 5.2, foot.imag), "")[0][:2]]
         for line in (*lines, *small):
             canvas.line("THIN", line.start, line.end)
-        for words, at in (("(", x), (")", x + 10.6)):
-            canvas.write(words, complex(at, foot.imag + 1.5), 5.0)
+        # brackets as arcs: programs fit letters to a length, and a bracket has hardly any
+        middle = complex(x + 6.0, foot.imag + 4.0)
+        for turn in (0.0, math.pi):
+            canvas.arc("THIN", Arc(middle, 6.0, turn - _BRACKET, 2 * _BRACKET))
 
 
 def part_sheet(drawing: PartDrawing, data: Block | None, roughness: float, asked: Asked) -> Expected:
@@ -199,7 +204,7 @@ def _laid(view: View, scale: float, asked: Asked) -> Laid | None:
         own = next((s for s in reversed(SCALES) if s >= max(needed, scale)), SCALES[0])
         title = title if own == scale else f"{title} ({scale_text(own, asked.language)})"
     made = View(view.strokes, view.hatched, view.axes, view.sizes, view.rounds, view.notes, title)
-    return laid(made, own, asked.language, asked.tolerance)
+    return laid(made, own, asked.language, asked.tolerance, own=own != scale)
 
 
 def _places(views: Sequence[Laid], corner: _Corner, canvas: Canvas) -> list[complex] | None:

@@ -160,4 +160,7 @@ def chamfers(loop: Loop) -> Iterator[Size]:
         slanted = isinstance(curve, Line) and abs(abs(way.real) - abs(way.imag)) < 1e-6 * abs(way)
         if slanted and abs(way.real) < max(xs) - min(xs) and round(abs(way.real), 9) not in seen:
             seen.add(round(abs(way.real), 9))
-            yield Size(f"chamfer.{len(seen)}", start_point(curve), end_point(curve), "above", "", "×45°")
+            # both ends at one height: programs that take every size as aligned read the same number
+            top = max(start_point(curve).imag, end_point(curve).imag)
+            start, end = (complex(p.real, top) for p in (start_point(curve), end_point(curve)))
+            yield Size(f"chamfer.{len(seen)}", start, end, "above", "", "×45°")

@@ -226,7 +226,8 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
         found.append(Size("web.thickness", complex(at.web[0], shape.web.rim_diameter / 2),
                           complex(at.web[1], shape.web.rim_diameter / 2), "above"))  # fmt: skip
         if at.web[0] > 0:
-            found.append(Size("web.below", 1j * up, complex(at.web[0], shape.web.rim_diameter / 2), "above"))
+            inner = 1j * shape.web.rim_diameter / 2
+            found.append(Size("web.below", inner, at.web[0] + inner, "above"))
     for index, (_, group) in enumerate(wheel.holes.groups(), 1):
         name = f"holes.{index}.pitch_circle_diameter"
         diameter(name, group.pitch_circle_diameter, at.web[0], "left")
@@ -245,7 +246,7 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
     found.append(Size("face_width", -1j * down, complex(width, -down), "below", "", wishes.width))
     for name, cut, z, way in (("above", shape.chamfer_above, width, -1), ("below", shape.chamfer_below, 0.0, 1)):
         if cut and not (name == "below" and cut == shape.chamfer_above):
-            ends = complex(z + way * cut, up), complex(z, up - cut)
+            ends = complex(z + way * cut, up), complex(z, up)
             found.append(Size(f"face_chamfer.{name}", *ends, "above", "", "×45°"))
     return found
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -77,11 +78,19 @@ def sizes(file: Path) -> dict[str, float]:
         value = float(entity.get_measurement()) * document.dimstyles.get(entity.dxf.dimstyle).dxf.dimlfac
         assert value == pytest.approx(entity.dxf.actual_measurement, abs=1e-6)
         said = [text.dxf.text for text in document.blocks.get(entity.dxf.geometry).query("TEXT")]
-        template = entity.dxf.text.replace("%%c", "Ø")
-        number = "".join(said).replace(" ", "").removeprefix(template.partition("<>")[0].replace(" ", ""))
-        shown = float(number.removesuffix(template.partition("<>")[2]).replace(",", "."))
-        assert shown == pytest.approx(value, abs=6e-4)
-        found[f"{entity.dxf.text} {sum(key.startswith(entity.dxf.text + ' ') for key in found)}"] = value
+        # views of a scale of their own have the number in words: LibreCAD knows the scale of the sheet alone
+        before, sign, after = entity.dxf.text.replace("%%c", "Ø").partition("<>")
+        assert (sign == "<>") == (
+            document.header["$DIMLFAC"] == document.dimstyles.get(entity.dxf.dimstyle).dxf.dimlfac
+        )
+        number = "".join(said).replace(" ", "")
+        if sign:
+            shown = float(number.removeprefix(before.replace(" ", "")).removesuffix(after).replace(",", "."))
+            assert shown == pytest.approx(value, abs=6e-4)
+        else:
+            assert number == before.replace(" ", "")
+        kind = entity.dxf.text if sign else re.sub(r"\d+([.,]\d+)?", "<>", entity.dxf.text, count=1)
+        found[f"{kind} {sum(key.startswith(kind + ' ') for key in found)}"] = value
     return found
 
 
