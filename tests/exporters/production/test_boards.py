@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 from collections import defaultdict
-from functools import reduce
 from pathlib import Path
 from typing import Any
 
@@ -89,8 +88,8 @@ def contours(file: Path, *, closed: bool = True) -> list[tuple[str, np.ndarray]]
     return found
 
 
-def polygon(rows: np.ndarray, steps: int = 96) -> shapely.Polygon:
-    """A contour by many points of each arc."""
+def polygon(rows: np.ndarray, steps: int = 96, sag: float | None = None) -> shapely.Polygon:
+    """A contour by many points of each arc, or by chords so near to it, mm."""
     points: list[complex] = []
     for (x, y, bulge), (to_x, to_y, _) in zip(rows, np.roll(rows, -1, axis=0), strict=True):
         start, end = complex(x, y), complex(to_x, to_y)
@@ -100,15 +99,26 @@ def polygon(rows: np.ndarray, steps: int = 96) -> shapely.Polygon:
         # centre and radius of the arc through both ends
         half = 2 * math.atan(bulge)
         centre = (start + end) / 2 + 1j * (end - start) / 2 / math.tan(half)
+        if sag is not None:
+            steps = math.ceil(abs(half) / math.acos(1 - sag / abs(start - centre)))
         points += [centre + (start - centre) * np.exp(2j * half * k / steps) for k in range(steps)]
     return shapely.Polygon([(p.real, p.imag) for p in points])
 
 
-def bodies_of(file: Path) -> list[shapely.Polygon]:
+def bodies_of(file: Path, sag: float | None = None) -> list[shapely.Polygon]:
     """What is cut out whole: the material between the contours, by even and odd."""
-    rings = [polygon(rows) for layer, rows in contours(file) if layer != "ENGRAVE"]
-    whole = reduce(shapely.symmetric_difference, rings)
-    return list(whole.geoms) if isinstance(whole, shapely.MultiPolygon) else [whole]
+    rings = [polygon(rows, sag=sag) for layer, rows in contours(file) if layer != "ENGRAVE"]
+    first = shapely.points([ring.exterior.coords[0] for ring in rings])
+    inner, outer = shapely.STRtree(rings).query(first, predicate="within")
+    around = [{int(b) for a, b in zip(inner, outer, strict=True) if a == k != b} for k in range(len(rings))]
+    return [
+        shapely.Polygon(
+            ring.exterior,
+            [rings[i].exterior for i, own in enumerate(around) if k in own and len(own) == len(around[k]) + 1],
+        )
+        for k, ring in enumerate(rings)
+        if len(around[k]) % 2 == 0
+    ]
 
 
 def bodies_gap(bodies: list[shapely.Polygon]) -> float:

@@ -11,8 +11,10 @@ import shapely
 from ezdxf.path import make_path
 
 from exporters.command.cli import main
+from parts.scene.files import SCENE_FOLDER
 from parts.scene.load import load_scene, make_parts
 from parts.scene.placing import place
+from tests.exporters.production.test_boards import bodies_of, contours, pieces_of
 
 LESSONS = [f"lesson_{number}" for number in range(1, 6)]
 
@@ -95,3 +97,50 @@ def test_a_lesson_builds_whole_in_both_languages(name: str, tmp_path: Path) -> N
         assert shapely.distance(edges, shapely.MultiLineString(names)) >= 0.125
         left, low, right, high = edges.bounds
         assert min(left, low, 600 - right, 400 - high) >= 4.9
+
+
+def board_alone(lesson: str, kerf: float, folder: Path) -> Path:
+    """A lesson with its DXF board alone, of another kerf."""
+    text = (SCENE_FOLDER / f"{lesson}.toml").read_text("utf-8").partition("[[exports]]")[0]
+    file = folder / f"{lesson}.toml"
+    file.write_text(
+        text.replace("kerf = 0.2\n", f"kerf = {kerf}\n") + '[[exports]]\nformat = "dxf"\npurpose = "board"\n', "utf-8"
+    )
+    return file
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("kerf", [0.0, 0.2, 0.3])
+@pytest.mark.parametrize("name", ["lesson_3", "lesson_5"])
+def test_boards_of_lessons_by_shapely_alone(name: str, kerf: float, tmp_path: Path) -> None:
+    """Every contour closed and on the board, the gap kept to 1e-6 mm beyond what the file declares, names within."""
+    assert main(["build", str(board_alone(name, kerf, tmp_path)), "--out", str(tmp_path)]) == 0
+    parts = {"lesson_3": 3, "lesson_5": 4}[name]
+    found = 0
+    for file in sorted((tmp_path / name).glob("*.dxf")):
+        entry = pieces_of(tmp_path / name, file.name)
+        # kept between what is written, which may stand off the exact outlines by so much
+        slack = 1e-6 + 2 * entry["max_error"]
+        bodies = bodies_of(file, sag=4e-7)
+        found += len(bodies)
+        assert len(bodies) == len(entry["pieces"])
+        assert all(body.is_valid for body in bodies)
+        low_x, low_y, high_x, high_y = shapely.total_bounds(bodies)
+        assert min(low_x, low_y, 600 - high_x, 400 - high_y) >= 5 - slack
+        near = shapely.STRtree(bodies).query(bodies, predicate="dwithin", distance=2 - slack)
+        assert near[0].tolist() == near[1].tolist()
+        names = shapely.MultiLineString([rows[:, :2] for _, rows in contours(file, closed=False)])
+        # half of a stroke of 0.25 mm within what is cut out, and not over its edge or a hole
+        within = [b.simplify(1e-3).buffer(-0.125 + slack + 1e-3) for b in bodies]
+        assert shapely.union_all(within).contains(names)
+    assert found == 10 * parts
+
+
+def test_a_kerf_that_closes_a_hole_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The mark at cam angle 0 is 2 mm wide."""
+    assert main(["build", str(board_alone("lesson_5", 2.1, tmp_path)), "--out", str(tmp_path)]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "boards.plywood.kerf = 2.1" in said
+    assert "at most 1.99" in said
+    assert not (tmp_path / "lesson_5").exists()
