@@ -53,6 +53,8 @@ def scene_checks(
             if turns and isinstance(mate.mating, Touching):
                 # contact is held against a whole pitch, whatever part of it the drive runs through
                 found["driven_pitches"] = turns[0] * mate.mating.first_teeth
+    if placing.mates and (alone := [i.id for i in placing.instances if i.placed_by == "row"]):
+        checks["in_a_row"] = alone
     if placing.close:
         checks["neighbours"] = [_neighbours(c, language) for c in placing.close]
     if placing.off_centre:

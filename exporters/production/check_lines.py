@@ -66,6 +66,11 @@ def check_lines(checks: dict[str, Any], language: str, names: Mapping[str, str] 
         lines += [told.text("note: {text}", text=f["text"]) for f in mate.get("findings", [])]
         lines += [told.text("BROKEN: {text}", text=c["text"]) for c in mate.get("conditions", []) if not c["met"]]
     lines += [told.text("BROKEN: {text}", text=axle["text"]) for axle in checks.get("axles", [])]
+    if "in_a_row" in checks:
+        apart = ", ".join(names.get(name, name) for name in checks["in_a_row"])
+        lines.append(
+            told.text("note: neither `at` nor a mate places them, so they stand in a row: {names}", names=apart)
+        )
     for close in checks.get("neighbours", []):
         lines.append(told.text("note: {text}", text=close["text"]))
     for found in checks.get("solids", []):

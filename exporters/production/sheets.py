@@ -119,7 +119,7 @@ def sheet_jobs(
     tolerance, language = float(export.tolerance or 0.0), scene.scene.language
     # a PDF's numbers take their share
     share = PDF_ROUNDING if export.format == "pdf" else 0.0
-    asked = Asked(language, tolerance - share, _band(export), export.paper, export.scale)
+    asked = Asked(language, tolerance - share, _band(export), export.paper, export.scale, export.cells == "empty")
     try:
         if export.format == "pdf":
             from exporters.drawings.pdf import check_pdf

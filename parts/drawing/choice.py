@@ -16,7 +16,7 @@ PAPERS = {"A4": (210.0, 297.0), "A3": (297.0, 420.0), "A2": (420.0, 594.0), "A1"
 class Asked(Record):
     """What a scene asks of a sheet: the words on it, how exact (mm on paper), paper and scale (None: as it fits).
 
-    ``band``: height that a title block takes, mm.
+    ``band``: height that a title block takes, mm; ``by_hand``: cells of answers are empty, to be filled with a pen.
     """
 
     language: str
@@ -24,6 +24,7 @@ class Asked(Record):
     band: float = 0.0
     paper: str | None = None
     scale: str | None = None
+    by_hand: bool = False
 
 
 def blank(name: str, *, upright: bool, band: float = 0.0) -> Canvas:

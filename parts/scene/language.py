@@ -12,7 +12,7 @@ from parts.base.texts import ENGLISH, languages
 from parts.scene.files import MOST_BYTES, built_in_scenes, text_of
 
 # keys that hold words, and may hold them in several languages
-WORDS = ("title", "label")
+WORDS = ("title", "label", "material")
 
 
 def language_of(address: str) -> str:
@@ -33,7 +33,7 @@ def language_of(address: str) -> str:
 
 
 def in_language(raw: dict[str, Any], source: str, asked: str | None) -> dict[str, Any]:
-    """The tables of a scene, its titles and labels in the language ``asked`` for, else in the scene's.
+    """The tables of a scene, its titles, labels and materials in the language ``asked`` for, else in the scene's.
 
     Raises
     ------
@@ -47,7 +47,12 @@ def in_language(raw: dict[str, Any], source: str, asked: str | None) -> dict[str
         scene = {**scene, "language": asked}
     language = scene.get("language", ENGLISH)
     rows = {key: _chosen(table, language, source, f"parts.{key}") for key, table in parts.items()}
-    return {**raw, "scene": _chosen(scene, language, source, "scene"), **({"parts": rows} if rows else {})}
+    made = {**raw, "scene": _chosen(scene, language, source, "scene"), **({"parts": rows} if rows else {})}
+    if "defaults" in raw:
+        made["defaults"] = _chosen(raw["defaults"], language, source, "defaults")
+    if isinstance(told := raw.get("assemblies"), list):
+        made["assemblies"] = [_chosen(one, language, source, f"assemblies[{k}]") for k, one in enumerate(told, 1)]
+    return made
 
 
 def _chosen(table: object, language: str, source: str, place: str) -> Any:

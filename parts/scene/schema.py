@@ -43,7 +43,8 @@ def scene_schema() -> str:
     schema["$defs"]["Scene"]["properties"]["defaults"] = told
     # words may be told in several languages
     several = {"type": "object", "additionalProperties": {"type": "string"}}
-    for table in ("SceneInfo", *(entry.keys.__name__ for entry in KINDS.values())):
+    told_in = [*(kind.keys for kind in KINDS.values()), *(entry.keys for entry in RECIPES.values())]
+    for table in ("SceneInfo", *(keys.__name__ for keys in told_in)):
         properties = schema["$defs"][table]["properties"]
         for name in [name for name in WORDS if name in properties]:
             properties[name] = {"anyOf": [properties[name], several], "default": properties[name].get("default")}

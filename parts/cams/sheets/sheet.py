@@ -215,9 +215,13 @@ def _flow(grids: list[Grid], layout: _Layout, asked: Asked) -> list[_Page]:
     paper = layout.profile.page.canvas.paper
     at: _Place | None = None
     top = 0.0
+    if not columns:
+        pages.append(_Page(blank(paper, upright=True, band=asked.band)))
+        columns = _columns(pages[-1])
+        grids = [grid.on_page(columns[0].area.right - columns[0].area.left, by_hand=asked.by_hand) for grid in grids]
     while grids:
         grid = grids[0]
-        rows = len(grid.rows) if at is None else int((top - at.area.low) / ROW + 1e-9)
+        rows = len(grid.rows) if at is None else int((top - at.area.low) / grid.row + 1e-9)
         # a table goes on where it would not fit a column of its own
         if at is None or (rows < len(grid.rows) and (rows < _LEAST_ROWS or grid.height <= at.area.high - at.area.low)):
             if not columns:
@@ -238,8 +242,8 @@ def _columns(page: _Page) -> list[_Place]:
     content = page.canvas.content
     count = int((content.right - content.left - 2 * _MARGIN) / (WIDTH + _MARGIN))
     low, high, left = content.low + _MARGIN, content.high - _TITLE, content.left + _MARGIN
-    starts = [left + k * (WIDTH + _MARGIN) for k in range(count)]
-    return [_Place(page, Box(x, low, x + WIDTH, high)) for x in starts]
+    step = (content.right - left) / count
+    return [_Place(page, Box(left + k * step, low, left + (k + 1) * step - _MARGIN, high)) for k in range(count)]
 
 
 def _captions(picture: CamPicture, layout: _Layout, profile: Paper) -> None:

@@ -15,7 +15,8 @@ from parts.pages.symbols import lowered, symbol_text
 from parts.pages.text import result_text, step_name
 from parts.texts.sheets import sheet_words
 
-ROW = 4.5
+# height of a row, and of one that is filled with a pen, mm
+ROW, PEN_ROW = 4.5, 7.0
 WIDTH = 126.0
 _COLUMNS = (76.0, 16.0, 34.0)
 _INDENT = 1.2
@@ -33,11 +34,18 @@ class Grid(Record):
     rows: tuple[tuple[str, ...], ...]
     samples: tuple[tuple[int, str], ...] = ()
     answers: tuple[int, ...] = ()
+    row: float = ROW
 
     @property
     def height(self) -> float:
         """mm."""
-        return ROW * len(self.rows)
+        return self.row * len(self.rows)
+
+    def on_page(self, width: float, *, by_hand: bool) -> Grid:
+        """As wide as a page of tables has room for; with rows for a pen where there is something to find."""
+        share = width / sum(self.columns)
+        high = PEN_ROW if by_hand and any(self.answers) else ROW
+        return replace(self, columns=tuple(share * column for column in self.columns), row=high)
 
     def cut(self, rows: int) -> tuple[Grid, Grid]:
         """The first ``rows`` and the rest, under the same heading."""
@@ -161,9 +169,9 @@ def draw_grid(canvas: Canvas, corner: complex, grid: Grid) -> None:
     canvas.box("TABLE", Box(corner.real, top - grid.height, corner.real + width, top))
     many = len(grid.columns) > 3
     for index, row in enumerate(grid.rows):
-        y = top - ROW * (index + 1)
+        y = top - grid.row * (index + 1)
         if index:
-            canvas.line("TABLE", complex(corner.real, y + ROW), complex(corner.real + width, y + ROW))
+            canvas.line("TABLE", complex(corner.real, y + grid.row), complex(corner.real + width, y + grid.row))
         x = corner.real
         for k, (cell, wide) in enumerate(zip(row, grid.columns, strict=False)):
             room = (width if len(row) == 1 else wide) - 2 * _INDENT
@@ -171,10 +179,10 @@ def draw_grid(canvas: Canvas, corner: complex, grid: Grid) -> None:
             at = x + wide - _INDENT - length if many and len(row) > 1 else x + _INDENT
             if cell:
                 answer = bool(grid.answers) and k >= len(row) - grid.answers[index]
-                canvas.write(cell, complex(at, y + (ROW - SMALL_TEXT) / 2 + 0.1), SMALL_TEXT, room, answer=answer)
+                canvas.write(cell, complex(at, y + (grid.row - SMALL_TEXT) / 2 + 0.1), SMALL_TEXT, room, answer=answer)
             if k:
-                canvas.line("TABLE", complex(x, y), complex(x, y + ROW))
+                canvas.line("TABLE", complex(x, y), complex(x, y + grid.row))
             x += wide
     for index, layer in grid.samples:
-        y = top - ROW * (index + 0.5)
+        y = top - grid.row * (index + 0.5)
         canvas.line(layer, complex(corner.real + grid.columns[0] + 3.0, y), complex(corner.real + width - 3.0, y))

@@ -22,7 +22,9 @@ from tests.exporters.making import NUMBER
 SVG = "{http://www.w3.org/2000/svg}"
 # letters that hang below their line, by 0.29 of a capital
 HANGING = set("gjpqyQ,;()[]{}/φρξμψβηруцщфДЦЩ№")
-SCENES = sorted(name for name, file in built_in_scenes().items() if 'format = "sheet"' in file.read_text("utf-8"))
+SCENES = sorted(
+    name for name, file in built_in_scenes().items() if re.search('format = "(sheet|pdf)"', file.read_text("utf-8"))
+)
 # a rounding, mm
 NEAR = 0.02
 Box = tuple[str, float, float, float, float]
@@ -108,7 +110,8 @@ def faults(file: Path) -> list[str]:
 def sheets_of(name: str, language: str, **export: Any) -> Any:
     scene = load_scene(name)
     scene.scene.language = language  # type: ignore[assignment]
-    scene.exports = [msgspec.structs.replace(e, **export) for e in scene.exports if e.format == "sheet"]
+    sheets = [e for e in scene.exports if e.format == "sheet" or (e.format == "pdf" and e.purpose != "model")]
+    scene.exports = [msgspec.structs.replace(e, **{"format": "sheet", **export}) for e in sheets]
     return [job for job in plan_build(scene, name, [], []).sheets if job.path.endswith(".svg")]
 
 

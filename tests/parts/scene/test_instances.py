@@ -360,3 +360,14 @@ def test_a_tilted_part_stands_in_its_place_in_files_and_in_the_way(
     ):
         with pytest.raises(SceneError, match=re.escape(told)):
             placed(wrong)
+
+
+def test_what_nothing_places_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    plate = '[parts.{0}]\nkind = "plate"\nwidth = 20.0\nheight = 20.0\n'
+    text = "".join(map(plate.format, ("low", "high", "loose"))) + '[[mates]]\nkind = "fixed"\nfirst = "low"\n'
+    file = tmp_path / "s.toml"
+    file.write_text(text + 'second = "high"\noffset = [0.0, 0.0, 10.0]\n', encoding="utf-8")
+    for more, told in (("", True), ("[instances.loose]\nat = [50.0, 0.0, 0.0]\n", False)):
+        file.write_text(file.read_text("utf-8") + more, encoding="utf-8")
+        assert main(["check", str(file)]) == 0
+        assert ("neither `at` nor a mate places them, so they stand in a row: loose" in capsys.readouterr().out) is told
