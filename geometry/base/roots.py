@@ -70,7 +70,7 @@ def bracketed_root(
 
 def _next_fraction(a: float, b: float, c: float, fa: float, fb: float, fc: float, margin: float) -> float:
     """Where in [a, b] to look next, as a fraction; 0.5 where interpolation is not safe."""
-    if len({fa, fb, fc}) < 3 or len({a, b, c}) < 3:
+    if fa == fb or fb == fc or fc == fa or a == b or b == c or c == a:
         return 0.5
     xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
     if phi**2 < xi and (1 - phi) ** 2 < 1 - xi:
