@@ -124,6 +124,10 @@ def test_tips() -> None:
         assert isinstance(cure.value, float)
         made = checked_lantern_gear(replace(GEAR, given_tip_diameter=cure.value))
         assert made.tip_radius == cure.value / 2
+    with pytest.raises(PointedTipError) as told:
+        limits_of(replace(GEAR, given_tip_diameter=2 * found.pointed_radius + 0.01))
+    # the very diameter, beside the one that works
+    assert told.value.numbers["diameter"] == pytest.approx(2 * found.pointed_radius, rel=1e-12)
 
 
 gears = st.builds(
