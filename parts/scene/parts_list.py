@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
@@ -12,6 +13,9 @@ if TYPE_CHECKING:
     from parts.base.part import Part
     from parts.keys.base import MaterialKeys
     from parts.scene.placing import Instance
+
+# of what one mass is
+_SAME = 1e-9
 
 
 def list_rows(instances: Sequence[Instance], parts: Mapping[str, Part], language: str) -> tuple[ListRow, ...]:
@@ -28,7 +32,9 @@ def list_rows(instances: Sequence[Instance], parts: Mapping[str, Part], language
             position = number = number + 1
         masses = [_mass(parts[p]) for p in ids]
         total = None if None in masses else sum(m * counts[p] for m, p in zip(masses, ids, strict=True) if m)
-        mass = masses[0] if len(set(masses)) == 1 else None
+        # parts that are alike but for how they lie differ by rounding
+        least, most = min(m or 0.0 for m in masses), max(m or 0.0 for m in masses)
+        mass = masses[0] if math.isclose(least, most, rel_tol=_SAME) else None
         told, count = _told(parts[ids[0]], language)[1:], sum(counts[p] for p in ids)
         rows.append(ListRow(str(section), position, *told, count, mass, total, tuple(ids)))
     return tuple(sorted(rows, key=lambda row: (list(SECTIONS).index(row.section), row.position)))

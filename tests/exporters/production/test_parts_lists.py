@@ -91,6 +91,25 @@ def test_csv_tells_positions_quantities_and_masses(tmp_path: Path) -> None:
     assert rod["Mass, kg"] == rod["Total mass, kg"] == ""
 
 
+@pytest.mark.heavy
+def test_the_list_of_the_power_module_is_the_theses() -> None:
+    from parts.scene.load import in_keys_of_file, load_scene, make_parts
+    from parts.scene.parts_list import list_rows
+    from parts.scene.placing import place
+
+    made = load_scene("power_module")
+    with in_keys_of_file(made.origins):
+        parts, matings = make_parts(made, "t")
+    placing = place(made.instances, made.drives, parts, matings, "t")
+    rows = list_rows(placing.instances, parts, "uk")
+    counts = {name: [row.count for row in rows if row.section == name] for name in ("parts", "standard")}
+    assert {name: (len(found), sum(found)) for name, found in counts.items()} == {
+        "parts": (33, 42),
+        "standard": (15, 417),
+    }
+    assert all(row.mass is not None for row in rows)
+
+
 def test_the_sheet_is_form_1_of_gost_2_106(tmp_path: Path) -> None:
     import ezdxf
 
