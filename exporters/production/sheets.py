@@ -21,9 +21,11 @@ from geometry.gears.pictures.meshing import MeshingPicture, meshing_picture
 from geometry.gears.teeth.limits import practicum_undercut
 from geometry.gears.teeth.transverse import overlap_ratio
 from parts.base.mate import Toothed
+from parts.base.materials import material_told
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError, placed
 from parts.base.schema import unit_of
+from parts.base.texts import words
 from parts.cams.coupler_cam.part import LinkageCamSpec
 from parts.cams.disk_cam.part import CamSpec
 from parts.drawing.canvas import Canvas, decimal, scale_text
@@ -272,8 +274,12 @@ def _add_title_block(
     given = export.title_block if isinstance(export.title_block, TitleBlockTable) else TitleBlockTable()
     more = {"name": given.name or (part and part.title) or scene.scene.title or scene.name}
     if part is not None:
-        more |= {"material": given.material or part.material or "", "mass": given.mass or _mass(part, language)}
+        more |= {
+            "material": given.material or material_told(part.material, words(language)),
+            "mass": given.mass or _mass(part, language),
+        }
         if export.purpose == "part":
+            more["name"] = given.name or part.title or part.id
             more["designation"] = given.designation or part.keys.designation or ""  # type: ignore[attr-defined]
     scale = scale_text(expected.paper.scale, language)
     form = form_of(number[0]) if export.purpose == "parts_list" else FORM_1

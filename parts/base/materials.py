@@ -5,24 +5,26 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
+from parts.base.texts import N_, Words
+
 if TYPE_CHECKING:
     from geometry.solids.mass import Moments
 
 # typical values of makers' data sheets; a part's own key `density` goes before them
 DENSITIES = {
-    "steel": 7.85,
-    "stainless steel": 7.93,
-    "cast iron": 7.2,
-    "brass": 8.5,
-    "bronze": 8.8,
-    "copper": 8.96,
-    "aluminium": 2.7,
+    N_("steel"): 7.85,
+    N_("stainless steel"): 7.93,
+    N_("cast iron"): 7.2,
+    N_("brass"): 8.5,
+    N_("bronze"): 8.8,
+    N_("copper"): 8.96,
+    N_("aluminium"): 2.7,
     "aluminum": 2.7,
-    "titanium": 4.5,
+    N_("titanium"): 4.5,
     "pom": 1.41,
     "acetal": 1.41,
     "delrin": 1.42,
-    "nylon": 1.14,
+    N_("nylon"): 1.14,
     "pa6": 1.14,
     "pa12": 1.01,
     "pla": 1.24,
@@ -32,15 +34,15 @@ DENSITIES = {
     "tpu": 1.21,
     "pc": 1.2,
     "resin": 1.15,
-    "acrylic": 1.19,
-    "plexiglass": 1.19,
-    "plywood": 0.65,
-    "mdf": 0.75,
-    "beech": 0.72,
-    "birch": 0.65,
-    "oak": 0.7,
-    "cardboard": 0.7,
-    "textolite": 1.35,
+    N_("acrylic"): 1.19,
+    N_("plexiglass"): 1.19,
+    N_("plywood"): 0.65,
+    N_("mdf"): 0.75,
+    N_("beech"): 0.72,
+    N_("birch"): 0.65,
+    N_("oak"): 0.7,
+    N_("cardboard"): 0.7,
+    N_("textolite"): 1.35,
     "сталь": 7.85,
     "чавун": 7.2,
     "латунь": 8.5,
@@ -61,9 +63,22 @@ def density_of(material: str | None) -> float | None:
     """
     if material is None:
         return None
-    text = material.casefold()
-    found = [name for name in DENSITIES if re.search(rf"(?<!\w){re.escape(name)}(?!\w)", text)]
-    return DENSITIES[max(found, key=len)] if found else None
+    found = _known(material)
+    return DENSITIES[found[0].casefold()] if found else None
+
+
+def material_told(material: str | None, told: Words) -> str:
+    """A material in the words of a language, where it has a known name: plywood 3 mm, фанера 3 mm."""
+    found = _known(material or "")
+    if not found or told.text(found[0].casefold()) == found[0].casefold():
+        return material or ""
+    return f"{found.string[: found.start()]}{told.text(found[0].casefold())}{found.string[found.end() :]}"
+
+
+def _known(material: str) -> re.Match[str] | None:
+    """The longest known name in a text."""
+    found = (re.search(rf"(?<!\w){re.escape(name)}(?!\w)", material, re.IGNORECASE) for name in DENSITIES)
+    return max(filter(None, found), key=lambda match: len(match[0]), default=None)
 
 
 def mass_properties(moments: Moments, density: float | None) -> dict[str, Any]:

@@ -7,6 +7,8 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from parts.base.materials import material_told
+from parts.base.texts import words
 from parts.drawing.parts_list import SECTIONS, ListRow
 
 if TYPE_CHECKING:
@@ -51,7 +53,7 @@ def _told(part: Part, language: str) -> tuple[str, str, str, str, str]:
     keys = _keys(part)
     name = (keys.title_uk if language == "uk" else None) or keys.title or part.id
     section = "standard" if keys.standard else "parts"
-    return section, keys.designation or "", name, keys.standard or "", part.material or ""
+    return section, keys.designation or "", name, keys.standard or "", material_told(part.material, words(language))
 
 
 def _mass(part: Part) -> float | None:

@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from parts.base.materials import density_of, mass_properties
+from parts.base.materials import density_of, mass_properties, material_told
+from parts.base.texts import words
 from parts.scene.load import make_parts, scene_from_dict
 from tests.exporters.making import part_keys, read_report, run, write_scene
 from tests.exporters.outside import Gear
@@ -57,3 +58,12 @@ def test_a_material_without_a_density_is_told(keys: dict[str, object], told: boo
     assert run("build", scene, "--out", tmp_path, "--no-verify") == 0
     found = read_report(tmp_path / "s")["parts"]["g"]["findings"]
     assert ("unknown_material" in [f["code"] for f in found]) is told
+
+
+def test_a_known_material_is_told_in_the_language_of_the_drawing() -> None:
+    """The name alone is translated: what the user wrote beside it stays, as does what nobody knows."""
+    pairs = {"plywood 3 mm": "фанера 3 mm", "stainless steel 40Х": "нержавна сталь 40Х", "Steel": "сталь", "PLA": "PLA"}
+    for given, told in {**pairs, "unobtainium": "unobtainium"}.items():
+        assert material_told(given, words("uk")) == told
+        assert material_told(given, words("en")) == given
+    assert not material_told(None, words("uk"))
