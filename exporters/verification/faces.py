@@ -18,7 +18,7 @@ from exporters.verification.topology import doubled_normals, topology_failures
 from exporters.verification.verdict import Verdict, deviation_failures, volume_bound, volume_failures
 
 if TYPE_CHECKING:
-    from geometry.solids.faced import FacedBody
+    from geometry.solids.measured import Faced
 
 # places of the samples in each triangle, in sixths
 _PLACES = [(a, b, 6 - a - b) for a in range(7) for b in range(7 - a)]
@@ -27,7 +27,7 @@ SHARES = np.array(_PLACES, dtype=float) / 6
 _FEW = 9
 
 
-def verify_faced_mesh(mesh: ReadMesh, body: FacedBody, declared: float, tolerance: float) -> Verdict:
+def verify_faced_mesh(mesh: ReadMesh, body: Faced, declared: float, tolerance: float) -> Verdict:
     """Hold a mesh against its exact solid."""
     count = {"triangles": float(len(mesh.triangles))}
     failures = topology_failures(mesh)
@@ -56,7 +56,7 @@ def verify_faced_mesh(mesh: ReadMesh, body: FacedBody, declared: float, toleranc
     return Verdict(measured, tuple(failures))
 
 
-def mesh_deviation(mesh: ReadMesh, body: FacedBody) -> tuple[float, int]:
+def mesh_deviation(mesh: ReadMesh, body: Faced) -> tuple[float, int]:
     """Greatest distance of samples of the triangles from the face that each lies in, mm, and faces without any."""
     faces = body.surfaces
     at_corners = np.stack([face.distance(mesh.vertices) for face in faces])
@@ -75,7 +75,7 @@ def mesh_deviation(mesh: ReadMesh, body: FacedBody) -> tuple[float, int]:
     return float(found.max()), sum(not np.any(owner == i) for i in range(len(faces)))
 
 
-def verify_faced_solid(found: ReadSolid, body: FacedBody, declared: float, tolerance: float) -> Verdict:
+def verify_faced_solid(found: ReadSolid, body: Faced, declared: float, tolerance: float) -> Verdict:
     """Hold a re-read solid against its exact one: faces, edges, ends, volume."""
     model, surfaces = found.model, body.surfaces
     own = [np.array([face]) for face in range(len(model.faces))]

@@ -25,11 +25,11 @@ if TYPE_CHECKING:
     from exporters.formats.readback import ReadMesh, ReadOutlines
     from geometry.plane.profile import Region
     from geometry.solids.body import Body
-    from geometry.solids.faced import FacedBody
+    from geometry.solids.measured import Faced
 
 # the kernel keeps a colour as float32
 _SHADE = 1
-Exact: TypeAlias = "Region | Body | FacedBody"
+Exact: TypeAlias = "Region | Body | Faced"
 
 
 def verify_part(
@@ -145,7 +145,7 @@ def _drawing(found: ReadDrawing, region: Region, declared: float, tolerance: flo
     return verify_samples(found.loops(), region.profiles(), declared, tolerance)
 
 
-def _mesh(found: ReadMesh, body: Body | FacedBody, declared: float, tolerance: float) -> Verdict:
+def _mesh(found: ReadMesh, body: Body | Faced, declared: float, tolerance: float) -> Verdict:
     if body.is_faced:
         from exporters.verification.faces import verify_faced_mesh
 
@@ -155,7 +155,7 @@ def _mesh(found: ReadMesh, body: Body | FacedBody, declared: float, tolerance: f
     return verify_mesh(found, body, declared, tolerance)
 
 
-def _solid(found: ReadSolid, body: Body | FacedBody, declared: float, tolerance: float) -> Verdict:
+def _solid(found: ReadSolid, body: Body | Faced, declared: float, tolerance: float) -> Verdict:
     if body.is_faced:
         from exporters.verification.faces import verify_faced_solid
 

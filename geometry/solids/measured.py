@@ -1,11 +1,13 @@
-"""An exact surface, by how far points lie from it."""
+"""What files, mass and checks ask of a body that is told by its faces, however these are made."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import ClassVar, Literal, Protocol
 
 from geometry.base.record import Record
 from geometry.curves.curve import Real
+from geometry.solids.mass import Moments
 
 
 class Measured(Record, eq=False):
@@ -13,3 +15,33 @@ class Measured(Record, eq=False):
 
     what: str
     distance: Callable[[Real], Real]
+
+
+class Faced(Protocol):
+    """What files, mass and checks ask of a body told by its faces; all lengths in mm."""
+
+    is_faced: ClassVar[Literal[True]]
+
+    @property
+    def surfaces(self) -> tuple[Measured, ...]:
+        """Every exact surface once."""
+
+    @property
+    def moments(self) -> Moments:
+        """Volume, centre and inertia."""
+
+    @property
+    def slack(self) -> float:
+        """How much the volume of ``moments`` may be off for each mm that a file's faces are, mm^2; 0: exact."""
+
+    def levels(self) -> tuple[float, ...]:
+        """Heights, the lowest first, the highest last."""
+
+    def section_reach(self) -> float:
+        """Greatest distance from the axis."""
+
+    def reach(self) -> float:
+        """Greatest coordinate."""
+
+    def steepness(self) -> float:
+        """How far a surface moves sideways for a step along the axis at most."""
