@@ -169,8 +169,14 @@ def sheet_jobs(
     if export.format == "pdf":
         _check_letters([expected.canvas for _, expected in made], scene, export, where, source)
         return [SheetJob(export, title, tuple(expected for _, expected in made), f"{name}.pdf", where)]
+
+    def stem(word: str) -> str:
+        # a part's drawing is named as all files of a part are
+        own = [word, export.name or export.purpose] if export.purpose == "part" else [name, word]
+        return ".".join(filter(None, own))
+
     return [
-        SheetJob(export, title, (expected,), f"{name}{'.' * bool(word)}{word}.{ending}", where)
+        SheetJob(export, title, (expected,), f"{stem(word)}.{ending}", where)
         for word, expected in made
         for ending in endings
     ]

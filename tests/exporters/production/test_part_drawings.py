@@ -190,6 +190,12 @@ def test_the_same_bytes_twice_and_a_dimension_that_lies_is_seen(tmp_path: Path) 
     assert any("dimension" in failure.lower() for failure in job.verify(file, 0.0).failures)
 
 
+def test_a_drawing_is_named_as_all_files_of_its_part_and_a_pdf_as_its_scene() -> None:
+    formats = ("dxf", "svg", "pdf")
+    assert [job.path for job in jobs(PARTS["bearing"], formats=formats)] == ["p.part.dxf", "p.part.svg", "t.part.pdf"]
+    assert [job.path for job in jobs(PARTS["bearing"], name="sheet", formats=formats[:1])] == ["p.sheet.dxf"]
+
+
 def test_scenes_without_drawings_import_nothing_of_them() -> None:
     code = (
         "import sys; from exporters.production.plan import plan_build; from parts.scene.load import load_scene\n"
