@@ -97,7 +97,7 @@ def assembly_sheet(views: Sequence[AssemblyView], rows: Sequence[ListRow], asked
     shifts = next(found for field in fields(canvas.frame) if (found := _places(made, field)) is not None)
     outlines = []
     for view, one, shift in zip(views, made, shifts, strict=True):
-        moved(one, canvas, shift)
+        moved(one, canvas, shift, asked.tolerance)
         outlines += [(Paper(one.scale, shift), layer, curve) for layer, curve in view.drawn.strokes]
     return Expected(canvas, Paper(scale, shifts[0]), (), measures=PartMeasures(canvas, tuple(outlines)))
 
@@ -150,7 +150,7 @@ def _laid(
         drawn = view.drawn
         marks = tuple(_marks(drawn, scale)) if view.marked else ()
         plain = View((*drawn.strokes, *marks), (), drawn.axes, view.sizes, title=view.title)
-        one = laid(plain, scale, asked.language, asked.tolerance)
+        one = laid(plain, scale, asked.language)
         if one is None:
             return None
         _hatch(one.canvas, drawn, scale)
@@ -232,10 +232,7 @@ class _Leader(Record):
 
 def _numbered(one: Laid, share: Mapping[int, tuple[complex, ...]], letters: Sequence[complex]) -> Laid | None:
     """A view with its numbers in a column on each side; None where a leader would run through words."""
-    canvas, ink = one.canvas, Ink()
-    for stroke in canvas.strokes:
-        ink.add(stroke)
-    ink.boxes += [text.box for text in canvas.texts]
+    canvas, ink = one.canvas, one.ink()
     for at in letters:
         letter = text_of(_LETTER, at, _HEIGHT)
         canvas.texts.append(letter)
@@ -257,7 +254,7 @@ def _numbered(one: Laid, share: Mapping[int, tuple[complex, ...]], letters: Sequ
         leaders += column
         for leader in column:
             for line in leader.lines():
-                ink.add(Stroke("THIN", line))
+                ink.add(line)
             ink.boxes.append(leader.words.box)
     for leader in leaders:
         for line in leader.lines():
@@ -267,7 +264,7 @@ def _numbered(one: Laid, share: Mapping[int, tuple[complex, ...]], letters: Sequ
     texts = [text.box for text in canvas.texts]
     ends = [line.end for leader in leaders for line in leader.lines()]
     shelves = [Box(p.real, p.imag, p.real, p.imag) for p in ends]
-    return Laid(canvas, one.scale, _around(box, [*texts, *shelves]))
+    return Laid(one.view, canvas, one.scale, _around(box, [*texts, *shelves]))
 
 
 def _around(box: Box, others: Sequence[Box]) -> Box:

@@ -9,8 +9,9 @@ from typing import Literal
 
 import numpy as np
 
+from geometry.approximation.outline import CadCurve
 from geometry.base.record import Draft, Record, field, replace
-from geometry.curves.curve import Complex
+from geometry.curves.curve import Complex, Curve
 from geometry.curves.line_arc import Line
 from parts.drawing.canvas import (
     SMALL_TEXT,
@@ -22,6 +23,7 @@ from parts.drawing.canvas import (
     Stroke,
     Text,
     decimal,
+    draw,
     fitted,
     rising_text,
     text_of,
@@ -58,10 +60,9 @@ class Ink(Draft):
     pieces: list[Complex] = field(default_factory=list)
     boxes: list[Box] = field(default_factory=list)
 
-    def add(self, stroke: Stroke) -> None:
+    def add(self, curve: Curve | CadCurve, scale: float = 1.0) -> None:
         """A curve as a chain of points."""
-        curve = stroke.curve
-        points = curve.point(np.linspace(*curve.domain, 2 if isinstance(curve, Line) else _SAMPLES))
+        points = scale * curve.point(np.linspace(*curve.domain, 2 if isinstance(curve, Line) else _SAMPLES))
         self.pieces.append(np.stack([points[:-1], points[1:]]))
 
     def holds(self, lines: Sequence[Line], words: Box) -> bool:
@@ -97,11 +98,24 @@ def crossed(box: Box, lines: Complex) -> bool:
 
 
 class Laid(Record):
-    """A view on a canvas of its own, its origin at 0, and the room that it takes, mm on paper."""
+    """What is added to a view on a canvas of its own, its origin at 0, and the room that all takes, mm on paper.
 
+    The view's own curves are not on the canvas: they are fitted once it is known at which scale it is drawn.
+    """
+
+    view: View
     canvas: Canvas
     scale: float
     box: Box
+
+    def ink(self) -> Ink:
+        """All that is on paper."""
+        ink = Ink(boxes=[text.box for text in self.canvas.texts])
+        for _, curve in self.view.strokes:
+            ink.add(curve, self.scale)
+        for stroke in self.canvas.strokes:
+            ink.add(stroke.curve)
+        return ink
 
 
 class _NoRoomError(Exception):
@@ -112,7 +126,7 @@ class _NoRoomError(Exception):
         self.owner = owner
 
 
-def laid(view: View, scale: float, language: str, tolerance: float, *, own: bool = False) -> Laid | None:
+def laid(view: View, scale: float, language: str, *, own: bool = False) -> Laid | None:
     """A view with all of its dimensions, at a scale; None where they find no room.
 
     ``own``: its scale is not the sheet's, which is all that some programs know, so its numbers stand as words.
@@ -120,10 +134,10 @@ def laid(view: View, scale: float, language: str, tolerance: float, *, own: bool
     sizes = sorted(view.sizes, key=lambda one: one.value)
     leaders: list[Round | Note] = [*view.rounds, *view.notes]
     for _ in range(_TRIES):
-        made = _Layout(view, scale, language, tolerance, own=own)
+        made = _Layout(view, scale, language, own=own)
         try:
             made.fill(sizes, leaders, view.title)
-            return Laid(made.canvas, scale, made.extent())
+            return Laid(view, made.canvas, scale, made.extent())
         except _NoRoomError as refusal:
             # what had no room is the first to choose
             owner = refusal.owner
@@ -135,12 +149,11 @@ def laid(view: View, scale: float, language: str, tolerance: float, *, own: bool
 class _Layout:
     """Fills the canvas of one view; rows of dimension lines by their side."""
 
-    def __init__(self, view: View, scale: float, language: str, tolerance: float, *, own: bool) -> None:
+    def __init__(self, view: View, scale: float, language: str, *, own: bool) -> None:
         self.canvas, self.ink, self.language, self.own = Canvas(0.0, 0.0, ""), Ink(), language, own
         self.paper = Paper(scale, 0j)
-        curves = fitted(self.canvas, [curve for _, curve in view.strokes], scale, tolerance)
-        for (layer, _), curve in zip(view.strokes, curves, strict=True):
-            self._stroke(layer, self.paper.scaled(curve))
+        for _, curve in view.strokes:
+            self.ink.add(curve, scale)
         self.body = self.extent()
         for loop in hatching([[self.paper.scaled(c) for c in loop] for loop in view.hatched], _HATCH):  # type: ignore[misc]
             self._stroke("HATCH", loop)
@@ -180,10 +193,9 @@ class _Layout:
             max(float(b.high) for b in boxes),
         )
 
-    def _stroke(self, layer: str, curve: object) -> None:
-        stroke = Stroke(layer, curve)  # type: ignore[arg-type]
-        self.canvas.strokes.append(stroke)
-        self.ink.add(stroke)
+    def _stroke(self, layer: str, curve: CadCurve) -> None:
+        self.canvas.strokes.append(Stroke(layer, curve))
+        self.ink.add(curve)
 
     def _write(self, text: Text) -> None:
         self.canvas.texts.append(text)
@@ -376,8 +388,11 @@ def rough_sign(foot: complex, words: str, height: float = SMALL_TEXT) -> tuple[l
     return [Line(foot + complex(-_SHORT * _SLOPE, _SHORT), foot), Line(foot, top), shelf], text
 
 
-def moved(view: Laid, canvas: Canvas, shift: complex) -> None:
-    """Put a view onto a sheet."""
+def moved(view: Laid, canvas: Canvas, shift: complex, tolerance: float) -> None:
+    """Put a view onto a sheet, its curves within ``tolerance`` mm on paper."""
+    curves = fitted(canvas, [curve for _, curve in view.view.strokes], view.scale, tolerance)
+    for (layer, _), curve in zip(view.view.strokes, curves, strict=True):
+        draw(canvas, layer, [curve], Paper(view.scale, shift))
     strokes, texts, paper, own = len(canvas.strokes), len(canvas.texts), Paper(1.0, shift), view.canvas
     canvas.strokes += [replace(s, curve=paper.scaled(s.curve)) for s in own.strokes]
     canvas.texts += [_shifted(text, shift) for text in own.texts]
@@ -392,8 +407,6 @@ def moved(view: Laid, canvas: Canvas, shift: complex) -> None:
         )
         for one in own.dimensions
     ]
-    canvas.max_error = max(canvas.max_error, own.max_error)
-    canvas.sampled = canvas.sampled or own.sampled
 
 
 def _shifted(text: Text, shift: complex) -> Text:

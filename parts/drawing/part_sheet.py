@@ -185,7 +185,7 @@ def part_sheet(drawing: PartDrawing, data: Block | None, roughness: float, asked
     assert shifts is not None
     outlines = []
     for view, one, shift in zip(drawing.views, views, shifts, strict=True):
-        moved(one, canvas, shift)
+        moved(one, canvas, shift, asked.tolerance)
         outlines += [(Paper(one.scale, shift), layer, curve) for layer, curve in view.strokes]
     return Expected(canvas, Paper(scale, shifts[0]), (), measures=PartMeasures(canvas, tuple(outlines)))
 
@@ -204,7 +204,7 @@ def _laid(view: View, scale: float, asked: Asked) -> Laid | None:
         own = next((s for s in reversed(SCALES) if s >= max(needed, scale)), SCALES[0])
         title = title if own == scale else f"{title} ({scale_text(own, asked.language)})"
     made = View(view.strokes, view.hatched, view.axes, view.sizes, view.rounds, view.notes, title)
-    return laid(made, own, asked.language, asked.tolerance, own=own != scale)
+    return laid(made, own, asked.language, own=own != scale)
 
 
 def _places(views: Sequence[Laid], corner: _Corner, canvas: Canvas) -> list[complex] | None:

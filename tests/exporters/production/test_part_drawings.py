@@ -14,6 +14,7 @@ import pytest
 
 from exporters.production.plan import plan_build
 from parts.base.refusal import SceneError
+from parts.drawing import canvas
 from parts.scene.load import scene_from_dict
 from tests.exporters.production.test_sheet_words import faults
 
@@ -194,6 +195,14 @@ def test_a_drawing_is_named_as_all_files_of_its_part_and_a_pdf_as_its_scene() ->
     formats = ("dxf", "svg", "pdf")
     assert [job.path for job in jobs(PARTS["bearing"], formats=formats)] == ["p.part.dxf", "p.part.svg", "t.part.pdf"]
     assert [job.path for job in jobs(PARTS["bearing"], name="sheet", formats=formats[:1])] == ["p.sheet.dxf"]
+
+
+def test_a_curve_is_fitted_once_however_many_papers_are_tried(monkeypatch: pytest.MonkeyPatch) -> None:
+    tried: list[Any] = []
+    fit = canvas.fit_spline
+    monkeypatch.setattr(canvas, "fit_spline", lambda curve, *a, **k: tried.append(curve) or fit(curve, *a, **k))
+    jobs(PARTS["cam"], formats=("dxf",))
+    assert 1 <= len(tried) == len(set(tried))
 
 
 def test_scenes_without_drawings_import_nothing_of_them() -> None:
