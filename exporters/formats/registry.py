@@ -48,6 +48,8 @@ _MOST_EDGES = 4_000_000
 # a float32 coordinate is good to 2^-24 of its size, both of them together to sqrt(2) of that; the rest is for the grid
 # on which vertices stand before
 _FLOAT32 = 2.0**-24 * 1.6
+# 3MF writes its float32 numbers as text, which rounds them once more
+_TEXT_ROUNDINGS = 2
 # by how much an outline moves, in last decimals: by vertices and bulges 1.25, by SVG's radii and quartered ends 1.6
 _ROUNDINGS = 3.0
 # coordinates have 16 digits at most
@@ -164,6 +166,9 @@ def _chords(content: Content, tolerance: float) -> Chords:
     if content.tolerance < 8 * rounding:
         least = limit(8 * rounding, content.tolerance, digits=6)
         raise ParameterError("tolerance", content.tolerance, "finer_than_mesh_digits", least)
+    if content.body.is_faced:
+        # one mesh for every format: it takes its time
+        tolerance = content.tolerance - _TEXT_ROUNDINGS * _mesh_rounding(content)
     made = mesh_outlines(content.body, tolerance, 64 * rounding)
     _check_count(content, count_edges(content.body, made), 2)
     return made
@@ -297,8 +302,7 @@ REGISTRY: dict[str, FileFormat[Any]] = {
         FileFormat("drawing", _drawing_rounding, _splines, _write_drawing_dxf),
         FileFormat("svg", _flat_rounding, _arcs, _write_svg),
         FileFormat("stl", _mesh_rounding, _chords, _write_stl),
-        # its float32 numbers are written as text, which rounds them once more
-        FileFormat("3mf", lambda c: 2 * _mesh_rounding(c), _chords, _write_3mf, _write_3mf_assembly),
+        FileFormat("3mf", lambda c: _TEXT_ROUNDINGS * _mesh_rounding(c), _chords, _write_3mf, _write_3mf_assembly),
         FileFormat("step", _step_rounding, _solid_curves, _write_step, _write_step_assembly),
     )
 }

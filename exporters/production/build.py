@@ -62,7 +62,8 @@ def build(
     made: dict[ShapeKey, Shape] = {}
     spent: dict[str, float] = {}
     for job in plan.jobs:
-        made[job.shape_key], spent[job.path] = approximated(job, plan.source)
+        if job.shape_key not in made:
+            made[job.shape_key], spent[job.path] = approximated(job, plan.source)
     for job in (member for assembly in plan.assemblies for member in assembly.members):
         if job.shape_key not in made:
             made[job.shape_key], _ = approximated(job, plan.source)

@@ -128,7 +128,10 @@ class Job(Content):
         export, section = self.export, self.section
         # a tag beside it on a board is one more of them
         boundaries = section.region.layers()
-        return (self.part.id, self.kind.name, export.tolerance, export.curves, section.offset, boundaries)
+        # of a body told by its faces every format has the same mesh
+        shared = self.kind.form is Form.TRIANGLES and self.body.is_faced
+        form = Form.TRIANGLES if shared else self.kind.name
+        return (self.part.id, form, export.tolerance, export.curves, section.offset, boundaries)
 
     def chords(self, made: Made) -> Chords:
         """Its boundaries, of a laser file or a mesh."""

@@ -18,7 +18,7 @@ from geometry.base.record import Record
 from geometry.curves.bounds import Bound
 from geometry.curves.curve import Real
 from geometry.solids.charts import charts
-from geometry.solids.extent import Extent, extent
+from geometry.solids.extent import extent
 from geometry.solids.face_moments import FaceMoments, face_moments
 from geometry.solids.faces import Extrusion, Solid, SplineSurface
 from geometry.solids.mass import Moments
@@ -28,6 +28,8 @@ from geometry.solids.measured import Measured
 Proof = Callable[[list[Real], float], float]
 # to which the splines are made whose moments and box are asked for, mm
 _FINE = 1e-5
+# and of a kind that knows both itself, for its other surfaces
+_ROUGH = 1e-2
 
 
 class FacedSolid(Record, eq=False):
@@ -44,12 +46,14 @@ class FacedBody(Record, dict=True):
     ``within``: the faces within a tolerance, mm; ``walls``: the exact surfaces that its splines stand for, in any
     number; ``own_moments``: where the kind knows them better than its faces do; ``proof``: where it can prove how far
     triangles (n, 3, 3) leave the walls, mm, bundle after bundle of its spline faces: its other surfaces are exact.
+    ``own_ends``: its lowest and highest place and its greatest distance from the axis, mm, where the kind knows them.
     """
 
     within: Callable[[float], FacedSolid]
     walls: tuple[Measured, ...] = ()
     own_moments: Callable[[], Moments] | None = None
     proof: Proof | None = None
+    own_ends: tuple[float, float, float] | None = None
     is_faced: ClassVar[Literal[True]] = True
 
     @cached_property
@@ -64,10 +68,12 @@ class FacedBody(Record, dict=True):
     def surfaces(self) -> tuple[Measured, ...]:
         """Every exact surface once."""
         found: dict[object, Measured] = {}
-        for faces in self._fine.faces:
+        # those that are no splines are exact however near these are
+        solid = self._fine if self.own_ends is None else self.within(_ROUGH).geometry
+        for faces in solid.faces:
             if isinstance(faces.surface, SplineSurface | Extrusion):
                 continue
-            for chart in charts(self._fine, faces.surface, len(faces.loops[0][0])):
+            for chart in charts(solid, faces.surface, len(faces.loops[0][0])):
                 found.setdefault(chart.alike, Measured(str(chart.alike[0]), chart.distance))
         return (*self.walls, *found.values())
 
@@ -86,22 +92,19 @@ class FacedBody(Record, dict=True):
         return self._measured.area if self.walls and self.own_moments is None else 0.0
 
     @cached_property
-    def _extent(self) -> Extent:
-        return extent(self._fine)
-
-    @property
-    def box(self) -> tuple[Real, Real]:
-        """Lower and upper corner (3,) of all that it fills, mm."""
-        return self._extent.low, self._extent.high
+    def _ends(self) -> tuple[float, float, float]:
+        if self.own_ends is not None:
+            return self.own_ends
+        found = extent(self._fine)
+        return float(found.low[2]), float(found.high[2]), found.radius
 
     def levels(self) -> tuple[float, float]:
         """Its lowest and highest place, mm."""
-        low, high = self.box
-        return float(low[2]), float(high[2])
+        return self._ends[:2]
 
     def section_reach(self) -> float:
         """Greatest distance from the axis, mm."""
-        return self._extent.radius
+        return self._ends[2]
 
     def reach(self) -> float:
         """Greatest coordinate, mm."""

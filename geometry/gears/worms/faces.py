@@ -50,7 +50,11 @@ def faced_worm(body: WormBody) -> FacedBody:
     walls = [Measured(name, Screwed(thread, line, upper).distance)
              for upper in (True, False) for name, line in thread.lines]  # fmt: skip
     made = lru_cache(maxsize=2)(partial(worm_solid, body))
-    return FacedBody(lambda tolerance: made(min(tolerance, _TARGET)), tuple(walls), partial(worm_moments, body))
+    radii = [r for above in (False, True) for _, r in body.outline(above=above)]
+    ends = *body.ends(), max(thread.worm.tip_radius, *radii)
+    return FacedBody(
+        lambda tolerance: made(min(tolerance, _TARGET)), tuple(walls), partial(worm_moments, body), own_ends=ends
+    )
 
 
 def worm_solid(body: WormBody, tolerance: float) -> FacedSolid:

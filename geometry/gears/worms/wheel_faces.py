@@ -281,7 +281,9 @@ def wheel_body(wheel: WormWheel) -> FacedBody:
     for profile in wheel.core.profiles:
         if not all(isinstance(segment.curve, Arc | Line) for segment in profile.period):
             walls.append(Measured("wall", partial(_from_wall, profile)))
-    return FacedBody(within, tuple(walls), wheel.moments)
+    half = wheel.teeth.width / 2
+    ends = *(f(wheel.core.levels()) for f in (min, max)), float(wheel.teeth.tip_radius(half))
+    return FacedBody(within, tuple(walls), wheel.moments, own_ends=ends)
 
 
 def _from_wall(profile: Profile, points: Real) -> Real:

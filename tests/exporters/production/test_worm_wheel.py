@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import filecmp
 import json
 import re
+import tomllib
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from exporters.command.cli import main
+from exporters.formats.reading import READERS
+from geometry.solids.extent import extent
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
 
@@ -31,6 +36,23 @@ tolerance = 1e-3
 [[exports]]
 format = "stl"
 tolerance = 0.05
+"""
+
+BOTH = """
+[parts.wheel]
+kind = "worm_wheel"
+module = 2.0
+number_of_teeth = 20
+face_width = 8.0
+bore_diameter = 6.0
+hub = {diameter = 14.0, above = 4.0}
+
+[parts.worm]
+kind = "worm"
+module = 2.0
+thread_length = 16.0
+shaft_below = [{diameter = 12.0, length = 5.0, chamfer = 1.0}]
+shaft_above = [{diameter = 8.0, length = 9.0}]
 """
 
 
@@ -128,3 +150,27 @@ def test_a_default_rim_has_whole_teeth_and_a_torn_face_is_refused() -> None:
         nearest = refused.value.nearest
         assert nearest is not None
         assert made(**{**keys, key: nearest.value}).thing.teeth.ended is None
+
+
+def test_both_meshes_of_a_scene_are_one(tmp_path: Path) -> None:
+    text = WHEEL.format(keys="").split("[[exports]]")[0]
+    exports = "".join(f'[[exports]]\nformat = "{name}"\ntolerance = 0.2\n' for name in ("3mf", "stl"))
+    (tmp_path / "wheel.toml").write_text(text + exports)
+    assert main(["build", str(tmp_path / "wheel.toml"), "--out", str(tmp_path / "out"), "--no-verify"]) == 0
+    stl, packed = (READERS[name](tmp_path / "out" / "wheel" / f"wheel.{name}").faces() for name in ("stl", "3mf"))
+    # the same triangles in the same order, each number to its format's rounding
+    assert np.abs(stl - packed).max() < 1e-5
+    # an STL alone has the same bytes
+    (tmp_path / "wheel.toml").write_text(text + exports.split("[[exports]]")[-1].join(["[[exports]]", ""]))
+    assert main(["build", str(tmp_path / "wheel.toml"), "--out", str(tmp_path / "one"), "--no-verify"]) == 0
+    assert filecmp.cmp(tmp_path / "one" / "wheel" / "wheel.stl", tmp_path / "out" / "wheel" / "wheel.stl", False)
+
+
+@pytest.mark.parametrize("part", ["wheel", "worm"])
+def test_a_body_ends_where_its_faces_do(part: str) -> None:
+    made = make_parts(scene_from_dict(tomllib.loads(BOTH), "s", "s"), "s")[0][part].body(0.0)
+    assert made.is_faced
+    found = extent(made.within(1e-4).geometry)
+    assert [*made.levels(), made.section_reach()] == pytest.approx(
+        [found.low[2], found.high[2], found.radius], abs=1e-6
+    )
