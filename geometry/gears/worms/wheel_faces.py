@@ -282,7 +282,8 @@ def wheel_body(wheel: WormWheel) -> FacedBody:
         if not all(isinstance(segment.curve, Arc | Line) for segment in profile.period):
             walls.append(Measured("wall", partial(_from_wall, profile)))
     half = wheel.teeth.width / 2
-    ends = *(f(wheel.core.levels()) for f in (min, max)), float(wheel.teeth.tip_radius(half))
+    levels = wheel.core.levels()
+    ends = levels[0], levels[-1], float(wheel.teeth.tip_radius(half))
     return FacedBody(within, tuple(walls), wheel.moments, own_ends=ends)
 
 
