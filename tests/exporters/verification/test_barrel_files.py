@@ -200,7 +200,11 @@ def sections(corners: np.ndarray, body: BarrelBody, angles: np.ndarray, depths: 
             room = np.sqrt(np.where(np.abs(points.real) < radius, radius**2 - points.real**2, np.nan))
             for side in cam.sides:
                 mine = up[cut] * side < 0
-                worst = max(worst, abs(float(np.nanmax(room[mine] - side * points[mine].imag))))
+                error, across = room[mine] - side * points[mine].imag, points[mine].real + place.real
+                k = int(np.nanargmax(error)) if np.isfinite(error).any() else 0
+                # where the wall is cut off by the floor's cylinder the roller does not touch it at this depth
+                if np.isfinite(error).any() and np.hypot(x, across.flat[k]) > 1.0005 * cam.inner:
+                    worst = max(worst, abs(float(error.flat[k])))
     return worst
 
 
