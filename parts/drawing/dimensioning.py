@@ -305,7 +305,20 @@ class _Layout:
 
     def _note(self, note: Note) -> None:
         """Words on a leader, or the sign of a surface."""
+        for lines, text in self._notes(note):
+            if self.ink.holds(lines, text.box):
+                for line in lines:
+                    self._stroke(_DIMENSION, line)
+                self._write(text)
+                return
+        raise _NoRoomError(note)
+
+    def _notes(self, note: Note) -> Iterator[tuple[list[Line], Text]]:
+        """Where it may stand, with its lines, the best place first."""
         tip, body = self.paper.point(note.at), self.body
+        for reach in _REACHES if note.goes_on else ():
+            lines, text = rough_sign(tip + reach, note.text)
+            yield [Line(tip + _AXIS, tip + reach + _SHORT * _SLOPE), *lines], text
         outward = tip - complex((body.left + body.right) / 2, (body.low + body.high) / 2)
         best = math.degrees(cmath.phase(outward)) if outward else 45.0
         for reach in _REACHES:
@@ -318,13 +331,7 @@ class _Layout:
                     lines.append(Line(elbow, elbow + side * (_WORDS + 1.0)))
                 else:
                     lines, text = _shelved(elbow, note.text, way)
-                lines = [Line(tip, elbow), *lines, *_arrow(tip, way)]
-                if self.ink.holds(lines, text.box):
-                    for line in lines:
-                        self._stroke(_DIMENSION, line)
-                    self._write(text)
-                    return
-        raise _NoRoomError(note)
+                yield [Line(tip, elbow), *lines, *_arrow(tip, way)], text
 
 
 def _meet(one: tuple[float, float], two: tuple[float, float]) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from geometry.base.record import Record
 from parts.base.texts import N_, Text, Words, in_context, words
-from parts.drawing.canvas import TEXT_HEIGHT, Box, Canvas, Paper, text_width
+from parts.drawing.canvas import TEXT_HEIGHT, Box, Canvas, Paper, text_of, text_width
 from parts.drawing.cells import INDENT, wrapped, write_cell
 from parts.drawing.choice import blank
 from parts.drawing.expected import Expected
@@ -22,8 +22,8 @@ _HEADS: tuple[Text, ...] = (
 )  # fmt: skip
 # below it a mass is told in g, kg
 _SMALL = 0.1
-# those that are read from the right, and the column of names
-_RISING, _NAMES = 3, 4
+# the column of names
+_NAMES = 4
 _KILOGRAMS, _GRAMS = N_("{mass} kg"), N_("{mass} g")
 # sections of a list in their order
 SECTIONS: dict[str, Text] = {
@@ -130,9 +130,10 @@ def _form(canvas: Canvas, corner: complex, room: int, language: str) -> None:
     """Lines and head of the table."""
     x, high = corner.real, corner.imag
     left, low = x, high - _HEAD - _ROW * room
-    for number, (head, width) in enumerate(zip(_HEADS, _COLUMNS, strict=True)):
+    for head, width in zip(_HEADS, _COLUMNS, strict=True):
         text = words(language).say(head)
-        if number < _RISING:
+        # heads that would be made small are read from the right
+        if text_of(text, 0j, TEXT_HEIGHT, width - 2 * INDENT).runs[0].height < TEXT_HEIGHT:
             long = min(text_width(text, TEXT_HEIGHT), _HEAD - 2 * INDENT)
             at = complex(x + (width + TEXT_HEIGHT) / 2, high - (_HEAD + long) / 2)
             canvas.write_rising(text, at, TEXT_HEIGHT, _HEAD - 2 * INDENT)

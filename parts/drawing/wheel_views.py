@@ -256,7 +256,9 @@ def _section_notes(wheel: Wheel, subject: Subject, at: _Levels, flank: float) ->
     found = []
     outside = wheel.pitch if wheel.pitch is not None else wheel.tip[0]
     if wheel.pitch is not None:
-        found.append(Note(complex(wheel.shape.face_width, outside), f"Ra {subject.say(flank)}", is_rough=True))
+        found.append(
+            Note(complex(wheel.shape.face_width, outside), f"Ra {subject.say(flank)}", is_rough=True, goes_on=True)
+        )
     if wheel.holes.bore is not None:
         words = f"Ra {subject.say(subject.wishes.bore_roughness)}"
         found.append(Note(complex(at.hub[1], -bore_radii(wheel.holes.bore)[1]), words, is_rough=True))

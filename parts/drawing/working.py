@@ -67,11 +67,15 @@ class Round(Record):
 
 
 class Note(Record):
-    """Words on a leader to a point; ``is_rough``: in the sign of GOST 2.309 for a surface that is cut."""
+    """Words on a leader to a point; ``is_rough``: in the sign of GOST 2.309 for a surface that is cut.
+
+    ``goes_on``: the point is the right end of a pitch line, and the sign stands on its extension where there is room.
+    """
 
     at: complex
     text: str
     is_rough: bool = False
+    goes_on: bool = False
 
 
 class View(Record):

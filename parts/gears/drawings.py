@@ -115,7 +115,7 @@ def _ring(keys: RingGearSpec, ring: RingGear, subject: Subject) -> tuple[View, .
     for index, (_, group) in enumerate(ring.holes.groups(), 1):
         middle = group.pitch_circle_diameter / 2
         sizes.append(Size(f"holes.{index}.pitch_circle_diameter", -1j * middle, 1j * middle, "left", "Ø"))
-    rough = Note(complex(width, -pitch), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True)
+    rough = Note(complex(width, -pitch), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True, goes_on=True)
     section = View(tuple(strokes), tuple(hatched), tuple(axes), tuple(sizes), notes=(rough,))
     toothed = next(p for p in subject.part.section(0.0).region.holes if p.count == ring.number_of_teeth)
     count = min(wishes.teeth, ring.number_of_teeth)
@@ -153,7 +153,7 @@ def _rack(keys: RackSpec, rack: Rack, subject: Subject) -> tuple[View, ...]:
             sizes.append(Size("holes.spacing", centres[0], centres[1], "below"))
         sizes.append(Size("holes.first", complex(-half, foot), centres[0], "below"))
         rounds.append(Round("holes.diameter", centres[-1], holes.diameter / 2, _count(holes.count, subject)))
-    rough = Note(complex(half - pitch / 2, tip), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True)
+    rough = Note(complex(half), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True, goes_on=True)
     front = View(tuple(strokes), (), (Line(complex(-half), complex(half)),), tuple(sizes), tuple(rounds), (rough,))
     width = keys.face_width
     whole = closed([complex(0, foot), complex(width, foot), complex(width, tip), complex(0, tip)])

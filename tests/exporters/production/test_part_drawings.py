@@ -197,6 +197,15 @@ def test_a_drawing_is_named_as_all_files_of_its_part_and_a_pdf_as_its_scene() ->
     assert [job.path for job in jobs(PARTS["bearing"], name="sheet", formats=formats[:1])] == ["p.sheet.dxf"]
 
 
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize("name", ["gear", "ring", "rack", "wheel"])
+def test_the_sign_of_teeth_stands_on_the_extension_of_a_pitch_line(tmp_path: Path, name: str) -> None:
+    space = ezdxf.readfile(written(tmp_path, PARTS[name])[0]).modelspace()
+    ends = {line.dxf.end.round(6) for line in space.query("LINE[layer=='CENTRE']")}
+    stands = [line for line in space.query("LINE[layer=='DIMENSION']") if line.dxf.start.round(6) in ends]
+    assert [line.dxf.end.y - line.dxf.start.y for line in stands] == [pytest.approx(0, abs=1e-9)]
+
+
 def test_a_curve_is_fitted_once_however_many_papers_are_tried(monkeypatch: pytest.MonkeyPatch) -> None:
     tried: list[Any] = []
     fit = canvas.fit_spline

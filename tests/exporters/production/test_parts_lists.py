@@ -121,6 +121,12 @@ def test_the_sheet_is_form_1_of_gost_2_106(tmp_path: Path) -> None:
     texts = {e.dxf.text: e.dxf.insert for e in space.query("TEXT")}
     for word in ("Рама", "Деталі", "Стандартні вироби", "Позначення", "ABC.01.00.00", "N. N.", "GOST 11738-84"):
         assert word in texts, word
+    # a head that is too long for its column is read from the right, as large as the others
+    heads = {
+        e.dxf.text: (e.dxf.height, round((e.dxf.align_point - e.dxf.insert).angle_deg)) for e in space.query("TEXT")
+    }
+    assert heads["Кільк."] == heads["Поз."] == (3.5, 90)
+    assert heads["Позначення"] == (3.5, 0)
     # 60 x 40 x 5 of steel less its holes, and a screw in grams
     assert "90,3 г" in texts
     assert "1,58 г" in texts
