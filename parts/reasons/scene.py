@@ -71,7 +71,7 @@ REASONS = {
     "too_small_for_part": N_(
         "the part {part} needs {width} x {height} mm within a margin of {margin} mm: give a larger board"
     ),
-    "too_many_pieces": N_("makes {pieces} pieces; at most {most} are laid out at once"),
+    "too_many_pieces": N_("makes {pieces} pieces, more than the {most} that are laid out at once"),
     "nothing_is_laid": N_("leaves no piece to lay"),
     "too_small_for_parts": N_("parts that are too large for it, and the scale at which each would do: {parts}"),
     "gap_above_board": N_("is larger than the board, of which the shorter side is {side} mm"),
