@@ -362,4 +362,7 @@ def test_many_sets_repeat_boards_and_too_many_are_refused(tmp_path: Path, capsys
     file.write_text(MANY.format(sets=1000, tiles=30), encoding="utf-8")
     assert main(["build", str(file), "--out", str(tmp_path / "no")]) == 2
     told = capsys.readouterr().err
-    assert "boards.ply.sets = 1000: makes 31000 pieces; at most 20000 are laid out at once; at most 645 works" in told
+    assert (
+        "boards.ply.sets = 1000: makes 31000 pieces, more than the 20000 that are laid out at once; at most 645 works"
+        in told
+    )
