@@ -2,16 +2,18 @@
 
 Names are those of ``DRIVERS`` and of the rules above; lengths in mm. ``r_``: radius, about the
 axis of the part's own disk; ``z_``: height, 0 is the back of the disks, the front is up. ``CONDITIONS`` are lengths
-that must be left; each names the driver that a refusal names.
+that must be left; each names the driver that a refusal names. What has an ``orientation`` is of that alone: the wheels
+of the thesis, or cranks.
 """
 
 from __future__ import annotations
 
 import ast
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cache
 from types import CodeType
+from typing import TypeVar
 
 from geometry.base.record import Record
 from parts.base.texts import N_
@@ -24,6 +26,7 @@ class Rule(Record):
     positions: tuple[int, ...]
     made_of: str
     reason: str
+    orientation: str = ""
 
 
 class Condition(Record):
@@ -32,7 +35,10 @@ class Condition(Record):
     driver: str
     made_of: str
     reason: str
+    orientation: str = ""
 
+
+Of = TypeVar("Of", Rule, Condition)
 
 # of the standard items: hole that a screw passes, diameter and height of its head
 M4, M8, M10, M12, M14 = (4.5, 7.0, 2.8), (9.0, 13.0, 8.0), (11.0, 16.0, 10.0), (13.5, 18.0, 12.0), (15.0, 21.0, 14.0)
@@ -111,13 +117,37 @@ RULES = (
     _R("z_11", (11,), "-h_24 - h_12 - 10 - wheel_width", N_("behind the heads of cover 12")),
     _R("h_47", (9,), "12", N_("height of nut 47")),
     _R("z_16", (16,), "z_11 - h_47 - axial_gap - 8 - wheel_width",
-       N_("nut 47 passes over wheel 16 and its screws where O3 is near O1")),
-    _R("h_14", (14,), "z_11 + wheel_width - z_16", N_("meshes with 16 and with 11, which stand in two planes")),
-    _R("r_wheel", (11, 14, 16), "arm / 2 + wheel_module", N_("tips of the wheels, whose mesh spans an arm")),
+       N_("nut 47 passes over wheel 16 and its screws where O3 is near O1"), "thesis"),
+    _R("h_14", (14,), "z_11 + wheel_width - z_16", N_("meshes with 16 and with 11, which stand in two planes"),
+       "thesis"),
+    _R("r_wheel", (11, 14, 16), "arm / 2 + wheel_module", N_("tips of the wheels, whose mesh spans an arm"), "thesis"),
     _R("r_47", (9,), "min(35, arm - r_wheel - 1)",
-       N_("nut M45 of GOST 11871, turned down where it would meet the tips of wheel 14 beside it")),
-    _R("r_54", (16, 18), "arm / 2 - 1.25 * wheel_module - 8.5", N_("screws M8 within the teeth, with a wall of 4")),
-    _R("h_18", (18,), "75 - wheel_width - 12", N_("screws M8x75 hold the body by 12 mm")),
+       N_("nut M45 of GOST 11871, turned down where it would meet the tips of wheel 14 beside it"), "thesis"),
+    _R("r_54", (16, 18), "arm / 2 - 1.25 * wheel_module - 8.5", N_("screws M8 within the teeth, with a wall of 4"),
+       "thesis"),
+    _R("h_54", (16,), "wheel_width", N_("screws M8x75 hold the whole wheel"), "thesis"),
+    _R("r_47", (9,), "35", N_("nut M45 of GOST 11871, in a recess of plate 11"), "cranks"),
+    _R("h_11", (11,), "wheel_width + h_47 + 3", N_("nut 47 and the end of the axle stand within it"), "cranks"),
+    _R("r_35", (35,), "5", N_("pins of the cranks"), "cranks"),
+    _R("r_34", (34, 35), "r_35 + 4", N_("a wall of 4 about the pins"), "cranks"),
+    _R("h_collar", (35,), "axial_gap - 0.5", N_("collars of the pins hold the cranks apart, with a play of 0.5"),
+       "cranks"),
+    _R("r_pivots", (11, 14, 16), "max(ceil((arm + 2 * r_34 + 1) / sqrt(3)), r_47 + 3 + r_35 + 5)",
+       N_("three cranks pass each other in one plane; a wall of 5 to the recess of nut 47"), "cranks"),
+    _R("r_11", (11, 16), "r_pivots + r_34", N_("a wall of 4 beyond the pins"), "cranks"),
+    _R("r_13", (13, 14), "ceil(arm + r_11) + 1", N_("plate 11 and its cranks turn within guide 13"), "cranks"),
+    _R("r_13_out", (13,), "r_13 + 8", N_("its wall"), "cranks"),
+    _R("r_14_in", (14,), "r_pivots - r_34", N_("a wall of 4 within the pins"), "cranks"),
+    _R("r_window", (13,), "r_journal + 26", N_("guide 13 lies about cover 12"), "cranks"),
+    _R("h_13", (13,), "10", N_("its floor, clamped to the pinion by nut 46"), "cranks"),
+    _R("z_34", (34,), "z_11 - h_11 - axial_gap", N_("cranks between plate 11 and ring 14"), "cranks"),
+    _R("z_14", (14,), "z_34 - axial_gap - wheel_width", N_("behind these cranks"), "cranks"),
+    _R("z_34_rear", (34,), "z_14 - axial_gap - wheel_width", N_("cranks between ring 14 and plate 16"), "cranks"),
+    _R("z_16", (16,), "z_34_rear - axial_gap - wheel_width", N_("behind these cranks"), "cranks"),
+    _R("r_54", (16, 18), "25", N_("screws M8 within the pins, with a wall of 4"), "cranks"),
+    _R("h_54", (16,), "wheel_width - 9", N_("heads of the screws M8 lie below the face of the plate"), "cranks"),
+    _R("r_18", (18,), "r_54 + 8.5", N_("a wall of 4 beyond the screws")),
+    _R("h_18", (18,), "75 - h_54 - 12", N_("screws M8x75 hold the body by 12 mm")),
     _R("z_boss", (1,), "z_16 - h_18", N_("what ring 18 stands on")),
     _R("z_floor", (1,), "min(z_23 - 8 - axial_gap, z_2 - h_seat - 4, z_boss - 12)",
        N_("clear of the heads behind wheel 23, and of the seat of worm II")),
@@ -146,9 +176,13 @@ CONDITIONS = (
     _C("teeth", "r_56 - 11 - 3 - arm - r_journal - clearance",
        N_("wall between the axle of the platform and the recess of disk 3")),
     _C("teeth", "arm - r_journal - clearance - 20 - 3", N_("wall between the axle of the platform and nut 46")),
-    _C("teeth", "arm - r_journal - 25 - 15 - 1", N_("gap between cover 12 and the axle of the satellite")),
+    _C("teeth", "arm - r_journal - 25 - 15 - 1", N_("gap between cover 12 and the axle of the satellite"), "thesis"),
+    _C("teeth", "arm - r_window - 10 - 5", N_("wall between the stud of guide 13 and its window"), "cranks"),
+    _C("teeth", "r_13 - arm - r_window - 3", N_("wall between the window of guide 13 and its rim"), "cranks"),
+    _C("teeth", "r_22_in - arm - r_13_out - 2", N_("gap about guide 13 where it stands outermost"), "cranks"),
     _C("teeth", "r_24_in - r_21 - 1", N_("gap between wheel 21 and ring 24")),
-    _C("teeth", "r_22_in - 2 * arm - r_wheel - 2", N_("gap about wheel 11 where it stands outermost")),
+    _C("teeth", "r_22_in - 2 * arm - r_wheel - 2", N_("gap about wheel 11 where it stands outermost"),
+       "thesis"),
     _C("teeth", "worm_module * (worm_teeth_25 / 2 - 1.2) - r_20_screws - 8", N_("wall under the teeth of wheel 25")),
     _C("teeth", "worm_module * (worm_teeth_23 / 2 - 1.2) - r_21 - 2", N_("wall under the teeth of wheel 23")),
     _C("disk_thickness", "z_upper - z_lower - 1.2 * ball - 0.2", N_("room for both rows of balls in disk 3")),
@@ -159,9 +193,11 @@ CONDITIONS = (
     _C("ball", "h_20 - ball / 2 - 7.3", N_("flange of 22 below the heads 41")),
     _C("balls", "2 * pi * r_small / max(small_balls, 1) - ball - 3", N_("room between two balls of the small circle")),
     _C("balls", "2 * pi * r_large / max(large_balls, 1) - ball - 3", N_("room between two balls of the large circle")),
-    _C("wheel_module", "r_47 - 27", N_("face of nut 47")),
-    _C("wheel_module", "r_54 - 4.5 - 7 ", N_("room for six screws in wheel 16")),
-    _C("wheel_width", "75 - wheel_width - 12 - 5", N_("height of ring 18")),
+    _C("wheel_module", "r_47 - 27", N_("face of nut 47"), "thesis"),
+    _C("wheel_module", "r_54 - 4.5 - 7 ", N_("room for six screws in wheel 16"), "thesis"),
+    _C("wheel_width", "h_18 - 5", N_("height of ring 18")),
+    _C("wheel_width", "h_54 - 3", N_("floor of plate 16 under the heads of its screws"), "cranks"),
+    _C("axial_gap", "axial_gap - 2", N_("collars of the pins 35"), "cranks"),
     _C("face_width", "45 - face_width - 8", N_("thread of the screws of wheel 21")),
     _C("face_width", "45 - h_24 - 8", N_("thread of the screws of ring 24")),
     _C("face_width", "disk_thickness - seat_33 - h_thread - 0.5", N_("wall over the screws of ring 24")),
@@ -183,7 +219,7 @@ def _beside(reach: float, height: float) -> float:
 
 _KNOWN: Mapping[str, object] = {
     "ceil": lambda x: math.ceil(x - 1e-9), "floor": lambda x: math.floor(x + 1e-9), "max": max, "min": min,
-    "round": round, "pi": math.pi, "beside": _beside,
+    "round": round, "pi": math.pi, "sqrt": math.sqrt, "beside": _beside,
 }  # fmt: skip
 
 
@@ -192,10 +228,15 @@ def _code(made_of: str) -> CodeType:
     return compile(ast.parse(made_of, mode="eval"), made_of, "eval")
 
 
-def sizes(drivers: Mapping[str, float]) -> dict[str, float]:
+def of_orientation(rows: Sequence[Of], orientation: str) -> list[Of]:
+    """The rules or conditions of one orientation, and those of all."""
+    return [row for row in rows if row.orientation in ("", orientation)]
+
+
+def sizes(drivers: Mapping[str, float], orientation: str) -> dict[str, float]:
     """The drivers and every size by its name."""
     found = dict(drivers)
-    for rule in RULES:
+    for rule in of_orientation(RULES, orientation):
         found[rule.name] = valued(rule.made_of, found)
     return found
 

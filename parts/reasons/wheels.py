@@ -74,6 +74,7 @@ REASONS = {
     "leaves_no_rim": N_("leaves no rim"),
     "leaves_no_spoke": N_("leaves no spoke"),
     "leaves_no_spoke_nearly": N_("leaves less than {least} mm of a spoke"),
+    "for_thesis_only": N_('is for orientation = "thesis" only'),
     "module_lacks": N_("lacks {lacks} mm: {what}"),
     "no_edge_between_corners": N_("leaves no edge between two corners"),
     "no_key_for_shaft": N_("{standard} has keys for shafts of {least} to {most} mm; others need width and depth"),

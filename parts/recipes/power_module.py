@@ -2,9 +2,13 @@
 
 Sizes follow by ``parts/pages/module_rules.py``. From the front: platform 4; shields 7, 8; disk 2 with disk 3 in it
 on two rows of balls, in the body on a third; wheel 21 with pinion 19 behind them; ring 24 and worm wheel 25 on disk 2;
-ring 22, the inner race of the fourth row, and worm wheel 23 on wheel 21; the wheels 16, 14, 11 that turn the platform;
+ring 22, the inner race of the fourth row, and worm wheel 23 on wheel 21; what turns the platform;
 both worms in the body. Each worm comes in through the seat that its cover then closes. Threads are plain cylinders of
 the nominal diameter. The groove that section 2.3 has in wheel 21 is turned in ring 22, one body with it.
+
+The platform is turned by the wheels 16, 14, 11 of the thesis, or kept parallel by cranks: plate 16 on the body, ring 14
+about O2, plate 11 on the platform's axle, between them two planes of three cranks each, which no axle crosses. Ring 14
+runs on its rim in guide 13, a cup on the pinion, within which plate 11 turns; axially collars of the pins hold it.
 """
 
 from __future__ import annotations
@@ -22,7 +26,7 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.nearest import nearest
 from parts.base.texts import N_, Message, words
 from parts.keys.base import mm
-from parts.pages.module_rules import CONDITIONS, DRIVERS, M4, M8, M10, M12, Condition, sizes, valued
+from parts.pages.module_rules import CONDITIONS, DRIVERS, M4, M8, M10, M12, Condition, of_orientation, sizes, valued
 from parts.recipes.making import Making, place
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
 
@@ -34,7 +38,7 @@ _NUT_20, _HEX_8, _HEX_12 = (17.0, 8.0), (13.0, 5.3), (18.0, 7.5, 10.8)
 _STEP, _PLAY = 1.0, 0.05
 
 STEEL, IRON, BRONZE, BRASS = "steel", "cast iron", "bronze", "brass"
-# by part: position, name, material, colour
+# by part: position, name, material, colour; beyond 33, and what 11, 13, 14, 16 are with cranks, not the thesis's
 PARTS: Mapping[str, tuple[int, str, str, str]] = {
     "body": (1, N_("Housing"), IRON, "#b8bfc4"),
     "disk_2": (2, N_("Outer disk"), IRON, "#d9a066"),
@@ -47,11 +51,15 @@ PARTS: Mapping[str, tuple[int, str, str, str]] = {
     "platform_axle": (9, N_("Platform axle"), STEEL, "#a9b1b8"),
     "spacer_10": (10, N_("Spacer ring"), STEEL, "#c2c8cc"),
     "platform_wheel": (11, N_("Platform gear wheel"), STEEL, "#c08040"),
+    "platform_plate": (11, N_("Crank plate of the platform"), STEEL, "#c08040"),
     "cover_12": (12, N_("Cover of the platform bearing unit"), STEEL, "#b5c7a3"),
     "satellite_axle": (13, N_("Satellite gear axle"), STEEL, "#a9b1b8"),
+    "ring_guide": (13, N_("Guide of the free ring"), STEEL, "#a9b1b8"),
     "satellite_wheel": (14, N_("Satellite gear wheel"), STEEL, "#b07030"),
+    "free_ring": (14, N_("Free ring"), BRONZE, "#b07030"),
     "spacer_15": (15, N_("Spacer ring"), STEEL, "#c2c8cc"),
     "central_wheel": (16, N_("Central gear wheel"), STEEL, "#c08040"),
+    "body_plate": (16, N_("Crank plate of the housing"), STEEL, "#c08040"),
     "sleeve_17": (17, N_("Spacer sleeve"), STEEL, "#c2c8cc"),
     "spacer_18": (18, N_("Spacer ring"), STEEL, "#c2c8cc"),
     "pinion": (19, N_("Gear wheel of the inner disk"), STEEL, "#4f8fc0"),
@@ -69,6 +77,8 @@ PARTS: Mapping[str, tuple[int, str, str, str]] = {
     "large_cage": (31, N_("Large cage"), BRASS, "#d8c060"),
     "plug": (32, N_("Plug"), STEEL, "#606a72"),
     "protective_ring": (33, N_("Protective ring"), STEEL, "#9fb8a8"),
+    "crank": (34, N_("Crank"), STEEL, "#d98880"),
+    "crank_pin": (35, N_("Crank pin"), STEEL, "#d0d4d8"),
 }
 # standard items: position, name, standard; those with "_down" are the same, laid the other way round
 STANDARD: Mapping[str, tuple[int, str, str]] = {
@@ -98,8 +108,12 @@ class PowerModuleKeys(RecipeKeys, kw_only=True, tag="power_module"):
     """Keys of ``power_module``: its drivers."""
 
     orientation: Annotated[
-        Literal["thesis"], Meta(description="what turns the platform: the wheels 16, 14, 11 of the thesis")
-    ] = "thesis"
+        Literal["cranks", "thesis"],
+        Meta(
+            description="cranks keep the platform parallel: plates 11 and 16, ring 14, its guide 13, cranks 34 and "
+            "pins 35, without 15 and 57; thesis: its wheels 11, 14, 16, axle 13"
+        ),
+    ] = "cranks"
     module: Annotated[float, mm("module of ring and pinion", least=0.1, most=100)] = DRIVERS["module"]
     teeth: Annotated[tuple[_Teeth, _Teeth], Meta(description="of the pinion 19 and of the ring 21")] = (
         int(DRIVERS["teeth_19"]),
@@ -108,7 +122,9 @@ class PowerModuleKeys(RecipeKeys, kw_only=True, tag="power_module"):
     second_arm: (
         Annotated[float, mm("O2O3; must be what ring and pinion give", above=0, most=1000, example=72.0)] | None
     ) = None
-    wheel_module: Annotated[float, mm("module of the wheels 11, 14, 16", least=0.1, most=100)] = DRIVERS["wheel_module"]
+    wheel_module: Annotated[float, mm("module of the thesis's wheels 11, 14, 16", least=0.1, most=100)] = DRIVERS[
+        "wheel_module"
+    ]
     worm_module: Annotated[float, mm("module of worms and worm wheels", least=0.1, most=100)] = DRIVERS["worm_module"]
     worm_quotient: Annotated[float, Meta(ge=4, le=30, description="q = d1 / m of both worms")] = DRIVERS[
         "worm_quotient"
@@ -120,7 +136,9 @@ class PowerModuleKeys(RecipeKeys, kw_only=True, tag="power_module"):
     worm_wheel_width: Annotated[float, mm("of the worm wheels' rims", least=1, most=1000)] = DRIVERS["worm_wheel_width"]
     worm_length: Annotated[float, mm("of the worms' threads", least=1, most=5000)] = DRIVERS["worm_length"]
     face_width: Annotated[float, mm("of ring and pinion", least=1, most=1000)] = DRIVERS["face_width"]
-    wheel_width: Annotated[float, mm("of the wheels 11 and 16", least=1, most=1000)] = DRIVERS["wheel_width"]
+    wheel_width: Annotated[float, mm("of the wheels 11 and 16, or of plates, ring and cranks", least=1, most=1000)] = (
+        DRIVERS["wheel_width"]
+    )
     disk_thickness: Annotated[float, mm("of disk 2, and with its gaps of disk 3", least=1, most=1000)] = DRIVERS[
         "disk_thickness"
     ]
@@ -160,8 +178,8 @@ def checked_sizes(keys: PowerModuleKeys) -> dict[str, float]:
     ParameterError
         A condition is not kept: its driver, what lacks and by how much.
     """
-    found = sizes(drivers(keys))
-    for condition in CONDITIONS:
+    found = sizes(drivers(keys), keys.orientation)
+    for condition in of_orientation(CONDITIONS, keys.orientation):
         left = valued(condition.made_of, found)
         if left < 0:
             name, cure = _to_blame(keys, condition)
@@ -171,7 +189,10 @@ def checked_sizes(keys: PowerModuleKeys) -> dict[str, float]:
     if keys.second_arm is not None and abs(keys.second_arm - arm) > 1e-9:
         raise ParameterError("second_arm", keys.second_arm, "arm_of_ring_and_pinion", Nearest(arm), arm=arm)
     whole = arm / keys.wheel_module
-    if abs(whole - round(whole)) > 1e-9 or round(whole) < 12:
+    if keys.orientation != "thesis":
+        if keys.wheel_module != DRIVERS["wheel_module"]:
+            raise ParameterError("wheel_module", keys.wheel_module, "for_thesis_only")
+    elif abs(whole - round(whole)) > 1e-9 or round(whole) < 12:
         raise ParameterError("wheel_module", keys.wheel_module, "wheels_do_not_span_arm", None, arm=arm)
     return found
 
@@ -181,18 +202,19 @@ def _to_blame(keys: PowerModuleKeys, condition: Condition) -> tuple[str, Nearest
     usual = PowerModuleKeys()
     names = dict.fromkeys((condition.driver, *_DRIVERS))
     changed = [name for name in names if getattr(keys, name) != getattr(usual, name)]
-    for kept in (CONDITIONS, (condition,)):
+    every = of_orientation(CONDITIONS, keys.orientation)
+    for kept in (every, [condition]):
         for name in changed:
             given, end = getattr(keys, name), getattr(usual, name)
             if isinstance(given, tuple):
                 continue
 
-            def works(value: float, name: str = name, kept: tuple[Condition, ...] = kept) -> bool:
-                known = sizes(drivers(replace(keys, **{name: value})))
+            def works(value: float, name: str = name, kept: Sequence[Condition] = kept) -> bool:
+                known = sizes(drivers(replace(keys, **{name: value})), keys.orientation)
                 return all(valued(c.made_of, known) >= 0 for c in kept)
 
             if (cure := nearest(works, given, end)) is not None:
-                return name, cure if kept is CONDITIONS else None
+                return name, cure if kept is every else None
     return condition.driver, None
 
 
@@ -225,6 +247,7 @@ class _Making(Making):
         self._outer_disk()
         self._ring()
         self._inner_disk()
+        (self._ring_between_cranks if self.cranks else self._satellite)()
         self._platform()
         self._worms()
         keys = self.keys
@@ -308,12 +331,15 @@ class _Making(Making):
         self._screw("screw_51", 8, 16, M8[1:])
         self._circle("body", "guide_6_screw", "screw_51", count, s["r_6_screws"], top + keys.ball - 16)
         # what holds the central wheel
-        self._tube("spacer_18", 10.0, s["arm"] / 2 - 1.25 * keys.wheel_module, s["h_18"], _holes(6, 8, s["r_54"]))
+        self._tube("spacer_18", 10.0, s["r_18"], s["h_18"], _holes(6, 8, s["r_54"]))
         self._set("body", "spacer_18", "spacer_18", s["z_boss"])
-        self._wheel("central_wheel", keys.wheel_width, 20.0, holes=_holes(6, M8[0], s["r_54"]))
-        self._set("body", "central_wheel", "central_wheel", s["z_16"])
+        if self.cranks:
+            self._body_plate()
+        else:
+            self._wheel("central_wheel", keys.wheel_width, 20.0, holes=_holes(6, M8[0], s["r_54"]))
+            self._set("body", "central_wheel", "central_wheel", s["z_16"])
         self._screw("screw_54", 8, 75, M8[1:])
-        self._circle("body", "central_screw", "screw_54", 6, s["r_54"], s["z_16"] + keys.wheel_width - 75)
+        self._circle("body", "central_screw", "screw_54", 6, s["r_54"], s["z_16"] + s["h_54"] - 75)
         # to the bed
         self._hex("bolt_42", 12, 45, _HEX_12[:2])
         self._layers("nut_44", [(_HEX_12[2], {"polygons": [_hexagon(_HEX_12[0])], "circles": [_round(12)]})])
@@ -540,15 +566,19 @@ class _Making(Making):
         self._set("pinion", "cover_12", "cover_12", z - s["h_12"], complex(arm))
         self._screw("screw_51_down", 8, 16, M8[1:], down=True)
         self._circle("cover_12", "cover_12_screw", "screw_51_down", 4, s["r_journal"] + 16, z - s["h_12"] - M8[2], 45)
-        # the axle of the satellite
+
+    # -- what turns the platform: the wheels of the thesis
+
+    def _satellite(self) -> None:
+        """The axle 13, and what holds wheel 14 on it."""
+        s, keys, z = self.s, self.keys, -self.s["h_24"]
         end, collar = s["z_16"] - keys.clearance, s["z_11"] + keys.wheel_width + keys.clearance
         self._turned("satellite_axle", [
             (7.0, 0.0), (10.0, 0.0), (10.0, collar - end), (15.0, collar - end), (15.0, z - end), (10.0, z - end),
             (10.0, z + keys.face_width + 10 - end), (0.0, z + keys.face_width + 10 - end), (0.0, 17.0), (7.0, 17.0),
         ])  # fmt: skip
         self._set("pinion", "satellite_axle", "satellite_axle", end)
-        self._tube("nut_46", 10.0, *_NUT_20)
-        self._set("pinion", "nut_46", "nut_46", z + keys.face_width)
+        self._nut_46()
         self._tube("spacer_15", 7.0, 14.0, 5.0)
         self._set("pinion", "spacer_15", "spacer_15", end - 5)
         self._screw("screw_57", 14, 20, (21.0, 14.0), down=True)
@@ -558,37 +588,125 @@ class _Making(Making):
         self.mate("external_gear_pair", "central_wheel", "satellite_wheel")
         self.mate("carried", "disk_2", "satellite_wheel")
 
+    def _platform_wheel(self) -> None:
+        """Wheel 11, in mesh with wheel 14."""
+        self._wheel("platform_wheel", self.keys.wheel_width, 45.0)
+        self._on_axle("platform_wheel", self.s["z_11"])
+        self.mate("external_gear_pair", "satellite_wheel", "platform_wheel")
+
+    def _on_axle(self, name: str, z: float) -> None:
+        """What turns with the platform, about O3."""
+        self._moving("carried", "pinion", name, name, complex(self.s["arm"]), z)
+
+    def _nut_46(self) -> None:
+        """On what is clamped to the pinion in its middle."""
+        self._tube("nut_46", 10.0, *_NUT_20)
+        self._set("pinion", "nut_46", "nut_46", self.keys.face_width - self.s["h_24"])
+
+    # -- what keeps it parallel: cranks
+
+    @property
+    def cranks(self) -> bool:
+        """Cranks, no wheels."""
+        return self.keys.orientation == "cranks"
+
+    def _moving(self, kind: str, first: str, instance: str, part: str, at: complex, z: float) -> None:
+        """An instance that turns for itself or with another, its axis carried; ``z``: its lower face."""
+        self.found.instances[instance] = {"part": part, "subassembly": self.within}
+        self.low[instance] = z
+        self.mate(kind, first, instance, offset=place(at, z - self.low[first]))
+
+    def _pins(self, first: str, z: float, start: float, *, behind: bool = False) -> None:
+        """Three pins pressed into a plate, before or behind its face at a height, their collars on that."""
+        low = z - self.keys.wheel_width - (self.s["h_collar"] if behind else 0.0)
+        self._circle(first, f"{first}_pin{'_rear' * behind}", "crank_pin", 3, self.s["r_pivots"], low, start)
+
+    def _pivots(self, start: float) -> list[complex]:
+        return _on_circle(3, self.s["r_pivots"], start)
+
+    def _body_plate(self) -> None:
+        """Plate 16 with the pins of the first cranks; pins and cranks of both planes are alike."""
+        s, keys = self.s, self.keys
+        thick, r, collar, sunk = keys.wheel_width, s["r_35"], s["h_collar"], s["r_54"] + 7.5
+        self._turned("body_plate", [
+            (10.0, 0), (s["r_11"], 0), (s["r_11"], thick), (sunk, thick), (sunk, s["h_54"]), (10.0, s["h_54"]),
+        ], _holes(3, 2 * r, s["r_pivots"]), _holes(6, M8[0], s["r_54"]))  # fmt: skip
+        self._set("body", "body_plate", "body_plate", s["z_16"])
+        self._turned("crank_pin", [
+            (0, 0), (r, 0), (r, thick), (s["r_34"], thick), (s["r_34"], thick + collar), (r, thick + collar),
+            (r, 2 * thick + collar), (0, 2 * thick + collar),
+        ])  # fmt: skip
+        self._pins("body_plate", s["z_16"] + thick, 0.0)
+        turning = 2 * (r + keys.clearance)
+        self._layers("crank", [(thick, {
+            "slots": [{"start": [0.0, 0.0], "end": [s["arm"], 0.0], "width": 2 * s["r_34"]}],
+            "circles": [_round(turning), _round(turning, s["arm"])],
+        })])  # fmt: skip
+
+    def _ring_between_cranks(self) -> None:
+        """Guide 13 on the pinion, ring 14 in it, the first cranks behind it and the second before it."""
+        s, keys, z = self.s, self.keys, -self.s["h_24"]
+        low, front, floor = s["z_14"], z + keys.face_width + 10, z - s["h_13"]
+        self._turned("ring_guide", [
+            (0, floor - low), (s["r_13"], floor - low), (s["r_13"], 0), (s["r_13_out"], 0), (s["r_13_out"], z - low),
+            (10.0, z - low), (10.0, front - low), (0, front - low),
+        ], _holes(1, 2 * s["r_window"], s["arm"]))  # fmt: skip
+        self._set("pinion", "ring_guide", "ring_guide", low)
+        self._nut_46()
+        self.within = "platform_unit"
+        pins = [_holes(3, 2 * s["r_35"], s["r_pivots"], start) for start in (0.0, 60.0)]
+        self._turned("free_ring", [
+            (s["r_14_in"], 0), (s["r_13"] - keys.clearance, 0), (s["r_13"] - keys.clearance, keys.wheel_width),
+            (s["r_14_in"], keys.wheel_width),
+        ], *pins)  # fmt: skip
+        self._moving("carried", "disk_2", "free_ring", "free_ring", complex(s["arm"]), low)
+        self.mate("parallel", "body", "free_ring")
+        self._pins("free_ring", low, 0.0, behind=True)
+        self._pins("free_ring", low + keys.wheel_width, 60.0)
+        for k, at in enumerate(self._pivots(0.0), 1):
+            self._moving("parallel", "disk_2", f"first_crank_{k}", "crank", at, s["z_34_rear"])
+        for k, at in enumerate(self._pivots(60.0), 1):
+            self._moving("parallel", "pinion", f"second_crank_{k}", "crank", at, s["z_34"])
+            self.mate("carried", "free_ring", f"second_crank_{k}")
+
+    def _platform_plate(self) -> None:
+        """Plate 11 about nut 47, as parallel as the ring."""
+        s, keys = self.s, self.keys
+        recess, high, low = s["r_47"] + 3, s["h_11"], s["z_11"] + keys.wheel_width - s["h_11"]
+        rear = high - keys.wheel_width
+        self._turned("platform_plate", [
+            (recess, 0), (s["r_11"], 0), (s["r_11"], high), (22.5, high), (22.5, rear), (recess, rear),
+        ], _holes(3, 2 * s["r_35"], s["r_pivots"], 60.0))  # fmt: skip
+        self._on_axle("platform_plate", low)
+        self.mate("parallel", "free_ring", "platform_plate")
+        self._pins("platform_plate", low, 60.0, behind=True)
+
     def _platform(self) -> None:
         s, keys = self.s, self.keys
         self.within = "platform_unit"
-        self._wheel("platform_wheel", keys.wheel_width, 45.0)
-        self.found.instances["platform_wheel"] = {"part": "platform_wheel", "subassembly": self.within}
-        self.low["platform_wheel"] = s["z_11"]
-        self.mate(
-            "carried", "pinion", "platform_wheel", offset=place(complex(s["arm"]), s["z_11"] - self.low["pinion"])
-        )
-        self.mate("external_gear_pair", "satellite_wheel", "platform_wheel")
+        (self._platform_plate if self.cranks else self._platform_wheel)()
+        first = "platform_plate" if self.cranks else "platform_wheel"
         end, r = s["z_11"] - s["h_47"] - 2, s["r_journal"]
         shoulder, flange = s["z_11"] + keys.wheel_width - end, s["z_flange"] - end
         self._turned("platform_axle", [
             (0, 0), (22.5, 0), (22.5, shoulder), (r, shoulder), (r, flange), (s["r_55"] + 10, flange),
             (s["r_55"] + 10, flange + 12), (r, flange + 12), (r, flange + 18), (0, flange + 18),
         ], _holes(6, 10, s["r_55"]))  # fmt: skip
-        self._set("platform_wheel", "platform_axle", "platform_axle", end)
+        self._set(first, "platform_axle", "platform_axle", end)
         self._tube("nut_47", 22.5, s["r_47"], s["h_47"])
-        self._set("platform_wheel", "nut_47", "nut_47", s["z_11"] - s["h_47"])
+        self._set(first, "nut_47", "nut_47", s["z_11"] - s["h_47"])
         top = -s["h_24"] - 1
         self._tube("spacer_10", r, r + 6, top - s["z_11"] - keys.wheel_width)
-        self._set("platform_wheel", "spacer_10", "spacer_10", s["z_11"] + keys.wheel_width)
+        self._set(first, "spacer_10", "spacer_10", s["z_11"] + keys.wheel_width)
         half = keys.platform_size / 2
         side, screws = _square(half, 10.0), _on_circle(6, s["r_55"])
         self._layers("platform", [
             (19.0, {"polygons": [side], "circles": [_round(2 * r), *(_round(M10[0], at) for at in screws)]}),
             (11.0, {"polygons": [side], "circles": [_round(2 * r), *(_round(M10[1] + 1, at) for at in screws)]}),
         ])  # fmt: skip
-        self._set("platform_wheel", "platform", "platform", s["z_4"])
+        self._set(first, "platform", "platform", s["z_4"])
         self._screw("screw_55", 10, 30, M10[1:])
-        self._circle("platform_wheel", "platform_screw", "screw_55", 6, s["r_55"], s["z_4"] + 19 - 30)
+        self._circle(first, "platform_screw", "screw_55", 6, s["r_55"], s["z_4"] + 19 - 30)
 
     # -- worms
 

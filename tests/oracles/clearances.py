@@ -7,7 +7,7 @@ with all that lies between bore and tips, worms as cylinders.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Set
 from typing import Any
 
 import numpy as np
@@ -182,8 +182,11 @@ def solid_of(keys: Any) -> Solid:
     return Solid(_tube(bore, outer, keys.face_width), [], _groups(keys))
 
 
-def standing(scene: Any) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    """Where every instance stands as the tables say, none turned at first: axes as columns, place."""
+def standing(scene: Any, turns: Mapping[str, float] | None = None) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Where every instance stands as the tables say: axes as columns, place; ``turns``: about their own axes, radians.
+
+    What is fixed or parallel to another is turned with it, what is carried by it only goes along.
+    """
     upright = np.eye(3)
     found: dict[str, tuple[np.ndarray, np.ndarray]] = {}
     for key, spec in scene.instances.items():
@@ -209,17 +212,25 @@ def standing(scene: Any) -> dict[str, tuple[np.ndarray, np.ndarray]]:
             wheels = [scene.parts[scene.instances[key].part] for key in (mate.first, mate.second)]
             far = wheels[0].module * sum(w.number_of_teeth for w in wheels) / 2
             found[mate.second] = upright, at + np.array([far, 0.0, 0.0])
-        elif kind == "coaxial":
-            found[mate.second] = upright, at + np.array([0.0, 0.0, mate.height])
+        elif kind in ("fixed", "parallel"):
+            found[mate.second] = axes, at + (axes if kind == "fixed" else upright) @ np.array(mate.offset)
         else:
-            found[mate.second] = upright, at + np.array(mate.offset)
+            turn = (turns or {}).get(mate.second, 0.0)
+            own = np.array([[math.cos(turn), -math.sin(turn), 0], [math.sin(turn), math.cos(turn), 0], [0, 0, 1.0]])
+            offset = [0.0, 0.0, mate.height] if kind == "coaxial" else mate.offset
+            found[mate.second] = own, at + axes @ np.array(offset)
     return found
 
 
-def overlaps(scene: Any) -> dict[tuple[str, str], int]:
-    """Pairs that run into each other, and by how many points; of a group's members two stand for all of them."""
+def overlaps(
+    scene: Any, turns: Mapping[str, float] | None = None, parts: Set[str] | None = None
+) -> dict[tuple[str, str], int]:
+    """Pairs that run into each other, and by how many points; of a group's members some stand for all of them.
+
+    ``parts``: one of each pair is of these.
+    """
     meshed = {frozenset((m.first, m.second)) for m in scene.mates if m.__struct_config__.tag.endswith("pair")}
-    stands, solids = standing(scene), {key: solid_of(spec) for key, spec in scene.parts.items()}
+    stands, solids = standing(scene, turns), {key: solid_of(spec) for key, spec in scene.parts.items()}
     seen: dict[tuple[str, float], int] = {}
     chosen = []
     for key, spec in scene.instances.items():
@@ -236,6 +247,8 @@ def overlaps(scene: Any) -> dict[tuple[str, str], int]:
         centre, far = at + axes[:, 2] * middle, math.hypot(mine.reach, mine.high - middle)
         for two in chosen:
             other = solids[scene.instances[two].part]
+            if parts is not None and not parts & {scene.instances[one].part, scene.instances[two].part}:
+                continue
             theirs, there = stands[two]
             local = (centre - there) @ theirs
             if one == two or frozenset((one, two)) in meshed or np.hypot(local[0], local[1]) > far + other.reach:

@@ -23,7 +23,7 @@ from parts.mates.pages.power_table import DRIVES, TwoDiskKeys, given
 from parts.pages.error_map import ErrorMap
 from parts.pages.inputs import checked, refusal
 from parts.pages.misprints import POWER_MODULE, printed_for_power_module
-from parts.pages.module_rules import CONDITIONS, DRIVERS, RULES, sizes, valued
+from parts.pages.module_rules import CONDITIONS, DRIVERS, RULES, of_orientation, sizes, valued
 from parts.pages.page import Section, Sheet, Table
 
 TOPIC = "power-module"
@@ -100,12 +100,13 @@ def _sizes(page: Sheet, keys: PowerModuleKeys) -> None:
         "worm_teeth_23": keys.worm_ratios[1], "worm_wheel_width": keys.rim_width, "face_width": keys.face_width,
         "balls": keys.balls, "ball": keys.ball_diameter,
     }  # fmt: skip
-    found = sizes({**DRIVERS, **own})
-    labels = tuple((r.name, ", ".join(map(str, r.positions)), r.made_of, r.reason) for r in RULES)
+    which = "cranks" if keys.orientation == "idlers" else keys.orientation
+    found, rules = sizes({**DRIVERS, **own}, which), of_orientation(RULES, which)
+    labels = tuple((r.name, ", ".join(map(str, r.positions)), r.made_of, r.reason) for r in rules)
     heads = ((N_("size"), ""), (N_("positions"), ""), (N_("rule"), ""), (N_("reason"), ""), (N_("value"), "mm"))
-    rows = tuple((found[r.name],) for r in RULES)
+    rows = tuple((found[r.name],) for r in rules)
     page.tables.append(Table("sizes", N_("Sizes of the assembly power_module, by rules"), heads, rows, labels=labels))
-    for condition in CONDITIONS:
+    for condition in of_orientation(CONDITIONS, which):
         if (left := valued(condition.made_of, found)) < 0:
             told = message(N_("lacks {lacks} mm: {what}"), lacks=f"{-left:.6g}", what=filled(condition.reason))
             page.notes.append(

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+import cmath
 import json
+import math
 import random
 from collections import Counter
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from geometry.kinematics.two_disk import TwoDisk
 from parts.base.refusal import SceneError
 from parts.pages.module_rules import RULES
 from parts.recipes.power_module import PowerModuleKeys
 from parts.scene.load import SceneFile, scene_from_dict
 from tests.oracles.clearances import overlaps
+from tests.parts.recipes.test_power_table import placed
 
 LIST = Path(__file__).parents[2] / "published" / "power_module_list.json"
 
@@ -23,10 +28,22 @@ def module(**keys: Any) -> SceneFile:
     return scene_from_dict({"assemblies": [{"kind": "power_module", **keys}]}, "t", "t")
 
 
-def test_exactly_the_parts_list_of_the_thesis() -> None:
+# what cranks replace, add (position, count) and drop of the list
+REPLACED = {
+    11: ("Crank plate of the platform", "Кривошипна плита платформи"),
+    13: ("Guide of the free ring", "Напрямна вільного кільця"),
+    14: ("Free ring", "Вільне кільце"),
+    16: ("Crank plate of the housing", "Кривошипна плита корпусу"),
+}
+ADDED = {34: (6, "Crank", "Кривошип"), 35: (12, "Crank pin", "Палець кривошипа")}
+DROPPED = {15: 1, 57: 1}
+
+
+@pytest.mark.parametrize("orientation", ["thesis", "cranks"])
+def test_exactly_the_parts_list_of_the_thesis_but_for_what_the_cranks_change_by_name(orientation: str) -> None:
     items = json.loads(LIST.read_text("utf-8"))["items"]
     for language in ("en", "uk"):
-        scene = module(names=language)
+        scene = module(names=language, **({"orientation": "thesis"} if orientation == "thesis" else {}))
         count, names = Counter[int](), dict[int, tuple[str, str]]()
         for instance in scene.instances.values():
             part: Any = scene.parts[str(instance.part)]
@@ -35,11 +52,20 @@ def test_exactly_the_parts_list_of_the_thesis() -> None:
             assert (part.standard is None) == (part.position < 40)
             assert (part.designation is None) == (part.position > 40)
             assert part.material
-        assert count == {item["pos"]: item["qty"] for item in items}
+        every = {item["pos"]: item["qty"] for item in items}
+        if orientation == "cranks":
+            assert {k: every.pop(k) for k in DROPPED} == DROPPED
+            every |= {k: row[0] for k, row in ADDED.items()}
+        assert count == every
         # texts have points; drawings make commas of them
         wanted = {item["pos"]: (item[f"name_{language}"], item["name_uk"]) for item in items}
-        assert names == {k: tuple(name.replace("1,5", "1.5") for name in pair) for k, pair in wanted.items()}
-        assert (sum(n for k, n in count.items() if k < 40), sum(n for k, n in count.items() if k > 40)) == (42, 417)
+        if orientation == "cranks":
+            own = {k: row[1:] for k, row in ADDED.items()} | REPLACED
+            wanted |= {k: (pair[language == "uk"], pair[1]) for k, pair in own.items()}
+        expected = {k: tuple(name.replace("1,5", "1.5") for name in wanted[k]) for k in every}
+        assert names == expected
+        sums = sum(n for k, n in count.items() if k < 40), sum(n for k, n in count.items() if k > 40)
+        assert sums == {"thesis": (42, 417), "cranks": (59, 416)}[orientation]
 
 
 def test_every_position_has_its_rules() -> None:
@@ -56,7 +82,10 @@ def test_every_position_has_its_rules() -> None:
         ({"disk_thickness": 3.0}, "disk_thickness = 3.*at least"),
         ({"balls": 2000}, "between two balls of the .* circle; .*at most"),
         ({"module": 10.0}, "assemblies"),
-        ({"wheel_module": 5.0}, "wheel_module = 5"),
+        ({"wheel_module": 5.0, "orientation": "thesis"}, "wheel_module = 5"),
+        ({"wheel_module": 3.0}, 'wheel_module = 3.* "thesis" only'),
+        ({"orientation": "idlers"}, "idlers"),
+        ({"axial_gap": 1.0}, "axial_gap = 1.*collars of the pins 35.*at least"),
         ({"ball": 30.0}, "ball = 30.*at most"),
         ({"teeth": (40, 120)}, "teeth"),
     ],
@@ -68,7 +97,7 @@ def test_what_does_not_go_together_names_its_driver_and_limit(keys: dict[str, An
 
 def test_nothing_overlaps_at_home_by_sections_and_layers() -> None:
     """Told from the tables alone; a cover too wide, holes beside their screws and balls of 8.1 show."""
-    scene = module()
+    scene = module(orientation="thesis")
     assert overlaps(scene) == {}
     parts: Any = scene.parts
     parts["end_cover"].points[3].r += 4.0
@@ -76,6 +105,51 @@ def test_nothing_overlaps_at_home_by_sections_and_layers() -> None:
     parts["ball"].points[0].arc, parts["ball"].points[1].z = 4.05, 8.1
     found = {name for pair in overlaps(scene) for name in pair}
     assert {"end_cover_1", "guide_6", "bearing_ring_2", "spacer_22", "disk_3"} <= found
+
+
+# what keeps the platform parallel
+CRANKS = {"platform_plate", "ring_guide", "free_ring", "body_plate", "crank", "crank_pin"}
+
+
+def test_cranks_are_free_at_home_and_what_is_too_long_shows_where_it_passes() -> None:
+    scene = module()
+    assert overlaps(scene) == {}
+    folded = {"pinion": math.pi}
+    assert overlaps(scene, folded, CRANKS) == {}
+    parts: Any = scene.parts
+    # through the ring's window to plate 11, and past the play of the collars
+    parts["ring_guide"].points[0].z -= 12.0
+    parts["ring_guide"].points[1].z -= 12.0
+    for point in parts["crank_pin"].points[5:]:
+        point.z += 6.0
+    found = {frozenset(scene.instances[key].part for key in pair) for pair in overlaps(scene, folded, CRANKS)}
+    assert {frozenset({"ring_guide", "platform_plate"}), frozenset({"crank_pin", "free_ring"})} <= found
+
+
+@pytest.mark.heavy
+def test_cranks_are_free_wherever_both_disks_may_stand() -> None:
+    scene, rng = module(), random.Random(16)
+    for _ in range(100):
+        delta, beta = (rng.uniform(-math.pi, math.pi) for _ in range(2))
+        turns = {"disk_2": delta, "ring": delta, "pinion": delta + beta}
+        assert overlaps(scene, turns, CRANKS) == {}, turns
+
+
+def test_the_platform_is_parallel_and_where_both_disks_carry_it() -> None:
+    """Measured on the placed instances, stretched, folded and between; cranks turn as the disks do."""
+    train = placed(module())[0].train
+    assert train is not None
+    home = train.poses([Fraction(0)] * 2)["platform"][1]
+    for point in (144 + 0j, 100 + 20j, -50j, -143 + 1j, 3 + 1j, 1e-6j):
+        delta, beta = (float(a) for a in TwoDisk().inverse(point * 1j))
+        ring = delta - (beta - math.pi) / TwoDisk().ratio
+        poses = train.poses([Fraction(-angle / (2 * math.pi)) for angle in (delta, ring)])
+        assert abs(poses["platform"][0] - point) < 1e-9
+        assert abs(math.remainder(poses["platform"][1] - home, 2 * math.pi)) < 1e-12
+        for pin, holder in (("first_crank_1", "free_ring"), ("second_crank_1", "platform_plate")):
+            # the far end of a crank stands on the pivots' circle of what it holds
+            end = poses[pin][0] + 72 * cmath.exp(1j * poses[pin][1])
+            assert abs(abs(end - poses[holder][0]) - 53) < 1e-6
 
 
 # from where random drivers are taken: as large as they differ, most of them go together
@@ -96,8 +170,10 @@ def test_random_drivers_make_a_module_without_overlap_or_name_what_lacks(seed: i
             name: round(rng.uniform(*ends), 2) for name, ends in _SPREAD.items() if rng.random() < 0.6
         }
         keys["teeth"] = (96, 144)
-        # wheels that span the arm
-        keys["wheel_module"] = keys.get("module", 3.0) * 24 / rng.choice((24, 30, 36, 40))
+        if rng.random() < 0.5:
+            # wheels that span the arm
+            keys["wheel_module"] = keys.get("module", 3.0) * 24 / rng.choice((24, 30, 36, 40))
+            keys["orientation"] = "thesis"
         keys["balls"] = 2 * rng.randrange(20, 160)
         try:
             scene = module(**keys)
