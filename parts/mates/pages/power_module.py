@@ -86,27 +86,30 @@ def sheet(table: dict[str, Any]) -> Sheet:
         _ball_ring(page, keys, torques)
         _orientation(page, keys)
         _play(page, keys)
-        _sizes(page, keys)
+        if keys.orientation != "idlers":
+            _sizes(page, keys)
     except ParameterError as error:
         raise refusal(TOPIC, error, keys=keys) from error
     return page
 
 
 def _sizes(page: Sheet, keys: PowerModuleKeys) -> None:
-    """Every rule by which the assembly ``power_module`` is sized, with these drivers; what they lack as notes."""
+    """Every rule by which the assembly ``power_module`` is sized, with these drivers; what they lack as notes.
+
+    It is not built with idlers.
+    """
     own = {
         "module": keys.module, "teeth_19": keys.pair_teeth[0], "teeth_21": keys.pair_teeth[1],
         "worm_module": keys.worm_module, "worm_quotient": keys.diameter_quotient, "worm_teeth_25": keys.worm_ratios[0],
         "worm_teeth_23": keys.worm_ratios[1], "worm_wheel_width": keys.rim_width, "face_width": keys.face_width,
         "balls": keys.balls, "ball": keys.ball_diameter,
     }  # fmt: skip
-    which = "cranks" if keys.orientation == "idlers" else keys.orientation
-    found, rules = sizes({**DRIVERS, **own}, which), of_orientation(RULES, which)
+    found, rules = sizes({**DRIVERS, **own}, keys.orientation), of_orientation(RULES, keys.orientation)
     labels = tuple((r.name, ", ".join(map(str, r.positions)), r.made_of, r.reason) for r in rules)
     heads = ((N_("size"), ""), (N_("positions"), ""), (N_("rule"), ""), (N_("reason"), ""), (N_("value"), "mm"))
     rows = tuple((found[r.name],) for r in rules)
     page.tables.append(Table("sizes", N_("Sizes of the assembly power_module, by rules"), heads, rows, labels=labels))
-    for condition in of_orientation(CONDITIONS, which):
+    for condition in of_orientation(CONDITIONS, keys.orientation):
         if (left := valued(condition.made_of, found)) < 0:
             told = message(N_("lacks {lacks} mm: {what}"), lacks=f"{-left:.6g}", what=filled(condition.reason))
             page.notes.append(
