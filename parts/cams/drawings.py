@@ -1,57 +1,55 @@
-"""The working drawings of cams that are disks: the exact profile, its base circle, the axial section."""
+"""The working drawings of cams that are disks: their profile with the base circle, or a groove in a round disk."""
 
 from __future__ import annotations
 
-import cmath
 import math
 
-import numpy as np
-
-from geometry.base.roots import bracketed_root
-from geometry.curves.curve import Curve
+from geometry.base.record import replace
+from geometry.curves.line_arc import Line
 from geometry.plane.profile import Profile
+from parts.cams.groove_cam.part import GrooveDisk
 from parts.cams.wheel import Turned
+from parts.drawing.disk_views import disk_drawing, reach
+from parts.drawing.revolved import below, closed
 from parts.drawing.wheel_views import Wheel, wheel_views
-from parts.drawing.working import PartDrawing, Round, Subject, requirements
-
-_SAMPLES = 65
+from parts.drawing.working import VISIBLE, PartDrawing, Size, Stroke, Subject, requirements
 
 
 def part_drawing(subject: Subject) -> PartDrawing:
-    """Section across the profile, face, bore."""
+    """Section across the profile or the groove, face, bore."""
     part = subject.part
+    if isinstance(part.thing, GrooveDisk):
+        return _groove(subject, part.thing)
     kind = part.made_by
     assert isinstance(kind, Turned)
-    outline = part.section(0.0).region.outer
-    bare = Wheel(kind.body(part.keys, part.thing), kind.holes(part.keys, part.thing), (0.0, 0.0), outline)
-    up = math.pi / 2 - bare.turn
-    circles = [
-        Round(name.removesuffix("_diameter"), 0j, size / 2, angles=(-60.0, -120.0, -30.0, 210.0))
-        for name, size in part.circles.items()
-        if name == "base_circle_diameter"
-    ]
-    tip = reach(outline, up), reach(outline, up + math.pi)
-    wheel = Wheel(bare.shape, bare.holes, tip, outline, rounds=tuple(circles), stands=False)
-    return PartDrawing(wheel_views(wheel, subject), requirements(subject))
+    circles = [name for name in part.circles if name == "base_circle_diameter"]
+    return disk_drawing(subject, kind.body(part.keys, part.thing), kind.holes(part.keys, part.thing), circles)
 
 
-def reach(profile: Profile, angle: float) -> float:
-    """How far a profile about the origin is from there in a direction (rad), mm."""
-    turn = cmath.exp(-1j * angle)
-    found = []
-    for segment in profile.segments():
-        curve = segment.curve
-        t = np.linspace(*curve.domain, _SAMPLES)
-        points = curve.point(t) * turn
-        for k in np.flatnonzero((points[:-1].imag >= 0) != (points[1:].imag >= 0)):
-            found.append(_crossing(curve, turn, float(t[k]), float(t[k + 1])))
-    return max(found)
-
-
-def _crossing(curve: Curve, turn: complex, low: float, high: float) -> float:
-    """How far out a piece of a curve crosses the direction, which it does once."""
-
-    def off(t: float) -> float:
-        return (complex(curve.point(t)) * turn).imag
-
-    return (complex(curve.point(bracketed_root(off, low, high).value)) * turn).real
+def _groove(subject: Subject, disk: GrooveDisk) -> PartDrawing:
+    """A round disk with the walls of its groove; how wide that is stands in the table: the section cuts it aslant."""
+    radius, top, floor = disk.outer_radius, disk.shape.face_width, disk.floor
+    wheel = Wheel(disk.shape, disk.holes, (radius, radius), None, stands=False)
+    section, face, *others = wheel_views(wheel, subject)
+    walls: tuple[Profile, ...] = subject.part.section(0.0).region.marks
+    up, strokes, hatched = math.pi / 2 - wheel.turn, list[Stroke](), list(section.hatched)
+    for way in (1, -1):
+        low, high = sorted(reach(wall, up if way > 0 else up + math.pi) for wall in walls)
+        corners = [complex(top, low), complex(floor, low), complex(floor, high), complex(top, high)]
+        cut = closed(corners) if way > 0 else below(closed(corners))
+        hatched.append(cut)
+        strokes += [
+            (VISIBLE, line) for line in cut if isinstance(line, Line) and line.start.real + line.end.real < 2 * top
+        ]
+        if way > 0:
+            depth = Size("groove_depth", complex(floor, high), complex(top, high), "above")
+    return PartDrawing(
+        (
+            replace(
+                section, strokes=(*section.strokes, *strokes), hatched=tuple(hatched), sizes=(*section.sizes, depth)
+            ),
+            replace(face, strokes=(*face.strokes, *((VISIBLE, s.curve) for wall in walls for s in wall.segments()))),
+            *others,
+        ),
+        requirements(subject),
+    )

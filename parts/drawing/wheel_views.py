@@ -217,7 +217,7 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
         found.append(Size(name, complex(z, -size / 2), complex(z, size / 2), side, "Ø", fit))  # type: ignore[arg-type]
 
     up, down = wheel.tip
-    if up == down:
+    if up == down and (wheel.stands or wheel.outline is None):
         diameter("tip_diameter", 2 * up, shape.chamfer_below, "left", wishes.tip)
     if (crown := wheel.crown) is not None:
         diameter("throat_diameter", 2 * (crown.distance - crown.throat), width / 2, "right")

@@ -12,6 +12,7 @@ from geometry.curves.line_arc import Line
 from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.spur import SpurGear
 from geometry.solids.bores import RoundBore
+from parts.drawing.disk_views import disk_drawing
 from parts.drawing.revolved import below, chamfers, closed, diameters, lengths, outlined, seen_edges
 from parts.drawing.wheel_views import (
     Crown,
@@ -38,6 +39,7 @@ from parts.drawing.working import (
     View,
     requirements,
 )
+from parts.gears.noncircular_gear.part import NoncircularGearSpec
 from parts.gears.rack.part import RackSpec
 from parts.gears.ring_gear.part import RingGearSpec
 from parts.gears.spur_gear.part import SpurGearSpec
@@ -57,6 +59,10 @@ def part_drawing(subject: Subject) -> PartDrawing:
     match subject.part.keys:
         case SpurGearSpec() as keys:
             views = wheel_views(_spur(keys, subject), subject)
+        case NoncircularGearSpec() as keys:
+            shape = wheel_shape(keys.face_width, keys.web, keys.hub, keys.face_chamfer)
+            circles = ("inner_root_diameter", "outer_tip_diameter")
+            return disk_drawing(subject, shape, subject.part.thing.holes, circles)
         case WormWheelSpec() as keys:
             views = wheel_views(_worm_wheel(keys, subject.part.thing), subject)
         case RingGearSpec() as keys:

@@ -69,6 +69,7 @@ class CycloidalDiscKind(Kind[CycloidalDiscSpec, "CycloidalDisc"]):
     """A disc with its holes."""
 
     name, keys = "cycloidal_disc", CycloidalDiscSpec
+    drawing = "parts.pins.drawings"
 
     def thing(self, keys: CycloidalDiscSpec, others: Others) -> CycloidalDisc:
         """The disc, checked to exist with its bore, output holes and other holes."""

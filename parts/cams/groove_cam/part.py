@@ -259,6 +259,7 @@ class GrooveCam(Kind[GrooveCamSpec, GrooveDisk]):
     """A disk with a groove."""
 
     name, keys = "groove_cam", GrooveCamSpec
+    drawing = "parts.cams.drawings"
     data_table = "parts.cams.data_tables"
 
     def thing(self, keys: GrooveCamSpec, others: Others) -> GrooveDisk:

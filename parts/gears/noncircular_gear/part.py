@@ -123,6 +123,7 @@ class NoncircularGearKind(Kind[NoncircularGearSpec, "NoncircularGear"]):
     """A noncircular gear, whose teeth a mate may have thinned."""
 
     name, keys = "noncircular_gear", NoncircularGearSpec
+    drawing = "parts.gears.drawings"
 
     def thing(self, keys: NoncircularGearSpec, others: Others) -> NoncircularGear:
         """The gear, checked to be cut whole, and to leave its holes a rim."""

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import ezdxf
+import mpmath
 import pytest
 
 from exporters.production.plan import plan_build
@@ -50,6 +51,29 @@ PARTS: dict[str, dict[str, Any]] = {
         {"at": [-45.0, -25.0], "diameter": 6.0}, {"at": [45.0, -25.0], "diameter": 6.0},
         {"at": [0.0, 10.0], "diameter": 20.0}]},
 }  # fmt: skip
+PARTS["groove"] = {key: value for key, value in PARTS["cam"].items() if key not in ("hub", "follower")} | {
+    "kind": "groove_cam", "face_width": 12.0, "groove_depth": 6.0, "outer_diameter": 160.0,
+}  # fmt: skip
+PARTS["oval"] = {"kind": "noncircular_gear", "centrode": "oval", "axis_ratio": 1.2, "number_of_teeth": 18,
+                 "module": 2.0, "bore_diameter": 10.0}  # fmt: skip
+PARTS["disc"] = {
+    "kind": "cycloidal_disc", "number_of_lobes": 6, "pin_circle_diameter": 100.0, "pin_diameter": 10.0,
+    "eccentricity": 3.0, "bore_diameter": 20.0, "face_width": 8.0,
+    "output_holes": {"count": 6, "pin_diameter": 6.0, "pitch_circle_diameter": 56.0},
+}  # fmt: skip
+
+
+def oval_axis(teeth: int, module: float, ratio: float) -> float:
+    """The long half-axis of an oval that is so many pitches long, by mpmath."""
+
+    def arc(angle: Any) -> Any:
+        low = 2 * ratio / (1 + ratio - (ratio - 1) * mpmath.cos(2 * angle))
+        slope = -low * 2 * (ratio - 1) * mpmath.sin(2 * angle) / (1 + ratio - (ratio - 1) * mpmath.cos(2 * angle))
+        return mpmath.sqrt(low**2 + slope**2)
+
+    return float(ratio * mpmath.pi * module * teeth / (4 * mpmath.quad(arc, [0, mpmath.pi / 2])))
+
+
 # what each drawing must measure, mm: typed sizes, those of the standards (d_a = m (z + 2 x + 2), DIN 6885, GOST 19650)
 SIZES: dict[str, list[float]] = {
     "gear": [84, 20, 25, 64, 49, 34, 8, 6, 1, 20, 22.8, 6, 0.25, 9],
@@ -61,8 +85,17 @@ SIZES: dict[str, list[float]] = {
     "wheel": [136, 128, 25, 30, 16],
     "bearing": [62, 40, 16, 1, 3.5],
     "shaft": [20, 30, 30, 70, 1, 20, 5, 6, 16.5, 2],
+    "groove": [160, 12, 6, 12],
+    # a centrode as long as its pitches, of a/b = 1.2: r = 2 a b / (a + b - (a - b) cos 2 phi)
+    "oval": [10, 10, 2 * (oval_axis(18, 2.0, 1.2) + 2.0), 2 * (oval_axis(18, 2.0, 1.2) / 1.2 - 2.5)],
+    # R - r + e and R - r - e; holes of pin + 2 e
+    "disc": [8, 20, 56, 12, 96, 84],
     "plate": [120, 80, 8, 15, 105, 60, 15, 50, 6, 20],
 }
+
+
+# every tooth and lobe of these is a spline of its own
+SLOW = ("oval", "disc")
 
 
 def jobs(part: dict[str, Any], language: str = "en", formats: tuple[str, ...] = ("dxf", "svg"), **export: Any) -> Any:
@@ -107,7 +140,7 @@ def written(folder: Path, part: dict[str, Any], language: str = "en", **export: 
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("export", [{}, {"paper": "A1"}, {"drawing": {"teeth": 3, "requirements": ["HRC 40 " * 30]}}])
 @pytest.mark.parametrize("language", ["en", "uk"])
-@pytest.mark.parametrize("name", PARTS)
+@pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.heavy) if n in SLOW else n for n in PARTS])
 def test_every_dimension_measures_the_model_and_no_word_stands_over_a_line(
     tmp_path: Path, name: str, language: str, export: dict[str, Any]
 ) -> None:
@@ -165,12 +198,12 @@ def test_refusals_name_their_key() -> None:
     with pytest.raises(SceneError) as caught:
         jobs(PARTS["gear"], drawing={"bore": "7H"})
     assert caught.value.key == "exports[1].drawing.bore"
-    oval = {"kind": "noncircular_gear", "centrode": "oval", "axis_ratio": 1.5, "number_of_teeth": 30, "module": 2.0}
+    pin = {"kind": "pin", "diameter": 8.0, "length": 20.0}
     with pytest.raises(SceneError) as caught:
-        jobs(oval, parts=["p"])
+        jobs(pin, parts=["p"])
     assert caught.value.key == "exports[1].parts"
     with pytest.raises(SceneError) as caught:
-        jobs(oval)
+        jobs(pin)
     assert caught.value.key == "exports[1].purpose"
 
 
