@@ -30,7 +30,15 @@ from parts.scene.load import load_scene, make_parts, scene_from_toml
 from parts.scene.placing import place
 
 TOPICS = {"spur_gear": "spur", "ring_gear": "ring", "rack": "rack", "worm": "worm", "worm_wheel": "worm"}
-CAMS = ("practicum_roller_cam", "groove_cam", "linkage_cam", "wedge_cam", "barrel_cam", "conjugate_cams")
+CAMS = (
+    "practicum_roller_cam",
+    "practicum_flat_cam",
+    "groove_cam",
+    "linkage_cam",
+    "wedge_cam",
+    "barrel_cam",
+    "conjugate_cams",
+)
 TOOTHED = ("practicum_pair", "helical_pair", "rack_and_pinion", "thesis_internal_pair", "worm_set_print")
 # what of a mate stands in a table, and is no step of the part's own calculation
 MATES = {"teeth of the mate", "drawing of the mate", "centre distance", "number of starts of the worm"}
@@ -134,6 +142,52 @@ def test_a_change_changes_the_cells_that_depend_on_it_alone(key: str, of_pinion:
         assert {name for name, value in before[part].items() if after[part][name] != value} == changed
     assert after["wheel"]["drawing of the mate"] == "AB.01"
     assert after["pinion"]["teeth of the mate"] == 33
+
+
+ALONE = {
+    "rack": {"module": 2.0, "number_of_teeth": 15, "face_width": 15.0},
+    "ring_gear": {"module": 2.0, "number_of_teeth": 60, "outer_diameter": 150.0, "face_width": 15.0},
+    "worm": {"module": 4.0, "thread_length": 50.0, "number_of_starts": 1},
+    "cam": {"follower": '"roller"', "follower_radius": 8.0, "base_circle_radius": 40.0, "lift": 20.0, "phases":
+            '[{ move = "rise", angle_deg = 180.0, law = "sine" }, '
+            '{ move = "return_", angle_deg = 180.0, law = "sine" }]'},
+}  # fmt: skip
+THREAD = {"height to the thread's chord", "chord of the thread on the reference cylinder", "lead of the thread",
+          "number of starts of the worm", "lead angle"}  # fmt: skip
+SPAN = {"spaces in the span", "span over k spaces", "profile shift coefficient (xi)"}
+
+
+@pytest.mark.parametrize(
+    ("kind", "key", "value", "cells", "columns"),
+    [
+        ("rack", "body_height", 20.0, set(), set()),
+        ("rack", "face_width", 20.0, set(), set()),
+        ("rack", "number_of_teeth", 16, {"number of teeth"}, set()),
+        ("ring_gear", "outer_diameter", 160.0, set(), set()),
+        ("ring_gear", "face_width", 20.0, set(), set()),
+        ("ring_gear", "profile_shift_coefficient", 0.2, SPAN, set()),
+        ("worm", "bore_diameter", 8.0, set(), set()),
+        ("worm", "thread_length", 60.0, set(), set()),
+        ("worm", "number_of_starts", 2, THREAD, set()),
+        ("cam", "bore_diameter", 12.0, set(), set()),
+        ("cam", "base_circle_radius", 44.0, {"least radius of the cam (base circle)"}, {"r", "theta"}),
+        ("cam", "follower_radius", 9.0, {"radius of the roller or mushroom"}, {"r", "theta"}),
+        ("cam", "lift", 24.0, {"lift"}, {"S", "r", "theta"}),
+    ],
+)
+def test_a_change_of_a_part_alone_changes_what_depends_on_it_alone(
+    kind: str, key: str, value: float, cells: set[str], columns: set[str]
+) -> None:
+    seen: list[tuple[dict[str, Any], dict[str, Any]]] = []
+    for keys in (ALONE[kind], ALONE[kind] | {key: value}):
+        text = f'[parts.p]\nkind = "{kind}"\n' + "".join(f"{k} = {v}\n" for k, v in keys.items())
+        places = tables("scene", text)["p"][1].positions
+        heads = [] if places is None else [head for head, _ in places.heads]
+        rows = () if places is None else places.rows
+        seen.append((values(text)["p"], {head: [row[k] for row in rows] for k, head in enumerate(heads)}))
+    for old, new, changed in zip(*seen, (cells, columns), strict=True):
+        assert old.keys() == new.keys()
+        assert {name for name in old if old[name] != new[name]} == changed
 
 
 GRADE = '[parts.pinion.accuracy]\ngrade = "8-B"\nsource = "GOST 1643-81"\ndeviations = [-0.2, -0.1]\n[parts.wheel]'
