@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import cmath
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.placement import Vector
 from parts.base.mate import End, MateKind, Pose, Standing, Touching
+from parts.keys.base import degrees, mm
 from parts.keys.mate import GearPairKeys
 from parts.mates.sizes import same_size
 
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from geometry.base.findings import Finding
     from geometry.gears.mesh.search import PairContact
     from geometry.gears.worms.body import WormBody
+    from geometry.gears.worms.contact import AxisErrors
     from geometry.gears.worms.drive import WormDrive
     from geometry.gears.worms.field import Field
     from geometry.gears.worms.wheel import WormTeeth
@@ -29,7 +31,15 @@ _ALIKE = ("module", "pressure_angle_deg", "addendum_coefficient")
 
 
 class WormPairSpec(GearPairKeys, tag="worm_pair", kw_only=True):
-    """Keys of ``worm_pair``."""
+    """Keys of ``worm_pair``: how far the axes stand off their places."""
+
+    centre_distance_error: Annotated[float, mm("by how much the axes stand too far apart", least=-10, most=10)] = 0.0
+    axis_angle_error_deg: Annotated[
+        float, degrees("by how much the worm's axis rises about the line of centres", least=-10, most=10)
+    ] = 0.0
+    wheel_axial_error: Annotated[
+        float, mm("by how much the wheel's middle stands above the worm's axis", least=-100, most=100)
+    ] = 0.0
 
 
 class WormMating(Touching):
@@ -38,6 +48,7 @@ class WormMating(Touching):
     body: WormBody
     teeth: WormTeeth
     drive: WormDrive
+    errors: AxisErrors
 
     # their solids touch along lines: meshes cannot tell
     decides_solids = True
@@ -49,12 +60,12 @@ class WormMating(Touching):
 
     @property
     def field(self) -> Field | None:
-        """Where both touch; None of a wheel that a larger hob cut, which touches its worm at points."""
+        """Where both touch; None where that is at points: a larger hob cut the wheel, or the axes stand off."""
         from geometry.gears.worms.field import Field
         from geometry.gears.worms.thread import FlankLine
 
         flank = next(line for _, line in self.body.thread.lines if isinstance(line, FlankLine))
-        if self.teeth.hob.swivel:
+        if self.teeth.hob.swivel or self.errors.any:
             return None
         return Field(self.teeth, *flank.radius(flank.domain).tolist())
 
@@ -68,14 +79,16 @@ class WormMating(Touching):
 
     def second_axis(self, direction: float) -> Vector:
         """Across the line of centres, to its right."""
-        axis = cmath.rect(1.0, direction - math.pi / 2)
-        return axis.real, axis.imag, 0.0
+        axis = cmath.rect(math.cos(self.errors.angle), direction - math.pi / 2)
+        return axis.real, axis.imag, math.sin(self.errors.angle)
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """Where a thread of the worm stands in the space that faces it."""
+        from geometry.gears.worms.contact import turn_for
+
         pitch = 2 * math.pi / self.teeth.number_of_teeth
         ahead = math.remainder(rotation + pitch / 2 - direction, pitch)
-        turn = self.worm.sign * ahead * self.drive.ratio
+        turn = self.worm.sign * ahead * self.drive.ratio + turn_for(self.teeth, self.errors)
         return centre + cmath.rect(self.distance, direction), direction + math.pi + turn
 
     def standing(self, first: Pose, second: Pose) -> Standing | None:
@@ -84,8 +97,10 @@ class WormMating(Touching):
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict over one pitch, in sections across the wheel's axis."""
-        from geometry.gears.worms.contact import worm_contact
+        from geometry.gears.worms.contact import contact_under, worm_contact
 
+        if self.errors.any:
+            return contact_under(self.body.thread, self.teeth, self.errors, tolerance)
         return worm_contact(self.worm, self.teeth, phase_off, distance_off, tolerance)
 
     def findings(self) -> tuple[Finding, ...]:
@@ -114,20 +129,25 @@ class WormPair(MateKind[WormPairSpec, "WheelThing", "WormBody"]):
 
     def mating(self, keys: WormPairSpec, first: End[WheelThing], second: End[WormBody]) -> WormMating:
         """The worm is the one that the wheel is for."""
+        from geometry.gears.worms.contact import AxisErrors
+
         drive, worm = first.thing.drive, second.thing.thread.worm
         _check(first, second)
+        angle = math.radians(keys.axis_angle_error_deg)
+        errors = AxisErrors(keys.centre_distance_error, angle, keys.wheel_axial_error)
         return WormMating(
             self.name,
             keys.first,
             keys.second,
             direction_deg=keys.direction_deg,
-            height=first.thing.teeth.width / 2,
-            distance=drive.centre_distance,
+            height=first.thing.teeth.width / 2 - errors.axial,
+            distance=drive.centre_distance + errors.centre_distance,
             module=worm.module,
             first_teeth=drive.number_of_teeth,
             body=second.thing,
             teeth=first.thing.teeth,
             drive=drive,
+            errors=errors,
         )
 
 

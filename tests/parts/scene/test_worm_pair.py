@@ -116,3 +116,49 @@ def test_solids_in_their_places_are_apart_and_half_a_pitch_on_they_are_not(tmp_p
     worm = solids["worm"][0].rotate([0.0, 0.0, math.degrees(math.pi / 2)])
     one, two = solids["wheel"], worm.transform(solids["worm"][1].scene_from_part.matrix())
     assert (one[0].transform(one[1].scene_from_part.matrix()) ^ two).volume() > 1.0
+
+
+ERRORS = {
+    "nearer": "centre_distance_error = -0.1",
+    "tilted": "axis_angle_error_deg = 0.5",
+    "aside": "wheel_axial_error = 0.4",
+    "all": "centre_distance_error = 0.1\naxis_angle_error_deg = -0.3\nwheel_axial_error = -0.3",
+}
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("keys", ERRORS.values(), ids=ERRORS)
+def test_axes_off_their_places_leave_the_gap_of_meshes_that_stand_so(tmp_path: Path, keys: str) -> None:
+    file = _scene(tmp_path, thinning=0.3)
+    file.write_text(file.read_text().replace("direction_deg = 40.0", f"direction_deg = 40.0\n{keys}"))
+    scene = load_scene(str(file))
+    parts, (mating,) = make_parts(scene, str(file))
+    found = mating.contact(0.0, 0.0, None)
+    placing = place(scene.instances, scene.drives, parts, [mating], str(file))
+    meshes = {}
+    for instance in placing.instances:
+        mesh = parts[instance.part].to_trimesh(0.02)
+        vertices, triangles = np.asarray(mesh.vertices, np.float32), np.asarray(mesh.faces, np.uint32)
+        meshes[instance.id] = manifold3d.Manifold(manifold3d.Mesh(vertices, triangles))
+    poses = [{i.id: i.scene_from_part.matrix() for i in placing.at([turned])} for turned in (0.0, 0.125, 0.25, 0.375)]
+    # turned into the middle of its play, which is 3 degrees wide
+    gaps = [
+        min(meshes["wheel"].transform(p["wheel"]).min_gap(meshes["worm"].rotate([0, 0, turn]).transform(p["worm"]), 0.5)
+            for p in poses)
+        for turn in np.linspace(-1.0, 1.0, 9)
+    ]  # fmt: skip
+    assert found is not None
+    assert found.worst.gap == pytest.approx(max(gaps), abs=0.015)
+
+
+def test_errors_of_the_axes_are_told_and_what_stands_too_near_overlaps(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = _scene(tmp_path, thinning=0.2)
+    file.write_text(file.read_text().replace("direction_deg = 40.0", "centre_distance_error = -0.05"))
+    got, said = _checked(file, capsys)
+    assert (got, "CLEAR" in said, "centre distance 29.95 mm" in said) == (0, True, True)
+    # without backlash the exact place alone is one
+    file.write_text(_scene(tmp_path).read_text().replace("direction_deg = 40.0", "axis_angle_error_deg = 0.01"))
+    got, said = _checked(file, capsys)
+    assert (got, "OVERLAP" in said) == (1, True)
