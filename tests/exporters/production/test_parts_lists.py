@@ -92,21 +92,28 @@ def test_csv_tells_positions_quantities_and_masses(tmp_path: Path) -> None:
 
 
 @pytest.mark.heavy
-def test_the_list_of_the_power_module_is_the_theses() -> None:
-    from parts.scene.load import in_keys_of_file, load_scene, make_parts
+@pytest.mark.parametrize(
+    ("orientation", "wanted"),
+    [
+        ("thesis", {"parts": (33, 42), "standard": (15, 417)}),
+        # 34 and 35 are added, 15 and 57 dropped
+        ("cranks", {"parts": (34, 59), "standard": (14, 416)}),
+    ],
+)
+def test_the_list_of_the_power_module_is_the_theses_or_as_cranks_change_it(
+    orientation: str, wanted: dict[str, tuple[int, int]]
+) -> None:
+    from parts.scene.load import in_keys_of_file, make_parts, scene_from_dict
     from parts.scene.parts_list import list_rows
     from parts.scene.placing import place
 
-    made = load_scene("power_module")
+    made = scene_from_dict({"assemblies": [{"kind": "power_module", "orientation": orientation}]}, "t", "t")
     with in_keys_of_file(made.origins):
         parts, matings = make_parts(made, "t")
     placing = place(made.instances, made.drives, parts, matings, "t")
     rows = list_rows(placing.instances, parts, "uk")
     counts = {name: [row.count for row in rows if row.section == name] for name in ("parts", "standard")}
-    assert {name: (len(found), sum(found)) for name, found in counts.items()} == {
-        "parts": (33, 42),
-        "standard": (15, 417),
-    }
+    assert {name: (len(found), sum(found)) for name, found in counts.items()} == wanted
     assert all(row.mass is not None for row in rows)
 
 
