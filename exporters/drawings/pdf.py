@@ -73,7 +73,7 @@ def write_pdf(file: Path, pages: Sequence[Canvas], title: str) -> dict[str, int]
             natural = pdf.get_string_width(run.text)
             pdf.set_stretching(100 * run.width * POINT / natural)
             x, y = run.at.real * POINT, (canvas.height - run.at.imag) * POINT
-            with pdf.rotation(90, x, y) if run.rises else nullcontext():
+            with pdf.rotation(math.degrees(cmath.phase(run.way)), x, y) if run.way != 1 else nullcontext():
                 pdf.text(x, y, run.text)
     pdf.output(str(file))
     strokes, texts = (sum(map(len, rows)) for rows in ([p.strokes for p in pages], [p.texts for p in pages]))

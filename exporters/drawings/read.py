@@ -16,7 +16,7 @@ from exporters.drawings.dashes import LONGEST
 from geometry.curves.curve import Complex
 from parts.base.readback import ReadError
 from parts.drawing.canvas import FRAME, STYLES
-from parts.drawing.readback import PER_CURVE, ReadDimension, ReadSheet, ReadText
+from parts.drawing.readback import PER_CURVE, ReadDimension, ReadSheet, ReadText, base_line
 
 if TYPE_CHECKING:
     from exporters.formats.read_drawing import DrawnSpline
@@ -92,8 +92,7 @@ def _read_dxf(file: Path) -> ReadSheet:
         last = curve.layer if isinstance(curve, DrawnSpline) else ""
     for one in words:
         way = one.right - one.left
-        rises = abs(way.imag) > abs(way.real)
-        sheet.texts.append(ReadText(one.text, one.left, way.imag if rises else way.real, one.height, rises))
+        sheet.texts.append(ReadText(one.text, one.left, abs(way), one.height, base_line(way)))
     return sheet
 
 
@@ -136,10 +135,12 @@ def _read_svg(file: Path) -> ReadSheet:
             if size is None:
                 raise ReadError("has words without a size")
             turn = text.get("transform")
-            if turn not in (None, f"rotate(-90 {text.get('x')} {text.get('y')})"):
+            turns = {f"rotate({by} {text.get('x')} {text.get('y')})": way for by, way in ((-90, 1j), (180, -1.0))}
+            if turn is not None and turn not in turns:
                 raise ReadError(f"has words that are turned by {turn}")
+            way = 1.0 if turn is None else turns[turn]
             capital, length = float(size[1]) * 1493 / 2048, float(text.get("textLength", "nan"))
-            sheet.texts.append(ReadText(text.text or "", at, length, capital, turn is not None))
+            sheet.texts.append(ReadText(text.text or "", at, length, capital, way))
     return sheet
 
 

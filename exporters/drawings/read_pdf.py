@@ -14,7 +14,7 @@ from geometry.base.record import Draft, Record, field
 from geometry.curves.curve import Complex
 from parts.base.readback import ReadError
 from parts.drawing.canvas import STYLES, Style
-from parts.drawing.readback import PER_CURVE, ReadArc, ReadSheet, ReadText
+from parts.drawing.readback import PER_CURVE, ReadArc, ReadSheet, ReadText, base_line
 
 _POINT = 72 / 25.4
 # height of a capital as a part of the font's size
@@ -259,8 +259,7 @@ class _Reader:
         words, length = self.font.said(plain)
         size = self.size / _POINT
         at, way = self._on(self.text), self._on(self.text + 1) - self._on(self.text)
-        rises = abs(way.imag) > abs(way.real)
-        self.page.texts.append(ReadText(words, at, length * size * self.stretch / 100, size * _CAPITAL, rises))
+        self.page.texts.append(ReadText(words, at, length * size * self.stretch / 100, size * _CAPITAL, base_line(way)))
 
 
 def _add(sheet: ReadSheet, layer: str, pieces: tuple[Complex, ...]) -> None:

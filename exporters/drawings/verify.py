@@ -155,9 +155,9 @@ def _check_words(sheet: ReadSheet, canvas: Canvas, measured: dict[str, float], f
 
 
 def _box(text: ReadText) -> Box:
-    if text.rises:
-        return Box(text.at.real - text.height, text.at.imag, text.at.real, text.at.imag + text.width)
-    return Box(text.at.real, text.at.imag, text.at.real + text.width, text.at.imag + text.height)
+    far = text.at + text.way * complex(text.width, text.height)
+    xs, ys = sorted((text.at.real, far.real)), sorted((text.at.imag, far.imag))
+    return Box(xs[0], ys[0], xs[1], ys[1])
 
 
 def _check_frame(sheet: ReadSheet, frame: Box, failures: list[str]) -> None:

@@ -33,6 +33,8 @@ _OF_UNICODE = re.compile(r"[\u0020-\u00ff\u0400-\u04ff\u2032\u2033]*")
 _LINE_TYPES = {2: "DASHED2", 4: "CENTER2"}
 # what letters leave free on either side, parts of their height: programs fit what is black between two points
 _BEARING = 0.07
+# how words are turned whose base line does not run to the right, degrees
+_TURNS = {1j: -90, -1: 180}
 # the letters of the widths that are stated, and others as wide
 _FAMILY = "font-family:DejaVu Sans Condensed,Arial,Liberation Sans,sans-serif"
 
@@ -113,6 +115,8 @@ def _add_dimension(drawing: Drawing, one: Dimension) -> BlockLayout:
         heads = {**size, "dimlfac": 1 / one.scale, "dimdec": 3, "dimzin": 8, "dimtad": 1, "dimdsep": ord(one.mark)}
         for key, value in heads.items() if is_first else ():
             drawing.header[f"${key.upper()}"] = value
+        # LibreCAD has Cyrillic in that one alone
+        drawing.header["$DIMTXSTY"] = _STYLE
     block = drawing.blocks.new_anonymous_block(type_char="D")
     first, second = (place_of(p) for p in one.points)
     attributes = {
@@ -159,7 +163,7 @@ def _text(run: Run, height: float) -> str:
     size, x, y = number(run.height / CAPITAL), number(run.at.real), number(height - run.at.imag)
     words = escape(run.text)
     length = f'textLength="{number(run.width)}" lengthAdjust="spacingAndGlyphs"'
-    turn = f' transform="rotate(-90 {x} {y})"' if run.rises else ""
+    turn = f' transform="rotate({_TURNS[run.way]} {x} {y})"' if run.way in _TURNS else ""
     return f'<text x="{x}" y="{y}" style="font-size:{size}px" {length}{turn}>{words}</text>'
 
 

@@ -34,7 +34,7 @@ from parts.drawing.expected import Circle, Expected, Meshing
 from parts.drawing.font import missing_letters
 from parts.drawing.parts_list import form_of, list_sheets
 from parts.drawing.table import Row
-from parts.drawing.title_block import FORM_1, TITLE_BLOCK, draw_title_block, title_block_of
+from parts.drawing.title_block import FORM_1, TITLE_BLOCK, draw_title_block, draw_turned, title_block_of
 from parts.drawing.view import TEETH
 from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear
 from parts.keys.sheet import WORKING
@@ -289,7 +289,10 @@ def _add_title_block(
             more["designation"] = given.designation or part.keys.designation or ""  # type: ignore[attr-defined]
     scale = scale_text(expected.paper.scale, language)
     form = form_of(number[0]) if export.purpose == "parts_list" else FORM_1
-    draw_title_block(expected.canvas, title_block_of(replace(given, **more), scale, *number), language, form)
+    block = title_block_of(replace(given, **more), scale, *number)
+    draw_title_block(expected.canvas, block, language, form)
+    if export.purpose in WORKING:
+        draw_turned(expected.canvas, block.designation)
 
 
 def _mass(part: Part, language: str) -> str:

@@ -8,7 +8,7 @@ from functools import cache, partial
 
 import numpy as np
 
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex
 from geometry.curves.line_arc import Arc, Line
 from parts.drawing.assembly_views import Drawn
@@ -19,7 +19,7 @@ from parts.drawing.expected import Expected
 from parts.drawing.hatching import hatching
 from parts.drawing.part_sheet import PartMeasures
 from parts.drawing.parts_list import ListRow, draw_list, list_size
-from parts.drawing.title_block import TITLE_BLOCK
+from parts.drawing.title_block import TITLE_BLOCK, turned_box
 from parts.drawing.working import Size, View
 
 # mm on paper: from the frame to views, between views; of hatching from part to part
@@ -62,8 +62,13 @@ def assembly_sheet(views: Sequence[AssemblyView], rows: Sequence[ListRow], asked
     listed = rows if list_size(rows, asked.language)[1] <= _MOST_LIST else ()
     tall = TITLE_BLOCK[1] + (list_size(rows, asked.language)[1] if listed else 0.0)
 
-    def fields(frame: Box) -> Iterator[Box]:
-        """Beside the title block and the list, or above them."""
+    def fields(canvas: Canvas) -> Iterator[Box]:
+        """Beside the title block and the list, or above them; clear of the designation."""
+        frame, corner = canvas.frame, turned_box(canvas)
+        if corner.right - corner.left > corner.high - corner.low:
+            frame = replace(frame, high=corner.low)
+        else:
+            frame = replace(frame, left=corner.right)
         if frame.low + tall > frame.high:
             return
         yield Box(frame.left, frame.low, frame.right - TITLE_BLOCK[0], frame.high).grown(-_MARGIN)
@@ -83,7 +88,7 @@ def assembly_sheet(views: Sequence[AssemblyView], rows: Sequence[ListRow], asked
         for scale in (s for s in SCALES if s <= most):
             # bare views are held against the fields before they are laid out
             bare = [Box(0.0, 0.0, scale * wide, scale * tall) for wide, tall in extents]
-            for field in fields(canvas.frame):
+            for field in fields(canvas):
                 if _origins(bare, field) and _places(views_at(scale), field):
                     return scale
         return 0.0
@@ -94,7 +99,7 @@ def assembly_sheet(views: Sequence[AssemblyView], rows: Sequence[ListRow], asked
     corner = complex(canvas.frame.right - TITLE_BLOCK[0], canvas.frame.low + tall)
     if listed:
         draw_list(canvas, corner, listed, asked.language)
-    shifts = next(found for field in fields(canvas.frame) if (found := _places(made, field)) is not None)
+    shifts = next(found for field in fields(canvas) if (found := _places(made, field)) is not None)
     outlines = []
     for view, one, shift in zip(views, made, shifts, strict=True):
         moved(one, canvas, shift, asked.tolerance)

@@ -121,19 +121,14 @@ _SIZE = re.compile(r"\S+ = -?\d")
 class Run(Record):
     """A piece of text in one line and height: left end of its base line, height of a capital and length, mm.
 
-    ``rises``: turned to be read from the right, its base line upwards.
+    ``way``: along its base line: 1; 1j to be read from the right, -1 from above.
     """
 
     text: str
     at: complex
     height: float
     width: float
-    rises: bool = False
-
-    @property
-    def way(self) -> complex:
-        """Along its base line."""
-        return 1j if self.rises else 1.0
+    way: complex = 1.0
 
 
 class Box(Record):
@@ -210,12 +205,16 @@ def text_of(text: str, at: complex, height: float = TEXT_HEIGHT, most: float | N
     return Text(_INDEX.sub(r"\1", text), tuple(runs), Box(at.real, at.imag - hang, x, at.imag + size * 1.05))
 
 
-def rising_text(text: str, at: complex, height: float = TEXT_HEIGHT, most: float | None = None) -> Text:
-    """A line of text turned to be read from the right, from the lower end of its base line."""
+def rising_text(
+    text: str, at: complex, height: float = TEXT_HEIGHT, most: float | None = None, way: complex = 1j
+) -> Text:
+    """A line of text turned to be read from the right or as its ``way`` is, from the beginning of its base line."""
     made = text_of(text, 0j, height, most)
-    runs = tuple(replace(run, at=at + 1j * run.at, rises=True) for run in made.runs)
-    low, box = at.imag + made.box.left, made.box
-    return Text(made.text, runs, Box(at.real - box.high, low, at.real - box.low, at.imag + box.right))
+    runs = tuple(replace(run, at=at + way * run.at, way=way) for run in made.runs)
+    box = made.box
+    first, last = at + way * complex(box.left, box.low), at + way * complex(box.right, box.high)
+    xs, ys = sorted((first.real, last.real)), sorted((first.imag, last.imag))
+    return Text(made.text, runs, Box(xs[0], ys[0], xs[1], ys[1]))
 
 
 def _pieces(text: str, height: float) -> list[tuple[str, float]]:
@@ -336,9 +335,9 @@ class Canvas(Draft):
         self.texts.append(made)
         return made
 
-    def write_rising(self, text: str, at: complex, height: float, most: float) -> None:
-        """A line of text turned to be read from the right, from the lower end of its base line."""
-        self.texts.append(rising_text(text, at, height, most))
+    def write_rising(self, text: str, at: complex, height: float, most: float, way: complex = 1j) -> None:
+        """A line of text turned to be read from the right or as its ``way`` is, from the beginning of its base line."""
+        self.texts.append(rising_text(text, at, height, most, way))
 
     def obstacles(self) -> Complex:
         """Points on all strokes, about half a millimetre apart."""

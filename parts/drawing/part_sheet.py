@@ -19,7 +19,7 @@ from parts.drawing.choice import Asked, sheet_for
 from parts.drawing.dimensioning import Laid, laid, moved, rough_sign, shifted
 from parts.drawing.expected import Expected
 from parts.drawing.readback import ReadSheet
-from parts.drawing.title_block import TITLE_BLOCK
+from parts.drawing.title_block import TITLE_BLOCK, turned_box
 from parts.drawing.working import PartDrawing, View, number_text
 from parts.texts.sheets import sheet_words
 
@@ -107,10 +107,10 @@ class _Corner(Record):
             return _SIGN
         return max(self.data.size[0], _SIGN[0]), _SIGN[1] + self.data.size[1]
 
-    def taken(self, frame: Box) -> tuple[Box, ...]:
-        """Where no views may stand: at the data, at the title block and the requirements above it."""
-        wide, tall = self.high
-        return (Box(frame.right - wide, frame.high - tall, frame.right, frame.high),
+    def taken(self, canvas: Canvas) -> tuple[Box, ...]:
+        """Where no views may stand: at the data, the designation, the title block and the requirements above it."""
+        frame, (wide, tall) = canvas.frame, self.high
+        return (turned_box(canvas), Box(frame.right - wide, frame.high - tall, frame.right, frame.high),
                 Box(frame.right - TITLE_BLOCK[0], frame.low, frame.right, frame.low + self.low))  # fmt: skip
 
     def draw(self, canvas: Canvas, language: str) -> None:
@@ -220,7 +220,7 @@ def _places(views: Sequence[Laid], corner: _Corner, canvas: Canvas) -> list[comp
     for box in boxes:
         column.append(1j * (y - box.high))
         y -= box.high - box.low + _BETWEEN
-    frame, taken = canvas.frame.grown(-_MARGIN), [box.grown(_MARGIN) for box in corner.taken(canvas.frame)]
+    frame, taken = canvas.frame.grown(-_MARGIN), [box.grown(_MARGIN) for box in corner.taken(canvas)]
     for places in (row, column) if canvas.paper == "A4" else (row,):
         stand = [shifted(box, at) for box, at in zip(boxes, places, strict=True)]
         whole = Box(min(b.left for b in stand), min(b.low for b in stand),

@@ -29,13 +29,20 @@ class ReadArc(Record):
 
 
 class ReadText(Record):
-    """Words: left end of the base line, length and height of capitals, mm; ``rises``: to be read from the right."""
+    """Words: beginning of the base line, length and height of capitals, mm; ``way``: of the base line, 1, 1j or -1."""
 
     text: str
     at: complex
     width: float
     height: float
-    rises: bool = False
+    way: complex = 1.0
+
+
+def base_line(way: complex) -> complex:
+    """The way of a base line that runs to the right, upwards or to the left, whatever its length."""
+    if abs(way.imag) > abs(way.real):
+        return 1j
+    return 1.0 if way.real > 0 else -1.0
 
 
 class ReadDimension(Record):

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from geometry.base.record import Record
 from parts.base.texts import Text, in_context, words
-from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, text_width
+from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, text_of, text_width
 from parts.drawing.cells import INDENT, write_cell, write_lines
 from parts.keys.title import TitleBlockTable
 
@@ -118,6 +118,8 @@ _LABELS: dict[str, Text] = {
 # columns on the left of the frame: width of the names and of all; from below, and from the top: name, height; mm
 _NAME, _COLUMNS = 5.0, 12.0
 _FROM_BELOW = (("original", 25), ("signed", 35), ("replaces", 25), ("duplicate", 25), ("signed", 35))
+# graph 26: long and short side, mm
+_TURNED = (70.0, 14.0)
 _FROM_TOP = (("first_use", 60), ("reference", 60))
 
 
@@ -179,6 +181,26 @@ def draw_title_block(canvas: Canvas, block: TitleBlock, language: str, form: For
     _count(canvas, corner, block, form, language)
     _columns(canvas, language)
     return Box(corner.real, corner.imag, corner.real + width, corner.imag + height)
+
+
+def turned_box(canvas: Canvas) -> Box:
+    """Where the designation stands once more, in the upper left corner: along the long side, on A4 along the upper."""
+    long, short = _TURNED
+    upright = canvas.height > canvas.width and canvas.paper != "A4"
+    wide, tall, frame = short if upright else long, long if upright else short, canvas.frame
+    return Box(frame.left, frame.high - tall, frame.left + wide, frame.high)
+
+
+def draw_turned(canvas: Canvas, designation: str) -> None:
+    """The designation upside down, on upright sheets read from the right (GOST 2.104, graph 26)."""
+    box, room = turned_box(canvas), _TURNED[0] - 2 * INDENT
+    canvas.box("FRAME", box)
+    if not designation:
+        return
+    made, middle = text_of(designation, 0j, _LARGE, room), complex(box.left + box.right, box.low + box.high) / 2
+    way = -1 if box.right - box.left > box.high - box.low else 1j
+    begin = middle - way * complex(made.box.right, made.runs[0].height) / 2
+    canvas.write_rising(designation, begin, _LARGE, room, way)
 
 
 def _columns(canvas: Canvas, language: str) -> None:

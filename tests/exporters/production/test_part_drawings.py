@@ -239,6 +239,31 @@ def test_the_sign_of_teeth_stands_on_the_extension_of_a_pitch_line(tmp_path: Pat
     assert [line.dxf.end.y - line.dxf.start.y for line in stands] == [pytest.approx(0, abs=1e-9)]
 
 
+@pytest.mark.parametrize(
+    ("paper", "turn", "size"), [({"paper": "A4"}, 180, (70, 14)), ({"paper": "A3"}, 90, (14, 70)), ({}, 180, (70, 14))]
+)
+def test_the_designation_stands_turned_in_the_upper_left_corner(
+    tmp_path: Path, paper: dict[str, str], turn: int, size: tuple[float, float]
+) -> None:
+    """GOST 2.104, graph 26: upside down on A4 and on sheets that lie, read from the right on larger upright ones."""
+    part = PARTS["bearing"] if paper else PARTS["gear"]
+    document = ezdxf.readfile(written(tmp_path, part | {"designation": "HP.07"}, **paper)[0])
+    assert document.header["$DIMTXSTY"] == "unicode"
+    turns = {}
+    for text in document.modelspace().query("TEXT"):
+        if text.dxf.text == "HP.07":
+            turns[round(abs((text.dxf.align_point - text.dxf.insert).angle_deg))] = text
+    assert set(turns) == {0, turn}
+    frame = [e.dxf for e in document.modelspace().query("LINE[layer=='FRAME']")]
+    left, top = 20.0, max(e.start.y for e in frame)
+    corners = [(left, top), (left + size[0], top - size[1])]
+    for x, y in corners:
+        assert any(e.start.isclose((x, y, 0)) or e.end.isclose((x, y, 0)) for e in frame)
+    for at in (turns[turn].dxf.insert, turns[turn].dxf.align_point):
+        assert left < at.x < corners[1][0]
+        assert corners[1][1] < at.y < top
+
+
 def test_a_curve_is_fitted_once_however_many_papers_are_tried(monkeypatch: pytest.MonkeyPatch) -> None:
     tried: list[Any] = []
     fit = canvas.fit_spline

@@ -40,6 +40,10 @@ def drawn(file: Path) -> tuple[list[Box], list[tuple[str, np.ndarray]]]:
             x, y, width = (float(text.get(key, "nan")) for key in ("x", "y", "textLength"))
             words = text.text or ""
             low = 0.29 * size if set(words) & HANGING else 0.0
+            if text.get("transform") == f"rotate(180 {text.get('x')} {text.get('y')})":
+                # upside down
+                boxes.append((words, x - width + NEAR, y - low + NEAR, x - NEAR, y + size - NEAR))
+                continue
             if text.get("transform"):
                 # read from the right, upwards
                 assert text.get("transform") == f"rotate(-90 {text.get('x')} {text.get('y')})"

@@ -63,7 +63,7 @@ def test_the_columns_of_the_margin_are_those_of_the_form() -> None:
     assert sorted({round(c.start.real, 9) for c in left}) == [8.0, 13.0]
     level = sorted({c.start.imag for c in left if c.start.imag == c.end.imag})
     assert list(np.diff(level)) == [25, 35, 25, 25, 35, 22, 60, 60]
-    turned = [t for t in canvas.texts if t.runs[0].rises]
+    turned = [t for t in canvas.texts if t.runs[0].way == 1j]
     assert [t.text for t in turned][:2] == ["Orig. no.", "Sign., date"]
     assert len(turned) == 7
     assert all(t.box.left >= 8 and t.box.right <= 13.5 and t.runs[0].at.real < 13 for t in turned)
@@ -106,7 +106,7 @@ def test_long_words_stay_in_their_cells() -> None:
     draw_title_block(
         canvas, TitleBlock(long, long, long, long, long, long, "abc", long, 1, 1, (("drawn", long),)), "en"
     )
-    for text in (t for t in canvas.texts if not t.runs[0].rises):
+    for text in (t for t in canvas.texts if t.runs[0].way == 1):
         assert text.box.left >= canvas.frame.right - TITLE_BLOCK[0]
         assert text.box.right <= canvas.frame.right
     names = [t for t in canvas.texts if t.box.left > canvas.frame.right - 121 and t.box.right < canvas.frame.right - 49]
