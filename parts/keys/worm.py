@@ -24,6 +24,22 @@ Addendum = Annotated[float, in_modules("addendum of the worm", above=0, most=5)]
 Clearance = Annotated[float, in_modules("tip clearance", least=0, most=2)]
 Fillet = Annotated[float, in_modules("fillet at the worm's root", least=0, most=2)]
 GrindingWheel = Annotated[float, mm("mean diameter of the grinding wheel of ZK1", above=0, most=1e6)]
+DistanceError = Annotated[float, mm("by how much the axes stand too far apart", least=-10, most=10)]
+AngleError = Annotated[
+    float, degrees("by how much the worm's axis rises about the line of centres", least=-10, most=10)
+]
+AxialError = Annotated[float, mm("by how much the wheel's middle stands above the worm's axis", least=-100, most=100)]
+HobRounding = Annotated[float, in_modules("rounding of the hob's tip, in its axial section", least=0, most=2)]
+HobQuotient = Annotated[
+    float,
+    Meta(
+        gt=0, le=1000, description="q of the hob, more than the worm's for a crowned wheel; default: the worm's",
+        examples=[10.5],
+    ),
+]  # fmt: skip
+HobThinning = Annotated[
+    float, mm("by how much the hob's threads are thicker than the worm's, along its axis", least=0, most=100)
+]
 WheelShift = Annotated[float, in_modules("profile shift of the wheel", least=-3, most=3)]
 
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import cmath
 import math
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.placement import Vector
 from parts.base.mate import End, MateKind, Pose, Standing, Touching
-from parts.keys.base import degrees, mm
 from parts.keys.mate import GearPairKeys
+from parts.keys.worm import AngleError, AxialError, DistanceError
 from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
@@ -33,13 +33,9 @@ _ALIKE = ("module", "pressure_angle_deg", "addendum_coefficient")
 class WormPairSpec(GearPairKeys, tag="worm_pair", kw_only=True):
     """Keys of ``worm_pair``: how far the axes stand off their places."""
 
-    centre_distance_error: Annotated[float, mm("by how much the axes stand too far apart", least=-10, most=10)] = 0.0
-    axis_angle_error_deg: Annotated[
-        float, degrees("by how much the worm's axis rises about the line of centres", least=-10, most=10)
-    ] = 0.0
-    wheel_axial_error: Annotated[
-        float, mm("by how much the wheel's middle stands above the worm's axis", least=-100, most=100)
-    ] = 0.0
+    centre_distance_error: DistanceError = 0.0
+    axis_angle_error_deg: AngleError = 0.0
+    wheel_axial_error: AxialError = 0.0
 
 
 class WormMating(Touching):

@@ -110,7 +110,7 @@ REASONS = {
         "the fillet at the root has no room between two threads, or reaches the middle of the flank"
     ),
     "worm_flank_above_root": N_("the flanks begin above the root, and not radially; take fewer starts or more q"),
-    "worm_wheel_missing": N_("is missing: the torque is that of a drive"),
+    "worm_wheel_missing": N_("is missing: {key} is that of a drive"),
     "worm_form_factor_missing": N_("is missing: with a torque the strength of the wheel's teeth is computed"),
     "worm_pointed": N_("the thread is pointed below its tip"),
     "worm_rounding_too_large": N_("the rounding has no room on the tip of the thread"),

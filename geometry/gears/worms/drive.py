@@ -106,12 +106,12 @@ class WormDrive(Record):
         """Radius of the throated wheel in the plane y = ``distance`` (mm), as far as the throat goes on, mm."""
         return self.centre_distance - math.sqrt((self.throat_radius - distance) * (self.throat_radius + distance))
 
-    def tip_contact(self, distance: float, *, upper: bool = True) -> float | None:
+    def tip_contact(self, distance: float, *, upper: bool = True, outer_radius: float = math.inf) -> float | None:
         """Where along the worm (z, mm) a tip of the wheel in the plane y = ``distance`` (mm) touches it.
 
         None: no radius of the worm's flank cuts that tip.
         """
-        worm, tip = self.worm, self.tip_radius_at(distance)
+        worm, tip = self.worm, min(self.tip_radius_at(distance), outer_radius)
 
         def beyond(radius: float) -> float:
             return abs(complex(self.section(radius, distance, upper=upper)[0])) - tip
@@ -124,7 +124,11 @@ class WormDrive(Record):
         z = worm.axial(radius, distance)[0 if upper else 1]
         return float(z + self.section(radius, distance, upper=upper)[1])
 
-    def worm_length_used(self, face_width: float) -> float | None:
+    def worm_length_used(self, face_width: float, outer_radius: float = math.inf) -> float | None:
         """Twice the farthest place from the middle at which a wheel of ``face_width`` touches the worm, mm."""
-        found = [self.tip_contact(y, upper=u) for y in (0.0, face_width / 2, -face_width / 2) for u in (True, False)]
+        half, out = face_width / 2, self.centre_distance - outer_radius
+        # where the throat ends in the outer cylinder
+        end = math.sqrt(max((self.throat_radius - out) * (self.throat_radius + out), 0.0)) if out > 0 else half
+        places = {0.0, half, -half, min(end, half), -min(end, half)}
+        found = [self.tip_contact(y, upper=u, outer_radius=outer_radius) for y in places for u in (True, False)]
         return None if None in found else 2 * max(abs(z) for z in found if z is not None)

@@ -9,8 +9,9 @@ from typing import Annotated, Any
 
 from msgspec import Meta, Struct
 
-from geometry.base.errors import ParameterError
+from geometry.base.errors import ParameterError, limit
 from geometry.gears.worms import strength
+from geometry.gears.worms.contact import AxisErrors, contact_under
 from geometry.gears.worms.drive import WormDrive
 from geometry.gears.worms.flank import InvoluteFlank
 from geometry.gears.worms.measures import BALL, over_balls, reference_chord
@@ -19,15 +20,21 @@ from geometry.gears.worms.worm import Worm
 from parts.base.refusal import SceneError, meant
 from parts.base.texts import N_, message
 from parts.gears.worm.part import WormSpec, told_worm
-from parts.gears.worm_wheel.part import WormWheelSpec
+from parts.gears.worm_wheel.part import WormWheelSpec, drive_of, teeth_of
 from parts.keys.base import mm, size
 from parts.keys.worm import (
     Addendum,
+    AngleError,
+    AxialError,
     AxialModule,
     Clearance,
+    DistanceError,
     Fillet,
     Form,
     GrindingWheel,
+    HobQuotient,
+    HobRounding,
+    HobThinning,
     Quotient,
     Starts,
     WheelShift,
@@ -40,6 +47,7 @@ from parts.pages.misprints import printed_for_worm
 from parts.pages.page import Sheet
 
 TOPIC = "worm"
+_ERRORS = ("centre_distance_error", "axis_angle_error_deg", "wheel_axial_error")
 _GOST, _THESIS = "GOST 19650", "thesis, 2.2"
 _Factor = Annotated[float, Meta(gt=0, le=100, description="factor of the load")]
 _Life = Annotated[float, Meta(gt=0, le=10, description="factor of life")]
@@ -68,6 +76,13 @@ class WormKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     )
     worm_length: Annotated[float, mm("threaded length b1", above=0, most=100_000)] | None = None
     face_width: Annotated[float, mm("width b2 of the wheel's rim", above=0, most=100_000)] | None = None
+    outer_diameter: Annotated[float, mm("d_ae2, outside of the wheel's throat", above=0, most=200_000)] | None = None
+    hob_rounding_coefficient: HobRounding = 0.2
+    hob_diameter_quotient: HobQuotient | None = None
+    wheel_thinning: HobThinning = 0.0
+    centre_distance_error: DistanceError = 0.0
+    axis_angle_error_deg: AngleError = 0.0
+    wheel_axial_error: AxialError = 0.0
     torque: Annotated[float, size("N*m", "torque T1 on the worm", above=0, most=1e9)] | None = None
     friction_coefficient: Annotated[
         float, Meta(ge=0, le=1, description="friction of the flanks; without it no losses")
@@ -86,11 +101,8 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
     ``part``: which worm, or which wheel, where there are several.
     """
     fitting = [key for key, spec in scene.parts.items() if isinstance(spec, WormSpec | WormWheelSpec)]
-    pairs = [
-        tuple(scene.instances[getattr(mate, end)].part for end in ("first", "second"))
-        for mate in scene.mates
-        if mate.__struct_config__.tag == "worm_pair"
-    ]
+    mates = [mate for mate in scene.mates if mate.__struct_config__.tag == "worm_pair"]
+    pairs = [tuple(scene.instances[getattr(mate, end)].part for end in ("first", "second")) for mate in mates]
     part = table.pop("part", None)
     if part is None and len(fitting) != 1 and (len(set(pairs)) != 1 or not set(fitting) <= {*pairs[0]}):
         code = "choose_a_part" if fitting else "none_of_kind"
@@ -100,7 +112,9 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
         raise SceneError(source, "part", part, code, meant(part, fitting), known=fitting, kind=TOPIC)
     chosen = part or fitting[0]
     both = next((pair for pair in pairs if chosen in pair), (chosen,))
-    return drive_table([scene.parts[key] for key in both if key is not None]) | table
+    off = next((given(mate) for mate, pair in zip(mates, pairs, strict=True) if pair == both), {})
+    errors = {key: off[key] for key in _ERRORS if key in off}
+    return drive_table([scene.parts[key] for key in both if key is not None]) | errors | table
 
 
 def drive_table(specs: Sequence[Struct]) -> dict[str, Any]:
@@ -110,8 +124,10 @@ def drive_table(specs: Sequence[Struct]) -> dict[str, Any]:
         if isinstance(spec, WormSpec):
             table |= given(told_worm(spec)) | {"worm_length": spec.thread_length}
         else:
+            told = given(spec)
             # the thinning of a wheel is that of its teeth
-            table |= {key: value for key, value in given(spec).items() if key != "axial_thinning"}
+            thinning = {"wheel_thinning": told.pop("axial_thinning")} if "axial_thinning" in told else {}
+            table |= told | thinning
     return {key: value for key, value in table.items() if key in keys_of(WormKeys)}
 
 
@@ -120,13 +136,20 @@ def sheet(table: dict[str, Any]) -> Sheet:
     keys: WormKeys = checked(table, WormKeys, TOPIC)
     if keys.torque is not None and keys.form_factor is None:
         raise SceneError("calc", f"{TOPIC}.form_factor", None, "worm_form_factor_missing")
-    if keys.torque is not None and keys.number_of_teeth is None:
-        raise SceneError("calc", f"{TOPIC}.number_of_teeth", None, "worm_wheel_missing")
+    errors = AxisErrors(keys.centre_distance_error, math.radians(keys.axis_angle_error_deg), keys.wheel_axial_error)
+    if keys.number_of_teeth is None:
+        for key in ("torque", "outer_diameter", *_ERRORS):
+            if getattr(keys, key):
+                raise SceneError("calc", f"{TOPIC}.number_of_teeth", None, "worm_wheel_missing", key=key)
     try:
         worm = worm_of(keys, keys.fillet_coefficient, keys.axial_thinning)
     except ParameterError as error:
         raise refusal(TOPIC, error, keys=keys) from error
     drive = keys.number_of_teeth and WormDrive(worm, keys.number_of_teeth, keys.profile_shift_coefficient)
+    if drive and keys.outer_diameter is not None and keys.outer_diameter < (least := 2 * drive.tip_radius):
+        within = limit(least, keys.outer_diameter)
+        told = ParameterError("outer_diameter", keys.outer_diameter, "within_throat", within, diameter=least)
+        raise refusal(TOPIC, told, keys=keys)
     page = Sheet(TOPIC, N_("Worm drive") if drive else N_("Worm"))
     if drive:
         page.printed = printed_for_worm(worm, drive.number_of_teeth, drive.profile_shift_coefficient)
@@ -137,8 +160,10 @@ def sheet(table: dict[str, Any]) -> Sheet:
         # of a thread that has room for its corners
         _measures(page, thread_of(worm, keys.tip_rounding))
     if drive:
-        if keys.face_width is not None or keys.worm_length is not None:
+        if any(x is not None for x in (keys.face_width, keys.worm_length, keys.outer_diameter)):
             _lengths(page, drive, keys)
+        if errors.any:
+            _off_places(page, drive, keys, errors)
         if keys.torque is not None:
             _strength(page, drive, keys)
     return page
@@ -227,7 +252,8 @@ def _lengths(page: Sheet, drive: WormDrive, keys: WormKeys) -> None:
     """How long the worm and how wide the wheel is, and what of it is used."""
     page.section(N_("Length and width"))
     if keys.face_width is not None:
-        used = drive.worm_length_used(keys.face_width)
+        outer = math.inf if keys.outer_diameter is None else keys.outer_diameter / 2
+        used = drive.worm_length_used(keys.face_width, outer)
         if used is None:
             page.notes.append(N_("the wheel's corners do not touch the worm: its rim is wider than the mesh"))
         else:
@@ -240,6 +266,27 @@ def _lengths(page: Sheet, drive: WormDrive, keys: WormKeys) -> None:
         page.add("rim_width", keys.face_width)
         if keys.face_width > (most := drive.most_face_width):
             page.notes.append(message(N_("the wheel's rim is wider than {limit:.5g} mm"), limit=most))
+    if keys.outer_diameter is not None:
+        page.add("wheel_outer_diameter", keys.outer_diameter)
+        if keys.outer_diameter > (most := drive.most_outer_diameter):
+            page.notes.append(message(N_("the wheel's outer diameter is more than {limit:.5g} mm"), limit=most))
+
+
+def _off_places(page: Sheet, drive: WormDrive, keys: WormKeys, errors: AxisErrors) -> None:
+    """The contact of the exact surfaces where the axes stand off their places."""
+    # the hob is the worm without its thinning, and thicker by that of the wheel
+    shared = {key: getattr(keys, key) for key in WormWheelSpec.__struct_fields__ if key in WormKeys.__struct_fields__}
+    spec = WormWheelSpec(**shared | {"axial_thinning": keys.wheel_thinning})
+    try:
+        thread = thread_of(drive.worm, keys.tip_rounding)
+        found = contact_under(thread, teeth_of(spec, drive_of(spec)), errors, None)
+    except ParameterError as error:
+        raise refusal(TOPIC, error, keys=keys) from error
+    page.section(N_("Axes off their places"))
+    for key in _ERRORS:
+        page.add(key, getattr(keys, key))
+    page.add("least_flank_gap", found.worst.gap)
+    page.add("contact_verdict", found.verdict.value.upper())
 
 
 def _strength(page: Sheet, drive: WormDrive, keys: WormKeys) -> None:

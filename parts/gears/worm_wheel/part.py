@@ -16,7 +16,7 @@ from geometry.base.record import Record, replace
 from geometry.solids.hub_holes import least_wall
 from parts.base.kind import Kind, Others, Report
 from parts.keys.accuracy import AccuracyKey
-from parts.keys.base import in_modules, mm
+from parts.keys.base import mm
 from parts.keys.holes import HoledKeys, SpokesTable, bore_of, hub_holes, wide_bore
 from parts.keys.wheel import HubTable, WebTable, wheel_shape
 from parts.keys.worm import (
@@ -25,6 +25,9 @@ from parts.keys.worm import (
     Clearance,
     Form,
     GrindingWheel,
+    HobQuotient,
+    HobRounding,
+    HobThinning,
     Quotient,
     Starts,
     WheelShift,
@@ -67,23 +70,9 @@ class WormWheelSpec(HoledKeys, forbid_unknown_fields=True, kw_only=True, tag_fie
     addendum_coefficient: Addendum = 1.0
     tip_clearance_coefficient: Clearance = 0.2
     grinding_wheel_diameter: GrindingWheel = 300.0
-    hob_rounding_coefficient: Annotated[
-        float, in_modules("rounding of the hob's tip, in its axial section", least=0, most=2)
-    ] = 0.2
-    hob_diameter_quotient: (
-        Annotated[
-            float,
-            Meta(
-                gt=0, le=1000,
-                description="q of the hob, more than the worm's for a crowned wheel; default: the worm's",
-                examples=[10.5],
-            ),
-        ]
-        | None
-    ) = None  # fmt: skip
-    axial_thinning: Annotated[
-        float, mm("by how much the hob's threads are thicker than the worm's, along its axis", least=0, most=100)
-    ] = 0.0
+    hob_rounding_coefficient: HobRounding = 0.2
+    hob_diameter_quotient: HobQuotient | None = None
+    axial_thinning: HobThinning = 0.0
     face_width: (
         Annotated[
             float,
@@ -165,7 +154,7 @@ def _asked_teeth(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     return teeth
 
 
-def _teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
+def teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     """The teeth of the whole width, or where none is given of as much of it as has some."""
     from geometry.gears.worms.wheel_faces import fitting
 
@@ -212,7 +201,7 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
         from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 
         drive = drive_of(keys)
-        teeth, holes = _teeth_of(keys, drive), keys.hub_holes()
+        teeth, holes = teeth_of(keys, drive), keys.hub_holes()
         shape = wheel_shape(teeth.width, keys.web, keys.hub, 0.0)
         room = drive.root_radius - least_wall(drive.root_radius)
         if holes.bore_reach > room:

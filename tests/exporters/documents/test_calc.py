@@ -19,6 +19,8 @@ from parts.base.refusal import SceneError
 from parts.base.texts import words
 from parts.pages.page import KEYS, Sheet, Step
 from parts.pages.terms import TERMS
+from parts.scene.files import built_in_scenes
+from parts.scene.load import load_scene, make_parts, scene_from_dict
 from tests.exporters.command.test_cli import complaint
 from tests.exporters.making import run
 
@@ -558,3 +560,27 @@ def test_a_ring_tells_where_its_tooth_is_pointed() -> None:
     values = values_of("ring module=2 number_of_teeth=40 circumferential_thinning=2.1")["values"]
     assert values["pointed_diameter"] == pytest.approx(80 * math.cos(math.radians(20)) / math.cos(low), rel=1e-9)
     assert "pointed_diameter" not in values_of("ring module=2 number_of_teeth=40")["values"]
+
+
+def test_a_wheel_turned_down_uses_less_of_its_worm_as_the_part_itself_says(capsys: pytest.CaptureFixture[str]) -> None:
+    wheel = {"kind": "worm_wheel", "module": 2.0, "number_of_teeth": 30, "number_of_starts": 2, "face_width": 14.0}
+    words = "worm module=2 number_of_teeth=30 number_of_starts=2 face_width=14 outer_diameter="
+    for outer in (64.5, 67.0):
+        parts = make_parts(scene_from_dict({"parts": {"wheel": wheel | {"outer_diameter": outer}}}, "s", "s"), "s")[0]
+        steps = {step["name"]: step["value"] for step in values_of(f"{words}{outer}")["steps"]}
+        assert steps["worm_length_used"] == pytest.approx(parts["wheel"].quantities["worm_length_used"], abs=1e-6)
+    assert "at least 64 mm works" in complaint(capsys, "calc", *f"{words}60".split())
+    assert "outer_diameter is that of a drive" in complaint(capsys, "calc", "worm", "module=2", "outer_diameter=60")
+
+
+def test_errors_of_the_axes_have_the_gap_that_check_tells(tmp_path: Path) -> None:
+    scene = tmp_path / "off.toml"
+    text = built_in_scenes()["worm_set_print"].read_text("utf-8")
+    scene.write_text(text.replace('second = "worm"', 'second = "worm"\naxis_angle_error_deg = 0.4'), "utf-8")
+    steps = {step["name"]: step["value"] for step in values_of(f"worm {scene}")["steps"]}
+    assert steps["axis_angle_error_deg"] == 0.4
+    scene_of = load_scene(str(scene))
+    (mating,) = make_parts(scene_of, str(scene))[1]
+    found = mating.contact(0.0, 0.0, None)
+    assert found is not None
+    assert (steps["least_flank_gap"], steps["contact_verdict"]) == (pytest.approx(found.worst.gap, abs=1e-9), "CLEAR")
