@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from exporters.command.cli import main
+from exporters.formats.read_step import read_step_assembly
 from geometry.kinematics.two_disk import TwoDisk
 from parts.base.refusal import SceneError
 from parts.scene.load import SceneFile, scene_from_dict
@@ -69,6 +70,32 @@ def test_sixty_degrees_for_thirty_of_disk_3(orientation: str) -> None:
     before, after = (train.poses([Fraction(0), run]) for run in (Fraction(0), Fraction(20, 360)))
     turned = {key: math.degrees(after[key][1] - before[key][1]) for key in ("disk_2", "disk_3", "platform")}
     assert turned == pytest.approx({"disk_2": 0, "disk_3": 30, "platform": 60 if orientation == "thesis" else 0})
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("orientation", list(MESHES))
+def test_the_platform_turns_so_in_written_assemblies(orientation: str, tmp_path: Path, capsys: Any) -> None:
+    """Three poses, each a STEP assembly read back: disk 3 turned in disk 2 by 0, 30, 30 degrees, at last on its way."""
+    (tmp_path / "s.toml").write_text(f'[[assemblies]]\nkind = "power_module_kinematics"\norientation = "{orientation}"')
+    assert main(["new", str(tmp_path / "s.toml"), "--expand"]) == 0
+    parts = capsys.readouterr().out.split("[instances.")[0]
+    placing = placed(module(orientation=orientation))[0]
+    found = []
+    for number, values in enumerate(((0, 0), (0, Fraction(1, 18)), (Fraction(1, 8), Fraction(1, 8) + Fraction(1, 18)))):
+        rows = [
+            f'[instances.{i.id}]\npart = "{i.part}"\nat = {list(i.at)}\nrotation_deg = {math.degrees(i.rotation)}'
+            for i in placing.at(values)
+        ]
+        file = tmp_path / f"p{number}.toml"
+        text = parts + "\n".join(rows) + '\n[[exports]]\nformat = "step"\nassembly = true\ntolerance = 0.01\n'
+        file.write_text(text, encoding="utf-8")
+        assert main(["build", str(file), "--no-verify", "--out", str(tmp_path), "-q"]) == 0
+        read = read_step_assembly(tmp_path / f"p{number}" / f"p{number}.step")
+        axes = {name: complex(matrix[0, 0], matrix[1, 0]) for name, _, matrix, _ in read.occurrences}
+        found.append([axes["disk_2"], axes["disk_3"] / axes["disk_2"], axes["platform"]])
+    turns = np.degrees(np.angle(np.array(found) / found[0]))
+    wanted = 60 if orientation == "thesis" else 0
+    assert turns == pytest.approx(np.array([[0, 0, 0], [0, 30, wanted], [45, 30, wanted]]), abs=1e-9)
 
 
 # how drivers that do not fit are refused
