@@ -16,6 +16,7 @@ from geometry.curves.line_arc import Line
 from parts.drawing.canvas import (
     SMALL_TEXT,
     TEXT_HEIGHT,
+    TITLE_TEXT,
     Box,
     Canvas,
     Dimension,
@@ -41,6 +42,8 @@ _HATCH = 2.5
 # leaders: how far out, every how many degrees
 _REACHES = (9.0, 13.0, 18.0, 24.0, 32.0, 42.0, 55.0, 70.0)
 _TURNS = (0.0, 15.0, -15.0, 30.0, -30.0, 50.0, -50.0, 80.0, -80.0, 120.0, -120.0, 160.0)
+# length of the arrow of a view, and what its letter stands above it
+_LOOK, _ABOVE = 14.0, 2.2
 # the sign of roughness: heights of its legs; where its words begin
 _SHORT, _LONG, _WORDS = 3.5, 8.0, 5.2
 _SLOPE = math.tan(math.radians(30))
@@ -316,6 +319,11 @@ class _Layout:
     def _notes(self, note: Note) -> Iterator[tuple[list[Line], Text]]:
         """Where it may stand, with its lines, the best place first."""
         tip, body = self.paper.point(note.at), self.body
+        if note.looks:
+            for foot in (tip + _FIRST + _STEP / 2 * k for k in range(2 * _ROWS)):
+                text = text_of(note.text, foot + complex(2 * ARROW, _ABOVE), TITLE_TEXT)
+                yield [Line(foot, foot + _LOOK), *_arrow(foot, 1.0)], text
+            return
         for reach in _REACHES if note.goes_on else ():
             lines, text = rough_sign(tip + reach, note.text)
             yield [Line(tip + _AXIS, tip + reach + _SHORT * _SLOPE), *lines], text

@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterator
 
 from geometry.base.placement import Placement2
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Profile
 from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
@@ -357,6 +357,14 @@ def bore_view(bore: Bore, subject: Subject) -> View:
 
 def wheel_views(wheel: Wheel, subject: Subject) -> tuple[View, ...]:
     """Section, face, and the bore where it is not round."""
-    found = section_view(wheel, subject), face_view(wheel, subject)
+    section, face = section_view(wheel, subject), face_view(wheel, subject)
     bore = wheel.holes.bore
-    return found if bore is None or isinstance(bore, RoundBore) else (*found, bore_view(bore, subject))
+    if bore is None or isinstance(bore, RoundBore):
+        return section, face
+    return seen_along(section, levels(wheel.shape).hub[1], subject), face, bore_view(bore, subject)
+
+
+def seen_along(view: View, end: float, subject: Subject) -> View:
+    """A view along the axis with the arrow of the view of its bore, from beyond the ``end`` of the axis."""
+    arrow = Note(complex(end), sheet_words(subject.language, "view_a"), looks=True)
+    return replace(view, notes=(*view.notes, arrow))

@@ -70,12 +70,14 @@ class Note(Record):
     """Words on a leader to a point; ``is_rough``: in the sign of GOST 2.309 for a surface that is cut.
 
     ``goes_on``: the point is the right end of a pitch line, and the sign stands on its extension where there is room.
+    ``looks``: the text is the letter of a view from the right, and an arrow along it points there.
     """
 
     at: complex
     text: str
     is_rough: bool = False
     goes_on: bool = False
+    looks: bool = False
 
 
 class View(Record):

@@ -23,6 +23,7 @@ from parts.drawing.wheel_views import (
     exact_teeth,
     group_rounds,
     hole_axes,
+    seen_along,
     wheel_views,
 )
 from parts.drawing.working import (
@@ -216,4 +217,6 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
             sizes.append(Size("bore_diameter", complex(high, -reach), complex(high, reach), "right", "Ø", wishes.bore))
     rough = Note(complex(top / 2, worm.tip_radius), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True)
     view = View(tuple(strokes), (), (Line(complex(low), complex(high)),), tuple(sizes), notes=(rough,))
-    return (view,) if made is None or isinstance(made, RoundBore) else (view, bore_view(made, subject))
+    if made is None or isinstance(made, RoundBore):
+        return (view,)
+    return seen_along(view, high, subject), bore_view(made, subject)

@@ -264,6 +264,20 @@ def test_the_designation_stands_turned_in_the_upper_left_corner(
         assert corners[1][1] < at.y < top
 
 
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize("name", ["gear", "cam", "groove"])
+def test_an_arrow_on_the_axis_tells_from_where_a_bore_is_seen(tmp_path: Path, name: str) -> None:
+    space = ezdxf.readfile(written(tmp_path, PARTS[name])[0]).modelspace()
+    letter, title = sorted(
+        (t.dxf for t in space.query("TEXT") if re.match(r"A( \(|$)", t.dxf.text)), key=lambda t: t.insert.x
+    )
+    assert (letter.text, letter.height) == ("A", 5.0)
+    assert title.insert.x > letter.insert.x
+    axes = {round(e.dxf.start.y, 6) for e in space.query("LINE[layer=='CENTRE']") if e.dxf.start.y == e.dxf.end.y}
+    arrows = [e.dxf for e in space.query("LINE[layer=='DIMENSION']") if abs(e.dxf.start.x - letter.insert.x + 6) < 0.5]
+    assert any(e.start.y == e.end.y and round(e.start.y, 6) in axes for e in arrows)
+
+
 def test_a_curve_is_fitted_once_however_many_papers_are_tried(monkeypatch: pytest.MonkeyPatch) -> None:
     tried: list[Any] = []
     fit = canvas.fit_spline
