@@ -139,7 +139,8 @@ def _outer(instance: Instance, points: Complex, part: Part) -> Complex:
     """The outer boundary of an instance as it stands, seen from above; of one that lies the hull of both its ends."""
     if instance.axis == UPWARDS:
         return points * cmath.exp(1j * instance.rotation) + instance.centre
-    ends = [np.column_stack([points.real, points.imag, 0 * points.real + z]) for z in (0.0, part.face_width)]
+    levels = part.body(0.0).levels()
+    ends = [np.column_stack([points.real, points.imag, 0 * points.real + z]) for z in (levels[0], levels[-1])]
     seen = instance.scene_from_part.apply(np.concatenate(ends))
     spots = sorted({(round(x, 9), round(y, 9)) for x, y in seen[:, :2].tolist()})
     hull: list[complex] = []

@@ -41,6 +41,8 @@ _LEVELS, _SETTLED = 97, 1e-9
 _FOLD = np.linspace(0.0, 1.0, 17)[:, None]
 # how far beside an end of undercut it is looked at, part of the width
 _BESIDE = (-1e-2, -1e-3, 1e-3, 1e-2)
+# of pictures: points of which a few are drawn, and how near their chords are, part of the size
+_DRAWN, _SEEN = 33, 2e-4
 # the least width that is offered, part of the asked one
 _LEAST_WIDTH = 2e-2
 
@@ -261,11 +263,16 @@ class WormTeeth(Record, dict=True):
         lower, upper = (self.flank(self.side(h), 1.0).plane for h in (z, -z))
         return -np.angle(lower) - np.angle(upper)
 
-    def outline(self, height: float, points: int = 12) -> Profile:
-        """The section at a height as a polygon through so many points of each flank and fillet, for the eye."""
-        shares = np.linspace(0.0, 1.0, points)[:, None]
+    def outline(self, height: float) -> Profile:
+        """The section at a height as a polygon through few points of each flank and fillet, for the eye."""
+        shares, near = np.linspace(0.0, 1.0, _DRAWN)[:, None], _SEEN * self.outer_radius
         lower, upper = (
-            np.concatenate([self.fillet(side, shares[:-1]).plane, self.flank(side, shares).plane])[:, 0]
+            np.concatenate(
+                [
+                    chords_near(self.fillet(side, shares).plane[:, 0], near)[:-1],
+                    chords_near(self.flank(side, shares).plane[:, 0], near),
+                ]
+            )
             for side in (self.side(h) for h in (height, -height))
         )
         around = [*lower, *np.conj(upper[::-1]), lower[0] * np.exp(2j * math.pi / self.number_of_teeth)]
@@ -331,6 +338,18 @@ class WormTeeth(Record, dict=True):
                 low, high = (middle, high) if is_cut == cut[k] else (low, middle)
             found.append((low + high) / 2)
         return tuple(found)
+
+
+def chords_near(points: Complex, near: float) -> Complex:
+    """As few of a run of points (n,) as stand evenly along it and leave it by less than that, its ends among them."""
+    run = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(points)))])
+    for count in range(1, len(points)):
+        at = np.unique(np.searchsorted(run, np.linspace(0.0, run[-1], count + 1) * (1 - 1e-9)))
+        kept = points[at]
+        seen = np.interp(run, run[at], kept.real) + 1j * np.interp(run, run[at], kept.imag)
+        if float(np.abs(seen - points).max()) < near:
+            return kept
+    return points
 
 
 def _hurried(share: Real | float, hurry: Real) -> Real:

@@ -166,6 +166,24 @@ def test_both_meshes_of_a_scene_are_one(tmp_path: Path) -> None:
     assert filecmp.cmp(tmp_path / "one" / "wheel" / "wheel.stl", tmp_path / "out" / "wheel" / "wheel.stl", False)
 
 
+def test_a_lying_worm_is_drawn_about_its_middle_and_a_wheel_by_few_points(tmp_path: Path) -> None:
+    text = BOTH.replace("number_of_teeth = 20", "number_of_teeth = 100")
+    (tmp_path / "s.toml").write_text(
+        text + '[[mates]]\nkind = "worm_pair"\nfirst = "wheel"\nsecond = "worm"\n'
+        '[[exports]]\nformat = "stl"\ntolerance = 0.5\nparts = ["worm"]\n'
+        '[[exports]]\nformat = "stl"\ntolerance = 0.5\nparts = ["wheel"]\n'
+    )
+    assert main(["build", str(tmp_path / "s.toml"), "--out", str(tmp_path / "out"), "--no-verify"]) == 0
+    picture = (tmp_path / "out" / "s" / "s.preview.svg").read_text()
+    wheel, worm = re.findall(r'<path d="(.*?)"', picture)
+    rows = [[float(y) for y in re.findall(r"[ML][-\d.]+[ ,]([-\d.]+)", path)] for path in (wheel, worm)]
+    middles = [(min(row) + max(row)) / 2 for row in rows]
+    # the middle of the thread stands on the line of centres; its shaft is 5 mm long below, 9 above
+    assert abs(middles[0] - middles[1]) == pytest.approx(2.0, abs=0.05)
+    assert max(rows[1]) - min(rows[1]) == pytest.approx(30.0, abs=0.01)
+    assert len(wheel) < 32_000
+
+
 @pytest.mark.parametrize("part", ["wheel", "worm"])
 def test_a_body_ends_where_its_faces_do(part: str) -> None:
     made = make_parts(scene_from_dict(tomllib.loads(BOTH), "s", "s"), "s")[0][part].body(0.0)
