@@ -15,7 +15,7 @@ from parts.base.mate import Mating, Toothed, Touching
 from parts.base.part import Part
 from parts.base.texts import N_, words
 from parts.scene.instances import DriveSpec
-from parts.scene.placing import UPWARDS, Closeness, Condition, PlacedMate, Placing
+from parts.scene.placing import UPWARDS, Closeness, Condition, Instance, PlacedMate, Placing
 from parts.texts.checks import OFF_CENTRE, condition_message
 from parts.texts.findings import finding_text
 
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from geometry.gears.mesh.search import PairContact
     from parts.scene.workspace import Struck
 
+# what is farther apart is no fit, mm
+_FIT = 0.5
 # mates that run no gears in each other: of these transmission error is not asked
 _WITHOUT_TEETH = ("fixed", "coaxial", "carried", "parallel", "pin_seat", "eccentric_bearing")
 
@@ -201,7 +203,8 @@ def _solids(
     from parts.scene.shapes import Shape
 
     shapes = {name: Shape(parts[name]) for name in dict.fromkeys(i.part for i in placing.instances)}
-    overlaps = solid_overlaps(placing, parts, lambda name: shapes[name].solid)
+    fits: list[tuple[Instance, Instance, float]] = []
+    overlaps = solid_overlaps(placing, parts, lambda name: shapes[name].solid, fits)
     solids = [_overlap(o.first, o.second, o.volume, language) for o in overlaps]
     checks: dict[str, Any] = {}
     known = {frozenset((o.first, o.second)) for o in overlaps}
@@ -215,6 +218,7 @@ def _solids(
             "tested": all_over.tested,
             "poses": all_over.motion.poses,
             "uncovered": [asdict(x) for x in all_over.motion.uncovered],
+            "fits": _fits(fits),
         }
     elif placing.train is not None:
         from parts.scene.moving_solids import motion_found
@@ -234,6 +238,18 @@ def _solids(
     elif has_solid_pairs(placing, parts):
         checks["motion"] = {"one_pose": True}
     return {"solids": solids, **checks} if solids else checks
+
+
+def _fits(found: Sequence[tuple[Instance, Instance, float]]) -> list[dict[str, Any]]:
+    """What half sections tell of seats and balls in grooves: by two parts, how many pairs, and their clearances, mm."""
+    rows: dict[tuple[str, str], list[float]] = {}
+    for one, two, gap in found:
+        if gap <= _FIT:
+            rows.setdefault((one.part, two.part), []).append(gap)
+    return [
+        {"parts": list(key), "pairs": len(gaps), "touching": gaps.count(0.0), "least": min(gaps), "greatest": max(gaps)}
+        for key, gaps in rows.items()
+    ]
 
 
 def _struck(struck: Struck, drives: Sequence[DriveSpec], language: str) -> dict[str, Any]:

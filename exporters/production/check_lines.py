@@ -125,9 +125,15 @@ def _workspace(found: dict[str, Any], told: Words) -> list[str]:
     poses = counted("{poses} pose", "{poses} poses", by="poses", poses=found["poses"])
     over = N_("{pairs} over {drives}")
     held = [_pairs(count, over, told, drives=", ".join(drives)) for drives, count in counts.items()]
+    held = held or [_pairs(0, N_("{pairs} held"), told)]
     rest = [_pairs(len(pairs), _REST[why], told) for why, pairs in found["rest"].items() if pairs]
     lines = [told.say(message("solids wherever drives may stand: {held}; {poses}", held=", ".join(held), poses=poses))]
     lines += [told.text("cannot meet: {rest}", rest=", ".join(rest))] if rest else []
+    if found["fits"]:
+        touching = sum(fit["touching"] for fit in found["fits"])
+        free = sum(fit["pairs"] for fit in found["fits"]) - touching
+        fits = (_pairs(touching, N_("{pairs} in touch"), told), _pairs(free, N_("{pairs} with a clearance"), told))
+        lines.append(told.text("seats by half sections: {fits}", fits=", ".join(fits)))
     return [*lines, *_uncovered(found, told)]
 
 

@@ -18,6 +18,7 @@ from geometry.base.record import Record
 from geometry.curves.curve import Real
 from geometry.solids.faced import FacedBody
 from parts.base.part import Part
+from parts.scene.half_sections import Sections
 from parts.scene.placing import UPWARDS, Instance, Placing
 from parts.solids.mesh import Mesh, body_mesh, mesh_outlines
 
@@ -39,13 +40,17 @@ class SolidOverlap(Record):
 
 
 def solid_overlaps(
-    placing: Placing, parts: dict[str, Part], solid_of: Callable[[str], Any] | None = None
+    placing: Placing,
+    parts: dict[str, Part],
+    solid_of: Callable[[str], Any] | None = None,
+    fits: list[tuple[Instance, Instance, float]] | None = None,
 ) -> tuple[SolidOverlap, ...]:
     """Every two instances that run into each other for certain; teeth of plates in a mate are left to their contact.
 
-    ``solid_of``: the mesh inside a part, where somebody has it already.
+    ``solid_of``: the mesh inside a part, where somebody has it already; ``fits`` takes what keeps pairs apart, mm, that
+    half sections have decided.
     """
-    contact = by_contact(placing, parts)
+    contact, sections = by_contact(placing, parts), Sections(parts)
     solid_of = solid_of or cache(lambda key: inner_solid(parts[key]))
     boxes = {i.id: _box(i, parts[i.part]) for i in placing.instances}
     found = []
@@ -53,8 +58,21 @@ def solid_overlaps(
         for two in placing.instances[index + 1 :]:
             if frozenset((one.id, two.id)) in contact or not _meet(boxes[one.id], boxes[two.id]):
                 continue
+            fit = sections.between(one, two)
+            if fit is not None:
+                if fit.volume > 0:
+                    found.append(SolidOverlap(one.id, two.id, fit.volume))
+                elif fits is not None:
+                    fits.append((one, two, fit.gap))
+                continue
             try:
-                volume = common_volume([_placed(i, solid_of) for i in (one, two)])
+                # a thread is meshed only where its hull is not clear
+                hulls = [sections.made(i.part).hull for i in (one, two)]
+                volume = common_volume(
+                    [_placed(i, h or solid_of(i.part)) for i, h in zip((one, two), hulls, strict=True)]
+                )
+                if volume > 0 and any(hulls):
+                    volume = common_volume([_placed(i, solid_of(i.part)) for i in (one, two)])
             except GeometryError:
                 found.append(SolidOverlap(one.id, two.id, None))
                 continue
@@ -97,9 +115,8 @@ def _meet(one: tuple[complex, float, float, float], two: tuple[complex, float, f
     return near and min(one[3], two[3]) > max(one[2], two[2])
 
 
-def _placed(instance: Instance, solid_of: Callable[[str], Any]) -> Any:
-    """The solid of an instance in its place; one mesh a part."""
-    solid = solid_of(instance.part)
+def _placed(instance: Instance, solid: Any) -> Any:
+    """A solid in the place of an instance."""
     if instance.axis != UPWARDS:
         return solid.transform(instance.scene_from_part.matrix())
     x, y, z = instance.at

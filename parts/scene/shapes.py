@@ -15,6 +15,7 @@ from geometry.curves.line_arc import Arc
 from geometry.plane.profile import Profile
 from geometry.solids.body import Body
 from parts.base.part import Part
+from parts.scene.half_sections import Sectioned
 from parts.scene.interference import common_volume, inner_solid
 
 if TYPE_CHECKING:
@@ -139,7 +140,7 @@ class LyingShape(Shape):
 
     def __init__(self, shape: Shape, instance: Instance, *, turns: bool) -> None:
         self.part, self.turns = shape.part, turns
-        solid = shape.swept() if turns else shape.solid
+        solid = (Sectioned(shape.part).hull or shape.swept()) if turns else shape.solid
         matrix = np.array(instance.scene_from_part.matrix())
         matrix[:, 3] = 0.0
         self.solid = solid.transform(matrix)

@@ -24,6 +24,7 @@ from geometry.base.record import Draft, Record, field, replace
 from geometry.curves.curve import Complex, Real
 from geometry.kinematics.mechanism import FRAME, Fixed, Group, Prismatic, Revolute
 from geometry.kinematics.moving import Drive
+from parts.scene.half_sections import Sections
 from parts.scene.interference import common_volume
 from parts.scene.moving_solids import Clear, Meeting, MotionFound, Uncovered, hold
 from parts.scene.placing import UPWARDS, Instance, Placing
@@ -92,18 +93,22 @@ def workspace_found(
             for i in placing.instances}  # fmt: skip
     waves = {i.id: _still(train, i) if i.id in lying else _waves_of(train, i.id) for i in stand}
     held = _Held(train, {i.id: i for i in stand if i.id in lying}, poses)
-    bodies = train.moving.stands.body
+    bodies, placed = train.moving.stands.body, {i.id: i for i in placing.instances}
+    sections = Sections({name: shape.part for name, shape in shapes.items()})
     found, done = WorkspaceFound({why: [] for why in REASONS}), dict[object, bool]()
     for pair in combinations(stand, 2):
         one, two = (i.id for i in pair)
         if bodies(one) == bodies(two):
             found.rest["fixed"].append((one, two))
             continue
+        if {one, two} <= lying.keys() and sections.between(placed[one], placed[two]) is not None:
+            found.rest["round"].append((one, two))
+            continue
         if not _at_one_height(pair, (made[one], made[two])):
             found.rest["height"].append((one, two))
             continue
         seen = _Seen(pair, (waves[one], waves[two]), (made[one], made[two]))
-        if (why := _why_not(seen, done, is_mated=frozenset((one, two)) in contact)) is not None:
+        if (why := _why_not(seen, done, sections, is_mated=frozenset((one, two)) in contact)) is not None:
             found.rest[why].append((one, two))
         elif frozenset((one, two)) not in known:
             try:
@@ -195,7 +200,7 @@ class _Held:
             found.motion.uncovered.append(Uncovered(one.id, two.id, search.depth, 1.0, search.poses))
 
 
-def _why_not(seen: _Seen, done: dict[object, bool], *, is_mated: bool) -> str | None:
+def _why_not(seen: _Seen, done: dict[object, bool], sections: Sections, *, is_mated: bool) -> str | None:
     """Why a pair at one height that moves needs not be held, if it does not."""
     if not seen.moves and not seen.swept:
         return "fixed"
@@ -207,7 +212,7 @@ def _why_not(seen: _Seen, done: dict[object, bool], *, is_mated: bool) -> str | 
         return "circles"
     if not seen.vectors and not seen.swept:
         return "round"
-    return "swept" if seen.sweeps_past(done) else None
+    return "swept" if seen.sweeps_past(done, sections) or seen.stands_clear() else None
 
 
 class _Seen:
@@ -246,29 +251,48 @@ class _Seen:
         every += [(rates[drive], abs(arm)) for rates, arm in self.arms.items()]
         return _TURN * min(sum(float(abs(rate - base)) * long for rate, long in every) for base, _ in every)
 
-    def sweeps_past(self, done: dict[object, bool]) -> bool:
+    def sweeps_past(self, done: dict[object, bool], sections: Sections) -> bool:
         """Whether one sweeps nothing that the other takes as it goes about an axis that stands in it; ``done``: asked
         before, of what is alike.
         """
         sizes = [(isinstance(shape, LyingShape), shape.reach) for shape in self.shapes]
-        for k, sign in enumerate((-1, 1)):
-            shape, other, seen_by = self.shapes[k], self.shapes[1 - k], self.waves[1 - k]
-            about = [abs(arm) for rates, arm in self.arms.items() if rates != seen_by.own]
+        rings = [self._ring(k) for k in range(2)]
+        asked = []
+        for k, (near, far, at) in enumerate(rings):
+            lift = self.lift if k else -self.lift
+            key = (id(self.shapes[k]), id(self.shapes[1 - k]), *(round(x, _DIGITS) for x in (near, far, lift)),
+                   round(at.real, _DIGITS), round(at.imag, _DIGITS))  # fmt: skip
+            asked.append((key, lift))
+            if key not in done and not (sizes[0][0] or sizes[1][0]):
+                other, own = self.pair[1 - k].part, self.pair[k].part
+                if sections.pass_each_other(other, at, own, near, far, lift):
+                    done[key] = True
+            if done.get(key):
+                return True
+        for k, ((near, far, at), (key, lift)) in enumerate(zip(rings, asked, strict=True)):
             # where both go about each other the smaller one sweeps less
-            if about and sizes[k] > sizes[1 - k]:
+            if far and sizes[k] > sizes[1 - k]:
                 continue
-            far = math.fsum(about)
-            near = max(2 * max(about, default=0.0) - far, 0.0)
-            # the axis about which it goes, in the frame of the other
-            at = sign * self.arms.get(seen_by.own, 0j) * cmath.rect(1.0, -seen_by.angle)
-            told = (near, far, at.real, at.imag, sign * self.lift)
-            key = (id(shape), id(other), *(round(x, _DIGITS) for x in told))
             if key not in done:
-                solid = shape.swept(near, far).translate([at.real, at.imag, sign * self.lift])
-                done[key] = not common_volume((solid, other.solid))
+                solid = self.shapes[k].swept(near, far).translate([at.real, at.imag, lift])
+                done[key] = not common_volume((solid, self.shapes[1 - k].solid))
             if done[key]:
                 return True
         return False
+
+    def stands_clear(self) -> bool:
+        """Whether what no drive moves against the other, but one sweeps about its own axis, is clear as it stands."""
+        if self.vectors:
+            return False
+        return not Meeting(self.shapes, self.lift, 0.0, 0.0).meet(*self.at(()))[1]
+
+    def _ring(self, k: int) -> tuple[float, float, complex]:
+        """How near and how far one of them goes about an axis, mm, and where that stands in the frame of the other."""
+        seen_by = self.waves[1 - k]
+        about = [abs(arm) for rates, arm in self.arms.items() if rates != seen_by.own]
+        far = math.fsum(about)
+        at = (1 if k else -1) * self.arms.get(seen_by.own, 0j) * cmath.rect(1.0, -seen_by.angle)
+        return max(2 * max(about, default=0.0) - far, 0.0), far, at
 
     def by_all(self, turns: Sequence[float]) -> tuple[float, ...]:
         """Turns of those drives among all, of which the others stand."""

@@ -1,0 +1,342 @@
+"""Pairs decided by half sections: where both bodies may be, r over z, about one axis.
+
+What is apart about a common axis is apart however either is turned there, and as far as the sections are; holes beside
+the axis only take away. Where the one is whole all round and the other is somewhere there, they run into each other.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Mapping
+from functools import cache, cached_property
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geometry.approximation.chords import approximate_profile
+from geometry.base.record import Record
+from geometry.curves.curve import Complex, Real
+from geometry.gears.worms.body import WormBody
+from geometry.solids.body import Body
+from geometry.solids.turned import HalfSection, Hole, Piece
+from parts.base.part import Part
+from parts.gears.worm_wheel.part import WheelThing
+from parts.scene.placing import UPWARDS, Instance
+
+if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
+# what chords leave of curves, and what is touch, not overlap: less than half of what two solids may lie in each other
+_CHORD, TOUCH = 1e-4, 1e-3
+# what is one place, mm, and its digits
+_SAME, _DIGITS = 1e-7, 7
+# points along radius, height and turn by which a common volume is measured
+_GRID = 48
+# sides of a circle about teeth, and of one about a thread
+_SIDES, _ROUND = 1024, 256
+
+
+class Fit(Record):
+    """What keeps two solids apart, mm, 0 where they touch; what they have in common, mm^3; ``is_least``: no less."""
+
+    gap: float
+    volume: float = 0.0
+    is_least: bool = False
+
+
+class _Region(Record):
+    """Where a body is about an axis, r over z: at some turn at most, and all round.
+
+    ``exact``: at each place it is, at some turn.
+    """
+
+    some: BaseGeometry
+    all_round: BaseGeometry | None
+    exact: bool
+
+
+class Sectioned:
+    """The sections of a part: half of one that is turned, else those of its layers; none of what has other faces."""
+
+    def __init__(self, part: Part) -> None:
+        self.thing, self.body, self.teeth = part.thing, part.body(0.0), 0.0
+        upright = isinstance(self.body, Body) and all(self.body.is_upright(wall) for wall in self.body.walls)
+        # half a section that has all of it within, and the round holes that run through the whole
+        self.half: Complex | None = None
+        self.holes: tuple[Hole, ...] = ()
+        if isinstance(self.thing, HalfSection):
+            self.half, self.holes = _outline(self.thing), self.thing.holes
+        elif isinstance(self.thing, WormBody):
+            self.half = _worm_outline(self.thing)
+        elif isinstance(self.thing, WheelThing):
+            # its core, and all about that counts as teeth
+            self.body, self.teeth, upright = self.thing.wheel.core, self.body.section_reach(), True
+        self.known = self.half is not None or upright
+        # by place of the axis, or by the distances at which it goes about another one
+        self.at, self.going = cache(self._at), cache(self._going)
+
+    @cached_property
+    def bands(self) -> Real:
+        """Inner and outer radius at two levels: rows z0, z1, inner at both, outer at both, mm."""
+        if self.half is not None:
+            return _bands(self.half)
+        rows = [(low, high, *self._radii(section, 0j)) for low, high, section in self.layers]
+        return np.array([(z0, z1, near, near, far, far) for z0, z1, near, far in rows])
+
+    @cached_property
+    def hull(self) -> Any | None:
+        """A mesh about a worm, its thread whole; None of all else."""
+        import manifold3d
+
+        if self.half is None or not isinstance(self.thing, WormBody):
+            return None
+        wide = self.half.real / math.cos(math.pi / _ROUND)
+        sides = manifold3d.CrossSection([list(zip(wide.tolist(), self.half.imag.tolist(), strict=True))])
+        return manifold3d.Manifold.revolve(sides, _ROUND)
+
+    @cached_property
+    def cylinders(self) -> Real:
+        """Pieces about its axis that hold it: rows z0, z1, radius, mm."""
+        rows = self.bands
+        return np.column_stack([rows[:, 0], rows[:, 1], rows[:, 4:].max(axis=1)])
+
+    @cached_property
+    def layers(self) -> list[tuple[float, float, BaseGeometry]]:
+        """Connected pieces of the section between two levels, mm."""
+        import shapely
+
+        body, found = self.body, []
+        assert isinstance(body, Body)
+        for low, high in pairwise(body.levels()):
+            loops: list[tuple[bool, shapely.Polygon]] = []
+            for wall in body.walls:
+                ends = body.height(wall)
+                if ends[0] < (low + high) / 2 < ends[1]:
+                    loop = body.loops[wall.lower]
+                    contour = approximate_profile(body.profiles[loop.profile], _CHORD, arcs=False).geometry
+                    xy = contour.expanded()[0] * np.exp(1j * loop.turn) + loop.shift
+                    polygon = shapely.Polygon(np.column_stack([xy.real, xy.imag]))
+                    loops.append((bool(shapely.is_ccw(polygon.exterior)), polygon))
+            walls, holes = (shapely.union_all([p for left, p in loops if left == side]) for side in (True, False))
+            if self.teeth and walls.area > 0:
+                rim = shapely.Point(0, 0).buffer(self.teeth / math.cos(math.pi / _SIDES), quad_segs=_SIDES // 4)
+                walls = shapely.union(rim, walls)
+            found += [(low, high, piece) for piece in shapely.get_parts(shapely.difference(walls, holes))]
+        return found
+
+    @staticmethod
+    def _radii(section: BaseGeometry, at: complex) -> tuple[float, float]:
+        """Between which a connected section lies about a place, mm."""
+        import shapely
+
+        corners = shapely.get_coordinates(section)
+        near = float(shapely.distance(shapely.Point(at.real, at.imag), section))
+        return near, float(np.hypot(corners[:, 0] - at.real, corners[:, 1] - at.imag).max())
+
+    def _at(self, at: complex) -> _Region:
+        """About an upright axis in its own frame."""
+        import shapely
+
+        if self.half is not None:
+            low, high = float(self.half.imag.min()) - 1, float(self.half.imag.max()) + 1
+            if abs(at) > _SAME:
+                # in a hole that runs through there is nothing
+                free = max((h.radius - abs(h.centre - at) for h in self.holes), default=0.0)
+                beside = self.going(round(abs(at), _DIGITS), round(abs(at), _DIGITS))
+                if free <= 0:
+                    return beside
+                return _Region(shapely.difference(beside.some, shapely.box(0.0, low, free, high)), None, False)
+            some = shapely.make_valid(shapely.Polygon(_pairs(self.half)))
+            if not isinstance(self.thing, HalfSection) or self.thing.pockets:
+                return _Region(some, None, False)
+            bored = [shapely.box(abs(h.centre) - h.radius, low, abs(h.centre) + h.radius, high) for h in self.holes]
+            return _Region(some, shapely.difference(some, shapely.union_all(bored)), True)
+        rows = [(low, high, *self._radii(section, at)) for low, high, section in self.layers]
+        some = shapely.union_all([shapely.box(near, z0, far, z1) for z0, z1, near, far in rows])
+        return _Region(some, None, not self.teeth)
+
+    def _going(self, near: float, far: float) -> _Region:
+        """As its own axis goes about another one, ``near`` to ``far`` from it, mm."""
+        import shapely
+
+        z0, z1, *radii = self.bands.T
+        inner, outer = np.array(radii[:2]), np.array(radii[2:])
+        beside, about = (near >= outer).all(axis=0), (far <= inner).all(axis=0)
+        least = np.where(beside, near - outer, np.where(about, inner - far, 0.0))
+        (a, b), (c, d) = least, outer + far
+        rows = np.array([[a, z0], [c, z0], [d, z1], [b, z1], [a, z0]]).transpose(2, 0, 1)
+        exact = isinstance(self.thing, HalfSection) and not (self.thing.holes or self.thing.pockets)
+        return _Region(shapely.union_all(shapely.polygons(rows)), None, exact and bool((beside | about).all()))
+
+
+class Sections:
+    """The parts of a scene by their sections."""
+
+    def __init__(self, parts: Mapping[str, Part]) -> None:
+        self.parts = parts
+        self.made = cache(lambda key: Sectioned(self.parts[key]))
+        self._held: dict[object, Fit | None] = {}
+        self._shrunk: dict[int, tuple[BaseGeometry, BaseGeometry]] = {}
+
+    def between(self, one: Instance, two: Instance) -> Fit | None:
+        """Two instances as they stand, if sections about the axis of either tell it."""
+        if max(abs(a - b) for a, b in zip(one.axis, two.axis, strict=True)) > _SAME:
+            pair = (one, two) if one.axis == UPWARDS else (two, one)
+            gap = self._across(*pair) if pair[0].axis == UPWARDS else 0.0
+            return Fit(gap, is_least=True) if gap > 0 else None
+        way = [b - a for a, b in zip(one.at, two.at, strict=True)]
+        lift = math.fsum(w * x for w, x in zip(way, one.axis, strict=True))
+        offset = complex(way[0], way[1])
+        if one.axis != UPWARDS:
+            if math.dist(way, [lift * x for x in one.axis]) > _SAME:
+                return None
+            offset = 0j
+        first, second = (_rounded(at * cmath.rect(1.0, -i.rotation)) for i, at in ((one, offset), (two, -offset)))
+        key = (one.part, two.part, first, second, round(lift, _DIGITS))
+        if key not in self._held:
+            self._held[key] = self._between(one.part, two.part, first, second, lift)
+        return self._held[key]
+
+    def _between(self, one: str, two: str, first: complex, second: complex, lift: float) -> Fit | None:
+        """``first``: the second's axis in the frame of the first; ``second``: the other way round."""
+        made = self.made(one), self.made(two)
+        if not all(m.known for m in made):
+            return None
+        least: Fit | None = None
+        for k, at in ((0, second), (1, first)):
+            regions = made[k].at(0j), made[1 - k].at(at)
+            raised = lift if k == 0 else -lift
+            gap = self._apart(regions, raised)
+            if gap is not None:
+                # about either axis it is at least so much
+                least = Fit(gap) if least is None else Fit(max(gap, least.gap))
+            elif (volume := self._common(made[1 - k], regions, at, raised)) > 0:
+                return Fit(0.0, volume)
+        return least
+
+    def _across(self, upright: Instance, lying: Instance) -> float:
+        """What keeps an upright part from one that lies across it, mm, at least: cylinders about both."""
+        made = self.made(upright.part), self.made(lying.part)
+        if not all(m.known for m in made):
+            return 0.0
+        mine, theirs = (m.cylinders for m in made)
+        way, at = np.array(lying.axis), np.array(lying.at) - upright.at
+        ends = [at + theirs[:, k, None] * way for k in (0, 1)]
+        slope = math.hypot(way[0], way[1])
+        low, high = (f(ends[0][:, 2], ends[1][:, 2]) for f in (np.minimum, np.maximum))
+        steep = theirs[:, 2] * slope
+        heights = np.maximum(low[:, None] - steep[:, None] - mine[:, 1], mine[:, 0] - (high + steep)[:, None])
+        # how near the middle line comes to the upright axis
+        start, along = ends[0][:, :2], (ends[1] - ends[0])[:, :2]
+        whole = np.maximum((along**2).sum(axis=1), _SAME)
+        share = np.clip(-(start * along).sum(axis=1) / whole, 0.0, 1.0)
+        line = np.linalg.norm(start + share[:, None] * along, axis=1)
+        return float(np.maximum(heights, (line - theirs[:, 2])[:, None] - mine[:, 2]).min())
+
+    def pass_each_other(self, one: str, at: complex, two: str, near: float, far: float, lift: float) -> bool:
+        """Whether a part stays off another one about an axis at ``at`` in the frame of the first, ``near`` to ``far``
+        from which the axis of the second goes, ``lift`` above.
+        """
+        made = self.made(one), self.made(two)
+        if not all(m.known for m in made):
+            return False
+        near, far = round(near, _DIGITS), round(far, _DIGITS)
+        return self._apart((made[0].at(_rounded(at)), made[1].going(near, far)), lift) is not None
+
+    def _apart(self, regions: tuple[_Region, _Region], lift: float) -> float | None:
+        """What keeps two regions apart, mm; None: they are deeper in each other than what touches."""
+        import shapely
+
+        one, two = regions[0].some, _raised(regions[1].some, lift)
+        gap = float(shapely.distance(one, two))
+        if gap > 0:
+            return gap if gap > TOUCH else 0.0
+        return None if shapely.intersects(self._inset(one), _raised(self._inset(regions[1].some), lift)) else 0.0
+
+    def _inset(self, region: BaseGeometry) -> BaseGeometry:
+        found = self._shrunk.get(id(region))
+        if found is None:
+            # the region is kept with it, so that its number stays its own
+            found = self._shrunk[id(region)] = region, region.buffer(-TOUCH, join_style="mitre")
+        return found[1]
+
+    def _common(self, other: Sectioned, regions: tuple[_Region, _Region], at: complex, lift: float) -> float:
+        """What is certainly in common, mm^3: where the first is whole all round and the other, turned, is; or 0."""
+        import shapely
+
+        one, two = regions
+        if one.all_round is None or not two.exact or not isinstance(other.thing, HalfSection):
+            return 0.0
+        common = shapely.intersection(self._inset(one.all_round), _raised(self._inset(two.some), lift))
+        if common.area <= 0:
+            return 0.0
+        r0, z0, r1, z1 = common.bounds
+        steps = (np.arange(_GRID) + 0.5) / _GRID
+        r, z = (a.ravel() for a in np.meshgrid(r0 + (r1 - r0) * steps, z0 + (z1 - z0) * steps))
+        kept = shapely.contains_xy(common, r, z)
+        r, z = r[kept], z[kept]
+        half = math.pi if abs(at) <= other.thing.radii()[1] else math.asin(other.thing.radii()[1] / abs(at))
+        turns = half * (2 * steps - 1)
+        places = r[:, None] * np.exp(1j * turns) - abs(at)
+        own = other.at(0j).some
+        within = shapely.contains_xy(own, np.abs(places).ravel(), np.repeat(z - lift, _GRID)).reshape(places.shape)
+        cell = (r1 - r0) * (z1 - z0) / _GRID**2 * 2 * half / _GRID
+        return float((within.sum(axis=1) * r).sum() * cell)
+
+
+def _rounded(at: complex) -> complex:
+    return complex(round(at.real, _DIGITS) + 0.0, round(at.imag, _DIGITS) + 0.0)
+
+
+def _raised(region: BaseGeometry, lift: float) -> BaseGeometry:
+    import shapely
+
+    return shapely.transform(region, lambda rz: rz + np.array([0.0, lift])) if lift else region
+
+
+def _pairs(points: Complex) -> Real:
+    return np.column_stack([points.real, points.imag])
+
+
+def _outline(section: HalfSection) -> Complex:
+    """Half a section by chords, counter-clockwise, r + iz."""
+    return np.concatenate([_chords(piece)[:-1] for piece in section.pieces])
+
+
+def _chords(piece: Piece) -> Complex:
+    """Along a piece, so near that chords leave as little of an arc as they may."""
+    if piece.centre is None:
+        return np.array([piece.start, piece.end])
+    sweep = float(np.angle((piece.end - piece.centre) / (piece.start - piece.centre)))
+    sweep = sweep % math.tau if piece.convex else sweep % math.tau - math.tau
+    count = math.ceil(abs(sweep) / math.acos(max(1 - _CHORD / piece.radius, 0.0)) / 2) + 1
+    found = piece.centre + (piece.start - piece.centre) * np.exp(1j * sweep * np.linspace(0.0, 1.0, count + 1))
+    found[-1] = piece.end
+    # what ends on the axis lies on it
+    return np.maximum(found.real, 0.0) + 1j * found.imag
+
+
+def _worm_outline(worm: WormBody) -> Complex:
+    """Half a section about a worm, its thread whole up to the tips."""
+    half, tip = worm.length / 2, worm.thread.worm.tip_radius
+    below, above = ([complex(r, z) for z, r in worm.outline(above=side)[1:]] for side in (False, True))
+    ends = [complex(0.0, z) for z in worm.ends()]
+    return np.array([ends[0], *below[::-1], complex(tip, -half), complex(tip, half), *above, ends[1]])
+
+
+def _bands(outline: Complex) -> Real:
+    """A half section cut at the levels of its corners: rows z0, z1, inner radius at both, outer at both."""
+    after, rows = np.roll(outline, -1), []
+    levels = np.unique(np.round(outline.imag, _DIGITS + 2))
+    for z0, z1 in pairwise(levels):
+        middle = (z0 + z1) / 2
+        crossing = (outline.imag > middle) != (after.imag > middle)
+        a, b = outline[crossing], after[crossing]
+        slope = (b.real - a.real) / (b.imag - a.imag)
+        ends = [a.real + slope * (z - a.imag) for z in (z0, z1)]
+        order = np.argsort(ends[0] + ends[1])
+        low, high = ends[0][order], ends[1][order]
+        rows += [(z0, z1, low[k], high[k], low[k + 1], high[k + 1]) for k in range(0, len(order), 2)]
+    return np.array(rows)
