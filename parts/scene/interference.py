@@ -62,7 +62,7 @@ def solid_overlaps(
             if fit is not None:
                 if fit.volume > 0:
                     found.append(SolidOverlap(one.id, two.id, fit.volume))
-                elif fits is not None:
+                elif fits is not None and not fit.is_least:
                     fits.append((one, two, fit.gap))
                 continue
             try:
