@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 from msgspec import Struct
 
 from geometry.base.errors import GeometryError, Nearest, ParameterError
+from geometry.base.nearest import nearest
 from geometry.base.record import Record, field
 from parts.base.refusal import SceneError, placed
 from parts.base.schema import tried, unit_of
@@ -148,15 +149,25 @@ class Kind(Generic[K, T]):
     def refused(self, keys: K, others: Others, refusal: ParameterError, source: str, place: str) -> SceneError:
         """The refusal under the scene's key; what it offers has been tried once, and goes where it does not build."""
 
+        def works(value: object) -> bool:
+            changed = tried(keys, refusal.name, value)
+            thing = self.thing(changed, others)
+            # what a chamfer leaves of the edges only the solid tells
+            if chamfers:
+                self.solid(changed, thing, 0.0)
+            return True
+
         def cure() -> Nearest | None:
             found = refusal.nearest
             if found is None:
                 return None
             try:
-                self.thing(tried(keys, refusal.name, found.value), others)
+                works(found.value)
             except (GeometryError, ArithmeticError):
-                return None
+                return nearest(works, refusal.value, 0.0) if chamfers and isinstance(refusal.value, float) else None
             return found
+
+        chamfers = refusal.name.startswith("face_chamfer")
 
         told = placed(source, place, refusal, unit_of(self.keys, refusal.name))
         told.offer(cure)

@@ -18,7 +18,7 @@ from parts.base.content import NotAFileError, content
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError, meant, placed
 from parts.base.registry import KINDS
-from parts.base.schema import converted, refuse_infinite
+from parts.base.schema import converted, refuse_infinite, value_at
 from parts.base.texts import ENGLISH, languages
 from parts.keys.base import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.keys.boards import PURPOSES_LAID, BedSpec, BoardSpec, LaidKeys, check_laid
@@ -470,6 +470,17 @@ def default_export(name: str) -> ExportSpec:
 
 def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mating]]:
     """The parts of a scene, each checked to exist, as its mates want them; and the mates."""
+    parts, matings = _bored(scene, source)
+    # what a chamfer leaves of the edges only the solid tells, and flat files must not show what cannot be made
+    if chamfered := {key: part for key, part in parts.items() if value_at(part.keys, "face_chamfer")}:
+        from parts.scene.checks import check_solids
+
+        check_solids(chamfered, source)
+    return parts, matings
+
+
+def _bored(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mating]]:
+    """The parts with the holes of their axles, and the mates."""
     parts, matings = _made(scene, scene.parts, source)
     if not any(part.made_by.holes_at(part.keys) for part in parts.values()):
         return parts, matings

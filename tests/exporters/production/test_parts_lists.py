@@ -91,6 +91,18 @@ def test_csv_tells_positions_quantities_and_masses(tmp_path: Path) -> None:
     assert rod["Mass, kg"] == rod["Total mass, kg"] == ""
 
 
+@pytest.mark.parametrize("export", ['"csv"', '"dxf"', '"svg"\npurpose = "part"', '"pdf"\npurpose = "assembly"'])
+def test_a_gear_that_cannot_be_chamfered_is_in_no_file(
+    export: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (file := tmp_path / "s.toml").write_text(
+        '[parts.g]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 12\nprofile_shift_coefficient = 0.7\n'
+        f'material = "steel"\nface_chamfer = 0.8\n[[exports]]\nformat = {export}\n'
+    )
+    assert main(["build", str(file), "--out", str(tmp_path / "out")]) == 2
+    assert "parts.g.face_chamfer = 0.8: leaves nothing of the tooth outline" in capsys.readouterr().err
+
+
 @pytest.mark.heavy
 @pytest.mark.parametrize(
     ("orientation", "wanted"),

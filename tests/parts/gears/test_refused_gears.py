@@ -28,6 +28,10 @@ REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
                     "rack_rounding_does_not_fit"),
     "angle": ({**SPUR, "pressure_angle_deg": 40.0}, "pressure_angle_deg", "standard_rack_pointed"),
     "chamfers": ({**SPUR, "face_chamfer": 6.0}, "face_chamfer", "chamfers_meet"),
+    "chamfer of teeth": ({**SPUR, "number_of_teeth": 12, "profile_shift_coefficient": 0.7, "face_chamfer": 0.8},
+                         "face_chamfer", "chamfer_leaves_nothing_of_tooth_outline"),
+    "chamfer of chamfered tips": ({**SPUR, "tip_chamfer": 0.4, "face_chamfer": {"above": 1.0}}, "face_chamfer.above",
+                                  "chamfer_leaves_nothing_of_tooth_outline"),
     "ring tip, helical": ({**RING, **HELIX, "tip_diameter": 90.0}, "tip_diameter", "involute_ends_at_base_circle"),
     "ring shift, helical": ({**RING, **HELIX, "profile_shift_coefficient": -4.0}, "profile_shift_coefficient",
                             "no_working_angle_with_cutter"),
@@ -101,7 +105,7 @@ def test_a_search_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
         return search(one, *rest, **more)
 
     for home in ("geometry.gears.teeth.limits", "geometry.gears.teeth.ring_limits", "parts.gears.spur_gear.part",
-                 "parts.keys.holes", "parts.keys.wheel"):  # fmt: skip
+                 "parts.keys.holes", "parts.keys.wheel", "parts.base.kind"):  # fmt: skip
         monkeypatch.setattr(f"{home}.nearest", counted)
     for table, *_ in REFUSED.values():
         refused = refusal(table)
