@@ -123,11 +123,13 @@ def _workspace(found: dict[str, Any], told: Words) -> list[str]:
     """How solids were held wherever the drives may stand, and why the rest cannot meet."""
     counts = Counter(drives for *_, drives in found["tested"])
     poses = counted("{poses} pose", "{poses} poses", by="poses", poses=found["poses"])
-    over = N_("{pairs} over {drives}")
-    held = [_pairs(count, over, told, drives=", ".join(drives)) for drives, count in counts.items()]
-    held = held or [_pairs(0, N_("{pairs} held"), told)]
+    over, still = N_("{pairs} over {drives}"), N_("{pairs} as they stand")
+    held = [
+        _pairs(count, over if drives else still, told, drives=", ".join(drives)) for drives, count in counts.items()
+    ]
     rest = [_pairs(len(pairs), _REST[why], told) for why, pairs in found["rest"].items() if pairs]
-    lines = [told.say(message("solids wherever drives may stand: {held}; {poses}", held=", ".join(held), poses=poses))]
+    head = message("solids wherever drives may stand: {held}; {poses}", held=", ".join(held), poses=poses)
+    lines = [told.say(head if held else N_("solids wherever drives may stand: none can meet another"))]
     lines += [told.text("cannot meet: {rest}", rest=", ".join(rest))] if rest else []
     if found["fits"]:
         touching = sum(fit["touching"] for fit in found["fits"])

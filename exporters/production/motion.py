@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -72,7 +73,7 @@ class MotionJob(Film):
         failures: list[str] = []
         if list(found.tracks) != [i.id for i in sorted(self.instances, key=lambda i: i.at[2])]:
             return Verdict({}, (f"holds {', '.join(found.tracks)}",))
-        if found.seconds not in (0.0, self.seconds):
+        if found.seconds and not math.isclose(found.seconds, self.seconds, rel_tol=1e-6):
             failures.append(f"a loop takes {found.seconds:g} s instead of {self.seconds:g} s")
         worst, outline = 0.0, 0.0
         for part in dict.fromkeys(i.part for i in self.instances):

@@ -119,6 +119,11 @@ def test_spoiled_motions_are_seen(tmp_path: Path, old: str, new: str) -> None:
     assert run("verify", str(file)) == 1
 
 
+def test_a_loop_of_any_length_is_good(tmp_path: Path) -> None:
+    """How long it takes is written with so many digits: 22.260869565217... s."""
+    assert build(planned(JAMES + DRIVE.format("sun", "turns = 5.56521739130434782") + MOTION), tmp_path).well
+
+
 def test_a_scene_without_drives_has_no_motion() -> None:
     with pytest.raises(SceneError, match="shows what a drive moves"):
         planned(FREE + MOTION)

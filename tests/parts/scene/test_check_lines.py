@@ -22,3 +22,14 @@ def test_names_that_count_on_are_a_row() -> None:
         "BROKEN: bolt_4 stands apart",
         "drive disk: disk 2, pin_1 ... pin_3 0.5, pin_4 0.25 turns",
     ]
+
+
+def test_what_was_held_all_over_says_over_what() -> None:
+    """Nothing that can meet, and pairs that no drive moves against each other."""
+    still = [("one", "two", ()), ("one", "three", ("disk",))]
+    for tested, poses, told in (
+        ([], 0, "solids wherever drives may stand: none can meet another"),
+        (still, 2, "solids wherever drives may stand: 1 pair as they stand, 1 pair over disk; 2 poses"),
+    ):
+        found = {"workspace": {"tested": tested, "rest": {}, "poses": poses, "uncovered": [], "fits": []}}
+        assert check_lines(found, "en") == [told]
