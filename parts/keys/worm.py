@@ -15,6 +15,11 @@ if TYPE_CHECKING:
 AxialModule = Annotated[float, mm("axial module of the worm", above=0, most=1000, example=2.0)]
 Starts = Annotated[int, Meta(ge=1, le=50, description="starts of the worm, z1")]
 Quotient = Annotated[float, Meta(gt=0, le=1000, description="q = d1 / m")]
+# of a worm that gives neither q nor a lead angle
+USUAL_QUOTIENT = 10.0
+WormQuotient = Annotated[
+    float, Meta(gt=0, le=1000, description="q = d1 / m; default: 10", examples=[USUAL_QUOTIENT])
+]  # fmt: skip
 Form = Annotated[Literal["ZA", "ZI", "ZN1", "ZN2", "ZK1"], Meta(description="form of the flanks, GOST 18498")]
 WormAngle = Annotated[
     float, degrees("in the axial section (ZA), in the normal one, or of the grinding wheel (ZK1)", above=0, below=60)
@@ -55,8 +60,8 @@ class Threaded(Protocol):
         """z1."""
 
     @property
-    def diameter_quotient(self) -> float:
-        """d1 / m."""
+    def diameter_quotient(self) -> float | None:
+        """d1 / m; the usual one where it is not given."""
 
     @property
     def form(self) -> str:
@@ -96,7 +101,7 @@ def worm_of(keys: Threaded, fillet_coefficient: float = 0.2, thinning: float = 0
     return Worm(
         keys.module,
         keys.number_of_starts,
-        keys.diameter_quotient,
+        keys.diameter_quotient or USUAL_QUOTIENT,
         keys.form,
         math.radians(keys.pressure_angle_deg),
         keys.hand,

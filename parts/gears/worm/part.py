@@ -15,23 +15,26 @@ from geometry.base.nearest import nearest
 from geometry.solids.hub_holes import HubHoles, least_wall
 from parts.base.kind import Kind, Others, Report
 from parts.keys.accuracy import AccuracyKey
-from parts.keys.base import BoreDiameter, MaterialKeys, degrees, either, mm
+from parts.keys.base import BoreDiameter, MaterialKeys, degrees, mm
 from parts.keys.holes import BoreTable, bore_of, hub_holes, wide_bore
 from parts.keys.worm import (
+    USUAL_QUOTIENT,
     Addendum,
     AxialModule,
     Clearance,
     Fillet,
     Form,
     GrindingWheel,
-    Quotient,
     Starts,
     WormAngle,
     WormHand,
+    WormQuotient,
     worm_of,
 )  # fmt: skip
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from geometry.gears.worms.body import WormBody
     from geometry.gears.worms.thread import Thread
     from geometry.plane.offset_region import OffsetRegion
@@ -39,8 +42,6 @@ if TYPE_CHECKING:
     from geometry.solids.sketch import Sketch
 
 _MOST = 100_000.0
-# where it is not given
-_QUOTIENT = 10.0
 
 
 class StepTable(Struct, forbid_unknown_fields=True):
@@ -67,7 +68,7 @@ class WormSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field
     module: AxialModule
     thread_length: Annotated[float, mm("threaded length b1, at the root", above=0, most=10_000, example=40.0)]
     number_of_starts: Starts = 1
-    diameter_quotient: Quotient = _QUOTIENT
+    diameter_quotient: WormQuotient | None = None
     lead_angle_deg: (
         Annotated[float, degrees("lead angle on the reference cylinder, in place of q", above=0, below=89, example=5.7)]
         | None
@@ -95,12 +96,20 @@ class WormSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field
 
 
 def told_worm(keys: WormSpec) -> WormSpec:
-    """The keys with the diameter quotient of their lead angle."""
+    """The keys with the diameter quotient of their lead angle, where they give one.
+
+    Raises
+    ------
+    ParameterError
+        They give both, and these do not agree.
+    """
     if keys.lead_angle_deg is None:
         return keys
-    if keys.diameter_quotient != _QUOTIENT:
-        raise either("diameter_quotient", keys.diameter_quotient, "lead_angle_deg", _QUOTIENT)
-    return changed(keys, diameter_quotient=keys.number_of_starts / math.tan(math.radians(keys.lead_angle_deg)))
+    wanted, given = keys.number_of_starts / math.tan(math.radians(keys.lead_angle_deg)), keys.diameter_quotient
+    if given is not None and not math.isclose(given, wanted, rel_tol=1e-9):
+        told = {"one": "lead_angle_deg", "other": "diameter_quotient"}
+        raise ParameterError("diameter_quotient", given, "either_key", Nearest(None), **told)
+    return changed(keys, diameter_quotient=wanted)
 
 
 def thread_of_keys(keys: WormSpec) -> Thread:
@@ -176,6 +185,12 @@ class WormKind(Kind[WormSpec, "WormBody"]):
     name, keys = "worm", WormSpec
     drawing = "parts.gears.drawings"
     data_table = "parts.gears.data_tables"
+
+    def gathered(self, keys: WormSpec, folder: Path) -> WormSpec:
+        """The keys with the usual quotient where neither it nor a lead angle is given."""
+        if keys.lead_angle_deg is not None:
+            return keys
+        return changed(keys, diameter_quotient=keys.diameter_quotient or USUAL_QUOTIENT)
 
     def thing(self, keys: WormSpec, others: Others) -> WormBody:
         """The worm's solid, checked to exist."""

@@ -141,12 +141,20 @@ def test_files_of_extreme_worms_are_read_back_as_they_should_be(name: str, tmp_p
         ({"shaft_below": [{"diameter": 20.0, "length": 5.0, "chamfer": 6.0}]}, "shaft_below.item 1.chamfer"),
         ({"bore_diameter": 40.0}, "bore_diameter"),
         ({"diameter_quotient": 12.0, "lead_angle_deg": 10.0}, "diameter_quotient"),
+        # before: the usual q was dropped
+        ({"diameter_quotient": 10.0, "lead_angle_deg": 12.0}, "diameter_quotient"),
     ],
 )
 def test_a_worm_that_cannot_be_is_refused_with_a_value_that_works(keys: dict[str, Any], key: str) -> None:
     refusal = refused({"worm": WORM | keys})
     assert refusal.key == f"parts.worm.{key}"
     assert cured({"worm": WORM | keys}, refusal) is not None
+
+
+def test_a_quotient_may_say_the_same_as_the_lead_angle() -> None:
+    lead = math.degrees(math.atan(0.1))
+    alone, both = part_of(lead_angle_deg=lead), part_of(lead_angle_deg=lead, diameter_quotient=10.0)
+    assert both.circles == alone.circles == pytest.approx(part_of().circles)
 
 
 def test_a_negative_module_is_refused_by_its_range() -> None:
