@@ -13,6 +13,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from exporters.drawings.dashes import LONGEST
+from exporters.drawings.write import BEARING
 from geometry.curves.curve import Complex
 from parts.base.readback import ReadError
 from parts.drawing.canvas import FRAME, STYLES
@@ -91,8 +92,9 @@ def _read_dxf(file: Path) -> ReadSheet:
                 _add_spline(sheet, curve, curve.spans(share).ravel(), after_another=last == curve.layer)
         last = curve.layer if isinstance(curve, DrawnSpline) else ""
     for one in words:
-        way = one.right - one.left
-        sheet.texts.append(ReadText(one.text, one.left, abs(way), one.height, base_line(way)))
+        way, free = base_line(one.right - one.left), BEARING * one.height
+        width = abs(one.right - one.left) + 2 * free
+        sheet.texts.append(ReadText(one.text, one.left - free * way, width, one.height, way))
     return sheet
 
 

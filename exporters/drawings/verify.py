@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -12,16 +12,23 @@ import numpy as np
 from exporters.drawings.read import read_sheets
 from exporters.drawings.sheets import sheet_rounding
 from exporters.verification.verdict import Verdict
+from geometry.approximation.outline import CadCurve
+from geometry.curves.curve import Complex, Real
+from geometry.curves.line_arc import Arc, Line
 from geometry.plane.measure import distance_to_curves
 from parts.base.readback import ReadError
-from parts.drawing.canvas import Box, Canvas
+from parts.drawing.canvas import Box, Canvas, Run
 from parts.drawing.expected import Expected, Meshing
-from parts.drawing.readback import ReadSheet, ReadText
+from parts.drawing.readback import PER_CURVE, ReadSheet, ReadText
 
 # share of the paper's size that numbers of a file may be off
 _ROUNDING = 1e-11
 # mm: the size of a page is told in hundredths of a point
 _PAPER = 0.01
+# mm of words that are off by no more than a place's rounding
+_PER_PLACE = 20.0
+# mm: a line whose ends are so near to each other and whose points are so near to a circle is one
+_SHUT = 1e-4
 
 
 def verify_sheets(file: Path, pages: Sequence[Expected], tolerance: float) -> Verdict:
@@ -54,6 +61,7 @@ def _check(
     if expected.measures is not None:
         expected.measures.check(sheet, allowed, measured, failures)
     _check_words(sheet, canvas, measured, failures)
+    _check_strokes(sheet, canvas, allowed, failures)
     _check_frame(sheet, canvas.reach.grown(allowed), failures)
 
 
@@ -138,11 +146,8 @@ def _check_meshing(
 
 
 def _check_words(sheet: ReadSheet, canvas: Canvas, measured: dict[str, float], failures: list[str]) -> None:
-    """All words are there, none over another, all in the frame."""
-    wanted = Counter(run.text for text in canvas.texts for run in text.runs)
-    missing = wanted - Counter(t.text for t in sheet.texts)
-    if missing:
-        failures.append(f"words are missing: {', '.join(sorted(missing))}")
+    """All words stand where they should and none beside, none over another, all in the frame."""
+    _check_places(sheet, canvas, failures)
     # a rounding less than each: neighbours may touch
     boxes = [_box(t).grown(-sheet.rounding) for t in sheet.texts]
     for index, box in enumerate(boxes):
@@ -152,6 +157,85 @@ def _check_words(sheet: ReadSheet, canvas: Canvas, measured: dict[str, float], f
             if box.overlaps(boxes[other]):
                 failures.append(f"{sheet.texts[index].text} stands over {sheet.texts[other].text}")
     measured["words"] = float(len(boxes))
+
+
+def _check_places(sheet: ReadSheet, canvas: Canvas, failures: list[str]) -> None:
+    """Every word is at its place, as long, as high and turned as it should be."""
+    runs = [run for text in canvas.texts for run in text.runs]
+    missing = Counter(run.text for run in runs) - Counter(t.text for t in sheet.texts)
+    if missing:
+        failures.append(f"words are missing: {', '.join(sorted(missing))}")
+    for text in sorted({run.text for run in runs if run.text not in missing} | {t.text for t in sheet.texts}):
+        wanted = _rows(_marks(run) for run in runs if run.text == text)
+        found = _rows(_marks(t) for t in sheet.texts if t.text == text)
+        # lengths are as exact as the widths of all letters together
+        longest = max((run.width for run in runs if run.text == text), default=0.0)
+        away, strange = _unmatched(wanted, found, sheet.rounding * max(1.0, longest / _PER_PLACE))
+        failures += [f"{text} does not stand at {_told(wanted[k, 0])} mm as it should" for k in away]
+        failures += [f"{text} stands at {_told(found[k, 0])} mm where it should not" for k in strange]
+
+
+def _marks(words: Run | ReadText) -> tuple[complex, complex, complex]:
+    """Both ends of the base line, and the top above its beginning."""
+    return words.at, words.at + words.width * words.way, words.at + 1j * words.height * words.way
+
+
+def _check_strokes(sheet: ReadSheet, canvas: Canvas, allowed: float, failures: list[str]) -> None:
+    """Every line of every layer is there, and none beside; splines are held at their ends, their ways elsewhere."""
+    for layer in {s.layer: None for s in canvas.strokes} | {name: None for name, _ in sheet.samples}:
+        wanted = _rows(_trace(*_sampled(s.curve)) for s in canvas.strokes if s.layer == layer)
+        found = _rows(_trace(points) for name, points in sheet.samples if name == layer)
+        away, strange = _unmatched(wanted, found, allowed)
+        failures += [f"{layer}: no line from {_told(wanted[k, 0])} to {_told(wanted[k, 2])} mm" for k in away]
+        failures += [f"{layer}: a line too many from {_told(found[k, 0])} to {_told(found[k, 2])} mm" for k in strange]
+
+
+def _sampled(curve: CadCurve) -> tuple[Complex, bool]:
+    """Points of a curve, and whether files have its middle at the middle of their own."""
+    return curve.point(np.linspace(*curve.domain, PER_CURVE)), isinstance(curve, Line | Arc)
+
+
+def _trace(points: Complex, even: bool = True) -> tuple[complex, complex, complex]:
+    """What a line is known by: its ends and its middle (nan: any); of a full circle centre, right end and centre."""
+    third = len(points) // 3
+    centre = complex((points[0] + points[third] + points[2 * third]) / 3)
+    radii = np.abs(points - centre)
+    if abs(points[-1] - points[0]) < _SHUT and np.ptp(radii) < _SHUT:
+        return centre, centre + float(radii.mean()), centre
+    return complex(points[0]), complex(points[len(points) // 2]) if even else complex("nan"), complex(points[-1])
+
+
+def _rows(rows: Iterable[tuple[complex, complex, complex]]) -> Complex:
+    return np.array([*rows], dtype=np.complex128).reshape(-1, 3)
+
+
+def _unmatched(wanted: Complex, found: Complex, allowed: float) -> tuple[list[int], list[int]]:
+    """Which rows of three points have no partner: either way round, each partner taken once, mostly in order."""
+    left, free = [], np.ones(len(found), dtype=np.bool_)
+    for k, row in enumerate(wanted):
+        if k < len(found) and free[k] and _off(row, found[k : k + 1])[0] <= allowed:
+            free[k] = False
+        else:
+            left.append(k)
+    away = []
+    for k in left:
+        off = np.where(free, _off(wanted[k], found), np.inf)
+        best = int(off.argmin()) if len(off) else -1
+        if best >= 0 and off[best] <= allowed:
+            free[best] = False
+        else:
+            away.append(k)
+    return away, [int(k) for k in np.flatnonzero(free)]
+
+
+def _off(row: Complex, others: Complex) -> Real:
+    """How far three points are from those of other rows, read forwards or backwards; (n,)."""
+    ways = np.stack([np.abs(others - row), np.abs(others[:, ::-1] - row)])
+    return np.asarray(np.fmax.reduce(ways, axis=2).min(axis=0))
+
+
+def _told(at: complex) -> str:
+    return f"{at.real:.3f}, {at.imag:.3f}"
 
 
 def _box(text: ReadText) -> Box:

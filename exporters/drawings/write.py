@@ -32,7 +32,7 @@ _STYLE, _SYMBOLS_STYLE = "unicode", "lc_opengost-ar"
 _OF_UNICODE = re.compile(r"[\u0020-\u00ff\u0400-\u04ff\u2032\u2033]*")
 _LINE_TYPES = {2: "DASHED2", 4: "CENTER2"}
 # what letters leave free on either side, parts of their height: programs fit what is black between two points
-_BEARING = 0.07
+BEARING = 0.07
 # how words are turned whose base line does not run to the right, degrees
 _TURNS = {1j: -90, -1: 180}
 # the letters of the widths that are stated, and others as wide
@@ -86,7 +86,7 @@ def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
         entity = spaces.get(("texts", index), space).add_text(
             run.text, height=round(run.height, DRAWN_DECIMALS), dxfattribs={"layer": "TEXT", "style": _style(run)}
         )
-        free = _BEARING * run.height
+        free = BEARING * run.height
         left, right = place_of(run.at + free * run.way), place_of(run.at + (run.width - free) * run.way)
         entity.set_placement(left, right, align=TextEntityAlignment.FIT)
         counts["TEXT"] = counts.get("TEXT", 0) + 1

@@ -224,6 +224,52 @@ def test_the_same_bytes_twice_and_a_dimension_that_lies_is_seen(tmp_path: Path) 
     assert any("dimension" in failure.lower() for failure in job.verify(file, 0.0).failures)
 
 
+_WORD = re.compile(r"<text x=\"([-.\d]+)\" y=\"([-.\d]+)\" ([^>]*)>([^<]*)</text>")
+
+
+@pytest.mark.parametrize("spoil", ["words", "moved", "DIMENSION", "HATCH", "TABLE", "THIN", "more"])
+def test_what_stands_elsewhere_in_a_file_is_seen(tmp_path: Path, spoil: str) -> None:
+    """Two words exchanged, one moved, a line of any layer moved or too many: each passed as it was."""
+    job = jobs(PARTS["shaft"] if spoil == "THIN" else PARTS["gear"], formats=("svg",))[0]
+    file = tmp_path / "a.svg"
+    job.write({}, file)
+    assert not job.verify(file, 0.0).failures
+    text = file.read_text()
+    found = _WORD.findall(text)
+    if spoil == "words":
+        one, two = (next(w for w in found if w[3] == said) for said in ("m", "z"))
+        pairs = [(">m</text>", ">§</text>"), (">z</text>", ">m</text>"), (">§</text>", ">z</text>")]
+        assert one != two
+    elif spoil == "moved":
+        x = next(w for w in found if w[3] == "z")[0]
+        pairs = [(f'x="{x}"', f'x="{float(x) - 15:g}"')]
+    else:
+        group = re.search(rf'<g id="{"TABLE" if spoil == "more" else spoil}".*?</g>', text, re.DOTALL)
+        assert group is not None
+        path = re.search(r'<path d="M([-.\d]+),([-.\d]+) L([-.\d]+),([-.\d]+)"/>', group[0])
+        assert path is not None
+        x, y, u, v = map(float, path.groups())
+        moved = f'<path d="M{x + 1.5:.8f},{y} L{u + 1.5:.8f},{v}"/>'
+        pairs = [(path[0], path[0] + moved if spoil == "more" else moved)]
+    for old, new in pairs:
+        assert old in text
+        text = text.replace(old, new, 1)
+    file.write_text(text)
+    assert job.verify(file, 0.0).failures
+
+
+def test_words_exchanged_in_a_dxf_are_seen(tmp_path: Path) -> None:
+    """The number of teeth in the module's place."""
+    job = jobs(PARTS["gear"], formats=("dxf",))[0]
+    file = tmp_path / "a.dxf"
+    job.write({}, file)
+    document = ezdxf.readfile(file)
+    one, two = (next(e for e in document.modelspace().query("TEXT") if e.dxf.text == said) for said in ("m", "z"))
+    one.dxf.text, two.dxf.text = "z", "m"
+    document.saveas(file)
+    assert any("does not stand at" in told for told in job.verify(file, 0.0).failures)
+
+
 def test_a_drawing_is_named_as_all_files_of_its_part_and_a_pdf_as_its_scene() -> None:
     formats = ("dxf", "svg", "pdf")
     assert [job.path for job in jobs(PARTS["bearing"], formats=formats)] == ["p.part.dxf", "p.part.svg", "t.part.pdf"]
