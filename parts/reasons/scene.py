@@ -53,6 +53,7 @@ REASONS = {
     "model_is_full_size": N_("a paper model is in full size, on bare sheets"),
     "list_has_its_form": N_("a parts list stands on A4, in its own form"),
     "only_for_purpose": N_('only for purpose = "{purpose}"'),
+    "position_of_another": N_("is that of {other} too, which has another title, designation, standard or material"),
     "placed_is_the_second": N_(
         "is not placed, but {second} is; swap first and second (direction_deg = {angle}), or give instances.{first}.at"
     ),

@@ -476,6 +476,10 @@ def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mat
         from parts.scene.checks import check_solids
 
         check_solids(chamfered, source)
+    if any(value_at(part.keys, "position") for part in parts.values()):
+        from parts.scene.parts_list import check_positions
+
+        check_positions(parts, scene.scene.language, source)
     return parts, matings
 
 

@@ -7,7 +7,9 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from geometry.base.errors import Nearest
 from parts.base.materials import material_told
+from parts.base.refusal import SceneError
 from parts.base.texts import words
 from parts.drawing.parts_list import SECTIONS, ListRow
 
@@ -40,6 +42,23 @@ def list_rows(instances: Sequence[Instance], parts: Mapping[str, Part], language
         told, count = _told(parts[ids[0]], language)[1:], sum(counts[p] for p in ids)
         rows.append(ListRow(str(section), position, *told, count, mass, total, tuple(ids)))
     return tuple(sorted(rows, key=lambda row: (list(SECTIONS).index(row.section), row.position)))
+
+
+def check_positions(parts: Mapping[str, Part], language: str, source: str) -> None:
+    """Refuse two parts of one position that the list cannot tell on one line.
+
+    Raises
+    ------
+    SceneError
+        In the position of the second; names the first.
+    """
+    numbered = {key: position for key, part in parts.items() if (position := _keys(part).position) is not None}
+    first: dict[int, Part] = {}
+    for key, position in numbered.items():
+        one = first.setdefault(position, parts[key])
+        if _told(one, language) != _told(parts[key], language):
+            free, place = Nearest(max(numbered.values()) + 1), f"parts.{key}.position"
+            raise SceneError(source, place, position, "position_of_another", free, other=f"parts.{one.id}")
 
 
 def _keys(part: Part) -> MaterialKeys:

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from exporters.command.cli import main
+from exporters.production.plan import plan_build
 from parts.base.refusal import SceneError
 from parts.scene.load import scene_from_toml
 
@@ -101,6 +102,22 @@ def test_a_gear_that_cannot_be_chamfered_is_in_no_file(
     )
     assert main(["build", str(file), "--out", str(tmp_path / "out")]) == 2
     assert "parts.g.face_chamfer = 0.8: leaves nothing of the tooth outline" in capsys.readouterr().err
+
+
+def test_two_parts_have_one_position_only_where_the_list_tells_them_alike(tmp_path: Path) -> None:
+    # before: the file told the item twice
+    pin = '[parts.{name}]\nkind = "pin"\ndiameter = {size}\nlength = 9.0\nposition = 3\ntitle = "{title}"\n'
+    text = pin.format(name="a", size=4.0, title="Pin") + pin.format(name="b", size=5.0, title="{title}")
+    text += '[[exports]]\nformat = "csv"\n'
+    (file := tmp_path / "s.toml").write_text(text.format(title="Pin"))
+    assert main(["build", str(file), "--out", str(tmp_path / "out")]) == 0
+    rows = list(csv.DictReader((tmp_path / "out/s/s.parts_list.csv").read_text().splitlines()))
+    assert [(row["Item"], row["Qty"]) for row in rows] == [("3", "2")]
+    with pytest.raises(SceneError) as caught:
+        plan_build(scene_from_toml(text.format(title="Axle").encode(), "s", "s"), "s", [], [])
+    assert "parts.b.position = 3" in str(caught.value)
+    assert "parts.a" in str(caught.value)
+    assert "4 works" in str(caught.value)
 
 
 @pytest.mark.heavy
