@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -18,9 +18,11 @@ from parts.drawing.working import (
     AXIS,
     HIDDEN,
     VISIBLE,
+    Cut,
     Note,
     PartDrawing,
     Round,
+    Side,
     Size,
     Stroke,
     Subject,
@@ -44,7 +46,8 @@ def part_drawing(subject: Subject) -> PartDrawing:
     found = [_long_view(half, loop, subject, is_shaft=is_shaft, cut=hollow or not is_shaft)]
     if half.holes:
         found.append(_face(half, subject))
-    found += [_keyway(half, pocket, k, subject) for k, pocket in enumerate(half.pockets)]
+    if half.pockets:
+        found += _keyways(half, found[0].cuts, subject)
     return PartDrawing(tuple(found), requirements(subject))
 
 
@@ -67,8 +70,14 @@ def _long_view(half: HalfSection, loop: Loop, subject: Subject, *, is_shaft: boo
     strokes: list[Stroke] = []
     outer = [curve for curve in loop if cut or is_outer(loop, curve)]
     inner = [curve for curve in loop if curve not in outer]
-    for side in (outer, below(outer)):
+    # hollow shafts are cut through their first keyway
+    notched = [p for p in half.pockets if cut and abs(_across(half, p).real) < _SAME]
+    upper, lower = (_notched(outer, [p for p in notched if _across(half, p).imag * way > 0]) for way in (1, -1))
+    for side in (upper, below(lower)):
         strokes += outlined(side)
+    for pocket in notched:
+        rim = math.copysign(math.sqrt(_radius(half, pocket) ** 2 - pocket.width**2 / 4), _across(half, pocket).imag)
+        strokes.append((VISIBLE, Line(complex(pocket.low, rim), complex(pocket.high, rim))))
     for side in (inner, below(inner)):
         strokes += [(HIDDEN, curve) for _, curve in outlined(side)]
     for edge in seen_edges(loop, cut=cut):
@@ -78,10 +87,13 @@ def _long_view(half: HalfSection, loop: Loop, subject: Subject, *, is_shaft: boo
     wishes = subject.wishes
     fits, largest = ((wishes.shaft, ""), None) if is_shaft else (("", wishes.bore), wishes.tip)
     sizes = [*diameters(loop, fits, largest), *lengths(loop), *chamfers(loop)]
-    for k, pocket in enumerate(half.pockets, 1):
-        strokes += _slot(pocket)
-        # seen from above, where it lies in the middle
-        ends = complex(pocket.low, 0), complex(pocket.high, 0)
+    shown = dict[tuple[float, float], int]()
+    for pocket in half.pockets:
+        if pocket not in notched:
+            strokes += _seen_slot(half, pocket, cut=cut)
+        shown.setdefault((round(pocket.low, 9), round(pocket.high, 9)), len(shown) + 1)
+    for (first, last), k in shown.items():
+        ends = complex(first), complex(last)
         sizes.append(Size(f"keyway.{k}.length", *ends, "above"))
         sizes.append(Size(f"keyway.{k}.at", complex(low), ends[0], "above"))
     for radius in sorted({round(abs(hole.centre), 9) for hole in half.holes}):
@@ -90,8 +102,11 @@ def _long_view(half: HalfSection, loop: Loop, subject: Subject, *, is_shaft: boo
             strokes += [(VISIBLE, line if way > 0 else line.mirrored()) for line in _walls(loop, found[0])]
             axes.append(Line(complex(low, way * radius), complex(high, way * radius)))
         sizes.append(Size("holes.pitch_circle_diameter", complex(low, -radius), complex(low, radius), "left", "Ø"))
-    hatched = (tuple(loop), below(loop)) if cut else ()
-    return View(tuple(strokes), hatched, tuple(axes), tuple(sizes), tuple(_fillets(loop)), _rough(loop, subject))
+    hatched = (tuple(upper), below(lower)) if cut else ()
+    cuts = tuple(Cut(at, letter) for at, letter in zip(_planes(half), _LETTERS, strict=False))
+    return View(
+        tuple(strokes), hatched, tuple(axes), tuple(sizes), tuple(_fillets(loop)), _rough(loop, subject), cuts=cuts
+    )
 
 
 def _fillets(loop: Loop) -> Iterator[Round]:
@@ -149,43 +164,148 @@ def _face(half: HalfSection, subject: Subject) -> View:
     return View(tuple(strokes), (), tuple(axes), (), tuple(rounds))
 
 
-def _slot(pocket: Pocket) -> list[Stroke]:
+def _front(half: HalfSection) -> float:
+    """The direction that looks at the reader in the long view, rad: the first keyway's, or a quarter off where cut."""
+    return half.pockets[0].angle + (math.pi / 2 if half.radii()[0] > 0 else 0.0)
+
+
+def _across(half: HalfSection, pocket: Pocket) -> complex:
+    """The direction of a keyway in sections seen from the lower end: the reader's side on the right, up as it is."""
+    return cmath.exp(1j * (_front(half) - pocket.angle))
+
+
+def _radius(half: HalfSection, pocket: Pocket) -> float:
+    """Of the cylinder that a keyway is in, mm."""
+    middle = (pocket.low + pocket.high) / 2
+    return max(p.start.real for p in half.pieces
+               if p.centre is None and abs(p.start.real - p.end.real) < _SAME
+               and min(p.start.imag, p.end.imag) <= middle <= max(p.start.imag, p.end.imag))  # fmt: skip
+
+
+def _notched(loop: Loop, pockets: Sequence[Pocket]) -> list[Line | Arc]:
+    """A loop with the keyways that lie in its plane."""
+    found = list(loop)
+    for pocket in pockets:
+        k, wall = max(
+            ((k, c) for k, c in enumerate(found) if isinstance(c, Line) and abs(c.start.imag - c.end.imag) < _SAME
+             and min(c.start.real, c.end.real) < pocket.low and pocket.high < max(c.start.real, c.end.real)),
+            key=lambda pair: pair[1].start.imag,
+        )  # fmt: skip
+        top, ends = wall.start.imag, sorted((pocket.low, pocket.high), reverse=wall.start.real > wall.end.real)
+        places = [(ends[0], top), (ends[0], pocket.floor), (ends[1], pocket.floor), (ends[1], top)]
+        found[k : k + 1] = [Line(a, b) for a, b in pairwise([wall.start, *(complex(*p) for p in places), wall.end])]
+    return found
+
+
+def _seen_slot(half: HalfSection, pocket: Pocket, *, cut: bool) -> list[Stroke]:
+    """A keyway in the long view: its floor and its rim, hidden where it looks away or stands before the cut."""
+    way, radius = _across(half, pocket), _radius(half, pocket)
+    layer = VISIBLE if way.real > _SAME and not cut else HIDDEN
+    if abs(way.imag) < _SAME:
+        return [(layer, curve) for curve in _slot(pocket)]
+    if abs(way.real) < _SAME:
+        floor, rim = way.imag * pocket.floor, way.imag * radius
+        corners = [complex(pocket.low, rim), complex(pocket.low, floor), complex(pocket.high, floor)]
+        return [(HIDDEN, Line(a, b)) for a, b in pairwise([*corners, complex(pocket.high, rim)])]
+    plan = np.concatenate(
+        [c.point(np.linspace(*c.domain, 2 if isinstance(c, Line) else 33))[:-1] for c in _slot(pocket)]
+    )
+    found: list[Stroke] = []
+    for name, heights in ((layer, np.sqrt(radius**2 - plan.imag**2)), (HIDDEN, np.full(plan.size, pocket.floor))):
+        points = plan.real + 1j * (way.imag * heights + way.real * plan.imag)
+        found += [(name, line) for line in closed(points.tolist())]
+    return found
+
+
+def _slot(pocket: Pocket) -> tuple[Line | Arc, ...]:
     """A keyway as it is seen from above."""
     half = pocket.width / 2
     if not pocket.round_ends:
         corners = [complex(x, y) for x, y in ((pocket.low, -half), (pocket.high, -half), (pocket.high, half),
                                               (pocket.low, half))]  # fmt: skip
-        return [(VISIBLE, line) for line in closed(corners)]
+        return closed(corners)
     low, high = complex(pocket.low + half), complex(pocket.high - half)
-    return [
-        (VISIBLE, Line(low - 1j * half, high - 1j * half)),
-        (VISIBLE, Arc(high, half, -math.pi / 2, math.pi)),
-        (VISIBLE, Line(high + 1j * half, low + 1j * half)),
-        (VISIBLE, Arc(low, half, math.pi / 2, math.pi)),
-    ]
-
-
-def _keyway(half: HalfSection, pocket: Pocket, number: int, subject: Subject) -> View:
-    """The section across a keyway, which stands upwards."""
-    middle = (pocket.low + pocket.high) / 2
-    radius = max(p.start.real for p in half.pieces
-                 if p.centre is None and abs(p.start.real - p.end.real) < _SAME
-                 and min(p.start.imag, p.end.imag) <= middle <= max(p.start.imag, p.end.imag))  # fmt: skip
-    w, inner = pocket.width / 2, half.radii()[0]
-    rim = math.sqrt(radius * radius - w * w)
-    turn = cmath.phase(complex(w, rim))
-    around = Arc(0j, radius, math.pi - turn, math.pi + 2 * turn)
-    walls = [complex(w, rim), complex(w, pocket.floor), complex(-w, pocket.floor), complex(-w, rim)]
-    lines: list[Line | Arc] = [Line(a, b) for a, b in pairwise(walls)]
-    bore = [circle_of(inner)] if inner > 0 else list[Arc]()
-    sizes = (
-        Size(f"keyway.{number + 1}.width", complex(-w, rim), complex(w, rim), "above", "", subject.wishes.shaft_keyway),
-        Size(f"keyway.{number + 1}.height", -1j * radius, 1j * pocket.floor, "right"),
+    return (
+        Line(low - 1j * half, high - 1j * half),
+        Arc(high, half, -math.pi / 2, math.pi),
+        Line(high + 1j * half, low + 1j * half),
+        Arc(low, half, math.pi / 2, math.pi),
     )
-    letter = _LETTERS[number % len(_LETTERS)]
-    shown: tuple[Line | Arc, ...] = (*lines, around, *bore)
+
+
+def _crossed(half: HalfSection, at: float) -> list[Pocket]:
+    return [p for p in half.pockets if p.low < at < p.high]
+
+
+def _planes(half: HalfSection) -> list[float]:
+    """Where sections are drawn: through every keyway, through those beside each other at once."""
+    found: list[float] = []
+    for pocket in half.pockets:
+        if not any(pocket.low < at < pocket.high for at in found):
+            found.append((pocket.low + pocket.high) / 2)
+    return found
+
+
+def _keyways(half: HalfSection, cuts: Sequence[Cut], subject: Subject) -> Iterator[View]:
+    """The sections through keyways, those that stand aslant there once more, turned."""
+    for cut in cuts:
+        here = _crossed(half, cut.at)
+        told: list[Pocket] = []
+        for pocket in here:
+            if pocket in told:
+                continue
+            way = _across(half, pocket)
+            aslant = cmath.phase(way) - math.pi / 2 * round(cmath.phase(way) / (math.pi / 2))
+            turn = cmath.exp(-1j * aslant) if abs(aslant) > _SAME else 1.0 + 0j
+            seen = [p for p in here if p not in told and _upright(turn * _across(half, p))]
+            title = f"{cut.letter}-{cut.letter}"
+            if turn != 1.0:
+                angle = subject.say(abs(math.degrees(aslant)))
+                title += f" {sheet_words(subject.language, 'turned_by', angle=angle)}"
+            yield _keyway(half, here, seen, turn, title, subject)
+            told += seen
+
+
+def _upright(way: complex) -> bool:
+    return min(abs(way.real), abs(way.imag)) < _SAME
+
+
+_SIDES: dict[complex, tuple[Side, Side]] = {
+    1: ("right", "below"), 1j: ("above", "right"), -1: ("left", "above"), -1j: ("below", "left"),
+}  # fmt: skip
+
+
+def _keyway(
+    half: HalfSection, here: Sequence[Pocket], told: Sequence[Pocket], turn: complex, title: str, subject: Subject
+) -> View:
+    """A section through keyways, with the sizes of those that are told in it."""
+    radius, inner = _radius(half, here[0]), half.radii()[0]
+    pieces: list[tuple[float, list[complex]]] = []
+    sizes: list[Size] = []
+    for pocket in here:
+        way, w = turn * _across(half, pocket), pocket.width / 2
+        rim = math.sqrt(radius * radius - w * w)
+        walls = [complex(rim, -w), complex(pocket.floor, -w), complex(pocket.floor, w), complex(rim, w)]
+        if _upright(way):
+            way = complex(round(way.real), round(way.imag))
+        pieces.append((cmath.phase(way) % math.tau, [p * way for p in walls]))
+        if pocket not in told:
+            continue
+        across, along = _SIDES[way]
+        number = half.pockets.index(pocket) + 1
+        faced = any(abs(turn * _across(half, p) + way) < _SAME for p in here)
+        sizes += [
+            Size(f"keyway.{number}.width", way * walls[0], way * walls[3], across, "", subject.wishes.shaft_keyway),
+            Size(f"keyway.{number}.height", way * radius * (1 if faced else -1), way * pocket.floor, along),
+        ]
+    pieces.sort(key=lambda pair: pair[0])
+    rims: list[Line | Arc] = []
+    for k, (_, walls) in enumerate(pieces):
+        rims += [Line(a, b) for a, b in pairwise(walls)]
+        start, end = cmath.phase(walls[-1]), cmath.phase(pieces[(k + 1) % len(pieces)][1][0])
+        rims.append(Arc(0j, radius, start, (end - start) % math.tau))
+    bore = [circle_of(inner)] if inner > 0 else list[Arc]()
     return View(
-        tuple((VISIBLE, curve) for curve in shown),
-        ((*lines, around), *((hole,) for hole in bore)), axis_cross(radius), sizes, (), (),
-        f"{letter}-{letter}", _LEAST_SECTION,
+        tuple((VISIBLE, curve) for curve in (*rims, *bore)), (tuple(rims), *((hole,) for hole in bore)),
+        axis_cross(radius), tuple(sizes), (), (), title, _LEAST_SECTION,
     )  # fmt: skip

@@ -31,7 +31,7 @@ from parts.drawing.canvas import (
     text_width,
 )
 from parts.drawing.hatching import hatching
-from parts.drawing.working import AXIS, Note, Round, Size, View, number_text
+from parts.drawing.working import AXIS, VISIBLE, Cut, Note, Round, Size, View, number_text
 
 # mm on paper: from the view to the first dimension line, from line to line; arrow, half its width; how far extension
 # lines reach beyond; from a line to its words; how far axes reach beyond their ends
@@ -50,6 +50,8 @@ _SLOPE = math.tan(math.radians(30))
 _SAMPLES = 33
 # rows of a side, and layouts of a view, that are tried
 _ROWS, _TRIES = 20, 12
+# marks of a section: from the view to the stroke, its length, its arrow; steps out where others stand there
+_MARK, _STROKE, _LOOK, _OUT = 2.0, 7.0, 6.0, 6
 # how much farther beyond the end of a dimension line its words may stand
 _FARTHER = (0.0, 4.0, 8.0, 13.0, 20.0, 30.0)
 # what words keep off lines
@@ -165,6 +167,8 @@ class _Layout:
             beyond = _AXIS * (end - start) / abs(end - start)
             self._stroke(AXIS, Line(start - beyond, end + beyond))
         self.rows: dict[str, list[list[tuple[float, float]]]] = {}
+        for cut in view.cuts:
+            self._cut(cut)
 
     def fill(self, sizes: Sequence[Size], leaders: Sequence[Round | Note], title: str) -> None:
         """Add all words with their lines, in this order."""
@@ -203,6 +207,25 @@ class _Layout:
     def _write(self, text: Text) -> None:
         self.canvas.texts.append(text)
         self.ink.boxes.append(text.box)
+
+    def _cut(self, cut: Cut) -> None:
+        """Both marks of a section, each in the nearest place where its letter is free."""
+        x = self.paper.point(complex(cut.at)).real
+        for way, edge in ((1, self.body.high), (-1, self.body.low)):
+            for k in range(_OUT):
+                low = edge + way * (_MARK + _STROKE * k)
+                tip = complex(x, low + way * (_STROKE - 2.0))
+                foot = tip - _LOOK
+                at = foot - text_width(cut.letter, TEXT_HEIGHT) - 1.0 - 1j * TEXT_HEIGHT / 2
+                text = text_of(cut.letter, at, TEXT_HEIGHT)
+                mark = Line(complex(x, low), complex(x, low + way * _STROKE))
+                lines = [Line(foot, tip), *_arrow(tip, -1)]
+                if self.ink.holds([mark, *lines], text.box) or k == _OUT - 1:
+                    self._stroke(VISIBLE, mark)
+                    for line in lines:
+                        self._stroke(_DIMENSION, line)
+                    self._write(text)
+                    break
 
     def _size(self, size: Size, coming: Sequence[complex]) -> bool:
         """A linear dimension: in the nearest row of its side in which its words are free; whether there is one.

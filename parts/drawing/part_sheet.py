@@ -9,7 +9,7 @@ from itertools import product
 
 import numpy as np
 
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc
 from geometry.plane.measure import distance_to_curves
@@ -203,7 +203,7 @@ def _laid(view: View, scale: float, asked: Asked) -> Laid | None:
         needed = view.least / max(_extent(view))
         own = next((s for s in reversed(SCALES) if s >= max(needed, scale)), SCALES[0])
         title = title if own == scale else f"{title} ({scale_text(own, asked.language)})"
-    made = View(view.strokes, view.hatched, view.axes, view.sizes, view.rounds, view.notes, title)
+    made = replace(view, title=title)
     return laid(made, own, asked.language, own=own != scale)
 
 

@@ -80,6 +80,13 @@ class Note(Record):
     looks: bool = False
 
 
+class Cut(Record):
+    """Marks of a section across the axis at x = ``at``, seen from the left: strokes, arrows, letters; GOST 2.305."""
+
+    at: float
+    letter: str
+
+
 class View(Record):
     """A view in model mm, its x axis the axis that it shares with its neighbours.
 
@@ -96,6 +103,7 @@ class View(Record):
     notes: tuple[Note, ...] = ()
     title: str = ""
     least: float = 0.0
+    cuts: tuple[Cut, ...] = ()
 
 
 class PartDrawing(Record):

@@ -105,6 +105,7 @@ SHEETS: dict[str, Text] = {
     "holes_of": counted("{count} hole ", "{count} holes ", by="count"),
     "spokes_of": counted("{count} spoke {width} wide", "{count} spokes {width} wide", by="count"),
     "view_a": in_context("drawing, name of a view", "A"),
+    "turned_by": N_("turned by {angle}°"),
     "unspecified_limits": N_("Unspecified limit deviations: H14, h14, ±IT14/2."),
 }
 

@@ -188,6 +188,33 @@ def test_what_is_changed_changes_its_own_dimensions_and_cells_alone(
     assert cells
 
 
+def shaft_keys(*angles: float, **other: Any) -> dict[str, Any]:
+    """A shaft with a keyway of its own in the first step, others in the second."""
+    ways = [{"at": 4.0, "length": 14.0, "angle_deg": angle} for angle in angles]
+    steps = [{"diameter": 20.0, "length": 30.0, "keyways": [{"at": 4.0, "length": 12.0}]},
+             {"diameter": 28.0, "length": 25.0, "keyways": ways}]  # fmt: skip
+    return {"kind": "shaft", "steps": steps, **other}
+
+
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize("bore", [0.0, 9.0])
+@pytest.mark.parametrize("angles", [(90.0,), (0.0,), (60.0,), (90.0, -90.0), (0.0, 135.0)])
+def test_keyways_stand_in_their_directions_with_marks_of_their_sections(
+    tmp_path: Path, angles: tuple[float, ...], bore: float
+) -> None:
+    job = jobs(shaft_keys(*angles, bore_diameter=bore), formats=("dxf",))[0]
+    job.write({}, tmp_path / job.path)
+    assert job.verify(tmp_path / job.path, 0.0).failures == ()
+    space = ezdxf.readfile(tmp_path / job.path).modelspace()
+    texts = [text.dxf.text for text in space.query("TEXT")]
+    assert (texts.count("A"), texts.count("B")) == (2, 2)
+    # each keyway has its own width and depth
+    assert sum("P9" in key for key in sizes(tmp_path / job.path)) == 1 + len(angles)
+    # the first looks at the reader, or stands in the section along the axis; others as they are
+    assert bool(space.query("*[layer=='HIDDEN']")) == any((angle % 180 if bore else angle) != 90 for angle in angles)
+    assert any("turned by" in text for text in texts) == any(angle % 90 for angle in angles)
+
+
 def test_refusals_name_their_key() -> None:
     with pytest.raises(SceneError) as caught:
         jobs(PARTS["gear"], paper="A4", scale="5:1")
