@@ -34,7 +34,7 @@ from parts.drawing.expected import Circle, Expected, Meshing
 from parts.drawing.font import missing_letters
 from parts.drawing.parts_list import form_of, list_sheets
 from parts.drawing.table import Row
-from parts.drawing.title_block import FORM_1, TITLE_BLOCK, draw_title_block, draw_turned, title_block_of
+from parts.drawing.title_block import FORM_1, TITLE_BLOCK, check_held, draw_title_block, draw_turned, title_block_of
 from parts.drawing.view import TEETH
 from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear
 from parts.keys.sheet import WORKING
@@ -161,7 +161,7 @@ def sheet_jobs(
         part = parts[shown[0]] if len(shown) == 1 and export.purpose not in ("parts_list", "assembly") else None
         # each part's drawing is a document of its own
         count = (1, 1) if export.purpose == "part" else (number, len(made))
-        _add_title_block(expected, scene, export, part, count)
+        _add_title_block(expected, scene, export, part, count, where, source)
         if export.cells == "empty":
             expected.canvas.texts[:] = [seen for text in expected.canvas.texts for seen in text.asked()]
     name, title = f"{scene.name}.{export.name or export.purpose}", scene.scene.title or scene.name
@@ -271,7 +271,13 @@ def _band(export: ExportSpec) -> float:
 
 
 def _add_title_block(
-    expected: Expected, scene: SceneFile, export: ExportSpec, part: Part | None, number: tuple[int, int]
+    expected: Expected,
+    scene: SceneFile,
+    export: ExportSpec,
+    part: Part | None,
+    number: tuple[int, int],
+    where: str,
+    source: str,
 ) -> None:
     """The title block on a sheet, where the export asks for one; of a single ``part`` with its material and mass."""
     if not export.title_block and export.purpose not in _WITH_BLOCK:
@@ -290,6 +296,14 @@ def _add_title_block(
     scale = scale_text(expected.paper.scale, language)
     form = form_of(number[0]) if export.purpose == "parts_list" else FORM_1
     block = title_block_of(replace(given, **more), scale, *number)
+    try:
+        check_held(block, form, turned=export.purpose in WORKING)
+    except ParameterError as error:
+        # what the block does not say itself is the part's or the scene's
+        owner = f"parts.{part.id}" if part is not None and (error.name != "name" or part.title) else "scene"
+        key = f"{owner}.{'title' if error.name == 'name' else error.name}"
+        place = f"{where}.title_block.{error.name}" if getattr(given, error.name) else key
+        raise SceneError(source, place, error.value, error.code, None, most=error.numbers["most"]) from error
     draw_title_block(expected.canvas, block, language, form)
     if export.purpose in WORKING:
         draw_turned(expected.canvas, block.designation)

@@ -28,7 +28,7 @@ from parts.keys.sheet import Scale, scale_value
 HEIGHTS = (1.8, 2.5, 3.5, 5.0, 7.0)
 LEAST_TEXT, SMALL_TEXT, TEXT_HEIGHT, TITLE_TEXT = HEIGHTS[:4]
 # letters are narrowed to this part of their width before they are made smaller
-_NARROWED = 0.9
+NARROWED = 0.9
 # the longer side of paper on which names and tables are small, mm
 _SMALL_PAPER = 420.0
 # frame, mm; GOST 2.104
@@ -189,7 +189,7 @@ def text_of(text: str, at: complex, height: float = TEXT_HEIGHT, most: float | N
     One longer than ``most`` mm is narrowed a little, made smaller, or narrowed as far as it must.
     """
     sizes = [h for h in reversed(HEIGHTS) if h <= height] or [LEAST_TEXT]
-    size = next((h for h in sizes if most is None or _NARROWED * text_width(text, h) <= most), sizes[-1])
+    size = next((h for h in sizes if most is None or NARROWED * text_width(text, h) <= most), sizes[-1])
     natural = text_width(text, size)
     squeeze = min(1.0, (natural if most is None else most) / natural) if natural else 1.0
     runs, x = [], at.real

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from parts.drawing.canvas import SMALL_TEXT, Box, Canvas, text_of, text_width
+from collections.abc import Callable
+
+from parts.drawing.canvas import LEAST_TEXT, NARROWED, SMALL_TEXT, Box, Canvas, text_of, text_width
 
 # free on both sides of a cell's words, mm
 INDENT = 0.8
@@ -39,11 +41,33 @@ def _most(cell: Box, size: float) -> int:
 
 
 def wrapped(text: str, width: float, size: float) -> list[str]:
-    """The text in lines no longer than a width, mm, at its spaces."""
+    """The text in lines no longer than a width, mm, at its spaces; a word that fits no line goes on in the next one."""
     rows: list[str] = []
     for word in text.split():
-        if rows and text_width(f"{rows[-1]} {word}", size) <= width:
-            rows[-1] += f" {word}"
+        rest = word
+        while not fits_line(rest, width):
+            count = max(1, sum(text_width(rest[:k], size) <= width for k in range(1, len(rest))))
+            rows.append(rest[:count])
+            rest = rest[count:]
+        if rows and text_width(f"{rows[-1]} {rest}", size) <= width and rest == word:
+            rows[-1] += f" {rest}"
         else:
-            rows.append(word)
+            rows.append(rest)
     return rows
+
+
+def fits_line(text: str, width: float, factor: float = NARROWED) -> bool:
+    """Whether a line has room, mm, its smallest letters narrowed to a part of their width."""
+    return factor * text_width(text, LEAST_TEXT) <= width
+
+
+def fits_cell(text: str, cell: Box) -> bool:
+    """Whether ``write_lines`` finds room for all of a text without narrowing it further."""
+    room, most = cell.right - cell.left - 2 * INDENT, _most(cell, SMALL_TEXT)
+    rows = wrapped(text, room, SMALL_TEXT)
+    return fits_line(" ".join(rows[most - 1 :]), room)
+
+
+def letters_held(text: str, fits: Callable[[str], bool]) -> int:
+    """How many letters of a text fit, from its beginning."""
+    return next(count for count in range(len(text), -1, -1) if fits(text[:count]))

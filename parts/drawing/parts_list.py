@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import zip_longest
 
 from geometry.base.record import Record
 from parts.base.texts import N_, Text, Words, in_context, words
@@ -114,10 +115,11 @@ def _lines(rows: Sequence[ListRow], language: str) -> Iterator[_Cells]:
         if row.standard and text_width(f"{names[-1]} {row.standard}", TEXT_HEIGHT) <= room:
             names[-1] += f" {row.standard}"
         elif row.standard:
-            names.append(row.standard)
+            names += wrapped(row.standard, room, TEXT_HEIGHT)
         mass = "" if row.mass is None else _mass(row.mass, told)
-        yield ("", "", str(row.position), row.designation, names[0], str(row.count), mass)
-        yield from (("", "", "", "", name, "", "") for name in names[1:])
+        marks = wrapped(row.designation, _COLUMNS[_NAMES - 1] - 2 * INDENT, TEXT_HEIGHT) or [""]
+        yield ("", "", str(row.position), marks[0], names[0], str(row.count), mass)
+        yield from (("", "", "", *pair, "", "") for pair in zip_longest(marks[1:], names[1:], fillvalue=""))
 
 
 def _mass(mass: float, told: Words) -> str:

@@ -5,10 +5,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+
+from geometry.base.errors import ParameterError
 from geometry.base.record import Record
 from parts.base.texts import Text, in_context, words
 from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, text_of, text_width
-from parts.drawing.cells import INDENT, write_cell, write_lines
+from parts.drawing.cells import INDENT, fits_cell, fits_line, letters_held, write_cell, write_lines
 from parts.keys.title import TitleBlockTable
 
 # left, low, right, high, mm from the lower left corner of a form
@@ -16,6 +20,8 @@ _Cell = tuple[float, float, float, float]
 _Line = tuple[float, float, float]
 # heights of capitals of designation, name and the rest, mm
 _LARGE, _MIDDLE = 7.0, 5.0
+# names of people and dates are narrowed to this part of their width in their narrow cells
+_PEOPLE = 0.5
 # who signs a drawing, from the top row down; the fourth row is free
 _ROLES = ("drawn", "checked", "technical_check", "", "standards_check", "approved")
 
@@ -155,6 +161,26 @@ def title_block_of(table: TitleBlockTable, scale: str, sheet: int = 1, sheets: i
         sheets,
         people,
     )
+
+
+def check_held(block: TitleBlock, form: Form, *, turned: bool) -> None:
+    """Refuse words that their cells do not hold, the designation also where it stands ``turned``.
+
+    Raises
+    ------
+    ParameterError
+        With the cell's key and the number of letters that fit.
+    """
+    checks: list[tuple[str, str, Callable[[str], bool]]] = [
+        (key, getattr(block, key), partial(fits_cell, cell=_at(0j, cell))) for key, cell, _ in form.entries
+    ]
+    if turned:
+        checks.append(("designation", block.designation, partial(fits_line, width=_TURNED[0] - 2 * INDENT)))
+    checks += [(role, name, partial(fits_line, width=23 - 2 * INDENT, factor=_PEOPLE)) for role, name in block.people]
+    checks.append(("date", block.date, partial(fits_line, width=10 - 2 * INDENT, factor=_PEOPLE)))
+    for key, text, fits in checks:
+        if not fits(text):
+            raise ParameterError(key, text, "cell_holds_letters", most=letters_held(text, fits))
 
 
 def draw_title_block(canvas: Canvas, block: TitleBlock, language: str, form: Form = FORM_1) -> Box:

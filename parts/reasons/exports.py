@@ -5,6 +5,7 @@ from __future__ import annotations
 from parts.base.texts import N_
 
 REASONS = {
+    "cell_holds_letters": N_("is longer than its cell on the sheet; letters that fit: {most}"),
     "chords_cross_wall": N_("its chords cross a thin wall of {part}"),
     "damaged_report": N_("is damaged ({why}); build the scene again"),
     "device_cuts_straight_teeth": N_("the device cuts straight teeth; name other gears in parts of the export"),

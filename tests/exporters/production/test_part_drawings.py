@@ -297,6 +297,25 @@ def test_words_exchanged_in_a_dxf_are_seen(tmp_path: Path) -> None:
     assert any("does not stand at" in told for told in job.verify(file, 0.0).failures)
 
 
+@pytest.mark.parametrize(
+    ("part", "key"),
+    [({"designation": "X" * 59}, "parts.p.designation"), ({"title": "W" * 119}, ""), ({"title": "W " * 59 + "W"}, "")],
+)
+def test_words_that_their_cells_do_not_hold_are_refused_with_how_many_fit(part: dict[str, str], key: str) -> None:
+    """No word is narrowed to less than 0.9 of its width, as programs that do not narrow at all would show it."""
+    if key:
+        with pytest.raises(SceneError) as caught:
+            jobs(PARTS["gear"] | part)
+        most = caught.value.numbers["most"]
+        assert (caught.value.key, caught.value.code) == (key, "cell_holds_letters")
+        assert isinstance(most, int)
+        part = {name: value[:most] for name, value in part.items()}
+    for job in jobs(PARTS["gear"] | part, drawing={"requirements": ["y" * 290]}):
+        runs = [run for text in job.canvas.texts for run in text.runs]
+        assert all(run.width >= 0.899 * canvas.plain_width(run.text, run.height) for run in runs)
+        assert sum(run.text.count("y") for run in runs if set(run.text) == {"y"}) == 290
+
+
 def test_a_drawing_is_named_as_all_files_of_its_part_and_a_pdf_as_its_scene() -> None:
     formats = ("dxf", "svg", "pdf")
     assert [job.path for job in jobs(PARTS["bearing"], formats=formats)] == ["p.part.dxf", "p.part.svg", "t.part.pdf"]
