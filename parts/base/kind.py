@@ -14,7 +14,7 @@ from geometry.base.errors import GeometryError, Nearest, ParameterError
 from geometry.base.nearest import nearest
 from geometry.base.record import Record, field
 from parts.base.refusal import SceneError, placed
-from parts.base.schema import tried, unit_of
+from parts.base.schema import as_typed, tried, unit_of
 from parts.base.texts import Text
 
 if TYPE_CHECKING:
@@ -150,7 +150,7 @@ class Kind(Generic[K, T]):
         """The refusal under the scene's key; what it offers has been tried once, and goes where it does not build."""
 
         def works(value: object) -> bool:
-            changed = tried(keys, refusal.name, value)
+            changed = tried(keys, told.name, value)
             thing = self.thing(changed, others)
             # what a chamfer leaves of the edges only the solid tells
             if chamfers:
@@ -158,17 +158,21 @@ class Kind(Generic[K, T]):
             return True
 
         def cure() -> Nearest | None:
-            found = refusal.nearest
+            found = told.nearest
+            if told is not refusal and isinstance(told.value, float):
+                # one number stands for both sides
+                return nearest(works, told.value, 0.0)
             if found is None:
                 return None
             try:
                 works(found.value)
             except (GeometryError, ArithmeticError):
-                return nearest(works, refusal.value, 0.0) if chamfers and isinstance(refusal.value, float) else None
+                return nearest(works, told.value, 0.0) if chamfers and isinstance(told.value, float) else None
             return found
 
-        chamfers = refusal.name.startswith("face_chamfer")
+        told = as_typed(keys, refusal)
+        chamfers = told.name.startswith("face_chamfer")
 
-        told = placed(source, place, refusal, unit_of(self.keys, refusal.name))
-        told.offer(cure)
-        return told
+        error = placed(source, place, told, unit_of(self.keys, told.name))
+        error.offer(cure)
+        return error

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
+from msgspec import Struct
+
 from geometry.base.errors import Cure, Nearest, ParameterError, format_value
 from parts.base.reasons import REMEDIES, reason
 from parts.base.texts import ENGLISH, Message, Text, filled, listed, message, words
@@ -82,7 +84,8 @@ def placed(source: str, place: str, refusal: ParameterError, unit: str = "") -> 
 
 def sentence(refusal: SceneError, language: str = ENGLISH) -> str:
     """The one line that a user reads: file, key, value, what is wrong, what would work."""
-    given = "" if refusal.value is None else f" = {_shown(refusal.value)}"
+    # a table is told by its key alone
+    given = "" if refusal.value is None or isinstance(refusal.value, Struct) else f" = {_shown(refusal.value)}"
     place = f"{refusal.source}: {refusal.key}{given}" if refusal.key else refusal.source or '""'
     line = f"{place}: {words(language).say(explained(refusal))}"
     return "".join(c if c.isprintable() else "?" for c in line)

@@ -68,10 +68,50 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
         allowed, words = described_key(owner, name), _words_of(owner, name)
     value, wrong_type = _lookup(table, keys), re.match(r"Expected `(.*?)`, got `(.*?)`", message)
     nearest = meant(value, words) if isinstance(value, str) and message.startswith("Invalid") else None
+    allowed = _with_form(allowed, message, kind, keys, table)
     if wrong_type:
         code = "wrong_type" if allowed is None else "wrong_type_of"
         return SceneError(source, where, value, code, nearest, type=_type_words(wrong_type.group(1)), allowed=allowed)
     return SceneError(source, where, value, "not_allowed", nearest, allowed=allowed or message)
+
+
+def _with_form(
+    allowed: Message | None, said: str, kind: type[Struct], keys: list[str], table: object
+) -> Message | None:
+    """What a key may hold, and how long it may be or what a word of it looks like where ``said`` is about that."""
+    if allowed is None or not keys:
+        return allowed
+    field = next((f for f in msgspec.structs.fields(_owner(kind, keys[:-1], table)) if f.encode_name == keys[-1]), None)
+    if long := re.match(r"Expected `(str|array)` of length (<=|>=) (\d+)", said):
+        most, number = long.group(2) == "<=", int(long.group(3))
+        if long.group(1) == "array":
+            own = [] if field is None else [m for m in _metas(field.type) if m.max_length == number]
+            # where there is a least number ``described`` tells both
+            if not most or any(m.min_length is not None for m in own):
+                return allowed
+            span = message("at most {limit:g}", limit=number)
+        elif most:
+            span = counted("at most {n} character", "at most {n} characters", "n", n=number)
+        else:
+            span = counted("at least {n} character", "at least {n} characters", "n", n=number)
+    elif "matching regex" in said and field is not None and (example := _example(field)):
+        span = message("like {example}", example=format_value(example))
+    else:
+        return allowed
+    return message("{what}: {range}", what=allowed, range=span)
+
+
+def _example(field: msgspec.structs.FieldInfo) -> str | None:
+    """A word that a key may hold: its default, or the first of its examples."""
+    if isinstance(field.default, str):
+        return field.default
+    return next((str(m.examples[0]) for m in _metas(field.type) if m.examples), None)
+
+
+def _metas(kind: object) -> list[Meta]:
+    """What is said of a type and of those that it allows."""
+    own = [m for m in getattr(kind, "__metadata__", ()) if isinstance(m, Meta)]
+    return own + [m for a in get_args(kind) if not isinstance(a, str) for m in _metas(a)]
 
 
 _TYPES = {
@@ -299,6 +339,12 @@ def value_at(keys: object, path: str) -> Any:
         else:
             keys = getattr(keys, step) if isinstance(keys, Struct) and step in keys.__struct_fields__ else None
     return keys
+
+
+def as_typed(keys: Struct, refusal: ParameterError) -> ParameterError:
+    """A refusal of one side's key in the key that the scene has: one number for both, or a table."""
+    both = refusal.name.rpartition(".")[0]
+    return refusal.renamed(both) if both and isinstance(value_at(keys, both), float) else refusal
 
 
 def unit_of(kind: type[Struct], path: str) -> str:

@@ -11,7 +11,6 @@ from geometry.base.errors import ParameterError
 from geometry.base.nearest import nearest
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import Hub, Web, WheelShape, check_wheel
-from parts.base.schema import value_at
 from parts.keys.base import mm
 from parts.keys.holes import HoledKeys, SpokesTable, bore_of, hub_holes
 
@@ -58,13 +57,6 @@ class WheelKeys(HubbedKeys, kw_only=True):
     def hub_holes(self) -> HubHoles:
         """Bore, holes and windows."""
         return hub_holes(bore_of(self), self.holes, self.spokes)
-
-
-def as_typed(keys: Struct, error: ParameterError) -> ParameterError:
-    """A refusal of one face's chamfer in the key that the scene has: one number for both, or a table."""
-    if error.name.startswith("face_chamfer.") and isinstance(value_at(keys, "face_chamfer"), float):
-        return error.renamed("face_chamfer")
-    return error
 
 
 class Wheel(Protocol):

@@ -13,9 +13,8 @@ from parts.base.mate import End, MateKeys, MateKind, Mating
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError, placed
 from parts.base.registry import KINDS
-from parts.base.schema import tried, unit_of
+from parts.base.schema import as_typed, tried, unit_of
 from parts.base.texts import message
-from parts.keys.wheel import as_typed
 from parts.mates.pairing import mated
 from parts.mates.registry import MATES
 

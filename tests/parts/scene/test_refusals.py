@@ -335,6 +335,18 @@ def test_slips_of_the_keyboard_are_told_as_such(part: Keys, code: str, told: str
     assert told in str(found)
 
 
+@pytest.mark.parametrize(("export", "told"), [
+    ({"drawing": "{ teeth = 2 }"}, 'exports[1].drawing: only for purpose = "part"'),
+    ({"purpose": '"part"', "drawing": '{ bore = "H77" }'}, 'tolerance zone of bores: like "H7"'),
+    ({"purpose": '"part"', "drawing": '{ requirements = [""] }'}, "at least 1 character"),
+    ({"purpose": '"part"', "drawing": f'{{ requirements = ["{"a" * 301}"] }}'}, "at most 300 characters"),
+    ({"purpose": '"part"', "drawing": f"{{ requirements = {['a'] * 13} }}"}, "at most 12"),
+])  # fmt: skip
+def test_a_working_drawing_is_told_the_form_that_its_keys_have(export: Keys, told: str) -> None:
+    # before: a record of Python, neither form nor limit
+    assert told in str(refusal(scene_text(export=export)))
+
+
 def test_a_bed_too_low_is_told_by_its_height() -> None:
     bed = "[beds.b]\nwidth = 200\ndepth = 200\nheight = 2\n"
     found = refusal(scene_text(export={"format": '"3mf"', "purpose": '"plate"'}, tail=bed))

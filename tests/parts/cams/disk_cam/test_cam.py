@@ -354,3 +354,11 @@ def test_gear_scenes_load_no_cams(tmp_path: Path) -> None:
         "assert not [m for m in sys.modules if m.startswith(('geometry.cams', 'geometry.laws'))]"
     )
     subprocess.run([sys.executable, "-c", code], check=True, cwd=Path(__file__).parents[4])
+
+
+def test_one_chamfer_of_both_faces_is_told_as_one() -> None:
+    # before: face_chamfer.below, and no remedy
+    keys = {"cam": ROLLER | {"face_width": 8.0, "face_chamfer": 6.0}}
+    refusal = refused(keys)
+    assert (refusal.key, refusal.code) == ("parts.cam.face_chamfer", "chamfers_meet")
+    assert cured(keys, refusal)["cam"]["face_chamfer"] == pytest.approx(4.0, abs=1e-3)
