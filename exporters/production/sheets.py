@@ -98,8 +98,8 @@ class SheetJob(Record):
         return verify_sheets(file, self.pages, float(self.export.tolerance or 0.0))
 
     def findings(self, made: Made) -> tuple[Finding, ...]:
-        """None."""
-        return ()
+        """What the drawings remark on."""
+        return tuple(dict.fromkeys(f for page in self.pages for f in page.findings))
 
     def declared(self, made: Made) -> tuple[float, str]:
         """Bound of its splines, mm on paper, and what kind of bound that is."""

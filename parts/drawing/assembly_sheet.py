@@ -8,6 +8,7 @@ from functools import cache, partial
 
 import numpy as np
 
+from geometry.base.findings import Finding
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex
 from geometry.curves.line_arc import Arc, Line
@@ -52,7 +53,7 @@ class AssemblyView(Record):
 def assembly_sheet(views: Sequence[AssemblyView], rows: Sequence[ListRow], asked: Asked) -> Expected:
     """The drawing on the smallest paper that shows it well, or as it is asked for.
 
-    A long list stands on sheets of its own. A part that is covered in all views has no number.
+    A long list stands on sheets of its own. A part that is covered in all views has no number, and a finding.
 
     Raises
     ------
@@ -104,7 +105,10 @@ def assembly_sheet(views: Sequence[AssemblyView], rows: Sequence[ListRow], asked
     for view, one, shift in zip(views, made, shifts, strict=True):
         moved(one, canvas, shift, asked.tolerance)
         outlines += [(Paper(one.scale, shift), layer, curve) for layer, curve in view.drawn.strokes]
-    return Expected(canvas, Paper(scale, shifts[0]), (), measures=PartMeasures(canvas, tuple(outlines)))
+    shown = {number for share in _shared([view.drawn for view in views], rows, scale) for number in share}
+    hidden = tuple(Finding("position_not_shown", row.position, 0.0) for row in rows if row.position not in shown)
+    measures = PartMeasures(canvas, tuple(outlines))
+    return Expected(canvas, Paper(scale, shifts[0]), (), measures=measures, findings=hidden)
 
 
 def _extent(drawn: Drawn) -> tuple[float, float]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from geometry.base.findings import Finding
 from geometry.base.record import Record, field
 from geometry.curves.curve import Curve
 from parts.drawing.canvas import Canvas, Paper
@@ -42,7 +43,10 @@ class Meshing(Record):
 
 
 class Expected(Record):
-    """All that a sheet must hold; ``curves`` are the exact ones of each layer in model mm, which ``paper`` places."""
+    """All that a sheet must hold; ``curves`` are the exact ones of each layer in model mm, which ``paper`` places.
+
+    ``findings``: what a reader of the sheet should know.
+    """
 
     canvas: Canvas
     paper: Paper
@@ -50,3 +54,4 @@ class Expected(Record):
     curves: dict[str, list[Curve]] = field(default_factory=dict)
     meshing: Meshing | None = None
     measures: Measures | None = None
+    findings: tuple[Finding, ...] = ()

@@ -170,6 +170,7 @@ FINDINGS: dict[str, Text] = {
         "STEP with more than {value:.0f} faces: programs that read it through Open CASCADE, like FreeCAD, take some "
         "10 s for {limit:.0f} of them and four times as long for twice as many"
     ),
+    "position_not_shown": N_("position {value:.0f} of the parts list is covered in every view: it has no number there"),
     "flat_pins": N_(
         "the pins of one piece are not in a flat outline, which has holes in their place; STL, 3MF and STEP have them"
     ),

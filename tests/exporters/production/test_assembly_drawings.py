@@ -78,6 +78,19 @@ def test_sizes_measure_the_scene_and_every_position_has_its_number(
     assert not audit.fixes
 
 
+def test_a_position_that_no_view_shows_is_told() -> None:
+    """A disc between two larger ones is covered from above, and beside the plane of the section."""
+    parts = {"top": DISC, "low": DISC, "hidden": {"kind": "pin", "diameter": 4.0, "length": 5.0}}
+    places = {"top": [0.0, 0.0, 10.0], "low": [0.0, 0.0, 0.0], "hidden": [0.0, 12.0, 5.0]}
+    raw = {"parts": parts, "instances": {k: {"part": k, "at": at} for k, at in places.items()},
+           "exports": [{"format": "svg", "purpose": "assembly"}]}  # fmt: skip
+    job = plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets[0]
+    row = next(p for p in job.findings({}))
+    assert row.code == "position_not_shown"
+    numbered = {text.text for text in job.canvas.texts if text.runs and text.runs[0].height == 5.0}
+    assert f"{row.value:.0f}" not in numbered
+
+
 def test_the_same_bytes_twice(tmp_path: Path) -> None:
     once = {ending: file.read_bytes() for ending, file in written(tmp_path, scene("practicum_pair")).items()}
     again = {ending: file.read_bytes() for ending, file in written(tmp_path, scene("practicum_pair")).items()}
