@@ -63,6 +63,8 @@ def _chosen(table: object, language: str, source: str, place: str) -> Any:
     if not isinstance(table, dict):
         return table
     made = dict(table)
+    if language == "uk" and isinstance(table.get("title_uk"), str):
+        made["title"] = table["title_uk"]
     for key in WORDS:
         if not isinstance(told := table.get(key), dict) or not told:
             continue

@@ -264,6 +264,8 @@ def scene_from_dict(raw: dict[str, Any], source: str, name: str, language: str |
     _check_tables(raw, source)
     raw = in_language(raw, source, language)
     raw, origins = plain_tables(raw, source)
+    # what an assembly has made has its names too
+    raw = in_language(raw, source, language)
     with in_keys_of_file(origins):
         return _scene_of(raw, source, name, origins)
 

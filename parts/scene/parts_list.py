@@ -70,7 +70,7 @@ def _keys(part: Part) -> MaterialKeys:
 def _told(part: Part, language: str) -> tuple[str, str, str, str, str]:
     """Section, designation, name, standard and material: of one position all are alike."""
     keys = _keys(part)
-    name = (keys.title_uk if language == "uk" else None) or keys.title or part.id
+    name = keys.title or part.id
     section = "standard" if keys.standard else "parts"
     return section, keys.designation or "", name, keys.standard or "", material_told(part.material, words(language))
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from exporters.command.cli import main
+from parts.scene.load import load_scene
 
 SCENE = """
 [parts.pinion]
@@ -216,3 +217,10 @@ def test_words_in_several_languages(tmp_path: Path, capsys: pytest.CaptureFixtur
     said = capsys.readouterr().err
     assert 'parts.cog.title.ru = "Колесо": must be one of' in said
     assert said.count("\n") == 1
+
+
+def test_a_part_of_an_assembly_is_called_in_the_language_of_the_scene() -> None:
+    """The power module's recipe gives both titles; what is asked for is shown."""
+    for language, title in (("uk", "Корпус"), ("en", "Housing")):
+        scene = load_scene("power_module", language=language)
+        assert scene.parts["body"].title == title  # type: ignore[attr-defined]
