@@ -154,7 +154,9 @@ def part_sheet(drawing: PartDrawing, data: Block | None, roughness: float, asked
     language = asked.language
     lines: list[str] = []
     for number, text in enumerate(drawing.requirements, 1):
-        lines += wrapped(f"{number}. {text}", TITLE_BLOCK[0] - 2 * _INDENT, TEXT_HEIGHT)
+        # one alone has no number (GOST 2.316)
+        words = f"{number}. {text}" if len(drawing.requirements) > 1 else text
+        lines += wrapped(words, TITLE_BLOCK[0] - 2 * _INDENT, TEXT_HEIGHT)
     corner = _Corner(tuple(lines), data, f"Ra {number_text(roughness, language)}")
     sizes = [_extent(view) for view in drawing.views]
 

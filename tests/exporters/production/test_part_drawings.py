@@ -316,6 +316,14 @@ def test_words_that_their_cells_do_not_hold_are_refused_with_how_many_fit(part: 
         assert sum(run.text.count("y") for run in runs if set(run.text) == {"y"}) == 290
 
 
+def test_a_requirement_that_stands_alone_has_no_number(tmp_path: Path) -> None:
+    for more in ([], ["HRC 40"]):
+        job = jobs(PARTS["bearing"], formats=("dxf",), drawing={"requirements": more})[0]
+        job.write({}, tmp_path / job.path)
+        numbered = {text[:2] for text in words(tmp_path / job.path) if text[:2] in ("1.", "2.")}
+        assert numbered == ({"1.", "2."} if more else set())
+
+
 def test_a_drawing_is_named_as_all_files_of_its_part_and_a_pdf_as_its_scene() -> None:
     formats = ("dxf", "svg", "pdf")
     assert [job.path for job in jobs(PARTS["bearing"], formats=formats)] == ["p.part.dxf", "p.part.svg", "t.part.pdf"]
