@@ -7,6 +7,7 @@ from collections.abc import Collection
 from msgspec import Struct
 
 from geometry.base.errors import Cure, Nearest, ParameterError, format_value
+from parts.base.lookalikes import in_latin, look_alike
 from parts.base.reasons import REMEDIES, reason
 from parts.base.texts import ENGLISH, Message, Text, filled, listed, message, words
 
@@ -68,10 +69,11 @@ def meant(word: object, known: Collection[str]) -> Nearest | None:
     """The known word that was probably meant, or nothing."""
     import difflib
 
-    if str(word) in _SYNONYMS:
-        match = [name for name in _SYNONYMS[str(word)] if name in known]
+    word = None if word is None else in_latin(str(word))
+    if word in _SYNONYMS and word not in known:
+        match = [name for name in _SYNONYMS[word] if name in known]
     else:
-        match = [] if word is None else difflib.get_close_matches(str(word), list(known), 1, 0.5)
+        match = [] if word is None else difflib.get_close_matches(word, list(known), 1, 0.5)
     return Nearest(match[0], "meant") if match else None
 
 
@@ -97,6 +99,8 @@ def explained(refusal: SceneError) -> Message:
     # the number that a plural goes by stays a number
     counted = text.by if isinstance(text, Message) else ""
     why = filled(text, **{name: n if name == counted else _told(n) for name, n in refusal.numbers.items()})
+    if letter := look_alike(f"{refusal.key} {refusal.value if isinstance(refusal.value, str) else ''}"):
+        why = message("{why}; {remedy}", why=why, remedy=letter)
     nearest = refusal.nearest
     if nearest is None:
         return why

@@ -251,7 +251,7 @@ def scene_from_toml(raw_bytes: bytes, source: str, name: str, language: str | No
         if isinstance(error, tomllib.TOMLDecodeError) and (comma := decimal_comma(text_of(raw_bytes), str(error))):
             raise SceneError(source, "", None, "decimal_comma", None, **comma) from None
         code = "not_toml" if str(error) else "too_deep"
-        raise SceneError(source, "", None, code, None, why=told_toml(str(error))) from None
+        raise SceneError(source, "", None, code, None, why=told_toml(text_of(raw_bytes), str(error))) from None
     try:
         return scene_from_dict(raw, source, name, language)
     except RecursionError:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
+from parts.base.lookalikes import look_alike
 from parts.base.texts import N_, Text, filled, message
 
 # every sentence of tomllib (Python 3.11 to 3.14); one that is not here is told in English
@@ -34,8 +35,18 @@ _SENTENCES = (
 )
 
 
-def told_toml(why: str) -> Text:
-    """An error of tomllib, keys in it as they are typed."""
+def told_toml(text: str, why: str) -> Text:
+    """An error of tomllib in a text, keys in it as they are typed; a Cyrillic letter that led to it is named."""
+    told, at = _told(why), re.search(r"line (\d+), column (\d+)\)$", why)
+    if at is None:
+        return told
+    line, column = text.split("\n")[int(at[1]) - 1], int(at[2]) - 1
+    word = next((w[0] for w in re.finditer(r"\w+", line) if w.start() <= column < w.end()), "")
+    letter = look_alike(word)
+    return told if letter is None else message("{why}; {remedy}", why=told, remedy=letter)
+
+
+def _told(why: str) -> Text:
     found = re.fullmatch(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", why, re.DOTALL)
     if found is None:
         return why

@@ -347,6 +347,22 @@ def test_a_working_drawing_is_told_the_form_that_its_keys_have(export: Keys, tol
     assert told in str(refusal(scene_text(export=export)))
 
 
+@pytest.mark.parametrize(("typed", "told"), [
+    ("mоdule = 4.0", "the letter «о» at place 2 of mоdule is Cyrillic"),
+    ("[pаrts.wheel]", "the letter «а» at place 2 of pаrts is Cyrillic"),
+    ("module = 1З", "the letter «З» at place 2 of 1З is Cyrillic"),
+    ('[parts.p]\nkind = "рlаte"', "the letter «р» at place 1 of рlаte is Cyrillic; did you mean plate?"),
+    ('[parts.p]\nkind = "plate"\n"widtһ" = 3', "the letter «һ» at place 5 of widtһ is Cyrillic; did you mean width?"),
+])  # fmt: skip
+def test_cyrillic_letters_that_look_like_latin_ones_are_named(typed: str, told: str) -> None:
+    # before: only that no "=" stands after the key, or "did you mean plate?" of what looks like plate
+    assert told in str(refusal(typed))
+
+
+def test_words_in_cyrillic_are_no_slip() -> None:
+    assert "Cyrillic" not in str(refusal('[parts.p]\nkind = "шестерня"'))
+
+
 def test_a_bed_too_low_is_told_by_its_height() -> None:
     bed = "[beds.b]\nwidth = 200\ndepth = 200\nheight = 2\n"
     found = refusal(scene_text(export={"format": '"3mf"', "purpose": '"plate"'}, tail=bed))
