@@ -218,9 +218,9 @@ class _Reader:
             shades = numbers if name == "RG" else numbers * 3
             self._set(colour="#" + "".join(f"{round(255 * x):02x}" for x in shades))
         elif name == "cm":
-            axes = [self._on(at) - self._on(0j) for at in (complex(*numbers[:2]), complex(*numbers[2:4]))]
-            origin = self._on(complex(*numbers[4:]))
-            self.frame = (*(x for at in (*axes, origin) for x in (at.real * _POINT, at.imag * _POINT)),)  # type: ignore[assignment]
+            origin = self._on(complex(*numbers[4:])) * _POINT
+            one, two = ((self._on(complex(*numbers[k : k + 2])) - self._on(0j)) * _POINT for k in (0, 2))
+            self.frame = (one.real, one.imag, two.real, two.imag, origin.real, origin.imag)
         elif name == "Td":
             self.text = complex(*numbers)
         elif name == "Tz":

@@ -77,7 +77,8 @@ class Knots(Record, eq=False):
         places = first[:, None] + np.arange(self.degree + 1)
         for number, place in enumerate(places):
             whole[0, number, :, place], whole[1, number, :, place] = values[number].T, slopes[number].T
-        return tuple(whole.reshape(2, -1, whole.shape[-1]))  # type: ignore[return-value]
+        points, derivatives = whole.reshape(2, -1, whole.shape[-1])
+        return points, derivatives
 
 
 class Patches(Record, eq=False):

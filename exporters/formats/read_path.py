@@ -61,6 +61,8 @@ def read_path(file: Path, key: str) -> list[Piece]:
 
 def _pieces(entity: DXFEntity, key: str, file: Path) -> list[list[Piece]]:
     """What one entity draws: a chain."""
+    from ezdxf.entities import LWPolyline
+
     kind, at = entity.dxftype(), entity.dxf
     if kind == "LINE":
         return [[[at.start.x, at.start.y, at.end.x, at.end.y, 0.0]]]
@@ -74,9 +76,9 @@ def _pieces(entity: DXFEntity, key: str, file: Path) -> list[list[Piece]]:
             places[-1] = places[0]
         bulge = math.tan(math.radians(sweep / count) / 4)
         return [[[*places[k], *places[k + 1], bulge] for k in range(count)]]
-    if kind == "LWPOLYLINE":
-        points = list(entity.get_points("xyb"))  # type: ignore[attr-defined]
-        points += points[:1] if entity.closed else []  # type: ignore[attr-defined]
+    if isinstance(entity, LWPolyline):
+        points = list(entity.get_points("xyb"))
+        points += points[:1] if entity.closed else []
         chain = [[p[0], p[1], q[0], q[1], p[2]] for p, q in pairwise(points) if p[:2] != q[:2]]
         return [chain] if chain else []
     raise SceneError(PLACE, key, str(file), "no_path_entity", None, kind=kind)

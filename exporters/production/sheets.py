@@ -292,7 +292,7 @@ def _add_title_block(
         }
         if export.purpose == "part":
             more["name"] = given.name or part.title or part.id
-            more["designation"] = given.designation or part.keys.designation or ""  # type: ignore[attr-defined]
+            more["designation"] = given.designation or part.designation or ""
     scale = scale_text(expected.paper.scale, language)
     form = form_of(number[0]) if export.purpose == "parts_list" else FORM_1
     block = title_block_of(replace(given, **more), scale, *number)

@@ -70,6 +70,11 @@ class Part(Record, dict=True):
         return self.keys.title  # type: ignore[attr-defined]
 
     @property
+    def designation(self) -> str | None:
+        """Of its drawing."""
+        return self.keys.designation  # type: ignore[attr-defined]
+
+    @property
     def product_name(self) -> str | None:
         """What CAD shows of it: its position and title; the kernel takes a name without any ASCII letter for none."""
         if self.title is None:
