@@ -474,7 +474,7 @@ def _check(options: argparse.Namespace) -> int:
                 workspace=scene.checks.workspace,
             ),
             scene,
-            names_of(placing.instances, parts),
+            names_of(scene.instances, parts),
         )
 
     found, refused = _each(options, checked)

@@ -54,7 +54,7 @@ def build_table(plan: Plan, folder: Path, built: Built) -> None:
         kept = kept_lines(read_report(folder), language)
         remarks += [told.text("FAILED: {why}", why=line) for line in kept]
     remarks += dict.fromkeys(_remarks(written, told))
-    remarks += check_lines(built.checks, language, names_of(plan.placing.instances, plan.parts))
+    remarks += check_lines(built.checks, language, names_of(plan.scene.instances, plan.parts))
     left_out = [(one.what, one.why) for one in plan.left_out if not one.as_asked]
     remarks += [told.text("left out: {what}: {why}", what=what, why=told.say(why)) for what, why in left_out]
     remarks += [

@@ -11,7 +11,7 @@ from typing import Any
 
 from parts.base.part import Part
 from parts.base.texts import N_, Message, Text, Words, counted, filled, message, words
-from parts.scene.placing import Instance
+from parts.scene.instances import InstanceSpec
 from parts.texts.checks import GEAR_PAIR, MATES, VERDICTS
 
 # gaps below this are rounding, mm
@@ -33,9 +33,9 @@ _REST = {
 _UNITS = {"mm": N_("mm"), "deg": N_("deg")}
 
 
-def names_of(instances: Iterable[Instance], parts: Mapping[str, Part]) -> dict[str, str]:
+def names_of(instances: Mapping[str, InstanceSpec], parts: Mapping[str, Part]) -> dict[str, str]:
     """What people call each instance."""
-    return {one.id: parts[one.part].called(one.id) for one in instances}
+    return {key: spec.title or parts[str(spec.part)].called(key) for key, spec in instances.items()}
 
 
 def check_lines(checks: dict[str, Any], language: str, names: Mapping[str, str] = MappingProxyType({})) -> list[str]:

@@ -84,7 +84,7 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
 
     language = plan.scene.scene.language
     stand = sorted(plan.placing.instances, key=lambda i: i.at[2])
-    names = names_of(stand, plan.parts)
+    names = names_of(plan.scene.instances, plan.parts)
     outers = [_outer(i, samples(outlines[i.part][-1].geometry), plan.parts[i.part]) for i in stand]
     points = np.concatenate(outers)
     left, right = float(points.real.min()), float(points.real.max())

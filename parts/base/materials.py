@@ -10,6 +10,8 @@ from parts.base.texts import N_, Words
 if TYPE_CHECKING:
     from geometry.solids.mass import Moments
 
+# a thickness in a material's name
+_MM = re.compile(r"(\d) ?mm\b")
 # typical values of makers' data sheets; a part's own key `density` goes before them
 DENSITIES = {
     N_("steel"): 7.85,
@@ -69,9 +71,10 @@ def density_of(material: str | None) -> float | None:
 
 def material_told(material: str | None, told: Words) -> str:
     """A material in the words of a language, where it has a known name: plywood 3 mm, фанера 3 mm."""
-    found = _known(material or "")
+    material = _MM.sub(rf"\1 {told.text('mm')}", material or "")
+    found = _known(material)
     if not found or told.text(found[0].casefold()) == found[0].casefold():
-        return material or ""
+        return material
     return f"{found.string[: found.start()]}{told.text(found[0].casefold())}{found.string[found.end() :]}"
 
 

@@ -90,11 +90,11 @@ class Part(Record, dict=True):
         return "; ".join(filter(None, (keys.designation or keys.standard, keys.title_uk)))
 
     def called(self, instance: str) -> str:
-        """What people call an instance of it: its title, and what the id says beside the part's own."""
-        if self.title is None:
-            return instance
-        rest = instance.removeprefix(self.id).removesuffix(self.id).split("_")
-        return " ".join((self.title, *filter(None, rest)))
+        """What people call an instance of it: its title, and its number or its whole id beside it."""
+        if self.title is None or instance == self.id:
+            return self.title or instance
+        number = instance.removeprefix(f"{self.id}_")
+        return f"{self.title} {number if number.isdigit() else instance}"
 
     @property
     def name(self) -> str:

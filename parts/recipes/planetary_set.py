@@ -23,6 +23,7 @@ from geometry.gears.planetary.fitting import Fitting
 from geometry.gears.planetary.sets import SCHEMES, PlanetarySet
 from geometry.gears.shifts.external import Requirements
 from geometry.gears.teeth.basic_rack import ISO_53_ANGLE, iso_53
+from parts.base.texts import N_
 from parts.keys.base import Material, degrees, mm
 from parts.keys.mate import further
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
@@ -39,6 +40,13 @@ _WHEELS = {
 _COLOURS = {
     "sun": "#d9a066", "ring": "#9fb0c0", "satellite": "#4f8fc0", "second_satellite": "#70a0d0", "carrier": "#b5c7a3",
     "second_sun": "#c08040", "second_ring": "#8c96a0", "pin": "#d0d4d8", "base": "#ece8df", "crank": "#d98880",
+}  # fmt: skip
+# of parts, and of instances whose id is not their part's
+_TITLES = {
+    "sun": N_("Sun"), "second_sun": N_("Second sun"), "ring": N_("Ring"),
+    "second_ring": N_("Second ring"), "satellite": N_("Satellite"), "second_satellite": N_("Second satellite"),
+    "spacer": N_("Spacer"), "carrier": N_("Carrier"), "upper_carrier": N_("Upper carrier plate"), "pin": N_("Pin"),
+    "base": N_("Base"), "foot": N_("Foot"), "shaft": N_("Shaft"), "crank": N_("Hand crank"), "handle": N_("Handle"),
 }  # fmt: skip
 # mm: a ring's rim beyond its teeth where screws go through it, the screws, the base beyond the ring, a crank's handle
 _RIM, _SCREW, _MARGIN, _HANDLE = 14.0, 4.0, 12.0, 25.0
@@ -165,6 +173,7 @@ class PlanetarySetRecipe(Recipe[PlanetarySetKeys]):
         if keys.frame:
             _add_frame(made, found)
         _add_drive(made, found)
+        found.name_all(_TITLES)
         return found
 
 

@@ -21,7 +21,7 @@ from msgspec import Meta
 
 from geometry.base.errors import ParameterError, limit
 from geometry.base.record import Record
-from parts.base.texts import N_, words
+from parts.base.texts import N_
 from parts.keys.base import Material, mm
 from parts.recipes.making import Making, hole, place
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
@@ -36,20 +36,23 @@ _COLOURS = {
     "pinion": "#4f8fc0", "hub": "#70a0d0", "platform": "#f2e2b6", "wheel": "#c08040", "idler": "#8c96a0",
     "link": "#b5c7a3", "flange": "#b5c7a3", "spider": "#f2e2b6", "crank": "#d98880", "pin": "#d0d4d8",
 }  # fmt: skip
-# positions of the parts list, with their names
-_LIST = {
-    "body": (1, N_("Housing")),
-    "disk_2": (2, N_("Outer disk")),
-    "disk_3": (3, N_("Inner disk")),
-    "platform": (4, N_("Platform")),
-    "platform_axle": (9, N_("Platform axle")),
-    "platform_wheel": (11, N_("Platform gear wheel")),
-    "satellite_axle": (13, N_("Satellite gear axle")),
-    "satellite_wheel": (14, N_("Satellite gear wheel")),
-    "central_wheel": (16, N_("Central gear wheel")),
-    "pinion": (19, N_("Gear wheel of the inner disk")),
-    "ring": (21, N_("Internal gear wheel")),
-}
+# positions of the parts list
+_POSITIONS = {
+    "body": 1, "disk_2": 2, "disk_3": 3, "platform": 4, "platform_axle": 9, "platform_wheel": 11, "satellite_axle": 13,
+    "satellite_wheel": 14, "central_wheel": 16, "pinion": 19, "ring": 21,
+}  # fmt: skip
+# of parts, and of instances whose id is not their part's
+_TITLES = {
+    "body": N_("Housing"), "disk_2": N_("Outer disk"), "disk_3": N_("Inner disk"), "platform": N_("Platform"),
+    "platform_axle": N_("Platform axle"), "platform_wheel": N_("Platform gear wheel"),
+    "satellite_axle": N_("Satellite gear axle"), "satellite_wheel": N_("Satellite gear wheel"),
+    "satellite_front": N_("Front rim of the satellite gear wheel"), "central_wheel": N_("Central gear wheel"),
+    "pinion": N_("Gear wheel of the inner disk"), "ring": N_("Internal gear wheel"), "spacer": N_("Spacer"),
+    "post": N_("Post"), "idler": N_("Idler"), "idler_pin": N_("Idler pin"), "front_idler_pin": N_("Front idler pin"),
+    "link": N_("Link"), "hub": N_("Hub"), "flange": N_("Flange"), "spider": N_("Spider"), "crank": N_("Crank"),
+    "first_crank": N_("First crank"), "second_crank": N_("Second crank"), "flange_pin": N_("Flange pin"),
+    "spider_pin": N_("Spider pin"), "long_pin": N_("Long pin"), "body_post": N_("Post of the housing"),
+}  # fmt: skip
 _Turns = Annotated[float, Meta(ge=-1000, le=1000, extra={"unit": "turns"})]
 _Teeth = Annotated[int, Meta(ge=12, le=1000)]
 
@@ -80,7 +83,6 @@ class PowerModuleKinematicsKeys(RecipeKeys, kw_only=True, tag="power_module_kine
     platform_size: Annotated[float, mm("side of the platform", above=0, most=5000)] = 260.0
     turns_of_disk: Annotated[_Turns, Meta(description="how far disk 2 is turned")] = 1.0
     turns_of_ring: Annotated[_Turns, Meta(description="how far the ring is turned")] = -2.0
-    names: Annotated[Literal["en", "uk"], Meta(description="language of the parts list's names, as titles")] = "en"
     material: Material | None = None
 
 
@@ -191,10 +193,9 @@ class _Making(Making):
             {"instance": "disk_2", "turns": keys.turns_of_disk},
             {"instance": "ring", "turns": keys.turns_of_ring},
         ]
-        told = words(keys.names)
-        for name, (position, title) in _LIST.items():
-            if name in self.found.parts:
-                self.found.parts[name]["title"] = f"{position} {told.text(title)}"
+        for name, table in self.found.parts.items():
+            table |= {"position": _POSITIONS[name]} if name in _POSITIONS else {}
+        self.found.name_all(_TITLES)
         self.found.origins |= {
             "drives[1].turns": "turns_of_disk", "drives[2].turns": "turns_of_ring",
             "parts.platform.width": "platform_size",

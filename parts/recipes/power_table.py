@@ -19,6 +19,7 @@ from msgspec import Meta
 
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.record import Record
+from parts.base.texts import N_
 from parts.keys.base import Material, mm
 from parts.recipes.making import Making, hole, place
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
@@ -35,6 +36,24 @@ _COLOURS = {
     "base": "#ece8df", "guide": "#e0d8c8", "back": "#c9b79c", "rim": "#c9b79c", "ring": "#9fb0c0", "disk_2": "#d9a066",
     "pinion": "#4f8fc0", "hub": "#70a0d0", "flange": "#b5c7a3", "crank": "#d98880", "platform": "#f2e2b6",
     "pin": "#d0d4d8", "worm": "#8c96a0", "worm_wheel": "#c08040", "bearing": "#e0d8c8",
+}  # fmt: skip
+# of parts, and of instances whose id is not their part's
+_TITLES = {
+    "base": N_("Base"), "guide": N_("Guide"), "foot": N_("Foot"), "post": N_("Post"), "ring": N_("Ring"),
+    "back": N_("Back disk"), "rim": N_("Rim"), "dowel": N_("Dowel"), "tube": N_("Tube"), "disk_2": N_("Disk 2"),
+    "shaft": N_("Shaft of disk 2"), "axle": N_("Axle of the pinion"), "pinion": N_("Pinion (disk 3)"), "hub": N_("Hub"),
+    "platform_axle": N_("Platform axle"), "flange": N_("Flange"), "first_crank": N_("First crank"),
+    "upper_pin": N_("Upper pin"), "platform": N_("Platform"), "second_crank": N_("Second crank"),
+    "flange_pin": N_("Flange pin"), "platform_pin": N_("Platform pin"), "handle": N_("Handle"),
+    "ring_hand_crank": N_("Hand crank of the ring"), "disk_hand_crank": N_("Hand crank of disk 2"),
+    "ring_handle": N_("Handle of the ring"), "disk_handle": N_("Handle of disk 2"),
+    "ring_worm_wheel": N_("Worm wheel of the ring"), "disk_worm_wheel": N_("Worm wheel of disk 2"),
+    "ring_worm": N_("Worm of the ring"), "disk_worm": N_("Worm of disk 2"),
+    "ring_thick_bearing": N_("Thick bearing of the ring's worm"),
+    "disk_thick_bearing": N_("Thick bearing of disk 2's worm"),
+    "ring_thin_bearing": N_("Thin bearing of the ring's worm"),
+    "disk_thin_bearing": N_("Thin bearing of disk 2's worm"),
+    "ring_collar": N_("Collar of the ring's worm"), "disk_collar": N_("Collar of disk 2's worm"),
 }  # fmt: skip
 _Turns = Annotated[float, Meta(ge=-1000, le=1000, extra={"unit": "turns"})]
 
@@ -264,6 +283,7 @@ class _Making(Making):
             "drives[1].turns": "turns_of_disk", "drives[2].turns": "turns_of_ring",
             "parts.pinion.bore_diameter": "axle_diameter", "parts.platform.width": "platform_size",
         }  # fmt: skip
+        self.found.name_all(_TITLES)
         return self.found
 
     def pin(self, name: str, diameter: float, length: float, bore: float = 0.0) -> None:

@@ -5,16 +5,19 @@ A recipe is an instance of a subclass, registered by one entry of ``parts/recipe
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import Annotated, Any, Generic, TypeVar
 
 from msgspec import Meta, Struct
 
 from geometry.base.record import Draft, field
-from parts.base.texts import Text
+from parts.base.texts import Text, in_every_language
 from parts.keys.base import IDENTIFIER
 
 Table = dict[str, Any]
+# the id of an instance: that of its group, and its number there
+_NUMBERED = re.compile(r"(.+?)(?:_(\d+))?")
 
 
 class RecipeKeys(Struct, forbid_unknown_fields=True, tag_field="kind", kw_only=True):
@@ -37,6 +40,16 @@ class Expansion(Draft):
     mates: list[Table] = field(default_factory=list)
     drives: list[Table] = field(default_factory=list)
     origins: dict[str, str] = field(default_factory=dict)
+
+    def name_all(self, titles: Mapping[str, str]) -> None:
+        """Give parts their titles (msgids, by id), and instances theirs whose id is not their part's."""
+        for part, table in self.parts.items():
+            table["title"] = in_every_language(titles[part])
+        for name, table in self.instances.items():
+            stem, number = _NUMBERED.fullmatch(name).groups()  # type: ignore[union-attr]
+            if stem != table["part"] and stem in titles:
+                told = in_every_language(titles[stem])
+                table["title"] = {key: f"{title} {number}" if number else title for key, title in told.items()}
 
 
 K = TypeVar("K", bound=RecipeKeys)

@@ -19,7 +19,7 @@ from geometry.base.errors import Nearest
 from geometry.base.record import Record
 from parts.base.refusal import REMOVED, SceneError, meant
 from parts.base.schema import converted
-from parts.keys.base import IDENTIFIER, degrees, mm
+from parts.keys.base import IDENTIFIER, Title, degrees, mm
 
 if TYPE_CHECKING:
     from parts.base.mate import MateKeys
@@ -62,6 +62,8 @@ class InstanceSpec(Struct, forbid_unknown_fields=True):
         ]
         | None
     ) = None
+
+    title: Title | None = None
 
 
 class InstanceTable(InstanceSpec, forbid_unknown_fields=True):
@@ -124,7 +126,7 @@ def instance_specs(
         if spec.count is not None:
             group = _group(key, spec, spec.count)
             groups[key] = group
-            made = {member: _one(spec, group.angle(k)) for k, member in enumerate(group.members)}
+            made = {member: _one(spec, group.angle(k), k + 1) for k, member in enumerate(group.members)}
         for member in made:
             _check_id(member, spec, parts, source, f"instances.{key}")
             if member in given or (member in raw and member != key):
@@ -174,17 +176,18 @@ def _group(key: str, spec: InstanceTable, count: int) -> Group:
     return Group(tuple(f"{key}_{number}" for number in range(1, count + 1)), step)
 
 
-def _one(spec: InstanceTable, angle: float) -> InstanceSpec:
-    """One member, turned about the axis by so many degrees."""
+def _one(spec: InstanceTable, angle: float, number: int = 0) -> InstanceSpec:
+    """One instance, or the member of this number, turned about the axis by so many degrees."""
+    title = f"{spec.title} {number}" if spec.title and number else spec.title
     if spec.at is None or not angle:
-        return InstanceSpec(spec.part, spec.at, spec.rotation_deg, spec.axis, spec.held, spec.subassembly)
+        return InstanceSpec(spec.part, spec.at, spec.rotation_deg, spec.axis, spec.held, spec.subassembly, title)
     axis = complex(*(spec.about or (0.0, 0.0)))
     moved = axis + (complex(*spec.at[:2]) - axis) * cmath.rect(1.0, math.radians(angle))
     turned = (spec.rotation_deg or 0.0) + angle
     direction = None if spec.axis is None else complex(*spec.axis[:2]) * cmath.rect(1.0, math.radians(angle))
     tilted = spec.axis and direction is not None and [direction.real, direction.imag, spec.axis[2]]
     moved_to = [moved.real, moved.imag, spec.at[2]]
-    return InstanceSpec(spec.part, moved_to, turned, tilted or None, spec.held, spec.subassembly)
+    return InstanceSpec(spec.part, moved_to, turned, tilted or None, spec.held, spec.subassembly, title)
 
 
 def members(mate: MateKeys, groups: Mapping[str, Group], source: str, place: str) -> Iterator[MateKeys]:

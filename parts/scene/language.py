@@ -41,13 +41,15 @@ def in_language(raw: dict[str, Any], source: str, asked: str | None) -> dict[str
         A language has no catalogue.
     """
     scene = raw.get("scene", {})
-    if not isinstance(scene, dict) or not isinstance(parts := raw.get("parts", {}), dict):
+    tables = {key: raw[key] for key in ("parts", "instances") if isinstance(raw.get(key), dict)}
+    if not isinstance(scene, dict):
         return raw
     if asked is not None:
         scene = {**scene, "language": asked}
     language = scene.get("language", ENGLISH)
-    rows = {key: _chosen(table, language, source, f"parts.{key}") for key, table in parts.items()}
-    made = {**raw, "scene": _chosen(scene, language, source, "scene"), **({"parts": rows} if rows else {})}
+    made = {**raw, "scene": _chosen(scene, language, source, "scene")}
+    for name, rows in tables.items():
+        made[name] = {key: _chosen(table, language, source, f"{name}.{key}") for key, table in rows.items()}
     if "defaults" in raw:
         made["defaults"] = _chosen(raw["defaults"], language, source, "defaults")
     if isinstance(told := raw.get("assemblies"), list):

@@ -44,7 +44,7 @@ def scene_schema() -> str:
     # words may be told in several languages
     several = {"type": "object", "additionalProperties": {"type": "string"}}
     told_in = [*(kind.keys for kind in KINDS.values()), *(entry.keys for entry in RECIPES.values())]
-    for table in ("SceneInfo", *(keys.__name__ for keys in told_in)):
+    for table in ("SceneInfo", "InstanceTable", *(keys.__name__ for keys in told_in)):
         properties = schema["$defs"][table]["properties"]
         for name in [name for name in WORDS if name in properties]:
             properties[name] = {"anyOf": [properties[name], several], "default": properties[name].get("default")}

@@ -135,15 +135,17 @@ def test_wheels_of_the_thesis_in_one_plane_run_into_each_other() -> None:
 
 def test_names_of_the_parts_list_stand_in_step_files(tmp_path: Path) -> None:
     items = json.loads((Path(__file__).parents[2] / "published" / "power_module_list.json").read_text("utf-8"))["items"]
+    table = {"kind": "power_module_kinematics", "orientation": "thesis"}
     for language in ("en", "uk"):
-        made = module(orientation="thesis", names=language)
-        titles = {part.title for part in made.parts.values() if part.title}  # type: ignore[attr-defined]
-        known = {f"{item['pos']} {item[f'name_{language}']}" for item in items}
+        made = scene_from_dict({"assemblies": [table]}, "t", "t", language)
+        titles = {(p.position, p.title) for p in made.parts.values() if p.position}  # type: ignore[attr-defined]
+        known = {(item["pos"], item[f"name_{language}"]) for item in items}
         assert titles <= known
         assert len(titles) == 11
     scene = tmp_path / "named.toml"
-    keys = 'orientation = "thesis"\nnames = "uk"'
+    keys = 'orientation = "thesis"'
     text = SCENE.read_text(encoding="utf-8").replace('orientation = "cranks"', keys)
+    text = text.replace("[scene]", '[scene]\nlanguage = "uk"')
     scene.write_text(text, encoding="utf-8")
     assert main(["build", str(scene), "--format", "step", "--part", "central_wheel", "--out", str(tmp_path), "-q"]) == 0
 
