@@ -43,14 +43,8 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
     named = part.circles | part.quantities
     told = words(language)
     rows = [f"{quantity_name(told, k)}  {v if isinstance(v, int) else format(v, '.4f')}" for k, v in named.items()]
-    remarks = [line for remark in remarks for line in wrap(remark, _CAPTION_LETTERS)]
-    lines = [
-        head(
-            middle,
-            extra_width=text * 24,
-            extra_height=max(0.0, text * 1.7 * (len(rows) + len(remarks) + 2) - 2 * middle),
-        )
-    ]
+    caption = [line for row in (part.title or part.id, *rows, *remarks) for line in wrap(row, _CAPTION_LETTERS)]
+    lines = [head(middle, extra_width=text * 24, extra_height=max(0.0, text * 1.7 * (len(caption) + 1) - 2 * middle))]
     lines.append('<rect width="100%" height="100%" style="fill:#ffffff"/>')
     cut, plain = part.cut(0.0).region, part.section(0.0).region
     tags = [approximate_profile(p, reach / 1000, arcs=True) for p in cut.apart[len(plain.apart) :]]
@@ -71,7 +65,7 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
         line = f"fill:none;stroke:{colour};stroke-width:{reach / 600:.4g};stroke-dasharray:{dash}"
         lines.append(f'<circle cx="{number(middle)}" cy="{number(middle)}" r="{number(diameter / 2)}" style="{line}"/>')
     lines += _cross(middle, reach)
-    lines += _caption([part.title or part.id, *rows, *remarks], 2 * middle + text, text)
+    lines += _caption(caption, 2 * middle + text, text)
     file = folder / f"{part.id}.preview.svg"
     save(file, lines)
     return file

@@ -66,13 +66,16 @@ class _Flanks:
         # a tooth on is a pitch of the worm on
         self.pitches = math.pi * worm.module * np.arange(-_TEETH, _TEETH + 1)[:, None]
 
+    def placed(self, share: Real, slid: Real) -> Complex:
+        """Points at shares (.., teeth, planes) where the wheel stands with the worm slid so far, worm along +x, mm."""
+        worm, count = self.worm, self.teeth.number_of_teeth
+        angle = math.pi / count - worm.number_of_starts / (worm.parameter * count) * (slid + self.pitches)
+        return np.asarray(self.part(self.side, share).plane * np.exp(1j * angle))
+
     def gap(self, share: Real, slid: Real, off: float) -> Real:
         """Of points at shares (.., teeth, planes) of the flanks from the worm that has slid so far, mm."""
-        worm, count = self.worm, self.teeth.number_of_teeth
-        cut = self.part(self.side, share)
+        worm, turned = self.worm, self.placed(share, slid)
         slid = slid + self.pitches
-        angle = math.pi / count - worm.number_of_starts / (worm.parameter * count) * slid
-        turned = cut.plane * np.exp(1j * angle)
         x, y, z = _of_worm(turned, self.side.heights, self.distance, self.errors)
         radius = np.hypot(x, y)
         thread = worm.sign * worm.parameter * np.arctan2(y, x) + slid + off - worm.half_thickness(radius)
@@ -90,7 +93,7 @@ class _Flanks:
         return np.asarray(gap)
 
     def least(self, slid: Real, off: float) -> tuple[Real, Complex, NDArray[np.intp]]:
-        """Least gaps at slides (n,), where, x + iy of the wheel's axis's frame, and in which planes."""
+        """Least gaps at slides (n,), where, x + iy about the wheel's axis, and in which planes."""
         planes = len(self.side.heights)
         s = slid[:, None, None]
         shares = np.linspace(0.0, 1.0, _SHARES)
@@ -105,7 +108,7 @@ class _Flanks:
         gaps = np.minimum(self.gap(share, s, off), table.min(axis=0)).reshape(len(slid), -1)
         best = gaps.argmin(axis=1)
         tooth, plane = best // planes, best % planes
-        points = self.part(self.side, share).plane[np.arange(len(slid)), tooth, plane]
+        points = self.placed(share, s)[np.arange(len(slid)), tooth, plane]
         return gaps.min(axis=1), points, plane
 
 
@@ -143,11 +146,16 @@ def _told(
     worm: Worm, teeth: WormTeeth, allowed: float, slid: Real, gaps: Real, points: Complex, clearance: float,
     distance: float,
 ) -> PairContact:  # fmt: skip
-    """The verdict on gaps of both sides (2, n) at slides and the points where they are, and on that of the lands."""
+    """The verdict on gaps of both sides (2, n) at slides and the points where they are, and on that of the lands.
+
+    Points of the second side are those of its image under half a turn about the line of centres.
+    """
     rate = worm.number_of_starts / (worm.parameter * teeth.number_of_teeth)
     side, place = np.unravel_index(int(gaps.argmin()), gaps.shape)
     labels = (Label.FLANK, Label.FLANK)
     worst = ContactPlace(float(gaps.min()), float(rate * slid[place]), complex(points[side, place]), labels)
+    if side == 1:
+        worst = replace(worst, point=worst.point.conjugate())
     if clearance < worst.gap:
         worst = ContactPlace(clearance, 0.0, complex(distance - worm.tip_radius), (Label.ROOT_LAND, Label.TIP_LAND))
     if not np.all(np.isfinite(gaps)):

@@ -48,6 +48,11 @@ from parts.pages.page import Sheet
 
 TOPIC = "worm"
 _ERRORS = ("centre_distance_error", "axis_angle_error_deg", "wheel_axial_error")
+# what a worm alone has not
+_OF_DRIVE = (
+    "torque", "face_width", "outer_diameter", "profile_shift_coefficient", "hob_rounding_coefficient",
+    "hob_diameter_quotient", "wheel_thinning", *_ERRORS,
+)  # fmt: skip
 _GOST, _THESIS = "GOST 19650", "thesis, 2.2"
 _Factor = Annotated[float, Meta(gt=0, le=100, description="factor of the load")]
 _Life = Annotated[float, Meta(gt=0, le=10, description="factor of life")]
@@ -138,8 +143,8 @@ def sheet(table: dict[str, Any]) -> Sheet:
         raise SceneError("calc", f"{TOPIC}.form_factor", None, "worm_form_factor_missing")
     errors = AxisErrors(keys.centre_distance_error, math.radians(keys.axis_angle_error_deg), keys.wheel_axial_error)
     if keys.number_of_teeth is None:
-        for key in ("torque", "outer_diameter", *_ERRORS):
-            if getattr(keys, key):
+        for key in _OF_DRIVE:
+            if table.get(key):
                 raise SceneError("calc", f"{TOPIC}.number_of_teeth", None, "worm_wheel_missing", key=key)
     try:
         worm = worm_of(keys, keys.fillet_coefficient, keys.axial_thinning)
@@ -154,7 +159,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
     if drive:
         page.printed = printed_for_worm(worm, drive.number_of_teeth, drive.profile_shift_coefficient)
     _given(page, keys)
-    _dimensions(page, worm, drive or None)
+    _dimensions(page, worm, drive or None, keys.worm_length)
     _sections(page, worm, keys)
     with suppress(ParameterError):
         # of a thread that has room for its corners
@@ -186,7 +191,7 @@ def _given(page: Sheet, keys: WormKeys) -> None:
         page.add("axial_thinning", keys.axial_thinning)
 
 
-def _dimensions(page: Sheet, worm: Worm, drive: WormDrive | None) -> None:
+def _dimensions(page: Sheet, worm: Worm, drive: WormDrive | None, worm_length: float | None) -> None:
     page.section(N_("Dimensions of worm and wheel") if drive else N_("Dimensions of the worm"))
     if drive:
         page.add("worm_ratio", drive.ratio, "{z2} / {z1}", _GOST)
@@ -212,6 +217,8 @@ def _dimensions(page: Sheet, worm: Worm, drive: WormDrive | None) -> None:
     page.add("worm_fillet_radius", worm.fillet_coefficient * worm.module, "{rho_f} * {m}", _GOST)
     if drive:
         _wheel(page, drive)
+    elif worm_length is not None:
+        page.add("worm_length", worm_length)
 
 
 def _wheel(page: Sheet, drive: WormDrive) -> None:

@@ -216,11 +216,11 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
         return WheelThing(drive, WormWheel(teeth, core, rim))
 
     def section(self, keys: WormWheelSpec, thing: WheelThing, offset: float) -> OffsetRegion:
-        """Its upper face, near enough for pictures."""
+        """Its mid plane, near enough for pictures."""
         from geometry.plane.offset_region import OffsetRegion
         from geometry.plane.profile import Region
 
-        outline = thing.teeth.outline(thing.teeth.width / 2)
+        outline = thing.teeth.outline(0.0)
         return OffsetRegion(Region(outline, keys.hub_holes().profiles(0.0)), 0.0, ())
 
     def solid(self, keys: WormWheelSpec, thing: WheelThing, offset: float) -> FacedBody:

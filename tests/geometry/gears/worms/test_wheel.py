@@ -170,7 +170,13 @@ def test_a_worm_pushed_in_overlaps_and_one_pulled_off_does_not_touch(hob: float)
     if hob == 10.0:
         assert verdicts[0.0].verdict is Verdict.CONTACT
         assert -1e-9 < verdicts[0.0].worst.gap <= verdicts[0.0].greatest_gap < 1e-9
-    # turned out of the middle it runs into one side
-    assert worm_contact(THESIS.worm, teeth, 1e-3, 0.0, None).verdict is Verdict.OVERLAP
+    # turned out of the middle it runs into one side: on both it is the same place, over the line of centres and under
+    one, other = (worm_contact(THESIS.worm, teeth, turn, 0.0, None) for turn in (1e-3, -1e-3))
+    assert one.verdict is other.verdict is Verdict.OVERLAP
+    assert one.worst.point.imag * other.worst.point.imag < 0
+    assert one.worst.point.conjugate() == pytest.approx(other.worst.point, abs=1e-6)
+    # and within the worm, which stands along +x
+    assert abs(345.0 - one.worst.point.real) < THESIS.worm.tip_radius
+    assert abs(one.worst.point.imag) < 40.0
     thin = replace(THESIS.worm, thinning=0.1)
     assert worm_contact(thin, teeth, 1e-3, 0.0, None).verdict is Verdict.CLEAR
