@@ -35,7 +35,7 @@ _ATOMS = {
     "s": rb'(?:!\d+)?"', "S": rb'(?:(?:!\d+)?")+', "r": _REFERENCE, "f": rb"(%b)" % _FLOAT, "p": rb"(?!-)(%b)" % _FLOAT,
     "i": rb"(\d{1,4})", "b": rb"([01])", "*": rb"\*", "R": _LIST % (rb"#\d{1,15}", rb"#\d{1,15}"),
     "w": rb"\.[A-Z_]+\.", "n": rb"(?:0|\.U\.)",
-    "m": rb"(?:POSITIVE_RATIO|VOLUME)_MEASURE\(%b\)" % _FLOAT, "I": _LIST % (rb"\d{1,5}", rb"\d{1,5}"),
+    "m": rb"(?:POSITIVE_RATIO|VOLUME|AREA)_MEASURE\(%b\)" % _FLOAT, "I": _LIST % (rb"\d{1,5}", rb"\d{1,5}"),
     "F": _LIST % (_FLOAT, _FLOAT), "M": rb"\((\([#\d,]+\)(?:,\([#\d,]+\))*)\)",
 }  # fmt: skip
 # the geometry and topology of ISO 10303-42 that is read: those of fixed length, and those with lists
@@ -128,6 +128,7 @@ _QUOTED = re.compile(rb"'((?:[^']|'')*)'")
 _END = re.compile(rb"ENDSEC;%bEND-ISO-10303-21;%b$" % (_GAP, _GAP))
 _STRINGS, _STRING = re.compile(rb'[!\d"]*"'), re.compile(rb'(?:!(\d+))?"')
 _NUMBER = re.compile(rb"(?<![\w#!])%b" % _FLOAT)
+_MEASURE = re.compile(rb"\b([A-Z_]+)_MEASURE\(")
 _ESCAPE = re.compile(
     r"\\X2\\((?:[0-9A-F]{4})+)\\X0\\|\\X4\\((?:[0-9A-F]{8})+)\\X0\\|\\X\\([0-9A-F]{2})|\\S\\([ -~])|\\(\\)|(\\)"
 )
@@ -159,12 +160,13 @@ class Listed(Record, eq=False):
 
 
 class Item(Record):
-    """An entity that is no geometry: its kind, and all references, strings and real numbers in it, in their order."""
+    """An entity that is no geometry: its kind, and all references, strings, real numbers and measures in it."""
 
     kind: str
     references: tuple[int, ...]
     strings: tuple[str, ...]
     numbers: tuple[float, ...]
+    measures: tuple[str, ...]
 
 
 class Entities(Record, eq=False):
@@ -390,6 +392,7 @@ def _item(kind: str, text: bytes, strings: list[bytes]) -> Item:
         tuple(int(m) for m in re.findall(_REFERENCE, text)),
         tuple(_decoded(b"'".join(word)) for word in words),
         tuple(float(m) for m in _NUMBER.findall(text)),
+        tuple(m.decode() for m in _MEASURE.findall(text)),
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from exporters.formats.read_curves import Curves, Flags, Frames, Patches, spans_of
+from exporters.formats.read_curves import Curves, Flags, Frames, Patches, lobatto, spans_of
 from exporters.formats.read_part21 import Index, Real
 from geometry.base.record import Record, replace
 from parts.base.readback import ReadError
@@ -62,6 +62,12 @@ class Model(Record, eq=False):
     def spans(self) -> tuple[Index, Index]:
         """The spans of all uses, and the use that each belongs to."""
         return spans_of(self.curves, self.uses.edge)
+
+    @property
+    def bounds(self) -> float:
+        """The length of the bounds of all faces, mm."""
+        sizes = np.linalg.norm(self.slopes, axis=2) @ lobatto()[1]
+        return float(sizes[self.spans[0]].sum())
 
     @property
     def heights(self) -> tuple[Real, Real]:

@@ -38,11 +38,12 @@ _SHADES = {
     "red": "#ff0000", "green": "#00ff00", "blue": "#0000ff", "yellow": "#ffff00", "magenta": "#ff00ff",
     "cyan": "#00ffff", "black": "#000000", "white": "#ffffff",
 }  # fmt: skip
-# what is said of a part: of what kind it is, what its value is called (None: as it is), and powers of its units
-_SAID: dict[str, tuple[str, str | None, dict[str, float]]] = {
-    "material name": ("material property", None, {}),
-    "density": ("material property", "g/cm3", {GRAM: 1.0, CENTIMETRE: -3.0}),
-    "volume": ("geometric validation property", "volume measure", {MILLIMETRE: 3.0}),
+# what is said of a part: its kind, what its value is called (None: as it is), what it measures, and powers of its units
+_SAID: dict[str, tuple[str, str | None, tuple[str, ...], dict[str, float]]] = {
+    "material name": ("material property", None, (), {}),
+    "density": ("material property", "g/cm3", ("POSITIVE_RATIO",), {GRAM: 1.0, CENTIMETRE: -3.0}),
+    "volume": ("geometric validation property", "volume measure", ("VOLUME",), {MILLIMETRE: 3.0}),
+    "surface area": ("geometric validation property", "surface area measure", ("AREA",), {MILLIMETRE: 2.0}),
 }
 # what stands at the origin is off it by no more, mm and rad
 _HOME = 1e-12
@@ -52,7 +53,8 @@ Place = NDArray[np.float64]
 class ReadSolid(Record, eq=False):
     """One solid, the names of the products in its file, its colour and what it says of itself, where it does.
 
-    ``said``: words or numbers under "title", "material name", "density" (g/cm^3), "volume" (mm^3).
+    ``said``: words or numbers under "title", "material name", "density" (g/cm^3), "volume" (mm^3),
+    "surface area" (mm^2).
     """
 
     model: Model
@@ -223,7 +225,7 @@ class _Products:
             (unit,), (power,) = self.items[element].references, self.items[element].numbers
             units[self.items[unit].kind] = units.get(self.items[unit].kind, 0.0) + power
         said = self.said.setdefault(product, {})
-        told = (kind, item.strings[0] if item.numbers else None, units)
+        told = (kind, item.strings[0] if item.numbers else None, item.measures, units)
         is_part = product in self.shapes and self.shapes[product].kind == PART
         if name in said or not is_part or told != _SAID.get(name) or value.strings[0] != name:
             raise ReadError(f"#{number} of the STEP file says something of no part, twice, or in other words or units")

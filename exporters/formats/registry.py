@@ -258,13 +258,14 @@ def _write_3mf_assembly(
 
 
 def _step_part(content: Content, made: SolidCurves) -> StepPart:
+    from geometry.solids.area import surface_area
     from parts.solids.faces import solid_faces
     from parts.solids.step_text import StepPart
 
     part, body = content.part, content.body
     volume, faces = part.made_by.moments(body).volume, solid_faces(body, made)
-    said = part.colour, part.material, part.density, volume, part.product_name, part.description
-    return StepPart(part.id, faces, *said)
+    weighed = part.material, part.density, volume, surface_area(faces)
+    return StepPart(part.id, faces, part.colour, *weighed, part.product_name, part.description)
 
 
 def _step_form(content: Content) -> StepForm:

@@ -90,7 +90,7 @@ def held(
 
 
 def said_failures(found: ReadBack, kind: FileKind, part: Part) -> list[str]:
-    """What is wrong with what a STEP file says of a part, or not; a volume that it says is held with the solid."""
+    """What is wrong with what a STEP file says of a part, or not; volume and area are held with the solid."""
     if kind.form is not Form.FACES:
         return []
     said = cast("ReadSolid", found).said
@@ -101,7 +101,7 @@ def said_failures(found: ReadBack, kind: FileKind, part: Part) -> list[str]:
         "density": part.density,
     }
     wrong = [f"says of its {k}: {said.get(k)} instead of {v}" for k, v in expected.items() if said.get(k) != v]
-    return wrong if "volume" in said else [*wrong, "does not say its volume"]
+    return wrong + [f"does not say its {what}" for what in ("volume", "surface area") if what not in said]
 
 
 def signed(file: Path, kind: FileKind, author: str, organisation: str, verdict: Verdict) -> Verdict:

@@ -1,4 +1,4 @@
-"""Volume, area, centre and inertia of solids of faces by the divergence theorem, face by face.
+"""Volume, centre and inertia of solids of faces by the divergence theorem, face by face.
 
 Over a plane or a surface of revolution the integral of g du dv is that of -G du round the bounds (Green), G the
 integral of g over v; by Gauss's rule on pieces short enough that the rest is rounding. Splines and extrusions are
@@ -26,19 +26,11 @@ _NODES, _ACROSS, _FLAT, _PIECE = 16, 28, 4, math.pi / 4
 _RAISED, _AT_ONCE = 2.5, 200_000
 # pieces are halved until nothing changes by more than this part, and refused above the second one
 _SETTLED, _ENOUGH, _MOST = 1e-12, 1e-9, 4
-# by which a face's own integrals stand: area, then 1, x, y, z, xx, yy, xy, zz, xz, yz
-_TERMS = 11
+# integrals of 1, x, y, z, xx, yy, xy, zz, xz, yz
+_TERMS = 10
 
 
-class FaceMoments(Record):
-    """``moments`` of a solid, its ``area``, mm^2, and the part of the volume by which the last halving changed it."""
-
-    moments: Moments
-    area: float
-    change: float
-
-
-def face_moments(solid: Solid) -> FaceMoments:
+def face_moments(solid: Solid) -> Moments:
     """Of a closed solid; nodes on its edges are doubled until the integrals stay.
 
     Raises
@@ -49,14 +41,13 @@ def face_moments(solid: Solid) -> FaceMoments:
     total = _total(solid, 1)
     for halving in range(1, _MOST + 1):
         finer = _total(solid, 2**halving)
-        scale = np.abs(finer).max() + abs(finer[1])
+        scale = np.abs(finer).max() + abs(finer[0])
         change, total = float(np.abs(finer - total).max() / scale), finer
-        own = abs(change * scale / total[1])
         if change <= _SETTLED:
             break
     if not change <= _ENOUGH:
         raise ConvergenceError("moments of a solid", change, _MOST)
-    return FaceMoments(moments_of(total[1:]), float(total[0]), min(own, 1.0))
+    return moments_of(total)
 
 
 def _total(solid: Solid, pieces: int) -> Real:
@@ -127,12 +118,11 @@ def _panels(breaks: Real, count: int) -> tuple[Real, Real]:
 
 
 def _terms(points: Real, normals: Real) -> Real:
-    """Of points and normals (..., 3) whose sizes are those of the surface elements: the integrands (..., 11)."""
+    """Of points and normals (..., 3) whose sizes are those of the surface elements: the integrands (..., 10)."""
     x, y, z = np.moveaxis(points, -1, 0)
     f = np.sum(points * normals, axis=-1)
     third, fourth, fifth = f / 3, f / 4, f / 5
-    size = np.linalg.norm(normals, axis=-1)
-    parts = size, third, x * fourth, y * fourth, z * fourth, x * x * fifth, y * y * fifth, x * y * fifth
+    parts = third, x * fourth, y * fourth, z * fourth, x * x * fifth, y * y * fifth, x * y * fifth
     return np.stack([*parts, z * z * fifth, x * z * fifth, y * z * fifth], axis=-1)
 
 
@@ -158,7 +148,6 @@ def _charted(chart: Chart, loops: list[list[_Run]], *, along: bool) -> Real:
             heights = v[:, None] * (1 + across) / 2
             terms = _terms(*chart.with_normal(np.broadcast_to(u[:, None], heights.shape), heights))
             total -= np.einsum("kqt,q,k->t", terms, weights / 2, step * v)
-    total[0] *= 1 if along else -1
     return total
 
 
@@ -186,5 +175,4 @@ def _patches(solid: Solid, surface: SplineSurface, *, along: bool) -> Real:
         own = patch.rows(slice(start, start + block))
         normals = np.cross(own.at(u, v, (1, 0)), own.at(u, v, (0, 1)))
         total += np.einsum("nijt,i,j->t", _terms(own.at(u, v), normals), u_weights, v_weights)
-    total[1:] *= 1 if along else -1
-    return total
+    return total if along else -total

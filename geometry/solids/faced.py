@@ -17,9 +17,10 @@ from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record
 from geometry.curves.bounds import Bound
 from geometry.curves.curve import Real
+from geometry.solids.area import surface_area
 from geometry.solids.charts import charts
 from geometry.solids.extent import extent
-from geometry.solids.face_moments import FaceMoments, face_moments
+from geometry.solids.face_moments import face_moments
 from geometry.solids.faces import Extrusion, Solid, SplineSurface
 from geometry.solids.mass import Moments
 from geometry.solids.measured import Measured
@@ -78,18 +79,14 @@ class FacedBody(Record, dict=True):
         return (*self.walls, *found.values())
 
     @cached_property
-    def _measured(self) -> FaceMoments:
-        return face_moments(self._fine)
-
-    @cached_property
     def moments(self) -> Moments:
         """Volume, centre and inertia: exact but for splines, whose volume is good to their error over their area."""
-        return self._measured.moments if self.own_moments is None else self.own_moments()
+        return face_moments(self._fine) if self.own_moments is None else self.own_moments()
 
-    @property
+    @cached_property
     def slack(self) -> float:
         """How much the volume of ``moments`` may be off for each mm that a file's faces are, mm^2; 0: exact."""
-        return self._measured.area if self.walls and self.own_moments is None else 0.0
+        return surface_area(self._fine) if self.walls and self.own_moments is None else 0.0
 
     @cached_property
     def _ends(self) -> tuple[float, float, float]:

@@ -63,7 +63,7 @@ def foreign_body(text: str, part_from_file: Placement3) -> FacedBody:
     error = _off_faces(solid)
     if not error <= _LOOSE:
         raise ParameterError("file", None, "step_loose", error=error, most=_LOOSE)
-    found, volume = face_moments(solid).moments.volume, _kernel_volume(made.shape)
+    found, volume = face_moments(solid).volume, _kernel_volume(made.shape)
     if not (volume > 0 and abs(found / volume - 1) <= _VOLUME):
         raise ParameterError("file", None, "step_volume", found=found, volume=volume)
     is_exact = error <= _EXACT * float(np.abs(solid.points).max())

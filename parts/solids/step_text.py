@@ -49,7 +49,7 @@ _PER_LINE = 16
 
 
 class StepPart(Record, eq=False):
-    """A named solid with its colour, like "#c08040", its material, density, g/cm^3, and volume, mm^3.
+    """A named solid with its colour, like "#c08040", material, density, g/cm^3, volume, mm^3, and area, mm^2.
 
     ``title``: what people call it, which CAD shows in place of the name; ``description``: what lists say of it.
     """
@@ -60,6 +60,7 @@ class StepPart(Record, eq=False):
     material: str | None = None
     density: float | None = None
     volume: float | None = None
+    area: float | None = None
     title: str | None = None
     description: str = ""
 
@@ -167,11 +168,11 @@ class _Text:
                                  (self.once("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.CENTI.,.METRE.))"), -3))  # fmt: skip
             value = f"MEASURE_REPRESENTATION_ITEM('g/cm3',POSITIVE_RATIO_MEASURE({real(part.density)}),#{unit})"
             self._property(definition, "material property", "density", self.add(value))
-        if part.volume is not None:
-            unit = self._derived((self.once("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))"), 3))
-            value = f"MEASURE_REPRESENTATION_ITEM('volume measure',VOLUME_MEASURE({real(part.volume)}),#{unit})"
-            whole = self.wholes[definition]
-            self._property(whole, "geometric validation property", "volume", self.add(value))
+        for name, kind, size, power in (("volume", "volume", part.volume, 3), ("surface area", "area", part.area, 2)):
+            if size is not None:
+                unit = self._derived((self.once("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))"), power))
+                value = f"MEASURE_REPRESENTATION_ITEM('{name} measure',{kind.upper()}_MEASURE({real(size)}),#{unit})"
+                self._property(self.wholes[definition], "geometric validation property", name, self.add(value))
         return definition, shape
 
     def _property(self, of: int, kind: str, name: str, item: int) -> None:

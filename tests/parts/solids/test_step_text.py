@@ -206,7 +206,7 @@ def test_words_are_ascii(words: str, written: str) -> None:
 
 
 @needs_kernel
-def test_the_kernel_s_document_has_name_colour_material_density_and_volume(tmp_path: Path) -> None:
+def test_the_kernel_s_document_has_name_colour_material_density_volume_and_area(tmp_path: Path) -> None:
     from OCP.Quantity import Quantity_Color
     from OCP.STEPCAFControl import STEPCAFControl_Reader
     from OCP.TCollection import TCollection_ExtendedString
@@ -214,6 +214,7 @@ def test_the_kernel_s_document_has_name_colour_material_density_and_volume(tmp_p
     from OCP.TDF import TDF_LabelSequence
     from OCP.TDocStd import TDocStd_Document
     from OCP.XCAFDoc import (
+        XCAFDoc_Area,
         XCAFDoc_ColorSurf,
         XCAFDoc_ColorTool,
         XCAFDoc_DocumentTool,
@@ -222,7 +223,7 @@ def test_the_kernel_s_document_has_name_colour_material_density_and_volume(tmp_p
         XCAFDoc_Volume,
     )
 
-    part = StepPart("колесо", made("plain")[1], "#c08040", "сталь 45", 7.85, 1234.5678901)
+    part = StepPart("колесо", made("plain")[1], "#c08040", "сталь 45", 7.85, 1234.5678901, 987.654321)
     file = tmp_path / "p.step"
     file.write_text(step_text(part, StepForm(author="Ім'я", organisation="КПІ")), encoding="ascii")
     # the kernel's header has no names that are not ASCII: the file is asked itself
@@ -237,13 +238,15 @@ def test_the_kernel_s_document_has_name_colour_material_density_and_volume(tmp_p
     assert reader.Transfer(document)
     found = TDF_LabelSequence()
     XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).GetFreeShapes(found)
-    name, shade, volume = TDataStd_Name(), Quantity_Color(), XCAFDoc_Volume()
+    name, shade, volume, area = TDataStd_Name(), Quantity_Color(), XCAFDoc_Volume(), XCAFDoc_Area()
     assert found.Value(1).FindAttribute(TDataStd_Name.GetID_s(), name)
     assert name.Get().ToExtString() == "колесо"
     assert XCAFDoc_ColorTool.GetColor_s(found.Value(1), XCAFDoc_ColorSurf, shade)
     assert Quantity_Color.ColorToHex_s(shade, True).ToCString().lower() == "#c08040"
     assert found.Value(1).FindAttribute(XCAFDoc_Volume.GetID_s(), volume)
     assert volume.Get() == pytest.approx(1234.5678901, rel=1e-14)
+    assert found.Value(1).FindAttribute(XCAFDoc_Area.GetID_s(), area)
+    assert area.Get() == pytest.approx(987.654321, rel=1e-14)
     # g/mm^3
     assert XCAFDoc_MaterialTool.GetDensityForShape_s(found.Value(1)) == pytest.approx(7.85e-3)
     materials, material = TDF_LabelSequence(), XCAFDoc_Material()

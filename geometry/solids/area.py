@@ -1,0 +1,178 @@
+"""The area of a solid's faces, all faces of a bundle at once.
+
+Over planes and surfaces of revolution it is an integral along the bounds (Green): of a cone the area of its shadow
+across the axis over the sine of its slant, of spheres and tori up to that of the whole. Extrusions go by the length of
+what is moved, splines are integrated over by Gauss's rule on every span.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from geometry.base.record import Record
+from geometry.curves.curve import Real
+from geometry.plane.measure import gauss_rule
+from geometry.solids.charts import TURN, along_edges, arcs, axes_of, edge_rows, span_shares, spline_rows
+from geometry.solids.faces import (
+    Circular,
+    Cone,
+    Cylinder,
+    Edges,
+    Extrusion,
+    Faces,
+    Index,
+    Plane,
+    Solid,
+    Sphere,
+    Spline,
+    SplineSurface,
+    Torus,
+)  # fmt: skip
+
+# nodes on a piece of an edge, and each way on one of a surface; arcs are cut into pieces no longer than this, rad;
+# places on spline surfaces at a time
+_NODES, _ACROSS, _PIECE, _AT_ONCE = 12, 8, math.pi / 4, 200_000
+
+
+def surface_area(solid: Solid) -> float:
+    """Of all faces, mm^2."""
+    runs = _Runs(tuple(_samples(solid, edges) for edges in solid.edges), *edge_rows(solid))
+    return sum(float(_areas(solid, runs, faces).sum()) for faces in solid.faces)
+
+
+class _Samples(Record, eq=False):
+    """Points of edges and derivatives by their shares (n, k, 3), and weights (k,)."""
+
+    points: Real
+    steps: Real
+    weights: Real
+
+
+class _Runs(Record, eq=False):
+    """Samples of every bundle of edges; of every edge its bundle and its row there."""
+
+    samples: tuple[_Samples, ...]
+    bundle: Index
+    row: Index
+
+    def of(self, edges: Index) -> Iterator[tuple[Index, Real, Real, Real]]:
+        """Edges bundle by bundle: their places among these, points and steps (n, k, 3), and weights (k,)."""
+        bundles = self.bundle[edges]
+        for number in np.unique(bundles).tolist():
+            mine = np.flatnonzero(bundles == number)
+            own, rows = self.samples[number], self.row[edges[mine]]
+            yield mine, own.points[rows], own.steps[rows], own.weights
+
+
+def _samples(solid: Solid, edges: Edges) -> _Samples:
+    shares = np.array([0.0, 1.0])
+    if isinstance(edges.curve, Circular):
+        shares = np.linspace(0, 1, max(1, math.ceil(float(arcs(solid, edges)[3].max()) / _PIECE)) + 1)
+    elif isinstance(edges.curve, Spline):
+        shares = span_shares(edges.curve.knots)
+    nodes, weights = _panels(shares, _NODES)
+    return _Samples(*along_edges(solid, edges, nodes), weights)
+
+
+def _panels(breaks: Real, count: int) -> tuple[Real, Real]:
+    """Gauss's nodes and weights between breaks."""
+    nodes, weights = gauss_rule(count)
+    half = np.diff(breaks)[:, None] / 2
+    return ((breaks[:-1] + breaks[1:])[:, None] / 2 + half * nodes).ravel(), (half * weights).ravel()
+
+
+def _areas(solid: Solid, runs: _Runs, faces: Faces) -> Real:
+    """Of the faces of a bundle, (n,)."""
+    surface = faces.surface
+    if isinstance(surface, SplineSurface):
+        return _patches(solid, surface)
+    if isinstance(surface, Extrusion):
+        return _swept(solid, runs, faces, surface)
+    count = len(faces.loops[0][0])
+    origin, axes = axes_of(solid, surface.frame, count)
+    middle = _middles(surface, runs, faces, origin, axes) if isinstance(surface, Torus) else np.zeros(count)
+    total = np.zeros(count)
+    for edges, senses in faces.loops:
+        face, ways = np.repeat(np.arange(count), edges.shape[1]), np.where(np.broadcast_to(senses, edges.shape), 1, -1)
+        for mine, points, steps, weights in runs.of(edges.ravel()):
+            own = face[mine]
+            turned = axes[own].transpose(0, 2, 1)
+            at, step = (points - origin[own, None]) @ turned, steps @ turned
+            turn = at[..., 0] * step[..., 1] - at[..., 1] * step[..., 0]
+            rate = _form(surface, at, turn, middle[own, None])
+            total += np.bincount(own, ways.ravel()[mine] * (rate @ weights), count)
+    whole = _whole(surface)
+    if whole is None:
+        return np.abs(total)
+    share = np.mod(total if faces.along else -total, whole)
+    # all of it, with rounding on either side
+    return np.where(np.minimum(share, whole - share) < 1e-9 * whole, whole, share)
+
+
+def _form(surface: Plane | Cylinder | Cone | Torus | Sphere, at: Real, turn: Real, about: Real) -> Real:
+    """What is integrated along the bounds, of places (n, k, 3) in a surface's frame and twice the area they sweep."""
+    if isinstance(surface, Plane):
+        return turn / 2
+    if isinstance(surface, Cone):
+        return turn / (2 * math.sin(surface.slant))
+    size, z = np.hypot(at[..., 0], at[..., 1]), at[..., 2]
+    turn = turn / size**2
+    if isinstance(surface, Cylinder):
+        return np.asarray(-surface.radius * z * turn)
+    if isinstance(surface, Sphere):
+        return np.asarray(-surface.radius * (z + surface.radius) * turn)
+    v = about + np.angle((size - surface.radius + 1j * z) * np.exp(-1j * about))
+    return np.asarray(-surface.tube * (surface.radius * v + surface.tube * np.sin(v)) * turn)
+
+
+def _whole(surface: Plane | Cylinder | Cone | Torus | Sphere) -> float | None:
+    """The area of a surface that is closed, mm^2."""
+    if isinstance(surface, Sphere):
+        return 2 * TURN * surface.radius**2
+    return TURN**2 * surface.radius * surface.tube if isinstance(surface, Torus) else None
+
+
+def _middles(surface: Torus, runs: _Runs, faces: Faces, origin: Real, axes: Real) -> Real:
+    """Of faces on a torus a middle angle of their bounds round the tube, rad, (n,)."""
+    total = np.zeros(len(origin), complex)
+    for edges, _ in faces.loops:
+        face = np.repeat(np.arange(len(origin)), edges.shape[1])
+        for mine, points, _, weights in runs.of(edges.ravel()):
+            at = (points - origin[face[mine], None]) @ axes[face[mine]].transpose(0, 2, 1)
+            spokes = np.hypot(at[..., 0], at[..., 1]) - surface.radius + 1j * at[..., 2]
+            np.add.at(total, face[mine], spokes @ weights)
+    return np.angle(total)
+
+
+def _swept(solid: Solid, runs: _Runs, faces: Faces, surface: Extrusion) -> Real:
+    """Of extrusions, whose bounds have the edge after the moved one along the direction."""
+    ((edges, _),) = faces.loops
+    after = (np.argmax(edges == surface.edges[:, None], axis=1) + 1) % edges.shape[1]
+    ruling, total = edges[np.arange(len(edges)), after], np.zeros(len(edges))
+    ways = np.empty((len(edges), 3))
+    for mine, _, steps, weights in runs.of(ruling):
+        ways[mine] = np.einsum("nkc,k->nc", steps, weights)
+    for mine, _, steps, weights in runs.of(surface.edges):
+        total[mine] = np.linalg.norm(np.cross(steps, ways[mine, None]), axis=2) @ weights
+    return total
+
+
+def _patches(solid: Solid, surface: SplineSurface) -> Real:
+    rules = [_panels(span_shares(knots), _ACROSS) for knots in (surface.u_knots, surface.v_knots)]
+    (u, along), (v, across) = (
+        spline_rows(degree, knots, shares, 1)
+        for degree, knots, (shares, _) in zip(surface.degrees, (surface.u_knots, surface.v_knots), rules, strict=True)
+    )
+    (_, u_weights), (_, v_weights) = rules
+    total = np.empty(len(surface.poles))
+    block = max(1, _AT_ONCE // (len(u_weights) * len(v_weights)))
+    for start in range(0, len(total), block):
+        part = slice(start, start + block)
+        poles = np.moveaxis(solid.points[surface.poles[part]], 3, 0)
+        (a, b, c), (d, e, f) = along @ poles @ v.T, u @ poles @ across.T
+        sizes = np.sqrt((b * f - c * e) ** 2 + (c * d - a * f) ** 2 + (a * e - b * d) ** 2)
+        total[part] = sizes @ v_weights @ u_weights
+    return total
