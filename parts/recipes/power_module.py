@@ -3,7 +3,8 @@
 Sizes follow by ``parts/pages/module_rules.py``. From the front: platform 4; shields 7, 8; disk 2 with disk 3 in it
 on two rows of balls, in the body on a third; wheel 21 with pinion 19 behind them; ring 24 and worm wheel 25 on disk 2;
 ring 22, the inner race of the fourth row, and worm wheel 23 on wheel 21; what turns the platform;
-both worms in the body. Each worm comes in through the seat that its cover then closes. Threads are plain cylinders of
+both worms in the body. All of disk 2 comes in from the front, guide 6 then closes the opening about it, and guide 5
+the row of balls between them; each worm comes in through the wall and the seat that its cover then closes. Threads are plain cylinders of
 the nominal diameter. The groove that section 2.3 has in wheel 21 is turned in ring 22, one body with it.
 
 The platform is turned by the wheels 16, 14, 11 of the thesis, or kept parallel by cranks: plate 16 on the body, ring 14
@@ -36,6 +37,10 @@ _Teeth = Annotated[int, Meta(ge=12, le=1000)]
 _NUT_20, _HEX_8, _HEX_12 = (17.0, 8.0), (13.0, 5.3), (18.0, 7.5, 10.8)
 # step of a casting from one level to the next, play of what is turned by hand, mm
 _STEP, _PLAY = 1.0, 0.05
+# guide 6: height of its flange, which screws M8x16 hold by as much, how many, how deep their holes are
+_FLANGE, _GUIDE_SCREWS, _DEEP = 8.0, 20, 10.0
+# guide 5: how many screws, where the first is, degrees
+_RACE_SCREWS, _RACE_START = 32, 1.875
 
 STEEL, IRON, BRONZE, BRASS = "steel", "cast iron", "bronze", "brass"
 # by part: position, name, material, colour; beyond 33, and what 11, 13, 14, 16 are with cranks, not the thesis's
@@ -323,13 +328,16 @@ class _Making(Making):
             "part": "body", "at": [0.0, 0.0, round(self.low["body"], 6)], "held": True, "subassembly": self.within,
         }  # fmt: skip
         self._layers("body", self._casting())
-        # the guide over the balls of disk 2, its screws in the lip
-        count = 20
-        self._tube("guide_6", s["r_20_in"], s["r_6"], keys.ball, _holes(count, M8[0], s["r_6_screws"]))
-        top = s["z_ball"] + keys.ball / 2
-        self._set("body", "guide_6", "guide_6", top)
+        # the guide about the balls of disk 2 closes the opening of the lip, its screws in that
+        count, inner, outer, high = _GUIDE_SCREWS, s["r_20_in"], s["r_open"] - keys.clearance, s["h_5"]
+        groove = math.sqrt((keys.ball / 2) ** 2 - s["gap_race"] ** 2)
+        self._turned("guide_6", [
+            (inner, 0), (outer, 0), (outer, high - _FLANGE), (s["r_6"], high - _FLANGE), (s["r_6"], high),
+            (inner, high), (inner, s["z_ball"] + groove, -keys.ball / 2), (inner, s["z_ball"] - groove),
+        ], _holes(count, M8[0], s["r_6_screws"]))  # fmt: skip
+        self._set("body", "guide_6", "guide_6", 0.0)
         self._screw("screw_51", 8, 16, M8[1:])
-        self._circle("body", "guide_6_screw", "screw_51", count, s["r_6_screws"], top + keys.ball - 16)
+        self._circle("body", "guide_6_screw", "screw_51", count, s["r_6_screws"], high - 16)
         # what holds the central wheel
         self._tube("spacer_18", 10.0, s["r_18"], s["h_18"], _holes(6, 8, s["r_54"]))
         self._set("body", "spacer_18", "spacer_18", s["z_boss"])
@@ -358,16 +366,15 @@ class _Making(Making):
 
     def _casting(self) -> list[tuple[float, Table]]:
         """The body's layers from the flange to the lip."""
-        s, keys = self.s, self.keys
-        ball = keys.ball / 2
-        levels = {self.low["body"], s["z_floor"], s["z_boss"], s["z_lip"], s["z_ball"] - ball, s["z_ball"] + ball}
-        levels.add(s["z_ball"] + ball - 10)
+        s = self.s
+        top = s["h_5"] - _FLANGE
+        levels = {self.low["body"], s["z_floor"], s["z_boss"], s["z_lip"], top - _DEEP, top}
         seats = [seat for worm in (1, 2) for seat in self._seats(worm)]
-        for _, _, bottom, top, cap in seats:
-            levels |= {bottom, top, cap}
-        heights = sorted(levels)
+        for _, _, bottom, above, cap in seats:
+            levels |= {bottom, above, cap}
+        levels |= {s[f"z_{worm}"] + side * s["h_window"] for worm in (1, 2) for side in (-1, 1)}
         found = []
-        for low, high in pairwise(heights):
+        for low, high in pairwise(sorted(levels)):
             circles: list[Table] = []
             polygons: list[Table] = [_square(s["half"])]
             if high <= s["z_floor"]:
@@ -375,22 +382,43 @@ class _Making(Making):
                 circles += [_round(M12[0], at) for at in _around(s["half"] + 20)]
                 circles += [_round(20, at) for at in self._plugs()]
             elif high <= s["z_lip"]:
-                polygons.append(_square(s["half_room"]))
+                polygons = self._wall((low + high) / 2)
                 if high <= s["z_boss"]:
                     circles.append(_round(s["arm"] + 6))
                     circles += [_round(8, at) for at in _on_circle(6, s["r_54"])]
                 for rows in seats:
                     polygons += _seat_at(rows, (low + high) / 2)
             else:
-                race = low >= s["z_ball"] - ball
-                circles.append(_round(2 * (s["r_race"] if race else s["r_20_in"])))
-                if low >= s["z_ball"] + ball - 10:
-                    circles += [_round(8, at) for at in _on_circle(20, s["r_6_screws"])]
+                circles.append(_round(2 * s["r_open"]))
+                if high > top - _DEEP:
+                    circles += [_round(8, at) for at in _on_circle(_GUIDE_SCREWS, s["r_6_screws"])]
             for worm in (1, 2):
                 if low >= s[f"z_{worm}"] + s["h_seat"]:
                     circles += [_round(8, at) for at in self._set_screws(worm) if worm == 1 or high <= self._cap(2)]
             found.append((high - low, {"polygons": polygons, "circles": circles}))
         return found
+
+    def _wall(self, z: float) -> list[Table]:
+        """The walls at a height, opened where worms come in: worm I on the right, II on the left."""
+        s = self.s
+        opened = [abs(z - s[f"z_{worm}"]) < s["h_window"] for worm in (1, 2)]
+        if not any(opened):
+            return [_square(s["half"]), _square(s["half_room"])]
+        out, room = s["half"] - _STEP, s["half_room"] + _STEP
+        right, left = (complex(side * s[f"a_{worm}"], s["h_window"]) for worm, side in ((1, 1), (2, -1)))
+        # from the opening on the right over the back to that on the left, and on
+        upper = [(out, right.real + right.imag), (out, out), (-out, out)]
+        upper_in = [(-room, room), (room, room), (room, right.real + right.imag)]
+        lower = [(-out, -out), (out, -out), (out, right.real - right.imag)]
+        lower_in = [(room, right.real - right.imag), (room, -room), (-room, -room)]
+        if not opened[1]:
+            return [_corners([*upper, *lower, *lower_in, *upper_in])]
+        ends = [[(x, left.real + side * left.imag) for x in (-out, -room)] for side in (1, -1)]
+        if not opened[0]:
+            return [
+                _corners([*ends[1][:1], *lower[:2], *upper[1:], *ends[0], *upper_in[:2], *lower_in[1:], *ends[1][1:]])
+            ]
+        return [_corners([*upper, *ends[0], *upper_in]), _corners([*ends[1][:1], *lower, *lower_in, *ends[1][1:]])]
 
     def _cap(self, worm: int) -> float:
         """Top of the seat of a worm's cover."""
@@ -425,20 +453,23 @@ class _Making(Making):
         front = [_round(4, at) for at in _on_circle(16, s["r_53"], 11.25)]
         own = [_round(4, at + arm) for at in _on_circle(16, s["r_8"])]
         clips = [_round(4, at + arm) for at in _on_circle(12, s["r_59"])]
-        edge = _round(2 * s["r_2"])
-        low, high = s["seat_33"], t - s["seat_33"]
-        thread = s["h_thread"]
+        # the flange under the balls of the body, through which the screws of guide 5 go
+        edge, rest = _round(2 * s["r_2"]), [_round(2 * s["r_5"])]
+        rest += [_round(M8[0], at) for at in _on_circle(_RACE_SCREWS, s["r_41"], _RACE_START)]
+        low, high, thread, race = s["seat_33"], t - s["seat_33"], s["h_thread"], s["z_race"]
+        levels = sorted({0.0, low, thread, high, t, race})
         self._layers("disk_2", [
-            (low, {"circles": [edge, _round(seat, arm), *behind]}),
-            (thread - low, {"circles": [edge, _round(bore, arm), *behind, *clips]}),
-            (high - thread, {"circles": [edge, _round(bore, arm), *front, *clips, *own]}),
-            (t - high, {"circles": [edge, _round(seat, arm), *front, *own]}),
+            (end - start, {"circles": [
+                *(rest if end <= race else [edge]), _round(bore if low <= start and end <= high else seat, arm),
+                *(behind if end <= thread else front), *(clips if low <= start and end <= high else []),
+                *(own if thread <= start else []),
+            ]}) for start, end in pairwise(levels)
         ])  # fmt: skip
         self.found.instances["disk_2"] = {"part": "disk_2", "subassembly": self.within}
         self.low["disk_2"] = 0.0
         self.mate("coaxial", "body", "disk_2", height=round(-self.low["body"], 6))
         # shields
-        self._tube("shield_7", s["r_7_in"], s["r_6"], s["h_shield"], _holes(16, M4[0], s["r_53"], 11.25))
+        self._tube("shield_7", s["r_7_in"], s["r_7_out"], s["h_shield"], _holes(16, M4[0], s["r_53"], 11.25))
         self._set("disk_2", "shield_7", "shield_7", t)
         self._tube("shield_8", s["r_3"] - 6, s["r_8_out"], s["h_shield"], _holes(16, M4[0], s["r_8"]))
         self._set("disk_2", "shield_8", "shield_8", t, arm)
@@ -465,7 +496,7 @@ class _Making(Making):
         edges, through = [_round(2 * s["r_24"]), _round(2 * s["r_24_in"])], _on_circle(12, s["r_53"])
         passing = [_round(M8[0], at) for at in through]
         bolts = [_round(8, at) for at in _on_circle(24, s["r_41"])]
-        guides = [_round(8, at) for at in _on_circle(32, s["r_41"], 1.875)]
+        guides = [_round(8, at) for at in _on_circle(_RACE_SCREWS, s["r_41"], _RACE_START)]
         self._layers("spacer_24", [
             (40 - wide + 1, {"circles": [*edges, *passing, *bolts]}),
             (h - (40 - wide + 1) - (25 - s["h_5"] + 1), {"circles": [*edges, *passing]}),
@@ -475,15 +506,14 @@ class _Making(Making):
         self._screw("screw_53", 8, 45, M8[1:])
         self._screw("screw_53_down", 8, 45, M8[1:], down=True)
         self._circle("disk_2", "spacer_24_screw", "screw_53_down", 12, s["r_53"], -h - M8[2])
-        groove = math.sqrt((ball / 2) ** 2 - s["gap_race"] ** 2)
-        z = s["z_ball"]
+        groove, low = math.sqrt((ball / 2) ** 2 - s["gap_race"] ** 2), s["z_race"]
         self._turned("guide_5", [
-            (s["r_2"], 0), (s["r_5"], 0), (s["r_5"], z - groove, -ball / 2), (s["r_5"], z + groove),
-            (s["r_5"], s["h_5"]), (s["r_2"], s["h_5"]),
-        ], _holes(32, M8[0], s["r_41"], 1.875))  # fmt: skip
-        self._set("disk_2", "guide_5", "guide_5", 0.0)
+            (s["r_2"], 0), (s["r_large"] - ball / 2, 0), (s["r_large"] - ball / 2, s["z_ball"] - low, -ball / 2),
+            (s["r_5"], s["z_ball"] - low + groove), (s["r_5"], s["h_5"] - low), (s["r_2"], s["h_5"] - low),
+        ], _holes(_RACE_SCREWS, M8[0], s["r_41"], _RACE_START))  # fmt: skip
+        self._set("disk_2", "guide_5", "guide_5", low)
         self._screw("screw_52", 8, 25, M8[1:])
-        self._circle("disk_2", "guide_5_screw", "screw_52", 32, s["r_41"], s["h_5"] - 25, 1.875)
+        self._circle("disk_2", "guide_5_screw", "screw_52", _RACE_SCREWS, s["r_41"], s["h_5"] - 25, _RACE_START)
         self._worm_wheel("worm_wheel_25", 0, s["r_25_in"], [
             _holes(24, M8[0], s["r_41"]), _holes(24, 8, s["r_20_screws"]),
         ])  # fmt: skip
@@ -800,6 +830,11 @@ def _round(diameter: float, at: complex = 0j) -> Table:
 
 def _square(half: float, corner: float = 0.0) -> Table:
     return {"points": [[-half, -half], [half, -half], [half, half], [-half, half]], "corner_radius": corner}
+
+
+def _corners(points: Sequence[tuple[float, float]]) -> Table:
+    """A polygon of a layer."""
+    return {"points": [[round(x, 6), round(y, 6)] for x, y in points]}
 
 
 def _hexagon(across: float) -> Table:

@@ -142,7 +142,9 @@ def test_the_power_module_is_clear_all_over_its_workspace(capsys: Any) -> None:
     assert told["uncovered"] == []
     # balls roll in their grooves, in touch, one row for two parts
     fits = {tuple(sorted(fit["parts"])): fit for fit in told["fits"]}
-    for races, pairs in (("bearing_ring", 116), ("disk_3", 64), ("guide_5", 58), ("spacer_22", 58), ("disk_2", 64)):
+    for races, pairs in (
+        ("bearing_ring", 116), ("disk_3", 64), ("guide_5", 58), ("guide_6", 58), ("spacer_22", 58), ("disk_2", 122),
+    ):  # fmt: skip
         fit = fits[tuple(sorted(("ball", races)))]
         assert (fit["pairs"], fit["touching"]) == (pairs, pairs)
     assert fits["end_cover", "worm"]["least"] == pytest.approx(0.05, abs=1e-6)
