@@ -4,8 +4,9 @@ Sizes follow by ``parts/pages/module_rules.py``. From the front: platform 4; shi
 on two rows of balls, in the body on a third; wheel 21 with pinion 19 behind them; ring 24 and worm wheel 25 on disk 2;
 ring 22, the inner race of the fourth row, and worm wheel 23 on wheel 21; what turns the platform;
 both worms in the body. All of disk 2 comes in from the front, guide 6 then closes the opening about it, and guide 5
-the row of balls between them; each worm comes in through the wall and the seat that its cover then closes. Threads are plain cylinders of
-the nominal diameter. The groove that section 2.3 has in wheel 21 is turned in ring 22, one body with it.
+the row of balls between them; each worm comes in through the wall and the seat that its cover then closes. Threads
+are plain cylinders of the nominal diameter. The groove that section 2.3 has in wheel 21 is turned in ring 22, one body
+with it.
 
 The platform is turned by the wheels 16, 14, 11 of the thesis, or kept parallel by cranks: plate 16 on the body, ring 14
 about O2, plate 11 on the platform's axle, between them two planes of three cranks each, which no axle crosses. Ring 14
