@@ -5,6 +5,7 @@ from __future__ import annotations
 from geometry.cams.plane.graphical import INTERVALS
 from parts.base.refusal import SceneError, meant
 from parts.base.registry import KINDS
+from parts.base.texts import told_in
 from parts.cams.coupler_cam.part import LinkageCamSpec
 from parts.cams.disk_cam import page as calculation
 from parts.cams.disk_cam.part import CamSpec
@@ -54,6 +55,6 @@ def cam_sheets(
         page = calculation.sheet(table)
         # the position in numbers is for the page alone
         page.sections = [s for s in page.sections if not {x.name for x in s.steps} & _PAGE_ALONE]
-        made = cam_sheet(spec.title or part, picture, page, asked)
+        made = cam_sheet(told_in(scene.scene.language, spec.title or part), picture, page, asked)
         found += [(part if len(made) == 1 else f"{part}.{k}", one) for k, one in enumerate(made, 1)]
     return found

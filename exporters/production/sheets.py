@@ -25,7 +25,7 @@ from parts.base.materials import material_told
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError, placed
 from parts.base.schema import unit_of
-from parts.base.texts import words
+from parts.base.texts import told_in, words
 from parts.cams.coupler_cam.part import LinkageCamSpec
 from parts.cams.disk_cam.part import CamSpec
 from parts.drawing.canvas import Canvas, decimal, scale_text
@@ -187,7 +187,9 @@ def _check_letters(canvases: list[Canvas], scene: SceneFile, export: ExportSpec,
     if not missing_letters("".join(run.text for canvas in canvases for text in canvas.texts for run in text.runs)):
         return
     given: dict[str, str | None] = {"scene.title": scene.scene.title}
-    given |= {f"parts.{key}.title": getattr(spec, "title", None) for key, spec in scene.parts.items()}
+    given |= {
+        f"parts.{key}.title": told_in(scene.scene.language, spec.title or "") for key, spec in scene.parts.items()
+    }
     if isinstance(export.title_block, TitleBlockTable):
         given |= {f"{where}.title_block.{key}": str(text) for key, text in asdict(export.title_block).items()}
     for place, text in given.items():
@@ -410,7 +412,9 @@ def _facts(mating: Toothed, picture: MeshingPicture, language: str, specs: list[
         Row(word("arc"), sample="ARC_OF_ACTION"),
         Row(word("pitch"), sample="WORKING_PITCH"),
     ]
-    first, second = (spec.title or name for spec, name in zip(specs, (mating.first, mating.second), strict=True))
+    first, second = (
+        told_in(language, spec.title or name) for spec, name in zip(specs, (mating.first, mating.second), strict=True)
+    )
     if getattr(mating, "ring_first", False):
         # the picture counts the pinion first
         first, second = second, first

@@ -8,8 +8,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Generic, TypeVar
 
-from msgspec import Struct
-
 from geometry.base.errors import GeometryError, Nearest, ParameterError
 from geometry.base.nearest import nearest
 from geometry.base.record import Record, field
@@ -27,11 +25,12 @@ if TYPE_CHECKING:
     from geometry.solids.mass import Moments
     from geometry.solids.sketch import Sketch
     from parts.base.readback import Probe
+    from parts.keys.base import MaterialKeys
 
-K = TypeVar("K", bound=Struct)
+K = TypeVar("K", bound="MaterialKeys")
 T = TypeVar("T")
 # the keys of every part of a scene, for what is made from another part's
-Others = Mapping[str, Struct]
+Others = Mapping[str, "MaterialKeys"]
 
 # symbols of what tells wheels apart, and their keys
 _NUMBERS = (("z", "number_of_teeth"), ("m", "module"), ("x", "profile_shift_coefficient"))

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from geometry.gears.pairs.internal import InternalPair
     from geometry.gears.pairs.rack import RackPair
     from geometry.kinematics.mechanism import Joint
+    from parts.keys.base import MaterialKeys
 
 
 class MateKeys(Struct, forbid_unknown_fields=True, tag_field="kind", kw_only=True):
@@ -61,7 +62,7 @@ class Standing(Record):
 class End(Record, Generic[A]):
     """One of the two parts that a mate joins: its keys in the scene and its exact thing."""
 
-    keys: Struct
+    keys: MaterialKeys
     thing: A
 
     @property

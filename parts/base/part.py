@@ -9,30 +9,33 @@ from typing import TYPE_CHECKING, Any
 from geometry.base.findings import Finding
 from geometry.base.record import Record, replace
 from parts.base.materials import density_of
+from parts.base.texts import told_in
 
 if TYPE_CHECKING:
     import cadquery
     import trimesh
-    from msgspec import Struct
 
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.body import Body
     from geometry.solids.faced import FacedBody
     from parts.base.kind import Kind, Report
     from parts.base.readback import Probe
+    from parts.keys.base import MaterialKeys
 
 
 class Part(Record, dict=True):
     """A part with one flat section for plane formats and one solid, lower face of its rim at z = 0.
 
-    ``keys``: as the scene has them, ``thing``: what the kind has made of them and the scene's mates have left of it.
+    ``keys``: as the scene has them, ``thing``: what the kind has made of them and the scene's mates have left of it,
+    ``language``: that of the scene.
     Everything else is asked of the kind, once, when somebody wants it.
     """
 
     id: str
     made_by: Kind[Any, Any]
-    keys: Struct
+    keys: MaterialKeys
     thing: Any
+    language: str
 
     @property
     def kind(self) -> str:
@@ -50,7 +53,7 @@ class Part(Record, dict=True):
         return lru_cache(maxsize=8)(self._cut)
 
     def _cut(self, offset: float, *, named: bool = False) -> OffsetRegion:
-        label: bool | str | None = self.keys.label  # type: ignore[attr-defined]
+        label = self.keys.label
         if not (named if label is None else label):
             return self.section(offset)
         from geometry.plane.letters import unknown_letters
@@ -66,28 +69,29 @@ class Part(Record, dict=True):
 
     @property
     def title(self) -> str | None:
-        """What people call it."""
-        return self.keys.title  # type: ignore[attr-defined]
+        """What people call it, in the language of the scene."""
+        return None if self.keys.title is None else told_in(self.language, self.keys.title)
 
     @property
     def designation(self) -> str | None:
         """Of its drawing."""
-        return self.keys.designation  # type: ignore[attr-defined]
+        return self.keys.designation
 
     @property
     def product_name(self) -> str | None:
         """What CAD shows of it: its position and title; the kernel takes a name without any ASCII letter for none."""
         if self.title is None:
             return None
-        keys: Any = self.keys
-        told = " ".join(str(word) for word in (keys.position, self.title) if word)
+        told = " ".join(str(word) for word in (self.keys.position, self.title) if word)
         return told if any("!" <= letter <= "~" for letter in told) else f"{told} ({self.id})"
 
     @property
     def description(self) -> str:
-        """What a parts list says of it beside its title: designation or standard, and its title in Ukrainian."""
-        keys: Any = self.keys
-        return "; ".join(filter(None, (keys.designation or keys.standard, keys.title_uk)))
+        """What a parts list says of it beside its title: designation or standard, and its title in other languages."""
+        titles = self.keys.title
+        others = titles.values() if isinstance(titles, dict) else ()
+        told = (self.keys.designation or self.keys.standard, *(other for other in others if other != self.title))
+        return "; ".join(filter(None, told))
 
     def called(self, instance: str) -> str:
         """What people call an instance of it: its title, and its number or its whole id beside it."""
@@ -148,18 +152,17 @@ class Part(Record, dict=True):
     @property
     def material(self) -> str | None:
         """What it is made of, as typed."""
-        return self.keys.material  # type: ignore[attr-defined]
+        return self.keys.material
 
     @property
     def colour(self) -> str | None:
         """Its colour in pictures."""
-        return self.keys.colour  # type: ignore[attr-defined]
+        return self.keys.colour
 
     @property
     def density(self) -> float | None:
         """g/cm^3; None where the material is not known."""
-        given: float | None = self.keys.density  # type: ignore[attr-defined]
-        return given or density_of(self.material)
+        return self.keys.density or density_of(self.material)
 
     @cached_property
     def probes(self) -> tuple[Probe, ...]:

@@ -86,6 +86,11 @@ def filled(text: Text, /, **numbers: object) -> Message:
     return made._replace(numbers={**made.numbers, **numbers})
 
 
+def told_in(language: str, told: str | Mapping[str, str]) -> str:
+    """Words of a scene, which may stand in several languages: in this one, else in English, else in the first."""
+    return told if isinstance(told, str) else told.get(language, told.get(ENGLISH, next(iter(told.values()))))
+
+
 class Words(NamedTuple):
     """One language; its methods translate, then fill in the placeholders where numbers are given."""
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal, Protocol, TypeVar
 
-from msgspec import Struct
-
 from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.nearest import last_that_holds
@@ -14,6 +12,7 @@ from geometry.plane.profile import Profile, Region
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Kind
+from parts.keys.base import MaterialKeys
 from parts.keys.holes import wide_bore
 from parts.keys.timing_mark import TimingMarkTable, with_timing_mark
 from parts.keys.wheel import FaceChamferTable, HubbedKeys, HubTable, wheel_shape
@@ -77,7 +76,7 @@ def check_disk(keys: DiskKeys, cam: DiskCam, within: Within = "base_circle") -> 
     return marked
 
 
-K = TypeVar("K", bound=Struct)
+K = TypeVar("K", bound=MaterialKeys)
 T = TypeVar("T")
 
 

@@ -76,8 +76,9 @@ def either(key: str, value: object, other: str, without: float | None = None) ->
 Title = Annotated[
     str, Meta(pattern=r"\S", max_length=120, description="what people call it, in any script", examples=["Pinion"])
 ]
+# in one for all languages, or in each
+Titles = Title | Annotated[dict[str, Title], Meta(min_length=1)]
 # of the parts list
-TitleUk = Annotated[Title, Meta(description="the same in Ukrainian, where the title is not")] | None
 Position = Annotated[int, Meta(ge=1, le=9999, description="number in the parts list", examples=[19])] | None
 Designation = (
     Annotated[str, Meta(pattern=r"\S", max_length=60, description="of its drawing", examples=["ABC.01.00.19"])] | None
@@ -105,8 +106,7 @@ class MaterialKeys(Struct, forbid_unknown_fields=True, kw_only=True):
     material: Material | None = None
     density: Density | None = None
     colour: Colour | None = None
-    title: Title | None = None
-    title_uk: TitleUk = None
+    title: Titles | None = None
     position: Position = None
     designation: Designation = None
     standard: Standard = None

@@ -26,7 +26,7 @@ from msgspec.structs import replace
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.nearest import nearest
-from parts.base.texts import N_, Message, words
+from parts.base.texts import N_, Message, in_every_language, words
 from parts.keys.base import mm
 from parts.pages.module_rules import CONDITIONS, DRIVERS, M4, M8, M10, M12, Condition, of_orientation, sizes, valued
 from parts.recipes.making import Making, place
@@ -161,7 +161,7 @@ class PowerModuleKeys(RecipeKeys, kw_only=True, tag="power_module"):
     platform_size: Annotated[float, mm("side of the platform", above=0, most=5000)] = DRIVERS["platform_size"]
     turns_of_disk: Annotated[_Turns, Meta(description="how far disk 2 is turned")] = 1.0
     turns_of_ring: Annotated[_Turns, Meta(description="how far wheel 21 is turned")] = -2.0
-    names: Annotated[Literal["en", "uk"], Meta(description="language of titles and designations")] = "en"
+    names: Annotated[Literal["en", "uk"], Meta(description="language of designations")] = "en"
 
 
 _DRIVERS = tuple(name for name in DRIVERS if "teeth" not in name)
@@ -272,8 +272,8 @@ class _Making(Making):
         return self.found
 
     def _named(self) -> None:
-        """Position, names, material and standard of every part."""
-        told, uk = words(self.keys.names), words("uk")
+        """Position, titles, designation or standard and material of every part."""
+        told = words(self.keys.names)
         for name, table in self.found.parts.items():
             if name in PARTS:
                 position, title, material, colour = PARTS[name]
@@ -282,7 +282,7 @@ class _Making(Making):
             else:
                 position, title, standard = STANDARD[name]
                 table |= {"standard": told.text(_STANDARD, number=standard), "material": STEEL, "colour": "#5f6870"}
-            table |= {"position": position, "title": told.text(title), "title_uk": uk.text(title)}
+            table |= {"position": position, "title": in_every_language(title)}
 
     def _set(self, first: str, instance: str, part: str, z: float, at: complex = 0j, **more: object) -> None:
         """An instance or a group of them (``count``), one body with another; ``z``: its lower face."""

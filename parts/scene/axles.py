@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import cmath
 
-from msgspec import Struct
 from msgspec.structs import replace
 
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError
 from parts.bodies.plate import FlatKeys
+from parts.keys.base import MaterialKeys
 from parts.scene.instances import InstanceSpec, check_instance
 from parts.scene.placing import UPWARDS, Placing
 
@@ -43,7 +43,7 @@ def waits_for_axles(parts: Parts, instances: dict[str, InstanceSpec], source: st
     return found
 
 
-def with_axle_holes(parts: Parts, placing: Placing, source: str) -> dict[str, Struct]:
+def with_axle_holes(parts: Parts, placing: Placing, source: str) -> dict[str, MaterialKeys]:
     """The keys of all parts with a place for each hole of an axle, in the frame of the part's first instance.
 
     Raises

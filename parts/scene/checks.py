@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from msgspec import Struct
-
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.nearest import nearest
 from parts.base.mate import End, MateKeys, MateKind, Mating
@@ -19,6 +17,7 @@ from parts.mates.pairing import mated
 from parts.mates.registry import MATES
 
 if TYPE_CHECKING:
+    from parts.keys.base import MaterialKeys
     from parts.scene.placing import Placing
 
 # of the parts: their keys, what they are made from, and which part each instance is
@@ -27,7 +26,11 @@ PartOf = Mapping[str, str]
 
 
 def joined(
-    parts: Mapping[str, Struct], things: Mapping[str, Any], mates: Sequence[MateKeys], part_of: PartOf, source: str
+    parts: Mapping[str, MaterialKeys],
+    things: Mapping[str, Any],
+    mates: Sequence[MateKeys],
+    part_of: PartOf,
+    source: str,
 ) -> tuple[dict[str, Any], list[Mating]]:
     """What the parts are made from, as a scene's mates want it, and the matings.
 

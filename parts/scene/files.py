@@ -6,6 +6,8 @@ import codecs
 import tomllib
 from pathlib import Path
 
+from parts.base.texts import told_in
+
 SCENE_FOLDER = Path(__file__).parents[1] / "scenes"
 # a scene that is larger than this is not one
 MOST_BYTES = 4_000_000
@@ -19,7 +21,7 @@ def built_in_scenes() -> dict[str, Path]:
 def title_of(file: Path, language: str) -> str:
     """The title of a scene of the package, in a language that it has or in English."""
     told = tomllib.loads(file.read_text(encoding="utf-8"))["scene"]["title"]
-    return str(told.get(language, told["en"]) if isinstance(told, dict) else told)
+    return told_in(language, told)
 
 
 def text_of(raw: bytes) -> str:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Meta, Struct
@@ -109,7 +109,7 @@ class DriveSpec(Struct, forbid_unknown_fields=True):
 
 
 def instance_specs(
-    raw: dict[str, Any], parts: dict[str, Struct], source: str
+    raw: dict[str, Any], parts: Collection[str], source: str
 ) -> tuple[dict[str, InstanceSpec], dict[str, Group]]:
     """Every instance of a scene, part by part, and the groups; a part that no table names has one of its own id.
 
@@ -139,7 +139,7 @@ def instance_specs(
     return specs, groups
 
 
-def _instance_table(key: str, table: object, parts: dict[str, Struct], source: str) -> InstanceTable:
+def _instance_table(key: str, table: object, parts: Collection[str], source: str) -> InstanceTable:
     """One table, with the part that stands there."""
     place = f"instances.{key}"
     if not re.fullmatch(IDENTIFIER, key):
@@ -164,7 +164,7 @@ def _instance_table(key: str, table: object, parts: dict[str, Struct], source: s
     return spec
 
 
-def _check_id(key: str, spec: InstanceSpec, parts: dict[str, Struct], source: str, place: str) -> None:
+def _check_id(key: str, spec: InstanceSpec, parts: Collection[str], source: str, place: str) -> None:
     if not re.fullmatch(IDENTIFIER, key):
         raise SceneError(source, place, None, "not_a_name", Nearest("instance"))
     if key in parts and spec.part != key:

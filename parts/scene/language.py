@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import re
 import tomllib
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
 from parts.base.content import content
-from parts.base.texts import ENGLISH, languages
+from parts.base.texts import ENGLISH, languages, told_in
 from parts.scene.files import MOST_BYTES, built_in_scenes, text_of
 
 # keys that hold words, and may hold them in several languages
-WORDS = ("title", "label", "material")
+WORDS: tuple[str, ...] = ("title", "label", "material")
+# those that a part keeps in one: its title stays in all of them, as STEP files tell it
+WORDS_OF_PARTS: tuple[str, ...] = ("label", "material")
 
 
 def language_of(address: str) -> str:
@@ -32,41 +35,35 @@ def language_of(address: str) -> str:
     return asked if asked in languages() else ENGLISH
 
 
-def in_language(raw: dict[str, Any], source: str, asked: str | None) -> dict[str, Any]:
-    """The tables of a scene, its titles, labels and materials in the language ``asked`` for, else in the scene's.
+def in_language(raw: dict[str, Any], source: str) -> dict[str, Any]:
+    """The plain tables of a scene with their words in its language; titles of parts stay in all that they have.
 
     Raises
     ------
     SceneError
         A language has no catalogue.
     """
-    scene = raw.get("scene", {})
-    tables = {key: raw[key] for key in ("parts", "instances") if isinstance(raw.get(key), dict)}
-    if not isinstance(scene, dict):
-        return raw
-    if asked is not None:
-        scene = {**scene, "language": asked}
-    language = scene.get("language", ENGLISH)
-    made = {**raw, "scene": _chosen(scene, language, source, "scene")}
-    for name, rows in tables.items():
-        made[name] = {key: _chosen(table, language, source, f"{name}.{key}") for key, table in rows.items()}
-    if "defaults" in raw:
-        made["defaults"] = _chosen(raw["defaults"], language, source, "defaults")
-    if isinstance(told := raw.get("assemblies"), list):
-        made["assemblies"] = [_chosen(one, language, source, f"assemblies[{k}]") for k, one in enumerate(told, 1)]
+    made = {**raw, "scene": in_one(raw, raw.get("scene", {}), source, "scene")}
+    for name, chosen in {"parts": WORDS_OF_PARTS, "instances": WORDS}.items():
+        rows = raw.get(name, {})
+        made[name] = {key: in_one(raw, table, source, f"{name}.{key}", chosen) for key, table in rows.items()}
     return made
 
 
-def _chosen(table: object, language: str, source: str, place: str) -> Any:
-    """A table whose words stand in one language: the one asked for, else English, else the first."""
+def in_one(raw: dict[str, Any], table: object, source: str, place: str, chosen: Collection[str] = WORDS) -> Any:
+    """A table of a scene (all tables: ``raw``) with the ``chosen`` of its words in the scene's language.
+
+    Raises
+    ------
+    SceneError
+        A language has no catalogue.
+    """
     # ``list`` asks for the language alone and loads nothing of geometry
     from parts.base.refusal import SceneError, meant
 
     if not isinstance(table, dict):
         return table
-    made = dict(table)
-    if language == "uk" and isinstance(table.get("title_uk"), str):
-        made["title"] = table["title_uk"]
+    made, language = dict(table), raw.get("scene", {}).get("language", ENGLISH)
     for key in WORDS:
         if not isinstance(told := table.get(key), dict) or not told:
             continue
@@ -76,5 +73,6 @@ def _chosen(table: object, language: str, source: str, place: str) -> Any:
                 raise SceneError(
                     source, f"{place}.{key}.{other}", told[other], "not_one_of", meant(other, known), known=known
                 )
-        made[key] = told.get(language, told.get(ENGLISH, next(iter(told.values()))))
+        if key in chosen:
+            made[key] = told_in(str(language), told)
     return made

@@ -40,6 +40,7 @@ from parts.scene.language import in_language
 
 if TYPE_CHECKING:
     from parts.base.mate import MateKeys, Mating
+    from parts.keys.base import MaterialKeys
 
 
 L = TypeVar("L", bound=LaidKeys)
@@ -262,12 +263,11 @@ def scene_from_dict(raw: dict[str, Any], source: str, name: str, language: str |
     """Validate the tables of a scene, its assemblies told out."""
     refuse_infinite(raw, source, "")
     _check_tables(raw, source)
-    raw = in_language(raw, source, language)
+    if language is not None:
+        raw = {**raw, "scene": {**raw.get("scene", {}), "language": language}}
     raw, origins = plain_tables(raw, source)
-    # what an assembly has made has its names too
-    raw = in_language(raw, source, language)
     with in_keys_of_file(origins):
-        return _scene_of(raw, source, name, origins)
+        return _scene_of(in_language(raw, source), source, name, origins)
 
 
 def plain_tables(raw: dict[str, Any], source: str) -> tuple[dict[str, Any], dict[str, str]]:
@@ -355,7 +355,7 @@ def _scene_of(raw: dict[str, Any], source: str, name: str, origins: dict[str, st
 
 
 def _laid(
-    raw: dict[str, Any], key: str, kind: type[L], exports: list[ExportSpec], parts: dict[str, Struct],
+    raw: dict[str, Any], key: str, kind: type[L], exports: list[ExportSpec], parts: dict[str, MaterialKeys],
     instances: dict[str, InstanceSpec], source: str,
 ) -> dict[str, L]:  # fmt: skip
     """The boards or beds of a scene; exports that lay parts out need one."""
@@ -392,7 +392,7 @@ def _mate_spec(
     return mate
 
 
-def _part_spec(key: str, table: object, source: str) -> Struct:
+def _part_spec(key: str, table: object, source: str) -> MaterialKeys:
     place = f"parts.{key}"
     if key.lower() in DEVICE_NAMES:
         raise SceneError(source, place, None, "device_name", Nearest(f"{key}_1"))
@@ -405,10 +405,12 @@ def _part_spec(key: str, table: object, source: str) -> Struct:
         code = "missing_kind" if kind is None else "unknown_kind"
         raise SceneError(source, f"{place}.kind", kind, code, meant(kind, KINDS), known=list(KINDS))
     try:
-        spec: Struct = KINDS[kind].gathered(converted(table, KINDS[kind].keys, source, place), Path(source).parent)
+        spec: MaterialKeys = KINDS[kind].gathered(
+            converted(table, KINDS[kind].keys, source, place), Path(source).parent
+        )
     except ParameterError as refusal:
         raise placed(source, place, refusal) from None
-    if isinstance(label := getattr(spec, "label", None), str):
+    if isinstance(label := spec.label, str):
         from geometry.plane.letters import unknown_letters
 
         if strange := unknown_letters(label):
@@ -416,7 +418,7 @@ def _part_spec(key: str, table: object, source: str) -> Struct:
     return spec
 
 
-def _export_spec(table: object, parts: dict[str, Struct], source: str, place: str) -> ExportSpec:
+def _export_spec(table: object, parts: dict[str, MaterialKeys], source: str, place: str) -> ExportSpec:
     spec = converted(table, ExportSpec, source, place)
 
     def refuse(key: str, code: str, **numbers: Any) -> None:
@@ -500,7 +502,7 @@ def _bored(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mating]
     return _made(scene, with_axle_holes(parts, placing, source), source)
 
 
-def _made(scene: SceneFile, specs: dict[str, Struct], source: str) -> tuple[dict[str, Part], list[Mating]]:
+def _made(scene: SceneFile, specs: dict[str, MaterialKeys], source: str) -> tuple[dict[str, Part], list[Mating]]:
     """The parts of these keys, and the mates."""
     gears = {}
     # what is made from another part's keys looks for it in the scene
@@ -518,13 +520,17 @@ def _made(scene: SceneFile, specs: dict[str, Struct], source: str) -> tuple[dict
 
         part_of = {key: str(spec.part) for key, spec in scene.instances.items()}
         gears, matings = joined(specs, gears, scene.mates, part_of, source)
-    parts = {key: Part(key, KINDS[str(spec.__struct_config__.tag)], spec, gears[key]) for key, spec in specs.items()}
+    language = scene.scene.language
+    parts = {
+        key: Part(key, KINDS[str(spec.__struct_config__.tag)], spec, gears[key], language)
+        for key, spec in specs.items()
+    }
     return parts, matings
 
 
 # keys of parts, instances and drives that are told where they are given
 _SELDOM = (
-    "axis", "held", "travel", "title", "label", "title_uk", "position", "designation", "standard", "subassembly",
+    "axis", "held", "travel", "title", "label", "position", "designation", "standard", "subassembly",
 )  # fmt: skip
 
 

@@ -15,7 +15,6 @@ from parts.drawing.parts_list import SECTIONS, ListRow
 
 if TYPE_CHECKING:
     from parts.base.part import Part
-    from parts.keys.base import MaterialKeys
     from parts.scene.placing import Instance
 
 # of what one mass is
@@ -27,12 +26,12 @@ def list_rows(instances: Sequence[Instance], parts: Mapping[str, Part], language
     counts = Counter(i.part for i in instances if i.part in parts)
     found: dict[tuple[object, ...], list[str]] = {}
     for part in counts:
-        keys = _keys(parts[part])
+        keys = parts[part].keys
         found.setdefault((*_told(parts[part], language), keys.position or part), []).append(part)
-    number = max((_keys(parts[part]).position or 0 for part in counts), default=0)
+    number = max((parts[part].keys.position or 0 for part in counts), default=0)
     rows = []
     for (section, *_), ids in sorted(found.items(), key=lambda item: list(SECTIONS).index(str(item[0][0]))):
-        if (position := _keys(parts[ids[0]]).position) is None:
+        if (position := parts[ids[0]].keys.position) is None:
             position = number = number + 1
         masses = [_mass(parts[p]) for p in ids]
         total = None if None in masses else sum(m * counts[p] for m, p in zip(masses, ids, strict=True) if m)
@@ -52,7 +51,7 @@ def check_positions(parts: Mapping[str, Part], language: str, source: str) -> No
     SceneError
         In the position of the second; names the first.
     """
-    numbered = {key: position for key, part in parts.items() if (position := _keys(part).position) is not None}
+    numbered = {key: position for key, part in parts.items() if (position := part.keys.position) is not None}
     first: dict[int, Part] = {}
     for key, position in numbered.items():
         one = first.setdefault(position, parts[key])
@@ -61,16 +60,10 @@ def check_positions(parts: Mapping[str, Part], language: str, source: str) -> No
             raise SceneError(source, place, position, "position_of_another", free, other=f"parts.{one.id}")
 
 
-def _keys(part: Part) -> MaterialKeys:
-    """The keys that every kind has."""
-    keys: MaterialKeys = part.keys  # type: ignore[assignment]
-    return keys
-
-
 def _told(part: Part, language: str) -> tuple[str, str, str, str, str]:
     """Section, designation, name, standard and material: of one position all are alike."""
-    keys = _keys(part)
-    name = keys.title or part.id
+    keys = part.keys
+    name = part.title or part.id
     section = "standard" if keys.standard else "parts"
     return section, keys.designation or "", name, keys.standard or "", material_told(part.material, words(language))
 

@@ -8,6 +8,7 @@ from geometry.base.errors import ParameterError
 from parts.base.refusal import SceneError, meant, placed
 from parts.base.schema import converted, unit_of
 from parts.recipes.recipe import Expansion, Table
+from parts.scene.language import in_one
 
 # keys of tables that hold the id of an instance or a part
 _NAMING = ("part", "first", "second", "instance", "of")
@@ -30,7 +31,7 @@ def told_out(raw: dict[str, Any], source: str) -> tuple[dict[str, Any], dict[str
     listed: dict[str, list[Table]] = {"mates": [], "drives": []}
     for number, table in enumerate(raw["assemblies"], 1):
         place = f"assemblies[{number}]"
-        prefix, made = _made(table, source, place)
+        prefix, made = _made(in_one(raw, table, source, place), source, place)
         for name, found in named.items():
             for key, own in getattr(made, name).items():
                 if prefix + key in found:

@@ -14,7 +14,7 @@ from parts.mates.registry import MATES
 from parts.recipes.registry import RECIPES
 from parts.scene.defaults import default_names
 from parts.scene.instances import DriveSpec, InstanceTable
-from parts.scene.language import WORDS
+from parts.scene.language import WORDS, WORDS_OF_PARTS
 from parts.scene.load import ChecksSpec, ExportSpec, SceneInfo
 
 
@@ -43,10 +43,11 @@ def scene_schema() -> str:
     schema["$defs"]["Scene"]["properties"]["defaults"] = told
     # words may be told in several languages
     several = {"type": "object", "additionalProperties": {"type": "string"}}
-    told_in = [*(kind.keys for kind in KINDS.values()), *(entry.keys for entry in RECIPES.values())]
-    for table in ("SceneInfo", "InstanceTable", *(keys.__name__ for keys in told_in)):
+    recipes = [(entry.keys.__name__, WORDS) for entry in RECIPES.values()]
+    kinds_of_part = [(kind.keys.__name__, WORDS_OF_PARTS) for kind in KINDS.values()]
+    for table, words in [("SceneInfo", WORDS), ("InstanceTable", WORDS), *recipes, *kinds_of_part]:
         properties = schema["$defs"][table]["properties"]
-        for name in [name for name in WORDS if name in properties]:
+        for name in [name for name in words if name in properties]:
             properties[name] = {"anyOf": [properties[name], several], "default": properties[name].get("default")}
     needed: dict[str, Any] = {}
     for place, items, kinds in (

@@ -209,8 +209,7 @@ def test_sub_assemblies_and_what_a_list_says_stand_in_step(tmp_path: Path) -> No
 kind = "pin"
 diameter = 5.0
 length = 20.0
-title = "Pin"
-title_uk = "\u0428\u0442\u0438\u0444\u0442"
+title = { en = "Pin", uk = "\u0428\u0442\u0438\u0444\u0442" }
 position = 7
 standard = "ISO 2338"
 

@@ -26,8 +26,7 @@ height = 40.0
 face_width = 5.0
 holes = [{{ at = [-20.0, 0.0], diameter = 8.0 }}, {{ at = [20.0, 0.0], diameter = 8.0 }}]
 material = "steel"
-title = "Frame"
-title_uk = "Рама"
+title = {{ en = "Frame", uk = "Рама" }}
 position = 2
 designation = "ABC.01.00.02"
 

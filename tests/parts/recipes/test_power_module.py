@@ -15,6 +15,7 @@ import pytest
 
 from geometry.kinematics.two_disk import TwoDisk
 from parts.base.refusal import SceneError
+from parts.base.texts import told_in
 from parts.pages.module_rules import RULES
 from parts.recipes.power_module import PowerModuleKeys
 from parts.scene.load import SceneFile, scene_from_dict
@@ -48,7 +49,7 @@ def test_exactly_the_parts_list_of_the_thesis_but_for_what_the_cranks_change_by_
         for instance in scene.instances.values():
             part: Any = scene.parts[str(instance.part)]
             count[part.position] += 1
-            names[part.position] = (part.title, part.title_uk)
+            names[part.position] = (told_in("en", part.title), told_in("uk", part.title))
             assert (part.standard is None) == (part.position < 40)
             assert (part.designation is None) == (part.position > 40)
             assert part.material
@@ -58,10 +59,9 @@ def test_exactly_the_parts_list_of_the_thesis_but_for_what_the_cranks_change_by_
             every |= {k: row[0] for k, row in ADDED.items()}
         assert count == every
         # texts have points; drawings make commas of them
-        wanted = {item["pos"]: (item[f"name_{language}"], item["name_uk"]) for item in items}
+        wanted = {item["pos"]: (item["name_en"], item["name_uk"]) for item in items}
         if orientation == "cranks":
-            own = {k: row[1:] for k, row in ADDED.items()} | REPLACED
-            wanted |= {k: (pair[language == "uk"], pair[1]) for k, pair in own.items()}
+            wanted |= {k: row[1:] for k, row in ADDED.items()} | REPLACED
         expected = {k: tuple(name.replace("1,5", "1.5") for name in wanted[k]) for k in every}
         assert names == expected
         sums = sum(n for k, n in count.items() if k < 40), sum(n for k, n in count.items() if k > 40)
