@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from geometry.solids.faced import FacedBody
     from geometry.solids.mass import Moments
     from geometry.solids.sketch import Sketch
+    from parts.base.part_keys import MaterialKeys
     from parts.base.readback import Probe
-    from parts.keys.base import MaterialKeys
 
 K = TypeVar("K", bound="MaterialKeys")
 T = TypeVar("T")

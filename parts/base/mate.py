@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from geometry.gears.pairs.internal import InternalPair
     from geometry.gears.pairs.rack import RackPair
     from geometry.kinematics.mechanism import Joint
-    from parts.keys.base import MaterialKeys
+    from parts.base.part_keys import MaterialKeys
 
 
 class MateKeys(Struct, forbid_unknown_fields=True, tag_field="kind", kw_only=True):

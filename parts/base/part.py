@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from geometry.solids.body import Body
     from geometry.solids.faced import FacedBody
     from parts.base.kind import Kind, Report
+    from parts.base.part_keys import MaterialKeys
     from parts.base.readback import Probe
-    from parts.keys.base import MaterialKeys
 
 
 class Part(Record, dict=True):

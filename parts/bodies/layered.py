@@ -9,8 +9,9 @@ from msgspec import Meta, Struct, field
 
 from geometry.base.errors import GeometryError, ParameterError
 from parts.base.kind import Kind, Others, Report
+from parts.base.part_keys import MaterialKeys
 from parts.bodies.plate import Slots
-from parts.keys.base import LEAST_HOLE, MaterialKeys, mm
+from parts.keys.base import LEAST_HOLE, mm
 
 if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion

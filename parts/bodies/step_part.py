@@ -12,7 +12,8 @@ from msgspec.structs import replace as changed
 from geometry.base.errors import OffsetError, ParameterError
 from parts.base.content import NotAFileError, content
 from parts.base.kind import Kind, Others
-from parts.keys.base import MaterialKeys, degrees, mm
+from parts.base.part_keys import MaterialKeys
+from parts.keys.base import degrees, mm
 
 if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion

@@ -10,7 +10,8 @@ from msgspec import Meta, Struct, field
 
 from geometry.base.errors import OffsetError, ParameterError, limit
 from parts.base.kind import Kind, Others, Report
-from parts.keys.base import BoreDiameter, MaterialKeys, degrees, either, mm
+from parts.base.part_keys import MaterialKeys
+from parts.keys.base import BoreDiameter, degrees, either, mm
 from parts.keys.holes import HolesTable
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from geometry.plane.profile import Profile, Region
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Kind
-from parts.keys.base import MaterialKeys
+from parts.base.part_keys import MaterialKeys
 from parts.keys.holes import wide_bore
 from parts.keys.timing_mark import TimingMarkTable, with_timing_mark
 from parts.keys.wheel import FaceChamferTable, HubbedKeys, HubTable, wheel_shape

@@ -6,7 +6,8 @@ from typing import Annotated, Literal
 
 from msgspec import Meta, Struct
 
-from parts.keys.base import BoreDiameter, MaterialKeys, degrees, mm, start
+from parts.base.part_keys import MaterialKeys
+from parts.keys.base import BoreDiameter, degrees, mm, start
 from parts.keys.cam import MotionTable, Phases, Swing, turn
 from parts.keys.holes import BoreTable
 from parts.keys.law import with_own_laws

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated, TypeVar
 from geometry.base.errors import ParameterError, limit
 from geometry.solids.hub_holes import HubHoles, least_wall
 from parts.base.kind import Kind, Others, Report
-from parts.keys.base import BoreDiameter, MaterialKeys, mm
+from parts.base.part_keys import MaterialKeys
+from parts.keys.base import BoreDiameter, mm
 from parts.keys.holes import BoredKeys
 from parts.keys.pins import MOST, check_holes, holes_of, most_of, moved_region
 

@@ -23,8 +23,9 @@ from geometry.gears.planetary.fitting import Fitting
 from geometry.gears.planetary.sets import SCHEMES, PlanetarySet
 from geometry.gears.shifts.external import Requirements
 from geometry.gears.teeth.basic_rack import ISO_53_ANGLE, iso_53
+from parts.base.part_keys import Material
 from parts.base.texts import N_
-from parts.keys.base import Material, degrees, mm
+from parts.keys.base import degrees, mm
 from parts.keys.mate import further
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
 

@@ -21,8 +21,9 @@ from msgspec import Meta
 
 from geometry.base.errors import ParameterError, limit
 from geometry.base.record import Record
+from parts.base.part_keys import Material
 from parts.base.texts import N_
-from parts.keys.base import Material, mm
+from parts.keys.base import mm
 from parts.recipes.making import Making, hole, place
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
 

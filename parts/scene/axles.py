@@ -7,9 +7,9 @@ import cmath
 from msgspec.structs import replace
 
 from parts.base.part import Part
+from parts.base.part_keys import MaterialKeys
 from parts.base.refusal import REMOVED, SceneError
 from parts.bodies.plate import FlatKeys
-from parts.keys.base import MaterialKeys
 from parts.scene.instances import InstanceSpec, check_instance
 from parts.scene.placing import UPWARDS, Placing
 

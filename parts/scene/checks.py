@@ -17,7 +17,7 @@ from parts.mates.pairing import mated
 from parts.mates.registry import MATES
 
 if TYPE_CHECKING:
-    from parts.keys.base import MaterialKeys
+    from parts.base.part_keys import MaterialKeys
     from parts.scene.placing import Placing
 
 # of the parts: their keys, what they are made from, and which part each instance is

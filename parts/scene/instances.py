@@ -17,9 +17,10 @@ from msgspec.structs import replace
 
 from geometry.base.errors import Nearest
 from geometry.base.record import Record
+from parts.base.part_keys import Title
 from parts.base.refusal import REMOVED, SceneError, meant
 from parts.base.schema import converted
-from parts.keys.base import IDENTIFIER, Title, degrees, mm
+from parts.keys.base import IDENTIFIER, degrees, mm
 
 if TYPE_CHECKING:
     from parts.base.mate import MateKeys

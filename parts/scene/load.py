@@ -40,7 +40,7 @@ from parts.scene.language import in_language
 
 if TYPE_CHECKING:
     from parts.base.mate import MateKeys, Mating
-    from parts.keys.base import MaterialKeys
+    from parts.base.part_keys import MaterialKeys
 
 
 L = TypeVar("L", bound=LaidKeys)

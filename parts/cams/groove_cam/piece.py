@@ -13,8 +13,9 @@ from geometry.plane.profile import Label, Region, circle
 from geometry.solids.body import plate
 from parts.base.kind import Kind, Others, Report
 from parts.base.links import owner_of
+from parts.base.part_keys import MaterialKeys
 from parts.cams.groove_cam.part import GROOVE_CAM, GrooveCamSpec, GrooveDisk, groove_section
-from parts.keys.base import MaterialKeys, mm
+from parts.keys.base import mm
 from parts.keys.cam import turn
 
 if TYPE_CHECKING:

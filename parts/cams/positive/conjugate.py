@@ -17,9 +17,10 @@ from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape, check_wheel
 from parts.base.kind import Others, Report
 from parts.base.links import owner_of
+from parts.base.part_keys import MaterialKeys
 from parts.cams.disk_cam.part import EVEN_CAM, CamSpec, base_radius, cam_findings, cam_of, cam_quantities, larger_bases
 from parts.cams.wheel import Turned, inner_radius
-from parts.keys.base import MaterialKeys, degrees, mm
+from parts.keys.base import degrees, mm
 from parts.keys.holes import BoreTable, HolesTable, RoundBoreTable, bore_of, hub_holes, wide_bore
 from parts.keys.timing_mark import TimingMarkTable, with_timing_mark
 from parts.keys.wheel import FaceChamfer, FaceChamferTable, HubTable, wheel_shape

@@ -14,8 +14,9 @@ from geometry.solids.body import plate
 from geometry.solids.plate import PlateSlot, moved_profile, rounded
 from parts.base.kind import Kind, Others, Report
 from parts.base.links import owner_of
+from parts.base.part_keys import MaterialKeys
 from parts.cams.disk_cam.part import CAM, EVEN_CAM, CamSpec
-from parts.keys.base import MaterialKeys, mm
+from parts.keys.base import mm
 
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam

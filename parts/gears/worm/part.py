@@ -14,8 +14,9 @@ from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
 from geometry.solids.hub_holes import HubHoles, least_wall
 from parts.base.kind import Kind, Others, Report
+from parts.base.part_keys import MaterialKeys
 from parts.keys.accuracy import AccuracyKey
-from parts.keys.base import BoreDiameter, MaterialKeys, degrees, mm
+from parts.keys.base import BoreDiameter, degrees, mm
 from parts.keys.holes import BoreTable, bore_of, hub_holes, wide_bore
 from parts.keys.worm import (
     USUAL_QUOTIENT,
