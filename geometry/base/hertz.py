@@ -21,6 +21,18 @@ def stiffness(curvatures: tuple[float, float], modulus: float) -> float:
     ``curvatures``: sums of both bodies' along a and across it, 1/mm, the smaller one first, above 0; ``modulus`` E*,
     MPa, 1/E* = (1 - nu²)/E of both bodies added.
     """
+    k, half = _ellipse(curvatures, modulus)
+    return float((3 * k * elliptic(k)[0] / (2 * math.pi * modulus * half)) ** -1.5)
+
+
+def pressure(load: float, curvatures: tuple[float, float], modulus: float) -> float:
+    """The greatest pressure 3 F / (2 pi a b), MPa, under a load in N; the rest as for ``stiffness``."""
+    k, half = _ellipse(curvatures, modulus)
+    return 3 * k * load ** (1 / 3) / (2 * math.pi * half**2)
+
+
+def _ellipse(curvatures: tuple[float, float], modulus: float) -> tuple[float, float]:
+    """k = b / a, and b under a load of 1 N, mm."""
     flat, sharp = curvatures
     k = 1.0
     if sharp > flat * (1 + 1e-9):
@@ -30,9 +42,8 @@ def stiffness(curvatures: tuple[float, float], modulus: float) -> float:
             return (second / k**2 - first) * flat - sharp * (first - second)
 
         k = bracketed_root(off, _LEAST, 1 - 1e-9).value
-    first, second = elliptic(k)
-    half = (3 * k * second / (math.pi * modulus * (flat + sharp))) ** (1 / 3)
-    return float((3 * k * first / (2 * math.pi * modulus * half)) ** -1.5)
+    half = (3 * k * elliptic(k)[1] / (math.pi * modulus * (flat + sharp))) ** (1 / 3)
+    return k, half
 
 
 def elliptic(k: float) -> tuple[float, float]:

@@ -166,22 +166,21 @@ class TwoDisk(Record):
         return (1 + wheels[1] / wheels[0]) * np.asarray(beta)
 
     def torques(self, delta: Real | float, beta: Real | float, force: Complex | complex) -> tuple[Real, Real]:
-        """What a force (N) on O3 asks of disk 2 and of the ring, N mm, against delta: by virtual work, no friction."""
+        """By what torques, N mm, in the sense of delta, disk 2 and ring hold a force (N) on O3: by virtual work."""
         one, two = self.drive_jacobian(delta, beta)
         force = np.conj(force)
         return -np.real(one * force), -np.real(two * force)
 
-    def mesh_force(
-        self, delta: Real | float, beta: Real | float, force: Complex | complex, pressure_angle: float
-    ) -> Complex:
-        """What the ring does to the pinion of disk 3 where a force (N) acts on O3: balanced about O2, no friction.
+    def mesh_force(self, along: Complex, moment: Real, pressure_angle: float) -> tuple[Complex, Complex]:
+        """What the ring does to the pinion against a moment (N mm) about O2, and where, without friction.
 
-        The mesh is at the pitch point, r_1 = L1 / (ratio - 1) beyond O2; its radial part pushes the pinion to O1.
+        ``along``: unit vectors from O1 to O2. The mesh is at the pitch point, r_1 = L1 / (ratio - 1) beyond O2; its
+        radial part pushes the pinion to O1.
         """
-        along = np.exp(1j * (math.pi / 2 - np.asarray(delta)))
-        arm = -self.arms[1] * along * np.exp(1j * np.asarray(beta))
-        across = -np.imag(np.conj(arm) * force) * (self.ratio - 1) / self.arms[0]
-        return np.asarray((1j * across - np.abs(across) * math.tan(pressure_angle)) * along)
+        radius = self.arms[0] / (self.ratio - 1)
+        across = -np.asarray(moment) / radius
+        force = (1j * across - np.abs(across) * math.tan(pressure_angle)) * along
+        return np.asarray(force), np.asarray((self.arms[0] + radius) * along)
 
     def mechanism(self, orientation: Orientation = "cranks", wheels: tuple[int, int] = (36, 36)) -> Mechanism:
         """The links as they stand at delta = 0, beta = pi (O3 farthest, on +y); drives are worm_1 and worm_2.

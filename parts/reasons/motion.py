@@ -14,6 +14,7 @@ REASONS = {
     "held_too_many": N_("nothing can move while all of these are held; hold one less"),
     "left_free": N_("is left free by the drives, as are {free}; hold one of them or drive it"),
     "load_on_given_link": N_("is driven or held: its torque is what is sought"),
+    "moment_on_idlers": N_("is carried by cranks or by the thesis's wheels: give orientation"),
     "moves_by_law": N_("moves by a law of its own; drive what moves it"),
     "moves_itself": N_("would move itself; its law must hang on what it does not drive"),
     "no_such_link": N_("no such link; links: {known}"),

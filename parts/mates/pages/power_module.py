@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from fractions import Fraction
 from typing import Annotated, Any
 
 import numpy as np
@@ -13,13 +12,13 @@ from geometry.base import hertz
 from geometry.base.errors import ParameterError
 from geometry.base.record import replace
 from geometry.curves.curve import Complex, Real
-from geometry.kinematics.statics import statics
 from geometry.kinematics.two_disk import TwoDisk
 from parts.base.texts import N_, filled, message
 from parts.gears.worm import page as worm_page
 from parts.keys.base import mm, size
 from parts.mates.pages.contour_marks import checked_picture
-from parts.mates.pages.power_table import DRIVES, TwoDiskKeys, given
+from parts.mates.pages.module_load import MODULUS, Carried, LoadKeys, load_sections
+from parts.mates.pages.power_table import DRIVES, given
 from parts.pages.error_map import ErrorMap
 from parts.pages.inputs import checked, refusal
 from parts.pages.misprints import POWER_MODULE, printed_for_power_module
@@ -27,25 +26,21 @@ from parts.pages.module_rules import CONDITIONS, DRIVERS, RULES, of_orientation,
 from parts.pages.page import Section, Sheet, Table
 
 TOPIC = "power-module"
-_WORM, _GEAR, _BALLS = "thesis, 2.2", "thesis, 2.3", "thesis, 2.4"
+_GEAR, _BALLS = "thesis, 2.3", "thesis, 2.4"
 _STRENGTH = Meta(description="factor of the strength calculation", gt=0, le=100)
 _Factor = Annotated[float, _STRENGTH]
 _Stress = Annotated[float, size("MPa", "stress", above=0, most=100_000)]
-_Length = Annotated[float, mm("length", above=0, most=10_000)]
 _Play = Annotated[float, mm("play", least=0, most=10)]
-# steel: Young's modulus, MPa, and Poisson's ratio
-_STEEL = 206_000.0, 0.3
+# what changes nothing in the thesis's own calculations
+_BESIDE_THE_THESIS = (
+    "picture", "orientation", "force_z", "moment", "load_height", "x", "y", "elbow", "ball_pressure_limit",
+)  # fmt: skip
 _MAP_BANDS, _MAP_POINTS = 48, ((0.0, 1), (0.35, 6), (0.65, 10), (0.92, 14))
 
 
-class PowerModuleKeys(TwoDiskKeys, kw_only=True):
+class PowerModuleKeys(LoadKeys, kw_only=True):
     """Keys of the topic; defaults are the thesis's."""
 
-    worm_torque: Annotated[float, size("N*m", "torque on either worm", above=0, most=1e6)] = 3.5
-    load: Annotated[float, size("N", "force on the platform's axis; default: what both worms hold anywhere",
-                                above=0, most=1e9, example=2000.0)] | None = None  # fmt: skip
-    worm_module: _Length = 5.0
-    diameter_quotient: Annotated[float, Meta(gt=0, le=1000, description="q of both worms")] = 10.0
     rim_width: Annotated[float, mm("width of the worm wheels' rims", above=0, most=10_000)] = 26.0
     rim_strength: Annotated[_Stress, Meta(description="tensile strength of the rims")] = 200.0
     form_factors: Annotated[tuple[_Factor, _Factor], Meta(description="Y_F2 of both wheels")] = (1.26, 1.27)
@@ -54,8 +49,6 @@ class PowerModuleKeys(TwoDiskKeys, kw_only=True):
     bending_limit: Annotated[_Stress, Meta(description="sigma_Flim of the pair's teeth")] = 580.0
     contact_limit: Annotated[_Stress, Meta(description="sigma_Hlim of the pair's teeth")] = 850.0
     balls: Annotated[int, Meta(ge=3, le=10_000, description="balls in one turn")] = 180
-    ball_diameter: _Length = 8.0
-    groove_radius: Annotated[float, mm("radius of the grooves", above=0, most=1000)] = 4.16
     loaded_turns: Annotated[int, Meta(ge=0, le=1, description="i2, turns of balls that work against i1 = 1")] = 0
     radial_factor: Annotated[float, Meta(gt=0, le=10, description="k4 of the radial stiffness")] = 0.1
     worm_backlash: Annotated[_Play, Meta(description="on the reference circle of either worm wheel")] = 0.05
@@ -72,7 +65,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
     keys: PowerModuleKeys = checked(table, PowerModuleKeys, TOPIC)
     checked_picture(TOPIC, keys.picture, (".svg",))
     page = Sheet(TOPIC, N_("Two-disk power module"))
-    if keys == PowerModuleKeys(picture=keys.picture, orientation=keys.orientation):
+    if keys == PowerModuleKeys(**{name: getattr(keys, name) for name in _BESIDE_THE_THESIS}):
         page.printed = printed_for_power_module()
     try:
         keys.table  # noqa: B018 - the ring is the larger one
@@ -80,31 +73,34 @@ def sheet(table: dict[str, Any]) -> Sheet:
             raise ParameterError("groove_radius", keys.groove_radius, "groove_below_ball", None,
                                  least=keys.ball_diameter / 2)  # fmt: skip
         given(page, keys)
-        torques = _load(page, keys)
-        _worms(page, keys, torques)
-        _pair(page, keys, torques[1])
-        _ball_ring(page, keys, torques)
+        found = _found(keys)
+        carried = load_sections(page, keys, found)
+        _worms(page, keys, carried.torques)
+        _pair(page, keys, carried.torques[1])
+        _ball_ring(page, keys, carried)
         _orientation(page, keys)
         _play(page, keys)
         if keys.orientation != "idlers":
-            _sizes(page, keys)
+            _sizes(page, keys, found)
     except ParameterError as error:
         raise refusal(TOPIC, error, keys=keys) from error
     return page
 
 
-def _sizes(page: Sheet, keys: PowerModuleKeys) -> None:
-    """Every rule by which the assembly ``power_module`` is sized, with these drivers; what they lack as notes.
-
-    It is not built with idlers.
-    """
+def _found(keys: PowerModuleKeys) -> dict[str, float]:
+    """Sizes of the assembly ``power_module`` with these drivers; with idlers it is not built: its disks, by cranks."""
     own = {
         "module": keys.module, "teeth_19": keys.pair_teeth[0], "teeth_21": keys.pair_teeth[1],
         "worm_module": keys.worm_module, "worm_quotient": keys.diameter_quotient, "worm_teeth_25": keys.worm_ratios[0],
         "worm_teeth_23": keys.worm_ratios[1], "worm_wheel_width": keys.rim_width, "face_width": keys.face_width,
         "balls": keys.balls, "ball": keys.ball_diameter,
     }  # fmt: skip
-    found, rules = sizes({**DRIVERS, **own}, keys.orientation), of_orientation(RULES, keys.orientation)
+    return sizes({**DRIVERS, **own}, "cranks" if keys.orientation == "idlers" else keys.orientation)
+
+
+def _sizes(page: Sheet, keys: PowerModuleKeys, found: dict[str, float]) -> None:
+    """Every rule by which the assembly ``power_module`` is sized; what these drivers lack as notes."""
+    rules = of_orientation(RULES, keys.orientation)
     labels = tuple((r.name, ", ".join(map(str, r.positions)), r.made_of, r.reason) for r in rules)
     heads = ((N_("size"), ""), (N_("positions"), ""), (N_("rule"), ""), (N_("reason"), ""), (N_("value"), "mm"))
     rows = tuple((found[r.name],) for r in rules)
@@ -117,85 +113,12 @@ def _sizes(page: Sheet, keys: PowerModuleKeys) -> None:
             )
 
 
-def _worst(table: TwoDisk) -> tuple[float, float]:
-    """Greatest arm (mm) of a force on O3 about drive I, with the beta (rad) at which it is; of II it is always one."""
-    beta = np.linspace(0, math.pi, 721)
-    arms = np.abs(table.drive_jacobian(0.0 * beta, beta)[0])
-    at = int(np.argmax(arms))
-    return float(arms[at]), float(beta[at])
-
-
-def _load(page: Sheet, keys: PowerModuleKeys) -> tuple[float, float]:
-    """The force on the platform, by virtual work and by the layer's statics; torques on both worm wheels, N m."""
-    table = keys.table
-    held = tuple(keys.worm_torque * ratio for ratio in keys.worm_ratios)
-    first, at_1 = _worst(table)
-    second = table.ratio * table.arms[1]
-    page.section(N_("Load on the platform"))
-    page.add("worm_torque", keys.worm_torque)
-    for name, torque in zip(DRIVES, held, strict=True):
-        page.add("wheel_torque", torque, f"{{T1}} * {{u{1 + (name == 'II')}}}", _WORM,
-                 symbol=f"T_2{name}", key=f"T2_{name}", of=DRIVES[name])  # fmt: skip
-    page.add("load_arm", first, symbol="l_I", key="l_I", of=DRIVES["I"])
-    page.add("load_arm", second, "{u} * {L2}", symbol="l_II", key="l_II", of=DRIVES["II"])
-    most = [1000 * torque / arm for torque, arm in zip(held, (first, second), strict=True)]
-    worst = "I" if most[0] < most[1] else "II"
-    page.add("load_held", min(most), f"1000 * {{T2_{worst}}} / {{l_{worst}}}", of=DRIVES[worst])
-    load = min(most) if keys.load is None else keys.load
-    page.add("load", load)
-    asked = load * first / 1000, load * second / 1000
-    for name, torque in zip(DRIVES, asked, strict=True):
-        page.add("load_torque", torque, f"{{F}} * {{l_{name}}} / 1000", symbol=f"T_F{name}", of=DRIVES[name])
-    text = N_(
-        "the worst place for drive I is beta = {angle:.4g}°, for drive II all are alike; the worst direction is that "
-        "in which the drive moves the platform: for II across O2O3"
-    )
-    page.notes.append(message(text, angle=math.degrees(at_1)))
-    _statics(page, table, load, at_1)
-    _bearings(page, table, load)
-    if load > min(most) * (1 + 1e-12):
-        page.notes.append(
-            message(N_("the worms do not hold this load everywhere: at most {limit:.6g} N"), limit=min(most))
-        )
-    return (held[0], held[1]) if keys.load is None else asked
-
-
-def _statics(page: Sheet, table: TwoDisk, load: float, beta: float) -> None:
-    """At the worst place in the worst direction: what the layer's statics gives for the worms, and the bearings."""
-    one, _ = (complex(way) for way in table.drive_jacobian(0.0, beta))
-    force = load * one / abs(one)
-    first, second = 1j * table.arms[0], complex(table.forward(0.0, beta)) - 1j * table.arms[0]
-    # turning disk 2 moves O2, turning disk 3 moves O3 about it
-    loads = {
-        link: Fraction((force.conjugate() * 1j * arm).real / 1000)
-        for link, arm in (("disk_2", first), ("disk_3", second))
-    }
-    state = statics(table.mechanism("idlers"), {"worm_1": Fraction(1), "worm_2": Fraction(1)}, loads)[0]
-    for name, worm in (("I", "worm_1"), ("II", "worm_2")):
-        page.add("worm_torque_asked", abs(float(state.torques[worm])), symbol=f"T_1{name}", of=DRIVES[name])
-    mesh = next(flow for flow in state.flows if flow.mesh.kind == "internal")
-    pinion = abs(float(mesh.torques[0]))
-    page.add("pinion_torque", pinion, symbol="T_11")
-
-
-def _bearings(page: Sheet, table: TwoDisk, load: float) -> None:
-    """Radial forces of load and mesh on the bearings about O2 and O1, at most, over all places and directions."""
-    beta, direction = np.meshgrid(np.linspace(0, math.pi, 181), np.linspace(-math.pi, math.pi, 361))
-    force = load * np.exp(1j * direction)
-    mesh = table.mesh_force(0.0, beta, force, math.radians(20))
-    both = np.abs(force + mesh)
-    at = np.unravel_index(int(both.argmax()), both.shape)
-    page.add("disk_3_bearing_force", float(both[at]))
-    page.add("worst_beta_deg", math.degrees(beta[at]))
-    page.add("ring_bearing_force", float(np.abs(mesh).max()))
-
-
 def _worms(page: Sheet, keys: PowerModuleKeys, torques: tuple[float, float]) -> None:
     """Both drives as ``calc worm`` has them."""
     for name, ratio, form, torque in zip(DRIVES, keys.worm_ratios, keys.form_factors, torques, strict=True):
         table = {"module": keys.worm_module, "diameter_quotient": keys.diameter_quotient, "number_of_teeth": ratio,
-                 "torque": torque / ratio, "form_factor": form, "face_width": keys.rim_width,
-                 "tensile_strength": keys.rim_strength}  # fmt: skip
+                 "torque": torque / ratio / keys.efficiency, "form_factor": form, "face_width": keys.rim_width,
+                 "tensile_strength": keys.rim_strength, "friction_coefficient": keys.friction_coefficient}  # fmt: skip
         own = worm_page.sheet(table)
         for section in own.sections[1:]:
             title = message(N_("{drive}: {what}"), drive=filled(DRIVES[name]), what=filled(section.title))
@@ -208,7 +131,7 @@ def _pair(page: Sheet, keys: PowerModuleKeys, torque: float) -> None:
     """Section 2.3: bending gives the module, contact the width."""
     pinion, ratio = keys.pair_teeth[0], keys.table.ratio
     page.section(N_("Pair 11-12: bending"))
-    page.name("T2_ring", "T2_II") if keys.load is None else page.add("load_torque", torque, key="T2_ring")
+    page.name("T2_ring", "T2_II" if keys.held else "T_FII")
     own = torque / ratio
     page.add("pair_torque", own, "{T2_ring} / {u}", _GEAR)
     constants = (
@@ -255,20 +178,20 @@ def _pair(page: Sheet, keys: PowerModuleKeys, torque: float) -> None:
         page.notes.append(N_("the contact stress of the pair 11-12 is more than allowed"))
 
 
-def _ball_ring(page: Sheet, keys: PowerModuleKeys, torques: tuple[float, float]) -> None:
-    """Section 2.4, once as the thesis has it and once with the right radial force; then Hertz for the groove."""
+def _ball_ring(page: Sheet, keys: PowerModuleKeys, carried: Carried) -> None:
+    """Section 2.4 as the thesis has it, with the right radial force of the worm, and with all forces as vectors where
+    they are most; then Hertz for the groove.
+    """
     page.section(N_("Ring of balls: forces"))
-    worm = keys.worm_module * keys.diameter_quotient
-    axial = 2000 * torques[1] / keys.worm_ratios[1] / worm
     page.name("F_a", "F_t1_II")
-    radial = page.known["F_t"].value
-    assert isinstance(radial, float)
-    gear = radial * math.tan(math.radians(20))
+    page.name("F_RC_right", "F_r_II")
+    axial, right, along_pitch = (page.known[name].value for name in ("F_a", "F_RC_right", "F_t"))
+    assert isinstance(axial, float)
+    assert isinstance(right, float)
+    assert isinstance(along_pitch, float)
+    gear = along_pitch * math.tan(math.radians(20))
     page.add("pair_radial_force", gear, "{F_t} * tan(20 * pi / 180)", _BALLS)
     page.add("thesis_worm_radial_force", axial * math.tan(math.radians(20)), "{F_a} * tan(20 * pi / 180)", _BALLS)
-    page.name("F_RC_right", "F_r_II")
-    right = page.known["F_RC_right"].value
-    assert isinstance(right, float)
     turns = keys.loaded_turns
     share = 1 + turns ** (2 / 3) if turns else 1.0
     page.add("loaded_turns", turns)
@@ -276,10 +199,17 @@ def _ball_ring(page: Sheet, keys: PowerModuleKeys, torques: tuple[float, float])
     page.add("balls", keys.balls)
     page.add("guide_ball_diameter", keys.ball_diameter)
     page.add("radial_factor", keys.radial_factor)
-    cases = (("thesis", N_("by the thesis"), gear + axial * math.tan(math.radians(20)), "{F_RZ} + {F_RC}"),
-             ("right", N_("right"), gear + right, "{F_RZ} + {F_RC_right}"))  # fmt: skip
+    cases = [("thesis", N_("by the thesis"), gear + axial * math.tan(math.radians(20)), "{F_RZ} + {F_RC}"),
+             ("right", N_("right"), gear + right, "{F_RZ} + {F_RC_right}")]  # fmt: skip
+    if carried.ring_radial:
+        cases.append(("most", N_("under all forces where they are most"), carried.ring_radial, ""))
+    hold = axial / (1.5 * share)
     for key, title, force, formula in cases:
         page.section(message(N_("Ring of balls: stiffness, {what}"), what=filled(title)))
+        if key == "most":
+            page.add("lifting_force", carried.ring_lift)
+            hold = carried.ring_lift / (1.5 * share)
+            page.add("preload", hold, f"{{F_l}} / {1.5 * share:g}")
         angle = math.atan(axial / force)
         source, mark = (_BALLS, _marked(page)) if key == "thesis" else ("", lambda name: None)
         page.add("bearing_radial_force", force, formula, source)
@@ -288,7 +218,7 @@ def _ball_ring(page: Sheet, keys: PowerModuleKeys, torques: tuple[float, float])
         formula = "100000 * {z_b} * sin({alpha_b})**2 * sqrt(sin({alpha_b}) * 1.25 * {d_b})"
         page.add("turn_capacity", load, formula, source)
         mark("turn_capacity")
-        along = 1.5 * load ** (2 / 3) * (axial / (1.5 * share)) ** (1 / 3) * share
+        along = 1.5 * load ** (2 / 3) * hold ** (1 / 3) * share
         page.add("axial_stiffness", along, f"{1.5 * share:g} * cbrt({{C}}**2 * {{F_H}})", source)
         mark("axial_stiffness")
         across = keys.radial_factor * along / (1.5 * math.tan(angle) ** 2 * share)
@@ -301,10 +231,10 @@ def _ball_ring(page: Sheet, keys: PowerModuleKeys, torques: tuple[float, float])
     page.add("ring_root_diameter", root, "{m} * ({z12} + 2.5)")
     page.add("ball_wall", (least - root) / 2 - keys.ball_diameter / 2, "({D_b} - {d_f12} - {d_b}) / 2")
     page.add("groove_radius", keys.groove_radius)
-    ball, modulus = keys.ball_diameter / 2, _STEEL[0] / (2 * (1 - _STEEL[1] ** 2))
+    ball = keys.ball_diameter / 2
     flat = 1 / ball - 1 / keys.groove_radius
     inner, outer = (1 / ball + sense / (least / 2 - sense * ball) for sense in (1, -1))
-    both = [hertz.stiffness((flat, sharp), modulus) for sharp in (inner, outer)]
+    both = [hertz.stiffness((flat, sharp), MODULUS) for sharp in (inner, outer)]
     # two contacts one behind the other under the same load
     hertzian = sum(k ** (-2 / 3) for k in both) ** -1.5
     page.add("ball_stiffness", 1e5 * math.sqrt(1.25 * keys.ball_diameter), "100000 * sqrt(1.25 * {d_b})", _BALLS)

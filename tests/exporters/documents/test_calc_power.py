@@ -217,22 +217,76 @@ def test_the_load_that_both_worms_hold_anywhere(module: dict[str, Any]) -> None:
     assert step(more, "wheel_torque", "drive II")["value"] == pytest.approx(371)
 
 
-def test_forces_on_the_bearings(module: dict[str, Any]) -> None:
+def carried(data: dict[str, Any], table: str, part: str, quantity: str) -> dict[str, float]:
+    return next(r for r in data[table] if r["carried by"] == part and r["quantity"].startswith(quantity))
+
+
+def test_the_most_that_every_bearing_carries(module: dict[str, Any]) -> None:
     # the greatest torque on the pinion, F L2, over its pitch radius 144, by the pressure angle
-    load = 371 / 0.108
-    mesh = load * 72 / 144 / math.cos(math.radians(20))
-    assert module["values"]["ring_bearing_force"] == pytest.approx(mesh, rel=1e-9)
-    # by every place and direction, forces summed as vectors: N on the line of action, its moment about O2 that of F
-    worst = 0.0
-    for beta in range(0, 181, 2):
-        arm = 72 * complex(math.cos(math.radians(beta + 180)), math.sin(math.radians(beta + 180)))
-        for angle in range(-180, 180, 2):
-            force = load * complex(math.cos(math.radians(angle)), math.sin(math.radians(angle)))
-            moment = (arm.conjugate() * force).imag
-            lean = math.radians(110 if moment < 0 else -110)
-            way = complex(math.cos(lean), math.sin(lean))
-            worst = max(worst, abs(force + way * abs(moment) / (144 * math.cos(math.radians(20)))))
-    assert module["values"]["disk_3_bearing_force"] == pytest.approx(worst, rel=1e-3)
+    load, lean = 371 / 0.108, math.radians(20)
+    mesh = load * 72 / 144 / math.cos(lean)
+    assert carried(module, "load_worst", "pair 11-12", "force")["at most"] == pytest.approx(mesh, rel=1e-9)
+    assert carried(module, "load_worst", "drive II", "torque")["at most"] == pytest.approx(3.5, rel=1e-9)
+    inner = carried(module, "load_worst", "disk 3 in disk 2", "force across")
+    assert inner["at most"] == pytest.approx(load + mesh, rel=1e-9)
+    assert abs(inner["β"]) == pytest.approx(20, abs=1e-4)
+    # the mesh and the worm's 1400 N as vectors: the thesis adds up what is radial, 675 N
+    worm = 1400 / math.cos(math.atan(math.tan(lean) / math.cos(math.atan(0.1))))
+    ring = carried(module, "load_worst", "ring on disk 2", "force across")
+    assert ring["at most"] == pytest.approx(mesh + worm, rel=1e-4)
+    assert ring["at most"] <= ring["nowhere more than"] <= 1.0011 * ring["at most"]
+    assert carried(module, "load_worst", "ring on disk 2", "force along")["at most"] == pytest.approx(140, rel=1e-9)
+    # the row's preload must hold its tilting too
+    lifted = carried(module, "load_worst", "ring on disk 2", "force and moment that lift")["at most"]
+    tilt = carried(module, "load_worst", "ring on disk 2", "tilting")["at most"] * 1000
+    assert 2 * tilt / 280 < lifted <= 2 * tilt / 280 + 140
+    preloads = [s["value"] for s in module["steps"] if s["name"] == "preload"]
+    assert preloads == [pytest.approx(140 / 1.5), pytest.approx(lifted / 1.5)]
+
+
+def test_a_load_that_is_told_at_a_place() -> None:
+    keys = ("force_x=600", "force_y=-800", "force_z=-500", "moment=40", "x=50", "y=80", "elbow=-1", "load_height=20")
+    data = calculated("power-module", *keys)
+    assert data["values"]["load"] == pytest.approx(1000)
+    for row in data["load_here"]:
+        assert (row["x"], row["y"]) == pytest.approx((50, 80))
+        assert row["φ_F"] == pytest.approx(math.degrees(math.atan2(-800, 600)))
+        assert row["β"] < 0
+    # the force's own work: what moves O3 by a turn of the ring, u L2 across O2O3
+    here = carried(data, "load_here", "drive II", "torque")
+    delta, beta = math.radians(here["δ"]), math.radians(here["β"])
+    third = 50 + 80j - 72 * complex(math.sin(delta), math.cos(delta))
+    assert abs(third) == pytest.approx(72)
+    assert abs(beta) < math.pi
+    moment = abs(1.5 * (third.conjugate() * (600 - 800j)).imag) / 1000
+    assert here["at most"] == pytest.approx(moment / 106, rel=1e-9)
+    cranks = [carried(data, "load_worst", f"crank on the {who}", "force")["at most"] for who in ("body", "platform")]
+    assert cranks == [pytest.approx(40_000 / (1.5 * 53), rel=1e-9)] * 2
+    # for the thesis's wheels a moment is work of both drives
+    other = calculated("power-module", "force_x=600", "force_y=-800", "moment=40", "orientation=thesis")
+    assert step(other, "load_torque", "drive II")["value"] == pytest.approx(108 + 2 * 1.5 * 40)
+    rubbing = calculated("power-module", "friction_coefficient=0.05")
+    share = math.atan(0.05 / math.cos(math.radians(20)))
+    worth = 0.1 / math.tan(math.atan(0.1) + share)
+    assert rubbing["values"]["load"] == pytest.approx(371 / 0.108 * worth)
+    assert carried(rubbing, "load_worst", "drive II", "torque")["at most"] == pytest.approx(3.5)
+    assert step(rubbing, "worm_tangential_force", "drive II")["value"] == pytest.approx(140)
+
+
+def test_loads_that_are_refused_or_too_much() -> None:
+    for keys, told in (
+        (("load=100", "force_x=3"), "is given beside force_x, force_y"),
+        (("x=100",), "y: is missing"),
+        (("x=100", "y=120"), "156.205 mm from O1"),
+        (("moment=3", "orientation=idlers"), "is carried by cranks"),
+    ):
+        with pytest.raises(SceneError) as refused:
+            calculate("power-module", keys, "text", "en")
+        assert told in sentence(refused.value, "en")
+    notes = calculated("power-module", "load=9000", "ball_pressure_limit=4000")["notes"]
+    assert any("pressed" in note for note in notes)
+    assert any("do not hold" in note for note in notes)
+    assert all(text in calculate("power-module", ("force_y=900",), "html", "uk") for text in ("перекидний", "1378.8"))
 
 
 def test_errors_by_play_over_the_workspace(module: dict[str, Any], tmp_path: Path) -> None:
