@@ -295,11 +295,13 @@ def _amounts(loaded: LoadedTable, keys: LoadKeys, found: Mapping[str, float]) ->
     if keys.moment and keys.orientation == "cranks":
         for stage, who in enumerate((N_("crank on the body"), N_("crank on the platform"))):
             yield _Row(who, N_("force along it, N"), crank_force(stage))
-    ball, groove = 2 / keys.ball_diameter, 1 / keys.groove_radius
+    ball, groove, large = 2 / keys.ball_diameter, 1 / keys.groove_radius, found["r_large"]
+    grooves = ball - groove, ball + 1 / (large - 1 / ball)
+    # disk 3's balls run on the plain bore of disk 2, the others in grooves
     rows = {
         "disk_3": (2 * found["small_balls"], found["r_small"], (ball, ball)),
-        "ring": (found["large_balls"], found["r_large"], (ball - groove, ball + 1 / (found["r_large"] - 1 / ball))),
-        "disk_2": (found["large_balls"], found["r_large"], (ball, ball)),
+        "ring": (found["large_balls"], large, grooves),
+        "disk_2": (found["large_balls"], large, grooves),
     }
     for bearing, who in _NAMES.items():
         balls, radius, curvatures = rows[bearing]
@@ -308,7 +310,7 @@ def _amounts(loaded: LoadedTable, keys: LoadKeys, found: Mapping[str, float]) ->
         yield _Row(who, N_("force along the axis, N"), along_axis(bearing))
         yield _Row(who, N_("tilting moment, N·m"), tilting(bearing), 1e-3)
         yield _Row(who, N_("load of one ball, N"), one)
-        # of Hertz: as the cube root of the load; where a race is no groove, as on a plane
+        # of Hertz: as the cube root of the load
         yield _Row(who, N_("pressure on a ball, MPa"), one, hertz.pressure(1.0, curvatures, MODULUS), 1 / 3)
         if bearing == "ring":
             yield _Row(who, _LIFT, lift(bearing, radius))

@@ -283,7 +283,7 @@ def test_loads_that_are_refused_or_too_much() -> None:
         with pytest.raises(SceneError) as refused:
             calculate("power-module", keys, "text", "en")
         assert told in sentence(refused.value, "en")
-    notes = calculated("power-module", "load=9000", "ball_pressure_limit=4000")["notes"]
+    notes = calculated("power-module", "load=9000", "ball_pressure_limit=3000")["notes"]
     assert any("pressed" in note for note in notes)
     assert any("do not hold" in note for note in notes)
     assert all(text in calculate("power-module", ("force_y=900",), "html", "uk") for text in ("перекидний", "1378.8"))
