@@ -134,6 +134,7 @@ class Extruded(Kind[K, T]):
     """An outline of lines and arcs that is extruded as it is, lower face at z = 0."""
 
     drawing = "parts.bodies.plate_drawing"
+    data_table = "parts.bodies.data_tables"
 
     def flat(self, thing: T) -> PlateOutline:
         """The outline of the exact thing."""

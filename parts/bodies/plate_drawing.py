@@ -4,25 +4,23 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc, Line
-from geometry.plane.profile import Profile
+from geometry.plane.profile import Profile, Region
 from parts.drawing.wheel_views import circle_of
 from parts.drawing.working import VISIBLE, Note, PartDrawing, Round, Size, Stroke, Subject, View, requirements
 from parts.texts.sheets import sheet_words
 
-_DIGITS = 9
+_DIGITS, _SAME = 9, 1e-9
 
 
 def part_drawing(subject: Subject) -> PartDrawing:
     """One view, its thickness told."""
     region = subject.part.section(0.0).region
     curves = [s.curve for s in region.outer.segments()]
-    ends = [_extremes(c) for c in curves]
-    low = complex(min(e[0] for e in ends), min(e[1] for e in ends))
-    high = complex(max(e[2] for e in ends), max(e[3] for e in ends))
+    low, high = extent(region)
     strokes: list[Stroke] = [(VISIBLE, curve) for curve in curves]
     round_holes = [found for hole in region.holes if (found := _circle(hole)) is not None]
     strokes += [(VISIBLE, circle_of(radius, centre)) for centre, radius in round_holes]
@@ -30,7 +28,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
     for profile in (*slots, *region.marks):
         strokes += [(VISIBLE, s.curve) for s in profile.segments()]
     axes = [Line(centre - r * way, centre + r * way) for centre, r in round_holes for way in (1, 1j)]
-    centres = [centre for centre, _ in round_holes]
+    centres = [*_corners(curves), *(centre for centre, _ in round_holes)]
     for profile in slots:
         centres += [s.curve.centre for s in profile.segments() if isinstance(s.curve, Arc)]
     sizes = [Size("width", low, complex(high.real, low.imag), "below"),
@@ -47,6 +45,28 @@ def part_drawing(subject: Subject) -> PartDrawing:
     notes = (thick if edges is None else Note((edges.start + edges.end) / 2, thick.text),)
     view = View(tuple(strokes), (), tuple(axes), tuple(sizes), tuple(rounds), notes)
     return PartDrawing((view,), requirements(subject))
+
+
+def extent(region: Region) -> tuple[complex, complex]:
+    """The lower left and the upper right corner of the rectangle about a region of lines and arcs."""
+    ends = [_extremes(s.curve) for s in region.outer.segments()]
+    return (complex(min(e[0] for e in ends), min(e[1] for e in ends)),
+            complex(max(e[2] for e in ends), max(e[3] for e in ends)))  # fmt: skip
+
+
+def _corners(curves: Sequence[Curve]) -> Iterator[complex]:
+    """Sharp corners between lines, and those of upright and level lines where an arc rounds them."""
+    for k, curve in enumerate(curves):
+        before = curves[k - 1]
+        if isinstance(before, Line) and isinstance(curve, Line):
+            yield curve.start
+        after = curves[(k + 1) % len(curves)]
+        if isinstance(curve, Arc) and isinstance(before, Line) and isinstance(after, Line):
+            ways = before.end - before.start, after.end - after.start
+            if abs(ways[0].real) < _SAME and abs(ways[1].imag) < _SAME:
+                yield complex(before.end.real, after.start.imag)
+            if abs(ways[0].imag) < _SAME and abs(ways[1].real) < _SAME:
+                yield complex(after.start.real, before.end.imag)
 
 
 def _extremes(curve: Curve) -> tuple[float, float, float, float]:

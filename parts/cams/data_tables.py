@@ -9,9 +9,9 @@ from parts.base.part import Part
 from parts.base.texts import N_, Text, listed, message
 from parts.cams.disk_cam.page import sheet, table_from
 from parts.pages.cam_steps import law_text
-from parts.pages.data_table import DataRow, DataTable, Mated, row_of, rows_of
+from parts.pages.data_table import DataRow, DataTable, Mated, chosen_columns, row_of, rows_of, term_row
 from parts.pages.inputs import SceneKeys
-from parts.pages.page import Sheet, Table
+from parts.pages.page import Sheet
 from parts.pages.terms import TERMS
 
 _MOTION = ("lift", "swing_deg")
@@ -46,8 +46,12 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
     name, columns = _POSITIONS[part.kind]
     found = next(table for table in page.tables if table.name == name)
     return DataTable(
-        ((*rows_of(page, _MOTION), *_phases(page)), (*_follower(part), *rows_of(page, _SIZES)), _datum(part.kind)),
-        _columns(found, columns),
+        (
+            (*rows_of(page, _MOTION), *_phases(page)),
+            (*_follower(part), *_rocker(part, page), *rows_of(page, _SIZES)),
+            _datum(part.kind),
+        ),
+        chosen_columns(found, columns),
     )
 
 
@@ -75,6 +79,14 @@ def _follower(part: Part) -> tuple[DataRow, ...]:
     return (DataRow(N_("follower"), "", listed([shape, moves])),)
 
 
+def _rocker(part: Part, page: Sheet) -> tuple[DataRow, ...]:
+    """Where a follower swings, as far as the calculation does not tell it."""
+    table = getattr(part.keys, "oscillating", None)
+    told, names = {step.name for step in page.steps()}, ("centre_distance", "arm_length")
+    found = ((name, getattr(table, name, None)) for name in names if name not in told)
+    return tuple(term_row(name, value) for name, value in found if value)
+
+
 def _datum(kind: str) -> tuple[DataRow, ...]:
     """Where the columns of the positions begin."""
     if kind == "wedge_cam":
@@ -85,10 +97,3 @@ def _datum(kind: str) -> tuple[DataRow, ...]:
     if kind == "groove_cam":
         return (turning, DataRow(N_("path of the roller's centre"), "x_p", N_("from the axis, as drawn")))
     return (turning, DataRow(N_("polar angle of the profile"), "θ", N_("from +x, as drawn")))
-
-
-def _columns(table: Table, names: tuple[str, ...]) -> Table:
-    """Some of a table's columns, in its own order."""
-    kept = [k for name in names for k, (symbol, _) in enumerate(table.heads) if symbol == name]
-    rows = tuple(tuple(row[k] for k in kept) for row in table.rows)
-    return replace(table, heads=tuple(table.heads[k] for k in kept), rows=rows)

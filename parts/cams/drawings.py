@@ -9,6 +9,7 @@ from geometry.curves.line_arc import Line
 from geometry.plane.profile import Profile
 from parts.cams.groove_cam.part import GrooveDisk
 from parts.cams.wheel import Turned
+from parts.drawing.directions import directions
 from parts.drawing.disk_views import disk_drawing, reach
 from parts.drawing.revolved import below, closed
 from parts.drawing.wheel_views import Wheel, wheel_views
@@ -23,7 +24,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
     kind = part.made_by
     assert isinstance(kind, Turned)
     circles = [name for name in part.circles if name == "base_circle_diameter"]
-    return disk_drawing(subject, kind.body(part.keys, part.thing), kind.holes(part.keys, part.thing), circles)
+    return disk_drawing(subject, kind.body(part.keys, part.thing), kind.holes(part.keys, part.thing), "zero_x", circles)
 
 
 def _groove(subject: Subject, disk: GrooveDisk) -> PartDrawing:
@@ -51,5 +52,5 @@ def _groove(subject: Subject, disk: GrooveDisk) -> PartDrawing:
             replace(face, strokes=(*face.strokes, *((VISIBLE, s.curve) for wall in walls for s in wall.segments()))),
             *others,
         ),
-        requirements(subject),
+        requirements(subject, *directions(disk.holes, subject, "zero_x")),
     )

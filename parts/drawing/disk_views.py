@@ -11,18 +11,31 @@ import numpy as np
 from geometry.base.record import replace
 from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Curve
+from geometry.curves.line_arc import Arc
 from geometry.plane.profile import Profile
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape
+from parts.drawing.directions import directions
 from parts.drawing.wheel_views import Wheel, wheel_views
 from parts.drawing.working import PartDrawing, Round, Subject, requirements
 
 _SAMPLES = 65
 
 
-def disk_drawing(subject: Subject, shape: WheelShape, holes: HubHoles, circles: Sequence[str] = ()) -> PartDrawing:
-    """Section, face as the files have it, bore; ``circles``: names of those of the part that are shown with sizes."""
+def disk_drawing(
+    subject: Subject, shape: WheelShape, holes: HubHoles, zero: str, circles: Sequence[str] = ()
+) -> PartDrawing:
+    """Section, face as the files have it, bore.
+
+    ``zero``: the key of the words for its direction +x; ``circles``: names of those of the part that are shown with
+    sizes.
+    """
     outline = subject.part.section(0.0).region.outer
+    if all(isinstance(s.curve, Arc) and s.curve.centre == 0 for s in outline.period):
+        # turned, it is the same
+        radius = outline.reach()
+        wheel = Wheel(shape, holes, (radius, radius), None)
+        return PartDrawing(wheel_views(wheel, subject), requirements(subject, *directions(holes, subject, "")))
     bare = Wheel(shape, holes, (0.0, 0.0), outline)
     up = math.pi / 2 - bare.turn
     rounds = tuple(
@@ -31,7 +44,7 @@ def disk_drawing(subject: Subject, shape: WheelShape, holes: HubHoles, circles: 
     )
     tip = reach(outline, up), reach(outline, up + math.pi)
     wheel = replace(bare, tip=tip, rounds=rounds, stands=False)
-    return PartDrawing(wheel_views(wheel, subject), requirements(subject))
+    return PartDrawing(wheel_views(wheel, subject), requirements(subject, *directions(holes, subject, zero)))
 
 
 def reach(profile: Profile, angle: float) -> float:

@@ -299,7 +299,8 @@ def face_view(wheel: Wheel, subject: Subject) -> View:
         strokes.append((VISIBLE, circle_of(shape.hub.diameter / 2)))
     if shape.web is not None and at.web[1] < at.rim[1]:
         strokes.append((VISIBLE, circle_of(shape.web.rim_diameter / 2)))
-    for profile in wheel.holes.profiles():
+    marks = () if wheel.outline is None else subject.part.section(0.0).region.marks
+    for profile in (*wheel.holes.profiles(), *marks):
         strokes += [(VISIBLE, s.curve.placed(placement)) for s in profile.segments()]
     strokes += [(AXIS, circle_of(group.pitch_circle_diameter / 2)) for _, group in wheel.holes.groups()]
     axes = (*axis_cross(tip), *hole_axes(wheel.holes, turn))
@@ -308,6 +309,9 @@ def face_view(wheel: Wheel, subject: Subject) -> View:
     notes = []
     if (spokes := wheel.holes.spokes) is not None:
         text = sheet_words(subject.language, "spokes_of", count=spokes.count, width=subject.say(spokes.width))
+        if spokes.corner_radius:
+            radius = subject.say(spokes.corner_radius)
+            text += f", {sheet_words(subject.language, 'spoke_corners', radius=radius)}"
         at_spoke = cmath.rect((spokes.inner_diameter + spokes.outer_diameter) / 4, spokes.start + turn)
         notes.append(Note(at_spoke + 0.5j * spokes.width * cmath.exp(1j * (spokes.start + turn)), text))
     return View(tuple(strokes), (), axes, (), tuple(rounds), tuple(notes))
@@ -351,8 +355,20 @@ def bore_view(bore: Bore, subject: Subject) -> View:
                 )
     else:
         sizes.append(Size("bore.across_flats", -1j * down, 1j * up, "right", "", wishes.bore))
+        rounded = max((curve for _, curve in strokes if isinstance(curve, Arc)), key=_rightmost, default=None)
+        if rounded is not None:
+            way = math.degrees(cmath.phase(rounded.centre))
+            angles = tuple(way + turn for turn in (0.0, 15.0, -15.0))
+            rounds.append(
+                Round("bore.corner_radius", rounded.centre, rounded.radius, "R", is_radius=True, angles=angles)
+            )
     name = sheet_words(subject.language, "view_a")
     return View(tuple(strokes), (), axis_cross(bore.reach), tuple(sizes), tuple(rounds), (), name, _LEAST_BORE)
+
+
+def _rightmost(corner: Arc) -> float:
+    """How far right and up the corner of a bore is."""
+    return corner.centre.real + 0.1 * corner.centre.imag
 
 
 def wheel_views(wheel: Wheel, subject: Subject) -> tuple[View, ...]:

@@ -131,6 +131,6 @@ def number_text(value: float, language: str, digits: int = _DECIMALS) -> str:
     return decimal(text.rstrip("0").rstrip(".") if "." in text else text, language)
 
 
-def requirements(subject: Subject) -> tuple[str, ...]:
-    """What holds for all sizes, and what the export adds."""
-    return (sheet_words(subject.language, "unspecified_limits"), *subject.wishes.requirements)
+def requirements(subject: Subject, *more: str) -> tuple[str, ...]:
+    """What holds for all sizes, ``more`` that no size tells, and what the export adds."""
+    return (sheet_words(subject.language, "unspecified_limits"), *more, *subject.wishes.requirements)

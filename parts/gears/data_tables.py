@@ -6,10 +6,13 @@ from collections.abc import Callable, Mapping, Sequence
 
 from geometry.base.record import replace
 from parts.base.part import Part
-from parts.base.texts import N_, Text, in_context
+from parts.base.texts import N_, Text, in_context, message
+from parts.gears.noncircular_gear import page as noncircular_page
+from parts.gears.noncircular_gear.part import NoncircularGearSpec
 from parts.gears.rack import page as rack_page
 from parts.gears.rack.part import RackSpec
 from parts.gears.ring_gear import page as ring_page
+from parts.gears.ring_gear.part import RingGearSpec
 from parts.gears.spur_gear import page as spur_page
 from parts.gears.spur_gear.part import SpurGearSpec
 from parts.gears.worm import page as worm_page
@@ -17,7 +20,7 @@ from parts.gears.worm.part import WormSpec
 from parts.gears.worm_wheel.part import WormWheelSpec
 from parts.keys.accuracy import AccuracyTable
 from parts.keys.helix import ToothedKeys, helix_of
-from parts.pages.data_table import DataRow, DataTable, Mated, rows_of
+from parts.pages.data_table import DataRow, DataTable, Mated, chosen_columns, rows_of, standard_told
 from parts.pages.inputs import SceneKeys, given
 from parts.pages.page import Sheet
 
@@ -28,8 +31,11 @@ _PAGES: Mapping[str, Callable[[dict[str, object]], Sheet]] = {
 }
 # steps of the calculation: of teeth, of what a rack or a cutter of one's own has
 _TEETH = ("module", "number_of_teeth", "helix_angle_deg")
-_OWN = ("pressure_angle_deg", "addendum_coefficient", "tip_clearance_coefficient", "tip_radius_coefficient",
-        "cutter_teeth", "cutter_shift", "cutter_addendum", "cutter_tip_rounding", "dedendum_coefficient")  # fmt: skip
+_OWN = ("pressure_angle_deg", "addendum_coefficient", "tip_clearance_coefficient", "tip_radius_coefficient")
+_CUTTER = ("pressure_angle_deg", "addendum_coefficient", "cutter_teeth", "cutter_shift", "cutter_addendum",
+           "cutter_tip_rounding", "dedendum_coefficient", "root_rounding_coefficient")  # fmt: skip
+_RELIEF = ("relief_depth_coefficient", "relief_height_coefficient")
+_SHIFT = ("profile_shift_coefficient", "generating_shift_coefficient")
 _STANDARD_ANGLE = 20.0
 # what is measured, the last of each is the size with deviations; the first that the part has is taken
 _CONTROLS = (
@@ -44,7 +50,16 @@ _CONTROLS = (
 )
 _SPANS = ("span", "span_over_spaces")
 _REFERENCE = ("reference_diameter", "rack_pitch")
-_WORM = ("worm_pressure_angle_deg", "addendum_coefficient", "tip_clearance_coefficient", "worm_fillet_coefficient")
+_WORM = ("worm_pressure_angle_deg", "grinding_wheel_diameter", "addendum_coefficient", "tip_clearance_coefficient")
+_HOB = ("hob_rounding_coefficient", "hob_diameter_quotient", "hob_thickening")
+# what tells the centrode of a noncircular gear
+_CENTRODE = ("centrode_eccentricity", "centrode_lobes", "mean_ratio", "perimeter", "mate_perimeter",
+             "least_centrode_radius", "greatest_centrode_radius")  # fmt: skip
+_CENTRODES: Mapping[str, Text] = {
+    "oval": N_("oval about its middle"),
+    "focal_ellipse": N_("ellipse about its focus"),
+    "ratio": N_("by the ratio"),
+}
 _HANDS = {
     "right": in_context("direction of teeth", "right"),
     "left": in_context("direction of teeth", "left"),
@@ -54,6 +69,8 @@ _HANDS = {
 
 def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTable:
     """The table of a toothed part, as the scene's mates have left it; ``mates``: what meshes with it."""
+    if isinstance(part.keys, NoncircularGearSpec):
+        return _noncircular(part, part.keys)
     return (_gear if part.kind in _PAGES else _worm)(part, mates)
 
 
@@ -67,7 +84,7 @@ def _gear(part: Part, mates: Sequence[Mated]) -> DataTable:
     helix = helix_of(keys)
     hand = [_hand("double" if helix.double else helix.hand)] if helix.angle else []
     basic, own = _basic_rack(keys)
-    shift = rows_of(page, (*own, "profile_shift_coefficient"))
+    shift = rows_of(page, (*own, *_RELIEF, *_SHIFT))
     first = (*rows_of(page, _TEETH), *hand, *basic, *shift, *_grade(keys.accuracy))
     beside = [m for m in mates if m.part.kind != "rack" and part.kind != "rack"]
     distances = {round(m.distance, 9): DataRow(N_("centre distance"), "a_w", m.distance, "mm") for m in beside}
@@ -75,14 +92,36 @@ def _gear(part: Part, mates: Sequence[Mated]) -> DataTable:
                       (*rows_of(page, _REFERENCE), *distances.values(), *_mates(mates))))  # fmt: skip
 
 
-def _basic_rack(keys: ToothedKeys) -> tuple[tuple[DataRow, ...], tuple[str, ...]]:
+def _noncircular(part: Part, keys: NoncircularGearSpec) -> DataTable:
+    """The rack that rolls on the centrode, that centrode, and its place and radius by the driver's angle."""
+    gear, drives = part.thing, keys.role == "driver"
+    thinning = gear.circumferential_thinning
+    page = noncircular_page.sheet(given(keys) | {"circumferential_thinning": thinning})
+    basic, own = _basic_rack(keys)
+    own_teeth, mate_teeth = ("gear_teeth", "mate_teeth") if drives else ("mate_teeth", "gear_teeth")
+    rack = (*rows_of(page, ("module", own_teeth)), *basic)
+    waves = [DataRow(N_("amplitudes of the ratio"), symbol, "; ".join(f"{value:.10g}" for value in page.data[name]))
+             for name, symbol in (("ratio_cosines", "a_k"), ("ratio_sines", "b_k")) if page.data.get(name)]  # fmt: skip
+    role = DataRow(N_("role in the pair"), "", N_("driver") if drives else N_("driven gear"))
+    centrode = DataRow(N_("centrode of the driver"), "", _CENTRODES[keys.centrode])
+    positions = next(table for table in page.tables if table.name == "centrodes")
+    columns = ("phi_1", "r_1", "i") if drives else ("phi_2", "r_2", "i")
+    return DataTable(
+        ((*rack, *rows_of(page, (*own, *_SHIFT[:1], "circumferential_thinning"))),
+         (role, centrode, *rows_of(page, _CENTRODE), *waves),
+         rows_of(page, (mate_teeth, "noncircular_distance"))),
+        chosen_columns(positions, columns),
+    )  # fmt: skip
+
+
+def _basic_rack(keys: ToothedKeys | NoncircularGearSpec) -> tuple[tuple[DataRow, ...], tuple[str, ...]]:
     """The basic rack by its standard, and the steps that tell what no standard does."""
-    if not isinstance(keys, SpurGearSpec | RackSpec) or not isinstance(keys.basic_rack, str):
-        return (), _OWN
-    if isinstance(keys, SpurGearSpec) and keys.cutter is not None:
+    if isinstance(keys, RingGearSpec) or (isinstance(keys, SpurGearSpec) and keys.cutter is not None):
+        return (), _CUTTER
+    if not isinstance(keys, SpurGearSpec | RackSpec | NoncircularGearSpec) or not isinstance(keys.basic_rack, str):
         return (), _OWN
     angle = () if keys.pressure_angle_deg == _STANDARD_ANGLE else _OWN[:1]
-    return (DataRow(N_("basic rack"), "", keys.basic_rack),), angle
+    return (DataRow(N_("basic rack"), "", standard_told(keys.basic_rack)),), angle
 
 
 def _worm(part: Part, mates: Sequence[Mated]) -> DataTable:
@@ -97,12 +136,14 @@ def _worm(part: Part, mates: Sequence[Mated]) -> DataTable:
     hand, grade = _hand(keys.hand), _grade(keys.accuracy)
     if isinstance(keys, WormSpec):
         first = rows_of(page, ("axial_module", "number_of_starts", "worm_form", "lead_angle_deg"))
-        own = rows_of(page, _WORM)
+        own = rows_of(page, (*_WORM, "worm_fillet_coefficient"))
         last = rows_of(page, ("worm_reference_diameter", "diameter_quotient", "lead", "worm_centre_distance"))
+        hand = replace(hand, name=N_("direction of the thread"))
         return DataTable(((*first, hand, *own, *grade), _control(page, keys.accuracy), (*last, *_mates(mates))))
     first = rows_of(page, ("axial_module", "worm_wheel_teeth"))
-    own = rows_of(page, ("profile_shift_coefficient", *_WORM))
-    last = rows_of(page, ("worm_centre_distance", "wheel_reference_diameter", "worm_form", "number_of_starts"))
+    own = rows_of(page, ("profile_shift_coefficient", *_WORM, *_HOB))
+    last = rows_of(page, ("worm_centre_distance", "wheel_reference_diameter", "worm_form", "number_of_starts",
+                          "diameter_quotient", "lead_angle_deg"))  # fmt: skip
     return DataTable(((*first, hand, *own, *grade), (), (*last, *_mates(mates)[1:])))
 
 
@@ -114,7 +155,8 @@ def _grade(accuracy: AccuracyTable | None) -> tuple[DataRow, ...]:
     """The accuracy grade, where one is given."""
     if accuracy is None:
         return ()
-    return (DataRow(N_("accuracy grade"), "", f"{accuracy.grade} {accuracy.source}"),)
+    told = message("{grade} {standard}", grade=accuracy.grade, standard=standard_told(accuracy.source))
+    return (DataRow(N_("accuracy grade"), "", told),)
 
 
 def _control(page: Sheet, accuracy: AccuracyTable | None) -> tuple[DataRow, ...]:

@@ -12,6 +12,7 @@ from geometry.curves.line_arc import Line
 from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.spur import SpurGear
 from geometry.solids.bores import RoundBore
+from parts.drawing.directions import directions
 from parts.drawing.disk_views import disk_drawing
 from parts.drawing.revolved import below, chamfers, closed, diameters, lengths, outlined, seen_edges
 from parts.drawing.wheel_views import (
@@ -46,7 +47,9 @@ from parts.gears.ring_gear.part import RingGearSpec
 from parts.gears.spur_gear.part import SpurGearSpec
 from parts.gears.worm.part import WormSpec
 from parts.gears.worm_wheel.part import WheelThing, WormWheelSpec
-from parts.keys.holes import bore_of
+from parts.keys.engraving import digits_height
+from parts.keys.helix import ToothedKeys
+from parts.keys.holes import bore_of, hub_holes
 from parts.keys.wheel import wheel_shape
 from parts.texts.sheets import sheet_words
 
@@ -57,24 +60,60 @@ if TYPE_CHECKING:
 
 def part_drawing(subject: Subject) -> PartDrawing:
     """The drawing of any toothed part."""
+    thing = subject.part.thing
     match subject.part.keys:
         case SpurGearSpec() as keys:
             views = wheel_views(_spur(keys, subject), subject)
+            more = _engraved(keys, subject) + directions(thing.holes, subject, "zero_tooth", keys.number_of_teeth)
         case NoncircularGearSpec() as keys:
             shape = wheel_shape(keys.face_width, keys.web, keys.hub, keys.face_chamfer)
             circles = ("inner_root_diameter", "outer_tip_diameter")
-            return disk_drawing(subject, shape, subject.part.thing.holes, circles)
+            return disk_drawing(subject, shape, thing.holes, "zero_x", circles)
         case WormWheelSpec() as keys:
-            views = wheel_views(_worm_wheel(keys, subject.part.thing), subject)
+            views = wheel_views(_worm_wheel(keys, thing), subject)
+            more = directions(keys.hub_holes(), subject, "zero_tooth", keys.number_of_teeth)
         case RingGearSpec() as keys:
-            views = _ring(keys, subject.part.thing, subject)
+            views = _ring(keys, thing, subject)
+            more = _engraved(keys, subject) + directions(thing.holes, subject, "zero_space", keys.number_of_teeth)
         case RackSpec() as keys:
-            views = _rack(keys, subject.part.thing, subject)
+            views, more = _rack(keys, thing, subject), ()
         case WormSpec() as keys:
-            views = _worm(keys, subject.part.thing, subject)
+            views, more = _worm(keys, thing, subject), _thread_words(keys, subject)
         case keys:
             raise TypeError(type(keys))
-    return PartDrawing(views, requirements(subject))
+    return PartDrawing(views, requirements(subject, *_edges(subject), *more))
+
+
+def _edges(subject: Subject) -> tuple[str, ...]:
+    """Chamfer or rounding of the tips of teeth, and in which section: of racks a rounding is one of the normal one."""
+    keys = subject.part.keys
+    if not isinstance(keys, ToothedKeys | WormSpec):
+        return ()
+    chamfer, where = 0.0, "thread_edges"
+    if isinstance(keys, ToothedKeys):
+        normal = isinstance(keys, RackSpec) and keys.tip_rounding
+        section = "_normal" if normal else "_transverse"
+        chamfer, where = keys.tip_chamfer, f"tip_edges{section if keys.helix_angle_deg else ''}"
+    edges = sheet_words(subject.language, where)
+    made = ("edges_chamfered", chamfer), ("edges_rounded", keys.tip_rounding)
+    return tuple(sheet_words(subject.language, key, edges=edges, size=subject.say(size)) for key, size in made if size)
+
+
+def _engraved(keys: SpurGearSpec | RingGearSpec, subject: Subject) -> tuple[str, ...]:
+    """What is engraved in the upper face."""
+    if keys.tooth_mark is None:
+        return ()
+    height = subject.say(digits_height(subject.part.section(0.0)))
+    words = "tooth_marked" if isinstance(keys, SpurGearSpec) else "space_marked"
+    depth = subject.say(keys.tooth_mark.depth)
+    return (sheet_words(subject.language, words, teeth=keys.number_of_teeth, depth=depth, height=height),)
+
+
+def _thread_words(keys: WormSpec, subject: Subject) -> tuple[str, ...]:
+    """How the thread ends, and where a keyway stands beside it."""
+    ends = sheet_words(subject.language, "thread_ends", angle=subject.say(keys.end_angle_deg))
+    found = directions(hub_holes(bore_of(keys), None, None), subject, "zero_thread", keys.number_of_starts)
+    return ((ends,) if keys.end_angle_deg else ()) + found
 
 
 def _spur(keys: SpurGearSpec, subject: Subject) -> Wheel:
@@ -124,13 +163,15 @@ def _ring(keys: RingGearSpec, ring: RingGear, subject: Subject) -> tuple[View, .
         sizes.append(Size(f"holes.{index}.pitch_circle_diameter", -1j * middle, 1j * middle, "left", "Ø"))
     rough = Note(complex(width, -pitch), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True, goes_on=True)
     section = View(tuple(strokes), tuple(hatched), tuple(axes), tuple(sizes), notes=(rough,))
-    toothed = next(p for p in subject.part.section(0.0).region.holes if p.count == ring.number_of_teeth)
+    region = subject.part.section(0.0).region
+    toothed = next(p for p in region.holes if p.count == ring.number_of_teeth)
     count = min(wishes.teeth, ring.number_of_teeth)
     face: list[Stroke] = [(VISIBLE, circle_of(outer)), (AXIS, circle_of(pitch))]
     face += exact_teeth(toothed, count, 0.0, tip) if count else [(VISIBLE, circle_of(tip))]
     for _, group in ring.holes.groups():
         face += [(VISIBLE, circle_of(group.diameter / 2, centre)) for centre in group.centres()]
         face.append((AXIS, circle_of(group.pitch_circle_diameter / 2)))
+    face += [(VISIBLE, s.curve) for mark in region.marks for s in mark.segments()]
     cross = (*axis_cross(outer), *hole_axes(ring.holes, 0.0))
     return section, View(tuple(face), (), cross, (), group_rounds(ring.holes, 0.0, subject))
 

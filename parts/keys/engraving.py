@@ -10,6 +10,7 @@ from msgspec import Struct
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.nearest import nearest
 from geometry.base.record import replace
+from geometry.curves.line_arc import Arc
 from parts.keys.base import mm
 
 if TYPE_CHECKING:
@@ -21,8 +22,8 @@ Depth = Annotated[float, mm("depth of the engraving", least=0.01, most=100)]
 Marks = Sequence["tuple[Profile, float]"]
 # of the room between a wheel's inner and outer circle: the mark, and what is left clear at its ends
 _MARK, _CLEAR = 0.3, 0.08
-# of digits where no key says it, mm
-_MOST_HEIGHT = 8.0
+# of digits where no key says it, mm; of that height, the width of the mark
+_MOST_HEIGHT, _WIDE = 8.0, 1 / 8
 
 
 class ToothMarkTable(Struct, forbid_unknown_fields=True):
@@ -75,12 +76,18 @@ def tooth_mark(
     elif not fits(height):
         given = height
         raise ParameterError("tooth_mark.height", given, "no_room_for_digits", lambda: nearest(fits, given, 1e-6))
-    half, stroke = half_size(number, height).imag, height / 8
+    half, stroke = half_size(number, height).imag, _WIDE * height
     # the mark at the teeth, the digits on the other side of it
     start = low + clear if inside else high - clear - length
     middle = start + length + clear + half if inside else start - clear - half
     mark = PlateSlot(complex(start + stroke / 2), complex(start + length - stroke / 2), stroke)
     return tuple((slot.profile(0.0), table.depth) for slot in (mark, *digits(number, height, complex(middle), 1 + 0j)))
+
+
+def digits_height(section: OffsetRegion) -> float:
+    """How high the digits of a section's mark are, mm."""
+    mark = section.region.marks[0]
+    return min(2 * s.curve.radius for s in mark.period if isinstance(s.curve, Arc)) / _WIDE
 
 
 def marked(section: OffsetRegion, marks: Marks) -> OffsetRegion:

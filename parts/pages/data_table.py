@@ -7,12 +7,12 @@ programs have them; cams, for which no standard has a table, are laid out alike,
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from parts.base.part import Part
-from parts.base.texts import Text, Words, words
+from parts.base.texts import Text, Words, in_context, message, words
 from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, plain_width
 from parts.drawing.cells import INDENT, wrapped, write_cell, write_lines
 from parts.pages.page import Sheet, Step, Table, unit_text
@@ -26,9 +26,17 @@ _ROW, _TWO_LINES = 8.0, 13.0
 # a row of positions and its first column, mm, and how many columns have room, in tables side by side
 _POSITION, _FIRST, _MOST_COLUMNS = 5.0, 11.0, 8
 # what a head of a page's table is called on a drawing
-_GREEK = {"phi": "φ", "theta": "θ"}
+_GREEK = {"phi": "φ", "theta": "θ", "psi": "ψ"}
 # decimals of a size and of a number without unit
 _DECIMALS = {"mm": 3, "": 4}
+# how drawings name what calculations name by the seeds
+_NAMES: Mapping[str, Text] = {
+    "number_of_teeth": in_context("data table", "number of teeth"),
+    "profile_shift_coefficient": in_context("data table", "profile shift coefficient"),
+    "pressure_angle_deg": in_context("data table", "pressure angle of the basic rack"),
+    "tip_radius_coefficient": in_context("data table", "fillet radius of the basic rack, in modules"),
+    "rack_pitch": in_context("data table", "pitch"),
+}
 Value = float | int | Text
 
 
@@ -59,15 +67,34 @@ class DataTable(Record):
     positions: Table | None = None
 
 
-def row_of(step: Step, deviations: tuple[float, float] | None = None) -> DataRow:
+def row_of(step: Step) -> DataRow:
     """A step of a calculation as a row."""
-    return DataRow(TERMS[step.name].name, step.symbol, step.value, step.unit, deviations)
+    return replace(term_row(step.name, step.value), symbol=step.symbol, unit=step.unit)
+
+
+def term_row(name: str, value: Value) -> DataRow:
+    """A value under the name, the symbol and the unit that calculations have for it."""
+    term = TERMS[name]
+    return DataRow(_NAMES.get(name, term.name), term.symbol, value, term.unit)
 
 
 def rows_of(page: Sheet, names: Iterable[str]) -> tuple[DataRow, ...]:
     """The steps of these names that the calculation has, in the order of the names."""
     steps = page.steps()
     return tuple(row_of(step) for name in names for step in steps if step.name == name)
+
+
+def chosen_columns(table: Table, names: Sequence[str]) -> Table:
+    """Some of a table's columns, by their symbols."""
+    kept = [k for name in names for k, (symbol, _) in enumerate(table.heads) if symbol == name]
+    rows = tuple(tuple(row[k] for k in kept) for row in table.rows)
+    return replace(table, heads=tuple(table.heads[k] for k in kept), rows=rows)
+
+
+def standard_told(name: str) -> Text:
+    """A standard by its number, in the reader's letters."""
+    head, _, number = name.partition(" ")
+    return message("GOST {number}", number=number) if head == "GOST" else name
 
 
 def value_text(row: DataRow, told: Words) -> str:
@@ -164,8 +191,7 @@ def _draw_positions(canvas: Canvas, corner: complex, table: Table, told: Words) 
     side = WIDTH / len(blocks)
     height, wide = _POSITION * (1 + len(blocks[0])), (side - _FIRST) / (len(table.heads) - 1)
     edges = [0.0, *(_FIRST + k * wide for k in range(len(table.heads)))]
-    heads = [f"{_GREEK.get(name) or lowered(symbol_text(name, told))}, {unit_text(unit, told)}"
-             for name, unit in table.heads]  # fmt: skip
+    heads = [", ".join(filter(None, (_head(name, told), unit_text(unit, told)))) for name, unit in table.heads]
     for number, rows in enumerate(blocks):
         left = corner.real + number * side
         for line, row in enumerate([heads, *([told.decimal(text) for text in position_texts(row)] for row in rows)]):
@@ -178,6 +204,11 @@ def _draw_positions(canvas: Canvas, corner: complex, table: Table, told: Words) 
                 "TABLE" if k else "FRAME", left + complex(x, corner.imag), left + complex(x, corner.imag - height)
             )
     return corner.imag - height
+
+
+def _head(name: str, told: Words) -> str:
+    letter, index, number = name.partition("_")
+    return lowered(symbol_text(f"{_GREEK.get(letter, letter)}{index}{number}", told))
 
 
 def position_texts(row: Sequence[float]) -> list[str]:

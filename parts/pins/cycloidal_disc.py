@@ -70,6 +70,7 @@ class CycloidalDiscKind(Kind[CycloidalDiscSpec, "CycloidalDisc"]):
 
     name, keys = "cycloidal_disc", CycloidalDiscSpec
     drawing = "parts.pins.drawings"
+    data_table = "parts.pins.data_tables"
 
     def thing(self, keys: CycloidalDiscSpec, others: Others) -> CycloidalDisc:
         """The disc, checked to exist with its bore, output holes and other holes."""

@@ -13,4 +13,4 @@ def part_drawing(subject: Subject) -> PartDrawing:
     keys = subject.part.keys
     assert isinstance(keys, CycloidalDiscSpec)
     shape = wheel_shape(keys.face_width, None, keys.hub, keys.face_chamfer)
-    return disk_drawing(subject, shape, subject.part.thing.holes, ("tip_diameter", "root_diameter"))
+    return disk_drawing(subject, shape, subject.part.thing.holes, "zero_lobe", ("tip_diameter", "root_diameter"))

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def part_table(part: Part, scene: SceneFile, placing: Placing, parts: Mapping[str, Part]) -> DataTable | None:
-    """The table of a part; None where its kind has none."""
+    """The table of a part; None where its kind, or this one of it, has none."""
     if part.made_by.data_table is None:
         return None
     mates = []
@@ -25,5 +25,5 @@ def part_table(part: Part, scene: SceneFile, placing: Placing, parts: Mapping[st
         ends = placed.first.part, placed.second.part
         if part.id in ends and isinstance(placed.mating, GearMating | WormMating):
             mates.append(Mated(parts[ends[ends[0] == part.id]], placed.mating.distance))
-    made: DataTable = importlib.import_module(part.made_by.data_table).data_table(part, scene, mates)
+    made: DataTable | None = importlib.import_module(part.made_by.data_table).data_table(part, scene, mates)
     return made

@@ -122,6 +122,8 @@ def _teeth(page: Sheet, keys: NoncircularKeys, gear: NoncircularGear) -> None:
     page.add("tip_clearance_coefficient", rack.tip_clearance)
     page.add("tip_radius_coefficient", rack.tip_radius)
     page.add("profile_shift_coefficient", gear.profile_shift_coefficient)
+    if gear.circumferential_thinning:
+        page.add("circumferential_thinning", gear.circumferential_thinning)
     page.add("tip_height", gear.tip_height, "({h_a} + {x}) * {m}")
     page.add("root_depth", gear.root_depth, "({h_a} + {c} - {x}) * {m}")
     flat, sharp = gear.curvatures

@@ -124,6 +124,7 @@ class NoncircularGearKind(Kind[NoncircularGearSpec, "NoncircularGear"]):
 
     name, keys = "noncircular_gear", NoncircularGearSpec
     drawing = "parts.gears.drawings"
+    data_table = "parts.gears.data_tables"
 
     def thing(self, keys: NoncircularGearSpec, others: Others) -> NoncircularGear:
         """The gear, checked to be cut whole, and to leave its holes a rim."""

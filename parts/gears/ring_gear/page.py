@@ -81,6 +81,8 @@ def _given(page: Sheet, ring: RingGear, keys: RingKeys, helix: float) -> None:
     normal = ring.module / keys.module
     if isinstance(ring.root, RoundedRoot):
         page.add("dedendum_coefficient", ring.root.dedendum * normal)
+        if ring.root.radius is not None:
+            page.add("root_rounding_coefficient", ring.root.radius)
         return
     cutter = ring.root
     page.add("cutter_teeth", cutter.number_of_teeth)

@@ -10,6 +10,7 @@ from msgspec import Meta
 from geometry.base.errors import ParameterError
 from geometry.base.record import replace
 from geometry.gears.teeth import limits, measurement
+from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.limits import LEAST_TIP_THICKNESS
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import base_helix_angle, transverse_angle
@@ -111,12 +112,25 @@ def given_data(page: Sheet, normal: SpurGear, gear: SpurGear, helix: float, inde
     page.add("addendum_coefficient", rack.addendum, gear=index)
     page.add("tip_clearance_coefficient", rack.tip_clearance, gear=index)
     page.add("tip_radius_coefficient", rack.tip_radius, gear=index)
+    if rack.relief is not None:
+        page.add("relief_depth_coefficient", rack.relief.depth, gear=index)
+        page.add("relief_height_coefficient", rack.relief.height, gear=index)
+    if normal.cutter is not None:
+        cutter_data(page, normal.cutter, index)
     if gear.circumferential_thinning:
         page.add("circumferential_thinning", gear.circumferential_thinning, gear=index)
         if gear.thinning_by_deeper_cut:
             formula = "{x_n#} - {A#} / (2 * {m_n} * tan({alpha}))"
             value = gear.generating_shift_coefficient / math.cos(helix)
             page.add("generating_shift_coefficient", value, formula, "ISO 21771", index)
+
+
+def cutter_data(page: Sheet, cutter: PinionCutter, index: int = 0) -> None:
+    """The pinion cutter that makes the root, in its own modules."""
+    page.add("cutter_teeth", cutter.number_of_teeth, gear=index)
+    page.add("cutter_shift", cutter.profile_shift_coefficient, gear=index)
+    page.add("cutter_addendum", cutter.addendum, gear=index)
+    page.add("cutter_tip_rounding", cutter.tip_rounding, gear=index)
 
 
 def addendum_formula(shortening: str = "") -> str:

@@ -184,11 +184,18 @@ def _given(page: Sheet, keys: WormKeys) -> None:
         page.add("profile_shift_coefficient", keys.profile_shift_coefficient)
     page.add("worm_form", keys.form)
     page.add("worm_pressure_angle_deg", keys.pressure_angle_deg)
+    if keys.form == "ZK1":
+        page.add("grinding_wheel_diameter", keys.grinding_wheel_diameter)
     page.add("addendum_coefficient", keys.addendum_coefficient)
     page.add("tip_clearance_coefficient", keys.tip_clearance_coefficient)
     page.add("worm_fillet_coefficient", keys.fillet_coefficient)
     if keys.axial_thinning:
         page.add("axial_thinning", keys.axial_thinning)
+    if keys.number_of_teeth is not None:
+        page.add("hob_rounding_coefficient", keys.hob_rounding_coefficient)
+        page.add("hob_diameter_quotient", keys.hob_diameter_quotient or keys.diameter_quotient)
+        if keys.wheel_thinning:
+            page.add("hob_thickening", keys.wheel_thinning)
 
 
 def _dimensions(page: Sheet, worm: Worm, drive: WormDrive | None, worm_length: float | None) -> None:

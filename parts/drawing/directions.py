@@ -1,0 +1,51 @@
+"""Words on where holes, spokes and keyways stand about the axis: what the sizes of a drawing do not tell."""
+
+from __future__ import annotations
+
+import math
+
+from geometry.solids.bores import KeywayBore, RoundBore
+from geometry.solids.hub_holes import HubHoles
+from parts.drawing.working import Subject
+from parts.texts.sheets import sheet_words
+
+# rad: what is one direction
+_SAME = 1e-9
+# of a bore where no key turns it
+_USUAL = math.pi / 2
+
+
+def directions(holes: HubHoles, subject: Subject, zero: str, teeth: int = 0) -> tuple[str, ...]:
+    """Lines of requirements; nothing of what stands where it would without a word.
+
+    ``zero``: the key of the words for +x of the part, empty where it is round; ``teeth``: how many stand about it, any
+    of which is as good as the first.
+    """
+    bore, found = holes.bore, list[str]()
+
+    def tell(key: str, angle: float, count: int, start: str, **sizes: object) -> None:
+        step = math.tau / max(count, 1)
+        turn = math.degrees(angle % step if step - angle % step > _SAME else 0.0)
+        found.append(sheet_words(subject.language, key, angle=subject.say(turn),
+                                 zero=sheet_words(subject.language, start), **sizes))  # fmt: skip
+
+    begin, start = 0.0, zero
+    if bore is not None and not isinstance(bore, RoundBore):
+        turn, is_keyway = bore.angle, isinstance(bore, KeywayBore)  # type: ignore[attr-defined]
+        if zero and (not teeth or abs(turn - _USUAL) > _SAME):
+            tell("keyway_at" if is_keyway else "flat_at", turn, teeth, zero)
+        if teeth or not zero:
+            begin, start = turn, "zero_keyway" if is_keyway else "zero_flat"
+    for group in holes.round_holes if start else ():
+        if _turned(group.start - begin, group.count):
+            key = "holes_at" if group.count > 1 else "hole_at"
+            tell(key, group.start - begin, group.count, start, size=subject.say(group.diameter))
+    if start and holes.spokes is not None and _turned(holes.spokes.start - begin, holes.spokes.count):
+        tell("spokes_at", holes.spokes.start - begin, holes.spokes.count, start)
+    return tuple(found)
+
+
+def _turned(angle: float, count: int) -> bool:
+    """Whether the first of so many stands off the direction in which they would without a word."""
+    step = math.tau / count
+    return min(angle % step, step - angle % step) > _SAME
