@@ -299,8 +299,10 @@ def face_view(wheel: Wheel, subject: Subject) -> View:
         strokes.append((VISIBLE, circle_of(shape.hub.diameter / 2)))
     if shape.web is not None and at.web[1] < at.rim[1]:
         strokes.append((VISIBLE, circle_of(shape.web.rim_diameter / 2)))
-    marks = () if wheel.outline is None else subject.part.section(0.0).region.marks
-    for profile in (*wheel.holes.profiles(), *marks):
+    if wheel.outline is not None:
+        marks = subject.part.section(0.0).region.marks
+        strokes += [(THIN, s.curve.placed(placement)) for mark in marks for s in mark.segments()]
+    for profile in wheel.holes.profiles():
         strokes += [(VISIBLE, s.curve.placed(placement)) for s in profile.segments()]
     strokes += [(AXIS, circle_of(group.pitch_circle_diameter / 2)) for _, group in wheel.holes.groups()]
     axes = (*axis_cross(tip), *hole_axes(wheel.holes, turn))
@@ -355,10 +357,10 @@ def bore_view(bore: Bore, subject: Subject) -> View:
                 )
     else:
         sizes.append(Size("bore.across_flats", -1j * down, 1j * up, "right", "", wishes.bore))
-        rounded = max((curve for _, curve in strokes if isinstance(curve, Arc)), key=_rightmost, default=None)
+        rounded = max((curve for _, curve in strokes if isinstance(curve, Arc)), key=_leftmost, default=None)
         if rounded is not None:
             way = math.degrees(cmath.phase(rounded.centre))
-            angles = tuple(way + turn for turn in (0.0, 15.0, -15.0))
+            angles = tuple(way + turn for turn in (0.0, 15.0, -15.0, 30.0, -30.0))
             rounds.append(
                 Round("bore.corner_radius", rounded.centre, rounded.radius, "R", is_radius=True, angles=angles)
             )
@@ -366,9 +368,9 @@ def bore_view(bore: Bore, subject: Subject) -> View:
     return View(tuple(strokes), (), axis_cross(bore.reach), tuple(sizes), tuple(rounds), (), name, _LEAST_BORE)
 
 
-def _rightmost(corner: Arc) -> float:
-    """How far right and up the corner of a bore is."""
-    return corner.centre.real + 0.1 * corner.centre.imag
+def _leftmost(corner: Arc) -> float:
+    """How far left and up the corner of a bore is: its size stands on the right."""
+    return 0.1 * corner.centre.imag - corner.centre.real
 
 
 def wheel_views(wheel: Wheel, subject: Subject) -> tuple[View, ...]:

@@ -171,7 +171,7 @@ def _ring(keys: RingGearSpec, ring: RingGear, subject: Subject) -> tuple[View, .
     for _, group in ring.holes.groups():
         face += [(VISIBLE, circle_of(group.diameter / 2, centre)) for centre in group.centres()]
         face.append((AXIS, circle_of(group.pitch_circle_diameter / 2)))
-    face += [(VISIBLE, s.curve) for mark in region.marks for s in mark.segments()]
+    face += [(THIN, s.curve) for mark in region.marks for s in mark.segments()]
     cross = (*axis_cross(outer), *hole_axes(ring.holes, 0.0))
     return section, View(tuple(face), (), cross, (), group_rounds(ring.holes, 0.0, subject))
 

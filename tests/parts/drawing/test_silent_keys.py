@@ -188,7 +188,7 @@ def _cases() -> Iterator[Any]:
 
 
 @pytest.mark.sampled(12)
-@pytest.mark.parametrize(("name", "key"), _cases())
+@pytest.mark.parametrize(("name", "key"), [*_cases()])
 def test_what_changes_a_part_changes_a_word_of_its_drawing(name: str, key: str) -> None:
     raw, part = bases()[name]
     place, field = ("parts", part, key), _fields(KINDS[raw["parts"][part]["kind"]].keys)[key]
