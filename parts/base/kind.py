@@ -13,7 +13,7 @@ from geometry.base.nearest import nearest
 from geometry.base.record import Record, field
 from parts.base.refusal import SceneError, placed
 from parts.base.schema import as_typed, tried, unit_of
-from parts.base.texts import Text
+from parts.base.texts import Text, Words
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -42,6 +42,19 @@ class HoleAt(Record):
     centre: complex | None
     diameter: float
     axle: str | None = None
+
+
+class Stock(Record):
+    """A length of a round rod, or of a tube where there is a bore, mm."""
+
+    diameter: float
+    bore: float
+    length: float
+
+    def told(self, language: Words) -> str:
+        """Its sizes as parts lists have them."""
+        sizes = [f"Ø{size:.6g}" for size in (self.diameter, self.bore) if size]
+        return language.decimal(" × ".join(["/".join(sizes), f"{self.length:.6g}"]))
 
 
 class Report(Record):
@@ -114,6 +127,10 @@ class Kind(Generic[K, T]):
         from geometry.solids.mass import body_moments
 
         return body_moments(solid)
+
+    def stock(self, keys: K) -> Stock | None:
+        """The rod or tube that it is a length of; None: it is no such length."""
+        return None
 
     def height(self, keys: K, thing: T) -> float:
         """Height along the axis, of the rim where there is one, mm."""

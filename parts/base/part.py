@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.body import Body
     from geometry.solids.faced import FacedBody
-    from parts.base.kind import Kind, Report
+    from parts.base.kind import Kind, Report, Stock
     from parts.base.part_keys import MaterialKeys
     from parts.base.readback import Probe
 
@@ -158,6 +158,11 @@ class Part(Record, dict=True):
     def colour(self) -> str | None:
         """Its colour in pictures."""
         return self.keys.colour
+
+    @property
+    def stock(self) -> Stock | None:
+        """The rod or tube that it is cut from to length."""
+        return self.made_by.stock(self.keys)
 
     @property
     def density(self) -> float | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection
 
 from msgspec import Struct
@@ -60,8 +61,9 @@ _SYNONYMS = {
     "table": ("motion_table", "poles"),
     "teeth": ("number_of_teeth",),
     "stroke": ("lift",),
-    "thickness": ("face_width",),
+    "thickness": ("face_width", "plate_thickness"),
     "width": ("face_width",),
+    "face_width": ("plate_thickness",),
 }
 
 
@@ -88,7 +90,9 @@ def sentence(refusal: SceneError, language: str = ENGLISH) -> str:
     """The one line that a user reads: file, key, value, what is wrong, what would work."""
     # a table is told by its key alone
     given = "" if refusal.value is None or isinstance(refusal.value, Struct) else f" = {_shown(refusal.value)}"
-    place = f"{refusal.source}: {refusal.key}{given}" if refusal.key else refusal.source or '""'
+    # in a list as places of mates and exports are told: holes[2].diameter
+    key = re.sub(r"\.item (\d+)", r"[\1]", refusal.key)
+    place = f"{refusal.source}: {key}{given}" if key else refusal.source or '""'
     line = f"{place}: {words(language).say(explained(refusal))}"
     return "".join(c if c.isprintable() else "?" for c in line)
 
@@ -130,5 +134,12 @@ def _told(number: object) -> object:
 
 
 def _shown(value: object) -> str:
-    text = " ".join((format_value(value) if not isinstance(value, dict | list) else str(value)).split())
+    text = " ".join(_typed(value).split())
     return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _typed(value: object) -> str:
+    """A value as TOML has it on one line."""
+    if isinstance(value, dict):
+        return f"{{ {', '.join(f'{key} = {_typed(item)}' for key, item in value.items())} }}"
+    return f"[{', '.join(map(_typed, value))}]" if isinstance(value, list) else format_value(value)

@@ -82,7 +82,13 @@ def _with_form(
     if allowed is None or not keys:
         return allowed
     field = next((f for f in msgspec.structs.fields(_owner(kind, keys[:-1], table)) if f.encode_name == keys[-1]), None)
-    if long := re.match(r"Expected `(str|array)` of length (<=|>=) (\d+)", said):
+    if pair := re.match(r"Expected `array` of length (\d+)", said):
+        span = counted("exactly {n} number", "exactly {n} numbers", "n", n=int(pair.group(1)))
+        told = next((m.description for m in _metas(field.type) if m.description), "") if field is not None else ""
+        allowed = Message(told) if told else allowed
+        if isinstance(held := _lookup(table, keys), list) and len(held) > int(pair.group(1)):
+            span = message("{range}, with a decimal point, since a comma parts them", range=span)
+    elif long := re.match(r"Expected `(str|array)` of length (<=|>=) (\d+)", said):
         most, number = long.group(2) == "<=", int(long.group(3))
         if long.group(1) == "array":
             own = [] if field is None else [m for m in _metas(field.type) if m.max_length == number]

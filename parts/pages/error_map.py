@@ -67,7 +67,7 @@ class ErrorMap(Record):
             lines.append(
                 f'<rect x="{left:.1f}" y="{y:.1f}" width="28" height="22" style="fill:{_shade(value, low, high)}"/>'
             )
-            lines.append(_text(left + 36, y + 15, f"{value:.4g} {self.unit}"))
+            lines.append(_text(left + 36, y + 15, f"{value:.4g} {words.text(self.unit)}"))
         y = top + 22 * 9 + 24
         for name, colour in zip(self.elbows, _COLOURS, strict=True):
             if self.reached:
@@ -78,7 +78,7 @@ class ErrorMap(Record):
         if self.reached:
             lines.append(_text(left, y, f"{self.magnified:g} : 1"))
             y += 22
-        lines.append(_text(left, y, f"r = {self.radii[0]:g} … {self.radii[-1]:g} mm"))
+        lines.append(_text(left, y, f"r = {self.radii[0]:g} … {self.radii[-1]:g} {words.text('mm')}"))
         return lines
 
 

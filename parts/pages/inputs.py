@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from typing import Any, Protocol
@@ -58,6 +59,9 @@ def table_of(pairs: Sequence[str]) -> dict[str, Any]:
         if name in owner:
             raise SceneError(PLACE, key, text, "given_twice")
         owner[name] = toml_value(text.strip())
+        if comma := re.fullmatch(r"(-?\d+),(\d+)", text.strip()):
+            whole, part = comma.groups()
+            raise SceneError(PLACE, key, text, "comma_in_number", None, whole=whole, part=part)
     refuse_infinite(table, PLACE, "")
     return table
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, TypeVar
 
 from geometry.base.errors import ParameterError, limit
 from geometry.solids.hub_holes import HubHoles, least_wall
-from parts.base.kind import Kind, Others, Report
+from parts.base.kind import Kind, Others, Report, Stock
 from parts.base.part_keys import MaterialKeys
 from parts.keys.base import BoreDiameter, mm
 from parts.keys.holes import BoredKeys
@@ -73,6 +73,10 @@ class Pin(_Round[PinSpec]):
         from geometry.solids.sketch import sketch_of_body
 
         return sketch_of_body(self.solid(keys, thing, 0.0), is_shaft=True)
+
+    def stock(self, keys: PinSpec) -> Stock:
+        """A length of a rod or a tube."""
+        return Stock(keys.diameter, keys.bore_diameter, keys.length)
 
     def height(self, keys: PinSpec, thing: RoundDisc) -> float:
         """Its length."""

@@ -14,6 +14,7 @@ REASONS = {
     "no_such_letter_on_paper": N_("the letters of a PDF lack {letters}"),
     "no_such_letter": N_("there is no letter to engrave for {letters}"),
     "not_a_list": N_("write it as [[{key}]]"),
+    "not_a_named_table": N_("its keys stand under a name, like [{key}.{example}]"),
     "not_a_table": N_("write it as a table, [{key}]"),
     "not_above_zero": N_("must be above 0"),
     "not_allowed": N_("is not allowed; {allowed}"),

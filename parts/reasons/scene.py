@@ -47,6 +47,10 @@ REASONS = {
     "not_placed": N_("is not placed; begin its train at {standing}, which is, or give instances.{first}.at"),
     "not_toml": N_("is not TOML: {why}; see `higherpair new spur_gear` for a start"),
     "decimal_comma": N_("line {line}: a number has a comma; write {number} with a point"),
+    "no_quotes": N_('line {line}: words stand in straight quotes: {key} = "{value}"'),
+    "small_letters": N_("line {line}: write {key} = {value}"),
+    "quote_not_closed": N_("line {line}: the quotes of {key} are not closed"),
+    "comma_in_number": N_("write {whole}.{part} with a point, or a list in brackets, [{whole}, {part}]"),
     "not_utf8": N_("is not UTF-8 text (byte {byte}); save it as UTF-8"),
     "of_another_kind": N_("is a {found}, not a {kind}"),
     "only_for_format": N_("only for format = {formats}, not {format}"),
@@ -74,11 +78,15 @@ REASONS = {
     ),
     "too_many_pieces": N_("makes {pieces} pieces, more than the {most} that are laid out at once"),
     "nothing_is_laid": N_("leaves no piece to lay"),
-    "too_small_for_parts": N_("parts that are too large for it, and the scale at which each would do: {parts}"),
+    "too_small_for_parts": N_(
+        "parts are too large for it, each with the scale that a slicer would have to give it: {parts}; give a larger "
+        "bed or make them smaller"
+    ),
     "gap_above_board": N_("is larger than the board, of which the shorter side is {side} mm"),
     "margins_leave_nothing": N_("leaves nothing of a side of {side} mm"),
     "part_not_so_thick": N_("the part {part} is {thickness} mm thick"),
-    "no_part_so_thick": N_("no flat part is as thick; flat parts have {found} mm"),
+    "no_part_so_thick": N_("no flat part is as thick; those that are flat, with their thickness in mm: {found}"),
+    "no_flat_part": N_("no part is flat: pins are cut from rods"),
     "no_boards": N_("needs a table {table}, which says how large it is"),
     "key_of_board": N_("boards.NAME.kerf says it: a board is cut with one kerf"),
     "not_of_boards": N_("parts are laid out as they are"),

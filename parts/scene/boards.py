@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from geometry.base.errors import Nearest
 from parts.base.part import Part
 from parts.base.refusal import SceneError
+from parts.base.texts import Message, listed
 from parts.keys.boards import BoardSpec, LaidKeys
 from parts.scene.instances import InstanceSpec
 
@@ -59,6 +60,12 @@ def parts_of_board(spec: BoardSpec, parts: Mapping[str, Part], source: str, plac
         return spec.parts
     found = [k for k, p in parts.items() if p.is_plate and abs(p.face_width - spec.thickness) <= _SAME_THICKNESS]
     if not found:
-        flat = sorted({p.face_width for p in parts.values() if p.is_plate})
-        raise SceneError(source, f"{place}.thickness", spec.thickness, "no_part_so_thick", None, "mm", found=flat)
+        flat = {k: p.face_width for k, p in parts.items() if p.is_plate and p.stock is None}
+        if not flat:
+            raise SceneError(source, f"{place}.thickness", spec.thickness, "no_flat_part")
+        told = [Message("{part} ({width})", {"part": k, "width": f"{w:g}"}) for k, w in flat.items()]
+        nearest = Nearest(min(flat.values(), key=lambda width: abs(width - spec.thickness)))
+        raise SceneError(
+            source, f"{place}.thickness", spec.thickness, "no_part_so_thick", nearest, "mm", found=listed(told)
+        )
     return found

@@ -32,7 +32,13 @@ def language_of(address: str) -> str:
         # what is no TOML may still say it
         found = re.search(rb"""(?m)^\s*language\s*=\s*["'](\w+)["']""", raw)
         asked = found[1].decode() if found else ENGLISH
-    return asked if asked in languages() else ENGLISH
+    if asked is None or asked in languages():
+        return asked or ENGLISH
+    from parts.base.refusal import meant
+
+    # what is no language is refused in the one that was meant
+    nearest = meant(asked, languages())
+    return str(nearest.value) if nearest else ENGLISH
 
 
 def in_language(raw: dict[str, Any], source: str) -> dict[str, Any]:

@@ -247,10 +247,10 @@ def scene_from_toml(raw_bytes: bytes, source: str, name: str, language: str | No
     except UnicodeDecodeError as error:
         raise SceneError(source, "", None, "not_utf8", None, byte=error.start) from None
     except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
-        from parts.scene.toml_errors import decimal_comma, told_toml
+        from parts.scene.toml_errors import slip, told_toml
 
-        if isinstance(error, tomllib.TOMLDecodeError) and (comma := decimal_comma(text_of(raw_bytes), str(error))):
-            raise SceneError(source, "", None, "decimal_comma", None, **comma) from None
+        if isinstance(error, tomllib.TOMLDecodeError) and (found := slip(text_of(raw_bytes), str(error))):
+            raise SceneError(source, "", None, found[0], None, **found[1]) from None
         code = "not_toml" if str(error) else "too_deep"
         raise SceneError(source, "", None, code, None, why=told_toml(text_of(raw_bytes), str(error))) from None
     try:
@@ -309,6 +309,10 @@ def _takes(source: str, table: dict[str, Any], key: str, value: object) -> bool:
     return True
 
 
+# tables that stand under names of their own, and such a name
+_NAMED = {"parts": "gear", "instances": "left", "boards": "plywood", "beds": "printer"}
+
+
 def _check_tables(raw: dict[str, Any], source: str) -> None:
     """Only tables that a scene has, each of its form."""
     tables: dict[str, type] = {
@@ -319,7 +323,11 @@ def _check_tables(raw: dict[str, Any], source: str) -> None:
         if key not in tables:
             raise SceneError(source, key, None, "unknown_table", meant(key, tables), known=list(tables))
         if not isinstance(value, tables[key]):
-            raise SceneError(source, key, value, "not_a_list" if tables[key] is list else "not_a_table", None, key=key)
+            code = "not_a_list" if tables[key] is list else "not_a_named_table" if key in _NAMED else "not_a_table"
+            raise SceneError(source, key, value, code, None, key=key, example=_NAMED.get(key))
+        for name, own in raw[key].items() if key in _NAMED else ():
+            if not isinstance(own, dict):
+                raise SceneError(source, f"{key}.{name}", own, "not_a_named_table", None, key=key, example=_NAMED[key])
     if not (raw.get("parts") or raw.get("assemblies")):
         raise SceneError(source, "parts", None, "no_parts")
 
@@ -392,14 +400,12 @@ def _mate_spec(
     return mate
 
 
-def _part_spec(key: str, table: object, source: str) -> MaterialKeys:
+def _part_spec(key: str, table: dict[str, Any], source: str) -> MaterialKeys:
     place = f"parts.{key}"
     if key.lower() in DEVICE_NAMES:
         raise SceneError(source, place, None, "device_name", Nearest(f"{key}_1"))
     if not re.fullmatch(IDENTIFIER, key):
         raise SceneError(source, place, None, "not_a_name", Nearest("part_1"))
-    if not isinstance(table, dict):
-        raise SceneError(source, place, table, "not_a_table", None, key=f"parts.{key}")
     kind = table.get("kind")
     if not isinstance(kind, str) or kind not in KINDS:
         code = "missing_kind" if kind is None else "unknown_kind"

@@ -62,10 +62,13 @@ def check_positions(parts: Mapping[str, Part], language: str, source: str) -> No
 
 def _told(part: Part, language: str) -> tuple[str, str, str, str, str]:
     """Section, designation, name, standard and material: of one position all are alike."""
-    keys = part.keys
+    keys, told = part.keys, words(language)
     name = part.title or part.id
+    # what neither a drawing nor a standard describes, and is only a length of a rod, is told by its sizes
+    if part.stock is not None and not (keys.designation or keys.standard or keys.position):
+        name = f"{name} {part.stock.told(told)}"
     section = "standard" if keys.standard else "parts"
-    return section, keys.designation or "", name, keys.standard or "", material_told(part.material, words(language))
+    return section, keys.designation or "", name, keys.standard or "", material_told(part.material, told)
 
 
 def _mass(part: Part) -> float | None:

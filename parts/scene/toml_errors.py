@@ -35,6 +35,12 @@ _SENTENCES = (
 )
 
 
+# a key whose words have no quotes, and one whose quotes are not closed
+_TYPOGRAPHIC = "“”„«»‘’"
+_BARE = re.compile(rf"([\w-]+)\s*=\s*((?:[{_TYPOGRAPHIC}]|[^\W\d_])[^#,\]}}\"']*)")
+_OPEN = re.compile(r"""\s*([\w.-]+)\s*=\s*("[^"]*|'[^']*)""")
+
+
 def told_toml(text: str, why: str) -> Text:
     """An error of tomllib in a text, keys in it as they are typed; a Cyrillic letter that led to it is named."""
     told, at = _told(why), re.search(r"line (\d+), column (\d+)\)$", why)
@@ -64,10 +70,20 @@ def _as_typed(what: str) -> str:
     return ".".join(re.findall(r"'([^']*)'", what)) if what.startswith("(") else what
 
 
-def decimal_comma(text: str, why: str) -> dict[str, Any] | None:
-    """The number with a comma on the line that is not TOML, if it is that."""
-    if (at := re.search(r"line (\d+)", why)) is None:
+def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
+    """What people type who know no TOML, on the line that is none: its code and what the sentence of that needs."""
+    if (at := re.search(r"line (\d+), column (\d+)\)$", why)) is None:
         return None
-    line = int(at[1])
-    found = re.search(r"=\s*(-?\d+),(\d+)\s*(#.*)?$", text.splitlines()[line - 1])
-    return {"line": line, "number": f"{found[1]}.{found[2]}"} if found else None
+    number, column = int(at[1]), int(at[2]) - 1
+    line = text.split("\n")[number - 1]
+    if found := re.search(r"=\s*(-?\d+),(\d+)\s*(#.*)?$", line):
+        return "decimal_comma", {"line": number, "number": f"{found[1]}.{found[2]}"}
+    if why.startswith("Invalid value") and (found := _BARE.search(line)) and found.start(2) == column:
+        value = found[2].strip().strip(_TYPOGRAPHIC)
+        truth = value.lower() in ("true", "false")
+        return ("small_letters" if truth else "no_quotes"), {
+            "line": number, "key": found[1], "value": value.lower() if truth else value
+        }  # fmt: skip
+    if found := _OPEN.fullmatch(line.rstrip()):
+        return "quote_not_closed", {"line": number, "key": found[1]}
+    return None

@@ -108,7 +108,7 @@ def _points(page: Sheet, keys: PowerTableKeys) -> None:
     """One point step by step, for both elbows; and the table."""
     if keys.x is None or keys.y is None:
         missing = "x" if keys.x is None else "y"
-        raise ParameterError(missing, None, "missing_key", None, what=N_("x and y of a point, or path=FILE"))
+        raise ParameterError(missing, None, "missing_key", None, what=message("x and y of a point, or path=FILE"))
     x, y = np.atleast_1d(keys.x), np.atleast_1d(keys.y)
     if len(x) != len(y) or not len(x):
         raise ParameterError("y", keys.y, "as_many_as_x")
@@ -132,7 +132,7 @@ def _points(page: Sheet, keys: PowerTableKeys) -> None:
             for row, gamma, rest in zip(columns, coupled, own, strict=True)
         ]
     page.picture = scheme(table.arms, table.ratio, tuple(joints))
-    heads = (("elbow", ""), *_heads(), ("γ", "deg"), ("Δβ'", "deg"))
+    heads = ((N_("elbow"), ""), *_heads(), ("γ", "deg"), ("Δβ'", "deg"))
     page.tables.append(Table("points", N_("Points, both elbows"), heads, tuple(rows)))
     if table.reach[0] == 0 and not points.all():
         page.notes.append(N_("at the centre every angle delta is right; it is kept at start_deg"))

@@ -101,7 +101,9 @@ class _Page:
         self.teeth = {**(case.teeth if case else {}), **teeth}
         words = keys.meshes or (case.meshes if case else "")
         if not words:
-            raise ParameterError("meshes", None, "missing_key", None, what=N_("wheels in mesh, as 1-2, 2'-3 internal"))
+            raise ParameterError(
+                "meshes", None, "missing_key", None, what=message("wheels in mesh, as 1-2, 2'-3 internal")
+            )
         self.speeds = {name: _exact(w) for name, w in ({**(case.speeds if case else {}), **keys.speeds}).items()}
         # which instance of a scene a name stands for
         self.instances = names

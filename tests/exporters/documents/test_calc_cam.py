@@ -209,7 +209,7 @@ def test_a_phase_joins_the_motion_of_its_neighbours(capsys: pytest.CaptureFixtur
     assert [row["S"] for row in data["positions"]] == pytest.approx([0, 0.375, 2, 4, 6, 7.625, 8], abs=1e-13)
     beside = [phase("rise", 90, "join", 0.5), phase("rise", 90, "join", 0.5), phase("return_", 180, "sine", 1)]
     told = complaint(capsys, "calc", "cam", *cam, f"phases=[{','.join(beside)}]")
-    assert 'phases.item 1.law = "join"' in told
+    assert 'phases[1].law = "join"' in told
     assert "joins too" in told
 
 

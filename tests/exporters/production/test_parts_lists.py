@@ -80,7 +80,7 @@ def test_csv_tells_positions_quantities_and_masses(tmp_path: Path) -> None:
     assert [(r["Item"], r["Name"], r["Qty"], r["Section"]) for r in rows] == [
         ("2", "Frame", "1", "Parts"),
         # what has no number goes on from the greatest, parts first
-        ("3", "Rod", "2", "Parts"),
+        ("3", "Rod Ø8 × 50", "2", "Parts"),
         ("4", "Screw with a long cylindrical head and a hexagon socket in it", "7", "Standard items"),
     ]
     frame, rod, screw = rows
@@ -167,7 +167,7 @@ def test_the_sheet_is_form_1_of_gost_2_106(tmp_path: Path) -> None:
     assert "1,58 г" in texts
     # rows of 8 mm below a head of 15
     assert (top - 15 - texts["Рама"].y) // 8 == 3
-    assert texts["Деталі"].y > texts["Рама"].y > texts["Rod"].y > texts["Стандартні вироби"].y
+    assert texts["Деталі"].y > texts["Рама"].y > texts["Rod Ø8 × 50"].y > texts["Стандартні вироби"].y
 
 
 def test_a_long_list_goes_on_with_form_2a(tmp_path: Path) -> None:

@@ -61,8 +61,8 @@ def test_a_material_without_a_density_is_told(keys: dict[str, object], told: boo
 
 
 def test_a_known_material_is_told_in_the_language_of_the_drawing() -> None:
-    """The name alone is translated: what the user wrote beside it stays, as does what nobody knows."""
-    pairs = {"plywood 3 mm": "фанера 3 mm", "stainless steel 40Х": "нержавна сталь 40Х", "Steel": "сталь", "PLA": "PLA"}
+    """Name and mm are translated: what else the user wrote stays, as does what nobody knows."""
+    pairs = {"plywood 3 mm": "фанера 3 мм", "stainless steel 40Х": "нержавна сталь 40Х", "Steel": "сталь", "PLA": "PLA"}
     for given, told in {**pairs, "unobtainium": "unobtainium"}.items():
         assert material_told(given, words("uk")) == told
         assert material_told(given, words("en")) == given

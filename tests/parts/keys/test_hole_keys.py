@@ -134,7 +134,7 @@ WRONG: dict[str, tuple[dict[str, Any], str, str]] = {
     "text": ({"bore": {"shape": "square", "across_flats": "x"}}, 'gear.bore.across_flats = "x"', "a number"),
     "standard": ({"bore": {"shape": "keyway", "diameter": 9, "standard": "ANSI"}}, 'standard = "ANSI"', "DIN 6885"),
     "both bores": ({**GOOD["D"], "bore_diameter": 5}, "gear.bore_diameter = 5", "either"),
-    "list of holes": ({"holes": [HOLES, {**HOLES, "count": 0}]}, "gear.holes.item 2.count = 0", "at least 1"),
+    "list of holes": ({"holes": [HOLES, {**HOLES, "count": 0}]}, "gear.holes[2].count = 0", "at least 1"),
     "unknown key of holes": ({"holes": {**HOLES, "diamter": 1}}, "gear.holes.diamter = 1", "did you mean diameter"),
     "holes as text": ({"holes": "six"}, 'gear.holes = "six"', "a list of tables"),
     "one spoke": ({"spokes": {**RING, "count": 1}}, "gear.spokes.count = 1", "at least 2"),
@@ -170,7 +170,7 @@ UNFIT: dict[str, tuple[dict[str, Any], str]] = {
     "many holes": ({"holes": {**HOLES, "count": 40}}, "holes.diameter"),
     "holes in the bore": ({"bore_diameter": 30, "holes": HOLES}, "holes.diameter"),
     "holes inside the bore": ({"bore_diameter": 30, "holes": {**HOLES, "pitch_circle_diameter": 15}}, "holes."),
-    "second group": ({"holes": [HOLES, {**HOLES, "start_deg": 5}]}, "holes.item 2."),
+    "second group": ({"holes": [HOLES, {**HOLES, "start_deg": 5}]}, "holes[2]."),
     "spokes in the root": ({"spokes": {**RING, "outer_diameter": 56}}, "spokes.outer_diameter"),
     "spokes in the bore": ({"bore_diameter": 25, "spokes": RING}, "spokes.inner_diameter"),
     "no window": ({"spokes": {**RING, "width": 15}}, "spokes.width"),
@@ -182,7 +182,7 @@ UNFIT: dict[str, tuple[dict[str, Any], str]] = {
 
 def repaired(keys: dict[str, Any], text: str) -> dict[str, Any]:
     """The keys with what a refusal offers in place of what it refused."""
-    place = re.match(r"t\.toml: parts\.gear\.([a-z]+)(?:\.item (\d+))?\.([a-z_]+) = ", text)
+    place = re.match(r"t\.toml: parts\.gear\.([a-z]+)(?:\[(\d+)\])?\.([a-z_]+) = ", text)
     assert place, text
     owner, item, name = place.groups()
     offered = re.search(r"; at (?:most|least) ([\d.]+)(?: mm)? works$", text)

@@ -113,7 +113,7 @@ def test_an_axle_that_is_not_there_is_one_line(
     assert main(["build", _scene(tmp_path, holes=holes, more=more), "--out", str(tmp_path / "out")]) == 2
     said = capsys.readouterr().err
     assert said.count("\n") == 1
-    assert f"parts.frame.holes.item 1.{key}" in said
+    assert f"parts.frame.holes[1].{key}" in said
     assert not (tmp_path / "out").exists()
 
 

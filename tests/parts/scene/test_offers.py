@@ -59,8 +59,9 @@ def judged(raw: Raw, refusal: SceneError) -> list[str]:
     """What is wrong with a refusal, nothing where all is right."""
     faults = []
     english, ukrainian = sentence(refusal, "en"), sentence(refusal, "uk")
+    key = re.sub(r"\.item (\d+)", r"[\1]", refusal.key)
     for line in (english, ukrainian):
-        if "\n" in line or not line.startswith(f"s: {refusal.key}") or re.search(r"\{\w+\}", line):
+        if "\n" in line or not line.startswith(f"s: {key}") or re.search(r"\{\w+\}", line):
             faults.append(f"badly told: {line}")
     if english == ukrainian:
         faults.append(f"not translated: {english}")

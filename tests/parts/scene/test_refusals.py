@@ -14,6 +14,7 @@ from exporters.command.cli import main
 from exporters.production.build import build
 from exporters.production.plan import plan_build
 from parts.base.refusal import SceneError
+from parts.scene.language import language_of
 from parts.scene.load import load_scene, scene_from_toml
 
 GEAR = {"kind": '"spur_gear"', "module": "2.0", "number_of_teeth": "23"}
@@ -129,9 +130,22 @@ def test_a_wrong_key_is_named_with_its_value_and_a_remedy(name: str) -> None:
         (b"a = 1" + b"0" * 5000, "TOML"),
         (b"#" * 5_000_000, "larger than"),
         (b"[parts]\n", "at least one part"),
-        (b"parts = 3\n", "write it as a table"),
-        (b"[parts]\ngear = 3\n", "write it as a table"),
-        (b"[[parts.gear]]\nkind = 'spur_gear'\n", "write it as a table"),
+        (b"parts = 3\n", "like [parts.gear]"),
+        (b"[parts]\ngear = 3\n", "like [parts.gear]"),
+        (b"[[parts.gear]]\nkind = 'spur_gear'\n", "like [parts.gear]"),
+        (
+            b"[boards]\nwidth = 600.0\n[parts.g]\nkind='spur_gear'\n",
+            "boards.width = 600.0: its keys stand under a name",
+        ),
+        (b"[[beds]]\nwidth = 600.0\n[parts.g]\nkind='spur_gear'\n", "beds = [{ width = 600.0 }]: its keys stand under"),
+        (
+            b"[mates]\nkind = 'fixed'\n[parts.g]\nkind='spur_gear'\n",
+            'mates = { kind = "fixed" }: write it as [[mates]]',
+        ),
+        (
+            b"[parts.p]\nkind='plate'\nwidth=9\nheight=9\ncentre=[3,0,1,5]\n",
+            "centre = [3, 0, 1, 5]: is not allowed; x, y of the middle: exactly 2 numbers, with a decimal point",
+        ),
         (b"exports = 3\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "[[exports]]"),
         (b"exports = [3]\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "table"),
         (b"scene = 3\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "table"),
@@ -399,3 +413,29 @@ def test_what_is_no_toml_is_told_in_the_language_of_the_scene(
         if language == "uk":
             rest = said.replace(str(file), "").replace(kept, "").replace("higherpair", "").partition(";")[0]
             assert not re.search("[A-Za-z]{5}", rest), said
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("kind = plate", 'line 2: words stand in straight quotes: kind = "plate"'),
+        ("title = Моє колесо  # з отвором", 'line 2: words stand in straight quotes: title = "Моє колесо"'),
+        ("kind = «plate»", 'line 2: words stand in straight quotes: kind = "plate"'),
+        ("phases = [{ move = rise, angle_deg = 30.0 }]", 'line 2: words stand in straight quotes: move = "rise"'),
+        ('title = "Moє', "line 2: the quotes of title are not closed"),
+        ("label = True", "line 2: write label = true"),
+        # what is wrong in another way is told as before
+        ("kind = 3.5.6", "is not TOML"),
+        ("kind = [plate", "is not TOML"),
+    ],
+)
+def test_words_without_quotes_are_told_by_their_key(line: str, told: str) -> None:
+    with pytest.raises(SceneError) as caught:
+        scene_from_toml(f"[parts.p]\n{line}\n".encode(), "s.toml", "s")
+    assert told in str(caught.value)
+
+
+def test_a_language_that_is_none_is_refused_in_the_one_that_was_meant(tmp_path: Path) -> None:
+    for asked, told in (("ua", "uk"), ("ukr", "uk"), ("eng", "en"), ("xx", "en")):
+        (file := tmp_path / f"{asked}.toml").write_text(f'[scene]\nlanguage = "{asked}"\n', encoding="utf-8")
+        assert language_of(str(file)) == told
