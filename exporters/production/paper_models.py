@@ -14,6 +14,9 @@ from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
 from parts.drawing.tiles import Edge, model_pages
 
+# an arc as flat is half that share of its chord off it, and its centre lost in the rounding of its radius
+_FLAT = 1e-8
+
 
 def paper_models(title: str, parts: Mapping[str, Part], wanted: Sequence[str] | None, asked: Asked) -> list[Expected]:
     """The sheets of the parts that are wanted, all of them by default."""
@@ -33,7 +36,7 @@ def _edges(contour: Contour) -> list[Edge]:
     """The lines and arcs of a contour."""
     vertices, bulges = contour.expanded()
     return [
-        Line(start, end) if not bulge else _arc(start, end, bulge)
+        Line(start, end) if abs(bulge) <= _FLAT else _arc(start, end, bulge)
         for start, end, bulge in zip(vertices.tolist(), np.roll(vertices, -1).tolist(), bulges.tolist(), strict=True)
     ]
 

@@ -230,3 +230,25 @@ def test_an_edge_is_cut_at_the_sides_of_a_tile() -> None:
     # four pieces in the corners, one of them cut where the circle begins or not
     length = sum(abs(p.sweep) for p in pieces if isinstance(p, Arc))
     assert length == pytest.approx(2 * np.pi - 8 * np.arccos(1 / 1.2), abs=1e-12)
+
+
+def test_straight_walls_of_a_development_are_drawn_straight(tmp_path: Path) -> None:
+    """Their arcs have bulges of 1e-17: by its centre such an arc ran 64 mm beside them."""
+    moves = [("rise", 30.0, "join", 0.25), ("rise", 60.0, "constant_velocity", 0.5), ("rise", 30.0, "join", 0.25)]
+    phases: list[dict[str, Any]] = [dict(zip(("move", "angle_deg", "law", "share"), m, strict=True)) for m in moves]
+    phases += [{"move": "dwell", "angle_deg": 60.0}, {"move": "return_", "angle_deg": 180.0, "law": "polynomial_345"}]
+    sizes = {"outer_diameter": 60.0, "roller_diameter": 10.0, "groove_depth": 8.0, "lift": 20.0}
+    cam = {"kind": "barrel_cam", "form": "groove", **sizes, "phases": phases}
+    scene = {"parts": {"cam": cam}, "exports": [{"format": "pdf", "purpose": "model"}]}
+    (job,) = plan_build(scene_from_dict(scene, "t", "t"), "t", [], []).sheets
+    file = tmp_path / "cam.pdf"
+    job.write({}, file)
+    verdict = job.verify(file, job.declared({})[0])
+    assert not verdict.failures
+    # by pdfium: nothing is bent far away
+    document = pdfium.PdfDocument(file)
+    try:
+        reach = max(abs(p - 148) for page in document for _, points in paths_of(page) for p in points)
+    finally:
+        document.close()
+    assert reach < 300
