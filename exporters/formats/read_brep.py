@@ -133,9 +133,9 @@ class _Reader:
         return framed(self.points(rows[:, 0], who), axes, along)
 
 
-def frames_of(entities: Entities, references: Index, who: Index) -> Frames:
-    """Frames that other entities name."""
-    return _Reader(entities).placed(references, who)
+def frames_of(entities: Entities, ids: Index) -> Frames:
+    """The frames with these ids."""
+    return _Reader(entities).placed(ids, ids)
 
 
 def framed(origins: Real, axes: Real, along: Real) -> Frames:

@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from exporters.formats.chains import nodes, smooth_loops
 from exporters.formats.read_assembly import Occurrence, Prototype, ReadAssembly
 from exporters.formats.read_brep import frames_of, read_model
-from exporters.formats.read_curves import Frames
 from exporters.formats.read_part21 import (
     ASSEMBLY,
     CENTIMETRE,
@@ -112,6 +111,7 @@ class _Products:
     def __init__(self, entities: Entities) -> None:
         self.items, self.entities = entities.items, entities
         self.model = read_model(entities)
+        self.axes = self._axes()
         # definitions of products: their names, what represents them, and how they are used in others
         self.titles: dict[str, str] = {}
         self.descriptions: dict[str, str] = {}
@@ -180,17 +180,20 @@ class _Products:
             self.titles[identity] = name
         return identity
 
-    def _frames(self, axes: list[int], who: int) -> Frames:
-        return frames_of(self.entities, np.array(axes), np.full(len(axes), who))
+    def _axes(self) -> dict[int, tuple[Real, Real]]:
+        """Origin (3,) and axes (3, 3) of each place that products name, all looked up at once."""
+        known = set(self.entities.table("AXIS2_PLACEMENT_3D").ids.tolist())
+        named = {n for item in self.items.values() for n in item.references if n in known}
+        found = frames_of(self.entities, np.array(sorted(named), np.int64))
+        return dict(zip(sorted(named), zip(found.origins, found.axes, strict=True), strict=True))
 
     def _check_axes(self, number: int) -> None:
         """A part stands at its own origin."""
         shape = self.items[number]
         if shape.kind == ASSEMBLY:
             return
-        frames = self._frames([n for n in shape.references[:-1] if n not in self.model.solids], number)
-        off = (np.abs(frames.origins), np.abs(frames.axes - np.eye(3)))
-        if not max(x.max(initial=0.0) for x in off) <= _HOME:
+        homes = (self.axes[n] for n in shape.references[:-1] if n in self.axes)
+        if not all(np.abs(x).max() <= _HOME for origin, axes in homes for x in (origin, axes - np.eye(3))):
             raise ReadError(f"#{number} of the STEP file has another origin than its part")
 
     def _place(self) -> None:
@@ -208,9 +211,9 @@ class _Products:
             axes = self.items[move].references
             if any(n not in self.items[shape].references for n, shape in zip(axes, (own, whole), strict=True)):
                 raise ReadError(f"#{move} of the STEP file moves between axes that are none of its products'")
-            frames = self._frames([*axes], move)
-            turn = frames.axes[1].T @ frames.axes[0]
-            place = np.column_stack([turn, frames.origins[1] - turn @ frames.origins[0]])
+            (origin, inside), (moved, outside) = (self.axes[n] for n in axes)
+            turn = outside.T @ inside
+            place = np.column_stack([turn, moved - turn @ origin])
             self.inside.setdefault(outer, []).append((use.strings[1], inner, place))
         if uses:
             raise ReadError(f"#{min(uses)} of the STEP file is a component without a place")

@@ -15,7 +15,7 @@ from exporters.formats.readback import Loop
 from exporters.verification.verdict import Verdict, deviation_failures
 from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Contour, edge_points, signed_area
-from geometry.plane.measure import distance_to_profile, profile_area
+from geometry.plane.measure import distance_to_profile, profile_area, profile_disc
 from geometry.plane.profile import Profile
 
 # how many points of a file are measured: all edges get at least 3 between their ends
@@ -118,8 +118,18 @@ def _nearest(loops: Sequence[Complex], profile: Profile) -> int:
     """Which loop stays nearest to a profile at all of its points."""
     if len(loops) == 1:
         return 0
-    rough = [distance_to_profile(x[:: max(1, len(x) // _ROUGH)], profile, trusted=np.inf).max() for x in loops]
-    return int(np.argmin(rough))
+    middle, reach = profile_disc(profile)
+    rough = [x[:: max(1, len(x) // _ROUGH)] for x in loops]
+    # so far at least: most loops of a plate with many holes need no more
+    least = np.array([np.abs(x - middle).max() for x in rough]) - reach
+    best, found = np.inf, 0
+    for index in np.argsort(least, kind="stable").tolist():
+        if least[index] > best:
+            break
+        away = float(distance_to_profile(rough[index], profile, trusted=np.inf).max())
+        if away < best:
+            best, found = away, index
+    return found
 
 
 def _check_loop(loop: Loop, profile: Profile, declared: float, known_simple: bool) -> tuple[float, list[str]]:

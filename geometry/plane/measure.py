@@ -87,15 +87,36 @@ def distance_to_profile(points: Complex, profile: Profile, *, trusted: float = 0
 
 def distance_to_nearest(points: Complex, profiles: Sequence[Profile], trusted: float) -> Real:
     """Distance of each point (n,) from the profile that is nearest to it by the quick pass, mm."""
-    found = np.empty(points.shape)
+    found = np.full(points.shape, np.inf)
     near = np.zeros(points.shape, dtype=np.int64)
     if len(profiles) > 1:
-        near = np.argmin([distance_to_profile(points, p, trusted=math.inf) for p in profiles], axis=0)
+        # no profile is asked of points that another's disc says to be nearer to that one
+        middles, reaches = np.array([profile_disc(p) for p in profiles]).T
+        away = np.abs(points - middles[:, None])
+        near_enough = away - reaches.real[:, None] <= (away + reaches.real[:, None]).min(axis=0)
+        for index, profile in enumerate(profiles):
+            mine = np.flatnonzero(near_enough[index])
+            quick = distance_to_profile(points[mine], profile, trusted=math.inf)
+            nearer = quick < found[mine]
+            found[mine[nearer]], near[mine[nearer]] = quick[nearer], index
     for index, profile in enumerate(profiles):
         own = np.flatnonzero(near == index)
         if own.size:
             found[own] = distance_to_profile(points[own], profile, trusted=trusted)
     return found
+
+
+def profile_disc(profile: Profile) -> tuple[complex, float]:
+    """Middle and radius, mm, of a disc that holds a profile."""
+    if profile.count > 1:
+        return 0j, profile.reach()
+    return _disc(np.concatenate([s.curve.point(np.linspace(*s.curve.domain, _FINE_SAMPLES)) for s in profile.period]))
+
+
+def _disc(samples: Complex) -> tuple[complex, float]:
+    """A disc that holds a chain by its samples, with room for what it bulges between them."""
+    middle = complex(samples[0] + samples[len(samples) // 2]) / 2
+    return middle, float(np.abs(samples - middle).max() + np.abs(np.diff(samples)).max())
 
 
 def distance_to_chain(points: Complex, curves: Sequence[Curve], *, trusted: float = 0.0) -> Real:
@@ -149,9 +170,7 @@ def _thorough_distance(points: Complex, curves: Sequence[Curve], turns: Complex,
     for curve in curves:
         t = np.linspace(*curve.domain, _FINE_SAMPLES)
         samples = curve.point(t)
-        # a disc that holds the curve, with room for what it bulges between its samples
-        middle = (samples[0] + samples[-1]) / 2
-        reach = float(np.abs(samples - middle).max() + np.abs(np.diff(samples)).max())
+        middle, reach = _disc(samples)
         for turn in turns:
             near = points * turn
             mine = np.flatnonzero(np.abs(near - middle) - reach <= most)
