@@ -29,10 +29,10 @@ Row = tuple[bytes, ...]
 _PIECE = 1 << 24
 _FLOAT, _REFERENCE = rb"[-+]?\d+\.\d*(?:E[-+]?\d{1,2})?", rb"#(\d{1,15})"
 _LIST = rb"\((%b(?:,%b)*)\)"
-# what arguments are made of: string, one that may hold apostrophes, reference, real, one that is not below 0, integer,
+# what arguments are made of: no words, a string, reference, real, one that is not below 0, integer,
 # truth, star, word, a truth that is not claimed; lists
 _ATOMS = {
-    "s": rb'(?:!\d+)?"', "S": rb'(?:(?:!\d+)?")+', "r": _REFERENCE, "f": rb"(%b)" % _FLOAT, "p": rb"(?!-)(%b)" % _FLOAT,
+    "s": rb'"', "S": rb'(?:(?:!\d+)?")+', "r": _REFERENCE, "f": rb"(%b)" % _FLOAT, "p": rb"(?!-)(%b)" % _FLOAT,
     "i": rb"(\d{1,4})", "b": rb"([01])", "*": rb"\*", "R": _LIST % (rb"#\d{1,15}", rb"#\d{1,15}"),
     "w": rb"\.[A-Z_]+\.", "n": rb"(?:0|\.U\.)",
     "m": rb"(?:POSITIVE_RATIO|VOLUME|AREA)_MEASURE\(%b\)" % _FLOAT, "I": _LIST % (rb"\d{1,5}", rb"\d{1,5}"),
@@ -57,7 +57,7 @@ PART, ASSEMBLY = "ADVANCED_BREP_SHAPE_REPRESENTATION", "SHAPE_REPRESENTATION"
 _COLOUR = "COLOUR_RGB/DRAUGHTING_PRE_DEFINED_COLOUR"
 _ITEMS = {
     "APPLICATION_CONTEXT": "S",
-    "APPLICATION_PROTOCOL_DEFINITION": "S,S,i,r > APPLICATION_CONTEXT",
+    "APPLICATION_PROTOCOL_DEFINITION": "S,S,2000,r > APPLICATION_CONTEXT",
     "PRODUCT_CONTEXT": "S,r,S > APPLICATION_CONTEXT",
     "PRODUCT": "S,S,S,R > PRODUCT_CONTEXT",
     "PRODUCT_RELATED_PRODUCT_CATEGORY": "S,$,R > PRODUCT",
@@ -117,6 +117,24 @@ _ONCE = {
     "REPRESENTATION": ("PROPERTY_DEFINITION_REPRESENTATION",),
     PLACED: ("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION",),
 }
+# the words in them that are always the same; None: any, which the part that is expected decides on
+_WORDED: dict[str, tuple[tuple[str | None, ...], ...]] = {
+    "APPLICATION_CONTEXT": (("core data for automotive mechanical design processes",),),
+    "APPLICATION_PROTOCOL_DEFINITION": (("international standard", "automotive_design"),),
+    "PRODUCT_CONTEXT": (("", "mechanical"),),
+    "PRODUCT_RELATED_PRODUCT_CATEGORY": (("part",),),
+    "PRODUCT_DEFINITION": (("design", ""),),
+    "PRODUCT_DEFINITION_CONTEXT": (("part definition", "design"),),
+    "PRODUCT_DEFINITION_SHAPE": (("", ""), ("Placement", "Placement of an item")),
+    "NEXT_ASSEMBLY_USAGE_OCCURRENCE": ((None, None, ""),),
+    "UNCERTAINTY_MEASURE_WITH_UNIT": (("distance_accuracy_value", "confusion accuracy"),),
+    "STYLED_ITEM": (("color",),),
+    "DRAUGHTING_PRE_DEFINED_CURVE_FONT": (("continuous",),),
+    CONTEXT: ((None, "3D Context with UNIT and UNCERTAINTY"),),
+} | dict.fromkeys(
+    ("PRODUCT", "DRAUGHTING_PRE_DEFINED_COLOUR", "PROPERTY_DEFINITION", "REPRESENTATION",
+     "DESCRIPTIVE_REPRESENTATION_ITEM", "MEASURE_REPRESENTATION_ITEM"), ()
+)  # fmt: skip
 # blanks and comments
 _GAP = rb"(?:\s|/\*(?:[^*]|\*(?!/))*+\*/)*+"
 _BEGIN = re.compile(rb"%bISO-10303-21;%bHEADER;(.*?)ENDSEC;%bDATA;\s*" % (_GAP, _GAP, _GAP), re.DOTALL)
@@ -240,12 +258,15 @@ def read_signature(file: Path) -> tuple[str, str]:
 
 
 def _check_references(items: dict[int, Item], fixed: dict[str, Table]) -> None:
-    """What stands around the geometry refers to what it may, and as often."""
+    """What stands around the geometry has the words that it may, refers to what it may, and as often."""
     kinds = {number: item.kind for number, item in items.items()}
     for kind in ("AXIS2_PLACEMENT_3D", "MANIFOLD_SOLID_BREP"):
         kinds |= dict.fromkeys(fixed[kind].ids.tolist() if kind in fixed else (), kind)
     uses = Counter[tuple[int, str]]()
     for number, item in items.items():
+        said = _WORDED.get(item.kind, (("",) * len(item.strings),))
+        if said and not any(all(a in (None, b) for a, b in zip(words, item.strings, strict=True)) for words in said):
+            raise ReadError(f"#{number} of the STEP file says {' and '.join(item.strings)}, which no {item.kind} does")
         allowed = _referred(item.kind)
         first = len(item.references) - len(allowed)
         for place, reference in enumerate(item.references):

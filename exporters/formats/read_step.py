@@ -44,6 +44,8 @@ _SAID: dict[str, tuple[str, str | None, tuple[str, ...], dict[str, float]]] = {
     "volume": ("geometric validation property", "volume measure", ("VOLUME",), {MILLIMETRE: 3.0}),
     "surface area": ("geometric validation property", "surface area measure", ("AREA",), {MILLIMETRE: 2.0}),
 }
+# how wide edges are drawn, mm
+_THIN = 0.1
 # what stands at the origin is off it by no more, mm and rad
 _HOME = 1e-12
 Place = NDArray[np.float64]
@@ -126,6 +128,10 @@ class _Products:
             self.shapes[definition], self.representations[definition] = self.items[shape], shape
             self._check_axes(shape)
         self.used = {item.references[1] for _, item in self._of("NEXT_ASSEMBLY_USAGE_OCCURRENCE")}
+        for definition, item in self.shapes.items():
+            own = self.names[definition]
+            if item.kind == ASSEMBLY and (own in self.titles or own in self.descriptions):
+                raise ReadError(f"{own} in the STEP file is an assembly with another title, or with a description")
         self.inside: dict[int, list[tuple[str, int, Place]]] = {}
         self._place()
         self.colours: dict[int, str] = {}
@@ -141,7 +147,7 @@ class _Products:
         if any(held[solid] != 1 for solid in self.model.solids.tolist()):
             raise ReadError("a solid of the STEP file is not that of one product")
         for number, item in self._of("UNCERTAINTY_MEASURE_WITH_UNIT"):
-            if not 0 < item.numbers[0] <= GAP or item.strings[0] != "distance_accuracy_value":
+            if not 0 < item.numbers[0] <= GAP:
                 raise ReadError(f"#{number} of the STEP file does not call points one within {GAP:g} mm")
 
     def parts(self, definition: int, place: Place, above: tuple[int, ...]) -> Iterator[tuple[str, int, Place, str]]:
@@ -199,12 +205,17 @@ class _Products:
     def _place(self) -> None:
         """What stands in each product: the place's axes in it, after those in what stands there."""
         uses = {n: item for n, item in self._of("NEXT_ASSEMBLY_USAGE_OCCURRENCE")}
+        if {use.strings[0] for use in uses.values()} != {str(k + 1) for k in range(len(uses))}:
+            raise ReadError("the components of the STEP file are not numbered one by one")
+        assemblies = {definition for definition, item in self.shapes.items() if item.kind == ASSEMBLY}
         for number, item in self._of("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION"):
             relation, (occurrence,) = (self.items[n].references for n in item.references)
             if occurrence not in uses:
                 raise ReadError(f"#{number} of the STEP file places nothing, or something twice")
             use = uses.pop(occurrence)
             outer, inner = use.references
+            if inner in assemblies and use.strings[1] != self.names[inner]:
+                raise ReadError(f"{self.names[inner]} in the STEP file stands there as {use.strings[1]}")
             own, whole, move = relation
             if (self.representations.get(inner), self.representations.get(outer)) != (own, whole):
                 raise ReadError(f"#{number} of the STEP file places another product than it names")
@@ -247,8 +258,8 @@ class _Products:
                 found.add("#" + "".join(f"{round(255 * x):02x}" for x in item.numbers))
             elif item.kind == "DRAUGHTING_PRE_DEFINED_COLOUR":
                 found.add(_SHADES.get(item.strings[0], ""))
-            elif item.kind == "DRAUGHTING_PRE_DEFINED_CURVE_FONT" and item.strings[0] != "continuous":
-                raise ReadError(f"edges in the STEP file are {item.strings[0]} lines")
+            elif item.kind == "CURVE_STYLE" and item.numbers != (_THIN,):
+                raise ReadError(f"edges in the STEP file are lines of {item.numbers[0]} mm")
         if len(found) != 1 or "FILL_AREA_STYLE_COLOUR" not in kinds:
             raise ReadError(f"{len(found)} colours of one solid in the STEP file")
         return found.pop()

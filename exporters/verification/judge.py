@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from geometry.solids.body import Body
     from geometry.solids.measured import Faced
 
-# the kernel keeps a colour as float32
-_SHADE = 1
 Exact: TypeAlias = "Region | Body | Faced"
 
 
@@ -121,12 +119,7 @@ def signed(file: Path, kind: FileKind, author: str, organisation: str, verdict: 
 
 def same_shade(found: str | None, expected: str | None) -> bool:
     """Whether a colour is the one asked for; a part that asks for none may have any."""
-    if expected is None:
-        return True
-    if found is None:
-        return False
-    channels = [[int(text[i : i + 2], 16) for i in (1, 3, 5)] for text in (found, expected)]
-    return all(abs(a - b) <= _SHADE for a, b in zip(*channels, strict=True))
+    return expected is None or (found is not None and found[:7].lower() == expected.lower())
 
 
 def _outlines(found: ReadOutlines, region: Region, declared: float, tolerance: float) -> Verdict:

@@ -181,7 +181,7 @@ def test_a_good_step_is_good_however_it_is_laid_out(part: str, good: Path, tmp_p
     wide = wide.replace(";", "; /* it's #1=PLANE('',#2); * /**/", 5) + "/* after all */"
     head, tail = f"/* a */{head}", tail.replace(";", ";/* b */")
     file = tmp_path / f"{part}.step"
-    file.write_text(f"{head}DATA;\n{wide}ENDSEC;{tail}", encoding="ascii", newline="")
+    file.write_text(f"{head}DATA;/* first */\n{wide}ENDSEC;{tail}", encoding="ascii", newline="")
     assert verdict(file) == ()
     one, other = (read_step(f).model for f in (good / f"{part}.step", file))
     assert other.flux.sum() == pytest.approx(one.flux.sum(), rel=1e-12)
@@ -310,6 +310,21 @@ def test_no_reference_around_the_solids_may_lead_elsewhere(kind: str, pair: Path
                 changed = text[:place] + other + text[place + len(use[0]) :]
                 file.write_text(changed, encoding="ascii", newline="\n")
                 assert verdict(file), (found[0], use[0], other)
+
+
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize("kind", AROUND)
+def test_no_word_around_the_solids_may_change(kind: str, pair: Path, tmp_path: Path) -> None:
+    """Of the first and the last entity of each kind; the name of a context says nothing."""
+    text = (pair / "s.step").read_text(encoding="ascii")
+    (tmp_path / "report.json").write_bytes((pair / "report.json").read_bytes())
+    file = tmp_path / "s.step"
+    found = [m for m in re.finditer(r"(?<=\n)#\d+=[^;]*;", text) if m[0].partition("=")[2].startswith(kind)]
+    for entity in {m.start(): m for m in (found[0], found[-1])}.values():
+        for word in re.finditer(r"'([^']*)'", entity[0]):
+            place = entity.start() + word.start(1)
+            file.write_text(f"{text[:place]}x{text[place:]}", encoding="ascii", newline="\n")
+            assert verdict(file) or word[1] == "Context #1", (entity[0], word[0])
 
 
 def test_a_product_definition_of_another_thing_is_told(good: Path, tmp_path: Path) -> None:
