@@ -190,7 +190,7 @@ DAMAGE: dict[str, tuple[Callable[[Any], Any], str]] = {
     "S''": (lambda s: bend_spline(s, "DIAGRAM_BEND"), "diagrams deviate"),
     "S'": (lambda s: bend_spline(s, "DIAGRAM_RATE"), "diagrams deviate"),
     "S": (lambda s: bend_spline(s, "DIAGRAM_LIFT"), "diagrams deviate"),
-    "S lost": (lambda s: s.delete_entity(on_layer(s, "SPLINE", "DIAGRAM_LIFT")), "curves instead of"),
+    "S lost": (lambda s: s.delete_entity(on_layer(s, "SPLINE", "DIAGRAM_LIFT")), "no line from"),
     "joint diagram": (lambda s: bend_spline(s, "JOINT_DIAGRAM"), "diagrams deviate"),
     "joint diagram lost": (lambda s: s.delete_entity(on_layer(s, "SPLINE", "JOINT_DIAGRAM")), "diagrams deviate"),
     "first tangent": (lambda s: on_layer(s, "LINE", "GAMMA_TANGENT").translate(0, 1e-4, 0), "least radius"),

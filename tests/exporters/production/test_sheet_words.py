@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 import msgspec
 import numpy as np
 import pytest
+import shapely
 
 from exporters.production.plan import plan_build
 from parts.drawing.canvas import HEIGHTS, STYLES
@@ -79,36 +80,15 @@ def points_of(data: str) -> np.ndarray:
     return np.concatenate(rows)
 
 
-def crosses(box: Box, chain: np.ndarray) -> bool:
-    """Whether a chain of points runs through a box: its pieces clipped by the box's sides (Liang and Barsky)."""
-    _, left, low, right, high = box
-    start, way = chain[:-1], np.diff(chain)
-    first, last = np.zeros(len(way)), np.ones(len(way))
-    for at, step, least, most in ((start.real, way.real, left, right), (start.imag, way.imag, low, high)):
-        flat = np.abs(step) < 1e-12
-        safe = np.where(flat, 1.0, step)
-        ends = np.sort(np.array([(least - at) / safe, (most - at) / safe]), axis=0)
-        inside = (at > least) & (at < most)
-        first = np.maximum(first, np.where(flat, np.where(inside, 0.0, 2.0), ends[0]))
-        last = np.minimum(last, np.where(flat, 1.0, ends[1]))
-    return bool((last - first > 1e-9).any())
-
-
 def faults(file: Path) -> list[str]:
     """Words over words and words over lines."""
     boxes, chains = drawn(file)
-    found = []
-    for k, one in enumerate(boxes):
-        for other in boxes[:k]:
-            if one[1] < other[3] and other[1] < one[3] and one[2] < other[4] and other[2] < one[4]:
-                found.append(f"{one[0]} over {other[0]}")
-    for layer, chain in chains:
-        low, high = chain.real.min() + 1j * chain.imag.min(), chain.real.max() + 1j * chain.imag.max()
-        for box in boxes:
-            near = low.real < box[3] and high.real > box[1] and low.imag < box[4] and high.imag > box[2]
-            if near and crosses(box, chain):
-                found.append(f"{box[0]} over {layer}")
-    return found
+    areas = shapely.box(*np.array([box[1:] for box in boxes]).T)
+    one, other = shapely.STRtree(areas).query(areas, "intersects")
+    found = [f"{boxes[k][0]} over {boxes[n][0]}" for k, n in zip(one, other, strict=True) if n < k]
+    lines = [shapely.LineString(np.column_stack((chain.real, chain.imag))) for _, chain in chains]
+    through, under = shapely.STRtree(areas).query(lines, "intersects")
+    return found + [f"{boxes[n][0]} over {chains[k][0]}" for k, n in zip(through, under, strict=True)]
 
 
 def sheets_of(name: str, language: str, **export: Any) -> Any:
