@@ -12,8 +12,8 @@ from msgspec.structs import replace as with_keys
 
 from exporters.boards.cuts import in_order
 from exporters.boards.nest import HALVES, QUARTERS, DoesNotFitError, Laid, Room, nest
-from exporters.formats.registry import BOUNDS, strokes_of
-from exporters.production.jobs import Job, Made
+from exporters.formats.registry import strokes_of
+from exporters.production.jobs import Job, Made, PartsJob
 from exporters.verification.board import BoardPiece, ExpectedBoard, verify_board
 from exporters.verification.verdict import Verdict
 from geometry.approximation.chords import approximate_profile
@@ -39,8 +39,8 @@ _CHORDS, _DECIMALS = 0.02, 4
 _FILE_DECIMALS = 12
 
 
-class BoardJob(Record):
-    """One board in one file; ``members`` are the jobs of its parts, whose own paths are not used."""
+class BoardJob(Record, PartsJob):
+    """One board in one file."""
 
     export: ExportSpec
     name: str
@@ -52,19 +52,9 @@ class BoardJob(Record):
     place: str
 
     @property
-    def label(self) -> str:
-        """The file."""
-        return self.path
-
-    @property
     def told(self) -> dict[str, Any]:
         """The board, and where each piece lies: its part, the place of its origin, mm, and its turn, degrees."""
         return {"part": None, "board": self.name, "times": self.times, "pieces": {p.id: p.told for p in self.pieces}}
-
-    @property
-    def offset(self) -> float:
-        """Of every section, mm."""
-        return self.members[0].section.offset
 
     def cuts(self, made: Made) -> tuple[tuple[str, ...], tuple[Approximation, ...]]:
         """The layers and boundaries of all pieces in their places, in the order in which they are cut."""
@@ -94,15 +84,9 @@ class BoardJob(Record):
             counts = write_laser_dxf(file, layers, boundaries, version=self.export.dxf_version, strokes=strokes)
         return {**counts, "pieces": len(self.pieces)}
 
-    def declared(self, made: Made) -> tuple[float, str]:
-        """The worst bound of its parts, mm, and the weakest kind of bound."""
-        found = [m.declared(made) for m in self.members]
-        return max(error for error, _ in found), max((bound for _, bound in found), key=BOUNDS.index)
-
     def findings(self, made: Made) -> tuple[Finding, ...]:
-        """Remarks on the outlines in it."""
-        found = dict.fromkeys(f for m in self.members for f in (*m.section.findings, *m.remarks(made)))
-        return (*found, *several(self.times))
+        """Those on its parts, and how often it is cut."""
+        return (*super().findings(made), *several(self.times))
 
     def verify(self, file: Path, declared: float) -> Verdict:
         """Read it back: every piece whole and in its place, on the board, clear of the others."""

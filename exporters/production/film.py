@@ -5,14 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from fractions import Fraction
-from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
 
-from exporters.production.jobs import Made
-from exporters.verification.verdict import Verdict
-from geometry.base.findings import Finding
+from exporters.production.jobs import FileJob
 from geometry.base.record import Record
 from geometry.curves.curve import Real
 from parts.base.part import Part
@@ -31,7 +28,7 @@ _FILLS = ("#b8c4d0", "#d9c39a", "#b5cfae", "#d3b3b3", "#bdb6d6")
 TIMES = np.concatenate([[0.0, 1.0], np.arange(1, 48) * (math.sqrt(5) - 1) / 2 % 1.0])
 
 
-class Film(Record):
+class Film(Record, FileJob):
     """What drives move, in one file; ``loop``: how much of their run it shows (1: all), and whether it closes."""
 
     export: ExportSpec
@@ -44,14 +41,8 @@ class Film(Record):
     turns: float
     path: str
     place: str
-    members: tuple[()] = ()
     # of the file: what stands for a name that is not given, and the rest
     ending: ClassVar[tuple[str, str]]
-
-    @property
-    def label(self) -> str:
-        """The file."""
-        return self.path
 
     @property
     def seconds(self) -> float:
@@ -63,11 +54,6 @@ class Film(Record):
         """What is in it: the turns (or the mm) of the first drive in one loop, and whether it ends as it begins."""
         names = [instance.id for instance in self.instances]
         return {"part": None, "instances": names, "drive": self.turns, "closes": self.closes, "seconds": self.seconds}
-
-    @property
-    def offset(self) -> float:
-        """None."""
-        return 0.0
 
     @property
     def tolerance(self) -> float:
@@ -97,22 +83,6 @@ class Film(Record):
         unwrapped = np.empty_like(angles)
         unwrapped[order] = np.unwrap(angles[order])
         return places, unwrapped
-
-    def findings(self, made: Made) -> tuple[Finding, ...]:
-        """None."""
-        return ()
-
-    def write(self, made: Made, file: Path) -> dict[str, int]:
-        """Write it; counts of what is in it."""
-        raise NotImplementedError
-
-    def declared(self, made: Made) -> tuple[float, str]:
-        """What is shown and the ways it goes together, mm; ways are sampled."""
-        raise NotImplementedError
-
-    def verify(self, file: Path, declared: float) -> Verdict:
-        """Read it back: what is shown, and where it stands at many times, against exact poses."""
-        raise NotImplementedError
 
 
 def fill(index: int) -> str:

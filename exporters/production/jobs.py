@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import numpy as np
 
@@ -32,54 +32,72 @@ ShapeKey: TypeAlias = tuple[object, ...]
 Made: TypeAlias = Mapping[ShapeKey, Shape]
 
 
-class FileJob(Protocol):
-    """One file of a build; ``made``: the approximated boundaries of its members."""
+class FileJob:
+    """One file of a build: the table of the scene that asks for it, its name; what most files answer stands here.
 
-    @property
-    def export(self) -> ExportSpec:
-        """The table of the scene that asks for it."""
-        ...
+    ``members``: the jobs of the parts in it, ``made``: their approximated boundaries.
+    """
 
-    @property
-    def path(self) -> str:
-        """Its name."""
-        ...
-
-    @property
-    def label(self) -> str:
-        """What remarks on it begin with."""
-        ...
+    __slots__ = ()
+    export: ExportSpec
+    path: str
+    place: str
 
     @property
     def members(self) -> tuple[Job, ...]:
-        """The jobs of the parts in it."""
-        ...
+        """None."""
+        return ()
+
+    @property
+    def label(self) -> str:
+        """What remarks on it begin with: the file."""
+        return self.path
 
     @property
     def told(self) -> dict[str, Any]:
         """What the report says of its content, the part first."""
-        ...
+        raise NotImplementedError
 
     @property
     def offset(self) -> float:
         """How far its boundaries are moved out of the material, mm."""
-        ...
+        return 0.0
 
     def write(self, made: Made, file: Path) -> dict[str, int]:
         """Write it; counts of what is in it."""
-        ...
+        raise NotImplementedError
 
     def declared(self, made: Made) -> tuple[float, str]:
         """The bound of all that is in it, mm, and what kind of bound that is."""
-        ...
+        raise NotImplementedError
 
     def findings(self, made: Made) -> tuple[Finding, ...]:
         """Remarks on it."""
-        ...
+        return ()
 
     def verify(self, file: Path, declared: float) -> Verdict:
         """Read it back and measure; ``declared``: its bound, mm."""
-        ...
+        raise NotImplementedError
+
+
+class PartsJob(FileJob):
+    """Several parts in one file; the paths of its members' own files are not used."""
+
+    __slots__ = ()
+
+    @property
+    def offset(self) -> float:
+        """Of every section, mm."""
+        return self.members[0].section.offset
+
+    def declared(self, made: Made) -> tuple[float, str]:
+        """The worst bound of its parts, mm, and the weakest kind of bound."""
+        found = [m.declared(made) for m in self.members]
+        return max(error for error, _ in found), max((bound for _, bound in found), key=BOUNDS.index)
+
+    def findings(self, made: Made) -> tuple[Finding, ...]:
+        """Remarks on the sections and meshes in it."""
+        return tuple(dict.fromkeys(f for m in self.members for f in (*m.section.findings, *m.remarks(made))))
 
 
 class Written(Record):
@@ -96,7 +114,7 @@ class Written(Record):
     seconds: dict[str, float] = field(default_factory=dict)
 
 
-class Job(Content):
+class Job(Content, FileJob):
     """One part in one file, and where the scene asks for it."""
 
     path: str
@@ -189,8 +207,8 @@ def _short_edges(chords: Chords) -> int:
     return sum(int(np.count_nonzero(x < LEAST_SEGMENT_MM)) * c.count for x, c in zip(lengths, contours, strict=True))
 
 
-class AssemblyJob(Record):
-    """All instances of some parts in one file; ``members`` are the jobs of its parts, whose own paths are not used."""
+class AssemblyJob(Record, PartsJob):
+    """All instances of some parts in one file."""
 
     name: str
     export: ExportSpec
@@ -200,19 +218,9 @@ class AssemblyJob(Record):
     place: str
 
     @property
-    def label(self) -> str:
-        """The file."""
-        return self.path
-
-    @property
     def told(self) -> dict[str, Any]:
         """The instances."""
         return {"part": None, "instances": [instance.id for instance in self.instances]}
-
-    @property
-    def offset(self) -> float:
-        """Of every section, mm."""
-        return self.members[0].section.offset
 
     def write(self, made: Made, file: Path) -> dict[str, int]:
         """Write one prototype per part and an occurrence of it for every instance; counts of what is in the file."""
@@ -223,17 +231,11 @@ class AssemblyJob(Record):
         counts = write(self.name, self.members, shapes, places, file)
         return {**counts, "parts": len(self.members), "instances": len(self.instances)}
 
-    def declared(self, made: Made) -> tuple[float, str]:
-        """The worst bound of its parts, mm, and the weakest kind of bound."""
-        found = [m.declared(made) for m in self.members]
-        return max(error for error, _ in found), max((bound for _, bound in found), key=BOUNDS.index)
-
     def findings(self, made: Made) -> tuple[Finding, ...]:
-        """Remarks on the sections and meshes in it, and on offset parts that stand in mesh."""
-        found = dict.fromkeys(f for m in self.members for f in (*m.section.findings, *m.remarks(made)))
-        if self.export.offset > 0 and len(self.instances) > 1:
-            found[Finding("offset_in_mesh", self.export.offset, 2 * self.export.offset)] = None
-        return tuple(found)
+        """Those on its parts, and on offset parts that stand in mesh."""
+        meets = self.export.offset > 0 and len(self.instances) > 1
+        more = (Finding("offset_in_mesh", self.export.offset, 2 * self.export.offset),) if meets else ()
+        return (*super().findings(made), *more)
 
     def verify(self, file: Path, declared: float) -> Verdict:
         """Read it back and measure every part in its place."""

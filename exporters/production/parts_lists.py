@@ -6,9 +6,8 @@ import csv
 from pathlib import Path
 from typing import Any
 
-from exporters.production.jobs import Made
+from exporters.production.jobs import FileJob, Made
 from exporters.verification.verdict import Verdict
-from geometry.base.findings import Finding
 from geometry.base.record import Record
 from parts.base.part import Part
 from parts.base.texts import in_context, words
@@ -26,21 +25,14 @@ _HEADS = (
 )  # fmt: skip
 
 
-class ListJob(Record):
-    """The list as CSV; ``members`` are the jobs of parts in it: none."""
+class ListJob(Record, FileJob):
+    """The list as CSV."""
 
     export: ExportSpec
     language: str
     rows: tuple[ListRow, ...]
     path: str
     place: str
-    members: tuple[()] = ()
-    offset: float = 0.0
-
-    @property
-    def label(self) -> str:
-        """The file."""
-        return self.path
 
     @property
     def told(self) -> dict[str, Any]:
@@ -74,10 +66,6 @@ class ListJob(Record):
         failures = [f"lines {', '.join(wrong)} differ"] if wrong else []
         failures += [f"has {len(read)} lines instead of {len(wanted)}"] if len(read) != len(wanted) else []
         return Verdict({"lines": float(len(read))}, tuple(failures))
-
-    def findings(self, made: Made) -> tuple[Finding, ...]:
-        """None."""
-        return ()
 
     def declared(self, made: Made) -> tuple[float, str]:
         """Words have no error."""

@@ -10,7 +10,7 @@ from msgspec.structs import asdict, replace
 
 from exporters.drawings.sheets import sheet_rounding, write_sheets
 from exporters.drawings.verify import verify_sheets
-from exporters.production.jobs import Made
+from exporters.production.jobs import FileJob, Made
 from exporters.production.parts_lists import rows_of
 from exporters.verification.verdict import Verdict
 from geometry.base.errors import Nearest, ParameterError
@@ -53,15 +53,14 @@ ENDINGS = ("dxf", "svg")
 _WITH_BLOCK = ("parts_list", *WORKING)
 
 
-class SheetJob(Record):
-    """One file of sheets, of several in a PDF only; ``members`` are the jobs of parts in it: none."""
+class SheetJob(Record, FileJob):
+    """One file of sheets, of several in a PDF only."""
 
     export: ExportSpec
     title: str
     pages: tuple[Expected, ...]
     path: str
     place: str
-    members: tuple[()] = ()
 
     @property
     def expected(self) -> Expected:
@@ -74,20 +73,10 @@ class SheetJob(Record):
         return self.expected.canvas
 
     @property
-    def label(self) -> str:
-        """The file."""
-        return self.path
-
-    @property
     def told(self) -> dict[str, Any]:
         """The size of its paper, and how many sheets it has where there are several."""
         pages = {"pages": len(self.pages)} if len(self.pages) > 1 else {}
         return {"part": None, "paper": self.canvas.paper, **pages}
-
-    @property
-    def offset(self) -> float:
-        """None."""
-        return 0.0
 
     def write(self, made: Made, file: Path) -> dict[str, int]:
         """Write the file; counts of what is in it."""
