@@ -16,7 +16,7 @@ from parts.base.texts import words as told
 from parts.pages.inputs import PLACE, table_of
 from parts.pages.page import Picture, Sheet
 
-# each module has sheet_of(table, scene, source, language)
+# each module has sheet(table), and table_from(scene, source, table) where a scene may give it
 TOPICS = {
     "spur": "parts.gears.spur_gear.page",
     "ring": "parts.gears.ring_gear.page",
@@ -91,4 +91,7 @@ def sheet_of(topic: str, words: Sequence[str]) -> tuple[Sheet, str]:
     from parts.scene.load import load_scene
 
     scene = load_scene(addresses[0])
-    return module.sheet(module.table_from(scene, addresses[0], table)), scene.scene.language
+    table_from = getattr(module, "table_from", None)
+    if table_from is None:
+        raise SceneError(addresses[0], "TOPIC", topic, "keys_not_a_scene")
+    return module.sheet(table_from(scene, addresses[0], table)), scene.scene.language

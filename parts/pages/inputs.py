@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
-from typing import Any, Protocol
+from collections.abc import Callable, Mapping, Sequence
+from functools import wraps
+from typing import Any, Protocol, TypeVar
 
 import msgspec
 from msgspec import Struct
 
 from geometry.base.errors import ParameterError
-from parts.base.refusal import SceneError, explained, meant, placed
+from parts.base.refusal import REMOVED, SceneError, explained, meant, placed
 from parts.base.schema import converted, refuse_infinite, unit_of
 from parts.base.texts import Message
+from parts.pages.page import Sheet
 
+K = TypeVar("K", bound=Struct)
 # whose keys they are in refusals
 PLACE = "calc"
 
@@ -95,6 +98,25 @@ def refusal(topic: str, error: ParameterError, owner: str = "", keys: Struct | N
     """A geometry's refusal as a line about the key that the user typed; ``keys``: the topic's, which know its unit."""
     unit = "" if keys is None else unit_of(type(keys), ".".join(filter(None, (owner, error.name))))
     return placed(PLACE, ".".join(filter(None, (topic, owner))), error, unit)
+
+
+def calculation(topic: str, kind: type[K]) -> Callable[[Callable[[K], Sheet]], Callable[[dict[str, Any]], Sheet]]:
+    """A page made of the keys of a topic as one made of a table, which is checked; refusals name the key as typed."""
+
+    def of_keys(page: Callable[[K], Sheet]) -> Callable[[dict[str, Any]], Sheet]:
+        @wraps(page)
+        def of_table(table: dict[str, Any]) -> Sheet:
+            if "part" in table:
+                raise SceneError(PLACE, "part", table["part"], "part_without_scene", REMOVED)
+            keys = checked(table, kind, topic)
+            try:
+                return page(keys)
+            except ParameterError as error:
+                raise refusal(topic, error, keys=keys) from error
+
+        return of_table
+
+    return of_keys
 
 
 def told(error: ParameterError) -> Message:

@@ -8,13 +8,12 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from geometry.base.errors import ParameterError
 from geometry.curves.curve import Complex, Real
 from geometry.curves.cycloid import greatest_shortening
 from geometry.gears.pins.cycloidal import CycloidalDisc, disc_findings
 from parts.base.texts import N_
 from parts.keys.base import degrees
-from parts.pages.inputs import SceneKeys, checked, part_of_kind, refusal
+from parts.pages.inputs import SceneKeys, calculation, part_of_kind
 from parts.pages.page import Sheet, Table
 from parts.pins.cycloidal_disc import CYCLOIDAL_DISC, CycloidalDiscSpec
 from parts.texts.findings import finding_message
@@ -38,13 +37,10 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
     return part_of_kind(scene, source, table, "cycloidal_disc")
 
 
-def sheet(table: dict[str, Any]) -> Sheet:
+@calculation(TOPIC, DiscKeys)
+def sheet(keys: DiscKeys) -> Sheet:
     """The calculation of one disc."""
-    keys: DiscKeys = checked(table, DiscKeys, TOPIC)
-    try:
-        disc = CYCLOIDAL_DISC.thing(keys, {})
-    except ParameterError as error:
-        raise refusal(TOPIC, error, keys=keys) from error
+    disc = CYCLOIDAL_DISC.thing(keys, {})
     page = Sheet(TOPIC, N_("Cycloidal disc and its pins"))
     _given(page, disc)
     _sizes(page, disc)

@@ -8,10 +8,9 @@ from typing import Annotated, Any
 import numpy as np
 from msgspec import Meta
 
-from geometry.base.errors import ParameterError
 from geometry.gears.pins.lantern import LanternGear, lantern_findings, limits_of
 from parts.base.texts import N_
-from parts.pages.inputs import SceneKeys, checked, part_of_kind, refusal
+from parts.pages.inputs import SceneKeys, calculation, part_of_kind
 from parts.pages.page import Sheet, Table
 from parts.pins.lantern_gear import LANTERN_GEAR, LanternGearSpec
 from parts.texts.findings import finding_message
@@ -31,13 +30,10 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
     return part_of_kind(scene, source, table, "lantern_gear")
 
 
-def sheet(table: dict[str, Any]) -> Sheet:
+@calculation(TOPIC, LanternKeys)
+def sheet(keys: LanternKeys) -> Sheet:
     """The calculation of a lantern and its gear."""
-    keys: LanternKeys = checked(table, LanternKeys, TOPIC)
-    try:
-        gear = LANTERN_GEAR.thing(keys, {})
-    except ParameterError as error:
-        raise refusal(TOPIC, error, keys=keys) from error
+    gear = LANTERN_GEAR.thing(keys, {})
     page = Sheet(TOPIC, N_("Lantern and its gear"))
     _given(page, gear)
     _sizes(page, gear)

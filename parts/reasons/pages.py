@@ -16,7 +16,7 @@ REASONS = {
     "given_twice": N_("is given twice: once is enough"),
     "groove_below_ball": N_("a groove is wider than its ball: above {least} mm"),
     "has_a_value": N_("{key} has a value already; remove one of them"),
-    "keys_not_a_scene": N_("takes keys, no scene: ratio=… or teeth=[…]"),
+    "keys_not_a_scene": N_("takes keys alone, no scene"),
     "needs_other": N_("needs {other} too"),
     "no_dxf": N_("is no DXF that can be read"),
     "no_gear_pair": N_('has no pair of gears; add [[mates]] kind = "external_gear_pair"'),

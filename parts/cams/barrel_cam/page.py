@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
-from geometry.base.errors import ParameterError
 from geometry.cams.barrel.body import BarrelBody
 from geometry.cams.barrel.cam import LOWER, UPPER, AxialGuide, BarrelCam, SwingGuide
 from geometry.cams.motion.follower_motion import PhaseKind
@@ -32,7 +30,7 @@ from parts.pages.cam_steps import (
     straightened,
     table_of,
 )
-from parts.pages.inputs import checked, refusal
+from parts.pages.inputs import calculation
 from parts.pages.page import Sheet, Table
 
 
@@ -43,13 +41,10 @@ class BarrelKeys(BarrelCamSpec, kw_only=True, tag=False, forbid_unknown_fields=T
     speed_rpm: Speed | None = None
 
 
-def sheet(kind: str, table: dict[str, Any]) -> Sheet:
+@calculation(TOPIC, BarrelKeys)
+def sheet(keys: BarrelKeys) -> Sheet:
     """The calculation of a cylindrical cam."""
-    keys: BarrelKeys = checked(table, BarrelKeys, TOPIC)
-    try:
-        body = BARREL_CAM.thing(keys, {})
-    except ParameterError as error:
-        raise refusal(TOPIC, error, keys=keys) from error
+    body = BARREL_CAM.thing(keys, {})
     cam, swings = body.cam, keys.oscillating is not None
     phases = Phases(cam.motion.phases, cam.motion.lift, swings)
     page = Sheet(TOPIC, N_("Cylindrical cam"))

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 
-from geometry.base.errors import ParameterError
 from geometry.cams.motion.follower_motion import PhaseKind
 from geometry.cams.plane.coupler import LinkageCam
 from geometry.cams.plane.synthesis import greatest_pressure_angle, least_convex_radius
@@ -35,7 +34,7 @@ from parts.pages.cam_steps import (
     positions,
     table_of,
 )
-from parts.pages.inputs import checked, refusal
+from parts.pages.inputs import calculation
 from parts.pages.page import Sheet, Table
 from parts.texts.findings import finding_message
 
@@ -64,13 +63,10 @@ class LinkageKeys(LinkageCamSpec, kw_only=True, tag=False, forbid_unknown_fields
     ) = None
 
 
-def sheet(kind: str, table: dict[str, Any]) -> Sheet:
+@calculation(TOPIC, LinkageKeys)
+def sheet(keys: LinkageKeys) -> Sheet:
     """The calculation of a linkage cam."""
-    keys: LinkageKeys = checked(table, LinkageKeys, TOPIC)
-    try:
-        cam = LINKAGE_CAM.thing(keys, {})
-    except ParameterError as error:
-        raise refusal(TOPIC, error, keys=keys) from error
+    cam = LINKAGE_CAM.thing(keys, {})
     title = N_("Cam with its follower on a connecting rod")
     page, phases = Sheet(TOPIC, title), Phases(cam.motion.phases, cam.motion.lift, cam.swings)
     page.section(N_("Characteristics"))

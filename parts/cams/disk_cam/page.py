@@ -10,7 +10,7 @@ import math
 from contextlib import suppress
 from typing import Any
 
-from geometry.base.errors import ConvergenceError, GeometryError, ParameterError
+from geometry.base.errors import ConvergenceError, GeometryError
 from geometry.cams.motion.follower_motion import PhaseKind
 from geometry.cams.motion.guides import Oscillating, Translating, oscillating_prime_radius
 from geometry.cams.plane.disk import DiskCam
@@ -24,7 +24,7 @@ from geometry.cams.plane.synthesis import (
     oscillating_start_angles,
     roller_prime_radius,
 )
-from parts.base.refusal import REMOVED, SceneError, meant
+from parts.base.refusal import SceneError, meant
 from parts.base.texts import N_
 from parts.cams.disk_cam.graphical_page import graphical_section
 from parts.cams.disk_cam.part import CAM, USUAL_ROLLER_SHARE, CamSpec, base_radius, largest_roller_radius
@@ -46,19 +46,19 @@ from parts.pages.cam_steps import (
     phase_steps,
     positions,
 )
-from parts.pages.inputs import PLACE, SceneKeys, checked, given, refusal
+from parts.pages.inputs import PLACE, SceneKeys, calculation, given
 from parts.pages.misprints import printed_for_rise
 from parts.pages.page import Sheet
 
-# the module of each kind's page; each has KEYS and page_of(table, keys of the cam that it is made of)
+# where the page of each kind is made of its keys as a table
 PAGES = {
-    "cam": "parts.cams.disk_cam.page",
-    "groove_cam": "parts.cams.groove_cam.page",
-    "conjugate_cam": "parts.cams.positive.page",
-    "yoke_frame": "parts.cams.positive.page",
-    "wedge_cam": "parts.cams.wedge_cam.page",
-    "barrel_cam": "parts.cams.barrel_cam.page",
-    "linkage_cam": "parts.cams.coupler_cam.page",
+    "cam": ("parts.cams.disk_cam.page", "disk_sheet"),
+    "groove_cam": ("parts.cams.groove_cam.page", "sheet"),
+    "conjugate_cam": ("parts.cams.positive.page", "conjugate_sheet"),
+    "yoke_frame": ("parts.cams.positive.page", "yoke_sheet"),
+    "wedge_cam": ("parts.cams.wedge_cam.page", "sheet"),
+    "barrel_cam": ("parts.cams.barrel_cam.page", "sheet"),
+    "linkage_cam": ("parts.cams.coupler_cam.page", "sheet"),
 }
 
 
@@ -107,17 +107,15 @@ def sheet(table: dict[str, Any]) -> Sheet:
     kind = table.get("kind", "cam")
     if kind not in PAGES:
         raise SceneError(PLACE, "kind", kind, "unknown_kind", meant(kind, PAGES), known=list(PAGES))
-    if "part" in table:
-        raise SceneError(PLACE, "part", table["part"], "part_without_scene", REMOVED)
-    rest = {key: value for key, value in table.items() if key != "kind"}
-    if kind == "cam":
-        keys: CamKeys = checked(rest, CamKeys, TOPIC)
-        try:
-            return disk_page(keys, CAM.thing(keys, {}))
-        except ParameterError as error:
-            raise refusal(TOPIC, error, keys=keys) from error
-    page: Sheet = importlib.import_module(PAGES[kind]).sheet(kind, rest)
+    module, name = PAGES[kind]
+    page: Sheet = getattr(importlib.import_module(module), name)({k: v for k, v in table.items() if k != "kind"})
     return page
+
+
+@calculation(TOPIC, CamKeys)
+def disk_sheet(keys: CamKeys) -> Sheet:
+    """The calculation of one disk cam."""
+    return disk_page(keys, CAM.thing(keys, {}))
 
 
 def phases_of(cam: DiskCam) -> Phases:

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
-from geometry.base.errors import ParameterError
 from geometry.cams.motion.guides import Oscillating, Translating
 from geometry.cams.plane.synthesis import least_convex_radius, least_hollow_radius, roller_prime_radius
 from parts.base.texts import N_
@@ -24,7 +22,7 @@ from parts.pages.cam_steps import (
     coefficient_steps,
     positions,
 )
-from parts.pages.inputs import checked, refusal
+from parts.pages.inputs import calculation
 from parts.pages.page import Sheet
 
 _SIGN = N_("a radius of curvature is positive where the wall's material is convex, negative where it is hollow")
@@ -39,13 +37,10 @@ class GrooveKeys(GrooveCamSpec, kw_only=True, tag=False, forbid_unknown_fields=T
     speed_rpm: Speed | None = None
 
 
-def sheet(kind: str, table: dict[str, Any]) -> Sheet:
+@calculation(TOPIC, GrooveKeys)
+def sheet(keys: GrooveKeys) -> Sheet:
     """The calculation of a groove cam."""
-    keys: GrooveKeys = checked(table, GrooveKeys, TOPIC)
-    try:
-        disk = GROOVE_CAM.thing(keys, {})
-    except ParameterError as error:
-        raise refusal(TOPIC, error, keys=keys) from error
+    disk = GROOVE_CAM.thing(keys, {})
     cam = disk.cam
     page, phases = Sheet(TOPIC, N_("Groove cam")), phases_of(disk.cam)
     characteristics(page, keys, cam)

@@ -32,14 +32,23 @@ class YokeKeys(YokeFrameSpec, kw_only=True, tag=False, forbid_unknown_fields=Tru
     """Keys of a yoke."""
 
 
-def sheet(kind: str, table: dict[str, Any]) -> Sheet:
-    """The calculation of a cam and of what is made of it: ``of`` holds the cam's keys."""
+def conjugate_sheet(table: dict[str, Any]) -> Sheet:
+    """The calculation of conjugate cams."""
+    return _sheet(table, conjugate=True)
+
+
+def yoke_sheet(table: dict[str, Any]) -> Sheet:
+    """The calculation of a cam in its yoke."""
+    return _sheet(table, conjugate=False)
+
+
+def _sheet(table: dict[str, Any], *, conjugate: bool) -> Sheet:
+    """A cam and what is made of it: ``of`` holds the cam's keys."""
     own = dict(table)
     of = own.pop("of", None)
     if not isinstance(of, dict):
         raise SceneError(PLACE, f"{TOPIC}.of", of, "first_cam_under_it")
     first: CamKeys = checked(of | {k: own.pop(k) for k in _PAGE if k in own}, CamKeys, f"{TOPIC}.of")
-    conjugate = kind == "conjugate_cam"
     keys = checked(own | {"of": "first"}, ConjugateKeys if conjugate else YokeKeys, TOPIC)
     try:
         cam = CAM.thing(first, {})

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 from msgspec import Meta
@@ -26,7 +26,7 @@ from parts.pages.cam_steps import (
     table_of,
     with_left_sides,
 )
-from parts.pages.inputs import checked, refusal
+from parts.pages.inputs import calculation
 from parts.pages.page import Sheet, Table
 from parts.texts.findings import finding_message
 
@@ -45,14 +45,11 @@ class WedgeKeys(WedgeCamSpec, kw_only=True, tag=False, forbid_unknown_fields=Tru
     ) = None
 
 
-def sheet(kind: str, table: dict[str, Any]) -> Sheet:
+@calculation(TOPIC, WedgeKeys)
+def sheet(keys: WedgeKeys) -> Sheet:
     """The calculation of a wedge cam."""
-    keys: WedgeKeys = checked(table, WedgeKeys, TOPIC)
-    try:
-        cam = WEDGE_CAM.thing(keys, {})
-        step = _step(keys, cam.motion.travel)
-    except ParameterError as error:
-        raise refusal(TOPIC, error, keys=keys) from error
+    cam = WEDGE_CAM.thing(keys, {})
+    step = _step(keys, cam.motion.travel)
     swings = keys.oscillating is not None
     lift = math.radians(keys.swing_deg) if swings else keys.lift
     phases = Phases(tuple(wedge_phases(keys, lift)), lift, swings, slides=True)

@@ -17,7 +17,7 @@ from geometry.kinematics.centrodes import CentrodePair, FourierRatio, LobedEllip
 from parts.base.texts import N_, message
 from parts.gears.noncircular_gear.part import NONCIRCULAR_GEAR, NoncircularGearSpec
 from parts.pages.cam_steps import Step
-from parts.pages.inputs import SceneKeys, checked, part_of_kind, refusal, told
+from parts.pages.inputs import SceneKeys, calculation, part_of_kind, told
 from parts.pages.page import Sheet, Table
 from parts.texts.findings import finding_message
 
@@ -41,13 +41,10 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
     return part_of_kind(scene, source, table, "noncircular_gear")
 
 
-def sheet(table: dict[str, Any]) -> Sheet:
+@calculation(TOPIC, NoncircularKeys)
+def sheet(keys: NoncircularKeys) -> Sheet:
     """The calculation of a noncircular gear and its mate."""
-    keys: NoncircularKeys = checked(table, NoncircularKeys, TOPIC)
-    try:
-        gear = NONCIRCULAR_GEAR.thing(keys, {})
-    except ParameterError as error:
-        raise refusal(TOPIC, error, keys=keys) from error
+    gear = NONCIRCULAR_GEAR.thing(keys, {})
     pairing = gear.pairing
     assert pairing is not None
     page = Sheet(TOPIC, _NAMES[keys.centrode])

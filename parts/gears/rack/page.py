@@ -5,17 +5,15 @@ from __future__ import annotations
 import math
 from typing import Annotated, Any
 
-from geometry.base.errors import ParameterError
 from geometry.base.record import replace
 from geometry.gears.teeth import rack_measurement
 from geometry.gears.teeth.rack import Rack
-from parts.base.refusal import REMOVED, SceneError
 from parts.base.texts import N_, message
 from parts.gears.rack.part import RackSpec, checked_rack_part
 from parts.gears.spur_gear.page import section_data
 from parts.gears.spur_gear.part import rounding_finding
 from parts.keys.base import mm
-from parts.pages.inputs import PLACE, SceneKeys, checked, part_of_kind, refusal
+from parts.pages.inputs import SceneKeys, calculation, part_of_kind
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_message
 
@@ -35,15 +33,10 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
     return part_of_kind(scene, source, table, "rack")
 
 
-def sheet(table: dict[str, Any]) -> Sheet:
+@calculation(TOPIC, RackKeys)
+def sheet(keys: RackKeys) -> Sheet:
     """The calculation of one rack."""
-    if "part" in table:
-        raise SceneError(PLACE, "part", table["part"], "part_without_scene", REMOVED)
-    keys: RackKeys = checked(table, RackKeys, TOPIC)
-    try:
-        rack = checked_rack_part(keys)
-    except ParameterError as error:
-        raise refusal(TOPIC, error, keys=keys) from error
+    rack = checked_rack_part(keys)
     page = Sheet(TOPIC, N_("Rack"))
     helix = math.radians(keys.helix_angle_deg)
     _given(page, rack, keys, helix)

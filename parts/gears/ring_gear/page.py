@@ -7,17 +7,15 @@ from typing import Annotated, Any
 
 from msgspec import Meta
 
-from geometry.base.errors import ParameterError
 from geometry.gears.teeth import measurement, ring_limits
 from geometry.gears.teeth.limits import LEAST_TIP_THICKNESS
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.ring_made import generation
-from parts.base.refusal import REMOVED, SceneError
 from parts.base.texts import N_
 from parts.gears.ring_gear.part import RingGearSpec, checked_ring_gear, tip_finding
 from parts.gears.spur_gear.page import section_data, shift_data
 from parts.keys.base import mm
-from parts.pages.inputs import PLACE, SceneKeys, checked, part_of_kind, refusal
+from parts.pages.inputs import SceneKeys, calculation, part_of_kind
 from parts.pages.measured_steps import Asked, measured_steps
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_of
@@ -44,24 +42,19 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
     return part_of_kind(scene, source, table, "ring_gear")
 
 
-def sheet(table: dict[str, Any]) -> Sheet:
+@calculation(TOPIC, RingKeys)
+def sheet(keys: RingKeys) -> Sheet:
     """The calculation of one ring."""
-    if "part" in table:
-        raise SceneError(PLACE, "part", table["part"], "part_without_scene", REMOVED)
-    keys: RingKeys = checked(table, RingKeys, TOPIC)
-    try:
-        ring = checked_ring_gear(keys)
-        page = Sheet(TOPIC, N_("Internal gear"))
-        helix = math.radians(keys.helix_angle_deg)
-        _given(page, ring, keys, helix)
-        _dimensions(page, ring, keys)
-        _thicknesses(page, ring, keys.diameter)
-        _limits(page, ring, keys)
-        measured = keys.measured_span, keys.measured_between_pins
-        asked = Asked(helix, keys.face_width, keys.spaces_spanned, keys.pin_diameter, keys.kerf, *measured)
-        measured_steps(page, ring, asked)
-    except ParameterError as error:
-        raise refusal(TOPIC, error, keys=keys) from error
+    ring = checked_ring_gear(keys)
+    page = Sheet(TOPIC, N_("Internal gear"))
+    helix = math.radians(keys.helix_angle_deg)
+    _given(page, ring, keys, helix)
+    _dimensions(page, ring, keys)
+    _thicknesses(page, ring, keys.diameter)
+    _limits(page, ring, keys)
+    measured = keys.measured_span, keys.measured_between_pins
+    asked = Asked(helix, keys.face_width, keys.spaces_spanned, keys.pin_diameter, keys.kerf, *measured)
+    measured_steps(page, ring, asked)
     return page
 
 

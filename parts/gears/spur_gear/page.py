@@ -7,18 +7,16 @@ from typing import Annotated, Any
 
 from msgspec import Meta
 
-from geometry.base.errors import ParameterError
 from geometry.base.record import replace
 from geometry.gears.teeth import limits, measurement
 from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.limits import LEAST_TIP_THICKNESS
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import base_helix_angle, transverse_angle
-from parts.base.refusal import REMOVED, SceneError
 from parts.base.texts import N_
 from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of, rack_findings, section_of
 from parts.keys.base import mm
-from parts.pages.inputs import PLACE, SceneKeys, checked, part_of_kind, refusal
+from parts.pages.inputs import SceneKeys, calculation, part_of_kind
 from parts.pages.measured_steps import Asked, measured_steps
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_message
@@ -44,27 +42,22 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
     return part_of_kind(scene, source, table, "spur_gear")
 
 
-def sheet(table: dict[str, Any]) -> Sheet:
+@calculation(TOPIC, SpurKeys)
+def sheet(keys: SpurKeys) -> Sheet:
     """The calculation of one gear."""
-    if "part" in table:
-        raise SceneError(PLACE, "part", table["part"], "part_without_scene", REMOVED)
-    keys: SpurKeys = checked(table, SpurKeys, TOPIC)
-    try:
-        helix = math.radians(keys.helix_angle_deg)
-        normal = checked_spur_gear(keys) if helix == 0 else gear_of(keys)
-        gear = section_of(normal, helix)
-        page = Sheet(TOPIC, N_("External gear"))
-        page.section(N_("Given"))
-        given_data(page, normal, gear, helix)
-        dimensions(page, gear, helix)
-        _thicknesses(page, gear, keys.diameter)
-        _limits(page, gear, helix)
-        measured = keys.measured_span, keys.measured_over_pins
-        asked = Asked(helix, keys.face_width, keys.teeth_spanned, keys.pin_diameter, keys.kerf, *measured)
-        measured_steps(page, gear, asked)
-        page.notes += [finding_message(f) for f in rack_findings(keys, gear)]
-    except ParameterError as error:
-        raise refusal(TOPIC, error, keys=keys) from error
+    helix = math.radians(keys.helix_angle_deg)
+    normal = checked_spur_gear(keys) if helix == 0 else gear_of(keys)
+    gear = section_of(normal, helix)
+    page = Sheet(TOPIC, N_("External gear"))
+    page.section(N_("Given"))
+    given_data(page, normal, gear, helix)
+    dimensions(page, gear, helix)
+    _thicknesses(page, gear, keys.diameter)
+    _limits(page, gear, helix)
+    measured = keys.measured_span, keys.measured_over_pins
+    asked = Asked(helix, keys.face_width, keys.teeth_spanned, keys.pin_diameter, keys.kerf, *measured)
+    measured_steps(page, gear, asked)
+    page.notes += [finding_message(f) for f in rack_findings(keys, gear)]
     return page
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from msgspec import Meta, Struct
 
@@ -24,12 +24,11 @@ from geometry.gears.planetary.sets import (
     sine_of,
 )
 from geometry.gears.shifts.external import Requirements
-from parts.base.refusal import SceneError
 from parts.base.texts import N_, Message, Text, listed, message
 from parts.gears.spur_gear.part import RackTable, basic_rack_of
 from parts.keys.base import degrees, in_modules, mm
 from parts.mates.pages.internal_shift_choice import RACKS, unknown_rack
-from parts.pages.inputs import SceneKeys, checked, refusal
+from parts.pages.inputs import calculation
 from parts.pages.page import Sheet, Table
 
 TOPIC = "planetary"
@@ -105,20 +104,12 @@ class PlanetaryKeys(Struct, forbid_unknown_fields=True):
     rows: Annotated[int, Meta(ge=1, le=1000, description="how many of the sets found are shown")] = 20
 
 
-def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
-    """Sets are sought by keys only."""
-    raise SceneError(source, "TOPIC", TOPIC, "keys_not_a_scene")
-
-
-def sheet(table: dict[str, Any]) -> Sheet:
+@calculation(TOPIC, PlanetaryKeys)
+def sheet(keys: PlanetaryKeys) -> Sheet:
     """The sets found, or the one that is given, and all about the first of them."""
-    keys: PlanetaryKeys = checked(table, PlanetaryKeys, TOPIC)
     if isinstance(keys.basic_rack, str) and keys.basic_rack not in RACKS:
         raise unknown_rack(keys.basic_rack)
-    try:
-        return _Page(keys).made()
-    except ParameterError as error:
-        raise refusal(TOPIC, error, keys=keys) from error
+    return _Page(keys).made()
 
 
 def _fault(name: str) -> Message:

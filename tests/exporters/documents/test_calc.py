@@ -300,6 +300,7 @@ def refused(topic: str, *arguments: str) -> SceneError:
         (("spur", "practicum_pair", "part=pinon"), "part", "no_such_part", "pinion"),
         (("spur", "no_such_scene"), "", "no_such_scene", None),
         (("spur", "practicum_pair", "laser_gear"), "laser_gear", "one_scene_only", None),
+        (("power-table", "power_table_laser"), "TOPIC", "keys_not_a_scene", None),
         (("tmm42", "module=10", "reference_diameter=101"), "tmm42.reference_diameter", "no_whole_modules", 100.0),
         (("tmm42", "module=10"), "tmm42.reference_diameter", "give_it_or", None),
         (

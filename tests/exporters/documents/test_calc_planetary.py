@@ -199,7 +199,7 @@ def test_tables_as_csv() -> None:
         (("ratio=14.2",), ("ratio = 14.2", "works")),
         (("scheme=david", "teeth=[30,20,20,30]"), ("transmits nothing",)),
         (("scheme=jemes", "ratio=3"), ('"jemes"', "james")),
-        (("idler_train",), ("takes keys, no scene",)),
+        (("idler_train",), ("takes keys alone, no scene",)),
     ],
 )
 def test_refusals_are_one_line(keys: tuple[str, ...], parts: tuple[str, ...]) -> None:
