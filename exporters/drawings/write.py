@@ -122,14 +122,10 @@ def _add_dimension(drawing: Drawing, one: Dimension) -> BlockLayout:
     attributes = {
         "layer": "DIMENSION", "dimstyle": name, "geometry": block.name, "text": one.text,
         "text_midpoint": (*place_of(one.middle), 0.0), "actual_measurement": one.value,
+        "defpoint": place_of(one.line), "defpoint2": first, "defpoint3": second, "angle": one.angle,
     }  # fmt: skip
-    if one.kind == "linear":
-        more = {"defpoint": place_of(one.line), "defpoint2": first, "defpoint3": second, "angle": one.angle}
-    else:
-        more = {"defpoint": first, "defpoint4": second, "leader_length": abs(one.line - one.points[1])}
-    # the block belongs to this dimension alone; words stand where they were put
-    code = {"linear": 0, "diameter": 3, "radius": 4}[one.kind] | 32 | 128
-    drawing.modelspace().new_entity("DIMENSION", {**attributes, **more, "dimtype": code})
+    # all programs read linear ones right; the block belongs to this dimension, words stand where they were put
+    drawing.modelspace().new_entity("DIMENSION", {**attributes, "dimtype": 32 | 128})
     return block
 
 

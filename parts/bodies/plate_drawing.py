@@ -39,7 +39,8 @@ def part_drawing(subject: Subject) -> PartDrawing:
     for k, (y, at) in enumerate(sorted({round(c.imag, _DIGITS): c for c in centres}.items()), 1):
         if low.imag < y < high.imag:
             sizes.append(Size(f"y.{k}", low, at, "left"))
-    rounds = [*_diameters(round_holes, subject), *_radii([curves, *[[s.curve for s in p.segments()] for p in slots]])]
+    chains = [curves, *([s.curve for s in p.segments()] for p in slots)]
+    rounds = [*_diameters(round_holes, subject), *_radii(chains, subject)]
     thick = Note(complex(high.real, (low.imag + 2 * high.imag) / 3), f"s {subject.say(subject.part.face_width)}")
     edges = max((c for c in curves if isinstance(c, Line)), key=lambda c: c.end.real + c.start.real, default=None)
     notes = (thick if edges is None else Note((edges.start + edges.end) / 2, thick.text),)
@@ -102,13 +103,13 @@ def _diameters(holes: list[tuple[complex, float]], subject: Subject) -> Iterator
         yield Round(f"holes.{k}.diameter", best, radius, f"{words}Ø")
 
 
-def _radii(chains: list[list[Curve]]) -> Iterator[Round]:
-    """Each radius of an arc once."""
-    seen = set[float]()
-    for chain in chains:
-        for curve in chain:
-            if isinstance(curve, Arc) and round(curve.radius, _DIGITS) not in seen:
-                seen.add(round(curve.radius, _DIGITS))
-                way = math.degrees(cmath.phase(complex(curve.point(abs(curve.sweep) / 2)) - curve.centre))
-                yield Round(f"radius.{len(seen)}", curve.centre, curve.radius, "R", is_radius=True,
-                            angles=(way, way + 20, way - 20))  # fmt: skip
+def _radii(chains: list[list[Curve]], subject: Subject) -> Iterator[Round]:
+    """Each radius of an arc once, with how many arcs have it."""
+    groups: dict[float, list[Arc]] = {}
+    for curve in (c for chain in chains for c in chain if isinstance(c, Arc)):
+        groups.setdefault(round(curve.radius, _DIGITS), []).append(curve)
+    for k, arcs in enumerate(groups.values(), 1):
+        arc = arcs[0]
+        way = math.degrees(cmath.phase(complex(arc.point(abs(arc.sweep) / 2)) - arc.centre))
+        after = sheet_words(subject.language, "places_of", count=len(arcs)) if len(arcs) > 1 else ""
+        yield Round(f"radius.{k}", arc.centre, arc.radius, "R", after, is_radius=True, angles=(way, way + 20, way - 20))

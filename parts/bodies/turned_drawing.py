@@ -9,14 +9,16 @@ from itertools import pairwise
 
 import numpy as np
 
-from geometry.curves.curve import start_point
+from geometry.curves.curve import end_point, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.solids.turned import HalfSection, Hole, Piece, Pocket
-from parts.drawing.revolved import Loop, below, chamfers, closed, diameters, is_outer, lengths, outlined, seen_edges
+from parts.drawing.revolved import Loop, below, closed, is_outer, outlined, seen_edges
+from parts.drawing.turned_sizes import Fits, turned_sizes
 from parts.drawing.wheel_views import axis_cross, circle_of
 from parts.drawing.working import (
     AXIS,
     HIDDEN,
+    THIN,
     VISIBLE,
     Cut,
     Note,
@@ -34,6 +36,8 @@ from parts.texts.sheets import sheet_words
 _SAME = 1e-9
 # a section of a keyway is so high on paper at least, mm
 _LEAST_SECTION = 20.0
+# part of a centre hole's size up to which the shaft about it is shown
+_ABOUT = 1.5
 _LETTERS = "ABCDEFGHJK"
 
 
@@ -46,6 +50,8 @@ def part_drawing(subject: Subject) -> PartDrawing:
     found = [_long_view(half, loop, subject, is_shaft=is_shaft, cut=hollow or not is_shaft)]
     if half.holes:
         found.append(_face(half, subject))
+    if is_shaft and not hollow and (centre := _centre_hole(loop, subject)) is not None:
+        found.append(centre)
     if half.pockets:
         found += _keyways(half, found[0].cuts, subject)
     return PartDrawing(tuple(found), requirements(subject))
@@ -85,8 +91,9 @@ def _long_view(half: HalfSection, loop: Loop, subject: Subject, *, is_shaft: boo
     low, high = half.heights()
     axes = [Line(complex(low), complex(high))]
     wishes = subject.wishes
-    fits, largest = ((wishes.shaft, ""), None) if is_shaft else (("", wishes.bore), wishes.tip)
-    sizes = [*diameters(loop, fits, largest), *lengths(loop), *chamfers(loop)]
+    fits = Fits(wishes.shaft, wishes.bore) if is_shaft else Fits("", wishes.bore, wishes.tip)
+    told = turned_sizes(loop, fits, subject.language, lambda curve: curve not in inner)
+    sizes = [*told.sizes]
     shown = dict[tuple[float, float], int]()
     for pocket in half.pockets:
         if pocket not in notched:
@@ -104,21 +111,37 @@ def _long_view(half: HalfSection, loop: Loop, subject: Subject, *, is_shaft: boo
         sizes.append(Size("holes.pitch_circle_diameter", complex(low, -radius), complex(low, radius), "left", "Ø"))
     hatched = (tuple(upper), below(lower)) if cut else ()
     cuts = tuple(Cut(at, letter) for at, letter in zip(_planes(half), _LETTERS, strict=False))
+    return View(tuple(strokes), hatched, tuple(axes), tuple(sizes), told.rounds, _rough(loop, subject), cuts=cuts)
+
+
+def _centre_hole(loop: Loop, subject: Subject) -> View | None:
+    """The hole in the lower end of a solid shaft, in section; that in the other end is as this one."""
+    middle = sum(start_point(c).real for c in loop) / len(loop)
+    off_axis = [c for c in loop if max(start_point(c).imag, end_point(c).imag) > 0]
+    hole = [c for c in off_axis if not is_outer(loop, c) and start_point(c).real < middle]
+    if not hole:
+        return None
+    places = [p for c in hole for p in (start_point(c), end_point(c))]
+    low, deep = min(p.real for p in places), max(p.real for p in places)
+    mouth = max(p.imag for p in places)
+    wide, far = _ABOUT * mouth, low + _ABOUT * (deep - low)
+    rim = [complex(low, mouth), complex(low, wide), complex(far, wide), complex(far), complex(deep)]
+    around = [Line(a, b) for a, b in pairwise(rim)]
+    strokes: list[Stroke] = []
+    for side in (hole, below(hole)):
+        strokes += [(VISIBLE, curve) for curve in side]
+    for way in (1, -1):
+        lines = around if way > 0 else [line.mirrored() for line in around]
+        strokes += [(VISIBLE, lines[0]), (THIN, lines[1]), (THIN, lines[2])]
+    section = (*hole, *around)
+    for edge in seen_edges(section, cut=True):
+        strokes += [(VISIBLE, edge), (VISIBLE, edge.mirrored())]
+    told = turned_sizes(section, Fits(), subject.language, lambda curve: curve in hole)
+    title = sheet_words(subject.language, "centre_holes")
     return View(
-        tuple(strokes), hatched, tuple(axes), tuple(sizes), tuple(_fillets(loop)), _rough(loop, subject), cuts=cuts
-    )
-
-
-def _fillets(loop: Loop) -> Iterator[Round]:
-    """Radii of arcs, each once."""
-    seen = set[float]()
-    for curve in loop:
-        if isinstance(curve, Arc) and round(curve.radius, 9) not in seen:
-            seen.add(round(curve.radius, 9))
-            way = math.degrees(cmath.phase(complex(curve.point(abs(curve.sweep) / 2)) - curve.centre))
-            spread = math.degrees(abs(curve.sweep)) / 2
-            angles = tuple(way + share * spread for share in (0.0, 0.5, -0.5, 0.9, -0.9))
-            yield Round(f"radius.{len(seen)}", curve.centre, curve.radius, "R", is_radius=True, angles=angles)
+        tuple(strokes), (section, below(section)), (Line(complex(low), complex(far)),), told.sizes, title=title,
+        least=_LEAST_SECTION,
+    )  # fmt: skip
 
 
 def _rough(loop: Loop, subject: Subject) -> tuple[Note, ...]:

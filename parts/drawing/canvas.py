@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Sequence
-from typing import Literal, get_args
+from typing import get_args
 
 import numpy as np
 
@@ -237,14 +237,13 @@ def plain_width(text: str, height: float) -> float:
 class Dimension(Record):
     """A dimension of a drawing, on paper; of its numbers ``value`` alone is the model's, mm.
 
-    ``kind``: linear between the ``points`` along ``angle`` (degrees), its line through ``line``; diameter from point to
-    point; radius from centre to arc. ``scale``: mm of paper for one of the model; ``text``: its words, <> for the
+    Between the ``points`` along ``angle`` (degrees), its line through ``line``: of a radius from the centre to the arc.
+    ``scale``: mm of paper for one of the model; ``text``: its words, <> for the
     number, whose decimal ``mark`` is a point or a comma. ``strokes`` and ``texts``: which of the canvas's it consists
     of; ``middle``: of its words.
     """
 
     name: str
-    kind: Literal["linear", "diameter", "radius"]
     value: float
     scale: float
     points: tuple[complex, complex]

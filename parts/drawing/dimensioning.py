@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Sequence
-from typing import Literal
+from itertools import product
 
 import numpy as np
 
@@ -31,7 +31,7 @@ from parts.drawing.canvas import (
     text_width,
 )
 from parts.drawing.hatching import hatching
-from parts.drawing.working import AXIS, VISIBLE, Cut, Note, Round, Size, View, number_text
+from parts.drawing.working import AXIS, VISIBLE, Cut, Note, Round, Side, Size, View, number_text
 
 # mm on paper: from the view to the first dimension line, from line to line; arrow, half its width; how far extension
 # lines reach beyond; from a line to its words; how far axes reach beyond their ends
@@ -138,7 +138,9 @@ def laid(view: View, scale: float, language: str, *, own: bool = False) -> Laid 
     """
     sizes = sorted(view.sizes, key=lambda one: one.value)
     leaders: list[Round | Note] = [*view.rounds, *view.notes]
-    for _ in range(_TRIES):
+    tried: list[list[Size | Round | Note]] = []
+    while (order := [*sizes, *leaders]) not in tried and len(tried) < _TRIES:
+        tried.append(order)
         made = _Layout(view, scale, language, own=own)
         try:
             made.fill(sizes, leaders, view.title)
@@ -168,7 +170,7 @@ class _Layout:
             self._stroke(AXIS, Line(start - beyond, end + beyond))
         self.rows: dict[str, list[list[tuple[float, float]]]] = {}
         for cut in view.cuts:
-            self._cut(cut)
+            self._cut(cut, view.sizes)
 
     def fill(self, sizes: Sequence[Size], leaders: Sequence[Round | Note], title: str) -> None:
         """Add all words with their lines, in this order."""
@@ -208,70 +210,87 @@ class _Layout:
         self.canvas.texts.append(text)
         self.ink.boxes.append(text.box)
 
-    def _cut(self, cut: Cut) -> None:
-        """Both marks of a section, each in the nearest place where its letter is free."""
-        x = self.paper.point(complex(cut.at)).real
-        for way, edge in ((1, self.body.high), (-1, self.body.low)):
-            for k in range(_OUT):
-                low = edge + way * (_MARK + _STROKE * k)
+    def _cut(self, cut: Cut, sizes: Sequence[Size]) -> None:
+        """Both marks of a section, each in the nearest place where its letter is clear, of extension lines too."""
+        x, wide = self.paper.point(complex(cut.at)).real, text_width(cut.letter, TEXT_HEIGHT)
+        for way, edge, side in ((1, self.body.high, "above"), (-1, self.body.low, "below")):
+            coming = [self.paper.point(p).real for one in sizes if one.side == side for p in (one.start, one.end)]
+            places: list[tuple[list[Line], list[Line], Text]] = []
+            for low in (edge + way * (_MARK + _STROKE * k) for k in range(_OUT)):
                 tip = complex(x, low + way * (_STROKE - 2.0))
-                foot = tip - _LOOK
-                at = foot - text_width(cut.letter, TEXT_HEIGHT) - 1.0 - 1j * TEXT_HEIGHT / 2
-                text = text_of(cut.letter, at, TEXT_HEIGHT)
-                mark = Line(complex(x, low), complex(x, low + way * _STROKE))
-                lines = [Line(foot, tip), *_arrow(tip, -1)]
-                if self.ink.holds([mark, *lines], text.box) or k == _OUT - 1:
-                    self._stroke(VISIBLE, mark)
-                    for line in lines:
-                        self._stroke(_DIMENSION, line)
-                    self._write(text)
-                    break
+                mark, lines = Line(complex(x, low), complex(x, low + way * _STROKE)), [*_arrow(tip, -1)]
+                # beside the foot of the arrow, on its shaft, beyond its tip
+                lefts = (-_LOOK - wide - 1.0, -_LOOK + 0.5, 1.5)
+                for left, lift in zip(lefts, (-TEXT_HEIGHT / 2, 1.0, -TEXT_HEIGHT / 2), strict=True):
+                    text = text_of(cut.letter, tip + complex(left, lift), TEXT_HEIGHT)
+                    places.append(([mark], [Line(tip - _LOOK, tip), *lines], text))
+            free = (
+                place for place in places
+                if self.ink.holds([*place[0], *place[1]], place[2].box)
+                and not any(place[2].box.left - 2 * _FREE < at < place[2].box.right + 2 * _FREE for at in coming)
+            )  # fmt: skip
+            marks, lines, text = next(free, places[-3])
+            for line in marks:
+                self._stroke(VISIBLE, line)
+            for line in lines:
+                self._stroke(_DIMENSION, line)
+            self._write(text)
 
     def _size(self, size: Size, coming: Sequence[complex]) -> bool:
         """A linear dimension: in the nearest row of its side in which its words are free; whether there is one.
 
         ``coming``: places from which extension lines will run to the same side.
         """
-        upright = size.side in ("left", "right")
-        # along the dimension line, and away from the view
-        along, out = (
-            (1j, -1.0 if size.side == "left" else 1.0) if upright else (1.0, 1j * (-1) ** (size.side == "below"))
-        )
-        points = sorted((self.paper.point(size.start), self.paper.point(size.end)), key=lambda p: _along(p, along))
-        low, high = (_along(p, along) for p in points)
         edge = {
             "left": self.body.left, "right": self.body.right, "above": self.body.high, "below": self.body.low
         }[size.side]  # fmt: skip
-        middle = (self.body.low + self.body.high if upright else self.body.left + self.body.right) / 2
-        number = number_text(size.value, self.language)
-        wide = text_width(size.before + number + size.after)
+        upright, out = _sense(size.side)
+        along = 1j if upright else 1.0
+        points = self.paper.point(size.start), self.paper.point(size.end)
+        low, high = sorted(_along(p, along) for p in points)
+        wide = text_width(self._words(size))
         rows = self.rows.setdefault(size.side, [])
         past = [_along(self.paper.point(p), along) for p in coming]
         for index in range(_ROWS):
-            level = edge + (-1 if size.side in ("left", "below") else 1) * (_FIRST + _STEP * index)
+            level = edge + (out.real + out.imag) * (_FIRST + _STEP * index)
             while len(rows) <= index:
                 rows.append([])
-            for begin in _begins(low, high, wide, middle):
+            for begin in _begins(low, high, wide, self._middle(upright=upright)):
                 reach = min(low, begin), max(high, begin + wide)
                 # chains share their ends
                 if any(_meet(reach, taken) for taken in rows[index]):
                     continue
                 if any(begin - 2 * _FREE < place < begin + wide + 2 * _FREE for place in past):
                     continue
-                lines = _dimension_lines(points, along, level, (low, high), (begin, begin + wide), out)
-                # words stand above their line, those of an upright one on its left
-                at = complex(level - _GAP, begin) if upright else complex(begin, level + _GAP)
-                text = (rising_text if upright else text_of)(size.before + number + size.after, at)
-                if self.ink.holds(lines, text.box):
+                if self._linear(size, points, size.side, level, begin):
                     rows[index].append(reach)
-                    ends = [_at(along, level, place) for place in (low, high)]
-                    words = self._template(size)
-                    angle = 90.0 if upright else 0.0
-                    self._dimension(
-                        size.name, "linear", size.value, (points[0], points[1]), ends[1], angle, words, lines, text
-                    )
                     return True
         return False
+
+    def _middle(self, *, upright: bool) -> float:
+        """Of the view, mm."""
+        return (self.body.low + self.body.high if upright else self.body.left + self.body.right) / 2
+
+    def _words(self, one: Size | Round) -> str:
+        """All that is written of a dimension."""
+        return one.before + number_text(one.value, self.language) + one.after
+
+    def _linear(self, one: Size | Round, ends: tuple[complex, complex], side: Side, level: float, begin: float) -> bool:
+        """A dimension whose line stands at a level on a side of its ends, if it is free there; whether it is."""
+        upright, out = _sense(side)
+        # along the dimension line, and away from the view
+        along, words = 1j if upright else 1.0, self._words(one)
+        points = sorted(ends, key=lambda p: _along(p, along))
+        low, high = (_along(p, along) for p in points)
+        lines = _dimension_lines(points, along, level, (low, high), (begin, begin + text_width(words)), out)
+        # words stand above their line, those of an upright one on its left
+        at = complex(level - _GAP, begin) if upright else complex(begin, level + _GAP)
+        text = (rising_text if upright else text_of)(words, at)
+        if not self.ink.holds(lines, text.box):
+            return False
+        foot = _at(along, level, high)
+        self._dimension(one, (points[0], points[1]), foot, 90.0 if upright else 0.0, lines, text)
+        return True
 
     def _template(self, one: Size | Round) -> str:
         """The words of a dimension as programs keep them."""
@@ -280,53 +299,56 @@ class _Layout:
 
     def _dimension(
         self,
-        name: str,
-        kind: Literal["linear", "diameter", "radius"],
-        value: float,
+        one: Size | Round,
         points: tuple[complex, complex],
         line: complex,
         angle: float,
-        words: str,
         lines: Sequence[Line],
         text: Text,
     ) -> None:
         first = len(self.canvas.strokes)
-        for one in lines:
-            self._stroke(_DIMENSION, one)
+        for stroke in lines:
+            self._stroke(_DIMENSION, stroke)
         count, box = len(self.canvas.texts), text.box
         self._write(text)
         middle = complex(box.left + box.right, box.low + box.high) / 2
         strokes, texts = range(first, len(self.canvas.strokes)), range(count, count + 1)
         mark, scale = decimal(".", self.language), self.paper.scale
         self.canvas.dimensions.append(
-            Dimension(name, kind, value, scale, points, line, angle, words, mark, middle, strokes, texts)
+            Dimension(
+                one.name, one.value, scale, points, line, angle, self._template(one), mark, middle, strokes, texts
+            )
         )
 
     def _round(self, one: Round) -> None:
-        """A diameter or radius on a leader whose shelf carries the words."""
+        """A radius on a leader whose shelf carries the words; a diameter between lines beside its circle.
+
+        Both are linear to programs, of which some turn what stands on a leader, and others read it as 0.
+        """
         centre, radius = self.paper.point(one.centre), self.paper.scale * one.radius
-        words = one.before + number_text(one.value, self.language) + one.after
-
-        def leaders() -> Iterator[tuple[complex, complex, complex]]:
-            for reach in _REACHES:
-                for angle in one.angles:
-                    way = cmath.rect(1.0, math.radians(angle))
-                    out = -1 if one.inward else 1
-                    yield centre + radius * way, centre + (radius + out * reach) * way, out * way
-
-        for tip, elbow, way in leaders():
-            lines, text = _shelved(elbow, words, way)
-            start = centre if one.is_radius else centre - radius * way
-            lines = [Line(tip if 2 * radius < 3 * ARROW or one.is_radius else start, elbow), *lines, *_arrow(tip, way)]
-            if not one.is_radius and 2 * radius >= 3 * ARROW:
-                # both arrows within the circle
-                lines = [*lines[:2], *_arrow(tip, -way), *_arrow(start, way)]
-            if self.ink.holds(lines, text.box):
-                template = self._template(one)
-                kind: Literal["radius", "diameter"] = "radius" if one.is_radius else "diameter"
-                ends = (start, tip)
-                self._dimension(one.name, kind, one.value, ends, elbow, 0.0, template, lines, text)
-                return
+        if one.is_radius:
+            for reach, angle in product(_REACHES, one.angles):
+                way = cmath.rect(1.0, math.radians(angle))
+                out = -way if one.inward else way
+                tip = centre + radius * way
+                elbow = tip + reach * out
+                shelf, text = _shelved(elbow, self._words(one), out)
+                lines = [Line(tip, elbow), *shelf, *_arrow(tip, out)]
+                if self.ink.holds(lines, text.box):
+                    turn = math.degrees(cmath.phase(way if way.real > 0 else -way))
+                    self._dimension(one, (centre, tip), tip, turn, lines, text)
+                    return
+            raise _NoRoomError(one)
+        sides: tuple[Side, ...] = ("above", "right", "below", "left")
+        for reach, side in product(_REACHES, sides):
+            upright, out = _sense(side)
+            along = 1j if upright else 1.0
+            low, high = (_along(centre, along) + way * radius for way in (-1, 1))
+            level = _along(centre + (radius + reach) * out, 1.0 if upright else 1j)
+            wide = text_width(self._words(one))
+            for begin in _begins(low, high, wide, self._middle(upright=upright)):
+                if self._linear(one, (centre - radius * along, centre + radius * along), side, level, begin):
+                    return
         raise _NoRoomError(one)
 
     def _note(self, note: Note) -> None:
@@ -370,6 +392,11 @@ def _meet(one: tuple[float, float], two: tuple[float, float]) -> bool:
     if min(abs(one[0] - two[1]), abs(two[0] - one[1])) < 1e-6:
         return False
     return one[0] - 1 < two[1] and two[0] < one[1] + 1
+
+
+def _sense(side: Side) -> tuple[bool, complex]:
+    """Whether dimension lines of a side are upright, and the way to them from the view."""
+    return side in ("left", "right"), {"left": -1.0, "right": 1.0, "above": 1j, "below": -1j}[side]
 
 
 def _along(point: complex, way: complex) -> float:

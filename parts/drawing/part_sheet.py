@@ -29,6 +29,8 @@ _LINE, _SIGN = 7.0, (48.0, 20.0)
 _MARGIN, _BETWEEN = 5.0, 12.0
 # the largest extent of a view on paper below which larger paper is better: of small parts, and of others
 _LEAST_SMALL, _LEAST = 45.0, 120.0
+# how many times smaller than at its least scale a part is drawn at most, where its sizes have no room
+_SMALLER = 5.0
 # model mm by which a number of a file may be off
 _SAME = 1e-6
 # a curve of a file is another's where their ends are farther apart, mm on paper
@@ -177,8 +179,8 @@ def part_sheet(drawing: PartDrawing, data: Block | None, roughness: float, asked
         frame = canvas.frame
         most = min(frame.right - frame.left, frame.high - frame.low) / min(sizes[0])
         # unless a paper is asked for, what is large enough stays in its size
-        most = min(most, most if asked.paper or asked.scale else max(least, 1.0))
-        return next((s for s in SCALES if s <= most and _places(views_at(s), corner, canvas) is not None), 0.0)
+        most, low = (most, 0.0) if asked.paper or asked.scale else (min(most, max(least, 1.0)), least / _SMALLER)
+        return next((s for s in SCALES if low <= s <= most and _places(views_at(s), corner, canvas) is not None), 0.0)
 
     canvas, scale = sheet_for(asked, greatest, least)
     corner.draw(canvas, language)

@@ -1,26 +1,24 @@
-"""Sections and views of what is turned about an axis: edges seen behind a section or from outside, and sizes.
+"""Sections and views of what is turned about an axis: edges seen behind a section or from outside.
 
 A loop is half a section, closed: the axis along x, the distance from it along y, above 0.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
 import numpy as np
 
 from geometry.curves.curve import Complex, end_point, start_point
 from geometry.curves.line_arc import Arc, Line
-from parts.drawing.working import VISIBLE, Side, Size, Stroke
+from parts.drawing.working import VISIBLE, Stroke
 
 Loop = Sequence[Line | Arc]
 # parts of the size: how far beside an edge is looked, what is one place
 _BESIDE, _SAME = 1e-7, 1e-6
 _SAMPLES = 129
 _SMOOTH = 1e-6
-# mm, what is no length
-_NONE = 1e-9
 
 
 def closed(points: Sequence[complex]) -> tuple[Line, ...]:
@@ -113,54 +111,3 @@ def is_outer(loop: Loop, curve: Line | Arc) -> bool:
         all(end <= middle.imag + 1e-5 * size for _, end in _material(points, middle.real + way * beside))
         for way in (-1, 1)
     )
-
-
-def _cylinders(loop: Loop) -> list[Line]:
-    return [c for c in loop if isinstance(c, Line) and abs(c.start.imag - c.end.imag) < _NONE and c.start.imag > 0]
-
-
-def diameters(loop: Loop, fits: tuple[str, str], largest: str | None = None) -> Iterator[Size]:
-    """Diameters of cylinders, each once, outer ones on the end to which they are nearer; ``fits``: outer and inner.
-
-    ``largest``: fit of the largest one.
-    """
-    xs = [start_point(c).real for c in loop]
-    cylinders, middle = _cylinders(loop), (min(xs) + max(xs)) / 2
-    most = max((c.start.imag for c in cylinders), default=0.0)
-    seen: set[tuple[float, bool]] = set()
-    for c in cylinders:
-        radius, outer = c.start.imag, is_outer(loop, c)
-        if (key := (round(radius, 9), outer)) in seen:
-            continue
-        seen.add(key)
-        side: Side = "left" if outer and (c.start.real + c.end.real) / 2 <= middle else "right"
-        at = min(c.start.real, c.end.real) if side == "left" else max(c.start.real, c.end.real)
-        fit = fits[not outer] if largest is None or radius < most else largest
-        name = f"{'outer' if outer else 'inner'}_diameter.{len(seen)}"
-        yield Size(name, complex(at, -radius), complex(at, radius), side, "Ø", fit)
-
-
-def lengths(loop: Loop) -> Iterator[Size]:
-    """From the lower end to each face, and the whole length."""
-    faces: dict[float, complex] = {}
-    for c in loop:
-        if isinstance(c, Line) and abs(c.start.real - c.end.real) < _NONE and is_outer(loop, c):
-            top = max(c.start, c.end, key=lambda p: p.imag)
-            faces[round(top.real, 9)] = max(top, faces.get(round(top.real, 9), top), key=lambda p: p.imag)
-    first, *others = (faces[x].conjugate() for x in sorted(faces))
-    for k, face in enumerate(others, 1):
-        yield Size("length" if face is others[-1] else f"length.{k}", first, face, "below")
-
-
-def chamfers(loop: Loop) -> Iterator[Size]:
-    """Chamfers of 45 degrees, those of one length once."""
-    xs, seen = [start_point(c).real for c in loop], set[float]()
-    for curve in loop:
-        way = end_point(curve) - start_point(curve)
-        slanted = isinstance(curve, Line) and abs(abs(way.real) - abs(way.imag)) < 1e-6 * abs(way)
-        if slanted and abs(way.real) < max(xs) - min(xs) and round(abs(way.real), 9) not in seen:
-            seen.add(round(abs(way.real), 9))
-            # both ends at one height: programs that take every size as aligned read the same number
-            top = max(start_point(curve).imag, end_point(curve).imag)
-            start, end = (complex(p.real, top) for p in (start_point(curve), end_point(curve)))
-            yield Size(f"chamfer.{len(seen)}", start, end, "above", "", "×45°")

@@ -14,7 +14,8 @@ from geometry.gears.teeth.spur import SpurGear
 from geometry.solids.bores import RoundBore
 from parts.drawing.directions import directions
 from parts.drawing.disk_views import disk_drawing
-from parts.drawing.revolved import below, chamfers, closed, diameters, lengths, outlined, seen_edges
+from parts.drawing.revolved import below, closed, outlined, seen_edges
+from parts.drawing.turned_sizes import Fits, turned_sizes
 from parts.drawing.wheel_views import (
     Crown,
     Wheel,
@@ -246,9 +247,7 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
             (AXIS, Line(complex(-half, way * worm.reference_radius), complex(half, way * worm.reference_radius)))
         )
     low, high = body.ends()
-    at_root = complex(-half, worm.root_radius), complex(half, worm.root_radius)
-    sizes = [*diameters(loop, (wishes.shaft, ""), largest=wishes.tip), *lengths(loop), *chamfers(loop),
-             Size("thread_length", *at_root, "above")]  # fmt: skip
+    sizes = [*turned_sizes(loop, Fits(wishes.shaft, "", wishes.tip), subject.language).sizes]
     bore = bore_of(keys)
     made = None if bore is None else bore.bore()
     if made is not None:
@@ -256,8 +255,10 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
         strokes += [(HIDDEN, Line(complex(low, y), complex(high, y))) for y in (-reach, reach)]
         if isinstance(made, RoundBore):
             sizes.append(Size("bore_diameter", complex(high, -reach), complex(high, reach), "right", "Ø", wishes.bore))
-    rough = Note(complex(top / 2, worm.tip_radius), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True)
-    view = View(tuple(strokes), (), (Line(complex(low), complex(high)),), tuple(sizes), notes=(rough,))
+    rough = [Note(complex(top / 2, worm.tip_radius), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True)]
+    if made is not None:
+        rough.append(Note(complex(high, -made.reach), f"Ra {subject.say(wishes.bore_roughness)}", is_rough=True))
+    view = View(tuple(strokes), (), (Line(complex(low), complex(high)),), tuple(sizes), notes=tuple(rough))
     if made is None or isinstance(made, RoundBore):
         return (view,)
     return seen_along(view, high, subject), bore_view(made, subject)

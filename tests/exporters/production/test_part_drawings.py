@@ -11,6 +11,7 @@ from typing import Any
 
 import ezdxf
 import mpmath
+import numpy as np
 import pytest
 
 from exporters.production.plan import plan_build
@@ -81,10 +82,12 @@ SIZES: dict[str, list[float]] = {
     "ring": [112, 77, 15, 100, 5],
     "rack": [15 * 2 * math.pi, 15, 12 + 2.5 + 2, 12 + 2.5],
     "cam": [80, 10, 18, 30, 12],
-    "worm": [48, 25, 8, 50, 50, 70, 1],
+    # d_f1 = m (q - 2.4); where the thread's ends, which rise at 20 degrees off a plane across the axis, reach the tips
+    "worm": [48, 25, 8, 50, 70, 1, 30.4, *(25 + side * (25 - 8.8 * math.tan(math.radians(20))) for side in (1, -1))],
     "wheel": [136, 128, 25, 30, 16],
-    "bearing": [62, 40, 16, 1, 3.5],
-    "shaft": [20, 30, 30, 70, 1, 20, 5, 6, 16.5, 2],
+    "bearing": [62, 40, 16, 1, 3.5, 5, 6],
+    # the cone of a centre hole opens to 2.12 d at 60 degrees, its tip is that of a drill of 120 degrees
+    "shaft": [20, 30, 30, 70, 1, 20, 5, 6, 16.5, 2, 4.24, *(np.cumsum([1.12 * math.sqrt(3), 2, 1 / math.sqrt(3)]))],
     "groove": [160, 12, 6, 12],
     # a centrode as long as its pitches, of a/b = 1.2: r = 2 a b / (a + b - (a - b) cos 2 phi)
     "oval": [10, 10, 2 * (oval_axis(18, 2.0, 1.2) + 2.0), 2 * (oval_axis(18, 2.0, 1.2) / 1.2 - 2.5)],

@@ -1,0 +1,336 @@
+"""The sizes of what is turned, after GOST 2.307: half a section can be made again from them, and none is told twice.
+
+A loop is half a section, its axis along x. Chamfers of 45 degrees and fillets are told by how many there are of one
+size; without them, each place along the axis where a corner is has one size to another place, and each distance from
+the axis one diameter.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+
+from geometry.base.record import Record, replace
+from geometry.curves.curve import end_point, start_point
+from geometry.curves.line_arc import Arc, Line
+from parts.drawing.revolved import Loop, is_outer
+from parts.drawing.working import Round, Side, Size
+from parts.texts.sheets import sheet_words
+
+# mm in which places are one; parts of one in which directions are; digits of places
+_NONE, _SMOOTH, _DIGITS = 1e-9, 1e-6, 7
+
+
+class Fits(Record):
+    """Tolerance zones of outer and inner cylinders, of the largest one (None: as the others); grooves have none."""
+
+    outer: str = ""
+    inner: str = ""
+    largest: str | None = None
+
+
+class _Edge(Record):
+    """A curve of a half section without chamfers and fillets; ``told``: its sizes are wanted."""
+
+    curve: Line | Arc
+    outer: bool
+    told: bool
+
+    @property
+    def ends(self) -> tuple[complex, complex]:
+        """Where it begins and ends."""
+        return start_point(self.curve), end_point(self.curve)
+
+    def runs_along(self) -> bool:
+        """Whether it sweeps a cylinder."""
+        return isinstance(self.curve, Line) and abs(self.curve.start.imag - self.curve.end.imag) < _NONE
+
+    def stands(self) -> bool:
+        """Whether it sweeps a plane."""
+        return isinstance(self.curve, Line) and abs(self.curve.start.real - self.curve.end.real) < _NONE
+
+
+class TurnedSizes(Record):
+    """What is told of half a section: linear sizes, and radii on leaders."""
+
+    sizes: tuple[Size, ...]
+    rounds: tuple[Round, ...]
+
+
+def turned_sizes(
+    loop: Loop, fits: Fits, language: str, told: Callable[[Line | Arc], bool] = lambda curve: True
+) -> TurnedSizes:
+    """All sizes of half a section, or of those of its curves that are ``told`` in a view."""
+    whole = _joined(loop)
+    chamfers = [k for k in range(len(whole)) if _is_chamfer(whole, k)]
+    fillets = [k for k in range(len(whole)) if _is_fillet(whole, k)]
+    # what is left of a curve between chamfers and fillets begins and ends elsewhere
+    edges = [_Edge(sharp, is_outer(loop, curve), told(curve)) for sharp, curve in _sharp(whole, {*chamfers, *fillets})]
+    arcs = [edge.curve for edge in edges if isinstance(edge.curve, Arc) and edge.told]
+    balls = [arc for arc in arcs if abs(arc.centre.imag) < _NONE and _on_axis(start_point(arc), end_point(arc))]
+    rounded = [*(whole[k] for k in fillets if told(whole[k])), *(arc for arc in arcs if arc not in balls)]
+    sizes = [
+        *_diameters(edges, fits), *_balls(balls, language), *_lengths(edges),
+        *_chamfers([whole[k] for k in chamfers if told(whole[k])], language),
+    ]  # fmt: skip
+    turn = math.copysign(1.0, sum(_cross(start_point(c), end_point(c)) for c in loop))
+    return TurnedSizes(tuple(sizes), tuple(_radii([arc for arc in rounded if isinstance(arc, Arc)], turn, language)))
+
+
+def _joined(loop: Loop) -> list[Line | Arc]:
+    """A loop whose arcs about one centre that go on are one."""
+    found: list[Line | Arc] = []
+    for curve in loop:
+        last = found[-1] if found else None
+        if (
+            isinstance(curve, Arc) and isinstance(last, Arc) and abs(curve.centre - last.centre) < _NONE
+            and abs(curve.radius - last.radius) < _NONE and abs(end_point(last) - start_point(curve)) < _NONE
+        ):  # fmt: skip
+            found[-1] = replace(last, sweep=last.sweep + curve.sweep)
+        else:
+            found.append(curve)
+    return found
+
+
+def _way(curve: Line | Arc, *, at_end: bool) -> complex:
+    way = complex(curve.tangent(curve.domain[at_end]))
+    return way / abs(way)
+
+
+def _is_chamfer(loop: Sequence[Line | Arc], k: int) -> bool:
+    """Whether a line of 45 degrees stands between one along the axis and one across it."""
+    before, curve, after = loop[k - 1], loop[k], loop[(k + 1) % len(loop)]
+    if not all(isinstance(c, Line) for c in (before, curve, after)):
+        return False
+    way, sides = _way(curve, at_end=False), (_way(before, at_end=True), _way(after, at_end=False))
+    slanted = abs(abs(way.real) - abs(way.imag)) < _SMOOTH
+    square = min(abs(sides[0].real), abs(sides[0].imag)) < _SMOOTH and abs(_dot(*sides)) < _SMOOTH
+    return slanted and square and all(_dot(way, side) > 0 for side in sides)
+
+
+def _cross(one: complex, two: complex) -> float:
+    return (one.conjugate() * two).imag
+
+
+def _dot(one: complex, two: complex) -> float:
+    return (one.conjugate() * two).real
+
+
+def _is_fillet(loop: Sequence[Line | Arc], k: int) -> bool:
+    """Whether an arc rounds a corner of two lines."""
+    before, curve, after = loop[k - 1], loop[k], loop[(k + 1) % len(loop)]
+    if not (isinstance(before, Line) and isinstance(curve, Arc) and isinstance(after, Line)):
+        return False
+    ends = (_way(before, at_end=True), _way(curve, at_end=False)), (_way(curve, at_end=True), _way(after, at_end=False))
+    turn = abs(cmath.phase(_way(after, at_end=False) / _way(before, at_end=True)))
+    return all(abs(a - b) < _SMOOTH for a, b in ends) and _SMOOTH < turn < math.pi - _SMOOTH
+
+
+def _sharp(loop: Sequence[Line | Arc], cuts: Iterable[int]) -> Iterator[tuple[Line | Arc, Line | Arc]]:
+    """A loop without the curves at these places, each as it then is and as it was: lines go on until they meet."""
+    cut, size = set(cuts), len(loop)
+    for k, curve in enumerate(loop):
+        if k in cut:
+            continue
+        if isinstance(curve, Arc):
+            yield curve, curve
+            continue
+        start = _meeting(loop[k - 2], curve) if (k - 1) % size in cut else curve.start
+        end = _meeting(curve, loop[(k + 2) % size]) if (k + 1) % size in cut else curve.end
+        yield Line(start, end), curve
+
+
+def _meeting(one: Line | Arc, two: Line | Arc) -> complex:
+    """Where two lines cross."""
+    assert isinstance(one, Line)
+    assert isinstance(two, Line)
+    a, b, across = one.end - one.start, two.end - two.start, two.start - one.start
+    return one.start + a * _cross(across, b) / _cross(a, b)
+
+
+def _on_axis(*points: complex) -> bool:
+    return all(abs(point.imag) < _NONE for point in points)
+
+
+def _radius(place: float) -> float:
+    return round(place, _DIGITS)
+
+
+def _groove(edges: Sequence[_Edge], k: int) -> bool:
+    """Whether material stands higher on both sides of a cylinder or an arc that begins and ends at one height."""
+    edge, before, after = edges[k], edges[k - 1], edges[(k + 1) % len(edges)]
+    start, end = edge.ends
+    if isinstance(edge.curve, Arc):
+        return abs(start.imag - end.imag) < _NONE and not _on_axis(start)
+    way = 1 if edge.outer else -1
+    return edge.runs_along() and all(way * (far.imag - start.imag) > _NONE for far in (before.ends[0], after.ends[1]))
+
+
+def _diameters(edges: Sequence[_Edge], fits: Fits) -> Iterator[Size]:
+    """A diameter for each distance from the axis, outer ones and inner ones; at cylinders, else at the corners."""
+    xs = [end.real for edge in edges for end in edge.ends]
+    middle, most = (min(xs) + max(xs)) / 2, max(edge.ends[0].imag for edge in edges)
+    seen: set[tuple[float, bool]] = set()
+    numbers = sorted(range(len(edges)), key=lambda k: not edges[k].runs_along())
+    for k in numbers:
+        edge = edges[k]
+        if edge.stands() or not edge.told:
+            continue
+        for corner in edge.ends[:1] if edge.runs_along() else edge.ends:
+            # a corner at the end of a cylinder is as far out as that
+            at_cylinder = not edge.runs_along() and any(
+                other.runs_along() and corner in _near(other, corner) for other in edges
+            )
+            key = _radius(corner.imag), edge.outer
+            if corner.imag < _NONE or at_cylinder or key in seen:
+                continue
+            seen.add(key)
+            places = [end.real for end in edge.ends] if edge.runs_along() else [corner.real]
+            at_left = sum(places) / len(places) <= middle if edge.outer else sum(places) / len(places) < middle - _NONE
+            side: Side = "left" if at_left else "right"
+            at = min(places) if at_left else max(places)
+            fit = "" if not edge.runs_along() or _groove(edges, k) else fits.outer if edge.outer else fits.inner
+            if fits.largest is not None and edge.runs_along() and abs(corner.imag - most) < _NONE:
+                fit = fits.largest
+            name = f"{'outer' if edge.outer else 'inner'}_diameter.{len(seen)}"
+            yield Size(name, complex(at, -corner.imag), complex(at, corner.imag), side, "Ø", fit)
+
+
+def _near(edge: _Edge, corner: complex) -> list[complex]:
+    return [corner for end in edge.ends if abs(end - corner) < _NONE]
+
+
+def _balls(arcs: Sequence[Arc], language: str) -> Iterator[Size]:
+    """The diameter of a ball, which tells its length too."""
+    for k, arc in enumerate(arcs, 1):
+        ends = arc.centre - 1j * arc.radius, arc.centre + 1j * arc.radius
+        yield Size(f"ball.{k}", *ends, "left", f"{sheet_words(language, 'ball')} Ø")
+
+
+class _Places:
+    """Places along the axis, and which of them sizes join already."""
+
+    def __init__(self) -> None:
+        self.roots: dict[float, float] = {}
+
+    def root(self, place: float) -> float:
+        while (above := self.roots.setdefault(place, place)) != place:
+            place = above
+        return place
+
+    def join(self, one: float, two: float) -> bool:
+        """Join two; whether they were apart."""
+        first, second = self.root(one), self.root(two)
+        self.roots[first] = second
+        return first != second
+
+
+def _lengths(edges: Sequence[_Edge]) -> Iterator[Size]:
+    """The whole length, from the lower end to each outer face, from the nearer end to each inner one, widths."""
+    corners: dict[float, list[tuple[complex, bool]]] = {}
+    for edge, after in zip(edges, [*edges[1:], edges[0]], strict=True):
+        corner = edge.ends[1]
+        if edge.told or after.told:
+            corners.setdefault(round(corner.real, _DIGITS), []).append((corner, edge.outer or after.outer))
+    if not corners:
+        return
+    low, high = min(corners), max(corners)
+    # what is deepest in a hole is no end to measure from
+    is_end = any(edge.stands() and round(edge.ends[0].real, _DIGITS) == high for edge in edges if edge.told)
+    joined = _Places()
+    for edge in edges:
+        if edge.told and isinstance(edge.curve, Arc) and _is_bound(edge, edges):
+            joined.join(*(round(end.real, _DIGITS) for end in edge.ends))
+    partners = {far: near for near, far in _widths(edges) if near in corners and far in corners}
+    pairs = [(low, high)]
+    for place in sorted(set(corners) - {low, high} - set(partners)):
+        outer = any(is_outside for _, is_outside in corners[place])
+        pairs.append((low if outer or not is_end or place - low <= high - place + _NONE else high, place))
+    pairs += [(partners[place], place) for place in sorted(partners)]
+    number = 0
+    for first, second in pairs:
+        if first == second or not joined.join(first, second):
+            continue
+        outer = second not in partners and any(is_outside for _, is_outside in corners[second])
+        start, end = (max((p for p, _ in corners[place]), key=lambda p: p.imag) for place in (first, second))
+        number += 1
+        name = "length" if second == high else f"{'width' if second in partners else 'length'}.{number}"
+        if outer:
+            yield Size(name, start.conjugate(), end.conjugate(), "below")
+        else:
+            yield Size(name, start, end, "above")
+
+
+def _is_bound(edge: _Edge, edges: Sequence[_Edge]) -> bool:
+    """Whether an arc's radius tells how far its ends are apart.
+
+    It stands about the axis, is half a circle, or goes on smoothly from a line.
+    """
+    arc, k = edge.curve, edges.index(edge)
+    assert isinstance(arc, Arc)
+    start, end = edge.ends
+    beside = (edges[k - 1].curve, edges[(k + 1) % len(edges)].curve)
+    smooth = (
+        isinstance(beside[0], Line) and abs(_way(beside[0], at_end=True) - _way(arc, at_end=False)) < _SMOOTH,
+        isinstance(beside[1], Line) and abs(_way(beside[1], at_end=False) - _way(arc, at_end=True)) < _SMOOTH,
+    )
+    whole = abs(abs(start - end) - 2 * arc.radius) < _SMOOTH * arc.radius
+    return abs(start.real - end.real) > _NONE and (abs(arc.centre.imag) < _NONE or whole or any(smooth))
+
+
+def _widths(edges: Sequence[_Edge]) -> Iterator[tuple[float, float]]:
+    """Grooves by the place of one wall and of the other, which is told from that: the lower wall where they differ."""
+    for k, edge in enumerate(edges):
+        if not _groove(edges, k):
+            continue
+        ends = tuple(round(end.real, _DIGITS) for end in edge.ends)
+        if isinstance(edge.curve, Arc):
+            yield min(ends), max(ends)
+            continue
+        before, after = edges[k - 1], edges[(k + 1) % len(edges)]
+        if not (before.stands() and after.stands()):
+            continue
+        way = 1 if edge.outer else -1
+        heights = way * before.ends[0].imag, way * after.ends[1].imag
+        if abs(heights[0] - heights[1]) < _NONE:
+            yield min(ends), max(ends)
+        else:
+            yield ends if heights[0] > heights[1] else ends[::-1]  # type: ignore[misc]
+
+
+def _counted(count: int, key: str, language: str) -> str:
+    return sheet_words(language, key, count=count) if count > 1 else ""
+
+
+def _chamfers(lines: Sequence[Line | Arc], language: str) -> Iterator[Size]:
+    """Chamfers of 45 degrees, those of one length at once."""
+    groups: dict[float, list[Line | Arc]] = {}
+    for line in lines:
+        groups.setdefault(round(abs((end_point(line) - start_point(line)).real), _DIGITS), []).append(line)
+    for number, group in enumerate(groups.values(), 1):
+        # the one that is the farthest out; both ends at one height: programs that take sizes as aligned read it right
+        line = max(group, key=lambda c: max(start_point(c).imag, end_point(c).imag))
+        top = max(start_point(line).imag, end_point(line).imag)
+        start, end = (complex(p.real, top) for p in (start_point(line), end_point(line)))
+        words = _counted(len(group), "chamfers_of", language)
+        yield Size(f"chamfer.{number}", start, end, "above", words, "×45°")
+
+
+def _radii(arcs: Sequence[Arc], turn: float, language: str) -> Iterator[Round]:
+    """Radii of arcs, those of one size at once, about the axis as those of balls; ``turn``: of the loop, 1 or -1."""
+    groups: dict[tuple[float, bool], list[Arc]] = {}
+    for arc in arcs:
+        groups.setdefault((round(arc.radius, _DIGITS), abs(arc.centre.imag) < _NONE), []).append(arc)
+    for number, ((_, is_ball), group) in enumerate(groups.items(), 1):
+        arc = group[0]
+        way = math.degrees(cmath.phase(complex(arc.point(abs(arc.sweep) / 2)) - arc.centre))
+        spread = math.degrees(abs(arc.sweep)) / 2
+        angles = tuple(way + share * spread for share in (0.0, 0.5, -0.5, 0.9, -0.9))
+        before = f"{sheet_words(language, 'ball')} R" if is_ball else "R"
+        after = _counted(len(group), "places_of", language)
+        # leaders come from outside of the material
+        inward = arc.sweep * turn < 0
+        yield Round(
+            f"radius.{number}", arc.centre, arc.radius, before, after, is_radius=True, angles=angles, inward=inward
+        )

@@ -1,0 +1,138 @@
+"""From the dimensions of its drawing alone each turned part can be made again, and none of them is one too many."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import ezdxf
+import msgspec
+import pytest
+from ezdxf.document import Drawing
+
+from parts.scene.load import load_scene
+from tests.exporters.production.test_part_drawings import jobs
+from tests.oracles.half_section_told import Corner, Told
+
+
+def ring(*rows: tuple[float, ...], **more: Any) -> dict[str, Any]:
+    """A turned part by r, z, arc, chamfer, fillet of its corners."""
+    return {"kind": "turned", **more, "points": [
+        dict(zip(("r", "z", "arc", "chamfer", "fillet"), row, strict=False)) for row in rows]}  # fmt: skip
+
+
+PARTS: dict[str, dict[str, Any]] = {
+    "recesses": ring((10, 0), (40, 0, 0, 1), (40, 12), (30, 20, 0, 0, 1), (30, 35, 0, 1), (25, 35), (25, 28),
+                     (14, 28, 0, 0, 1), (14, 8), (10, 6)),
+    "grooves": ring((8, 0), (30, 0), (30, 5), (24, 9), (24, 11), (30, 15), (30, 20), (8, 20), (8, 14), (10, 14),
+                    (10, 11), (8, 11)),
+    "countersink": ring((5, 3), (8, 0), (20, 0), (20, 10), (9, 10), (5, 7)),
+    "raceway": ring((20, 0), (31, 0, 0, 1), (31, 16), (20, 16), (20, 11, -3.5), (20, 5)),
+    "bull_nose": ring((10, 0), (30, 0, 5), (30, 10), (10, 10)),
+    "ball": ring((0, -12, 12), (0, 12)),
+    "both_sides": ring((10, 0), (30, 0), (30, 4), (20, 4), (20, 9), (40, 9), (40, 14), (35, 14), (35, 18), (25, 18),
+                       (25, 30), (15, 30), (15, 22), (10, 22)),
+    "spindle": {"kind": "shaft", "centre_holes": {"diameter": 3.15}, "steps": [
+        {"diameter": 20, "length": 25, "chamfer": 1, "fillet": 0.5,
+         "grooves": [{"at": 20, "width": 1.3, "diameter": 19}]},
+        {"diameter": 30, "length": 40, "chamfer": 1.6, "fillet": 1, "keyways": [{"at": 5, "length": 28}]},
+        {"diameter": 38, "length": 8},
+        {"diameter": 28, "length": 30, "fillet": 1, "chamfer": 1}]},
+    "tube": {"kind": "shaft", "bore_diameter": 6.0, "steps": [
+        {"diameter": 10.0, "length": 20.0, "chamfer": 1.0}, {"diameter": 16.0, "length": 20.0, "chamfer": 1.0}]},
+}  # fmt: skip
+
+
+def corners_of(part: dict[str, Any]) -> list[Corner]:
+    """Those of its keys, of a shaft from outside; those on one line left out."""
+    if part["kind"] == "turned":
+        found = [{key: float(value or 0) for key, value in row.items()} for row in part["points"]]
+    else:
+        found = [*_shaft(part["steps"], part.get("bore_diameter") or 0.0)]
+    return [c for k, c in enumerate(found) if not _straight(found[k - 1], c, found[(k + 1) % len(found)])]
+
+
+def _straight(a: Corner, b: Corner, c: Corner) -> bool:
+    on_line = abs((b["r"] - a["r"]) * (c["z"] - b["z"]) - (b["z"] - a["z"]) * (c["r"] - b["r"])) < 1e-9
+    return on_line and not a.get("arc") and not b.get("arc") and len({(p["r"], p["z"]) for p in (a, b, c)}) == 3
+
+
+def _shaft(steps: list[dict[str, Any]], bore: float) -> Iterator[Corner]:
+    yield {"r": bore / 2, "z": 0.0}
+    z = 0.0
+    for k, step in enumerate(steps):
+        before = steps[k - 1]["diameter"] if k else 0.0
+        after = steps[k + 1]["diameter"] if k + 1 < len(steps) else 0.0
+        own, cut = step["diameter"] / 2, step.get("chamfer", 0.0)
+        fillet = step.get("fillet", 0.0)
+        yield {"r": own, "z": z, **({"chamfer": cut} if own > before / 2 else {"fillet": fillet})}
+        for groove in step.get("grooves", []):
+            low, high = z + groove["at"], z + groove["at"] + groove["width"]
+            yield from ({"r": r, "z": at} for r, at in (
+                (own, low), (groove["diameter"] / 2, low), (groove["diameter"] / 2, high), (own, high)))  # fmt: skip
+        z += step["length"]
+        yield {"r": own, "z": z, **({"chamfer": cut} if own > after / 2 else {"fillet": fillet})}
+    yield {"r": bore / 2, "z": z}
+
+
+@cache
+def power_module() -> dict[str, dict[str, Any]]:
+    """Its turned parts, those of one form once."""
+    forms = {}
+    for name, part in load_scene("power_module").parts.items():
+        keys = {key: value for key, value in msgspec.to_builtins(part).items() if value is not None}
+        if keys["kind"] == "turned":
+            forms[str(keys["points"])] = name, {key: keys[key] for key in ("kind", "points", "holes") if key in keys}
+    return dict(forms.values())
+
+
+def drawn(folder: Path, part: dict[str, Any]) -> Drawing:
+    (job,) = jobs(part, formats=("dxf",))
+    job.write({}, folder / job.path)
+    return ezdxf.readfile(folder / job.path)
+
+
+def faults(document: Drawing, part: dict[str, Any]) -> list[str]:
+    holes, z, places = part.get("holes") or [], 0.0, []
+    circles = [group["pitch_circle_diameter"] for group in (holes if isinstance(holes, list) else [holes])]
+    for step in part.get("steps", []):
+        for way in step.get("keyways", []):
+            places += [z + way["at"], z + way["at"] + way["length"]]
+        z += step["length"]
+    return Told(document, corners_of(part)).faults(circles, places)
+
+
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize("name", PARTS)
+def test_turned_parts_can_be_made_again_from_their_dimensions(tmp_path: Path, name: str) -> None:
+    assert faults(drawn(tmp_path, PARTS[name]), PARTS[name]) == []
+
+
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize(
+    "name", ["guide_6", "body_plate", "crank_pin", "plug", "ball", "guide_5", "bearing_ring", "spacer_22", "disk_3",
+             "ring_guide", "free_ring", "platform_plate", "platform_axle", "end_cover", "snap_ring", "screw_49"]
+)  # fmt: skip
+def test_positions_of_the_power_module_can_be_made_again(tmp_path: Path, name: str) -> None:
+    part = power_module()[name]
+    assert faults(drawn(tmp_path, part), part) == []
+
+
+def test_each_dimension_that_is_left_out_is_missed_and_one_too_many_is_seen(tmp_path: Path) -> None:
+    part = PARTS["recesses"]
+    document = drawn(tmp_path, part)
+    space = document.modelspace()
+    told = list(space.query("DIMENSION"))
+    assert len(told) == 13
+    for one in told:
+        space.unlink_entity(one)
+        assert faults(document, part), one.dxf.text
+        space.add_entity(one)
+    assert faults(document, part) == []
+    first, last = (next(d for d in told if d.dxf.actual_measurement == value) for value in (12, 35))
+    twice = first.copy()
+    twice.dxf.defpoint2, twice.dxf.defpoint3 = first.dxf.defpoint3, last.dxf.defpoint3
+    space.add_entity(twice)
+    assert any("twice" in fault for fault in faults(document, part))
