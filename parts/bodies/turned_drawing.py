@@ -136,7 +136,7 @@ def _centre_hole(loop: Loop, subject: Subject) -> View | None:
     section = (*hole, *around)
     for edge in seen_edges(section, cut=True):
         strokes += [(VISIBLE, edge), (VISIBLE, edge.mirrored())]
-    told = turned_sizes(section, Fits(), subject.language, lambda curve: curve in hole)
+    told = turned_sizes(section, Fits(), subject.language, lambda curve: curve in (*hole, around[0]))
     title = sheet_words(subject.language, "centre_holes")
     return View(
         tuple(strokes), (section, below(section)), (Line(complex(low), complex(far)),), told.sizes, title=title,

@@ -231,7 +231,8 @@ def _lengths(edges: Sequence[_Edge]) -> Iterator[Size]:
     corners: dict[float, list[tuple[complex, bool]]] = {}
     for edge, after in zip(edges, [*edges[1:], edges[0]], strict=True):
         corner = edge.ends[1]
-        if edge.told or after.told:
+        # nothing is told of the axis itself
+        if all(one.told or _on_axis(*one.ends) for one in (edge, after)):
             corners.setdefault(round(corner.real, _DIGITS), []).append((corner, edge.outer or after.outer))
     if not corners:
         return

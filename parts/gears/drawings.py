@@ -54,6 +54,9 @@ from parts.keys.holes import bore_of, hub_holes
 from parts.keys.wheel import wheel_shape
 from parts.texts.sheets import sheet_words
 
+# mm, what is no length
+_NONE = 1e-9
+
 if TYPE_CHECKING:
     from geometry.gears.teeth.rack import Rack
     from geometry.gears.worms.body import WormBody
@@ -247,7 +250,11 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
             (AXIS, Line(complex(-half, way * worm.reference_radius), complex(half, way * worm.reference_radius)))
         )
     low, high = body.ends()
-    sizes = [*turned_sizes(loop, Fits(wishes.shaft, "", wishes.tip), subject.language).sizes]
+    # the requirements tell the angle of the cones at the thread's ends, the table its depth
+    cones = [c for c in loop if abs(c.start.imag - c.end.imag) > _NONE and abs(c.start.real - c.end.real) > _NONE
+             and max(c.start.imag, c.end.imag) == worm.tip_radius]  # fmt: skip
+    fits = Fits(wishes.shaft, "", wishes.tip)
+    sizes = [*turned_sizes(loop, fits, subject.language, lambda curve: curve not in cones).sizes]
     bore = bore_of(keys)
     made = None if bore is None else bore.bore()
     if made is not None:

@@ -82,8 +82,7 @@ SIZES: dict[str, list[float]] = {
     "ring": [112, 77, 15, 100, 5],
     "rack": [15 * 2 * math.pi, 15, 12 + 2.5 + 2, 12 + 2.5],
     "cam": [80, 10, 18, 30, 12],
-    # d_f1 = m (q - 2.4); where the thread's ends, which rise at 20 degrees off a plane across the axis, reach the tips
-    "worm": [48, 25, 8, 50, 70, 1, 30.4, *(25 + side * (25 - 8.8 * math.tan(math.radians(20))) for side in (1, -1))],
+    "worm": [48, 25, 8, 50, 70, 1],
     "wheel": [136, 128, 25, 30, 16],
     "bearing": [62, 40, 16, 1, 3.5, 5, 6],
     # the cone of a centre hole opens to 2.12 d at 60 degrees, its tip is that of a drill of 120 degrees
