@@ -184,14 +184,17 @@ def _follow(model: Model, mine: Index, size: Real, area: Real, gap: Real) -> Non
 
 
 def _measure_patches(model: Model, patches: Patches, flux: Real, size: Real, area: Real, gap: Real) -> None:
-    """Spline faces between the four ends of their surfaces: the same, by Gauss's rule on every span."""
+    """Spline faces between the four ends of their surfaces: the same, by Gauss's rule on every span.
+
+    An end that is a point has no edge.
+    """
     uses, curves = model.uses, model.curves
     nodes, weights = lobatto()
     order = np.argsort(uses.face, kind="stable")
     low = np.searchsorted(uses.face[order], patches.faces)
-    four = np.searchsorted(uses.face[order], patches.faces, side="right") - low == 4
-    refuse(~four, model.faces[patches.faces], "is a spline face without four edges")
-    mine = order[low[:, None] + np.arange(4)]
+    own = np.searchsorted(uses.face[order], patches.faces, side="right") - low
+    refuse((own != 4) & (own != 3), model.faces[patches.faces], "is a spline face without four edges")
+    mine = order[low[:, None] + np.minimum(np.arange(4), own[:, None] - 1)]
     shape = tuple(len(k.spans) for k in (patches.along, patches.across))
     block = max(1, _POINTS_AT_ONCE // (shape[0] * shape[1] * len(nodes) ** 2))
     for start in range(0, len(mine), block):
@@ -218,6 +221,11 @@ def _measure_patches(model: Model, patches: Patches, flux: Real, size: Real, are
                     chosen = fits[nearer]
                     off[chosen, corner], side[chosen, corner] = away[nearer], number
                     way[chosen, corner] = turn * np.where(uses.left[mine[part, corner]], 1, -1)[chosen]
+        # of three edges the fourth end has no length
+        lengths = np.stack([np.linalg.norm(line - line[:, :1], axis=2).max(axis=1) for line in sides], axis=1)
+        three = np.flatnonzero(own[part] == 3)
+        side[three, 3], off[three, 3] = lengths[three].argmin(axis=1), lengths[three].min(axis=1)
+        way[three, 3] = way[three, 0]
         proper = np.all(np.sort(side, axis=1) == np.arange(4), axis=1) & np.all(way == way[:, :1], axis=1)
         gap[faces] = np.where(proper, off.max(axis=1), np.inf)
         area[faces] = way[:, 0]

@@ -35,10 +35,24 @@ from geometry.solids.faces import (
 UP, AHEAD = np.array([[0.0, 0.0, 1.0]]), np.array([[1.0, 0.0, 0.0]])
 
 
+class Slot(Record, eq=False):
+    """One curve of a ring as walls over it take it: vertices where it starts, points and edges, a row for each place.
+
+    Where walls come to a point it has no curve, and that point alone.
+    """
+
+    start: Index
+    points: Index
+    curve: CadCurve | None = None
+    shape: Straight | Circular | Spline | None = None
+    edges: Index | None = None
+
+
 class Ring(Record, eq=False):
     """The edges of a closed boundary across the axis: its curves, and a bundle for each, a row for each of ``turns``.
 
-    ``points``: those of the curves' poles, of lines and arcs their ends; ``starts``: vertices.
+    ``points``: those of the curves' poles, of lines and arcs their ends; ``starts``: vertices. ``present``: which curves
+    of the walls beside it there are, the last one among them; by default all.
     """
 
     curves: tuple[CadCurve, ...]
@@ -47,6 +61,16 @@ class Ring(Record, eq=False):
     points: tuple[Index, ...]
     shapes: tuple[Straight | Circular | Spline, ...]
     edges: tuple[Index, ...]
+    present: tuple[bool, ...] = ()
+
+    def slots(self) -> list[Slot]:
+        """A slot for every curve of the walls beside it."""
+        found: list[Slot] = []
+        rows = zip(self.starts, self.points, self.curves, self.shapes, self.edges, strict=True)
+        own = [Slot(*row) for row in rows]
+        for is_there in reversed(self.present or (True,) * len(own)):
+            found.append(own.pop() if is_there else Slot(found[-1].start, found[-1].points[:, :1]))
+        return found[::-1]
 
     def loop(self, *, forwards: bool) -> Loop:
         """The ring as the loop of one face."""
@@ -88,14 +112,16 @@ class RingBuilder(SolidBuilder):
 
     def swept(self, lower: Ring, upper: Ring, way: Real) -> None:
         """Faces swept along a direction (1, 3)."""
-        corners = [self.add_edges(*ends, Straight(way)) for ends in zip(lower.starts, upper.starts, strict=True)]
-        for i, shape in enumerate(lower.shapes):
-            if isinstance(shape, Straight):
-                self._between(lower, upper, corners, i, _plane(lower, i, way))
-            elif isinstance(shape, Circular) and way[0, 2] == 1:
-                self._cylinder(lower, upper, corners, i, shape)
+        slots = list(zip(lower.slots(), upper.slots(), strict=True))
+        corners = [self.add_edges(low.start, high.start, Straight(way)) for low, high in slots]
+        for i, (low, high) in enumerate(slots):
+            if isinstance(low.shape, Circular) and way[0, 2] == 1:
+                self._cylinder(low, high, corners, i)
+            elif isinstance(low.shape, Straight):
+                self._between(low, high, corners, i, _plane(lower, low, way))
             else:
-                self._between(lower, upper, corners, i, Extrusion(lower.edges[i], way))
+                assert low.edges is not None
+                self._between(low, high, corners, i, Extrusion(low.edges, way))
 
     def ruled(
         self,
@@ -111,68 +137,77 @@ class RingBuilder(SolidBuilder):
 
         ``rise``: their heights (v,), mm; ``along``: a spline on their knots v. Planes over lines, cylinders and cones
         over arcs (whose grids are those of their ends), splines over all else. ``round_faces``: the surfaces over
-        curves where they are others, and whether their normals point outwards.
+        curves where they are others, and whether their normals point outwards. Over a curve that one ring has not
+        faces come to a point, over one that none has there is none.
         """
-        corners, points = self._corners(lower, upper, along, rise, [grid[0] for grid in grids])
-        for i, (grid, shape) in enumerate(zip(grids, lower.shapes, strict=True)):
-            curve, other = lower.curves[i], upper.shapes[i]
+        slots = list(zip(lower.slots(), upper.slots(), strict=True))
+        corners, points = self._corners(lower.turns, slots, along, rise, [grid[0] for grid in grids])
+        for i, (grid, (low, high)) in enumerate(zip(grids, slots, strict=True)):
+            curve = low.curve or high.curve
+            if curve is None:
+                continue
             if round_faces and i in round_faces:
                 surface, outwards = round_faces[i]
-                self._between(lower, upper, corners, i, surface, along=outwards)
-            elif isinstance(shape, Circular) and isinstance(other, Circular):
-                self._cylinder(lower, upper, corners, i, shape, other.radius - shape.radius, height)
+                self._between(low, high, corners, i, surface, along=outwards)
+            elif isinstance(low.shape, Circular) and isinstance(high.shape, Circular):
+                self._cylinder(low, high, corners, i, high.shape.radius - low.shape.radius, height)
             elif isinstance(curve, BSpline):
-                surface = self._tensor(lower, upper, points, i, along, rise, grid)
-                self._between(lower, upper, corners, i, surface)
+                surface = self._tensor(lower.turns, curve, (low, high), points, i, along, rise, grid)
+                self._between(low, high, corners, i, surface)
             else:
                 slant = spatial(lower.turns * complex(grid[0, -1] - grid[0, 0]), height[1] - height[0])
-                self._between(lower, upper, corners, i, _plane(lower, i, slant))
+                self._between(low, high, corners, i, _plane(lower, low, slant))
 
     def _between(
-        self, lower: Ring, upper: Ring, corners: Sequence[Index], i: int, surface: Surface, *, along: bool = True
+        self, low: Slot, high: Slot, corners: Sequence[Index], i: int, surface: Surface, *, along: bool = True
     ) -> None:
         """The faces over curve i between two rings and the edges from corner to corner."""
-        around = lower.edges[i], following(corners, i), upper.edges[i], corners[i]
-        loop = np.stack(around, axis=1), np.array([True, True, False, False])
-        self.faces.append(Faces(surface, (loop,), along))
+        around = (low.edges, True), (following(corners, i), True), (high.edges, False), (corners[i], False)
+        edges, ways = zip(*(use for use in around if use[0] is not None), strict=True)
+        self.faces.append(Faces(surface, ((np.stack(edges, axis=1), np.array(ways)),), along))
 
     def _cylinder(
-        self, lower: Ring, upper: Ring, corners: Sequence[Index], i: int, shape: Circular,
-        widening: float = 0.0, height: tuple[float, float] = (0.0, 1.0),
+        self, low: Slot, high: Slot, corners: Sequence[Index], i: int, widening: float = 0.0,
+        height: tuple[float, float] = (0.0, 1.0),
     ) -> None:  # fmt: skip
         """The cylinders over arcs, or the cones to wider or narrower ones, whose axes run to where they are wider."""
+        shape = low.shape
+        assert isinstance(shape, Circular)
         surface: Surface = Cylinder(replace(shape.frame, axis=UP), shape.radius)
         if widening:
-            narrow, up = (shape, UP) if widening > 0 else (upper.shapes[i], -UP)
+            narrow, up = (shape, UP) if widening > 0 else (high.shape, -UP)
             assert isinstance(narrow, Circular)
             slant = math.atan2(abs(widening), height[1] - height[0])
             surface = Cone(replace(narrow.frame, axis=up), narrow.radius, slant)
-        curve = lower.curves[i]
-        self._between(lower, upper, corners, i, surface, along=isinstance(curve, Arc) and curve.sweep > 0)
+        self._between(low, high, corners, i, surface, along=isinstance(low.curve, Arc) and low.curve.sweep > 0)
 
     def _corners(
-        self, lower: Ring, upper: Ring, along: BSpline, rise: Real, rows: Sequence[Complex]
+        self, turns: Complex, slots: Sequence[tuple[Slot, Slot]], along: BSpline, rise: Real, rows: Sequence[Complex]
     ) -> tuple[list[Index], list[Index]]:
         """The edges from corner to corner with poles ``rows`` at heights ``rise``, and the points of these poles."""
-        corners, points = [], []
-        for i, row in enumerate(rows):
-            inner = self.add_points(lower.turns[:, None] * row[1:-1], rise[1:-1])
-            points.append(np.concatenate([lower.points[i][:, :1], inner, upper.points[i][:, :1]], axis=1))
-            straight = Straight(spatial(lower.turns * complex(row[-1] - row[0]), rise[-1] - rise[0]))
-            shape = Spline(along.degree, along.knots, points[i]) if inner.size else straight
-            corners.append(self.add_edges(lower.starts[i], upper.starts[i], shape))
-        return corners, points
+        found: list[tuple[Index, Index] | None] = []
+        for (low, high), row in zip(slots, rows, strict=True):
+            if low.curve is None and high.curve is None:
+                found.append(None)
+                continue
+            inner = self.add_points(turns[:, None] * row[1:-1], rise[1:-1])
+            own = np.concatenate([low.points[:, :1], inner, high.points[:, :1]], axis=1)
+            straight = Straight(spatial(turns * complex(row[-1] - row[0]), rise[-1] - rise[0]))
+            shape = Spline(along.degree, along.knots, own) if inner.size else straight
+            found.append((self.add_edges(low.start, high.start, shape), own))
+        # where there is nothing between them neighbours meet
+        whole = [next(x for x in found[k:] if x is not None) for k in range(len(found))]
+        return [x[0] for x in whole], [x[1] for x in whole]
 
     def _tensor(
-        self, lower: Ring, upper: Ring, corners: Sequence[Index], i: int, along: BSpline, rise: Real, grid: Complex
-    ) -> SplineSurface:
+        self, turns: Complex, section: BSpline, ends: tuple[Slot, Slot], corners: Sequence[Index], i: int,
+        along: BSpline, rise: Real, grid: Complex,
+    ) -> SplineSurface:  # fmt: skip
         """Splines over curve i; at their rims they have the poles of the edges there."""
-        section = lower.curves[i]
-        assert isinstance(section, BSpline)
-        poles = np.empty((len(lower.turns), *grid.shape), dtype=np.intp)
-        poles[:, 1:-1, 1:-1] = self.add_points(lower.turns[:, None, None] * grid[1:-1, 1:-1], rise[1:-1])
+        poles = np.empty((len(turns), *grid.shape), dtype=np.intp)
+        poles[:, 1:-1, 1:-1] = self.add_points(turns[:, None, None] * grid[1:-1, 1:-1], rise[1:-1])
         poles[:, 0], poles[:, -1] = corners[i], following(corners, i)
-        poles[:, :, 0], poles[:, :, -1] = lower.points[i], upper.points[i]
+        poles[:, :, 0], poles[:, :, -1] = ends[0].points, ends[1].points
         return SplineSurface((section.degree, along.degree), section.knots, along.knots, poles)
 
 
@@ -192,8 +227,9 @@ def _way(curve: CadCurve) -> complex:
     return complex(curve.point(curve.domain[1]) - curve.point(curve.domain[0]))
 
 
-def _plane(lower: Ring, i: int, slant: Real) -> Plane:
+def _plane(lower: Ring, low: Slot, slant: Real) -> Plane:
     """The planes over a ring's lines along slants (n or 1, 3)."""
-    way = spatial(lower.turns * _way(lower.curves[i]), 0.0)
+    assert low.curve is not None
+    way = spatial(lower.turns * _way(low.curve), 0.0)
     normal = np.cross(way, slant)
-    return Plane(Frame(lower.points[i][:, 0], normal / np.linalg.norm(normal, axis=1)[:, None], way))
+    return Plane(Frame(low.points[:, 0], normal / np.linalg.norm(normal, axis=1)[:, None], way))

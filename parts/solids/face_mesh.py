@@ -278,23 +278,29 @@ class _Mesher:
     # ---- splines and extrusions
 
     def _patches(self, faces: Faces) -> None:
-        """Faces between the four ends of spline surfaces, or between two copies of a curve."""
+        """Faces between the ends of spline surfaces, one of which may be a point, or between two copies of a curve."""
         ((edges, senses),) = faces.loops
         senses = np.broadcast_to(senses, edges.shape)
         if not faces.along:
             edges, senses = edges[:, ::-1], ~senses[:, ::-1]
         patch = patch_of(self.solid, faces.surface) if isinstance(faces.surface, SplineSurface) else None
-        first = self._begin(edges, senses, patch)
-        order = (first[:, None] + np.arange(4)) % 4
+        # which of the four ends there are, in order round the patch
+        ends = [0, 1, 2, 3]
+        if patch is not None and edges.shape[1] == 3:
+            around = patch.poles[0, [0, -1, -1, 0], [0, 0, -1, -1]]
+            ends.pop(int(np.linalg.norm(np.roll(around, -1, axis=0) - around, axis=1).argmin()))
+        first = self._begin(edges, senses, patch, ends[0])
+        order = (first[:, None] + np.arange(len(ends))) % len(ends)
         edges, senses = np.take_along_axis(edges, order, axis=1), np.take_along_axis(senses, order, axis=1)
         keys = np.concatenate([self.bundle[edges], senses], axis=1)
         alike, which = np.unique(keys, axis=0, return_inverse=True)
         for group in range(len(alike)):
             rows = np.flatnonzero(which.ravel() == group)
-            self._patch_group(edges[rows], senses[rows[0]].tolist(), patch and patch.rows(rows), flip=not faces.along)
+            own = dict(zip(ends, zip(edges[rows].T, senses[rows[0]].tolist(), strict=True), strict=True))
+            self._patch_group(own, patch and patch.rows(rows), flip=not faces.along)
 
-    def _begin(self, edges: Triangles, senses: NDArray[np.bool_], patch: Patch | None) -> Triangles:
-        """The place in each loop of the edge that runs along u, at v's lower end, (n,)."""
+    def _begin(self, edges: Triangles, senses: NDArray[np.bool_], patch: Patch | None, end: int) -> Triangles:
+        """The place in each loop of the edge that is one end of the patch: along u, at v's lower end, is the first."""
         ends = np.empty((*edges.shape, 2, 3))
         for k in np.unique(self.bundle[edges]).tolist():
             mine, chain = self.bundle[edges] == k, self.chains[k]
@@ -303,26 +309,30 @@ class _Mesher:
         if patch is None:
             curved = np.array([len(chain.shares) > 2 for chain in self.chains])
             return np.where(curved[self.bundle[edges[:, 0]]] | curved[self.bundle[edges[:, 2]]], 0, 1)
-        wanted = np.stack([patch.poles[:, 0, 0], patch.poles[:, -1, 0]], axis=1)
+        corners = [(0, 0), (-1, 0), (-1, -1), (0, -1)]
+        wanted = np.stack([patch.poles[:, u, v] for u, v in (corners[end], corners[(end + 1) % 4])], axis=1)
         return np.asarray(np.linalg.norm(ends - wanted[:, None], axis=-1).sum(axis=-1).argmin(axis=1))
 
-    def _patch_group(self, edges: Triangles, ways: list[bool], patch: Patch | None, *, flip: bool) -> None:
-        """Patches whose edges are of the same bundles."""
+    def _patch_group(self, ends: dict[int, tuple[Triangles, bool]], patch: Patch | None, *, flip: bool) -> None:
+        """Patches whose edges (n,) are of the same bundles, with the way they run; an end that has none is a point."""
         sides, names, points = [], [], []
-        for k, way in enumerate(ways):
-            chain = self.chains[self.bundle[edges[0, k]]]
-            step = 1 if way else -1
-            shares = chain.shares if way else 1 - chain.shares[::-1]
-            own = self.row[edges[:, k]]
-            names.append(chain.numbers[own][:, ::step])
-            points.append(chain.points[own][:, ::step])
+        for k in range(4):
+            shares, kept = np.array([0.0, 1.0]), 1
+            if k in ends:
+                edges, way = ends[k]
+                chain, own = self.chains[self.bundle[edges[0]]], self.row[edges]
+                step = 1 if way else -1
+                shares = chain.shares if way else 1 - chain.shares[::-1]
+                kept = len(shares)
+                names.append(chain.numbers[own][:, ::step])
+                points.append(chain.points[own][:, ::step])
             u, v = [
                 (shares, 0 * shares),
                 (0 * shares + 1, shares),
                 (1 - shares, 0 * shares + 1),
                 (0 * shares, 1 - shares),
             ][k]
-            sides.append((shares, np.column_stack([u, v]), np.arange(len(shares))))
+            sides.append((shares, np.column_stack([u, v]), np.arange(kept)))
         grid = Grid(tuple(sides))
         ring = np.concatenate([n[:, :-1] for n in names], axis=1)
         places = np.concatenate([p[:, :-1] for p in points], axis=1)
@@ -342,7 +352,7 @@ class _Mesher:
         along = sides[0][0][1:-1], 1 - sides[2][0][-2:0:-1]
         for _ in range(_FINER):
             t, rows = bends.rows(sag)
-            if self.count + 2 * len(edges) * sum(len(row) for row in rows) > _MOST_TRIANGLES:
+            if self.count + 2 * len(ring) * sum(len(row) for row in rows) > _MOST_TRIANGLES:
                 raise ConvergenceError("mesh for the tolerance", self.tolerance, self.count)
             # where rows of unlike lengths fold, all are as fine as the finest of them and of both sides
             for tried in (rows, [max((*rows, *along), key=len)] * len(rows)):

@@ -30,6 +30,10 @@ class Grid(Record, eq=False):
         """Their numbers, (n,)."""
         return np.concatenate([names[:-1] for _, _, names in self.sides])
 
+    def shares(self) -> list[Real]:
+        """Of the points of each side."""
+        return [own[: len(names)] for own, _, names in self.sides]
+
     def collapsed(self) -> Triangles:
         """The places in the ring of poles, where u is any."""
         counts = [len(names) - 1 for _, _, names in self.sides]
@@ -46,7 +50,7 @@ def grid_between(grid: Grid, u_count: int, v_count: int, *, rising: bool = True)
     total = sum(counts)
     starts = np.cumsum([0, *counts]).tolist()
     chains = [np.arange(starts[k], starts[k + 1] + 1) % total for k in range(4)]
-    shares = [own if len(own) == len(names) else own[:1] for own, _, names in grid.sides]
+    shares = grid.shares()
     bottom, right, top, left = chains
     if v_count == 1 and max(counts[1], counts[3]) <= 1:
         return _zipped(bottom, shares[0], top[::-1], 1 - shares[2][::-1]), np.zeros((0, 2))
@@ -72,7 +76,7 @@ def rows_between(grid: Grid, t: Real, rows: list[Real], *, rising: bool) -> tupl
     counts = [len(names) - 1 for _, _, names in grid.sides]
     starts = np.cumsum([0, *counts]).tolist()
     chains = [np.arange(starts[k], starts[k + 1] + 1) % starts[-1] for k in range(4)]
-    shares = [own for own, _, _ in grid.sides]
+    shares = grid.shares()
     ends = starts[-1] + np.cumsum([0, *(len(row) for row in rows)])
     inner = [np.arange(a, b) for a, b in pairwise(ends.tolist())]
     first, last = (np.array([own[k] for own in inner]) for k in (0, -1))

@@ -142,6 +142,14 @@ FINDINGS: dict[str, Text] = {
         by="value",
     ),
     "worm_not_long_enough": N_("the thread is {value:.5g} mm long, the wheel touches it over {limit:.5g} mm"),
+    "worm_wheel_no_flank": N_(
+        "from {value:.5g} mm beside the mid plane to the end of the face, {limit:.5g} mm, the fillet of the hob's tip "
+        "reaches the tip of the teeth: there is no flank"
+    ),
+    "worm_wheel_ridge": N_(
+        "from {value:.5g} mm beside the mid plane on the teeth are pointed: they end in a ridge, up to {limit:.5g} mm "
+        "lower than the tip"
+    ),
     "worm_section": N_(
         "flat outline: the section across the worm's axis, {value:.6g} mm; STL, 3MF and STEP have the screw surfaces"
     ),

@@ -9,6 +9,7 @@ of the axes. What is described is the lower flank of a thread; half a turn about
 from __future__ import annotations
 
 import math
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -53,7 +54,7 @@ class Cut(Record, eq=False):
     steepness: Real
 
 
-class Hob(Record):
+class Hob(Record, dict=True):
     """A hob with the threads of ``worm`` up to ``tip_radius``, rounded by ``rounding`` (in the axial section), mm.
 
     ``number_of_teeth``: of the wheel; ``centre_distance`` a_0, mm; ``swivel`` of its axis about the line of centres,
@@ -72,7 +73,7 @@ class Hob(Record):
         """By how much the wheel turns for a slide of the hob along its axis, rad/mm."""
         return -self.worm.number_of_starts / (self.number_of_teeth * self.worm.parameter)
 
-    @property
+    @cached_property
     def form_radius(self) -> float:
         """Where the flank touches the rounding of the tip, mm."""
         flank, centre = self.worm.flank, self.tip_radius - self.rounding
@@ -85,12 +86,12 @@ class Hob(Record):
             return self.tip_radius
         return bracketed_root(beyond, centre, self.tip_radius).value
 
-    @property
+    @cached_property
     def least_normal(self) -> float:
         """Angle of the rounding's normal from the axis where it touches the flank, rad; a right angle at the tip."""
         return math.atan(float(self.worm.flank.slope(self.form_radius)))
 
-    @property
+    @cached_property
     def half_land(self) -> float:
         """Half the width of the tip between both roundings, axial, mm."""
         return float(self.worm.half_thickness(self.form_radius)) - self.rounding * math.cos(self.least_normal)

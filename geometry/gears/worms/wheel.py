@@ -3,12 +3,14 @@
 Frame: the wheel's axis is z, tooth 1 is centred on +x. Across the axis stand, from the middle of a space: the root that
 the hob's tip leaves, the fillet of its rounding, the flank of its thread, and the tip: a throat about the worm's axis
 within an outer cylinder. The lower side is described; half a turn about the middle of tooth 1
-makes the upper one of it.
+makes the upper one of it. Far from the mid plane a fillet may reach the tip, so that there is no flank, and both sides
+may meet below it: the tooth then ends in a ridge.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import cached_property
 from itertools import pairwise
 
@@ -18,9 +20,9 @@ from numpy.typing import ArrayLike, NDArray
 from geometry.base.errors import ParameterError
 from geometry.base.nearest import nearest
 from geometry.base.record import Record, replace
-from geometry.base.roots import bracketed_roots
+from geometry.base.roots import bracketed_root, bracketed_roots
 from geometry.curves.line_arc import Line
-from geometry.gears.worms.hob import Cut, Hob
+from geometry.gears.worms.hob import Cut, Hob, Meridian
 from geometry.plane.profile import Label, Profile, Segment
 
 Complex = NDArray[np.complex128]
@@ -29,12 +31,16 @@ Real = NDArray[np.float64]
 # radii of the thread and angles of its rounding at which a side is looked for
 _RADII, _ANGLES, _FIRST_STEP = 257, 129, 1e-7
 # of a fillet that cuts a flank: radii from which their crossing is sought, Newton's steps, the step of slopes (mm and
-# rad), how near both end, and what undercut is only beginning, part of the hob's size
-_CROSSINGS, _NEWTON_STEPS, _SLOPE, _MET, _BARELY = 65, 8, 1e-6, 1e-10, 3e-4
+# rad), how near both end at least and when that is enough, and what undercut is only beginning, of the hob's size
+_CROSSINGS, _NEWTON_STEPS, _SLOPE, _MET, _SURE, _BARELY = 65, 8, 1e-6, 1e-10, 1e-14, 3e-4
+# shares of each part of both sides between which a ridge is sought
+_RIDGE = np.linspace(0.0, 1.0, 65)[:, None]
 # steps of the golden section
 _GOLDEN, _GOLDEN_STEPS = (math.sqrt(5) - 1) / 2, 40
 # a thread's point that near the plane of its axis is not asked for, part of its radius
 _LEAST_SHARE = 1e-9
+# a space between two teeth is no shallower, modules
+_LEAST_DEPTH = 0.04
 # heights at which a face is looked at, and how well places between them are known, part of the width
 _LEVELS, _SETTLED = 97, 1e-9
 # shares of a fillet at which it is looked whether it folds
@@ -60,7 +66,8 @@ class Side(Record, eq=False):
 
     ``inner``: radius of the thread where the flank leaves the fillet, ``normal``: of the rounding there, rad;
     ``outer``: radius of the thread at the tip, mm; ``undercut``: the fillet cuts the flank there; ``hurry``: how many
-    times as steep fillet and flank are where they begin as where they end.
+    times as steep fillet and flank are where they begin as where they end; ``all_fillet``: it reaches the tip, the
+    flank is that one point.
     """
 
     heights: Real
@@ -69,6 +76,12 @@ class Side(Record, eq=False):
     outer: Real
     undercut: NDArray[np.bool_]
     hurry: tuple[Real, Real]
+    all_fillet: NDArray[np.bool_]
+
+    def only(self, which: NDArray[np.bool_]) -> Side:
+        """The same at some of the heights."""
+        flags = (self.undercut[which], (self.hurry[0][which], self.hurry[1][which]), self.all_fillet[which])
+        return Side(self.heights[which], self.inner[which], self.normal[which], self.outer[which], *flags)
 
 
 class WormTeeth(Record, dict=True):
@@ -103,13 +116,26 @@ class WormTeeth(Record, dict=True):
         """Heights between which every face is smooth, ascending, mm."""
         half, throat = self.width / 2, self.throat_height
         found = {-half, half, *((-throat, throat) if 0 < throat < half else ())}
-        return tuple(sorted({*found, *(h for t in self.undercut_ends for h in (t, -t))}))
+        ends = (*self.undercut_ends, *self.flank_ends, *(end for ridge in self.ridges for end in ridge))
+        # no face ends in a point on both sides
+        middle = {0.0} if len(ends) > len(self.undercut_ends) else set()
+        return tuple(sorted({*found, *middle, *(h for t in ends for h in (t, -t) if abs(h) < half)}))
 
     def tip_radius(self, heights: ArrayLike) -> Real:
         """Of the wheel at heights, mm."""
         y = np.minimum(np.abs(np.asarray(heights, float)), self.throat_radius)
         throat = self.centre_distance - np.sqrt((self.throat_radius - y) * (self.throat_radius + y))
         return np.where(np.abs(heights) >= self.throat_height, np.minimum(throat, self.outer_radius), throat)
+
+    def reach(self) -> float:
+        """Greatest distance of the teeth from the axis, mm."""
+        if self.lessened is None:
+            return float(self.tip_radius(self.width / 2))
+        return float(self.top(self.breaks).max())
+
+    def top(self, heights: ArrayLike) -> Real:
+        """Distance from the axis of the tip, or of the ridge, at heights, mm."""
+        return np.abs(self.flank(self.side(heights), 1.0).plane)
 
     def root_radius(self, heights: ArrayLike) -> Real:
         """Of what the land of the hob's tip leaves at heights, mm."""
@@ -122,15 +148,40 @@ class WormTeeth(Record, dict=True):
         Raises
         ------
         NoTooth
-            At one of the heights the hob leaves no flank up to the tip.
+            At one of the heights the hob leaves no tooth.
         """
         z = np.atleast_1d(np.asarray(heights, float))
+        key = z.tobytes()
+        if key not in self._known:
+            self._known[key] = self._side(z)
+        return self._known[key]
+
+    @cached_property
+    def _known(self) -> dict[bytes, Side]:
+        """Sides by their heights: faces are fitted part by part at the same ones."""
+        return {}
+
+    def _side(self, z: Real) -> Side:
+        side = self._plain(z)
+        pointed = np.zeros(len(z), dtype=bool)
+        for low, high in self.ridges:
+            pointed |= (z >= low) & (z <= high)
+        if pointed.any():
+            ridge = self._ridge(z[pointed], side.only(pointed))
+            for whole, part in zip((side.normal, side.outer, side.all_fillet, *side.hurry), ridge, strict=True):
+                whole[pointed] = part
+            side.inner[side.all_fillet] = side.outer[side.all_fillet]
+        return side
+
+    def _plain(self, z: Real) -> Side:
+        """The lower side at heights up to the tip, though the upper one may cut it off below."""
         hob, tip = self.hob, self.tip_radius(z)
+        if not (tip - self.root_radius(z) > _LEAST_DEPTH * hob.worm.module).all():
+            raise NoTooth("worm_wheel_not_reached")
         form, column = hob.form_radius, np.arange(len(z))
         radii, reach, first, at = self._search(z)
-        if not (reach[0] < tip).all():
-            # the rounding of the hob's tip reaches as far as the tooth
-            raise NoTooth("worm_wheel_all_fillet")
+        all_fillet = reach[0] >= tip
+        at = np.where(all_fillet, 1, at)
         if not (at < _RADII).all():
             raise NoTooth("worm_wheel_flank_ends")
 
@@ -138,9 +189,12 @@ class WormTeeth(Record, dict=True):
             return self._reach(radius, z) - tip
 
         ends = radii[at - 1, column], radii[at, column]
-        outer = bracketed_roots(past, *ends, past(ends[0]), past(ends[1]))
-        undercut = first > 0
+        early = np.where(all_fillet, -1.0, past(ends[0])), np.where(all_fillet, 1.0, past(ends[1]))
+        outer = np.where(all_fillet, form, bracketed_roots(past, *ends, *early))
+        undercut = (first > 0) & ~all_fillet
         inner, normal = np.full(len(z), form), np.full(len(z), hob.least_normal)
+        if all_fillet.any():
+            normal[all_fillet] = self._fillet_end(z[all_fillet])
         if undercut.any():
             column, first = column[undercut], first[undercut]
             turning = self._turning(radii[first + 1, column], radii[first - 1, column], z[undercut])
@@ -149,18 +203,85 @@ class WormTeeth(Record, dict=True):
             cut = np.flatnonzero(undercut)[deep]
             if cut.size:
                 inner[cut], normal[cut] = self._crossing(z[cut], turning[deep], outer[cut])
-        root, end = hob.cut(hob.round(np.full(len(z), np.pi / 2)), z), hob.cut(hob.round(normal), z)
-        begin, last = hob.cut(hob.flank(inner), z), hob.cut(hob.flank(outer), z)
-        way = np.abs(self.hob.cut(hob.round(math.pi / 2 + (normal - math.pi / 2) * _FOLD), z).plane)
+        hurry, goes_on = self._hurry(z, inner, normal, outer)
+        way = np.abs(self.hob.cut(self.hob.round(math.pi / 2 + (normal - math.pi / 2) * _FOLD), z).plane)
         if not (np.diff(way, axis=0) > 0).all():
             raise NoTooth("worm_wheel_undercut")
-        if not ((root.steepness * end.steepness > 0) & (begin.slid < last.slid)).all():
+        if not (goes_on | all_fillet).all():
             # the contact has run off to infinity on the other side, where the hob cuts from behind
             raise NoTooth("worm_wheel_flank_ends")
-        return Side(
-            z, inner, normal, outer, undercut,
-            (np.sqrt(root.steepness / end.steepness), begin.steepness / last.steepness),
-        )  # fmt: skip
+        return Side(z, inner, normal, outer, undercut, hurry, all_fillet)
+
+    def _hurry(self, z: Real, inner: Real, normal: Real, outer: Real) -> tuple[tuple[Real, Real], NDArray[np.bool_]]:
+        """How fast both parts go at their beginnings beside their ends, and whether the contact goes on there."""
+        hob = self.hob
+        root, end = hob.cut(hob.round(np.full(len(z), np.pi / 2)), z), hob.cut(hob.round(normal), z)
+        begin, last = hob.cut(hob.flank(inner), z), hob.cut(hob.flank(outer), z)
+        goes_on = (root.steepness * end.steepness > 0) & (begin.slid <= last.slid)
+        return (np.sqrt(np.abs(root.steepness / end.steepness)), np.abs(begin.steepness / last.steepness)), goes_on
+
+    def _fillet_end(self, z: Real) -> Real:
+        """Normals of the rounding, rad, at which fillets reach the tip."""
+        hob, tip = self.hob, self.tip_radius(z)
+
+        def past(normal: Real) -> Real:
+            return np.abs(hob.cut(hob.round(normal), z).plane) - tip
+
+        low, high = np.full(len(z), hob.least_normal), np.full(len(z), math.pi / 2)
+        # where flank and fillet both end at the tip there is nothing between
+        return bracketed_roots(past, low, high, np.maximum(past(low), 0.0), past(high))
+
+    def _ridge(self, z: Real, lower: Side) -> tuple[Real, Real, NDArray[np.bool_], Real, Real]:
+        """Where lower sides meet the upper ones below the tip: as in ``Side`` normals, ends, and which parts meet."""
+        sides = lower, self._plain(-z)
+        rows = [np.concatenate([part(side, _RIDGE).plane for part in (self.fillet, self.flank)]) for side in sides]
+        shares = np.concatenate([_RIDGE, 1 + _RIDGE])[:, 0]
+        at = np.empty((2, len(z)))
+        for k, (one, two) in enumerate(zip(rows[0].T, rows[1].T, strict=True)):
+            own, other = np.abs(one), np.abs(two)
+            left = -np.angle(one) - np.interp(own, other, np.angle(two))
+            if not left[0] > 0:
+                raise NoTooth("worm_wheel_pointed")
+            gone = np.flatnonzero(left <= 0)
+            if gone.size:
+                i = int(gone[0])
+                share = left[i - 1] / (left[i - 1] - left[i])
+                at[0, k] = shares[i - 1] + share * (shares[i] - shares[i - 1])
+                at[1, k] = np.interp(own[i - 1] + share * (own[i] - own[i - 1]), other, shares)
+            else:
+                at[:, k] = shares[-1]
+        # parameters of the hob: a normal on fillets, a radius on flanks
+        fillets = [(share < 1) | side.all_fillet for share, side in zip(at, sides, strict=True)]
+        places = [
+            np.where(
+                on,
+                math.pi / 2 + (side.normal - math.pi / 2) * _hurried(np.minimum(share, 1.0), side.hurry[0]),
+                side.inner + (side.outer - side.inner) * _hurried(np.maximum(share, 1.0) - 1, side.hurry[1]),
+            )
+            for on, share, side in zip(fillets, at, sides, strict=True)
+        ]
+
+        def point(k: int, place: Real) -> Complex:
+            heights, on, plane = (z, -z)[k], fillets[k], np.empty(len(z), dtype=complex)
+            for own, part in ((on, self.hob.round), (~on, self.hob.flank)):
+                if own.any():
+                    plane[own] = self.hob.cut(part(place[own]), heights[own]).plane
+            return plane if k == 0 else np.conj(plane)
+
+        form = self.hob.form_radius
+        for _ in range(_NEWTON_STEPS):
+            off = point(0, places[0]) - point(1, places[1])
+            if float(np.abs(off).max()) <= _SURE * self.hob.tip_radius:
+                break
+            ways = [(point(k, places[k] + _SLOPE) - point(k, places[k] - _SLOPE)) / (2 * _SLOPE) for k in (0, 1)]
+            cross = (np.conj(ways[0]) * ways[1]).imag
+            places = [places[k] - (np.conj(off) * ways[1 - k]).imag / cross for k in (0, 1)]
+        if not float(np.abs(point(0, places[0]) - point(1, places[1])).max()) <= _MET * self.hob.tip_radius:
+            raise NoTooth("worm_wheel_pointed")
+        on = fillets[0]
+        normal, outer = np.where(on, places[0], sides[0].normal), np.where(on, form, places[0])
+        hurry, _ = self._hurry(z, np.where(on, outer, sides[0].inner), normal, outer)
+        return normal, outer, on, *hurry
 
     def _search(self, heights: Real) -> tuple[Real, Real, NDArray[np.intp], NDArray[np.intp]]:
         """Radii of the thread from its tip on, how far they reach, (m, n), and between which the flank grows, (n,).
@@ -250,7 +371,13 @@ class WormTeeth(Record, dict=True):
     def flank(self, side: Side, share: Real | float) -> Cut:
         """The lower flank at shares (m, 1) from fillet (0) to tip (1), at the side's heights: (m, n)."""
         share = _hurried(share, side.hurry[1])
-        return self.hob.cut(self.hob.flank(side.inner + (side.outer - side.inner) * share), side.heights)
+        own = self.hob.flank(side.inner + (side.outer - side.inner) * share)
+        if side.all_fillet.any():
+            # the end of the fillet
+            end = self.hob.round(side.normal + 0 * share)
+            pairs = ((end.radius, own.radius), (end.z, own.z), (end.outwards, own.outwards), (end.upwards, own.upwards))
+            own = Meridian(*(np.where(side.all_fillet, one, other) for one, other in pairs))
+        return self.hob.cut(own, side.heights)
 
     def fillet(self, side: Side, share: Real | float) -> Cut:
         """The lower fillet at shares (m, 1) from root (0) to flank (1), at the side's heights: (m, n)."""
@@ -260,8 +387,11 @@ class WormTeeth(Record, dict=True):
     def thickness(self, heights: ArrayLike) -> Real:
         """Angle of the teeth at their tip at heights, rad."""
         z = np.atleast_1d(np.asarray(heights, float))
-        lower, upper = (self.flank(self.side(h), 1.0).plane for h in (z, -z))
-        return -np.angle(lower) - np.angle(upper)
+        return self._left(self.side(z), self.side(-z))
+
+    def _left(self, lower: Side, upper: Side) -> Real:
+        """The angle between the ends of both sides, rad."""
+        return -np.angle(self.flank(lower, 1.0).plane) - np.angle(self.flank(upper, 1.0).plane)
 
     def outline(self, height: float) -> Profile:
         """The section at a height as a polygon through few points of each flank and fillet, for the eye."""
@@ -281,10 +411,11 @@ class WormTeeth(Record, dict=True):
         return Profile(tuple(map(Segment, lines, way)), self.number_of_teeth)
 
     def narrowed(self) -> WormTeeth:
-        """The teeth with as much of the width as has some at every height; themselves where none has."""
-        if self.ended is None:
+        """The teeth with as much of the width as has whole ones at every height; themselves where none has."""
+        if self.lessened is None:
             return self
-        found = nearest(lambda width: replace(self, width=width).ended is None, self.width, _LEAST_WIDTH * self.width)
+        least = _LEAST_WIDTH * self.width
+        found = nearest(lambda width: replace(self, width=width).lessened is None, self.width, least)
         return replace(self, width=found.value) if found and isinstance(found.value, float) else self
 
     def checked(self) -> WormTeeth:
@@ -293,7 +424,8 @@ class WormTeeth(Record, dict=True):
         Raises
         ------
         ParameterError
-            The face is wider than teeth stand: the flank ends below the tip, undercut leaves none, or it is pointed.
+            The face is wider than teeth stand: the flank ends below the tip, undercut leaves none, both sides meet at
+            the root, or the hob does not reach the rim.
         """
         if self.ended is None:
             return self
@@ -308,21 +440,91 @@ class WormTeeth(Record, dict=True):
     @cached_property
     def ended(self) -> str | None:
         """What leaves no tooth at some height: a code."""
+        if self._torn is None and bool((self._plain_thickness <= 0).any()):
+            try:
+                self.side(self._levels)
+            except NoTooth as ended:
+                return ended.code
+        return self._torn
+
+    @cached_property
+    def lessened(self) -> str | None:
+        """What leaves no whole tooth at some height, with a flank up to a tip of its own: a code."""
+        if self._torn is not None:
+            return self._torn
+        if bool((self._plain_thickness <= 0).any()):
+            return "worm_wheel_pointed"
+        return "worm_wheel_all_fillet" if bool(self._plain_levels.all_fillet.any()) else None
+
+    @cached_property
+    def _torn(self) -> str | None:
+        """What leaves no side up to the tip at some height: a code."""
         # just beside where undercut begins the flank may fold between fillet and tip
         beside = [end + step * self.width for end in self.undercut_ends for step in _BESIDE]
-        heights = self.width / 2 * np.sin(np.linspace(-math.pi / 2, math.pi / 2, _LEVELS))
-        heights = np.concatenate([heights, np.clip([*beside, *np.negative(beside)], heights[0], heights[-1])])
+        half = self.width / 2
         try:
-            ends = np.angle(self.flank(self.side(heights), 1.0).plane)
+            # beyond the hob's side its flanks turn round it
+            wide = float(self._plain_thickness.max()) >= 2 * math.pi / self.number_of_teeth
+            if beside:
+                self._plain(np.clip([*beside, *np.negative(beside)], -half, half))
         except NoTooth as ended:
             return ended.code
+        return "worm_wheel_flank_ends" if wide else None
+
+    @property
+    def _levels(self) -> Real:
+        """Heights at which a face is looked at, closer at its ends."""
+        return np.asarray(self.width / 2 * np.sin(np.linspace(-math.pi / 2, math.pi / 2, _LEVELS)))
+
+    @cached_property
+    def _plain_levels(self) -> Side:
+        """The lower side at the levels, up to the tip."""
+        return self._plain(self._levels)
+
+    @cached_property
+    def _plain_thickness(self) -> Real:
+        """Angles between both sides at the tip at the levels, rad; below 0 they have met."""
+        ends = np.angle(self.flank(self._plain_levels, 1.0).plane)
         # the upper side is the lower one at the opposite height
-        whole = slice(0, _LEVELS)
-        thickness = -ends[whole] - ends[whole][::-1]
-        # beyond the hob's side its flanks turn round it
-        if thickness.max() >= 2 * math.pi / self.number_of_teeth:
-            return "worm_wheel_flank_ends"
-        return None if thickness.min() > 0 else "worm_wheel_pointed"
+        return np.asarray(-ends - ends[::-1])
+
+    @cached_property
+    def ridges(self) -> tuple[tuple[float, float], ...]:
+        """Heights between which both sides meet below the tip, mm."""
+        pointed = self._plain_thickness <= 0
+        if not pointed.any():
+            return ()
+
+        def left(height: float) -> float:
+            z = np.array([height])
+            return float(self._left(self._plain(z), self._plain(-z))[0])
+
+        # half a turn about the middle of a tooth makes one end of the face the other
+        ends = [z for z in self._crossed(left, self._plain_thickness) if z > 0]
+        ends += [self.width / 2] if pointed[-1] else []
+        ends = [*(-z for z in reversed(ends)), *ends]
+        return tuple(zip(ends[::2], ends[1::2], strict=True))
+
+    @cached_property
+    def flank_ends(self) -> tuple[float, ...]:
+        """Heights at which the fillet begins to reach the tip of the lower side, mm."""
+        if self.lessened is None:
+            return ()
+
+        def beyond(heights: Real) -> Real:
+            plain = self._plain(heights)
+            form = self.hob.cut(self.hob.flank(np.full(len(heights), self.hob.form_radius)), heights).plane
+            border = np.where(plain.all_fillet, form, self.fillet(plain, 1.0).plane)
+            return np.abs(border) - np.abs(self.flank(self.side(heights), 1.0).plane)
+
+        sampled = beyond(self._levels)
+        return tuple(self._crossed(lambda height: float(beyond(np.array([height]))[0]), sampled))
+
+    def _crossed(self, of: Callable[[float], float], sampled: Real) -> list[float]:
+        """Heights at which a function that is sampled at the levels goes through 0, mm."""
+        levels, signs = self._levels, sampled > 0
+        at = np.flatnonzero(signs[1:] != signs[:-1]).tolist()
+        return [bracketed_root(of, float(levels[k]), float(levels[k + 1])).value for k in at]
 
     @cached_property
     def undercut_ends(self) -> tuple[float, ...]:

@@ -1,12 +1,14 @@
 """The faces of a worm wheel: flanks and fillets as splines over heights, throat and root as tori, all else as its core.
 
 Between two breaks of the teeth every face is one spline, whose poles stand at even heights: both ends lie in planes.
+Where fillets begin to reach the tip flanks come to a point, where teeth begin to end in a ridge their tips do.
 Poles interpolate the exact envelope at Greville's places; the error is that of samples, along the normal.
 """
 
 from __future__ import annotations
 
 import cmath
+from collections.abc import Sequence
 from functools import partial
 from itertools import pairwise
 
@@ -48,7 +50,10 @@ _ROUNDING = 4e-15
 
 
 class Strip(Record, eq=False):
-    """Teeth between two heights: poles of the lower and the upper side's fillet and flank, (u, v), from root to tip."""
+    """Teeth between two heights: poles of the lower and the upper side's fillet and flank, (u, v), from root to tip.
+
+    Where a fillet reaches the tip there is no flank; ``pointed``: both sides meet in a ridge.
+    """
 
     low: float
     high: float
@@ -56,6 +61,12 @@ class Strip(Record, eq=False):
     v_knots: Real
     lower: tuple[Complex, ...]
     upper: tuple[Complex, ...]
+    pointed: bool
+
+    @property
+    def present(self) -> tuple[bool, ...]:
+        """Which of the six faces of a tooth there are: root, fillet, flank, tip, flank, fillet."""
+        return True, True, len(self.lower) > 1, not self.pointed, len(self.upper) > 1, True
 
 
 class WheelSplines(Record, eq=False):
@@ -81,9 +92,10 @@ def wheel_splines(wheel: WormWheel, tolerance: float) -> WheelSplines:
     strips = []
     for low, high in made:
         lower, mirrored = ([fit.poles for fit in made[band]] for band in ((low, high), (-high, -low)))
-        knots = [fit.u_knots for fit in made[low, high]]
+        knots = [fit.u_knots for fit in max(made.values(), key=len)]
         upper = [np.conj(grid[:, ::-1]) for grid in mirrored]
-        strips.append(Strip(low, high, tuple(knots), made[low, high][0].v_knots, tuple(lower), tuple(upper)))
+        pointed = _is_pointed(teeth, (low, high))
+        strips.append(Strip(low, high, tuple(knots), made[low, high][0].v_knots, tuple(lower), tuple(upper), pointed))
     core = body_outlines(wheel.core, tolerance)
     return WheelSplines(tuple(strips), core, max(_MARGIN * worst, *(o.max_error for o in core)))
 
@@ -107,17 +119,19 @@ def _fits(teeth: WormTeeth, tolerance: float, most: int = _MOST_SPANS) -> dict[t
     target = max(min(tolerance, max(_FINEST, _SHARE * tolerance)) / _MARGIN, least)
     edges = max(min(target, _EDGES), least)
     bands = list(pairwise(teeth.breaks))
+    parts = {band: (FILLET, FLANK) if _has_flank(teeth, band) else (FILLET,) for band in bands}
     # tip and root are edges of exact surfaces: along them more is asked for
     # across: of fillet and flank, alike in all bands, which share the edges between them; then along each band
-    across = [max(_spans(teeth, part, band, target, most) for band in bands) for part in (FILLET, FLANK)]
-    along = {
-        band: max(_spans_along(teeth, part, band, target, edges, most) for part in (FILLET, FLANK)) for band in bands
-    }
+    across = [
+        max((_spans(teeth, part, band, target, most) for band in bands if part in parts[band]), default=1)
+        for part in (FILLET, FLANK)
+    ]
+    along = {band: max(_spans_along(teeth, part, band, target, edges, most) for part in parts[band]) for band in bands}
     along = {(low, high): max(n, along[-high, -low]) for (low, high), n in along.items()}
     while True:
-        made = {band: [_fitted(teeth, p, band, (across[p], n)) for p in (FILLET, FLANK)] for band, n in along.items()}
-        error = [max(pair[p].error for pair in made.values()) for p in (FILLET, FLANK)]
-        off = {band for band, pair in made.items() for fit in pair if fit.error > target or fit.edge > edges}
+        made = {band: [_fitted(teeth, p, band, (across[p], n)) for p in parts[band]] for band, n in along.items()}
+        error = [max((fits[p].error for fits in made.values() if p < len(fits)), default=0.0) for p in (FILLET, FLANK)]
+        off = {band for band, fits in made.items() for fit in fits if fit.error > target or fit.edge > edges}
         if not off:
             return made
         if max(*across, *along.values()) > most:
@@ -127,6 +141,16 @@ def _fits(teeth: WormTeeth, tolerance: float, most: int = _MOST_SPANS) -> dict[t
             (low, high): n + bool(off & {(low, high), (-high, -low)}) * (1 + n // _SLOW)
             for (low, high), n in along.items()
         }
+
+
+def _has_flank(teeth: WormTeeth, band: tuple[float, float]) -> bool:
+    """Whether the lower side has one between two breaks."""
+    return not teeth.side(sum(band) / 2).all_fillet[0]
+
+
+def _is_pointed(teeth: WormTeeth, band: tuple[float, float]) -> bool:
+    """Whether the teeth end in a ridge between two breaks."""
+    return any(low < sum(band) / 2 < high for low, high in teeth.ridges)
 
 
 def _points(teeth: WormTeeth, part: int, shares: Real, heights: Real) -> Cut:
@@ -151,8 +175,8 @@ def _spans_along(teeth: WormTeeth, part: int, band: tuple[float, float], target:
     for spans in range(1, most):
         places, between, weights = _interpolation(*band, spans)
         found = _points(teeth, part, shares, places).plane @ weights.T
-        edge = np.abs(np.abs(found[-part]) - _edge_radius(teeth, part, between)).max()
-        if float(_away(found, _points(teeth, part, shares, between)).max()) <= target / 2 and float(edge) <= edges / 2:
+        edge = _edge_error(teeth, part, band, found, between)
+        if float(_away(found, _points(teeth, part, shares, between)).max()) <= target / 2 and edge <= edges / 2:
             break
     return spans
 
@@ -164,9 +188,12 @@ def _interpolation(low: float, high: float, spans: int) -> tuple[Real, Real, Rea
     return places, between, basis_matrix(_DEGREE, knots, between) @ np.linalg.inv(basis_matrix(_DEGREE, knots, places))
 
 
-def _edge_radius(teeth: WormTeeth, part: int, heights: Real) -> Real:
-    """Of the root, where fillets begin, or of the tip, where flanks end, mm."""
-    return teeth.root_radius(heights) if part == FILLET else teeth.tip_radius(heights)
+def _edge_error(teeth: WormTeeth, part: int, band: tuple[float, float], found: Complex, heights: Real) -> float:
+    """How far the first or the last line of a part in a band lies from the surface of root or tip beside it, mm."""
+    off = [np.abs(found[0]) - teeth.root_radius(heights)] if part == FILLET else []
+    if (part == FLANK or not _has_flank(teeth, band)) and not _is_pointed(teeth, band):
+        off.append(np.abs(found[-1]) - teeth.tip_radius(heights))
+    return max((float(np.abs(x).max()) for x in off), default=0.0)
 
 
 def _away(points: Complex, exact: Cut) -> Real:
@@ -193,7 +220,7 @@ def _fitted(teeth: WormTeeth, part: int, band: tuple[float, float], spans: tuple
     u, v = (np.linspace(k[0], k[-1], _SAMPLES * n + 8) for k, n in zip((u_knots, v_knots), spans, strict=True))
     found = basis_matrix(_DEGREE, u_knots, u) @ poles @ basis_matrix(_DEGREE, v_knots, v).T
     error = float(_away(found, _points(teeth, part, u, v)).max())
-    edge = float(np.abs(np.abs(found[-part]) - _edge_radius(teeth, part, v)).max())
+    edge = _edge_error(teeth, part, band, found, v)
     return _Fit(u_knots, v_knots, poles, error, edge)
 
 
@@ -201,8 +228,9 @@ def wheel_solid(wheel: WormWheel, splines: WheelSplines) -> Solid:
     """The closed shell of a worm wheel over its splines."""
     made = BodyFaces(wheel.core, splines.core)
     teeth, middle = wheel.teeth, wheel.middle
-    rings = [_ring(made, teeth, strip, 0, middle) for strip in splines.strips]
-    rings.append(_ring(made, teeth, splines.strips[-1], -1, middle))
+    strips = splines.strips
+    beside = [(strips[0],), *pairwise(strips), (strips[-1],)]
+    rings = [_ring(made, teeth, pair, -1 if pair[-1] is pair[0] and k else 0, middle) for k, pair in enumerate(beside)]
     origin = made.add_points(np.zeros(1, complex), middle)
     root, throat = (Torus(Frame(origin, UP, AHEAD), teeth.centre_distance, r) for r in _tubes(teeth))
     rim = Cylinder(Frame(origin, UP, AHEAD), teeth.outer_radius)
@@ -242,25 +270,28 @@ def _tubes(teeth: WormTeeth) -> tuple[float, float]:
 
 
 def _grids(strip: Strip, teeth: WormTeeth) -> list[Complex]:
-    """Poles over the curves of a ring; of arcs those of their starts."""
-    (fillet, flank), (upper_fillet, upper_flank) = strip.lower, strip.upper
+    """Poles over the curves of a ring; of arcs those of their starts, of what is not there those of what comes next."""
     pitch = np.exp(-2j * np.pi / teeth.number_of_teeth)
-    return [upper_fillet[:1] * pitch, fillet, flank, flank[-1:], upper_flank[::-1], upper_fillet[::-1]]
+    (fillet, *flank), (upper_fillet, *upper_flank) = strip.lower, strip.upper
+    tip, other_tip = strip.lower[-1][-1:], strip.upper[-1][-1:]
+    turned = [grid[::-1] for grid in upper_flank] or [other_tip]
+    return [upper_fillet[:1] * pitch, fillet, *(flank or [tip]), tip, *turned, upper_fillet[::-1]]
 
 
-def _ring(made: BodyFaces, teeth: WormTeeth, strip: Strip, end: int, middle: float) -> Ring:
-    """The edges of all teeth at the lower (0) or the upper (-1) end of a strip."""
+def _ring(made: BodyFaces, teeth: WormTeeth, strips: Sequence[Strip], end: int, middle: float) -> Ring:
+    """The edges of all teeth between two strips, or at an end: the lower (0) or the upper (-1) one of the last strip."""
+    strip = strips[-1]
     before, fillet, flank, tip, upper_flank, upper_fillet = (grid[:, end] for grid in _grids(strip, teeth))
-    fillet_knots, flank_knots = strip.u_knots
-    period: tuple[CadCurve, ...] = (
-        _arc(complex(before[0]), complex(fillet[0])),
-        BSpline(_DEGREE, fillet_knots, fillet),
-        BSpline(_DEGREE, flank_knots, flank),
-        _arc(complex(tip[0]), complex(upper_flank[0])),
-        BSpline(_DEGREE, flank_knots, upper_flank),
-        BSpline(_DEGREE, fillet_knots, upper_fillet),
-    )
-    return made.ring(Outline(period, teeth.number_of_teeth, 0.0, "sampled"), middle + float(strip.v_knots[end]))
+    fillet_knots, *flank_knots = strip.u_knots
+    present = tuple(map(all, zip(*(s.present for s in strips), strict=True)))
+    top = complex(upper_flank[0])
+    period: list[CadCurve] = [_arc(complex(before[0]), complex(fillet[0])), BSpline(_DEGREE, fillet_knots, fillet)]
+    for is_there, poles in zip(present[2:5], (flank, None, upper_flank), strict=True):
+        if is_there:
+            period.append(_arc(complex(tip[0]), top) if poles is None else BSpline(_DEGREE, flank_knots[0], poles))
+    period.append(BSpline(_DEGREE, fillet_knots, upper_fillet))
+    outline = Outline(tuple(period), teeth.number_of_teeth, 0.0, "sampled")
+    return replace(made.ring(outline, middle + float(strip.v_knots[end])), present=present)
 
 
 def _arc(start: complex, end: complex) -> Arc:
@@ -281,9 +312,8 @@ def wheel_body(wheel: WormWheel) -> FacedBody:
     for profile in wheel.core.profiles:
         if not all(isinstance(segment.curve, Arc | Line) for segment in profile.period):
             walls.append(Measured("wall", partial(_from_wall, profile)))
-    half = wheel.teeth.width / 2
     levels = wheel.core.levels()
-    ends = levels[0], levels[-1], float(wheel.teeth.tip_radius(half))
+    ends = levels[0], levels[-1], wheel.teeth.reach()
     return FacedBody(within, tuple(walls), wheel.moments, own_ends=ends)
 
 

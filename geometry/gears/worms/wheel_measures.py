@@ -26,6 +26,8 @@ _ALONG, _ACROSS = 32, 32
 _LEVELS, _SHARES, _STEPS, _SHIFT, _BEYOND = 65, 129, 4, 1e-5, 0.02
 # points that are looked at a time, and how near the border of flank and fillet both are looked at, modules
 _BLOCK, _BESIDE = 8192, 0.1
+# a way of no length, squared, mm^2
+_NONE = 1e-30
 # parts of a side
 FILLET, FLANK = 0, 1
 
@@ -139,20 +141,23 @@ class WormWheel(Record, dict=True):
         inner, normal, outer, *hurry = (
             np.interp(height, table.heights, x) for x in (table.inner, table.normal, table.outer, *table.hurry)
         )
-        side = Side(height, inner, normal, outer, np.zeros(len(height), dtype=bool), (hurry[0], hurry[1]))
+        none = np.zeros(len(height), dtype=bool)
+        side = Side(height, inner, normal, outer, none, (hurry[0], hurry[1]), none)
         part = (self.teeth.fillet, self.teeth.flank)[which]
         cut = part(side, share)
         way = (part(side, share + _SHIFT).plane - cut.plane) / _SHIFT
         # the way is kept: the foot is found well enough for a distance, which errs by the square of what it is off
         for _ in range(_STEPS):
-            step = (np.conj(way) * (plane - cut.plane)).real / np.abs(way) ** 2
+            step = (np.conj(way) * (plane - cut.plane)).real / np.maximum(np.abs(way) ** 2, _NONE)
             # where a side is about to fold a step means little
             share = np.clip(share + np.clip(step, -_BEYOND, _BEYOND), -_BEYOND, 1 + _BEYOND)
             cut = part(side, share)
         off = np.conj(cut.normal) * (plane - cut.plane)
         ended = (share <= -_BEYOND) | (share >= 1 + _BEYOND)
         along = np.where(ended, np.abs(off.imag) / np.abs(cut.normal), 0.0)
-        return np.sqrt(off.real**2 + along**2 + (np.abs(points[:, 2] - self.middle) - np.abs(height)) ** 2)
+        away = np.sqrt(off.real**2 + along**2 + (np.abs(points[:, 2] - self.middle) - np.abs(height)) ** 2)
+        # where the fillet reaches the tip there is no flank
+        return np.where((inner == outer) & (which == FLANK), np.inf, away)
 
     @cached_property
     def _table(self) -> Side:
@@ -169,7 +174,9 @@ class WormWheel(Record, dict=True):
             plane = part(self._table, even[:, None]).plane
             reach, turn = np.abs(plane), np.angle(plane)
             ends = reach[[0, -1]]
-            steps = (reach - ends[0]) / (ends[1] - ends[0])
+            with np.errstate(divide="ignore", invalid="ignore"):
+                # a flank that is one point has any share
+                steps = np.where(ends[1] > ends[0], (reach - ends[0]) / (ends[1] - ends[0]), even[:, None])
             shares = np.stack([np.interp(even, column, even) for column in steps.T], axis=1)
             turns = np.stack(
                 [np.interp(share, even, column) for share, column in zip(shares.T, turn.T, strict=True)], axis=1

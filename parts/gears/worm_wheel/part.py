@@ -37,6 +37,7 @@ from parts.keys.worm import (
 )  # fmt: skip
 
 if TYPE_CHECKING:
+    from geometry.base.findings import Finding
     from geometry.gears.worms.drive import WormDrive
     from geometry.gears.worms.wheel import WormTeeth
     from geometry.gears.worms.wheel_measures import WormWheel
@@ -50,6 +51,8 @@ if TYPE_CHECKING:
 _ROUGH = 1e-3
 _CORE = 0.5
 _LEAST_TEETH = 8
+# heights at which a ridge is looked at
+_SEEN = 33
 # part of a width that is told apart from none
 _SLIVER = 0.02
 
@@ -147,7 +150,7 @@ def _asked_teeth(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     if outer < least:
         raise ParameterError("outer_diameter", outer, "within_throat", limit(least, outer), diameter=least)
     teeth = WormTeeth(hob, drive.centre_distance, drive.throat_radius, outer / 2, width)
-    sliver = replace(teeth, width=_SLIVER * width).ended
+    sliver = replace(teeth, width=_SLIVER * width).lessened
     if sliver is not None:
         # at any width
         raise _toothless(keys, sliver)
@@ -271,7 +274,23 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
             sizes["hob_swivel_deg"] = math.degrees(teeth.hob.swivel)
         else:
             sizes["worm_length_used"] = Field(teeth, drive.worm.form_radius, drive.worm.tip_radius).length_used()
-        return Report((), circles, sizes)
+        return Report(_findings(teeth), circles, sizes)
 
 
 WORM_WHEEL = WormWheelKind()
+
+
+def _findings(teeth: WormTeeth) -> tuple[Finding, ...]:
+    """Where teeth have no tip or no flank, and by how much they are lower there."""
+    import numpy as np
+
+    from geometry.base.findings import Finding
+
+    found = []
+    for low, high in (ridge for ridge in teeth.ridges if ridge[1] > 0):
+        heights = np.linspace(low, high, _SEEN)
+        less = teeth.tip_radius(heights) - teeth.top(heights)
+        found.append(Finding("worm_wheel_ridge", max(low, 0.0), float(less.max())))
+    if teeth.flank_ends:
+        found.append(Finding("worm_wheel_no_flank", min(map(abs, teeth.flank_ends)), teeth.width / 2))
+    return tuple(found)

@@ -136,7 +136,7 @@ def test_a_default_rim_has_whole_teeth_and_a_torn_face_is_refused() -> None:
 
     assert 16 < made(form="ZN1").thing.teeth.width < 18
     for keys, key, code in (
-        ({"face_width": 14.0, "outer_diameter": 100.0}, "face_width", "worm_wheel_pointed"),
+        ({"face_width": 22.0}, "face_width", "worm_wheel_not_reached"),
         # pointed at any width
         ({"form": "ZN1", "number_of_starts": 4, "diameter_quotient": 4.47, "number_of_teeth": 112},
          "addendum_coefficient", "worm_wheel_pointed"),

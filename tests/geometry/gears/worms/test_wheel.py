@@ -121,12 +121,33 @@ def test_steep_worms_have_wheels_up_to_where_teeth_end() -> None:
     assert len(whole.breaks) == 4
     _teeth(WormDrive(Worm(5.0, 4, 8.0), 40), 16.0).checked()
     with pytest.raises(ParameterError) as caught:
-        _teeth(WormDrive(Worm(5.0, 4, 8.0), 40), 42.0).checked()
+        _teeth(WormDrive(Worm(5.0, 4, 8.0), 40), 50.0).checked()
+    # the rim stands within what the hob cuts up to where its tip meets the outer cylinder
+    drive = WormDrive(Worm(5.0, 4, 8.0), 40)
+    out = drive.centre_distance - drive.most_outer_diameter / 2
+    reach = math.sqrt((drive.centre_distance - drive.root_radius) ** 2 - out**2)
     assert caught.value.name == "face_width"
     cure = caught.value.nearest
     assert cure is not None
     assert isinstance(cure.value, float)
+    assert 1.9 * reach < cure.value < 2 * reach
     _teeth(WormDrive(Worm(5.0, 4, 8.0), 40), cure.value).checked()
+
+
+@pytest.mark.parametrize(("quotient", "starts", "teeth", "width"), [(6.0, 1, 20, 12.0), (20.0, 1, 30, 29.7)])
+def test_wide_faces_end_in_a_ridge_or_without_a_flank(quotient: float, starts: int, teeth: int, width: float) -> None:
+    wide = _teeth(WormDrive(Worm(2.0, starts, quotient), teeth), width).checked()
+    heights = np.linspace(-width / 2, width / 2, 25)
+    lower, upper = wide.side(heights), wide.side(-heights)
+    ends = wide.flank(lower, 1.0).plane, np.conj(wide.flank(upper, 1.0).plane)
+    pointed = np.array([any(low < z < high for low, high in wide.ridges) for z in heights])
+    assert pointed.any() == (quotient == 6.0)
+    assert lower.all_fillet.any() == (quotient == 20.0)
+    # a ridge lies on both sides and below the tip, a tip on its circle
+    assert np.abs(ends[0] - ends[1])[pointed] == pytest.approx(0.0, abs=1e-9)
+    assert (np.abs(ends[0]) < wide.tip_radius(heights) - 1e-6)[pointed].all()
+    assert np.abs(ends[0])[~pointed] == pytest.approx(wide.tip_radius(heights)[~pointed], abs=1e-9)
+    assert wide.thickness(heights)[~pointed].min() > 1e-3
 
 
 def test_undercut_teeth_end_where_fillet_and_flank_cross() -> None:
@@ -136,8 +157,7 @@ def test_undercut_teeth_end_where_fillet_and_flank_cross() -> None:
     assert side.undercut.all()
     (end,) = teeth.undercut_ends
     assert teeth.side([end - 1e-6, end + 1e-6]).undercut.tolist() == [True, False]
-    with pytest.raises(ParameterError, match="worm_wheel_pointed"):
-        teeth.checked()
+    assert teeth.checked().ridges[1] == pytest.approx((4.556, 5.0), abs=1e-3)
     ends = teeth.flank(side, 0.0).plane, teeth.fillet(side, 1.0).plane
     assert np.abs(ends[0] - ends[1]).max() < 1e-10
     hob = teeth.hob

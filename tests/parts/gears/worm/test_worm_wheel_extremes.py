@@ -11,9 +11,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from geometry.base.record import replace
 from geometry.gears.worms.wheel import WormTeeth
 from geometry.gears.worms.wheel_faces import wheel_splines
 from parts.base.refusal import SceneError
+from parts.gears.worm_wheel.part import WormWheelSpec, drive_of, teeth_of
 from parts.scene.load import make_parts, scene_from_dict
 from tests.sampling import examples
 
@@ -21,9 +23,12 @@ from tests.sampling import examples
 _ROUNDING = 1e-7
 
 
-def _depth(teeth: WormTeeth, height: float) -> float:
-    """How deep the hob gets into the lower side at a height as it goes by, step by step; below 0: it stays off, mm."""
-    hob, worm = teeth.hob, teeth.hob.worm
+def _depth(teeth: WormTeeth, height: float, more: float = 0.0) -> float:
+    """How deep the hob gets into the lower side at a height as it goes by, step by step; below 0: it stays off, mm.
+
+    ``more``: by how much its tip is larger than the one that left the teeth, mm.
+    """
+    hob, worm = replace(teeth.hob, tip_radius=teeth.hob.tip_radius + more), teeth.hob.worm
     side, shares = teeth.side(np.array([height])), np.linspace(0.0, 1.0, 7)[:, None]
     points = np.concatenate([teeth.fillet(side, shares).plane, teeth.flank(side, shares).plane])
     reach = 2 * float(np.abs(points).max())
@@ -44,6 +49,12 @@ def _depth(teeth: WormTeeth, height: float) -> float:
 def _built(keys: dict[str, Any]) -> Any:
     wheel = {"kind": "worm_wheel", **keys}
     return make_parts(scene_from_dict({"parts": {"wheel": wheel}}, "s", "s"), "s")[0]["wheel"].thing
+
+
+def drive_teeth(keys: dict[str, Any]) -> WormTeeth:
+    """The teeth of a wheel that keys tell, checked."""
+    spec = WormWheelSpec(**keys)
+    return teeth_of(spec, drive_of(spec))
 
 
 def _held(keys: dict[str, Any]) -> None:
@@ -78,6 +89,21 @@ def test_wheels_of_many_starts_are_what_the_hob_leaves(
     thing = _built({**keys, "number_of_teeth": teeth})
     assert 0.3 < thing.teeth.width / thing.drive.most_face_width <= 1
     _held({**keys, "number_of_teeth": teeth})
+
+
+# faces that end in a ridge, without flanks, in a ridge of undercut teeth
+WIDE = {"ridge": (1, 6.0, 20, 12.0), "fillet": (1, 20.0, 30, 29.7), "undercut": (1, 10.0, 12, 10.0)}
+
+
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize("case", WIDE.values(), ids=WIDE)
+def test_faces_wider_than_whole_teeth_are_what_the_hob_leaves(case: tuple[int, float, int, float]) -> None:
+    starts, quotient, count, width = case
+    keys = {"module": 2.0, "number_of_starts": starts, "diameter_quotient": quotient, "number_of_teeth": count}
+    teeth = drive_teeth({**keys, "face_width": width})
+    for height in np.linspace(-width / 2, width / 2, 9):
+        assert _depth(teeth, float(height)) < _ROUNDING
+    assert _depth(teeth, width / 2, 1e-3) > 5e-4
 
 
 @pytest.mark.heavy
