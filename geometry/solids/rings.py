@@ -51,8 +51,8 @@ class Slot(Record, eq=False):
 class Ring(Record, eq=False):
     """The edges of a closed boundary across the axis: its curves, and a bundle for each, a row for each of ``turns``.
 
-    ``points``: those of the curves' poles, of lines and arcs their ends; ``starts``: vertices. ``present``: which curves
-    of the walls beside it there are, the last one among them; by default all.
+    ``points``: those of the curves' poles, of lines and arcs their ends; ``starts``: vertices. ``present``: which
+    curves of the walls beside it there are, the last one among them; by default all.
     """
 
     curves: tuple[CadCurve, ...]

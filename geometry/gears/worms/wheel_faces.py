@@ -279,7 +279,7 @@ def _grids(strip: Strip, teeth: WormTeeth) -> list[Complex]:
 
 
 def _ring(made: BodyFaces, teeth: WormTeeth, strips: Sequence[Strip], end: int, middle: float) -> Ring:
-    """The edges of all teeth between two strips, or at an end: the lower (0) or the upper (-1) one of the last strip."""
+    """The edges of all teeth between two strips, or at an end, the lower (0) or the upper (-1) one of the last."""
     strip = strips[-1]
     before, fillet, flank, tip, upper_flank, upper_fillet = (grid[:, end] for grid in _grids(strip, teeth))
     fillet_knots, *flank_knots = strip.u_knots
