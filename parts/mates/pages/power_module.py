@@ -99,15 +99,27 @@ def _found(keys: PowerModuleKeys) -> dict[str, float]:
 
 
 def _sizes(page: Sheet, keys: PowerModuleKeys, found: dict[str, float]) -> None:
-    """Every rule by which the assembly ``power_module`` is sized; what these drivers lack as notes."""
+    """Every rule by which the assembly ``power_module`` is sized, and its limits; what lacks as notes."""
     rules = of_orientation(RULES, keys.orientation)
     labels = tuple((r.name, ", ".join(map(str, r.positions)), r.made_of, r.reason) for r in rules)
     heads = ((N_("size"), ""), (N_("positions"), ""), (N_("rule"), ""), (N_("reason"), ""), (N_("value"), "mm"))
     rows = tuple((found[r.name],) for r in rules)
     page.tables.append(Table("sizes", N_("Sizes of the assembly power_module, by rules"), heads, rows, labels=labels))
-    for condition in of_orientation(CONDITIONS, keys.orientation):
-        if (left := valued(condition.made_of, found)) < 0:
-            told = message(N_("lacks {lacks} mm: {what}"), lacks=f"{-left:.6g}", what=filled(condition.reason))
+    _limits(page, keys, found)
+
+
+def _limits(page: Sheet, keys: PowerModuleKeys, found: dict[str, float]) -> None:
+    """What must be left between and within parts, and how much is."""
+    limits = of_orientation(CONDITIONS, keys.orientation)
+    left = [valued(condition.made_of, found) for condition in limits]
+    heads = ((N_("driving size"), ""), (N_("what must be left"), ""), (N_("rule"), ""), (N_("left"), "mm"))
+    known: dict[str, float | str] = found | {"teeth": "{:g}, {:g}".format(*keys.pair_teeth)}
+    labels = tuple((f"{c.driver} = {known[c.driver]}", c.reason, c.made_of) for c in limits)
+    rows = tuple((length,) for length in left)
+    page.tables.append(Table("limits", N_("Limits of the assembly power_module"), heads, rows, labels=labels))
+    for condition, length in zip(limits, left, strict=True):
+        if length < 0:
+            told = message(N_("lacks {lacks} mm: {what}"), lacks=f"{-length:.6g}", what=filled(condition.reason))
             page.notes.append(
                 message(N_("assembly power_module, {driver}: {what}"), driver=condition.driver, what=told)
             )

@@ -334,3 +334,17 @@ def test_sizes_of_the_module_stand_with_their_rules_on_one_page(module: dict[str
     found = {row["size"]: row["value"] for row in module["sizes"] if row["rule"] and row["reason"]}
     # the thesis's axes, and half the circle on which the list's 2 x 58 balls run
     assert (found["arm"], found["a_1"], found["a_2"], found["r_large"]) == (72.0, 345.0, 290.0, 280.0)
+
+
+def test_limits_of_the_module_stand_beside_them_with_what_is_left(module: dict[str, Any]) -> None:
+    left = {(row["driving size"], row["what must be left"]): row["left"] for row in module["limits"] if row["rule"]}
+    # 48 teeth more, less one; 2 x 32 balls of 8 on 151.2 mm, with 3 mm between two
+    assert left["teeth = 96, 144", "room of the pinion in the ring"] == 47
+    assert left["balls = 180", "room between two balls of the small circle"] == pytest.approx(
+        math.tau * 151.2 / 32 - 11
+    )
+    assert min(left.values()) >= 0
+    thin = calculated("power-module", "face_width=17")
+    missing = [row for row in thin["limits"] if row["left"] < 0]
+    assert [row["driving size"] for row in missing] == ["face_width = 17.0"]
+    assert any("lacks 1 mm" in note for note in thin["notes"])
