@@ -213,6 +213,10 @@ class BodyBuilder(Draft):
             self.wall(lower, upper)
         return loops[0], loops[-1]
 
+    def upright(self, profile: Profile, low: float, high: float) -> tuple[int, int]:
+        """An upright wall of one profile; returns its loops."""
+        return self.run(profile, ((low, 0.0, 0j), (high, 0.0, 0j)))
+
     def cap(self, outer: int, holes: list[int], *, up: bool) -> None:
         """A plane face."""
         self.caps.append(Cap(outer, tuple(holes), up))
@@ -222,6 +226,23 @@ class BodyBuilder(Draft):
         return Body(tuple(self.profiles), tuple(self.loops), tuple(self.walls), tuple(self.caps))
 
 
+def opened(body: Body, top: float) -> tuple[BodyBuilder, Cap]:
+    """A body to go on with, without its largest upper face at z = ``top`` mm, and that face.
+
+    Raises
+    ------
+    ValueError
+        The body has no face there.
+    """
+    faces = [c for c in body.caps if c.up and body.loops[c.outer].z == top]
+    if not faces:
+        raise ValueError(f"there is no upper face at {top} mm")
+    face = max(faces, key=lambda c: body.loop_profile(c.outer).reach())
+    caps = [c for c in body.caps if c is not face]
+    made = BodyBuilder(list(body.profiles), {loop: i for i, loop in enumerate(body.loops)}, list(body.walls), caps)
+    return made, face
+
+
 def plate(
     region: Region, bottom: float, top: float, twist: Twist | None = None, *, toothed: Profile | None = None
 ) -> Body:
@@ -229,9 +250,8 @@ def plate(
     if twist is not None and not any(p is toothed for p in (region.outer, *region.holes)):
         raise ValueError("the toothed boundary is none of the region's")
     made = BodyBuilder()
-    upright = (bottom, 0.0, 0j), (top, 0.0, 0j)
     ends = [
-        made.run(p, twist.stations(bottom, top) if twist is not None and p is toothed else upright)
+        made.run(p, twist.stations(bottom, top)) if twist is not None and p is toothed else made.upright(p, bottom, top)
         for p in (region.outer, *region.holes)
     ]
     made.cap(ends[0][0], [lower for lower, _ in ends[1:]], up=False)

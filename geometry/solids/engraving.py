@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from geometry.plane.profile import Profile
-from geometry.solids.body import Body, BodyBuilder, Cap
+from geometry.solids.body import Body, Cap, opened
 from geometry.solids.plate import PlateSlot
 
 # of a digit's height: its width, the width of a stroke, and how far a stroke's end stays off its corner in strokes
@@ -51,13 +51,8 @@ def engraved(body: Body, marks: Sequence[tuple[Profile, float]], top: float) -> 
     """
     if not marks:
         return body
-    faces = [c for c in body.caps if c.up and body.loops[c.outer].z == top]
-    if not faces:
-        raise ValueError("there is no face to engrave")
-    face = max(faces, key=lambda c: body.loop_profile(c.outer).reach())
-    made = BodyBuilder(list(body.profiles), {loop: i for i, loop in enumerate(body.loops)}, list(body.walls))
-    made.caps += [c for c in body.caps if c is not face]
-    sides = [made.run(profile, ((top - depth, 0.0, 0j), (top, 0.0, 0j))) for profile, depth in marks]
+    made, face = opened(body, top)
+    sides = [made.upright(profile, top - depth, top) for profile, depth in marks]
     made.caps.append(Cap(face.outer, (*face.holes, *(edge for _, edge in sides)), True))
     made.caps += [Cap(foot, (), True) for foot, _ in sides]
     return made.body()

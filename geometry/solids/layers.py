@@ -150,7 +150,7 @@ class Layers(Record, dict=True):
                 end = k + 1
                 while contour in walls[end + 1]:
                     end += 1
-                made.run(profiles[contour, hole], ((heights[k], 0.0, 0j), (heights[end], 0.0, 0j)))
+                made.upright(profiles[contour, hole], heights[k], heights[end])
         for z, (low, high) in zip(heights, pairwise(walls), strict=True):
             self._faces(made, z, low, high, profiles)
         return made.body()

@@ -75,42 +75,25 @@ class PinPlate(Record):
             raise OffsetError(offset, "leaves_no_pins", 0.0)
         return [circle(radius, Label.PIN, centre=centre) for centre in self.pins.centres()]
 
-    def body(self, offset: float) -> Body:
-        """One plate with its pins standing on the upper face."""
-        thickness, length = self.thickness, self.length
+    def body(self, offset: float, *, between: bool = False) -> Body:
+        """One plate with its pins standing on the upper face, or two with the pins ``between`` them."""
         region = self.region(offset, seats=not self.solid)
         if not self.solid:
-            return plate(region, 0.0, thickness)
-        made = BodyBuilder()
-        walls = [made.run(p, _upright(0.0, thickness)) for p in (region.outer, *region.holes)]
-        pins = [made.run(p, _upright(thickness, thickness + length)) for p in self.pin_profiles(offset)]
-        made.cap(walls[0][0], [low for low, _ in walls[1:]], up=False)
-        made.cap(walls[0][1], [*(high for _, high in walls[1:]), *(low for low, _ in pins)], up=True)
+            return plate(region, 0.0, self.thickness)
+        made, inside = BodyBuilder(), (self.thickness, self.thickness + self.length)
+        profiles = (region.outer, *region.holes)
+        lower = [made.upright(p, 0.0, inside[0]) for p in profiles]
+        upper = [made.upright(p, inside[1], inside[1] + self.thickness) for p in profiles] if between else []
+        pins = [made.upright(p, *inside) for p in self.pin_profiles(offset)]
+        made.cap(lower[0][0], [low for low, _ in lower[1:]], up=False)
+        made.cap(lower[0][1], [*(high for _, high in lower[1:]), *(low for low, _ in pins)], up=True)
+        if upper:
+            made.cap(upper[0][0], [*(low for low, _ in upper[1:]), *(high for _, high in pins)], up=False)
+            made.cap(upper[0][1], [high for _, high in upper[1:]], up=True)
+            return made.body()
         for _, high in pins:
             made.cap(high, [], up=True)
         return made.body()
-
-    def lantern(self, offset: float) -> Body:
-        """Two plates with the pins between them."""
-        thickness, length = self.thickness, self.length
-        region = self.region(offset, seats=not self.solid)
-        if not self.solid:
-            return plate(region, 0.0, thickness)
-        made = BodyBuilder()
-        inside = thickness, thickness + length
-        profiles = (region.outer, *region.holes)
-        lower = [made.run(p, _upright(0.0, inside[0])) for p in profiles]
-        upper = [made.run(p, _upright(inside[1], inside[1] + thickness)) for p in profiles]
-        pins = [made.run(p, _upright(*inside)) for p in self.pin_profiles(offset)]
-        made.cap(lower[0][0], [low for low, _ in lower[1:]], up=False)
-        made.cap(lower[0][1], [*(high for _, high in lower[1:]), *(low for low, _ in pins)], up=True)
-        made.cap(upper[0][0], [*(low for low, _ in upper[1:]), *(high for _, high in pins)], up=False)
-        made.cap(upper[0][1], [high for _, high in upper[1:]], up=True)
-        return made.body()
-
-
-def _upright(low: float, high: float) -> tuple[tuple[float, float, complex], ...]:
-    return (low, 0.0, 0j), (high, 0.0, 0j)
 
 
 def pin_reach(plate_: PinPlate) -> tuple[float, float]:

@@ -137,7 +137,7 @@ class LanternWheel(_Plate[LanternWheelSpec]):
 
     def solid(self, keys: LanternWheelSpec, thing: PinPlate, offset: float) -> Body:
         """Both plates and the pins between them."""
-        return thing.lantern(offset)
+        return thing.body(offset, between=True)
 
     def height(self, keys: LanternWheelSpec, thing: PinPlate) -> float:
         """Of both plates and the pins."""

@@ -11,7 +11,7 @@ from geometry.cams.plane.undercut import lost_to_undercut
 from geometry.curves.curve import Reversed
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Profile, Segment
-from geometry.solids.body import Body, BodyBuilder, Cap
+from geometry.solids.body import Body, Cap, opened
 
 
 class CamWall(Record):
@@ -95,14 +95,8 @@ def with_groove(body: Body, inner: Profile, outer: Profile, floor: float, top: f
     ValueError
         The body has no face there.
     """
-    faces = [c for c in body.caps if c.up and body.loops[c.outer].z == top]
-    if not faces:
-        raise ValueError("there is no face for the groove")
-    face = max(faces, key=lambda c: body.loop_profile(c.outer).reach())
-    made = BodyBuilder(list(body.profiles), {loop: i for i, loop in enumerate(body.loops)}, list(body.walls))
-    made.caps += [c for c in body.caps if c is not face]
-    sides = [made.run(wall, ((floor, 0.0, 0j), (top, 0.0, 0j))) for wall in (inner, outer)]
-    (inner_foot, inner_edge), (outer_foot, outer_edge) = sides
+    made, face = opened(body, top)
+    (inner_foot, inner_edge), (outer_foot, outer_edge) = (made.upright(wall, floor, top) for wall in (inner, outer))
     made.caps += [
         Cap(face.outer, (outer_edge,), True),
         Cap(inner_edge, face.holes, True),
