@@ -15,6 +15,7 @@ from exporters.command.cli import main
 from exporters.formats.read_step import read_step_assembly
 from geometry.kinematics.two_disk import TwoDisk
 from parts.base.refusal import SceneError
+from parts.base.texts import told_in
 from parts.scene.load import SceneFile, scene_from_dict
 from tests.parts.recipes.test_power_table import placed, runs, struck
 
@@ -138,7 +139,7 @@ def test_names_of_the_parts_list_stand_in_step_files(tmp_path: Path) -> None:
     table = {"kind": "power_module_kinematics", "orientation": "thesis"}
     for language in ("en", "uk"):
         made = scene_from_dict({"assemblies": [table]}, "t", "t", language)
-        titles = {(p.position, p.title) for p in made.parts.values() if p.position}  # type: ignore[attr-defined]
+        titles = {(p.position, told_in(language, p.title)) for p in made.parts.values() if p.position}
         known = {(item["pos"], item[f"name_{language}"]) for item in items}
         assert titles <= known
         assert len(titles) == 11
