@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
-from functools import partial
 from itertools import pairwise
 
 import numpy as np
 
 from geometry.base.placement import Placement3
-from geometry.base.roots import bracketed_root
-from geometry.curves.curve import Curve
 from parts.base.mate import Touching
 from parts.base.part import Part
 from parts.base.refusal import SceneError
@@ -19,13 +15,14 @@ from parts.drawing.assembly_sheet import AssemblyView, assembly_sheet
 from parts.drawing.assembly_views import Drawn, Shown, along_axes, cut, seen
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
+from parts.drawing.extent import farthest
 from parts.drawing.working import VISIBLE, Size
 from parts.scene.load import ExportSpec
 from parts.scene.parts_list import list_rows
 from parts.scene.placing import Placing
 
 # what is one place, mm
-_SAME, _SAMPLES = 1e-6, 65
+_SAME = 1e-6
 _TITLE = "A–A"
 
 
@@ -106,30 +103,9 @@ def _beside(front: Sequence[Shown], placing: Placing) -> list[Size]:
     return found
 
 
-def _farthest(drawn: Drawn, way: complex) -> complex:
-    """The farthest place of an outline in a direction."""
-    best = 0j
-    reach = -math.inf
-    for curve in (c for layer, c in drawn.strokes if layer == VISIBLE):
-        t = np.linspace(*curve.domain, _SAMPLES)
-        k = int((curve.point(t) / way).real.argmax())
-        low, high = t[max(k - 1, 0)], t[min(k + 1, _SAMPLES - 1)]
-        if _rate(curve, way, low) > 0 > _rate(curve, way, high):
-            at = bracketed_root(partial(_rate, curve, way), low, high).value
-        else:
-            at = t[k]
-        if ((point := complex(curve.point(at))) / way).real > reach + _SAME:
-            best, reach = point, (point / way).real
-    return best
-
-
-def _rate(curve: Curve, way: complex, t: float) -> float:
-    """How fast a curve runs in a direction."""
-    return (complex(curve.derivative(t)) / way).real
-
-
 def _over_all(drawn: Drawn, *, across: bool) -> list[Size]:
     """Height of a view, and its width where ``across``."""
-    left, right, low, high = (_farthest(drawn, way) for way in (-1, 1, -1j, 1j))
+    outline = [curve for layer, curve in drawn.strokes if layer == VISIBLE]
+    left, right, low, high = (farthest(outline, way) for way in (-1, 1, -1j, 1j))
     found = [Size("height", complex(low), complex(high), "right")]
     return [*found, Size("width", complex(left), complex(right), "below")] if across else found

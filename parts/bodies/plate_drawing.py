@@ -1,4 +1,4 @@
-"""The working drawing of a flat body of lines and arcs: its outline with the places of its holes, its thickness."""
+"""The working drawing of a flat body: its outline with the places of its corners and holes, its thickness."""
 
 from __future__ import annotations
 
@@ -6,14 +6,17 @@ import cmath
 import math
 from collections.abc import Iterator, Sequence
 
-from geometry.curves.curve import Curve
+from geometry.curves.curve import Curve, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Profile, Region
+from parts.drawing.extent import farthest
 from parts.drawing.wheel_views import circle_of
 from parts.drawing.working import VISIBLE, Note, PartDrawing, Round, Size, Stroke, Subject, View, requirements
 from parts.texts.sheets import sheet_words
 
 _DIGITS, _SAME = 9, 1e-9
+# sine of the angle between two curves that make a corner
+_SMOOTH = 1e-6
 
 
 def part_drawing(subject: Subject) -> PartDrawing:
@@ -29,38 +32,42 @@ def part_drawing(subject: Subject) -> PartDrawing:
         strokes += [(VISIBLE, s.curve) for s in profile.segments()]
     axes = [Line(centre - r * way, centre + r * way) for centre, r in round_holes for way in (1, 1j)]
     centres = [*_corners(curves), *(centre for centre, _ in round_holes)]
-    for profile in slots:
-        centres += [s.curve.centre for s in profile.segments() if isinstance(s.curve, Arc)]
-    sizes = [Size("width", low, complex(high.real, low.imag), "below"),
-             Size("height", low, complex(low.real, high.imag), "left")]  # fmt: skip
+    chains = [[s.curve for s in profile.segments()] for profile in slots]
+    for chain in chains:
+        centres += [*_corners(chain), *(curve.centre for curve in chain if isinstance(curve, Arc))]
+    whole = _circle(region.outer)
+    sizes = [] if whole else [Size("width", low, complex(high.real, low.imag), "below"),
+                              Size("height", low, complex(low.real, high.imag), "left")]  # fmt: skip
     for k, (x, at) in enumerate(sorted({round(c.real, _DIGITS): c for c in centres}.items()), 1):
         if low.real < x < high.real:
             sizes.append(Size(f"x.{k}", low, at, "below"))
     for k, (y, at) in enumerate(sorted({round(c.imag, _DIGITS): c for c in centres}.items()), 1):
         if low.imag < y < high.imag:
             sizes.append(Size(f"y.{k}", low, at, "left"))
-    chains = [curves, *([s.curve for s in p.segments()] for p in slots)]
-    rounds = [*_diameters(round_holes, subject), *_radii(chains, subject)]
-    thick = Note(complex(high.real, (low.imag + 2 * high.imag) / 3), f"s {subject.say(subject.part.face_width)}")
-    edges = max((c for c in curves if isinstance(c, Line)), key=lambda c: c.end.real + c.start.real, default=None)
-    notes = (thick if edges is None else Note((edges.start + edges.end) / 2, thick.text),)
+    rounds = [*_diameters(round_holes, subject), *_radii([*([] if whole else [curves]), *chains], subject)]
+    if whole:
+        rounds.append(Round("diameter", *whole, angles=(-45.0, -135.0, 135.0)))
+    edge = max((c for c in curves if isinstance(c, Line)), key=lambda c: c.end.real + c.start.real, default=None)
+    at = farthest(curves, 1) if edge is None else (edge.start + edge.end) / 2
+    notes = (Note(at, f"s {subject.say(subject.part.face_width)}"),)
     view = View(tuple(strokes), (), tuple(axes), tuple(sizes), tuple(rounds), notes)
     return PartDrawing((view,), requirements(subject))
 
 
 def extent(region: Region) -> tuple[complex, complex]:
-    """The lower left and the upper right corner of the rectangle about a region of lines and arcs."""
-    ends = [_extremes(s.curve) for s in region.outer.segments()]
-    return (complex(min(e[0] for e in ends), min(e[1] for e in ends)),
-            complex(max(e[2] for e in ends), max(e[3] for e in ends)))  # fmt: skip
+    """The lower left and the upper right corner of the rectangle about a region."""
+    curves = [s.curve for s in region.outer.segments()]
+    left, right, low, high = (farthest(curves, way) for way in (-1, 1, -1j, 1j))
+    return complex(left.real, low.imag), complex(right.real, high.imag)
 
 
 def _corners(curves: Sequence[Curve]) -> Iterator[complex]:
-    """Sharp corners between lines, and those of upright and level lines where an arc rounds them."""
+    """Sharp corners, and those of upright and level lines where an arc rounds them."""
     for k, curve in enumerate(curves):
         before = curves[k - 1]
-        if isinstance(before, Line) and isinstance(curve, Line):
-            yield curve.start
+        ways = complex(before.tangent(before.domain[1])), complex(curve.tangent(curve.domain[0]))
+        if abs((ways[0].conjugate() * ways[1]).imag) > _SMOOTH:
+            yield start_point(curve)
         after = curves[(k + 1) % len(curves)]
         if isinstance(curve, Arc) and isinstance(before, Line) and isinstance(after, Line):
             ways = before.end - before.start, after.end - after.start
@@ -68,20 +75,6 @@ def _corners(curves: Sequence[Curve]) -> Iterator[complex]:
                 yield complex(before.end.real, after.start.imag)
             if abs(ways[0].imag) < _SAME and abs(ways[1].real) < _SAME:
                 yield complex(after.start.real, before.end.imag)
-
-
-def _extremes(curve: Curve) -> tuple[float, float, float, float]:
-    """Least x and y, greatest x and y of a line or arc."""
-    assert isinstance(curve, Line | Arc)
-    a, b = curve.domain
-    points = [complex(curve.point(t)) for t in (a, b)]
-    if isinstance(curve, Arc):
-        for k in range(4):
-            turn = (k * math.pi / 2 - curve.start_angle) * math.copysign(1.0, curve.sweep) % (2 * math.pi)
-            if turn <= abs(curve.sweep):
-                points.append(curve.centre + cmath.rect(curve.radius, k * math.pi / 2))
-    return (min(p.real for p in points), min(p.imag for p in points),
-            max(p.real for p in points), max(p.imag for p in points))  # fmt: skip
 
 
 def _circle(profile: Profile) -> tuple[complex, float] | None:

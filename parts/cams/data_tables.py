@@ -8,6 +8,7 @@ from geometry.base.record import replace
 from parts.base.part import Part
 from parts.base.texts import N_, Text, listed, message
 from parts.cams.disk_cam.page import sheet, table_from
+from parts.cams.groove_cam.piece import GroovePieceSpec
 from parts.pages.cam_steps import law_text
 from parts.pages.data_table import DataRow, DataTable, Mated, chosen_columns, row_of, rows_of, term_row
 from parts.pages.inputs import SceneKeys
@@ -42,8 +43,10 @@ _FOLLOWERS: dict[str, Text] = {
 
 def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTable:
     """The table of a cam of a scene."""
-    page = sheet(table_from(scene, "", {"part": part.id}))
-    name, columns = _POSITIONS[part.kind]
+    # a plate of a groove cam has the table of its cam
+    owner, kind = (part.keys.of, "groove_cam") if isinstance(part.keys, GroovePieceSpec) else (part.id, part.kind)
+    page = sheet(table_from(scene, "", {"part": owner}))
+    name, columns = _POSITIONS[kind]
     found = next(table for table in page.tables if table.name == name)
     return DataTable(
         (

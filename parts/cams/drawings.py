@@ -7,7 +7,10 @@ import math
 from geometry.base.record import replace
 from geometry.curves.line_arc import Line
 from geometry.plane.profile import Profile
+from geometry.solids.wheel import WheelShape
+from parts.bodies import plate_drawing
 from parts.cams.groove_cam.part import GrooveDisk
+from parts.cams.groove_cam.piece import GroovePiece, GroovePieceSpec
 from parts.cams.wheel import Turned
 from parts.drawing.directions import directions
 from parts.drawing.disk_views import disk_drawing, reach
@@ -21,6 +24,11 @@ def part_drawing(subject: Subject) -> PartDrawing:
     part = subject.part
     if isinstance(part.thing, GrooveDisk):
         return _groove(subject, part.thing)
+    if isinstance(part.thing, GroovePiece):
+        disk, shape = part.thing.disk, WheelShape(part.thing.thickness)
+        if isinstance(part.keys, GroovePieceSpec) and part.keys.piece == "ring":
+            return plate_drawing.part_drawing(subject)
+        return disk_drawing(subject, shape, disk.holes, "zero_x")
     kind = part.made_by
     assert isinstance(kind, Turned)
     circles = [name for name in part.circles if name == "base_circle_diameter"]

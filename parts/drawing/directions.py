@@ -26,8 +26,10 @@ def directions(holes: HubHoles, subject: Subject, zero: str, teeth: int = 0) -> 
     def tell(key: str, angle: float, count: int, start: str, **sizes: object) -> None:
         step = math.tau / max(count, 1)
         turn = math.degrees(angle % step if step - angle % step > _SAME else 0.0)
-        found.append(sheet_words(subject.language, key, angle=subject.say(turn),
-                                 zero=sheet_words(subject.language, start), **sizes))  # fmt: skip
+        begins = sheet_words(subject.language, start, size=first)
+        found.append(sheet_words(subject.language, key, angle=subject.say(turn), zero=begins, **sizes))
+
+    first = subject.say(holes.round_holes[0].pitch_circle_diameter) if holes.round_holes else ""
 
     begin, start = 0.0, zero
     if bore is not None and not isinstance(bore, RoundBore):
@@ -36,6 +38,8 @@ def directions(holes: HubHoles, subject: Subject, zero: str, teeth: int = 0) -> 
             tell("keyway_at" if is_keyway else "flat_at", turn, teeth, zero)
         if teeth or not zero:
             begin, start = turn, "zero_keyway" if is_keyway else "zero_flat"
+    if not start and holes.round_holes:
+        begin, start = holes.round_holes[0].start, "zero_group"
     for group in holes.round_holes if start else ():
         if _turned(group.start - begin, group.count):
             key = "holes_at" if group.count > 1 else "hole_at"

@@ -23,12 +23,12 @@ _SAMPLES = 65
 
 
 def disk_drawing(
-    subject: Subject, shape: WheelShape, holes: HubHoles, zero: str, circles: Sequence[str] = ()
+    subject: Subject, shape: WheelShape, holes: HubHoles, zero: str, circles: Sequence[str] = (), teeth: int = 0
 ) -> PartDrawing:
     """Section, face as the files have it, bore.
 
     ``zero``: the key of the words for its direction +x; ``circles``: names of those of the part that are shown with
-    sizes.
+    sizes; ``teeth``: how many stand about it, any of which is as good as the first.
     """
     outline = subject.part.section(0.0).region.outer
     if all(isinstance(s.curve, Arc) and s.curve.centre == 0 for s in outline.period):
@@ -44,7 +44,7 @@ def disk_drawing(
     )
     tip = reach(outline, up), reach(outline, up + math.pi)
     wheel = replace(bare, tip=tip, rounds=rounds, stands=False)
-    return PartDrawing(wheel_views(wheel, subject), requirements(subject, *directions(holes, subject, zero)))
+    return PartDrawing(wheel_views(wheel, subject), requirements(subject, *directions(holes, subject, zero, teeth)))
 
 
 def reach(profile: Profile, angle: float) -> float:

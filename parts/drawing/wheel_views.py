@@ -254,11 +254,11 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
 def _section_notes(wheel: Wheel, subject: Subject, at: _Levels, flank: float) -> tuple[Note, ...]:
     """Signs of roughness of the teeth, or of the outside, and of the bore."""
     found = []
-    outside = wheel.pitch if wheel.pitch is not None else wheel.tip[0]
+    text = f"Ra {subject.say(flank)}"
     if wheel.pitch is not None:
-        found.append(
-            Note(complex(wheel.shape.face_width, outside), f"Ra {subject.say(flank)}", is_rough=True, goes_on=True)
-        )
+        found.append(Note(complex(wheel.shape.face_width, wheel.pitch), text, is_rough=True, goes_on=True))
+    elif not wheel.stands and wheel.outline is not None:
+        found.append(Note(complex(0.7 * wheel.shape.face_width, wheel.tip[0]), text, is_rough=True))
     if wheel.holes.bore is not None:
         words = f"Ra {subject.say(subject.wishes.bore_roughness)}"
         found.append(Note(complex(at.hub[1], -bore_radii(wheel.holes.bore)[1]), words, is_rough=True))
@@ -366,6 +366,47 @@ def bore_view(bore: Bore, subject: Subject) -> View:
             )
     name = sheet_words(subject.language, "view_a")
     return View(tuple(strokes), (), axis_cross(bore.reach), tuple(sizes), tuple(rounds), (), name, _LEAST_BORE)
+
+
+def ring_section(width: float, radii: tuple[float, float, float], holes: HubHoles, subject: Subject) -> View:
+    """The axial section of a ring with holes in its rim.
+
+    ``radii``: of the edge that is seen inside, of where the material of the plane begins, of the outside, mm.
+    """
+    seen, begins, outer = radii
+    solid = closed([complex(0, begins), complex(width, begins), complex(width, outer), complex(0, outer)])
+    loop = closed([complex(0, seen), complex(width, seen), complex(width, outer), complex(0, outer)])
+    strokes: list[Stroke] = []
+    axes, hatched = [Line(0j, complex(width))], [solid, below(solid)]
+    for way in (1, -1):
+        side = loop if way > 0 else below(loop)
+        strokes += [*outlined(side), (VISIBLE, Line(complex(0, way * begins), complex(width, way * begins)))]
+        strokes += [(VISIBLE, edge if way > 0 else edge.mirrored()) for edge in seen_edges(loop, cut=True)]
+        for group in holes.round_holes:
+            middle, half = group.pitch_circle_diameter / 2, group.diameter / 2
+            walls = [Line(complex(0, way * y), complex(width, way * y)) for y in (middle - half, middle + half)]
+            strokes += [(VISIBLE, wall) for wall in walls]
+            axes.append(Line(complex(0, way * middle), complex(width, way * middle)))
+            hatched.append(closed([walls[0].start, walls[0].end, walls[1].end, walls[1].start]))
+    wishes = subject.wishes
+    sizes = [
+        Size("outer_diameter", complex(0, -outer), complex(0, outer), "left", "Ø", wishes.tip),
+        Size("face_width", complex(0, -outer), complex(width, -outer), "below", "", wishes.width),
+    ]
+    for index, (_, group) in enumerate(holes.groups(), 1):
+        middle = group.pitch_circle_diameter / 2
+        sizes.append(Size(f"holes.{index}.pitch_circle_diameter", -1j * middle, 1j * middle, "left", "Ø"))
+    return View(tuple(strokes), tuple(hatched), tuple(axes), tuple(sizes))
+
+
+def ring_face(outer: float, holes: HubHoles, subject: Subject) -> View:
+    """The outside of a ring along its axis, with the holes in its rim."""
+    face: list[Stroke] = [(VISIBLE, circle_of(outer))]
+    for _, group in holes.groups():
+        face += [(VISIBLE, circle_of(group.diameter / 2, centre)) for centre in group.centres()]
+        face.append((AXIS, circle_of(group.pitch_circle_diameter / 2)))
+    axes = (*axis_cross(outer), *hole_axes(holes, 0.0))
+    return View(tuple(face), (), axes, (), group_rounds(holes, 0.0, subject))
 
 
 def _leftmost(corner: Arc) -> float:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geometry.base.record import replace
 from geometry.curves.curve import Curve, end_point, start_point
 from geometry.curves.line_arc import Line
 from geometry.gears.teeth.ring import RingGear
@@ -19,12 +20,11 @@ from parts.drawing.turned_sizes import Fits, turned_sizes
 from parts.drawing.wheel_views import (
     Crown,
     Wheel,
-    axis_cross,
     bore_view,
     circle_of,
     exact_teeth,
-    group_rounds,
-    hole_axes,
+    ring_face,
+    ring_section,
     seen_along,
     wheel_views,
 )
@@ -139,45 +139,21 @@ def _ring(keys: RingGearSpec, ring: RingGear, subject: Subject) -> tuple[View, .
     """Axial section and face of a ring."""
     width, outer, root = keys.face_width, ring.outer_radius, ring.root_radius
     tip, pitch, wishes = ring.tip_radius, ring.reference_radius, subject.wishes
-    loop = closed([complex(0, tip), complex(width, tip), complex(width, outer), complex(0, outer)])
-    solid = closed([complex(0, root), complex(width, root), complex(width, outer), complex(0, outer)])
-    strokes: list[Stroke] = []
-    axes = [Line(0j, complex(width))]
-    for side, way in ((loop, 1), (below(loop), -1)):
-        strokes += [*outlined(side), (VISIBLE, Line(complex(0, way * root), complex(width, way * root)))]
-        strokes += [(VISIBLE, edge if way > 0 else edge.mirrored()) for edge in seen_edges(loop, cut=True)]
-        axes.append(Line(complex(0, way * pitch), complex(width, way * pitch)))
-        for _, group in ring.holes.groups():
-            for radius in (group.pitch_circle_diameter / 2 - group.diameter / 2, group.reach):
-                strokes.append((VISIBLE, Line(complex(0, way * radius), complex(width, way * radius))))
-            middle = way * group.pitch_circle_diameter / 2
-            axes.append(Line(complex(0, middle), complex(width, middle)))
-    hatched = [solid, below(solid)]
-    for _, group in ring.holes.groups():
-        low, high = group.pitch_circle_diameter / 2 - group.diameter / 2, group.reach
-        hole = closed([complex(0, low), complex(width, low), complex(width, high), complex(0, high)])
-        hatched += [hole, below(hole)]
-    sizes = [
-        Size("outer_diameter", complex(0, -outer), complex(0, outer), "left", "Ø", wishes.tip),
-        Size("tip_diameter", complex(width, -tip), complex(width, tip), "right", "Ø", wishes.inner),
-        Size("face_width", complex(0, -outer), complex(width, -outer), "below", "", wishes.width),
-    ]
-    for index, (_, group) in enumerate(ring.holes.groups(), 1):
-        middle = group.pitch_circle_diameter / 2
-        sizes.append(Size(f"holes.{index}.pitch_circle_diameter", -1j * middle, 1j * middle, "left", "Ø"))
+    section = ring_section(width, (tip, root, outer), ring.holes, subject)
+    axes = [Line(complex(0, way * pitch), complex(width, way * pitch)) for way in (1, -1)]
+    told = Size("tip_diameter", complex(width, -tip), complex(width, tip), "right", "Ø", wishes.inner)
     rough = Note(complex(width, -pitch), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True, goes_on=True)
-    section = View(tuple(strokes), tuple(hatched), tuple(axes), tuple(sizes), notes=(rough,))
+    section = replace(
+        section, axes=(*section.axes, *axes), sizes=(section.sizes[0], told, *section.sizes[1:]), notes=(rough,)
+    )
     region = subject.part.section(0.0).region
     toothed = next(p for p in region.holes if p.count == ring.number_of_teeth)
     count = min(wishes.teeth, ring.number_of_teeth)
-    face: list[Stroke] = [(VISIBLE, circle_of(outer)), (AXIS, circle_of(pitch))]
-    face += exact_teeth(toothed, count, 0.0, tip) if count else [(VISIBLE, circle_of(tip))]
-    for _, group in ring.holes.groups():
-        face += [(VISIBLE, circle_of(group.diameter / 2, centre)) for centre in group.centres()]
-        face.append((AXIS, circle_of(group.pitch_circle_diameter / 2)))
-    face += [(THIN, s.curve) for mark in region.marks for s in mark.segments()]
-    cross = (*axis_cross(outer), *hole_axes(ring.holes, 0.0))
-    return section, View(tuple(face), (), cross, (), group_rounds(ring.holes, 0.0, subject))
+    teeth = exact_teeth(toothed, count, 0.0, tip) if count else [(VISIBLE, circle_of(tip))]
+    marks = [(THIN, s.curve) for mark in region.marks for s in mark.segments()]
+    face = ring_face(outer, ring.holes, subject)
+    outside, *others = face.strokes
+    return section, replace(face, strokes=(outside, (AXIS, circle_of(pitch)), *teeth, *others, *marks))
 
 
 def _rack(keys: RackSpec, rack: Rack, subject: Subject) -> tuple[View, ...]:

@@ -44,6 +44,8 @@ class LanternGearKind(Kind[LanternGearSpec, "LanternGear"]):
     """A lantern's gear."""
 
     name, keys = "lantern_gear", LanternGearSpec
+    drawing = "parts.pins.drawings"
+    data_table = "parts.pins.data_tables"
 
     def thing(self, keys: LanternGearSpec, others: Others) -> LanternGear:
         """The gear, checked to have teeth, and holes inside its roots."""

@@ -40,6 +40,8 @@ K = TypeVar("K", PinSpec, EccentricSpec)
 class _Round(Kind[K, "RoundDisc"]):
     """A round disc."""
 
+    drawing = "parts.pins.drawings"
+
     def section(self, keys: K, thing: RoundDisc, offset: float) -> OffsetRegion:
         """The disc moved."""
         return moved_region(thing.region, offset)

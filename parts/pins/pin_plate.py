@@ -88,6 +88,8 @@ K = TypeVar("K", bound=PinPlateKeys)
 class _Plate(Kind[K, "PinPlate"]):
     """A plate with pins."""
 
+    drawing = "parts.pins.drawings"
+
     def section(self, keys: K, thing: PinPlate, offset: float) -> OffsetRegion:
         """The plate with holes for its pins."""
         return moved_region(thing.region, offset)

@@ -53,6 +53,7 @@ class PinRingKind(Kind[PinRingSpec, "PinRing"]):
     """A ring with its pins."""
 
     name, keys = "pin_ring", PinRingSpec
+    drawing = "parts.pins.drawings"
 
     def thing(self, keys: PinRingSpec, others: Others) -> PinRing:
         """The ring, checked to hold its pins and to leave a rim."""

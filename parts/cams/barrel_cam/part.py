@@ -310,6 +310,7 @@ class Barrel(Kind[BarrelCamSpec, "BarrelBody"]):
     """A cylindrical cam; its flat outline is the development of its outer cylinder."""
 
     name, keys = "barrel_cam", BarrelCamSpec
+    drawing = "parts.cams.barrel_cam.drawing"
     data_table = "parts.cams.data_tables"
 
     def thing(self, keys: BarrelCamSpec, others: Others) -> BarrelBody:

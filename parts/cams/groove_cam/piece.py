@@ -54,6 +54,8 @@ class Piece(Kind[GroovePieceSpec, GroovePiece]):
     """A plate of a groove cam."""
 
     name, keys, made_from = "groove_piece", GroovePieceSpec, _GROOVE_CAM
+    drawing = "parts.cams.drawings"
+    data_table = "parts.cams.data_tables"
 
     def thing(self, keys: GroovePieceSpec, others: Others) -> GroovePiece:
         """The plate of another part's groove cam."""

@@ -365,6 +365,7 @@ class Wedge(Kind[WedgeCamSpec, "WedgeCam"]):
     """A plate that slides under its follower."""
 
     name, keys = "wedge_cam", WedgeCamSpec
+    drawing = "parts.bodies.plate_drawing"
     data_table = "parts.cams.data_tables"
 
     def thing(self, keys: WedgeCamSpec, others: Others) -> WedgeCam:

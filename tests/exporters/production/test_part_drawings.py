@@ -62,6 +62,15 @@ PARTS["disc"] = {
     "eccentricity": 3.0, "bore_diameter": 20.0, "face_width": 8.0,
     "output_holes": {"count": 6, "pin_diameter": 6.0, "pitch_circle_diameter": 56.0},
 }  # fmt: skip
+PARTS |= {
+    "pin": {"kind": "pin", "diameter": 8.0, "length": 60.0},
+    "eccentric": {"kind": "eccentric", "diameter": 32.0, "eccentricity": 4.0, "bore_diameter": 10.0},
+    "lantern": {"kind": "lantern_wheel", "number_of_pins": 12, "pin_circle_diameter": 80.0, "pin_diameter": 8.0,
+                "bore_diameter": 15.0},
+    "pin ring": {"kind": "pin_ring", "number_of_pins": 12, "pin_circle_diameter": 80.0, "pin_diameter": 8.0},
+    "barrel": {"kind": "barrel_cam", "form": "groove", "outer_diameter": 70.0, "groove_depth": 8.0, "lift": 18.0,
+               "roller_diameter": 10.0, "bore_diameter": 12.0, "phases": PARTS["cam"]["phases"]},
+}  # fmt: skip
 
 
 def oval_axis(teeth: int, module: float, ratio: float) -> float:
@@ -93,6 +102,13 @@ SIZES: dict[str, list[float]] = {
     # R - r + e and R - r - e; holes of pin + 2 e
     "disc": [8, 20, 56, 12, 96, 84],
     "plate": [120, 80, 8, 15, 105, 60, 15, 50, 6, 20],
+    "pin": [8, 60],
+    "eccentric": [10, 10, 4, 32],
+    # plates of 3, pins of 10 between them; two pins of rim
+    "lantern": [96, 80, 15, 3, 10, 16, 8],
+    "pin ring": [104, 80, 80, 10, 4],
+    # lift, roller and half a roller at each end
+    "barrel": [70, 12, 38, 8, 70 * math.pi, 38],
 }
 
 
@@ -227,12 +243,12 @@ def test_refusals_name_their_key() -> None:
     with pytest.raises(SceneError) as caught:
         jobs(PARTS["gear"], drawing={"bore": "7H"})
     assert caught.value.key == "exports[1].drawing.bore"
-    pin = {"kind": "pin", "diameter": 8.0, "length": 20.0}
+    box = {"kind": "layered", "layers": [{"thickness": 4.0, "circles": [{"diameter": 20.0}]}]}
     with pytest.raises(SceneError) as caught:
-        jobs(pin, parts=["p"])
+        jobs(box, parts=["p"])
     assert caught.value.key == "exports[1].parts"
     with pytest.raises(SceneError) as caught:
-        jobs(pin)
+        jobs(box)
     assert caught.value.key == "exports[1].purpose"
 
 
