@@ -266,6 +266,9 @@ def _parser(told: Words) -> argparse.ArgumentParser:
     catalogue.set_defaults(run=_catalogue)
     check = command("check", told.text("contact and interference of the pairs of a scene"), as_json, quiet)
     check.add_argument("scenes", nargs="+", metavar=told.term("command line", "SCENE"), help=scenes)
+    check.add_argument(
+        "--steps", action="store_true", help=told.text("print the order of assembly too, where the scene tells one")
+    )
     check.set_defaults(run=_check)
     verify = command(
         "verify", told.text("read files back and hold them against the part in their report"), as_json, quiet
@@ -472,6 +475,7 @@ def _check(options: argparse.Namespace) -> int:
                 contact=True,
                 transmission=asked,
                 workspace=scene.checks.workspace,
+                steps=scene.steps,
             ),
             scene,
             names_of(scene.instances, parts),
@@ -486,6 +490,11 @@ def _check(options: argparse.Namespace) -> int:
         language = scene.scene.language
         title = [] if len(options.scenes) == 1 else [f"{scene.name}:"]
         lines = check_lines(checks, language, names)
+        if options.steps:
+            from exporters.production.check_lines import in_rows
+            from exporters.production.order import steps_told
+
+            lines += steps_told(scene.steps, names, in_rows, language)
         print("\n".join(title + (lines or [words(language).text("no mates; no solids run into each other")])))
     return FAILED if any(has_bad_verdict(checks) for checks, *_ in found) else WRONG_INPUT if refused else DONE
 

@@ -26,7 +26,7 @@ _OWN, _SOURCE, _OTHER = "gear", "source", "wheel"
 _SCHEMA = "higherpair.schema.json"
 _SCHEMA_COMMAND = f"higherpair schema --out {_SCHEMA}"
 # tables of a plain scene, as they are printed
-_TABLES = ("scene", "parts", "instances", "mates", "drives", "boards", "beds", "exports", "checks")
+_TABLES = ("scene", "parts", "instances", "mates", "drives", "steps", "boards", "beds", "exports", "checks")
 _COMMENTS = {
     "sheet": N_("picture of meshing of every pair, DXF and SVG"),
     "one_pair": N_("only of this one"),

@@ -21,6 +21,7 @@ from parts.texts.findings import finding_text
 
 if TYPE_CHECKING:
     from geometry.gears.mesh.search import PairContact
+    from parts.scene.steps import StepSpec
     from parts.scene.workspace import Struck
 
 # what is farther apart is no fit, mm
@@ -38,11 +39,12 @@ def scene_checks(
     contact: bool,
     transmission: bool = False,
     workspace: int | None = None,
+    steps: Sequence[StepSpec] = (),
 ) -> dict[str, Any]:
     """All that is known of how a scene's instances stand to each other.
 
     ``contact``: interference of the pairs too; ``transmission``: and their transmission error; ``workspace``: solids
-    wherever the drives may stand, each pair in so many poses at most.
+    wherever the drives may stand, each pair in so many poses at most; ``steps``: the order of assembly to be held.
     """
     checks: dict[str, Any] = {}
     if placing.mates:
@@ -68,6 +70,10 @@ def scene_checks(
         checks["axles"] = [{**row, "text": told.text(OFF_CENTRE, **row)} for row in rows]
     if contact and len(placing.instances) > 1:
         checks |= _solids(placing, parts, drives, language, workspace)
+    if steps:
+        from exporters.production.order import order_checks
+
+        checks["order"] = order_checks(steps, placing, parts, language)
     if placing.train is not None:
         checks["drives"] = [
             {"instance": d.instance, "turns": d.turns, "train": train, **({"travel": slid} if slid else {})}

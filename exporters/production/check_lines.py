@@ -79,6 +79,11 @@ def check_lines(checks: dict[str, Any], language: str, names: Mapping[str, str] 
         lines += _motion(checks["motion"], told)
     if "workspace" in checks:
         lines += _workspace(checks["workspace"], told)
+    if "order" in checks:
+        from exporters.production.order import order_lines
+
+        lines += order_lines(checks["order"], told)
+        lines += [f"{told.text(VERDICTS[found['verdict']])}: {found['text']}" for found in checks["order"]["hindered"]]
     # what is fixed to another turns with it
     fixed = {mate["second"] for mate in checks.get("mates", []) if mate["kind"] == "fixed"}
     for drive in checks.get("drives", []):
@@ -86,7 +91,7 @@ def check_lines(checks: dict[str, Any], language: str, names: Mapping[str, str] 
             ((names.get(name, name), turns) for name, turns in drive["train"].items() if name not in fixed),
             key=lambda row: f"{row[1]:.6g}",
         )
-        train = ", ".join(f"{name} {turns}" for turns, row in rows for name in _in_rows(name for name, _ in row))
+        train = ", ".join(f"{name} {turns}" for turns, row in rows for name in in_rows(name for name, _ in row))
         driven = names.get(drive["instance"], drive["instance"])
         lines.append(told.text("drive {instance}: {train} turns", instance=driven, train=train))
     return lines
@@ -181,10 +186,10 @@ def _without_repeats(mates: list[dict[str, Any]]) -> list[dict[str, Any]]:
         key = (mate["kind"], mate["first"]) if mate["kind"] in _BARE and not told else len(shown)
         shown.setdefault(key, mate)
         seconds.setdefault(key, []).append(mate["second"])
-    return [{**mate, "second": ", ".join(_in_rows(seconds[key]))} for key, mate in shown.items()]
+    return [{**mate, "second": ", ".join(in_rows(seconds[key]))} for key, mate in shown.items()]
 
 
-def _in_rows(names: Iterable[str]) -> Iterator[str]:
+def in_rows(names: Iterable[str]) -> Iterator[str]:
     """Names as they are, three or more that count on by their last number as the first ... the last."""
     rows: list[list[str]] = []
     open_rows: dict[tuple[str, int], list[str]] = {}
@@ -246,5 +251,6 @@ def has_bad_verdict(checks: dict[str, Any]) -> bool:
     mates = checks.get("mates", [])
     if checks.get("axles"):
         return True
-    bad = any(found.get("verdict") in ("overlap", "undecided") for found in (*mates, *checks.get("solids", [])))
+    held = (*mates, *checks.get("solids", []), *checks.get("order", {}).get("hindered", []))
+    bad = any(found.get("verdict") in ("overlap", "undecided") for found in held)
     return bad or any(not condition["met"] for mate in mates for condition in mate.get("conditions", []))

@@ -212,7 +212,7 @@ CONDITIONS = (
     _C("worm_wheel_width", "worm_wheel_width - (45 - 2 * h_20)", N_("thread of the rings 20 in wheel 25")),
     _C("axial_gap", "35 - (disk_thickness - 18) - gap_21 - 0.5 - 8", N_("thread of the screws M12 in the pinion")),
     _C("worm_module", "h_5 - 8 - 12 - z_lip", N_("lip of the body over worm I, for the screws of guide 6")),
-    _C("worm_quotient", "sqrt((x_seat + 9) ** 2 + a_1 ** 2) - 6 - r_6_screws - 4",
+    _C("worm_quotient", "sqrt((x_seat + 6) ** 2 + a_1 ** 2) - 6 - r_6_screws - 4",
        N_("wall between the screws of guide 6 and those of the cover of worm I")),
     _C("worm_module", "half_room - r_6", N_("guide 6 on the lip of the body")),
     _C("worm_module", "a_2 - h_seat - 8 - r_21 - 2", N_("room between the seat of worm II and ring 22")),

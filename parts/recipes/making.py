@@ -6,6 +6,11 @@ from collections.abc import Mapping, Sequence
 
 from parts.recipes.recipe import Expansion, Table
 
+# directions in which things come to their place; from any other side, each goes straight to the axis
+WAYS: Mapping[str, tuple[float, float, float]] = {
+    "front": (0.0, 0.0, -1.0), "behind": (0.0, 0.0, 1.0), "right": (-1.0, 0.0, 0.0), "left": (1.0, 0.0, 0.0),
+    "back": (0.0, -1.0, 0.0), "fore": (0.0, 1.0, 0.0),
+}  # fmt: skip
 # rounding of a square plate's corners, mm
 _CORNER = 10.0
 
@@ -48,6 +53,12 @@ class Making:
     def mate(self, kind: str, first: str, second: str, **keys: object) -> None:
         """One more mate of what stands."""
         self.found.mates.append({"kind": kind, "first": first, "second": second, **keys})
+
+    def bring(self, to: str, *steps: tuple[str, ...], **more: object) -> None:
+        """Steps of the order of assembly: each from where its things come (``WAYS``), and what they are."""
+        for way, *things in steps:
+            along = {"along": list(WAYS[way])} if way in WAYS else {}
+            self.found.steps.append({"bring": things, "to": to, **along, **more})
 
     def fix(self, first: str, second: str, at: complex, height: float, part: str = "") -> None:
         """One body with the first; ``height`` above its lower face."""

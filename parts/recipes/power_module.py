@@ -38,6 +38,8 @@ _Teeth = Annotated[int, Meta(ge=12, le=1000)]
 _NUT_20, _HEX_8, _HEX_12 = (17.0, 8.0), (13.0, 5.3), (18.0, 7.5, 10.8)
 # step of a casting from one level to the next, play of what is turned by hand, mm
 _STEP, _PLAY = 1.0, 0.05
+# depth of the groove of a snap ring
+_SNAP = 1.5
 # guide 6: height of its flange, which screws M8x16 hold by as much, how many, how deep their holes are
 _FLANGE, _GUIDE_SCREWS, _DEEP = 8.0, 20, 10.0
 # guide 5: how many screws, where the first is, degrees
@@ -261,6 +263,7 @@ class _Making(Making):
             {"instance": "disk_2", "turns": keys.turns_of_disk},
             {"instance": "ring", "turns": keys.turns_of_ring},
         ]
+        self._order()
         self._named()
         self.found.origins |= {
             "drives[1].turns": "turns_of_disk", "drives[2].turns": "turns_of_ring",
@@ -441,7 +444,7 @@ class _Making(Making):
     def _set_screws(self, worm: int) -> list[complex]:
         """Holes over a cover."""
         s, side = self.s, 1 if worm == 1 else -1
-        return [complex(side * (s["x_seat"] + x), side * s[f"a_{worm}"]) for x in (9, 21)]
+        return [complex(side * (s["x_seat"] + x), side * s[f"a_{worm}"]) for x in (6, 16)]
 
     # -- what turns with disk 2
 
@@ -746,7 +749,7 @@ class _Making(Making):
         r, start = s["r_worm_journal"], keys.worm_length / 2
         cover, flange = s["x_seat"], 8.0
         out = cover + s["w_seat"] + flange
-        steps = [(r, out + 0.2 - start), (r - 1.5, 2.0), (r, 5.0), (r - 4, 40.0)]
+        steps = [(r, out + 0.2 - start), (r - _SNAP, 2.0), (r, 5.0), (r - 4, 40.0)]
         self.part(
             "worm", kind="worm", module=keys.worm_module, diameter_quotient=keys.worm_quotient,
             thread_length=keys.worm_length,
@@ -759,7 +762,7 @@ class _Making(Making):
             (bore, s["w_seat"] + flange),
         ])  # fmt: skip
         self._tube("spacer_28", bore, r + 3, cover - start - 2)
-        self._tube("snap_ring", r - 1.5 + _PLAY, r + 4, 1.8)
+        self._tube("snap_ring", r - _SNAP + _PLAY, r + 4, 1.8)
         self._turned("screw_49", [(0, 0), (3, 0), (4, 1), (4, 12), (0, 12)])
         for worm, wheel, direction in ((1, "worm_wheel_25", 90.0), (2, "worm_wheel_23", -90.0)):
             self.within = f"worm_{worm}_unit"
@@ -773,6 +776,71 @@ class _Making(Making):
                 }  # fmt: skip
             for k, at in enumerate(self._set_screws(worm), 1):
                 self._set("body", f"set_screw_{worm}_{k}", "screw_49", s[f"z_{worm}"] + seat, at)
+
+    # -- how it is put together
+
+    def _order(self) -> None:
+        """The order of assembly: the units, then what they go into."""
+        self.bring(
+            "disk_2", ("behind", "protective_ring_2"), ("behind", "rear_clip"), ("behind", "spacer_24"),
+            ("behind", "spacer_24_screw"), ("behind", "worm_wheel_25"), ("behind", "worm_wheel_25_bolt"),
+        )  # fmt: skip
+        self.bring("ring", ("behind", "spacer_22"), ("front", "ring_screw"), ("behind", "large_cage_2"))
+        self.bring("large_cage_2", ("sides", "large_ball_2"))
+        self.bring(
+            "ring", ("front", "bearing_ring_1"), ("behind", "bearing_ring_2"), ("behind", "worm_wheel_23"),
+            ("behind", "worm_wheel_23_screw"),
+        )  # fmt: skip
+        self._order_within()
+        bolts, nuts = ([f"{name}_{k}" for k in range(1, 9)] for name in ("bolt_42", "nut_44"))
+        cranks = [("front", *(f"first_crank_{k}" for k in (1, 2, 3)))] if self.cranks else []
+        held = [("front", "body_plate"), ("front", "body_plate_pin")] if self.cranks else [("front", "central_wheel")]
+        self.bring(
+            "body", ("front", *bolts), ("behind", *nuts), ("behind", "plug_1", "plug_2"), ("front", "spacer_18"),
+            *held, ("front", "central_screw"), *cranks,
+            # under wheel 25 these are out of reach later
+            ("front", "set_screw_2_1", "set_screw_2_2"), ("front", "ring"), ("front", "guide_6"),
+            ("front", "guide_6_screw"), ("front", "large_cage_1"),
+        )  # fmt: skip
+        # down inside of the ring of balls, then out into the groove of guide 6
+        self.bring("large_cage_1", ("front", "large_ball_1"), outwards=self.keys.ball)
+        self.bring(
+            "body", ("front", "guide_5"), ("front", "guide_5_screw"), ("front", "shield_7"),
+            ("front", "shield_7_screw"), ("front", "platform"), ("front", "platform_screw"),
+        )  # fmt: skip
+        for worm, side in ((1, "right"), (2, "left")):
+            self.bring(f"worm_{worm}", (side, f"spacer_28_{worm}"))
+            self.bring("body", (side, f"worm_{worm}"), screwed=True)
+            self.bring("body", (side, f"end_cover_{worm}"))
+            # over the shaft beyond its groove
+            self.bring("body", (side, f"snap_ring_{worm}"), opened=_SNAP)
+        self.bring("body", ("front", "set_screw_1_1", "set_screw_1_2"))
+
+    def _order_within(self) -> None:
+        """What is within ring 21 and disk 2; guide 13 is wider than the tips of the ring: it comes in from behind."""
+        self.bring(
+            "pinion", ("behind", "cover_12"), ("behind", "cover_12_screw"),
+            ("behind", "ring_guide" if self.cranks else "satellite_axle"), ("front", "nut_46"),
+        )  # fmt: skip
+        self.bring("disk_3", ("behind", "small_cage_2"), ("front", "small_cage_1"))
+        for k in (1, 2):
+            self.bring(f"small_cage_{k}", ("sides", f"small_ball_{k}"))
+        self.bring(
+            "ring", ("behind", "pinion"), ("front", "disk_2"), ("behind", "bearing_screw"), ("front", "sleeve_17"),
+            ("front", "disk_3"), ("front", "disk_3_screw"), ("front", "protective_ring_1"), ("front", "front_clip"),
+            ("front", "shield_8"), ("front", "shield_8_screw"), ("front", "platform_axle"), ("behind", "spacer_10"),
+        )  # fmt: skip
+        if self.cranks:
+            self.bring("platform_plate", ("behind", "platform_plate_pin_rear"))
+            self.bring("free_ring", ("front", "free_ring_pin"), ("behind", "free_ring_pin_rear"))
+            seconds = [f"second_crank_{k}" for k in (1, 2, 3)]
+            last = [("behind", *seconds), ("behind", "free_ring")]
+            self.bring("ring", ("behind", "platform_plate"), ("behind", "nut_47"), *last)
+        else:
+            self.bring(
+                "ring", ("behind", "satellite_wheel"), ("behind", "spacer_15"), ("behind", "screw_57"),
+                ("behind", "platform_wheel"), ("behind", "nut_47"),
+            )  # fmt: skip
 
     # -- bodies
 

@@ -39,6 +39,7 @@ class Expansion(Draft):
     instances: dict[str, Table] = field(default_factory=dict)
     mates: list[Table] = field(default_factory=list)
     drives: list[Table] = field(default_factory=list)
+    steps: list[Table] = field(default_factory=list)
     origins: dict[str, str] = field(default_factory=dict)
 
     def name_all(self, titles: Mapping[str, str]) -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cache, cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geometry.approximation.chords import approximate_profile
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex, Real
 from geometry.gears.worms.body import WormBody
 from geometry.solids.body import Body
@@ -34,6 +34,10 @@ _CHORD, TOUCH = 1e-4, 1e-3
 _SAME, _DIGITS = 1e-7, 7
 # points along radius, height and turn by which a common volume is measured
 _GRID = 48
+# radii that differ by less of the largest are seen as one along the axis
+_LITTLE = 0.03
+# farther than anything reaches, mm
+FAR = 1e6
 # sides of a circle about teeth, and of one about a thread
 _SIDES, _ROUND = 1024, 256
 
@@ -95,6 +99,19 @@ class Sectioned:
         wide = self.half.real / math.cos(math.pi / _ROUND)
         sides = manifold3d.CrossSection([list(zip(wide.tolist(), self.half.imag.tolist(), strict=True))])
         return manifold3d.Manifold.revolve(sides, _ROUND)
+
+    @cached_property
+    def plan(self) -> list[tuple[float, float, BaseGeometry]]:
+        """Pieces of the section between two levels, mm, as they are seen along the axis."""
+        import shapely
+
+        if self.half is None:
+            return self.layers
+        holes = shapely.union_all([_disk(h.radius, h.centre) for h in self.holes])
+        return [
+            (z0, z1, shapely.difference(_disk(outer), shapely.union(_disk(inner), holes)))
+            for z0, z1, inner, outer in _steps(self.bands)
+        ]
 
     @cached_property
     def cylinders(self) -> Real:
@@ -179,6 +196,7 @@ class Sections:
         self.made = cache(lambda key: Sectioned(self.parts[key]))
         self._held: dict[object, Fit | None] = {}
         self._shrunk: dict[int, tuple[BaseGeometry, BaseGeometry]] = {}
+        self._drawn: dict[tuple[int, int], tuple[_Region, _Region]] = {}
 
     def between(self, one: Instance, two: Instance) -> Fit | None:
         """Two instances as they stand, if sections about the axis of either tell it."""
@@ -186,14 +204,9 @@ class Sections:
             pair = (one, two) if one.axis == UPWARDS else (two, one)
             gap = self._across(*pair) if pair[0].axis == UPWARDS else 0.0
             return Fit(gap, is_least=True) if gap > 0 else None
-        way = [b - a for a, b in zip(one.at, two.at, strict=True)]
-        lift = math.fsum(w * x for w, x in zip(way, one.axis, strict=True))
-        offset = complex(way[0], way[1])
-        if one.axis != UPWARDS:
-            if math.dist(way, [lift * x for x in one.axis]) > _SAME:
-                return None
-            offset = 0j
-        first, second = (_rounded(at * cmath.rect(1.0, -i.rotation)) for i, at in ((one, offset), (two, -offset)))
+        if (stand := _stand(one, two)) is None:
+            return None
+        first, second, lift = stand
         key = (one.part, two.part, first, second, round(lift, _DIGITS))
         if key not in self._held:
             self._held[key] = self._between(one.part, two.part, first, second, lift)
@@ -215,6 +228,33 @@ class Sections:
             elif (volume := self._common(made[1 - k], regions, at, raised)) > 0:
                 return Fit(0.0, volume)
         return least
+
+    def lets_in(self, coming: Instance, standing: Instance, way: int) -> bool:
+        """Whether the one comes to its place straight along its axis (``way`` 1) or against it (-1), past the other.
+
+        Both axes have one direction; those that lie have one line.
+        """
+        parts = (coming.part, standing.part)
+        if not all(self.made(part).known for part in parts) or (stand := _stand(coming, standing)) is None:
+            return False
+        first, second, lift = stand
+        for k, at in ((0, second), (1, first)):
+            one, two = self.made(parts[k]).at(0j), self.made(parts[1 - k]).at(at)
+            regions = (self._drawn_out(one, -way), two) if k == 0 else (one, self._drawn_out(two, -way))
+            if self._apart(regions, -lift if k else lift) is not None:
+                return True
+        return False
+
+    def _drawn_out(self, region: _Region, way: int) -> _Region:
+        """A region drawn out along the axis, or against it, without end."""
+        found = self._drawn.get((id(region), way))
+        if found is None:
+            # the region is kept with it, so that its number stays its own
+            found = self._drawn[id(region), way] = (
+                region,
+                replace(region, some=drawn_along(region.some, 1j * way * FAR)),
+            )
+        return found[1]
 
     def _across(self, upright: Instance, lying: Instance) -> float:
         """What keeps an upright part from one that lies across it, mm, at least: cylinders about both."""
@@ -284,6 +324,70 @@ class Sections:
         within = shapely.contains_xy(own, np.abs(places).ravel(), np.repeat(z - lift, _GRID)).reshape(places.shape)
         cell = (r1 - r0) * (z1 - z0) / _GRID**2 * 2 * half / _GRID
         return float((within.sum(axis=1) * r).sum() * cell)
+
+
+def _steps(bands: Real) -> list[tuple[float, float, float, float]]:
+    """Bands as rings about them: those beside each other whose radii differ by little are one."""
+    found: list[tuple[float, float, float, float]] = []
+    little = _LITTLE * float(bands[:, 2:].max())
+    first: tuple[float, float] = (0.0, 0.0)
+    for z0, z1, *radii in bands.tolist():
+        inner, outer = min(radii[:2]), max(radii[2:])
+        if found and found[-1][1] == z0 and max(abs(inner - first[0]), abs(outer - first[1])) <= little:
+            low, _, least, most = found.pop()
+            found.append((low, z1, min(least, inner), max(most, outer)))
+        else:
+            first = inner, outer
+            found.append((z0, z1, inner, outer))
+    return found
+
+
+def _stand(one: Instance, two: Instance) -> tuple[complex, complex, float] | None:
+    """Of two whose axes have one direction, each axis in the frame of the other, and how far the second is above."""
+    way = [b - a for a, b in zip(one.at, two.at, strict=True)]
+    lift = math.fsum(w * x for w, x in zip(way, one.axis, strict=True))
+    offset = complex(way[0], way[1])
+    if one.axis != UPWARDS:
+        if math.dist(way, [lift * x for x in one.axis]) > _SAME:
+            return None
+        offset = 0j
+    first, second = (_rounded(at * cmath.rect(1.0, -i.rotation)) for i, at in ((one, offset), (two, -offset)))
+    return first, second, lift
+
+
+def drawn_along(section: BaseGeometry, way: complex) -> BaseGeometry:
+    """All that a section passes as it goes a way in its plane, mm."""
+    import shapely
+
+    moved = shapely.transform(section, lambda xy: xy + np.array([way.real, way.imag]))
+    if shapely.convex_hull(section).area <= section.area * (1 + _SAME):
+        return shapely.convex_hull(shapely.union(section, moved))
+    pieces = shapely.get_parts(section)
+    rings = [line for piece in pieces for line in (piece.exterior, *piece.interiors)]
+    sides = [side for ring in rings for side in _sides_drawn(shapely.get_coordinates(ring), way)]
+    return shapely.union_all([section, moved, *sides])
+
+
+def _sides_drawn(points: Real, way: complex) -> Sequence[BaseGeometry]:
+    """What each side of a polygon passes on a way; sides along it pass nothing."""
+    import shapely
+
+    a, b, w = points[:-1], points[1:], np.array([way.real, way.imag])
+    across = (b - a)[:, 0] * w[1] - (b - a)[:, 1] * w[0]
+    a, b = a[np.abs(across) > _SAME * abs(way)], b[np.abs(across) > _SAME * abs(way)]
+    found: Sequence[BaseGeometry] = list(shapely.polygons(np.stack([a, b, b + w, a + w, a], axis=1)))
+    return found
+
+
+def _disk(radius: float, centre: complex = 0j) -> BaseGeometry:
+    """A circle by chords that leave as little of it as they may."""
+    import shapely
+
+    if radius <= 0:
+        return shapely.Polygon()
+    count = math.ceil(math.pi / math.acos(max(1 - _CHORD / radius, 0.0)))
+    points = centre + radius * np.exp(2j * math.pi * np.arange(count) / count)
+    return shapely.Polygon(_pairs(points))
 
 
 def _rounded(at: complex) -> complex:

@@ -69,10 +69,10 @@ def solid_overlaps(
                 # a thread is meshed only where its hull is not clear
                 hulls = [sections.made(i.part).hull for i in (one, two)]
                 volume = common_volume(
-                    [_placed(i, h or solid_of(i.part)) for i, h in zip((one, two), hulls, strict=True)]
+                    [placed_solid(i, h or solid_of(i.part)) for i, h in zip((one, two), hulls, strict=True)]
                 )
                 if volume > 0 and any(hulls):
-                    volume = common_volume([_placed(i, solid_of(i.part)) for i in (one, two)])
+                    volume = common_volume([placed_solid(i, solid_of(i.part)) for i in (one, two)])
             except GeometryError:
                 found.append(SolidOverlap(one.id, two.id, None))
                 continue
@@ -115,7 +115,7 @@ def _meet(one: tuple[complex, float, float, float], two: tuple[complex, float, f
     return near and min(one[3], two[3]) > max(one[2], two[2])
 
 
-def _placed(instance: Instance, solid: Any) -> Any:
+def placed_solid(instance: Instance, solid: Any) -> Any:
     """A solid in the place of an instance."""
     if instance.axis != UPWARDS:
         return solid.transform(instance.scene_from_part.matrix())

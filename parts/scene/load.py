@@ -37,6 +37,7 @@ from parts.scene.instances import (
     members,
 )
 from parts.scene.language import in_language
+from parts.scene.steps import StepSpec, step_specs
 
 if TYPE_CHECKING:
     from parts.base.mate import MateKeys, Mating
@@ -174,6 +175,7 @@ class SceneFile(Struct, forbid_unknown_fields=True):
     checks: ChecksSpec = msgspec.field(default_factory=ChecksSpec)
     boards: dict[str, BoardSpec] = {}
     beds: dict[str, BedSpec] = {}
+    steps: list[StepSpec] = []
     origins: dict[str, str] = {}
 
 
@@ -318,7 +320,7 @@ def _check_tables(raw: dict[str, Any], source: str) -> None:
     tables: dict[str, type] = {
         key: dict for key in ("scene", "defaults", "parts", "instances", "boards", "beds", "checks")
     }
-    tables |= {key: list for key in ("assemblies", "mates", "drives", "exports")}
+    tables |= {key: list for key in ("assemblies", "mates", "drives", "steps", "exports")}
     for key, value in raw.items():
         if key not in tables:
             raise SceneError(source, key, None, "unknown_table", meant(key, tables), known=list(tables))
@@ -356,10 +358,11 @@ def _scene_of(raw: dict[str, Any], source: str, name: str, origins: dict[str, st
                 places[f"mates[{len(mates)}]"] = origins.get(place, place)
     origins |= places
     drives = [drive_spec(t, instances, source, f"drives[{i + 1}]") for i, t in enumerate(raw.get("drives", []))]
+    steps = step_specs(raw.get("steps", []), parts, instances, groups, source)
     checks = converted(raw.get("checks", {}), ChecksSpec, source, "checks")
     boards = _laid(raw, "boards", BoardSpec, exports, parts, instances, source)
     beds = _laid(raw, "beds", BedSpec, exports, parts, instances, source)
-    return SceneFile(name, info, parts, exports, instances, mates, drives, checks, boards, beds, origins)
+    return SceneFile(name, info, parts, exports, instances, mates, drives, checks, boards, beds, steps, origins)
 
 
 def _laid(
@@ -536,7 +539,8 @@ def _made(scene: SceneFile, specs: dict[str, MaterialKeys], source: str) -> tupl
 
 # keys of parts, instances and drives that are told where they are given
 _SELDOM = (
-    "axis", "held", "travel", "title", "label", "position", "designation", "standard", "subassembly",
+    "axis", "held", "travel", "along", "outwards", "opened", "title", "label", "position", "designation", "standard",
+    "subassembly",
 )  # fmt: skip
 
 
@@ -545,9 +549,9 @@ def resolved(scene: SceneFile) -> dict[str, Any]:
     data: dict[str, Any] = msgspec.to_builtins(scene)
     del data["origins"]
     # told where there are some
-    for key in [key for key in PURPOSES_LAID if not data[key]]:
+    for key in [key for key in (*PURPOSES_LAID, "steps") if not data[key]]:
         del data[key]
-    for spec in (*data["parts"].values(), *data["instances"].values(), *data["drives"]):
+    for spec in (*data["parts"].values(), *data["instances"].values(), *data["drives"], *data.get("steps", ())):
         for key in [key for key in _SELDOM if spec.get(key, 0) is None]:
             del spec[key]
     return data
@@ -555,7 +559,7 @@ def resolved(scene: SceneFile) -> dict[str, Any]:
 
 def scene_from_resolved(data: dict[str, Any], source: str) -> SceneFile:
     """A scene from what a report has kept."""
-    known = ("scene", "parts", "instances", "mates", "drives", "exports", "checks", *PURPOSES_LAID)
+    known = ("scene", "parts", "instances", "mates", "drives", "steps", "exports", "checks", *PURPOSES_LAID)
     tables: dict[str, Any] = {key: data[key] for key in known if key in data}
     tables["exports"] = [{k: v for k, v in e.items() if v is not None} for e in tables.get("exports", [])]
     for name in ("parts", "instances", *PURPOSES_LAID):

@@ -11,7 +11,7 @@ from parts.recipes.recipe import Expansion, Table
 from parts.scene.language import in_one
 
 # keys of tables that hold the id of an instance or a part
-_NAMING = ("part", "first", "second", "instance", "of")
+_NAMING = ("part", "first", "second", "instance", "of", "to", "bring")
 
 
 def told_out(raw: dict[str, Any], source: str) -> tuple[dict[str, Any], dict[str, str]]:
@@ -28,7 +28,7 @@ def told_out(raw: dict[str, Any], source: str) -> tuple[dict[str, Any], dict[str
     tables: dict[str, Any] = {key: value for key, value in raw.items() if key != "assemblies"}
     origins: dict[str, str] = {}
     named: dict[str, dict[str, Table]] = {"parts": {}, "instances": {}}
-    listed: dict[str, list[Table]] = {"mates": [], "drives": []}
+    listed: dict[str, list[Table]] = {"mates": [], "drives": [], "steps": []}
     for number, table in enumerate(raw["assemblies"], 1):
         place = f"assemblies[{number}]"
         prefix, made = _made(in_one(raw, table, source, place), source, place)
@@ -81,4 +81,7 @@ def _made(table: object, source: str, place: str) -> tuple[str, Expansion]:
 
 def _named(table: Table, prefix: str) -> Table:
     """A table with the assembly's name before every id in it."""
-    return {key: prefix + value if key in _NAMING and value is not None else value for key, value in table.items()}
+    found = dict(table)
+    for key in [key for key in _NAMING if table.get(key) is not None]:
+        found[key] = [prefix + one for one in table[key]] if isinstance(table[key], list) else prefix + table[key]
+    return found

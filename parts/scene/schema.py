@@ -16,6 +16,7 @@ from parts.scene.defaults import default_names
 from parts.scene.instances import DriveSpec, InstanceTable
 from parts.scene.language import WORDS, WORDS_OF_PARTS
 from parts.scene.load import ChecksSpec, ExportSpec, SceneInfo
+from parts.scene.steps import StepSpec
 
 
 def scene_schema() -> str:
@@ -31,6 +32,7 @@ def scene_schema() -> str:
         ("instances", dict[str, InstanceTable], {}),
         ("mates", list[mate], []),
         ("drives", list[DriveSpec], []),
+        ("steps", list[StepSpec], []),
         ("boards", dict[str, BoardSpec], {}),
         ("beds", dict[str, BedSpec], {}),
         ("checks", ChecksSpec, msgspec.field(default_factory=ChecksSpec)),

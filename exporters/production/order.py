@@ -1,0 +1,98 @@
+"""The order of assembly as people read it, and what holding it step by step has shown."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import Any
+
+from parts.base.part import Part
+from parts.base.texts import N_, Message, Words, counted, filled, message, words
+from parts.scene.assembly_order import Hindrance, order_found
+from parts.scene.placing import Placing
+from parts.scene.steps import StepSpec
+
+# the ways along the axes of a scene
+_WAYS = {
+    (0.0, 0.0, -1.0): N_("from above"),
+    (0.0, 0.0, 1.0): N_("from below"),
+    (1.0, 0.0, 0.0): N_("along x"),
+    (-1.0, 0.0, 0.0): N_("against x"),
+    (0.0, 1.0, 0.0): N_("along y"),
+    (0.0, -1.0, 0.0): N_("against y"),
+}
+_HOWS = {
+    "boxes": N_("{pairs} apart by boxes"),
+    "mesh": N_("{pairs} along their teeth"),
+    "sections": N_("{pairs} by sections about their axes"),
+    "layers": N_("{pairs} layer by layer"),
+    "solids": N_("{pairs} by solids"),
+}
+
+
+def order_checks(
+    steps: Sequence[StepSpec], placing: Placing, parts: Mapping[str, Part], language: str
+) -> dict[str, Any]:
+    """What holding the order of a scene has shown: pairs by how they were decided, what is hindered."""
+    found = order_found(steps, placing, parts)
+    told = words(language)
+    return {"steps": found.steps, "pairs": found.pairs, "hindered": [_hindered(x, told) for x in found.hindered]}
+
+
+def _hindered(found: Hindrance, told: Words) -> dict[str, Any]:
+    verdict = "undecided" if found.volume is None else "overlap"
+    text = N_("step {step}: {coming} does not reach its place past {standing}: {value:.4g} mm^3 in its way")
+    if found.volume is None:
+        text = N_("step {step}: a wall is too thin to tell whether {coming} reaches its place past {standing}")
+    row = {"step": found.step, "coming": found.coming, "standing": found.standing, "volume": found.volume}
+    said = told.text(text, **{**row, "value": found.volume})
+    return {**row, "verdict": verdict, "text": said}
+
+
+def order_lines(found: Mapping[str, Any], told: Words) -> Iterator[str]:
+    """What holding an order has shown, a line each."""
+    pairs = ", ".join(
+        told.say(filled(_HOWS[how], pairs=counted("{pairs} pair", "{pairs} pairs", by="pairs", pairs=count)))
+        for how, count in found["pairs"].items()
+        if count
+    )
+    steps = counted("{steps} step", "{steps} steps", by="steps", steps=found["steps"])
+    if not found["hindered"]:
+        yield told.say(
+            message(
+                "order of assembly, {steps}: each part reaches its place straight, past all that stands: {pairs}",
+                steps=steps,
+                pairs=pairs,
+            )
+        )
+    else:
+        yield told.say(message("order of assembly, {steps}: {pairs}", steps=steps, pairs=pairs))
+
+
+def steps_told(
+    steps: Sequence[StepSpec],
+    names: Mapping[str, str],
+    rows: Callable[[Iterable[str]], Iterable[str]],
+    language: str,
+) -> Iterator[str]:
+    """The order of assembly, a line for each step; ``rows`` shortens names that count on."""
+    told = words(language)
+    for number, step in enumerate(steps, 1):
+        things = ", ".join(rows(names.get(name, name) for name in step.bring))
+        to = names.get(step.to, step.to)
+        way = told.say(_way(step))
+        yield told.text("{number}. {things} to {to}: {way}", number=number, things=things, to=to, way=way)
+
+
+def _way(step: StepSpec) -> Message:
+    if step.along is None:
+        return Message(N_("each straight to its axis"))
+    size = max(map(abs, step.along))
+    x, y, z = (w / size + 0.0 for w in step.along)
+    way = message("along ({x:.4g}, {y:.4g}, {z:.4g})", x=x, y=y, z=z)
+    if (x, y, z) in _WAYS:
+        way = Message(_WAYS[x, y, z])
+    if step.outwards is not None:
+        way = message("{way}, then {length:.4g} mm outwards from its axis", way=way, length=step.outwards)
+    if step.opened is not None:
+        way = message("{way}, opened by {wider:.4g} mm", way=way, wider=step.opened)
+    return message("{way}, turned in by its thread", way=way) if step.screwed else way

@@ -1,0 +1,121 @@
+"""Tables ``[[steps]]``: the order of assembly, and the straight way on which each part comes to its place.
+
+What a step brings comes with all that earlier steps have joined to it, and is joined to what stands about ``to``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Annotated
+
+from msgspec import Meta, Struct
+from msgspec.structs import replace
+
+from geometry.base.record import Record
+from parts.base.refusal import REMOVED, SceneError
+from parts.base.schema import converted
+from parts.keys.base import mm
+from parts.scene.instances import Group, InstanceSpec, check_instance
+
+
+class StepSpec(Struct, forbid_unknown_fields=True):
+    """Keys of ``[[steps]]``."""
+
+    bring: Annotated[
+        list[str],
+        Meta(
+            min_length=1,
+            description="instances or groups that come in, with all that earlier steps have joined to them",
+            examples=[["wheel"]],
+        ),
+    ]
+    to: Annotated[str, Meta(description="an instance of what they are joined to", examples=["frame"])]
+    along: (
+        Annotated[
+            list[Annotated[float, Meta(ge=-1e6, le=1e6)]],
+            Meta(
+                min_length=3,
+                max_length=3,
+                description="direction [x, y, z] in which they come from outside; default: each straight to the axis "
+                "of `to`",
+                examples=[[0.0, 0.0, -1.0]],
+            ),
+        ]
+        | None
+    ) = None
+    outwards: (
+        Annotated[float, mm("then each goes so far away from the axis of `to`", above=0, most=1e6, example=8.0)] | None
+    ) = None
+    screwed: Annotated[bool, Meta(description="turned in by its thread: a worm past its wheel")] = False
+    opened: (
+        Annotated[
+            float,
+            mm("of turned parts: so much wider in radius on the way: a snap ring", above=0, most=1e3, example=1.5),
+        ]
+        | None
+    ) = None
+
+    @property
+    def one_by_one(self) -> bool:
+        """Whether each has a way of its own."""
+        return self.along is None or self.outwards is not None
+
+
+class Stage(Record):
+    """A step, what it moves (instances), and what stands where it is joined to."""
+
+    step: StepSpec
+    moved: tuple[str, ...]
+    standing: tuple[str, ...]
+
+
+def step_specs(
+    raw: Sequence[object], parts: Mapping[str, Struct], instances: dict[str, InstanceSpec],
+    groups: Mapping[str, Group], source: str,
+) -> list[StepSpec]:  # fmt: skip
+    """The steps of a scene, their groups told out.
+
+    Raises
+    ------
+    SceneError
+        With the key, its value and what is allowed; something is brought to itself, or never.
+    """
+    found: list[StepSpec] = []
+    kinds = {key: part.__struct_config__.tag for key, part in parts.items()}
+    for number, table in enumerate(raw, 1):
+        place = f"steps[{number}]"
+        spec = converted(table, StepSpec, source, place)
+        if spec.along is not None and not any(spec.along):
+            raise SceneError(source, f"{place}.along", spec.along, "no_direction")
+        if spec.outwards is not None and spec.along is None:
+            raise SceneError(source, f"{place}.outwards", spec.outwards, "outwards_after_along", REMOVED)
+        brought = [one for name in spec.bring for one in (groups[name].members if name in groups else (name,))]
+        for name in brought:
+            check_instance(name, instances, source, f"{place}.bring")
+        check_instance(spec.to, instances, source, f"{place}.to")
+        if spec.opened is not None and any(kinds[str(instances[name].part)] != "turned" for name in brought):
+            raise SceneError(source, f"{place}.opened", spec.opened, "opened_turned", REMOVED)
+        found.append(replace(spec, bring=brought))
+    if not found:
+        return found
+    last = 0
+    for number, stage in enumerate(stages(found, instances), 1):
+        if stage.step.to in stage.moved:
+            told = {"to": stage.step.to}
+            raise SceneError(source, f"steps[{number}].bring", stage.step.bring, "joined_before", None, "", **told)
+        last = len(stage.moved) + len(stage.standing)
+    if last < len(instances):
+        *_, stage = stages(found, instances)
+        left = [key for key in instances if key not in {*stage.moved, *stage.standing}]
+        raise SceneError(source, "steps", len(found), "never_brought", None, "", left=left[:10])
+    return found
+
+
+def stages(steps: Iterable[StepSpec], instances: Iterable[str]) -> Iterator[Stage]:
+    """What each step moves, and what stands there by then."""
+    joined: dict[str, tuple[str, ...]] = {key: (key,) for key in instances}
+    for step in steps:
+        moved = tuple(dict.fromkeys(one for key in step.bring for one in joined[key]))
+        standing = tuple(key for key in joined[step.to] if key not in moved)
+        yield Stage(step, moved, standing if step.to not in moved else ())
+        joined |= dict.fromkeys((*standing, *moved), (*standing, *moved))

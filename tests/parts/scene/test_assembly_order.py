@@ -1,0 +1,196 @@
+"""The order of assembly: written in scenes, held step by step; steps exchanged and ways turned are found."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from exporters.command.cli import main
+from exporters.command.new import plain_scene
+from parts.base.refusal import SceneError
+from parts.scene.files import built_in_scenes
+from parts.scene.load import load_scene, scene_from_dict
+from tests.oracles.clearances import solid_of
+from tests.parts.recipes.test_power_table import placed
+
+Changed = Callable[[list[str]], list[str]]
+
+
+def checked(folder: Path, capsys: Any, name: str, changed: Changed | None = None) -> tuple[int, dict[str, Any]]:
+    """What ``check`` says of the order of a built-in scene, its steps changed."""
+    text = plain_scene(built_in_scenes()[name].read_text("utf-8"), name)
+    text = text.replace("interference = true", "").replace("workspace = 400", "")
+    head, *steps = re.split(r"(?=\[\[steps\]\])", text)
+    *_, last = steps
+    own, tail = re.split(r"\n\n(?=\[)", last, maxsplit=1) if "\n\n[" in last else (last, "")
+    steps[-1] = own + "\n"
+    steps = changed(steps) if changed else steps
+    path = folder / "order.toml"
+    path.write_text("\n\n".join([head, *(step.strip() for step in steps), tail]), "utf-8")
+    code = main(["check", str(path), "--json"])
+    return code, json.loads(capsys.readouterr().out)["order"]
+
+
+def bringing(steps: list[str], word: str) -> int:
+    return next(k for k, step in enumerate(steps) if f'bring = ["{word}"' in step)
+
+
+def exchanged(one: str, two: str) -> Changed:
+    def change(steps: list[str]) -> list[str]:
+        a, b = bringing(steps, one), bringing(steps, two)
+        steps[a], steps[b] = steps[b], steps[a]
+        return steps
+
+    return change
+
+
+def turned(word: str, along: str) -> Changed:
+    def change(steps: list[str]) -> list[str]:
+        k = bringing(steps, word)
+        steps[k] = re.sub(r"along = .*", f"along = {along}", steps[k])
+        return steps
+
+    return change
+
+
+def closed(word: str) -> Changed:
+    """A snap ring that is not opened."""
+
+    def change(steps: list[str]) -> list[str]:
+        k = bringing(steps, word)
+        steps[k] = re.sub(r"opened = .*", "", steps[k])
+        return steps
+
+    return change
+
+
+def hindered(order: dict[str, Any]) -> set[tuple[str, str]]:
+    return {(row["coming"], row["standing"]) for row in order["hindered"]}
+
+
+def test_a_table_goes_together_in_its_order_and_tells_it(tmp_path: Path, capsys: Any) -> None:
+    code, order = checked(tmp_path, capsys, "power_table_laser")
+    assert code == 0
+    assert order["hindered"] == []
+    scene = load_scene("power_table_laser")
+    # what one step brings stands to each other as it will in the end
+    together = sum(math.comb(len(step.bring), 2) for step in scene.steps)
+    assert sum(order["pairs"].values()) + together == math.comb(len(scene.instances), 2)
+    assert main(["check", str(tmp_path / "order.toml"), "--steps", "--language", "uk"]) == 0
+    told = capsys.readouterr().out
+    assert "порядок складання, 25 кроків: кожна деталь прямо доходить до свого місця" in told
+    assert re.search(r"^14\. .* → .*: зверху$", told, re.MULTILINE)
+
+
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize(
+    ("changed", "pairs"),
+    [
+        # no crank goes under the flange that stands, no disk past the ring's teeth
+        (exchanged("first_crank_1", "flange"), {("first_crank_1", "flange"), ("first_crank_2", "flange")}),
+        (exchanged("disk_2", "pinion"), {("disk_2", "pinion")}),
+        (turned("pinion", "[1.0, 0.0, 0.0]"), {("pinion", "ring"), ("pinion", "axle")}),
+        (turned("tube", "[0.0, 0.0, -1.0]"), set()),
+    ],
+)
+def test_steps_exchanged_and_ways_turned_are_found(
+    changed: Changed, pairs: set[tuple[str, str]], tmp_path: Path, capsys: Any
+) -> None:
+    code, order = checked(tmp_path, capsys, "power_table_laser", changed)
+    found = hindered(order)
+    assert code == (1 if pairs else 0)
+    assert pairs <= found
+    assert bool(pairs) == bool(found)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", ["power_table_print", "power_module"])
+def test_the_print_table_and_the_module_go_together(name: str, tmp_path: Path, capsys: Any) -> None:
+    """Both worms past their wheels, the pinion into the ring, disk 3 into disk 2, each ball into its groove."""
+    code, order = checked(tmp_path, capsys, name)
+    assert code == 0
+    assert order["hindered"] == []
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize(
+    ("changed", "pair"),
+    [
+        (exchanged("large_ball_1_1", "guide_5"), ("large_ball_1_1", "guide_5")),
+        (exchanged("guide_6", "ring"), ("worm_wheel_25", "guide_6")),
+        (exchanged("bearing_ring_1", "large_ball_2_1"), ("large_ball_2_1", "bearing_ring_1")),
+        (turned("worm_1", "[0.0, 0.0, -1.0]"), ("worm_1", "body")),
+        # guide 13 on the pinion is wider than the tips of the ring
+        (turned("pinion", "[0.0, 0.0, -1.0]"), ("ring_guide", "ring")),
+        (closed("snap_ring_1"), ("snap_ring_1", "worm_1")),
+    ],
+)
+def test_in_the_module_too(changed: Changed, pair: tuple[str, str], tmp_path: Path, capsys: Any) -> None:
+    code, order = checked(tmp_path, capsys, "power_module", changed)
+    assert code == 1
+    assert pair in hindered(order)
+
+
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize(
+    "part", ["large_ball_1_1", "worm_wheel_25", "guide_5", "small_ball_1_1", "disk_3", "ring_guide"]
+)
+def test_points_just_within_a_part_never_lie_in_what_stands(part: str) -> None:
+    """By an oracle that has no sections: the part at places on its way, its points sought in all that stands."""
+    from parts.scene.assembly_order import legs
+    from parts.scene.steps import stages
+
+    scene = scene_from_dict({"assemblies": [{"kind": "power_module"}]}, "t", "t")
+    stand = {i.id: i for i in placed(scene)[0].instances}
+    solids = {key: solid_of(spec) for key, spec in scene.parts.items()}
+    for stage in stages(scene.steps, scene.instances):
+        if part not in stage.moved:
+            continue
+        moved, others = stand[part], [stand[key] for key in stage.standing if stand[key].axis == (0.0, 0.0, 1.0)]
+        points = solids[moved.part].points
+        flat = (points[:, 0] + 1j * points[:, 1]) * np.exp(1j * moved.rotation) + moved.centre
+        for leg in legs(stage.step, moved, stand[stage.step.to]):
+            for far in np.linspace(0.0, min(leg.length, 300.0), 16):
+                x, y, z = (-left - far * way for left, way in zip(leg.left, leg.way, strict=True))
+                for other in others:
+                    if {moved.id, other.id} == {"pinion", "ring"}:
+                        continue
+                    own = (flat + complex(x, y) - other.centre) * np.exp(-1j * other.rotation)
+                    height = points[:, 2] + moved.at[2] + z - other.at[2]
+                    near = (np.abs(own) < solids[other.part].reach) & (height > solids[other.part].low)
+                    near &= height < solids[other.part].high
+                    if near.any():
+                        place = np.column_stack([own.real, own.imag, height])[near]
+                        assert not solids[other.part].holds(place).any(), (other.id, far, leg)
+
+
+_PLATE = {"kind": "plate", "width": 40.0, "height": 40.0, "face_width": 5.0}
+
+
+@pytest.mark.parametrize(
+    ("steps", "word"),
+    [
+        ([{"bring": ["a"], "to": "b"}], "c stands apart"),
+        ([{"bring": ["a"], "to": "b"}, {"bring": ["b"], "to": "a"}], r"steps\[2\].bring.*joined to a already"),
+        ([{"bring": ["a"], "to": "b", "along": [0.0, 0.0, 0.0]}], r"steps\[1\].along.*no direction"),
+        ([{"bring": ["a"], "to": "b", "outwards": 3.0}], r"steps\[1\].outwards.*along"),
+        ([{"bring": ["a"], "to": "b", "opened": 1.0}], r"steps\[1\].opened.*turned parts"),
+        ([{"bring": ["d"], "to": "b"}], r'steps\[1\].bring = "d"'),
+        ([{"bring": [], "to": "b"}], r"steps\[1\].bring"),
+        ([{"bring": ["a"], "to": "b", "onto": "c"}], r"steps\[1\].*onto"),
+    ],
+)
+def test_steps_that_are_none_are_refused_by_their_key(steps: list[dict[str, Any]], word: str) -> None:
+    parts = {name: dict(_PLATE) for name in "abc"}
+    with pytest.raises(SceneError) as refusal:
+        scene_from_dict({"parts": parts, "steps": steps}, "t", "t")
+    from parts.base.refusal import sentence
+
+    assert re.search(word, sentence(refusal.value, "en"))
