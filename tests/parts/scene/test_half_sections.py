@@ -97,38 +97,46 @@ def larger_ball(parts: Any) -> None:
 
 
 @pytest.mark.heavy
+@pytest.mark.parametrize("orientation", ["thesis", "cranks"])
 @pytest.mark.parametrize(
     ("spoil", "pair"),
     [(shifted_bore, {"disk_2", "ball"}), (longer_bolt, {"spacer_24", "bolt_41"}),
      (larger_ball, {"ball", "bearing_ring"})],
 )  # fmt: skip
-def test_a_spoiled_part_of_the_power_module_is_found(spoil: Callable[[Any], None], pair: set[str]) -> None:
-    scene = module()
+def test_a_spoiled_part_of_the_power_module_is_found(
+    spoil: Callable[[Any], None], pair: set[str], orientation: str
+) -> None:
+    scene = module(orientation)
     spoil(scene.parts)
     placing, parts = placed(scene)
     of = {i.id: i.part for i in placing.instances}
     assert pair in [{of[x.first], of[x.second]} for x in solid_overlaps(placing, parts)]
 
 
+# the wheel that is turned by a quarter of its pitch, its mate, their numbers of teeth and of meshes
+_TURNED = {"thesis": ("central_wheel", "satellite_wheel", 36, 5), "cranks": ("ring", "pinion", 96, 3)}
+
+
 @pytest.mark.heavy
-def test_meshes_of_the_power_module_are_in_touch_and_a_worm_or_wheel_out_of_place_is_found() -> None:
-    placing, parts = placed(module())
+@pytest.mark.parametrize("orientation", _TURNED)
+def test_meshes_of_the_power_module_are_in_touch_and_a_worm_or_wheel_out_of_place_is_found(orientation: str) -> None:
+    placing, parts = placed(module(orientation))
+    mate, wheel, teeth, count = _TURNED[orientation]
     meshes = {(m.first.id, m.second.id): m.mating for m in placing.mates if m.mating.has_contact}
-    assert len(meshes) == 5
+    assert len(meshes) == count
     for (first, _), mating in meshes.items():
         assert check_pair(mating, "en")["verdict"] == "contact"
         if first.startswith("worm_wheel"):
             assert check_pair(mating, "en", centre_shift=-0.05)["verdict"] == "overlap"
-    satellite = meshes["central_wheel", "satellite_wheel"]
-    assert check_pair(satellite, "en", second_turn=math.tau / 36 / 4)["verdict"] == "overlap"
+    assert check_pair(meshes[mate, wheel], "en", second_turn=math.tau / teeth / 4)["verdict"] == "overlap"
     # by its solid too, where no mate leaves it to its contact
     turned = [
-        replace(i, rotation=i.rotation + math.tau / 36 / 4) if i.id == "satellite_wheel" else i
+        replace(i, rotation=i.rotation + math.tau / teeth / 4) if i.id == wheel else i
         for i in placing.instances
-        if i.part.endswith("_wheel")
+        if i.id in (mate, wheel)
     ]
     found = solid_overlaps(replace(placing, instances=tuple(turned), mates=()), parts)
-    assert {"central_wheel", "satellite_wheel"} in [{x.first, x.second} for x in found]
+    assert {mate, wheel} in [{x.first, x.second} for x in found]
 
 
 @pytest.mark.heavy
