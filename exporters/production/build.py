@@ -130,6 +130,11 @@ def approximated(job: Job, source: str) -> tuple[Shape, float]:
     except ConvergenceError as error:
         place, told = f"{job.place}.tolerance", {"residual": error.residual, "steps": error.iterations}
         raise SceneError(source, place, job.export.tolerance, "tolerance_not_met", None, "", **told) from error
+    except ThinWallError as error:
+        place = f"{job.place}.tolerance"
+        raise SceneError(
+            source, place, job.tolerance, "wall_too_thin_for_mesh", None, "mm", part=job.part.id
+        ) from error
 
 
 def _write(job: FileJob, made: Made, file: Path, source: str, *, verify: bool) -> Written:

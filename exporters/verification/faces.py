@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from exporters.formats.read_solid import EXTRUSION, ROUND, SPLINE
 from exporters.formats.read_step import ReadSolid
@@ -16,6 +17,7 @@ from exporters.formats.readback import ReadMesh
 from exporters.verification.samples import edge_points, inner_points
 from exporters.verification.topology import doubled_normals, topology_failures
 from exporters.verification.verdict import Verdict, area_failures, deviation_failures, volume_bound, volume_failures
+from geometry.curves.curve import Real
 
 if TYPE_CHECKING:
     from geometry.solids.measured import Faced
@@ -25,6 +27,8 @@ _PLACES = [(a, b, 6 - a - b) for a in range(7) for b in range(7 - a)]
 SHARES = np.array(_PLACES, dtype=float) / 6
 # points of a face that tell in which surfaces it may lie
 _FEW = 9
+# how much farther a triangle may lie from a face than from its nearest to be one of its own, and part of the reach
+_AS_WELL, _SURE = 2.0, 1e-5
 
 
 def verify_faced_mesh(mesh: ReadMesh, body: Faced, declared: float, tolerance: float) -> Verdict:
@@ -62,17 +66,18 @@ def mesh_deviation(mesh: ReadMesh, body: Faced) -> tuple[float, int]:
     at_corners = np.stack([face.distance(mesh.vertices) for face in faces])
     # the face in whose surface all three corners lie best; where several do, the samples decide
     worst = at_corners[:, mesh.triangles].max(axis=2)
-    near = worst <= 2 * worst.min(axis=0) + 1e-5 * body.reach()
+    near = worst <= _AS_WELL * worst.min(axis=0) + _SURE * body.reach()
     found = np.full(len(mesh.triangles), np.inf)
-    owner = np.full(len(mesh.triangles), -1)
+    own: list[tuple[NDArray[np.intp], Real]] = []
     for index, face in enumerate(faces):
         mine = np.flatnonzero(near[index])
         samples = np.einsum("sk,nkc->nsc", SHARES, mesh.vertices[mesh.triangles[mine]])
         here = face.distance(samples.reshape(-1, 3)).reshape(samples.shape[:2]).max(axis=1)
-        better = here < found[mine]
-        found[mine[better]] = here[better]
-        owner[mine[better]] = index
-    return float(found.max()), sum(not np.any(owner == i) for i in range(len(faces)))
+        found[mine] = np.minimum(found[mine], here)
+        own.append((mine, here))
+    # a face narrower than the tolerance has triangles that lie about as well in its neighbours
+    lone = sum(not np.any(here <= _AS_WELL * found[mine] + _SURE * body.reach()) for mine, here in own)
+    return float(found.max()), lone
 
 
 def verify_faced_solid(found: ReadSolid, body: Faced, declared: float, tolerance: float) -> Verdict:
@@ -83,7 +88,7 @@ def verify_faced_solid(found: ReadSolid, body: Faced, declared: float, tolerance
     # a few points tell which surfaces a face may lie in, all of them which one it does
     few = np.concatenate([p[np.linspace(0, len(p) - 1, _FEW).astype(int)] for p in points])
     rough = np.stack([surface.distance(few).reshape(-1, _FEW).max(axis=1) for surface in surfaces])
-    near = rough <= 2 * rough.min(axis=0) + 1e-5 * body.reach()
+    near = rough <= _AS_WELL * rough.min(axis=0) + _SURE * body.reach()
     away = np.full(near.shape, np.inf)
     for index, surface in enumerate(surfaces):
         mine = np.flatnonzero(near[index])

@@ -107,7 +107,10 @@ def _across(at: Real, kind: int, normal: bool, sizes: Real) -> Real:
             # a seam has the face on both sides of it
             width[(width < 1e-9) | (width > 2 * np.pi - 1e-9)] = 2 * np.pi
         width[width <= 0] = np.inf
-        u = (begin[:, None] + width.min(axis=1)[:, None] * _PLACES).ravel()
+        nearest = width.min(axis=1, keepdims=True)
+        # on a ring narrower than the bow of its bounds between nodes a line finds no other side
+        lines = np.isfinite(nearest[:, 0])
+        u = (begin[lines, None] + nearest[lines] * _PLACES).ravel()
         size, height = sizes[0] + sizes[1] * level, level
         if kind in (SPHERE, TORUS):
             size, height = centre + tube * np.cos(level), tube * np.sin(level)

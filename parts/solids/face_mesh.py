@@ -44,6 +44,8 @@ _SINGLE, _DOUBLE, _ALONG, _ACROSS = 0.98, 0.55, 0.5, 0.4
 _FINER, _NARROW = 10, 0.5
 # by how much the sagitta of a patch is made smaller where it was passed: to so much of it, and at most to a part
 _SAFE, _LEAST_SHARE = 0.9, 0.3
+# by how much chords are made shorter where those of a face cross, of the sagitta
+_LESS = 0.25
 # what splines may take of it
 _SPLINES = 0.1
 _MOST_ROUNDS, _MOST_TRIANGLES = 10, 4_000_000
@@ -82,14 +84,22 @@ def face_mesh(solid: Solid, tolerance: float, proof: Proof | None = None) -> Fac
     ThinWallError
         The chords of a face's edges touch or cross.
     """
-    target = tolerance
+    target, error, crossed = tolerance, math.inf, None
     for _ in range(_MOST_ROUNDS):
         made = _Mesher(solid, target, proof)
-        error = made.run()
+        try:
+            error = made.run()
+        except ThinWallError as thin:
+            # chords of a narrow face cross: finer ones do not
+            crossed, target = thin, target * _LESS
+            continue
+        crossed = None
         if error <= tolerance:
             vertices, triangles = np.concatenate(made.points), np.concatenate(made.triangles)
             return FaceMesh(vertices, triangles, error, made.bound, tolerance)
         target *= max(0.95 * tolerance / error, 0.1)
+    if crossed is not None:
+        raise crossed
     raise ConvergenceError("mesh for the tolerance", error, _MOST_ROUNDS)
 
 

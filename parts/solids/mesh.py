@@ -16,7 +16,7 @@ from geometry.approximation.chords import approximate_profile, approximate_toget
 from geometry.base.errors import ThinWallError
 from geometry.base.record import Record, replace
 from geometry.curves.bounds import Bound
-from geometry.curves.curve import Complex
+from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Approximation, Contour
 from geometry.solids.body import Body, Cap
 from geometry.solids.chamfer import chamfer_bow, chamfer_slices, cut_chamfers
@@ -100,7 +100,7 @@ def body_mesh(body: Body | FacedBody, outlines: tuple[Approximation, ...]) -> Me
     """
     if body.is_faced:
         made = cast("FaceMesh", outlines[0])
-        return Mesh(np.round(made.vertices, _decimals(body)) + 0.0, made.geometry)
+        return _whole(np.round(made.vertices, _decimals(body)) + 0.0, made.geometry)
     body, decimals = _sliced(body, outlines[0].tolerance), _decimals(body)
     # on a grid before any triangle is chosen: what machines round differently chooses none
     contours = _begun_in_spaces(body, [replace(a.geometry, decimals=decimals) for a in outlines])
@@ -110,6 +110,23 @@ def body_mesh(body: Body | FacedBody, outlines: tuple[Approximation, ...]) -> Me
         contours = _with_aligned_bores(body, contours)
         caps = _cap_triangles(body, contours)
     return _assembled(body, contours, [a.turn_step for a in outlines], caps)
+
+
+def _whole(vertices: Real, triangles: Triangles) -> Mesh:
+    """The mesh without what a file rounds to nothing: vertices that are one there, and triangles between them."""
+    held = vertices.astype(np.float32)
+    corners = held[triangles]
+    flat = np.zeros(len(triangles), dtype=bool)
+    for k in range(3):
+        flat |= np.all(corners[:, k] == corners[:, k - 1], axis=1)
+    if not flat.any():
+        return Mesh(vertices, triangles)
+    pairs = np.unique(triangles[flat])
+    _, first, same = np.unique(held[pairs], axis=0, return_index=True, return_inverse=True)
+    number = np.arange(len(vertices))
+    number[pairs] = pairs[first[same.ravel()]]
+    used, numbered = np.unique(number[triangles[~flat]], return_inverse=True)
+    return Mesh(vertices[used], numbered.reshape(-1, 3))
 
 
 def _begun_in_spaces(body: Body, contours: list[Contour]) -> list[Contour]:

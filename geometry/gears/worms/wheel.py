@@ -39,7 +39,7 @@ _RIDGE = np.linspace(0.0, 1.0, 65)[:, None]
 _GOLDEN, _GOLDEN_STEPS = (math.sqrt(5) - 1) / 2, 40
 # a thread's point that near the plane of its axis is not asked for, part of its radius
 _LEAST_SHARE = 1e-9
-# a space between two teeth is no shallower, modules
+# a space between two teeth is no shallower, a whole tooth's flank no narrower, modules
 _LEAST_DEPTH = 0.04
 # heights at which a face is looked at, and how well places between them are known, part of the width
 _LEVELS, _SETTLED = 97, 1e-9
@@ -412,10 +412,10 @@ class WormTeeth(Record, dict=True):
 
     def narrowed(self) -> WormTeeth:
         """The teeth with as much of the width as has whole ones at every height; themselves where none has."""
-        if self.lessened is None:
+        if self.is_whole:
             return self
         least = _LEAST_WIDTH * self.width
-        found = nearest(lambda width: replace(self, width=width).lessened is None, self.width, least)
+        found = nearest(lambda width: replace(self, width=width).is_whole, self.width, least)
         return replace(self, width=found.value) if found and isinstance(found.value, float) else self
 
     def checked(self) -> WormTeeth:
@@ -455,6 +455,15 @@ class WormTeeth(Record, dict=True):
         if bool((self._plain_thickness <= 0).any()):
             return "worm_wheel_pointed"
         return "worm_wheel_all_fillet" if bool(self._plain_levels.all_fillet.any()) else None
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether every tooth has a tip and a flank at every height, the flank not of next to nothing."""
+        if self.lessened is not None:
+            return False
+        side = self._plain_levels
+        flank = np.abs(self.flank(side, 1.0).plane - self.fillet(side, 1.0).plane)
+        return bool(flank.min() > _LEAST_DEPTH * self.hob.worm.module)
 
     @cached_property
     def _torn(self) -> str | None:

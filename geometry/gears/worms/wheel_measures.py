@@ -20,7 +20,9 @@ from geometry.solids.body import Body
 from geometry.solids.mass import Moments, body_moments
 
 # Gauss's rule along each part of a side and over the heights of each band
-_ALONG, _ACROSS = 32, 32
+_ALONG, _MOST_ALONG, _ACROSS = 32, 256, 32
+# where these are enough, part of the integrals
+_SETTLED = 1e-9
 # heights of a band and shares from which the foot of a perpendicular is sought, its steps, the step of derivatives,
 # and how far beyond the ends of a part it may lie, as shares of it
 _LEVELS, _SHARES, _STEPS, _SHIFT, _BEYOND = 65, 129, 4, 1e-5, 0.02
@@ -50,15 +52,13 @@ class WormWheel(Record, dict=True):
         Three teeth or more have their centre on the axis, half a turn about a tooth's middle puts it in the mid plane.
         """
         teeth, core = self.teeth, body_moments(self.core)
-        nodes, weights = gauss_rule(_ACROSS)
-        area = polar = upright = 0.0
-        for low, high in pairwise(teeth.breaks):
-            z = (low + high) / 2 + (high - low) / 2 * nodes
-            own, second = self._sections(z)
-            share = weights * (high - low) / 2
-            area += float(share @ own)
-            polar += float(share @ second)
-            upright += float(share @ (own * (z + self.middle) ** 2))
+        points = _ALONG
+        found, finer = (self._integrals(count) for count in (points, 2 * points))
+        # flanks whose contact runs far ask for more
+        while np.abs(finer - found).max() > _SETTLED * np.abs(found).max() and points < _MOST_ALONG:
+            points *= 2
+            found, finer = finer, self._integrals(2 * points)
+        area, polar, upright = found.tolist()
         radius, width = self.rim.reach(), teeth.width
         disk = math.pi * radius**2
         area -= disk * width
@@ -69,11 +69,22 @@ class WormWheel(Record, dict=True):
         side = polar / 2 + upright
         return Moments(volume, centre, core.inertia + np.diag([side, side, polar]))
 
-    def _sections(self, heights: Real) -> tuple[Real, Real]:
+    def _integrals(self, points: int) -> Real:
+        """Of the teeth's sections down to the axis over the heights: areas, polar moments, areas by squared heights."""
+        nodes, weights = gauss_rule(_ACROSS)
+        total = np.zeros(3)
+        for low, high in pairwise(self.teeth.breaks):
+            z = (low + high) / 2 + (high - low) / 2 * nodes
+            own, second = self._sections(z, points)
+            share = weights * (high - low) / 2
+            total += float(share @ own), float(share @ second), float(share @ (own * (z + self.middle) ** 2))
+        return total
+
+    def _sections(self, heights: Real, points: int) -> tuple[Real, Real]:
         """Areas and polar moments of the teeth's sections down to the axis, each (n,)."""
         teeth, count = self.teeth, self.teeth.number_of_teeth
         area, polar = np.zeros(len(heights)), np.zeros(len(heights))
-        nodes, weights = gauss_rule(_ALONG)
+        nodes, weights = gauss_rule(points)
         steps = _derivatives(nodes)
         ends = []
         for z in (heights, -heights):

@@ -27,7 +27,13 @@ def _wheel(drive: WormDrive, width: float, outer: float, hob: Hob | None = None)
     return WormWheel(teeth.checked(), plate(Region(rim, (bore,)), 0.0, width), rim)
 
 
-@pytest.mark.parametrize(("drive", "width", "outer"), [(THESIS, 26.0, 330.0), (STEEP, 13.5, 65.25 / 2)])
+# contact that runs far beside the mid plane
+THIN = WormDrive(Worm(5.0, 2, 4.12, hand="left"), 11, 0.3)
+
+
+@pytest.mark.parametrize(
+    ("drive", "width", "outer"), [(THESIS, 26.0, 330.0), (STEEP, 13.5, 65.25 / 2), (THIN, 8.2, 38.5)]
+)
 def test_volume_and_inertia_are_those_of_polygons(drive: WormDrive, width: float, outer: float) -> None:
     wheel = _wheel(drive, width, outer)
     teeth, share = wheel.teeth, np.linspace(0.0, 1.0, 400)[:, None]
