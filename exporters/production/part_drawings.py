@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from functools import partial
 from importlib import import_module
 
+from geometry.base.errors import ParameterError
 from parts.base.part import Part
-from parts.base.refusal import SceneError
+from parts.base.refusal import SceneError, placed
 from parts.base.registry import KINDS
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
@@ -47,7 +48,10 @@ def part_drawings(
     for name in export.parts or known:
         part, wishes = parts[name], export.drawing or WorkingTable()
         drawing = import_module(str(part.made_by.drawing)).part_drawing(Subject(part, wishes, asked.language))
-        table, block = part_table(part, scene, placing, parts), None
+        try:
+            table, block = part_table(part, scene, placing, parts), None
+        except ParameterError as error:
+            raise placed(source, f"parts.{name}", error) from error
         if table is not None:
             size = WIDTH, table_height(table, asked.language)
             block = Block(size, partial(draw_data_table, table=table, language=asked.language))

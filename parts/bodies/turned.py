@@ -200,6 +200,7 @@ class Turned(_Turned[TurnedSpec]):
 
     name, keys = "turned", TurnedSpec
     drawing = "parts.bodies.turned_drawing"
+    data_table = "parts.bodies.turned_table"
 
     def thing(self, keys: TurnedSpec, others: Others) -> HalfSection:
         """The section, checked to enclose one body."""
@@ -229,6 +230,7 @@ class Shaft(_Turned[ShaftSpec]):
 
     name, keys = "shaft", ShaftSpec
     drawing = "parts.bodies.turned_drawing"
+    data_table = "parts.bodies.turned_table"
 
     def thing(self, keys: ShaftSpec, others: Others) -> HalfSection:
         """The section of all steps, checked."""

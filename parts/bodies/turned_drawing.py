@@ -12,8 +12,8 @@ import numpy as np
 from geometry.curves.curve import end_point, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.solids.turned import HalfSection, Hole, Piece, Pocket
-from parts.drawing.revolved import Loop, below, closed, is_outer, outlined, seen_edges
-from parts.drawing.turned_sizes import Fits, turned_sizes
+from parts.drawing.revolved import Loop, below, closed, outer_of, outlined, seen_edges
+from parts.drawing.turned_sizes import Fits, SectionCorner, listed_corners, turned_sizes
 from parts.drawing.wheel_views import axis_cross, circle_of
 from parts.drawing.working import (
     AXIS,
@@ -57,6 +57,14 @@ def part_drawing(subject: Subject) -> PartDrawing:
     return PartDrawing(tuple(found), requirements(subject))
 
 
+def told_corners(half: HalfSection, *, is_shaft: bool) -> tuple[SectionCorner, ...]:
+    """The corners that a table tells, of a solid shaft those from outside; none where they have sizes."""
+    loop = tuple(_curve(piece) for piece in half.pieces)
+    cut = half.radii()[0] > 0 or not is_shaft
+    is_outer = outer_of(loop)
+    return listed_corners(loop, lambda curve: cut or is_outer(curve))
+
+
 def _swapped(point: complex) -> complex:
     """r + iz as it is drawn, its axis along x."""
     return complex(point.imag, point.real)
@@ -74,8 +82,10 @@ def _curve(piece: Piece) -> Line | Arc:
 def _long_view(half: HalfSection, loop: Loop, subject: Subject, *, is_shaft: bool, cut: bool) -> View:
     """The view across the axis."""
     strokes: list[Stroke] = []
-    outer = [curve for curve in loop if cut or is_outer(loop, curve)]
+    is_outer = outer_of(loop)
+    outer = [curve for curve in loop if cut or is_outer(curve)]
     inner = [curve for curve in loop if curve not in outer]
+    listed = listed_corners(loop, lambda curve: curve not in inner)
     # hollow shafts are cut through their first keyway
     notched = [p for p in half.pockets if cut and abs(_across(half, p).real) < _SAME]
     upper, lower = (_notched(outer, [p for p in notched if _across(half, p).imag * way > 0]) for way in (1, -1))
@@ -111,14 +121,18 @@ def _long_view(half: HalfSection, loop: Loop, subject: Subject, *, is_shaft: boo
         sizes.append(Size("holes.pitch_circle_diameter", complex(low, -radius), complex(low, radius), "left", "Ø"))
     hatched = (tuple(upper), below(lower)) if cut else ()
     cuts = tuple(Cut(at, letter) for at, letter in zip(_planes(half), _LETTERS, strict=False))
-    return View(tuple(strokes), hatched, tuple(axes), tuple(sizes), told.rounds, _rough(loop, subject), cuts=cuts)
+    # the first two tell from where on and which way round corners are counted
+    numbers = (Note(corner.at, str(k)) for k, corner in enumerate(listed[:2], 1))
+    notes = (*_rough(loop, subject), *numbers)
+    return View(tuple(strokes), hatched, tuple(axes), tuple(sizes), told.rounds, notes, cuts=cuts)
 
 
 def _centre_hole(loop: Loop, subject: Subject) -> View | None:
     """The hole in the lower end of a solid shaft, in section; that in the other end is as this one."""
     middle = sum(start_point(c).real for c in loop) / len(loop)
     off_axis = [c for c in loop if max(start_point(c).imag, end_point(c).imag) > 0]
-    hole = [c for c in off_axis if not is_outer(loop, c) and start_point(c).real < middle]
+    is_outer = outer_of(loop)
+    hole = [c for c in off_axis if not is_outer(c) and start_point(c).real < middle]
     if not hole:
         return None
     places = [p for c in hole for p in (start_point(c), end_point(c))]

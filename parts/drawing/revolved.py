@@ -5,7 +5,7 @@ A loop is half a section, closed: the axis along x, the distance from it along y
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -102,12 +102,16 @@ def _without(
     return [(low, high) for low, high in found if high - low > least]
 
 
-def is_outer(loop: Loop, curve: Line | Arc) -> bool:
-    """Whether a curve of half a section is seen from outside: on one side of it nothing is farther from the axis."""
+def outer_of(loop: Loop) -> Callable[[Line | Arc], bool]:
+    """Tells of curves of half a section which are seen from outside: on one side nothing is farther from the axis."""
     points, size = _points(loop)
-    middle = complex(curve.point(sum(curve.domain) / 2))
     beside = _BESIDE * size
-    return any(
-        all(end <= middle.imag + 1e-5 * size for _, end in _material(points, middle.real + way * beside))
-        for way in (-1, 1)
-    )
+
+    def is_outer(curve: Line | Arc) -> bool:
+        middle = complex(curve.point(sum(curve.domain) / 2))
+        return any(
+            all(end <= middle.imag + 1e-5 * size for _, end in _material(points, middle.real + way * beside))
+            for way in (-1, 1)
+        )
+
+    return is_outer

@@ -14,12 +14,14 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from geometry.base.record import Record, replace
 from geometry.curves.curve import end_point, start_point
 from geometry.curves.line_arc import Arc, Line
-from parts.drawing.revolved import Loop, is_outer
+from parts.drawing.revolved import Loop, outer_of
 from parts.drawing.working import Round, Side, Size
 from parts.texts.sheets import sheet_words
 
 # mm in which places are one; parts of one in which directions are; digits of places
 _NONE, _SMOOTH, _DIGITS = 1e-9, 1e-6, 7
+# places along the axis, and distances from it, that sizes tell; what has more of either has a table
+_MOST = 16
 
 
 class Fits(Record):
@@ -58,24 +60,74 @@ class TurnedSizes(Record):
     rounds: tuple[Round, ...]
 
 
-def turned_sizes(
-    loop: Loop, fits: Fits, language: str, told: Callable[[Line | Arc], bool] = lambda curve: True
-) -> TurnedSizes:
-    """All sizes of half a section, or of those of its curves that are ``told`` in a view."""
+class SectionCorner(Record):
+    """A corner of half a section without chamfers and fillets, and the radius of the arc to the next one, 0: a line.
+
+    Above 0 it bulges out of the material.
+    """
+
+    at: complex
+    arc: float = 0.0
+
+
+Told = Callable[[Line | Arc], bool]
+
+
+def turned_sizes(loop: Loop, fits: Fits, language: str, told: Told = lambda curve: True) -> TurnedSizes:
+    """All sizes of half a section, or of those of its curves that are ``told`` in a view.
+
+    Where corners are too many for sizes, a table tells them: chamfers and fillets alone have sizes.
+    """
     whole = _joined(loop)
-    chamfers = [k for k in range(len(whole)) if _is_chamfer(whole, k)]
-    fillets = [k for k in range(len(whole)) if _is_fillet(whole, k)]
-    # what is left of a curve between chamfers and fillets begins and ends elsewhere
-    edges = [_Edge(sharp, is_outer(loop, curve), told(curve)) for sharp, curve in _sharp(whole, {*chamfers, *fillets})]
+    chamfers, fillets, edges = _taken_apart(whole, told)
     arcs = [edge.curve for edge in edges if isinstance(edge.curve, Arc) and edge.told]
     balls = [arc for arc in arcs if abs(arc.centre.imag) < _NONE and _on_axis(start_point(arc), end_point(arc))]
-    rounded = [*(whole[k] for k in fillets if told(whole[k])), *(arc for arc in arcs if arc not in balls)]
-    sizes = [
-        *_diameters(edges, fits), *_balls(balls, language), *_lengths(edges),
-        *_chamfers([whole[k] for k in chamfers if told(whole[k])], language),
+    rounded = [*(whole[k] for k in fillets if told(whole[k]))]
+    sizes = [*_chamfers([whole[k] for k in chamfers if told(whole[k])], language)]
+    if not _are_listed(edges):
+        rounded += [arc for arc in arcs if arc not in balls]
+        sizes = [*_diameters(edges, fits), *_balls(balls, language), *_lengths(edges), *sizes]
+    radii = [arc for arc in rounded if isinstance(arc, Arc)]
+    return TurnedSizes(tuple(sizes), tuple(_radii(radii, _turn(loop), language)))
+
+
+def listed_corners(loop: Loop, told: Told = lambda curve: True) -> tuple[SectionCorner, ...]:
+    """The corners of half a section one after the other, where they are too many for sizes; none elsewhere."""
+    *_, edges = _taken_apart(_joined(loop), told)
+    if not _are_listed(edges):
+        return ()
+    turn, found, last = _turn(loop), list[SectionCorner](), None
+    for edge in edges:
+        if edge.told and not _on_axis(*edge.ends):
+            arc = edge.curve
+            bulge = arc.radius * math.copysign(1.0, arc.sweep * turn) if isinstance(arc, Arc) else 0.0
+            found.append(SectionCorner(edge.ends[0], bulge))
+            last = edge.ends[1]
+    return (*found, *(SectionCorner(p) for p in (last,) if p is not None and abs(p - found[0].at) > _NONE))
+
+
+def _taken_apart(whole: Sequence[Line | Arc], told: Told) -> tuple[list[int], list[int], list[_Edge]]:
+    """Places of chamfers and of fillets, and all else without them."""
+    chamfers = [k for k in range(len(whole)) if _is_chamfer(whole, k)]
+    fillets = [k for k in range(len(whole)) if _is_fillet(whole, k)]
+    is_outer = outer_of(whole)
+    # what is left of a curve between chamfers and fillets begins and ends elsewhere
+    return chamfers, fillets, [
+        _Edge(sharp, is_outer(curve), told(curve)) for sharp, curve in _sharp(whole, {*chamfers, *fillets})
     ]  # fmt: skip
-    turn = math.copysign(1.0, sum(_cross(start_point(c), end_point(c)) for c in loop))
-    return TurnedSizes(tuple(sizes), tuple(_radii([arc for arc in rounded if isinstance(arc, Arc)], turn, language)))
+
+
+def _are_listed(edges: Sequence[_Edge]) -> bool:
+    """Whether corners are too many for sizes: by their places along the axis and their distances from it."""
+    corners = [end for edge in edges if edge.told for end in edge.ends]
+    places = [{round(value, _DIGITS) for value in values} for values in (
+        (p.real for p in corners), (p.imag for p in corners))]  # fmt: skip
+    return max(map(len, places)) > _MOST
+
+
+def _turn(loop: Loop) -> float:
+    """1 where half a section runs counter-clockwise, else -1."""
+    return math.copysign(1.0, sum(_cross(start_point(c), end_point(c)) for c in loop))
 
 
 def _joined(loop: Loop) -> list[Line | Arc]:

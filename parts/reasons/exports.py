@@ -17,6 +17,7 @@ REASONS = {
     "draws_only": N_("draws only {kinds}; here: {known}"),
     "draws_only_what_is_not_here": N_("draws only {kinds}; add one or remove the export"),
     "finer_than_pdf": N_("a PDF does not tell places so exactly"),
+    "corners_fit_no_paper": N_("are more corners than a working drawing can tell in its table"),
     "fits_no_paper": N_("fits no paper at any scale"),
     "fits_no_paper_so_large": N_("no paper is large enough for it at this scale"),
     "finer_than_mesh_digits": N_("a mesh file stores 7 digits, too few for that at this size"),

@@ -12,6 +12,7 @@ import msgspec
 import pytest
 from ezdxf.document import Drawing
 
+from parts.base.refusal import SceneError
 from parts.scene.load import load_scene
 from tests.exporters.production.test_part_drawings import jobs
 from tests.oracles.half_section_told import Corner, Told
@@ -136,3 +137,32 @@ def test_each_dimension_that_is_left_out_is_missed_and_one_too_many_is_seen(tmp_
     twice.dxf.defpoint2, twice.dxf.defpoint3 = first.dxf.defpoint3, last.dxf.defpoint3
     space.add_entity(twice)
     assert any("twice" in fault for fault in faults(document, part))
+
+
+def many(count: int) -> list[tuple[float, ...]]:
+    """Corners of a bobbin, each 1 mm on, the last but one the beginning of an arc."""
+    rows = [(20 + 0.5 * (k * k % 13), float(k)) for k in range(count - 1)]
+    return [(5, 0), *rows[:-1], (*rows[-1], -30.0), (18, count + 5.0), (5, count + 5.0)]
+
+
+def test_more_corners_than_sizes_can_tell_stand_in_a_table(tmp_path: Path) -> None:
+    corners = many(24)
+    document = drawn(tmp_path, ring(*corners))
+    assert len(document.modelspace().query("DIMENSION")) == 0
+    cells = [(round(-t.dxf.insert.y, 3), t.dxf.insert.x, t.dxf.text) for t in document.modelspace().query("TEXT")]
+    rows: dict[float, list[str]] = {}
+    for y, _, text in sorted(cells):
+        rows.setdefault(y, []).append(text)
+    # two tables side by side
+    told = {tuple(row[k : k + 4]) for row in rows.values() for k in range(0, len(row), 4)}
+    arcs = [row[2] if len(row) > 2 else 0.0 for row in corners]
+    assert told >= {
+        (f"{k}", f"{row[1]:.3f}", f"{2 * row[0]:.3f}", f"{arc:.3f}")
+        for k, (row, arc) in enumerate(zip(corners, arcs, strict=True), 1)
+    }
+
+
+def test_more_corners_than_paper_has_room_for_are_refused_by_their_key() -> None:
+    with pytest.raises(SceneError) as caught:
+        jobs(ring(*many(450)), formats=("dxf",))
+    assert (caught.value.key, caught.value.value) == ("parts.p.points", 452)
