@@ -140,6 +140,23 @@ def measure(model: Model) -> tuple[Real, Real, Real]:
     return flux, np.abs(size), gap
 
 
+def area_of(model: Model, pieces: int) -> float:
+    """The area of all faces, mm^2, spans of spline surfaces cut into so many pieces each way."""
+    if pieces == 1:
+        return float(model.area.sum())
+    nodes, weights = lobatto()
+    steps = np.arange(pieces)[:, None]
+    shares, parts = ((steps + nodes) / pieces).ravel(), np.tile(weights, pieces) / pieces
+    total = float(model.area.sum())
+    for patches in model.patches:
+        for row in range(len(patches.faces)):
+            _, along, across = patches.grid(shares, shares, slice(row, row + 1))
+            wide, high = np.tile(parts, len(patches.along.spans)), np.tile(parts, len(patches.across.spans))
+            size = np.linalg.norm(np.cross(along, across), axis=3)[0]
+            total += float(wide @ size @ high) - float(model.area[patches.faces[row]])
+    return total
+
+
 def _about(model: Model, span: Index, face: Index) -> Real:
     """For faces on a torus a middle angle of their bounds round the tube, rad."""
     at = model.frames.local(face, model.points[span])

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from exporters.verification.verdict import Verdict
 from geometry.base.record import replace
 from geometry.solids.mass import body_moments
-from parts.solids.kernel import solids_of
+from parts.solids.kernel import solids_of, volume_of
 
 if TYPE_CHECKING:
     from geometry.solids.body import Body
@@ -17,15 +17,13 @@ if TYPE_CHECKING:
 
 # by which the kernel may call two points one, mm
 _TOLERANCE = 1e-6
-# to which it is to integrate, and does, part of the volume
-_QUADRATURE, _VOLUME = 1e-9, 1e-8
+# to which it is to integrate, part of the volume
+_VOLUME = 1e-8
 
 
 def judged_by_kernel(file: Path, bodies: Sequence[Body | Faced], verdict: Verdict) -> Verdict:
     """A verdict on a good file with what the kernel says: of a solid for each body closed, valid, and its volume."""
     from OCP.BRepCheck import BRepCheck_Analyzer
-    from OCP.BRepGProp import BRepGProp
-    from OCP.GProp import GProp_GProps
     from OCP.ShapeAnalysis import ShapeAnalysis_ShapeTolerance
 
     solids = solids_of(file.read_text(encoding="ascii"))
@@ -35,11 +33,8 @@ def judged_by_kernel(file: Path, bodies: Sequence[Body | Faced], verdict: Verdic
     loose = max((ShapeAnalysis_ShapeTolerance().Tolerance(solid, 1) for solid in solids), default=0.0)
     if not loose <= _TOLERANCE:
         failures.append(f"the kernel joins what stands {loose:.3g} mm apart")
-    found, exact = 0.0, sum(b.moments.volume if b.is_faced else body_moments(b).volume for b in bodies)
-    for solid in solids:
-        properties = GProp_GProps()
-        BRepGProp.VolumePropertiesGK_s(solid, properties, _QUADRATURE)
-        found += float(properties.Mass())
+    exact = sum(b.moments.volume if b.is_faced else body_moments(b).volume for b in bodies)
+    found = volume_of(solids, exact, _VOLUME)
     if not abs(found / exact - 1) <= _VOLUME + verdict.measured["volume_bound"]:
         failures.append(f"the kernel finds {found:.12g} mm^3 instead of {exact:.12g} mm^3")
     measured = verdict.measured | {"kernel_volume_error": found / exact - 1, "kernel_tolerance": loose}

@@ -9,7 +9,7 @@ from geometry.base.record import Record
 
 # rounding of the measurement itself, as a part of the section's size
 _ROUNDING = 1e-13
-# what volumes and areas are good to, part of them, and how far a file's rounding moves a surface, mm
+# what volumes are good to, part of them, and how far a file's rounding moves a surface, mm
 _VOLUME, _LAST_DECIMAL = 1e-9, 1e-8
 
 
@@ -53,10 +53,3 @@ def volume_failures(volume: float, exact: float, bound: float, said: str | float
     if said is not None and not abs(float(said) - exact) <= bound:
         failures.append(f"says that its volume is {said} mm^3 instead of {exact:.12g} mm^3")
     return failures
-
-
-def area_failures(area: float, bounds: float, said: str | float | None) -> list[str]:
-    """What is wrong with the area, mm^2, that a file tells of its faces; ``bounds``: of these, mm."""
-    if said is None or abs(float(said) - area) <= _VOLUME * area + _LAST_DECIMAL * bounds:
-        return []
-    return [f"says that its surface area is {said} mm^2 instead of {area:.12g} mm^2"]

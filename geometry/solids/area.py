@@ -32,9 +32,11 @@ from geometry.solids.faces import (
     Torus,
 )  # fmt: skip
 
-# nodes on a piece of an edge, and each way on one of a surface; arcs are cut into pieces no longer than this, rad;
-# places on spline surfaces at a time
-_NODES, _ACROSS, _PIECE, _AT_ONCE = 12, 8, math.pi / 4, 200_000
+# nodes on a piece of an edge; arcs are cut into pieces no longer than this, rad
+_NODES, _PIECE = 12, math.pi / 4
+# nodes each way on a piece of a spline surface, and fewer that must tell the same to this part, which the more of them
+# know to its 1.6th power; else the pieces are halved, so often at most; places at a time
+_ACROSS, _FEWER, _ALIKE, _MOST, _AT_ONCE = 8, 5, 1e-7, 4, 200_000
 
 
 def surface_area(solid: Solid) -> float:
@@ -88,7 +90,7 @@ def _areas(solid: Solid, runs: _Runs, faces: Faces) -> Real:
     """Of the faces of a bundle, (n,)."""
     surface = faces.surface
     if isinstance(surface, SplineSurface):
-        return _patches(solid, surface)
+        return _settled(solid, surface)
     if isinstance(surface, Extrusion):
         return _swept(solid, runs, faces, surface)
     count = len(faces.loops[0][0])
@@ -160,8 +162,21 @@ def _swept(solid: Solid, runs: _Runs, faces: Faces, surface: Extrusion) -> Real:
     return total
 
 
-def _patches(solid: Solid, surface: SplineSurface) -> Real:
-    rules = [_panels(span_shares(knots), _ACROSS) for knots in (surface.u_knots, surface.v_knots)]
+def _settled(solid: Solid, surface: SplineSurface) -> Real:
+    """Of spline surfaces, (n,), on pieces so small that fewer nodes tell the same."""
+    for halving in range(_MOST + 1):
+        rough, found = (_patches(solid, surface, 2**halving, nodes) for nodes in (_FEWER, _ACROSS))
+        if np.abs(rough - found).max() <= _ALIKE * found.max():
+            break
+    return found
+
+
+def _patches(solid: Solid, surface: SplineSurface, pieces: int, nodes: int) -> Real:
+    rules = []
+    for knots in (surface.u_knots, surface.v_knots):
+        shares = span_shares(knots)
+        breaks = np.interp(np.arange((len(shares) - 1) * pieces + 1) / pieces, np.arange(len(shares)), shares)
+        rules.append(_panels(breaks, nodes))
     (u, along), (v, across) = (
         spline_rows(degree, knots, shares, 1)
         for degree, knots, (shares, _) in zip(surface.degrees, (surface.u_knots, surface.v_knots), rules, strict=True)

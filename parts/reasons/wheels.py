@@ -99,12 +99,15 @@ REASONS = {
     "slot_closed": N_("closes a slot"),
     "slot_ends_at_start": N_("is where it starts: that is a hole"),
     "spokes_fill_hub_ring": N_("the spokes fill the hub ring between them"),
-    "step_curve": N_("has an edge of the kind {what}; lines and circles are taken over"),
+    "step_curve": N_("has an edge on {what}; lines, circles and splines that are not rational are taken over"),
     "step_hollow": N_("has a closed hollow; solids of one shell are taken over"),
     "step_loose": N_("its edges lie {error} mm off their faces, more than {most} mm"),
     "step_not_moved": N_("the solid of a STEP file is taken over as it is"),
     "step_solids": N_("must be a STEP file with one solid; it has {count}"),
-    "step_surface": N_("has a face of the kind {what}; planes, cylinders, cones, spheres and tori are taken over"),
+    "step_surface": N_(
+        "has a face on {what}; planes, cylinders, cones, spheres, tori and splines that are not rational are taken over"
+    ),
+    "step_trimmed": N_("has a face on {what} that is not bounded by four edges along the ends of its surface"),
     "step_volume": N_("its faces enclose {found} mm^3, the CAD kernel finds {volume} mm^3"),
     "step_wire": N_("the edges of a face do not follow one another"),
     "swallows_keyway": N_("swallows the keyway"),

@@ -1,11 +1,13 @@
 """The solid of somebody else's STEP file as our faces, by the CAD kernel: exact, or refused by what it has beyond them.
 
-Planes, cylinders, cones, spheres and tori between lines and circles are taken over one by one; how far the file's edges
-lie off its faces is measured, and the volume is held against the kernel's own.
+Planes, cylinders, cones, spheres and tori between lines, circles and splines are taken over one by one, and spline
+faces between the four ends of their surfaces, pole by pole; how far the file's edges lie off its faces is measured, and
+the volume is held against the kernel's own.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, NoReturn
 
@@ -14,7 +16,7 @@ import numpy as np
 from geometry.base.errors import ParameterError
 from geometry.base.placement import Placement3
 from geometry.curves.curve import Real
-from geometry.solids.charts import along_edges, charts, edge_rows
+from geometry.solids.charts import along_edges, charts, edge_rows, patch_of
 from geometry.solids.face_moments import face_moments
 from geometry.solids.faced import FacedBody, FacedSolid
 from geometry.solids.faces import (
@@ -29,18 +31,34 @@ from geometry.solids.faces import (
     Solid,
     SolidBuilder,
     Sphere,
+    Spline,
+    SplineSurface,
     Straight,
     Torus,
 )  # fmt: skip
-from parts.solids.kernel import solids_of
+from geometry.solids.measured import Measured
+from geometry.solids.patch_distance import patch_distance
+from parts.solids.kernel import solids_of, volume_of
 
 if TYPE_CHECKING:
+    from OCP.Geom import Geom_BSplineCurve, Geom_BSplineSurface
+    from OCP.GeomAbs import GeomAbs_CurveType, GeomAbs_SurfaceType
     from OCP.gp import gp_Ax2, gp_Ax3, gp_Dir, gp_Pnt
     from OCP.TopoDS import TopoDS_Edge, TopoDS_Face, TopoDS_Shape, TopoDS_Wire
 
 # by which edges may lie off their faces, mm, as a STEP file of ours may; part of the volume, of the size
 _LOOSE, _VOLUME, _EXACT = 1e-6, 1e-7, 1e-13
 _SHARES = np.linspace(0.0, 1.0, 9)
+# degrees that are read back at most; how near to the ends of a surface its edges run, part of it
+_MOST_DEGREE, _AT_END = 8, 1e-6
+# what STEP calls what the kernel calls otherwise
+_CALLED = {
+    "Ellipse": "ELLIPSE", "Hyperbola": "HYPERBOLA", "Parabola": "PARABOLA", "OffsetCurve": "OFFSET_CURVE_3D",
+    "RationalCurve": "RATIONAL_B_SPLINE_CURVE", "RationalSurface": "RATIONAL_B_SPLINE_SURFACE",
+    "SurfaceOfRevolution": "SURFACE_OF_REVOLUTION", "SurfaceOfExtrusion": "SURFACE_OF_LINEAR_EXTRUSION",
+    "OffsetSurface": "OFFSET_SURFACE", "Torus": "TOROIDAL_SURFACE", "Cone": "CONICAL_SURFACE",
+    "BSplineSurface": "B_SPLINE_SURFACE", "BezierSurface": "BEZIER_SURFACE", "BSplineCurve": "B_SPLINE_CURVE",
+}  # fmt: skip
 
 
 def foreign_body(text: str, part_from_file: Placement3) -> FacedBody:
@@ -49,8 +67,8 @@ def foreign_body(text: str, part_from_file: Placement3) -> FacedBody:
     Raises
     ------
     ParameterError
-        ``file``: the kernel is not installed, it finds no solid or several, or one that lines, circles and surfaces of
-        revolution do not bound.
+        ``file``: the kernel is not installed, it finds no solid or several, or one that is bounded by what else there
+        is than said above.
     """
     try:
         solids = solids_of(text)
@@ -58,17 +76,23 @@ def foreign_body(text: str, part_from_file: Placement3) -> FacedBody:
         raise ParameterError("file", None, "needs_kernel") from None
     if len(solids) != 1:
         raise ParameterError("file", None, "step_solids", count=len(solids))
-    made = _Taken(_laid(solids[0], part_from_file))
+    made = _Taken(_laid(solids[0], part_from_file), text)
     solid = made.taken()
+    walls = tuple(
+        Measured("spline", patch_distance(patch_of(solid, faces.surface)))
+        for faces in solid.faces
+        if isinstance(faces.surface, SplineSurface)
+    )
     error = _off_faces(solid)
     if not error <= _LOOSE:
         raise ParameterError("file", None, "step_loose", error=error, most=_LOOSE)
-    found, volume = face_moments(solid).volume, _kernel_volume(made.shape)
-    if not (volume > 0 and abs(found / volume - 1) <= _VOLUME):
-        raise ParameterError("file", None, "step_volume", found=found, volume=volume)
-    is_exact = error <= _EXACT * float(np.abs(solid.points).max())
+    moments = face_moments(solid)
+    volume = volume_of([made.shape], moments.volume, _VOLUME)
+    if not (volume > 0 and abs(moments.volume / volume - 1) <= _VOLUME):
+        raise ParameterError("file", None, "step_volume", found=moments.volume, volume=volume)
+    is_exact = not walls and error <= _EXACT * float(np.abs(solid.points).max())
     whole = FacedSolid(solid, 0.0 if is_exact else error, "exact" if is_exact else "sampled")
-    return FacedBody(lambda _: whole)
+    return FacedBody(lambda _: whole, walls, lambda: moments)
 
 
 def _laid(shape: TopoDS_Shape, placement: Placement3) -> TopoDS_Shape:
@@ -80,38 +104,30 @@ def _laid(shape: TopoDS_Shape, placement: Placement3) -> TopoDS_Shape:
     return shape.Moved(TopLoc_Location(motion))
 
 
-def _kernel_volume(shape: TopoDS_Shape) -> float:
-    from OCP.BRepGProp import BRepGProp
-    from OCP.GProp import GProp_GProps
-
-    properties = GProp_GProps()
-    BRepGProp.VolumePropertiesGK_s(shape, properties, _VOLUME / 10)
-    return float(properties.Mass())
-
-
 def _off_faces(solid: Solid) -> float:
     """How far edges lie off their faces at most, mm, by samples."""
     points = [along_edges(solid, edges, _SHARES)[0][0] for edges in solid.edges]
     bundle, _ = edge_rows(solid)
-    return max(
-        float(chart.distance(points[bundle[edge]]).max())
-        for faces in solid.faces
-        for chart in charts(solid, faces.surface, 1)
-        for edges, _ in faces.loops
-        for edge in edges[0].tolist()
-    )
-
-
-def _refused(code: str, what: object = None) -> NoReturn:
-    raise ParameterError("file", None, code, what=str(what).rpartition("_")[2])
+    worst = 0.0
+    for faces in solid.faces:
+        surface = faces.surface
+        if isinstance(surface, SplineSurface):
+            distance = patch_distance(patch_of(solid, surface))
+        else:
+            distance = charts(solid, surface, 1)[0].distance
+        on_it = np.concatenate([points[bundle[edge]] for edges, _ in faces.loops for edge in edges[0].tolist()])
+        worst = max(worst, float(distance(on_it).max()))
+    return worst
 
 
 class _Taken(SolidBuilder):
     """Takes over the vertices, edges and faces of a kernel's solid, each once."""
 
-    def __init__(self, shape: TopoDS_Shape) -> None:
+    def __init__(self, shape: TopoDS_Shape, text: str) -> None:
         super().__init__()
-        self.shape = shape
+        self.shape, self.text = shape, text
+        # the ends of spline surfaces by the kernel's numbers of the edges that run along them, as these run
+        self.ends: dict[int, Spline] = {}
 
     def taken(self) -> Solid:
         """All of it."""
@@ -127,21 +143,35 @@ class _Taken(SolidBuilder):
             return found
 
         if mapped(TopAbs_ShapeEnum.TopAbs_SHELL).Extent() != 1:
-            _refused("step_hollow")
+            raise ParameterError("file", None, "step_hollow")
         corners, edges = mapped(TopAbs_ShapeEnum.TopAbs_VERTEX), mapped(TopAbs_ShapeEnum.TopAbs_EDGE)
         for number in range(1, corners.Extent() + 1):
             self.add_vertices(self.point(BRep_Tool.Pnt_s(TopoDS.Vertex_s(corners.FindKey(number)))))
+        faces = mapped(TopAbs_ShapeEnum.TopAbs_FACE)
+        each = [TopoDS.Face_s(faces.FindKey(number)) for number in range(1, faces.Extent() + 1)]
+        surfaces = [self.surface(face, edges.FindIndex) for face in each]
         # numbers of our edges by those of the kernel's map; a pole is no edge
         numbers: dict[int, int] = {}
         for number in range(1, edges.Extent() + 1):
             edge = TopoDS.Edge_s(edges.FindKey(number))
             if not BRep_Tool.Degenerated_s(edge):
                 first, last = (corners.FindIndex(v) - 1 for v in _ends(edge))
-                made = self.edge(edge, np.array([first]), np.array([last]))
+                curve = self.ends.get(number) or self.curve(edge)
+                made = self.add_edges(np.array([first]), np.array([last]), curve)
                 numbers[number] = int(made[0])
-        for number in range(1, (faces := mapped(TopAbs_ShapeEnum.TopAbs_FACE)).Extent() + 1):
-            self.face(TopoDS.Face_s(faces.FindKey(number)), lambda edge: numbers.get(edges.FindIndex(edge)))
+        for face, surface in zip(each, surfaces, strict=True):
+            self.face(face, *surface, lambda edge: numbers.get(edges.FindIndex(edge)))
         return self.solid()
+
+    def refuse(self, code: str, kind: str) -> NoReturn:
+        """A refusal of what the kernel calls so, with the id of the first such entity."""
+        called = _CALLED.get(kind, kind)
+        found = re.search(rf"#(\d+)\s*=\s*[^;]*?\b{called}(?:_WITH_KNOTS)?\s*\(", self.text)
+        raise ParameterError("file", None, code, what=f"#{found[1]} {called}" if found else called)
+
+    def net(self, poles: Real) -> Index:
+        """Points (..., 3) of the kernel's, by number."""
+        return self.add_points(poles[..., 0] + 1j * poles[..., 1], poles[..., 2])
 
     def point(self, at: gp_Pnt) -> Index:
         """A point of the kernel's."""
@@ -156,23 +186,34 @@ class _Taken(SolidBuilder):
             origin = self.add_points(np.array([complex(x, y)]), z)
         return Frame(origin, axis, _direction(axes.XDirection()))
 
-    def edge(self, edge: TopoDS_Edge, first: Index, last: Index) -> Index:
-        """A line or an arc between two vertices."""
+    def curve(self, edge: TopoDS_Edge) -> Straight | Circular | Spline:
+        """The line, arc or spline of an edge."""
         from OCP.BRepAdaptor import BRepAdaptor_Curve
-        from OCP.GeomAbs import GeomAbs_CurveType
+        from OCP.GeomAbs import GeomAbs_CurveType as Kind
         from OCP.TopAbs import TopAbs_Orientation
         from OCP.TopoDS import TopoDS
 
-        curve = BRepAdaptor_Curve(TopoDS.Edge_s(edge.Oriented(TopAbs_Orientation.TopAbs_FORWARD)))
-        if curve.GetType() == GeomAbs_CurveType.GeomAbs_Line:
-            return self.add_edges(first, last, Straight(_direction(curve.Line().Direction())))
-        if curve.GetType() != GeomAbs_CurveType.GeomAbs_Circle:
-            _refused("step_curve", curve.GetType().name)
-        circle = curve.Circle()
-        return self.add_edges(first, last, Circular(self.frame(circle.Position()), circle.Radius()))
+        plain = TopoDS.Edge_s(edge.Oriented(TopAbs_Orientation.TopAbs_FORWARD))
+        curve = BRepAdaptor_Curve(plain)
+        if curve.GetType() == Kind.GeomAbs_Line:
+            return Straight(_direction(curve.Line().Direction()))
+        if curve.GetType() == Kind.GeomAbs_Circle:
+            circle = curve.Circle()
+            return Circular(self.frame(circle.Position()), circle.Radius())
+        if curve.GetType() not in (Kind.GeomAbs_BSplineCurve, Kind.GeomAbs_BezierCurve):
+            self.refuse("step_curve", _named(curve.GetType()))
+        spline = _spline_of(plain)
+        if spline.IsRational() or spline.Degree() > _MOST_DEGREE:
+            self.refuse("step_curve", "RationalCurve" if spline.IsRational() else "BSplineCurve")
+        poles = [spline.Pole(k + 1) for k in range(spline.NbPoles())]
+        places = self.net(np.array([[[p.X(), p.Y(), p.Z()] for p in poles]]))
+        return Spline(spline.Degree(), _knots(spline.NbKnots(), spline.Knot, spline.Multiplicity), places)
 
-    def face(self, face: TopoDS_Face, number: Callable[[TopoDS_Edge], int | None]) -> None:
-        """A face with its loops, the outer one first."""
+    def face(
+        self, face: TopoDS_Face, surface: Plane | Cylinder | Cone | Torus | Sphere | SplineSurface, direct: bool,
+        number: Callable[[TopoDS_Edge], int | None],
+    ) -> None:  # fmt: skip
+        """A face with its loops, the outer one first; ``direct``: the kernel's normal looks where ours does."""
         from OCP.BRepTools import BRepTools
         from OCP.TopAbs import TopAbs_Orientation, TopAbs_ShapeEnum
         from OCP.TopExp import TopExp_Explorer
@@ -180,7 +221,6 @@ class _Taken(SolidBuilder):
 
         plain = TopoDS.Face_s(face.Oriented(TopAbs_Orientation.TopAbs_FORWARD))
         turned = face.Orientation() == TopAbs_Orientation.TopAbs_REVERSED
-        surface, direct = self.surface(plain)
         outer = BRepTools.OuterWire_s(plain)
         loops: list[Loop] = []
         explorer = TopExp_Explorer(plain, TopAbs_ShapeEnum.TopAbs_WIRE)
@@ -194,7 +234,9 @@ class _Taken(SolidBuilder):
             explorer.Next()
         self.faces.append(Faces(surface, tuple(loops), direct != turned))
 
-    def surface(self, face: TopoDS_Face) -> tuple[Plane | Cylinder | Cone | Torus | Sphere, bool]:
+    def surface(
+        self, face: TopoDS_Face, number: Callable[[TopoDS_Edge], int]
+    ) -> tuple[Plane | Cylinder | Cone | Torus | Sphere | SplineSurface, bool]:
         """The surface of a face, and whether the kernel's normal looks where ours does."""
         from OCP.BRepAdaptor import BRepAdaptor_Surface
         from OCP.GeomAbs import GeomAbs_SurfaceType as Kind
@@ -213,10 +255,12 @@ class _Taken(SolidBuilder):
         if kind == Kind.GeomAbs_Torus:
             axes, torus = told.Torus().Position(), told.Torus()
             if torus.MinorRadius() >= torus.MajorRadius():
-                _refused("step_surface", "GeomAbs_Torus")
+                self.refuse("step_surface", "Torus")
             return Torus(self.frame(axes), torus.MajorRadius(), torus.MinorRadius()), axes.Direct()
+        if kind in (Kind.GeomAbs_BSplineSurface, Kind.GeomAbs_BezierSurface, Kind.GeomAbs_SurfaceOfExtrusion):
+            return self.patch(face, _named(kind), number), True
         if kind != Kind.GeomAbs_Cone:
-            _refused("step_surface", kind.name)
+            self.refuse("step_surface", _named(kind))
         axes, cone = told.Cone().Position(), told.Cone()
         slant, radius = abs(cone.SemiAngle()), cone.RefRadius()
         # an apex is no place for a surface to begin
@@ -224,6 +268,86 @@ class _Taken(SolidBuilder):
         return Cone(
             self.frame(axes, np.sign(cone.SemiAngle()), aside / np.tan(slant)), radius + aside, slant
         ), axes.Direct()
+
+    def patch(self, face: TopoDS_Face, kind: str, number: Callable[[TopoDS_Edge], int]) -> SplineSurface:
+        """A spline surface between the four edges of a face, which get its ends as their curves."""
+        surface, bounds = _surface_of(face)
+        degrees = surface.UDegree(), surface.VDegree()
+        if surface.IsURational() or surface.IsVRational() or max(degrees) > _MOST_DEGREE:
+            self.refuse("step_surface", kind if max(degrees) > _MOST_DEGREE else "RationalSurface")
+        count = surface.NbUPoles(), surface.NbVPoles()
+        poles = [[surface.Pole(i + 1, j + 1) for j in range(count[1])] for i in range(count[0])]
+        places = self.net(np.array([[[p.X(), p.Y(), p.Z()] for p in row] for row in poles]))
+        u = _knots(surface.NbUKnots(), surface.UKnot, surface.UMultiplicity)
+        v = _knots(surface.NbVKnots(), surface.VKnot, surface.VMultiplicity)
+        # along v at both ends of u, along u at both ends of v
+        sides = [(1, v, places[0]), (1, v, places[-1]), (0, u, places[:, 0]), (0, u, places[:, -1])]
+        found = []
+        for edge, at in _sides(face, bounds):
+            if at is None:
+                self.refuse("step_trimmed", kind)
+            side, ahead = at
+            across, knots, row = sides[side]
+            found.append(side)
+            # a line runs evenly as it is
+            if len(row) > 2:
+                run = (knots, row) if ahead else (knots[0] + knots[-1] - knots[::-1], row[::-1])
+                self.ends.setdefault(number(edge), Spline(degrees[across], run[0], run[1][None]))
+        if sorted(found) != [0, 1, 2, 3]:
+            self.refuse("step_trimmed", kind)
+        return SplineSurface(degrees, u, v, places[None])
+
+
+def _named(kind: GeomAbs_CurveType | GeomAbs_SurfaceType) -> str:
+    return str(kind.name).rpartition("_")[2]
+
+
+def _knots(count: int, place: Callable[[int], float], times: Callable[[int], int]) -> Real:
+    """Knots of the kernel's, each as often as it counts."""
+    return np.repeat([place(k + 1) for k in range(count)], [times(k + 1) for k in range(count)])
+
+
+def _spline_of(edge: TopoDS_Edge) -> Geom_BSplineCurve:
+    """The curve of an edge as a spline from its first to its last pole."""
+    from OCP.BRep import BRep_Tool
+    from OCP.Geom import Geom_TrimmedCurve
+    from OCP.GeomConvert import GeomConvert
+
+    low, high = BRep_Tool.Range_s(edge)
+    return GeomConvert.CurveToBSplineCurve_s(Geom_TrimmedCurve(BRep_Tool.Curve_s(edge, low, high), low, high))
+
+
+def _surface_of(face: TopoDS_Face) -> tuple[Geom_BSplineSurface, Real]:
+    """The part of a surface that a face takes as a spline, and where it begins and ends along u and v, (2, 2)."""
+    from OCP.BRep import BRep_Tool
+    from OCP.BRepTools import BRepTools
+    from OCP.Geom import Geom_RectangularTrimmedSurface
+    from OCP.GeomConvert import GeomConvert
+
+    bounds = BRepTools.UVBounds_s(face)
+    part = Geom_RectangularTrimmedSurface(BRep_Tool.Surface_s(face), *bounds)
+    return GeomConvert.SurfaceToBSplineSurface_s(part), np.reshape(bounds, (2, 2))
+
+
+def _sides(face: TopoDS_Face, bounds: Real) -> Iterator[tuple[TopoDS_Edge, tuple[int, bool] | None]]:
+    """Edges of a face with the end of its surface at which each runs (u, then v), and whether it runs ahead there."""
+    from OCP.BRepAdaptor import BRepAdaptor_Curve2d
+    from OCP.TopAbs import TopAbs_Orientation
+    from OCP.TopoDS import TopoDS
+
+    from parts.solids.kernel import edges_of
+
+    for edge in edges_of(face):
+        plain = TopoDS.Edge_s(edge.Oriented(TopAbs_Orientation.TopAbs_FORWARD))
+        curve = BRepAdaptor_Curve2d(plain, face)
+        low, high = curve.FirstParameter(), curve.LastParameter()
+        places = [curve.Value(low + share * (high - low)) for share in _SHARES.tolist()]
+        at = (np.array([[p.X(), p.Y()] for p in places]) - bounds[:, 0]) / (bounds[:, 1] - bounds[:, 0])
+        away = np.abs(np.stack([at[:, 0], 1 - at[:, 0], at[:, 1], 1 - at[:, 1]])).max(axis=1)
+        side = int(away.argmin())
+        along = at[:, 1 - side // 2]
+        whole = abs(abs(along[-1] - along[0]) - 1) <= _AT_END
+        yield plain, (side, bool(along[-1] > along[0])) if away[side] <= _AT_END and whole else None
 
 
 def _run(wire: TopoDS_Wire, face: TopoDS_Face) -> Iterator[tuple[TopoDS_Edge, bool]]:
@@ -238,7 +362,7 @@ def _run(wire: TopoDS_Wire, face: TopoDS_Face) -> Iterator[tuple[TopoDS_Edge, bo
         yield explorer.Current(), explorer.Current().Orientation() == TopAbs_Orientation.TopAbs_FORWARD
         explorer.Next()
     if count != wire.NbChildren():
-        _refused("step_wire")
+        raise ParameterError("file", None, "step_wire")
 
 
 def _ends(edge: TopoDS_Edge) -> tuple[TopoDS_Shape, TopoDS_Shape]:

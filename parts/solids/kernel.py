@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from io import BytesIO
 from typing import TYPE_CHECKING
@@ -49,6 +49,28 @@ def solids_of(text: str) -> list[TopoDS_Shape]:
         if status != IFSelect_ReturnStatus.IFSelect_RetDone or not reader.TransferRoots():
             return []
         return list(_explored(reader.OneShape(), TopAbs_ShapeEnum.TopAbs_SOLID))
+
+
+def volume_of(solids: Sequence[TopoDS_Shape], exact: float, share: float) -> float:
+    """The volume of solids, mm^3: by the kernel's quick rule, or where that is off ``exact`` by a share, its slow one.
+
+    That halves its pieces until a tenth of the share is left, and takes minutes for leaning splines.
+    """
+    from OCP.BRepGProp import BRepGProp
+    from OCP.GProp import GProp_GProps
+
+    found = 0.0
+    for measure in (
+        BRepGProp.VolumeProperties_s,
+        lambda solid, properties: BRepGProp.VolumePropertiesGK_s(solid, properties, share / 10),
+    ):
+        properties = [GProp_GProps() for _ in solids]
+        for solid, own in zip(solids, properties, strict=True):
+            measure(solid, own)
+        found = sum(float(own.Mass()) for own in properties)
+        if abs(found / exact - 1) <= share:
+            break
+    return found
 
 
 @contextmanager

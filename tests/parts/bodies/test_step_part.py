@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -176,14 +177,24 @@ def test_what_runs_into_it_is_found(tmp_path: Path, mate: str, height: str, comm
 
 def _shapes() -> dict[str, Callable[[], Any]]:
     from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut
+    from OCP.BRepBuilderAPI import (
+        BRepBuilderAPI_MakeEdge,
+        BRepBuilderAPI_MakeFace,
+        BRepBuilderAPI_MakeWire,
+        BRepBuilderAPI_NurbsConvert,
+    )  # fmt: skip
+    from OCP.BRepOffsetAPI import BRepOffsetAPI_ThruSections
     from OCP.BRepPrimAPI import (
         BRepPrimAPI_MakeBox,
         BRepPrimAPI_MakeCone,
         BRepPrimAPI_MakeCylinder,
+        BRepPrimAPI_MakePrism,
         BRepPrimAPI_MakeSphere,
         BRepPrimAPI_MakeTorus,
     )  # fmt: skip
-    from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
+    from OCP.GeomAPI import GeomAPI_PointsToBSpline
+    from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt, gp_Vec
+    from OCP.TColgp import TColgp_Array1OfPnt
 
     def ball(at: float) -> Any:
         return BRepPrimAPI_MakeSphere(gp_Pnt(0, 0, at), 5.0).Shape()
@@ -191,6 +202,26 @@ def _shapes() -> dict[str, Callable[[], Any]]:
     def rod(y: float, z: float) -> Any:
         return BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, -30), gp_Dir(0, y, z)), 3.0, 100.0).Shape()
 
+    def oval(z: float = 0.0, size: float = 1.0) -> Any:
+        """Half an oval, a spline, and the line across it."""
+        points = TColgp_Array1OfPnt(1, 9)
+        for k in range(9):
+            turn = math.pi * k / 8
+            points.SetValue(k + 1, gp_Pnt(10 * size * math.cos(turn), 7 * size * math.sin(turn), z))
+        curve = GeomAPI_PointsToBSpline(points).Curve()
+        round_, across = BRepBuilderAPI_MakeEdge(curve), BRepBuilderAPI_MakeEdge(curve.EndPoint(), curve.StartPoint())
+        return BRepBuilderAPI_MakeWire(round_.Edge(), across.Edge()).Wire()
+
+    def prism(*way: float) -> Any:
+        return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(oval()).Face(), gp_Vec(*way)).Shape()
+
+    def loft() -> Any:
+        made = BRepOffsetAPI_ThruSections(True, False)
+        for z, size in ((0.0, 1.0), (5.0, 0.8), (10.0, 1.1)):
+            made.AddWire(oval(z, size))
+        return made.Shape()
+
+    drill = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, -9, 4), gp_Dir(0, 1, 0)), 1.5, 60.0).Shape()
     box, round_rod = BRepPrimAPI_MakeBox(gp_Pnt(-20, -20, 0), 40, 40, 30).Shape(), rod(0, 1)
     torus = BRepPrimAPI_MakeTorus(gp_Ax2(gp_Pnt(0, 0, 10), gp_Dir(0, 0, 1)), 3.0, 1.0).Shape()
     return {
@@ -201,40 +232,70 @@ def _shapes() -> dict[str, Callable[[], Any]]:
         "dimple": lambda: BRepAlgoAPI_Cut(box, ball(30.0)).Shape(),
         "groove": lambda: BRepAlgoAPI_Cut(round_rod, torus).Shape(),
         "bore": lambda: BRepAlgoAPI_Cut(box, round_rod).Shape(),
+        "prism": lambda: prism(0, 0, 8),
+        "lean": lambda: prism(2, 1, 8),
+        "loft": loft,
+        "trimmed": lambda: BRepAlgoAPI_Cut(prism(0, 0, 8), drill).Shape(),
+        "rational": lambda: BRepBuilderAPI_NurbsConvert(round_rod).Shape(),
         "hollow": lambda: BRepAlgoAPI_Cut(box, ball(15.0)).Shape(),
         "ellipse": lambda: BRepAlgoAPI_Cut(box, rod(0.2, 1)).Shape(),
     }
 
 
-@pytest.mark.parametrize("name", ["ball", "ring", "cone", "stump", "dimple", "groove", "bore"])
-def test_every_surface_of_revolution_is_taken_over(name: str, tmp_path: Path) -> None:
+@pytest.mark.sampled(4)
+@pytest.mark.parametrize("name", ["ball", "ring", "cone", "stump", "dimple", "groove", "bore", "prism", "lean", "loft"])
+def test_surfaces_of_revolution_and_splines_are_taken_over(name: str, tmp_path: Path) -> None:
     """Through a file of ours, read back and judged by the kernel too."""
     written(tmp_path / "body.step", _shapes()[name]())
     alone(tmp_path, more='\n[[exports]]\nformat = "step"\n\n[[exports]]\nformat = "stl"\ntolerance = 0.1\n')
     assert main(["build", str(tmp_path / "alone.toml"), "--out", str(tmp_path / "o"), "--verify", "kernel"]) == 0
 
 
+def test_a_pole_that_is_moved_is_found(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """In the file written of a loft, within its surface, by two tolerances across it."""
+    written(tmp_path / "body.step", _shapes()["loft"]())
+    alone(tmp_path, more='\n[[exports]]\nformat = "step"\n')
+    assert main(["build", str(tmp_path / "alone.toml"), "--out", str(tmp_path / "o")]) == 0
+    file = tmp_path / "o" / "alone" / "body.step"
+    text = file.read_text("ascii")
+    surface = re.search(r"B_SPLINE_SURFACE_WITH_KNOTS\('',\d,\d,\((.*?)\),\.UNSP", text, re.DOTALL)
+    assert surface is not None
+    rows = [row.split(",") for row in re.findall(r"\(([^)]*)\)", surface[1])]
+    pole = rows[len(rows) // 2][len(rows[0]) // 2]
+    moved = re.sub(
+        rf"(\n{pole}=CARTESIAN_POINT\('',\()([^,]*),([^,]*)",
+        lambda m: f"{m[1]}{float(m[2]) + 1e-5:.8f},{float(m[3]) + 1e-5:.8f}", text,
+    )  # fmt: skip
+    assert moved != text
+    file.write_text(moved, "ascii")
+    assert main(["verify", str(file)]) == 1
+    assert "deviates by" in capsys.readouterr().out
+
+
 def test_what_is_not_one_such_solid_is_refused_in_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from OCP.BRep import BRep_Builder
     from OCP.TopoDS import TopoDS_Compound
 
-    def refusal(name: str = "body.step") -> str:
+    def refusal(name: str = "body.step", entity: str = "") -> str:
         with pytest.raises(SceneError) as told:
             alone(tmp_path, name)
         assert "\n" not in str(told.value)
+        assert re.search(entity, str(told.value))
         return told.value.code
 
     pair, builder = TopoDS_Compound(), BRep_Builder()
     builder.MakeCompound(pair)
     for name in ("ball", "stump"):
         builder.Add(pair, _shapes()[name]())
-    for shape, code in (
-        (pair, "step_solids"),
-        (_shapes()["hollow"](), "step_hollow"),
-        (_shapes()["ellipse"](), "step_curve"),
+    for shape, code, entity in (
+        (pair, "step_solids", ""),
+        (_shapes()["hollow"](), "step_hollow", ""),
+        (_shapes()["ellipse"](), "step_curve", r"#\d+ ELLIPSE"),
+        (_shapes()["trimmed"](), "step_trimmed", r"#\d+ SURFACE_OF_LINEAR_EXTRUSION"),
+        (_shapes()["rational"](), "step_surface", r"#\d+ RATIONAL_B_SPLINE_SURFACE"),
     ):
         written(tmp_path / "body.step", shape)
-        assert refusal() == code
+        assert refusal(entity=entity) == code
     (tmp_path / "body.step").write_text("no STEP file", encoding="utf-8")
     assert refusal() == "step_solids"
     (tmp_path / "body.step").write_bytes(b"0" * 8_000_001)
