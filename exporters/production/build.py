@@ -84,6 +84,10 @@ def build(
             # what is not cut from boards belongs to the model all the same
             rest = {p: outlines_of(plan.parts[p].section(0.0).region) for p in plan.parts if p not in wanted}
             previews.append(scene_preview(plan, {**outlines, **rest}, checks, staging))
+            if plan.scene.steps:
+                from exporters.production.exploded_preview import exploded_preview
+
+                previews.append(exploded_preview(plan, staging))
         if boards:
             from exporters.production.board_preview import board_previews
 

@@ -21,8 +21,13 @@ if TYPE_CHECKING:
 _SAME = 1e-9
 
 
-def list_rows(instances: Sequence[Instance], parts: Mapping[str, Part], language: str) -> tuple[ListRow, ...]:
-    """The list of all instances of ``parts``, by section and position; what has no number goes on from the greatest."""
+def list_rows(
+    instances: Sequence[Instance], parts: Mapping[str, Part], language: str, *, weighed: bool = True
+) -> tuple[ListRow, ...]:
+    """The list of all instances of ``parts``, by section and position; what has no number goes on from the greatest.
+
+    ``weighed``: with masses.
+    """
     counts = Counter(i.part for i in instances if i.part in parts)
     found: dict[tuple[object, ...], list[str]] = {}
     for part in counts:
@@ -33,7 +38,7 @@ def list_rows(instances: Sequence[Instance], parts: Mapping[str, Part], language
     for (section, *_), ids in sorted(found.items(), key=lambda item: list(SECTIONS).index(str(item[0][0]))):
         if (position := parts[ids[0]].keys.position) is None:
             position = number = number + 1
-        masses = [_mass(parts[p]) for p in ids]
+        masses = [_mass(parts[p]) if weighed else None for p in ids]
         total = None if None in masses else sum(m * counts[p] for m, p in zip(masses, ids, strict=True) if m)
         # parts that are alike but for how they lie differ by rounding
         least, most = min(m or 0.0 for m in masses), max(m or 0.0 for m in masses)
