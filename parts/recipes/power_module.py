@@ -865,16 +865,18 @@ class _Making(Making):
         self._layers(name, layers[::-1] if down else layers)
 
     def _cage(self, name: str, radius: float, count: int) -> None:
-        """A ring under the balls, and between two of them two posts."""
+        """A ring under the balls, and between two of them two posts, or one where they are near each other."""
         ball = self.keys.ball
         half, low = 0.1 * ball, 0.175 * ball
         pitch = 2 * math.pi * radius / count
-        long = min(0.5 * ball, (pitch - ball) / 2 - 0.1 * ball)
+        # along the circle from the middle of a ball: where a post begins and ends, short of that before the next
+        begin, stop = 0.63 * ball, min(1.05 * ball, pitch / 2 - 0.1 * ball)
+        along = [(begin, stop), (-begin, -stop)]
+        if stop - begin < half:
+            along = [(0.62 * ball, pitch - 0.62 * ball)]
         posts = []
-        for k in range(2 * count):
-            turn = 2 * math.pi * (k // 2) / count
-            ends = [turn + (1 - 2 * (k % 2)) * (0.55 * ball + along) / radius for along in (0.08 * ball, long)]
-            start, end = ([round(x, 9) for x in _pair(cmath.rect(radius, end))] for end in ends)
+        for turn, ends in ((2 * math.pi * k / count, row) for k in range(count) for row in along):
+            start, end = ([round(x, 9) for x in _pair(cmath.rect(radius, turn + x / radius))] for x in ends)
             posts.append({"start": start, "end": end, "width": 1.4 * half})
         edges = [_round(2 * (radius + half)), _round(2 * (radius - half))]
         self._layers(name, [(low, {"circles": edges}), (0.65 * ball, {"slots": posts})])

@@ -16,6 +16,7 @@ import pytest
 from geometry.kinematics.two_disk import TwoDisk
 from parts.base.refusal import SceneError
 from parts.base.texts import told_in
+from parts.bodies.layered import Layered
 from parts.pages.module_rules import RULES
 from parts.recipes.power_module import PowerModuleKeys
 from parts.scene.load import SceneFile, scene_from_dict
@@ -105,6 +106,17 @@ def test_nothing_overlaps_at_home_by_sections_and_layers() -> None:
     parts["ball"].points[0].arc, parts["ball"].points[1].z = 4.05, 8.1
     found = {name for pair in overlaps(scene) for name in pair}
     assert {"end_cover_1", "guide_6", "bearing_ring_2", "spacer_22", "disk_3"} <= found
+
+
+@pytest.mark.parametrize(("balls", "ball"), [(40, 8.0), (180, 8.0), (310, 8.0), (350, 8.0), (491, 8.0), (500, 7.5)])
+def test_cages_are_made_as_near_as_balls_may_stand(balls: int, ball: float) -> None:
+    """With one ball more than fits the condition names them."""
+    scene = module(balls=balls, ball=ball)
+    for size in ("small_cage", "large_cage"):
+        Layered().thing(scene.parts[size], {})
+    if balls == 491:
+        with pytest.raises(SceneError, match="room between two balls"):
+            module(balls=492)
 
 
 # what keeps the platform parallel
