@@ -35,7 +35,9 @@ def build_table(plan: Plan, folder: Path, built: Built) -> None:
     pictures = {f"{part}.preview.svg" for part in plan.parts}
     of_parts = [preview for preview in built.previews if preview.name in pictures]
     named = built.previews if len(of_parts) <= _PREVIEWS else [p for p in built.previews if p not in of_parts]
-    remarks = [told.text("preview: {path}", path=preview) for preview in named]
+    notes = [one for one in named if one.suffix == ".txt"]
+    remarks = [told.text("preview: {path}", path=one) for one in named if one not in notes]
+    remarks += [told.text("how it is made and used: {path}", path=one) for one in notes]
     if len(named) < len(built.previews):
         remarks.append(
             told.say(

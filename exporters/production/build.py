@@ -92,6 +92,10 @@ def build(
             from exporters.production.board_preview import board_previews
 
             previews += board_previews(plan, staging)
+        if plan.scene.scene.notes:
+            from exporters.production.notes import write_notes
+
+            previews.append(write_notes(plan, staging))
         names = [item.job.path for item in written if not item.failures]
         with alone_in(folder):
             before = read_report(folder)

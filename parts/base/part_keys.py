@@ -21,8 +21,15 @@ Density = Annotated[
 Title = Annotated[
     str, Meta(pattern=r"\S", max_length=120, description="what people call it, in any script", examples=["Pinion"])
 ]
-# in one for all languages, or in each
-Titles = Title | Annotated[dict[str, Title], Meta(min_length=1)]
+# in one for all languages, or in each; msgspec 0.22 frees a pattern that stands beside a table twice: the process ends
+# with a segmentation fault
+Titles = (
+    Annotated[
+        str,
+        Meta(min_length=1, max_length=120, description="what people call it, in any script", examples=["Pinion"]),
+    ]
+    | Annotated[dict[str, Title], Meta(min_length=1)]
+)
 # of the parts list
 Position = Annotated[int, Meta(ge=1, le=9999, description="number in the parts list", examples=[19])] | None
 Designation = (

@@ -52,6 +52,7 @@ REASONS = {
     "not_toml": N_("is not TOML: {why}; see `higherpair new spur_gear` for a start"),
     "decimal_comma": N_("line {line}: a number has a comma; write {number} with a point"),
     "no_quotes": N_('line {line}: words stand in straight quotes: {key} = "{value}"'),
+    "blank_title": N_("is blank"),
     "small_letters": N_("line {line}: write {key} = {value}"),
     "quote_not_closed": N_("line {line}: the quotes of {key} are not closed"),
     "comma_in_number": N_("write {whole}.{part} with a point, or a list in brackets, [{whole}, {part}]"),

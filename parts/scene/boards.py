@@ -42,6 +42,13 @@ def pieces_of(
     return {part: count for part, count in found.items() if count}
 
 
+def cut_from(spec: BoardSpec, key: str, part: Part) -> bool:
+    """Whether a board is what a part is cut from: it names the part, or the part is flat and as thick."""
+    if spec.parts is not None:
+        return key in spec.parts
+    return part.is_plate and abs(part.face_width - spec.thickness) <= _SAME_THICKNESS
+
+
 def parts_of_board(spec: BoardSpec, parts: Mapping[str, Part], source: str, place: str) -> list[str]:
     """The parts that are cut from a board: those that it names, or all flat ones of its thickness.
 
@@ -58,7 +65,7 @@ def parts_of_board(spec: BoardSpec, parts: Mapping[str, Part], source: str, plac
             )  # fmt: skip
     if spec.parts is not None:
         return spec.parts
-    found = [k for k, p in parts.items() if p.is_plate and abs(p.face_width - spec.thickness) <= _SAME_THICKNESS]
+    found = [key for key, part in parts.items() if cut_from(spec, key, part)]
     if not found:
         flat = {k: p.face_width for k, p in parts.items() if p.is_plate and p.stock is None}
         if not flat:

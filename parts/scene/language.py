@@ -13,7 +13,7 @@ from parts.base.texts import ENGLISH, languages, told_in
 from parts.scene.files import MOST_BYTES, built_in_scenes, text_of
 
 # keys that hold words, and may hold them in several languages
-WORDS: tuple[str, ...] = ("title", "label", "material")
+WORDS: tuple[str, ...] = ("title", "label", "material", "notes")
 # those that a part keeps in one: its title stays in all of them, as STEP files tell it
 WORDS_OF_PARTS: tuple[str, ...] = ("label", "material")
 

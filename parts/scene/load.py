@@ -57,6 +57,14 @@ class SceneInfo(Struct, forbid_unknown_fields=True):
 
     title: Annotated[str, Meta(max_length=500, description="what the scene shows")] = ""
     language: Annotated[Language, Meta(description="language of reports")] = ENGLISH
+    notes: Annotated[
+        list[Annotated[str, Meta(pattern=r"\S", max_length=2000)]],
+        Meta(
+            max_length=50,
+            description="how what is made is put together and used, a paragraph each: SCENE.notes.txt",
+            examples=[["Glue the crank to the shaft."]],
+        ),
+    ] = []
 
 
 class ExportSpec(Struct, forbid_unknown_fields=True):
@@ -419,6 +427,8 @@ def _part_spec(key: str, table: dict[str, Any], source: str) -> MaterialKeys:
         )
     except ParameterError as refusal:
         raise placed(source, place, refusal) from None
+    if isinstance(spec.title, str) and not spec.title.strip():
+        raise SceneError(source, f"{place}.title", spec.title, "blank_title", REMOVED)
     if isinstance(label := spec.label, str):
         from geometry.plane.letters import unknown_letters
 

@@ -50,7 +50,8 @@ def scene_schema() -> str:
     for table, words in [("SceneInfo", WORDS), ("InstanceTable", WORDS), *recipes, *kinds_of_part]:
         properties = schema["$defs"][table]["properties"]
         for name in [name for name in words if name in properties]:
-            properties[name] = {"anyOf": [properties[name], several], "default": properties[name].get("default")}
+            told_so = {"type": "object", "additionalProperties": properties[name]} if name == "notes" else several
+            properties[name] = {"anyOf": [properties[name], told_so], "default": properties[name].get("default")}
     needed: dict[str, Any] = {}
     for place, items, kinds in (
         ("parts", "additionalProperties", KINDS),

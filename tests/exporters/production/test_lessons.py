@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from pathlib import Path
 
 import ezdxf
@@ -11,7 +12,8 @@ import shapely
 from ezdxf.path import make_path
 
 from exporters.command.cli import main
-from parts.scene.files import SCENE_FOLDER
+from parts.base.texts import languages
+from parts.scene.files import SCENE_FOLDER, built_in_scenes
 from parts.scene.load import load_scene, make_parts
 from parts.scene.placing import place
 from tests.exporters.production.test_boards import bodies_of, contours, pieces_of
@@ -144,3 +146,53 @@ def test_a_kerf_that_closes_a_hole_is_refused(tmp_path: Path, capsys: pytest.Cap
     assert "boards.plywood.kerf = 2.1" in said
     assert "at most 1.99" in said
     assert not (tmp_path / "lesson_5").exists()
+
+
+@pytest.mark.parametrize("language", ["en", "uk"])
+def test_notes_name_every_length_that_no_machine_makes(tmp_path: Path, language: str) -> None:
+    """A model of two sets: pins beside a board; the sizes by hand. What a bed holds is printed, not cut."""
+    text = """
+[scene.notes]
+en = ["Glue the crank to its shaft."]
+uk = ["Приклейте ручку до вала."]
+[parts.plate]
+kind = "plate"
+width = 40.0
+height = 30.0
+face_width = 3.0
+[parts.pin]
+kind = "pin"
+diameter = 5.0
+length = 10.5
+title = { en = "Pin", uk = "Палець" }
+[parts.tube]
+kind = "pin"
+diameter = 8.0
+bore_diameter = 5.2
+length = 20.0
+title = { en = "Tube", uk = "Труба" }
+[instances.pin]
+count = 3
+at = [50.0, 0.0, 0.0]
+"""
+    board = "[boards.b]\nwidth = 200.0\nheight = 100.0\nthickness = 3.0\nsets = 2\n"
+    board += '[[exports]]\nformat = "svg"\npurpose = "board"\n'
+    bed = '[beds.b]\nwidth = 200.0\ndepth = 200.0\nheight = 100.0\n[[exports]]\nformat = "3mf"\npurpose = "plate"\n'
+    point = "." if language == "en" else ","
+    rows = ["6 × Ø5 × 10.5", "2 × Ø8/Ø5.2 × 20", "0.063 m" if language == "en" else "0.063 м"]
+    for name, more, cut in (("laser", board, True), ("printer", board + bed, False)):
+        (tmp_path / f"{name}.toml").write_text(text + more, encoding="utf-8")
+        assert (
+            main(["build", str(tmp_path / f"{name}.toml"), "--out", str(tmp_path), "--language", language, "-q"]) == 0
+        )
+        told = (tmp_path / name / f"{name}.notes.txt").read_text("utf-8")
+        assert ("Glue the crank" if language == "en" else "Приклейте ручку") in told
+        assert [row.replace(".", point) in told for row in rows] == [cut] * 3, told
+
+
+def test_lessons_and_coupons_have_notes_in_every_language() -> None:
+    for name, file in built_in_scenes().items():
+        notes = tomllib.loads(file.read_text("utf-8")).get("scene", {}).get("notes", {})
+        assert notes or not ("lesson" in name or "coupon" in name)
+        assert len({len(rows) for rows in notes.values()}) <= 1, name
+        assert set(notes) in (set(), set(languages())), name
