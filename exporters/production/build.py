@@ -92,7 +92,7 @@ def build(
             from exporters.production.board_preview import board_previews
 
             previews += board_previews(plan, staging)
-        if plan.scene.scene.notes:
+        if plan.scene.scene.notes or plan.scene.steps:
             from exporters.production.notes import write_notes
 
             previews.append(write_notes(plan, staging))

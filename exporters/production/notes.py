@@ -8,6 +8,8 @@ from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
+from exporters.production.check_lines import in_rows, names_of
+from exporters.production.order import steps_told
 from parts.base.texts import Words, words
 from parts.scene.stock import StockRow, stock_rows
 
@@ -25,6 +27,11 @@ def write_notes(plan: Plan, folder: Path) -> Path:
     lines = [*wrap(title, _LINE), "=" * min(len(title), _LINE)]
     for note in scene.notes:
         lines += ["", *wrap(note, _LINE)]
+    if plan.scene.steps:
+        names = names_of(plan.scene.instances, plan.parts)
+        lines.append("")
+        for step in steps_told(plan.scene.steps, names, in_rows, scene.language):
+            lines += wrap(step, _LINE, subsequent_indent="    ")
     if rows := stock_rows(plan.scene, plan.parts):
         lines += ["", told.text("To be cut from rods and tubes, mm (diameter × length):"), *_stock(plan, rows, told)]
     file = folder / f"{plan.scene.name}.notes.txt"
