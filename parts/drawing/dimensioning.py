@@ -288,8 +288,10 @@ class _Layout:
         text = (rising_text if upright else text_of)(words, at)
         if not self.ink.holds(lines, text.box):
             return False
-        foot = _at(along, level, high)
-        self._dimension(one, (points[0], points[1]), foot, 90.0 if upright else 0.0, lines, text)
+        # programs that take every size as aligned read the same number of points beside each other
+        beside = max(points, key=lambda p: (p * out.conjugate()).real)
+        first, second = (_at(along, beside.real if upright else beside.imag, place) for place in (low, high))
+        self._dimension(one, (first, second), _at(along, level, high), 90.0 if upright else 0.0, lines, text)
         return True
 
     def _template(self, one: Size | Round) -> str:
