@@ -124,8 +124,9 @@ def _add_dimension(drawing: Drawing, one: Dimension) -> BlockLayout:
         "text_midpoint": (*place_of(one.middle), 0.0), "actual_measurement": one.value,
         "defpoint": place_of(one.line), "defpoint2": first, "defpoint3": second, "angle": one.angle,
     }  # fmt: skip
-    # all programs read linear ones right; the block belongs to this dimension, words stand where they were put
-    drawing.modelspace().new_entity("DIMENSION", {**attributes, "dimtype": 32 | 128})
+    # all programs read linear ones right; the block is this one's own, words within its arrows stay where they were put
+    code = 32 if one.beside else 32 | 128
+    drawing.modelspace().new_entity("DIMENSION", {**attributes, "dimtype": code})
     return block
 
 

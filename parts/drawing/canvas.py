@@ -240,7 +240,7 @@ class Dimension(Record):
     Between the ``points`` along ``angle`` (degrees), its line through ``line``: of a radius from the centre to the arc.
     ``scale``: mm of paper for one of the model; ``text``: its words, <> for the
     number, whose decimal ``mark`` is a point or a comma. ``strokes`` and ``texts``: which of the canvas's it consists
-    of; ``middle``: of its words.
+    of; ``middle``: of its words, from which programs that draw them anew put those that are ``beside`` it aside.
     """
 
     name: str
@@ -252,6 +252,7 @@ class Dimension(Record):
     text: str
     mark: str
     middle: complex
+    beside: bool
     strokes: range
     texts: range
 

@@ -56,6 +56,8 @@ _MARK, _STROKE, _LOOK, _OUT = 2.0, 7.0, 6.0, 6
 _FARTHER = (0.0, 4.0, 8.0, 13.0, 20.0, 30.0)
 # what words keep off lines
 _FREE = 0.4
+# how much wider words are in LibreCAD, and how far from the dimension it puts them, mm
+_WIDER, _LIBRE_GAP = 1.03, 0.9
 _DIMENSION = "DIMENSION"
 
 
@@ -311,14 +313,29 @@ class _Layout:
         first = len(self.canvas.strokes)
         for stroke in lines:
             self._stroke(_DIMENSION, stroke)
-        count, box = len(self.canvas.texts), text.box
+        count = len(self.canvas.texts)
         self._write(text)
-        middle = complex(box.left + box.right, box.low + box.high) / 2
         strokes, texts = range(first, len(self.canvas.strokes)), range(count, count + 1)
         mark, scale = decimal(".", self.language), self.paper.scale
+        # LibreCAD moves words that are longer than their dimension along it, by half of both: they begin so much before
+        apart, length = one.value * scale, sum(run.width for run in text.runs) * _WIDER
+        middle = complex(text.box.left + text.box.right, text.box.low + text.box.high) / 2
+        if is_beside := length > apart:
+            middle -= ((length + apart) / 2 + _LIBRE_GAP) * cmath.rect(1.0, math.radians(angle))
         self.canvas.dimensions.append(
             Dimension(
-                one.name, one.value, scale, points, line, angle, self._template(one), mark, middle, strokes, texts
+                one.name,
+                one.value,
+                scale,
+                points,
+                line,
+                angle,
+                self._template(one),
+                mark,
+                middle,
+                is_beside,
+                strokes,
+                texts,
             )
         )
 
