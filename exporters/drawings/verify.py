@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -177,11 +177,16 @@ def _marks(words: Run | ReadText) -> tuple[complex, complex, complex]:
 
 
 def _check_strokes(sheet: ReadSheet, canvas: Canvas, allowed: float, failures: list[str]) -> None:
-    """Every line of every layer is there, and none beside; splines are held at their ends, their ways elsewhere."""
+    """Every line of every layer is there, and none beside; splines are held all along, the others by three points."""
     for layer in {s.layer: None for s in canvas.strokes} | {name: None for name, _ in sheet.samples}:
-        wanted = _rows(_trace(*_sampled(s.curve)) for s in canvas.strokes if s.layer == layer)
-        found = _rows(_trace(points) for name, points in sheet.samples if name == layer)
-        away, strange = _unmatched(wanted, found, allowed)
+        curves = [s.curve for s in canvas.strokes if s.layer == layer]
+        samples = [points for name, points in sheet.samples if name == layer]
+        wanted, found = _rows(_trace(*_sampled(c)) for c in curves), _rows(map(_trace, samples))
+
+        def follows(k: int, n: int, curves: list[CadCurve] = curves, samples: list[Complex] = samples) -> bool:
+            return _follows(samples[n], curves[k], allowed)
+
+        away, strange = _unmatched(wanted, found, allowed, follows)
         failures += [f"{layer}: no line from {_told(wanted[k, 0])} to {_told(wanted[k, 2])} mm" for k in away]
         failures += [f"{layer}: a line too many from {_told(found[k, 0])} to {_told(found[k, 2])} mm" for k in strange]
 
@@ -205,19 +210,36 @@ def _rows(rows: Iterable[tuple[complex, complex, complex]]) -> Complex:
     return np.array([*rows], dtype=np.complex128).reshape(-1, 3)
 
 
-def _unmatched(wanted: Complex, found: Complex, allowed: float) -> tuple[list[int], list[int]]:
-    """Which rows of three points have no partner: either way round, each partner taken once, mostly in order."""
+def _follows(points: Complex, curve: CadCurve, allowed: float) -> bool:
+    """Whether a file's points lie on a curve all along it, where three of them do not tell."""
+    if isinstance(curve, Line | Arc):
+        return True
+    breaks = curve.breaks
+    own = curve.point((breaks[:-1, None] + np.linspace(0, 1, PER_CURVE) * np.diff(breaks)[:, None]).ravel())
+    if own.shape == points.shape and min(np.abs(own - points).max(), np.abs(own[::-1] - points).max()) <= allowed:
+        return True
+    # a file may cut it elsewhere
+    return float(distance_to_curves(points, [curve]).max()) <= allowed
+
+
+def _unmatched(
+    wanted: Complex, found: Complex, allowed: float, follows: Callable[[int, int], bool] = lambda k, n: True
+) -> tuple[list[int], list[int]]:
+    """Which rows of three points have no partner: either way round, each partner taken once, mostly in order.
+
+    ``follows``: whether a row and a partner, by their places, are one curve between these points too.
+    """
     left, free = [], np.ones(len(found), dtype=np.bool_)
     for k, row in enumerate(wanted):
-        if k < len(found) and free[k] and _off(row, found[k : k + 1])[0] <= allowed:
+        if k < len(found) and free[k] and _off(row, found[k : k + 1])[0] <= allowed and follows(k, k):
             free[k] = False
         else:
             left.append(k)
     away = []
     for k in left:
         off = np.where(free, _off(wanted[k], found), np.inf)
-        best = int(off.argmin()) if len(off) else -1
-        if best >= 0 and off[best] <= allowed:
+        near = (int(n) for n in np.argsort(off) if off[n] <= allowed and follows(k, int(n)))
+        if (best := next(near, None)) is not None:
             free[best] = False
         else:
             away.append(k)

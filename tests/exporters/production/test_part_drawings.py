@@ -117,7 +117,7 @@ SLOW = ("oval", "disc")
 
 
 def jobs(part: dict[str, Any], language: str = "en", formats: tuple[str, ...] = ("dxf", "svg"), **export: Any) -> Any:
-    exports = [{"format": name, "purpose": "part", **export} for name in formats]
+    exports = [{"format": name, "purpose": "part"} | export for name in formats]
     raw = {"scene": {"language": language}, "parts": {"p": part | {"material": "steel"}}, "exports": exports}
     return plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets
 
@@ -313,6 +313,21 @@ def test_words_exchanged_in_a_dxf_are_seen(tmp_path: Path) -> None:
     one.dxf.text, two.dxf.text = "z", "m"
     document.saveas(file)
     assert any("does not stand at" in told for told in job.verify(file, 0.0).failures)
+
+
+@pytest.mark.parametrize("purpose", ["part", "assembly"])
+def test_a_spline_that_leaves_its_way_between_its_ends_is_seen(tmp_path: Path, purpose: str) -> None:
+    """A pole in its middle moved by 0.05 mm, both ends as they were: in assembly drawings it passed."""
+    job = jobs(PARTS["cam"], formats=("dxf",), purpose=purpose)[0]
+    file = tmp_path / "a.dxf"
+    job.write({}, file)
+    document = ezdxf.readfile(file)
+    spline = max(document.modelspace().query("SPLINE"), key=lambda e: len(e.control_points))
+    poles = [ezdxf.math.Vec3(p) for p in spline.control_points]
+    poles[len(poles) // 2] += ezdxf.math.Vec3(0.05, 0.05)
+    spline.control_points = poles
+    document.saveas(file)
+    assert any("no line" in told for told in job.verify(file, 0.0).failures)
 
 
 @pytest.mark.parametrize(
