@@ -15,7 +15,7 @@ from exporters.verification.verdict import Verdict
 from geometry.approximation.outline import CadCurve
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc, Line
-from geometry.plane.measure import distance_to_curves
+from geometry.plane.measure import distance_to_curve, distance_to_curves
 from parts.base.readback import ReadError
 from parts.drawing.canvas import Box, Canvas, Run
 from parts.drawing.expected import Expected, Meshing
@@ -219,7 +219,7 @@ def _follows(points: Complex, curve: CadCurve, allowed: float) -> bool:
     if own.shape == points.shape and min(np.abs(own - points).max(), np.abs(own[::-1] - points).max()) <= allowed:
         return True
     # a file may cut it elsewhere
-    return float(distance_to_curves(points, [curve]).max()) <= allowed
+    return float(distance_to_curve(points, curve).max()) <= allowed  # type: ignore[arg-type]
 
 
 def _unmatched(

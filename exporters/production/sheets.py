@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -150,7 +151,10 @@ def sheet_jobs(
         part = parts[shown[0]] if len(shown) == 1 and export.purpose not in ("parts_list", "assembly") else None
         # each part's drawing is a document of its own
         count = (1, 1) if export.purpose == "part" else (number, len(made))
-        _add_title_block(expected, scene, export, part, count, where, source)
+        weighed = [part] if part is not None else []
+        if export.purpose == "assembly":
+            weighed = [parts[i.part] for i in placing.instances if not export.parts or i.part in export.parts]
+        _add_title_block(expected, scene, export, part, _mass(weighed, language), count, where, source)
         if export.cells == "empty":
             expected.canvas.texts[:] = [seen for text in expected.canvas.texts for seen in text.asked()]
     name, title = f"{scene.name}.{export.name or export.purpose}", scene.scene.title or scene.name
@@ -266,21 +270,20 @@ def _add_title_block(
     scene: SceneFile,
     export: ExportSpec,
     part: Part | None,
+    mass: str,
     number: tuple[int, int],
     where: str,
     source: str,
 ) -> None:
-    """The title block on a sheet, where the export asks for one; of a single ``part`` with its material and mass."""
+    """The title block on a sheet, where the export asks for one; of a single ``part`` with its material."""
     if not export.title_block and export.purpose not in _WITH_BLOCK:
         return
     language = scene.scene.language
     given = export.title_block if isinstance(export.title_block, TitleBlockTable) else TitleBlockTable()
     more = {"name": given.name or (part and part.title) or scene.scene.title or scene.name}
+    more["mass"] = given.mass or mass
     if part is not None:
-        more |= {
-            "material": given.material or material_told(part.material, words(language)),
-            "mass": given.mass or _mass(part, language),
-        }
+        more["material"] = given.material or material_told(part.material, words(language))
         if export.purpose == "part":
             more["name"] = given.name or part.title or part.id
             more["designation"] = given.designation or part.designation or ""
@@ -300,12 +303,11 @@ def _add_title_block(
         draw_turned(expected.canvas, block.designation)
 
 
-def _mass(part: Part, language: str) -> str:
-    """The mass in kg, as GOST 2.104 has it; nothing where the density is not known."""
-    if part.density is None:
-        return ""
-    kilograms = part.made_by.moments(part.body(0.0)).volume * part.density / 1e6
-    return decimal(f"{kilograms:.3g}", language)
+def _mass(weighed: Iterable[Part], language: str) -> str:
+    """The mass of all in kg, as GOST 2.104 has it; nothing where a density is not known."""
+    masses = [part.mass for part in weighed]
+    known = [mass for mass in masses if mass is not None]
+    return decimal(f"{sum(known):.3g}", language) if known and len(known) == len(masses) else ""
 
 
 def _check_wheel(spec: SpurGearSpec, place: str, source: str) -> None:

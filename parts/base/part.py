@@ -170,6 +170,13 @@ class Part(Record, dict=True):
         return self.keys.density or density_of(self.material)
 
     @cached_property
+    def mass(self) -> float | None:
+        """kg; None where the density is not known."""
+        if self.density is None:
+            return None
+        return float(self.made_by.moments(self.body(0.0)).volume) * self.density / 1e6
+
+    @cached_property
     def probes(self) -> tuple[Probe, ...]:
         """What every file of it must also do."""
         return self.made_by.probes(self.keys, self.thing)

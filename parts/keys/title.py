@@ -18,7 +18,7 @@ class TitleBlockTable(Struct, forbid_unknown_fields=True):
     designation: Annotated[str, _text("designation of the document")] = ""
     organisation: Annotated[str, _text("school, group or firm")] = ""
     material: Annotated[str, _text("material of a part; default: that of the one that is shown")] = ""
-    mass: Annotated[str, _text("mass as it is to be printed; default: that of the one part that is shown, kg")] = ""
+    mass: Annotated[str, _text("mass as it is to be printed; default: that of what is shown, kg")] = ""
     letter: Annotated[str, Meta(max_length=3, description="stage of the document")] = ""
     date: Annotated[str, Meta(max_length=20, description="date beside every name")] = ""
     drawn: Annotated[str, _text("who drew it")] = ""

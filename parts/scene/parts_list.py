@@ -38,7 +38,7 @@ def list_rows(
     for (section, *_), ids in sorted(found.items(), key=lambda item: list(SECTIONS).index(str(item[0][0]))):
         if (position := parts[ids[0]].keys.position) is None:
             position = number = number + 1
-        masses = [_mass(parts[p]) if weighed else None for p in ids]
+        masses = [parts[p].mass if weighed else None for p in ids]
         total = None if None in masses else sum(m * counts[p] for m, p in zip(masses, ids, strict=True) if m)
         # parts that are alike but for how they lie differ by rounding
         least, most = min(m or 0.0 for m in masses), max(m or 0.0 for m in masses)
@@ -74,10 +74,3 @@ def _told(part: Part, language: str) -> tuple[str, str, str, str, str]:
         name = f"{name} {part.stock.told(told)}"
     section = "standard" if keys.standard else "parts"
     return section, keys.designation or "", name, keys.standard or "", material_told(part.material, told)
-
-
-def _mass(part: Part) -> float | None:
-    """Of one, kg."""
-    if part.density is None:
-        return None
-    return float(part.made_by.moments(part.body(0.0)).volume) * part.density / 1e6

@@ -91,6 +91,18 @@ def test_a_position_that_no_view_shows_is_told() -> None:
     assert f"{row.value:.0f}" not in numbered
 
 
+@pytest.mark.parametrize(("density", "told"), [({"density": 4.0}, True), ({}, False)])
+def test_the_title_block_has_the_mass_of_all_or_none(density: dict[str, float], told: bool) -> None:
+    """pi 20^2 5 mm^3 of 8 g/cm^3 once and of 4 g/cm^3 twice."""
+    parts = {"one": DISC | {"density": 8.0}, "two": DISC | density}
+    places = {"one": ("one", [0.0, 0.0, 0.0]), "a": ("two", [60.0, 0.0, 0.0]), "b": ("two", [120.0, 0.0, 0.0])}
+    raw = {"parts": parts, "instances": {k: {"part": part, "at": at} for k, (part, at) in places.items()},
+           "exports": [{"format": "svg", "purpose": "assembly"}]}  # fmt: skip
+    job = plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets[0]
+    whole = f"{math.pi * 20**2 * 5 * (8 + 2 * 4) / 1e6:.3g}"
+    assert (whole in {text.text for text in job.canvas.texts}) == told
+
+
 def test_the_same_bytes_twice(tmp_path: Path) -> None:
     once = {ending: file.read_bytes() for ending, file in written(tmp_path, scene("practicum_pair")).items()}
     again = {ending: file.read_bytes() for ending, file in written(tmp_path, scene("practicum_pair")).items()}
