@@ -214,7 +214,7 @@ def test_nothing_overlaps_in_the_written_module_and_a_spoiled_file_is_found(file
     for part, spoil, other in (
         ("disk_2", _moved(0.5), "protective_ring"), ("bolt_41", _longer(2.0), "spacer_24"),
         ("ball", _wider(8.1 / 8.0), "bearing_ring"), ("pinion", _turned(2 * np.pi / 96 / 4), "ring"),
-        ("worm", _moved(0.5), "worm_wheel_25"),
+        ("worm", _moved(0.5), "worm_wheel_23"),
     ):  # fmt: skip
         assert frozenset((part, other)) in made.overlaps({part: spoil}), part
 
