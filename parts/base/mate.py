@@ -193,6 +193,10 @@ class MateKind(Generic[K, A, B]):
         """Tip radius (mm) that it wants of each after thinning; the smallest wins, None: as it is."""
         return None, None
 
+    def joined(self, keys: K) -> tuple[str, str, str]:
+        """What a mating of it begins with: its name and both instances."""
+        return self.name, keys.first, keys.second
+
     def mating(self, keys: K, first: End[A], second: End[B]) -> Mating:
         """How both stand to each other, with the parts as they are built at last."""
         raise NotImplementedError

@@ -237,9 +237,7 @@ class CycloidalPair(MateKind[CycloidalPairSpec, "PinRing", "CycloidalDisc"]):
         # a plate with holes stands beside the disc
         beside = ring.pins == "holes"
         return CycloidalMating(
-            self.name,
-            keys.first,
-            keys.second,
+            *self.joined(keys),
             direction_deg=keys.direction_deg,
             height=(ring.face_width if beside else 0.0) if keys.height is None else keys.height,
             distance=disc.eccentricity,
@@ -268,9 +266,7 @@ class EccentricBearing(MateKind[EccentricBearingSpec, "RoundDisc", "CycloidalDis
             given = 0.0 if bore is None else 2 * bore.reach
             raise ParameterError("bore_diameter", given, "eccentric_needs_round_bore", Nearest(2 * eccentric.radius))
         return BearingMating(
-            self.name,
-            keys.first,
-            keys.second,
+            *self.joined(keys),
             height=keys.height,
             distance=eccentric.eccentricity,
             module=eccentric.radius,
@@ -295,9 +291,7 @@ class OutputPins(MateKind[OutputPinsSpec, "CycloidalDisc", "PinPlate"]):
         circles = plate.pins.pitch_circle_diameter, disc.output.pitch_circle_diameter
         same_size("pin_circle_diameter", *circles, "not_of_the_holes")
         return OutputMating(
-            self.name,
-            keys.first,
-            keys.second,
+            *self.joined(keys),
             direction_deg=keys.direction_deg,
             height=-plate.thickness if keys.height is None else keys.height,
             distance=disc.eccentricity,

@@ -175,7 +175,7 @@ class Coaxial(MateKind[CoaxialSpec, Any, Any]):
     def mating(self, keys: CoaxialSpec, first: End[Any], second: End[Any]) -> CoaxialMating:
         """Whatever the parts are."""
         turn = math.radians(keys.rotation_deg)
-        return CoaxialMating(self.name, keys.first, keys.second, height=keys.height, rotation=turn)
+        return CoaxialMating(*self.joined(keys), height=keys.height, rotation=turn)
 
 
 class Carried(MateKind[CarriedSpec, Any, Any]):
@@ -187,9 +187,7 @@ class Carried(MateKind[CarriedSpec, Any, Any]):
         """Whatever the parts are."""
         offset = None if keys.offset is None else complex(*keys.offset[:2])
         return CarriedMating(
-            self.name,
-            keys.first,
-            keys.second,
+            *self.joined(keys),
             height=0.0 if keys.offset is None else keys.offset[2],
             distance=0.0 if offset is None else abs(offset),
             offset=offset,

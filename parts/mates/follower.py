@@ -135,9 +135,7 @@ class CamFollower(MateKind[CamFollowerSpec, "DiskCam | GrooveDisk", "FollowerEnd
             distance = mount.centre_distance if cam.swings else abs(mount.offset)
         _check_reach(cam, end)
         return (LinkageFollowerMating if carried else CamFollowerMating)(
-            self.name,
-            keys.first,
-            keys.second,
+            *self.joined(keys),
             direction_deg=keys.direction_deg,
             height=keys.height,
             distance=distance,

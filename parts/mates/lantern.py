@@ -108,9 +108,7 @@ class LanternPair(MateKind[LanternPairSpec, "PinPlate", "LanternGear"]):
                     raise ParameterError("face_width", gear.face_width, "not_between_the_plates", most)
                 height += (lantern.length - gear.face_width) / 2
         return LanternMating(
-            self.name,
-            keys.first,
-            keys.second,
+            *self.joined(keys),
             direction_deg=keys.direction_deg,
             height=height,
             distance=gear.centre_distance,

@@ -82,9 +82,7 @@ class LinkageMember(MateKind[LinkageMemberSpec, "LinkageCam", Any]):
                 raise ParameterError("kind", "follower_arm", "member_is_a_slider")
             same_as_cam("arm_length", second.thing.arm_length, length, "linkage_has_another")
         return LinkageMemberMating(
-            self.name,
-            keys.first,
-            keys.second,
+            *self.joined(keys),
             direction_deg=keys.direction_deg,
             height=keys.height,
             distance=abs(_pose(cam, keys.member, 0.0)[0]),

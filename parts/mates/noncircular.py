@@ -122,9 +122,7 @@ class NoncircularGearPair(MateKind[NoncircularGearPairSpec, "NoncircularGear", "
         _check_pair(first, second)
         gears = NoncircularPair(first.thing, second.thing)
         return NoncircularMating(
-            self.name,
-            keys.first,
-            keys.second,
+            *self.joined(keys),
             direction_deg=keys.direction_deg,
             distance=gears.centre_distance,
             module=gears.first.module,

@@ -70,7 +70,7 @@ class Parallel(MateKind[ParallelSpec, Any, Any]):
         x, y, z = keys.offset or (0.0, 0.0, 0.0)
         offset = None if keys.offset is None else complex(x, y)
         turn = math.radians(keys.rotation_deg)
-        return ParallelMating(self.name, keys.first, keys.second, height=z, offset=offset, rotation=turn)
+        return ParallelMating(*self.joined(keys), height=z, offset=offset, rotation=turn)
 
 
 PARALLEL = Parallel()

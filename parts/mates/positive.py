@@ -132,9 +132,7 @@ class ConjugateCams(MateKind[ConjugateCamsSpec, "DiskCam", "SecondCam"]):
         if other.first != cam:
             raise ParameterError("of", None, "made_from_another_cam")
         return ConjugateMating(
-            self.name,
-            keys.first,
-            keys.second,
+            *self.joined(keys),
             height=keys.height,
             module=_lowest(cam),
             has_contact=False,
@@ -155,9 +153,7 @@ class CamYoke(MateKind[CamYokeSpec, "DiskCam", "YokeFrame"]):
         if frame.cam != cam:
             raise ParameterError("of", None, "made_from_another_cam")
         return YokeMating(
-            self.name,
-            keys.first,
-            keys.second,
+            *self.joined(keys),
             direction_deg=keys.direction_deg,
             height=keys.height,
             module=_lowest(cam),

@@ -122,9 +122,7 @@ class WedgeFollower(MateKind[WedgeFollowerSpec, "WedgeCam", "FollowerEnd"]):
         if end.reach is not None and end.arm_length is None:
             check_plate(end, _least_plate(cam))
         return WedgeMating(
-            self.name,
-            keys.first,
-            keys.second,
+            *self.joined(keys),
             direction_deg=90.0,
             height=keys.height,
             # to the pivot; a stem and a roller have none

@@ -132,9 +132,7 @@ class WormPair(MateKind[WormPairSpec, "WheelThing", "WormBody"]):
         angle = math.radians(keys.axis_angle_error_deg)
         errors = AxisErrors(keys.centre_distance_error, angle, keys.wheel_axial_error)
         return WormMating(
-            self.name,
-            keys.first,
-            keys.second,
+            *self.joined(keys),
             direction_deg=keys.direction_deg,
             height=first.thing.teeth.width / 2 - errors.axial,
             distance=drive.centre_distance + errors.centre_distance,

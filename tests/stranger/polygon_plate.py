@@ -191,7 +191,7 @@ class PolygonStack(MateKind[PolygonStackKeys, PolygonPlate, PolygonPlate]):
         if below.sides != above.sides:
             cure = limit(below.sides, above.sides)
             raise ParameterError("sides", above.sides, "stack_of_other_sides", cure)
-        return StackMating(self.name, keys.first, keys.second, height=keys.height, sides=below.sides)
+        return StackMating(*self.joined(keys), height=keys.height, sides=below.sides)
 
 
 POLYGON_STACK = PolygonStack()

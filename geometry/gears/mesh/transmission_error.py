@@ -51,11 +51,6 @@ class TransmissionError(Record):
         """mm along the line of action."""
         return max(self.errors) - min(self.errors)
 
-    @property
-    def peak_to_peak_motion(self) -> float:
-        """The same of the second's own motion: rad, or mm of a rack."""
-        return self.peak_to_peak / self.arm
-
     def over_face(self, overlap_ratio: float) -> TransmissionError:
         """That of helical teeth: of the sections along the face the one that is farthest ahead rules.
 

@@ -45,11 +45,6 @@ class InternalPair(InvolutePair[RingGear, RingSide], dict=True):
         most = math.hypot(self.pinion.base_radius, max(forms[1] - line, 0.0))
         return 2 * most, 2 * math.hypot(self.ring.base_radius, line + forms[0])
 
-    def tip_diameters_at_clearance(self, clearance: float) -> tuple[float, float]:
-        """Tip diameters, mm, that leave a bottom clearance, mm, at the mate's root; none is shortened of itself."""
-        a_w = self.working_centre_distance
-        return 2 * (self.ring.root_radius - a_w - clearance), 2 * (a_w + self.pinion.root_radius + clearance)
-
     def pinion_rotation(self, ring_rotation: float, direction: float = 0.0, *, contact: int = 0) -> float:
         """Rotation of the pinion that brings a tooth of it into the middle of a space of the ring, rad.
 

@@ -201,7 +201,6 @@ def test_a_rack_with_short_tips() -> None:
     assert max(one.errors) == pytest.approx(0, abs=1e-8)
     assert one.peak_to_peak > 1e-3
     assert one.peak_to_peak == pytest.approx(two.peak_to_peak, rel=1e-3)
-    assert one.peak_to_peak_motion == pytest.approx(one.peak_to_peak / math.cos(ALPHA), rel=1e-14)
 
 
 def test_a_face_that_overlaps_by_a_pitch_evens_out() -> None:

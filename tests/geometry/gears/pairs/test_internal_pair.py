@@ -285,7 +285,7 @@ def test_a_tip_that_strikes_a_fillet_beside_the_flanks_is_found() -> None:
     found = GearMesh(pair).contact()
     assert found.verdict is Verdict.OVERLAP
     assert Label.ROOT_FILLET in found.worst.labels
-    tip, _ = pair.tip_diameters_at_clearance(0.2)
+    tip = 2 * (gear.root_radius - pair.working_centre_distance - 0.2)
     assert tip < 2 * pinion.tip_radius
     free = internal_pair(replace(pinion, given_tip_diameter=tip), gear)
     assert free.tip_clearances[1] == pytest.approx(0.2, rel=1e-12)
