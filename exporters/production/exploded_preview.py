@@ -27,8 +27,8 @@ from parts.solids.axonometry import TOWARDS, Picture, loops_of, pictured, seen
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
-# the height of the picture of all parts, and of its letters; lines and gaps, all in its units
-_HIGH, _TEXT, _EDGE, _OUTLINE = 1200.0, 13.0, 0.3, 0.6
+# the longer side of the picture of all parts, and the height of its letters; lines, all in its units
+_SIZE, _TEXT, _EDGE, _OUTLINE = 1200.0, 13.0, 0.3, 0.6
 _COLUMN = 4 * _TEXT
 # width of a letter in parts of its height
 _LETTER = 0.52
@@ -61,7 +61,7 @@ def exploded_preview(plan: Plan, folder: Path) -> Path:
     known: dict[object, int] = {}
     # how fine arcs are goes by how large all of it will be
     rough = sum(np.ptp([layer.low for layer in s.layers] + [s.layers[-1].high]) for s in sketches.values())
-    scale = _HIGH / max(float(rough), 1e-9)
+    scale = _SIZE / max(float(rough), 1e-9)
     things = []
     for instance in placing.instances:
         key = _alike(instance, sketches[instance.part])
@@ -78,18 +78,19 @@ def exploded_preview(plan: Plan, folder: Path) -> Path:
     ]
     ordered = [stand[k] for k in _from_behind(stand)]
     ends = np.concatenate([_corners(t.box) for t in ordered])
-    scale = _HIGH / float(np.ptp(ends.imag))
+    wide, high = float(np.ptp(ends.real)), float(np.ptp(ends.imag))
+    scale = _SIZE / max(wide, high)
     origin = complex(float(ends.real.min()), float(ends.imag.max()))
     rows = list_rows(placing.instances, parts, plan.scene.scene.language, weighed=False)
     lines = list(_drawn(ordered, drawings, parts, origin, scale))
-    width, numbered, leaders = _leaders(ordered, drawings, rows, origin, scale, float(np.ptp(ends.real)) * scale)
-    caption = list(_caption(plan, rows, {row.position for row in rows} - set(numbered), width))
-    high = _HIGH + _TEXT * (len(caption) and 3 + max(len(column) for column in caption)) * 1.4
+    width, numbered, leaders = _leaders(ordered, drawings, rows, origin, scale, scale * complex(wide, high))
+    caption = list(_caption(plan, rows, {row.position for row in rows} - set(numbered), complex(width, high * scale)))
+    deep = high * scale + _TEXT * (len(caption) and 3 + max(len(column) for column in caption)) * 1.4
     file = folder / f"{plan.scene.name}.exploded.preview.svg"
     margin = 4 * _TEXT
     head = (
         '<?xml version="1.0" encoding="UTF-8"?>\n<svg xmlns="http://www.w3.org/2000/svg" '
-        f'viewBox="{-margin:g} {-margin:g} {width + 2 * margin:.0f} {high + 2 * margin:.0f}">'
+        f'viewBox="{-margin:g} {-margin:g} {width + 2 * margin:.0f} {deep + 2 * margin:.0f}">'
     )
     back = f'<rect x="{-margin:g}" y="{-margin:g}" width="100%" height="100%" style="fill:#ffffff"/>'
     told = [line for column in caption for line in column]
@@ -233,7 +234,7 @@ def _tenths(count: int) -> str:
 
 def _leaders(
     things: Sequence[_Thing], drawings: Sequence[tuple[str, Picture]], rows: Sequence[ListRow], origin: complex,
-    scale: float, width: float,
+    scale: float, size: complex,
 ) -> tuple[float, list[int], list[str]]:  # fmt: skip
     """The whole width, the numbers that have a leader to what is seen of their part, and these, in two columns."""
     shown, shapes = [t.instance.part for t in things], [_placed(t, drawings) for t in things]
@@ -241,15 +242,15 @@ def _leaders(
     placed = {number: _on_paper(end, origin, scale) + _COLUMN for number, end in ends.items()}
     middle = float(np.median([p.real for p in placed.values()])) if placed else 0.0
     lines = []
-    for side, at in ((0, 0.0), (1, width + 2 * _COLUMN)):
+    for side, at in ((0, 0.0), (1, size.real + 2 * _COLUMN)):
         own = sorted((n for n, p in placed.items() if (p.real > middle) == bool(side)), key=lambda n: placed[n].imag)
-        heights = _spread([placed[n].imag for n in own], 1.5 * _TEXT, _HIGH)
+        heights = _spread([placed[n].imag for n in own], 1.5 * _TEXT, size.imag)
         for number, y in zip(own, heights, strict=True):
             end, shelf = placed[number], 2 * _TEXT * (1 - 2 * side)
             lines.append(f'<path class="l" d="M{at:.0f},{y:.1f}h{shelf:g}L{end.real:.1f},{end.imag:.1f}"/>')
             lines.append(f'<circle cx="{end.real:.1f}" cy="{end.imag:.1f}" r="2.2"/>')
             lines.append(f'<text x="{at + shelf / 2:.0f}" y="{y - 3:.1f}" text-anchor="middle">{number}</text>')
-    return width + 2 * _COLUMN, list(ends), lines
+    return size.real + 2 * _COLUMN, list(ends), lines
 
 
 def _seen_at(shown: Sequence[str], shapes: Sequence[BaseGeometry], parts: Sequence[str]) -> complex | None:
@@ -290,17 +291,17 @@ def _spread(wanted: Sequence[float], step: float, most: float) -> list[float]:
     return found
 
 
-def _caption(plan: Plan, rows: Sequence[ListRow], covered: set[int], width: float) -> Iterator[list[str]]:
+def _caption(plan: Plan, rows: Sequence[ListRow], covered: set[int], size: complex) -> Iterator[list[str]]:
     """The title, and under the picture what the numbers are, in columns."""
     title = plan.scene.scene.title or plan.scene.name
-    top = _HIGH + 2.5 * _TEXT
+    top = size.imag + 2.5 * _TEXT
     yield [f'<text x="0" y="{-1.6 * _TEXT:g}" style="font-weight:bold">{escaped(title)}</text>']
     told = [f"{row.position}  {row.name}" + (f" × {row.count}" if row.count > 1 else "") for row in rows]
     if covered:
         names = ", ".join(map(str, sorted(covered)))
         told.append(words(plan.scene.scene.language).text("covered in the picture: {names}", names=names))
     wide = _LETTER * _TEXT * (max(map(len, told)) + 2)
-    columns = max(1, round(width / wide))
+    columns = max(1, round(size.real / wide))
     deep = -(-len(told) // columns)
     for k in range(columns):
         yield [

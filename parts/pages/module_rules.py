@@ -172,6 +172,7 @@ RULES = (
     _R("half", (1,), "half_room + 12", N_("wall of a casting")),
     _R("r_55", (4, 9), "r_journal + 11", N_("counterbores for M10 with a wall of 2.5 to the spigot")),
     _R("z_flange", (9,), "disk_thickness + 1", N_("turns over disk 3")),
+    _R("h_4", (4,), "30", N_("heads of the screws M10x30 lie below its face, 19 under them")),
     _R("z_4", (4,), "z_flange + 12", N_("screws M10x30 hold the flange by 11 mm; over the heads of the shields")),
 )  # fmt: skip
 

@@ -734,13 +734,15 @@ class _Making(Making):
         self._set(first, "spacer_10", "spacer_10", s["z_11"] + keys.wheel_width)
         half = keys.platform_size / 2
         side, screws = _square(half, 10.0), _on_circle(6, s["r_55"])
+        sunk = M10[2] + 1
+        hold = s["h_4"] - sunk
         self._layers("platform", [
-            (19.0, {"polygons": [side], "circles": [_round(2 * r), *(_round(M10[0], at) for at in screws)]}),
-            (11.0, {"polygons": [side], "circles": [_round(2 * r), *(_round(M10[1] + 1, at) for at in screws)]}),
+            (hold, {"polygons": [side], "circles": [_round(2 * r), *(_round(M10[0], at) for at in screws)]}),
+            (sunk, {"polygons": [side], "circles": [_round(2 * r), *(_round(M10[1] + 1, at) for at in screws)]}),
         ])  # fmt: skip
         self._set(first, "platform", "platform", s["z_4"])
         self._screw("screw_55", 10, 30, M10[1:])
-        self._circle(first, "platform_screw", "screw_55", 6, s["r_55"], s["z_4"] + 19 - 30)
+        self._circle(first, "platform_screw", "screw_55", 6, s["r_55"], s["z_4"] + hold - 30)
 
     # -- worms
 

@@ -48,8 +48,6 @@ _WORM = "thesis, 2.2"
 # steel: Young's modulus, MPa, and Poisson's ratio
 STEEL = 206_000.0, 0.3
 MODULUS = STEEL[0] / (2 * (1 - STEEL[1] ** 2))
-# thickness of the platform, mm
-_PLATFORM = 30.0
 _Length = Annotated[float, mm("length", above=0, most=10_000)]
 _Force = Annotated[float, size("N", "force", least=-1e9, most=1e9)]
 _Place = Annotated[float, mm("coordinate of the platform's axis O3", least=-10_000, most=10_000)]
@@ -261,7 +259,7 @@ def _loaded(keys: LoadKeys, found: Mapping[str, float]) -> LoadedTable:
     )  # fmt: skip
     width = found["wheel_width"] / 2
     heights = Heights(
-        load=found["z_4"] + _PLATFORM + keys.load_height,
+        load=found["z_4"] + found["h_4"] + keys.load_height,
         bore=(-found["h_24"], found["disk_thickness"] - 0.5),
         disk_3=(found["z_upper"] + found["z_lower"]) / 2,
         mesh=found["face_width"] / 2 - found["h_24"],
