@@ -129,6 +129,9 @@ def sizes(file: Path) -> dict[str, float]:
     for entity in document.modelspace().query("DIMENSION"):
         value = float(entity.get_measurement()) * document.dimstyles.get(entity.dxf.dimstyle).dxf.dimlfac
         assert value == pytest.approx(entity.dxf.actual_measurement, abs=1e-6)
+        # FreeCAD takes the distance of both points, whatever the direction, and 0 where there are none
+        aligned = entity.dxf.defpoint2.distance(entity.dxf.defpoint3)
+        assert aligned * document.dimstyles.get(entity.dxf.dimstyle).dxf.dimlfac == pytest.approx(value, abs=3e-6)
         said = [text.dxf.text for text in document.blocks.get(entity.dxf.geometry).query("TEXT")]
         # views of a scale of their own have the number in words: LibreCAD knows the scale of the sheet alone
         before, sign, after = entity.dxf.text.replace("%%c", "Ø").partition("<>")
@@ -137,7 +140,9 @@ def sizes(file: Path) -> dict[str, float]:
         )
         number = "".join(said).replace(" ", "")
         if sign:
-            shown = float(number.removeprefix(before.replace(" ", "")).removesuffix(after).replace(",", "."))
+            shown = float(
+                number.removeprefix(before.replace(" ", "")).removesuffix(after.replace(" ", "")).replace(",", ".")
+            )
             assert shown == pytest.approx(value, abs=6e-4)
         else:
             assert number == before.replace(" ", "")
