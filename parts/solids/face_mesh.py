@@ -53,12 +53,13 @@ _MOST_ROUNDS, _MOST_TRIANGLES = 10, 4_000_000
 _WIDEST, _INNER = math.pi / 4, np.linspace(0, 1, 5)
 # how near to the truth a proof shall be, part of the tolerance
 _SLACK = 0.04
-# what is added to the greatest sampled distance
-_MARGIN = 1.15
+# what is added to the greatest distance of few samples, and of many, which triangles have that lie so near the worst
+_MARGIN, _CLOSE, _WORST = 1.15, 1.05, 0.85
 # a corner of a face turns by more than this in the unit square, rad
 _CORNER = 0.4
-# where the samples of a triangle stand, in barycentric shares
+# where the samples of a triangle stand, in barycentric shares: few, and many
 _PLACES = np.array([[1 / 3, 1 / 3, 1 / 3], [0.5, 0.5, 0], [0, 0.5, 0.5], [0.5, 0, 0.5]])
+_DENSE = np.array([(a, b, 5 - a - b) for a in range(6) for b in range(6 - a)]) / 5
 _AT_ONCE = 400_000
 # differences by which two patches are one turned, part of the solid
 _ALIKE = 1e-9
@@ -371,7 +372,12 @@ class _Mesher:
                 at = np.concatenate([places[which], template.scattered(inner)[0]], axis=1)
                 if not _folded(template, at, table, triangles):
                     break
-            error = _MARGIN * _patch_error(template, at, table, triangles)
+            off = _patch_errors(template, at, table, triangles, _PLACES)
+            error = _MARGIN * float(off.max())
+            if error <= self.tolerance and self.proof is None:
+                # many places in the triangles that lie worst
+                worst = triangles[off >= _WORST * off.max()]
+                error = max(error, _CLOSE * float(_patch_errors(template, at, table, worst, _DENSE).max()))
             if error <= self.tolerance:
                 break
             sag *= max(_SAFE * self.tolerance / error, _LEAST_SHARE)
@@ -537,16 +543,16 @@ def _templates(poles: Real) -> Triangles:
     return np.sort(first)
 
 
-def _patch_error(patch: Patch, points: Real, table: Real, triangles: Triangles) -> float:
-    """Greatest distance of samples of the triangles from their patches, mm: one step of Newton's from their shares."""
-    worst = 0.0
-    block = max(1, _AT_ONCE // (len(_PLACES) * math.prod(d + 1 for d in patch.surface.degrees)))
+def _patch_errors(patch: Patch, points: Real, table: Real, triangles: Triangles, places: Real) -> Real:
+    """Greatest distances of places in triangles (n,) from their patches, mm: one step of Newton's from their shares."""
+    worst = np.zeros(len(triangles))
+    block = max(1, _AT_ONCE // (len(places) * math.prod(d + 1 for d in patch.surface.degrees)))
     for row in range(len(patch.poles)):
         own = patch.rows(slice(row, row + 1))
         for start in range(0, len(triangles), block):
             part = triangles[start : start + block]
-            uv = np.einsum("sk,nkc->nsc", _PLACES, table[part]).reshape(-1, 2)
-            at = np.einsum("sk,nkc->nsc", _PLACES, points[row][part]).reshape(-1, 3)
+            uv = np.einsum("sk,nkc->nsc", places, table[part]).reshape(-1, 2)
+            at = np.einsum("sk,nkc->nsc", places, points[row][part]).reshape(-1, 3)
             place, du, dv = (x[0] for x in own.scattered(uv))
             off = at - place
             away = np.linalg.norm(off, axis=1)
@@ -559,5 +565,6 @@ def _patch_error(patch: Patch, points: Real, table: Real, triangles: Triangles) 
             normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
             # where a patch begins with no way along u the step leads astray
             across = np.abs(np.sum((at - place) * normal, axis=1))
-            worst = max(worst, float(np.minimum(away, across).max()))
+            found = np.minimum(away, across).reshape(-1, len(places)).max(axis=1)
+            worst[start : start + block] = np.maximum(worst[start : start + block], found)
     return worst

@@ -23,10 +23,11 @@ from tests.sampling import examples
 _ROUNDING = 1e-7
 
 
-def _depth(teeth: WormTeeth, height: float, more: float = 0.0) -> float:
+def _depth(teeth: WormTeeth, height: float, more: float = 0.0, out: float = 0.0) -> float:
     """How deep the hob gets into the lower side at a height as it goes by, step by step; below 0: it stays off, mm.
 
-    ``more``: by how much its tip is larger than the one that left the teeth, mm.
+    ``more``: by how much its tip is larger than the one that left the teeth; ``out``: how far it has yet to be fed in,
+    mm.
     """
     hob, worm = replace(teeth.hob, tip_radius=teeth.hob.tip_radius + more), teeth.hob.worm
     side, shares = teeth.side(np.array([height])), np.linspace(0.0, 1.0, 7)[:, None]
@@ -35,7 +36,7 @@ def _depth(teeth: WormTeeth, height: float, more: float = 0.0) -> float:
     slid = np.linspace(-reach, reach, 3001)
     angle = (math.pi - worm.number_of_starts / worm.parameter * slid) / teeth.number_of_teeth
     turned = points * np.exp(1j * angle)
-    x, y, z = hob.centre_distance - turned.real, -height, -turned.imag
+    x, y, z = hob.centre_distance + out - turned.real, -height, -turned.imag
     radius = np.hypot(x, y)
     corner = np.sqrt(np.maximum(hob.rounding**2 - np.maximum(radius - hob.tip_radius + hob.rounding, 0.0) ** 2, 0.0))
     flank = worm.half_thickness(np.clip(radius, max(worm.flank.least_radius, 1e-6), hob.form_radius))
@@ -103,6 +104,8 @@ def test_faces_wider_than_whole_teeth_are_what_the_hob_leaves(case: tuple[int, f
     teeth = drive_teeth({**keys, "face_width": width})
     for height in np.linspace(-width / 2, width / 2, 9):
         assert _depth(teeth, float(height)) < _ROUNDING
+        # fed in along the line of centres the hob trims nothing on its way
+        assert all(_depth(teeth, float(height), out=out) < 0 for out in (0.05, 0.5, 2.0))
     assert _depth(teeth, width / 2, 1e-3) > 5e-4
 
 
