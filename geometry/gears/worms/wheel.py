@@ -466,6 +466,11 @@ class WormTeeth(Record, dict=True):
         return bool(flank.min() > _LEAST_DEPTH * self.hob.worm.module)
 
     @cached_property
+    def is_creased(self) -> bool:
+        """Whether flanks run over the base circle of an involute worm, below which it is radial: they are bent there."""
+        return bool(self._plain_levels.outer.min() < self.hob.worm.flank.least_radius)
+
+    @cached_property
     def _torn(self) -> str | None:
         """What leaves no side up to the tip at some height: a code."""
         # just beside where undercut begins the flank may fold between fillet and tip

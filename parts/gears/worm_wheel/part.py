@@ -166,10 +166,27 @@ def teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     # faces may break off where none of the known ends is
     rough = _ROUGH * keys.module
     found = fitting(teeth, rough)
+    if found is None and teeth.is_creased:
+        raise _creased(keys)
     if found is None or (found != teeth and keys.face_width is not None):
         cure = None if found is None else limit(found.width, teeth.width)
         raise ParameterError("face_width", teeth.width, "worm_wheel_faces_break", cure)
     return found
+
+
+def _creased(keys: WormWheelSpec) -> ParameterError:
+    """No spline follows a flank over the base circle of the worm: with the addendum that keeps teeth off it."""
+    given = keys.addendum_coefficient
+
+    def works(value: float) -> bool:
+        less = changed(keys, addendum_coefficient=value)
+        drive = drive_of(less)
+        # the first is soon told
+        return not _asked_teeth(less, drive).narrowed().is_creased and teeth_of(less, drive).width > 0
+
+    return ParameterError(
+        "addendum_coefficient", given, "worm_wheel_below_base", partial(nearest, works, given, (0.8, 0.6, 0.4, 0.2))
+    )
 
 
 def _toothless(keys: WormWheelSpec, code: str) -> ParameterError:

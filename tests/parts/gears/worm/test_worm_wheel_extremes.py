@@ -92,6 +92,16 @@ def test_wheels_of_many_starts_are_what_the_hob_leaves(
     _held({**keys, "number_of_teeth": teeth})
 
 
+@pytest.mark.heavy
+def test_teeth_that_reach_below_the_base_circle_are_told_the_addendum_that_does_not() -> None:
+    # before: the face was said to break at any width, without a value that works
+    keys = {"module": 3.0, "number_of_starts": 6, "diameter_quotient": 7.89, "number_of_teeth": 96}
+    with pytest.raises(SceneError) as refused:
+        _built({**keys, "axial_thinning": 0.15})
+    assert (refused.value.key, refused.value.code) == ("parts.wheel.addendum_coefficient", "worm_wheel_below_base")
+    _held({**keys, "axial_thinning": 0.15})
+
+
 # faces that end in a ridge, without flanks, in a ridge of undercut teeth
 WIDE = {"ridge": (1, 6.0, 20, 12.0), "fillet": (1, 20.0, 30, 29.7), "undercut": (1, 10.0, 12, 10.0)}
 
