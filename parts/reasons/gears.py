@@ -122,7 +122,8 @@ REASONS = {
     "worm_wheel_faces_break": N_("the hob's tip breaks the faces of the teeth: a narrower rim or fewer starts"),
     "worm_wheel_all_fillet": N_("the fillet of the hob's tip reaches the tip of the teeth at the ends of the face"),
     "worm_wheel_below_base": N_(
-        "the teeth reach below the base circle of the worm's involute, where its flank is radial: more q or fewer starts"
+        "the teeth reach below the base circle of the worm's involute, where its flank is radial: "
+        "more q or fewer starts"
     ),
     "worm_wheel_flank_ends": N_("the worm leaves no flank up to the tip of the teeth at the ends of the face"),
     "worm_wheel_not_reached": N_("the hob does not reach the rim at the ends of the face: it leaves no space there"),
