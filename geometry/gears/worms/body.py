@@ -103,6 +103,9 @@ class WormBody(Record):
         found = [(sign * z, self.root_radius)]
         for step in self.above if above else self.below:
             radius = step.diameter / 2
+            if abs(radius - found[-1][1]) <= _SAME:
+                # a cylinder that goes on, and no cone
+                radius = found[-1][1]
             found.append((sign * z, radius))
             z += step.length
             if step.chamfer > 0:

@@ -27,6 +27,9 @@ WORM: dict[str, Any] = {"kind": "worm", "module": 5.0, "thread_length": 40.0}
 EXTREMES: dict[str, dict[str, Any]] = {
     # before: the plane ring between them had no points to be looked at
     "a shaft just under the root": {"end_angle_deg": 0.0, "shaft_below": [{"diameter": 37.985, "length": 9.0}]},
+    # before: a cone that is none, by the last digit of the root
+    "a shaft as thick as the root": {"module": 3.0, "number_of_starts": 2, "diameter_quotient": 12.08,
+                                     "thread_length": 18.0, "shaft_below": [{"diameter": 29.04, "length": 9.0}]},
     # before: its triangles passed for those of the roundings beside it
     "a land narrower than the tolerance": {
         "number_of_starts": 8, "diameter_quotient": 7.39, "tip_rounding": 0.6166, "thread_length": 44.0
