@@ -38,13 +38,18 @@ def names_of(instances: Mapping[str, InstanceSpec], parts: Mapping[str, Part]) -
     return {key: spec.title or parts[str(spec.part)].called(key) for key, spec in instances.items()}
 
 
-def check_lines(checks: dict[str, Any], language: str, names: Mapping[str, str] = MappingProxyType({})) -> list[str]:
-    """What the checks of a scene found, a line each; ``names`` of instances, where they have one beside their id."""
+def check_lines(
+    checks: dict[str, Any], language: str, names: Mapping[str, str] = MappingProxyType({}), *, brief: bool = False
+) -> list[str]:
+    """What the checks of a scene found, a line each; ``names`` of instances, where they have one beside their id.
+
+    ``brief``: of mates only pairs with a verdict, what is broken or noted; nothing of how solids were held.
+    """
     told, lines = words(language), []
     named = [
         mate | {key: names.get(mate[key], mate[key]) for key in ("first", "second")} for mate in checks.get("mates", [])
     ]
-    for mate in _without_repeats(named):
+    for mate in _without_repeats([mate for mate in named if not brief or _says_more(mate)]):
         text = told.say(_mate_head(mate))
         if "total_contact_ratio" in mate:
             text += told.text(", total {total:.4f}", total=mate["total_contact_ratio"])
@@ -75,9 +80,9 @@ def check_lines(checks: dict[str, Any], language: str, names: Mapping[str, str] 
         lines.append(told.text("note: {text}", text=close["text"]))
     for found in checks.get("solids", []):
         lines.append(f"{told.text(VERDICTS[found['verdict']])}: {found['text']}")
-    if "motion" in checks:
+    if "motion" in checks and not brief:
         lines += _motion(checks["motion"], told)
-    if "workspace" in checks:
+    if "workspace" in checks and not brief:
         lines += _workspace(checks["workspace"], told)
     if "order" in checks:
         from exporters.production.order import order_lines
@@ -177,13 +182,17 @@ def _seen(gap: float) -> float:
 _BARE = ("pin_seat", "fixed", "coaxial", "parallel")
 
 
+def _says_more(mate: dict[str, Any]) -> bool:
+    """Whether a mate says more than who belongs to whom."""
+    return "verdict" in mate or bool(mate.get("findings")) or not all(c["met"] for c in mate.get("conditions", []))
+
+
 def _without_repeats(mates: list[dict[str, Any]]) -> list[dict[str, Any]]:
     """Bare mates of one kind and first of which there is no more to tell, as one with all seconds."""
     shown: dict[object, dict[str, Any]] = {}
     seconds: dict[object, list[str]] = {}
     for mate in mates:
-        told = "verdict" in mate or mate.get("findings") or not all(c["met"] for c in mate.get("conditions", []))
-        key = (mate["kind"], mate["first"]) if mate["kind"] in _BARE and not told else len(shown)
+        key = (mate["kind"], mate["first"]) if mate["kind"] in _BARE and not _says_more(mate) else len(shown)
         shown.setdefault(key, mate)
         seconds.setdefault(key, []).append(mate["second"])
     return [{**mate, "second": ", ".join(in_rows(seconds[key]))} for key, mate in shown.items()]

@@ -73,7 +73,7 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
 
 def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str, Any], folder: Path) -> Path:
     """All instances in their places, the upper ones last, and what the checks found."""
-    from exporters.production.check_lines import check_lines, names_of
+    from exporters.production.check_lines import check_lines, in_rows, names_of
     from exporters.production.preview_labels import Label, Tops, spread_labels
 
     language = plan.scene.scene.language
@@ -115,9 +115,9 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
         f'<text x="{one.x:.4g}" y="{one.y:.4g}" style="{style}">{escaped(one.text)}</text>' for one in named if one
     ]
     covered = [label.text for label, one in zip(labels, named, strict=True) if one is None]
-    rows = [plan.scene.scene.title or plan.scene.name, *check_lines(checks, language, names)]
+    rows = [plan.scene.scene.title or plan.scene.name, *check_lines(checks, language, names, brief=True)]
     if covered:
-        rows.append(words(language).text("covered in the picture: {names}", names=", ".join(covered)))
+        rows.append(words(language).text("covered in the picture: {names}", names=", ".join(in_rows(covered))))
     rows = [line for row in rows for line in wrap(row, _WIDE_LETTERS)]
     # a wide scene is drawn wide: what is above and below it is cut off
     spare = max(0.0, 2 * (middle - (high - low) / 2 - 0.08 * reach))

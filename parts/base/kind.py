@@ -5,6 +5,7 @@ A kind is an instance of a subclass, registered by one entry of ``parts/base/reg
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Generic, TypeVar
 
@@ -145,6 +146,18 @@ class Kind(Generic[K, T]):
         """The numbers by which people know one from another; no-break spaces hold each to its symbol."""
         found = ((symbol, getattr(keys, key, None)) for symbol, key in _NUMBERS)
         return " ".join(f"{symbol}\u00a0{value:.4g}" for symbol, value in found if value)
+
+    def wrong_numbers(self, keys: K, label: str) -> Sequence[Finding]:
+        """Numbers that a label tells of a part which has others: z 21 on a gear of 22 teeth."""
+        from geometry.base.findings import Finding
+
+        found = []
+        for symbol, key in _NUMBERS:
+            own = getattr(keys, key, None)
+            told = re.search(rf"(?<!\w){symbol}\s*=?\s*(-?\d+(?:[.,]\d+)?)", label)
+            if own is not None and told and (said := float(told[1].replace(",", "."))) != float(f"{own:.4g}"):
+                found.append(Finding(f"label_tells_{symbol}", said, own))
+        return found
 
     def holes_at(self, keys: K) -> Sequence[HoleAt]:
         """Round holes that an axle may go through."""

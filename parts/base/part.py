@@ -128,11 +128,14 @@ class Part(Record, dict=True):
     @property
     def findings(self) -> tuple[Finding, ...]:
         """Remarks."""
+        label, found = self.keys.label, self.report.findings
+        if isinstance(label, str):
+            found = (*found, *self.made_by.wrong_numbers(self.keys, label))
         if self.material is None or self.density is not None:
-            return self.report.findings
+            return found
         from geometry.base.findings import Finding
 
-        return (*self.report.findings, Finding("unknown_material", 0.0, 0.0))
+        return (*found, Finding("unknown_material", 0.0, 0.0))
 
     @property
     def flat_findings(self) -> tuple[Finding, ...]:
