@@ -54,7 +54,9 @@ def part_drawing(subject: Subject) -> PartDrawing:
         found.append(centre)
     if half.pockets:
         found += _keyways(half, found[0].cuts, subject)
-    return PartDrawing(tuple(found), requirements(subject))
+    square = [c.letter for c in found[0].cuts if not all(p.round_ends for p in _crossed(half, c.at))]
+    more = [sheet_words(subject.language, "square_keyways", letter=letter) for letter in square]
+    return PartDrawing(tuple(found), requirements(subject, *more))
 
 
 def told_corners(half: HalfSection, *, is_shaft: bool) -> tuple[SectionCorner, ...]:

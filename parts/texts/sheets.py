@@ -133,6 +133,7 @@ SHEETS: dict[str, Text] = {
     "thread_edges": N_("Tip edges of the thread in the axial section"),
     "edges_chamfered": N_("{edges}: chamfer {size}×45°."),
     "edges_rounded": N_("{edges}: rounded R {size}."),
+    "square_keyways": N_("Keyways in section {letter}-{letter}: square ends."),
     "thread_ends": N_("Ends of the thread: cut by cones at {angle}° to the end planes."),
     "tooth_marked": N_("A mark at a tooth and the number {teeth} engraved {depth} deep, digits {height} high."),
     "space_marked": N_("A mark at a space and the number {teeth} engraved {depth} deep, digits {height} high."),
