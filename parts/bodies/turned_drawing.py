@@ -12,6 +12,8 @@ import numpy as np
 from geometry.curves.curve import end_point, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.solids.turned import HalfSection, Hole, Piece, Pocket
+from parts.bodies.turned import TurnedSpec
+from parts.drawing.directions import directions
 from parts.drawing.revolved import Loop, below, closed, outer_of, outlined, seen_edges
 from parts.drawing.turned_sizes import Fits, SectionCorner, listed_corners, turned_sizes
 from parts.drawing.wheel_views import axis_cross, circle_of
@@ -31,6 +33,7 @@ from parts.drawing.working import (
     View,
     requirements,
 )
+from parts.keys.holes import hub_holes
 from parts.texts.sheets import sheet_words
 
 _SAME = 1e-9
@@ -56,6 +59,8 @@ def part_drawing(subject: Subject) -> PartDrawing:
         found += _keyways(half, found[0].cuts, subject)
     square = [c.letter for c in found[0].cuts if not all(p.round_ends for p in _crossed(half, c.at))]
     more = [sheet_words(subject.language, "square_keyways", letter=letter) for letter in square]
+    if isinstance(keys := subject.part.keys, TurnedSpec):
+        more += directions(hub_holes(None, keys.holes, None), subject, "")
     return PartDrawing(tuple(found), requirements(subject, *more))
 
 

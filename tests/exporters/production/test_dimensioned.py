@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -166,3 +167,19 @@ def test_more_corners_than_paper_has_room_for_are_refused_by_their_key() -> None
     with pytest.raises(SceneError) as caught:
         jobs(ring(*many(450)), formats=("dxf",))
     assert (caught.value.key, caught.value.value) == ("parts.p.points", 452)
+
+
+def test_circles_of_holes_that_stand_off_each_other_tell_their_directions(tmp_path: Path) -> None:
+    circles = [{"count": 21, "diameter": 4, "pitch_circle_diameter": 100},
+               {"count": 5, "diameter": 5, "pitch_circle_diameter": 70, "start_deg": 10},
+               {"count": 1, "diameter": 6, "pitch_circle_diameter": 40, "start_deg": 25}]  # fmt: skip
+    plate = ring((10, 0), (60, 0), (60, 10), (10, 10))
+
+    def told(holes: list[dict[str, Any]]) -> list[tuple[str, ...]]:
+        texts = " ".join(t.dxf.text for t in drawn(tmp_path, plate | {"holes": holes}).modelspace().query("TEXT"))
+        return sorted(
+            re.findall(r"Holes? Ø(\d+): (?:the first )?at (\d+)° from the first one on the circle Ø(\d+)", texts)
+        )
+
+    assert told(circles) == [("5", "10", "100"), ("6", "25", "100")]
+    assert told([circles[0], circles[1] | {"start_deg": 72.0}]) == told(circles[:1]) == []
