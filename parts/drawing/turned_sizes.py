@@ -2,7 +2,7 @@
 
 A loop is half a section, its axis along x. Chamfers of 45 degrees and fillets are told by how many there are of one
 size; without them, each place along the axis where a corner is has one size to another place, and each distance from
-the axis one diameter.
+the axis one diameter, one more for each other tolerance zone.
 """
 
 from __future__ import annotations
@@ -86,7 +86,7 @@ def turned_sizes(loop: Loop, fits: Fits, language: str, told: Told = lambda curv
     sizes = [*_chamfers([whole[k] for k in chamfers if told(whole[k])], language)]
     if not _are_listed(edges):
         rounded += [arc for arc in arcs if arc not in balls]
-        sizes = [*_diameters(edges, fits), *_balls(balls, language), *_lengths(edges), *sizes]
+        sizes = [*_diameters(edges, fits, _turn(loop)), *_balls(balls, language), *_lengths(edges), *sizes]
     radii = [arc for arc in rounded if isinstance(arc, Arc)]
     return TurnedSizes(tuple(sizes), tuple(_radii(radii, _turn(loop), language)))
 
@@ -219,11 +219,27 @@ def _groove(edges: Sequence[_Edge], k: int) -> bool:
     return edge.runs_along() and all(way * (far.imag - start.imag) > _NONE for far in (before.ends[0], after.ends[1]))
 
 
-def _diameters(edges: Sequence[_Edge], fits: Fits) -> Iterator[Size]:
-    """A diameter for each distance from the axis, outer ones and inner ones; at cylinders, else at the corners."""
+def _zone(edges: Sequence[_Edge], k: int, fits: Fits, turn: float) -> str:
+    """The tolerance zone of a cylinder: of a hole where material stands about it; a boss in a recess has none."""
+    edge = edges[k]
+    start, end = edge.ends
+    if fits.largest is not None and abs(start.imag - max(e.ends[0].imag for e in edges)) < _NONE:
+        return fits.largest
+    if _groove(edges, k):
+        return ""
+    about = turn * (end.real - start.real) > 0
+    return fits.outer if edge.outer else fits.inner if about else ""
+
+
+def _diameters(edges: Sequence[_Edge], fits: Fits, turn: float) -> Iterator[Size]:
+    """A diameter for each distance from the axis and zone, outer ones and inner ones; at cylinders, else at corners.
+
+    ``turn``: of the loop, 1 or -1.
+    """
     xs = [end.real for edge in edges for end in edge.ends]
-    middle, most = (min(xs) + max(xs)) / 2, max(edge.ends[0].imag for edge in edges)
-    seen: set[tuple[float, bool]] = set()
+    middle = (min(xs) + max(xs)) / 2
+    seen: dict[tuple[float, bool], list[str]] = {}
+    number = 0
     numbers = sorted(range(len(edges)), key=lambda k: not edges[k].runs_along())
     for k in numbers:
         edge = edges[k]
@@ -234,19 +250,18 @@ def _diameters(edges: Sequence[_Edge], fits: Fits) -> Iterator[Size]:
             at_cylinder = not edge.runs_along() and any(
                 other.runs_along() and corner in _near(other, corner) for other in edges
             )
-            key = _radius(corner.imag), edge.outer
-            if corner.imag < _NONE or at_cylinder or key in seen:
+            zones = seen.setdefault((_radius(corner.imag), edge.outer), [])
+            zone = _zone(edges, k, fits, turn) if edge.runs_along() else ""
+            if corner.imag < _NONE or at_cylinder or (zone in zones if edge.runs_along() else zones):
                 continue
-            seen.add(key)
+            zones.append(zone)
+            number += 1
             places = [end.real for end in edge.ends] if edge.runs_along() else [corner.real]
             at_left = sum(places) / len(places) <= middle if edge.outer else sum(places) / len(places) < middle - _NONE
             side: Side = "left" if at_left else "right"
             at = min(places) if at_left else max(places)
-            fit = "" if not edge.runs_along() or _groove(edges, k) else fits.outer if edge.outer else fits.inner
-            if fits.largest is not None and edge.runs_along() and abs(corner.imag - most) < _NONE:
-                fit = fits.largest
-            name = f"{'outer' if edge.outer else 'inner'}_diameter.{len(seen)}"
-            yield Size(name, complex(at, -corner.imag), complex(at, corner.imag), side, "Ø", fit)
+            name = f"{'outer' if edge.outer else 'inner'}_diameter.{number}"
+            yield Size(name, complex(at, -corner.imag), complex(at, corner.imag), side, "Ø", zone)
 
 
 def _near(edge: _Edge, corner: complex) -> list[complex]:

@@ -90,8 +90,8 @@ def power_module() -> dict[str, dict[str, Any]]:
     return dict(forms.values())
 
 
-def drawn(folder: Path, part: dict[str, Any]) -> Drawing:
-    (job,) = jobs(part, formats=("dxf",))
+def drawn(folder: Path, part: dict[str, Any], **export: Any) -> Drawing:
+    (job,) = jobs(part, formats=("dxf",), **export)
     job.write({}, folder / job.path)
     return ezdxf.readfile(folder / job.path)
 
@@ -183,3 +183,30 @@ def test_circles_of_holes_that_stand_off_each_other_tell_their_directions(tmp_pa
 
     assert told(circles) == [("5", "10", "100"), ("6", "25", "100")]
     assert told([circles[0], circles[1] | {"start_deg": 72.0}]) == told(circles[:1]) == []
+
+
+def diameters(document: Drawing) -> list[str]:
+    """Words of all diameters, their zones with them."""
+    found = (
+        d.dxf.text.replace("<>", f"{d.dxf.actual_measurement:g}") for d in document.modelspace().query("DIMENSION")
+    )
+    return sorted(text.replace("%%c", "Ø") for text in found if "%%c" in text)
+
+
+@pytest.mark.parametrize("journal", [(30, 25, 20), (25, 30, 20)])
+def test_a_groove_as_wide_as_a_step_takes_no_zone_from_it_and_gives_none(
+    tmp_path: Path, journal: tuple[int, ...]
+) -> None:
+    steps: list[dict[str, Any]] = [{"diameter": d, "length": 20} for d in journal]
+    steps[journal.index(30)]["grooves"] = [{"at": 4, "width": 2, "diameter": 25}]
+    told = diameters(drawn(tmp_path, {"kind": "shaft", "steps": steps}, drawing={"shaft": "k6"}))
+    assert told == ["Ø20k6", "Ø25", "Ø25k6", "Ø30k6"]
+
+
+def test_zones_of_holes_stand_at_what_has_material_about_it_alone(tmp_path: Path) -> None:
+    groove = ring((6, 0), (15, 0), (15, 3), (18, 3), (18, 0), (45, 0), (45, 6), (6, 6))
+    boss = ring((6, 0), (12, 0), (12, 6), (30, 6), (30, 0), (40, 0), (40, 10), (6, 10))
+    for part, told in ((groove, ["Ø12H7", "Ø30", "Ø36H7", "Ø90h11"]), (boss, ["Ø12H7", "Ø24", "Ø60H7", "Ø80h11"])):
+        assert diameters(drawn(tmp_path, part)) == told
+        # the other way round it is the same part
+        assert diameters(drawn(tmp_path, part | {"points": part["points"][::-1]})) == told
