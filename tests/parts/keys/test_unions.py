@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from msgspec import Struct
 from msgspec import inspect as types
 
-from parts.base.part_keys import Title
 from parts.base.registry import KINDS
 from parts.keys.boards import BedSpec, BoardSpec
 from parts.mates.registry import MATES
@@ -51,7 +49,7 @@ def test_no_key_has_a_pattern_beside_a_table() -> None:
 
 
 def test_such_a_union_is_seen() -> None:
-    class Wrong(Struct):
-        title: Title | dict[str, int] | None = None
-
-    assert [*crashing(types.type_info(Wrong), "wrong", set())] == ["wrong.title"]
+    """Told by hand: msgspec is never shown one, since that alone ends the process at some later time."""
+    title = types.UnionType((types.StrType(pattern=r"\S"), types.DictType(types.StrType(), types.AnyType())))
+    assert [*crashing(types.ListType(types.Metadata(title)), "wrong", set())] == ["wrong"]
+    assert [*crashing(types.UnionType((types.StrType(pattern=r"\S"), types.NoneType())), "right", set())] == []
