@@ -70,6 +70,8 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
     nearest = meant(value, words) if isinstance(value, str) and message.startswith("Invalid") else None
     allowed = _with_form(allowed, message, kind, keys, table)
     if wrong_type:
+        if isinstance(value, str) and (comma := re.fullmatch(r"\s*(-?\d+),(\d+)\s*", value)):
+            return SceneError(source, where, value, "comma_in_number", None, whole=comma.group(1), part=comma.group(2))
         code = "wrong_type" if allowed is None else "wrong_type_of"
         return SceneError(source, where, value, code, nearest, type=_type_words(wrong_type.group(1)), allowed=allowed)
     return SceneError(source, where, value, "not_allowed", nearest, allowed=allowed or message)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from functools import wraps
@@ -62,9 +61,6 @@ def table_of(pairs: Sequence[str]) -> dict[str, Any]:
         if name in owner:
             raise SceneError(PLACE, key, text, "given_twice")
         owner[name] = toml_value(text.strip())
-        if comma := re.fullmatch(r"(-?\d+),(\d+)", text.strip()):
-            whole, part = comma.groups()
-            raise SceneError(PLACE, key, text, "comma_in_number", None, whole=whole, part=part)
     refuse_infinite(table, PLACE, "")
     return table
 

@@ -439,3 +439,10 @@ def test_a_language_that_is_none_is_refused_in_the_one_that_was_meant(tmp_path: 
     for asked, told in (("ua", "uk"), ("ukr", "uk"), ("eng", "en"), ("xx", "en")):
         (file := tmp_path / f"{asked}.toml").write_text(f'[scene]\nlanguage = "{asked}"\n', encoding="utf-8")
         assert language_of(str(file)) == told
+
+
+def test_a_number_in_quotes_with_a_comma_is_told_how_to_write_it() -> None:
+    with pytest.raises(SceneError) as caught:
+        scene_from_toml(b'[parts.a]\nkind = "spur_gear"\nmodule = "2,5"\nnumber_of_teeth = 20\n', "s.toml", "s")
+    assert (caught.value.key, caught.value.code) == ("parts.a.module", "comma_in_number")
+    assert "2.5" in str(caught.value)
