@@ -17,7 +17,6 @@ from exporters.verification.verdict import Verdict
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.record import Record
-from geometry.base.tolerance import PDF_ROUNDING
 from geometry.gears.pictures.meshing import MeshingPicture, meshing_picture
 from geometry.gears.teeth.limits import practicum_undercut
 from geometry.gears.teeth.transverse import overlap_ratio
@@ -109,8 +108,8 @@ def sheet_jobs(
         The scene has no such pair, there is nothing to draw of it, or the paper is too small.
     """
     tolerance, language = float(export.tolerance or 0.0), scene.scene.language
-    # a PDF's numbers take their share
-    share = PDF_ROUNDING if export.format == "pdf" else 0.0
+    # the rounding of the file's numbers takes its share first
+    share = sheet_rounding(Path(f"sheet.{export.format}"))
     asked = Asked(language, tolerance - share, _band(export), export.paper, export.scale, export.cells == "empty")
     try:
         if export.format == "pdf":

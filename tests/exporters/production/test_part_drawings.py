@@ -156,6 +156,8 @@ def written(folder: Path, part: dict[str, Any], language: str = "en", **export: 
     for job in jobs(part, language, **export):
         job.write({}, folder / job.path)
         assert job.verify(folder / job.path, 0.0).failures == ()
+        # the rounding of the file's numbers stands within the tolerance that was asked for
+        assert job.declared({})[0] <= job.export.tolerance
         files.append(folder / job.path)
     return files[0], files[1]
 
