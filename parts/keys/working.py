@@ -6,11 +6,19 @@ from typing import Annotated
 
 from msgspec import Meta, Struct
 
-_FIT = r"^[A-Za-z][A-Za-z]?([1-9]|1[0-8])?$"
+# fundamental deviations of holes by ISO 286-1, JS as GOST writes it too; those of shafts are the same in lower case
+_HOLES = r"(A|B|CD?|D|EF?|FG?|G|H|J[Ss]?|[KMNPR-VXY]|Z[ABC]?)"
+# programs that read DXF take %% for the start of a sign
+_WORDS = r"^(?!.*%%).*\S"
+_GRADES = r"(01|[0-9]|1[0-8])"
 
 
-def _fit(meaning: str) -> Meta:
-    return Meta(pattern=_FIT, description=f"tolerance zone of {meaning}")
+def _hole(meaning: str) -> Meta:
+    return Meta(pattern=f"^{_HOLES}{_GRADES}$", description=f"tolerance zone of {meaning}")
+
+
+def _shaft(meaning: str) -> Meta:
+    return Meta(pattern=f"^{_HOLES.lower()}{_GRADES}$", description=f"tolerance zone of {meaning}")
 
 
 def _rough(meaning: str) -> Meta:
@@ -20,18 +28,18 @@ def _rough(meaning: str) -> Meta:
 class WorkingTable(Struct, forbid_unknown_fields=True, frozen=True):
     """What a working drawing says beside the part's own sizes."""
 
-    tip: Annotated[str, _fit("the outer diameter")] = "h11"
-    inner: Annotated[str, _fit("the inner diameter of a ring's teeth")] = "H11"
-    bore: Annotated[str, _fit("bores")] = "H7"
-    keyway: Annotated[str, _fit("the width of keyways in bores")] = "Js9"
-    shaft: Annotated[str, _fit("steps of a shaft")] = "h11"
-    shaft_keyway: Annotated[str, _fit("the width of keyways in shafts")] = "P9"
-    width: Annotated[str, _fit("the face width")] = "h11"
+    tip: Annotated[str, _shaft("the outer diameter")] = "h11"
+    inner: Annotated[str, _hole("the inner diameter of a ring's teeth")] = "H11"
+    bore: Annotated[str, _hole("bores")] = "H7"
+    keyway: Annotated[str, _hole("the width of keyways in bores")] = "Js9"
+    shaft: Annotated[str, _shaft("steps of a shaft")] = "h11"
+    shaft_keyway: Annotated[str, _hole("the width of keyways in shafts")] = "P9"
+    width: Annotated[str, _shaft("the face width")] = "h11"
     roughness: Annotated[float, _rough("all surfaces that have no sign of their own")] = 6.3
     flank_roughness: Annotated[float, _rough("working surfaces: flanks of teeth and cams")] = 1.6
     bore_roughness: Annotated[float, _rough("bores")] = 1.6
     teeth: Annotated[int, Meta(ge=0, le=10_000, description="teeth drawn exactly; the others are circles")] = 0
     requirements: Annotated[
-        list[Annotated[str, Meta(min_length=1, max_length=300)]],
+        list[Annotated[str, Meta(pattern=_WORDS, max_length=300, description="words without %%")]],
         Meta(max_length=12, description="technical requirements, a line each, beside those of the drawing"),
     ] = []

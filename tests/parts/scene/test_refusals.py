@@ -352,7 +352,12 @@ def test_slips_of_the_keyboard_are_told_as_such(part: Keys, code: str, told: str
 @pytest.mark.parametrize(("export", "told"), [
     ({"drawing": "{ teeth = 2 }"}, 'exports[1].drawing: only for purpose = "part"'),
     ({"purpose": '"part"', "drawing": '{ bore = "H77" }'}, 'tolerance zone of bores: like "H7"'),
-    ({"purpose": '"part"', "drawing": '{ requirements = [""] }'}, "at least 1 character"),
+    ({"purpose": '"part"', "drawing": '{ bore = "h7" }'}, 'tolerance zone of bores: like "H7"'),
+    ({"purpose": '"part"', "drawing": '{ bore = "Q7" }'}, 'tolerance zone of bores: like "H7"'),
+    ({"purpose": '"part"', "drawing": '{ tip = "H7" }'}, 'tolerance zone of the outer diameter: like "h11"'),
+    ({"purpose": '"part"', "drawing": '{ requirements = [""] }'}, "words without %%"),
+    ({"purpose": '"part"', "drawing": '{ requirements = ["   "] }'}, "words without %%"),
+    ({"purpose": '"part"', "drawing": '{ requirements = ["%%c20"] }'}, "words without %%"),
     ({"purpose": '"part"', "drawing": f'{{ requirements = ["{"a" * 301}"] }}'}, "at most 300 characters"),
     ({"purpose": '"part"', "drawing": f"{{ requirements = {['a'] * 13} }}"}, "at most 12"),
 ])  # fmt: skip
