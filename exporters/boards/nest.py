@@ -185,16 +185,20 @@ class _Nest:
         low_x, low_y, high_x, high_y = geometry.bounds
         middle, half = _middle(geometry), complex(high_x - low_x, high_y - low_y) / 2
         about = _about(geometry)
-        self.grown[name] = self._cover(about, half, self.room.gap)
-        cover = self._cover(about, half, 0.0)
+        halves = half, complex(half.imag, half.real)
+        # a shape that has room but no place on the grid stands beside it by half a cell each way at most
+        tight = any(len(self._places(h, axis)) == 0 for h in halves for axis in (0, 1) if self._has_room(h))
+        more = self.cell / math.sqrt(2) if tight else 0.0
+        self.grown[name] = self._cover(about, half, self.room.gap + more)
+        cover = self._cover(about, half, more)
         turns = self.room.turns
         reach = np.hypot(*np.array(about.convex_hull.exterior.coords).T).max()
         if reach <= _ROUND * min(half.real, half.imag):
             turns = (0,)
         found: dict[int, _Shape] = {}
         for turn in turns:
-            size = half if turn % 2 == 0 else complex(half.imag, half.real)
-            if 2 * size.real > self.inner.real or 2 * size.imag > self.inner.imag:
+            size = halves[turn % 2]
+            if not self._has_room(size):
                 continue
             turned = rotate(about, 90 * turn, origin=(0, 0)) if turn else about
             if any(turned.symmetric_difference(s.geometry).area <= _SYMMETRIC * turned.area for s in found.values()):
@@ -203,6 +207,20 @@ class _Nest:
         if not found:
             raise DoesNotFitError(name, (2 * half.real, 2 * half.imag))
         return found
+
+    def _has_room(self, half: complex) -> bool:
+        return 2 * half.real <= self.inner.real and 2 * half.imag <= self.inner.imag
+
+    def _places(self, half: complex, axis: int) -> range:
+        """Where on the grid the middle of a shape may stand along an axis."""
+        own, inner = (half.real, half.imag)[axis], (self.inner.real, self.inner.imag)[axis]
+        return range(math.ceil(own / self.cell - 1e-9), math.floor((inner - own) / self.cell + 1e-9) + 1)
+
+    def _at(self, half: complex, x: int, y: int) -> complex:
+        """Where the middle of a shape stands, mm: in its place on the grid, or beside it where the room is tight."""
+        last = self.inner - half
+        real, imag = max(half.real, x * self.cell), max(half.imag, y * self.cell)
+        return complex(min(real, last.real), min(imag, last.imag))
 
     def _cover(self, geometry: BaseGeometry, half: complex, more: float) -> Flags:
         """Cells (x, y) about the origin that hold all of a geometry, grown by ``more`` mm."""
@@ -309,7 +327,8 @@ class _Nest:
             end = max(end, right)
             if end > most:
                 break
-            at = complex(x, y) * self.cell + self.room.margin * (1 + 1j) - self.turned[name][turn].middle
+            shape = self.turned[name][turn]
+            at = self._at(shape.half, x, y) + self.room.margin * (1 + 1j) - shape.middle
             laid.append(Laid(name, board, turn, at))
             for (other, way), places in free.items():
                 if counts[other] and other not in full:
@@ -318,12 +337,12 @@ class _Nest:
 
     def _all_free(self, shape: _Shape) -> Flags:
         """Where the middle of a shape may stand on an empty board."""
-        count = [math.floor(size / self.cell + 1e-9) + 1 for size in (self.inner.real, self.inner.imag)]
-        low = [math.ceil(size / self.cell - 1e-9) for size in (shape.half.real, shape.half.imag)]
-        high = self.inner - shape.half
-        places = np.zeros(count, dtype=bool)
-        ends = [math.floor(size / self.cell + 1e-9) + 1 for size in (high.real, high.imag)]
-        places[low[0] : ends[0], low[1] : ends[1]] = True
+        inner = self.inner.real, self.inner.imag
+        places = np.zeros([math.floor(size / self.cell + 1e-9) + 1 for size in inner], dtype=bool)
+        # where the room is tight, the place next to the middle of the board
+        near = [round(size / 2 / self.cell) for size in inner]
+        xs, ys = (self._places(shape.half, axis) or range(near[axis], near[axis] + 1) for axis in (0, 1))
+        places[xs.start : xs.stop, ys.start : ys.stop] = True
         return places
 
     def _first(

@@ -12,7 +12,9 @@ import ezdxf
 import numpy as np
 import pytest
 import shapely
+import shapely.affinity
 
+from exporters.boards.nest import Room, nest
 from exporters.command.cli import main
 from exporters.formats.read_svg import read_svg
 from exporters.production.recheck import recheck
@@ -366,3 +368,19 @@ def test_many_sets_repeat_boards_and_too_many_are_refused(tmp_path: Path, capsys
         "boards.ply.sets = 1000: makes 31000 pieces, more than the 20000 that are laid out at once; at most 645 works"
         in told
     )
+
+
+@pytest.mark.parametrize(("width", "height"), [(180.0, 180.0), (180.0, 72.0), (179.9401, 71.9401)])
+def test_pieces_that_nearly_fill_the_room_are_laid(width: float, height: float) -> None:
+    """No place on the grid of the room is free for them: they stand between two of its lines, and keep the gap."""
+    room = Room(width, height, 5.0, 2.0)
+    shapes = {"long": (shapely.box(0, 0, 169.94, 59.94), 3), "small": (shapely.Point(0, 0).buffer(9.0), 4)}
+    boards = defaultdict(list)
+    for one in nest(shapes, room):
+        turned = shapely.affinity.rotate(shapes[one.shape][0], 90 * one.turn, origin=(0, 0))
+        boards[one.board].append(shapely.affinity.translate(turned, one.at.real, one.at.imag))
+    assert sum(map(len, boards.values())) == 7
+    inner = shapely.box(5 - 1e-9, 5 - 1e-9, width - 5 + 1e-9, height - 5 + 1e-9)
+    for pieces in boards.values():
+        assert all(inner.covers(piece) for piece in pieces)
+        assert all(a.distance(b) >= 2 - 1e-9 for k, a in enumerate(pieces) for b in pieces[:k])
