@@ -15,7 +15,7 @@ from geometry.solids.turned import HalfSection, Hole, Piece, Pocket
 from parts.bodies.turned import TurnedSpec
 from parts.drawing.directions import directions
 from parts.drawing.revolved import Loop, below, closed, outer_of, outlined, seen_edges
-from parts.drawing.turned_sizes import Fits, SectionCorner, listed_corners, turned_sizes
+from parts.drawing.turned_sizes import Fits, SectionCorner, bores, listed_corners, turned_sizes
 from parts.drawing.wheel_views import axis_cross, circle_of
 from parts.drawing.working import (
     AXIS,
@@ -130,7 +130,7 @@ def _long_view(half: HalfSection, loop: Loop, subject: Subject, *, is_shaft: boo
     cuts = tuple(Cut(at, letter) for at, letter in zip(_planes(half), _LETTERS, strict=False))
     # the first two tell from where on and which way round corners are counted
     numbers = (Note(corner.at, str(k)) for k, corner in enumerate(listed[:2], 1))
-    notes = (*_rough(loop, subject), *numbers)
+    notes = (*_rough(bores(loop, lambda curve: curve not in inner), loop, subject), *numbers)
     return View(tuple(strokes), hatched, tuple(axes), tuple(sizes), told.rounds, notes, cuts=cuts)
 
 
@@ -165,16 +165,14 @@ def _centre_hole(loop: Loop, subject: Subject) -> View | None:
     )  # fmt: skip
 
 
-def _rough(loop: Loop, subject: Subject) -> tuple[Note, ...]:
-    """The sign of the bore of a ring."""
-    radii = [c.start for c in loop if isinstance(c, Line) and abs(c.start.imag - c.end.imag) < _SAME]
-    inner = [p for p in radii if p.imag > 0]
-    if not inner or min(start_point(c).imag for c in loop) <= 0:
-        return ()
-    least = min(inner, key=lambda p: p.imag)
-    at = max(start_point(c).real for c in loop)
+def _rough(drilled: Sequence[Line], loop: Loop, subject: Subject) -> Iterator[Note]:
+    """The sign of each bore, at its end that is nearer to an end of the part."""
+    ends = [start_point(c).real for c in loop]
     words = f"Ra {subject.say(subject.wishes.bore_roughness)}"
-    return (Note(complex(at, -least.imag), words, is_rough=True),) if abs(least.real - at) < 1 else ()
+    for bore in drilled:
+        low, high = sorted((bore.start.real, bore.end.real))
+        at = high if max(ends) - high <= low - min(ends) + _SAME else low
+        yield Note(complex(at, -bore.start.imag), words, is_rough=True)
 
 
 def _walls(loop: Loop, hole: Hole) -> Iterator[Line]:

@@ -106,6 +106,25 @@ def listed_corners(loop: Loop, told: Told = lambda curve: True) -> tuple[Section
     return (*found, *(SectionCorner(p) for p in (last,) if p is not None and abs(p - found[0].at) > _NONE))
 
 
+def bores(loop: Loop, told: Told = lambda curve: True) -> tuple[Line, ...]:
+    """The cylinders of holes about the axis, one of each diameter, without chamfers; grooves in them left out.
+
+    Where corners are too many for sizes, the narrowest one alone.
+    """
+    *_, edges = _taken_apart(_joined(loop), told)
+    turn, found = _turn(loop), dict[float, Line]()
+    for k, edge in enumerate(edges):
+        if not (edge.told and edge.runs_along() and _has_about(edge, turn)) or edge.outer or _groove(edges, k):
+            continue
+        height, middle = edge.ends[0].imag, sum(end.real for end in edge.ends) / 2
+        # what has a boss in it is no bore
+        spans = (sorted(end.real for end in other.ends) for other in edges if other.ends[0].imag < height - _NONE)
+        if height > _NONE and not any(low < middle < high for low, high in spans) and isinstance(edge.curve, Line):
+            found.setdefault(_radius(height), edge.curve)
+    narrow = [found[radius] for radius in sorted(found)]
+    return tuple(narrow[:1] if _are_listed(edges) else narrow)
+
+
 def _taken_apart(whole: Sequence[Line | Arc], told: Told) -> tuple[list[int], list[int], list[_Edge]]:
     """Places of chamfers and of fillets, and all else without them."""
     chamfers = [k for k in range(len(whole)) if _is_chamfer(whole, k)]
@@ -222,13 +241,18 @@ def _groove(edges: Sequence[_Edge], k: int) -> bool:
 def _zone(edges: Sequence[_Edge], k: int, fits: Fits, turn: float) -> str:
     """The tolerance zone of a cylinder: of a hole where material stands about it; a boss in a recess has none."""
     edge = edges[k]
-    start, end = edge.ends
+    start, _ = edge.ends
     if fits.largest is not None and abs(start.imag - max(e.ends[0].imag for e in edges)) < _NONE:
         return fits.largest
     if _groove(edges, k):
         return ""
-    about = turn * (end.real - start.real) > 0
-    return fits.outer if edge.outer else fits.inner if about else ""
+    return fits.outer if edge.outer else fits.inner if _has_about(edge, turn) else ""
+
+
+def _has_about(edge: _Edge, turn: float) -> bool:
+    """Whether a cylinder has material about it, not within."""
+    start, end = edge.ends
+    return turn * (end.real - start.real) > 0
 
 
 def _diameters(edges: Sequence[_Edge], fits: Fits, turn: float) -> Iterator[Size]:

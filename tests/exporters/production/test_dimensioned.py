@@ -210,3 +210,21 @@ def test_zones_of_holes_stand_at_what_has_material_about_it_alone(tmp_path: Path
         assert diameters(drawn(tmp_path, part)) == told
         # the other way round it is the same part
         assert diameters(drawn(tmp_path, part | {"points": part["points"][::-1]})) == told
+
+
+@pytest.mark.parametrize(
+    ("part", "count"),
+    [
+        (ring((8, 0), (25, 0), (25, 40), (12, 40), (12, 22), (8, 22)), 2),
+        (ring((8, 0, 0, 1), (25, 0), (25, 40), (14, 40), (12, 38), (12, 22), (8, 22)), 2),
+        # a bore with a groove in it, one with a recess about a boss, a blind one
+        (ring((8, 0), (30, 0), (30, 20), (8, 20), (8, 14), (10, 14), (10, 11), (8, 11)), 1),
+        (ring((6, 0), (12, 0), (12, 6), (30, 6), (30, 0), (40, 0), (40, 10), (6, 10)), 1),
+        (ring((0, 0), (20, 0), (20, 30), (6, 30), (6, 12), (0, 10)), 1),
+        # centre holes are no bores
+        ({"kind": "shaft", "centre_holes": {"diameter": 2.0}, "steps": [{"diameter": 20.0, "length": 30.0}]}, 0),
+    ],
+)
+def test_each_bore_has_its_sign_of_roughness(tmp_path: Path, part: dict[str, Any], count: int) -> None:
+    document = drawn(tmp_path, part, drawing={"bore_roughness": 0.8})
+    assert [t.dxf.text for t in document.modelspace().query("TEXT")].count("Ra 0.8") == count
