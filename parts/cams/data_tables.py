@@ -39,6 +39,12 @@ _FOLLOWERS: dict[str, Text] = {
     "mushroom": N_("mushroom"),
     "flat": N_("flat"),
 }
+# rows that are called by what the part has of what its kind may have
+_RADII: dict[str, Text] = {"roller": N_("radius of the roller"), "mushroom": N_("radius of the mushroom's face")}
+_TRACK: dict[str, Text] = {
+    "floor_diameter": N_("inner diameter of the track"),
+    "groove_depth": N_("width of the track"),
+}
 
 
 def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTable:
@@ -51,7 +57,7 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
     return DataTable(
         (
             (*rows_of(page, _MOTION), *_phases(page)),
-            (*_follower(part), *_rocker(part, page), *rows_of(page, _SIZES)),
+            (*_follower(part), *_rocker(part, page), *_sizes(part, page)),
             _datum(part.kind),
         ),
         chosen_columns(found, columns),
@@ -80,6 +86,16 @@ def _follower(part: Part) -> tuple[DataRow, ...]:
     if part.kind == "linkage_cam":
         moves = N_("on a connecting rod")
     return (DataRow(N_("follower"), "", listed([shape, moves])),)
+
+
+def _sizes(part: Part, page: Sheet) -> list[DataRow]:
+    """Sizes under the names that they have at this form of the cam."""
+    names = dict(_TRACK) if getattr(part.keys, "form", "") == "end" else {}
+    if radius := _RADII.get(getattr(part.keys, "follower", "roller")):
+        names["follower_radius"] = radius
+    steps = {step.name: step for step in page.steps() if step.name in _SIZES}
+    found = ((name, row_of(steps[name])) for name in _SIZES if name in steps)
+    return [replace(row, name=names.get(name, row.name)) for name, row in found]
 
 
 def _rocker(part: Part, page: Sheet) -> tuple[DataRow, ...]:

@@ -179,6 +179,9 @@ def _rack(keys: RackSpec, rack: Rack, subject: Subject) -> tuple[View, ...]:
         sizes.append(Size("holes.depth", complex(-half, foot), centres[0], "left"))
         if len(centres) > 1:
             sizes.append(Size("holes.spacing", centres[0], centres[1], "below"))
+        if len(centres) > 2:
+            chain = f"{holes.count - 1}×{subject.say(holes.spacing)}="
+            sizes.append(Size("holes.all", centres[0], centres[-1], "below", chain))
         sizes.append(Size("holes.first", complex(-half, foot), centres[0], "below"))
         rounds.append(Round("holes.diameter", centres[-1], holes.diameter / 2, _count(holes.count, subject)))
     rough = Note(complex(half), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True, goes_on=True)

@@ -213,4 +213,5 @@ def _head(name: str, told: Words) -> str:
 
 def position_texts(row: Sequence[float]) -> list[str]:
     """A row of positions: the argument with the decimals that it has, the rest with as many as drawings have."""
-    return [rounded(row[0], "mm"), *(f"{value:.{_DECIMALS['mm']}f}" for value in row[1:])]
+    # z: what rounds to nothing has no sign
+    return [rounded(row[0], "mm"), *(f"{value:z.{_DECIMALS['mm']}f}" for value in row[1:])]

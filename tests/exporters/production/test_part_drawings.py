@@ -356,6 +356,13 @@ def test_words_that_their_cells_do_not_hold_are_refused_with_how_many_fit(part: 
         assert sum(run.text.count("y") for run in runs if set(run.text) == {"y"}) == 290
 
 
+def test_the_row_of_holes_of_a_rack_is_told_to_its_last_one(tmp_path: Path) -> None:
+    # before: the first distance alone, whatever their number
+    holes = {"count": 3, "diameter": 4.0, "spacing": 30.0}
+    found = sizes(written(tmp_path, PARTS["rack"] | {"holes": holes})[0])
+    assert found["2×30=<> 0"] == pytest.approx(60.0)
+
+
 def test_a_requirement_that_stands_alone_has_no_number(tmp_path: Path) -> None:
     for more in ([], ["HRC 40"]):
         job = jobs(PARTS["bearing"], formats=("dxf",), drawing={"requirements": more})[0]

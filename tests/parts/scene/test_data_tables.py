@@ -48,6 +48,10 @@ CALLED = {
     "pressure angle of the basic rack": "pressure angle of the rack",
     "fillet radius of the basic rack, in modules": "rounding of the rack's tip, in modules",
     "pitch": "pitch of the rack",
+    "radius of the roller": "radius of the roller or mushroom",
+    "inner diameter of the track": "diameter of the groove's floor",
+    "width of the track": "depth of the groove",
+    "radius of the mushroom's face": "radius of the roller or mushroom",
 }
 # what of a mate, and of the scene's keys, stands in a table, and is no step of the part's own calculation
 BESIDE = {"teeth of the mate", "drawing of the mate", "centre distance", "number of starts of the worm",
@@ -288,3 +292,24 @@ def test_rows_without_a_symbol_have_a_dash() -> None:
     canvas = Canvas(120.0, 50.0, "")
     draw_data_table(canvas, 115 + 40j, table, "en")
     assert [text.text for text in canvas.texts] == ["Module", "—", "3.142"]
+
+
+END_CAM = """[parts.a]
+kind = "barrel_cam"
+form = "end"
+outer_diameter = 60.0
+roller_diameter = 10.0
+groove_depth = 8.0
+lift = 10.0
+phases = [{ move = "rise", angle_deg = 180.0, law = "sine" }, { move = "return_", angle_deg = 180.0, law = "sine" }]
+"""
+
+
+def test_a_table_names_what_its_own_cam_has() -> None:
+    # before: a roller "or mushroom", the groove of an end cam, a minus before nothing
+    both = tables("end", END_CAM)["a"][1], next(iter(tables("groove_cam").values()))[1]
+    end, grooved = ({str(row.name) for part in table.parts for row in part} for table in both)
+    assert {"inner diameter of the track", "width of the track"} <= end
+    assert not any("groove" in name for name in end)
+    assert {"radius of the roller", "depth of the groove"} <= grooved
+    assert position_texts([0.0, -1e-9, -0.0006]) == ["0", "0.000", "-0.001"]
