@@ -97,7 +97,9 @@ class _Order:
         self.number = {key: k for k, key in enumerate(self.home)}
         self.boxes = np.array([_box(i, parts[i.part]) for i in placing.instances])
         self.done: dict[object, tuple[str, float | None]] = {}
-        self.solids: dict[object, Any] = {}
+        # one name may be that of a part and of an instance
+        self.inner: dict[str, Any] = {}
+        self.solids: dict[str, Any] = {}
         self.laid: dict[object, tuple[Real, Any]] = {}
 
     def held(self, steps: Sequence[StepSpec]) -> OrderFound:
@@ -293,9 +295,9 @@ class _Order:
         return float(np.linalg.norm(self.boxes[:, 1].max(axis=0) - self.boxes[:, 0].min(axis=0)))
 
     def _inner(self, part: str) -> Any:
-        if part not in self.solids:
-            self.solids[part] = inner_solid(self.parts[part])
-        return self.solids[part]
+        if part not in self.inner:
+            self.inner[part] = inner_solid(self.parts[part])
+        return self.inner[part]
 
     def _solid(self, standing: Instance) -> Any:
         """What stands, in its place; a worm by its hull."""

@@ -110,6 +110,51 @@ def test_steps_exchanged_and_ways_turned_are_found(
     assert bool(pairs) == bool(found)
 
 
+WAY = """
+[parts]
+base = {{ kind = "plate", width = 60.0, height = 60.0, face_width = 4.0 }}
+post = {{ kind = "plate", width = 40.0, height = 40.0, face_width = 6.0, holes = {holes} }}
+collar = {{ kind = "pin", diameter = 18.0, length = 5.0, bore_diameter = 12.2 }}
+
+[instances]
+base = {{ at = [0.0, 0.0, 0.0], held = true }}
+{name} = {{ part = "post", at = [0.0, 0.0, 24.5], axis = {axis}, held = true }}
+collar = {{ at = {at}, axis = {axis}, held = true }}
+
+[[steps]]
+bring = ["{name}"]
+to = "base"
+along = [0.0, 0.0, -1.0]
+
+[[steps]]
+bring = ["collar"]
+to = "{name}"
+along = {axis}
+
+[[exports]]
+format = "stl"
+"""
+
+
+@pytest.mark.parametrize(("axis", "at"), [([0.0, -1.0, 0.0], [0.0, -6.5, 24.5]), ([1.0, 0.0, 0.0], [6.5, 0.0, 24.5])])
+@pytest.mark.parametrize("name", ["post", "first_post"])
+@pytest.mark.parametrize(("bore", "passes"), [(None, False), (12.6, False), (18.6, True)])
+def test_a_part_behind_a_wall_passes_only_by_a_hole_wide_enough(
+    bore: float | None, passes: bool, name: str, axis: list[float], at: list[float], tmp_path: Path, capsys: Any
+) -> None:
+    """Also where what stands, brought by a step before, has the name of its part."""
+    holes = "[]" if bore is None else f"[{{ at = [0.0, 0.0], diameter = {bore} }}]"
+    path = tmp_path / "way.toml"
+    path.write_text(WAY.format(name=name, holes=holes, axis=axis, at=at), "utf-8")
+    assert main(["check", str(path), "--json"]) == (0 if passes else 1)
+    order = json.loads(capsys.readouterr().out)["order"]
+    assert hindered(order) == (set() if passes else {("collar", name)})
+    if not passes:
+        # a cylinder of 18 through a plate of 6, the bore off
+        whole = 6 * math.pi / 4 * (18.0**2 - max(12.2, bore or 0.0) ** 2)
+        assert order["hindered"][0]["volume"] == pytest.approx(whole, rel=0.02)
+
+
 @pytest.mark.heavy
 @pytest.mark.parametrize("name", ["power_table_print", "power_module"])
 def test_the_print_table_and_the_module_go_together(name: str, tmp_path: Path, capsys: Any) -> None:
