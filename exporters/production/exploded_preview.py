@@ -90,6 +90,8 @@ def exploded_preview(plan: Plan, folder: Path) -> Path:
     margin = 4 * _TEXT
     head = (
         '<?xml version="1.0" encoding="UTF-8"?>\n<svg xmlns="http://www.w3.org/2000/svg" '
+        # programs of before SVG 2 know no plain href
+        'xmlns:xlink="http://www.w3.org/1999/xlink" '
         f'viewBox="{-margin:g} {-margin:g} {width + 2 * margin:.0f} {deep + 2 * margin:.0f}">'
     )
     back = f'<rect x="{-margin:g}" y="{-margin:g}" width="100%" height="100%" style="fill:#ffffff"/>'
@@ -199,7 +201,7 @@ def _drawn(
     yield f'</defs><g transform="translate({_COLUMN:g} 0)">'
     for thing in things:
         at = _on_paper(complex(seen(thing.shift[None])[0]), origin, scale)
-        yield f'<use id="{thing.instance.id}" href="#d{thing.drawing}" x="{at.real:.1f}" y="{at.imag:.1f}"/>'
+        yield f'<use id="{thing.instance.id}" xlink:href="#d{thing.drawing}" x="{at.real:.1f}" y="{at.imag:.1f}"/>'
     yield "</g>"
 
 

@@ -85,7 +85,7 @@ def drawn(text: str) -> list[tuple[str, shapely.geometry.base.BaseGeometry]]:
         for name, group in re.findall(r'<g id="(d\d+)">(.*?)</g>', text, re.DOTALL)
     }
     shift = float(re.findall(r"translate\((\d+)", text)[0])
-    rows = re.findall(r'<use id="(\w+)" href="#(d\d+)" x="([-\d.]+)" y="([-\d.]+)"', text)
+    rows = re.findall(r'<use id="(\w+)" xlink:href="#(d\d+)" x="([-\d.]+)" y="([-\d.]+)"', text)
     return [
         (name, shapely.transform(
             shapely.union_all(outlines[of]), lambda xy, x=float(x), y=float(y): xy + np.array([x + shift, y])))
