@@ -107,7 +107,7 @@ class LoadKeys(TwoDiskKeys, kw_only=True):
         """delta and beta (rad) where the platform is told to stand."""
         if (self.x is None) != (self.y is None):
             raise ParameterError(
-                "x" if self.x is None else "y", None, "missing_key", None, what=N_("x and y of a point")
+                "x" if self.x is None else "y", None, "missing_key", None, what=message("x and y of a point")
             )
         if self.x is None or self.y is None:
             return None

@@ -289,6 +289,11 @@ def test_loads_that_are_refused_or_too_much() -> None:
     assert all(text in calculate("power-module", ("force_y=900",), "html", "uk") for text in ("перекидний", "1378.8"))
 
 
+def test_what_is_missing_of_a_place_is_told_in_the_language_asked(capsys: Any) -> None:
+    assert main(["calc", "power-module", "force_x=600", "x=50", "--language", "uk"]) != 0
+    assert "відсутнє: x та y точки" in capsys.readouterr().err
+
+
 def test_errors_by_play_over_the_workspace(module: dict[str, Any], tmp_path: Path) -> None:
     errors = module["errors"]
     first, last = errors[0], errors[-1]
