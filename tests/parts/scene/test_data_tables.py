@@ -187,7 +187,7 @@ SPAN = {"spaces in the span", "span over k spaces", "profile shift coefficient"}
         ("worm", "number_of_starts", 2, THREAD, set()),
         ("cam", "bore_diameter", 12.0, set(), set()),
         ("cam", "base_circle_radius", 44.0, {"least radius of the cam (base circle)"}, {"r", "theta"}),
-        ("cam", "follower_radius", 9.0, {"radius of the roller or mushroom"}, {"r", "theta"}),
+        ("cam", "follower_radius", 9.0, {"radius of the roller"}, {"r", "theta"}),
         ("cam", "lift", 24.0, {"lift"}, {"S", "r", "theta"}),
     ],
 )
