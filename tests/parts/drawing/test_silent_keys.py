@@ -25,7 +25,7 @@ from tests.exporters.production.test_part_drawings import PARTS
 from tests.offered import Place, Raw, put, scenes
 
 # keys that change no shape
-OTHER = {"kind", "of", "material", "density", "colour", "title", "title_uk", "position", "designation", "standard",
+OTHER = {"kind", "of", "material", "density", "colour", "title", "position", "designation", "standard",
          "label", "accuracy"}  # fmt: skip
 # what is the same part, only turned: nothing about it has a direction of its own
 TURNED = {("roller", "bore.angle_deg"), ("shaft", "steps.0.keyways.0.angle_deg"), ("output_plate", "start_deg"),
