@@ -107,10 +107,14 @@ def _language_among(addresses: Sequence[str]) -> str:
 
 
 def _language(options: argparse.Namespace) -> str:
-    """The language of a command: that of --language, of the scene, or of a scene among the words of calc."""
+    """The language of a command: that of --language or nearest to it, of the scene, or of one among words of calc."""
+    from parts.scene.language import language_meant
+
     if options.language in languages():
         return str(options.language)
     asked = vars(options)
+    if options.language and (close := language_meant(options.language)):
+        return close
     return _language_among([*asked.get("scenes", []), *filter(None, [asked.get("scene")]), *asked.get("words", [])])
 
 

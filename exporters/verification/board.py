@@ -194,10 +194,12 @@ def _polygon(loop: Loop) -> BaseGeometry:
     crown = np.abs(ends - starts) * bent / 2
     # a chord of 1/n of an arc has 1/n^2 of its crown, of one of more than half a turn less than four times as much
     counts = np.ceil(np.sqrt(4 * crown * np.maximum(1, bent) / _SAG)).astype(int)
+    # two edges alone are a circle, however small
+    counts = np.maximum(counts, 2 if len(starts) == 2 else 1)
     points = []
     for count in sorted(set(counts.tolist())):
         own = np.flatnonzero(counts == count)
-        shares = np.linspace(0, 1, max(1, count), endpoint=False)
+        shares = np.linspace(0, 1, count, endpoint=False)
         places = edge_points(starts[own], ends[own], loop.bulges[own], shares)
         points += list(zip(own.tolist(), places, strict=True))
     whole = np.concatenate([p for _, p in sorted(points, key=lambda row: row[0])])

@@ -9,6 +9,7 @@ The marks that the extraction finds (``python -m tests.catalogues``): ``N_``, ``
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
@@ -129,8 +130,9 @@ class Words(NamedTuple):
         return self.text(text.msgid, **numbers)
 
     def decimal(self, number: str) -> str:
-        """A number as the language prints it on drawings: 0.5 or 0,5."""
-        return number.replace(".", self.term("decimal point", "."))
+        """A number, or a formula with numbers, as the language prints it on drawings: 0.5 or 0,5."""
+        # points of indices stay
+        return re.sub(r"(?<=\d)\.(?=\d)", self.term("decimal point", "."), number)
 
 
 @cache

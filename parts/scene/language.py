@@ -34,11 +34,15 @@ def language_of(address: str) -> str:
         asked = found[1].decode() if found else ENGLISH
     if asked is None or asked in languages():
         return asked or ENGLISH
+    return language_meant(asked) or ENGLISH
+
+
+def language_meant(asked: object) -> str | None:
+    """What is no language is refused in the one that was meant; None where none is near."""
     from parts.base.refusal import meant
 
-    # what is no language is refused in the one that was meant
     nearest = meant(asked, languages())
-    return str(nearest.value) if nearest else ENGLISH
+    return str(nearest.value) if nearest else None
 
 
 def in_language(raw: dict[str, Any], source: str) -> dict[str, Any]:

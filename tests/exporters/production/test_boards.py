@@ -370,6 +370,28 @@ def test_many_sets_repeat_boards_and_too_many_are_refused(tmp_path: Path, capsys
     )
 
 
+def test_a_kerf_that_all_but_closes_a_hole_is_refused_or_read_back(tmp_path: Path) -> None:
+    """The kerf that a refusal offers leaves a hole of 1e-4 mm: two edges, which are a ring all the same."""
+    lines = (
+        "[parts.p]",
+        'kind = "plate"',
+        "width = 20.0",
+        "height = 20.0",
+        "face_width = 3.0",
+        "holes = [{ at = [0.0, 0.0], diameter = 2.0 }]",
+        "[boards.b]",
+        "width = 60.0",
+        "height = 60.0",
+        "thickness = 3.0",
+        "kerf = 1.9999",
+        "[[exports]]",
+        'format = "dxf"',
+        'purpose = "board"',
+    )
+    (scene := tmp_path / "s.toml").write_text("\n".join(lines), encoding="utf-8")
+    assert main(["build", str(scene), "--out", str(tmp_path)]) == 0
+
+
 @pytest.mark.parametrize(("width", "height"), [(180.0, 180.0), (180.0, 72.0), (179.9401, 71.9401)])
 def test_pieces_that_nearly_fill_the_room_are_laid(width: float, height: float) -> None:
     """No place on the grid of the room is free for them: they stand between two of its lines, and keep the gap."""

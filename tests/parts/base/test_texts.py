@@ -49,6 +49,11 @@ def catalogue(folder: Path, language: str, domain: str, body: str) -> Path:
     return folder
 
 
+def test_only_points_of_numbers_become_commas() -> None:
+    assert words("uk").decimal("φ_д.в. = 50.5 + 0.25·2") == "φ_д.в. = 50,5 + 0,25·2"
+    assert words("en").decimal("50.5") == "50.5"
+
+
 @pytest.mark.parametrize(("count", "told"), COUNTS.items())
 def test_ukrainian_counts(count: float, told: str) -> None:
     assert words("uk").say(counted("{n:.9g} time", "{n:.9g} times", by="n", n=count)) == told

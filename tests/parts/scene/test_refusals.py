@@ -446,6 +446,14 @@ def test_a_language_that_is_none_is_refused_in_the_one_that_was_meant(tmp_path: 
         assert language_of(str(file)) == told
 
 
+@pytest.mark.parametrize("asked", ["ua", "ukr"])
+def test_a_language_of_a_command_that_is_none_is_refused_in_the_one_that_was_meant(
+    asked: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["build", "lesson_5", "--language", asked]) == 2
+    assert "можливо, " in capsys.readouterr().err
+
+
 def test_a_number_in_quotes_with_a_comma_is_told_how_to_write_it() -> None:
     with pytest.raises(SceneError) as caught:
         scene_from_toml(b'[parts.a]\nkind = "spur_gear"\nmodule = "2,5"\nnumber_of_teeth = 20\n', "s.toml", "s")
