@@ -69,6 +69,13 @@ def gauss_rule(count: int) -> tuple[Real, Real]:
     return nodes, 2 * vectors[0] ** 2
 
 
+def panels(breaks: Real, count: int) -> tuple[Real, Real]:
+    """Nodes and weights of Gauss's rule, ``count`` in each interval between breaks (n,): arrays (count (n - 1),)."""
+    nodes, weights = gauss_rule(count)
+    half = np.diff(breaks)[:, None] / 2
+    return ((breaks[:-1] + breaks[1:])[:, None] / 2 + half * nodes).ravel(), (half * weights).ravel()
+
+
 def region_area(region: Region) -> float:
     """Area of the material, mm^2."""
     return sum(profile_area(p) for p in region.profiles())

@@ -14,7 +14,7 @@ import numpy as np
 
 from geometry.base.record import Record
 from geometry.curves.curve import Real
-from geometry.plane.measure import gauss_rule
+from geometry.plane.measure import panels
 from geometry.solids.charts import TURN, along_edges, arcs, axes_of, edge_rows, span_shares, spline_rows
 from geometry.solids.faces import (
     Circular,
@@ -75,15 +75,8 @@ def _samples(solid: Solid, edges: Edges) -> _Samples:
         shares = np.linspace(0, 1, max(1, math.ceil(float(arcs(solid, edges)[3].max()) / _PIECE)) + 1)
     elif isinstance(edges.curve, Spline):
         shares = span_shares(edges.curve.knots)
-    nodes, weights = _panels(shares, _NODES)
+    nodes, weights = panels(shares, _NODES)
     return _Samples(*along_edges(solid, edges, nodes), weights)
-
-
-def _panels(breaks: Real, count: int) -> tuple[Real, Real]:
-    """Gauss's nodes and weights between breaks."""
-    nodes, weights = gauss_rule(count)
-    half = np.diff(breaks)[:, None] / 2
-    return ((breaks[:-1] + breaks[1:])[:, None] / 2 + half * nodes).ravel(), (half * weights).ravel()
 
 
 def _areas(solid: Solid, runs: _Runs, faces: Faces) -> Real:
@@ -176,7 +169,7 @@ def _patches(solid: Solid, surface: SplineSurface, pieces: int, nodes: int) -> R
     for knots in (surface.u_knots, surface.v_knots):
         shares = span_shares(knots)
         breaks = np.interp(np.arange((len(shares) - 1) * pieces + 1) / pieces, np.arange(len(shares)), shares)
-        rules.append(_panels(breaks, nodes))
+        rules.append(panels(breaks, nodes))
     (u, along), (v, across) = (
         spline_rows(degree, knots, shares, 1)
         for degree, knots, (shares, _) in zip(surface.degrees, (surface.u_knots, surface.v_knots), rules, strict=True)

@@ -14,7 +14,7 @@ import numpy as np
 from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record
 from geometry.curves.curve import Real
-from geometry.plane.measure import gauss_rule
+from geometry.plane.measure import gauss_rule, panels
 from geometry.solids.charts import Chart, along_edges, arcs, charts, edge_rows, patch_of, span_shares
 from geometry.solids.faces import Circular, Edges, Extrusion, Solid, Spline, SplineSurface
 from geometry.solids.mass import Moments, moments_of
@@ -104,17 +104,10 @@ def _samples(solid: Solid, edges: Edges, pieces: int) -> _Samples:
         breaks = np.interp(np.linspace(0, len(whole) - 1, pieces * (len(whole) - 1) + 1), np.arange(len(whole)), whole)
     else:
         breaks = np.linspace(0, 1, pieces + 1)
-    nodes, weights = _panels(breaks, _NODES)
+    nodes, weights = panels(breaks, _NODES)
     shares = np.concatenate([[0.0], nodes, [1.0]])
     points, steps = along_edges(solid, edges, shares)
     return _Samples(points, steps, np.concatenate([[0.0], weights, [0.0]]), not isinstance(curve, Circular | Spline))
-
-
-def _panels(breaks: Real, count: int) -> tuple[Real, Real]:
-    """Gauss's nodes and weights between breaks."""
-    nodes, weights = gauss_rule(count)
-    half = np.diff(breaks)[:, None] / 2
-    return ((breaks[:-1] + breaks[1:])[:, None] / 2 + half * nodes).ravel(), (half * weights).ravel()
 
 
 def _terms(points: Real, normals: Real) -> Real:
@@ -133,7 +126,7 @@ def _charted(chart: Chart, loops: list[list[_Run]], *, along: bool) -> Real:
         for side in unrolled(chart, [run.points for run in runs], along=along):
             if side.run is None:
                 count = max(1, math.ceil(abs(side.u[-1] - side.u[0]) / _PIECE))
-                shares, steps = _panels(np.linspace(0, 1, count + 1), _NODES)
+                shares, steps = panels(np.linspace(0, 1, count + 1), _NODES)
                 u, v = side.u[0] + (side.u[-1] - side.u[0]) * shares, np.full(len(shares), side.v[0])
                 step = steps * (side.u[-1] - side.u[0])
             else:
@@ -166,7 +159,7 @@ def _ruled(runs: list[_Run]) -> Real:
 def _patches(solid: Solid, surface: SplineSurface, *, along: bool) -> Real:
     patch = patch_of(solid, surface)
     rules = [
-        _panels(span_shares(knots), math.ceil(_RAISED * degree))
+        panels(span_shares(knots), math.ceil(_RAISED * degree))
         for degree, knots in zip(surface.degrees, (surface.u_knots, surface.v_knots), strict=True)
     ]
     (u, u_weights), (v, v_weights) = rules

@@ -317,7 +317,8 @@ class _Turned(SolidBuilder):
             return
         if piece.centre is None and piece.start.imag == piece.end.imag:
             up = piece.end.real < piece.start.real
-            level = _Level(piece.start.imag, tuple(sorted((piece.start.real, piece.end.real))), up)  # type: ignore[arg-type]
+            inner, outer = sorted((piece.start.real, piece.end.real))
+            level = _Level(piece.start.imag, (inner, outer), up)
             for at, is_outer in ((piece.start, up), (piece.end, not up)):
                 circle = self.corner(at)[1] if at.real else None
                 if circle is not None:
