@@ -184,6 +184,8 @@ def _pins(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
         best = measurement.best_pin_diameter(gear, helix)
         low, high = measurement.pin_limits(gear, helix)
     except ParameterError:
+        low = high = math.nan
+    if not low <= high:
         page.notes.append(
             N_("no ball touches both flanks of a space") if helix else N_("no pin touches both flanks of a space")
         )
@@ -191,7 +193,7 @@ def _pins(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
     page.add(f"best_{tool}_diameter", best, "", ISO)
     page.add(f"least_{tool}_diameter", low)
     page.add(f"greatest_{tool}_diameter", high)
-    pin = best if asked.pin_diameter is None else asked.pin_diameter
+    pin = measurement.fit_pin_diameter(gear, helix) if asked.pin_diameter is None else asked.pin_diameter
     found = measurement.over_pins(gear, pin, helix)
     page.add(f"{tool}_diameter", pin)
     angle = math.degrees(math.acos(2 * gear.base_radius / found.centre_diameter))
@@ -219,11 +221,11 @@ def _pins(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
         page.add("thinning_from_size", thinned, formula, ISO)
     if not (found.touches_flanks and found.stands_out):
         told = (
-            N_("a ball of {diameter:.4g} mm does not touch the involutes or does not stand out; take the best one")
+            N_("a ball of {diameter:.4g} mm touches no involute or is sunk; {least:.4g} to {greatest:.4g} mm touch")
             if helix
-            else N_("a pin of {diameter:.4g} mm does not touch the involutes or does not stand out; take the best one")
+            else N_("a pin of {diameter:.4g} mm touches no involute or is sunk; {least:.4g} to {greatest:.4g} mm touch")
         )
-        page.notes.append(message(told, diameter=pin))
+        page.notes.append(message(told, diameter=pin, least=low, greatest=high))
     if helix:
         page.notes.append(_same_with_pins(gear, even=even))
 

@@ -219,6 +219,18 @@ def pin_limits(gear: Measured, helix_angle: float = 0.0) -> tuple[float, float]:
     return low, pin_touching_at(gear, tip, helix_angle)
 
 
+def fit_pin_diameter(gear: Measured, helix_angle: float = 0.0) -> float:
+    """The best pin, mm; where that touches no involute (undercut, thinning) or is sunk, the middle of those that do.
+
+    One that goes into the spaces of the gear without thinning too; where none does, the best all the same.
+    """
+    best, (low, high) = best_pin_diameter(gear, helix_angle), pin_limits(gear, helix_angle)
+    if low <= best <= high and over_pins(gear, best, helix_angle).stands_out:
+        return best
+    high = min(high, pin_limits(nominal(gear), helix_angle)[1])
+    return (low + high) / 2 if low <= high else best
+
+
 def over_pins(gear: Measured, pin_diameter: float, helix_angle: float = 0.0) -> OverPins:
     """M_d over two pins (balls in helical gears) in opposite spaces, or the nearest to opposite for odd z.
 

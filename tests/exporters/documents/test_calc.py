@@ -475,6 +475,17 @@ def test_a_ring_is_measured_as_in_the_reports_of_a_wind_turbine(row: dict[str, A
     assert values["between_pins_nominal"] == pytest.approx(row["between_pins"], abs=5.1e-4)
 
 
+@pytest.mark.parametrize("undercut", ["x=-0.476 alpha=14.5", "x=-0.476 alpha=14.5 thinning=0.03", "x=-0.6 alpha=20"])
+def test_a_pin_that_nobody_asked_for_touches_the_involute(undercut: str) -> None:
+    """Where d + 2 x m lies in the undercut the pin that would touch there touches nothing, and none may be sunk."""
+    long = {"x": "profile_shift_coefficient", "alpha": "pressure_angle_deg", "thinning": "circumferential_thinning"}
+    keys = " ".join(f"{long[k]}={v}" for k, v in (word.split("=") for word in undercut.split()))
+    values = values_of(f"spur module=0.808 number_of_teeth=11 {keys}")["values"]
+    assert values["over_pins"] > values["tip_diameter"]
+    assert values["best_pin_diameter"] < values["least_pin_diameter"]
+    assert values["root_form_diameter"] < values["pin_contact_diameter"] < values["tip_diameter"]
+
+
 def test_a_ring_cut_without_correction_is_wider() -> None:
     plain = values_of("ring module=2 number_of_teeth=60 pin_diameter=3.3")["values"]
     cut = values_of("ring module=2 number_of_teeth=60 pin_diameter=3.3 kerf=0.2")["values"]
