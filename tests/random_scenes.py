@@ -100,7 +100,7 @@ def _move_a_key(scene: Table, draw: random.Random) -> None:
     """Set an optional key of a part to its example, or move a number of a part or a mate."""
     part = draw.choice([*(scene["parts"][name] for name in sorted(scene["parts"])), *scene["assemblies"]])
     if draw.random() < 0.2 and part not in scene["assemblies"]:
-        part["label"] = draw.choice(("A1", "Деталь 2", {"text": "z", "height": 2.0}))
+        part["label"] = draw.choice(("A1", "Деталь 2", {"en": "z 7", "uk": "Колесо"}))
         return
     if draw.random() < 0.35 and (keys := _optional_keys(part["kind"]) if "kind" in part else ()):
         key, value = draw.choice(keys)
