@@ -8,12 +8,16 @@ from hypothesis import strategies as st
 
 from geometry.base.errors import GeometryError
 from geometry.base.placement import Placement2
+from geometry.base.record import replace
 from geometry.curves.curve import Curve, OffsetCurve, Reversed
 from geometry.curves.cutter_fillet import CutterFillet
 from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line
 from geometry.curves.trochoid import TrochoidFillet
 from geometry.gears.teeth.basic_rack import ISO_53, BasicRack, TipRelief, full_round_radius, iso_53
+from geometry.gears.teeth.cutter import PinionCutter
+from geometry.gears.teeth.ring import RingGear
+from geometry.gears.teeth.ring_made import DEFAULT_CUTTER_TEETH, settled_ring
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import tooth_side
 from tests.oracles.trochoid import Trochoid
@@ -183,3 +187,10 @@ def hostile_racks(draw: st.DrawFn) -> BasicRack:
     values = {"pressure_angle": math.radians(20), "addendum": 1.0, "tip_clearance": 0.25, "tip_radius": 0.38}
     values[draw(st.sampled_from(sorted(values)))] = draw(hostile_numbers)
     return BasicRack(**values)
+
+
+def with_default_cutter(gear: RingGear) -> RingGear:
+    """A ring as a scene that names no cutter has it: of one that is given only the heights stay."""
+    cutter = gear.root if isinstance(gear.root, PinionCutter) else None
+    cutter = cutter or PinionCutter(gear.module, DEFAULT_CUTTER_TEETH[0], gear.pressure_angle)
+    return settled_ring(replace(gear, root=cutter, any_cutter=True))

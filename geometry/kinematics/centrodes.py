@@ -17,7 +17,7 @@ from geometry.base.errors import ParameterError, limit
 from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
 from geometry.base.series import FACTORIALS, Series, majorant_power, power, quotient, sharpened
-from geometry.curves.curve import Complex, Real
+from geometry.curves.curve import Real
 from geometry.kinematics.motion import Pose
 
 _PANELS, _NODES = 64, 16
@@ -170,12 +170,6 @@ class CentrodePair(Record):
         angle = [-self.mate_angle(t), *(-rate[k] / (k + 1) for k in range(order))]
         zero = 0.0 * np.asarray(t, dtype=float)
         return [self.centre_distance + zero, *([zero] * order)], angle
-
-    def mate_point(self, angle: ArrayLike) -> Complex:
-        """The second centrode in its own body's frame, which agrees with the fixed axes at phi_1 = 0."""
-        at = np.asarray(angle, dtype=float)
-        radius = self.centre_distance - self.first.series(at, 0)[0]
-        return -radius * np.exp(1j * self.mate_angle(at))
 
     def curvatures(self, angle: ArrayLike) -> tuple[Real, Real]:
         """Curvatures of both centrodes where they touch at phi_1, 1/mm, positive where convex.

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from geometry.curves.curve import Complex, Curve, Real, start_point
 from geometry.curves.line_arc import Arc, Line
-from geometry.plane.profile import Profile, Region
+from geometry.plane.profile import Profile
 
 _GAUSS_POINTS = 20
 _GAUSS_PANELS = 4
@@ -74,11 +74,6 @@ def panels(breaks: Real, count: int) -> tuple[Real, Real]:
     nodes, weights = gauss_rule(count)
     half = np.diff(breaks)[:, None] / 2
     return ((breaks[:-1] + breaks[1:])[:, None] / 2 + half * nodes).ravel(), (half * weights).ravel()
-
-
-def region_area(region: Region) -> float:
-    """Area of the material, mm^2."""
-    return sum(profile_area(p) for p in region.profiles())
 
 
 def distance_to_profile(points: Complex, profile: Profile, *, trusted: float = 0.0) -> Real:

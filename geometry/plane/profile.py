@@ -87,10 +87,6 @@ class Profile(Record):
             tuple(Segment(s.curve.placed(placement), s.label) for s in self.period), self.count, self.clockwise
         )
 
-    def labelled(self, label: Label) -> list[Curve]:
-        """The curves of one period that carry a label."""
-        return [s.curve for s in self.period if s.label is label]
-
     def reach(self) -> float:
         """Greatest distance of a segment end from the origin, mm."""
         return max(abs(start_point(s.curve)) for s in self.period)

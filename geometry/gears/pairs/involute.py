@@ -171,13 +171,6 @@ class InvolutePair(Record, Generic[G, S], dict=True):
         """eps_alpha from the angles at the tips, relieved flanks counted; practicum (3.20), ISO 21771."""
         return self._ratio_between(*self.tip_pressure_angles)
 
-    @property
-    def main_flank_contact_ratio(self) -> float:
-        """eps_alpha of the main flanks alone: equal to ``contact_ratio`` where no tip is relieved."""
-        tips = [flank_radii(side, relief=False)[1] for side in self.sides]
-        one = math.acos(self.first.base_radius / tips[0])
-        return self._ratio_between(one, math.acos(self.second.base_radius / tips[1]))
-
     def _ratio_between(self, first_tip: float, second_tip: float) -> float:
         """(z1 tan(alpha_a1) + z2 tan(alpha_a2) - (z1 + z2) tan(alpha_w)) / (2 pi)."""
         z1, z2 = self.first.number_of_teeth, signed(self.second).teeth

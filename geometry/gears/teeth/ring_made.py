@@ -86,13 +86,6 @@ def settled_ring(gear: RingGear) -> RingGear:
     return next(_made(gear), None) or _with_yielding_tip(gear) or next(_with_cutters(gear), gear)
 
 
-def with_default_cutter(gear: RingGear) -> RingGear:
-    """The ring as ``settled_ring`` has it, whatever cutter it came with: only the cutter's heights stay."""
-    root = gear.root if isinstance(gear.root, PinionCutter) else None
-    cutter = root or PinionCutter(gear.module, DEFAULT_CUTTER_TEETH[0], gear.pressure_angle)
-    return settled_ring(replace(gear, root=cutter, any_cutter=True))
-
-
 def _made(gear: RingGear) -> Iterator[RingGear]:
     """The ring with each cutter that can make it."""
     for tried in _with_cutters(gear):

@@ -90,10 +90,10 @@ def _area_times_width(keys: dict[str, Any]) -> float | None:
     """Volume by Cavalieri from the same part without a helix of its transverse section; None where a web is cut out."""
     if "web" in keys:
         return None
-    from geometry.plane.measure import region_area
+    from geometry.plane.measure import profile_area
 
     made = make_parts(scene_from_dict({"parts": {"p": keys}}, "test", "test"), "test")[0]["p"]
-    return region_area(made.section(0.0).region) * keys.get("face_width", 10.0)
+    return sum(profile_area(p) for p in made.section(0.0).region.profiles()) * keys.get("face_width", 10.0)
 
 
 @needs_kernel

@@ -16,12 +16,9 @@ import pytest
 from geometry.base.errors import ParameterError
 from geometry.base.series import Series
 from geometry.curves.curve import Real
-from geometry.kinematics.groups import dyad, prescribed
-from geometry.kinematics.linkage import RockerGuide, SliderGuide
-from geometry.kinematics.mechanism import FRAME, Fixed, Joint, Mechanism, Prismatic, Revolute, Rolling
-from geometry.kinematics.motion import GivenMotion, Pose
+from geometry.kinematics.mechanism import FRAME, Fixed, Group, Joint, Mechanism, Prismatic, Revolute, Rolling
 from geometry.kinematics.moving import Drive, moving
-from tests.oracles.envelope import Rotation, instant_centre
+from tests.oracles.envelope import instant_centre
 
 # z1 = 40, z2 = 40, z3 = 120 of seed 001, example 7 with the satellite that fits, in m 2
 JAMES = Mechanism(
@@ -139,91 +136,8 @@ def test_a_rack_travels_and_carries() -> None:
     assert moved.turn("rack", 2.5) == pytest.approx(2.5 * math.pi * 50, rel=1e-15)
 
 
-A, B, C, D = 0j, 100 + 20j, 40.0, 70.0
-
-
-def crank_and(group: Any, *more: Joint) -> Any:
-    return moving(Mechanism((Revolute("crank", at=A), group, *more)), (Drive("crank"),))
-
-
-def rocker_angle(t: Any) -> Any:
-    """Freudenstein by circles that cut, at 50 digits: the rocker's angle of a four-bar 30, 95, 70."""
-    joint = 30 * mp.expjpi(2 * t)
-    way = mp.mpmathify(B) - joint
-    far = abs(way)
-    along = (far**2 + 95**2 - 70**2) / (2 * far)
-    point = joint + way / far * (along + 1j * mp.sqrt(95**2 - along**2))
-    return point - mp.mpmathify(B)
-
-
-def test_a_dyad_is_a_group() -> None:
-    """A four-bar, and a wheel train driven by its rocker; velocities and accelerations by 50 digits."""
-    group = dyad(("coupler", "rocker"), ("crank", 30), (FRAME, RockerGuide(B, D)), 95.0)
-    wheel = (Revolute("wheel", at=B + 60), Rolling("external", "rocker", "wheel", (30, 15)))
-    bar = crank_and(group, *wheel)
-    for t in (0.05, 0.4, 0.77):
-        place, angle = bar.pose("coupler", np.array(t), 2)
-        end = [p + 95 * u for p, u in zip(place, unit(angle), strict=True)]
-        assert close(end, series(lambda x: mp.mpmathify(B) + rocker_angle(x), t, 2))
-        angles = bar.pose("rocker", np.array(t), 2)[1]
-        assert close(angles, series(lambda x: mp.arg(rocker_angle(x)), t, 2))
-        start = float(bar.pose("rocker", np.array(0.0), 0)[1][0])
-        turned = bar.pose("wheel", np.array(t), 2)[1]
-        assert [float(x) for x in turned] == pytest.approx(
-            [-2 * (float(angles[0]) - start), -2 * float(angles[1]), -2 * float(angles[2])]
-        )
-
-
-def unit(angle: Series) -> Series:
-    from geometry.base.series import exponential
-
-    return exponential([1j * x for x in angle])
-
-
-def test_a_dyad_on_moving_links() -> None:
-    """A slider that runs on a turning bar (Whitworth's guide): B stays on the bar, AB keeps its length."""
-    bar = Revolute("bar", at=B)
-    group = dyad(("coupler", "slider"), ("crank", 30), ("bar", SliderGuide(5j, 0.2)), 150.0)
-    moved = moving(Mechanism((Revolute("crank"), bar, group)), (Drive("crank"), Drive("bar", Fraction(-1, 3))))
-    t = np.linspace(0, 1, 40)
-    joint, angle = moved.pose("coupler", t, 2)
-    slider, slides = moved.pose("slider", t, 2)
-    rail, turned = moved.pose("bar", t, 2)
-    assert np.allclose(joint[0], 30 * np.exp(2j * math.pi * t), atol=1e-12)
-    assert np.allclose(slider[0], joint[0] + 150 * np.exp(1j * angle[0]), atol=1e-11)
-    assert np.allclose(
-        ((slider[0] - rail[0]) * np.exp(-1j * turned[0]) - 5j) * np.exp(-0.2j), _real_part(slider, rail, turned)
-    )
-    assert np.allclose(slides[0], turned[0] + 0.2)
-
-
-def _real_part(slider: Series, rail: Series, turned: Series) -> Real:
-    return (((slider[0] - rail[0]) * np.exp(-1j * turned[0]) - 5j) * np.exp(-0.2j)).real
-
-
-def lift(angle: Real, order: int) -> Pose:
-    """S = 5 (1 - cos phi) along +y."""
-    rise = [40 + 5 * (1 - np.cos(angle)), 5 * np.sin(angle), 5 * np.cos(angle) / 2][: order + 1]
-    return [1j * x for x in rise], [0.0 * angle for _ in range(order + 1)]
-
-
-def test_a_cam_on_a_carrier_lifts_its_follower() -> None:
-    """The law hangs on the cam's turn against its carrier, and the follower rides on the carrier."""
-    cam = (*JAMES.joints, prescribed("follower", "2", GivenMotion(lift), on="H"))
-    moved = moving(Mechanism(cam, JAMES.held), (Drive("1"),))
-    t = 0.7
-    place, angle = moved.pose("follower", np.array(t), 2)
-
-    def wanted(x: Any) -> Any:
-        cam_turn = 2 * mp.pi * x * (mp.mpf(-1) / 2 - mp.mpf(1) / 4)
-        return mp.expjpi(2 * x / 4) * 1j * (40 + 5 * (1 - mp.cos(cam_turn)))
-
-    assert close(place, series(wanted, t, 2))
-    assert float(angle[1]) == pytest.approx(math.pi / 2)
-
-
 def test_what_moves_itself_is_refused() -> None:
-    law = prescribed("follower", "wheel", Rotation(2.0))
+    law = Group(("follower",), (FRAME, "wheel"), lambda given: [given[1]], (1, 1))
     train = (Revolute("wheel"), Rolling("external", "follower", "wheel", (20, 20)), law)
     with pytest.raises(ParameterError, match="moves_itself"):
         moving(Mechanism(train), ())

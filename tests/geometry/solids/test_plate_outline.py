@@ -19,7 +19,8 @@ from geometry.cams.contact.outlines import (
     round_arm,
 )
 from geometry.curves.line_arc import Line
-from geometry.plane.measure import region_area
+from geometry.plane.measure import profile_area
+from geometry.plane.profile import Region
 from geometry.solids.plate import Edge, PlateHole, PlateOutline, PlateSlot, moved_edges, rounded
 from tests.sampling import examples
 
@@ -35,6 +36,10 @@ SHAPES = {
     "pointed arm": pointed_arm(60, 8, 16, (0.8, 10), 1),
     "pointed arm, right": pointed_arm(60, 8, 16, (0.8, 10), -1),
 }
+
+
+def region_area(region: Region) -> float:
+    return sum(profile_area(p) for p in region.profiles())
 
 
 def polygon(edges: tuple[Edge, ...], samples: int = 1500) -> shapely.Polygon:

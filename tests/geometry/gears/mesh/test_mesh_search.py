@@ -32,6 +32,7 @@ from geometry.gears.teeth.transverse_ring import transverse_ring
 from geometry.plane import distance as contact
 from geometry.plane.distance import Verdict
 from tests import brute
+from tests.oracles.contact_ratio import main_flank_contact_ratio
 
 ALPHA = math.radians(20.0)
 PIECES = "geometry.gears.mesh.least_gap._Pieces"
@@ -107,7 +108,7 @@ def check_section(pair: ExternalPair) -> None:
     assert found.verdict is not Verdict.UNDECIDED, pair
     struck = any(m.margin < 1e-3 for m in pair.margins() if m.name.startswith(("fillet", "active", "tip")))
     # flanks that only meet on their relief part from the ideal
-    ratio = min(pair.main_flank_contact_ratio, pair.effective_contact_ratio)
+    ratio = min(main_flank_contact_ratio(pair), pair.effective_contact_ratio)
     if not struck and abs(ratio - 1) > 1e-6:
         assert found.verdict is (Verdict.CONTACT if ratio > 1 else Verdict.CLEAR), pair
         assert found.touches == (ratio > 0)

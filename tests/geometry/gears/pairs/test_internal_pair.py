@@ -24,11 +24,11 @@ from geometry.gears.teeth.internal_mesh import InternalMesh
 from geometry.gears.teeth.limits import undercut
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.ring_limits import checked_ring
-from geometry.gears.teeth.ring_made import with_default_cutter
 from geometry.gears.teeth.spur import SpurGear
 from geometry.plane.distance import Verdict
 from geometry.plane.profile import Label
 from tests import brute
+from tests.strategies import with_default_cutter
 
 ALPHA = math.radians(20.0)
 THESIS = json.loads((Path(__file__).parents[3] / "published" / "power_module_internal_pair.json").read_text("utf-8"))

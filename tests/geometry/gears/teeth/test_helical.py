@@ -16,7 +16,6 @@ from geometry.gears.teeth.offset import gear_region
 from geometry.gears.teeth.rack import Rack, rack_region
 from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.ring_limits import root_form_diameter
-from geometry.gears.teeth.ring_made import with_default_cutter
 from geometry.gears.teeth.ring_offset import ring_region
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import transverse_gear, transverse_rack
@@ -29,6 +28,7 @@ from geometry.solids.screw import cut_twists, heights, turn_error, turn_spans, t
 from parts.solids.mesh import Mesh, body_mesh, mesh_outlines
 from tests.oracles.rack_sweep import RackTool
 from tests.oracles.space_rack import space_penetration
+from tests.strategies import with_default_cutter
 
 GEARS = {
     "m 2 z 23, 30 degrees": (SpurGear(2.0, 23, iso_53("A")), 30.0),

@@ -17,7 +17,6 @@ from geometry.gears.teeth.cutter import PinionCutter, checked_cutter, full_round
 from geometry.gears.teeth.internal_mesh import InternalMesh
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.ring_limits import checked_ring
-from geometry.gears.teeth.ring_made import with_default_cutter
 from geometry.gears.teeth.ring_offset import ring_region
 from geometry.gears.teeth.ring_tooth import flank_ends, ring_side
 from geometry.plane.measure import profile_area
@@ -25,7 +24,7 @@ from geometry.plane.profile import Label, Profile, Region, joint_turn
 from tests import brute
 from tests.oracles.cutter_sweep import CutterTool, least_distance
 from tests.sampling import examples
-from tests.strategies import numbers
+from tests.strategies import numbers, with_default_cutter
 
 ALPHA = math.radians(20.0)
 RIGHT = 1e-12
