@@ -54,13 +54,13 @@ def followed(
     Raises
     ------
     ParameterError
-        A point is out of reach, or a piece (``path.item k``, k from 1) begins where none ends.
+        A point is out of reach, or a piece (``path[k]``, k from 1) begins where none ends.
     """
     rows = _Rows(elbow, 0.0 if start is None else start)
     for number, piece in enumerate(path, 1):
         begin = complex(piece.point(piece.domain[0]))
         if number > 1 and abs(begin - rows.end) > _JOINT:
-            raise ParameterError(f"path.item {number}", number, "pieces_part", None, x=begin.real, y=begin.imag)
+            raise ParameterError(f"path[{number}]", number, "pieces_part", None, x=begin.real, y=begin.imag)
         for low, high in pairwise(_nodes(table, piece)):
             rows.run(table, piece, (low, high), tolerance, turns=number > 1 or start is not None)
         rows.end = complex(piece.point(piece.domain[1]))

@@ -138,7 +138,7 @@ def law_of_diagram(name: str, stretches: Sequence[Stretch], *, balance: bool = F
     widths = [s.width for s in stretches]
     for index, width in enumerate(widths):
         if not width > 0 or not math.isfinite(width):
-            raise ParameterError(f"diagram.item {index + 1}.width", width, "not_above_zero")
+            raise ParameterError(f"diagram[{index + 1}].width", width, "not_above_zero")
     whole = sum(widths)
     parts = [Stretch(s.width / whole, s.coefficients, s.waves) for s in stretches]
     areas = [_area(s) for s in parts]

@@ -160,7 +160,7 @@ class HubHoles(Record):
     def groups(self) -> list[tuple[str, RoundHoles]]:
         """Groups of round holes with the names of their tables."""
         lone = len(self.round_holes) == 1
-        return [("holes" if lone else f"holes.item {i + 1}", g) for i, g in enumerate(self.round_holes)]
+        return [("holes" if lone else f"holes[{i + 1}]", g) for i, g in enumerate(self.round_holes)]
 
     def _rims(self, root_radius: float) -> list[Wall]:
         """What is left below the root circle."""

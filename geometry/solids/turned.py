@@ -127,7 +127,7 @@ def half_section(corners: Sequence[Corner]) -> tuple[Piece, ...]:
     Raises
     ------
     ParameterError
-        ``points.item k``: what they enclose is no half section.
+        ``points[k]``: what they enclose is no half section.
     """
     corners = list(corners)
     size, turned = len(corners), _signed(corners) < 0
@@ -151,7 +151,7 @@ def half_section(corners: Sequence[Corner]) -> tuple[Piece, ...]:
                 corner = corners[k] if begin != edge.start else corners[(k + 1) % len(corners)]
                 number = numbers[k] if corner is corners[k] else numbers[(k + 1) % len(corners)]
                 key, value = ("chamfer", corner.chamfer) if corner.chamfer else ("fillet", corner.fillet)
-                raise ParameterError(f"points.item {number}.{key}", value, "corner_longer_than_edge")
+                raise ParameterError(f"points[{number}].{key}", value, "corner_longer_than_edge")
             if left <= _SAME * abs(way):
                 continue
         found.append(Piece(begin, end, edge.centre, edge.convex))
@@ -169,19 +169,19 @@ def _signed(corners: Sequence[Corner]) -> float:
 def _edge(one: Corner, two: Corner, number: int) -> Piece:
     chord = two.at - one.at
     if abs(chord) <= _SAME * max(abs(one.at), abs(two.at)):
-        raise ParameterError(f"points.item {number}.z", one.at.imag, "two_points_are_one")
+        raise ParameterError(f"points[{number}].z", one.at.imag, "two_points_are_one")
     if not one.arc:
         return Piece(one.at, two.at)
     rest = one.arc**2 - abs(chord) ** 2 / 4
     if rest < -_SAME * one.arc**2:
         least = limit(math.copysign(abs(chord) / 2 * (1 + _SAME), one.arc), one.arc, digits=6)
-        raise ParameterError(f"points.item {number}.arc", one.arc, "arc_shorter_than_chord", least)
+        raise ParameterError(f"points[{number}].arc", one.arc, "arc_shorter_than_chord", least)
     side = 1 if one.arc > 0 else -1
     centre = (one.at + two.at) / 2 + 1j * side * chord / abs(chord) * math.sqrt(max(rest, 0.0))
     if abs(centre.real) <= _SAME * abs(one.arc):
         centre = complex(0.0, centre.imag)
     if centre.real < 0:
-        raise ParameterError(f"points.item {number}.arc", one.arc, "arc_about_beyond_axis")
+        raise ParameterError(f"points[{number}].arc", one.arc, "arc_about_beyond_axis")
     return Piece(one.at, two.at, centre, one.arc > 0)
 
 
@@ -191,20 +191,20 @@ def _cut(before: Piece, after: Piece, corner: Corner, number: int) -> tuple[comp
     if not size:
         return corner.at, corner.at, None
     if before.centre is not None or after.centre is not None:
-        raise ParameterError(f"points.item {number}.{key}", size, "corner_of_an_arc")
+        raise ParameterError(f"points[{number}].{key}", size, "corner_of_an_arc")
     back, ahead = before.start - before.end, after.end - after.start
     back, ahead = back / abs(back), ahead / abs(ahead)
     turn = math.atan2((-back.conjugate() * ahead).imag, (-back.conjugate() * ahead).real)
     # on the axis half a section has no corner that the solid would have
     if abs(turn) < _SAME or corner.at.real == 0:
-        raise ParameterError(f"points.item {number}.{key}", size, "corner_is_straight")
+        raise ParameterError(f"points[{number}].{key}", size, "corner_is_straight")
     leg = size if key == "chamfer" else size * math.tan(abs(turn) / 2)
     ends = corner.at + leg * back, corner.at + leg * ahead
     if key == "chamfer":
         return (*ends, Piece(*ends))
     centre = ends[0] + size * (1j if turn > 0 else -1j) * -back
     if centre.real < 0:
-        raise ParameterError(f"points.item {number}.fillet", size, "arc_about_beyond_axis")
+        raise ParameterError(f"points[{number}].fillet", size, "arc_about_beyond_axis")
     return (*ends, Piece(*ends, centre, turn > 0))
 
 

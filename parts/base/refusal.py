@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection
 
 from msgspec import Struct
@@ -90,9 +89,7 @@ def sentence(refusal: SceneError, language: str = ENGLISH) -> str:
     """The one line that a user reads: file, key, value, what is wrong, what would work."""
     # a table is told by its key alone
     given = "" if refusal.value is None or isinstance(refusal.value, Struct) else f" = {_shown(refusal.value)}"
-    # in a list as places of mates and exports are told: holes[2].diameter
-    key = re.sub(r"\.item (\d+)", r"[\1]", refusal.key)
-    place = f"{refusal.source}: {key}{given}" if key else refusal.source or '""'
+    place = f"{refusal.source}: {refusal.key}{given}" if refusal.key else refusal.source or '""'
     line = f"{place}: {words(language).say(explained(refusal))}"
     return "".join(c if c.isprintable() else "?" for c in line)
 

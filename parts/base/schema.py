@@ -51,7 +51,7 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
     path = re.search(r" - at `\$\.?(.*?)`$", text)
     message = text[: path.start()] if path else text
     keys = [k for k in re.split(r"[.\[\]]+", path.group(1) if path else "") if k]
-    where = ".".join([place, *(f"item {int(k) + 1}" if k.isdigit() else k for k in keys)])
+    where = "".join([place, *(f"[{int(k) + 1}]" if k.isdigit() else f".{k}" for k in keys)])
     if unknown := re.search(r"unknown field `(.*?)`", message):
         owner, name = _owner(kind, keys, table), unknown.group(1)
         tag = owner.__struct_config__.tag_field
@@ -290,8 +290,8 @@ def phrase_of(kind: type[Struct]) -> str:
 
 
 def _steps(path: str) -> list[str | int]:
-    """The keys and indices of a place as refusals write it: ``holes.item 2.diameter``."""
-    return [int(w[5:]) - 1 if w.startswith("item ") else w for w in path.split(".")]
+    """The keys and indices of a place as refusals write it: ``holes[2].diameter``."""
+    return [int(number) - 1 if number else key for number, key in re.findall(r"\[(\d+)\]|([^.[]+)", path)]
 
 
 def replaced(keys: object, path: str, value: object) -> Any:

@@ -77,8 +77,8 @@ class Layered(Kind[LayeredSpec, "Layers"]):
         made = []
         for number, table in enumerate(keys.layers, 1):
             if not (table.circles or table.polygons or table.slots):
-                raise ParameterError(f"layers.item {number}", 0, "layer_of_nothing")
-            made.append(Layer(table.thickness, tuple(_contours(table, f"layers.item {number}"))))
+                raise ParameterError(f"layers[{number}]", 0, "layer_of_nothing")
+            made.append(Layer(table.thickness, tuple(_contours(table, f"layers[{number}]"))))
         return Layers(tuple(made)).checked()
 
     def section(self, keys: LayeredSpec, thing: Layers, offset: float) -> OffsetRegion:
@@ -129,11 +129,11 @@ def _contours(table: LayerTable, place: str) -> list[Contour]:
         try:
             found.append(Contour(rounded([(p, polygon.corner_radius) for p in ordered])))
         except (GeometryError, ZeroDivisionError) as error:
-            name = f"{place}.polygons.item {number}.corner_radius"
+            name = f"{place}.polygons[{number}].corner_radius"
             raise ParameterError(name, polygon.corner_radius, "roundings_meet") from error
     for number, slot in enumerate(table.slots, 1):
         if slot.start == slot.end:
-            raise ParameterError(f"{place}.slots.item {number}.end", list(slot.end), "slot_ends_at_start")
+            raise ParameterError(f"{place}.slots[{number}].end", list(slot.end), "slot_ends_at_start")
         ends = ((complex(*at), slot.width / 2) for at in (slot.start, slot.end))
         found.append(Contour(belt(*ends)))
     return found

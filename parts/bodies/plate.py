@@ -87,25 +87,25 @@ def checked_outline(
     # a hole for an axle comes when that stands
     placed = {i: PlateHole(complex(*h.at), h.diameter) for i, h in enumerate(keys.holes, 1) if h.at is not None}
     holes = (*(PlateHole(at, d) for _, at, d in own), *placed.values())
-    names = [*(key for key, _, _ in own), *(f"holes.item {i}.diameter" for i in placed)]
+    names = [*(key for key, _, _ in own), *(f"holes[{i}].diameter" for i in placed)]
     slots, marks = (_slots(key, getattr(keys, key), names) for key in ("slots", "engraved"))
     try:
         PlateOutline(edges, (*holes, *slots, *marks)).check_holes(names)
     except ParameterError as refusal:
         raise _of_axle(keys, refusal) from refusal
     for number, mark in enumerate(keys.engraved, 1):
-        check_depth(f"engraved.item {number}", mark.depth, keys.face_width)
+        check_depth(f"engraved[{number}]", mark.depth, keys.face_width)
     return PlateOutline(edges, (*holes, *slots))
 
 
 def _of_axle(keys: FlatKeys, refusal: ParameterError) -> ParameterError:
     """A refusal of a hole as its axle tells it: that hole cannot be moved, and its size is not what is wrong."""
-    number = re.fullmatch(r"holes\.item (\d+)\.diameter", refusal.name)
+    number = re.fullmatch(r"holes\[(\d+)\]\.diameter", refusal.name)
     hole = keys.holes[int(number[1]) - 1] if number else None
     if number is None or hole is None or hole.axis_of is None or hole.at is None:
         return refusal
     x, y = (round(value, 4) + 0.0 for value in hole.at)
-    place = f"holes.item {number[1]}.axis_of"
+    place = f"holes[{number[1]}].axis_of"
     return ParameterError(place, hole.axis_of, "hole_of_axle_outside", axle=hole.axis_of, x=x, y=y)
 
 
@@ -115,8 +115,8 @@ def _slots(key: str, tables: Sequence[SlotTable], names: list[str]) -> tuple[Pla
 
     for number, table in enumerate(tables, 1):
         if table.start == table.end:
-            raise ParameterError(f"{key}.item {number}.end", list(table.end), "slot_ends_at_start")
-        names.append(f"{key}.item {number}.width")
+            raise ParameterError(f"{key}[{number}].end", list(table.end), "slot_ends_at_start")
+        names.append(f"{key}[{number}].width")
     return tuple(PlateSlot(complex(*t.start), complex(*t.end), t.width) for t in tables)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
 
@@ -208,7 +209,7 @@ class Turned(_Turned[TurnedSpec]):
 
         for k, p in enumerate(keys.points, 1):
             if p.chamfer and p.fillet:
-                raise either(f"points.item {k}.chamfer", p.chamfer, "fillet", 0.0)
+                raise either(f"points[{k}].chamfer", p.chamfer, "fillet", 0.0)
         pieces = half_section([Corner(complex(p.r, p.z), p.arc, p.chamfer, p.fillet) for p in keys.points])
         groups = [keys.holes] if isinstance(keys.holes, HolesTable) else keys.holes or []
         holes = []
@@ -241,7 +242,8 @@ class Shaft(_Turned[ShaftSpec]):
         try:
             pieces = half_section(corners)
         except ParameterError as refusal:
-            number = int(refusal.name.partition("item ")[2].partition(".")[0] or 1)
+            place = re.match(r"points\[(\d+)\]", refusal.name)
+            number = int(place[1]) if place else 1
             raise refusal.renamed(owners[number - 1]) from refusal
         return HalfSection(pieces, (), tuple(_pockets(keys)))
 
@@ -263,7 +265,7 @@ def _check_shaft(keys: ShaftSpec) -> None:
             raise ParameterError("bore_diameter", keys.bore_diameter, "leaves_no_wall", cure)
         place = step.chamfer
         for number, groove in enumerate(sorted(step.grooves, key=lambda g: g.at), 1):
-            name = f"steps.item {k}.grooves.item {number}"
+            name = f"steps[{k}].grooves[{number}]"
             if groove.diameter >= step.diameter:
                 cure = limit(step.diameter * (1 - 1e-6), groove.diameter, digits=6)
                 raise ParameterError(f"{name}.diameter", groove.diameter, "groove_not_in_step", cure)
@@ -290,14 +292,14 @@ def _outline(keys: ShaftSpec) -> Iterator[tuple[Corner, str]]:
     yield from ((Corner(at), "centre_holes.diameter") for at in low)
     z, steps, before = 0.0, keys.steps, keys.bore_diameter / 2
     for k, step in enumerate(steps):
-        radius, own = step.diameter / 2, f"steps.item {k + 1}"
+        radius, own = step.diameter / 2, f"steps[{k + 1}]"
         if radius > before:
             if k:
                 last = steps[k - 1]
-                yield Corner(complex(before, z), fillet=last.fillet), f"steps.item {k}.fillet"
+                yield Corner(complex(before, z), fillet=last.fillet), f"steps[{k}].fillet"
             yield Corner(complex(radius, z), chamfer=step.chamfer), f"{own}.chamfer"
         elif radius < before:
-            yield Corner(complex(before, z), chamfer=steps[k - 1].chamfer), f"steps.item {k}.chamfer"
+            yield Corner(complex(before, z), chamfer=steps[k - 1].chamfer), f"steps[{k}].chamfer"
             yield Corner(complex(radius, z), fillet=step.fillet), f"{own}.fillet"
         for groove in sorted(step.grooves, key=lambda g: g.at):
             depth, ends = groove.diameter / 2, (z + groove.at, z + groove.at + groove.width)
@@ -306,7 +308,7 @@ def _outline(keys: ShaftSpec) -> Iterator[tuple[Corner, str]]:
             yield Corner(complex(depth, ends[1]), fillet=groove.fillet), f"{own}.grooves"
             yield Corner(complex(radius, ends[1])), f"{own}.grooves"
         z, before = z + step.length, radius
-    yield Corner(complex(before, z), chamfer=steps[-1].chamfer), f"steps.item {len(steps)}.chamfer"
+    yield Corner(complex(before, z), chamfer=steps[-1].chamfer), f"steps[{len(steps)}].chamfer"
     yield from ((Corner(complex(at.real, z - at.imag)), "centre_holes.diameter") for at in low[::-1])
 
 
@@ -341,13 +343,13 @@ def _pockets(keys: ShaftSpec) -> Iterator[Pocket]:
     for k, step in enumerate(keys.steps, 1):
         made: list[Pocket] = []
         for number, way in enumerate(step.keyways, 1):
-            name, radius = f"steps.item {k}.keyways.item {number}", step.diameter / 2
+            name, radius = f"steps[{k}].keyways[{number}]", step.diameter / 2
             width, depth = way.width, way.depth
             if width is None or depth is None:
                 try:
                     row = keyway_row(way.standard, step.diameter)
                 except ParameterError as refusal:
-                    raise refusal.renamed(f"steps.item {k}.diameter") from refusal
+                    raise refusal.renamed(f"steps[{k}].diameter") from refusal
                 width, depth = width or row.width, depth or row.shaft_depth
             floor = radius - depth
             rim = math.sqrt(max(radius**2 - width**2 / 4, 0.0))

@@ -110,7 +110,7 @@ def motion_of(keys: Moved, swings: bool) -> FollowerMotion:
             return motion_of_table([math.radians(a) for a, _ in table], [s * unit for _, s in table])
         except ParameterError as refusal:
             # a lift of a row stands in the unit of its key
-            raise refusal.renamed(refusal.name, 1 / unit if refusal.name.endswith(".item 2") else None) from refusal
+            raise refusal.renamed(refusal.name, 1 / unit if refusal.name.endswith("[2]") else None) from refusal
     if phases is None:
         raise ParameterError("phases", None, "phases_or_table")
     if not lift > 0:
@@ -123,7 +123,7 @@ def motion_of(keys: Moved, swings: bool) -> FollowerMotion:
             check_dwell(phase, index)
             made.append(dwell(angle))
             continue
-        law = law_of(phase.law, f"phases.item {index + 1}.law")
+        law = law_of(phase.law, f"phases[{index + 1}].law")
         made.append((rise if phase.move == "rise" else return_)(angle, phase.share * lift, law))
     _check_whole_turn(phases)
     _check_return(phases)
@@ -151,7 +151,7 @@ def check_stroke(keys: Stroke, swings: bool, *, tabled: bool, table: str = "osci
 
 def check_dwell(phase: MovingPhase, index: int) -> None:
     """A dwell has neither law nor share; refused by the one that it has."""
-    place = f"phases.item {index + 1}"
+    place = f"phases[{index + 1}]"
     if phase.law is not None and phase.share != 1:
         raise ParameterError(f"{place}.move", "dwell", "dwell_with_law")
     if phase.law is not None:
@@ -167,7 +167,7 @@ def rough_law(keys: Sequence[MovingPhase], phases: Sequence[Phase]) -> tuple[str
         ends = () if phase.law is None else ((phase.law.pieces[0], 0.0), (phase.law.pieces[-1], 1.0))
         if any(abs(float(piece.value(at, 1))) > _ROUGH for piece, at in ends):
             law = keys[index].law
-            return f"phases.item {index + 1}.law", law if isinstance(law, str) else None
+            return f"phases[{index + 1}].law", law if isinstance(law, str) else None
     return None
 
 
@@ -182,7 +182,7 @@ def _check_whole_turn(phases: list[PhaseTable]) -> None:
         index = angles.index(min(angles))
     fitting = round(angles[index] + 360 - whole, 9)
     works = Nearest(fitting) if fitting > 0 else None
-    raise ParameterError(f"phases.item {index + 1}.angle_deg", angles[index], "phases_not_a_turn", works, whole=whole)
+    raise ParameterError(f"phases[{index + 1}].angle_deg", angles[index], "phases_not_a_turn", works, whole=whole)
 
 
 def _check_return(phases: list[PhaseTable]) -> None:
@@ -195,10 +195,10 @@ def _check_return(phases: list[PhaseTable]) -> None:
         sign, own = signs[phases[index].move], phases[index].share
         fitting = round(own - sign * total, 12)
         if sign and 0 < fitting <= 1:
-            raise ParameterError(f"phases.item {index + 1}.share", own, "does_not_come_back", Nearest(fitting))
+            raise ParameterError(f"phases[{index + 1}].share", own, "does_not_come_back", Nearest(fitting))
     rest = next((k for k, p in reversed(list(enumerate(phases))) if p.move == "dwell"), None)
     if rest is not None:
-        raise ParameterError(f"phases.item {rest + 1}.move", "dwell", "does_not_come_back")
+        raise ParameterError(f"phases[{rest + 1}].move", "dwell", "does_not_come_back")
     one_way = next(k for k, p in reversed(list(enumerate(phases))) if signs[p.move] * total > 0)
     other = Nearest("return_" if total > 0 else "rise")
-    raise ParameterError(f"phases.item {one_way + 1}.move", phases[one_way].move, "does_not_come_back", other)
+    raise ParameterError(f"phases[{one_way + 1}].move", phases[one_way].move, "does_not_come_back", other)

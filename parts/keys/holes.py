@@ -246,7 +246,7 @@ def with_remedy(refusal: ParameterError, keys: K, fits: Callable[[K], bool]) -> 
     """
     owner, _, key = refusal.name.rpartition(".")
     if isinstance(value_at(keys, owner), list):
-        owner = f"{owner}.item 1"
+        owner = f"{owner}[1]"
     table = value_at(keys, owner)
     if not owner.startswith(("bore", "holes", "spokes")) or not isinstance(table, Struct):
         return refusal

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from typing import Annotated
 
@@ -73,13 +74,13 @@ def check_holes(keys: BoredKeys, holes: HubHoles, radius: float, own: int = 0, c
 
 def _renamed(refusal: ParameterError, holes: HubHoles, own: int) -> ParameterError:
     """A refusal of a group of holes under its number in the scene; what meets a part's own group is the bore."""
-    table, *place, key = refusal.name.split(".")
-    if table != "holes" or not own:
+    place = re.fullmatch(r"holes(?:\[(\d+)\])?\.(\w+)", refusal.name)
+    if place is None or not own:
         return refusal
-    number = (int(place[0].removeprefix("item ")) if place else 1) - own
+    number, key = int(place[1] or 1) - own, place[2]
     if number < 1 and holes.bore is not None:
         return ParameterError(*holes.bore.size, "bore_reaches_pins")
-    return refusal.renamed(f"holes.{key}" if len(holes.round_holes) - own == 1 else f"holes.item {number}.{key}")
+    return refusal.renamed(f"holes.{key}" if len(holes.round_holes) - own == 1 else f"holes[{number}].{key}")
 
 
 def moved_region(build: Callable[[float], Region], offset: float) -> OffsetRegion:

@@ -163,12 +163,12 @@ class PlanetarySetRecipe(Recipe[PlanetarySetKeys]):
         found = Expansion()
         for wheel in dict.fromkeys(made.wheels):
             found.parts[wheel.id] = _wheel_part(made, wheel)
-            path, item = f"parts.{wheel.id}", f"item {wheel.item}"
-            found.origins[f"{path}.number_of_teeth"] = f"teeth.{item}"
+            path = f"parts.{wheel.id}"
+            found.origins[f"{path}.number_of_teeth"] = f"teeth[{wheel.item}]"
             found.origins[f"{path}.module"] = "module"
             found.origins[f"{path}.face_width"] = "face_width"
             if keys.shifts is not None:
-                found.origins[f"{path}.profile_shift_coefficient"] = f"shifts.{item}"
+                found.origins[f"{path}.profile_shift_coefficient"] = f"shifts[{wheel.item}]"
         _add_meshes(made, found)
         _add_carrier(made, found)
         if keys.frame:

@@ -27,7 +27,7 @@ def waits_for_axles(parts: Parts, instances: dict[str, InstanceSpec], source: st
     found = False
     for part in parts.values():
         for number, hole in enumerate(part.made_by.holes_at(part.keys), 1):
-            place = f"parts.{part.id}.holes.item {number}"
+            place = f"parts.{part.id}.holes[{number}]"
             if hole.axle is None and hole.centre is None:
                 raise SceneError(source, f"{place}.at", None, "no_place_of_hole")
             if hole.axle is None:
@@ -64,7 +64,7 @@ def with_axle_holes(parts: Parts, placing: Placing, source: str) -> dict[str, Ma
             axle = stand[hole.axis_of]
             tilted = next((i for i in (axle, frame) if i.axis != UPWARDS), None)
             if tilted is not None:
-                place = f"parts.{frame.part}.holes.item {index + 1}.axis_of"
+                place = f"parts.{frame.part}.holes[{index + 1}].axis_of"
                 raise SceneError(source, place, hole.axis_of, "axle_not_upright", instance=tilted.id)
             at = (axle.centre - frame.centre) * cmath.exp(-1j * frame.rotation)
             holes[index] = replace(hole, at=(at.real, at.imag))

@@ -211,7 +211,7 @@ def _heads(key: str) -> Iterator[str]:
     """A key, and all that it belongs to, the nearest first."""
     while key:
         yield key
-        key = key.rpartition(".")[0]
+        key = key[: max(key.rfind("."), key.rfind("["), 0)]
 
 
 def load_scene(address: str, language: str | None = None) -> SceneFile:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import re
 from typing import Any
 
 import pytest
@@ -23,9 +24,10 @@ def refused(parts: dict[str, Keys]) -> SceneError:
 
 
 def put(parts: dict[str, Keys], key: str, value: Any) -> dict[str, Keys]:
-    """The parts with the value at a key, ``parts.cam.phases.item 1.law``; None: without it."""
+    """The parts with the value at a key, ``parts.cam.phases[1].law``; None: without it."""
     made: Any = copy.deepcopy(parts)
-    *steps, last = [int(w[5:]) - 1 if w.startswith("item ") else w for w in key.removeprefix("parts.").split(".")]
+    found = re.findall(r"\[(\d+)\]|([^.[]+)", key.removeprefix("parts."))
+    *steps, last = [int(number) - 1 if number else word for number, word in found]
     held = made
     for step in steps:
         held = held[step]

@@ -247,16 +247,16 @@ def motion_of_table(angles: Sequence[float], lifts: Sequence[float]) -> Follower
     if len(at) < 3 or len(at) != len(values):
         raise ParameterError(key, len(at), "table_too_short")
     if at[0] != 0:
-        raise ParameterError(f"{key}.item 1.item 1", math.degrees(at[0]), "table_not_from_zero", Nearest(0.0))
+        raise ParameterError(f"{key}[1][1]", math.degrees(at[0]), "table_not_from_zero", Nearest(0.0))
     if (steps := np.diff(at)).min() <= 0:
         row = int(np.argmin(steps)) + 2
         above, given = math.degrees(at[row - 2]), math.degrees(at[row - 1])
         least = limit(above + 1e-6, given)
-        raise ParameterError(f"{key}.item {row}.item 1", given, "angles_do_not_rise", least, above=above)
+        raise ParameterError(f"{key}[{row}][1]", given, "angles_do_not_rise", least, above=above)
     if abs(at[-1] - TURN) <= _CLOSING:
         if abs(values[-1] - values[0]) > 1e-9 * np.ptp(values):
             first, last = float(values[0]), float(values[-1])
-            raise ParameterError(f"{key}.item {len(at)}.item 2", last, "last_row_not_as_first", Nearest(first))
+            raise ParameterError(f"{key}[{len(at)}][2]", last, "last_row_not_as_first", Nearest(first))
         if len(at) < 4:
             raise _beyond_turn(key, at, "table_too_short")
         at, values = at[:-1], values[:-1]
@@ -269,4 +269,4 @@ def motion_of_table(angles: Sequence[float], lifts: Sequence[float]) -> Follower
 def _beyond_turn(key: str, at: Real, code: str) -> ParameterError:
     """The refusal of a last row that stands at one turn or beyond it."""
     given = math.degrees(at[-1])
-    return ParameterError(f"{key}.item {len(at)}.item 1", given, code, limit(360 * (1 - 1e-9), given))
+    return ParameterError(f"{key}[{len(at)}][1]", given, code, limit(360 * (1 - 1e-9), given))

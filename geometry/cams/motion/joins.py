@@ -35,7 +35,7 @@ def _joined(phase: Phase, before: Phase, after: Phase, index: int) -> Law:
     conditions = [(0.0, 0, 0.0), (1.0, 0, 1.0)]
     for end, neighbour in ((0.0, before), (1.0, after)):
         if neighbour.law is JOIN:
-            raise ParameterError(f"phases.item {index + 1}.law", "join", "joins_side_by_side", Nearest("sine"))
+            raise ParameterError(f"phases[{index + 1}].law", "join", "joins_side_by_side", Nearest("sine"))
         for order in (1, 2):
             rate = 0.0
             if neighbour.law is not None:

@@ -155,7 +155,7 @@ def wedge_motion(phases: Sequence[Phase]) -> WedgeMotion:
     at, s = 0.0, 0.0
     for index, phase in enumerate(phases):
         if not phase.angle > 0:
-            raise ParameterError(f"phases.item {index + 1}.travel", phase.angle, "not_above_zero")
+            raise ParameterError(f"phases[{index + 1}].travel", phase.angle, "not_above_zero")
         end, after = at + phase.angle, s + phase.lift
         if phase.law is None:
             pieces.append(LawPiece(at, end, (s,)))

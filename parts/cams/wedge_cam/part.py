@@ -174,7 +174,7 @@ def wedge_phases(keys: WedgeCamSpec, lift: float) -> list[Phase]:
 
     made = []
     for index, phase in enumerate(keys.phases):
-        place = f"phases.item {index + 1}"
+        place = f"phases[{index + 1}]"
         if phase.move == "dwell":
             check_dwell(phase, index)
             made.append(Phase(phase.travel))
@@ -244,7 +244,7 @@ def _check_holes(keys: WedgeCamSpec, cam: WedgeCam) -> None:
     for index, hole in enumerate(holes):
         at = complex(hole.x, hole.y)
         room = float(distance_to_profile(np.array([at]), outline)[0])
-        key = "holes" if lone else f"holes.item {index + 1}"
+        key = "holes" if lone else f"holes[{index + 1}]"
         others = [abs(at - complex(h.x, h.y)) - h.diameter / 2 for h in holes[:index]]
         most = 2 * (min([room, *others]) - _LEAST_WALL)
         outside = not _inside(cam, keys, at)

@@ -161,7 +161,7 @@ def _check_shaft(keys: WormSpec, root: float) -> None:
     for key in ("shaft_below", "shaft_above"):
         steps: list[StepTable] = getattr(keys, key)
         for number, step in enumerate(steps, 1):
-            place = f"{key}.item {number}"
+            place = f"{key}[{number}]"
             if number == 1 and step.diameter > 2 * root:
                 most = limit(2 * root, step.diameter)
                 raise ParameterError(f"{place}.diameter", step.diameter, "worm_shaft_over_root", most, root=2 * root)

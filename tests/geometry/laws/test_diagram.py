@@ -241,8 +241,8 @@ def test_a_diagram_that_does_not_close_is_told_in_numbers() -> None:
     ([constant(1, -1)], "diagram", "diagram_on_one_side"),
     ([constant(1, 0), linear(1, 0, 0)], "diagram", "diagram_on_axis"),
     ([constant(1, -1), constant(1, 1)], "diagram", "diagram_lifts_nothing"),
-    ([constant(0, 1), constant(1, -1)], "diagram.item 1.width", "not_above_zero"),
-    ([constant(1, 1), constant(math.inf, -1)], "diagram.item 2.width", "not_above_zero"),
+    ([constant(0, 1), constant(1, -1)], "diagram[1].width", "not_above_zero"),
+    ([constant(1, 1), constant(math.inf, -1)], "diagram[2].width", "not_above_zero"),
 ])  # fmt: skip
 def test_a_diagram_is_refused_for_its_own_reason(stretches: list[Stretch], key: str, code: str) -> None:
     told = refusal_of(*stretches)

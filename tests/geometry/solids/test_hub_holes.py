@@ -65,7 +65,7 @@ TOUCHING: dict[str, tuple[HubHoles, str]] = {
     "hole round the bore": (HubHoles(RoundBore(1.0), (RoundHoles(1, 10.0, 3.0),)), "holes.diameter"),
     "hole in a window": (HubHoles(None, (RoundHoles(1, 1.0, 30.0),), Spokes(5, 20.0, 36.0, 3.0)), ""),
     "hole on a spoke": (HubHoles(None, (RoundHoles(5, 3.1, 30.0),), Spokes(5, 20.0, 36.0, 3.0)), "holes.diameter"),
-    "groups": (HubHoles(None, (RoundHoles(3, 5.0, 20.0), RoundHoles(2, 5.0, 22.0))), "holes.item 2.diameter"),
+    "groups": (HubHoles(None, (RoundHoles(3, 5.0, 20.0), RoundHoles(2, 5.0, 22.0))), "holes[2].diameter"),
     "bore in the root": (HubHoles(KeywayBore(40.0, 12.0, 3.3)), "bore.diameter"),
     "windows in the root": (HubHoles(None, (), Spokes(5, 20.0, 41.0, 3.0)), "spokes.outer_diameter"),
     "windows in the bore": (HubHoles(PolygonBore(6, 18.0), (), Spokes(5, 20.0, 36.0, 3.0)), "spokes.inner_diameter"),

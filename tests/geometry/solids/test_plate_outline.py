@@ -97,8 +97,8 @@ def test_holes_that_meet_something_are_refused(hole: PlateHole | PlateSlot) -> N
     outline = PlateOutline(round_arm(60, 20, 20), (PlateHole(0j, 6), hole))
     with pytest.raises(GeometryError):
         outline.region()
-    with pytest.raises(ParameterError, match=r"holes\.item 2"):
-        outline.check_holes(["holes.item 1.diameter", "holes.item 2.diameter"])
+    with pytest.raises(ParameterError, match=r"holes\[2]"):
+        outline.check_holes(["holes[1].diameter", "holes[2].diameter"])
 
 
 def test_roundings_without_room_are_refused() -> None:

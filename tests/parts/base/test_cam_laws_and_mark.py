@@ -78,7 +78,7 @@ CURED = {"key of another", "ramp of a sine", "wide ramp", "knots"}
 def test_a_wrong_law_is_refused_in_its_place(name: str) -> None:
     law, blamed, code = WRONG[name]
     refusal = refused({"cam": with_law(law)})
-    assert (refusal.key, refusal.code) == (f"parts.cam.phases.item 1.{blamed}", code)
+    assert (refusal.key, refusal.code) == (f"parts.cam.phases[1].{blamed}", code)
     assert (refusal.nearest is not None) == (name in CURED)
     if name in CURED:
         cured({"cam": with_law(law)}, refusal)

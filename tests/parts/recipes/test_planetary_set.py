@@ -242,7 +242,7 @@ def test_ferguson_has_three_different_satellites() -> None:
         ({"teeth": [40, 40, 120]}, "satellites", "satellites_not_assembled"),
         ({"teeth": [24, 24, 72], "satellites": 50}, "satellites", "satellites_collide"),
         ({"teeth": [24, 24]}, "teeth", "wheels_of_scheme"),
-        ({"teeth": [2, 24, 72]}, "teeth.item 1", "not_allowed"),
+        ({"teeth": [2, 24, 72]}, "teeth[1]", "not_allowed"),
         ({"teeth": [24, 24, 20]}, "teeth", "ring_not_above_rim"),
         ({"teeth": [24, 24, 82], "satellites": 2}, "teeth", "no_shifts_fit"),
         ({"teeth": [24, 24, 72], "shifts": [0.1, 0.1, 0.5]}, "shifts", "shifts_not_coaxial"),

@@ -106,18 +106,18 @@ def test_calc_names_the_kind_that_works(capsys: pytest.CaptureFixture[str]) -> N
 @pytest.mark.parametrize(
     ("rows", "key", "value", "code"),
     [
-        ([(1.0, 0.0), (2.0, 1.0), (3.0, 2.0)], "item 1.item 1", 1.0, "table_not_from_zero"),
-        ([(0.0, 0.0), (20.0, 1.0), (10.0, 2.0)], "item 3.item 1", 10.0, "angles_do_not_rise"),
-        ([(0.0, 0.0), (20.0, 1.0), (400.0, 2.0)], "item 3.item 1", 400.0, "table_beyond_turn"),
-        ([(0.0, 0.0), (20.0, 1.0), (360.0, 0.0)], "item 3.item 1", 360.0, "table_too_short"),
-        ([(0.0, 0.0), (120.0, 10.0), (240.0, 6.0), (360.0, 3.0)], "item 4.item 2", 3.0, "last_row_not_as_first"),
+        ([(1.0, 0.0), (2.0, 1.0), (3.0, 2.0)], "[1][1]", 1.0, "table_not_from_zero"),
+        ([(0.0, 0.0), (20.0, 1.0), (10.0, 2.0)], "[3][1]", 10.0, "angles_do_not_rise"),
+        ([(0.0, 0.0), (20.0, 1.0), (400.0, 2.0)], "[3][1]", 400.0, "table_beyond_turn"),
+        ([(0.0, 0.0), (20.0, 1.0), (360.0, 0.0)], "[3][1]", 360.0, "table_too_short"),
+        ([(0.0, 0.0), (120.0, 10.0), (240.0, 6.0), (360.0, 3.0)], "[4][2]", 3.0, "last_row_not_as_first"),
     ],
 )
 def test_tables_are_refused_in_degrees(rows: list[tuple[float, float]], key: str, value: float, code: str) -> None:
     text = _CAM.replace("lift = 20.0\n", "") + f"motion_table = {[list(row) for row in rows]}\n"
     with pytest.raises(SceneError) as refusal:
         make_parts(scene_from_toml(text.encode(), "scene", "scene"), "scene")
-    assert refusal.value.key == f"parts.gear.motion_table.{key}"
+    assert refusal.value.key == f"parts.gear.motion_table{key}"
     assert (refusal.value.value, refusal.value.code) == (pytest.approx(value), code)
     # the first row stands at 0, the last one as the first; the others are cured only where the cam stays whole
     if code in ("table_not_from_zero", "last_row_not_as_first"):

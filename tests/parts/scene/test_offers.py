@@ -34,16 +34,9 @@ def refusal_of(raw: Raw) -> SceneError | None:
 
 
 def place_of(key: str) -> tuple[Any, ...]:
-    """The place that a key names: ``mates[1]: parts.b.holes.item 2.diameter``."""
-    steps: list[Any] = []
-    for word in key.rpartition(": ")[2].split("."):
-        if item := re.fullmatch(r"item (\d+)", word):
-            steps.append(int(item[1]) - 1)
-        elif listed := re.fullmatch(r"(\w+)\[(\d+)\]", word):
-            steps += [listed[1], int(listed[2]) - 1]
-        else:
-            steps.append(word)
-    return tuple(steps)
+    """The place that a key names: ``mates[1]: parts.b.holes[2].diameter``."""
+    found = re.findall(r"\[(\d+)\]|([^.[]+)", key.rpartition(": ")[2])
+    return tuple(int(number) - 1 if number else word for number, word in found)
 
 
 def without(raw: Raw, place: tuple[Any, ...]) -> Raw:
@@ -59,9 +52,8 @@ def judged(raw: Raw, refusal: SceneError) -> list[str]:
     """What is wrong with a refusal, nothing where all is right."""
     faults = []
     english, ukrainian = sentence(refusal, "en"), sentence(refusal, "uk")
-    key = re.sub(r"\.item (\d+)", r"[\1]", refusal.key)
     for line in (english, ukrainian):
-        if "\n" in line or not line.startswith(f"s: {key}") or re.search(r"\{\w+\}", line):
+        if "\n" in line or not line.startswith(f"s: {refusal.key}") or re.search(r"\{\w+\}", line):
             faults.append(f"badly told: {line}")
     if english == ukrainian:
         faults.append(f"not translated: {english}")

@@ -140,7 +140,7 @@ def test_keys_that_exclude_each_other_are_refused() -> None:
     stiff = [PHASES[0] | {"law": "constant_velocity"}, *PHASES[1:]]
     parts = {"cam": GROOVE | {"phases": stiff}}
     found = refused(parts)
-    assert (found.key, found.code) == ("parts.cam.phases.item 1.law", "velocity_jumps_in_groove")
+    assert (found.key, found.code) == ("parts.cam.phases[1].law", "velocity_jumps_in_groove")
     cured(parts, found)
 
 

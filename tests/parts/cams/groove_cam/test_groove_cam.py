@@ -209,7 +209,7 @@ WRONG: dict[str, tuple[Keys, str, str]] = {
              "base_circle_radius", "undercut_outer_wall"),
     "small": (GROOVE | {"phases": STEEP, "base_circle_radius": 12.0, "follower_radius": 10.0, "bore_diameter": 0.0},
               "base_circle_radius", "undercut_outer_wall"),
-    "impact": (GROOVE | {"phases": [PHASES[0] | {"law": "constant_velocity"}, *PHASES[1:]]}, "phases.item 1.law",
+    "impact": (GROOVE | {"phases": [PHASES[0] | {"law": "constant_velocity"}, *PHASES[1:]]}, "phases[1].law",
                "undercut_by_impact"),
 }  # fmt: skip
 READ: dict[str, tuple[Keys, str]] = {

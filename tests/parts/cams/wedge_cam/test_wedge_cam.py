@@ -187,11 +187,11 @@ WRONG: dict[str, tuple[Keys, str, str]] = {
     "radius of a point": (CAMS["pointed"] | {"follower_radius": 3.0}, "follower_radius", "follower_has_no_radius"),
     "no lift": (ROLLER | {"lift": 0.0}, "lift", "no_lift"),
     "lift of an arm": (CAMS["trailing"] | {"lift": 3.0}, "lift", "stroke_of_another"),
-    "dwell with a law": (ROLLER | {"phases": [*PHASES, PHASES[1] | {"law": "sine"}]}, "phases.item 4.law",
+    "dwell with a law": (ROLLER | {"phases": [*PHASES, PHASES[1] | {"law": "sine"}]}, "phases[4].law",
                          "dwell_with_law"),
-    "no law": (ROLLER | {"phases": [{"move": "rise", "travel": 60.0}]}, "phases.item 1.law", "law_missing"),
+    "no law": (ROLLER | {"phases": [{"move": "rise", "travel": 60.0}]}, "phases[1].law", "law_missing"),
     "large roller": (ROLLER | {"follower_radius": 60.0}, "follower_radius", "crest_undercut"),
-    "jump": (ROLLER | {"phases": JUMP}, "phases.item 1.law", "velocity_jumps_at_crest"),
+    "jump": (ROLLER | {"phases": JUMP}, "phases[1].law", "velocity_jumps_at_crest"),
     "too low": (ROLLER | {"phases": [PHASES[2], *PHASES], "base_height": 8.0}, "base_height",
                 "no_plate_under_follower"),
     "short arm": (CAMS["trailing"] | {"oscillating": ARM | {"arm_length": 20.0}}, "oscillating.arm_length",
@@ -208,7 +208,7 @@ WRONG: dict[str, tuple[Keys, str, str]] = {
     "hole outside": (ROLLER | {"holes": {"diameter": 5.0, "x": -30.0, "y": 8.0}}, "holes.x", "hole_outside_plate"),
     "large hole": (ROLLER | {"holes": {"diameter": 15.5, "x": 0.0, "y": 8.0}}, "holes.diameter", "hole_reaches_edge"),
     "holes meet": (ROLLER | {"holes": [{"diameter": 5.0, "x": x, "y": 8.0} for x in (0.0, 4.0)]},
-                   "holes.item 2.diameter", "hole_reaches_edge"),
+                   "holes[2].diameter", "hole_reaches_edge"),
 }  # fmt: skip
 # a law with a jump is one more fault, which no swing cures; a size for a roller is the user's to choose
 NOT_CURED = {"flat", "no radius", "no lift", "arm with a jump"}

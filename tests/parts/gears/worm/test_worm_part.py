@@ -146,8 +146,8 @@ def test_files_of_extreme_worms_are_read_back_as_they_should_be(name: str, tmp_p
         ({"addendum_coefficient": 3.0}, "addendum_coefficient"),
         # before: an outline that does not come about, without a key
         ({"axial_thinning": 9.0}, "axial_thinning"),
-        ({"shaft_above": [{"diameter": 45.0, "length": 5.0}]}, "shaft_above.item 1.diameter"),
-        ({"shaft_below": [{"diameter": 20.0, "length": 5.0, "chamfer": 6.0}]}, "shaft_below.item 1.chamfer"),
+        ({"shaft_above": [{"diameter": 45.0, "length": 5.0}]}, "shaft_above[1].diameter"),
+        ({"shaft_below": [{"diameter": 20.0, "length": 5.0, "chamfer": 6.0}]}, "shaft_below[1].chamfer"),
         ({"bore_diameter": 40.0}, "bore_diameter"),
         ({"diameter_quotient": 12.0, "lead_angle_deg": 10.0}, "diameter_quotient"),
         # before: the usual q was dropped
