@@ -351,11 +351,14 @@ def _relaxed(
     ends = _ends(curve)
     poles = _with_ends(ends, poles)
     best: _Draft | None = None
+    on_curve, points = curve.point(t), layout.points(poles)
     for index, weight in enumerate(weights):
-        poles = _with_ends(ends, poles + _correction(curve, ends, layout, poles, t, weight))
+        change = _correction(ends, layout, on_curve - points, curve.tangent(t), weight)
+        poles = _with_ends(ends, poles + change)
         points = layout.points(poles)
         t = feet(curve, points, t, steps=2)
-        errors = np.abs(points - curve.point(t)).max(axis=1)
+        on_curve = curve.point(t)
+        errors = np.abs(points - on_curve).max(axis=1)
         error = float(errors.max()) if np.all(np.diff(t.ravel()) > 0) else math.inf
         if best is None or error < best.error:
             best = _Draft(layout, poles, t, errors, error, curve.domain)
@@ -383,14 +386,15 @@ def _ends(curve: Curve) -> Ends:
     return start_point(curve), end_point(curve), leave, arrive
 
 
-def _correction(curve: Curve, ends: Ends, layout: _Layout, poles: Complex, t: Real, weight: float) -> Complex:
+def _correction(ends: Ends, layout: _Layout, off: Complex, tangent: Complex, weight: float) -> Complex:
     """Change of the poles by least squares: normal residuals count 1, tangential ones ``weight``.
+
+    ``off``: from the samples to their feet on the curve; ``tangent``: of the curve there.
 
     Normal equations, assembled span by span. Being those of a correction, their rounding is corrected by the next
     round. The end poles stay, their neighbours move along the end tangents.
     """
-    tangent = curve.tangent(t)
-    residual = np.conj(tangent) * (curve.point(t) - layout.points(poles))
+    residual = np.conj(tangent) * off
     turned = layout.values * np.conj(tangent)[..., None]
     normal = np.concatenate([turned.imag, turned.real], axis=2)
     sliding = weight * np.concatenate([turned.real, -turned.imag], axis=2)

@@ -151,15 +151,16 @@ def basis(degree: int, knots: Real, t: Real) -> tuple[Index, Real]:
     Cox's and de Boor's recursion, written so that the values at the ends of the domain are exactly 0 and 1.
     """
     span = span_index(degree, knots, t)
-    # the knots about each parameter's span, fetched once
-    near = [knots[span + offset] for offset in range(1 - degree, degree + 1)]
-    beyond = [t - low for low in near[:degree]]
-    values = [np.ones_like(t)]
+    # the knots about each parameter's span, fetched once; what is summed stands first
+    near = knots[np.add.outer(np.arange(1 - degree, degree + 1), span)]
+    beyond, values = t - near[:degree], np.ones((1, *t.shape))
     for k in range(1, degree + 1):
-        share = [beyond[degree - k + j] / (near[degree + j] - near[degree - k + j]) for j in range(k)]
-        inner = [share[j - 1] * values[j - 1] + (1 - share[j]) * values[j] for j in range(1, k)]
-        values = [(1 - share[0]) * values[0], *inner, share[-1] * values[-1]]
-    return span - degree, np.stack(values, axis=-1)
+        share = beyond[degree - k :] / (near[degree : degree + k] - near[degree - k : degree])
+        raised = np.zeros((k + 1, *t.shape))
+        raised[:-1] = (1 - share) * values
+        raised[1:] += share * values
+        values = raised
+    return span - degree, np.ascontiguousarray(np.moveaxis(values, 0, -1))
 
 
 def feet(curve: Curve, points: Complex, guess: Real, steps: int = _FOOT_STEPS) -> Real:
@@ -169,9 +170,9 @@ def feet(curve: Curve, points: Complex, guess: Real, steps: int = _FOOT_STEPS) -
     """
     t, (low, high) = guess, curve.domain
     for _ in range(steps):
-        first = curve.derivative(t)
+        at, first = curve.with_derivative(t)
         square = np.maximum(np.abs(first) ** 2, 1e-300)
-        t = np.clip(t + (np.conj(first) * (points - curve.point(t))).real / square, low, high)
+        t = np.clip(t + (np.conj(first) * (points - at)).real / square, low, high)
     return t
 
 
@@ -236,11 +237,11 @@ def _cell_ends(curve: Curve, spline: BSpline, x: Real, foot: Real) -> _Ends:
     middle = x.mean(axis=0)
     # the spline's derivative at a knot has to be that of the cell's own side; it is continuous where C1
     inside = np.stack([x[0], np.minimum(x[1], np.nextafter(x[1], middle))])
-    forward, first = spline.derivative(inside), curve.derivative(foot)
+    forward, (at, first) = spline.derivative(inside), curve.with_derivative(foot)
     square = np.maximum(np.abs(first) ** 2, 1e-300)
     mean = (foot[1] - foot[0]) / np.maximum(x[1] - x[0], 1e-300)
     rate = np.clip((np.conj(first) * forward).real / square, 0, 3 * mean)
-    return _Ends(x, foot, rate, spline.point(x) - curve.point(foot), forward - first * rate)
+    return _Ends(x, foot, rate, spline.point(x) - at, forward - first * rate)
 
 
 def _halved(curve: Curve, spline: BSpline, cells: _Ends, wide: NDArray[np.bool_]) -> _Ends:

@@ -59,6 +59,10 @@ class Curve:
         first = self.derivative(t)
         return first / np.abs(first)
 
+    def with_derivative(self, t: ArrayLike) -> tuple[Complex, Complex]:
+        """Points and first derivatives, mm, of the shape of ``t``: one evaluation where one gives both."""
+        return self.point(t), self.derivative(t)
+
     def curvature(self, t: ArrayLike) -> Real:
         """Signed curvature, 1/mm."""
         return curvature_from_derivatives(self.derivative(t), self.derivative(t, 2))
@@ -141,6 +145,10 @@ class SeriesSpan(Span):
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
         return FACTORIALS[order] * self.series(t, order)[order]
 
+    def with_derivative(self, t: ArrayLike) -> tuple[Complex, Complex]:
+        point, derivative = self.series(t, 1)
+        return point, derivative
+
 
 class Reversed(Curve, Record):
     """A curve travelled backwards: parameter t runs as -t of the original."""
@@ -157,6 +165,10 @@ class Reversed(Curve, Record):
 
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
         return (-1) ** order * self.original.derivative(-np.asarray(t, dtype=float), order)
+
+    def with_derivative(self, t: ArrayLike) -> tuple[Complex, Complex]:
+        point, derivative = self.original.with_derivative(-np.asarray(t, dtype=float))
+        return point, -derivative
 
     def tangent(self, t: ArrayLike) -> Complex:
         return -self.original.tangent(-np.asarray(t, dtype=float))
@@ -223,6 +235,10 @@ class Carried(Curve, Record):
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
         return cmath.exp(1j * self.placement.angle) * self.base.derivative(t, order)
 
+    def with_derivative(self, t: ArrayLike) -> tuple[Complex, Complex]:
+        point, derivative = self.base.with_derivative(t)
+        return self.placement.apply(point), cmath.exp(1j * self.placement.angle) * derivative
+
     def tangent(self, t: ArrayLike) -> Complex:
         return cmath.exp(1j * self.placement.angle) * self.base.tangent(t)
 
@@ -231,6 +247,9 @@ class Carried(Curve, Record):
 
     def derivative_bound(self, order: int, a: float, b: float) -> float | None:
         return self.base.derivative_bound(order, a, b)
+
+    def derivative_bounds(self, edges: Real, orders: Sequence[int]) -> Real:
+        return self.base.derivative_bounds(edges, orders)
 
     def offset(self, distance: float) -> Curve:
         return Carried(self.base.offset(distance), self.placement)
@@ -268,6 +287,10 @@ class Mirrored(Curve, Record):
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
         return (-1) ** order * np.conj(self.base.derivative(-np.asarray(t, dtype=float), order))
 
+    def with_derivative(self, t: ArrayLike) -> tuple[Complex, Complex]:
+        point, derivative = self.base.with_derivative(-np.asarray(t, dtype=float))
+        return np.conj(point), -np.conj(derivative)
+
     def tangent(self, t: ArrayLike) -> Complex:
         return -np.conj(self.base.tangent(-np.asarray(t, dtype=float)))
 
@@ -277,6 +300,9 @@ class Mirrored(Curve, Record):
 
     def derivative_bound(self, order: int, a: float, b: float) -> float | None:
         return self.base.derivative_bound(order, -b, -a)
+
+    def derivative_bounds(self, edges: Real, orders: Sequence[int]) -> Real:
+        return self.base.derivative_bounds(-edges[::-1], orders)[:, ::-1]
 
     def offset(self, distance: float) -> Curve:
         try:

@@ -29,6 +29,7 @@ from geometry.solids.faces import (
     Sphere,
     Spline,
     SplineSurface,
+    Straight,
     Torus,
 )  # fmt: skip
 
@@ -75,7 +76,8 @@ def _samples(solid: Solid, edges: Edges) -> _Samples:
         shares = np.linspace(0, 1, max(1, math.ceil(float(arcs(solid, edges)[3].max()) / _PIECE)) + 1)
     elif isinstance(edges.curve, Spline):
         shares = span_shares(edges.curve.knots)
-    nodes, weights = panels(shares, _NODES)
+    # along a line every integrand is even
+    nodes, weights = panels(shares, 1 if isinstance(edges.curve, Straight) else _NODES)
     return _Samples(*along_edges(solid, edges, nodes), weights)
 
 

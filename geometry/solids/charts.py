@@ -6,6 +6,8 @@ and v the height, on tori and spheres the angle of the meridian from its outermo
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from geometry.base.distinct import distinct
@@ -64,11 +66,18 @@ def along_edges(solid: Solid, edges: Edges, shares: Real) -> tuple[Real, Real]:
     return points, steps
 
 
-def spline_rows(degree: int, knots: Real, shares: Real, order: int) -> list[Real]:
+def spline_rows(degree: int, knots: Real, shares: Real, order: int) -> tuple[Real, ...]:
     """What poles are multiplied by for points at shares of a spline's domain, and for derivatives up to an order.
 
-    Matrices (k, poles); the derivatives are those by the share.
+    Matrices (k, poles), not to be written to; the derivatives are those by the share.
     """
+    return _rows(degree, knots.tobytes(), shares.tobytes(), order)
+
+
+@lru_cache(64)
+def _rows(degree: int, all_knots: bytes, places: bytes, order: int) -> tuple[Real, ...]:
+    """The same of bytes: curves that are alike, on every tooth and at both ends of it, share theirs."""
+    knots, shares = np.frombuffer(all_knots), np.frombuffer(places)
     count, width = len(knots) - degree - 1, knots[-1] - knots[0]
     step = np.eye(count)
     found = []
@@ -87,7 +96,9 @@ def spline_rows(degree: int, knots: Real, shares: Real, order: int) -> list[Real
         with np.errstate(divide="ignore"):
             factor = np.where(spread > 0, p / spread, 0.0)
         step = factor[:, None] * np.diff(step, axis=0) if p else step
-    return found
+    for made in found:
+        made.setflags(write=False)
+    return tuple(found)
 
 
 def spline_windows(degree: int, knots: Real, shares: Real) -> tuple[Index, Real, Real]:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from geometry.base.record import Record
 from geometry.curves.curve import Real
-from geometry.solids.charts import TURN, Chart, Patch, along_edges, charts, edge_rows, patch_of, span_shares
+from geometry.solids.charts import TURN, Chart, Patch, along_edges, arcs, charts, edge_rows, patch_of, span_shares
 from geometry.solids.faces import Circular, Edges, Faces, Frame, Solid, Sphere, Spline, SplineSurface, Straight, Torus
 from geometry.solids.unrolled import Side, unrolled
 
@@ -89,11 +89,27 @@ def _edges(solid: Solid, edges: Edges, best: Real) -> list[_Piece]:
     shares = _spans(curve.knots) if isinstance(curve, Spline) else np.linspace(0, 1, _SAMPLES)
     measured = _measures(along_edges(solid, edges, shares)[0])[:, :, None]
     best[:] = np.maximum(best, measured.max(axis=(0, 1, 2)))
+    if isinstance(curve, Circular):
+        best[:6] = np.maximum(best[:6], _peaks(solid, edges))
+        # sought are the peaks of the distance from the z axis only, and none of circles about it
+        measured[..., :6] = best[:6]
     found = []
     for row in np.flatnonzero(np.any(_most(measured) > best, axis=1)).tolist():
         one = _one(edges, curve, slice(row, row + 1))
         found.append(_Piece(partial(_on_edge, solid, one), shares, np.zeros(1), measured[row]))
     return found
+
+
+def _peaks(solid: Solid, edges: Edges) -> Real:
+    """Of arcs the greatest x, y, z and -x, -y, -z, (6,), where these stand still; -inf where they do nowhere."""
+    origin, axes, first, sweep = arcs(solid, edges)
+    assert isinstance(edges.curve, Circular)
+    found = []
+    for sense in (1.0, -1.0):
+        at = np.mod(np.arctan2(sense * axes[:, 1], sense * axes[:, 0]) - first[:, None], TURN)
+        peak = sense * origin + edges.curve.radius * np.hypot(axes[:, 0], axes[:, 1])
+        found.append(np.where(at < sweep[:, None], peak, -np.inf).max(axis=0))
+    return np.concatenate(found)
 
 
 def _one(edges: Edges, curve: Circular | Spline, at: slice) -> Edges:

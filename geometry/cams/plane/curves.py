@@ -77,6 +77,11 @@ def bound_series(lift: Lift, order: int, a: Real, b: Real) -> Series:
     return [x / FACTORIALS[k] for k, x in enumerate(lift.bounds(order, a, b))]
 
 
+def _path_curvature(velocity: Complex, change: Complex) -> Real:
+    """Curvature of a path in the cam's frame from w = z' - i z and w', 1/mm."""
+    return np.asarray(((np.conj(velocity) * change).imag / np.abs(velocity) ** 2 - 1) / np.abs(velocity))
+
+
 class CamSpan(BoundedSpan):
     """A cam's curve over the cam angle, over one piece of the motion or over rows of a table."""
 
@@ -165,8 +170,7 @@ class CentreEnvelope(CamSpan, Record):
 
     def pitch_curvature(self, t: ArrayLike) -> Real:
         """Curvature of the centre's path, 1/mm: negative where the cam is convex, for it is travelled clockwise."""
-        _, (first, second) = self._fixed(np.asarray(t, dtype=float), 1)
-        return ((np.conj(first) * second).imag / np.abs(first) ** 2 - 1) / np.abs(first)
+        return _path_curvature(*self._fixed(np.asarray(t, dtype=float), 1)[1])
 
     def vertex_function(self, t: ArrayLike) -> Real:
         """Changes its sign where the curvature, of the path and of every parallel, is greatest or least."""
@@ -182,8 +186,10 @@ class CentreEnvelope(CamSpan, Record):
 
     def tangent(self, t: ArrayLike) -> Complex:
         at = np.asarray(t, dtype=float)
-        first = np.exp(-1j * at) * self._fixed(at, 0)[1][0]
-        sense = np.where(self.stretch(at) < 0, -1.0, 1.0) if self.distance else 1.0
+        velocity = self._fixed(at, 1 if self.distance else 0)[1]
+        first = np.exp(-1j * at) * velocity[0]
+        # a parallel curve may run back, see ``stretch``
+        sense = np.where(1 - self.distance * _path_curvature(*velocity) < 0, -1.0, 1.0) if self.distance else 1.0
         return sense * first / np.abs(first)
 
     def curvature(self, t: ArrayLike) -> Real:
