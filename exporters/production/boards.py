@@ -14,6 +14,7 @@ from exporters.boards.cuts import in_order
 from exporters.boards.nest import HALVES, QUARTERS, DoesNotFitError, Laid, Room, nest
 from exporters.formats.registry import strokes_of
 from exporters.production.jobs import Job, Made, PartsJob
+from exporters.production.laid import several
 from exporters.verification.board import BoardPiece, ExpectedBoard, verify_board
 from exporters.verification.verdict import Verdict
 from geometry.approximation.chords import approximate_profile
@@ -50,6 +51,11 @@ class BoardJob(Record, PartsJob):
     times: int
     path: str
     place: str
+
+    @property
+    def sizes(self) -> tuple[float, float, float]:
+        """Width, height and thickness of the board, mm."""
+        return self.board.width, self.board.height, self.board.thickness
 
     @property
     def told(self) -> dict[str, Any]:
@@ -146,11 +152,6 @@ def different_boards(laid: Sequence[Laid]) -> list[tuple[tuple[BoardPiece, ...],
             pieces.append(BoardPiece(f"{shape}_{named[shape]}", shape, 90 * turn, at))
         found.append((tuple(pieces), count))
     return found
-
-
-def several(times: int) -> tuple[Finding, ...]:
-    """What there is to tell of a board or bed that is made so many times."""
-    return (Finding("made_several_times", float(times), 1.0),) if times > 1 else ()
 
 
 def _laid_out(

@@ -21,6 +21,7 @@ from geometry.base.errors import ConvergenceError, Nearest, ParameterError, Thin
 from geometry.base.record import Record, replace
 from geometry.plane.contour import Approximation
 from parts.base.refusal import SceneError, placed
+from parts.keys.boards import PURPOSES_LAID
 from parts.scene.formats import Form
 
 # the least that an export may have, mm
@@ -88,11 +89,12 @@ def build(
                 from exporters.production.exploded_preview import exploded_preview
 
                 previews.append(exploded_preview(plan, staging))
-        if boards:
-            from exporters.production.board_preview import board_previews
+        laid = any(assembly.export.purpose in PURPOSES_LAID.values() for assembly in plan.assemblies)
+        if laid:
+            from exporters.production.laid_preview import laid_previews
 
-            previews += board_previews(plan, staging)
-        if plan.scene.scene.notes or plan.scene.steps:
+            previews += laid_previews(plan, staging)
+        if laid or plan.scene.scene.notes or plan.scene.steps:
             from exporters.production.notes import write_notes
 
             previews.append(write_notes(plan, staging))

@@ -89,8 +89,29 @@ def check_lines(
 
         lines += order_lines(checks["order"], told)
         lines += [f"{told.text(VERDICTS[found['verdict']])}: {found['text']}" for found in checks["order"]["hindered"]]
-    # what is fixed to another turns with it
-    fixed = {mate["second"] for mate in checks.get("mates", []) if mate["kind"] == "fixed"}
+    lines += _drives(checks, names, told)
+    return lines
+
+
+def caption_lines(checks: dict[str, Any], language: str, names: Mapping[str, str], most: int) -> list[str]:
+    """What the checks found, for a caption of so many letters: where there is more, what is not well, and counts."""
+    lines = check_lines(checks, language, names, brief=True)
+    if sum(map(len, lines)) <= most:
+        return lines
+    told, mates = words(language), checks.get("mates", [])
+    bad = [mate for mate in mates if has_bad_verdict({"mates": [mate]})]
+    held = {key: checks[key] for key in ("axles", "in_a_row", "solids") if key in checks}
+    lines = check_lines({**held, "mates": bad}, language, names, brief=True)
+    counts = Counter(mate["verdict"] for mate in mates if "verdict" in mate and mate not in bad)
+    for verdict, count in counts.items():
+        lines.append(_pairs(count, N_("{verdict}: {pairs}"), told, verdict=Message(VERDICTS[verdict])))
+    drives = _drives(checks, names, told)
+    return [*lines, *(drives if sum(map(len, (*lines, *drives))) <= most else [])]
+
+
+def _drives(checks: dict[str, Any], names: Mapping[str, str], told: Words) -> list[str]:
+    """How often each drive turns what it moves; what is fixed to another turns with it."""
+    lines, fixed = [], {mate["second"] for mate in checks.get("mates", []) if mate["kind"] == "fixed"}
     for drive in checks.get("drives", []):
         rows = groupby(
             ((names.get(name, name), turns) for name, turns in drive["train"].items() if name not in fixed),

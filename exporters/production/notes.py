@@ -1,4 +1,4 @@
-"""``SCENE.notes.txt``: how what a scene makes is put together and used, and what to cut for it by hand."""
+"""``SCENE.notes.txt``: how what a scene makes is put together and used, what its files are, what to cut by hand."""
 
 from __future__ import annotations
 
@@ -9,22 +9,28 @@ from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from exporters.production.check_lines import in_rows, names_of
+from exporters.production.laid import laid_jobs, lying_on, several
 from exporters.production.order import steps_told
-from parts.base.texts import Words, words
+from parts.base.texts import N_, Words, words
 from parts.scene.stock import StockRow, stock_rows
+from parts.texts.findings import finding_message
 
 if TYPE_CHECKING:
     from exporters.production.plan import Plan
 
 # letters in a line, as editors print them on A4
 _LINE = 88
+# sheets of a PDF as a class uses them
+_EMPTY = N_("to hand out: what is given stands there, the cells of the results are empty")
+_FILLED = N_("the same with all numbers")
+_MODEL = N_("1:1, to be cut out: print at 100 %; its square must measure 100 mm")
 
 
 def write_notes(plan: Plan, folder: Path) -> Path:
     """The notes of a scene in its language, and the lengths of rods and tubes that no machine makes."""
     scene, told = plan.scene.scene, words(plan.scene.scene.language)
     title = scene.title or plan.scene.name
-    lines = [*wrap(title, _LINE), "=" * min(len(title), _LINE)]
+    lines = [*wrap(title, _LINE), "=" * min(len(title), _LINE), *_files(plan, told)]
     for note in scene.notes:
         lines += ["", *wrap(note, _LINE)]
     if plan.scene.steps:
@@ -37,6 +43,38 @@ def write_notes(plan: Plan, folder: Path) -> Path:
     file = folder / f"{plan.scene.name}.notes.txt"
     file.write_text("\n".join(lines) + "\n", encoding="utf-8", newline="\n")
     return file
+
+
+def _files(plan: Plan, told: Words) -> Iterator[str]:
+    """What lies on each board and plate, and what the sheets for a class are."""
+    laid = laid_jobs(plan)
+    rows = [
+        (
+            ", ".join((jobs[0].path, *(f".{job.export.format}" for job in jobs[1:]))),
+            "; ".join((", ".join(lying_on(jobs[0]).values()), *(told.say(finding_message(f)) for f in several(jobs[0].times)))),
+        )
+        for jobs in laid.values()
+    ]
+    empty = {job.export.purpose for job in plan.sheets if job.export.cells == "empty"}
+    for job in (job for job in plan.sheets if job.export.format == "pdf"):
+        if job.export.purpose == "model":
+            rows.append((job.path, told.text(_MODEL)))
+        elif job.export.purpose in empty:
+            rows.append((job.path, told.text(_EMPTY if job.export.cells == "empty" else _FILLED)))
+    boards = [jobs[0].board for jobs in laid.values() if jobs[0].export.purpose == "board"]
+    if boards:
+        text = told.text("Cut the boards: blue is engraved first, then green is cut, red last.")
+        if any(board.kerf for board in boards):
+            text += " " + told.text(
+                "Where what is put together sits too loose or too tight, cut `{coupon}` and write what it tells into "
+                "`kerf` of the board.",
+                coupon="kerf_coupon",
+            )
+        yield from ("", *wrap(text, _LINE))
+    if rows:
+        yield ""
+        for file, text in rows:
+            yield from wrap(f"{file}: {text}", _LINE, subsequent_indent="    ")
 
 
 def _stock(plan: Plan, rows: list[StockRow], told: Words) -> Iterator[str]:

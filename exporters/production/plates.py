@@ -8,9 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from exporters.boards.nest import QUARTERS, Laid, Room, largest_scale, nest
-from exporters.production.boards import different_boards, several
+from exporters.production.boards import different_boards
 from exporters.production.jobs import AssemblyJob, Job, Made, assembly_name
+from exporters.production.laid import several
 from exporters.verification.assembly import expected_of
+from exporters.verification.board import BoardPiece
 from exporters.verification.plate import ExpectedPlate, verify_plate
 from exporters.verification.verdict import Verdict
 from geometry.base.errors import rounded
@@ -36,6 +38,17 @@ class PlateJob(AssemblyJob):
     bed_name: str
     bed: BedSpec
     times: int
+    feet: Mapping[str, BaseGeometry]
+
+    @property
+    def sizes(self) -> tuple[float, float, float]:
+        """Width, depth and height of its bed, mm."""
+        return self.bed.width, self.bed.depth, self.bed.height
+
+    @property
+    def pieces(self) -> tuple[BoardPiece, ...]:
+        """Its pieces as they are seen from above."""
+        return tuple(BoardPiece(i.id, i.part, round(math.degrees(i.rotation)), i.centre) for i in self.instances)
 
     @property
     def told(self) -> dict[str, Any]:
@@ -86,7 +99,10 @@ def plate_jobs(
             )
             members = tuple(jobs[p] for p in dict.fromkeys(piece.part for piece in pieces))
             path = f"{scene.name}.{export.name or export.purpose}.{len(found) + 1}.{export.format}"
-            found.append(PlateJob(assembly_name(scene.name), export, members, stand, path, where, name, bed, times))
+            hulls = {p: feet[p][0] for p in counts}
+            found.append(
+                PlateJob(assembly_name(scene.name), export, members, stand, path, where, name, bed, times, hulls)
+            )
     return found
 
 
@@ -124,7 +140,13 @@ def _laid_out(
             Message("{part} ({scale})", {"part": p, "scale": f"{rounded(s, up=False):g}"}) for p, s in scales.items()
         ]
         # the height is to blame where it alone is
-        high = all(largest_scale(feet[part][0], room) >= 1 for part in scales)
-        key, size = ("height", bed.height) if high else ("width", bed.width)
-        raise SceneError(source, f"{place}.{key}", size, "too_small_for_parts", None, "mm", parts=listed(told))
+        wide = any(largest_scale(feet[part][0], room) < 1 for part in scales)
+        key, size = ("width", bed.width) if wide else ("height", bed.height)
+        boxes = [sorted((e - a, f - b)) for a, b, e, f in (foot.bounds for foot, _, _ in feet.values())]
+        sides = [math.ceil(max(side) + 2 * bed.margin) for side in zip(*boxes, strict=True)]
+        high = math.ceil(max(top - low for _, low, top in feet.values()))
+        raise SceneError(
+            source, f"{place}.{key}", size, "too_small_for_parts", None, "mm",
+            parts=listed(told), width=sides[1], depth=sides[0], height=high,
+        )  # fmt: skip
     return nest({p: (feet[p][0], counts[p]) for p in counts}, room)

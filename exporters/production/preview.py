@@ -17,13 +17,15 @@ from geometry.curves.curve import Complex
 from geometry.plane.contour import Approximation, Contour, edge_points
 from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
-from parts.base.texts import words
+from parts.base.texts import counted, filled, words
 from parts.scene.placing import UPWARDS, Instance
 from parts.texts.findings import finding_text
 from parts.texts.quantities import quantity_name
 
-# letters of the caption that fit beside a part, and above a scene
-_CAPTION_LETTERS, _WIDE_LETTERS = 42, 100
+# letters of a line of the caption that fit beside a part, and above a scene
+_CAPTION_LETTERS, _WIDE_LETTERS = 42, 95
+# of a scene's checks, half of that of what its picture covers: it is to remain a picture
+_MOST_LETTERS = 500
 # of pins of one piece, which stand out of their plate
 _PIN_STYLE = "fill:#7f8c99;stroke:#202830"
 # outlines of more curves than this are drawn by so many points of each: arcs take seconds to fit
@@ -43,7 +45,9 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
     named = part.circles | part.quantities
     told = words(language)
     rows = [f"{quantity_name(told, k)}  {v if isinstance(v, int) else format(v, '.4f')}" for k, v in named.items()]
-    caption = [line for row in (part.title or part.id, *rows, *remarks) for line in wrap(row, _CAPTION_LETTERS)]
+    caption = [
+        line for row in (part.title or part.id, *rows, *remarks) for line in wrap(told.decimal(row), _CAPTION_LETTERS)
+    ]
     lines = [head(middle, extra_width=text * 24, extra_height=max(0.0, text * 1.7 * (len(caption) + 1) - 2 * middle))]
     lines.append('<rect width="100%" height="100%" style="fill:#ffffff"/>')
     cut, plain = part.cut(0.0).region, part.section(0.0).region
@@ -73,7 +77,7 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
 
 def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str, Any], folder: Path) -> Path:
     """All instances in their places, the upper ones last, and what the checks found."""
-    from exporters.production.check_lines import check_lines, in_rows, names_of
+    from exporters.production.check_lines import caption_lines, in_rows, names_of
     from exporters.production.preview_labels import Label, Tops, spread_labels
 
     language = plan.scene.scene.language
@@ -115,10 +119,13 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
         f'<text x="{one.x:.4g}" y="{one.y:.4g}" style="{style}">{escaped(one.text)}</text>' for one in named if one
     ]
     covered = [label.text for label, one in zip(labels, named, strict=True) if one is None]
-    rows = [plan.scene.scene.title or plan.scene.name, *check_lines(checks, language, names, brief=True)]
+    told = words(language)
+    rows = [plan.scene.scene.title or plan.scene.name, *caption_lines(checks, language, names, _MOST_LETTERS)]
     if covered:
-        rows.append(words(language).text("covered in the picture: {names}", names=", ".join(in_rows(covered))))
-    rows = [line for row in rows for line in wrap(row, _WIDE_LETTERS)]
+        row = told.text("covered in the picture: {names}", names=", ".join(in_rows(covered)))
+        count = counted("covered in the picture: {parts} part", "covered in the picture: {parts} parts", by="parts")
+        rows.append(row if len(row) <= _MOST_LETTERS // 2 else told.say(filled(count, parts=len(covered))))
+    rows = [line for row in rows for line in wrap(told.decimal(row), _WIDE_LETTERS)]
     # a wide scene is drawn wide: what is above and below it is cut off
     spare = max(0.0, 2 * (middle - (high - low) / 2 - 0.08 * reach))
     caption = size * 1.7 * (len(rows) + 1)

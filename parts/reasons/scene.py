@@ -84,8 +84,8 @@ REASONS = {
     "too_many_pieces": N_("makes {pieces} pieces, more than the {most} that are laid out at once"),
     "nothing_is_laid": N_("leaves no piece to lay"),
     "too_small_for_parts": N_(
-        "parts are too large for it, each with the scale that a slicer would have to give it: {parts}; give a larger "
-        "bed or make them smaller"
+        "parts are too large for it, each with the scale that a slicer would have to give it: {parts}; a bed of "
+        "{width} x {depth} x {height} mm holds all"
     ),
     "gap_above_board": N_("is larger than the board, of which the shorter side is {side} mm"),
     "margins_leave_nothing": N_("leaves nothing of a side of {side} mm"),

@@ -30,6 +30,8 @@ _INSTEAD = {
     "circumferential_backlash": ("normal_backlash",),
     "density": ("material",),
 }
+# keys that say how thick a flat part is
+_THICK = {"parts": ("face_width",), "assemblies": ("face_width", "plate_thickness")}
 # keys that are not one for all
 _OWN = {"kind", "first", "second", "of", "name", "title", "format", "purpose", "parts", "copies"}
 
@@ -71,6 +73,32 @@ def filled_in(raw: Table, source: str, export_keys: type[Struct], takes: Takes) 
         if key not in used:
             near = meant(key, known)
             raise SceneError(source, f"defaults.{key}", value, "nothing_takes_it", near, known=sorted(known))
+    return tables, origins
+
+
+def as_thick_as_board(raw: Table) -> tuple[Table, dict[str, str]]:
+    """The tables of a scene with one board: what does not say how thick it is, is as thick; and where that is said."""
+    (name, board), = raw["boards"].items()
+    tables, origins = dict(raw), dict[str, str]()
+    if "thickness" not in board:
+        return raw, origins
+
+    def filled(of: str, place: str, table: Table) -> Table:
+        made = dict(table)
+        for key in _THICK[of]:
+            if key in _names(_keys_of(of, table, BoardSpec) or BoardSpec) and key not in table:
+                made[key] = board["thickness"]
+                origins[f"{place}.{key}"] = f"boards.{name}.thickness"
+        return made
+
+    wanted = board.get("parts")
+    tables["parts"] = {
+        key: filled("parts", f"parts.{key}", table) if not wanted or key in wanted else table
+        for key, table in raw.get("parts", {}).items()
+    }
+    if not wanted:
+        rows = raw.get("assemblies", [])
+        tables["assemblies"] = [filled("assemblies", f"assemblies[{k}]", table) for k, table in enumerate(rows, 1)]
     return tables, origins
 
 

@@ -287,6 +287,11 @@ def plain_tables(raw: dict[str, Any], source: str) -> tuple[dict[str, Any], dict
         from parts.scene.defaults import filled_in
 
         raw, origins = filled_in(raw, source, ExportSpec, partial(_takes, source))
+    if len(raw.get("boards", ())) == 1:
+        from parts.scene.defaults import as_thick_as_board
+
+        raw, thick = as_thick_as_board(raw)
+        origins |= thick
     if "assemblies" in raw:
         from parts.scene.recipes import told_out
 

@@ -39,6 +39,18 @@ def test_a_lesson_stands_and_has_all_that_a_class_wants(name: str) -> None:
     assert not [n for n in names if re.search(r"\bx\W*0[.,]\d", n)]
 
 
+@pytest.mark.parametrize("name", LESSONS)
+def test_the_board_alone_says_how_thick_the_plywood_is(name: str, tmp_path: Path) -> None:
+    text = (SCENE_FOLDER / f"{name}.toml").read_text("utf-8")
+    assert text.count("thickness = 3.0 ") == 1
+    file = tmp_path / "thin.toml"
+    file.write_text(text.replace("thickness = 3.0 ", "thickness = 2.0 "), encoding="utf-8")
+    parts, _ = make_parts(load_scene(str(file)), str(file))
+    flat = {key: part.face_width for key, part in parts.items() if part.is_plate and part.stock is None}
+    assert set(flat.values()) == {2.0}, flat
+    assert not [part.material for part in parts.values() if re.search(r"\d", part.material or "")]
+
+
 PAIR = """
 [defaults]
 module = 4.0
@@ -188,6 +200,9 @@ at = [50.0, 0.0, 0.0]
         told = (tmp_path / name / f"{name}.notes.txt").read_text("utf-8")
         assert ("Glue the crank" if language == "en" else "Приклейте ручку") in told
         assert [row.replace(".", point) in told for row in rows] == [cut] * 3, told
+        # whatever the scene's file is called
+        assert f"{name}.board.1.svg: 2 × plate" in told
+        assert (f"{name}.plate.1.3mf: 1 × plate, " in told) != cut
 
 
 def test_lessons_and_coupons_have_notes_in_every_language() -> None:

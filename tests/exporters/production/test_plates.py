@@ -68,6 +68,14 @@ def meshes(file: Path) -> dict[str, trimesh.Trimesh]:
 def test_plates_lie_on_the_bed_and_apart(tmp_path: Path) -> None:
     assert main(["build", str(scene(tmp_path)), "--out", str(tmp_path), "--quiet"]) == 0
     files = sorted((tmp_path / "set").glob("set.plate.*.3mf"))
+    for file in files:
+        # what lies on each stands in its picture: a shape for each piece, words on it, a row of the legend
+        picture = file.with_suffix(".preview.svg").read_text("utf-8")
+        pieces = [piece["part"] for piece in pieces_of(tmp_path / "set", file.name)["pieces"].values()]
+        assert picture.count("<path ") == len(pieces)
+        for part in set(pieces):
+            assert len(re.findall(rf">\d {part}</text>", picture)) == pieces.count(part)
+            assert len(re.findall(rf">\d: {pieces.count(part)} × {part}</text>", picture)) == 1
     names: list[str] = []
     for file in files:
         found = meshes(file)
@@ -102,6 +110,14 @@ def test_parts_too_large_for_a_bed_are_named_with_their_scale(
     assert words.split(" and ", maxsplit=1)[0] in told
     assert words.rsplit(" and ", maxsplit=1)[-1] in told
     assert not (tmp_path / "set").exists()
+    # the bed that it names is the least one, to 1 mm
+    bed = dict(zip(("width", "depth", "height"), map(int, re.findall(r"(\d+) x (\d+) x (\d+) mm", told)[0]), strict=True))
+    text = (tmp_path / "set.toml").read_text("utf-8")
+    for less, code in ((0, 0), (1, 2)):
+        for key, side in bed.items():
+            text = re.sub(rf"\[beds(.*)\b{key} = \d+", rf"[beds\g<1>{key} = {side - less}", text, flags=re.S)
+        (tmp_path / "set.toml").write_text(text, encoding="utf-8")
+        assert main(["build", str(tmp_path / "set.toml"), "--out", str(tmp_path), "--quiet", "--no-verify"]) == code
 
 
 def test_the_kerf_coupon_tells_the_kerf(tmp_path: Path) -> None:

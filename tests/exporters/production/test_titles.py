@@ -213,7 +213,7 @@ def test_words_in_several_languages(tmp_path: Path, capsys: pytest.CaptureFixtur
         # how a mate joins whom, by their names
         assert f"{wanted[2]} - {wanted[1]} 2" in capsys.readouterr().out
         picture = (out / "s" / "s.board.1.preview.svg").read_text("utf-8")
-        assert all(word in picture for word in (*wanted, "200 x 100 x 3"))
+        assert all(word in picture for word in (*wanted, "200 × 100 × 3"))
         made[language] = (out / "s" / "s.board.1.svg").read_bytes()
     # engraved in its language
     assert made["en"] != made["uk"]

@@ -1,0 +1,36 @@
+"""What lies on each board and plate of a build, whatever the formats of its files."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING, TypeAlias
+
+from geometry.base.findings import Finding
+from parts.keys.boards import PURPOSES_LAID
+
+if TYPE_CHECKING:
+    from exporters.production.boards import BoardJob
+    from exporters.production.plan import Plan
+    from exporters.production.plates import PlateJob
+
+    LaidJob: TypeAlias = BoardJob | PlateJob
+
+
+def laid_jobs(plan: Plan) -> dict[str, list[LaidJob]]:
+    """The jobs of each board and plate, one for each format, by the name of their files without its ending."""
+    found: dict[str, list[LaidJob]] = {}
+    for job in plan.assemblies:
+        if job.export.purpose in PURPOSES_LAID.values():
+            found.setdefault(job.path.rpartition(".")[0], []).append(job)  # type: ignore[arg-type]
+    return found
+
+
+def several(times: int) -> tuple[Finding, ...]:
+    """What there is to tell of a board or bed that is made so many times."""
+    return (Finding("made_several_times", float(times), 1.0),) if times > 1 else ()
+
+
+def lying_on(job: LaidJob) -> dict[str, str]:
+    """For each part on a board or plate how many of it lie there, and its name."""
+    counts = Counter(piece.part for piece in job.pieces)
+    return {m.part.id: f"{counts[m.part.id]} × {m.part.name}" for m in job.members}
